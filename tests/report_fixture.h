@@ -45,12 +45,12 @@ typedef struct fixture_change {
 /* Cells of the last row. */
 static inline void fixture_put(wt_table *table, const char *column, double value)
 {
-    wt_table_put(table, (size_t)wt_table_find(table, column), value);
+    wt_table_set_number(table, (size_t)wt_table_find(table, column), value);
 }
 
 static inline void fixture_text(wt_table *table, const char *column, const char *text)
 {
-    fixture_check(wt_table_put_text(table, (size_t)wt_table_find(table, column), text, NULL));
+    fixture_check(wt_table_set_text(table, (size_t)wt_table_find(table, column), text, NULL));
 }
 
 static inline void fixture_key(wt_table *table, const char *key, double value, double standard,
@@ -153,7 +153,7 @@ static inline void fixture_ramp(void)
     job.n_sets = 1;
     job.temperature = at;
     job.n_temperatures = 1;
-    fixture_check(wt_ramp_make(&job, &work, &tables, NULL));
+    fixture_check(wt_ramp_compute(&job, &work, &tables, NULL));
     fixture_check(wt_result_add(fixture_case, tables.ramp, NULL));
     fixture_check(wt_result_add(fixture_case, tables.glass_transition, NULL));
     fixture_check(wt_result_add(fixture_case, tables.moduli_at, NULL));
@@ -174,8 +174,8 @@ static inline wt_status fixture_rubber(const wt_result *result, wt_rubber *rubbe
 static inline void fixture_materials(void)
 {
     wt_rubber rubber[2] = {0};
-    const wt_compared two[] = {{.name = "soft", .rubber = &rubber[0]},
-                               {.name = FIXTURE_EVIL, .rubber = &rubber[1]}};
+    const wt_compared_material two[] = {{.name = "soft", .rubber = &rubber[0]},
+                                        {.name = FIXTURE_EVIL, .rubber = &rubber[1]}};
     const wt_job work = wt_job_defaults();
     wt_materials_job job = wt_materials_job_defaults();
     wt_materials_tables tables = {0};
@@ -215,14 +215,14 @@ static inline void fixture_common_law(void)
     work.formats = formats;
     for (size_t i = 0; i < 2; i++) {
         set.read.sample = names[i];
-        fixture_check(wt_master_make(&job, &work, &tables[i], NULL, NULL));
+        fixture_check(wt_master_compute(&job, &work, &tables[i], NULL, NULL));
         fits[i] = tables[i].fit;
     }
-    common.common = WT_COMMON_SAME;
+    common.common = WT_SHARED_LAW_SAME;
     common.names = names;
     common.fits = fits;
     common.n = 2;
-    fixture_check(wt_shared_shift_law_make(&common, &table, NULL));
+    fixture_check(wt_shared_shift_law_compute(&common, &table, NULL));
     fixture_check(wt_result_add(fixture_case, table, NULL));
     for (size_t i = 0; i < 2; i++)
         wt_master_tables_clear(&tables[i]);
@@ -330,7 +330,7 @@ static inline void fixture_surface(void)
     job.n_sets = 1;
     job.end = 1e7;
     job.heights = true;
-    fixture_check(wt_topography_make(&job, &work, &tables, NULL));
+    fixture_check(wt_topography_compute(&job, &work, &tables, NULL));
     fixture_check(wt_result_add(fixture_case, tables.power_spectrum, NULL));
     fixture_check(wt_result_add(fixture_case, tables.angular_spectrum, NULL));
     fixture_check(wt_result_add(fixture_case, tables.surfaces, NULL));
@@ -352,7 +352,7 @@ static inline void fixture_payne(void)
     work.formats = formats;
     job.sets = &set;
     job.n_sets = 1;
-    fixture_check(wt_payne_make(&job, &work, &tables, NULL));
+    fixture_check(wt_payne_compute(&job, &work, &tables, NULL));
     fixture_check(wt_result_add(fixture_case, tables.payne, NULL));
     fixture_check(wt_result_add(fixture_case, tables.payne_sweep, NULL));
     wt_formats_free(formats);
@@ -373,7 +373,7 @@ static inline void fixture_record(void)
     job.n_sets = 1;
     job.track_radius.value = 12e-3;
     job.track_area = (wt_estimate){3e-11, 6e-12, 0, "m^2"};
-    fixture_check(wt_record_make(&job, &work, &tables, NULL));
+    fixture_check(wt_record_compute(&job, &work, &tables, NULL));
     fixture_check(wt_result_add(fixture_case, tables.record, NULL));
     fixture_check(wt_result_add(fixture_case, tables.record_cycles, NULL));
     fixture_check(wt_result_add(fixture_case, tables.wear, NULL));
@@ -416,9 +416,9 @@ static inline void fixture_held(wt_case *read, const char *record, const char *n
     wt_result *result = NULL;
     size_t failed = 0;
     few.replicates = 20;
-    fixture_check(wt_case_request(read, names, NULL));
-    fixture_check(wt_case_validate(read, &record, 1, &job, 0, NULL));
-    fixture_check(wt_run(read, &few, NULL, &result, &failed, NULL));
+    fixture_check(wt_case_request_tables(read, names, NULL));
+    fixture_check(wt_case_set_validation(read, &record, 1, &job, 0, NULL));
+    fixture_check(wt_run_case(read, &few, NULL, &result, &failed, NULL));
     snprintf(list, sizeof list, "%s", names);
     for (const char *name = strtok_r(list, " ", &rest); name != NULL;
          name = strtok_r(NULL, " ", &rest))
@@ -451,8 +451,8 @@ static inline void fixture_of_case(const char *name, const char *asked)
     size_t failed = 0;
     snprintf(path, sizeof path, WT_SOURCE_DIR "/fixtures/%s/case.xml", name);
     fixture_check(wt_case_read(path, &other, NULL));
-    fixture_check(wt_case_request(other, asked, NULL));
-    fixture_check(wt_run(other, &few, NULL, &result, &failed, NULL));
+    fixture_check(wt_case_request_tables(other, asked, NULL));
+    fixture_check(wt_run_case(other, &few, NULL, &result, &failed, NULL));
     fixture_check(
         wt_result_add(fixture_case, fixture_copy(wt_result_find(result, asked), &no_change), NULL));
     wt_result_free(result);
@@ -474,15 +474,15 @@ static inline void fixture_accuracy(wt_case *read)
     job.part = "friction-prony";
     job.repeats = 1;
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
-        fixture_check(wt_case_request(read, names[i], NULL));
-        fixture_check(wt_run(read, &few, NULL, &asked, &failed, NULL));
+        fixture_check(wt_case_request_tables(read, names[i], NULL));
+        fixture_check(wt_run_case(read, &few, NULL, &asked, &failed, NULL));
         fixture_check(wt_result_add(
             fixture_case, fixture_copy(wt_result_find(asked, names[i]), &no_change), NULL));
         wt_result_free(asked);
     }
     few.trials = 3;
-    fixture_check(wt_case_request(read, "coverage", NULL));
-    fixture_check(wt_run(read, &few, NULL, &asked, &failed, NULL));
+    fixture_check(wt_case_request_tables(read, "coverage", NULL));
+    fixture_check(wt_run_case(read, &few, NULL, &asked, &failed, NULL));
     fixture_check(wt_result_add(fixture_case,
                                 fixture_copy(wt_result_find(asked, "coverage"), &no_change), NULL));
     fixture_of_case("transverse", "transverse_isotropy");
@@ -494,7 +494,7 @@ static inline void fixture_accuracy(wt_case *read)
     fixture_of_case("layer", "layer_feedback");
     fixture_of_case("layer", "layer_regime_map");
     fixture_of_case("layer", "identification");
-    fixture_check(wt_accuracy_make(&job, &work, &table, NULL));
+    fixture_check(wt_accuracy_compute(&job, &work, &table, NULL));
     fixture_check(wt_result_add(fixture_case, table, NULL));
     wt_result_free(asked);
 }
@@ -551,13 +551,13 @@ static inline void fixture_collect(wt_collection_tables *tables)
               {FIXTURE_EVIL, "severe", 0.6, 0.02}};
     enum { CASES = sizeof of / sizeof of[0] };
     const wt_collect_job job = wt_collect_job_defaults();
-    wt_collected cases[CASES];
+    wt_collected_result cases[CASES];
     wt_result *results[CASES];
     for (size_t i = 0; i < CASES; i++) {
         results[i] = fixture_labelled(of[i].sample, of[i].condition, of[i].ratio, of[i].error);
-        cases[i] = (wt_collected){results[i], "case.h5"};
+        cases[i] = (wt_collected_result){results[i], "case.h5"};
     }
-    fixture_check(wt_collect(cases, CASES, &job, tables, NULL));
+    fixture_check(wt_collection_compute(cases, CASES, &job, tables, NULL));
     for (size_t i = 0; i < CASES; i++)
         wt_result_free(results[i]);
 }
@@ -584,7 +584,7 @@ static inline const wt_result *fixture_produced(void)
         wt_case *read = NULL;
         size_t failed = 0;
         fixture_check(wt_case_read(WT_SOURCE_DIR "/fixtures/case/stated-road.xml", &read, NULL));
-        fixture_check(wt_run(read, NULL, NULL, &fixture_case, &failed, NULL));
+        fixture_check(wt_run_case(read, NULL, NULL, &fixture_case, &failed, NULL));
         fixture_check(failed == 0 ? WT_OK : WT_E_INTERNAL);
         fixture_accuracy(read);
         fixture_curves();

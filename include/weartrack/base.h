@@ -359,7 +359,7 @@ WT_API wt_status wt_check_overwrite(const char *path, wt_error *err)
     WT_NODISCARD; /* WT_E_ARG if the file is protected. */
 
 /* Writes the SHA-256 digest as 64 hexadecimal digits with a terminating zero. */
-WT_API void wt_digest(const void *bytes, size_t length, char hex[65]);
+WT_API void wt_sha256(const void *bytes, size_t length, char hex[65]);
 
 /* ---- provenance --------------------------------------------------------------------------- */
 
@@ -418,7 +418,7 @@ WT_API double wt_time_cpu(void);
 
 /* Returns the 97.5 % quantile of Student's t: the half width of a 95 % interval in standard errors.
  * Infinite degrees of freedom are the normal distribution. */
-WT_API double wt_student(double freedom);
+WT_API double wt_student_quantile(double freedom);
 
 #ifdef __cplusplus
 }

@@ -48,10 +48,11 @@ typedef struct wt_segment {
 } wt_segment;
 
 typedef struct wt_cantilever {
-    double spring_constant;     /* [N/m], NaN if unknown */
-    double sensitivity;         /* deflection sensitivity InvOLS [m/V], NaN if unknown */
-    bool spring_constant_given; /* the user's value replaces (or supplies) that of the file */
-    bool sensitivity_given;
+    double spring_constant;             /* [N/m], NaN if unknown */
+    double sensitivity;                 /* deflection sensitivity InvOLS [m/V], NaN if unknown */
+    bool spring_constant_is_overridden; /* the user's value replaces (or supplies) that of the file
+                                         */
+    bool sensitivity_is_overridden;
 } wt_cantilever;
 
 /* The segments of one position. A zero-initialised curve is empty. A reader reuses the memory of a
@@ -102,7 +103,7 @@ typedef struct wt_height_map {
     double dx, dy; /* spacing [m]; dy is NaN for a profile */
 } wt_height_map;
 /* Returns the heights of an image in metres, borrowed from the image. */
-WT_API wt_height_map wt_height_map_of(const wt_image *image);
+WT_API wt_height_map wt_image_height_map(const wt_image *image);
 
 /* ---- DMA ---------------------------------------------------------------------------------- */
 
@@ -124,13 +125,13 @@ typedef struct wt_isotherm {
     double *loss_modulus;      /* [n] Pa */
     double *strain;            /* [n] or NULL */
     char source[128];          /* file and step of origin */
-    double given_log_a;        /* log10 of the stated horizontal shift */
-    bool shift_given;    /* the horizontal shift is stated: it is used, not fitted, up to a common
-                            factor */
-    bool vertical_given; /* with shift_given: the vertical shift is stated, too */
-    double *loss_factor; /* [n] if measured without a modulus, else NULL */
-    char *sample;        /* name of the sample in the file; NULL if none */
-    double given_log_b;  /* log10 of the stated vertical shift */
+    double stated_log_a;       /* log10 of the stated horizontal shift */
+    bool shift_is_stated; /* the horizontal shift is stated: it is used, not fitted, up to a common
+                         factor */
+    bool vertical_shift_is_stated; /* with shift_is_stated: the vertical shift is stated, too */
+    double *loss_factor;           /* [n] if measured without a modulus, else NULL */
+    char *sample;                  /* name of the sample in the file; NULL if none */
+    double stated_log_b;           /* log10 of the stated vertical shift */
 } wt_isotherm;
 
 /* Moduli against temperature at one frequency, in one heating or cooling. */
@@ -174,7 +175,7 @@ typedef struct wt_sweep {
 } wt_sweep;
 WT_API void wt_sweep_clear(wt_sweep *sweep);
 /* Optional arrays of a sweep. */
-enum { WT_WITH_STRAIN = 1, WT_WITH_LOSS_FACTOR = 2 };
+enum { WT_SWEEP_HAS_STRAIN = 1, WT_SWEEP_HAS_LOSS_FACTOR = 2 };
 /* Appends an isotherm with uninitialised arrays of n points; NULL when out of memory. `with` is a
  * combination of the flags above. After the last one, wt_sweep_sort orders the isotherms by
  * temperature (then by source) and the points of each by frequency. */
@@ -187,9 +188,9 @@ WT_API wt_strain_sweep *wt_sweep_add_strain_sweep(wt_sweep *sweep, size_t n);
 /* Removes exact duplicates of isotherms, points and other sweeps from a sorted sweep, with a
  * warning for each. A duplicate is the same file under two names or a table pasted twice: a
  * repeated measurement would differ. */
-WT_API void wt_sweep_drop_copies(wt_sweep *sweep, wt_log *log);
+WT_API void wt_sweep_remove_duplicates(wt_sweep *sweep, wt_log *log);
 /* Removes the sweeps of other samples. WT_E_NOT_FOUND if none remains. */
-WT_API wt_status wt_sweep_keep_sample(wt_sweep *sweep, const char *name) WT_NODISCARD;
+WT_API wt_status wt_sweep_select_sample(wt_sweep *sweep, const char *name) WT_NODISCARD;
 
 /* ---- power spectrum ----------------------------------------------------------------------- */
 
@@ -298,8 +299,8 @@ WT_API const char *wt_table_column_long_name(const wt_table *table, size_t colum
 /* Returns the index of a column, -1 if it is missing. */
 WT_API long wt_table_find(const wt_table *table, const char *column_name);
 /* Sets a cell of the last row by column number. */
-WT_API void wt_table_put(wt_table *table, size_t column, double value);
-WT_API wt_status wt_table_put_text(wt_table *table, size_t column, const char *text,
+WT_API void wt_table_set_number(wt_table *table, size_t column, double value);
+WT_API wt_status wt_table_set_text(wt_table *table, size_t column, const char *text,
                                    wt_error *err) WT_NODISCARD;
 WT_API double wt_table_number(const wt_table *table, size_t row, size_t column);
 WT_API const char *wt_table_text(const wt_table *table, size_t row, size_t column);
@@ -381,18 +382,18 @@ WT_API wt_status wt_result_contents(const wt_result *result, wt_table **contents
                                     wt_error *err) WT_NODISCARD;
 WT_API wt_status wt_table_keys(const wt_table *table, wt_table **keys, wt_error *err) WT_NODISCARD;
 /* Completeness of a result. The values are exit statuses. */
-typedef enum wt_answered {
-    WT_ANSWERED_WHOLE = 0,
-    WT_ANSWERED_NOTHING = 1, /* no usable result */
-    WT_ANSWERED_PARTLY = 3   /* failed parts are missing */
-} wt_answered;
+typedef enum wt_result_status {
+    WT_RESULT_COMPLETE = 0,
+    WT_RESULT_EMPTY = 1,  /* no usable result */
+    WT_RESULT_PARTIAL = 3 /* failed parts are missing */
+} wt_result_status;
 /* Collects the main numbers and verdicts of a result in a table "keys". */
-WT_API wt_status wt_result_headlines(const wt_result *result, wt_table **headlines,
-                                     wt_error *err) WT_NODISCARD;
+WT_API wt_status wt_result_main_values(const wt_result *result, wt_table **headlines,
+                                       wt_error *err) WT_NODISCARD;
 /* Creates the table "summary" of n such tables: one row each, and a column for each key that
  * occurs. */
-WT_API wt_status wt_summary(const char *const *files, const wt_table *const *headlines, size_t n,
-                            wt_table **summary, wt_error *err) WT_NODISCARD;
+WT_API wt_status wt_summary_table(const char *const *files, const wt_table *const *headlines,
+                                  size_t n, wt_table **summary, wt_error *err) WT_NODISCARD;
 
 /* ---- store: weartrack-hdf5(5) ------------------------------------------------------------- */
 
@@ -406,22 +407,22 @@ WT_API wt_status wt_store_read(const char *path, wt_result **result, wt_error *e
 /* Reads a result from memory. Errors show `name`. */
 WT_API wt_status wt_store_read_memory(const void *bytes, size_t length, const char *name,
                                       wt_result **result, wt_error *err) WT_NODISCARD;
-/* Reads only the tables that wt_result_headlines uses. If the file has them appended at its end,
+/* Reads only the tables that wt_result_main_values uses. If the file has them appended at its end,
  * neither HDF5 nor a process is needed; tables whose keys suffice then have no rows. WT_E_FORMAT if
  * it is not an HDF5 file. */
-WT_API wt_status wt_store_read_headlines(const char *path, wt_result **result,
-                                         wt_error *err) WT_NODISCARD;
+WT_API wt_status wt_store_read_main_values(const char *path, wt_result **result,
+                                           wt_error *err) WT_NODISCARD;
 
 /* Writes a map of force curves to an HDF5 result curve by curve, so that memory hardly grows with
  * the map. The path is borrowed until the end. */
 typedef struct wt_map_writer wt_map_writer;
-WT_API wt_status wt_map_begin(const char *path, wt_map_writer **writer, wt_error *err) WT_NODISCARD;
-WT_API wt_status wt_map_put(wt_map_writer *writer, const wt_force_curve *curve,
-                            wt_error *err) WT_NODISCARD;
+WT_API wt_status wt_map_open(const char *path, wt_map_writer **writer, wt_error *err) WT_NODISCARD;
+WT_API wt_status wt_map_add_curve(wt_map_writer *writer, const wt_force_curve *curve,
+                                  wt_error *err) WT_NODISCARD;
 /* Adds the tables "force_map/..." to the result, writes it with the samples and renames the file.
  * Frees the writer. */
-WT_API wt_status wt_map_end(wt_map_writer *writer, wt_result *result, bool with_provenance,
-                            wt_error *err) WT_NODISCARD;
+WT_API wt_status wt_map_commit(wt_map_writer *writer, wt_result *result, bool with_provenance,
+                               wt_error *err) WT_NODISCARD;
 WT_API void
 wt_map_discard(wt_map_writer *writer); /* Removes the temporary file and frees. Accepts NULL. */
 

@@ -34,8 +34,8 @@ extern "C" {
  *   imprecise          noise
  * A modulus that is
  *   doubtful           deeper than one radius of a sphere or than the range of the thin-sample law;
- *                      of a punch with hysteresis loss; with lack of fit (p below least_chance)
- *                      that adds an error above doubtful_error; with interference on the baseline
+ *                      of a punch with hysteresis loss; with lack of fit (p below
+ * misfit_p_threshold) that adds an error above doubtful_error; with interference on the baseline
  *                      above 10 % of the largest force, peak to peak
  * Verdicts that no fit gives: excluded, unreadable. */
 #define WT_CURVE_VERDICT_LIST(X)                                                                   \
@@ -66,10 +66,10 @@ WT_API const char *wt_curve_verdict_id(wt_curve_verdict verdict);   /* static */
 WT_API const char *wt_curve_verdict_text(wt_curve_verdict verdict); /* static */
 /* Returns true if the modulus is usable: accepted or doubtful. The second function takes an
  * identifier. */
-WT_API bool wt_curve_usable(wt_curve_verdict verdict);
-WT_API bool wt_curve_usable_id(const char *id);
+WT_API bool wt_curve_verdict_is_usable(wt_curve_verdict verdict);
+WT_API bool wt_curve_verdict_id_is_usable(const char *id);
 
-enum { WT_CURVE_WAVES = 6 };
+enum { WT_MISFIT_TERMS = 6 };
 
 /* Estimators of the contact point of other programs, for comparison. */
 typedef enum wt_contact_estimator {
@@ -95,8 +95,8 @@ typedef struct wt_indent_options {
     double fit_force_fraction; /* largest force over that of the curve; default 1 */
     bool fit_tilt;           /* fits the tilt of the baseline, else only the offset; default true */
     bool contact_estimators; /* also computes other contact points, for comparison */
-    double least_chance;  /* p value below which a residual is lack of fit, for noise as that of the
-                             baseline; default 0.01; 0: no test */
+    double misfit_p_threshold; /* p value below which a residual is lack of fit, for noise as that
+                            of the baseline; default 0.01; 0: no test */
     double largest_error; /* largest standard error over modulus of a usable modulus; default 0.5,
                              where the 95 % interval reaches twice the modulus */
     double fixed_contact_point; /* [m] tip position, NaN = fitted (default) */
@@ -144,12 +144,12 @@ typedef struct wt_indent_fit {
     double baseline_p;           /* that a straight baseline departs as much from a line */
     double bend_shift;           /* what the same bend in contact adds to E [Pa]; 0: a baseline that
                                     is straight, as far as its noise tells */
-    double misfit[WT_CURVE_WAVES]; /* cosines of the residual over the contact, of max_force */
-    double max_force;              /* [N] above the baseline */
-    double max_indentation;        /* [m] */
-    double adhesion_force;         /* attractive force of the snap-in [N], 0 if not significant */
-    wt_estimate work_of_adhesion;  /* work of adhesion of the approach [J/m^2]; NaN: fitted without
-                                      adhesion */
+    double misfit[WT_MISFIT_TERMS]; /* cosines of the residual over the contact, of max_force */
+    double max_force;               /* [N] above the baseline */
+    double max_indentation;         /* [m] */
+    double adhesion_force;          /* attractive force of the snap-in [N], 0 if not significant */
+    wt_estimate work_of_adhesion;   /* work of adhesion of the approach [J/m^2]; NaN: fitted without
+                                       adhesion */
     double pull_off_force; /* pull-off force of the retract [N], 0 if not significant; NaN: no
                               retract */
     double pull_off_work;  /* work of adhesion for the pull-off force [J/m^2], an upper bound; NaN
@@ -215,48 +215,51 @@ WT_API wt_status wt_indent_fit_curve(const wt_contact_table *table,
                                      double spring_constant, wt_indent_workspace *workspace,
                                      wt_indent_fit *fit, wt_error *err) WT_NODISCARD;
 /* Fits the approach of a force curve as it was read. */
-WT_API wt_status wt_indent_force_curve(const wt_contact_table *table,
-                                       const wt_indent_options *options,
-                                       const wt_force_curve *curve, wt_indent_workspace *workspace,
-                                       wt_indent_fit *fit, wt_error *err) WT_NODISCARD;
+WT_API wt_status wt_indent_fit_force_curve(const wt_contact_table *table,
+                                           const wt_indent_options *options,
+                                           const wt_force_curve *curve,
+                                           wt_indent_workspace *workspace, wt_indent_fit *fit,
+                                           wt_error *err) WT_NODISCARD;
 /* Computes indentation delta [m] and force above the baseline [N] of the samples from contact on,
  * for plots. delta, force: [n]; returns their number. */
-WT_API size_t wt_indent_curve(const wt_indent_fit *fit, const double *height, const double *force,
-                              size_t n, double spring_constant, double *delta, double *out_force);
+WT_API size_t wt_indent_plot_points(const wt_indent_fit *fit, const double *height,
+                                    const double *force, size_t n, double spring_constant,
+                                    double *delta, double *out_force);
 
 /* Mean residual of curves of one tip and depth against the scatter between curves. It reveals lack
  * of fit that is hidden in the noise of one curve. */
-typedef struct wt_curve_pool {
+typedef struct wt_pooled_misfit {
     size_t n;
     double misfit; /* root mean square over the contact, relative to the largest force */
     double chance; /* p value for scatter alone; NaN with fewer than 12 curves */
-} wt_curve_pool;
+} wt_pooled_misfit;
 /* misfit: coefficients of each fit. */
-WT_API wt_curve_pool wt_curve_pool_make(const double (*misfit)[WT_CURVE_WAVES], size_t n);
+WT_API wt_pooled_misfit wt_pooled_misfit_compute(const double (*misfit)[WT_MISFIT_TERMS], size_t n);
 
 /* Residual of one curve for the analysis of the modulus against depth. The curves have one tip,
  * cantilever and depth, and one contact point each; a fit with one modulus hides most of a change
  * with depth. */
-typedef struct wt_depth_curve {
+typedef struct wt_curve_residuals {
     double modulus, depth, spring_constant; /* modulus [Pa] and spring constant [N/m] of the fit;
                                                largest indentation [m] */
     double baseline, window; /* piezo travel before contact and in the misfit window [m] */
-    double misfit[WT_CURVE_WAVES];
+    double misfit[WT_MISFIT_TERMS];
     long spot;
     double curvature;  /* baseline curvature, which may continue in contact [N/m^2] */
     double loss_error; /* systematic error of the modulus by loss; NaN: loss with unknown bias */
-} wt_depth_curve;
+} wt_curve_residuals;
 
 #define WT_DEPTH_MARGIN 0.1 /* irrelevant relative change */
 typedef enum wt_depth_verdict {
-    WT_DEPTH_CANNOT_SAY,
-    WT_DEPTH_SAME,      /* the interval of the change is within the margin */
-    WT_DEPTH_CHANGES,   /* p < 0.01 */
-    WT_DEPTH_OTHERWISE, /* there is a residual, but not one of a modulus that changes with depth */
+    WT_DEPTH_INCONCLUSIVE,
+    WT_DEPTH_SAME,           /* the interval of the change is within the margin */
+    WT_DEPTH_CHANGES,        /* p < 0.01 */
+    WT_DEPTH_OTHER_RESIDUAL, /* there is a residual, but not one of a modulus that changes with
+                                depth */
 } wt_depth_verdict;
 
 enum { WT_DEPTHS = 5 };
-typedef struct wt_curve_depth {
+typedef struct wt_modulus_profile {
     size_t n,
         n_units; /* number of curves; of spots, or of curves if there are fewer than three spots */
     bool by_spot;
@@ -270,19 +273,19 @@ typedef struct wt_curve_depth {
     /* If a layer thinner than the indentation makes the change; NaN where the curves do not tell
      * all three. */
     wt_interval layer_modulus, ground_modulus, thickness;
-    size_t n_lossy; /* curves excluded because the effect of loss on them is unknown; no verdict if
-                       half of all */
+    size_t n_excluded_by_loss; /* curves excluded because the effect of loss on them is unknown; no
+                       verdict if half of all */
     double bend_share,
         loss_share; /* shares of baseline curvature and loss in the variance of the change */
-} wt_curve_depth;
+} wt_modulus_profile;
 /* The scatter then has as many degrees of freedom as the residual has cosines. */
-enum { WT_DEPTH_LEAST_CURVES = 2 * WT_CURVE_WAVES };
-/* Fits the modulus against depth. Fewer than WT_DEPTH_LEAST_CURVES curves are inconclusive. The
+enum { WT_DEPTH_MIN_CURVES = 2 * WT_MISFIT_TERMS };
+/* Fits the modulus against depth. Fewer than WT_DEPTH_MIN_CURVES curves are inconclusive. The
  * intervals include the effect of a common baseline curvature that continues in contact, and the
  * error of the hereditary response for loss. */
-WT_API wt_status wt_curve_depth_make(const wt_contact_table *table, double poisson_ratio,
-                                     const wt_depth_curve *curve, size_t n, wt_curve_depth *depth,
-                                     wt_error *err) WT_NODISCARD;
+WT_API wt_status wt_modulus_profile_fit(const wt_contact_table *table, double poisson_ratio,
+                                        const wt_curve_residuals *curve, size_t n,
+                                        wt_modulus_profile *depth, wt_error *err) WT_NODISCARD;
 
 /* Thickness of a layer in the track from the curves alone. A thickness is allowed if the curves
  * change with depth as those of a layer of this thickness on the bulk, with the measured ratio of
@@ -290,13 +293,13 @@ WT_API wt_status wt_curve_depth_make(const wt_contact_table *table, double poiss
  * common to both cancel. */
 enum { WT_LAYER_STEPS = 96 };
 typedef enum wt_layer_bound_kind {
-    WT_ALLOWS_UNKNOWN, /* no information, of track or bulk */
-    WT_ALLOWS_BEYOND,  /* the law does not cover a thick layer of that ratio */
-    WT_ALLOWS_ANY,     /* all thicknesses down to `least` are allowed */
-    WT_ALLOWS_THICKER, /* lower bound only */
-    WT_ALLOWS_THINNER, /* upper bound only */
-    WT_ALLOWS_BETWEEN, /* both bounds */
-    WT_ALLOWS_NONE,    /* no thickness agrees with the curves */
+    WT_LAYER_BOUND_UNKNOWN,     /* no information, of track or bulk */
+    WT_LAYER_BOUND_OUTSIDE_LAW, /* the law does not cover a thick layer of that ratio */
+    WT_LAYER_BOUND_ANY,         /* all thicknesses down to `least` are allowed */
+    WT_LAYER_BOUND_LOWER,       /* lower bound only */
+    WT_LAYER_BOUND_UPPER,       /* upper bound only */
+    WT_LAYER_BOUND_BOTH,        /* both bounds */
+    WT_LAYER_BOUND_EMPTY,       /* no thickness agrees with the curves */
 } wt_layer_bound_kind;
 typedef struct wt_layer_profile {
     wt_layer_bound_kind says;
@@ -313,10 +316,11 @@ typedef struct wt_layer_profile {
 /* Computes the profile from bulk (0) and track (1). log_ratio: ln of the modulus of the track over
  * that of the bulk with its error, which has ratio_df degrees of freedom (infinite: normal). Fewer
  * than 12 curves of either, or an unknown ratio, give no information. */
-WT_API wt_status wt_layer_profile_make(const wt_contact_table *const table[2], double poisson_ratio,
-                                       const wt_depth_curve *const curve[2], const size_t n[2],
-                                       wt_estimate log_ratio, double ratio_df,
-                                       wt_layer_profile *profile, wt_error *err) WT_NODISCARD;
+WT_API wt_status wt_layer_profile_compute(const wt_contact_table *const table[2],
+                                          double poisson_ratio,
+                                          const wt_curve_residuals *const curve[2],
+                                          const size_t n[2], wt_estimate log_ratio, double ratio_df,
+                                          wt_layer_profile *profile, wt_error *err) WT_NODISCARD;
 /* Returns the equivalent modulus of a layered sample over the modulus of the bulk at a contact
  * radius [m]. The layer has the ratio of the track where the contact radius is that of the profile.
  * NaN outside of the range of the law. */
@@ -371,11 +375,11 @@ typedef enum wt_rate_matching {
 
 /* Reason why there is no interval. */
 typedef enum wt_verdict_undecided_reason {
-    WT_SETTLED,
-    WT_ONE_SPOT, /* one spot in a group and fewer than three in the other: the scatter between spots
-                    is unknown */
-    WT_RATES_APART, /* no common rate and no slope */
-    WT_RATES_TWIST  /* no common rate, and the slopes of the groups differ */
+    WT_UNDECIDED_NOT,
+    WT_UNDECIDED_ONE_SPOT, /* one spot in a group and fewer than three in the other: the scatter
+                    between spots is unknown */
+    WT_UNDECIDED_NO_COMMON_RATE, /* no common rate and no slope */
+    WT_UNDECIDED_SLOPES_DIFFER   /* no common rate, and the slopes of the groups differ */
 } wt_verdict_undecided_reason;
 
 typedef struct wt_comparison {
@@ -383,16 +387,16 @@ typedef struct wt_comparison {
     bool by_spot;                     /* the unit of analysis is the spot */
     size_t n_bulk, n_track;           /* number of compared units */
     size_t curves_bulk, curves_track; /* number of curves of these rates */
-    wt_rate_matching rates_by;
+    wt_rate_matching rate_matching;
     wt_verdict_undecided_reason unsettled;
-    bool scatter_given;                  /* the interval uses the spot_scatter of the groups */
+    bool scatter_is_stated;              /* the interval uses the spot_scatter of the groups */
     wt_estimate log_ratio;               /* ln(E_track / E_bulk) */
     double df;                           /* degrees of freedom of its standard error */
     double ratio, ratio_low, ratio_high; /* with 95 % interval; NaN if unsettled */
     double t, p;                         /* two-sided, of ln(E_track / E_bulk) */
     double effect_size;                  /* Hedges g of ln E, track minus bulk */
     double scatter;                      /* standard deviation of ln E between the units */
-    double known_share;                  /* share of `offset` in the variance */
+    double offset_variance_share;        /* share of `offset` in the variance */
     double mann_whitney_u; /* number of pairs in which the track is stiffer; ties count half */
     double mann_whitney_p; /* two-sided */
     double mann_whitney_smallest_p; /* smallest possible p for these numbers of units */
@@ -403,15 +407,15 @@ typedef struct wt_comparison {
 } wt_comparison;
 
 /* Comparison of the means of a further property of the curves (such as adhesion). */
-typedef struct wt_sign_comparison {
-    double mean[2];          /* mean of the spots; NaN: no values */
-    double larger_chance[2]; /* one-sided p value (Welch) that this group is larger than the other;
+typedef struct wt_mean_comparison {
+    double mean[2];     /* mean of the spots; NaN: no values */
+    double larger_p[2]; /* one-sided p value (Welch) that this group is larger than the other;
                                 NaN with fewer than two spots in a group */
-} wt_sign_comparison;
+} wt_mean_comparison;
 /* values: [n] one per curve; values that are not finite are excluded. spots: [n], NULL: each curve
  * is a unit. */
-WT_API wt_status wt_compare_signs(const double *const values[2], const long *const spots[2],
-                                  const size_t n[2], wt_sign_comparison *signs,
+WT_API wt_status wt_compare_means(const double *const values[2], const long *const spots[2],
+                                  const size_t n[2], wt_mean_comparison *signs,
                                   wt_error *err) WT_NODISCARD;
 /* Returns the combined p value of two independent tests (Fisher 1932). If one is NaN, it returns
  * the other. */
@@ -434,11 +438,12 @@ WT_API wt_status wt_group_summarise(const wt_group *group, wt_group_summary *sum
  * `offset` is a known contribution to ln(E_track / E_bulk), such as a temperature difference or
  * separate cantilevers, with its standard error; NULL = none. WT_E_EMPTY for a group without
  * curves, WT_E_RANGE for a modulus that is not positive or groups without any scatter. */
-WT_API wt_status wt_compare(const wt_group *bulk, const wt_group *track, const wt_estimate *offset,
-                            wt_comparison *result, wt_error *err) WT_NODISCARD;
+WT_API wt_status wt_compare_moduli(const wt_group *bulk, const wt_group *track,
+                                   const wt_estimate *offset, wt_comparison *result,
+                                   wt_error *err) WT_NODISCARD;
 /* Returns the smallest number of spots in each group that detects a difference `log_ratio` of ln E
  * with a power of 80 % when spots scatter by `scatter`; 0 if 1000 are not enough. */
-WT_API size_t wt_spots_needed(double log_ratio, double scatter);
+WT_API size_t wt_required_spots(double log_ratio, double scatter);
 /* Logarithm of a ratio with its error. */
 typedef struct wt_log_ratio {
     double value, standard_error;
@@ -454,7 +459,7 @@ typedef struct wt_log_ratio_difference {
 WT_API wt_log_ratio_difference wt_log_ratio_compare(const wt_log_ratio *a, const wt_log_ratio *b);
 /* Adjusts n p values by Holm's correction (Scand. J. Stat. 6 (1979) 65); adjusted: [n]. NaN values
  * stay and are not counted. */
-WT_API void wt_holm(const double *p, size_t n, double *adjusted);
+WT_API void wt_holm_adjust(const double *p, size_t n, double *adjusted);
 /* Returns the equivalent angular frequency [rad/s] of a loading of time t [s] with F ~ delta^p:
  * exp(psi(p+1))/t (2.52/t for p = 2, 2.02/t for p = 1.5). NaN for t <= 0. */
 WT_API double wt_equivalent_frequency(double load_time, double force_exponent);
@@ -496,8 +501,8 @@ WT_API wt_status wt_onset_find(const double *x, const double *y, size_t n, wt_on
                                wt_error *err) WT_NODISCARD;
 /* Returns the value of such a curve through the neighbours of x = `at`; NaN outside of the points.
  */
-WT_API wt_status wt_value_between(const double *x, const double *y, size_t n, double at,
-                                  wt_interval *value, wt_error *err) WT_NODISCARD;
+WT_API wt_status wt_smooth_interpolate(const double *x, const double *y, size_t n, double at,
+                                       wt_interval *value, wt_error *err) WT_NODISCARD;
 
 /* ---- strain sweeps (Payne effect) ------------------------------------------------------------ */
 
@@ -573,7 +578,7 @@ typedef struct wt_dwell {
     const char *why_not;        /* "", or why there are no moduli; static */
     double load_time, duration; /* contact to dwell, and the dwell [s] */
     double contact_point, baseline_offset, baseline_tilt; /* as in a history */
-    double drift, drift_from;        /* of the force [N/s], since that time [s] */
+    double drift, drift_start;       /* of the force [N/s], since that time [s] */
     double indentation_common_error; /* of the indentation at the end [m], what curves of one kind
                                         share; NaN as below */
     double misfit, misfit_p; /* sum of squares over its degrees of freedom, by which the errors
@@ -692,8 +697,8 @@ typedef struct wt_cycles {
 /* Splits a record into cycles. The track `radius` [m] converts distance to laps and rotation to
  * velocity; NaN: unknown. `load` [N] is used if none was recorded; NaN: unknown. WT_E_MISSING if
  * the record does not allow a `kind` other than WT_CYCLE_AUTO. */
-WT_API wt_status wt_cycles_make(const wt_record *record, wt_cycle_kind kind, double radius,
-                                double load, wt_cycles *cycles, wt_error *err) WT_NODISCARD;
+WT_API wt_status wt_cycles_compute(const wt_record *record, wt_cycle_kind kind, double radius,
+                                   double load, wt_cycles *cycles, wt_error *err) WT_NODISCARD;
 WT_API void wt_cycles_clear(wt_cycles *cycles);
 
 /* End of the running-in of a series: a line with its own scatter, then a constant with another.
@@ -702,7 +707,7 @@ WT_API void wt_cycles_clear(wt_cycles *cycles);
 typedef struct wt_running_in {
     bool seen;       /* odds above 20 to 1 against a series without running-in */
     wt_interval end; /* number of points before the steady state: median and 95 % interval; NaN */
-    size_t steady_from;  /* first point of the steady state, after the interval; 0: all */
+    size_t steady_start; /* first point of the steady state, after the interval; 0: all */
     const char *why_not; /* "" or the reason why there is no end; static */
 } wt_running_in;
 WT_API wt_status wt_running_in_find(const double *y, size_t n, wt_running_in *running_in,
@@ -879,8 +884,8 @@ WT_API wt_status wt_surface_analyse(const wt_height_map *map, const wt_surface_o
                                     wt_error *err) WT_NODISCARD;
 /* Combines spectra of one kind: means of ln C over the reliable bins, weighted by their modes and
  * corrected for the bias of a mean of logarithms. WT_E_EMPTY: no bin is reliable. */
-WT_API wt_status wt_surface_join(const wt_surface_spectrum *const *spectra, size_t n,
-                                 wt_surface_spectrum *joined, wt_error *err) WT_NODISCARD;
+WT_API wt_status wt_surface_combine(const wt_surface_spectrum *const *spectra, size_t n,
+                                    wt_surface_spectrum *joined, wt_error *err) WT_NODISCARD;
 /* Converts C1 of an isotropic surface to C; the slope at the end is extrapolated. Bins that the
  * scatter makes negative, or that are uncertain by more than a factor of two, are excluded.
  * WT_E_RANGE: the end is too flat, or there are too few profiles. */
@@ -888,8 +893,8 @@ WT_API wt_status wt_surface_invert(const wt_surface_spectrum *profile, wt_surfac
                                    wt_error *err) WT_NODISCARD;
 /* Converts C1 [m^3] at wavenumbers [rad/m] to C [m^4], [n], without errors. WT_E_RANGE as above,
  * and where C would not be positive. */
-WT_API wt_status wt_surface_of_profile(const double *wavenumber, const double *c1, size_t n,
-                                       double *c, wt_error *err) WT_NODISCARD;
+WT_API wt_status wt_surface_from_profile(const double *wavenumber, const double *c1, size_t n,
+                                         double *c, wt_error *err) WT_NODISCARD;
 /* Returns the density of a bin with its error, including the known scatter between positions. The
  * standard error, and those of c0 and roll_off below, is that of the logarithm times the value. */
 WT_API wt_interval wt_surface_density(const wt_surface_spectrum *spectrum, size_t bin);
@@ -902,8 +907,8 @@ typedef struct wt_surface_anisotropy {
     double chance; /* p value of the amplitude for scatter alone */
 } wt_surface_anisotropy;
 /* order: 2 or 4. NaN for profiles. */
-WT_API wt_surface_anisotropy wt_surface_directions(const wt_surface_spectrum *spectrum,
-                                                   unsigned order);
+WT_API wt_surface_anisotropy wt_surface_anisotropy_fit(const wt_surface_spectrum *spectrum,
+                                                       unsigned order);
 /* Returns C within half a sector of sector pi / WT_SURFACE_SECTORS from x over that of all
  * directions: mean over the modes of all reliable bins. *modes is their number. NaN without any. */
 WT_API wt_interval wt_surface_sector(const wt_surface_spectrum *spectrum, size_t sector,
@@ -930,7 +935,7 @@ WT_API double wt_self_affine_log_error(const wt_self_affine *law, double wavenum
 
 /* Returns the wavenumber [rad/m] at which the rms slope, from q0 on, reaches `slope`; NaN if it
  * does not. */
-WT_API double wt_roughness_slope_end(const wt_roughness *roughness, double slope);
+WT_API double wt_roughness_slope_wavenumber(const wt_roughness *roughness, double slope);
 
 /* ---- master curve: one spectrum for all isotherms ----------------------------------------------
  */
@@ -944,18 +949,18 @@ typedef enum wt_vertical_shift {
 } wt_vertical_shift;
 
 /* Quantity for the fit of the spectrum and the shifts. */
-typedef enum wt_shift_by {
-    WT_BY_MODULI,     /* both moduli, or those measured for all isotherms */
-    WT_BY_STORAGE,    /* E' or G' only */
-    WT_BY_LOSS,       /* E'' or G'' only: the equilibrium modulus, and so E', stays unknown */
-    WT_BY_LOSS_FACTOR /* tan delta only: no level of the moduli, no vertical shift */
-} wt_shift_by;
+typedef enum wt_shift_quantity {
+    WT_SHIFT_MODULI,     /* both moduli, or those measured for all isotherms */
+    WT_SHIFT_STORAGE,    /* E' or G' only */
+    WT_SHIFT_LOSS,       /* E'' or G'' only: the equilibrium modulus, and so E', stays unknown */
+    WT_SHIFT_LOSS_FACTOR /* tan delta only: no level of the moduli, no vertical shift */
+} wt_shift_quantity;
 
-typedef enum wt_reference_at {
+typedef enum wt_reference_choice {
     WT_REFERENCE_TEMPERATURE,   /* reference_temperature */
     WT_REFERENCE_TAN_DELTA_PEAK /* temperature of the tan delta peak at 1 Hz; WT_E_RANGE without a
                                    peak */
-} wt_reference_at;
+} wt_reference_choice;
 
 typedef struct wt_master_options {
     double reference_temperature; /* [K], not necessarily that of an isotherm; NaN (default): the
@@ -966,8 +971,8 @@ typedef struct wt_master_options {
                                 lines */
     bool liquid;             /* equilibrium modulus 0 */
     bool series_only;        /* skips the fitted moduli at the points (NaN) and the verdict */
-    wt_shift_by shift_by;    /* default MODULI */
-    wt_reference_at reference_at;
+    wt_shift_quantity shift_by; /* default MODULI */
+    wt_reference_choice reference_at;
 } wt_master_options;
 WT_API wt_master_options wt_master_options_defaults(void);
 WT_API const wt_params *wt_master_options_params(void);
@@ -990,16 +995,16 @@ typedef struct wt_master_shift {
 
 /* Source of the shifts. */
 typedef enum wt_shift_route {
-    WT_SHIFTS_OF_SPECTRUM, /* fit of one spectrum to all isotherms */
-    WT_SHIFTS_OF_OVERLAP /* overlap of the storage moduli of neighbours: one spectrum was not found
-                            or does not fit the isotherms. Only the shifts are returned; their
-                            errors include the variation over the overlap */
+    WT_SHIFTS_FROM_SPECTRUM, /* fit of one spectrum to all isotherms */
+    WT_SHIFTS_FROM_OVERLAP   /* overlap of the storage moduli of neighbours: one spectrum was not
+                              found   or does not fit the isotherms. Only the shifts are returned; their
+                              errors include the variation over the overlap */
 } wt_shift_route;
 
 typedef enum wt_superposition {
     WT_SUPERPOSITION_HOLDS,
     WT_SUPERPOSITION_FAILS,
-    WT_SUPERPOSITION_CANNOT_SAY
+    WT_SUPERPOSITION_INCONCLUSIVE
 } wt_superposition;
 
 typedef struct wt_posterior wt_posterior;
@@ -1031,7 +1036,7 @@ typedef struct wt_master {
     double correlation;               /* correlation of the noise of adjacent points */
     size_t n_outliers;
 
-    wt_shift_law law;   /* kind WT_LAW_NONE: no law, `no_law` has the reason */
+    wt_shift_law law;   /* kind WT_LAW_NONE: no law, `no_law_reason` has the reason */
     wt_interval offset; /* deviation of the reference isotherm from the law [decade] */
     wt_interval c1, c2, activation_energy; /* NaN: not a constant of the law */
     double c_correlation;                  /* correlation of c1 and c2 */
@@ -1039,7 +1044,7 @@ typedef struct wt_master {
     wt_interval pole;          /* [K] */
     double temperature_spread; /* standard deviation of the temperature of an isotherm [K] */
     double law_rms;            /* root mean square of the shifts about the law [decade] */
-    char no_law[256];
+    char no_law_reason[256];
 
     wt_prony prony;          /* the spectrum at the reference temperature */
     wt_interval equilibrium; /* [Pa] */
@@ -1073,13 +1078,13 @@ WT_API wt_status wt_master_fit(const wt_sweep *sweep, const wt_master_options *o
                                wt_master *master, wt_error *err) WT_NODISCARD;
 /* Returns log10 aT of the law at a temperature [K]; NaN without a law, and outside of the isotherms
  * if fewer than four determine it. */
-WT_API wt_interval wt_master_law(const wt_master *master, double temperature);
+WT_API wt_interval wt_master_log_shift(const wt_master *master, double temperature);
 /* Shared shift law of several samples. */
-typedef enum wt_common {
-    WT_COMMON_NONE, /* one law for each sample */
-    WT_COMMON_SAME, /* equal constants at one reference temperature */
-    WT_COMMON_MOVED /* equal constants, with a reference temperature for each sample */
-} wt_common;
+typedef enum wt_shared_law_mode {
+    WT_SHARED_LAW_NONE,   /* one law for each sample */
+    WT_SHARED_LAW_SAME,   /* equal constants at one reference temperature */
+    WT_SHARED_LAW_SHIFTED /* equal constants, with a reference temperature for each sample */
+} wt_shared_law_mode;
 
 typedef struct wt_shared_law_member {
     bool used;
@@ -1115,15 +1120,15 @@ WT_API void wt_shared_shift_law_clear(wt_shared_shift_law *common);
  * joined laws, given shifts or without a fit (NULL) are excluded. `reference` NaN: that of the
  * first used sample. The caller clears `common`. WT_E_RANGE for fewer than two samples, or if no
  * law describes them. */
-WT_API wt_status wt_shared_shift_law_fit(const wt_master *const *masters, size_t n, wt_common how,
-                                         double reference, wt_shared_shift_law *common,
-                                         wt_error *err) WT_NODISCARD;
+WT_API wt_status wt_shared_shift_law_fit(const wt_master *const *masters, size_t n,
+                                         wt_shared_law_mode how, double reference,
+                                         wt_shared_shift_law *common, wt_error *err) WT_NODISCARD;
 /* Returns log10 aT of an isotherm by the closed form of ISO 18437-6 (Gergesova, Zupancic, Saprunov
  * and Emri, J. Rheol. 55 (2011) 1), for comparison. It uses only storage moduli of neighbours,
  * without a vertical shift. NaN if neighbours share too little. */
 WT_API double wt_master_closed_form(const wt_master *master, size_t isotherm);
-/* Returns the quantity of the fit: WT_BY_MODULI only if both moduli were measured. */
-WT_API wt_shift_by wt_master_shifted_by(const wt_master *master);
+/* Returns the quantity of the fit: WT_SHIFT_MODULI only if both moduli were measured. */
+WT_API wt_shift_quantity wt_master_shift_quantity(const wt_master *master);
 /* Returns the measured tan delta at point i of the master curve; NaN if not measured. */
 WT_API double wt_master_loss_factor(const wt_master *master, size_t i);
 /* Computes log10 E' and log10 E'' [Pa] at the reference temperature. Only one thread at a time may

@@ -21,19 +21,19 @@ extern "C" {
 
 /* Optional outputs of a job, besides its main table. */
 typedef enum wt_optional_output {
-    WT_EXTRA_SHARE = 1,           /* friction: extrapolated share, else NaN */
-    WT_EXTRA_MODULUS_DEPTH = 2,   /* force curves: table modulus_depth */
+    WT_EXTRA_EXTRAPOLATED_SHARE = 1, /* friction: extrapolated share, else NaN */
+    WT_EXTRA_MODULUS_DEPTH = 2,      /* force curves: table modulus_depth */
     WT_EXTRA_DRAWS = 4,           /* isotherms: draws of the material as tables material_draws and
                                      series_draws, and for the replicates */
     WT_EXTRA_DIGESTS = 8,         /* SHA-256 of the files read, else "" */
     WT_EXTRA_SUMMARY = 16,        /* items and errors in the cost, else only nodes and files */
-    WT_EXTRA_TIMES = 32,          /* layer: incubation time and time to 90 %, else NaN */
-    WT_EXTRA_REDUCED = 64,        /* isotherms: reduced series */
+    WT_EXTRA_LAYER_TIMES = 32,    /* layer: incubation time and time to 90 %, else NaN */
+    WT_EXTRA_REDUCED_SERIES = 64, /* isotherms: reduced series */
     WT_EXTRA_SPECTRUM = 128,      /* isotherms: relaxation spectrum with its error */
     WT_EXTRA_TRANSITION = 256,    /* temperature sweeps: the peaks, else no rows */
-    WT_EXTRA_COMMON = 512,        /* force curves: effect of systematic errors */
-    WT_EXTRA_DEPTH_CURVES = 1024, /* force curves: values for the analysis of depth, else NaN */
-    WT_EXTRAS = 2047
+    WT_EXTRA_SYSTEMATIC_ERRORS = 512, /* force curves: effect of systematic errors */
+    WT_EXTRA_DEPTH_CURVES = 1024,     /* force curves: values for the analysis of depth, else NaN */
+    WT_EXTRA_ALL = 2047
 } wt_optional_output;
 
 typedef struct wt_cost wt_cost;
@@ -52,40 +52,41 @@ typedef struct wt_job {
                            continues; NULL: the first failure ends the job */
     unsigned left_out;  /* wt_optional_output flags that are not computed; default 0 */
     wt_cost *cost;      /* borrowed; NULL (default): no cost */
-    wt_material_cache *drawn; /* set by wt_run: cache of material draws, shared by its jobs; NULL */
-    wt_sweep *dma; /* set by wt_run: DMA files of the case, read once for all its jobs; NULL */
+    wt_material_cache
+        *drawn;    /* set by wt_run_case: cache of material draws, shared by its jobs; NULL */
+    wt_sweep *dma; /* set by wt_run_case: DMA files of the case, read once for all its jobs; NULL */
     void (*case_advice)(
-        wt_error *failure); /* set by wt_run: adds how to request the missing data in a case */
+        wt_error *failure); /* set by wt_run_case: adds how to request the missing data in a case */
 } wt_job;
 WT_API wt_job wt_job_defaults(void);
 WT_API const wt_params *wt_job_params(void);
 /* Adds a file that the caller has read itself to provenance and cost. `input` has its path, role
  * and format. */
-WT_API wt_status wt_job_input(const wt_job *work, wt_provenance_input input, wt_input *file,
-                              wt_error *err) WT_NODISCARD;
+WT_API wt_status wt_job_add_input(const wt_job *work, wt_provenance_input input, wt_input *file,
+                                  wt_error *err) WT_NODISCARD;
 /* Reads the tables of a file that is an input of the work (NULL: no input), with a role that
  * depends on the content. The file is a text stream ("-" is standard input), a foreign text table
  * or an HDF5 result. Errors show `name`. wt_tables_role has the role of force-curve results and of
  * other tables. */
 typedef struct wt_tables_role {
-    const char *of_curves, *of_others;
+    const char *curve_role, *other_role;
     const char *instead; /* advice for a file of another kind; NULL: results of weartrack */
 } wt_tables_role;
 WT_API wt_status wt_tables_read(const char *path, const char *name, const wt_job *work,
                                 wt_tables_role role, wt_result **tables,
                                 wt_error *err) WT_NODISCARD;
-/* Variant for wt_result_headlines that reads only the necessary tables of an HDF5 result. */
-WT_API wt_status wt_tables_read_headlines(const char *path, wt_result **tables,
-                                          wt_error *err) WT_NODISCARD;
+/* Variant for wt_result_main_values that reads only the necessary tables of an HDF5 result. */
+WT_API wt_status wt_tables_read_main_values(const char *path, wt_result **tables,
+                                            wt_error *err) WT_NODISCARD;
 WT_API wt_table *wt_failures_new(void); /* Creates the table "failures"; NULL when out of memory. */
 /* Sets the completeness of the result in a table of at least one failure (key "status"). */
-WT_API wt_status wt_failures_answered(wt_table *failures, wt_answered answered,
-                                      wt_error *err) WT_NODISCARD;
+WT_API wt_status wt_failures_set_status(wt_table *failures, wt_result_status answered,
+                                        wt_error *err) WT_NODISCARD;
 /* Handles the failure of a file or sample. It adds a row to the failures, whose message does not
  * repeat the name, and returns WT_OK. Without a table of failures, or if the work cannot continue,
  * it returns the error and `status`. */
-WT_API wt_status wt_job_failed(const wt_job *work, const char *file, wt_status status,
-                               wt_error *failure, wt_error *err) WT_NODISCARD;
+WT_API wt_status wt_job_add_failure(const wt_job *work, const char *file, wt_status status,
+                                    wt_error *failure, wt_error *err) WT_NODISCARD;
 /* Creates the table "notes" of a log. Names of files below `folder` are shown relative to it; NULL
  * = unchanged. */
 WT_API wt_status wt_notes_table(const wt_log *log, const char *folder, wt_table **table,
@@ -100,14 +101,14 @@ WT_API wt_cost *wt_cost_new(bool timed, unsigned threads);
 WT_API void wt_cost_free(wt_cost *cost);
 /* Begins a stage and ends the one before. Later work of jobs with this cost counts for this stage.
  * NULL: no effect. */
-WT_API void wt_cost_stage(wt_cost *cost, const char *stage);
+WT_API void wt_cost_begin_stage(wt_cost *cost, const char *stage);
 /* Ends the last stage and creates the table "cost", one row for each stage. */
 WT_API wt_status wt_cost_table(wt_cost *cost, wt_table **table, wt_error *err) WT_NODISCARD;
 /* Logs remarks on the tables of a result: a tolerance that is not reached, extrapolation. */
-WT_API void wt_result_remarks(const wt_result *result, wt_log *log);
+WT_API void wt_result_log_remarks(const wt_result *result, wt_log *log);
 /* Formats the summary line of a result, its main numbers, "" if it has none. Returns the length as
  * snprintf does. */
-WT_API size_t wt_result_sentence(const wt_result *result, char *buffer, size_t size);
+WT_API size_t wt_result_summary_line(const wt_result *result, char *buffer, size_t size);
 
 /* Files with common reading options. Initialise with {.read = wt_read_defaults()}. */
 typedef struct wt_file_set {
@@ -146,13 +147,13 @@ WT_API wt_status wt_convert_file(const wt_convert_job *job, const char *path, co
 /* ---- indentation ----------------------------------------------------------------------------- */
 
 /* Systematic error sources common to all curves of a group, which their scatter does not show. */
-typedef enum wt_shared_law_source {
-    WT_COMMON_SPRING_CONSTANT,
-    WT_COMMON_SENSITIVITY,
-    WT_COMMON_HALF_ANGLE,
-    WT_COMMON_RADIUS,
-    WT_COMMON_SOURCES
-} wt_shared_law_source;
+typedef enum wt_systematic_source {
+    WT_SYSTEMATIC_SPRING_CONSTANT,
+    WT_SYSTEMATIC_SENSITIVITY,
+    WT_SYSTEMATIC_HALF_ANGLE,
+    WT_SYSTEMATIC_RADIUS,
+    WT_SYSTEMATIC_SOURCES
+} wt_systematic_source;
 
 typedef struct wt_indent_job {
     const char *group; /* "bulk", "track" or another name of [a-z0-9_]+ */
@@ -179,8 +180,8 @@ typedef struct wt_indent_job {
 WT_API wt_indent_job wt_indent_job_defaults(void);
 WT_API const wt_params *wt_indent_job_params(void);
 
-/* Accepted curves of a group with their fits, for the bootstrap of wt_coverage_make. NULL when out
- * of memory. */
+/* Accepted curves of a group with their fits, for the bootstrap of wt_coverage_compute. NULL when
+ * out of memory. */
 typedef struct wt_curve_set wt_curve_set;
 WT_API wt_curve_set *wt_curve_set_new(void);
 WT_API void wt_curve_set_free(wt_curve_set *set);
@@ -213,8 +214,8 @@ typedef struct wt_dwell_tables {
 WT_API void wt_dwell_tables_clear(wt_dwell_tables *tables);
 /* Evaluates the first dwell after the approach of every curve, with the tip and options of an
  * indentation job. WT_E_EMPTY if no curve has one. */
-WT_API wt_status wt_dwell_make(const wt_indent_job *job, const wt_job *work,
-                               wt_dwell_tables *tables, wt_error *err) WT_NODISCARD;
+WT_API wt_status wt_dwell_compute(const wt_indent_job *job, const wt_job *work,
+                                  wt_dwell_tables *tables, wt_error *err) WT_NODISCARD;
 
 /* ---- images of a spot ------------------------------------------------------------------------ */
 
@@ -239,8 +240,8 @@ WT_API void wt_spot_tables_clear(wt_spot_tables *tables);
 /* Evaluates the image `path` before the indentation: roughness over the contact relative to the
  * depth, and the remaining imprint. WT_E_NOT_FOUND if the file has no such height image, WT_E_RANGE
  * if sides or pixels of the images differ by more than a factor of four. */
-WT_API wt_status wt_spot_make(const wt_spot_job *job, const char *path, const wt_job *work,
-                              wt_spot_tables *tables, wt_error *err) WT_NODISCARD;
+WT_API wt_status wt_spot_compute(const wt_spot_job *job, const char *path, const wt_job *work,
+                                 wt_spot_tables *tables, wt_error *err) WT_NODISCARD;
 
 /* ---- measured surfaces ----------------------------------------------------------------------- */
 
@@ -268,15 +269,15 @@ WT_API void wt_topography_tables_clear(wt_topography_tables *tables);
  * averaged, profiles inverted. If end or end_slope requires it, the self-affine law extends the
  * reliable range. WT_E_EMPTY if no file has heights or no wavenumber is reliable, WT_E_RANGE if the
  * requested end cannot be reached. */
-WT_API wt_status wt_topography_make(const wt_topography_job *job, const wt_job *work,
-                                    wt_topography_tables *tables, wt_error *err) WT_NODISCARD;
+WT_API wt_status wt_topography_compute(const wt_topography_job *job, const wt_job *work,
+                                       wt_topography_tables *tables, wt_error *err) WT_NODISCARD;
 
 /* ---- calibration of the cantilever ----------------------------------------------------------- */
 
 typedef enum wt_curve_direction {
-    WT_WAYS_BOTH,
-    WT_WAYS_APPROACH,
-    WT_WAYS_RETRACT
+    WT_DIRECTION_BOTH,
+    WT_DIRECTION_APPROACH,
+    WT_DIRECTION_RETRACT
 } wt_curve_direction;
 
 /* Deflection sensitivity from curves on a hard surface. */
@@ -285,8 +286,8 @@ typedef struct wt_sensitivity_job {
     size_t n_sets;
     wt_slope_options options;
     wt_curve_direction ways; /* directions of the result */
-    double most_bend;        /* largest relative change of the slope within the part that counts as
-                                straight */
+    double max_slope_change; /* largest relative change of the slope within the part that counts as
+                         straight */
 } wt_sensitivity_job;
 WT_API wt_sensitivity_job wt_sensitivity_job_defaults(void);
 WT_API const wt_params *wt_sensitivity_job_params(void);
@@ -296,8 +297,8 @@ typedef struct wt_sensitivity_tables {
 WT_API void wt_sensitivity_tables_clear(wt_sensitivity_tables *tables);
 /* WT_E_EMPTY if no file has a curve. If the surface is compliant or the signal is not straight
  * there is no sensitivity; the verdict has the reason. */
-WT_API wt_status wt_sensitivity_make(const wt_sensitivity_job *job, const wt_job *work,
-                                     wt_sensitivity_tables *tables, wt_error *err) WT_NODISCARD;
+WT_API wt_status wt_sensitivity_compute(const wt_sensitivity_job *job, const wt_job *work,
+                                        wt_sensitivity_tables *tables, wt_error *err) WT_NODISCARD;
 
 /* Spring constant of a cantilever from its thermal noise: k = mode_shape / chi^2 k_B T / <d^2>,
  * with the deflection d from the sensitivity on a hard surface. If the plan view or the coefficient
@@ -318,8 +319,8 @@ typedef struct wt_thermal_job {
 WT_API wt_thermal_job wt_thermal_job_defaults(void);
 WT_API const wt_params *wt_thermal_job_params(void);
 /* Creates the table "thermal". WT_E_EMPTY if no file has a spectrum. */
-WT_API wt_status wt_thermal_make(const wt_thermal_job *job, const wt_job *work, wt_table **table,
-                                 wt_error *err) WT_NODISCARD;
+WT_API wt_status wt_thermal_compute(const wt_thermal_job *job, const wt_job *work, wt_table **table,
+                                    wt_error *err) WT_NODISCARD;
 
 /* Rule for the end of the running-in. */
 typedef enum wt_running_in_rule {
@@ -360,8 +361,8 @@ typedef struct wt_record_tables {
 } wt_record_tables;
 WT_API void wt_record_tables_clear(wt_record_tables *tables);
 /* WT_E_EMPTY if no file has a record. */
-WT_API wt_status wt_record_make(const wt_record_job *job, const wt_job *work,
-                                wt_record_tables *tables, wt_error *err) WT_NODISCARD;
+WT_API wt_status wt_record_compute(const wt_record_job *job, const wt_job *work,
+                                   wt_record_tables *tables, wt_error *err) WT_NODISCARD;
 
 /* Digest of the measured values of a curve, for finding duplicates; 0 = too few values. */
 typedef struct wt_curve_digest {
@@ -388,49 +389,49 @@ typedef struct wt_group_data {
     double *lack_of_fit;
     long *fitted_spot;
     size_t n_fitted;
-    wt_curve_digest *digest;     /* [n_digests] of the curves, increasing */
-    size_t n_digests, n_copies;  /* n_copies: number of excluded duplicates */
-    const char *copy_of[2];      /* files of the first duplicate; borrowed from the table */
-    wt_estimate spring_constant; /* of the table; NaN if it has none */
-    double sensitivity_gain;     /* mean of the curves, NaN if unknown */
-    wt_estimate sensitivity;     /* stated value; NaN if none or several */
+    wt_curve_digest *digest;       /* [n_digests] of the curves, increasing */
+    size_t n_digests, n_copies;    /* n_copies: number of excluded duplicates */
+    const char *duplicate_file[2]; /* files of the first duplicate; borrowed from the table */
+    wt_estimate spring_constant;   /* of the table; NaN if it has none */
+    double sensitivity_gain;       /* mean of the curves, NaN if unknown */
+    wt_estimate sensitivity;       /* stated value; NaN if none or several */
     /* Relative standard errors, NaN if not stated, and the derivative of ln E by each, NaN if
      * unknown. */
-    double common_error[WT_COMMON_SOURCES];
-    wt_estimate common_gain[WT_COMMON_SOURCES];
+    double common_error[WT_SYSTEMATIC_SOURCES];
+    wt_estimate common_gain[WT_SYSTEMATIC_SOURCES];
     double loss_error,
         bend_error; /* systematic errors of all moduli by loss and baseline curvature, the latter
                        with its sign; 0 if not detected, NaN if detected with unknown size */
-    double misfit_error; /* the same by lack of fit of the contact law */
-    const char *tip;     /* description; borrowed from the table; NULL if unknown */
-    bool several_levers; /* the curves have several spring constants */
-    bool several_sensitivities, several_tips;
-    bool spots_given;              /* the user named the spots */
-    wt_curve_verdict rejected_for; /* most frequent verdict of the rejected curves */
-    size_t n_rejected_for;         /* number of curves with it */
+    double misfit_error;          /* the same by lack of fit of the contact law */
+    const char *tip;              /* description; borrowed from the table; NULL if unknown */
+    bool has_several_cantilevers; /* the curves have several spring constants */
+    bool has_several_sensitivities, has_several_tips;
+    bool spots_are_named;            /* the user named the spots */
+    wt_curve_verdict main_rejection; /* most frequent verdict of the rejected curves */
+    size_t n_main_rejection;         /* number of curves with it */
 } wt_group_data;
 /* Reads a group from a table. A spot is a named one, else a file, or each position of the unnamed
- * ones with `each_place`. */
-WT_API wt_status wt_group_from_table(const wt_table *indentation, bool each_place,
+ * ones with `spot_per_position`. */
+WT_API wt_status wt_group_from_table(const wt_table *indentation, bool spot_per_position,
                                      wt_group_data *data, wt_error *err) WT_NODISCARD;
 WT_API void wt_group_data_clear(wt_group_data *data);
 /* Creates the table "modulus_groups", one row per indentation table. A group without an accepted
  * curve has a row with n = 0. */
-WT_API wt_status wt_modulus_groups(const wt_table *const *indentation, size_t n, wt_table **table,
-                                   wt_error *err) WT_NODISCARD;
+WT_API wt_status wt_modulus_groups_table(const wt_table *const *indentation, size_t n,
+                                         wt_table **table, wt_error *err) WT_NODISCARD;
 /* Creates the table "modulus_budget": for each group the contributions of scatter and systematic
  * errors to the error of the modulus. NULL if no group states a systematic error. */
-WT_API wt_status wt_modulus_budget(const wt_table *const *indentation, size_t n, wt_table **table,
-                                   wt_error *err) WT_NODISCARD;
+WT_API wt_status wt_modulus_budget_table(const wt_table *const *indentation, size_t n,
+                                         wt_table **table, wt_error *err) WT_NODISCARD;
 
 /* ---- results of cases side by side ----------------------------------------------------------- */
 
-/* A result of wt_run, identified by the sample and condition of the case, or by `file` and ""; or a
- * result of wt_indent_group, whose groups are listed with the cases. */
-typedef struct wt_collected {
+/* A result of wt_run_case, identified by the sample and condition of the case, or by `file` and "";
+ * or a result of wt_indent_group, whose groups are listed with the cases. */
+typedef struct wt_collected_result {
     const wt_result *result;
     const char *file;
-} wt_collected;
+} wt_collected_result;
 
 typedef struct wt_collect_job {
     double margin;          /* irrelevant relative difference of modulus ratios; default 0.2 */
@@ -448,22 +449,23 @@ WT_API void wt_collection_tables_clear(wt_collection_tables *tables);
 /* Compares cases. Modulus ratios of pairs count as independent. For shared constants, errors from
  * the same files are fully correlated. WT_E_EMPTY without a case; WT_E_AMBIGUOUS for two cases of
  * one sample and condition. */
-WT_API wt_status wt_collect(const wt_collected *cases, size_t n, const wt_collect_job *job,
-                            wt_collection_tables *tables, wt_error *err) WT_NODISCARD;
+WT_API wt_status wt_collection_compute(const wt_collected_result *cases, size_t n,
+                                       const wt_collect_job *job, wt_collection_tables *tables,
+                                       wt_error *err) WT_NODISCARD;
 
 /* ---- DMA: shift factors, WLF, master curve, Prony -------------------------------------------- */
 
 /* Names of the samples of isotherms and temperature sweeps, sorted; "" for sweeps without a name.
  */
-typedef struct wt_samples {
+typedef struct wt_sample_names {
     size_t n;
     char **name;
-} wt_samples;
-WT_API void wt_samples_clear(wt_samples *samples);
+} wt_sample_names;
+WT_API void wt_sample_names_clear(wt_sample_names *samples);
 /* Reads the names; the caller clears `samples`. The data read are stored in work->dma, if it is not
  * NULL, for the jobs that fit them. */
-WT_API wt_status wt_samples_read(const wt_file_set *sets, size_t n_sets, const wt_job *work,
-                                 wt_samples *samples, wt_error *err) WT_NODISCARD;
+WT_API wt_status wt_sample_names_read(const wt_file_set *sets, size_t n_sets, const wt_job *work,
+                                      wt_sample_names *samples, wt_error *err) WT_NODISCARD;
 
 typedef struct wt_master_job {
     const wt_file_set *sets;
@@ -526,12 +528,12 @@ typedef struct wt_rubber {
 WT_API void wt_rubber_clear(wt_rubber *rubber);
 /* Adds the items of a rubber that no job computed to the current stage of the cost: terms of a
  * series, points of a table or constants of a law. */
-WT_API void wt_rubber_cost(const wt_rubber *rubber, const wt_job *work);
+WT_API void wt_rubber_add_cost(const wt_rubber *rubber, const wt_job *work);
 
 /* Representation of the moduli of a rubber. */
-typedef enum wt_moduli { WT_MODULI_SERIES, WT_MODULI_POINTS } wt_moduli;
+typedef enum wt_moduli_source { WT_MODULI_SERIES, WT_MODULI_POINTS } wt_moduli_source;
 typedef struct wt_rubber_options {
-    wt_moduli moduli;               /* for isotherms: series, or points of the master curve */
+    wt_moduli_source moduli;        /* for isotherms: series, or points of the master curve */
     wt_extrapolation extrapolation; /* outside of the points of any table; default hold */
 } wt_rubber_options;
 WT_API wt_rubber_options wt_rubber_options_defaults(void);
@@ -561,9 +563,9 @@ WT_API void wt_master_tables_clear(wt_master_tables *tables);
 
 /* Reads the sweeps and fits the master curve. `rubber` receives the data that friction needs. One
  * isotherm is allowed: no shift, no law. Either output may be NULL. */
-WT_API wt_status wt_master_make(const wt_master_job *job, const wt_job *work,
-                                wt_master_tables *tables, wt_rubber *rubber,
-                                wt_error *err) WT_NODISCARD;
+WT_API wt_status wt_master_compute(const wt_master_job *job, const wt_job *work,
+                                   wt_master_tables *tables, wt_rubber *rubber,
+                                   wt_error *err) WT_NODISCARD;
 
 /* Shared shift law of samples that are fitted separately. */
 typedef struct wt_shared_shift_law_job {
@@ -571,15 +573,15 @@ typedef struct wt_shared_shift_law_job {
     const wt_master *const *fits; /* [n]; NULL: no fit */
     size_t n;
     double reference; /* reference temperature of the law [K]; NaN: that of the first sample used */
-    wt_common common; /* default WT_COMMON_NONE: not requested */
-    double margin;    /* irrelevant difference of laws [decade]; default 0.1 */
+    wt_shared_law_mode common; /* default WT_SHARED_LAW_NONE: not requested */
+    double margin;             /* irrelevant difference of laws [decade]; default 0.1 */
 } wt_shared_shift_law_job;
 WT_API wt_shared_shift_law_job wt_shared_shift_law_job_defaults(void);
 WT_API const wt_params *wt_shared_shift_law_job_params(void);
 /* Table "shared_shift_law": the law with its errors, the shifts about it, and whether the samples
  * have one law. */
-WT_API wt_status wt_shared_shift_law_make(const wt_shared_shift_law_job *job, wt_table **table,
-                                          wt_error *err) WT_NODISCARD;
+WT_API wt_status wt_shared_shift_law_compute(const wt_shared_shift_law_job *job, wt_table **table,
+                                             wt_error *err) WT_NODISCARD;
 
 /* Glass transition and moduli at given temperatures, from temperature sweeps or from isotherms
  * split by frequency. */
@@ -597,8 +599,8 @@ typedef struct wt_ramp_tables {
     wt_table *moduli_at; /* NULL without temperatures */
 } wt_ramp_tables;
 WT_API void wt_ramp_tables_clear(wt_ramp_tables *tables);
-WT_API wt_status wt_ramp_make(const wt_ramp_job *job, const wt_job *work, wt_ramp_tables *tables,
-                              wt_error *err) WT_NODISCARD;
+WT_API wt_status wt_ramp_compute(const wt_ramp_job *job, const wt_job *work, wt_ramp_tables *tables,
+                                 wt_error *err) WT_NODISCARD;
 
 /* Strain softening from strain sweeps. */
 typedef struct wt_payne_job {
@@ -610,10 +612,10 @@ typedef struct wt_payne_tables {
     wt_table *payne, *payne_sweep;
 } wt_payne_tables;
 WT_API void wt_payne_tables_clear(wt_payne_tables *tables);
-WT_API wt_status wt_payne_make(const wt_payne_job *job, const wt_job *work, wt_payne_tables *tables,
-                               wt_error *err) WT_NODISCARD;
+WT_API wt_status wt_payne_compute(const wt_payne_job *job, const wt_job *work,
+                                  wt_payne_tables *tables, wt_error *err) WT_NODISCARD;
 
-/* Tables of wt_master_make, as read from a file; borrowed. */
+/* Tables of wt_master_compute, as read from a file; borrowed. */
 typedef struct wt_rubber_tables {
     const wt_table *prony;
     const wt_table *shift_factors;                 /* NULL: only the reference temperature */
@@ -628,23 +630,23 @@ WT_API wt_status wt_rubber_refit(const wt_rubber *rubber, wt_vertical_shift vert
 
 /* Export of the reduced series to finite-element programs, in the keywords of their manuals. */
 typedef enum wt_fem_program {
-    WT_SOLID_ABAQUS,
-    WT_SOLID_ANSYS,
-    WT_SOLID_CODE_ASTER, /* needs a Poisson's ratio below 0.5 */
-    WT_SOLID_TABLE
+    WT_FEM_ABAQUS,
+    WT_FEM_ANSYS,
+    WT_FEM_CODE_ASTER, /* needs a Poisson's ratio below 0.5 */
+    WT_FEM_TABLE
 } wt_fem_program;
 /* Units of stress and time: Pa and s, MPa and s, GPa and ms. */
-typedef enum wt_solid_units { WT_SOLID_M_KG_S, WT_SOLID_MM_T_S, WT_SOLID_MM_KG_MS } wt_solid_units;
-typedef enum wt_solid_temperature { WT_SOLID_CELSIUS, WT_SOLID_KELVIN } wt_solid_temperature;
-typedef enum wt_solid_domain { WT_SOLID_TIME, WT_SOLID_FREQUENCY } wt_solid_domain;
+typedef enum wt_fem_units { WT_FEM_M_KG_S, WT_FEM_MM_T_S, WT_FEM_MM_KG_MS } wt_fem_units;
+typedef enum wt_fem_temperature { WT_FEM_CELSIUS, WT_FEM_KELVIN } wt_fem_temperature;
+typedef enum wt_fem_domain { WT_FEM_TIME, WT_FEM_FREQUENCY } wt_fem_domain;
 typedef struct wt_fem_export_options {
-    wt_solid_units units;
-    wt_solid_temperature temperature;
-    wt_solid_domain domain; /* only for Abaqus */
-    const char *name;       /* a letter, then letters, digits and '_', at most 32; NULL: RUBBER */
-    double density;         /* [kg/m^3], NaN: not written */
-    double expansion;       /* coefficient of linear thermal expansion [1/K], NaN: not written */
-    double poisson_ratio;   /* constant in time; default 0.5: incompressible */
+    wt_fem_units units;
+    wt_fem_temperature temperature;
+    wt_fem_domain domain; /* only for Abaqus */
+    const char *name;     /* a letter, then letters, digits and '_', at most 32; NULL: RUBBER */
+    double density;       /* [kg/m^3], NaN: not written */
+    double expansion;     /* coefficient of linear thermal expansion [1/K], NaN: not written */
+    double poisson_ratio; /* constant in time; default 0.5: incompressible */
 } wt_fem_export_options;
 WT_API wt_fem_export_options wt_fem_export_options_defaults(void);
 WT_API const wt_params *wt_fem_export_options_params(void);
@@ -653,7 +655,7 @@ WT_API bool wt_fem_program_find(const char *name, size_t length, wt_fem_program 
 /* Checks that the program supports such a material. */
 WT_API wt_status wt_fem_export_check(wt_fem_program program, const wt_fem_export_options *options,
                                      wt_error *err) WT_NODISCARD;
-/* Writes the material from tables of wt_master_make. shift_factors NULL: no law. options NULL =
+/* Writes the material from tables of wt_master_compute. shift_factors NULL: no law. options NULL =
  * defaults. */
 WT_API wt_status wt_fem_export(FILE *out, wt_fem_program program, const wt_table *prony_reduced,
                                const wt_table *shift_factors, const wt_fem_export_options *options,
@@ -664,17 +666,17 @@ WT_API wt_status wt_fem_export(FILE *out, wt_fem_program program, const wt_table
  * divided by b_T. `statement` (may be NULL) receives a remark: outside of the isotherms, b
  * constant. WT_E_MISSING if more than 1 K away without a shift law; WT_E_RANGE at or below the WLF
  * pole. replicate: its number, or WT_NO_REPLICATE. */
-WT_API wt_status wt_rubber_at(const wt_rubber *rubber, double temperature, uint64_t seed,
-                              size_t replicate, wt_material **material, char statement[256],
-                              wt_error *err) WT_NODISCARD;
+WT_API wt_status wt_rubber_material(const wt_rubber *rubber, double temperature, uint64_t seed,
+                                    size_t replicate, wt_material **material, char statement[256],
+                                    wt_error *err) WT_NODISCARD;
 
 /* ---- comparison ------------------------------------------------------------------------------ */
 
 /* Number of cantilevers for bulk and track. The errors of a shared one cancel in the ratio. */
 typedef enum wt_cantilever_sharing {
-    WT_LEVERS_AUTO, /* one if the spring constants are equal */
-    WT_LEVERS_ONE,
-    WT_LEVERS_TWO
+    WT_CANTILEVERS_AUTO, /* one if the spring constants are equal */
+    WT_CANTILEVERS_SHARED,
+    WT_CANTILEVERS_SEPARATE
 } wt_cantilever_sharing;
 
 typedef struct wt_compare_job {
@@ -716,9 +718,9 @@ WT_API wt_status wt_compare_groups(const wt_compare_job *job, const wt_job *work
 /* Creates the table "track_layer": the thickness of a layer in the track from the curves alone,
  * compared with that of the job or, if it is NaN, that of `layer` (table "layer", or NULL). NULL if
  * the tables have no depth information and no thickness is stated. */
-WT_API wt_status wt_track_layer_make(const wt_compare_job *job, const wt_table *layer,
-                                     const wt_job *work, wt_table **table,
-                                     wt_error *err) WT_NODISCARD;
+WT_API wt_status wt_track_layer_compute(const wt_compare_job *job, const wt_table *layer,
+                                        const wt_job *work, wt_table **table,
+                                        wt_error *err) WT_NODISCARD;
 
 /* Creates the table "dwell_dma": moduli of dwells (tables dwell_moduli as job->bulk and job->track;
  * the track may be NULL) relative to those of job->rubber at the same frequency and temperature. */
@@ -727,15 +729,15 @@ WT_API wt_status wt_compare_dwells(const wt_compare_job *job, const wt_job *work
 
 /* ---- materials side by side ------------------------------------------------------------------ */
 
-typedef struct wt_compared {
+typedef struct wt_compared_material {
     const char *name;
     const wt_rubber *rubber;
     const wt_table *shift_factors; /* has the verdict on superposition; NULL: unknown */
-} wt_compared;
+} wt_compared_material;
 
 typedef struct wt_materials_job {
-    const wt_compared *materials; /* moduli are relative to those of the first */
-    size_t n_materials;           /* two or more */
+    const wt_compared_material *materials; /* moduli are relative to those of the first */
+    size_t n_materials;                    /* two or more */
     double temperature;  /* temperature of the comparison over frequency [K]; NaN: the reference of
                             the first, if all cover it */
     double frequency;    /* frequency of the comparison over temperature [rad/s]; NaN: 10 Hz, if all
@@ -779,7 +781,7 @@ typedef struct wt_surface {
 WT_API void wt_surface_clear(wt_surface *surface);
 /* Opens a surface: "self-affine:q0=1e3rad/m,qr=5e3rad/m,q1=1e7rad/m,hurst=0.8,c0=1e-17m^4+-10%",
  * the path of a spectrum or height map, or a folder or pattern of several maps, which are
- * transformed as by wt_topography_make. read NULL = defaults. */
+ * transformed as by wt_topography_compute. read NULL = defaults. */
 WT_API wt_status wt_surface_open(const char *text, const wt_read_options *read, const wt_job *work,
                                  wt_surface *surface, wt_error *err) WT_NODISCARD;
 /* Creates the roughness with all densities multiplied by `factor` > 0. It borrows nothing. */
@@ -875,10 +877,10 @@ WT_API const wt_params *wt_layer_observation_params(void);
 /* Reads ratio, slope and frequencies from tables of `weartrack compare`: the ratio of all rates at
  * their mean frequency, and its slope over the frequencies of the rates. WT_E_MISSING with one
  * rate. */
-WT_API wt_status wt_layer_observation_by_rate(const wt_table *comparison,
-                                              const wt_table *modulus_rate,
-                                              wt_layer_observation *known,
-                                              wt_error *err) WT_NODISCARD;
+WT_API wt_status wt_layer_observation_from_rates(const wt_table *comparison,
+                                                 const wt_table *modulus_rate,
+                                                 wt_layer_observation *known,
+                                                 wt_error *err) WT_NODISCARD;
 
 typedef struct wt_friction_tables {
     wt_table *friction;
@@ -891,50 +893,51 @@ WT_API void wt_friction_tables_clear(wt_friction_tables *tables);
  * isotherms, and pressure, temperature, shear stress and C0 from their stated errors. The key
  * `standard_error_includes` lists the sources. With a layer (NULL = none): for a bonded layer and
  * tau_s = tau_bulk x modulus ratio. */
-WT_API wt_status wt_friction_make(const wt_sliding *sliding, const wt_layer_observation *layer,
-                                  const wt_job *work, wt_friction_tables *tables,
-                                  wt_error *err) WT_NODISCARD;
+WT_API wt_status wt_sliding_friction_compute(const wt_sliding *sliding,
+                                             const wt_layer_observation *layer, const wt_job *work,
+                                             wt_friction_tables *tables,
+                                             wt_error *err) WT_NODISCARD;
 
 /* Creates the table "contact_area": contact area and friction against magnification at the slowest,
  * the reference and the fastest velocity. */
-WT_API wt_status wt_contact_area_table(const wt_sliding *sliding, const wt_job *work,
-                                       wt_table **table, wt_error *err) WT_NODISCARD;
+WT_API wt_status wt_contact_area_compute(const wt_sliding *sliding, const wt_job *work,
+                                         wt_table **table, wt_error *err) WT_NODISCARD;
 
 /* Creates the table "softening": hysteresis friction and contact area with and without the strain
  * softening of `sliding`, and the shares from strains outside of its range. WT_E_ARG without strain
  * softening. */
-WT_API wt_status wt_softening_make(const wt_sliding *sliding, const wt_job *work, wt_table **table,
-                                   wt_error *err) WT_NODISCARD;
+WT_API wt_status wt_softened_friction_compute(const wt_sliding *sliding, const wt_job *work,
+                                              wt_table **table, wt_error *err) WT_NODISCARD;
 /* Creates the table "flash_temperature": hysteresis friction, contact area and temperature at every
  * velocity with and without flash temperature, and for a second solution if there is one. WT_E_ARG
  * if it is not requested. */
-WT_API wt_status wt_flash_make(const wt_sliding *sliding, const wt_job *work, wt_table **table,
-                               wt_error *err) WT_NODISCARD;
+WT_API wt_status wt_flash_temperature_compute(const wt_sliding *sliding, const wt_job *work,
+                                              wt_table **table, wt_error *err) WT_NODISCARD;
 /* Table "directions": hysteresis friction and contact area of a transversely isotropic rubber at
  * every velocity, with its factors on E' and E'' and with those on one of them or none. WT_E_ARG if
  * it has no directions. */
-WT_API wt_status wt_transverse_isotropy_make(const wt_sliding *sliding, const wt_job *work,
-                                             wt_table **table, wt_error *err) WT_NODISCARD;
+WT_API wt_status wt_transverse_isotropy_compute(const wt_sliding *sliding, const wt_job *work,
+                                                wt_table **table, wt_error *err) WT_NODISCARD;
 
 /* Creates the table "anisotropy": hysteresis friction, contact area and lateral force with and
  * without the anisotropy of `sliding`. WT_E_ARG without anisotropy. */
-WT_API wt_status wt_anisotropy_make(const wt_sliding *sliding, const wt_job *work, wt_table **table,
-                                    wt_error *err) WT_NODISCARD;
+WT_API wt_status wt_anisotropic_friction_compute(const wt_sliding *sliding, const wt_job *work,
+                                                 wt_table **table, wt_error *err) WT_NODISCARD;
 /* Creates the table "friction_map": friction at every velocity and temperature at the nominal
  * pressure, then at every velocity and pressure at the nominal temperature. One kernel at the
  * reference temperature of the rubber serves all: mu(v, T, p) is mu(v a_T, reference, p b_T).
  * WT_E_ARG without temperatures and pressures. */
 /* The map has no layer, but uses the crack opening of the shear stress of `known` (NULL: none) on
  * the bare surface. */
-WT_API wt_status wt_friction_map_make(const wt_sliding *sliding, const wt_layer_observation *known,
-                                      const wt_job *work, wt_table **table,
-                                      wt_error *err) WT_NODISCARD;
+WT_API wt_status wt_friction_map_compute(const wt_sliding *sliding,
+                                         const wt_layer_observation *known, const wt_job *work,
+                                         wt_table **table, wt_error *err) WT_NODISCARD;
 /* Creates the table "friction_decades": contributions of each decade of the wavenumber to
  * hysteresis friction, and to shearing and crack opening of bare rubber (`known` as in the map), at
  * the slowest, the reference and the fastest velocity. */
-WT_API wt_status wt_friction_decades_make(const wt_sliding *sliding,
-                                          const wt_layer_observation *known, const wt_job *work,
-                                          wt_table **table, wt_error *err) WT_NODISCARD;
+WT_API wt_status wt_friction_by_scale_compute(const wt_sliding *sliding,
+                                              const wt_layer_observation *known, const wt_job *work,
+                                              wt_table **table, wt_error *err) WT_NODISCARD;
 
 /* ---- modified layer -------------------------------------------------------------------------- */
 
@@ -967,7 +970,7 @@ typedef struct wt_layer_job {
         *loads; /* [n_loads] successive loads, borrowed; none: the constant load of the sliding */
     size_t n_loads;
     bool running_in;      /* requests friction during the growth of the layer */
-    bool acts_back;       /* feedback of the layer on the energy that forms it */
+    bool has_feedback;    /* feedback of the layer on the energy that forms it */
     wt_layer_shear shear; /* shear of the real contact on the layer */
     bool existence;       /* requests the regime map */
 } wt_layer_job;
@@ -980,41 +983,42 @@ WT_API wt_status wt_layer_job_check(const wt_layer_job *job, wt_error *err) WT_N
 typedef struct wt_layer_tables {
     wt_table *layer;
     wt_estimate thickness; /* steady-state thickness [m]; infinite without wear */
-    wt_layer_balance balance;
+    wt_layer_steady_state balance;
 } wt_layer_tables;
 WT_API void wt_layer_tables_clear(wt_layer_tables *tables);
 
 /* Computes the thickness of the layer at the reference velocity. Standard errors from the
  * replicates of the friction and the stated errors of k and U_c (or of the observed thickness). */
-WT_API wt_status wt_layer_make(const wt_sliding *sliding, const wt_layer_job *job,
-                               const wt_job *work, wt_layer_tables *tables,
-                               wt_error *err) WT_NODISCARD;
+WT_API wt_status wt_layer_thickness_compute(const wt_sliding *sliding, const wt_layer_job *job,
+                                            const wt_job *work, wt_layer_tables *tables,
+                                            wt_error *err) WT_NODISCARD;
 
 /* Creates the table "layer_bands": edges of the modified bands in time by exact damage transport
  * under the loads of the job, and the events of the bands. */
-WT_API wt_status wt_layer_bands_make(const wt_sliding *sliding, const wt_layer_job *job,
-                                     const wt_job *work, wt_table **table,
-                                     wt_error *err) WT_NODISCARD;
+WT_API wt_status wt_layer_bands_compute(const wt_sliding *sliding, const wt_layer_job *job,
+                                        const wt_job *work, wt_table **table,
+                                        wt_error *err) WT_NODISCARD;
 /* Creates the table "running_in": friction with the growing layer, which has the modulus ratio of
- * `known`. With `acts_back` its energy is that under this layer. */
-WT_API wt_status wt_running_in_make(const wt_sliding *sliding, const wt_layer_job *job,
-                                    const wt_layer_observation *known, const wt_job *work,
-                                    wt_table **table, wt_error *err) WT_NODISCARD;
+ * `known`. With `has_feedback` its energy is that under this layer. */
+WT_API wt_status wt_running_in_compute(const wt_sliding *sliding, const wt_layer_job *job,
+                                       const wt_layer_observation *known, const wt_job *work,
+                                       wt_table **table, wt_error *err) WT_NODISCARD;
 /* Table "layer_feedback": all balances of a layer that acts back, and the folds between them. */
-WT_API wt_status wt_layer_balances_make(const wt_sliding *sliding, const wt_layer_job *job,
-                                        const wt_layer_observation *known, const wt_job *work,
-                                        wt_table **table, wt_error *err) WT_NODISCARD;
+WT_API wt_status wt_layer_steady_states_compute(const wt_sliding *sliding, const wt_layer_job *job,
+                                                const wt_layer_observation *known,
+                                                const wt_job *work, wt_table **table,
+                                                wt_error *err) WT_NODISCARD;
 /* Table "existence": balance thickness at every velocity, at the pressures of the map of `sliding`
  * if it has some, else at its pressure, and with `known` (may be NULL) what the layer does to
  * friction. */
-WT_API wt_status wt_layer_regime_map_make(const wt_sliding *sliding, const wt_layer_job *job,
-                                          const wt_layer_observation *known, const wt_job *work,
-                                          wt_table **table, wt_error *err) WT_NODISCARD;
+WT_API wt_status wt_regime_map_compute(const wt_sliding *sliding, const wt_layer_job *job,
+                                       const wt_layer_observation *known, const wt_job *work,
+                                       wt_table **table, wt_error *err) WT_NODISCARD;
 
 /* Creates the table "energy_density": energy density against depth at the velocity of the layer. */
-WT_API wt_status wt_energy_density_table(const wt_sliding *sliding, const wt_layer_job *job,
-                                         const wt_job *work, wt_table **table,
-                                         wt_error *err) WT_NODISCARD;
+WT_API wt_status wt_energy_density_compute(const wt_sliding *sliding, const wt_layer_job *job,
+                                           const wt_job *work, wt_table **table,
+                                           wt_error *err) WT_NODISCARD;
 
 typedef struct wt_identify_job {
     wt_estimate observed_thickness; /* steady-state thickness [m] */
@@ -1032,8 +1036,9 @@ WT_API const wt_params *wt_identify_job_params(void);
 /* Creates the table "identification": U_c and k from the thickness with the wear rate, with the
  * running-in time by either closure, and their range from the thickness alone; 95 % intervals and
  * correlation from the replicates and the stated errors. */
-WT_API wt_status wt_identify_make(const wt_sliding *sliding, const wt_identify_job *job,
-                                  const wt_job *work, wt_table **table, wt_error *err) WT_NODISCARD;
+WT_API wt_status wt_identification_compute(const wt_sliding *sliding, const wt_identify_job *job,
+                                           const wt_job *work, wt_table **table,
+                                           wt_error *err) WT_NODISCARD;
 
 /* ---- what if ----------------------------------------------------------------------------------
  */
@@ -1043,20 +1048,20 @@ WT_API wt_status wt_identify_make(const wt_sliding *sliding, const wt_identify_j
  * do not apply have no row; a row that cannot be computed has the reason. `layer` NULL: no
  * thickness of the layer; `known` NULL: no friction with a layer. With both, the thickness is that
  * of `layer`. */
-WT_API wt_status wt_what_if_make(const wt_sliding *sliding, const wt_layer_job *layer,
-                                 const wt_layer_observation *known, const wt_job *work,
-                                 wt_table **table, wt_error *err) WT_NODISCARD;
+WT_API wt_status wt_model_sensitivity_compute(const wt_sliding *sliding, const wt_layer_job *layer,
+                                              const wt_layer_observation *known, const wt_job *work,
+                                              wt_table **table, wt_error *err) WT_NODISCARD;
 
 /* ---- validation ------------------------------------------------------------------------------ */
 
 typedef struct wt_validation_job {
     const wt_sliding *sliding;
-    const wt_layer_job *layer; /* NULL as in wt_what_if_make */
-    const wt_layer_observation
-        *known; /* NULL as in wt_what_if_make; its thickness is the one used for the layer */
-    const wt_table *record; /* table "record" */
-    const wt_table *cycles; /* table "record_cycles", for the running-in only */
-    const wt_table *wear;   /* table "wear", or NULL */
+    const wt_layer_job *layer;         /* NULL as in wt_model_sensitivity_compute */
+    const wt_layer_observation *known; /* NULL as in wt_model_sensitivity_compute; its thickness is
+                                          the one used for the layer */
+    const wt_table *record;            /* table "record" */
+    const wt_table *cycles;            /* table "record_cycles", for the running-in only */
+    const wt_table *wear;              /* table "wear", or NULL */
     const wt_table
         *what_if;  /* table "what_if" of the same inputs, or NULL: no likelihood of choices */
     double margin; /* irrelevant deviation of measured over predicted; default 0.2 */
@@ -1078,11 +1083,11 @@ WT_API void wt_validation_tables_clear(wt_validation_tables *tables);
  * verdict "explains", "does not" or "cannot say" by the test in the key `test`; the shear stress
  * and largest wavenumber that the record requires; the error sources; the likelihood of each model
  * choice. */
-WT_API wt_status wt_validation_make(const wt_validation_job *job, const wt_job *work,
-                                    wt_validation_tables *tables, wt_error *err) WT_NODISCARD;
+WT_API wt_status wt_validation_compute(const wt_validation_job *job, const wt_job *work,
+                                       wt_validation_tables *tables, wt_error *err) WT_NODISCARD;
 
 typedef struct wt_running_in_tables {
-    wt_table *running_in, *course; /* "validation_running_in", "validation_course" */
+    wt_table *running_in, *running_in_curve; /* "validation_running_in", "validation_course" */
 } wt_running_in_tables;
 WT_API void wt_running_in_tables_clear(wt_running_in_tables *tables);
 
@@ -1090,9 +1095,9 @@ WT_API void wt_running_in_tables_clear(wt_running_in_tables *tables);
  * layer of `layer` and `known` (not NULL): time to the steady state and change of friction, with
  * both errors; a verdict as above; the specific wear rate and critical energy that the time
  * requires. */
-WT_API wt_status wt_validation_running_in_make(const wt_validation_job *job, const wt_job *work,
-                                               wt_running_in_tables *tables,
-                                               wt_error *err) WT_NODISCARD;
+WT_API wt_status wt_running_in_validation_compute(const wt_validation_job *job, const wt_job *work,
+                                                  wt_running_in_tables *tables,
+                                                  wt_error *err) WT_NODISCARD;
 
 /* ---- error budget ---------------------------------------------------------------------------- */
 
@@ -1101,17 +1106,17 @@ WT_API wt_status wt_validation_running_in_make(const wt_validation_job *job, con
  * errors, and by the model choices of `what_if` (may be NULL); with the time of each, if the cost
  * of `work` has times and includes `what_if`, and how to reduce it. `layer` and `known` as above.
  */
-WT_API wt_status wt_error_budget_make(const wt_sliding *sliding, const wt_layer_job *layer,
-                                      const wt_layer_observation *known, const wt_table *what_if,
-                                      const wt_job *work, wt_table **table,
-                                      wt_error *err) WT_NODISCARD;
+WT_API wt_status wt_error_budget_compute(const wt_sliding *sliding, const wt_layer_job *layer,
+                                         const wt_layer_observation *known, const wt_table *what_if,
+                                         const wt_job *work, wt_table **table,
+                                         wt_error *err) WT_NODISCARD;
 
 /* ---- coverage -------------------------------------------------------------------------------- */
 
 typedef struct wt_coverage_job {
     const wt_sliding *sliding;
-    const wt_layer_job *layer;         /* NULL as in wt_what_if_make */
-    const wt_layer_observation *known; /* NULL as in wt_what_if_make */
+    const wt_layer_job *layer;         /* NULL as in wt_model_sensitivity_compute */
+    const wt_layer_observation *known; /* NULL as in wt_model_sensitivity_compute */
     const wt_table *bulk, *track;      /* indentation tables, or NULL: no groups to compare */
     size_t trials;
     /* Curves of both groups, which are then drawn and refitted; NULL: their moduli are drawn. */
@@ -1124,8 +1129,8 @@ WT_API const wt_params *wt_coverage_job_params(void);
  * (isotherms with noise and temperature scatter, force curves with scatter of spots and curves,
  * inputs with stated errors) and evaluated in the same way. It states how often the intervals
  * contain the values of the fit. It cannot detect a wrong model, which the table states. */
-WT_API wt_status wt_coverage_make(const wt_coverage_job *job, const wt_job *work, wt_table **table,
-                                  wt_error *err) WT_NODISCARD;
+WT_API wt_status wt_coverage_compute(const wt_coverage_job *job, const wt_job *work,
+                                     wt_table **table, wt_error *err) WT_NODISCARD;
 
 /* ---- error against run time ------------------------------------------------------------------ */
 
@@ -1139,16 +1144,16 @@ WT_API const wt_params *wt_accuracy_job_params(void);
 /* Creates the table "work_precision": error of every numerical part on a problem with an
  * independent reference, and processor time on one thread, for a sweep of its setting; the textbook
  * method for comparison. WT_E_NOT_FOUND for an unknown part. */
-WT_API wt_status wt_accuracy_make(const wt_accuracy_job *job, const wt_job *work, wt_table **table,
-                                  wt_error *err) WT_NODISCARD;
+WT_API wt_status wt_accuracy_compute(const wt_accuracy_job *job, const wt_job *work,
+                                     wt_table **table, wt_error *err) WT_NODISCARD;
 /* Creates the same table for a sliding contact at the reference velocity: friction and layer for a
  * sweep of the tolerance (reference 1e-13; textbook method for comparison), standard errors for a
  * sweep of the number of replicates, and values with fewer isotherms. Times are NaN if the cost of
  * `work` has none. `layer` and `known` as above. */
-WT_API wt_status wt_case_precision_make(const wt_sliding *sliding, const wt_layer_job *layer,
-                                        const wt_layer_observation *known,
-                                        const wt_accuracy_job *job, const wt_job *work,
-                                        wt_table **table, wt_error *err) WT_NODISCARD;
+WT_API wt_status wt_case_precision_compute(const wt_sliding *sliding, const wt_layer_job *layer,
+                                           const wt_layer_observation *known,
+                                           const wt_accuracy_job *job, const wt_job *work,
+                                           wt_table **table, wt_error *err) WT_NODISCARD;
 
 /* ---- case ------------------------------------------------------------------------------------ */
 
@@ -1157,18 +1162,18 @@ typedef struct wt_case wt_case;
 WT_API wt_status wt_case_read(const char *path, wt_case **out, wt_error *err) WT_NODISCARD;
 WT_API void wt_case_free(wt_case *c);
 /* Restricts the requests of the case to these tables (names in a result, separated by blanks). */
-WT_API wt_status wt_case_request(wt_case *c, const char *tables, wt_error *err) WT_NODISCARD;
+WT_API wt_status wt_case_request_tables(wt_case *c, const char *tables, wt_error *err) WT_NODISCARD;
 /* Replaces the records of the case (files, folders or patterns, relative to the current folder) and
  * those parameters of the validation that are marked in `given`, as set by wt_params_set for `job`.
  */
-WT_API wt_status wt_case_validate(wt_case *c, const char *const *records, size_t n,
-                                  const wt_validation_job *job, uint64_t given,
-                                  wt_error *err) WT_NODISCARD;
+WT_API wt_status wt_case_set_validation(wt_case *c, const char *const *records, size_t n,
+                                        const wt_validation_job *job, uint64_t given,
+                                        wt_error *err) WT_NODISCARD;
 WT_API const char *wt_case_schema(void);            /* XSD text; static */
 WT_API const char *wt_case_title(const wt_case *c); /* Returns the title, "" if none; borrowed. */
 /* Returns the report options of the case: its style, figures, width, font and language, or the
  * defaults. Borrowed. */
-WT_API const wt_report_options *wt_case_report(const wt_case *c);
+WT_API const wt_report_options *wt_case_report_options(const wt_case *c);
 
 /* ---- plan and run ---------------------------------------------------------------------------- */
 
@@ -1194,9 +1199,9 @@ WT_API wt_status wt_plan(const wt_case *c, wt_table **plan, wt_error *err) WT_NO
 /* Runs the plan. Skipped stages have no tables; the table "cost" lists every stage. A failed file
  * does not stop the others: the table "failures" lists it and *n_failed counts it. The same holds
  * for a failed stage; the stages that need it are skipped. If no requested table exists, the result
- * still exists, with the status WT_ANSWERED_NOTHING. */
-WT_API wt_status wt_run(const wt_case *c, const wt_run_options *options, wt_log *log,
-                        wt_result **result, size_t *n_failed, wt_error *err) WT_NODISCARD;
+ * still exists, with the status WT_RESULT_EMPTY. */
+WT_API wt_status wt_run_case(const wt_case *c, const wt_run_options *options, wt_log *log,
+                             wt_result **result, size_t *n_failed, wt_error *err) WT_NODISCARD;
 /* Tests if `result`, read from its file, is up to date with the case and `command` (as returned by
  * wt_provenance_command). *current is false if version, command line, case or a file that was read
  * has changed, a file is new or missing, or the result is partial; `why` has the first difference.

@@ -23,8 +23,8 @@ typedef struct wt_layer_state {
     double modulus_ratio;   /* E_layer / E_bulk, > 0 */
     wt_ratio_slope slope;   /* frequency dependence of that ratio; all 0: constant */
     const wt_material *own; /* material of the layer, borrowed, replaces the ratio; NULL = none */
-    wt_shift_law own_law;   /* shift law of that material for a flash temperature; WT_LAW_NONE: that
-                               of the bulk */
+    wt_shift_law material_law; /* shift law of that material for a flash temperature; WT_LAW_NONE:
+                             that of the bulk */
 } wt_layer_state;
 
 /* Strain softening of the moduli (Payne effect; Lorenz, Oh, Nam, Jeon and Persson, J. Chem. Phys.
@@ -76,9 +76,9 @@ typedef struct wt_friction_options {
     double tolerance; /* requested relative numerical error; default 1e-10 */
     double gamma; /* S = gamma + (1 - gamma) P^2 in the friction integrand (Scaraggi and Persson, J.
                      Phys.: Condens. Matter 27 (2015) 105102); default 1 (Persson 2001) */
-    wt_layer_state layer;       /* default none */
-    unsigned threads;           /* for the velocities; 0 = one per processor; default 1 */
-    bool without_share;         /* extrapolated_share is not computed (NaN); default false */
+    wt_layer_state layer;         /* default none */
+    unsigned threads;             /* for the velocities; 0 = one per processor; default 1 */
+    bool skip_extrapolated_share; /* extrapolated_share is not computed (NaN); default false */
     struct angular_law *series; /* internal: angular law of the material, borrowed; default NULL */
     const wt_softening
         *softening;           /* borrowed while the workspace is created; NULL (default) = none */
@@ -144,7 +144,7 @@ WT_API void wt_friction_workspace_free(wt_friction_workspace *workspace);
 WT_API double wt_friction_strain(const wt_friction_workspace *workspace, double wavenumber);
 /* Returns the wavenumbers [rad/m] at which the first and the last strain of the table are reached,
  * q1 if not reached, NaN without strain softening. */
-WT_API void wt_friction_strained(const wt_friction_workspace *workspace, double range[2]);
+WT_API void wt_friction_strain_range(const wt_friction_workspace *workspace, double range[2]);
 /* Computes mu_hys, P and G at n velocities for a pressure [Pa] > 0. A negative velocity gives
  * negative friction. 0 is allowed if the law has closed angular integrals (Prony). points: [n],
  * undefined on failure. The result at a velocity depends neither on the other velocities nor on the
@@ -193,9 +193,9 @@ typedef struct wt_energy_source {
 WT_API void wt_energy_source_clear(wt_energy_source *source);
 /* Computes the source from the hysteresis integrand at one velocity: J_i = j(q_i) dq_i, sum =
  * mu_hys sigma0 v. Clear it with wt_energy_source_clear. */
-WT_API wt_status wt_energy_source_friction(wt_friction_workspace *workspace, double pressure,
-                                           double velocity, wt_energy_source *source,
-                                           wt_error *err) WT_NODISCARD;
+WT_API wt_status wt_energy_source_from_friction(wt_friction_workspace *workspace, double pressure,
+                                                double velocity, wt_energy_source *source,
+                                                wt_error *err) WT_NODISCARD;
 WT_API double wt_energy_density(const wt_energy_source *source, double depth); /* w [W/m^3] */
 WT_API double wt_energy_tail(const wt_energy_source *source,
                              double depth); /* int_z^inf w [W/m^2] */
@@ -221,15 +221,15 @@ typedef struct wt_activation {
                     `incubation` with it, and then all depths age: there is no steady state */
 } wt_activation;
 /* Returns the unloaded rate A exp(-barrier / kB T) [1/s]; NaN for invalid parameters. */
-WT_API double wt_activation_background(const wt_activation *parameters);
+WT_API double wt_activation_unloaded_rate(const wt_activation *parameters);
 /* Returns the smallest barrier [J] whose unloaded rate at a temperature does not exceed `rate`
  * [1/s]. */
-WT_API double wt_activation_least_barrier(double temperature, wt_attempt_frequency attempt,
-                                          double rate);
+WT_API double wt_activation_min_barrier(double temperature, wt_attempt_frequency attempt,
+                                        double rate);
 /* Returns the highest temperature [K] at which the unloaded rate of a barrier does not exceed
  * `rate` [1/s]. */
-WT_API double wt_activation_most_temperature(double barrier, wt_attempt_frequency attempt,
-                                             double rate);
+WT_API double wt_activation_max_temperature(double barrier, wt_attempt_frequency attempt,
+                                            double rate);
 
 /* Parameters of the layer. The rubber at a depth is modified where int Omega dt >= damage. */
 typedef struct wt_layer_parameters {
@@ -240,9 +240,10 @@ typedef struct wt_layer_parameters {
     double velocity;           /* [m/s] */
     double start_thickness;    /* [m] */
     double duty;               /* share of the time in contact, (0, 1]; default 1 */
-    bool incubation;     /* damage transport (exact, with incubation) instead of the rate balance */
-    bool without_errors; /* skips numerical errors that cost more than the number itself (NaN) */
-    bool balance_only;   /* skips the incubation time of a steady state (NaN) */
+    bool incubation; /* damage transport (exact, with incubation) instead of the rate balance */
+    bool skip_numerical_errors; /* skips numerical errors that cost more than the number itself
+                                   (NaN) */
+    bool balance_only;          /* skips the incubation time of a steady state (NaN) */
     double severity_power; /* severity: k (1 + (power / severity_power)^severity_exponent) [W/m^2];
                               0 = constant k */
     double severity_exponent; /* > 0; default 1 */
@@ -258,7 +259,7 @@ typedef enum wt_layer_regime {
     WT_LAYER_THICK /* R >= e */
 } wt_layer_regime;
 
-typedef struct wt_layer_balance {
+typedef struct wt_layer_steady_state {
     double surface_power;               /* J0 [W/m^2] */
     double formation_rate_zero;         /* Qf(0) [m/s] */
     double wear_rate;                   /* Qw [m/s] */
@@ -276,11 +277,12 @@ typedef struct wt_layer_balance {
     wt_estimate removal_time;    /* time to remove the start thickness if there is no steady state,
                                     infinite if never (R = 1); NaN if there is one */
     wt_layer_regime regime;
-} wt_layer_balance;
+} wt_layer_steady_state;
 
-WT_API wt_status wt_layer_balance_compute(const wt_energy_source *source,
-                                          const wt_layer_parameters *parameters,
-                                          wt_layer_balance *balance, wt_error *err) WT_NODISCARD;
+WT_API wt_status wt_layer_steady_state_compute(const wt_energy_source *source,
+                                               const wt_layer_parameters *parameters,
+                                               wt_layer_steady_state *balance,
+                                               wt_error *err) WT_NODISCARD;
 
 typedef struct wt_layer_point {
     double time;           /* [s] */
@@ -298,16 +300,16 @@ WT_API wt_status wt_layer_history(const wt_energy_source *source,
                                   size_t n, wt_layer_point *points, wt_error *err) WT_NODISCARD;
 /* Computes the time at which a growing layer reaches a thickness; NaN if never, or if it is not
  * thinner before. The numerical error of the thickness is propagated. */
-WT_API wt_status wt_layer_time(const wt_energy_source *source,
-                               const wt_layer_parameters *parameters, wt_estimate thickness,
-                               wt_estimate *time, wt_error *err) WT_NODISCARD;
+WT_API wt_status wt_layer_growth_time(const wt_energy_source *source,
+                                      const wt_layer_parameters *parameters, wt_estimate thickness,
+                                      wt_estimate *time, wt_error *err) WT_NODISCARD;
 /* One load of a load history. */
-typedef struct wt_layer_stage {
+typedef struct wt_layer_load {
     const wt_energy_source *source; /* borrowed */
     wt_layer_parameters
         parameters;  /* `incubation` is ignored; start_thickness is that of the first load */
     double duration; /* [s], >= 0 */
-} wt_layer_stage;
+} wt_layer_load;
 
 /* Modified rubber between two depths below the surface. */
 typedef struct wt_layer_band {
@@ -315,21 +317,21 @@ typedef struct wt_layer_band {
 } wt_layer_band;
 
 /* Maximum number of modified bands in a wt_layer_section. */
-enum { WT_LAYER_BANDS = 8 };
+enum { WT_LAYER_MAX_BANDS = 8 };
 typedef struct wt_layer_section {
     double time, worn; /* time [s]; depth worn off so far [m] */
-    size_t n; /* number of bands; if more than WT_LAYER_BANDS, only the deepest are stored */
-    wt_layer_band band[WT_LAYER_BANDS]; /* deepest first */
+    size_t n; /* number of bands; if more than WT_LAYER_MAX_BANDS, only the deepest are stored */
+    wt_layer_band band[WT_LAYER_MAX_BANDS]; /* deepest first */
 } wt_layer_section;
 /* Computes exact damage transport under successive loads. The state is the damage at every depth,
  * so that splitting a load changes nothing. Times [s] count from the start of the first load, in
  * any order; the last load continues for ever. sections: [n]. */
-WT_API wt_status wt_layer_sections(const wt_layer_stage *stages, size_t n_stages,
-                                   const double *time, size_t n, wt_layer_section *sections,
+WT_API wt_status wt_layer_sections(const wt_layer_load *stages, size_t n_stages, const double *time,
+                                   size_t n, wt_layer_section *sections,
                                    wt_error *err) WT_NODISCARD;
 /* Computes the damage relative to the modification threshold at a depth below the surface at a
  * time. */
-WT_API wt_status wt_layer_damage(const wt_layer_stage *stages, size_t n_stages, double time,
+WT_API wt_status wt_layer_damage(const wt_layer_load *stages, size_t n_stages, double time,
                                  double depth, double *damage, wt_error *err) WT_NODISCARD;
 
 /* Events in the life of modified bands. */
@@ -352,10 +354,10 @@ WT_API wt_status wt_layer_events(const wt_energy_source *source,
 /* Variant for successive loads on initially unmodified rubber; the last load continues for ever.
  * Events within 4 % of the time since a load began may cancel undetected. wt_layer_first_event
  * returns only the first; its time is NaN if nothing is ever modified. */
-WT_API wt_status wt_layer_stage_events(const wt_layer_stage *stages, size_t n_stages,
-                                       wt_layer_event *events, size_t most, size_t *n,
-                                       wt_error *err) WT_NODISCARD;
-WT_API wt_status wt_layer_first_event(const wt_layer_stage *stages, size_t n_stages,
+WT_API wt_status wt_layer_load_events(const wt_layer_load *stages, size_t n_stages,
+                                      wt_layer_event *events, size_t most, size_t *n,
+                                      wt_error *err) WT_NODISCARD;
+WT_API wt_status wt_layer_first_event(const wt_layer_load *stages, size_t n_stages,
                                       wt_layer_event *event, wt_error *err) WT_NODISCARD;
 
 /* Shear stress of the real contact on a layer: that of the bulk times (E_layer / E_bulk)^exponent,
@@ -395,28 +397,31 @@ typedef struct wt_layer_fold {
     bool maximum; /* the pair vanishes above that wear rate, else below it */
 } wt_layer_fold;
 
-enum { WT_LAYER_ROOTS = 8 };
-typedef struct wt_layer_loop {
+enum { WT_LAYER_MAX_ROOTS = 8 };
+typedef struct wt_layer_feedback {
     size_t n_roots, n_folds;
-    wt_layer_root root[WT_LAYER_ROOTS]; /* thinnest first */
-    wt_layer_fold fold[WT_LAYER_ROOTS];
+    wt_layer_root root[WT_LAYER_MAX_ROOTS]; /* thinnest first */
+    wt_layer_fold fold[WT_LAYER_MAX_ROOTS];
     double low, high; /* search interval [m] */
     double ratio;     /* R of the bare surface */
-} wt_layer_loop;
+} wt_layer_feedback;
 /* Finds the roots between two thicknesses [m] on a grid of `grid` values of constant ratio. Two
  * roots closer than one step are not detected. */
-WT_API wt_status wt_layer_loop_find(wt_layer_energy_fn energy, void *user, double low, double high,
-                                    size_t grid, wt_layer_loop *loop, wt_error *err) WT_NODISCARD;
+WT_API wt_status wt_layer_feedback_solve(wt_layer_energy_fn energy, void *user, double low,
+                                         double high, size_t grid, wt_layer_feedback *loop,
+                                         wt_error *err) WT_NODISCARD;
 /* Computes the thickness by the rate balance from the bare surface to the lowest stable root, as
  * wt_layer_history. */
-WT_API wt_status wt_layer_loop_history(wt_layer_energy_fn energy, void *user,
-                                       const wt_layer_loop *loop, const double *time, size_t n,
-                                       wt_layer_point *points, wt_error *err) WT_NODISCARD;
+WT_API wt_status wt_layer_feedback_history(wt_layer_energy_fn energy, void *user,
+                                           const wt_layer_feedback *loop, const double *time,
+                                           size_t n, wt_layer_point *points,
+                                           wt_error *err) WT_NODISCARD;
 
 /* Returns the thickness [m] after a time from start_thickness for a single exponential, in closed
  * form (theory T3). NaN for a negative or infinite argument. */
-WT_API double wt_layer_exponential(double start_thickness, double kappa, double formation_rate_zero,
-                                   double wear_rate, double time);
+WT_API double wt_layer_exponential_thickness(double start_thickness, double kappa,
+                                             double formation_rate_zero, double wear_rate,
+                                             double time);
 /* Returns the critical energy U_c [J/m^3] for which `thickness` is the steady state of this source,
  * with any profile: Qf(d) = Qw (theory B3). The critical energy and the duty of the parameters have
  * no effect. */
@@ -425,23 +430,23 @@ WT_API double wt_layer_calibrate(const wt_energy_source *source,
 
 /* ---- identification of a layer --------------------------------------------------------------- */
 
-typedef struct wt_layer_identified {
+typedef struct wt_identified_constants {
     double critical_energy;    /* U_c [J/m^3] */
     double specific_wear_rate; /* k [m^2/N] */
     double ratio;              /* R = Qf(0)/Qw */
-} wt_layer_identified;
+} wt_identified_constants;
 /* Computes U_c of a layer of this steady-state thickness for a known wear rate. Pressure, velocity
  * and damage of the parameters are used. WT_E_RANGE if there is no such U_c. */
 WT_API wt_status wt_layer_identify_wear(const wt_energy_source *source,
                                         const wt_layer_parameters *parameters, double thickness,
-                                        double specific_wear_rate, wt_layer_identified *found,
+                                        double specific_wear_rate, wt_identified_constants *found,
                                         wt_error *err) WT_NODISCARD;
 /* Computes U_c and k of a layer of this steady-state thickness that took `time` from unmodified
  * rubber to `share` of it. The rate balance is used, or with `incubation` damage transport to the
  * deepest edge. The duty is used, too. */
 WT_API wt_status wt_layer_identify_time(const wt_energy_source *source,
                                         const wt_layer_parameters *parameters, double thickness,
-                                        double time, double share, wt_layer_identified *found,
+                                        double time, double share, wt_identified_constants *found,
                                         wt_error *err) WT_NODISCARD;
 
 #ifdef __cplusplus

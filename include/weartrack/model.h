@@ -92,14 +92,14 @@ typedef enum wt_law_kind {
     WT_LAW_NONE,
     WT_LAW_WLF,
     WT_LAW_ARRHENIUS,
-    WT_LAW_JOINED /* WLF above, Arrhenius below a transition temperature (glass) */
+    WT_LAW_WLF_ARRHENIUS /* WLF above, Arrhenius below a transition temperature (glass) */
 } wt_law_kind;
 
 typedef struct wt_shift_law {
     wt_law_kind kind;
     wt_wlf wlf;               /* its reference temperature holds for every kind */
     double activation_energy; /* [J/mol] */
-    double joint;             /* transition temperature of WT_LAW_JOINED [K] */
+    double joint;             /* transition temperature of WT_LAW_WLF_ARRHENIUS [K] */
 } wt_shift_law;
 /* Returns log10 aT, 0 at the reference temperature. NaN where the law has no value. */
 WT_API double wt_shift_law_log_a(const wt_shift_law *law, double temperature);
@@ -218,8 +218,8 @@ typedef struct wt_ratio_slope {
 /* Computes ln |ratio| relative to the reference, and the phase of the causal minimum-phase ratio
  * with this magnitude (Bode 1940, Kramers-Kronig relations). The phase is exponent pi/2 well inside
  * `low` and `high` and 0 far outside. omega > 0. */
-WT_API void wt_ratio_slope_at(const wt_ratio_slope *slope, double omega, double *log_ratio,
-                              double *phase);
+WT_API void wt_ratio_slope_eval(const wt_ratio_slope *slope, double omega, double *log_ratio,
+                                double *phase);
 
 /* ---- roughness ------------------------------------------------------------------------------- */
 
@@ -263,8 +263,8 @@ typedef struct wt_ball_contact {
     double contact_radius; /* a [m] */
     double pressure;       /* nominal pressure F / (pi a^2) [Pa] */
 } wt_ball_contact;
-WT_API wt_ball_contact wt_ball_contact_of(double load, double radius, double modulus,
-                                          double poisson_ratio);
+WT_API wt_ball_contact wt_ball_contact_compute(double load, double radius, double modulus,
+                                               double poisson_ratio);
 /* Returns the load [N] for a nominal pressure [Pa]. */
 WT_API double wt_ball_load(double pressure, double radius, double modulus, double poisson_ratio);
 /* Returns the duty of a point on a circular track at the distance `aside` from the centre line: its

@@ -32,8 +32,8 @@ WT_API wt_status wt_input_bytes(wt_input *input, const unsigned char **bytes, si
 WT_API wt_status wt_input_size(wt_input *input, size_t *size, wt_error *err) WT_NODISCARD;
 /* Copies bytes [from, from + n) without buffering those of a file. WT_E_IO if the file has become
  * shorter. */
-WT_API wt_status wt_input_at(wt_input *input, size_t from, void *to, size_t n,
-                             wt_error *err) WT_NODISCARD;
+WT_API wt_status wt_input_copy(wt_input *input, size_t from, void *to, size_t n,
+                               wt_error *err) WT_NODISCARD;
 /* Opens a second input of the same file for another thread. NULL (and WT_OK) for an input that is
  * or may be kept in memory as a whole. The caller closes it, in any order. */
 WT_API wt_status wt_input_sibling(const wt_input *input, wt_input **beside,
@@ -83,26 +83,26 @@ WT_API const wt_format_info *wt_formats_find(const wt_formats *formats, const ch
  * Of the options (NULL = defaults) the sheet is used. Pass the id in wt_read_options.format to
  * avoid a second detection. */
 struct wt_read_options;
-WT_API wt_status wt_detect(const wt_formats *formats, wt_input *input,
-                           const struct wt_read_options *options, unsigned kinds,
-                           const wt_format_info **info, wt_error *err) WT_NODISCARD;
+WT_API wt_status wt_format_detect(const wt_formats *formats, wt_input *input,
+                                  const struct wt_read_options *options, unsigned kinds,
+                                  const wt_format_info **info, wt_error *err) WT_NODISCARD;
 
 /* ---- options ------------------------------------------------------------------------------ */
 
 /* Deformation of moduli whose names do not state it, such as "storage modulus". Bending moduli are
  * tensile moduli. */
 typedef enum wt_read_deformation {
-    WT_DEFORMATION_OF_FILE,
+    WT_DEFORMATION_FROM_FILE,
     WT_DEFORMATION_TENSION,
     WT_DEFORMATION_SHEAR,
     WT_DEFORMATION_BENDING
 } wt_read_deformation;
 
 /* Rule that separates the samples of DMA sweeps. */
-typedef enum wt_sample_by {
+typedef enum wt_sample_grouping {
     WT_SAMPLE_BY_NAME, /* name in a column or header */
     WT_SAMPLE_BY_FILE  /* each file is a sample with the name of the file */
-} wt_sample_by;
+} wt_sample_grouping;
 
 /* Convention of the densities of a power spectrum; q = 2 pi / wavelength in each. */
 typedef enum wt_spectrum_convention {
@@ -111,11 +111,11 @@ typedef enum wt_spectrum_convention {
 } wt_spectrum_convention;
 
 /* Use of a --units value for columns of files of several kinds. */
-typedef struct wt_unit_use {
+typedef struct wt_unit_usage {
     bool used;       /* a file has that column, without a unit or with the same one */
     bool overruled;  /* a file has it with another unit, which takes precedence */
     char stated[32]; /* unit of the first such file */
-} wt_unit_use;
+} wt_unit_usage;
 
 /* Options of reading. Only the requested data are decoded. */
 typedef struct wt_read_options {
@@ -129,10 +129,10 @@ typedef struct wt_read_options {
     double temperature;       /* [K] for a sweep whose file states none; NaN = none */
     const char *const *units; /* "NAME=UNIT" for columns without a unit in the file */
     size_t n_units;
-    wt_unit_use *unit_use; /* [n_units] for files of several kinds: set by each reader, on any
+    wt_unit_usage *unit_usage; /* [n_units] for files of several kinds: set by each reader, on any
                               thread, instead of a warning for each file; NULL = warnings */
-    bool any_temperature;  /* a sweep without a temperature is read with NaN */
-    bool one_height;       /* of the requested heights only the sensor height, if there is one */
+    bool allow_missing_temperature; /* a sweep without a temperature is read with NaN */
+    bool sensor_height_only; /* of the requested heights only the sensor height, if there is one */
     const char *sheet; /* name of a sheet of a spreadsheet; "all" = all recognised sheets in turn;
                           NULL = the only recognised sheet */
     wt_read_deformation deformation; /* WT_E_UNIT if the file contradicts it */
@@ -140,7 +140,7 @@ typedef struct wt_read_options {
                       none */
     const char *sample; /* sample of DMA sweeps; "all" = all are one material, whatever their names;
                            NULL = none chosen */
-    wt_sample_by sample_by;
+    wt_sample_grouping sample_by;
     wt_spectrum_convention spectrum_convention;
     const char
         *temperature_in_name; /* pattern of names of files without a temperature: "#" is the
@@ -192,18 +192,18 @@ WT_API wt_status wt_record_read(const wt_formats *formats, wt_input *input,
                                 wt_error *err) WT_NODISCARD;
 /* Creates the metadata table of a file for `weartrack info`: rows of (item, value, unit, source),
  * all text. */
-WT_API wt_status wt_describe(const wt_formats *formats, wt_input *input,
-                             const wt_read_options *options, wt_log *log, wt_table **facts,
-                             wt_error *err) WT_NODISCARD;
+WT_API wt_status wt_input_describe(const wt_formats *formats, wt_input *input,
+                                   const wt_read_options *options, wt_log *log, wt_table **facts,
+                                   wt_error *err) WT_NODISCARD;
 
 /* ---- descriptions ------------------------------------------------------------------------- */
 
 /* Checks one description (schema, then further rules). If sample is not NULL, it also reads that
  * file. `report` receives rows of (column, quantity, unit, first value, ...) of the recognised
  * columns. */
-WT_API wt_status wt_description_check(const char *xml_path, wt_input *sample,
-                                      const wt_read_options *options, wt_log *log,
-                                      wt_table **report, wt_error *err) WT_NODISCARD;
+WT_API wt_status wt_format_description_check(const char *xml_path, wt_input *sample,
+                                             const wt_read_options *options, wt_log *log,
+                                             wt_table **report, wt_error *err) WT_NODISCARD;
 
 #ifdef __cplusplus
 }

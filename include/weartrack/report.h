@@ -41,11 +41,11 @@ WT_API wt_status wt_report_check(const char *folder, const wt_report_options *op
 /* Returns true if this computer has the font. It asks fc-match of Fontconfig, which gnuplot uses
  * for PDF and PNG. If the font is missing, `instead` receives the name of the substitute, truncated
  * to `size`. True for NULL and if fc-match does not run. */
-WT_API bool wt_report_has_font(const char *font, char *instead, size_t size);
+WT_API bool wt_report_font_is_available(const char *font, char *instead, size_t size);
 
 /* Returns the path of the page of a report: `place` itself if it ends in .html and is not a folder,
  * else index.html in it. New string, NULL when out of memory. */
-WT_API char *wt_report_page(const char *place) WT_NODISCARD;
+WT_API char *wt_report_page_path(const char *place) WT_NODISCARD;
 
 /* Writes FOLDER/index.html, which is self-contained, and for each figure whose tables are in the
  * result FOLDER/plots/NAME.tsv, NAME.gp and NAME.svg, and the style file. If FOLDER ends in .html,
@@ -71,9 +71,9 @@ WT_API wt_status wt_curve_browser_write(const wt_result *result, const char *pat
  * and reason: rejected ones first, then doubtful ones. Only the drawing options are used; NULL =
  * defaults. WT_E_EMPTY if the result has no table "curves", WT_E_TOOL as in wt_report_write.
  * `progress` counts sheets. */
-WT_API wt_status wt_sheets_write(const wt_result *result, const char *path,
-                                 const wt_report_options *options, const wt_progress *progress,
-                                 wt_error *err) WT_NODISCARD;
+WT_API wt_status wt_curve_sheets_write(const wt_result *result, const char *path,
+                                       const wt_report_options *options,
+                                       const wt_progress *progress, wt_error *err) WT_NODISCARD;
 
 /* Information on the figures of the library, in the order of the page. */
 typedef struct wt_figure_info {

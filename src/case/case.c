@@ -57,29 +57,29 @@ const char *wt_case_title(const wt_case *c)
     return c->title;
 }
 
-const wt_report_options *wt_case_report(const wt_case *c)
+const wt_report_options *wt_case_report_options(const wt_case *c)
 {
     return &c->report;
 }
 
-wt_status wt_case_request(wt_case *c, const char *tables, wt_error *err)
+wt_status wt_case_request_tables(wt_case *c, const char *tables, wt_error *err)
 {
     char names[256], *rest = NULL;
-    flow_things asked = 0;
+    flow_resource_set requested = 0;
     if (c == NULL || tables == NULL)
         return wt_fail(err, WT_E_ARG, "no case, or no table");
     snprintf(names, sizeof names, "%s", tables);
     for (const char *name = strtok_r(names, " ", &rest); name != NULL;
          name = strtok_r(NULL, " ", &rest)) {
-        flow_things things = 0;
-        if (!flow_resources_of_table(name, &things) || things == 0)
+        flow_resource_set resources = 0;
+        if (!flow_table_resources(name, &resources) || resources == 0)
             return wt_fail(err, WT_E_NOT_FOUND, "no table of a run is called \"%s\"", name);
-        asked |= things;
+        requested |= resources;
     }
-    if (asked == 0)
+    if (requested == 0)
         return wt_fail(err, WT_E_NOT_FOUND, "no table of a run is called \"%s\"", tables);
-    c->called = c->has_asked = true;
-    c->asked = asked;
+    c->is_explicit_request = c->has_requests = true;
+    c->requested = requested;
     return WT_OK;
 }
 
@@ -106,8 +106,8 @@ static wt_status replace_records(wt_case *c, const char *const *records, size_t 
     return WT_OK;
 }
 
-wt_status wt_case_validate(wt_case *c, const char *const *records, size_t n,
-                           const wt_validation_job *job, uint64_t given, wt_error *err)
+wt_status wt_case_set_validation(wt_case *c, const char *const *records, size_t n,
+                                 const wt_validation_job *job, uint64_t given, wt_error *err)
 {
     if (c == NULL || job == NULL || (n > 0 && records == NULL))
         return wt_fail(err, WT_E_ARG, "no case, or no validation job");

@@ -91,9 +91,9 @@ struct wt_case {
     bool compare_groups, compare_rates, compare_dma;
 
     wt_report_options report;
-    bool called;    /* the request comes from a call and overrides the case file */
-    bool has_asked; /* otherwise all tables are requested */
-    flow_things asked;
+    bool is_explicit_request; /* the request comes from a call and overrides the case file */
+    bool has_requests;        /* otherwise all tables are requested */
+    flow_resource_set requested;
 };
 
 /* Creates an empty case with default parameters; NULL when out of memory. */

@@ -6,7 +6,7 @@
 
 #include <math.h>
 
-static case_files no_files(void)
+static case_files case_files_defaults(void)
 {
     return (case_files){.spring_constant = {(double)NAN, 0, 0, "N/m"},
                         .sensitivity = {(double)NAN, 0, 0, "m/V"}};
@@ -14,7 +14,7 @@ static case_files no_files(void)
 
 static const wt_param rows[] = {SPRING_CONSTANT(case_files, PARAM_NO_OPTION, indent_error_check),
                                 SENSITIVITY(case_files, PARAM_NO_OPTION, indent_error_check)};
-PARAM_TABLE(case_group_params, case_files, rows, no_files, NO_PARTS)
+PARAM_TABLE(case_group_params, case_files, rows, case_files_defaults, NO_PARTS)
 
 /* The attributes of a node override the values that `set` and `lever` have already. */
 static wt_status read_attributes(wt_case *c, const xmlNode *node, wt_file_set *set,
@@ -40,7 +40,7 @@ static bool is_same_value(double a, double b)
 
 /* Combines the values of all files of a group. The value is NaN if the files differ; the relative
  * error is the largest one, NaN if a file states none. */
-static void join_file(wt_estimate *group, double *error, wt_estimate of_file, bool first)
+static void merge_file_estimate(wt_estimate *group, double *error, wt_estimate of_file, bool first)
 {
     const double relative = of_file.standard_error / of_file.value;
     if (first) {
@@ -67,7 +67,7 @@ wt_status case_read_files(wt_case *c, const xmlNode *parent, const char *name, c
     if (common == NULL || patterns == NULL || files->sets == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     *common = (wt_file_set){.folder = c->folder, .read = wt_read_defaults()};
-    case_files group = no_files();
+    case_files group = case_files_defaults();
     wt_status status = read_attributes(c, parent, common, &group, err);
     files->n = n;
     files->next = c->roles;
@@ -82,8 +82,10 @@ wt_status case_read_files(wt_case *c, const xmlNode *parent, const char *name, c
             status = case_node_text(c, node, &patterns[i], err);
         set->patterns = &patterns[i];
         set->n_patterns = 1;
-        join_file(&files->spring_constant, &files->lever_error, lever.spring_constant, i == 0);
-        join_file(&files->sensitivity, &files->sensitivity_error, lever.sensitivity, i == 0);
+        merge_file_estimate(&files->spring_constant, &files->lever_error, lever.spring_constant,
+                            i == 0);
+        merge_file_estimate(&files->sensitivity, &files->sensitivity_error, lever.sensitivity,
+                            i == 0);
     }
     return status;
 }

@@ -6,7 +6,7 @@
 
 #include <string.h>
 
-static bool is_called(const xmlNode *node, const char *name)
+static bool is_element_named(const xmlNode *node, const char *name)
 {
     return node->type == XML_ELEMENT_NODE && strcmp((const char *)node->name, name) == 0;
 }
@@ -14,7 +14,7 @@ static bool is_called(const xmlNode *node, const char *name)
 xmlNode *case_child(const xmlNode *parent, const char *name)
 {
     for (xmlNode *node = parent->children; node != NULL; node = node->next)
-        if (is_called(node, name))
+        if (is_element_named(node, name))
             return node;
     return NULL;
 }
@@ -22,12 +22,12 @@ xmlNode *case_child(const xmlNode *parent, const char *name)
 xmlNode *case_next(const xmlNode *node, const char *name)
 {
     for (xmlNode *next = node->next; next != NULL; next = next->next)
-        if (is_called(next, name))
+        if (is_element_named(next, name))
             return next;
     return NULL;
 }
 
-wt_status case_at(const xmlNode *node, wt_status status, wt_error *err)
+wt_status case_add_location(const xmlNode *node, wt_status status, wt_error *err)
 {
     wt_error_place(err, "line %ld, <%s>", xmlGetLineNo(node), (const char *)node->name);
     return status;
@@ -39,17 +39,17 @@ const char *case_param_name(const char *section, const char *param)
     return strncmp(param, section, n) == 0 && param[n] == '-' ? param + n + 1 : param;
 }
 
-wt_status case_at_param(const xmlNode *section, wt_status status, wt_error *err)
+wt_status case_add_param_location(const xmlNode *section, wt_status status, wt_error *err)
 {
     if (status == WT_OK)
         return WT_OK;
     const char *param = err != NULL ? err->place : "";
     const xmlNode *node = case_child(section, case_param_name((const char *)section->name, param));
-    return case_at(node != NULL ? node : section, status, err);
+    return case_add_location(node != NULL ? node : section, status, err);
 }
 
 /* Copies `raw` without surrounding blanks into the memory of the case. Frees `raw`. */
-static wt_status keep_text(wt_case *c, xmlChar *raw, const char **text, wt_error *err)
+static wt_status store_text(wt_case *c, xmlChar *raw, const char **text, wt_error *err)
 {
     static const char blanks[] = " \t\r\n";
     char *copy = NULL;
@@ -69,14 +69,14 @@ static wt_status keep_text(wt_case *c, xmlChar *raw, const char **text, wt_error
 
 wt_status case_node_text(wt_case *c, const xmlNode *node, const char **text, wt_error *err)
 {
-    return keep_text(c, xmlNodeGetContent(node), text, err);
+    return store_text(c, xmlNodeGetContent(node), text, err);
 }
 
 static wt_status read_attribute(wt_case *c, const xmlNode *section, const char *param,
                                 const char *name, case_setting *setting, wt_error *err)
 {
     const char *text = NULL;
-    wt_status status = keep_text(c, xmlGetProp(section, (const xmlChar *)name), &text, err);
+    wt_status status = store_text(c, xmlGetProp(section, (const xmlChar *)name), &text, err);
     if (status == WT_OK)
         status =
             wt_params_set(setting->params, param, setting->structure, text, &setting->given, err);
@@ -95,12 +95,12 @@ static wt_status read_param(wt_case *c, const xmlNode *section, const char *para
     if (node == NULL && xmlHasProp(section, (const xmlChar *)name) != NULL)
         return read_attribute(c, section, param, name, setting, err);
     for (; node != NULL; node = case_next(node, name)) {
-        wt_status status = keep_text(c, xmlNodeGetContent(node), &text, err);
+        wt_status status = store_text(c, xmlNodeGetContent(node), &text, err);
         if (status == WT_OK)
             status = wt_params_set(setting->params, param, setting->structure, text,
                                    &setting->given, err);
         if (status != WT_OK)
-            return case_at(node, status, err);
+            return case_add_location(node, status, err);
     }
     return WT_OK;
 }

@@ -13,9 +13,9 @@ xmlNode *case_child(const xmlNode *parent, const char *name);
 xmlNode *case_next(const xmlNode *node, const char *name);
 
 /* Adds "line N, <name>" to an error and returns `status`. */
-wt_status case_at(const xmlNode *node, wt_status status, wt_error *err);
+wt_status case_add_location(const xmlNode *node, wt_status status, wt_error *err);
 /* Variant for an error whose place is the name of a parameter in this section. */
-wt_status case_at_param(const xmlNode *section, wt_status status, wt_error *err);
+wt_status case_add_param_location(const xmlNode *section, wt_status status, wt_error *err);
 
 /* Returns the text of a node. The case owns the text. */
 wt_status case_node_text(wt_case *c, const xmlNode *node, const char **text,

@@ -12,8 +12,8 @@
 /* ---- schema messages ------------------------------------------------------------------------- */
 
 /* Extracts the text between `begin` and `end` from a message; "" if they are missing. */
-static void text_between(const char *message, const char *begin, const char *end, char *out,
-                         size_t size)
+static void extract_between(const char *message, const char *begin, const char *end, char *out,
+                            size_t size)
 {
     out[0] = '\0';
     const char *from = strstr(message, begin);
@@ -28,16 +28,16 @@ static void text_between(const char *message, const char *begin, const char *end
     out[length] = '\0';
 }
 
-typedef struct complaint {
+typedef struct schema_message {
     bool any;
     long line;
     char message[512];
-} complaint;
+} schema_message;
 
 /* Stores the first message only, because the others follow from it. */
-static void keep_first_message(void *user, xmlErrorPtr error)
+static void store_first_message(void *user, xmlErrorPtr error)
 {
-    complaint *c = user;
+    schema_message *c = user;
     if (c->any || error == NULL)
         return;
     c->any = true;
@@ -46,22 +46,23 @@ static void keep_first_message(void *user, xmlErrorPtr error)
     c->message[strcspn(c->message, "\n")] = '\0';
 }
 
-static wt_status schema_error(const complaint *c, wt_error *err)
+static wt_status schema_error(const schema_message *c, wt_error *err)
 {
-    char element[96], expected[160], value[96], said[256];
-    text_between(c->message, "Element '", "'", element, sizeof element);
-    text_between(c->message, "Expected is ", ".", expected, sizeof expected);
+    char element[96], expected[160], value[96], detail[256];
+    extract_between(c->message, "Element '", "'", element, sizeof element);
+    extract_between(c->message, "Expected is ", ".", expected, sizeof expected);
     if (expected[0] == '\0')
-        text_between(c->message, "is not an element of the set {", "}", expected, sizeof expected);
-    text_between(c->message, "The value '", "'", value, sizeof value);
-    text_between(c->message, "': ", "\n", said, sizeof said);
-    char *tail = strstr(said, " Expected is");
+        extract_between(c->message, "is not an element of the set {", "}", expected,
+                        sizeof expected);
+    extract_between(c->message, "The value '", "'", value, sizeof value);
+    extract_between(c->message, "': ", "\n", detail, sizeof detail);
+    char *tail = strstr(detail, " Expected is");
     if (tail != NULL)
         *tail = '\0';
-    const size_t length = strlen(said);
-    if (length > 0 && said[length - 1] == '.') /* the error message continues after this text */
-        said[length - 1] = '\0';
-    wt_fail(err, WT_E_SCHEMA, "%s", said[0] != '\0' ? said : c->message);
+    const size_t length = strlen(detail);
+    if (length > 0 && detail[length - 1] == '.') /* the error message continues after this text */
+        detail[length - 1] = '\0';
+    wt_fail(err, WT_E_SCHEMA, "%s", detail[0] != '\0' ? detail : c->message);
     wt_error_place(err, "line %ld", c->line);
     if (expected[0] != '\0')
         wt_error_expected(err, "%s", expected);
@@ -73,15 +74,15 @@ static wt_status schema_error(const complaint *c, wt_error *err)
     return WT_E_SCHEMA;
 }
 
-static wt_status validate_case(xmlDoc *doc, wt_error *err)
+static wt_status validate_document(xmlDoc *doc, wt_error *err)
 {
-    complaint c = {0};
+    schema_message c = {0};
     const char *text = wt_case_schema();
     xmlSchemaParserCtxt *parser = xmlSchemaNewMemParserCtxt(text, (int)strlen(text));
     xmlSchema *schema = parser == NULL ? NULL : xmlSchemaParse(parser);
     xmlSchemaValidCtxt *valid = schema == NULL ? NULL : xmlSchemaNewValidCtxt(schema);
     if (valid != NULL)
-        xmlSchemaSetValidStructuredErrors(valid, keep_first_message, &c);
+        xmlSchemaSetValidStructuredErrors(valid, store_first_message, &c);
     const int result = valid == NULL ? 0 : xmlSchemaValidateDoc(valid, doc);
     wt_status status = WT_OK;
     if (valid == NULL)
@@ -98,7 +99,7 @@ static wt_status validate_case(xmlDoc *doc, wt_error *err)
 
 /* ---- document -------------------------------------------------------------------------------- */
 
-static wt_status read_document(const wt_case *c, xmlDoc **out, wt_error *err)
+static wt_status read_case_document(const wt_case *c, xmlDoc **out, wt_error *err)
 {
     const int options = XML_PARSE_NONET | XML_PARSE_NOERROR | XML_PARSE_NOWARNING;
     xmlParserCtxt *context = xmlNewParserCtxt();
@@ -178,10 +179,10 @@ static wt_status parse_case(wt_case *c, wt_error *err)
         {"report", case_read_report},
     };
     xmlDoc *doc = NULL;
-    wt_status status = read_document(c, &doc, err);
+    wt_status status = read_case_document(c, &doc, err);
     if (status == WT_OK) {
         use_current_elements(xmlDocGetRootElement(doc));
-        status = validate_case(doc, err);
+        status = validate_document(doc, err);
     }
     const xmlNode *root = status == WT_OK ? xmlDocGetRootElement(doc) : NULL;
     const struct {

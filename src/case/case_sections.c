@@ -16,8 +16,8 @@
 
 /* ---- indentation ----------------------------------------------------------------------------- */
 
-static wt_status read_group(wt_case *c, const xmlNode *section, const char *name, case_files *files,
-                            wt_error *err)
+static wt_status read_group_files(wt_case *c, const xmlNode *section, const char *name,
+                                  case_files *files, wt_error *err)
 {
     const xmlNode *group = case_child(section, name);
     return group == NULL ? WT_OK : case_read_files(c, group, "files", files, err);
@@ -30,13 +30,13 @@ static wt_status check_disjoint(const wt_case *c, const xmlNode *section, wt_err
             if (strcmp(c->bulk.sets[i].patterns[0], c->track.sets[j].patterns[0]) == 0) {
                 wt_fail(err, WT_E_ARG, "the same files are bulk and wear track");
                 wt_error_found(err, "\"%s\" in both", c->bulk.sets[i].patterns[0]);
-                return case_at(case_child(section, "track"), WT_E_ARG, err);
+                return case_add_location(case_child(section, "track"), WT_E_ARG, err);
             }
     return WT_OK;
 }
 
 /* The path of the file with manual overrides is relative to the case. */
-static wt_status read_choices(wt_case *c, const xmlNode *section, wt_error *err)
+static wt_status read_choices_path(wt_case *c, const xmlNode *section, wt_error *err)
 {
     const xmlNode *node = case_child(section, "overrides");
     const char *name = NULL;
@@ -55,19 +55,19 @@ wt_status case_read_indentation(wt_case *c, const xmlNode *section, wt_error *er
 {
     wt_status status = case_read_params(c, section, wt_indent_job_params(), &c->indent, err);
     if (status == WT_OK)
-        status = read_choices(c, section, err);
+        status = read_choices_path(c, section, err);
     if (status == WT_OK)
         status = case_read_params(c, section, wt_compare_job_params(), &c->compare, err);
     if (status == WT_OK)
-        status = read_group(c, section, "bulk", &c->bulk, err);
+        status = read_group_files(c, section, "bulk", &c->bulk, err);
     if (status == WT_OK)
-        status = read_group(c, section, "track", &c->track, err);
+        status = read_group_files(c, section, "track", &c->track, err);
     return status == WT_OK ? check_disjoint(c, section, err) : status;
 }
 
 /* ---- dma ------------------------------------------------------------------------------------- */
 
-static wt_prony no_prony(void)
+static wt_prony prony_case_defaults(void)
 {
     return (wt_prony){.frequency_min = (double)NAN, .frequency_max = (double)NAN};
 }
@@ -82,13 +82,13 @@ static const wt_param prony_rows[] = {
     {PARAM("frequency-max", wt_prony, frequency_max, WT_Q_ANGULAR_FREQUENCY, ABOVE(0)), .unset = "",
      .flags = PARAM_NO_OPTION, .help = "where measurement ceases to back it"},
 };
-PARAM_TABLE(case_prony_params, wt_prony, prony_rows, no_prony, NO_PARTS)
+PARAM_TABLE(case_prony_params, wt_prony, prony_rows, prony_case_defaults, NO_PARTS)
 
 typedef struct term {
     double time, modulus;
 } term;
 
-static term no_term(void)
+static term term_case_defaults(void)
 {
     return (term){(double)NAN, (double)NAN};
 }
@@ -99,9 +99,9 @@ static const wt_param term_rows[] = {
     {PARAM("modulus", term, modulus, WT_Q_MODULUS, AT_LEAST(0)),
      .flags = PARAM_REQUIRED | PARAM_NO_OPTION, .help = "of the term"},
 };
-PARAM_TABLE(case_term_params, term, term_rows, no_term, NO_PARTS)
+PARAM_TABLE(case_term_params, term, term_rows, term_case_defaults, NO_PARTS)
 
-static case_wlf no_wlf(void)
+static case_wlf wlf_case_defaults(void)
 {
     return (case_wlf){.c1 = {(double)NAN, 0, 0, "1"}, .c2 = {(double)NAN, 0, 0, "K"}};
 }
@@ -112,12 +112,12 @@ static const wt_param wlf_rows[] = {
     {PARAM("c2", case_wlf, c2, WT_Q_TEMPERATURE_DIFFERENCE, ABOVE(0)),
      .flags = PARAM_REQUIRED | PARAM_NO_OPTION, .help = "second constant"},
 };
-PARAM_TABLE(case_wlf_params, case_wlf, wlf_rows, no_wlf, NO_PARTS)
+PARAM_TABLE(case_wlf_params, case_wlf, wlf_rows, wlf_case_defaults, NO_PARTS)
 
 static wt_status read_terms(wt_case *c, const xmlNode *node, wt_error *err)
 {
     wt_prony *p = &c->prony;
-    *p = no_prony();
+    *p = prony_case_defaults();
     wt_status status = case_read_params(c, node, case_prony_params(), p, err);
     size_t n = 0;
     for (const xmlNode *t = case_child(node, "term"); t != NULL; t = case_next(t, "term"))
@@ -138,7 +138,7 @@ static wt_status read_terms(wt_case *c, const xmlNode *node, wt_error *err)
     return status;
 }
 
-static wt_status read_points(wt_case *c, const xmlNode *section, wt_error *err)
+static wt_status read_material_table(wt_case *c, const xmlNode *section, wt_error *err)
 {
     c->kind = WT_RUBBER_TABLE;
     c->has_material = true;
@@ -154,7 +154,7 @@ static wt_status read_zener(wt_case *c, const xmlNode *node, wt_error *err)
     if (status == WT_OK) {
         status = flow_rubber_zener(&c->zener, c->master.poisson_ratio, &rubber, err);
         if (status != WT_OK)
-            case_at(node, status, err);
+            case_add_location(node, status, err);
         wt_rubber_clear(&rubber);
     }
     return status;
@@ -166,7 +166,7 @@ static wt_status read_wlf(wt_case *c, const xmlNode *node, wt_error *err)
     if (status == WT_OK && isnan(c->master.fit.reference_temperature)) {
         wt_fail(err, WT_E_MISSING, "WLF constants mean nothing without their temperature");
         wt_error_expected(err, "<reference-temperature> in <dma>");
-        return case_at(node, WT_E_MISSING, err);
+        return case_add_location(node, WT_E_MISSING, err);
     }
     c->has_wlf = status == WT_OK;
     return status;
@@ -187,13 +187,13 @@ wt_status case_read_dma(wt_case *c, const xmlNode *section, wt_error *err)
     if (status == WT_OK && prony != NULL)
         status = read_terms(c, prony, err);
     if (status == WT_OK && case_child(section, "table") != NULL)
-        status = read_points(c, section, err);
+        status = read_material_table(c, section, err);
     if (status == WT_OK && zener != NULL)
         status = read_zener(c, zener, err);
     if (status == WT_OK && c->has_material && c->rubber.moduli == WT_MODULI_POINTS) {
         wt_fail(err, WT_E_ARG, "a given material has no isotherms whose points could be taken");
         wt_error_advice(err, "delete <moduli>, or give <files>");
-        return case_at(case_child(section, "moduli"), WT_E_ARG, err);
+        return case_add_location(case_child(section, "moduli"), WT_E_ARG, err);
     }
     if (status == WT_OK && wlf != NULL)
         status = read_wlf(c, wlf, err);
@@ -207,7 +207,7 @@ wt_status case_read_dma(wt_case *c, const xmlNode *section, wt_error *err)
 
 /* ---- roughness, sliding, layer --------------------------------------------------------------- */
 
-static wt_status read_measured(wt_case *c, const xmlNode *section, wt_error *err)
+static wt_status read_height_map_files(wt_case *c, const xmlNode *section, wt_error *err)
 {
     wt_status status = case_read_files(c, section, "files", &c->height_maps, err);
     if (status == WT_OK)
@@ -226,11 +226,11 @@ wt_status case_read_roughness(wt_case *c, const xmlNode *section, wt_error *err)
         c->has_self_affine = c->surface.self_affine = true;
         status = case_read_params(c, law, flow_self_affine_params(), &c->surface, err);
         if (status == WT_OK && (status = flow_surface_check(&c->surface, err)) != WT_OK)
-            case_at(law, status, err);
+            case_add_location(law, status, err);
         return status;
     }
     if (spectrum == NULL)
-        return read_measured(c, section, err);
+        return read_height_map_files(c, section, err);
     c->has_spectrum = true;
     c->surface.c0 = (wt_estimate){1, 0, 0, "1"};
     status = case_read_files(c, spectrum, "file", &c->spectrum, err);
@@ -246,12 +246,12 @@ wt_status case_read_sliding(wt_case *c, const xmlNode *section, wt_error *err)
     c->softens = softening != NULL;
     wt_status status = case_read_params(c, section, wt_sliding_params(), &c->sliding, err);
     if (status == WT_OK && wt_anisotropy_check(&c->sliding.anisotropy, err) != WT_OK)
-        return case_at(section, WT_E_RANGE, err);
+        return case_add_location(section, WT_E_RANGE, err);
     if (status == WT_OK && softening != NULL && case_child(softening, "file") != NULL)
         status = case_read_files(c, softening, "file", &c->softening, err);
     if (status == WT_OK && softening == NULL && case_child(section, "strain-factor") != NULL) {
         wt_fail(err, WT_E_ARG, "<strain-factor> goes with <strain-softening>");
-        return case_at(case_child(section, "strain-factor"), WT_E_ARG, err);
+        return case_add_location(case_child(section, "strain-factor"), WT_E_ARG, err);
     }
     return status;
 }
@@ -268,7 +268,7 @@ static wt_status read_layer_material(wt_case *c, const xmlNode *node, wt_error *
         if (case_child(node->parent, instead[i]) != NULL) {
             wt_fail(err, WT_E_ARG, "the layer has a material of its own and a modulus ratio");
             wt_error_advice(err, "delete <material> or <%s>", instead[i]);
-            return case_at(case_child(node->parent, instead[i]), WT_E_ARG, err);
+            return case_add_location(case_child(node->parent, instead[i]), WT_E_ARG, err);
         }
     own->path = c->path;
     own->folder = c->folder;
@@ -276,7 +276,7 @@ static wt_status read_layer_material(wt_case *c, const xmlNode *node, wt_error *
     if (status == WT_OK && own->is_transverse) {
         wt_fail(err, WT_E_ARG, "a layer's own material is the same in all directions");
         wt_error_advice(err, "delete <transverse>");
-        return case_at(case_child(node, "transverse"), WT_E_ARG, err);
+        return case_add_location(case_child(node, "transverse"), WT_E_ARG, err);
     }
     while (own->roles != NULL) {
         case_files *const role = own->roles;
@@ -294,7 +294,7 @@ static wt_status check_ratio_slope(const wt_case *c, const xmlNode *section, wt_
         return WT_OK;
     wt_fail(err, WT_E_ARG, "the slope of the modulus ratio is given and measured");
     wt_error_advice(err, "delete <ratio-slope> or <ratio-by-rate>");
-    return case_at(slope, WT_E_ARG, err);
+    return case_add_location(slope, WT_E_ARG, err);
 }
 
 wt_status case_read_layer(wt_case *c, const xmlNode *section, wt_error *err)
@@ -315,13 +315,13 @@ wt_status case_read_layer(wt_case *c, const xmlNode *section, wt_error *err)
             1; /* placeholder for the check, until the records are read */
     }
     if (status == WT_OK)
-        status = case_at_param(section, wt_layer_job_check(&checked, err), err);
+        status = case_add_param_location(section, wt_layer_job_check(&checked, err), err);
     if (status == WT_OK && material != NULL)
         status = read_layer_material(c, material, err);
     if (status == WT_OK && ratio != NULL && c->bulk.n > 0 && c->track.n > 0) {
         wt_fail(err, WT_E_ARG, "the modulus ratio is given and measured");
         wt_error_advice(err, "delete <modulus-ratio>, or the curves of bulk or track");
-        return case_at(ratio, WT_E_ARG, err);
+        return case_add_location(ratio, WT_E_ARG, err);
     }
     return status;
 }
@@ -345,7 +345,7 @@ wt_status case_read_record(wt_case *c, const xmlNode *section, wt_error *err)
         c->records.profile_set = c->profile.sets;
     }
     if (status == WT_OK)
-        status = case_at_param(section, wt_record_job_check(&c->records, err), err);
+        status = case_add_param_location(section, wt_record_job_check(&c->records, err), err);
     if (status == WT_OK)
         status = case_read_files(c, section, "files", &c->record, err);
     c->has_wear = wear_is_requested(&c->records);
@@ -364,24 +364,24 @@ wt_status case_read_compare(wt_case *c, const xmlNode *section, wt_error *err)
     return WT_OK;
 }
 
-static wt_status unknown_name(const xmlNode *node, const char *name, const char *kind,
-                              wt_error *err)
+static wt_status fail_unknown_name(const xmlNode *node, const char *name, const char *kind,
+                                   wt_error *err)
 {
     wt_fail(err, WT_E_NOT_FOUND, "no %s is called \"%s\"", kind, name);
     wt_error_advice(err, "weartrack-case(5) lists the results and figures");
-    return case_at(node, WT_E_NOT_FOUND, err);
+    return case_add_location(node, WT_E_NOT_FOUND, err);
 }
 
 wt_status case_read_report(wt_case *c, const xmlNode *section, wt_error *err)
 {
     const char *style = NULL;
     wt_status status = case_read_params(c, section, wt_report_params(), &c->report, err);
-    if (status == WT_OK && style_find(c->report.style, &style, err) != WT_OK)
-        status = case_at(section, WT_E_NOT_FOUND, err);
+    if (status == WT_OK && find_built_in_style(c->report.style, &style, err) != WT_OK)
+        status = case_add_location(section, WT_E_NOT_FOUND, err);
     for (const xmlNode *node = section->children; status == WT_OK && node != NULL;
          node = node->next) {
         const char *name = NULL;
-        flow_things things = 0;
+        flow_resource_set resources = 0;
         if (node->type != XML_ELEMENT_NODE)
             continue;
         status = case_node_text(c, node, &name, err);
@@ -389,12 +389,12 @@ wt_status case_read_report(wt_case *c, const xmlNode *section, wt_error *err)
             break;
         const bool figure = strcmp((const char *)node->name, "figure") == 0;
         name = table_current_name(name); /* a figure of a table has its name */
-        const bool known = figure ? flow_resources_of_figure(name, &things)
-                                  : flow_resources_of_table(name, &things);
+        const bool known = figure ? flow_figure_resources(name, &resources)
+                                  : flow_table_resources(name, &resources);
         if (!known)
-            status = unknown_name(node, name, figure ? "figure" : "result", err);
-        c->has_asked = true;
-        c->asked |= things;
+            status = fail_unknown_name(node, name, figure ? "figure" : "result", err);
+        c->has_requests = true;
+        c->requested |= resources;
     }
     return status;
 }

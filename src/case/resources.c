@@ -12,62 +12,63 @@
 #define SOURCE_ROW(id, text, lack, there) [FLOW_##id] = {.words = text, .missing = lack},
 #define TABLE_ROW(id, text, of, group) [FLOW_##id] = {.words = text, .schema = of, .suffix = group},
 #define INNER_ROW(id, text) [FLOW_##id] = {.words = text},
-const flow_resource_row flow_thing_rows[FLOW_N_THINGS] = {
-    SOURCES(SOURCE_ROW) TABLE_THINGS(TABLE_ROW) INNER_THINGS(INNER_ROW)};
-_Static_assert(FLOW_N_THINGS <= CHAR_BIT * sizeof(flow_things),
+const flow_resource_row flow_resource_rows[FLOW_N_RESOURCES] = {
+    SOURCES(SOURCE_ROW) TABLE_RESOURCES(TABLE_ROW) INNER_RESOURCES(INNER_ROW)};
+_Static_assert(FLOW_N_RESOURCES <= CHAR_BIT * sizeof(flow_resource_set),
                "a set of things has a bit of each");
 
-int flow_resources_count(flow_things things)
+int flow_resources_count(flow_resource_set resources)
 {
     const unsigned low = 64;
-    return __builtin_popcountll((uint64_t)things) + __builtin_popcountll((uint64_t)(things >> low));
+    return __builtin_popcountll((uint64_t)resources) +
+           __builtin_popcountll((uint64_t)(resources >> low));
 }
 
-void flow_resources_list(flow_things things, char *text, size_t size)
+void flow_resources_list(flow_resource_set resources, char *text, size_t size)
 {
     size_t used = 0;
     text[0] = '\0';
-    for (unsigned i = 0; i < FLOW_N_THINGS && used < size; i++)
-        if (things & FLOW_BIT(i))
+    for (unsigned i = 0; i < FLOW_N_RESOURCES && used < size; i++)
+        if (resources & FLOW_BIT(i))
             used += (size_t)snprintf(text + used, size - used, "%s%s", used > 0 ? ", " : "",
-                                     flow_thing_rows[i].words);
+                                     flow_resource_rows[i].words);
 }
 
-bool flow_resources_of_table(const char *table, flow_things *things)
+bool flow_table_resources(const char *table, flow_resource_set *resources)
 {
     static const table_schema *const always[] = {&answer_schema, &inputs_schema,   &methods_schema,
                                                  &notes_schema,  &failures_schema, &cost_schema};
-    *things = 0;
+    *resources = 0;
     for (size_t i = 0; i < COUNT_OF(always); i++)
         if (strcmp(table, always[i]->name) == 0)
             return true;
     if (strcmp(table, force_displacement_schema.name) == 0 ||
         strcmp(table, force_indentation_schema.name) == 0)
-        *things = FLOW_BIT(FLOW_CURVE_BULK) | FLOW_BIT(FLOW_CURVE_TRACK);
+        *resources = FLOW_BIT(FLOW_CURVE_BULK) | FLOW_BIT(FLOW_CURVE_TRACK);
     if (strcmp(table, curves_schema.name) == 0 || strcmp(table, overrides_schema.name) == 0)
-        *things = FLOW_BIT(FLOW_INDENTATION_BULK) | FLOW_BIT(FLOW_INDENTATION_TRACK);
+        *resources = FLOW_BIT(FLOW_INDENTATION_BULK) | FLOW_BIT(FLOW_INDENTATION_TRACK);
     if (strcmp(table, modulus_depth_schema.name) == 0)
-        *things = FLOW_BIT(FLOW_DEPTH_BULK) | FLOW_BIT(FLOW_DEPTH_TRACK);
+        *resources = FLOW_BIT(FLOW_DEPTH_BULK) | FLOW_BIT(FLOW_DEPTH_TRACK);
     for (unsigned i = FLOW_FIRST_TABLE; i < FLOW_FIRST_INNER; i++)
-        if (flow_thing_rows[i].schema != NULL && strcmp(table, flow_thing_rows[i].words) == 0)
-            *things = FLOW_BIT(i);
-    return *things != 0;
+        if (flow_resource_rows[i].schema != NULL && strcmp(table, flow_resource_rows[i].words) == 0)
+            *resources = FLOW_BIT(i);
+    return *resources != 0;
 }
 
-bool flow_resources_of_figure(const char *figure, flow_things *things)
+bool flow_figure_resources(const char *figure, flow_resource_set *resources)
 {
     for (size_t i = 0; i < wt_figure_count(); i++) {
         const wt_figure_info info = wt_figure_get(i);
         if (strcmp(info.name, figure) != 0)
             continue;
         char names[128], *rest = NULL;
-        const bool known = flow_resources_of_table(info.table, things);
+        const bool known = flow_table_resources(info.table, resources);
         snprintf(names, sizeof names, "%s", info.beside);
         for (const char *name = strtok_r(names, " ", &rest); name != NULL;
              name = strtok_r(NULL, " ", &rest)) {
-            flow_things more = 0;
-            if (flow_resources_of_table(name, &more))
-                *things |= more;
+            flow_resource_set more = 0;
+            if (flow_table_resources(name, &more))
+                *resources |= more;
         }
         return known;
     }

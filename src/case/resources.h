@@ -28,7 +28,7 @@
       "no directions of the material (<transverse> in <dma>)", c->is_transverse)                   \
     X(GIVEN_SOFTENING, "given softening", "no table of softening (<file> in <strain-softening>)",  \
       c->softening.n > 0)                                                                          \
-    X(ASKED_SOFTENING, "softening by strain sweeps",                                               \
+    X(REQUESTED_SOFTENING, "softening by strain sweeps",                                           \
       "no softening by strain sweeps (<sweeps> in <strain-softening>)",                            \
       c->softens && c->softening.n == 0)                                                           \
     X(RECORD_FILES, "records of friction", "no records of friction (<files> in <record>)",         \
@@ -40,30 +40,31 @@
       c->has_layer &&isnan(c->layer.specific_wear_rate.value))                                     \
     X(GIVEN_ANISOTROPY, "anisotropic roughness", "no anisotropy (<anisotropy> in <sliding>)",      \
       c->sliding.anisotropy.amplitude[0] != 0 || c->sliding.anisotropy.amplitude[1] != 0)          \
-    X(ASKED_MAP, "temperatures and pressures of a map",                                            \
+    X(REQUESTED_MAP, "temperatures and pressures of a map",                                        \
       "no map asked for (<temperatures> or <pressures> in <sliding>)",                             \
       c->sliding.n_temperatures > 0 || c->sliding.n_pressures > 0)                                 \
-    X(ASKED_DECADES, "decades of the wavenumber", "no decades asked for (<decades> in <sliding>)", \
-      c->sliding.decades)                                                                          \
-    X(ASKED_BANDS, "bands of the layer or loads in turn",                                          \
+    X(REQUESTED_DECADES, "decades of the wavenumber",                                              \
+      "no decades asked for (<decades> in <sliding>)", c->sliding.decades)                         \
+    X(REQUESTED_BANDS, "bands of the layer or loads in turn",                                      \
       "no bands or loads asked for (<bands> or <loads> in <layer>)",                               \
       c->has_layer && (c->layer.bands || c->layer.n_loads > 0))                                    \
-    X(ASKED_RUNNING_IN, "running-in with the layer",                                               \
+    X(REQUESTED_RUNNING_IN, "running-in with the layer",                                           \
       "no running-in asked for (<running-in-friction> in <layer>)",                                \
       c->has_layer && c->layer.running_in)                                                         \
-    X(ASKED_FEEDBACK, "a layer that acts back", "no layer that acts back (<feedback> in <layer>)", \
-      c->has_layer && c->layer.acts_back)                                                          \
-    X(ASKED_REGIME_MAP, "where a layer exists",                                                    \
+    X(REQUESTED_FEEDBACK, "a layer that acts back",                                                \
+      "no layer that acts back (<feedback> in <layer>)", c->has_layer && c->layer.has_feedback)    \
+    X(REQUESTED_REGIME_MAP, "where a layer exists",                                                \
       "not asked where a layer exists (<regime-map> in <layer>)",                                  \
       c->has_layer && c->layer.existence)                                                          \
-    X(ASKED_IDENTIFICATION, "what is seen of the layer",                                           \
+    X(REQUESTED_IDENTIFICATION, "what is seen of the layer",                                       \
       "nothing that is seen of a layer (<identify>)", c->identifies)                               \
-    X(ASKED_FLASH, "flash temperature", "no flash temperature (<flash-temperature> in <sliding>)", \
+    X(REQUESTED_FLASH, "flash temperature",                                                        \
+      "no flash temperature (<flash-temperature> in <sliding>)",                                   \
       c->has_sliding && c->sliding.flash.on)
 
 /* Tables: id, name, schema, suffix of the table name. The curve of a group is a block in two tables
  * that both groups share. */
-#define TABLE_THINGS(X)                                                                            \
+#define TABLE_RESOURCES(X)                                                                         \
     X(INDENTATION_BULK, "indentation/bulk", &indentation_schema, "bulk")                           \
     X(INDENTATION_TRACK, "indentation/track", &indentation_schema, "track")                        \
     X(CURVE_BULK, "bulk curve", NULL, "")                                                          \
@@ -124,26 +125,26 @@
     X(WORK_PRECISION, "work_precision", &work_precision_schema, "")
 
 /* Resources that are passed between stages only: id, name. */
-#define INNER_THINGS(X)                                                                            \
+#define INNER_RESOURCES(X)                                                                         \
     X(RUBBER, "material")                                                                          \
     X(SURFACE, "roughness law")                                                                    \
     X(MODULUS_RATIO, "modulus ratio")                                                              \
     X(SOFTENING, "softening with strain")
 
-#define THING_ID(id, ...) FLOW_##id,
+#define RESOURCE_ID(id, ...) FLOW_##id,
 typedef enum flow_resource {
-    SOURCES(THING_ID) TABLE_THINGS(THING_ID) INNER_THINGS(THING_ID) FLOW_N_THINGS
+    SOURCES(RESOURCE_ID) TABLE_RESOURCES(RESOURCE_ID) INNER_RESOURCES(RESOURCE_ID) FLOW_N_RESOURCES
 } flow_resource;
 enum { FLOW_FIRST_TABLE = FLOW_INDENTATION_BULK, FLOW_FIRST_INNER = FLOW_RUBBER };
 
 /* Set of resources: bit i stands for resource i. There are more than 64. */
-__extension__ typedef unsigned __int128 flow_things;
-#define FLOW_BIT(thing) ((flow_things)1 << (unsigned)(thing))
+__extension__ typedef unsigned __int128 flow_resource_set;
+#define FLOW_BIT(resource) ((flow_resource_set)1 << (unsigned)(resource))
 #define FLOW_SOURCES (FLOW_BIT(FLOW_FIRST_TABLE) - 1)
 #define FLOW_TABLES (FLOW_BIT(FLOW_FIRST_INNER) - 1 - FLOW_SOURCES)
 /* Tables that are expensive, or that concern another measurement than sliding. They are computed
  * only if a case names them. */
-#define FLOW_BY_NAME                                                                               \
+#define FLOW_ONLY_REQUESTED                                                                        \
     (FLOW_BIT(FLOW_ERROR_BUDGET) | FLOW_BIT(FLOW_COVERAGE) | FLOW_BIT(FLOW_WORK_PRECISION) |       \
      FLOW_BIT(FLOW_RAMP) | FLOW_BIT(FLOW_GLASS_TRANSITION) | FLOW_BIT(FLOW_MODULI_AT) |            \
      FLOW_BIT(FLOW_PRONY_REDUCED) | FLOW_BIT(FLOW_RELAXATION_SPECTRUM) | FLOW_BIT(FLOW_PAYNE) |    \
@@ -160,14 +161,14 @@ typedef struct flow_resource_row {
     const table_schema *schema; /* NULL if the resource is not a table of its own */
     const char *suffix;
 } flow_resource_row;
-extern const flow_resource_row flow_thing_rows[FLOW_N_THINGS];
+extern const flow_resource_row flow_resource_rows[FLOW_N_RESOURCES];
 
 /* Writes the names of the resources, separated by commas. */
-void flow_resources_list(flow_things things, char *text, size_t size);
-int flow_resources_count(flow_things things);
+void flow_resources_list(flow_resource_set resources, char *text, size_t size);
+int flow_resources_count(flow_resource_set resources);
 /* Finds the resources of a table or a figure. The set is empty for tables that every result has.
  * False if the name is unknown. */
-bool flow_resources_of_table(const char *table, flow_things *things);
-bool flow_resources_of_figure(const char *figure, flow_things *things);
+bool flow_table_resources(const char *table, flow_resource_set *resources);
+bool flow_figure_resources(const char *figure, flow_resource_set *resources);
 
 #endif

@@ -51,17 +51,17 @@
     X(COST_WALL_TIME, "wall_time", "elapsed time", SI(TIME), SHOWS(wall), LABEL("Wall time"))      \
     X(COST_CPU_TIME, "cpu_time", "processor time", SI(TIME), SHOWS(cpu), LABEL("Processor time"),  \
       LIKE(COST_WALL_TIME))                                                                        \
-    X(COST_ITEMS, IN(said, items), "curves, isotherms, points, terms of a series", NUMBER,         \
+    X(COST_ITEMS, IN(reported, items), "curves, isotherms, points, terms of a series", NUMBER,     \
       LABEL("Items"))                                                                              \
-    X(COST_TOLERANCE_ASKED, IN(said, tolerance_asked),                                             \
+    X(COST_TOLERANCE_ASKED, IN(reported, tolerance_asked),                                         \
       "relative numerical error asked for; of a fit, the change by a further step that ends it",   \
       NUMBER, LABEL("Tolerance asked"))                                                            \
-    X(COST_ERROR_ESTIMATED, IN(said, error_estimated),                                             \
+    X(COST_ERROR_ESTIMATED, IN(reported, error_estimated),                                         \
       "largest relative numerical error estimated; of a fit, the change by a further step",        \
       NUMBER, LABEL("Error estimated"))                                                            \
     X(COST_NODES, AS(nodes), "nodes of the friction integral; of a fit, evaluations of its model", \
       NUMBER, LABEL("Nodes"))                                                                      \
-    X(COST_STANDARD_ERROR, IN(said.number, standard_error),                                        \
+    X(COST_STANDARD_ERROR, IN(reported.number, standard_error),                                    \
       "relative standard error of the main number", NUMBER, LABEL("Standard error"))               \
     X(COST_FILES, AS(files), "data files read", NUMBER, LABEL("Files"))                            \
     X(COST_BYTES, AS(bytes), "their size", SI(DATA_SIZE), LABEL("Size"))

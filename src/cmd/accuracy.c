@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cmd/cmd.h"
 
-static wt_status lacks_table(cmd_session *s, const char *title)
+static wt_status fail_missing_table(cmd_session *s, const char *title)
 {
     wt_fail(&s->err, WT_E_MISSING, "the case has no %s", title);
     wt_error_file(&s->err, s->files[0]);
@@ -11,7 +11,7 @@ static wt_status lacks_table(cmd_session *s, const char *title)
     return WT_E_MISSING;
 }
 
-static void say_keys(const cmd_session *s, const wt_table *table)
+static void print_text_keys(const cmd_session *s, const wt_table *table)
 {
     for (size_t i = 0; i < wt_table_n_keys(table) && !s->common.quiet; i++) {
         const char *name = wt_table_key_name(table, i);
@@ -23,7 +23,7 @@ static void say_keys(const cmd_session *s, const wt_table *table)
 
 /* Runs a case with requests for only its error budget and error against run time, or its coverage.
  */
-static wt_status ask_case(cmd_session *s, wt_run_options *run)
+static wt_status run_accuracy_case(cmd_session *s, wt_run_options *run)
 {
     const bool covers = run->trials > 0;
     const char *const first = covers ? "coverage" : "error_budget";
@@ -32,11 +32,11 @@ static wt_status ask_case(cmd_session *s, wt_run_options *run)
     wt_status status =
         s->common.output != NULL ? wt_check_overwrite(s->common.output, &s->err) : WT_OK;
     if (status == WT_OK)
-        status = cmd_try_output(s->common.output, &s->err);
+        status = cmd_check_output(s->common.output, &s->err);
     if (status == WT_OK)
         status = wt_case_read(s->files[0], &c, &s->err);
     if (status == WT_OK)
-        status = wt_case_request(c, covers ? first : "error_budget work_precision", &s->err);
+        status = wt_case_request_tables(c, covers ? first : "error_budget work_precision", &s->err);
     if (status == WT_OK)
         status = cmd_run_case(s, c, run, &n_failed);
     wt_case_free(c);
@@ -44,15 +44,15 @@ static wt_status ask_case(cmd_session *s, wt_run_options *run)
         cmd_print_failures(s, wt_result_find(s->result, "failures"));
     const wt_table *table = s->result != NULL ? wt_result_find(s->result, first) : NULL;
     if (status == WT_OK && table == NULL)
-        status = lacks_table(s, covers ? "intervals to be counted" : "error budget");
+        status = fail_missing_table(s, covers ? "intervals to be counted" : "error budget");
     if (status == WT_OK) {
-        say_keys(s, table);
+        print_text_keys(s, table);
         if (!covers && wt_result_find(s->result, "work_precision") != NULL)
-            say_keys(s, wt_result_find(s->result, "work_precision"));
+            print_text_keys(s, wt_result_find(s->result, "work_precision"));
     }
     if (status == WT_OK)
-        status = cmd_provenance(s->result, &s->err);
-    return status == WT_OK ? cmd_write(s) : status;
+        status = cmd_record_provenance(s->result, &s->err);
+    return status == WT_OK ? cmd_write_result(s) : status;
 }
 
 int cmd_accuracy(int argc, char **argv)
@@ -72,9 +72,9 @@ int cmd_accuracy(int argc, char **argv)
     wt_run_options run = wt_run_defaults();
     wt_coverage_job coverage = wt_coverage_job_defaults();
     wt_table *table = NULL;
-    cmd_part parts[] = {{wt_accuracy_job_params(), &job, NULL, 0},
-                        {wt_run_params(), &run, NULL, 0},
-                        {wt_coverage_job_params(), &coverage, NULL, 0}};
+    cmd_option_group parts[] = {{wt_accuracy_job_params(), &job, NULL, 0},
+                                {wt_run_params(), &run, NULL, 0},
+                                {wt_coverage_job_params(), &coverage, NULL, 0}};
     if (!cmd_parse(&s, &usage, parts, COUNT_OF(parts), argc, argv))
         return cmd_session_free(&s);
     bool good = true;
@@ -91,11 +91,11 @@ int cmd_accuracy(int argc, char **argv)
         s.log = wt_log_new();
         run.trials = coverage.trials;
         run.precision = job;
-        const wt_status made =
-            s.log == NULL ? wt_fail(&s.err, WT_E_MEMORY, "out of memory") : ask_case(&s, &run);
+        const wt_status made = s.log == NULL ? wt_fail(&s.err, WT_E_MEMORY, "out of memory")
+                                             : run_accuracy_case(&s, &run);
         cmd_end(&s, made);
     } else if (good && cmd_begin(&s)) {
-        const wt_status made = wt_accuracy_make(&job, &s.work, &table, &s.err);
+        const wt_status made = wt_accuracy_compute(&job, &s.work, &table, &s.err);
         wt_table **const made_tables[] = {&table};
         cmd_finish(&s, made, made_tables, COUNT_OF(made_tables));
     }

@@ -11,10 +11,10 @@
 
 /* Exit status: complete, nothing usable or an error, usage error, partial. */
 enum {
-    CMD_OK = WT_ANSWERED_WHOLE,
-    CMD_FAILED = WT_ANSWERED_NOTHING,
+    CMD_OK = WT_RESULT_COMPLETE,
+    CMD_FAILED = WT_RESULT_EMPTY,
     CMD_USAGE = 2,
-    CMD_PARTLY = WT_ANSWERED_PARTLY
+    CMD_PARTIAL = WT_RESULT_PARTIAL
 };
 
 /* A subcommand; its argv[0] is its name. */
@@ -52,17 +52,17 @@ int cmd_table(int argc, char **argv);
 int cmd_summary(int argc, char **argv);
 
 /* Makes this process exit when memory runs out (malloc_abort.c). */
-void cmd_end_without_memory(void);
+void cmd_exit_on_allocation_failure(void);
 
 /* ---- options ------------------------------------------------------------------------------ */
 
 /* A structure whose parameters are options of a subcommand. */
-typedef struct cmd_part {
+typedef struct cmd_option_group {
     const wt_params *params;
     void *structure;
     const char *only; /* names of the parameters that are options, separated by blanks; NULL: all */
     uint64_t given;
-} cmd_part;
+} cmd_option_group;
 
 /* Defines a table of options that are all unset by default. */
 #define CMD_OPTIONS(name, type, rows)                                                              \
@@ -74,7 +74,7 @@ typedef struct cmd_part {
 
 /* Common options. A subcommand names those that it supports. */
 typedef enum cmd_log { CMD_LOG_TEXT, CMD_LOG_JSON } cmd_log;
-typedef struct cmd_common {
+typedef struct cmd_common_options {
     const char *output;         /* -o, NULL = standard output */
     const char *formats;        /* folder of further descriptions */
     const char *const *columns; /* columns of plain tables */
@@ -83,8 +83,8 @@ typedef struct cmd_common {
     cmd_log log;
     bool provenance, cost;
     bool quiet, strict, help;
-} cmd_common;
-cmd_common cmd_common_defaults(void);
+} cmd_common_options;
+cmd_common_options cmd_common_defaults(void);
 
 typedef struct cmd_usage {
     const char *name;      /* name of the subcommand */
@@ -96,10 +96,10 @@ typedef struct cmd_usage {
     const char *master; /* options that weartrack master documents; NULL: none */
     const char *notes;  /* text after the options; NULL if none */
     bool exports;       /* writes tables for other programs, including databases */
-    int n_files;        /* required number of files; CMD_SOME: one or more; 0: any */
+    int n_files;        /* required number of files; CMD_ONE_OR_MORE: one or more; 0: any */
     const char *files;  /* message for another number: "two files are needed" */
 } cmd_usage;
-enum { CMD_SOME = -1 };
+enum { CMD_ONE_OR_MORE = -1 };
 
 /* ---- a call --------------------------------------------------------------------------------- */
 
@@ -113,8 +113,8 @@ typedef struct cmd_progress {
 /* One call of a subcommand: its options and common data. */
 typedef struct cmd_session {
     const char *name;
-    cmd_common common;
-    cmd_part *parts; /* [n_parts] */
+    cmd_common_options common;
+    cmd_option_group *parts; /* [n_parts] */
     size_t n_parts;
     const char **files;          /* [n_files] arguments that are no options, followed by */
     size_t n_arguments, n_files; /* the names of files_from */
@@ -134,8 +134,8 @@ typedef struct cmd_session {
 /* Returns a session with defaults, which may be freed. */
 cmd_session cmd_session_defaults(void);
 /* Parses argv. False if the call is finished: help was printed, or there was a usage error. */
-bool cmd_parse(cmd_session *s, const cmd_usage *usage, cmd_part *parts, size_t n_parts, int argc,
-               char **argv);
+bool cmd_parse(cmd_session *s, const cmd_usage *usage, cmd_option_group *parts, size_t n_parts,
+               int argc, char **argv);
 /* Creates log, result and job data. False on failure. */
 bool cmd_begin(cmd_session *s);
 /* Reads the formats with those of --formats and --columns. False on failure, such as an unknown
@@ -147,14 +147,14 @@ bool cmd_begin_reading(cmd_session *s, const char *format);
 bool cmd_begin_files(cmd_session *s, wt_file_set *set);
 /* Parses options and begins a subcommand with one job over the files of the call, as a stage of its
  * name; false if the call is finished. */
-bool cmd_begin_job(cmd_session *s, const cmd_usage *usage, cmd_part *parts, size_t n_parts,
+bool cmd_begin_job(cmd_session *s, const cmd_usage *usage, cmd_option_group *parts, size_t n_parts,
                    wt_file_set *set, int argc, char **argv);
 /* Prints failures and passes the tables "failures" and "notes" to the sink, unless they are empty.
  */
-wt_status cmd_give_record(cmd_session *s, wt_table_sink sink, void *user);
+wt_status cmd_write_record(cmd_session *s, wt_table_sink sink, void *user);
 /* Shares reading options between files of several kinds until the end: a unit is for a column of
  * any of them. False on failure. */
-bool cmd_share_units(cmd_session *s, wt_read_options *read);
+bool cmd_share_unit_options(cmd_session *s, wt_read_options *read);
 /* Prints failures, remarks and, unless `made` is WT_OK, the error. */
 void cmd_end(cmd_session *s, wt_status made);
 /* Variant that first writes the tables, in this order, with failures and notes, if `made` is WT_OK.
@@ -167,7 +167,7 @@ wt_status cmd_run_case(cmd_session *s, const wt_case *c, wt_run_options *run, si
 int cmd_session_free(cmd_session *s);
 
 /* True if the option was given. */
-bool cmd_given(const cmd_part *part, const char *name);
+bool cmd_option_is_given(const cmd_option_group *part, const char *name);
 /* Prints a usage error with a reference to the help; returns false. */
 bool cmd_usage_error(cmd_session *s, const char *format, ...) WT_PRINTF(2, 3);
 /* Prints a usage error for an error of the library about a parameter, whose name is its place. */
@@ -184,14 +184,14 @@ void cmd_wrap(FILE *out, size_t column, size_t indent, const char *text);
 /* Switches messages to one JSON object per line with an event: message, note, warning, loss, error,
  * failed, progress or end (log.c). */
 void cmd_log_json(const char *name);
-bool cmd_is_json(void);
+bool cmd_log_is_json(void);
 /* A member of such an object: a text, or a number if the text is NULL. */
-typedef struct cmd_word {
+typedef struct cmd_json_member {
     const char *name, *text;
     size_t number;
-} cmd_word;
+} cmd_json_member;
 /* Writes an event; no effect without --log json. Empty texts are omitted. */
-void cmd_event(const char *event, const cmd_word *words, size_t n);
+void cmd_log_event(const char *event, const cmd_json_member *words, size_t n);
 
 /* Prints on standard error. Control characters, such as in file names, are shown as \\x1b. Only the
  * format itself may end a line. */
@@ -203,9 +203,9 @@ void cmd_check_font(cmd_session *s, const char *font);
 /* Prints the error as one line and sets the status to failed; returns false. */
 bool cmd_fail(cmd_session *s);
 /* Prints the error of one of several items; the status becomes partial. */
-void cmd_fail_one(cmd_session *s);
+void cmd_report_failure(cmd_session *s);
 /* Sets the status to partial. */
-void cmd_partly(cmd_session *s);
+void cmd_set_partial(cmd_session *s);
 /* Prints the remarks of a log, equal texts once, and their number; also notes if `notes`; only
  * losses for a quiet call. A loss makes the status partial; with --strict any remark makes it
  * failed. */
@@ -234,20 +234,20 @@ wt_status cmd_sink_close(cmd_sink *sink, wt_status written, wt_error *err);
 
 /* Writes the result to -o: HDF5 for a name that ends in .h5 or .hdf5, else a text stream; without
  * -o or with "-" on standard output. */
-wt_status cmd_write(cmd_session *s);
+wt_status cmd_write_result(cmd_session *s);
 /* True if the name requests HDF5. */
-bool cmd_is_store(const char *path);
+bool cmd_is_hdf5_path(const char *path);
 /* True for standard output: no name, or "-". */
-bool cmd_is_standard(const char *path);
+bool cmd_is_standard_stream(const char *path);
 /* For subcommands that write only text: usage error if the name after -o requests HDF5. */
-bool cmd_is_text(cmd_session *s);
+bool cmd_require_text_output(cmd_session *s);
 /* Checks before the computation that the file can be written. NULL and "-" are always possible. */
-wt_status cmd_try_output(const char *path, wt_error *err);
+wt_status cmd_check_output(const char *path, wt_error *err);
 /* Returns a default name: "case/road.xml" -> "road" + ending, in the current folder; NULL when out
  * of memory. */
 char *cmd_default_name(const char *path, const char *ending);
 /* Records the command line in the provenance of the result. */
-wt_status cmd_provenance(wt_result *result, wt_error *err);
+wt_status cmd_record_provenance(wt_result *result, wt_error *err);
 
 /* Stores the command line as the user typed it; main calls this first. */
 void cmd_set_command_line(int argc, char **argv);

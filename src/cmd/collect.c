@@ -2,7 +2,7 @@
 #include "cmd/table_output.h"
 
 /* Reads the results. A file that cannot be read is reported and skipped. Returns their number. */
-static size_t read_cases(cmd_session *s, wt_collected *cases, wt_result **results)
+static size_t read_collected_cases(cmd_session *s, wt_collected_result *cases, wt_result **results)
 {
     const wt_progress *progress = &s->work.progress;
     size_t n = 0;
@@ -25,13 +25,13 @@ static size_t read_cases(cmd_session *s, wt_collected *cases, wt_result **result
         }
         if (read != WT_OK) {
             wt_error_file(&s->err, path);
-            cmd_fail_one(s);
+            cmd_report_failure(s);
             wt_result_free(result);
             continue;
         }
-        cmd_strict_remarks(s, path, cmd_tables_remarks(result));
+        cmd_apply_strict(s, path, cmd_count_remarks(result));
         results[n] = result;
-        cases[n++] = (wt_collected){result, path};
+        cases[n++] = (wt_collected_result){result, path};
     }
     return n;
 }
@@ -54,24 +54,24 @@ int cmd_collect(int argc, char **argv)
                  "ratio_pairs, shared_constants, shared_members, collected_constants and "
                  "shared_pairs follow one another; weartrack "
                  "report draws them.",
-        .n_files = CMD_SOME,
+        .n_files = CMD_ONE_OR_MORE,
         .files = "no result given"};
     wt_collect_job job = wt_collect_job_defaults();
-    cmd_part part = {wt_collect_job_params(), &job, NULL, 0};
+    cmd_option_group part = {wt_collect_job_params(), &job, NULL, 0};
     cmd_session s = cmd_session_defaults();
     wt_collection_tables tables = {0};
     if (!cmd_parse(&s, &usage, &part, 1, argc, argv) || !cmd_begin(&s))
         return cmd_session_free(&s);
-    wt_collected *cases = calloc(s.n_files, sizeof *cases);
+    wt_collected_result *cases = calloc(s.n_files, sizeof *cases);
     wt_result **results = calloc(s.n_files, sizeof *results);
-    const bool room = cases != NULL && results != NULL;
-    const size_t n = room ? read_cases(&s, cases, results) : 0;
-    wt_status made = room ? WT_OK : wt_fail(&s.err, WT_E_MEMORY, "out of memory");
+    const bool allocated = cases != NULL && results != NULL;
+    const size_t n = allocated ? read_collected_cases(&s, cases, results) : 0;
+    wt_status made = allocated ? WT_OK : wt_fail(&s.err, WT_E_MEMORY, "out of memory");
     if (made == WT_OK && n == 0) {
         s.status = CMD_FAILED;
         cmd_end(&s, WT_OK);
     } else if (made == WT_OK)
-        made = wt_collect(cases, n, &job, &tables, &s.err);
+        made = wt_collection_compute(cases, n, &job, &tables, &s.err);
     wt_table **const made_tables[] = {
         &tables.collection,      &tables.collected_modulus,   &tables.collected_friction,
         &tables.collected_force, &tables.ratio_pairs,         &tables.shared_constants,

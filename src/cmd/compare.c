@@ -4,26 +4,27 @@
 
 #include <string.h>
 
-typedef struct own_options {
+typedef struct compare_dma_options {
     const char *master;
-} own_options;
+} compare_dma_options;
 
 static const wt_param rows[] = {
-    {PARAM_TEXT_OF("master", own_options, master), .value = "FILE", .unset = "",
+    {PARAM_TEXT_OF("master", compare_dma_options, master), .value = "FILE", .unset = "",
      .help = "output of weartrack master, to compare with DMA at the frequency of the indentation"},
 };
-CMD_OPTIONS(own_params, own_options, rows)
+CMD_OPTIONS(compare_dma_params, compare_dma_options, rows)
 
 static const char *const names[2] = {"indentation/bulk", "indentation/track"};
 
-static bool is_called(const wt_table *table, const char *name)
+static bool has_table_name(const wt_table *table, const char *name)
 {
     return strcmp(wt_table_name(table), name) == 0;
 }
 
 /* Finds the table of the group, or else the first indentation table; a table of the track is no
  * bulk. */
-static wt_status find_group(const compare_call *call, int g, const wt_table **table, wt_error *err)
+static wt_status find_group_table(const compare_call *call, int g, const wt_table **table,
+                                  wt_error *err)
 {
     const compare_input *input = &call->input[g];
     if (input->tables == NULL) {
@@ -35,10 +36,10 @@ static wt_status find_group(const compare_call *call, int g, const wt_table **ta
     if (status != WT_OK)
         return status;
     for (size_t i = 0; i < wt_result_n_tables(input->tables); i++)
-        if (is_called(wt_result_table(input->tables, i), names[g]))
+        if (has_table_name(wt_result_table(input->tables, i), names[g]))
             *table = wt_result_table(input->tables, i);
     const bool same = strcmp(call->input[0].path, call->input[1].path) == 0;
-    if (!same && (g > 0 || !is_called(*table, names[1])))
+    if (!same && (g > 0 || !has_table_name(*table, names[1])))
         return WT_OK;
     wt_fail(err, WT_E_ARG, same ? "BULK and TRACK are one file" : "the first file is the track");
     wt_error_file(err, input->path);
@@ -50,20 +51,20 @@ static wt_status find_group(const compare_call *call, int g, const wt_table **ta
     return WT_E_ARG;
 }
 
-static void compare_groups(compare_call *call, const char *master)
+static void run_group_comparison(compare_call *call, const char *master)
 {
     cmd_session *s = &call->s;
     wt_compare_job *job = &call->groups;
     wt_result *dma = NULL;
     wt_rubber rubber = {0};
     wt_compare_tables tables = {0};
-    wt_status made = find_group(call, 0, &job->bulk, &s->err);
+    wt_status made = find_group_table(call, 0, &job->bulk, &s->err);
     if (made == WT_OK)
-        made = find_group(call, 1, &job->track, &s->err);
+        made = find_group_table(call, 1, &job->track, &s->err);
     if (made == WT_OK && s->n_files > 2)
         made =
             wt_fail(&s->err, WT_E_ARG, "BULK and TRACK are two files, %zu are given", s->n_files);
-    if (made == WT_OK && is_called(job->track, names[0]))
+    if (made == WT_OK && has_table_name(job->track, names[0]))
         wt_log_add(s->log, WT_WARNING, s->files[1], NULL,
                    "its curves are called bulk and are taken for those of the track; "
                    "`weartrack indent --group track` names them");
@@ -76,7 +77,7 @@ static void compare_groups(compare_call *call, const char *master)
         made = wt_compare_groups(job, &s->work, &tables, &s->err);
     wt_table *layer = NULL;
     if (made == WT_OK)
-        made = wt_track_layer_make(job, NULL, &s->work, &layer, &s->err);
+        made = wt_track_layer_compute(job, NULL, &s->work, &layer, &s->err);
     wt_table **const made_tables[] = {&tables.comparison,     &tables.modulus_groups,
                                       &tables.modulus_budget, &tables.modulus_rate,
                                       &tables.dma_comparison, &layer};
@@ -86,7 +87,7 @@ static void compare_groups(compare_call *call, const char *master)
 }
 
 /* Finds the table of dwell moduli of an input. */
-static wt_status find_dwells(const compare_input *input, const wt_table **table, wt_error *err)
+static wt_status find_dwell_table(const compare_input *input, const wt_table **table, wt_error *err)
 {
     if (input->tables == NULL) {
         *err = input->failure;
@@ -95,16 +96,16 @@ static wt_status find_dwells(const compare_input *input, const wt_table **table,
     return cmd_table_find(input->tables, input->path, "dwell_moduli", "dwell", table, err);
 }
 
-static void compare_dwells(compare_call *call, const char *master)
+static void run_dwell_comparison(compare_call *call, const char *master)
 {
     cmd_session *s = &call->s;
     wt_compare_job *job = &call->groups;
     wt_result *dma = NULL;
     wt_rubber rubber = {0};
     wt_table *made_table = NULL;
-    wt_status made = find_dwells(&call->input[0], &job->bulk, &s->err);
+    wt_status made = find_dwell_table(&call->input[0], &job->bulk, &s->err);
     if (made == WT_OK && s->n_files > 1)
-        made = find_dwells(&call->input[1], &job->track, &s->err);
+        made = find_dwell_table(&call->input[1], &job->track, &s->err);
     if (made == WT_OK && s->n_files > 2)
         made =
             wt_fail(&s->err, WT_E_ARG, "BULK and TRACK are two files, %zu are given", s->n_files);
@@ -120,22 +121,22 @@ static void compare_dwells(compare_call *call, const char *master)
     wt_result_free(dma);
 }
 
-enum { OWN, OF_GROUPS, OF_MATERIALS, OF_RUBBER, OF_READING, PARTS };
+enum { PART_DMA, PART_GROUPS, PART_MATERIALS, PART_RUBBER, PART_READING, N_PARTS };
 
 /* Rejects options that have no effect on this comparison. */
-static bool check_options(compare_call *call, bool materials, bool master)
+static bool check_compare_options(compare_call *call, bool materials, bool master)
 {
-    const cmd_part *parts = call->s.parts;
-    if (!materials && parts[OF_MATERIALS].given != 0)
+    const cmd_option_group *parts = call->s.parts;
+    if (!materials && parts[PART_MATERIALS].given != 0)
         return cmd_usage_error(&call->s, "--at-temperature, --at-frequency and --sample-error are "
                                          "for materials, not for BULK and TRACK");
-    if (!materials && !master && parts[OF_RUBBER].given != 0)
+    if (!materials && !master && parts[PART_RUBBER].given != 0)
         return cmd_usage_error(&call->s, "--poisson-ratio is of materials, or of --master");
-    const uint64_t reading = parts[OF_READING].given;
+    const uint64_t reading = parts[PART_READING].given;
     const bool sample_alone =
-        cmd_given(&parts[OF_READING], "sample") && (reading & (reading - 1)) == 0;
+        cmd_option_is_given(&parts[PART_READING], "sample") && (reading & (reading - 1)) == 0;
     if (reading != 0 &&
-        !((sample_alone && (materials || master)) || (materials && compare_reads_isotherms(call))))
+        !((sample_alone && (materials || master)) || (materials && compare_has_isotherms(call))))
         return cmd_usage_error(&call->s,
                                "--temperature, --units, --format, --sheet, --deformation, "
                                "--strain and --sample-by are for measured isotherms, --sample for "
@@ -144,7 +145,7 @@ static bool check_options(compare_call *call, bool materials, bool master)
     return true;
 }
 
-static bool needs_two(cmd_session *s)
+static bool fail_two_files(cmd_session *s)
 {
     return cmd_usage_error(s,
                            "two files are needed, BULK and TRACK or two materials (with --master "
@@ -153,11 +154,11 @@ static bool needs_two(cmd_session *s)
 }
 
 /* Reads the inputs. The content of a file decides its kind. */
-static bool read_inputs(compare_call *call, size_t least)
+static bool read_compare_inputs(compare_call *call, size_t least)
 {
     cmd_session *s = &call->s;
     if (s->n_files < least)
-        return needs_two(s);
+        return fail_two_files(s);
     call->input = calloc(s->n_files, sizeof *call->input);
     if (!cmd_begin(s))
         return false;
@@ -195,40 +196,40 @@ int cmd_compare(int argc, char **argv)
                  "spring-constant-error tip-error at-temperature at-frequency output",
         .master = "temperature temperature-in-name units format sheet deformation strain sample "
                   "sample-by",
-        .n_files = CMD_SOME};
-    own_options own = {0};
+        .n_files = CMD_ONE_OR_MORE};
+    compare_dma_options own = {0};
     compare_call call = {.s = cmd_session_defaults(),
                          .groups = wt_compare_job_defaults(),
                          .materials = wt_materials_job_defaults(),
                          .master = wt_master_job_defaults(),
                          .set = {.read = wt_read_defaults()}};
-    cmd_part parts[PARTS] = {
-        [OWN] = {own_params(), &own, NULL, 0},
-        [OF_GROUPS] = {wt_compare_job_params(), &call.groups, NULL, 0},
-        [OF_MATERIALS] = {wt_materials_job_params(), &call.materials,
-                          "at-temperature at-frequency sample-error", 0},
-        [OF_RUBBER] = {wt_master_job_params(), &call.master, "poisson-ratio", 0},
-        [OF_READING] = {wt_read_params(), &call.set.read,
-                        "temperature temperature-in-name units format sheet deformation strain "
-                        "sample sample-by",
-                        0}};
-    if (cmd_parse(&call.s, &usage, parts, PARTS, argc, argv) &&
-        read_inputs(&call, own.master != NULL ? 1 : 2)) {
+    cmd_option_group parts[N_PARTS] = {
+        [PART_DMA] = {compare_dma_params(), &own, NULL, 0},
+        [PART_GROUPS] = {wt_compare_job_params(), &call.groups, NULL, 0},
+        [PART_MATERIALS] = {wt_materials_job_params(), &call.materials,
+                            "at-temperature at-frequency sample-error", 0},
+        [PART_RUBBER] = {wt_master_job_params(), &call.master, "poisson-ratio", 0},
+        [PART_READING] = {wt_read_params(), &call.set.read,
+                          "temperature temperature-in-name units format sheet deformation strain "
+                          "sample sample-by",
+                          0}};
+    if (cmd_parse(&call.s, &usage, parts, N_PARTS, argc, argv) &&
+        read_compare_inputs(&call, own.master != NULL ? 1 : 2)) {
         const bool dwells =
-            own.master != NULL && cmd_tables_have(call.input[0].tables, "dwell_moduli");
-        const bool materials = own.master == NULL && compare_takes_materials(&call);
+            own.master != NULL && cmd_tables_contain(call.input[0].tables, "dwell_moduli");
+        const bool materials = own.master == NULL && compare_has_materials(&call);
         if (call.s.n_files < 2 && call.input[0].tables == NULL) {
             call.s.err = call.input[0].failure; /* the file may be the intended result */
             cmd_end(&call.s, call.s.err.status);
         } else if (call.s.n_files < 2 && !dwells) {
-            (void)needs_two(&call.s);
-        } else if (check_options(&call, materials, own.master != NULL)) {
+            (void)fail_two_files(&call.s);
+        } else if (check_compare_options(&call, materials, own.master != NULL)) {
             if (dwells)
-                compare_dwells(&call, own.master);
+                run_dwell_comparison(&call, own.master);
             else if (materials)
                 compare_materials(&call);
             else
-                compare_groups(&call, own.master);
+                run_group_comparison(&call, own.master);
         }
     }
     for (size_t i = 0; call.input != NULL && i < call.s.n_files; i++) {

@@ -26,9 +26,9 @@ typedef struct compare_call {
 
 /* True if the files are materials: at least one is or may be one, and none has indentation tables.
  */
-bool compare_takes_materials(const compare_call *call);
+bool compare_has_materials(const compare_call *call);
 /* True if one of them has measured isotherms, which this call fits. */
-bool compare_reads_isotherms(const compare_call *call);
+bool compare_has_isotherms(const compare_call *call);
 /* Compares the materials and writes the tables. */
 void compare_materials(compare_call *call);
 

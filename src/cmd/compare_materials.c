@@ -6,38 +6,38 @@
 
 /* True for a foreign text, a spreadsheet, a folder or a pattern. Standard input can be read only
  * once. */
-static bool may_be_measured(const compare_input *input)
+static bool may_be_isotherms(const compare_input *input)
 {
     const bool other = input->tables == NULL && input->failure.status != WT_E_MEMORY;
-    return strcmp(input->path, "-") != 0 && (other || cmd_tables_have(input->tables, "sweep"));
+    return strcmp(input->path, "-") != 0 && (other || cmd_tables_contain(input->tables, "sweep"));
 }
 
-bool compare_takes_materials(const compare_call *call)
+bool compare_has_materials(const compare_call *call)
 {
     bool any = false;
     for (size_t i = 0; i < call->s.n_files; i++) {
         const compare_input *input = &call->input[i];
-        if (cmd_tables_have(input->tables, "indentation/"))
+        if (cmd_tables_contain(input->tables, "indentation/"))
             return false;
-        any = any || cmd_tables_have(input->tables, "prony") || may_be_measured(input);
+        any = any || cmd_tables_contain(input->tables, "prony") || may_be_isotherms(input);
     }
     return any;
 }
 
-static bool is_measured(const compare_input *input)
+static bool is_isotherm_input(const compare_input *input)
 {
-    return !cmd_tables_have(input->tables, "prony") && may_be_measured(input);
+    return !cmd_tables_contain(input->tables, "prony") && may_be_isotherms(input);
 }
 
-bool compare_reads_isotherms(const compare_call *call)
+bool compare_has_isotherms(const compare_call *call)
 {
     bool any = false;
     for (size_t i = 0; i < call->s.n_files; i++)
-        any = any || is_measured(&call->input[i]);
+        any = any || is_isotherm_input(&call->input[i]);
     return any;
 }
 
-static wt_status fit_material(compare_call *call, compare_input *input, wt_error *err)
+static wt_status fit_compared_material(compare_call *call, compare_input *input, wt_error *err)
 {
     wt_master_tables tables = {0};
     wt_error failure = WT_ERROR_INIT;
@@ -47,14 +47,14 @@ static wt_status fit_material(compare_call *call, compare_input *input, wt_error
         return WT_E_CANCELLED;
     wt_job work = call->s.work;
     work.formats = call->s.formats;
-    work.left_out |= WT_EXTRA_REDUCED | WT_EXTRA_SPECTRUM;
+    work.left_out |= WT_EXTRA_REDUCED_SERIES | WT_EXTRA_SPECTRUM;
     if (input->tables != NULL) /* the file is already in the provenance */
         work.provenance = NULL;
     set.patterns = &input->path;
     set.n_patterns = 1;
     job.sets = &set;
     job.n_sets = 1;
-    wt_status status = wt_master_make(&job, &work, &tables, &input->rubber, &failure);
+    wt_status status = wt_master_compute(&job, &work, &tables, &input->rubber, &failure);
     input->shift_factors = tables.shift_factors;
     tables.shift_factors = NULL;
     wt_master_tables_clear(&tables);
@@ -66,19 +66,19 @@ static wt_status fit_material(compare_call *call, compare_input *input, wt_error
     return status;
 }
 
-static wt_status read_material(compare_call *call, compare_input *input, wt_error *err)
+static wt_status read_compared_material(compare_call *call, compare_input *input, wt_error *err)
 {
-    if (is_measured(input))
-        return fit_material(call, input, err);
+    if (is_isotherm_input(input))
+        return fit_compared_material(call, input, err);
     if (input->tables != NULL)
-        return cmd_rubber_of(input->tables, input->path, call->set.read.sample,
-                             call->master.poisson_ratio, &input->rubber, err);
+        return cmd_rubber_from_tables(input->tables, input->path, call->set.read.sample,
+                                      call->master.poisson_ratio, &input->rubber, err);
     *err = input->failure;
     return err->status;
 }
 
 /* Returns the name of the file, with its folders if another file has the same name. */
-static const char *name_of(const compare_call *call, size_t i)
+static const char *material_name(const compare_call *call, size_t i)
 {
     const char *slash = strrchr(call->s.files[i], '/');
     const char *name = slash != NULL && slash[1] != '\0' ? slash + 1 : call->s.files[i];
@@ -90,7 +90,7 @@ static const char *name_of(const compare_call *call, size_t i)
     return name;
 }
 
-static wt_status check_names(const compare_call *call, wt_error *err)
+static wt_status check_distinct_materials(const compare_call *call, wt_error *err)
 {
     for (size_t i = 1; i < call->s.n_files; i++)
         for (size_t k = 0; k < i; k++)
@@ -106,27 +106,27 @@ void compare_materials(compare_call *call)
 {
     cmd_session *s = &call->s;
     wt_materials_tables tables = {0};
-    wt_compared *of = calloc(s->n_files, sizeof *of);
-    wt_status made =
-        of == NULL ? wt_fail(&s->err, WT_E_MEMORY, "out of memory") : check_names(call, &s->err);
+    wt_compared_material *compared = calloc(s->n_files, sizeof *compared);
+    wt_status made = compared == NULL ? wt_fail(&s->err, WT_E_MEMORY, "out of memory")
+                                      : check_distinct_materials(call, &s->err);
     /* the comparison needs every material */
     wt_table_free(s->work.failures);
     s->work.failures = NULL;
     for (size_t i = 0; made == WT_OK && i < s->n_files; i++) {
         compare_input *input = &call->input[i];
-        made = read_material(call, input, &s->err);
+        made = read_compared_material(call, input, &s->err);
         const wt_table *shifts = input->shift_factors;
         if (made == WT_OK && input->tables != NULL && shifts == NULL)
-            shifts = cmd_table_of_sample(input->tables, "shift_factors", call->set.read.sample);
-        of[i] = (wt_compared){
-            .name = name_of(call, i), .rubber = &input->rubber, .shift_factors = shifts};
+            shifts = cmd_sample_table(input->tables, "shift_factors", call->set.read.sample);
+        compared[i] = (wt_compared_material){
+            .name = material_name(call, i), .rubber = &input->rubber, .shift_factors = shifts};
     }
-    call->materials.materials = of;
+    call->materials.materials = compared;
     call->materials.n_materials = s->n_files;
     call->materials.margin = call->groups.margin;
     if (made == WT_OK)
         made = wt_compare_materials(&call->materials, &s->work, &tables, &s->err);
     wt_table **const made_tables[] = {&tables.material_ratio, &tables.materials};
     cmd_finish(s, made, made_tables, COUNT_OF(made_tables));
-    free(of);
+    free(compared);
 }

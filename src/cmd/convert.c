@@ -10,19 +10,19 @@ typedef struct destination {
     wt_map_writer *map; /* NULL before the first curve of a store */
 } destination;
 
-static wt_status take_curve(void *user, const wt_force_curve *curve, wt_error *err)
+static wt_status write_curve(void *user, const wt_force_curve *curve, wt_error *err)
 {
     destination *d = user;
     const wt_status status =
-        d->map == NULL ? wt_map_begin(d->session->common.output, &d->map, err) : WT_OK;
-    return status == WT_OK ? wt_map_put(d->map, curve, err) : status;
+        d->map == NULL ? wt_map_open(d->session->common.output, &d->map, err) : WT_OK;
+    return status == WT_OK ? wt_map_add_curve(d->map, curve, err) : status;
 }
 
-static wt_status take_table(void *user, wt_table *table, wt_error *err)
+static wt_status write_table(void *user, wt_table *table, wt_error *err)
 {
     destination *d = user;
-    const cmd_common *common = &d->session->common;
-    if (cmd_is_store(common->output))
+    const cmd_common_options *common = &d->session->common;
+    if (cmd_is_hdf5_path(common->output))
         return wt_result_add(d->session->result, table, err);
     const wt_provenance *provenance = wt_result_provenance_const(d->session->result);
     const bool is_first = d->sink.stream == NULL;
@@ -46,23 +46,23 @@ int cmd_convert(int argc, char **argv)
         .n_files = 1,
         .files = "one file is needed"};
     wt_convert_job job = wt_convert_job_defaults();
-    cmd_part part = {wt_convert_job_params(), &job, NULL, 0};
+    cmd_option_group part = {wt_convert_job_params(), &job, NULL, 0};
     cmd_session s = cmd_session_defaults();
     destination d = {.session = &s};
     if (cmd_parse(&s, &usage, &part, 1, argc, argv) && cmd_begin_reading(&s, job.read.format)) {
-        const bool store = cmd_is_store(s.common.output);
-        wt_status made = cmd_provenance(s.result, &s.err);
+        const bool store = cmd_is_hdf5_path(s.common.output);
+        wt_status made = cmd_record_provenance(s.result, &s.err);
         if (made == WT_OK)
-            made = wt_convert_file(&job, s.files[0], &s.work, take_table, store ? take_curve : NULL,
-                                   &d, &s.err);
+            made = wt_convert_file(&job, s.files[0], &s.work, write_table,
+                                   store ? write_curve : NULL, &d, &s.err);
         if (made == WT_OK)
-            made = cmd_give_record(&s, take_table, &d);
+            made = cmd_write_record(&s, write_table, &d);
         if (d.sink.stream != NULL)
             made = cmd_sink_close(&d.sink, made, &s.err);
         else if (made == WT_OK && d.map != NULL)
-            made = wt_map_end(d.map, s.result, s.common.provenance, &s.err);
+            made = wt_map_commit(d.map, s.result, s.common.provenance, &s.err);
         else if (made == WT_OK && store)
-            made = cmd_write(&s);
+            made = cmd_write_result(&s);
         else
             wt_map_discard(d.map);
         cmd_end(&s, made);

@@ -14,10 +14,10 @@ int cmd_dwell(int argc, char **argv)
                 "allowed.",
         .common = "output formats columns files-from provenance cost",
         .notes = "The tables dwell, dwell_moduli and dwell_points follow one another.",
-        .n_files = CMD_SOME};
+        .n_files = CMD_ONE_OR_MORE};
     wt_indent_job job = wt_indent_job_defaults();
     wt_file_set set = {.read = wt_read_defaults()};
-    cmd_part parts[] = {
+    cmd_option_group parts[] = {
         {wt_indent_job_params(), &job, "tip poisson-ratio sample-thickness unbonded", 0},
         {wt_read_params(), &set.read, "spring-constant sensitivity units format", 0}};
     cmd_session s = cmd_session_defaults();
@@ -26,6 +26,6 @@ int cmd_dwell(int argc, char **argv)
     job.sets = &set;
     job.n_sets = 1;
     if (cmd_begin_job(&s, &usage, parts, COUNT_OF(parts), &set, argc, argv))
-        cmd_finish(&s, wt_dwell_make(&job, &s.work, &made, &s.err), tables, COUNT_OF(tables));
+        cmd_finish(&s, wt_dwell_compute(&job, &s.work, &made, &s.err), tables, COUNT_OF(tables));
     return cmd_session_free(&s);
 }

@@ -5,7 +5,7 @@
 #include <string.h>
 #include <unistd.h>
 
-static export_options no_options(void)
+static export_options export_options_defaults(void)
 {
     return (export_options){.form = WT_EXPORT_TSV};
 }
@@ -18,13 +18,13 @@ static const wt_param rows[] = {
      .help = "leave a text of tsv and csv that begins with = + - or @ as it is; without this an "
              "apostrophe before it keeps a spreadsheet from taking it for a formula"},
 };
-PARAM_TABLE(export_params, export_options, rows, no_options, NO_PARTS)
+PARAM_TABLE(export_params, export_options, rows, export_options_defaults, NO_PARTS)
 
-static wt_export_form form_of(const char *output, const cmd_part *part)
+static wt_export_form select_export_form(const char *output, const cmd_option_group *part)
 {
     const export_options *options = part->structure;
     const char *dot = output != NULL ? strrchr(output, '.') : NULL;
-    if (cmd_given(part, "format") || dot == NULL)
+    if (cmd_option_is_given(part, "format") || dot == NULL)
         return options->form;
     static const struct {
         const char *ending;
@@ -40,11 +40,12 @@ static wt_export_form form_of(const char *output, const cmd_part *part)
     return options->form;
 }
 
-wt_status export_table(cmd_session *s, const cmd_part *part, const wt_table *table)
+wt_status export_table(cmd_session *s, const cmd_option_group *part, const wt_table *table)
 {
     cmd_sink sink;
-    const wt_export_form form = form_of(s->common.output, part);
-    if (form == WT_EXPORT_SQLITE && cmd_is_standard(s->common.output) && isatty(STDOUT_FILENO)) {
+    const wt_export_form form = select_export_form(s->common.output, part);
+    if (form == WT_EXPORT_SQLITE && cmd_is_standard_stream(s->common.output) &&
+        isatty(STDOUT_FILENO)) {
         (void)wt_fail(&s->err, WT_E_ARG, "a terminal cannot show a database");
         wt_error_advice(&s->err, "give it a name: -o NAME.sqlite");
         return WT_E_ARG;

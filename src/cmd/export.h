@@ -13,6 +13,6 @@ const wt_params *export_params(void);
 
 /* Writes the table to -o or standard output. Unless --format is among the options given, the end of
  * the name after -o decides. */
-wt_status export_table(cmd_session *s, const cmd_part *part, const wt_table *table);
+wt_status export_table(cmd_session *s, const cmd_option_group *part, const wt_table *table);
 
 #endif

@@ -4,12 +4,12 @@
 #include "cmd/file_kind.h"
 #include "core/table/registry.h"
 
-const file_kind_missing found_missing_rows[FOUND_N_MISSING] = {
+const file_kind_missing file_kind_missing_rows[FILE_KIND_N_MISSING] = {
     {"spring-constant", "0.1N/m"}, {"sensitivity", "60nm/V"},  {"temperature", "20degC"},
     {"units", "\"E'=MPa\""},       {"deformation", "tension"}, {"frequency", "10Hz"},
 };
 
-void file_kind_value(const char *value, const char *unit, char *out, size_t size)
+void format_metadata_value(const char *value, const char *unit, char *out, size_t size)
 {
     enum { DIGITS = 6 };
     static const char *const si[] = {"m", "m/s", "m/V", "N", "N/m", "Pa", "s", "V", "rad/s"};
@@ -40,31 +40,31 @@ static const struct {
     const char *item;
     unsigned kind;    /* WT_KIND_* of a file with this item; 0: any */
     const char *next; /* subcommand for the file if the item is the first; NULL: by its kind */
-} telling[] = {{"curves", WT_KIND_FORCE, NULL},
-               {"thermal noise", WT_KIND_NOISE, "thermal"},
-               {"record of friction", WT_KIND_RECORD, "record"},
-               {"spring constant", 0, NULL},
-               {"deflection sensitivity", 0, NULL},
-               {"isotherms", WT_KIND_SWEEP, NULL},
-               {"temperature sweeps", WT_KIND_SWEEP, "ramp"},
-               {"strain sweeps", WT_KIND_SWEEP, "payne"},
-               {"deformation", 0, NULL},
-               {"power spectrum", WT_KIND_SPECTRUM, NULL}};
+} metadata_items[] = {{"curves", WT_KIND_FORCE, NULL},
+                      {"thermal noise", WT_KIND_NOISE, "thermal"},
+                      {"record of friction", WT_KIND_RECORD, "record"},
+                      {"spring constant", 0, NULL},
+                      {"deflection sensitivity", 0, NULL},
+                      {"isotherms", WT_KIND_SWEEP, NULL},
+                      {"temperature sweeps", WT_KIND_SWEEP, "ramp"},
+                      {"strain sweeps", WT_KIND_SWEEP, "payne"},
+                      {"deformation", 0, NULL},
+                      {"power spectrum", WT_KIND_SPECTRUM, NULL}};
 
-static void read_fact(const char *item, const char *value, const char *unit, const char *source,
-                      file_kind *found)
+static void read_metadata_item(const char *item, const char *value, const char *unit,
+                               const char *source, file_kind *found)
 {
     const size_t used = strlen(found->words);
-    for (size_t i = 0; i < COUNT_OF(telling); i++) {
+    for (size_t i = 0; i < COUNT_OF(metadata_items); i++) {
         char shown[160];
-        if (strcmp(item, telling[i].item) != 0 || strcmp(value, "0") == 0 ||
+        if (strcmp(item, metadata_items[i].item) != 0 || strcmp(value, "0") == 0 ||
             strstr(found->words, item) != NULL) /* header value and converted value */
             continue;
         if (found->kind == 0) {
-            found->kind = telling[i].kind;
-            found->next = telling[i].next;
+            found->kind = metadata_items[i].kind;
+            found->next = metadata_items[i].next;
         }
-        file_kind_value(value, unit, shown, sizeof shown);
+        format_metadata_value(value, unit, shown, sizeof shown);
         snprintf(found->words + used, sizeof found->words - used, "%s%s %s",
                  strchr(found->words, ',') != NULL || strchr(found->words, ' ') != NULL ? ", "
                                                                                         : ": ",
@@ -79,38 +79,38 @@ static void read_fact(const char *item, const char *value, const char *unit, con
     const bool unread = strcmp(item, "not readable as it is") == 0;
     found->nothing = found->nothing || (unread && strstr(value, " not read;") != NULL);
     const char *advice = unread ? value : strcmp(item, "missing") == 0 ? source : "";
-    for (size_t i = 0; i < FOUND_N_MISSING; i++) {
+    for (size_t i = 0; i < FILE_KIND_N_MISSING; i++) {
         char option[32];
-        snprintf(option, sizeof option, "--%s", found_missing_rows[i].name);
+        snprintf(option, sizeof option, "--%s", file_kind_missing_rows[i].name);
         found->missing[i] = found->missing[i] || strstr(advice, option) != NULL;
     }
 }
 
-static bool begins_with(const char *text, const char *begin)
+static bool starts_with(const char *text, const char *begin)
 {
     return strncmp(text, begin, strlen(begin)) == 0;
 }
 
 /* Reads the quantities of the columns, and detects heights along one line. */
-static void read_columns(const char *item, const char *value, file_kind *found)
+static void read_column_items(const char *item, const char *value, file_kind *found)
 {
-    found->has_x |= begins_with(value, "position_x");
-    found->has_y |= begins_with(value, "position_y");
-    found->has_force |= begins_with(value, "friction_force");
+    found->has_x |= starts_with(value, "position_x");
+    found->has_y |= starts_with(value, "position_y");
+    found->has_force |= starts_with(value, "friction_force");
     found->has_load |=
-        begins_with(value, "normal_force") || begins_with(value, "friction_coefficient");
-    found->one_row |= begins_with(item, "image ") && strstr(value, " x 1 pixels") != NULL;
+        starts_with(value, "normal_force") || starts_with(value, "friction_coefficient");
+    found->one_row |= starts_with(item, "image ") && strstr(value, " x 1 pixels") != NULL;
 }
 
-bool file_kind_lacks(const file_kind *found, size_t missing)
+bool file_kind_is_missing(const file_kind *found, size_t missing)
 {
     const bool by_column =
-        *found->unitless != '\0' && strcmp(found_missing_rows[missing].name, "units") == 0;
+        *found->unitless != '\0' && strcmp(file_kind_missing_rows[missing].name, "units") == 0;
     return found->missing[missing] && !by_column;
 }
 
 /* Stores the name of a column without a unit, which needs its own --units. */
-static void read_unitless(const char *item, const char *value, file_kind *found)
+static void read_unitless_column(const char *item, const char *value, file_kind *found)
 {
     static const char column[] = "column \"";
     const size_t used = strlen(found->unitless), begin = sizeof column - 1, length = strlen(item);
@@ -120,7 +120,7 @@ static void read_unitless(const char *item, const char *value, file_kind *found)
                  (int)(length - begin - 1), item + begin);
 }
 
-static void read_facts(const wt_formats *formats, const wt_table *facts, file_kind *found)
+static void read_metadata(const wt_formats *formats, const wt_table *facts, file_kind *found)
 {
     const wt_format_info *format = NULL;
     for (size_t row = 0; row < wt_table_n_rows(facts); row++) {
@@ -131,10 +131,10 @@ static void read_facts(const wt_formats *formats, const wt_table *facts, file_ki
             snprintf(found->words, sizeof found->words, "%s", value);
         }
         found->is_result = found->is_result || strncmp(item, "table ", 6) == 0;
-        read_unitless(item, value, found);
-        read_columns(item, value, found);
-        read_fact(item, value, wt_table_text(facts, row, FACTS_UNIT),
-                  wt_table_text(facts, row, FACTS_SOURCE), found);
+        read_unitless_column(item, value, found);
+        read_column_items(item, value, found);
+        read_metadata_item(item, value, wt_table_text(facts, row, FACTS_UNIT),
+                           wt_table_text(facts, row, FACTS_SOURCE), found);
     }
     found->is_result =
         found->is_result && format != NULL && strncmp(format->id, "weartrack-", 10) == 0;
@@ -153,9 +153,9 @@ wt_status file_kind_detect(cmd_session *s, const char *path, const wt_read_optio
     *found = (file_kind){0};
     wt_status status = wt_input_open(path, &input, &s->err);
     if (status == WT_OK)
-        status = wt_describe(s->formats, input, options, log, facts, &s->err);
+        status = wt_input_describe(s->formats, input, options, log, facts, &s->err);
     if (status == WT_OK)
-        read_facts(s->formats, *facts, found);
+        read_metadata(s->formats, *facts, found);
     else
         wt_error_file(&s->err, path);
     wt_input_close(input);

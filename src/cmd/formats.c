@@ -66,12 +66,12 @@ static void check_description(cmd_session *s, const wt_read_options *options)
     wt_table *report = NULL;
     wt_status status = s->n_files > 2 ? wt_input_open(s->files[2], &input, &s->err) : WT_OK;
     if (status == WT_OK)
-        status = wt_description_check(s->files[1], input, options, s->log, &report, &s->err);
+        status = wt_format_description_check(s->files[1], input, options, s->log, &report, &s->err);
     cmd_print_log(s, s->log, true);
     if (status == WT_OK)
         status = wt_result_add(s->result, report, &s->err);
     if (status == WT_OK)
-        status = cmd_write(s);
+        status = cmd_write_result(s);
     if (status != WT_OK)
         cmd_fail(s);
     wt_input_close(input);
@@ -88,9 +88,9 @@ int cmd_formats(int argc, char **argv)
                 "understood of it.",
         .common = "output formats columns provenance"};
     wt_read_options read = wt_read_defaults();
-    cmd_part part = {wt_read_params(), &read,
-                     "spring-constant sensitivity temperature frequency units sheet deformation",
-                     0};
+    cmd_option_group part = {
+        wt_read_params(), &read,
+        "spring-constant sensitivity temperature frequency units sheet deformation", 0};
     cmd_session s = cmd_session_defaults();
     if (!cmd_parse(&s, &usage, &part, 1, argc, argv))
         return cmd_session_free(&s);
@@ -102,7 +102,7 @@ int cmd_formats(int argc, char **argv)
         check_description(&s, &read);
     else if (!check && !list && !show)
         cmd_usage_error(&s, "say list, show ID or check DESCRIPTION.xml [SAMPLE]");
-    else if (!check && cmd_is_text(&s) && cmd_begin_reading(&s, NULL)) {
+    else if (!check && cmd_require_text_output(&s) && cmd_begin_reading(&s, NULL)) {
         cmd_print_log(&s, s.log, true);
         write_formats(&s, show ? s.files[1] : NULL);
     }

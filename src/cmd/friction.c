@@ -5,7 +5,7 @@
 /* The tables that follow that of friction, each where it has something to say. */
 enum { AREA, TRANSVERSE_ISOTROPY, SOFTENING, FLASH, ANISOTROPY, MAP, DECADES, N_FURTHER };
 
-static bool is_wanted(const wt_sliding *s, size_t k)
+static bool is_table_requested(const wt_sliding *s, size_t k)
 {
     switch (k) {
     case TRANSVERSE_ISOTROPY:
@@ -27,37 +27,37 @@ static bool is_wanted(const wt_sliding *s, size_t k)
 
 /* The map and the contributions by scale are those of the bare surface, which the other layer
  * options do not affect. */
-static wt_status make_map(const wt_sliding *sliding, const wt_job *work, wt_table **table,
-                          wt_error *err)
+static wt_status compute_friction_map(const wt_sliding *sliding, const wt_job *work,
+                                      wt_table **table, wt_error *err)
 {
-    return wt_friction_map_make(sliding, NULL, work, table, err);
+    return wt_friction_map_compute(sliding, NULL, work, table, err);
 }
 
-static wt_status make_decades(const wt_sliding *sliding, const wt_job *work, wt_table **table,
-                              wt_error *err)
+static wt_status compute_friction_by_scale(const wt_sliding *sliding, const wt_job *work,
+                                           wt_table **table, wt_error *err)
 {
-    return wt_friction_decades_make(sliding, NULL, work, table, err);
+    return wt_friction_by_scale_compute(sliding, NULL, work, table, err);
 }
 
-static wt_status make_further(cmd_sliding *s, wt_table *further[N_FURTHER])
+static wt_status compute_further_tables(cmd_sliding *s, wt_table *further[N_FURTHER])
 {
     static const struct {
         const char *stage;
-        wt_status (*make)(const wt_sliding *, const wt_job *, wt_table **, wt_error *);
+        wt_status (*compute)(const wt_sliding *, const wt_job *, wt_table **, wt_error *);
     } made[N_FURTHER] = {
-        [AREA] = {"contact_area", wt_contact_area_table},
-        [TRANSVERSE_ISOTROPY] = {"transverse_isotropy", wt_transverse_isotropy_make},
-        [SOFTENING] = {"softening", wt_softening_make},
-        [FLASH] = {"flash_temperature", wt_flash_make},
-        [ANISOTROPY] = {"anisotropy", wt_anisotropy_make},
-        [MAP] = {"friction_map", make_map},
-        [DECADES] = {"friction_decades", make_decades}};
+        [AREA] = {"contact_area", wt_contact_area_compute},
+        [TRANSVERSE_ISOTROPY] = {"transverse_isotropy", wt_transverse_isotropy_compute},
+        [SOFTENING] = {"softening", wt_softened_friction_compute},
+        [FLASH] = {"flash_temperature", wt_flash_temperature_compute},
+        [ANISOTROPY] = {"anisotropy", wt_anisotropic_friction_compute},
+        [MAP] = {"friction_map", compute_friction_map},
+        [DECADES] = {"friction_decades", compute_friction_by_scale}};
     wt_status status = WT_OK;
     for (size_t k = 0; status == WT_OK && k < N_FURTHER; k++) {
-        if (!is_wanted(&s->conditions, k))
+        if (!is_table_requested(&s->conditions, k))
             continue;
-        wt_cost_stage(s->session.cost, made[k].stage);
-        status = made[k].make(&s->conditions, &s->session.work, &further[k], &s->session.err);
+        wt_cost_begin_stage(s->session.cost, made[k].stage);
+        status = made[k].compute(&s->conditions, &s->session.work, &further[k], &s->session.err);
     }
     return status;
 }
@@ -77,27 +77,27 @@ int cmd_friction(int argc, char **argv)
         .master = CMD_DMA_OPTIONS};
     wt_layer_observation layer = wt_layer_observation_defaults();
     cmd_sliding s;
-    cmd_sliding_init(&s, (cmd_part){wt_layer_observation_params(), &layer, NULL, 0});
-    const cmd_part *own = &s.parts[CMD_OWN];
+    cmd_sliding_init(&s, (cmd_option_group){wt_layer_observation_params(), &layer, NULL, 0});
+    const cmd_option_group *own = &s.parts[CMD_SUBCOMMAND];
     wt_friction_tables tables = {0};
     wt_table *further[N_FURTHER] = {NULL}, *what_if = NULL;
     if (!cmd_sliding_parse(&s, &usage, argc, argv))
         return cmd_sliding_free(&s);
-    const bool has_layer = cmd_given(own, "layer-thickness");
-    if (has_layer != cmd_sliding_knows_layer(&s, own))
+    const bool has_layer = cmd_option_is_given(own, "layer-thickness");
+    if (has_layer != cmd_sliding_has_layer(&s, own))
         cmd_usage_error(&s.session, "--layer-thickness and --modulus-ratio (or a file of it) go "
                                     "together");
     else if (cmd_sliding_open(&s)) {
         const wt_layer_observation *known = has_layer ? &layer : NULL;
-        wt_cost_stage(s.session.cost, has_layer ? "friction_with_layer" : "friction");
-        wt_status made =
-            wt_friction_make(&s.conditions, known, &s.session.work, &tables, &s.session.err);
+        wt_cost_begin_stage(s.session.cost, has_layer ? "friction_with_layer" : "friction");
+        wt_status made = wt_sliding_friction_compute(&s.conditions, known, &s.session.work, &tables,
+                                                     &s.session.err);
         if (made == WT_OK)
-            made = make_further(&s, further);
-        wt_cost_stage(s.session.cost, "what_if");
+            made = compute_further_tables(&s, further);
+        wt_cost_begin_stage(s.session.cost, "what_if");
         if (made == WT_OK)
-            made = wt_what_if_make(&s.conditions, NULL, known, &s.session.work, &what_if,
-                                   &s.session.err);
+            made = wt_model_sensitivity_compute(&s.conditions, NULL, known, &s.session.work,
+                                                &what_if, &s.session.err);
         wt_table **const parts[] = {
             &tables.friction,    &further[AREA],    &further[TRANSVERSE_ISOTROPY],
             &further[SOFTENING], &further[FLASH],   &further[ANISOTROPY],

@@ -19,7 +19,7 @@ int cmd_identify(int argc, char **argv)
     wt_identify_job job = wt_identify_job_defaults();
     cmd_sliding s;
     wt_table *table = NULL;
-    cmd_sliding_init(&s, (cmd_part){wt_identify_job_params(), &job, NULL, 0});
+    cmd_sliding_init(&s, (cmd_option_group){wt_identify_job_params(), &job, NULL, 0});
     /* the energy does not depend on the shear stress */
     s.parts[CMD_CONTACT].only =
         "material dma roughness strain-softening softening-temperature wear-of";
@@ -30,12 +30,13 @@ int cmd_identify(int argc, char **argv)
     if (!cmd_sliding_parse(&s, &usage, argc, argv))
         return cmd_sliding_free(&s);
     if (cmd_sliding_open(&s)) {
-        cmd_sliding_wear(&s, &job.specific_wear_rate);
-        wt_cost_stage(s.session.cost, "identify");
+        cmd_sliding_set_wear_rate(&s, &job.specific_wear_rate);
+        wt_cost_begin_stage(s.session.cost, "identify");
         wt_table **const parts[] = {&table};
-        cmd_finish(&s.session,
-                   wt_identify_make(&s.conditions, &job, &s.session.work, &table, &s.session.err),
-                   parts, COUNT_OF(parts));
+        cmd_finish(
+            &s.session,
+            wt_identification_compute(&s.conditions, &job, &s.session.work, &table, &s.session.err),
+            parts, COUNT_OF(parts));
     }
     return cmd_sliding_free(&s);
 }

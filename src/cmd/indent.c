@@ -2,16 +2,16 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cmd/table_output.h"
 
-typedef struct own_options {
+typedef struct indent_dma_options {
     const char *master;
-} own_options;
+} indent_dma_options;
 
 static const wt_param rows[] = {
-    {PARAM_TEXT_OF("master", own_options, master), .value = "FILE", .unset = "",
+    {PARAM_TEXT_OF("master", indent_dma_options, master), .value = "FILE", .unset = "",
      .help = "output of weartrack master: a factor on its relaxation spectrum is fitted, so that "
              "curves of all rates are comparable"},
 };
-CMD_OPTIONS(own_params, own_options, rows)
+CMD_OPTIONS(indent_dma_params, indent_dma_options, rows)
 
 int cmd_indent(int argc, char **argv)
 {
@@ -27,47 +27,47 @@ int cmd_indent(int argc, char **argv)
         .notes =
             "Exit status 3 if a file or curve could not be read and others are answered, 1 if no "
             "curve has a modulus.",
-        .n_files = CMD_SOME};
+        .n_files = CMD_ONE_OR_MORE};
     wt_indent_job job = wt_indent_job_defaults();
     wt_file_set set = {.read = wt_read_defaults()};
     cmd_session s = cmd_session_defaults();
-    own_options own = {0};
+    indent_dma_options own = {0};
     wt_read_options dma_read = wt_read_defaults();
-    enum { OF_DMA = 4 };
+    enum { PART_DMA = 4 };
     wt_rubber rubber = {0};
     wt_result *dma = NULL;
-    cmd_part parts[] = {{own_params(), &own, NULL, 0},
-                        {wt_indent_job_params(), &job, NULL, 0},
-                        {wt_file_set_params(), &set, "spot units format", 0},
-                        {wt_job_params(), &s.work, "threads", 0},
-                        [OF_DMA] = {wt_read_params(), &dma_read, "sample", 0}};
+    cmd_option_group parts[] = {{indent_dma_params(), &own, NULL, 0},
+                                {wt_indent_job_params(), &job, NULL, 0},
+                                {wt_file_set_params(), &set, "spot units format", 0},
+                                {wt_job_params(), &s.work, "threads", 0},
+                                [PART_DMA] = {wt_read_params(), &dma_read, "sample", 0}};
     wt_indent_tables tables = {0};
     wt_table *groups = NULL, *budget = NULL;
     if (!cmd_parse(&s, &usage, parts, COUNT_OF(parts), argc, argv) || !cmd_begin_files(&s, &set) ||
-        (own.master == NULL && parts[OF_DMA].given != 0 &&
+        (own.master == NULL && parts[PART_DMA].given != 0 &&
          !cmd_usage_error(&s, "--sample goes with --master")))
         return cmd_session_free(&s);
     job.sets = &set;
     job.n_sets = 1;
     wt_status made = WT_OK;
     if (own.master != NULL) {
-        wt_cost_stage(s.cost, "given_material");
+        wt_cost_begin_stage(s.cost, "given_material");
         made = cmd_rubber_read(own.master, dma_read.sample, job.options.poisson_ratio, &s.work,
                                &dma, &rubber, &s.err);
         if (made == WT_OK)
-            wt_rubber_cost(&rubber, &s.work);
+            wt_rubber_add_cost(&rubber, &s.work);
         job.rubber = &rubber;
     }
     char stage[64];
     snprintf(stage, sizeof stage, "indentation_%s", job.group);
-    wt_cost_stage(s.cost, stage);
+    wt_cost_begin_stage(s.cost, stage);
     if (made == WT_OK)
         made = wt_indent_group(&job, &s.work, &tables, &s.err);
     const wt_table *const indentation[] = {tables.indentation};
     if (made == WT_OK)
-        made = wt_modulus_groups(indentation, 1, &groups, &s.err);
+        made = wt_modulus_groups_table(indentation, 1, &groups, &s.err);
     if (made == WT_OK)
-        made = wt_modulus_budget(indentation, 1, &budget, &s.err);
+        made = wt_modulus_budget_table(indentation, 1, &budget, &s.err);
     if (made == WT_OK && tables.n_accepted == 0) {
         cmd_message("weartrack indent: no curve has a modulus; the column verdict says why\n");
         s.status = CMD_FAILED;

@@ -5,7 +5,7 @@
 #include "cmd/file_kind.h"
 #include "core/table/registry.h"
 
-static void print_facts(const char *name, const wt_table *facts)
+static void print_metadata(const char *name, const wt_table *facts)
 {
     enum { MAX_LABEL = 42 };
     size_t width = 0;
@@ -22,7 +22,7 @@ static void print_facts(const char *name, const wt_table *facts)
         if (strcmp(label, "file") == 0 && strcmp(v, name) == 0)
             continue; /* the heading has it */
         char shown[1024], line[2048];
-        file_kind_value(v, wt_table_text(facts, row, FACTS_UNIT), shown, sizeof shown);
+        format_metadata_value(v, wt_table_text(facts, row, FACTS_UNIT), shown, sizeof shown);
         snprintf(line, sizeof line, *s != '\0' ? "%s  (%s)" : "%s%s", shown, s);
         const size_t w = cmd_text_width(label, strlen(label));
         printf("  %s%*s  ", label, w < width ? (int)(width - w) : 0, "");
@@ -31,25 +31,25 @@ static void print_facts(const char *name, const wt_table *facts)
 }
 
 /* Prints one file; true if its format is known. */
-static bool info_one(cmd_session *s, const char *path, const wt_read_options *options,
-                     file_kind *found)
+static bool print_file_info(cmd_session *s, const char *path, const wt_read_options *options,
+                            file_kind *found)
 {
     wt_table *facts = NULL;
     wt_log *log = wt_log_new();
     const wt_status status = file_kind_detect(s, path, options, log, &facts, found);
     if (status == WT_OK)
-        print_facts(path, facts);
+        print_metadata(path, facts);
     /* Notes are shown, too, as the user wants all remarks on the file. */
     cmd_print_log(s, log, true);
     if (status != WT_OK)
-        cmd_fail_one(s);
+        cmd_report_failure(s);
     wt_table_free(facts);
     wt_log_free(log);
     return status == WT_OK;
 }
 
 /* Prints one word, quoted for a shell. */
-static void print_word(const char *word)
+static void print_shell_word(const char *word)
 {
     static const char plain[] =
         "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+./=,:@";
@@ -64,30 +64,30 @@ static void print_word(const char *word)
 }
 
 /* Prints the options that the user must supply. Missing units of columns are not guessed. */
-static void print_missing(const file_kind *found)
+static void print_missing_options(const file_kind *found)
 {
     const char *name = found->unitless;
-    for (size_t k = 0; k < FOUND_N_MISSING; k++)
-        if (file_kind_lacks(found, k))
-            printf(" --%s %s", found_missing_rows[k].name, found_missing_rows[k].example);
+    for (size_t k = 0; k < FILE_KIND_N_MISSING; k++)
+        if (file_kind_is_missing(found, k))
+            printf(" --%s %s", file_kind_missing_rows[k].name, file_kind_missing_rows[k].example);
     for (size_t n = 0; *name != '\0'; name += n + 1) {
         char given[sizeof found->unitless + sizeof "=UNIT"];
         n = strcspn(name, "\n");
         snprintf(given, sizeof given, "%.*s=UNIT", (int)n, name);
         fputs(" --units", stdout);
-        print_word(given);
+        print_shell_word(given);
     }
 }
 
 /* Prints a suggestion for the next command, for the only file or for all. */
-static void print_next(const char *const *files, size_t n, const file_kind *found)
+static void print_next_command(const char *const *files, size_t n, const file_kind *found)
 {
     if (found->nothing)
         return;
     if (n > 1) {
         fputs("\nnext: weartrack new-case", stdout);
         for (size_t i = 0; i < n; i++)
-            print_word(files[i]);
+            print_shell_word(files[i]);
         fputs(" -o case.xml\n", stdout);
         return;
     }
@@ -97,17 +97,17 @@ static void print_next(const char *const *files, size_t n, const file_kind *foun
                                    : found->kind == WT_KIND_SWEEP ? "master"
                                                                   : "convert");
     if (!found->is_result && found->kind == WT_KIND_FORCE)
-        print_word(*found->tip != '\0' ? found->tip : "pyramid:half-angle=35deg,radius=20nm");
-    print_missing(found);
-    print_word(files[0]);
+        print_shell_word(*found->tip != '\0' ? found->tip : "pyramid:half-angle=35deg,radius=20nm");
+    print_missing_options(found);
+    print_shell_word(files[0]);
     char *output = found->is_result
                        ? NULL
-                       : cmd_default_name(files[0], cmd_is_store(files[0])
+                       : cmd_default_name(files[0], cmd_is_hdf5_path(files[0])
                                                         ? "-result.h5" /* not the input itself */
                                                         : ".h5");
     if (output != NULL) {
         fputs(" -o", stdout);
-        print_word(output);
+        print_shell_word(output);
     }
     free(output);
     putchar('\n');
@@ -123,9 +123,9 @@ int cmd_info(int argc, char **argv)
         .what = "Says what each file is and who recognised it, its segments, channels and "
                 "calibration, and what is missing or odd. - is standard input.",
         .common = "formats columns files-from",
-        .n_files = CMD_SOME};
+        .n_files = CMD_ONE_OR_MORE};
     wt_read_options read = wt_read_defaults();
-    cmd_part part = {wt_read_params(), &read, NULL, 0};
+    cmd_option_group part = {wt_read_params(), &read, NULL, 0};
     cmd_session s = cmd_session_defaults();
     size_t n_known = 0, n_found = 0;
     file_kind found;
@@ -134,12 +134,12 @@ int cmd_info(int argc, char **argv)
     for (size_t i = 0; i < s.n_files; i++) {
         if (i > 0)
             putchar('\n');
-        n_known += info_one(&s, s.files[i], &read, &found);
+        n_known += print_file_info(&s, s.files[i], &read, &found);
         n_found += found.words[0] != '\0';
     }
     if (n_known == 0)
         s.status = CMD_FAILED;
     if (n_found == s.n_files)
-        print_next(s.files, s.n_files, &found);
+        print_next_command(s.files, s.n_files, &found);
     return cmd_session_free(&s);
 }

@@ -17,58 +17,59 @@ enum {
 };
 
 /* Computes the further tables: bands, running-in, steady states with feedback, regime map. */
-static wt_status make_models(cmd_sliding *s, const wt_layer_job *job, wt_table *table[N_TABLES])
+static wt_status compute_layer_models(cmd_sliding *s, const wt_layer_job *job,
+                                      wt_table *table[N_TABLES])
 {
     const wt_sliding *sliding = &s->conditions;
     const wt_job *work = &s->session.work;
     wt_error *err = &s->session.err;
     const wt_layer_observation *known =
-        cmd_sliding_knows_layer(s, &s->parts[CMD_KNOWN]) ? &s->known : NULL;
+        cmd_sliding_has_layer(s, &s->parts[CMD_LAYER]) ? &s->known : NULL;
     wt_status made = WT_OK;
     if (job->bands || job->n_loads > 0) {
-        wt_cost_stage(s->session.cost, "layer_bands");
-        made = wt_layer_bands_make(sliding, job, work, &table[BANDS], err);
+        wt_cost_begin_stage(s->session.cost, "layer_bands");
+        made = wt_layer_bands_compute(sliding, job, work, &table[BANDS], err);
     }
     if (made == WT_OK && job->running_in) {
-        wt_cost_stage(s->session.cost, "running_in");
-        made = wt_running_in_make(sliding, job, known, work, &table[RUNNING_IN], err);
+        wt_cost_begin_stage(s->session.cost, "running_in");
+        made = wt_running_in_compute(sliding, job, known, work, &table[RUNNING_IN], err);
     }
-    if (made == WT_OK && job->acts_back) {
-        wt_cost_stage(s->session.cost, "layer_feedback");
-        made = wt_layer_balances_make(sliding, job, known, work, &table[BALANCES], err);
+    if (made == WT_OK && job->has_feedback) {
+        wt_cost_begin_stage(s->session.cost, "layer_feedback");
+        made = wt_layer_steady_states_compute(sliding, job, known, work, &table[BALANCES], err);
     }
     if (made == WT_OK && job->existence) {
-        wt_cost_stage(s->session.cost, "layer_regime_map");
-        made = wt_layer_regime_map_make(sliding, job, known, work, &table[LAYER_REGIME_MAP], err);
+        wt_cost_begin_stage(s->session.cost, "layer_regime_map");
+        made = wt_regime_map_compute(sliding, job, known, work, &table[LAYER_REGIME_MAP], err);
     }
     return made;
 }
 
-static wt_status make_tables(cmd_sliding *s, const wt_layer_job *job, wt_layer_tables *tables,
-                             wt_table *table[N_TABLES])
+static wt_status compute_layer_tables(cmd_sliding *s, const wt_layer_job *job,
+                                      wt_layer_tables *tables, wt_table *table[N_TABLES])
 {
     const wt_job *work = &s->session.work;
     wt_error *err = &s->session.err;
-    wt_cost_stage(s->session.cost, "layer");
-    wt_status made = wt_layer_make(&s->conditions, job, work, tables, err);
+    wt_cost_begin_stage(s->session.cost, "layer");
+    wt_status made = wt_layer_thickness_compute(&s->conditions, job, work, tables, err);
     table[LAYER] = tables->layer;
     tables->layer = NULL;
-    wt_cost_stage(s->session.cost, "energy_density");
+    wt_cost_begin_stage(s->session.cost, "energy_density");
     if (made == WT_OK)
-        made = wt_energy_density_table(&s->conditions, job, work, &table[ENERGY_DENSITY], err);
+        made = wt_energy_density_compute(&s->conditions, job, work, &table[ENERGY_DENSITY], err);
     if (made == WT_OK)
-        made = make_models(s, job, table);
+        made = compute_layer_models(s, job, table);
     if (made == WT_OK && s->conditions.softness != NULL) {
-        wt_cost_stage(s->session.cost, "softening");
-        made = wt_softening_make(&s->conditions, work, &table[SOFTENING], err);
+        wt_cost_begin_stage(s->session.cost, "softening");
+        made = wt_softened_friction_compute(&s->conditions, work, &table[SOFTENING], err);
     }
     if (made == WT_OK && s->conditions.flash.on) {
-        wt_cost_stage(s->session.cost, "flash_temperature");
-        made = wt_flash_make(&s->conditions, work, &table[FLASH], err);
+        wt_cost_begin_stage(s->session.cost, "flash_temperature");
+        made = wt_flash_temperature_compute(&s->conditions, work, &table[FLASH], err);
     }
-    wt_cost_stage(s->session.cost, "what_if");
+    wt_cost_begin_stage(s->session.cost, "what_if");
     if (made == WT_OK)
-        made = wt_what_if_make(&s->conditions, job, NULL, work, &table[WHAT_IF], err);
+        made = wt_model_sensitivity_compute(&s->conditions, job, NULL, work, &table[WHAT_IF], err);
     return made;
 }
 
@@ -92,7 +93,7 @@ int cmd_layer(int argc, char **argv)
         .master = CMD_DMA_OPTIONS};
     wt_layer_job job = wt_layer_job_defaults();
     cmd_sliding s;
-    cmd_sliding_init(&s, (cmd_part){wt_layer_job_params(), &job, NULL, 0});
+    cmd_sliding_init(&s, (cmd_option_group){wt_layer_job_params(), &job, NULL, 0});
     s.parts[CMD_CONTACT].only = NULL;
     s.parts[CMD_CONDITIONS].only =
         "pressure velocity pressures sliding-temperature gamma strain-factor anisotropy "
@@ -100,21 +101,21 @@ int cmd_layer(int argc, char **argv)
         "anisotropy-fourth texture-angle-fourth area-law flash-temperature contact-size "
         "heat-capacity heat-diffusivity macroscopic-area clip-heat shear-stress shear-law "
         "shear-peak-velocity shear-width shear-activation shear-temperature";
-    s.parts[CMD_KNOWN].only =
+    s.parts[CMD_LAYER].only =
         "modulus-ratio modulus-ratio-df ratio-slope ratio-frequency ratio-lowest "
         "ratio-highest ratio-temperature bulk-shear";
     wt_layer_tables tables = {0};
     wt_table *table[N_TABLES] = {NULL};
     if (!cmd_sliding_parse(&s, &usage, argc, argv))
         return cmd_sliding_free(&s);
-    const bool needs = job.running_in || job.acts_back;
+    const bool needs = job.running_in || job.has_feedback;
     if (s.contact.wear_of == NULL && wt_layer_job_check(&job, &s.session.err) != WT_OK)
         cmd_param_error(&s.session);
-    else if (needs && !cmd_sliding_knows_layer(&s, &s.parts[CMD_KNOWN]))
+    else if (needs && !cmd_sliding_has_layer(&s, &s.parts[CMD_LAYER]))
         cmd_usage_error(&s.session, "--running-in-friction and --feedback need --modulus-ratio");
     else if (cmd_sliding_open(&s)) {
-        cmd_sliding_wear(&s, &job.specific_wear_rate);
-        const wt_status made = make_tables(&s, &job, &tables, table);
+        cmd_sliding_set_wear_rate(&s, &job.specific_wear_rate);
+        const wt_status made = compute_layer_tables(&s, &job, &tables, table);
         wt_table **parts[N_TABLES];
         for (size_t i = 0; i < N_TABLES; i++)
             parts[i] = &table[i];

@@ -6,26 +6,26 @@
 #include "cmd/cmd.h"
 #include "core/base/json.h"
 
-static const char *of; /* name of the subcommand; NULL: messages are plain text */
+static const char *subcommand_name; /* name of the subcommand; NULL: messages are plain text */
 
 void cmd_log_json(const char *name)
 {
-    of = name;
+    subcommand_name = name;
 }
 
-bool cmd_is_json(void)
+bool cmd_log_is_json(void)
 {
-    return of != NULL;
+    return subcommand_name != NULL;
 }
 
-static void put_member(const char *name, const char *text)
+static void write_json_member(const char *name, const char *text)
 {
     fprintf(stderr, "\"%s\": ", name);
-    json_put_text(stderr, text);
+    json_write_text(stderr, text);
 }
 
 /* Writes the time in UTC (ISO 8601); nothing if the clock is invalid. */
-static void put_time(void)
+static void write_time(void)
 {
     char text[32];
     struct tm utc;
@@ -34,24 +34,24 @@ static void put_time(void)
         strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &utc) == 0)
         return;
     fputs(", ", stderr);
-    put_member("time", text);
+    write_json_member("time", text);
 }
 
-void cmd_event(const char *event, const cmd_word *words, size_t n)
+void cmd_log_event(const char *event, const cmd_json_member *words, size_t n)
 {
-    if (of == NULL)
+    if (subcommand_name == NULL)
         return;
     fputc('{', stderr);
-    put_member("event", event);
-    put_time();
+    write_json_member("event", event);
+    write_time();
     fputs(", ", stderr);
-    put_member("subcommand", of);
+    write_json_member("subcommand", subcommand_name);
     for (size_t i = 0; i < n; i++) {
         if (words[i].text != NULL && words[i].text[0] == '\0')
             continue;
         fputs(", ", stderr);
         if (words[i].text != NULL)
-            put_member(words[i].name, words[i].text);
+            write_json_member(words[i].name, words[i].text);
         else
             fprintf(stderr, "\"%s\": %zu", words[i].name, words[i].number);
     }

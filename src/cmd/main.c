@@ -40,7 +40,7 @@ const cmd_command cmd_commands[] = {
     {"summary", cmd_summary, "one row for each of many results"},
     {NULL, NULL, NULL}};
 
-static void print_help(FILE *out)
+static void print_main_help(FILE *out)
 {
     fputs("usage: weartrack SUBCOMMAND [OPTION]... [FILE]...\n\n"
           "How does the rubber in a wear track differ from the bulk, and what does that do to\n"
@@ -73,7 +73,7 @@ static int close_stdout(int status)
 static int dispatch(int argc, char **argv)
 {
     const char *name = argv[0];
-    spell_suggestion near = nearest_to(name, strlen(name));
+    spell_suggestion near = spell_suggestion_begin(name, strlen(name));
     for (const cmd_command *c = cmd_commands; c->name != NULL; c++) {
         if (c->run != NULL && strcmp(c->name, name) == 0)
             return c->run(argc, argv);
@@ -95,14 +95,14 @@ int main(int argc, char **argv)
     /* `weartrack ... | head` shall end quietly, also where a parent ignores the signal. */
     signal(SIGPIPE, SIG_DFL);
     wt_protect_begin();
-    cmd_end_without_memory();
+    cmd_exit_on_allocation_failure();
     /* Standard error is line-buffered: one write per line. The buffer is static, as a message about
      * memory must not need any. */
     static char words[BUFSIZ];
     (void)setvbuf(stderr, words, _IOLBF, sizeof words);
 
     if (argc < 2) {
-        print_help(stderr);
+        print_main_help(stderr);
         return CMD_USAGE;
     }
     const char *word = argv[1];
@@ -114,7 +114,7 @@ int main(int argc, char **argv)
     else if (strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0 ||
              (help &&
               (argc == 2 || strcmp(argv[2], "help") == 0 || strcmp(argv[2], "--help") == 0)))
-        print_help(stdout);
+        print_main_help(stdout);
     else if (help)
         status = dispatch(argc > 3 ? 3 : 2, (char *[]){argv[2], help_option, argv[3], NULL});
     else
@@ -123,7 +123,7 @@ int main(int argc, char **argv)
         NULL) /* about the system, not the data: no remark of a result */
         cmd_message("weartrack: warning: %s\n", wt_sandbox_limitations());
     status = close_stdout(status);
-    const cmd_word last = {"status", NULL, (size_t)status};
-    cmd_event("end", &last, 1);
+    const cmd_json_member last = {"status", NULL, (size_t)status};
+    cmd_log_event("end", &last, 1);
     return status;
 }

@@ -15,17 +15,17 @@
 
 /* A sanitizer has its own allocator and also stops at the first failure. */
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define OTHER_ALLOCATOR
+#define SANITIZER_ALLOCATOR
 #elif defined(__has_feature)
 #if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
-#define OTHER_ALLOCATOR
+#define SANITIZER_ALLOCATOR
 #endif
 #endif
 
 enum { LARGE = 1 << 20 };
 static pid_t owner;
 
-void cmd_end_without_memory(void)
+void cmd_exit_on_allocation_failure(void)
 {
     owner = getpid();
 #ifdef __GLIBC__
@@ -36,9 +36,9 @@ void cmd_end_without_memory(void)
 #endif
 }
 
-#ifndef OTHER_ALLOCATOR
+#ifndef SANITIZER_ALLOCATOR
 
-static void *given_memory(void *memory, size_t size)
+static void *check_allocation(void *memory, size_t size)
 {
     static const char words[] =
         "weartrack: out of memory: nothing is written; close other programs, "
@@ -51,56 +51,60 @@ static void *given_memory(void *memory, size_t size)
 
 /* Returns the next function of that name in the loading order; NULL while the loader searches for
  * it. */
-static void *next_function(void **kept, const char *name)
+static void *find_next_function(void **cache, const char *name)
 {
     static _Thread_local bool looking;
-    if (*kept == NULL && !looking) {
+    if (*cache == NULL && !looking) {
         looking = true;
-        *kept = dlsym(RTLD_NEXT, name);
+        *cache = dlsym(RTLD_NEXT, name);
         looking = false;
     }
-    if (*kept == NULL)
+    if (*cache == NULL)
         errno = ENOMEM;
-    return *kept;
+    return *cache;
 }
 
 /* ISO C has no conversion between object and function pointers. */
-typedef union function {
+typedef union allocator_function {
     void *found;
     void *(*one)(size_t size);
     void *(*two)(size_t n, size_t size);
     void *(*grow)(void *old, size_t size);
     void *(*aligned)(size_t alignment, size_t size);
-} function;
+} allocator_function;
 
 void *malloc(size_t size)
 {
-    static function real;
-    return next_function(&real.found, "malloc") != NULL ? given_memory(real.one(size), size) : NULL;
+    static allocator_function real;
+    return find_next_function(&real.found, "malloc") != NULL
+               ? check_allocation(real.one(size), size)
+               : NULL;
 }
 
 void *calloc(size_t n, size_t size)
 {
-    static function real;
+    static allocator_function real;
     /* An overflowing product is larger than any memory. */
     const size_t all = size > 0 && n > SIZE_MAX / size ? SIZE_MAX : n * size;
-    return next_function(&real.found, "calloc") != NULL ? given_memory(real.two(n, size), all)
-                                                        : NULL;
+    return find_next_function(&real.found, "calloc") != NULL
+               ? check_allocation(real.two(n, size), all)
+               : NULL;
 }
 
 void *realloc(void *old, size_t size)
 {
-    static function real;
-    return next_function(&real.found, "realloc") != NULL ? given_memory(real.grow(old, size), size)
-                                                         : NULL;
+    static allocator_function real;
+    return find_next_function(&real.found, "realloc") != NULL
+               ? check_allocation(real.grow(old, size), size)
+               : NULL;
 }
 
 /* FFTW calls it. */
 void *memalign(size_t alignment, size_t size)
 {
-    static function real;
-    return next_function(&real.found, "memalign") != NULL
-               ? given_memory(real.aligned(alignment, size), size)
+    static allocator_function real;
+    return find_next_function(&real.found, "memalign") != NULL
+               ? check_allocation(real.aligned(alignment, size), size)
                : NULL;
 }
 

@@ -21,27 +21,28 @@ static const wt_param saved_rows[] = {
 CMD_OPTIONS(saved_params, saved_shifts, saved_rows)
 
 /* Options of the export to finite-element programs. */
-typedef struct exported {
+typedef struct fem_exports {
     const char *const *exports;
     size_t n_exports;
     wt_fem_export_options solid;
     wt_reduction reduction;
-} exported;
+} fem_exports;
 
-static exported export_defaults(void)
+static fem_exports export_defaults(void)
 {
-    return (exported){.solid = wt_fem_export_options_defaults(),
-                      .reduction = wt_reduction_defaults()};
+    return (fem_exports){.solid = wt_fem_export_options_defaults(),
+                         .reduction = wt_reduction_defaults()};
 }
 
 static const wt_param export_rows[] = {
-    {PARAM_TEXTS_OF("export", exported, exports, n_exports), .value = "PROGRAM:FILE", .unset = "",
+    {PARAM_TEXTS_OF("export", fem_exports, exports, n_exports), .value = "PROGRAM:FILE",
+     .unset = "",
      .help = "write the reduced series with its shifts as the material of a program for finite "
              "elements: abaqus, ansys, code_aster, or as a plain table; repeatable"},
 };
-PARAM_LOCAL_TABLE(exported_params, exported, export_rows, export_defaults,
-                  PARAM_PART(wt_reduction_params, exported, reduction),
-                  PARAM_PART(wt_fem_export_options_params, exported, solid))
+PARAM_LOCAL_TABLE(exported_params, fem_exports, export_rows, export_defaults,
+                  PARAM_PART(wt_reduction_params, fem_exports, reduction),
+                  PARAM_PART(wt_fem_export_options_params, fem_exports, solid))
 
 static wt_status save_shifts(const char *path, const wt_table *shifts, wt_error *err)
 {
@@ -61,18 +62,20 @@ static bool split_export(const char *text, wt_fem_program *program, const char *
 }
 
 /* Rejects two outputs to the same file or to standard output. */
-static bool check_outputs(cmd_session *s, const saved_shifts *saved, const exported *own)
+static bool check_outputs(cmd_session *s, const saved_shifts *saved,
+                          const fem_exports *exports_given)
 {
     const char *result = s->common.output != NULL ? s->common.output : "-";
-    for (size_t i = 0; i <= own->n_exports; i++) {
+    for (size_t i = 0; i <= exports_given->n_exports; i++) {
         wt_fem_program program;
         const char *one = saved->written, *other;
-        if (i < own->n_exports && !split_export(own->exports[i], &program, &one))
+        if (i < exports_given->n_exports &&
+            !split_export(exports_given->exports[i], &program, &one))
             return false;
         bool twice = one != NULL && strcmp(one, result) == 0;
         for (size_t k = 0; k < i && one != NULL; k++)
-            twice = twice ||
-                    (split_export(own->exports[k], &program, &other) && strcmp(one, other) == 0);
+            twice = twice || (split_export(exports_given->exports[k], &program, &other) &&
+                              strcmp(one, other) == 0);
         if (twice && strcmp(one, "-") == 0)
             return cmd_usage_error(s, "two outputs cannot both go to standard output; give -o FILE "
                                       "or the names of others");
@@ -83,53 +86,54 @@ static bool check_outputs(cmd_session *s, const saved_shifts *saved, const expor
 }
 
 /* Checks the exports before the computation. */
-static bool check_exports(cmd_session *s, const exported *own)
+static bool check_exports(cmd_session *s, const fem_exports *exports_given)
 {
-    for (size_t i = 0; i < own->n_exports; i++) {
+    for (size_t i = 0; i < exports_given->n_exports; i++) {
         wt_fem_program program;
         const char *file;
-        if (!split_export(own->exports[i], &program, &file))
+        if (!split_export(exports_given->exports[i], &program, &file))
             return cmd_usage_error(s,
                                    "--export %s: expected abaqus, ansys, code_aster or table, a "
                                    "colon and the name of a file, such as abaqus:rubber.inp",
-                                   own->exports[i]);
-        if (wt_fem_export_check(program, &own->solid, &s->err) != WT_OK)
+                                   exports_given->exports[i]);
+        if (wt_fem_export_check(program, &exports_given->solid, &s->err) != WT_OK)
             return cmd_param_error(s);
     }
     return true;
 }
 
-static wt_status write_exports(cmd_session *s, const exported *own, const wt_master_tables *tables)
+static wt_status write_exports(cmd_session *s, const fem_exports *exports_given,
+                               const wt_master_tables *tables)
 {
     wt_status status = WT_OK;
-    for (size_t i = 0; status == WT_OK && i < own->n_exports; i++) {
-        wt_fem_program program = WT_SOLID_TABLE;
+    for (size_t i = 0; status == WT_OK && i < exports_given->n_exports; i++) {
+        wt_fem_program program = WT_FEM_TABLE;
         const char *file;
         cmd_sink sink;
-        (void)split_export(own->exports[i], &program, &file);
+        (void)split_export(exports_given->exports[i], &program, &file);
         status = cmd_sink_open(file, &sink, &s->err);
         if (status == WT_OK)
             status = wt_fem_export(sink.stream, program, tables->prony_reduced,
-                                   tables->shift_factors, &own->solid, &s->err);
+                                   tables->shift_factors, &exports_given->solid, &s->err);
         status = cmd_sink_close(&sink, status, &s->err);
     }
     return status;
 }
 
 /* True if the reduced series is requested. It takes several times as long as the fit. */
-static bool asks_for_few_terms(const cmd_part *part, const exported *own)
+static bool requests_reduced_series(const cmd_option_group *part, const fem_exports *exports_given)
 {
     static const char *const options[] = {"prony-terms", "prony-error", "prony-long-term"};
-    bool asked = own->n_exports > 0;
+    bool asked = exports_given->n_exports > 0;
     for (size_t i = 0; i < COUNT_OF(options); i++)
-        asked = asked || cmd_given(part, options[i]);
+        asked = asked || cmd_option_is_given(part, options[i]);
     return asked;
 }
 
 /* Reads the shifts from an output of master, for the sample if it has several, or from any other
  * table. `shifts` is a table of `given`. */
-static wt_status read_shifts(cmd_session *s, const char *path, const char *sample,
-                             wt_result **given, const wt_table **shifts)
+static wt_status read_saved_shifts(cmd_session *s, const char *path, const char *sample,
+                                   wt_result **given, const wt_table **shifts)
 {
     static const wt_tables_role role = {
         "shifts", "shifts",
@@ -138,8 +142,8 @@ static wt_status read_shifts(cmd_session *s, const char *path, const char *sampl
     const wt_status status = wt_tables_read(path, path, &s->work, role, given, &s->err);
     if (*given == NULL)
         return status;
-    const bool of_samples = cmd_tables_have(*given, "shift_factors/");
-    *shifts = of_samples ? cmd_table_of_sample(*given, "shift_factors", sample)
+    const bool of_samples = cmd_tables_contain(*given, "shift_factors/");
+    *shifts = of_samples ? cmd_sample_table(*given, "shift_factors", sample)
                          : wt_result_find(*given, "shift_factors");
     if (*shifts == NULL)
         *shifts = wt_result_table(*given, 0);
@@ -148,25 +152,25 @@ static wt_status read_shifts(cmd_session *s, const char *path, const char *sampl
 
 /* Fits one sample, writes its separate files and finishes the call. `made` is the status of
  * reading. */
-static void master_of_one(cmd_session *s, wt_status made, const wt_master_job *job,
-                          const wt_shared_shift_law_job *common, const saved_shifts *saved,
-                          const exported *own)
+static void fit_single_master(cmd_session *s, wt_status made, const wt_master_job *job,
+                              const wt_shared_shift_law_job *common, const saved_shifts *saved,
+                              const fem_exports *exports_given)
 {
     wt_master_tables tables = {0};
-    if (made == WT_OK && common->common != WT_COMMON_NONE) {
+    if (made == WT_OK && common->common != WT_SHARED_LAW_NONE) {
         made = wt_fail(&s->err, WT_E_MISSING, "one sample has no law in common with another");
         wt_error_advice(&s->err,
                         "--shared-shift-law takes sweeps of several samples, without --sample, "
                         "--save-shifts and --export; see --sample-by");
     }
     if (made == WT_OK)
-        made = wt_master_make(job, &s->work, &tables, NULL, &s->err);
+        made = wt_master_compute(job, &s->work, &tables, NULL, &s->err);
     if (made != WT_OK && job->shifts != NULL && strcmp(s->err.place, "shifts") == 0)
         wt_error_file(&s->err, saved->read);
     if (made == WT_OK && saved->written != NULL)
         made = save_shifts(saved->written, tables.shift_factors, &s->err);
     if (made == WT_OK)
-        made = write_exports(s, own, &tables);
+        made = write_exports(s, exports_given, &tables);
     wt_table **const made_tables[] = {
         &tables.prony,         &tables.prony_reduced, &tables.relaxation_spectrum,
         &tables.shift_factors, &tables.master_curve,  &tables.material_draws,
@@ -195,20 +199,20 @@ int cmd_master(int argc, char **argv)
             "several samples, each has such tables with its name behind theirs, as in "
             "prony/nr_50, and they are compared in the tables material_ratio and materials; with "
             "--shared-shift-law the table common_law says whether they have one law.",
-        .n_files = CMD_SOME};
+        .n_files = CMD_ONE_OR_MORE};
     wt_master_job job = wt_master_job_defaults();
     wt_file_set set = {.read = wt_read_defaults()};
     saved_shifts saved = {NULL, NULL};
-    exported own = export_defaults();
+    fem_exports exports_given = export_defaults();
     wt_shared_shift_law_job common = wt_shared_shift_law_job_defaults();
     enum { EXPORTED = 2, COMMON };
-    cmd_part parts[] = {
+    cmd_option_group parts[] = {
         {wt_master_job_params(), &job,
          "reference-temperature reference-at vertical-shift expansion terms-per-decade liquid "
          "shift-by exclude shift-law",
          0},
         {saved_params(), &saved, NULL, 0},
-        [EXPORTED] = {exported_params(), &own, NULL, 0},
+        [EXPORTED] = {exported_params(), &exports_given, NULL, 0},
         [COMMON] = {wt_shared_shift_law_job_params(), &common, NULL, 0},
         {wt_read_params(), &set.read,
          "temperature temperature-in-name frequency units format sheet deformation strain sample "
@@ -216,31 +220,34 @@ int cmd_master(int argc, char **argv)
          0}};
     cmd_session s = cmd_session_defaults();
     wt_result *given = NULL;
-    wt_samples samples = {0, NULL};
+    wt_sample_names samples = {0, NULL};
     wt_sweep sweep = {0};
-    if (!cmd_parse(&s, &usage, parts, COUNT_OF(parts), argc, argv) || !check_exports(&s, &own) ||
-        !check_outputs(&s, &saved, &own) || !cmd_begin_files(&s, &set) ||
-        (common.common == WT_COMMON_NONE && cmd_given(&parts[COMMON], "common-law-margin") &&
+    if (!cmd_parse(&s, &usage, parts, COUNT_OF(parts), argc, argv) ||
+        !check_exports(&s, &exports_given) || !check_outputs(&s, &saved, &exports_given) ||
+        !cmd_begin_files(&s, &set) ||
+        (common.common == WT_SHARED_LAW_NONE &&
+         cmd_option_is_given(&parts[COMMON], "common-law-margin") &&
          !cmd_usage_error(&s, "--shared-shift-law-margin goes with --shared-shift-law")))
         return cmd_session_free(&s);
-    job.reduction = own.reduction;
-    if (!asks_for_few_terms(&parts[EXPORTED], &own))
-        s.work.left_out |= WT_EXTRA_REDUCED;
+    job.reduction = exports_given.reduction;
+    if (!requests_reduced_series(&parts[EXPORTED], &exports_given))
+        s.work.left_out |= WT_EXTRA_REDUCED_SERIES;
     job.sets = &set;
     job.n_sets = 1;
-    wt_cost_stage(s.cost, "master_curve");
+    wt_cost_begin_stage(s.cost, "master_curve");
     s.work.dma = &sweep; /* read once for all samples */
     wt_status made = WT_OK;
     if (saved.read != NULL)
-        made = read_shifts(&s, saved.read, set.read.sample, &given, &job.shifts);
+        made = read_saved_shifts(&s, saved.read, set.read.sample, &given, &job.shifts);
     /* separate files are for one sample only */
-    if (made == WT_OK && set.read.sample == NULL && saved.written == NULL && own.n_exports == 0)
-        made = wt_samples_read(&set, 1, &s.work, &samples, &s.err);
+    if (made == WT_OK && set.read.sample == NULL && saved.written == NULL &&
+        exports_given.n_exports == 0)
+        made = wt_sample_names_read(&set, 1, &s.work, &samples, &s.err);
     if (made == WT_OK && samples.n > 1)
-        master_of_samples(&s, &job, &common, &set, &samples);
+        fit_sample_masters(&s, &job, &common, &set, &samples);
     else
-        master_of_one(&s, made, &job, &common, &saved, &own);
-    wt_samples_clear(&samples);
+        fit_single_master(&s, made, &job, &common, &saved, &exports_given);
+    wt_sample_names_clear(&samples);
     wt_sweep_clear(&sweep);
     wt_result_free(given);
     return cmd_session_free(&s);

@@ -6,7 +6,7 @@
 
 /* Fits each sample, compares the samples, fits a shared law if requested and finishes the call.
  * `set` is the file set of the job. */
-void master_of_samples(cmd_session *s, wt_master_job *job, wt_shared_shift_law_job *common,
-                       wt_file_set *set, const wt_samples *samples);
+void fit_sample_masters(cmd_session *s, wt_master_job *job, wt_shared_shift_law_job *common,
+                        wt_file_set *set, const wt_sample_names *samples);
 
 #endif

@@ -15,7 +15,7 @@ typedef struct sample_fit {
     bool fitted;
 } sample_fit;
 
-static bool is_taken(const sample_fit *fits, size_t i)
+static bool is_duplicate_name(const sample_fit *fits, size_t i)
 {
     for (size_t k = 0; k < i; k++)
         if (strcmp(fits[k].name, fits[i].name) == 0)
@@ -24,7 +24,7 @@ static bool is_taken(const sample_fit *fits, size_t i)
 }
 
 /* Sets a suffix with the characters allowed in table names; a duplicate has a number appended. */
-static void name_tables(sample_fit *fits, size_t i, const char *sample)
+static void set_table_suffix(sample_fit *fits, size_t i, const char *sample)
 {
     char *const name = fits[i].name;
     size_t n = 0;
@@ -39,17 +39,17 @@ static void name_tables(sample_fit *fits, size_t i, const char *sample)
     if (n == 0)
         n = (size_t)snprintf(name, NAME_SIZE, "unnamed");
     name[n] = '\0';
-    for (size_t number = 2; is_taken(fits, i); number++)
+    for (size_t number = 2; is_duplicate_name(fits, i); number++)
         snprintf(name + n, NAME_SIZE - n, "_%zu", number);
 }
 
-static const char *shown_name(const char *sample)
+static const char *display_name(const char *sample)
 {
     return sample[0] != '\0' ? sample : "sweeps without a sample";
 }
 
 /* Copies log entries with the name of the sample. */
-static void hand_on(const wt_log *from, const char *sample, wt_log *to)
+static void copy_log(const wt_log *from, const char *sample, wt_log *to)
 {
     for (size_t i = 0; i < wt_log_count(from); i++) {
         const wt_log_entry e = wt_log_get(from, i);
@@ -58,7 +58,7 @@ static void hand_on(const wt_log *from, const char *sample, wt_log *to)
     }
 }
 
-static wt_status rename_all(sample_fit *f, wt_error *err)
+static wt_status rename_sample_tables(sample_fit *f, wt_error *err)
 {
     wt_table **const made[TABLES] = {
         &f->tables.prony,         &f->tables.prony_reduced, &f->tables.relaxation_spectrum,
@@ -77,8 +77,8 @@ static wt_status rename_all(sample_fit *f, wt_error *err)
     return status;
 }
 
-static wt_status fit_one(cmd_session *s, wt_master_job *job, wt_file_set *set, const char *sample,
-                         sample_fit *f)
+static wt_status fit_sample(cmd_session *s, wt_master_job *job, wt_file_set *set,
+                            const char *sample, sample_fit *f)
 {
     wt_log *const log = wt_log_new();
     wt_error failure = WT_ERROR_INIT;
@@ -87,7 +87,7 @@ static wt_status fit_one(cmd_session *s, wt_master_job *job, wt_file_set *set, c
         return wt_fail(&s->err, WT_E_MEMORY, "out of memory");
     set->read.sample = sample;
     work.log = log;
-    wt_status status = wt_master_make(job, &work, &f->tables, NULL, &failure);
+    wt_status status = wt_master_compute(job, &work, &f->tables, NULL, &failure);
     if (status == WT_OK && f->tables.prony != NULL) {
         const wt_rubber_tables of = {.prony = f->tables.prony,
                                      .shift_factors = f->tables.shift_factors,
@@ -96,40 +96,42 @@ static wt_status fit_one(cmd_session *s, wt_master_job *job, wt_file_set *set, c
         status = wt_rubber_from_tables(&of, job->poisson_ratio, &f->rubber, &failure);
     }
     f->fitted = status == WT_OK;
-    hand_on(log, shown_name(sample), s->work.log);
+    copy_log(log, display_name(sample), s->work.log);
     wt_log_free(log);
-    return status == WT_OK ? WT_OK
-                           : wt_job_failed(&s->work, shown_name(sample), status, &failure, &s->err);
+    return status == WT_OK
+               ? WT_OK
+               : wt_job_add_failure(&s->work, display_name(sample), status, &failure, &s->err);
 }
 
 /* Fits each sample. One that cannot be fitted is listed as a failure; it is an error only if no
  * sample can. */
-static wt_status fit_all(cmd_session *s, wt_master_job *job, wt_file_set *set,
-                         const wt_samples *samples, sample_fit *fits)
+static wt_status fit_all_samples(cmd_session *s, wt_master_job *job, wt_file_set *set,
+                                 const wt_sample_names *samples, sample_fit *fits)
 {
     size_t n_fitted = 0;
     for (size_t i = 0; i < samples->n; i++) {
-        const wt_status status = fit_one(s, job, set, samples->name[i], &fits[i]);
+        const wt_status status = fit_sample(s, job, set, samples->name[i], &fits[i]);
         if (status != WT_OK)
             return status;
-        name_tables(fits, i, samples->name[i]);
+        set_table_suffix(fits, i, samples->name[i]);
         n_fitted += fits[i].fitted;
     }
     return n_fitted > 0 ? WT_OK : wt_fail(&s->err, WT_E_EMPTY, "no sample has a master curve");
 }
 
 /* Compares the samples that have a series; a warning states if they have no common range. */
-static void compare_samples(cmd_session *s, const wt_samples *samples, const sample_fit *fits,
-                            wt_compared *of, wt_materials_tables *tables)
+static void compare_samples(cmd_session *s, const wt_sample_names *samples, const sample_fit *fits,
+                            wt_compared_material *of, wt_materials_tables *tables)
 {
     wt_error failure = WT_ERROR_INIT;
     wt_materials_job job = wt_materials_job_defaults();
     char message[1024];
     for (size_t i = 0; i < samples->n; i++)
         if (fits[i].tables.prony != NULL)
-            of[job.n_materials++] = (wt_compared){.name = shown_name(samples->name[i]),
-                                                  .rubber = &fits[i].rubber,
-                                                  .shift_factors = fits[i].tables.shift_factors};
+            of[job.n_materials++] =
+                (wt_compared_material){.name = display_name(samples->name[i]),
+                                       .rubber = &fits[i].rubber,
+                                       .shift_factors = fits[i].tables.shift_factors};
     job.materials = of;
     if (job.n_materials < 2 || wt_compare_materials(&job, &s->work, tables, &failure) == WT_OK)
         return;
@@ -138,39 +140,39 @@ static void compare_samples(cmd_session *s, const wt_samples *samples, const sam
 }
 
 /* Fits a shared law if requested; a failure is listed like that of a sample. */
-static wt_status find_common_law(cmd_session *s, wt_shared_shift_law_job *job,
-                                 const wt_samples *samples, const sample_fit *fits,
-                                 wt_table **table)
+static wt_status fit_common_law(cmd_session *s, wt_shared_shift_law_job *job,
+                                const wt_sample_names *samples, const sample_fit *fits,
+                                wt_table **table)
 {
     wt_error failure = WT_ERROR_INIT;
-    if (job->common == WT_COMMON_NONE)
+    if (job->common == WT_SHARED_LAW_NONE)
         return WT_OK;
     const char **names = calloc(samples->n, sizeof *names);
     const wt_master **of = calloc(samples->n, sizeof *of);
     wt_status status =
         names == NULL || of == NULL ? wt_fail(&failure, WT_E_MEMORY, "out of memory") : WT_OK;
     for (size_t i = 0; status == WT_OK && i < samples->n; i++) {
-        names[i] = shown_name(samples->name[i]);
+        names[i] = display_name(samples->name[i]);
         of[i] = fits[i].tables.fit;
     }
     job->names = names;
     job->fits = of;
     job->n = samples->n;
     if (status == WT_OK)
-        status = wt_shared_shift_law_make(job, table, &failure);
+        status = wt_shared_shift_law_compute(job, table, &failure);
     free(names);
     free(of);
     return status == WT_OK ? WT_OK
-                           : wt_job_failed(&s->work, "common law", status, &failure, &s->err);
+                           : wt_job_add_failure(&s->work, "common law", status, &failure, &s->err);
 }
 
-void master_of_samples(cmd_session *s, wt_master_job *job, wt_shared_shift_law_job *common,
-                       wt_file_set *set, const wt_samples *samples)
+void fit_sample_masters(cmd_session *s, wt_master_job *job, wt_shared_shift_law_job *common,
+                        wt_file_set *set, const wt_sample_names *samples)
 {
     wt_materials_tables materials = {0};
     wt_table *common_law = NULL;
     sample_fit *fits = calloc(samples->n, sizeof *fits);
-    wt_compared *of = calloc(samples->n, sizeof *of);
+    wt_compared_material *of = calloc(samples->n, sizeof *of);
     wt_table ***made_tables = calloc(samples->n * TABLES + 3, sizeof *made_tables);
     const char *const chosen = set->read.sample;
     wt_status made = fits == NULL || of == NULL || made_tables == NULL
@@ -178,15 +180,15 @@ void master_of_samples(cmd_session *s, wt_master_job *job, wt_shared_shift_law_j
                          : WT_OK;
     size_t n = 0;
     if (made == WT_OK)
-        made = fit_all(s, job, set, samples, fits);
+        made = fit_all_samples(s, job, set, samples, fits);
     set->read.sample = chosen;
     if (made == WT_OK)
         compare_samples(s, samples, fits, of, &materials);
     common->reference = job->fit.reference_temperature;
     if (made == WT_OK)
-        made = find_common_law(s, common, samples, fits, &common_law);
+        made = fit_common_law(s, common, samples, fits, &common_law);
     for (size_t i = 0; made == WT_OK && i < samples->n; i++) {
-        made = rename_all(&fits[i], &s->err);
+        made = rename_sample_tables(&fits[i], &s->err);
         for (size_t k = 0; k < TABLES; k++)
             made_tables[n++] = &fits[i].named[k];
     }

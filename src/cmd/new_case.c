@@ -22,7 +22,7 @@ static char *path_in_case(const new_case *c, const char *path)
  */
 
 /* Returns the first word that the name contains, ignoring case; NULL: none. */
-static const char *find_word(const char *name, size_t length, const char *const *words)
+static const char *find_name_word(const char *name, size_t length, const char *const *words)
 {
     for (size_t i = 0; words[i] != NULL; i++)
         for (size_t k = 0, n = strlen(words[i]); k + n <= length; k++)
@@ -31,22 +31,22 @@ static const char *find_word(const char *name, size_t length, const char *const 
     return NULL;
 }
 
-enum { MOST_WORDS = 7 };
-typedef const char *const word_list[MOST_WORDS];
+enum { MAX_SEARCH_WORDS = 7 };
+typedef const char *const word_list[MAX_SEARCH_WORDS];
 
 /* Finds the group by the name of the file, else of its folder, else of the folders above that
  * differ between the files, those after the first `common` characters. */
-static bool find_group_by(entry *e, size_t common, word_list words[])
+static bool find_group_by_words(case_entry *e, size_t common, word_list words[])
 {
     const char *const path = e->path, *end = path + strlen(path);
     for (int above = 0; end > path && (above < 2 || end > path + common); above++) {
         const char *slash = memrchr(path, '/', (size_t)(end - path));
         const char *name = slash != NULL ? slash + 1 : path;
-        for (place where = BULK; where <= TRACK && e->word == NULL; where++) {
-            e->word = find_word(name, (size_t)(end - name), words[where]);
-            e->place = e->word != NULL ? where : BULK;
+        for (case_section where = BULK; where <= TRACK && e->word == NULL; where++) {
+            e->word = find_name_word(name, (size_t)(end - name), words[where]);
+            e->case_section = e->word != NULL ? where : BULK;
         }
-        e->of_folder = above > 0;
+        e->from_folder = above > 0;
         if (e->word != NULL)
             return true;
         end = slash != NULL ? slash : path;
@@ -55,24 +55,24 @@ static bool find_group_by(entry *e, size_t common, word_list words[])
 }
 
 /* Finds the group of a file. "reference" is ambiguous and counts only if no other word is found. */
-static void find_group(entry *e, size_t common)
+static void find_entry_group(case_entry *e, size_t common)
 {
     static word_list words[] = {
         [BULK] = {"bulk", "unworn", "virgin", "outside", "beside", NULL},
         [TRACK] = {"track", "worn", "wear", "scar", "groove", "inside", NULL}};
     static word_list weak[] = {[BULK] = {"reference", NULL}, [TRACK] = {NULL}};
-    if (!find_group_by(e, common, words))
-        (void)find_group_by(e, common, weak);
+    if (!find_group_by_words(e, common, words))
+        (void)find_group_by_words(e, common, weak);
 }
 
 /* Assigns force curves to groups by their names; a warning states how many are guesses. */
 static void guess_groups(new_case *c)
 {
-    const entry *first = NULL;
+    const case_entry *first = NULL;
     size_t common = 0, n = 0, n_guessed = 0;
     for (size_t i = 0; i < c->n; i++) {
-        const entry *e = &c->entries[i];
-        if (e->place != BULK)
+        const case_entry *e = &c->entries[i];
+        if (e->case_section != BULK)
             continue;
         size_t same = 0;
         while (first != NULL && e->path[same] != '\0' && e->path[same] == first->path[same])
@@ -81,8 +81,8 @@ static void guess_groups(new_case *c)
         first = first != NULL ? first : e;
     }
     for (size_t i = 0; i < c->n; i++)
-        if (c->entries[i].place == BULK) {
-            find_group(&c->entries[i], common);
+        if (c->entries[i].case_section == BULK) {
+            find_entry_group(&c->entries[i], common);
             n_guessed += c->entries[i].word == NULL;
             n++;
         }
@@ -94,7 +94,7 @@ static void guess_groups(new_case *c)
 }
 
 /* Returns the section of a kind; force curves are bulk until their names are evaluated. */
-static place place_of(const file_kind *found)
+static case_section section_from_kind(const file_kind *found)
 {
     return found->kind == WT_KIND_SWEEP      ? DMA
            : found->kind == WT_KIND_SPECTRUM ? ROUGHNESS
@@ -118,16 +118,16 @@ static void guess_maps(new_case *c)
     const bool spectrum = new_case_count(c, ROUGHNESS) > 0, records = new_case_count(c, RECORD) > 0;
     size_t n_guessed = 0;
     for (size_t i = 0; i < c->n; i++) {
-        entry *e = &c->entries[i], of_spot = {.path = e->path};
-        if (e->place != MAPS)
+        case_entry *e = &c->entries[i], of_spot = {.path = e->path};
+        if (e->case_section != MAPS)
             continue;
         const char *slash = strrchr(e->path, '/'), *name = slash != NULL ? slash + 1 : e->path;
-        const bool said = find_word(name, strlen(name), surface) != NULL;
-        find_group(&of_spot, strlen(e->path));
-        if (!said && records && is_profile(&e->found) && of_spot.place == TRACK)
-            e->place = PROFILE;
+        const bool said = find_name_word(name, strlen(name), surface) != NULL;
+        find_entry_group(&of_spot, strlen(e->path));
+        if (!said && records && is_profile(&e->found) && of_spot.case_section == TRACK)
+            e->case_section = PROFILE;
         else if (spectrum || (!said && of_spot.word != NULL))
-            e->place = UNUSED;
+            e->case_section = UNUSED;
         else
             n_guessed += said ? 0 : 1;
     }
@@ -139,11 +139,11 @@ static void guess_maps(new_case *c)
 }
 
 /* Checks that the name can be stored in a case and read back unchanged. */
-static wt_status check_name(new_case *c, entry *e)
+static wt_status check_case_name(new_case *c, case_entry *e)
 {
     wt_error *const err = &c->s->err;
     e->in_case = path_in_case(c, e->path);
-    const char *const unfit = e->in_case != NULL ? new_case_unfit(e->in_case) : NULL;
+    const char *const unfit = e->in_case != NULL ? new_case_name_problem(e->in_case) : NULL;
     if (e->in_case == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     if (unfit == NULL)
@@ -155,24 +155,24 @@ static wt_status check_name(new_case *c, entry *e)
 }
 
 /* True for files of a folder that are no measurements, such as notes and pictures. */
-static bool is_left_out(const wt_error *failure, bool in_folder)
+static bool is_foreign_file(const wt_error *failure, bool in_folder)
 {
     return in_folder && (failure->status == WT_E_FORMAT || failure->status == WT_E_EMPTY);
 }
 
-static void look_at_entry(new_case *c, entry *e, bool in_folder)
+static void classify_entry(new_case *c, case_entry *e, bool in_folder)
 {
     const wt_read_options options = wt_read_defaults();
     wt_table *facts = NULL;
-    if (check_name(c, e) == WT_OK &&
+    if (check_case_name(c, e) == WT_OK &&
         file_kind_detect(c->s, e->path, &options, NULL, &facts, &e->found) == WT_OK) {
-        e->place = place_of(&e->found);
+        e->case_section = section_from_kind(&e->found);
     } else {
-        e->place = UNUSED;
-        e->left_out = is_left_out(&c->s->err, in_folder);
+        e->case_section = UNUSED;
+        e->left_out = is_foreign_file(&c->s->err, in_folder);
         snprintf(e->found.words, sizeof e->found.words, "%s", c->s->err.message);
         if (!e->left_out)
-            cmd_fail_one(c->s);
+            cmd_report_failure(c->s);
     }
     wt_table_free(facts);
 }
@@ -185,37 +185,37 @@ static wt_status add_files(new_case *c, const char *pattern, bool in_folder)
     const wt_status status = wt_glob(NULL, pattern, &paths, &n, &c->s->err);
     if (status != WT_OK)
         return status;
-    entry *grown = realloc(c->entries, (c->n + n) * sizeof *grown);
+    case_entry *grown = realloc(c->entries, (c->n + n) * sizeof *grown);
     if (grown == NULL) {
         wt_strings_free(paths, n);
         return wt_fail(&c->s->err, WT_E_MEMORY, "out of memory");
     }
     c->entries = grown;
     for (size_t i = 0; i < n; i++) {
-        grown[c->n] = (entry){.path = paths[i]};
-        look_at_entry(c, &grown[c->n++], in_folder);
+        grown[c->n] = (case_entry){.path = paths[i]};
+        classify_entry(c, &grown[c->n++], in_folder);
     }
     free(paths);
     return WT_OK;
 }
 
 /* Filter of scandir: entries that are not hidden. */
-static int is_shown(const struct dirent *item)
+static int is_visible(const struct dirent *item)
 {
     return item->d_name[0] != '.';
 }
 
 /* Reports a failure and continues with the other files. */
-static wt_status say_and_go_on(new_case *c, wt_status status)
+static wt_status report_and_continue(new_case *c, wt_status status)
 {
     if (status == WT_OK || status == WT_E_MEMORY)
         return status;
-    cmd_fail_one(c->s);
+    cmd_report_failure(c->s);
     return WT_OK;
 }
 
 /* True for the folder of a report, which has no measurements. */
-static bool is_report(const char *folder)
+static bool is_report_folder(const char *folder)
 {
     char head[1024] = "", *const page = wt_path_join(folder, "index.html");
     FILE *const file = page != NULL ? fopen(page, "rb") : NULL;
@@ -229,15 +229,15 @@ static bool is_report(const char *folder)
 
 /* Adds the files of a folder and its subfolders. Links to folders are not followed, as they may
  * form a loop. */
-static wt_status add_folder(new_case *c, const char *folder)
+static wt_status add_case_folder(new_case *c, const char *folder)
 {
     struct dirent **items = NULL;
     struct stat info;
-    if (is_report(folder))
+    if (is_report_folder(folder))
         return WT_OK;
     wt_status status = add_files(c, folder, true);
     status = status == WT_E_NOT_FOUND ? WT_OK : status; /* only subfolders */
-    const int n = status == WT_OK ? scandir(folder, &items, is_shown, alphasort) : 0;
+    const int n = status == WT_OK ? scandir(folder, &items, is_visible, alphasort) : 0;
     if (n < 0) {
         status = wt_fail(&c->s->err, WT_E_IO, "cannot read the folder: %s", strerror(errno));
         wt_error_file(&c->s->err, folder);
@@ -247,7 +247,7 @@ static wt_status add_folder(new_case *c, const char *folder)
         if (status == WT_OK && inner == NULL)
             status = wt_fail(&c->s->err, WT_E_MEMORY, "out of memory");
         else if (status == WT_OK && lstat(inner, &info) == 0 && S_ISDIR(info.st_mode))
-            status = say_and_go_on(c, add_folder(c, inner));
+            status = report_and_continue(c, add_case_folder(c, inner));
         free(inner);
         free(items[i]);
     }
@@ -262,19 +262,19 @@ static wt_status add_argument(new_case *c, const char *pattern)
     struct stat info;
     const size_t before = c->n;
     wt_status status = stat(pattern, &info) == 0 && S_ISDIR(info.st_mode)
-                           ? add_folder(c, pattern)
+                           ? add_case_folder(c, pattern)
                            : add_files(c, pattern, false);
     if (status == WT_OK && c->n == before) {
         status = wt_fail(&c->s->err, WT_E_NOT_FOUND, "no file found in the folder");
         wt_error_file(&c->s->err, pattern);
     }
-    return say_and_go_on(c, status);
+    return report_and_continue(c, status);
 }
 
 /* Warns of skipped files; an error if no other file remains. */
-static wt_status tell_left_out(new_case *c)
+static wt_status report_foreign_files(new_case *c)
 {
-    const entry *first = NULL;
+    const case_entry *first = NULL;
     size_t n = 0;
     for (size_t i = 0; i < c->n; i++)
         if (c->entries[i].left_out) {
@@ -296,13 +296,13 @@ static wt_status tell_left_out(new_case *c)
     return WT_OK;
 }
 
-static wt_status write_case(new_case *c)
+static wt_status write_new_case(new_case *c)
 {
     wt_error *err = &c->s->err;
     cmd_sink sink;
     wt_status status = cmd_sink_open(c->s->common.output, &sink, err);
     if (status == WT_OK) {
-        new_case_put(sink.stream, c);
+        new_case_write(sink.stream, c);
         if (ferror(sink.stream))
             status = wt_fail(err, WT_E_IO, "cannot write: %s", strerror(errno));
     }
@@ -315,7 +315,7 @@ static const wt_param rows[] = {
     {PARAM_TEXT_OF("tip", new_case, tip), .value = "TIP", .unset = "",
      .help = "tip of the cantilever, as that of weartrack indent"},
 };
-CMD_OPTIONS(own_params, new_case, rows)
+CMD_OPTIONS(new_case_params, new_case, rows)
 
 int cmd_new_case(int argc, char **argv)
 {
@@ -332,11 +332,11 @@ int cmd_new_case(int argc, char **argv)
         .notes =
             "Exit status 3 if a file was not understood, 1 if none was; the case names it in a "
             "comment.",
-        .n_files = CMD_SOME};
+        .n_files = CMD_ONE_OR_MORE};
     cmd_session s = cmd_session_defaults();
     new_case c = {.s = &s};
-    cmd_part part = {own_params(), &c, NULL, 0};
-    if (!cmd_parse(&s, &usage, &part, 1, argc, argv) || !cmd_is_text(&s) ||
+    cmd_option_group part = {new_case_params(), &c, NULL, 0};
+    if (!cmd_parse(&s, &usage, &part, 1, argc, argv) || !cmd_require_text_output(&s) ||
         !cmd_begin_reading(&s, NULL))
         return cmd_session_free(&s);
     wt_status made = WT_OK;
@@ -345,13 +345,13 @@ int cmd_new_case(int argc, char **argv)
     if (made == WT_OK && c.n == 0)
         made = wt_fail(&s.err, WT_E_EMPTY, "no file: no case is written");
     if (made == WT_OK)
-        made = tell_left_out(&c);
+        made = report_foreign_files(&c);
     if (made == WT_OK) {
         guess_groups(&c);
         guess_maps(&c);
-        if (s.status == CMD_PARTLY && new_case_count(&c, UNUSED) == c.n)
+        if (s.status == CMD_PARTIAL && new_case_count(&c, UNUSED) == c.n)
             s.status = CMD_FAILED;
-        made = write_case(&c);
+        made = write_new_case(&c);
         cmd_print_log(&s, s.log, false);
     }
     if (made != WT_OK)

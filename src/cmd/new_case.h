@@ -10,27 +10,36 @@
 /* Placeholder for unknown values, which is no valid quantity or tip. */
 #define FILL_IN "FILL IN"
 
-typedef enum place { BULK, TRACK, DMA, ROUGHNESS, MAPS, RECORD, PROFILE, UNUSED } place;
+typedef enum case_section {
+    BULK,
+    TRACK,
+    DMA,
+    ROUGHNESS,
+    MAPS,
+    RECORD,
+    PROFILE,
+    UNUSED
+} case_section;
 
-typedef struct entry {
+typedef struct case_entry {
     char *path, *in_case; /* as given, and relative to the folder of the case */
-    place place;
+    case_section case_section;
     const char *word; /* word in its path for bulk or track; NULL: none */
-    bool of_folder;   /* the word is in the name of a folder */
+    bool from_folder; /* the word is in the name of a folder */
     bool left_out;    /* file of a given folder without measured data */
     file_kind found;  /* its `words` are the error of a file that could not be read */
-} entry;
+} case_entry;
 
 typedef struct new_case {
     cmd_session *s;
     const char *tip; /* tip of the cantilever; NULL if unknown */
-    entry *entries;
+    case_entry *entries;
     size_t n;
 } new_case;
 
-size_t new_case_count(const new_case *c, place where);
+size_t new_case_count(const new_case *c, case_section where);
 /* Returns the reason why a name cannot be read back from a case unchanged; NULL: none. */
-const char *new_case_unfit(const char *name);
-void new_case_put(FILE *out, const new_case *c);
+const char *new_case_name_problem(const char *name);
+void new_case_write(FILE *out, const new_case *c);
 
 #endif

@@ -8,27 +8,27 @@
 /* ---- names in XML ---------------------------------------------------------------------------- */
 
 /* True for U+FFFE and U+FFFF: well-formed UTF-8, but not allowed in XML. */
-static bool is_no_character(const char *text)
+static bool is_xml_noncharacter(const char *text)
 {
     return strncmp(text, "\xEF\xBF\xBE", 3) == 0 || strncmp(text, "\xEF\xBF\xBF", 3) == 0;
 }
 
-const char *new_case_unfit(const char *name)
+const char *new_case_name_problem(const char *name)
 {
     const size_t n = strlen(name);
-    if (utf8_check(name, n) < n)
+    if (utf8_valid_length(name, n) < n)
         return "bytes that are not UTF-8";
     for (const char *p = name; *p != '\0'; p++) {
         if ((unsigned char)*p < ' ' || *p == 0x7f)
             return "a control character";
-        if (is_no_character(p))
+        if (is_xml_noncharacter(p))
             return "a character that XML does not have";
     }
     return n > 0 && (name[0] == ' ' || name[n - 1] == ' ') ? "a blank at its beginning or end"
                                                            : NULL;
 }
 
-static void put_text(FILE *out, const char *text)
+static void write_xml_text(FILE *out, const char *text)
 {
     static const char marks[] = "&<>\"";
     static const char *const names[] = {"&amp;", "&lt;", "&gt;", "&quot;"};
@@ -42,119 +42,123 @@ static void put_text(FILE *out, const char *text)
 }
 
 /* Writes a comment, in which two adjacent hyphens are not allowed. */
-static void put_comment(FILE *out, const char *text)
+static void write_comment(FILE *out, const char *text)
 {
     const size_t length = strlen(text);
     for (size_t i = 0, n; i<length; i += n> 0 ? n : 1) {
-        n = utf8_character(text + i, length - i);
-        if (n == 0 || (unsigned char)text[i] < ' ' || is_no_character(text + i))
+        n = utf8_character_length(text + i, length - i);
+        if (n == 0 || (unsigned char)text[i] < ' ' || is_xml_noncharacter(text + i))
             putc('?', out);
         else if (!(text[i] == '-' && i > 0 && text[i - 1] == '-'))
             fwrite(text + i, 1, n, out);
     }
 }
 
-size_t new_case_count(const new_case *c, place where)
+size_t new_case_count(const new_case *c, case_section where)
 {
     size_t n = 0;
     for (size_t i = 0; i < c->n; i++)
-        n += c->entries[i].place == where;
+        n += c->entries[i].case_section == where;
     return n;
 }
 
 /* ---- sections ------------------------------------------------------------------------------ */
 
 /* Writes the reason for the group of a file of force curves. */
-static void put_reason(FILE *out, const entry *e)
+static void write_reason(FILE *out, const case_entry *e)
 {
-    if (e->place > TRACK)
+    if (e->case_section > TRACK)
         return;
     if (e->word == NULL)
         fputs("; bulk is a guess: no name says bulk or track", out);
     else
-        fprintf(out, "; %s by \"%s\" in the name of the %s", e->place == BULK ? "bulk" : "track",
-                e->word, e->of_folder ? "folder" : "file");
+        fprintf(out, "; %s by \"%s\" in the name of the %s",
+                e->case_section == BULK ? "bulk" : "track", e->word,
+                e->from_folder ? "folder" : "file");
 }
 
 /* Writes placeholders for units of columns without one. */
-static void put_units(FILE *out, const char *names)
+static void write_units(FILE *out, const char *names)
 {
     for (size_t k = 0, n; *names != '\0'; names += n + (names[n] != '\0'), k++) {
         char name[sizeof((file_kind *)0)->unitless];
         n = strcspn(names, "\n");
         snprintf(name, sizeof name, "%.*s", (int)n, names);
         fputs(k == 0 ? " units=\"" : ";", out);
-        put_text(out, name);
+        write_xml_text(out, name);
         fputs("=" FILL_IN, out);
         if (names[n] == '\0' || names[n + 1] == '\0')
             putc('"', out);
     }
 }
 
-static void put_file(FILE *out, const entry *e, const char *indent, const char *element)
+static void write_file_element(FILE *out, const case_entry *e, const char *indent,
+                               const char *element)
 {
     fprintf(out, "%s<%s", indent, element);
-    for (size_t k = 0; k < FOUND_N_MISSING; k++)
-        if (file_kind_lacks(&e->found, k))
-            fprintf(out, " %s=\"" FILL_IN "\"", found_missing_rows[k].name);
-    put_units(out, e->found.unitless);
+    for (size_t k = 0; k < FILE_KIND_N_MISSING; k++)
+        if (file_kind_is_missing(&e->found, k))
+            fprintf(out, " %s=\"" FILL_IN "\"", file_kind_missing_rows[k].name);
+    write_units(out, e->found.unitless);
     putc('>', out);
-    put_text(out, e->in_case);
+    write_xml_text(out, e->in_case);
     fprintf(out, "</%s>\n", element);
 }
 
-static void put_files(FILE *out, const new_case *c, place where, const char *element)
+static void write_file_elements(FILE *out, const new_case *c, case_section where,
+                                const char *element)
 {
     const char *indent = where == BULK || where == TRACK ? "      " : "    ";
-    const entry *last = NULL; /* equal comments appear once */
+    const case_entry *last = NULL; /* equal comments appear once */
     for (size_t i = 0; i < c->n; i++) {
-        const entry *e = &c->entries[i];
-        if (e->place != where)
+        const case_entry *e = &c->entries[i];
+        if (e->case_section != where)
             continue;
         if (last == NULL || strcmp(last->found.words, e->found.words) != 0 ||
-            last->word != e->word || last->of_folder != e->of_folder) {
+            last->word != e->word || last->from_folder != e->from_folder) {
             fprintf(out, "%s<!-- ", indent);
-            put_comment(out, e->found.words);
-            put_reason(out, e);
+            write_comment(out, e->found.words);
+            write_reason(out, e);
             fputs(" -->\n", out);
         }
         last = e;
-        put_file(out, e, indent, element);
+        write_file_element(out, e, indent, element);
     }
 }
 
 /* Writes an element that occurs once; other candidates are comments. */
-static void put_one(FILE *out, const new_case *c, place where, const char *element)
+static void write_single_element(FILE *out, const new_case *c, case_section where,
+                                 const char *element)
 {
-    const entry *first = NULL;
+    const case_entry *first = NULL;
     for (size_t i = 0; i < c->n; i++) {
-        const entry *e = &c->entries[i];
-        if (e->place != where)
+        const case_entry *e = &c->entries[i];
+        if (e->case_section != where)
             continue;
         fputs(first == NULL ? "    <!-- "
                             : "    <!-- to have this one, too, name a folder of all: ",
               out);
-        put_comment(out, first == NULL ? e->found.words : e->path);
+        write_comment(out, first == NULL ? e->found.words : e->path);
         fputs(" -->\n", out);
         if (first == NULL)
-            put_file(out, e, "    ", element);
+            write_file_element(out, e, "    ", element);
         first = first != NULL ? first : e;
     }
 }
 
 /* Writes the files of a section between two lines; false if there are none. */
-static bool put_section(FILE *out, const new_case *c, place where, const char *begin,
-                        const char *element, const char *end)
+static bool write_section(FILE *out, const new_case *c, case_section where, const char *begin,
+                          const char *element, const char *end)
 {
     if (new_case_count(c, where) == 0)
         return false;
     fputs(begin, out);
-    put_files(out, c, where, element);
+    write_file_elements(out, c, where, element);
     fputs(end, out);
     return true;
 }
 
-static void put_indentation(FILE *out, const new_case *c)
+static void write_indentation(FILE *out, const new_case *c)
 {
     if (new_case_count(c, TRACK) + new_case_count(c, BULK) == 0) {
         fputs("\n  <!-- no force curves: no section indentation -->\n", out);
@@ -163,16 +167,16 @@ static void put_indentation(FILE *out, const new_case *c)
     fputs("\n  <indentation>\n    <!-- sphere:radius=5um, pyramid:half-angle=20deg,radius=20nm ... "
           "-->\n    <tip>",
           out);
-    put_text(out, c->tip != NULL ? c->tip : FILL_IN);
+    write_xml_text(out, c->tip != NULL ? c->tip : FILL_IN);
     fputs("</tip>\n", out);
-    put_section(out, c, BULK, "    <bulk>\n", "files", "    </bulk>\n");
-    put_section(out, c, TRACK, "    <track>\n", "files", "    </track>\n");
+    write_section(out, c, BULK, "    <bulk>\n", "files", "    </bulk>\n");
+    write_section(out, c, TRACK, "    <track>\n", "files", "    </track>\n");
     fputs("  </indentation>\n", out);
 }
 
-static void put_material(FILE *out, const new_case *c)
+static void write_dma(FILE *out, const new_case *c)
 {
-    if (!put_section(
+    if (!write_section(
             out, c, DMA,
             "\n  <dma>\n    <!-- <reference-temperature>20degC</reference-temperature>, else "
             "that of the middle isotherm -->\n",
@@ -180,17 +184,17 @@ static void put_material(FILE *out, const new_case *c)
         fputs("\n  <!-- no DMA sweeps: no section dma -->\n", out);
 }
 
-static void put_roughness(FILE *out, const new_case *c)
+static void write_roughness(FILE *out, const new_case *c)
 {
     if (new_case_count(c, ROUGHNESS) == 1) {
-        put_section(out, c, ROUGHNESS, "\n  <roughness>\n    <spectrum>\n", "file",
-                    "    </spectrum>\n  </roughness>\n");
+        write_section(out, c, ROUGHNESS, "\n  <roughness>\n    <spectrum>\n", "file",
+                      "    </spectrum>\n  </roughness>\n");
         return;
     }
-    if (put_section(out, c, MAPS,
-                    "\n  <roughness>\n    <!-- Maps and profiles of the counter surface, of "
-                    "several places at best; no images of spots. -->\n",
-                    "files", "  </roughness>\n"))
+    if (write_section(out, c, MAPS,
+                      "\n  <roughness>\n    <!-- Maps and profiles of the counter surface, of "
+                      "several places at best; no images of spots. -->\n",
+                      "files", "  </roughness>\n"))
         return;
     fputs("\n  <!-- Counter surface; for friction:\n  <roughness>\n    <self-affine>\n"
           "      <q0>" FILL_IN ", such as 2e3rad/m</q0>\n"
@@ -200,29 +204,29 @@ static void put_roughness(FILE *out, const new_case *c)
           "    </self-affine>\n  </roughness> -->\n",
           out);
     for (size_t i = 0; i < c->n; i++)
-        if (c->entries[i].place == ROUGHNESS) {
+        if (c->entries[i].case_section == ROUGHNESS) {
             fputs("  <!-- one of several spectra: ", out);
-            put_comment(out, c->entries[i].path);
+            write_comment(out, c->entries[i].path);
             fputs(" -->\n", out);
         }
 }
 
-static void put_record(FILE *out, const new_case *c)
+static void write_record_section(FILE *out, const new_case *c)
 {
     if (new_case_count(c, RECORD) == 0)
         return;
     fputs("\n  <record>\n", out);
-    put_one(out, c, RECORD, "files");
+    write_single_element(out, c, RECORD, "files");
     bool lacks_load = false;
     for (size_t i = 0; i < c->n; i++) {
-        const entry *e = &c->entries[i];
-        lacks_load |= e->place == RECORD && e->found.has_force && !e->found.has_load;
+        const case_entry *e = &c->entries[i];
+        lacks_load |= e->case_section == RECORD && e->found.has_force && !e->found.has_load;
     }
     if (lacks_load)
         fputs("    <load>" FILL_IN "</load>\n", out);
     if (new_case_count(c, PROFILE) > 0)
         fputs("    <!-- across the track, by the name of the file or folder -->\n", out);
-    put_one(out, c, PROFILE, "profile");
+    write_single_element(out, c, PROFILE, "profile");
     fprintf(out,
             "    <!-- Where the files do not say it, and for wear and the pressure of a ball:\n%s"
             "    <track-radius>" FILL_IN ", such as 5mm</track-radius>\n"
@@ -231,12 +235,12 @@ static void put_record(FILE *out, const new_case *c)
             lacks_load ? "" : "    <load>" FILL_IN ", such as 5N</load>\n");
 }
 
-static void put_not_used(FILE *out, const entry *e)
+static void write_unused(FILE *out, const case_entry *e)
 {
     fputs("  <!-- not used: ", out);
-    put_comment(out, e->path);
+    write_comment(out, e->path);
     fputs(": ", out);
-    put_comment(out, e->found.words);
+    write_comment(out, e->found.words);
     fputs(e->found.kind == WT_KIND_IMAGE   ? "; an image: of the counter surface it goes into "
                                              "roughness as files, across a track into record as "
                                              "profile, of a spot see weartrack spot"
@@ -247,7 +251,7 @@ static void put_not_used(FILE *out, const entry *e)
     fputs(" -->\n", out);
 }
 
-static void put_rest(FILE *out, const new_case *c)
+static void write_remaining_sections(FILE *out, const new_case *c)
 {
     fputs("\n  <!-- For friction:\n  <sliding>\n"
           "    <pressure>" FILL_IN ", such as 0.4MPa</pressure>\n"
@@ -263,25 +267,25 @@ static void put_rest(FILE *out, const new_case *c)
           "    <observed-thickness>" FILL_IN ", such as 3um</observed-thickness>\n"
           "  </layer> -->\n",
           out);
-    put_record(out, c);
+    write_record_section(out, c);
     if (new_case_count(c, BULK) > 0 && new_case_count(c, TRACK) > 0)
         fprintf(out, "\n  <compare>\n    <track-to-bulk/>\n    <by-rate/>\n%s  </compare>\n",
                 new_case_count(c, DMA) > 0 ? "    <indentation-to-dma/>\n" : "");
     for (size_t i = 0; i < c->n; i++)
-        if (c->entries[i].place == UNUSED)
-            put_not_used(out, &c->entries[i]);
+        if (c->entries[i].case_section == UNUSED)
+            write_unused(out, &c->entries[i]);
 }
 
-void new_case_put(FILE *out, const new_case *c)
+void new_case_write(FILE *out, const new_case *c)
 {
     fputs("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
           "<!-- What stands here as " FILL_IN " is in no file: put the value there, with its "
           "unit. Then:\n     weartrack run with the name of this file. See weartrack-case(5). "
           "-->\n<case version=\"1\">\n  <!-- <title>what the report is called</title> -->\n",
           out);
-    put_indentation(out, c);
-    put_material(out, c);
-    put_roughness(out, c);
-    put_rest(out, c);
+    write_indentation(out, c);
+    write_dma(out, c);
+    write_roughness(out, c);
+    write_remaining_sections(out, c);
     fputs("</case>\n", out);
 }

@@ -9,48 +9,48 @@
 
 enum { MAX_OPTIONS = 160, FIRST_CODE = 256, NAME_SIZE = 48, TEXT_SIZE = 512 };
 
-cmd_common cmd_common_defaults(void)
+cmd_common_options cmd_common_defaults(void)
 {
-    return (cmd_common){.provenance = true};
+    return (cmd_common_options){.provenance = true};
 }
 
 static const wt_param common_rows[] = {
-    {PARAM_TEXT_OF("output", cmd_common, output), .value = "FILE", .letter = 'o', .unset = "",
-     .flags = PARAM_WRITTEN,
+    {PARAM_TEXT_OF("output", cmd_common_options, output), .value = "FILE", .letter = 'o',
+     .unset = "", .flags = PARAM_WRITTEN,
      .help = "write there instead of standard output, tables of results as HDF5 if the name ends "
              "in .h5 or .hdf5; - is standard output"},
-    {PARAM_TEXT_OF("formats", cmd_common, formats), .value = "FOLDER", .unset = "",
+    {PARAM_TEXT_OF("formats", cmd_common_options, formats), .value = "FOLDER", .unset = "",
      .help =
          "use the format descriptions (*.xml) of this folder too; one with the id of a built-in "
          "description takes its place"},
-    {PARAM_TEXTS_OF("columns", cmd_common, columns, n_columns), .value = "NAME=QUANTITY:UNIT",
-     .unset = "",
+    {PARAM_TEXTS_OF("columns", cmd_common_options, columns, n_columns),
+     .value = "NAME=QUANTITY:UNIT", .unset = "",
      .help =
          "column of tables whose names are not known, such as \"Stor. Mod.=storage_modulus:MPa\"; "
          "the unit only where the file says none; repeatable"},
-    {PARAM_TEXT_OF("files-from", cmd_common, files_from), .value = "FILE", .unset = "",
+    {PARAM_TEXT_OF("files-from", cmd_common_options, files_from), .value = "FILE", .unset = "",
      .help =
          "files to read, besides those named in the call: their names, a line each or parted by "
          "zero bytes; - is standard input"},
-    {PARAM_FLAG_OF("provenance", cmd_common, provenance),
+    {PARAM_FLAG_OF("provenance", cmd_common_options, provenance),
      .help = "version, command line, digests and times in what is written"},
-    {PARAM_FLAG_OF("cost", cmd_common, cost),
+    {PARAM_FLAG_OF("cost", cmd_common_options, cost),
      .help = "also the table cost: time, nodes, files and errors of every stage"},
-    {PARAM_CHOICE_OF("log", cmd_common, log, "text|json"),
+    {PARAM_CHOICE_OF("log", cmd_common_options, log, "text|json"),
      .help = "what is said on standard error: for people, or one object of JSON a line with all "
              "messages, failures, the progress every second, and the exit status"},
-    {PARAM_FLAG_OF("quiet", cmd_common, quiet), .letter = 'q',
+    {PARAM_FLAG_OF("quiet", cmd_common_options, quiet), .letter = 'q',
      .help = "no progress and no warnings on standard error; errors are printed all the same"},
-    {PARAM_FLAG_OF("strict", cmd_common, strict),
+    {PARAM_FLAG_OF("strict", cmd_common_options, strict),
      .help = "exit status 1 if there is a remark (warning), too"},
-    {PARAM_FLAG_OF("help", cmd_common, help), .letter = 'h',
+    {PARAM_FLAG_OF("help", cmd_common_options, help), .letter = 'h',
      .help = "print this; --help all has every option"},
 };
-PARAM_LOCAL_TABLE(common_params, cmd_common, common_rows, cmd_common_defaults, NO_PARTS)
+PARAM_LOCAL_TABLE(common_params, cmd_common_options, common_rows, cmd_common_defaults, NO_PARTS)
 
 /* One option of the call. */
 typedef struct option_row {
-    cmd_part *part;
+    cmd_option_group *part;
     size_t number; /* index of the parameter in its table */
     const wt_param *param;
     bool negated; /* a flag that is set by default: --no-NAME */
@@ -63,7 +63,7 @@ typedef struct option_list {
     size_t n;
 } option_list;
 
-bool cmd_given(const cmd_part *part, const char *name)
+bool cmd_option_is_given(const cmd_option_group *part, const char *name)
 {
     for (size_t i = 0; i < wt_params_count(part->params); i++)
         if (strcmp(wt_params_get(part->params, i)->name, name) == 0)
@@ -102,7 +102,7 @@ bool cmd_param_error(cmd_session *s)
 }
 
 /* True if `names`, separated by blanks, contains the name. */
-static bool is_listed(const char *names, const char *name)
+static bool names_contain(const char *names, const char *name)
 {
     const size_t length = strlen(name);
     for (const char *p = names; *p != '\0'; p += strcspn(p, " "), p += strspn(p, " "))
@@ -111,12 +111,12 @@ static bool is_listed(const char *names, const char *name)
     return false;
 }
 
-static void add_part(option_list *list, cmd_part *part)
+static void add_option_group(option_list *list, cmd_option_group *part)
 {
     for (size_t i = 0; i < wt_params_count(part->params) && list->n < MAX_OPTIONS; i++) {
         const wt_param *param = wt_params_get(part->params, i);
         if ((param->flags & PARAM_NO_OPTION) != 0 ||
-            (part->only != NULL && !is_listed(part->only, param->name)))
+            (part->only != NULL && !names_contain(part->only, param->name)))
             continue;
         char set[8];
         wt_params_default(part->params, i, set, sizeof set);
@@ -136,7 +136,7 @@ static void add_part(option_list *list, cmd_part *part)
 
 /* ---- help --------------------------------------------------------------------------------- */
 
-static void print_option(const option_row *row)
+static void print_option_help(const option_row *row)
 {
     enum { HELP_COLUMN = 30 };
     const wt_param *p = row->param;
@@ -171,31 +171,31 @@ static const option_row *find_option(const option_list *list, const char *name, 
 
 /* Prints the options in the order of `names`, separated by blanks. An unknown name is printed
  * unchanged, which the tests detect. */
-static void print_listed(const option_list *list, const char *names)
+static void print_listed_options(const option_list *list, const char *names)
 {
     for (const char *p = names; *p != '\0'; p += strspn(p, " ")) {
         const size_t length = strcspn(p, " ");
         const option_row *row = find_option(list, p, length);
         if (row != NULL)
-            print_option(row);
+            print_option_help(row);
         else
             printf("      --%.*s\n", (int)length, p);
         p += length;
     }
 }
 
-static void print_all(const cmd_usage *usage, const option_list *list)
+static void print_all_options(const cmd_usage *usage, const option_list *list)
 {
     const char *elsewhere = usage->master != NULL ? usage->master : "";
     puts("\noptions:");
     for (size_t i = 0; i < list->n; i++)
-        if (!list->rows[i].former && !is_listed(elsewhere, list->rows[i].name))
-            print_option(&list->rows[i]);
+        if (!list->rows[i].former && !names_contain(elsewhere, list->rows[i].name))
+            print_option_help(&list->rows[i]);
     if (usage->master == NULL)
         return;
     puts("\nof DMA files, as in weartrack master --help all:");
     for (size_t i = 0; i < list->n; i++)
-        if (!list->rows[i].former && is_listed(elsewhere, list->rows[i].name))
+        if (!list->rows[i].former && names_contain(elsewhere, list->rows[i].name))
             printf("      --%s%s%s\n", list->rows[i].name,
                    list->rows[i].param->value != NULL ? " " : "",
                    list->rows[i].param->value != NULL ? list->rows[i].param->value : "");
@@ -209,18 +209,18 @@ static size_t count_shown(const option_list *list)
     return n;
 }
 
-static void print_help(const cmd_usage *usage, const option_list *list, bool all)
+static void print_subcommand_help(const cmd_usage *usage, const option_list *list, bool all)
 {
     const size_t used = (size_t)printf("usage: weartrack %s ", usage->name);
     cmd_wrap(stdout, used, used, usage->arguments);
     putchar('\n');
     cmd_wrap(stdout, 0, 0, usage->what);
     if (all || usage->first == NULL) {
-        print_all(usage, list);
+        print_all_options(usage, list);
     } else {
         printf("\noptions that most need, of %zu; --help all has every one:\n", count_shown(list));
-        print_listed(list, usage->first);
-        print_listed(list, "quiet help");
+        print_listed_options(list, usage->first);
+        print_listed_options(list, "quiet help");
     }
     if (usage->notes != NULL) {
         putchar('\n');
@@ -234,7 +234,7 @@ static void print_help(const cmd_usage *usage, const option_list *list, bool all
 /* Sets one option; false if the value is invalid. */
 static bool set_option(cmd_session *s, const option_row *row, const char *text)
 {
-    cmd_part *part = row->part;
+    cmd_option_group *part = row->part;
     if (row->param->kind == PARAM_FLAG)
         text = row->negated ? "no" : "yes";
     else if (row->param->kind != PARAM_TEXTS && (part->given & UINT64_C(1) << row->number) != 0)
@@ -247,7 +247,8 @@ static bool set_option(cmd_session *s, const option_row *row, const char *text)
 }
 
 /* Reports an option that getopt rejected. `word` is the argument. */
-static bool bad_option(cmd_session *s, const struct option *longs, int code, const char *word)
+static bool report_bad_option(cmd_session *s, const struct option *longs, int code,
+                              const char *word)
 {
     if (code == ':')
         return cmd_usage_error(s, "%s needs a value", word);
@@ -265,7 +266,7 @@ static bool bad_option(cmd_session *s, const struct option *longs, int code, con
         return cmd_usage_error(s, "--%s takes no value", like->name);
     if (n_like > 1)
         return cmd_usage_error(s, "ambiguous option '%s'", word);
-    spell_suggestion near = nearest_to(word + 2, length > 2 ? length - 2 : 0);
+    spell_suggestion near = spell_suggestion_begin(word + 2, length > 2 ? length - 2 : 0);
     for (const struct option *o = longs; o->name != NULL && strncmp(word, "--", 2) == 0; o++)
         spell_suggestion_try(&near, o->name, strlen(o->name));
     return near.name != NULL
@@ -274,7 +275,7 @@ static bool bad_option(cmd_session *s, const struct option *longs, int code, con
 }
 
 /* Rejects output suffixes of formats that are not supported. */
-static bool check_output(cmd_session *s, const cmd_usage *usage)
+static bool check_output_suffix(cmd_session *s, const cmd_usage *usage)
 {
     static const char of_sheet[] = "TABLE.csv` gives a table that one opens";
     static const char of_database[] = "TABLE.sqlite` gives a table as a database";
@@ -325,9 +326,9 @@ static bool check_inputs(cmd_session *s, const char *const *inputs, size_t n, si
     return true;
 }
 
-static bool check_number(cmd_session *s, const cmd_usage *usage)
+static bool check_file_count(cmd_session *s, const cmd_usage *usage)
 {
-    if (usage->n_files == CMD_SOME && s->n_files == 0)
+    if (usage->n_files == CMD_ONE_OR_MORE && s->n_files == 0)
         return cmd_usage_error(s, "%s", usage->files != NULL ? usage->files : "no file given");
     if (usage->n_files > 0 && s->n_files != (size_t)usage->n_files)
         return cmd_usage_error(s, "%s; %zu given", usage->files, s->n_files);
@@ -386,7 +387,7 @@ static bool list_files(cmd_session *s, size_t n, char **arguments)
 }
 
 /* Builds the option tables of getopt. */
-static void list_for_getopt(const option_list *list, struct option *longs, char *letters)
+static void build_getopt_options(const option_list *list, struct option *longs, char *letters)
 {
     size_t n_letters = 0;
     letters[n_letters++] = ':';
@@ -410,7 +411,7 @@ static bool parse_options(cmd_session *s, const option_list *list, int argc, cha
 {
     struct option longs[MAX_OPTIONS + 1];
     char letters[2 * MAX_OPTIONS + 3];
-    list_for_getopt(list, longs, letters);
+    build_getopt_options(list, longs, letters);
     optind = 1;
     opterr = 0;
     int code;
@@ -418,7 +419,7 @@ static bool parse_options(cmd_session *s, const option_list *list, int argc, cha
         if (code == '?' || code == ':') {
             const char letter[] = {'-', (char)optopt, '\0'};
             const bool is_letter = optopt > 0 && optopt < FIRST_CODE;
-            return bad_option(s, longs, code, is_letter ? letter : argv[optind - 1]);
+            return report_bad_option(s, longs, code, is_letter ? letter : argv[optind - 1]);
         }
         const option_row *row = NULL;
         for (size_t i = 0; i < list->n && row == NULL; i++)
@@ -448,34 +449,34 @@ static bool check_required(cmd_session *s, const option_list *list)
     return true;
 }
 
-bool cmd_parse(cmd_session *s, const cmd_usage *usage, cmd_part *parts, size_t n_parts, int argc,
-               char **argv)
+bool cmd_parse(cmd_session *s, const cmd_usage *usage, cmd_option_group *parts, size_t n_parts,
+               int argc, char **argv)
 {
     option_list list = {.n = 0};
     char names[TEXT_SIZE];
     size_t n_inputs = 0, n_pipes = 0;
     const char **inputs = calloc((size_t)argc + 1, sizeof *inputs);
     snprintf(names, sizeof names, "%s log quiet strict help", usage->common);
-    cmd_part last = {common_params(), &s->common, names, 0};
+    cmd_option_group last = {common_params(), &s->common, names, 0};
     s->name = usage->name;
     s->parts = parts;
     s->n_parts = n_parts;
     for (size_t i = 0; i < n_parts; i++)
-        add_part(&list, &parts[i]);
-    add_part(&list, &last);
+        add_option_group(&list, &parts[i]);
+    add_option_group(&list, &last);
     if (inputs == NULL) {
         wt_fail(&s->err, WT_E_MEMORY, "out of memory");
         return cmd_fail(s);
     }
     bool good = parse_options(s, &list, argc, argv, inputs, &n_inputs);
     if (good && s->common.help) {
-        print_help(usage, &list, optind < argc && strcmp(argv[optind], "all") == 0);
+        print_subcommand_help(usage, &list, optind < argc && strcmp(argv[optind], "all") == 0);
         good = false;
     }
-    good = good && check_output(s, usage) &&
+    good = good && check_output_suffix(s, usage) &&
            list_files(s, (size_t)(argc - optind), argv + optind) && check_required(s, &list) &&
            check_inputs(s, inputs, n_inputs, &n_pipes) &&
-           check_inputs(s, s->files, s->n_files, &n_pipes) && check_number(s, usage);
+           check_inputs(s, s->files, s->n_files, &n_pipes) && check_file_count(s, usage);
     free(inputs);
     return good;
 }

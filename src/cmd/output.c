@@ -10,27 +10,27 @@ static bool ends_with(const char *text, const char *end)
     return n >= m && strcmp(text + n - m, end) == 0;
 }
 
-bool cmd_is_store(const char *path)
+bool cmd_is_hdf5_path(const char *path)
 {
     return path != NULL && (ends_with(path, ".h5") || ends_with(path, ".hdf5"));
 }
 
-bool cmd_is_standard(const char *path)
+bool cmd_is_standard_stream(const char *path)
 {
     return path == NULL || strcmp(path, "-") == 0;
 }
 
-bool cmd_is_text(cmd_session *s)
+bool cmd_require_text_output(cmd_session *s)
 {
-    return !cmd_is_store(s->common.output) ||
+    return !cmd_is_hdf5_path(s->common.output) ||
            cmd_usage_error(s, "-o %s: weartrack %s writes text and no HDF5; give another name",
                            s->common.output, s->name);
 }
 
-wt_status cmd_try_output(const char *path, wt_error *err)
+wt_status cmd_check_output(const char *path, wt_error *err)
 {
     struct stat info;
-    if (cmd_is_standard(path) ||
+    if (cmd_is_standard_stream(path) ||
         (stat(path, &info) == 0 && !S_ISREG(info.st_mode) && !S_ISDIR(info.st_mode)))
         return WT_OK; /* a pipe can be opened only once */
     wt_atomic_file *file = NULL;
@@ -61,7 +61,7 @@ static wt_status write_stream(FILE *out, const wt_result *result, bool with_prov
 
 wt_status cmd_sink_open(const char *output, cmd_sink *sink, wt_error *err)
 {
-    const bool to_file = !cmd_is_standard(output);
+    const bool to_file = !cmd_is_standard_stream(output);
     *sink = (cmd_sink){NULL, stdout, to_file ? output : "standard output"};
     wt_status status = to_file ? wt_outfile_open(output, &sink->file, err) : WT_OK;
     if (sink->file != NULL)
@@ -96,7 +96,7 @@ wt_status cmd_record_command(wt_provenance *provenance)
     return wt_provenance_set_command(provenance, full_argc, full_argv);
 }
 
-wt_status cmd_provenance(wt_result *result, wt_error *err)
+wt_status cmd_record_provenance(wt_result *result, wt_error *err)
 {
     const wt_status status = cmd_record_command(wt_result_provenance(result));
     return status == WT_OK ? WT_OK : wt_fail(err, status, "out of memory");
@@ -116,15 +116,15 @@ static wt_status add_methods(wt_result *result, wt_error *err)
     return wt_result_add(result, methods, err);
 }
 
-wt_status cmd_write(cmd_session *s)
+wt_status cmd_write_result(cmd_session *s)
 {
     const char *output = s->common.output;
-    wt_status status = cmd_provenance(s->result, &s->err);
-    if (status == WT_OK && cmd_is_store(output))
+    wt_status status = cmd_record_provenance(s->result, &s->err);
+    if (status == WT_OK && cmd_is_hdf5_path(output))
         status = add_methods(s->result, &s->err);
     if (status != WT_OK)
         return status;
-    if (cmd_is_store(output))
+    if (cmd_is_hdf5_path(output))
         return wt_store_write(output, s->result, s->common.provenance, &s->err);
     cmd_sink sink;
     status = cmd_sink_open(output, &sink, &s->err);

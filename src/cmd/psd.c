@@ -16,11 +16,12 @@ int cmd_psd(int argc, char **argv)
                  "angular_spectrum (of height maps), surfaces, "
                  "scan_spectra (with --scans), height_map (of height maps) and height_profile "
                  "(both with --heights) follow one another.",
-        .n_files = CMD_SOME};
+        .n_files = CMD_ONE_OR_MORE};
     wt_topography_job job = wt_topography_job_defaults();
     wt_file_set set = {.read = wt_read_defaults()};
-    cmd_part parts[] = {{wt_topography_job_params(), &job, NULL, 0},
-                        {wt_read_params(), &set.read, "units pixel-size height-unit format", 0}};
+    cmd_option_group parts[] = {
+        {wt_topography_job_params(), &job, NULL, 0},
+        {wt_read_params(), &set.read, "units pixel-size height-unit format", 0}};
     cmd_session s = cmd_session_defaults();
     wt_topography_tables made = {0};
     wt_table **const tables[] = {&made.power_spectrum, &made.place_errors, &made.angular_spectrum,
@@ -29,6 +30,7 @@ int cmd_psd(int argc, char **argv)
     job.sets = &set;
     job.n_sets = 1;
     if (cmd_begin_job(&s, &usage, parts, COUNT_OF(parts), &set, argc, argv))
-        cmd_finish(&s, wt_topography_make(&job, &s.work, &made, &s.err), tables, COUNT_OF(tables));
+        cmd_finish(&s, wt_topography_compute(&job, &s.work, &made, &s.err), tables,
+                   COUNT_OF(tables));
     return cmd_session_free(&s);
 }

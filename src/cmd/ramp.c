@@ -13,10 +13,10 @@ int cmd_ramp(int argc, char **argv)
                 "frequency. Folders and patterns are allowed.",
         .common = "output formats columns files-from provenance cost",
         .notes = "The tables glass_transition, moduli_at (with --at) and ramp follow one another.",
-        .n_files = CMD_SOME};
+        .n_files = CMD_ONE_OR_MORE};
     wt_ramp_job job = wt_ramp_job_defaults();
     wt_file_set set = {.read = wt_read_defaults()};
-    cmd_part parts[] = {
+    cmd_option_group parts[] = {
         {wt_ramp_job_params(), &job, NULL, 0},
         {wt_read_params(), &set.read,
          "temperature-in-name frequency units format sheet deformation strain sample sample-by",
@@ -27,6 +27,6 @@ int cmd_ramp(int argc, char **argv)
     job.sets = &set;
     job.n_sets = 1;
     if (cmd_begin_job(&s, &usage, parts, COUNT_OF(parts), &set, argc, argv))
-        cmd_finish(&s, wt_ramp_make(&job, &s.work, &made, &s.err), tables, COUNT_OF(tables));
+        cmd_finish(&s, wt_ramp_compute(&job, &s.work, &made, &s.err), tables, COUNT_OF(tables));
     return cmd_session_free(&s);
 }

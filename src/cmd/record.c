@@ -15,18 +15,18 @@ int cmd_record(int argc, char **argv)
         .common = "output formats columns files-from provenance cost",
         .notes = "The tables record, record_cycles and (where something of the wear is given) wear "
                  "follow one another.",
-        .n_files = CMD_SOME};
+        .n_files = CMD_ONE_OR_MORE};
     wt_record_job job = wt_record_job_defaults();
     wt_file_set set = {.read = wt_read_defaults()};
-    cmd_part parts[] = {{wt_record_job_params(), &job, NULL, 0},
-                        {wt_read_params(), &set.read, "units format sheet", 0}};
+    cmd_option_group parts[] = {{wt_record_job_params(), &job, NULL, 0},
+                                {wt_read_params(), &set.read, "units format sheet", 0}};
     cmd_session s = cmd_session_defaults();
     wt_record_tables made = {0};
     wt_table **const tables[] = {&made.record, &made.record_cycles, &made.wear};
     job.sets = &set;
     job.n_sets = 1;
     if (cmd_begin_job(&s, &usage, parts, COUNT_OF(parts), &set, argc, argv) &&
-        (job.profile == NULL || cmd_share_units(&s, &set.read)))
-        cmd_finish(&s, wt_record_make(&job, &s.work, &made, &s.err), tables, COUNT_OF(tables));
+        (job.profile == NULL || cmd_share_unit_options(&s, &set.read)))
+        cmd_finish(&s, wt_record_compute(&job, &s.work, &made, &s.err), tables, COUNT_OF(tables));
     return cmd_session_free(&s);
 }

@@ -7,31 +7,31 @@
 #include "cmd/table_output.h"
 
 static const wt_param rows[] = {
-    {PARAM_TEXT_OF("output", cmd_common, output), .value = "PLACE", .letter = 'o',
+    {PARAM_TEXT_OF("output", cmd_common_options, output), .value = "PLACE", .letter = 'o',
      .unset = "standard output with --methods, none with --browse or --sheets; else it is required",
      .help = "the page to write, if it ends in .html, or a folder with the page and the figures"},
 };
-PARAM_LOCAL_TABLE(place_params, cmd_common, rows, cmd_common_defaults, NO_PARTS)
+PARAM_LOCAL_TABLE(report_path_params, cmd_common_options, rows, cmd_common_defaults, NO_PARTS)
 
-typedef struct own_options {
+typedef struct report_outputs {
     bool methods;
     const char *browse, *sheets;
-} own_options;
+} report_outputs;
 
-static const wt_param own_rows[] = {
-    {PARAM_FLAG_OF("methods", own_options, methods),
+static const wt_param report_output_rows[] = {
+    {PARAM_FLAG_OF("methods", report_outputs, methods),
      .help = "write no page, but the text of a section on methods with the numbers of this result "
              "and its references"},
-    {PARAM_TEXT_OF("browse", own_options, browse), .value = "FILE.html", .unset = "",
+    {PARAM_TEXT_OF("browse", report_outputs, browse), .value = "FILE.html", .unset = "",
      .flags = PARAM_WRITTEN,
      .help = "write one page to go through the force curves of the result, of weartrack indent "
              "--curves all, with their fits; choices made on it are for indent --overrides"},
-    {PARAM_TEXT_OF("sheets", own_options, sheets), .value = "FILE.pdf", .unset = "",
+    {PARAM_TEXT_OF("sheets", report_outputs, sheets), .value = "FILE.pdf", .unset = "",
      .flags = PARAM_WRITTEN,
      .help = "write the force curves of the result, of weartrack indent --curves, as a PDF to be "
              "printed, twelve on a sheet of A4, with fit, verdict and reason, refused ones first"},
 };
-CMD_OPTIONS(own_params, own_options, own_rows)
+CMD_OPTIONS(report_output_params, report_outputs, report_output_rows)
 
 /* ---- a section on methods -------------------------------------------------------------------- */
 
@@ -41,7 +41,7 @@ static const char *cell(const wt_table *methods, size_t row, const char *column)
 }
 
 /* Returns the number of the reference of a row, from 1 in order of first occurrence; 0: none. */
-static size_t number_of(const wt_table *methods, size_t row)
+static size_t reference_number(const wt_table *methods, size_t row)
 {
     const char *const reference = cell(methods, row, "reference");
     size_t number = 0;
@@ -63,7 +63,7 @@ static void print_methods(FILE *out, const wt_table *methods)
     size_t last = 0;
     for (size_t row = 0; row < wt_table_n_rows(methods); row++) {
         const char *const text = cell(methods, row, "text");
-        const size_t number = number_of(methods, row), length = strlen(text);
+        const size_t number = reference_number(methods, row), length = strlen(text);
         if (number > 0) /* before the full stop */
             fprintf(out, "%.*s [%zu].\n", (int)(length - 1), text, number);
         else
@@ -71,7 +71,7 @@ static void print_methods(FILE *out, const wt_table *methods)
     }
     fprintf(out, "All was computed with weartrack %s.\n\nReferences\n", wt_version());
     for (size_t row = 0; row < wt_table_n_rows(methods); row++) {
-        const size_t number = number_of(methods, row);
+        const size_t number = reference_number(methods, row);
         const char *const doi = cell(methods, row, "doi");
         if (number <= last)
             continue;
@@ -102,7 +102,7 @@ static wt_status write_methods(cmd_session *s)
  */
 
 /* True if two names are the same file, which need not exist. */
-static bool is_same(const char *a, const char *b)
+static bool is_same_path(const char *a, const char *b)
 {
     struct stat of_a, of_b;
     if (a == NULL || b == NULL || strcmp(wt_path_base(a), wt_path_base(b)) != 0)
@@ -117,7 +117,7 @@ static bool is_same(const char *a, const char *b)
 }
 
 /* Checks that no output goes to standard output and that all have different names. */
-static bool check_names(cmd_session *s, const own_options *own)
+static bool check_output_names(cmd_session *s, const report_outputs *own)
 {
     const struct {
         const char *option, *name;
@@ -125,18 +125,18 @@ static bool check_names(cmd_session *s, const own_options *own)
                   {"--browse", own->browse},
                   {"--sheets", own->sheets}};
     for (size_t i = 0; i < COUNT_OF(places); i++) {
-        if (places[i].name != NULL && cmd_is_standard(places[i].name))
+        if (places[i].name != NULL && cmd_is_standard_stream(places[i].name))
             return cmd_usage_error(s, "%s -: this goes to a file; give it a name",
                                    places[i].option);
         for (size_t k = 0; k < i; k++)
-            if (is_same(places[k].name, places[i].name))
+            if (is_same_path(places[k].name, places[i].name))
                 return cmd_usage_error(s, "%s %s: %s has that name, too; give another one",
                                        places[i].option, places[i].name, places[k].option);
     }
     return true;
 }
 
-static bool is_in(const char *path, const char *folder)
+static bool is_inside_folder(const char *path, const char *folder)
 {
     size_t n = folder != NULL ? strlen(folder) : 0;
     while (n > 1 && folder[n - 1] == '/')
@@ -145,16 +145,17 @@ static bool is_in(const char *path, const char *folder)
 }
 
 /* Checks that all outputs can be written, before the first one is. */
-static wt_status try_places(cmd_session *s, const wt_report_options *options,
-                            const own_options *own)
+static wt_status check_output_paths(cmd_session *s, const wt_report_options *options,
+                                    const report_outputs *own)
 {
     const char *const output = s->common.output, *const curves[] = {own->browse, own->sheets};
     wt_status status = WT_OK;
     if (output != NULL && (own->browse != NULL || own->sheets != NULL))
         status = wt_report_check(output, options, &s->err);
     for (size_t i = 0; status == WT_OK && i < COUNT_OF(curves); i++)
-        if (curves[i] != NULL && !is_in(curves[i], output)) /* that folder is created first */
-            status = cmd_try_output(curves[i], &s->err);
+        if (curves[i] != NULL &&
+            !is_inside_folder(curves[i], output)) /* that folder is created first */
+            status = cmd_check_output(curves[i], &s->err);
     if (status == WT_OK && (own->browse != NULL || own->sheets != NULL))
         status = wt_report_check_curves(s->result, &s->err);
     return status;
@@ -164,9 +165,9 @@ static wt_status try_places(cmd_session *s, const wt_report_options *options,
 
 /* Writes the requested outputs: page or folder, curve browser, curve sheets. */
 static wt_status write_pages(cmd_session *s, const wt_report_options *options,
-                             const own_options *own)
+                             const report_outputs *own)
 {
-    wt_status status = try_places(s, options, own);
+    wt_status status = check_output_paths(s, options, own);
     if (status != WT_OK)
         return status;
     if (s->common.output != NULL || own->sheets != NULL)
@@ -178,7 +179,7 @@ static wt_status write_pages(cmd_session *s, const wt_report_options *options,
     if (status == WT_OK && own->browse != NULL)
         status = wt_curve_browser_write(s->result, own->browse, s->common.provenance, &s->err);
     if (status == WT_OK && own->sheets != NULL)
-        status = wt_sheets_write(s->result, own->sheets, options, &progress, &s->err);
+        status = wt_curve_sheets_write(s->result, own->sheets, options, &progress, &s->err);
     cmd_progress_end(s);
     return status;
 }
@@ -197,10 +198,10 @@ int cmd_report(int argc, char **argv)
         .files = "one result file is needed"};
     cmd_session s = cmd_session_defaults();
     wt_report_options report_options = wt_report_defaults();
-    own_options own = {0};
-    cmd_part parts[] = {{place_params(), &s.common, NULL, 0},
-                        {own_params(), &own, NULL, 0},
-                        {wt_report_params(), &report_options, NULL, 0}};
+    report_outputs own = {0};
+    cmd_option_group parts[] = {{report_path_params(), &s.common, NULL, 0},
+                                {report_output_params(), &own, NULL, 0},
+                                {wt_report_params(), &report_options, NULL, 0}};
     if (!cmd_parse(&s, &usage, parts, COUNT_OF(parts), argc, argv))
         return cmd_session_free(&s);
     const bool curves = own.browse != NULL || own.sheets != NULL;
@@ -213,7 +214,7 @@ int cmd_report(int argc, char **argv)
         (void)cmd_usage_error(&s, "--methods is a call of its own");
         return cmd_session_free(&s);
     }
-    if (!check_names(&s, &own))
+    if (!check_output_names(&s, &own))
         return cmd_session_free(&s);
     report_options.with_provenance = s.common.provenance;
     wt_status made = cmd_tables_read(s.files[0], &s.result, &s.err);
@@ -224,7 +225,7 @@ int cmd_report(int argc, char **argv)
     if (made != WT_OK)
         cmd_fail(&s);
     else
-        cmd_strict_remarks(&s, s.files[0], cmd_tables_remarks(s.result));
+        cmd_apply_strict(&s, s.files[0], cmd_count_remarks(s.result));
     if (made == WT_OK && !s.common.quiet && !own.methods && s.common.output != NULL)
         cmd_print_page_location(s.common.output);
     if (made == WT_OK && !s.common.quiet && own.browse != NULL)

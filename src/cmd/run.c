@@ -8,7 +8,7 @@
 #include "cmd/table_output.h"
 #include "core/table/registry.h"
 
-static bool any_stage(const wt_table *plan)
+static bool plan_runs_stage(const wt_table *plan)
 {
     for (size_t i = 0; i < wt_table_n_rows(plan); i++)
         if (wt_table_number(plan, i, PLAN_RUNS) > 0)
@@ -52,99 +52,99 @@ static void print_answer(const wt_result *result)
     }
 }
 
-typedef struct own_options {
+typedef struct run_flags {
     bool plan, no_report, keep;
     const char *report;
-} own_options;
+} run_flags;
 
 static const wt_param output_rows[] = {
-    {PARAM_TEXT_OF("output", cmd_common, output), .value = "FILE", .letter = 'o',
+    {PARAM_TEXT_OF("output", cmd_common_options, output), .value = "FILE", .letter = 'o',
      .flags = PARAM_WRITTEN, .unset = "the name of the case with .h5, in the current folder",
      .help = "the result, HDF5"},
 };
-PARAM_LOCAL_TABLE(output_params, cmd_common, output_rows, cmd_common_defaults, NO_PARTS)
+PARAM_LOCAL_TABLE(output_params, cmd_common_options, output_rows, cmd_common_defaults, NO_PARTS)
 
-static const wt_param own_rows[] = {
-    {PARAM_FLAG_OF("plan", own_options, plan),
+static const wt_param run_flag_rows[] = {
+    {PARAM_FLAG_OF("plan", run_flags, plan),
      .help = "only say which stages would run and why, and why the others would not"},
-    {PARAM_TEXT_OF("report", own_options, report), .value = "PLACE", .letter = 'r',
+    {PARAM_TEXT_OF("report", run_flags, report), .value = "PLACE", .letter = 'r',
      .unset = "the name of the case with -report, in the current folder",
      .help = "where the report goes: one page if it ends in .html, else a folder; a report that is "
              "there is replaced, anything else is not"},
-    {PARAM_FLAG_OF("no-report", own_options, no_report), .help = "write no report"},
-    {PARAM_FLAG_OF("keep", own_options, keep),
+    {PARAM_FLAG_OF("no-report", run_flags, no_report), .help = "write no report"},
+    {PARAM_FLAG_OF("keep", run_flags, keep),
      .help = "do not run again what would give the same: the result is there, and neither version, "
              "command line, case nor any file that was read has changed; nothing was missing, and "
              "--formats is not used"},
 };
-CMD_OPTIONS(own_params, own_options, own_rows)
+CMD_OPTIONS(run_flag_params, run_flags, run_flag_rows)
 
 /* One call of weartrack run. */
 typedef struct run_call {
     cmd_session s;
-    own_options own;
+    run_flags call_flags;
     wt_run_options run;
     wt_report_options report;
-    wt_case *the_case;
+    wt_case *case_file;
     wt_table *plan;
     char *result_name, *folder_name;
 } run_call;
 
 /* Makes all checks that can fail before the computation. */
-static wt_status prepare_run(run_call *r)
+static wt_status prepare_outputs(run_call *r)
 {
     const char *path = r->s.files[0], *output = r->s.common.output;
     wt_error *err = &r->s.err;
     r->result_name = output != NULL ? strdup(output) : cmd_default_name(path, ".h5");
-    r->folder_name = r->own.report != NULL
-                         ? strdup(r->own.report)
+    r->folder_name = r->call_flags.report != NULL
+                         ? strdup(r->call_flags.report)
                          : cmd_default_name(strcmp(path, "-") == 0 ? output : path, "-report");
     r->s.log = wt_log_new();
     if (r->result_name == NULL || r->folder_name == NULL || r->s.log == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     if (wt_check_overwrite(r->result_name, err) != WT_OK)
         return err->status;
-    if (!any_stage(r->plan)) {
+    if (!plan_runs_stage(r->plan)) {
         wt_fail(err, WT_E_EMPTY, "nothing to do: the case gives no stage what it needs");
         wt_error_file(err, path);
         wt_error_advice(err, "`weartrack run --plan` says what each stage lacks");
         return WT_E_EMPTY;
     }
     r->report.with_provenance = r->s.common.provenance;
-    return r->own.no_report ? WT_OK : wt_report_check(r->folder_name, &r->report, err);
+    return r->call_flags.no_report ? WT_OK : wt_report_check(r->folder_name, &r->report, err);
 }
 
 static wt_status compute_run(run_call *r)
 {
     cmd_session *s = &r->s;
     size_t n_failed = 0;
-    wt_status status = cmd_run_case(s, r->the_case, &r->run, &n_failed);
+    wt_status status = cmd_run_case(s, r->case_file, &r->run, &n_failed);
     cmd_print_log(s, s->log, false);
     if (s->result != NULL && n_failed > 0)
         cmd_print_failures(s, wt_result_find(s->result, "failures"));
     if (status == WT_OK)
-        status = cmd_provenance(s->result, &s->err);
+        status = cmd_record_provenance(s->result, &s->err);
     if (status == WT_OK)
         status = wt_store_write(r->result_name, s->result, s->common.provenance, &s->err);
     return status;
 }
 
 /* True if the existing result is up to date; it then becomes the result of the session. */
-static bool is_kept(run_call *r)
+static bool is_result_current(run_call *r)
 {
     wt_result *before = NULL;
     wt_provenance *now = NULL;
     bool current = false;
     char why[256] = "";
     cmd_session *s = &r->s;
-    if (!r->own.keep || access(r->result_name, F_OK) != 0)
+    if (!r->call_flags.keep || access(r->result_name, F_OK) != 0)
         return false;
     if (s->common.formats != NULL) /* its descriptions are not in the provenance */
         snprintf(why, sizeof why, "--formats");
     else if (wt_store_read(r->result_name, &before, NULL) != WT_OK)
         snprintf(why, sizeof why, "it cannot be read");
     else if ((now = wt_provenance_new()) == NULL || cmd_record_command(now) != WT_OK ||
-             wt_run_is_current(r->the_case, before, wt_provenance_command(now), &current, why,
+             wt_run_is_current(r->case_file, before, wt_provenance_command(now), &current, why,
                                sizeof why, NULL) != WT_OK)
         snprintf(why, sizeof why, "out of memory");
     if (!current && !s->common.quiet)
@@ -159,10 +159,10 @@ static bool is_kept(run_call *r)
 }
 
 /* True if the page is complete, that is, not older than the result. */
-static bool is_page_kept(const run_call *r)
+static bool is_page_current(const run_call *r)
 {
     struct stat page, result;
-    char *name = wt_report_page(r->folder_name);
+    char *name = wt_report_page_path(r->folder_name);
     const bool kept = name != NULL && stat(name, &page) == 0 &&
                       stat(r->result_name, &result) == 0 &&
                       (page.st_mtim.tv_sec > result.st_mtim.tv_sec ||
@@ -186,39 +186,39 @@ static wt_status draw_page(run_call *r)
 }
 
 /* Uses the report options of the case unless the call sets them. */
-static void take_case_report(run_call *r, const cmd_part *given)
+static void apply_case_report_options(run_call *r, const cmd_option_group *given)
 {
-    const wt_report_options *const asked = wt_case_report(r->the_case);
-    if (!cmd_given(given, "style"))
+    const wt_report_options *const asked = wt_case_report_options(r->case_file);
+    if (!cmd_option_is_given(given, "style"))
         r->report.style = asked->style;
-    if (!cmd_given(given, "figures"))
+    if (!cmd_option_is_given(given, "figures"))
         r->report.figures = asked->figures;
-    if (!cmd_given(given, "width"))
+    if (!cmd_option_is_given(given, "width"))
         r->report.width = asked->width;
-    if (!cmd_given(given, "font"))
+    if (!cmd_option_is_given(given, "font"))
         r->report.font = asked->font;
-    if (!cmd_given(given, "language"))
+    if (!cmd_option_is_given(given, "language"))
         r->report.language = asked->language;
 }
 
-static wt_status run_case(run_call *r, const cmd_part *report_given)
+static wt_status run_whole_case(run_call *r, const cmd_option_group *report_given)
 {
-    wt_status status = wt_case_read(r->s.files[0], &r->the_case, &r->s.err);
+    wt_status status = wt_case_read(r->s.files[0], &r->case_file, &r->s.err);
     if (status == WT_OK)
-        status = wt_plan(r->the_case, &r->plan, &r->s.err);
-    if (status == WT_OK && r->own.plan) {
+        status = wt_plan(r->case_file, &r->plan, &r->s.err);
+    if (status == WT_OK && r->call_flags.plan) {
         print_plan(r->plan);
         return WT_OK;
     }
     if (status == WT_OK) {
-        take_case_report(r, report_given);
-        status = prepare_run(r);
+        apply_case_report_options(r, report_given);
+        status = prepare_outputs(r);
     }
     if (status == WT_OK)
-        status = cmd_try_output(r->result_name, &r->s.err);
-    const bool kept = status == WT_OK && is_kept(r);
+        status = cmd_check_output(r->result_name, &r->s.err);
+    const bool kept = status == WT_OK && is_result_current(r);
     if (kept)
-        cmd_strict_remarks(&r->s, r->result_name, cmd_tables_remarks(r->s.result));
+        cmd_apply_strict(&r->s, r->result_name, cmd_count_remarks(r->s.result));
     else if (status == WT_OK)
         status = compute_run(r);
     if (status != WT_OK)
@@ -228,18 +228,18 @@ static wt_status run_case(run_call *r, const cmd_part *report_given)
     if (!r->s.common.quiet)
         cmd_message("result: %s%s\n", r->result_name,
                     kept ? " (kept: nothing that it was made of has changed)" : "");
-    return r->own.no_report || (kept && is_page_kept(r)) ? WT_OK : draw_page(r);
+    return r->call_flags.no_report || (kept && is_page_current(r)) ? WT_OK : draw_page(r);
 }
 
-static bool check_output(run_call *r)
+static bool check_run_output(run_call *r)
 {
     const char *output = r->s.common.output;
     const char *dot = output != NULL ? strrchr(wt_path_base(output), '.') : NULL;
     const int stem = dot != NULL ? (int)(dot - output) : output != NULL ? (int)strlen(output) : 0;
-    if (output == NULL && strcmp(r->s.files[0], "-") == 0 && !r->own.plan)
+    if (output == NULL && strcmp(r->s.files[0], "-") == 0 && !r->call_flags.plan)
         return cmd_usage_error(&r->s, "a case from a pipe has no name for its result; give -o "
                                       "case.h5");
-    if (output == NULL || cmd_is_store(output))
+    if (output == NULL || cmd_is_hdf5_path(output))
         return true;
     if (strcmp(output, "-") == 0)
         return cmd_usage_error(&r->s, "-o -: the result is an HDF5 file; type -o case.h5 and then "
@@ -266,19 +266,21 @@ int cmd_run(int argc, char **argv)
         .n_files = 1,
         .files = "one case file is needed"};
     run_call r = {.s = cmd_session_defaults(),
-                  .own = {0},
+                  .call_flags = {0},
                   .run = wt_run_defaults(),
                   .report = wt_report_defaults()};
-    cmd_part parts[] = {{output_params(), &r.s.common, NULL, 0},
-                        {own_params(), &r.own, NULL, 0},
-                        {wt_report_params(), &r.report, "style figures width font language", 0},
-                        {wt_run_params(), &r.run, NULL, 0}};
-    if (cmd_parse(&r.s, &usage, parts, COUNT_OF(parts), argc, argv) && check_output(&r) &&
-        (r.s.common.n_columns == 0 || cmd_read_formats(&r.s)) && run_case(&r, &parts[2]) != WT_OK)
+    cmd_option_group parts[] = {
+        {output_params(), &r.s.common, NULL, 0},
+        {run_flag_params(), &r.call_flags, NULL, 0},
+        {wt_report_params(), &r.report, "style figures width font language", 0},
+        {wt_run_params(), &r.run, NULL, 0}};
+    if (cmd_parse(&r.s, &usage, parts, COUNT_OF(parts), argc, argv) && check_run_output(&r) &&
+        (r.s.common.n_columns == 0 || cmd_read_formats(&r.s)) &&
+        run_whole_case(&r, &parts[2]) != WT_OK)
         cmd_fail(&r.s);
     free(r.result_name);
     free(r.folder_name);
     wt_table_free(r.plan);
-    wt_case_free(r.the_case);
+    wt_case_free(r.case_file);
     return cmd_session_free(&r.s);
 }

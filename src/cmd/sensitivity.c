@@ -14,17 +14,18 @@ int cmd_sensitivity(int argc, char **argv)
                 "patterns are allowed.",
         .common = "output formats columns files-from provenance cost",
         .notes = "The tables sensitivity and sensitivity_curves follow one another.",
-        .n_files = CMD_SOME};
+        .n_files = CMD_ONE_OR_MORE};
     wt_sensitivity_job job = wt_sensitivity_job_defaults();
     wt_file_set set = {.read = wt_read_defaults()};
-    cmd_part parts[] = {{wt_sensitivity_job_params(), &job, NULL, 0},
-                        {wt_read_params(), &set.read, "spring-constant units format", 0}};
+    cmd_option_group parts[] = {{wt_sensitivity_job_params(), &job, NULL, 0},
+                                {wt_read_params(), &set.read, "spring-constant units format", 0}};
     cmd_session s = cmd_session_defaults();
     wt_sensitivity_tables made = {0};
     wt_table **const tables[] = {&made.sensitivity, &made.sensitivity_curves};
     job.sets = &set;
     job.n_sets = 1;
     if (cmd_begin_job(&s, &usage, parts, COUNT_OF(parts), &set, argc, argv))
-        cmd_finish(&s, wt_sensitivity_make(&job, &s.work, &made, &s.err), tables, COUNT_OF(tables));
+        cmd_finish(&s, wt_sensitivity_compute(&job, &s.work, &made, &s.err), tables,
+                   COUNT_OF(tables));
     return cmd_session_free(&s);
 }

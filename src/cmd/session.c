@@ -19,7 +19,7 @@ bool cmd_begin(cmd_session *s)
         wt_fail(&s->err, WT_E_MEMORY, "out of memory");
         return cmd_fail(s);
     }
-    if (cmd_try_output(s->common.output, &s->err) != WT_OK)
+    if (cmd_check_output(s->common.output, &s->err) != WT_OK)
         return cmd_fail(s);
     s->work.log = s->log;
     s->work.provenance = wt_result_provenance(s->result);
@@ -50,7 +50,7 @@ bool cmd_begin_reading(cmd_session *s, const char *format)
     if (!cmd_read_formats(s))
         return false;
     if (format != NULL && wt_formats_find(s->formats, format) == NULL) {
-        spell_suggestion near = nearest_to(format, strlen(format));
+        spell_suggestion near = spell_suggestion_begin(format, strlen(format));
         for (size_t i = 0; i < wt_formats_count(s->formats); i++) {
             const char *const id = wt_formats_get(s->formats, i)->id;
             spell_suggestion_try(&near, id, strlen(id));
@@ -70,17 +70,17 @@ bool cmd_begin_files(cmd_session *s, wt_file_set *set)
     return cmd_begin_reading(s, set->read.format);
 }
 
-bool cmd_begin_job(cmd_session *s, const cmd_usage *usage, cmd_part *parts, size_t n_parts,
+bool cmd_begin_job(cmd_session *s, const cmd_usage *usage, cmd_option_group *parts, size_t n_parts,
                    wt_file_set *set, int argc, char **argv)
 {
     if (!cmd_parse(s, usage, parts, n_parts, argc, argv) || !cmd_begin_files(s, set))
         return false;
-    wt_cost_stage(s->cost, usage->name);
+    wt_cost_begin_stage(s->cost, usage->name);
     return true;
 }
 
 /* Warns of --columns that no file uses: the names are probably misspelled. */
-static void say_columns(cmd_session *s)
+static void warn_unused_columns(cmd_session *s)
 {
     const wt_provenance *p = wt_result_provenance(s->result);
     for (size_t i = 0; i < wt_provenance_n_inputs(p); i++)
@@ -92,19 +92,19 @@ static void say_columns(cmd_session *s)
                    "its layout is known without them");
 }
 
-bool cmd_share_units(cmd_session *s, wt_read_options *read)
+bool cmd_share_unit_options(cmd_session *s, wt_read_options *read)
 {
-    read->unit_use = calloc(read->n_units + 1, sizeof *read->unit_use);
+    read->unit_usage = calloc(read->n_units + 1, sizeof *read->unit_usage);
     s->shared = read;
-    if (read->unit_use == NULL)
+    if (read->unit_usage == NULL)
         cmd_end(s, wt_fail(&s->err, WT_E_MEMORY, "out of memory"));
-    return read->unit_use != NULL;
+    return read->unit_usage != NULL;
 }
 
-static void say_units(cmd_session *s)
+static void warn_unused_units(cmd_session *s)
 {
     for (size_t u = 0; s->shared != NULL && u < s->shared->n_units; u++) {
-        const wt_unit_use *const use = &s->shared->unit_use[u];
+        const wt_unit_usage *const use = &s->shared->unit_usage[u];
         if (use->used)
             continue;
         if (use->overruled)
@@ -118,15 +118,15 @@ static void say_units(cmd_session *s)
     }
 }
 
-wt_status cmd_give_record(cmd_session *s, wt_table_sink sink, void *user)
+wt_status cmd_write_record(cmd_session *s, wt_table_sink sink, void *user)
 {
-    say_columns(s);
-    say_units(s);
+    warn_unused_columns(s);
+    warn_unused_units(s);
     wt_status status = WT_OK;
     wt_table *failures = s->work.failures, *notes = NULL;
     if (cmd_print_failures(s, failures)) {
-        status = wt_failures_answered(
-            failures, s->status == CMD_FAILED ? WT_ANSWERED_NOTHING : WT_ANSWERED_PARTLY, &s->err);
+        status = wt_failures_set_status(
+            failures, s->status == CMD_FAILED ? WT_RESULT_EMPTY : WT_RESULT_PARTIAL, &s->err);
         s->work.failures = status == WT_OK ? NULL : failures;
         if (status == WT_OK)
             status = sink(user, failures, &s->err);
@@ -147,11 +147,11 @@ void cmd_end(cmd_session *s, wt_status made)
     cmd_print_log(s, s->log, false);
     if (made != WT_OK)
         cmd_fail(s);
-    else if (!s->common.quiet && wt_result_sentence(s->result, sentence, sizeof sentence) > 0)
+    else if (!s->common.quiet && wt_result_summary_line(s->result, sentence, sizeof sentence) > 0)
         cmd_message("weartrack %s: %s\n", s->name, sentence);
 }
 
-static wt_status add_table(void *result, wt_table *table, wt_error *err)
+static wt_status add_result_table(void *result, wt_table *table, wt_error *err)
 {
     return wt_result_add(result, table, err);
 }
@@ -174,11 +174,11 @@ void cmd_finish(cmd_session *s, wt_status made, wt_table **const tables[], size_
             made = wt_result_add(s->result, cost, &s->err);
     }
     if (made == WT_OK) {
-        wt_result_remarks(s->result, s->log);
-        made = cmd_give_record(s, add_table, s->result);
+        wt_result_log_remarks(s->result, s->log);
+        made = cmd_write_record(s, add_result_table, s->result);
     }
     if (made == WT_OK)
-        made = cmd_write(s);
+        made = cmd_write_result(s);
     cmd_end(s, made);
 }
 
@@ -190,7 +190,7 @@ wt_status cmd_run_case(cmd_session *s, const wt_case *c, wt_run_options *run, si
     run->n_columns = s->common.n_columns;
     run->no_provenance = !s->common.provenance;
     run->progress = cmd_progress_start(s);
-    const wt_status status = wt_run(c, run, s->log, &s->result, n_failed, &s->err);
+    const wt_status status = wt_run_case(c, run, s->log, &s->result, n_failed, &s->err);
     cmd_progress_end(s);
     return status;
 }
@@ -201,8 +201,8 @@ int cmd_session_free(cmd_session *s)
         wt_params_clear(s->parts[i].params, s->parts[i].structure, &s->parts[i].given);
     wt_strings_free((char **)s->common.columns, s->common.n_columns);
     if (s->shared != NULL) {
-        free(s->shared->unit_use);
-        s->shared->unit_use = NULL;
+        free(s->shared->unit_usage);
+        s->shared->unit_usage = NULL;
     }
     free(s->files);
     free(s->names);

@@ -32,13 +32,13 @@ static const wt_param contact_rows[] = {
              "--specific-wear-rate gives one"},
 };
 
-static cmd_contact no_contact(void)
+static cmd_contact contact_defaults(void)
 {
     return (cmd_contact){.softening_temperature = (double)NAN};
 }
-PARAM_LOCAL_TABLE(contact_params, cmd_contact, contact_rows, no_contact, NO_PARTS)
+PARAM_LOCAL_TABLE(contact_params, cmd_contact, contact_rows, contact_defaults, NO_PARTS)
 
-void cmd_sliding_init(cmd_sliding *s, cmd_part own)
+void cmd_sliding_init(cmd_sliding *s, cmd_option_group own)
 {
     memset(s, 0, sizeof *s);
     s->conditions = wt_sliding_defaults();
@@ -47,25 +47,25 @@ void cmd_sliding_init(cmd_sliding *s, cmd_part own)
     s->transverse = wt_transverse_defaults();
     s->set.read = wt_read_defaults();
     s->session = cmd_session_defaults();
-    s->contact = no_contact();
+    s->contact = contact_defaults();
     s->parts[CMD_CONTACT] =
-        (cmd_part){contact_params(), &s->contact,
-                   "material dma roughness strain-softening softening-temperature "
-                   "layer-comparison layer-material",
-                   0};
-    s->parts[CMD_CONDITIONS] = (cmd_part){wt_sliding_params(), &s->conditions, NULL, 0};
-    s->parts[CMD_WORK] = (cmd_part){wt_job_params(), &s->session.work, NULL, 0};
-    s->parts[CMD_MASTER] = (cmd_part){wt_master_job_params(), &s->master, NULL, 0};
-    s->parts[CMD_RUBBER] = (cmd_part){wt_rubber_options_params(), &s->options, NULL, 0};
-    s->parts[CMD_TRANSVERSE] = (cmd_part){wt_transverse_params(), &s->transverse, NULL, 0};
-    s->parts[CMD_READ] = (cmd_part){
+        (cmd_option_group){contact_params(), &s->contact,
+                           "material dma roughness strain-softening softening-temperature "
+                           "layer-comparison layer-material",
+                           0};
+    s->parts[CMD_CONDITIONS] = (cmd_option_group){wt_sliding_params(), &s->conditions, NULL, 0};
+    s->parts[CMD_WORK] = (cmd_option_group){wt_job_params(), &s->session.work, NULL, 0};
+    s->parts[CMD_MASTER] = (cmd_option_group){wt_master_job_params(), &s->master, NULL, 0};
+    s->parts[CMD_RUBBER] = (cmd_option_group){wt_rubber_options_params(), &s->options, NULL, 0};
+    s->parts[CMD_TRANSVERSE] = (cmd_option_group){wt_transverse_params(), &s->transverse, NULL, 0};
+    s->parts[CMD_READ] = (cmd_option_group){
         wt_read_params(), &s->set.read,
         "temperature temperature-in-name units pixel-size height-unit format sheet deformation "
         "strain sample sample-by spectrum-convention",
         0};
-    s->parts[CMD_OWN] = own;
+    s->parts[CMD_SUBCOMMAND] = own;
     s->known = wt_layer_observation_defaults();
-    s->parts[CMD_KNOWN] = (cmd_part){wt_layer_observation_params(), &s->known, "", 0};
+    s->parts[CMD_LAYER] = (cmd_option_group){wt_layer_observation_params(), &s->known, "", 0};
 }
 
 int cmd_sliding_free(cmd_sliding *s)
@@ -79,22 +79,23 @@ int cmd_sliding_free(cmd_sliding *s)
     return cmd_session_free(&s->session);
 }
 
-/* True if an option of the layer is given. Its options are in CMD_OWN or CMD_KNOWN, depending on
- * the subcommand. */
-static bool is_given_of_layer(const cmd_sliding *s, const char *name)
+/* True if an option of the layer is given. Its options are in CMD_SUBCOMMAND or CMD_LAYER,
+ * depending on the subcommand. */
+static bool is_layer_option_given(const cmd_sliding *s, const char *name)
 {
-    return cmd_given(&s->parts[CMD_OWN], name) || cmd_given(&s->parts[CMD_KNOWN], name);
+    return cmd_option_is_given(&s->parts[CMD_SUBCOMMAND], name) ||
+           cmd_option_is_given(&s->parts[CMD_LAYER], name);
 }
 
 /* Checks that one source of the layer modulus is given; a slope needs a ratio. */
 static bool check_layer_modulus(cmd_sliding *s)
 {
-    const bool ratio = is_given_of_layer(s, "modulus-ratio");
+    const bool ratio = is_layer_option_given(s, "modulus-ratio");
     const int files = (s->contact.layer_comparison != NULL) + (s->contact.layer_material != NULL);
     if (files + ratio > 1)
         return cmd_usage_error(&s->session, "give one of --modulus-ratio, --layer-comparison and "
                                             "--layer-material");
-    return ratio || !is_given_of_layer(s, "ratio-slope") ||
+    return ratio || !is_layer_option_given(s, "ratio-slope") ||
            cmd_usage_error(&s->session, "--ratio-slope goes with --modulus-ratio");
 }
 
@@ -109,21 +110,23 @@ bool cmd_sliding_parse(cmd_sliding *s, const cmd_usage *usage, int argc, char **
     if ((s->contact.material != NULL) + (s->contact.n_dma > 0) + (session->n_files > 0) != 1)
         return cmd_usage_error(session, "give either --material FILE or --dma FILE (or the names "
                                         "of DMA files with --files-from)");
-    if (s->contact.softening == NULL && cmd_given(&s->parts[CMD_CONDITIONS], "strain-factor"))
+    if (s->contact.softening == NULL &&
+        cmd_option_is_given(&s->parts[CMD_CONDITIONS], "strain-factor"))
         return cmd_usage_error(session, "--strain-factor goes with --strain-softening");
-    if (s->contact.softening == NULL && cmd_given(&s->parts[CMD_CONTACT], "softening-temperature"))
+    if (s->contact.softening == NULL &&
+        cmd_option_is_given(&s->parts[CMD_CONTACT], "softening-temperature"))
         return cmd_usage_error(session, "--softening-temperature goes with --strain-softening");
     if (!check_layer_modulus(s))
         return false;
     if (wt_anisotropy_check(&s->conditions.anisotropy, &session->err) != WT_OK)
         return cmd_param_error(session);
-    if (s->contact.material != NULL && cmd_given(&s->parts[CMD_READ], "temperature"))
+    if (s->contact.material != NULL && cmd_option_is_given(&s->parts[CMD_READ], "temperature"))
         return cmd_usage_error(session, "--temperature is that of --dma files; the rubber's while "
                                         "it slides is --sliding-temperature");
     return true;
 }
 
-static wt_status fit_material(cmd_sliding *s, wt_error *err)
+static wt_status fit_sliding_material(cmd_sliding *s, wt_error *err)
 {
     wt_master_tables tables = {0};
     const bool listed = s->session.n_files > 0;
@@ -132,10 +135,10 @@ static wt_status fit_material(cmd_sliding *s, wt_error *err)
     s->master.sets = &s->set;
     s->master.n_sets = 1;
     wt_job work = s->session.work;
-    work.left_out |= WT_EXTRA_REDUCED | WT_EXTRA_SPECTRUM;
+    work.left_out |= WT_EXTRA_REDUCED_SERIES | WT_EXTRA_SPECTRUM;
     if (work.replicates < 2)
         work.left_out |= WT_EXTRA_DRAWS;
-    wt_status status = wt_master_make(&s->master, &work, &tables, &s->rubber, err);
+    wt_status status = wt_master_compute(&s->master, &work, &tables, &s->rubber, err);
     if (status == WT_OK && s->options.moduli == WT_MODULI_POINTS)
         status = wt_rubber_tabulate(&s->rubber, tables.master_curve, &s->options, err);
     wt_master_tables_clear(&tables);
@@ -143,23 +146,23 @@ static wt_status fit_material(cmd_sliding *s, wt_error *err)
 }
 
 /* True if the text is a law and not a file name: its errors are usage errors. */
-static bool is_law(const char *text)
+static bool is_law_text(const char *text)
 {
     return text != NULL &&
            (strncmp(text, "self-affine:", 12) == 0 || strncmp(text, "fractional-zener:", 17) == 0);
 }
 
 /* Source and destination of a material. */
-typedef struct given_rubber {
+typedef struct material_input {
     const char *from, *sample;
     wt_result **tables; /* receives the tables of a result */
     wt_rubber *rubber;
-} given_rubber;
+} material_input;
 
 /* Reads a material: the series of a result, or the points of its master curve if requested or if
  * there is no series. Any other file is read as a table of moduli; if that fails, the first error
  * is reported. */
-static wt_status read_material(const cmd_sliding *s, given_rubber given, wt_error *err)
+static wt_status read_sliding_material(const cmd_sliding *s, material_input given, wt_error *err)
 {
     const char *const from = given.from, *const sample = given.sample;
     const double poisson = s->master.poisson_ratio;
@@ -167,7 +170,7 @@ static wt_status read_material(const cmd_sliding *s, given_rubber given, wt_erro
     wt_read_options read = s->set.read;
     read.sample = sample;
     read.temperature = s->master.fit.reference_temperature;
-    if (is_law(from)) {
+    if (is_law_text(from)) {
         const wt_status law =
             wt_rubber_open(from, &read, &s->options, poisson, &s->session.work, given.rubber, err);
         given.rubber->prony.reference_temperature = read.temperature;
@@ -176,14 +179,14 @@ static wt_status read_material(const cmd_sliding *s, given_rubber given, wt_erro
     wt_job work = s->session.work;
     wt_status status =
         cmd_rubber_read(from, sample, poisson, &work, given.tables, given.rubber, &first);
-    const wt_table *curve = cmd_table_of_sample(*given.tables, "master_curve", sample);
+    const wt_table *curve = cmd_sample_table(*given.tables, "master_curve", sample);
     if (curve != NULL &&
         (status == WT_E_NOT_FOUND || (status == WT_OK && s->options.moduli == WT_MODULI_POINTS))) {
         given.rubber->poisson_ratio = poisson;
         return wt_rubber_tabulate(given.rubber, curve, &s->options, err);
     }
     const bool of_samples =
-        status == WT_E_AMBIGUOUS || cmd_tables_have(*given.tables, "shift_factors");
+        status == WT_E_AMBIGUOUS || cmd_tables_contain(*given.tables, "shift_factors");
     if (status != WT_OK && status != WT_E_MEMORY && !of_samples && strcmp(from, "-") != 0) {
         if (*given.tables != NULL) { /* already in the provenance */
             work.provenance = NULL;
@@ -199,29 +202,29 @@ static wt_status read_material(const cmd_sliding *s, given_rubber given, wt_erro
     return status;
 }
 
-bool cmd_sliding_knows_layer(const cmd_sliding *s, const cmd_part *part)
+bool cmd_sliding_has_layer(const cmd_sliding *s, const cmd_option_group *part)
 {
-    return cmd_given(part, "modulus-ratio") || s->contact.layer_comparison != NULL ||
+    return cmd_option_is_given(part, "modulus-ratio") || s->contact.layer_comparison != NULL ||
            s->contact.layer_material != NULL;
 }
 
-static wt_layer_observation *known_of(cmd_sliding *s)
+static wt_layer_observation *layer_observation(cmd_sliding *s)
 {
-    return s->parts[CMD_OWN].params == wt_layer_observation_params()
-               ? (wt_layer_observation *)s->parts[CMD_OWN].structure
+    return s->parts[CMD_SUBCOMMAND].params == wt_layer_observation_params()
+               ? (wt_layer_observation *)s->parts[CMD_SUBCOMMAND].structure
                : &s->known;
 }
 
 /* Reads the modulus of the layer from files. */
-static wt_status read_layer(cmd_sliding *s, wt_error *err)
+static wt_status read_layer_modulus(cmd_sliding *s, wt_error *err)
 {
     const cmd_contact *c = &s->contact;
     const wt_table *comparison = NULL, *rates = NULL;
     wt_status status = WT_OK;
     if (c->layer_material != NULL) {
         s->conditions.layer_rubber = &s->layer_rubber;
-        return read_material(
-            s, (given_rubber){c->layer_material, NULL, &s->layer_tables, &s->layer_rubber}, err);
+        return read_sliding_material(
+            s, (material_input){c->layer_material, NULL, &s->layer_tables, &s->layer_rubber}, err);
     }
     status = wt_tables_read(c->layer_comparison, c->layer_comparison, &s->session.work,
                             (wt_tables_role){"modulus of the layer", "modulus of the layer", NULL},
@@ -232,11 +235,12 @@ static wt_status read_layer(cmd_sliding *s, wt_error *err)
     if (status == WT_OK)
         status = cmd_table_find(s->layer_tables, c->layer_comparison, "modulus_rate", "compare",
                                 &rates, err);
-    return status == WT_OK ? wt_layer_observation_by_rate(comparison, rates, known_of(s), err)
-                           : status;
+    return status == WT_OK
+               ? wt_layer_observation_from_rates(comparison, rates, layer_observation(s), err)
+               : status;
 }
 
-static wt_status read_wear(cmd_sliding *s, wt_error *err)
+static wt_status read_wear_rate(cmd_sliding *s, wt_error *err)
 {
     const char *const path = s->contact.wear_of;
     const wt_table *wear = NULL;
@@ -256,7 +260,7 @@ static wt_status read_wear(cmd_sliding *s, wt_error *err)
     return status;
 }
 
-void cmd_sliding_wear(cmd_sliding *s, wt_estimate *rate)
+void cmd_sliding_set_wear_rate(cmd_sliding *s, wt_estimate *rate)
 {
     const wt_estimate measured = s->measured_wear;
     if (s->contact.wear_of == NULL)
@@ -275,24 +279,26 @@ bool cmd_sliding_open(cmd_sliding *s)
     wt_error *err = &s->session.err;
     wt_job *work = &s->session.work;
     if (!cmd_begin_reading(&s->session, s->set.read.format) ||
-        !cmd_share_units(&s->session, &s->set.read))
+        !cmd_share_unit_options(&s->session, &s->set.read))
         return false;
     /* friction needs every input */
     wt_table_free(work->failures);
     work->failures = NULL;
-    wt_cost_stage(s->session.cost, s->contact.material != NULL ? "given_material" : "master_curve");
-    const given_rubber bulk = {s->contact.material, s->set.read.sample, &s->material_tables,
-                               &s->rubber};
-    wt_status status = bulk.from != NULL ? read_material(s, bulk, err) : fit_material(s, err);
+    wt_cost_begin_stage(s->session.cost,
+                        s->contact.material != NULL ? "given_material" : "master_curve");
+    const material_input bulk = {s->contact.material, s->set.read.sample, &s->material_tables,
+                                 &s->rubber};
+    wt_status status =
+        bulk.from != NULL ? read_sliding_material(s, bulk, err) : fit_sliding_material(s, err);
     if (status == WT_OK && s->contact.material != NULL)
-        wt_rubber_cost(&s->rubber, work);
-    bool wrong_words = status != WT_OK && is_law(s->contact.material);
+        wt_rubber_add_cost(&s->rubber, work);
+    bool wrong_words = status != WT_OK && is_law_text(s->contact.material);
     s->rubber.is_transverse = s->parts[CMD_TRANSVERSE].given != 0;
     s->rubber.transverse = s->transverse;
-    wt_cost_stage(s->session.cost, "roughness");
+    wt_cost_begin_stage(s->session.cost, "roughness");
     if (status == WT_OK) {
         status = wt_surface_open(s->contact.roughness, &s->set.read, work, &s->surface, err);
-        wrong_words = status != WT_OK && is_law(s->contact.roughness);
+        wrong_words = status != WT_OK && is_law_text(s->contact.roughness);
         if (status == WT_E_NOT_FOUND)
             wt_error_advice(err, "--roughness takes a spectrum, height maps or "
                                  "self-affine:q0=..,qr=..,q1=..,hurst=..,c0=..");
@@ -306,11 +312,11 @@ bool cmd_sliding_open(cmd_sliding *s)
     }
     if (status == WT_OK &&
         (s->contact.layer_comparison != NULL || s->contact.layer_material != NULL)) {
-        status = read_layer(s, err);
-        wrong_words = status != WT_OK && is_law(s->contact.layer_material);
+        status = read_layer_modulus(s, err);
+        wrong_words = status != WT_OK && is_law_text(s->contact.layer_material);
     }
     if (status == WT_OK && s->contact.wear_of != NULL)
-        status = read_wear(s, err);
+        status = read_wear_rate(s, err);
     s->conditions.rubber = &s->rubber;
     s->conditions.surface = &s->surface;
     if (status != WT_OK)

@@ -25,12 +25,12 @@ typedef struct cmd_contact {
     "terms-per-decade liquid shift-by temperature temperature-in-name units format sheet "         \
     "deformation strain sample sample-by"
 
-/* Option groups; CMD_OWN has those of the subcommand itself. */
+/* Option groups; CMD_SUBCOMMAND has those of the subcommand itself. */
 enum {
     CMD_CONTACT,
     CMD_CONDITIONS,
-    CMD_OWN,
-    CMD_KNOWN, /* the layer, for subcommands that need it */
+    CMD_SUBCOMMAND,
+    CMD_LAYER, /* the layer, for subcommands that need it */
     CMD_WORK,
     CMD_MASTER,
     CMD_RUBBER,
@@ -48,7 +48,7 @@ typedef struct cmd_sliding {
     wt_layer_observation known;
     wt_file_set set;
     cmd_session session;
-    cmd_part parts[CMD_SLIDING_PARTS];
+    cmd_option_group parts[CMD_SLIDING_PARTS];
     /* set by cmd_sliding_open */
     wt_result *material_tables, *layer_tables;
     wt_estimate measured_wear; /* from wear_of; value NaN: none */
@@ -58,7 +58,7 @@ typedef struct cmd_sliding {
 } cmd_sliding;
 
 /* Initialises; `own` has the options of the subcommand itself. */
-void cmd_sliding_init(cmd_sliding *s, cmd_part own);
+void cmd_sliding_init(cmd_sliding *s, cmd_option_group own);
 int cmd_sliding_free(cmd_sliding *s); /* as cmd_session_free */
 /* As cmd_parse. */
 bool cmd_sliding_parse(cmd_sliding *s, const cmd_usage *usage, int argc, char **argv);
@@ -67,8 +67,8 @@ bool cmd_sliding_parse(cmd_sliding *s, const cmd_usage *usage, int argc, char **
 bool cmd_sliding_open(cmd_sliding *s);
 /* Sets the specific wear rate from --wear-of if none is given. A given one takes precedence, with a
  * warning that states the ratio. */
-void cmd_sliding_wear(cmd_sliding *s, wt_estimate *rate);
+void cmd_sliding_set_wear_rate(cmd_sliding *s, wt_estimate *rate);
 /* True if the call states the modulus of a layer; `part` has the layer options. */
-bool cmd_sliding_knows_layer(const cmd_sliding *s, const cmd_part *part);
+bool cmd_sliding_has_layer(const cmd_sliding *s, const cmd_option_group *part);
 
 #endif

@@ -15,17 +15,18 @@ int cmd_spot(int argc, char **argv)
         .n_files = 1};
     wt_indent_job indent = wt_indent_job_defaults();
     wt_spot_job job = wt_spot_job_defaults();
-    cmd_part parts[] = {{wt_indent_job_params(), &indent, "tip", 0},
-                        {wt_spot_job_params(), &job, NULL, 0},
-                        {wt_read_params(), &job.read, "units pixel-size height-unit format", 0}};
+    cmd_option_group parts[] = {
+        {wt_indent_job_params(), &indent, "tip", 0},
+        {wt_spot_job_params(), &job, NULL, 0},
+        {wt_read_params(), &job.read, "units pixel-size height-unit format", 0}};
     cmd_session s = cmd_session_defaults();
     wt_spot_tables made = {0};
     wt_table **const tables[] = {&made.spot, &made.spot_map};
     if (cmd_parse(&s, &usage, parts, COUNT_OF(parts), argc, argv) &&
         cmd_begin_reading(&s, job.read.format)) {
         job.tip = indent.tip;
-        wt_cost_stage(s.cost, "spot");
-        const wt_status status = wt_spot_make(&job, s.files[0], &s.work, &made, &s.err);
+        wt_cost_begin_stage(s.cost, "spot");
+        const wt_status status = wt_spot_compute(&job, s.files[0], &s.work, &made, &s.err);
         cmd_finish(&s, status, tables, COUNT_OF(tables));
     }
     return cmd_session_free(&s);

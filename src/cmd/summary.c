@@ -3,30 +3,30 @@
 #include "cmd/table_output.h"
 
 /* Result of reading one file: headlines or failure. */
-typedef struct one_result {
+typedef struct file_result {
     wt_table *headlines; /* NULL after a failure */
     wt_error *failure;   /* NULL after a failure: out of memory */
     size_t n_remarks;
-} one_result;
+} file_result;
 
-typedef struct reading {
+typedef struct summary_reading {
     const char *const *files;
-    one_result *results;
-} reading;
+    file_result *results;
+} summary_reading;
 
 /* Reads one file on a worker thread. It never fails; a failure is stored. */
-static wt_status read_one(void *user, size_t i, unsigned worker)
+static wt_status read_result(void *user, size_t i, unsigned worker)
 {
-    const reading *const r = user;
-    one_result *const one = &r->results[i];
+    const summary_reading *const r = user;
+    file_result *const one = &r->results[i];
     wt_error err = WT_ERROR_INIT;
     wt_result *result = NULL;
     (void)worker;
-    wt_status read = wt_tables_read_headlines(r->files[i], &result, &err);
+    wt_status read = wt_tables_read_main_values(r->files[i], &result, &err);
     if (read == WT_OK)
-        read = wt_result_headlines(result, &one->headlines, &err);
+        read = wt_result_main_values(result, &one->headlines, &err);
     if (read == WT_OK) {
-        one->n_remarks = cmd_tables_remarks(result);
+        one->n_remarks = cmd_count_remarks(result);
     } else if ((one->failure = malloc(sizeof err)) != NULL) {
         wt_error_file(&err, r->files[i]);
         *one->failure = err;
@@ -37,16 +37,16 @@ static wt_status read_one(void *user, size_t i, unsigned worker)
 
 /* Reports failures in the order of the files and moves the files that were read to the front, with
  * their headlines. Returns their number. */
-static size_t keep_read(cmd_session *s, one_result *results, wt_table **headlines)
+static size_t collect_read_results(cmd_session *s, file_result *results, wt_table **headlines)
 {
     size_t n_read = 0;
     for (size_t i = 0; i < s->n_files; i++) {
         const char *const path = s->files[i];
-        one_result *const one = &results[i];
+        file_result *const one = &results[i];
         if (one->headlines != NULL) {
             s->files[n_read] = path;
             headlines[n_read++] = one->headlines;
-            cmd_strict_remarks(s, path, one->n_remarks);
+            cmd_apply_strict(s, path, one->n_remarks);
             continue;
         }
         if (one->failure != NULL) {
@@ -55,7 +55,7 @@ static size_t keep_read(cmd_session *s, one_result *results, wt_table **headline
             (void)wt_fail(&s->err, WT_E_MEMORY, "out of memory");
             wt_error_file(&s->err, path);
         }
-        cmd_fail_one(s);
+        cmd_report_failure(s);
         free(one->failure);
     }
     if (n_read == 0)
@@ -64,17 +64,17 @@ static size_t keep_read(cmd_session *s, one_result *results, wt_table **headline
 }
 
 /* Reads the headlines of all files in parallel; those that were read are moved to the front. */
-static wt_status read_all(cmd_session *s, wt_table **headlines, size_t *n_read)
+static wt_status read_all_results(cmd_session *s, wt_table **headlines, size_t *n_read)
 {
-    one_result *const results = calloc(s->n_files, sizeof *results);
+    file_result *const results = calloc(s->n_files, sizeof *results);
     if (results == NULL)
         return wt_fail(&s->err, WT_E_MEMORY, "out of memory");
-    reading all = {s->files, results};
+    summary_reading all = {s->files, results};
     const wt_progress progress = cmd_progress_start(s);
     const wt_status status =
-        wt_parallel_for(s->n_files, s->work.threads, read_one, &all, &progress, "result");
+        wt_parallel_for(s->n_files, s->work.threads, read_result, &all, &progress, "result");
     cmd_progress_end(s);
-    *n_read = keep_read(s, results, headlines);
+    *n_read = collect_read_results(s, results, headlines);
     free(results);
     return status == WT_OK ? WT_OK : wt_fail(&s->err, status, "%s", wt_status_text(status));
 }
@@ -90,21 +90,22 @@ int cmd_summary(int argc, char **argv)
         .exports = true,
         .notes =
             "Exit status 3 if a file could not be read, which then has no row; 1 if none could.",
-        .n_files = CMD_SOME,
+        .n_files = CMD_ONE_OR_MORE,
         .files = "no result given"};
     export_options form = {.form = WT_EXPORT_TSV};
     cmd_session s = cmd_session_defaults();
-    cmd_part parts[] = {{export_params(), &form, NULL, 0},
-                        {wt_job_params(), &s.work, "threads", 0}};
+    cmd_option_group parts[] = {{export_params(), &form, NULL, 0},
+                                {wt_job_params(), &s.work, "threads", 0}};
     wt_table *summary = NULL;
-    if (!cmd_parse(&s, &usage, parts, COUNT_OF(parts), argc, argv) || !cmd_is_text(&s))
+    if (!cmd_parse(&s, &usage, parts, COUNT_OF(parts), argc, argv) || !cmd_require_text_output(&s))
         return cmd_session_free(&s);
     size_t n_read = 0;
     wt_table **headlines = calloc(s.n_files, sizeof *headlines);
-    wt_status made = headlines != NULL ? read_all(&s, headlines, &n_read)
+    wt_status made = headlines != NULL ? read_all_results(&s, headlines, &n_read)
                                        : wt_fail(&s.err, WT_E_MEMORY, "out of memory");
     if (n_read > 0 && made == WT_OK)
-        made = wt_summary(s.files, (const wt_table *const *)headlines, n_read, &summary, &s.err);
+        made =
+            wt_summary_table(s.files, (const wt_table *const *)headlines, n_read, &summary, &s.err);
     if (n_read > 0 && made == WT_OK)
         made = export_table(&s, &parts[0], summary);
     if (made != WT_OK)

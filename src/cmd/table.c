@@ -5,18 +5,18 @@
 
 #include <string.h>
 
-typedef struct own_options {
+typedef struct table_options {
     bool list, keys;
-} own_options;
+} table_options;
 
 static const wt_param rows[] = {
-    {PARAM_FLAG_OF("list", own_options, list),
+    {PARAM_FLAG_OF("list", table_options, list),
      .help = "the tables that there are, with their rows, columns and words"},
-    {PARAM_FLAG_OF("keys", own_options, keys),
+    {PARAM_FLAG_OF("keys", table_options, keys),
      .help = "the values that belong to the whole table, with their errors and units, in place of "
              "its rows"},
 };
-CMD_OPTIONS(own_params, own_options, rows)
+CMD_OPTIONS(table_option_params, table_options, rows)
 
 /* Finds the table of that name; without a name the only table. */
 static wt_status choose_table(const wt_result *result, const char *path, const char *name,
@@ -32,7 +32,8 @@ static wt_status choose_table(const wt_result *result, const char *path, const c
         wt_fail(err, WT_E_NOT_FOUND, "there is no table '%s'", name);
     else
         wt_fail(err, WT_E_MISSING, "there are %zu tables: say which", n);
-    spell_suggestion near = nearest_to(name != NULL ? name : "", name != NULL ? strlen(name) : 0);
+    spell_suggestion near =
+        spell_suggestion_begin(name != NULL ? name : "", name != NULL ? strlen(name) : 0);
     for (size_t i = 0; i < n; i++) {
         const char *const other = wt_table_name(wt_result_table(result, i));
         spell_suggestion_try(&near, other, strlen(other));
@@ -57,13 +58,14 @@ int cmd_table(int argc, char **argv)
         .common = "output",
         .exports = true,
         .notes = "NAME may be left out if there is one table only."};
-    own_options own = {0};
+    table_options own = {0};
     export_options form = {.form = WT_EXPORT_TSV};
-    cmd_part parts[] = {{own_params(), &own, NULL, 0}, {export_params(), &form, NULL, 0}};
+    cmd_option_group parts[] = {{table_option_params(), &own, NULL, 0},
+                                {export_params(), &form, NULL, 0}};
     cmd_session s = cmd_session_defaults();
     wt_table *made = NULL;
     const wt_table *table = NULL;
-    if (!cmd_parse(&s, &usage, parts, COUNT_OF(parts), argc, argv) || !cmd_is_text(&s))
+    if (!cmd_parse(&s, &usage, parts, COUNT_OF(parts), argc, argv) || !cmd_require_text_output(&s))
         return cmd_session_free(&s);
     if (s.n_files < 1 || s.n_files > (own.list ? 1 : 2)) {
         cmd_usage_error(&s, "a result and the name of a table are needed");
@@ -80,7 +82,7 @@ int cmd_table(int argc, char **argv)
     if (read == WT_OK)
         read = export_table(&s, &parts[1], made != NULL ? made : table);
     if (read == WT_OK)
-        cmd_strict_remarks(&s, s.files[0], cmd_tables_remarks(s.result));
+        cmd_apply_strict(&s, s.files[0], cmd_count_remarks(s.result));
     else
         cmd_fail(&s);
     wt_table_free(made);

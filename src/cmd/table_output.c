@@ -3,7 +3,7 @@
 
 #include "cmd/table_output.h"
 
-bool cmd_tables_have(const wt_result *tables, const char *prefix)
+bool cmd_tables_contain(const wt_result *tables, const char *prefix)
 {
     for (size_t i = 0; tables != NULL && i < wt_result_n_tables(tables); i++)
         if (strncmp(wt_table_name(wt_result_table(tables, i)), prefix, strlen(prefix)) == 0)
@@ -16,7 +16,7 @@ wt_status cmd_tables_read(const char *path, wt_result **tables, wt_error *err)
     return wt_tables_read(path, path, NULL, (wt_tables_role){NULL, NULL, NULL}, tables, err);
 }
 
-size_t cmd_tables_remarks(const wt_result *tables)
+size_t cmd_count_remarks(const wt_result *tables)
 {
     const wt_table *notes = wt_result_find(tables, "notes");
     const long severity = notes != NULL ? wt_table_find(notes, "severity") : -1;
@@ -28,7 +28,7 @@ size_t cmd_tables_remarks(const wt_result *tables)
     return n;
 }
 
-void cmd_strict_remarks(cmd_session *s, const char *path, size_t n)
+void cmd_apply_strict(cmd_session *s, const char *path, size_t n)
 {
     if (n == 0 || !s->common.strict)
         return;
@@ -57,7 +57,7 @@ wt_status cmd_table_find(const wt_result *tables, const char *path, const char *
  */
 
 /* Returns the part after the name of a table and a slash; NULL: another table. */
-static const char *suffix_of(const wt_table *table, const char *name)
+static const char *table_suffix(const wt_table *table, const char *name)
 {
     const size_t n = strlen(name);
     const char *const own = wt_table_name(table);
@@ -65,11 +65,11 @@ static const char *suffix_of(const wt_table *table, const char *name)
 }
 
 /* True if the shifts with a suffix, or without one, have the sample's name. */
-static bool names_sample(const wt_result *tables, const char *suffix, const char *sample)
+static bool shifts_name_sample(const wt_result *tables, const char *suffix, const char *sample)
 {
     for (size_t i = 0; i < wt_result_n_tables(tables); i++) {
         const wt_table *t = wt_result_table(tables, i);
-        const char *const own = suffix_of(t, "shift_factors");
+        const char *const own = table_suffix(t, "shift_factors");
         const char *const named = wt_table_key(t, "sample");
         if (named != NULL && strcmp(named, sample) == 0 &&
             (suffix != NULL ? own != NULL && strcmp(own, suffix) == 0
@@ -79,18 +79,19 @@ static bool names_sample(const wt_result *tables, const char *suffix, const char
     return false;
 }
 
-const wt_table *cmd_table_of_sample(const wt_result *tables, const char *table, const char *sample)
+const wt_table *cmd_sample_table(const wt_result *tables, const char *table, const char *sample)
 {
     const wt_table *alone = tables != NULL ? wt_result_find(tables, table) : NULL;
     if (tables == NULL || sample == NULL)
         return alone;
     for (size_t i = 0; i < wt_result_n_tables(tables); i++) {
         const wt_table *t = wt_result_table(tables, i);
-        const char *const suffix = suffix_of(t, table);
-        if (suffix != NULL && (strcmp(suffix, sample) == 0 || names_sample(tables, suffix, sample)))
+        const char *const suffix = table_suffix(t, table);
+        if (suffix != NULL &&
+            (strcmp(suffix, sample) == 0 || shifts_name_sample(tables, suffix, sample)))
             return t;
     }
-    return alone != NULL && names_sample(tables, NULL, sample) ? alone : NULL;
+    return alone != NULL && shifts_name_sample(tables, NULL, sample) ? alone : NULL;
 }
 
 wt_status cmd_check_sample(const wt_result *tables, const char *path, const char *table,
@@ -98,10 +99,10 @@ wt_status cmd_check_sample(const wt_result *tables, const char *path, const char
 {
     char found[256] = "";
     size_t used = 0;
-    if (cmd_table_of_sample(tables, table, sample) != NULL)
+    if (cmd_sample_table(tables, table, sample) != NULL)
         return WT_OK;
     for (size_t i = 0; i < wt_result_n_tables(tables) && used < sizeof found; i++) {
-        const char *const suffix = suffix_of(wt_result_table(tables, i), table);
+        const char *const suffix = table_suffix(wt_result_table(tables, i), table);
         if (suffix != NULL)
             used += (size_t)snprintf(found + used, sizeof found - used, "%s%s",
                                      used > 0 ? ", " : "", suffix);
@@ -121,13 +122,13 @@ wt_status cmd_check_sample(const wt_result *tables, const char *path, const char
     return err->status;
 }
 
-wt_status cmd_rubber_of(const wt_result *tables, const char *path, const char *sample,
-                        double poisson_ratio, wt_rubber *rubber, wt_error *err)
+wt_status cmd_rubber_from_tables(const wt_result *tables, const char *path, const char *sample,
+                                 double poisson_ratio, wt_rubber *rubber, wt_error *err)
 {
-    wt_rubber_tables of = {.prony = cmd_table_of_sample(tables, "prony", sample),
-                           .shift_factors = cmd_table_of_sample(tables, "shift_factors", sample),
-                           .material_draws = cmd_table_of_sample(tables, "material_draws", sample),
-                           .series_draws = cmd_table_of_sample(tables, "series_draws", sample)};
+    wt_rubber_tables of = {.prony = cmd_sample_table(tables, "prony", sample),
+                           .shift_factors = cmd_sample_table(tables, "shift_factors", sample),
+                           .material_draws = cmd_sample_table(tables, "material_draws", sample),
+                           .series_draws = cmd_sample_table(tables, "series_draws", sample)};
     wt_status status = cmd_check_sample(tables, path, "prony", sample, err);
     if (status == WT_OK && of.prony == NULL)
         status = cmd_table_find(tables, path, "prony", "master", &of.prony, err);
@@ -142,6 +143,7 @@ wt_status cmd_rubber_read(const char *path, const char *sample, double poisson_r
 {
     const wt_status status = wt_tables_read(
         path, path, work, (wt_tables_role){"material", "material", NULL}, tables, err);
-    return status == WT_OK ? cmd_rubber_of(*tables, path, sample, poisson_ratio, rubber, err)
-                           : status;
+    return status == WT_OK
+               ? cmd_rubber_from_tables(*tables, path, sample, poisson_ratio, rubber, err)
+               : status;
 }

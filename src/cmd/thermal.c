@@ -12,17 +12,17 @@ int cmd_thermal(int argc, char **argv)
                 "the errors of the fit and, of several spectra, their scatter, beside the value "
                 "of the file. Folders and patterns are allowed.",
         .common = "output formats columns files-from provenance cost",
-        .n_files = CMD_SOME};
+        .n_files = CMD_ONE_OR_MORE};
     wt_thermal_job job = wt_thermal_job_defaults();
     wt_file_set set = {.read = wt_read_defaults()};
-    cmd_part parts[] = {{wt_thermal_job_params(), &job, NULL, 0},
-                        {wt_read_params(), &set.read, "sensitivity units format", 0}};
+    cmd_option_group parts[] = {{wt_thermal_job_params(), &job, NULL, 0},
+                                {wt_read_params(), &set.read, "sensitivity units format", 0}};
     cmd_session s = cmd_session_defaults();
     wt_table *made = NULL;
     wt_table **const tables[] = {&made};
     job.sets = &set;
     job.n_sets = 1;
     if (cmd_begin_job(&s, &usage, parts, COUNT_OF(parts), &set, argc, argv))
-        cmd_finish(&s, wt_thermal_make(&job, &s.work, &made, &s.err), tables, COUNT_OF(tables));
+        cmd_finish(&s, wt_thermal_compute(&job, &s.work, &made, &s.err), tables, COUNT_OF(tables));
     return cmd_session_free(&s);
 }

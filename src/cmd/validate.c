@@ -3,10 +3,11 @@
 #include "cmd/cmd.h"
 
 /* Requested tables in their order. */
-static const char asked[] = "validation validation_running_in validation_course validation_choices "
-                            "validation_sources wear";
+static const char requested_tables[] =
+    "validation validation_running_in validation_course validation_choices "
+    "validation_sources wear";
 
-static wt_status lacks_table(cmd_session *s)
+static wt_status fail_missing_validation(cmd_session *s)
 {
     wt_fail(&s->err, WT_E_MISSING, "nothing could be held against the record");
     wt_error_file(&s->err, s->files[0]);
@@ -16,31 +17,31 @@ static wt_status lacks_table(cmd_session *s)
     return WT_E_MISSING;
 }
 
-static wt_status validate_case(cmd_session *s, wt_run_options *run, cmd_part *job)
+static wt_status run_validation_case(cmd_session *s, wt_run_options *run, cmd_option_group *job)
 {
     wt_case *c = NULL;
     size_t n_failed = 0;
     wt_status status =
         s->common.output != NULL ? wt_check_overwrite(s->common.output, &s->err) : WT_OK;
     if (status == WT_OK)
-        status = cmd_try_output(s->common.output, &s->err);
+        status = cmd_check_output(s->common.output, &s->err);
     if (status == WT_OK)
         status = wt_case_read(s->files[0], &c, &s->err);
     if (status == WT_OK)
-        status = wt_case_request(c, asked, &s->err);
+        status = wt_case_request_tables(c, requested_tables, &s->err);
     if (status == WT_OK)
-        status =
-            wt_case_validate(c, s->files + 1, s->n_files - 1, job->structure, job->given, &s->err);
+        status = wt_case_set_validation(c, s->files + 1, s->n_files - 1, job->structure, job->given,
+                                        &s->err);
     if (status == WT_OK)
         status = cmd_run_case(s, c, run, &n_failed);
     wt_case_free(c);
     if (s->result != NULL && n_failed > 0)
         cmd_print_failures(s, wt_result_find(s->result, "failures"));
     if (status == WT_OK && wt_result_find(s->result, "validation") == NULL)
-        status = lacks_table(s);
+        status = fail_missing_validation(s);
     if (status == WT_OK)
-        status = cmd_provenance(s->result, &s->err);
-    return status == WT_OK ? cmd_write(s) : status;
+        status = cmd_record_provenance(s->result, &s->err);
+    return status == WT_OK ? cmd_write_result(s) : status;
 }
 
 int cmd_validate(int argc, char **argv)
@@ -58,8 +59,8 @@ int cmd_validate(int argc, char **argv)
     cmd_session s = cmd_session_defaults();
     wt_run_options run = wt_run_defaults();
     wt_validation_job job = wt_validation_job_defaults();
-    cmd_part parts[] = {{wt_validation_job_params(), &job, NULL, 0},
-                        {wt_run_params(), &run, NULL, 0}};
+    cmd_option_group parts[] = {{wt_validation_job_params(), &job, NULL, 0},
+                                {wt_run_params(), &run, NULL, 0}};
     if (!cmd_parse(&s, &usage, parts, COUNT_OF(parts), argc, argv))
         return cmd_session_free(&s);
     bool good = s.n_files > 0 || cmd_usage_error(&s, "one case file is needed");
@@ -67,7 +68,7 @@ int cmd_validate(int argc, char **argv)
     if (good) {
         s.log = wt_log_new();
         cmd_end(&s, s.log == NULL ? wt_fail(&s.err, WT_E_MEMORY, "out of memory")
-                                  : validate_case(&s, &run, &parts[0]));
+                                  : run_validation_case(&s, &run, &parts[0]));
     }
     return cmd_session_free(&s);
 }

@@ -8,37 +8,38 @@
 
 /* Two runs of one chamber agree within 1.5 K. Exports with four digits differ by 5e-4 in
  * frequency. Two amplitudes are different if their ratio exceeds 2, as in
- * dma/numerics/master_notes.c. */
-static const double same_temperature = 1.5, same_frequency = 1e-3, other_amplitude = 2;
+ * dma/numerics/master_add_notes.c. */
+static const double same_temperature = 1.5, same_frequency = 1e-3, amplitude_ratio_limit = 2;
 
 /* Amplitude of an isotherm or a temperature sweep (NaN if unmeasured) with its ranges of
  * temperature [K] and angular frequency [rad/s]. */
-typedef struct part {
+typedef struct sweep_entry {
     const char *source;
     bool is_ramp, drop;
     double amplitude, temperature[2], frequency[2];
-} part;
+} sweep_entry;
 
 /* Returns the geometric mean of the positive amplitudes, or NaN if there is none. */
 static double mean_amplitude(const double *strain, size_t n)
 {
     double sum = 0;
-    size_t known = 0;
+    size_t n_positive = 0;
     for (size_t i = 0; i < n && strain != NULL; i++)
         if (strain[i] > 0) {
             sum += log(strain[i]);
-            known++;
+            n_positive++;
         }
-    return known > 0 ? exp(sum / (double)known) : (double)NAN;
+    return n_positive > 0 ? exp(sum / (double)n_positive) : (double)NAN;
 }
 
 /* Lists the isotherms first, then the temperature sweeps. An entry without points overlaps no
  * other entry. */
-static void list_parts(const wt_sweep *sweep, part *parts)
+static void list_sweep_entries(const wt_sweep *sweep, sweep_entry *entries)
 {
     for (size_t i = 0; i < sweep->n_isotherms; i++) {
         const wt_isotherm *t = &sweep->isotherms[i];
-        *parts++ = (part){.source = t->source,
+        *entries++ =
+            (sweep_entry){.source = t->source,
                           .amplitude = mean_amplitude(t->strain, t->n),
                           .temperature = {t->temperature, t->temperature},
                           .frequency = {t->n > 0 ? t->angular_frequency[0] : (double)NAN,
@@ -46,7 +47,8 @@ static void list_parts(const wt_sweep *sweep, part *parts)
     }
     for (size_t i = 0; i < sweep->n_ramps; i++) {
         const wt_ramp *r = &sweep->ramps[i];
-        *parts++ = (part){.source = r->source,
+        *entries++ =
+            (sweep_entry){.source = r->source,
                           .is_ramp = true,
                           .amplitude = mean_amplitude(r->strain, r->n),
                           .temperature = {r->n > 0 ? r->temperature[0] : (double)NAN,
@@ -57,23 +59,23 @@ static void list_parts(const wt_sweep *sweep, part *parts)
 }
 
 /* Returns true if both share temperatures and frequencies and differ in amplitude. */
-static bool amplitudes_differ(const part *a, const part *b)
+static bool amplitudes_differ(const sweep_entry *a, const sweep_entry *b)
 {
     const double ratio = a->amplitude / b->amplitude;
     return a->temperature[0] <= b->temperature[1] + same_temperature &&
            b->temperature[0] <= a->temperature[1] + same_temperature &&
            a->frequency[0] < b->frequency[1] && b->frequency[0] < a->frequency[1] &&
-           (ratio > other_amplitude || ratio < 1 / other_amplitude);
+           (ratio > amplitude_ratio_limit || ratio < 1 / amplitude_ratio_limit);
 }
 
-static wt_status refuse_amplitudes(const part *a, const part *b, wt_error *err)
+static wt_status fail_mixed_amplitudes(const sweep_entry *a, const sweep_entry *b, wt_error *err)
 {
     const double low = 100 * fmin(a->amplitude, b->amplitude),
                  high = 100 * fmax(a->amplitude, b->amplitude);
-    const char *const what = !a->is_ramp && !b->is_ramp ? "isotherms"
-                             : a->is_ramp && b->is_ramp ? "temperature sweeps"
-                                                        : "isotherms and temperature sweeps";
-    wt_fail(err, WT_E_AMBIGUOUS, "%s of several strain amplitudes at one temperature", what);
+    const char *const sweep_kind = !a->is_ramp && !b->is_ramp ? "isotherms"
+                                   : a->is_ramp && b->is_ramp ? "temperature sweeps"
+                                                              : "isotherms and temperature sweeps";
+    wt_fail(err, WT_E_AMBIGUOUS, "%s of several strain amplitudes at one temperature", sweep_kind);
     wt_error_place(err, "%s", a->source);
     wt_error_expected(err, "those of one amplitude, for a filled rubber softens with strain");
     wt_error_found(err, "%.3g %% and %.3g %% at %.1f degC", low, high,
@@ -82,37 +84,38 @@ static wt_status refuse_amplitudes(const part *a, const part *b, wt_error *err)
     return WT_E_AMBIGUOUS;
 }
 
-static bool is_nearer(const part *a, const part *b, double wanted)
+static bool is_closer_to_target(const sweep_entry *a, const sweep_entry *b, double target)
 {
-    return fabs(log2(a->amplitude / wanted)) <= fabs(log2(b->amplitude / wanted));
+    return fabs(log2(a->amplitude / target)) <= fabs(log2(b->amplitude / target));
 }
 
 /* Warns if the requested amplitude differs by more than a factor of 2 from every measured
  * amplitude. */
-static void check_wanted(const part *parts, size_t n, double wanted, wt_log *log)
+static void warn_unmatched_strain(const sweep_entry *entries, size_t n, double target, wt_log *log)
 {
-    const part *nearest = NULL;
+    const sweep_entry *nearest = NULL;
     for (size_t i = 0; i < n; i++)
-        if (!isnan(parts[i].amplitude) &&
-            (nearest == NULL || !is_nearer(nearest, &parts[i], wanted)))
-            nearest = &parts[i];
+        if (!isnan(entries[i].amplitude) &&
+            (nearest == NULL || !is_closer_to_target(nearest, &entries[i], target)))
+            nearest = &entries[i];
     if (n > 0 && nearest == NULL)
-        wt_log_add(log, WT_WARNING, parts[0].source, NULL,
+        wt_log_add(log, WT_WARNING, entries[0].source, NULL,
                    "sweeps of one strain are asked for, but no strain amplitude was read");
-    else if (n > 0 && (nearest->amplitude / wanted > other_amplitude ||
-                       wanted / nearest->amplitude > other_amplitude))
+    else if (n > 0 && (nearest->amplitude / target > amplitude_ratio_limit ||
+                       target / nearest->amplitude > amplitude_ratio_limit))
         wt_log_add(log, WT_WARNING, nearest->source, NULL,
                    "sweeps at a strain of %.3g %% are asked for; the nearest were measured "
                    "at %.3g %%",
-                   100 * wanted, 100 * nearest->amplitude);
+                   100 * target, 100 * nearest->amplitude);
 }
 
 /* Moves the excluded sweeps to a temporary sweep and frees them. Logs the number of excluded
  * sweeps. */
-static wt_status take_out(wt_sweep *sweep, const part *parts, wt_log *log, wt_error *err)
+static wt_status remove_other_amplitudes(wt_sweep *sweep, const sweep_entry *entries, wt_log *log,
+                                         wt_error *err)
 {
     wt_sweep dropped = {0};
-    const part *const ramps = parts + sweep->n_isotherms;
+    const sweep_entry *const ramps = entries + sweep->n_isotherms;
     size_t isotherms = 0, kept = 0;
     dropped.isotherms = calloc(sweep->n_isotherms + 1, sizeof *dropped.isotherms);
     dropped.ramps = calloc(sweep->n_ramps + 1, sizeof *dropped.ramps);
@@ -121,7 +124,7 @@ static wt_status take_out(wt_sweep *sweep, const part *parts, wt_log *log, wt_er
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     }
     for (size_t i = 0; i < sweep->n_isotherms; i++)
-        if (parts[i].drop)
+        if (entries[i].drop)
             dropped.isotherms[dropped.n_isotherms++] = sweep->isotherms[i];
         else
             sweep->isotherms[isotherms++] = sweep->isotherms[i];
@@ -144,30 +147,30 @@ static wt_status take_out(wt_sweep *sweep, const part *parts, wt_log *log, wt_er
     return WT_OK;
 }
 
-wt_status flow_one_amplitude(wt_sweep *sweep, const wt_file_set *sets, size_t n_sets, wt_log *log,
-                             wt_error *err)
+wt_status flow_select_amplitude(wt_sweep *sweep, const wt_file_set *sets, size_t n_sets,
+                                wt_log *log, wt_error *err)
 {
-    const double wanted = n_sets > 0 ? sets[0].read.strain : (double)NAN;
+    const double target = n_sets > 0 ? sets[0].read.strain : (double)NAN;
     const size_t n = sweep->n_isotherms + sweep->n_ramps;
-    part *parts = calloc(n + 1, sizeof *parts);
-    wt_status status = parts == NULL ? wt_fail(err, WT_E_MEMORY, "out of memory") : WT_OK;
+    sweep_entry *entries = calloc(n + 1, sizeof *entries);
+    wt_status status = entries == NULL ? wt_fail(err, WT_E_MEMORY, "out of memory") : WT_OK;
     if (status == WT_OK)
-        list_parts(sweep, parts);
+        list_sweep_entries(sweep, entries);
     for (size_t i = 0; i < n && status == WT_OK; i++)
         for (size_t k = i + 1; k < n && status == WT_OK; k++) {
-            if (!amplitudes_differ(&parts[i], &parts[k]))
+            if (!amplitudes_differ(&entries[i], &entries[k]))
                 continue;
-            if (isnan(wanted))
-                status = refuse_amplitudes(&parts[i], &parts[k], err);
-            else if (is_nearer(&parts[i], &parts[k], wanted))
-                parts[k].drop = true;
+            if (isnan(target))
+                status = fail_mixed_amplitudes(&entries[i], &entries[k], err);
+            else if (is_closer_to_target(&entries[i], &entries[k], target))
+                entries[k].drop = true;
             else
-                parts[i].drop = true;
+                entries[i].drop = true;
         }
-    if (status == WT_OK && !isnan(wanted))
-        check_wanted(parts, n, wanted, log);
+    if (status == WT_OK && !isnan(target))
+        warn_unmatched_strain(entries, n, target, log);
     if (status == WT_OK)
-        status = take_out(sweep, parts, log, err);
-    free(parts);
+        status = remove_other_amplitudes(sweep, entries, log, err);
+    free(entries);
     return status;
 }

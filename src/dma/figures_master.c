@@ -8,79 +8,82 @@
 
 /* ---- quantities computed from both moduli ---------------------------------------------------- */
 
-static double storage_of(double storage, double loss)
+static double storage_value(double storage, double loss)
 {
     (void)loss;
     return storage;
 }
 
-static double loss_of(double storage, double loss)
+static double loss_value(double storage, double loss)
 {
     (void)storage;
     return loss;
 }
 
-static double ratio_of(double storage, double loss)
+static double loss_factor_value(double storage, double loss)
 {
     return storage > 0 ? loss / storage : (double)NAN;
 }
 
-static double size_of(double storage, double loss)
+static double modulus_magnitude(double storage, double loss)
 {
     return hypot(storage, loss);
 }
 
-static double angle_of(double storage, double loss)
+static double phase_angle_degrees(double storage, double loss)
 {
     return atan2(loss, storage) * (180 / M_PI);
 }
 
 /* A quantity with its name in the gnuplot script and the C function that sets the axis limits. */
-typedef struct combination {
+typedef struct derived_quantity {
     const char *name;
-    double (*of)(double storage, double loss);
+    double (*compute)(double storage, double loss);
     axis_scale scale;
     bool is_modulus;
-    const char *label, *behind; /* for a modulus: text before and after its letter */
-} combination;
+    const char *label, *suffix; /* for a modulus: text before and after its letter */
+} derived_quantity;
 
-static const combination storage_log = {"storage", storage_of, AXIS_LOG, true, "", "′"},
-                         storage_linear = {"storage", storage_of, AXIS_FROM_ZERO, true, "", "′"},
-                         loss_linear = {"loss", loss_of, AXIS_FROM_ZERO, true, "", "″"},
-                         loss_ratio = {"ratio", ratio_of, AXIS_LOG, false, "tan δ", ""},
-                         size_log = {"size", size_of, AXIS_LOG, true, "|", "*|"},
-                         angle = {"angle", angle_of, AXIS_FROM_ZERO, false, "δ (°)", ""};
+static const derived_quantity storage_log = {"storage", storage_value, AXIS_LOG, true, "", "′"},
+                              storage_linear = {"storage", storage_value, AXIS_FROM_ZERO, true, "",
+                                                "′"},
+                              loss_linear = {"loss", loss_value, AXIS_FROM_ZERO, true, "", "″"},
+                              loss_ratio = {"ratio", loss_factor_value, AXIS_LOG,
+                                            false,   "tan δ",           ""},
+                              size_log = {"size", modulus_magnitude, AXIS_LOG, true, "|", "*|"},
+                              angle = {"angle", phase_angle_degrees, AXIS_FROM_ZERO, false, "δ (°)",
+                                       ""};
 
 /* Data columns that all figures of the master curve share; column 0 is the frequency. */
 enum { STORAGE = 1, TEMPERATURE = 3, FITTED = 4 };
 
-static void define_combinations(figure_drawing *d)
+static void define_derived_quantities(figure_drawing *d)
 {
     text_add(&d->script, "storage(s, l) = s\nloss(s, l) = l\nratio(s, l) = s > 0 ? l/s : NaN\n"
                          "size(s, l) = sqrt(s**2 + l**2)\nangle(s, l) = atan2(l, s)*180/pi\n");
 }
 
-static char letter_of(const figure_drawing *d)
+static char drawn_modulus_letter(const figure_drawing *d)
 {
-    return drawing_letter(master_curve_words(d->table, MASTER_CURVE_KEY_DEFORMATION));
+    return modulus_letter(master_curve_key_text(d->table, MASTER_CURVE_KEY_DEFORMATION));
 }
 
-static void combined_axis(figure_drawing *d, const char *axis, const combination *c)
+static void derived_quantity_axis(figure_drawing *d, const char *axis, const derived_quantity *c)
 {
     static const schema_field number = {.quantity = WT_Q_NONE};
     const schema_field *column =
         c->is_modulus ? &master_curve_schema.columns[MASTER_CURVE_STORAGE_MODULUS] : &number;
-    const char letter[2] = {c->is_modulus ? letter_of(d) : '\0', '\0'};
+    const char letter[2] = {c->is_modulus ? drawn_modulus_letter(d) : '\0', '\0'};
     const wt_table *data = d->sections[d->data[0]];
-    value_span span = SPAN_EMPTY;
+    value_span span = EMPTY_SPAN;
     char label[64];
-    (void)snprintf(label, sizeof label, "%s%s%s", c->label, letter, c->behind);
+    (void)snprintf(label, sizeof label, "%s%s%s", c->label, letter, c->suffix);
     for (size_t row = 0; row < wt_table_n_rows(data); row++)
-        span_add(
-            &span,
-            c->of(wt_table_number(data, row, STORAGE), wt_table_number(data, row, STORAGE + 1)),
-            c->scale == AXIS_LOG);
-    if (span_empty(&span))
+        span_add(&span,
+                 c->compute(wt_table_number(data, row, STORAGE),
+                            wt_table_number(data, row, STORAGE + 1)),
+                 c->scale == AXIS_LOG);
+    if (span_is_empty(&span))
         span = (value_span){1, 1};
     if (c->scale == AXIS_LOG) {
         axis_log(d, axis, label, column, span);
@@ -93,87 +96,89 @@ static void combined_axis(figure_drawing *d, const char *axis, const combination
 /* ---- isotherms and master curve -------------------------------------------------------------- */
 
 /* Points have the colour of their temperature of measurement in all figures. */
-static void plot_points(figure_drawing *d, const char *using, const char *with)
+static void plot_measured_points(figure_drawing *d, const char *using, const char *with)
 {
-    const bool coloured = !span_empty(&d->colour);
+    const bool coloured = !span_is_empty(&d->colour);
     plot_item(d, d->data[0], "%s%s with %s %s notitle", using, coloured ? ":($4+cb_offset)" : "",
               with, coloured ? "lc palette" : "lc rgb 'black'");
 }
 
 /* Plots the interval of the fit. The data columns are value, lower limit and upper limit. */
-static void plot_band(figure_drawing *d, size_t column, const char *unit, const char *title)
+static void plot_fit_interval(figure_drawing *d, size_t column, const char *unit, const char *title)
 {
     plot_item(d, d->data[0], "($1*x_unit):($%zu*%s):($%zu*%s) with filledcurves ls 61", column + 1,
               unit, column + 2, unit);
     plot_key(d, title);
 }
 
-static const char one_spectrum[] = "one spectrum", interval_title[] = "95 % interval";
+static const char spectrum_title[] = "one spectrum", interval_title[] = "95 % interval";
 
 /* Labels the axis with the reference temperature. */
 static void reduced_axis(figure_drawing *d)
 {
     char label[DRAWING_LABEL];
-    drawing_label_at(d, label, d->figure->x.label,
-                     master_curve_value(d->table, MASTER_CURVE_KEY_REFERENCE_TEMPERATURE).value);
+    drawing_temperature_label(
+        d, label, d->figure->x.label,
+        master_curve_value(d->table, MASTER_CURVE_KEY_REFERENCE_TEMPERATURE).value);
     drawing_axis(d, "x", &d->figure->x, label, d->x);
 }
 
-static void plot_spectrum(figure_drawing *d, size_t column, const char *unit, const char *title)
+static void plot_fit_line(figure_drawing *d, size_t column, const char *unit, const char *title)
 {
     plot_item(d, d->data[0], "($1*x_unit):($%zu*%s) with lines ls 11", column, unit);
     plot_key(d, title);
 }
 
 /* Plot styles of the two moduli. */
-typedef struct marking {
+typedef struct curve_style {
     const char *storage, *loss;
-} marking;
+} curve_style;
 
-static void plot_moduli(figure_drawing *d, bool fitted, marking with)
+static void plot_moduli(figure_drawing *d, bool fitted, curve_style with)
 {
-    const char letter = letter_of(d);
+    const char letter = drawn_modulus_letter(d);
     if (fitted) {
-        plot_band(d, FITTED + 1, "y_unit", interval_title);
-        plot_band(d, FITTED + 4, "y_unit", NULL);
+        plot_fit_interval(d, FITTED + 1, "y_unit", interval_title);
+        plot_fit_interval(d, FITTED + 4, "y_unit", NULL);
     }
-    plot_points(d, "($1*x_unit):($2*y_unit)", with.storage);
-    plot_points(d, "($1*x_unit):($3*y_unit)", with.loss);
-    plot_other(d, "keyentry with %s lc rgb '#111111' title '%c′'", with.storage, letter);
-    plot_other(d, "keyentry with %s lc rgb '#111111' title '%c″'", with.loss, letter);
+    plot_measured_points(d, "($1*x_unit):($2*y_unit)", with.storage);
+    plot_measured_points(d, "($1*x_unit):($3*y_unit)", with.loss);
+    plot_expression(d, "keyentry with %s lc rgb '#111111' title '%c′'", with.storage, letter);
+    plot_expression(d, "keyentry with %s lc rgb '#111111' title '%c″'", with.loss, letter);
     if (fitted) {
-        plot_spectrum(d, FITTED + 1, "y_unit", one_spectrum);
-        plot_spectrum(d, FITTED + 4, "y_unit", NULL);
+        plot_fit_line(d, FITTED + 1, "y_unit", spectrum_title);
+        plot_fit_line(d, FITTED + 4, "y_unit", NULL);
     }
     plot_end(d);
 }
 
 /* The upper panel shows the moduli, the lower panel tan delta. */
-static void draw_over_frequency(figure_drawing *d, bool fitted, marking with)
+static void draw_frequency_panels(figure_drawing *d, bool fitted, curve_style with)
 {
     char label[64];
-    if (!drawing_data(d))
+    if (!drawing_build_data(d))
         return;
-    (void)snprintf(label, sizeof label, "%c′, %c″", letter_of(d), letter_of(d));
+    (void)snprintf(label, sizeof label, "%c′, %c″", drawn_modulus_letter(d),
+                   drawn_modulus_letter(d));
     d->width = 1.15;
     d->height = 1.6;
-    define_combinations(d);
+    define_derived_quantities(d);
     text_add(&d->script, "set multiplot layout 2,1\n");
     if (fitted)
         reduced_axis(d);
     else
         drawing_axis(d, "x", &d->figure->x, NULL, d->x);
     drawing_axis(d, "y", &d->figure->y[0], label, d->y[0]);
-    if (!span_empty(&d->colour))
+    if (!span_is_empty(&d->colour))
         drawing_axis(d, "cb", &d->figure->colour, NULL, d->colour);
     plot_moduli(d, fitted, with);
-    combined_axis(d, "y", &loss_ratio);
+    derived_quantity_axis(d, "y", &loss_ratio);
     text_add(&d->script, "unset key\nunset colorbox\n");
     if (fitted)
-        plot_band(d, FITTED + 7, "1", NULL);
-    plot_points(d, "($1*x_unit):(ratio($2,$3))", with.storage);
+        plot_fit_interval(d, FITTED + 7, "1", NULL);
+    plot_measured_points(d, "($1*x_unit):(ratio($2,$3))", with.storage);
     if (fitted)
-        plot_spectrum(d, FITTED + 7, "1", NULL);
+        plot_fit_line(d, FITTED + 7, "1", NULL);
     plot_end(d);
     text_add(&d->script, "unset multiplot\n");
 }
@@ -187,14 +192,14 @@ static size_t count_isotherms(const figure_drawing *d)
 static void draw_isotherms(figure_drawing *d)
 {
     enum { MANY = 25 };
-    static const marking few = {"linespoints ls 51", "linespoints ls 52"},
-                         many = {"lines ls 51", "lines ls 52 dt (5,3)"};
-    draw_over_frequency(d, false, d->table->n_rows > MANY * count_isotherms(d) ? many : few);
+    static const curve_style few = {"linespoints ls 51", "linespoints ls 52"},
+                             many = {"lines ls 51", "lines ls 52 dt (5,3)"};
+    draw_frequency_panels(d, false, d->table->n_rows > MANY * count_isotherms(d) ? many : few);
 }
 
 static void draw_master_curve(figure_drawing *d)
 {
-    draw_over_frequency(d, true, (marking){"points ls 51", "points ls 52"});
+    draw_frequency_panels(d, true, (curve_style){"points ls 51", "points ls 52"});
 }
 
 static void caption_isotherms(figure_drawing *d)
@@ -213,7 +218,7 @@ static void caption_master_curve(figure_drawing *d)
     const double reference =
         master_curve_value(d->table, MASTER_CURVE_KEY_REFERENCE_TEMPERATURE).value;
     const size_t n = d->table->n_rows, terms = d->tables->prony.n_rows;
-    value_span fit = SPAN_EMPTY;
+    value_span fit = EMPTY_SPAN;
 
     if (isfinite(reference))
         text_append_translated(&d->caption, " of %s",
@@ -225,7 +230,7 @@ static void caption_master_curve(figure_drawing *d)
         n, count_isotherms(d),
         translate_count(d->language, count_isotherms(d), "isotherm", "isotherms"));
     span_add_column(&fit, d->table, MASTER_CURVE_FITTED_STORAGE, true);
-    if (span_empty(&fit))
+    if (span_is_empty(&fit))
         return;
     if (terms > 0)
         text_append_translated(
@@ -239,33 +244,33 @@ static void caption_master_curve(figure_drawing *d)
 
 static void draw_step(figure_drawing *d, bool fitted)
 {
-    if (!drawing_data(d))
+    if (!drawing_build_data(d))
         return;
     drawing_axes(d);
     if (fitted)
         reduced_axis(d);
-    if (!span_empty(&d->colour) && d->n_colours == 0)
+    if (!span_is_empty(&d->colour) && d->n_colours == 0)
         drawing_axis(d, "cb", &d->figure->colour, NULL, d->colour);
     if (fitted)
-        plot_band(d, FITTED + 1, "y_unit", interval_title);
-    plot_points(d, "($1*x_unit):($2*y_unit)", "points ls 51");
+        plot_fit_interval(d, FITTED + 1, "y_unit", interval_title);
+    plot_measured_points(d, "($1*x_unit):($2*y_unit)", "points ls 51");
     drawing_colours(d, "points ls 51");
     if (fitted)
-        plot_spectrum(d, FITTED + 1, "y_unit", one_spectrum);
+        plot_fit_line(d, FITTED + 1, "y_unit", spectrum_title);
     plot_end(d);
 }
 
-static void draw_before_step(figure_drawing *d)
+static void draw_step_isotherms(figure_drawing *d)
 {
     draw_step(d, false);
 }
 
-static void draw_after_step(figure_drawing *d)
+static void draw_step_master_curve(figure_drawing *d)
 {
     draw_step(d, true);
 }
 
-static void caption_after_step(figure_drawing *d)
+static void caption_step_master_curve(figure_drawing *d)
 {
     const double reference =
         master_curve_value(d->table, MASTER_CURVE_KEY_REFERENCE_TEMPERATURE).value;
@@ -282,28 +287,28 @@ static void caption_after_step(figure_drawing *d)
 
 /* ---- superposition without a frequency ------------------------------------------------------- */
 
-static void plot_plane(figure_drawing *d, const combination *x, const combination *y, size_t column,
-                       bool line)
+static void plot_plane(figure_drawing *d, const derived_quantity *x, const derived_quantity *y,
+                       size_t column, bool line)
 {
     char using[128];
     (void)snprintf(using, sizeof using, "(%s($%zu,$%zu)*x_unit):(%s($%zu,$%zu)*y_unit)", x->name,
                    column, column + 1, y->name, column, column + 1);
     if (line)
         plot_item(d, d->data[0], "%s with lines ls 11 title '%s'", using,
-                  translate(d->language, one_spectrum));
+                  translate(d->language, spectrum_title));
     else
-        plot_points(d, using, "points ls 51");
+        plot_measured_points(d, using, "points ls 51");
 }
 
-static void draw_plane(figure_drawing *d, const combination *x, const combination *y)
+static void draw_plane(figure_drawing *d, const derived_quantity *x, const derived_quantity *y)
 {
-    if (!drawing_data(d))
+    if (!drawing_build_data(d))
         return;
     d->width = 1.15;
-    define_combinations(d);
-    combined_axis(d, "x", x);
-    combined_axis(d, "y", y);
-    if (!span_empty(&d->colour))
+    define_derived_quantities(d);
+    derived_quantity_axis(d, "x", x);
+    derived_quantity_axis(d, "y", y);
+    if (!span_is_empty(&d->colour))
         drawing_axis(d, "cb", &d->figure->colour, NULL, d->colour);
     plot_plane(d, x, y, STORAGE + 1, false);
     plot_plane(d, x, y, FITTED + 1, true);
@@ -328,7 +333,7 @@ static void draw_wicket(figure_drawing *d)
 /* ---- descriptions ---------------------------------------------------------------------------- */
 
 /* Members that all superposition plots share. */
-#define PLANE                                                                                      \
+#define PLANE_FIGURE                                                                               \
     .table = &master_curve_schema, .data_title = "master curve",                                   \
     .x = {MASTER_CURVE_ANGULAR_FREQUENCY, AXIS_LOG, "Reduced angular frequency"},                  \
     .y = {{MASTER_CURVE_STORAGE_MODULUS, AXIS_LOG, "Storage modulus"}},                            \
@@ -339,7 +344,7 @@ static void draw_wicket(figure_drawing *d)
                CURVE(MASTER_CURVE_FITTED_LOSS, DATA)}
 
 /* Figures of step experiments. Without step data no message about missing data is printed. */
-#define AFTER_STEP(id, heading, quantity, label, OWN_VALUE)                                        \
+#define STEP_MASTER_FIGURE(id, heading, quantity, label, OWN_VALUE)                                \
     {                                                                                              \
         .name = id, .title = heading, .table = &master_curve_schema, .data_title = heading,        \
         .x = {MASTER_CURVE_TIME, AXIS_LOG, "Reduced time"},                                        \
@@ -348,10 +353,10 @@ static void draw_wicket(figure_drawing *d)
         .curves = {CURVE(MASTER_CURVE_##quantity, OWN), CURVE(OWN_VALUE, DATA),                    \
                    CURVE(MASTER_CURVE_TEMPERATURE, DATA),                                          \
                    CURVE(FITTED_OF_##quantity, DATA, .with_errors = true)},                        \
-        .words = label " shifted to the reference temperature", .draw = draw_after_step,           \
-        .caption = caption_after_step                                                              \
+        .words = label " shifted to the reference temperature", .draw = draw_step_master_curve,    \
+        .caption = caption_step_master_curve                                                       \
     }
-#define BEFORE_STEP(id, heading, quantity, label, OWN_VALUE)                                       \
+#define STEP_ISOTHERM_FIGURE(id, heading, quantity, label, OWN_VALUE)                              \
     {                                                                                              \
         .name = id, .title = heading, .table = &master_curve_schema, .data_title = heading,        \
         .x = {MASTER_CURVE_OWN_TIME, AXIS_LOG, "Time"}, .y = {{OWN_VALUE, AXIS_LOG, label}},       \
@@ -359,7 +364,7 @@ static void draw_wicket(figure_drawing *d)
         .curves = {CURVE(OWN_VALUE, OWN), CURVE(MASTER_CURVE_##quantity, DATA),                    \
                    CURVE(MASTER_CURVE_TEMPERATURE, DATA)},                                         \
         .words = label " of each isotherm before any shift; colours as in the master curve.",      \
-        .draw = draw_before_step, .caption = caption_isotherms                                     \
+        .draw = draw_step_isotherms, .caption = caption_isotherms                                  \
     }
 #define FITTED_OF_RELAXATION_MODULUS MASTER_CURVE_FITTED_RELAXATION
 #define FITTED_OF_CREEP_COMPLIANCE MASTER_CURVE_FITTED_CREEP
@@ -398,14 +403,14 @@ const figure_description figures_master[] = {
      .words = "Storage and loss modulus shifted to the reference temperature",
      .draw = draw_master_curve,
      .caption = caption_master_curve},
-    BEFORE_STEP("relaxation_isotherms", "Relaxation before shifting", RELAXATION_MODULUS,
-                "Relaxation modulus", MASTER_CURVE_OWN_RELAXATION),
-    AFTER_STEP("relaxation", "Master curve of relaxation", RELAXATION_MODULUS, "Relaxation modulus",
-               MASTER_CURVE_OWN_RELAXATION),
-    BEFORE_STEP("creep_isotherms", "Creep before shifting", CREEP_COMPLIANCE, "Creep compliance",
-                MASTER_CURVE_OWN_CREEP),
-    AFTER_STEP("creep", "Master curve of creep", CREEP_COMPLIANCE, "Creep compliance",
-               MASTER_CURVE_OWN_CREEP),
+    STEP_ISOTHERM_FIGURE("relaxation_isotherms", "Relaxation before shifting", RELAXATION_MODULUS,
+                         "Relaxation modulus", MASTER_CURVE_OWN_RELAXATION),
+    STEP_MASTER_FIGURE("relaxation", "Master curve of relaxation", RELAXATION_MODULUS,
+                       "Relaxation modulus", MASTER_CURVE_OWN_RELAXATION),
+    STEP_ISOTHERM_FIGURE("creep_isotherms", "Creep before shifting", CREEP_COMPLIANCE,
+                         "Creep compliance", MASTER_CURVE_OWN_CREEP),
+    STEP_MASTER_FIGURE("creep", "Master curve of creep", CREEP_COMPLIANCE, "Creep compliance",
+                       MASTER_CURVE_OWN_CREEP),
     {.name = "shift_factors",
      .title = "Shift factors",
      .table = &shift_factors_schema,
@@ -440,7 +445,7 @@ const figure_description figures_master[] = {
     {.name = "van_gurp_palmen",
      .in_depth = true,
      .title = "Superposition: van Gurp-Palmen plot",
-     PLANE,
+     PLANE_FIGURE,
      .words = "Phase angle against the size of the modulus, shifted vertically only: frequency and "
               "horizontal shift do not enter. In a good one the isotherms lie on one line; where "
               "they fan out with temperature no horizontal shift can join them.",
@@ -448,7 +453,7 @@ const figure_description figures_master[] = {
     {.name = "wicket",
      .in_depth = true,
      .title = "Superposition: wicket plot",
-     PLANE,
+     PLANE_FIGURE,
      .words = "tan δ against the storage modulus, shifted vertically only. In a good one all "
               "temperatures lie on one line, over a glass transition an arch, the wicket; single "
               "points beside it are outliers, an isotherm beside it was measured on a changed "
@@ -457,7 +462,7 @@ const figure_description figures_master[] = {
     {.name = "cole_cole",
      .in_depth = true,
      .title = "Superposition: Cole-Cole plot",
-     PLANE,
+     PLANE_FIGURE,
      .words =
          "Loss against storage modulus on linear axes, shifted vertically only, which shows the "
          "stiff end. In a good one the isotherms follow one arc without steps; a glass that "

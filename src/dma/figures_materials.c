@@ -10,9 +10,9 @@
 static void plot_interval(figure_drawing *d, int section, const char *x, size_t column,
                           size_t group)
 {
-    value_span span = SPAN_EMPTY;
+    value_span span = EMPTY_SPAN;
     span_add_section(&span, d, section, column - 1, true);
-    if (!span_empty(&span))
+    if (!span_is_empty(&span))
         plot_item(d, section, "%s:($%zu*y_unit):($%zu*y_unit) with filledcurves ls %zu notitle", x,
                   column, column + 1, 81 + group);
 }
@@ -37,7 +37,7 @@ static void plot_materials(figure_drawing *d, size_t column, bool titled, const 
 static void draw_materials(figure_drawing *d)
 {
     enum { STORAGE = 2, LOSS = 5, FACTOR = 8 };
-    if (!drawing_data(d))
+    if (!drawing_build_data(d))
         return;
     d->height = 1.6;
     text_add(&d->script, "set multiplot layout 2,1\n");
@@ -49,10 +49,10 @@ static void draw_materials(figure_drawing *d)
     }
     plot_materials(d, STORAGE, true, "");
     plot_materials(d, LOSS, false, " dt (6,4)");
-    plot_other(d, "keyentry with lines ls 11 title '%s'",
-               translate(d->language, "storage modulus"));
-    plot_other(d, "keyentry with lines ls 11 dt (6,4) title '%s'",
-               translate(d->language, "loss modulus"));
+    plot_expression(d, "keyentry with lines ls 11 title '%s'",
+                    translate(d->language, "storage modulus"));
+    plot_expression(d, "keyentry with lines ls 11 dt (6,4) title '%s'",
+                    translate(d->language, "loss modulus"));
     plot_end(d);
     drawing_axis(d, "y", &d->figure->y[1], NULL, d->y[1]);
     text_add(&d->script, "unset key\n");
@@ -75,19 +75,19 @@ static void caption_materials(figure_drawing *d)
 /* ---- ratios ---------------------------------------------------------------------------------- */
 
 /* One column of panels, over frequency or over temperature. */
-typedef struct ratio_side {
+typedef struct ratio_panel_column {
     const char *over;
     material_ratio_column column;
     axis_scale scale;
     const char *label, *x;
     int section[DRAWING_GROUPS];
     value_span span;
-} ratio_side;
+} ratio_panel_column;
 
 static const unsigned ratio_columns[ROLES] = {MATERIAL_RATIO_STORAGE, MATERIAL_RATIO_LOSS,
                                               MATERIAL_RATIO_FACTOR};
 
-static bool find_side(figure_drawing *d, ratio_side *side, value_span y[ROLES])
+static bool load_ratio_side(figure_drawing *d, ratio_panel_column *side, value_span y[ROLES])
 {
     const schema_field *of = material_ratio_schema.columns;
     unsigned columns[1 + 3 * ROLES] = {side->column};
@@ -96,7 +96,7 @@ static bool find_side(figure_drawing *d, ratio_side *side, value_span y[ROLES])
         columns[2 + 3 * q] = of[ratio_columns[q]].low;
         columns[3 + 3 * q] = of[ratio_columns[q]].high;
     }
-    side->span = SPAN_EMPTY;
+    side->span = EMPTY_SPAN;
     for (size_t i = 0; i < d->n_groups; i++) {
         const row_filter rows = {
             {MATERIAL_RATIO_MATERIAL, MATERIAL_RATIO_OVER}, {d->groups[i], side->over}, false};
@@ -107,10 +107,10 @@ static bool find_side(figure_drawing *d, ratio_side *side, value_span y[ROLES])
             for (size_t k = 1; k <= 3; k++)
                 span_add_section(&y[q], d, side->section[i], 3 * q + k, true);
     }
-    return !span_empty(&side->span);
+    return !span_is_empty(&side->span);
 }
 
-static void draw_ratio(figure_drawing *d, const ratio_side *side, size_t q, value_span y,
+static void draw_ratio(figure_drawing *d, const ratio_panel_column *side, size_t q, value_span y,
                        bool titled)
 {
     static const char *const labels[ROLES] = {"Ratio of E′", "Ratio of E″", "Ratio of tan δ"};
@@ -128,7 +128,7 @@ static void draw_ratio(figure_drawing *d, const ratio_side *side, size_t q, valu
         text_add(&d->script, "unset key\n");
     for (size_t i = 0; i < d->n_groups; i++)
         plot_interval(d, side->section[i], side->x, column + 1, i + 1);
-    plot_other(d, "1 with lines ls 12 notitle");
+    plot_expression(d, "1 with lines ls 12 notitle");
     for (size_t i = 0; i < d->n_groups; i++) {
         plot_item(d, side->section[i], "%s:($%zu*y_unit) with lines ls %zu", side->x, column,
                   i + 2);
@@ -144,18 +144,18 @@ static void draw_ratio(figure_drawing *d, const ratio_side *side, size_t q, valu
  * temperature exists if there are several temperatures. */
 static void draw_material_ratio(figure_drawing *d)
 {
-    ratio_side sides[] = {{.over = "frequency",
-                           .column = MATERIAL_RATIO_ANGULAR_FREQUENCY,
-                           .scale = AXIS_LOG,
-                           .label = "Angular frequency",
-                           .x = "($1*x_unit)"},
-                          {.over = "temperature",
-                           .column = MATERIAL_RATIO_TEMPERATURE,
-                           .scale = AXIS_LINEAR,
-                           .label = "Temperature",
-                           .x = "($1+x_offset)"}};
-    value_span y[ROLES] = {SPAN_EMPTY, SPAN_EMPTY, SPAN_EMPTY};
-    const bool left = find_side(d, &sides[0], y), right = find_side(d, &sides[1], y);
+    ratio_panel_column sides[] = {{.over = "frequency",
+                                   .column = MATERIAL_RATIO_ANGULAR_FREQUENCY,
+                                   .scale = AXIS_LOG,
+                                   .label = "Angular frequency",
+                                   .x = "($1*x_unit)"},
+                                  {.over = "temperature",
+                                   .column = MATERIAL_RATIO_TEMPERATURE,
+                                   .scale = AXIS_LINEAR,
+                                   .label = "Temperature",
+                                   .x = "($1+x_offset)"}};
+    value_span y[ROLES] = {EMPTY_SPAN, EMPTY_SPAN, EMPTY_SPAN};
+    const bool left = load_ratio_side(d, &sides[0], y), right = load_ratio_side(d, &sides[1], y);
     if (!left || d->status != WT_OK)
         return;
     d->width = right ? 1.6 : 1;
@@ -171,11 +171,11 @@ static void draw_material_ratio(figure_drawing *d)
 
 static void caption_material_ratio(figure_drawing *d)
 {
-    const char *settled = material_ratio_words(d->table, MATERIAL_RATIO_KEY_SETTLED_BY);
+    const char *settled = material_ratio_key_text(d->table, MATERIAL_RATIO_KEY_SETTLED_BY);
     const double at = material_ratio_value(d->table, MATERIAL_RATIO_KEY_TEMPERATURE).value;
     const wt_estimate frequency = material_ratio_value(d->table, MATERIAL_RATIO_KEY_FREQUENCY);
     text_append_translated(&d->caption, " Divided by %s.",
-                           material_ratio_words(d->table, MATERIAL_RATIO_KEY_FIRST));
+                           material_ratio_key_text(d->table, MATERIAL_RATIO_KEY_FIRST));
     if (isfinite(at))
         text_append_translated(&d->caption, " Over frequency: at %s.",
                                VALUE(d->language, WT_Q_TEMPERATURE, NULL, at));
@@ -183,7 +183,7 @@ static void caption_material_ratio(figure_drawing *d)
         text_append_translated(&d->caption, " Over temperature: at %s.",
                                ESTIMATE(d->language, &frequency));
     text_append_translated(&d->caption, " Do they differ? %s.",
-                           material_ratio_words(d->table, MATERIAL_RATIO_KEY_DIFFERS));
+                           material_ratio_key_text(d->table, MATERIAL_RATIO_KEY_DIFFERS));
     if (settled != NULL)
         text_append_translated(&d->caption, " What would settle it: %s.", settled);
 }
@@ -193,10 +193,10 @@ static void caption_material_ratio(figure_drawing *d)
 /* The upper panel shows the shifts with the shared law. The lower panel shows the difference of
  * each sample's separate law. Data columns: temperature, shift, its error, then law and
  * difference with their limits. */
-static void draw_common_law(figure_drawing *d)
+static void draw_shared_shift_law(figure_drawing *d)
 {
     enum { SHIFT = 2, LAW = 4, DIFFERENCE = 7 };
-    if (!drawing_data(d))
+    if (!drawing_build_data(d))
         return;
     d->height = 1.6;
     text_add(&d->script, "set multiplot layout 2,1\n");
@@ -214,13 +214,13 @@ static void draw_common_law(figure_drawing *d)
     }
     plot_end(d);
     value_span span = d->y[1];
-    if (!span_empty(&span)) {
+    if (!span_is_empty(&span)) {
         span_add(&span, 0, false);
         text_add(&d->script, "unset key\n");
         drawing_axis(d, "y", &d->figure->y[1], NULL, span);
         text_format(&d->script, "set ylabel '%s'\n",
                     translate(d->language, "Own law against it (decades)"));
-        plot_other(d, "0 with lines ls 12 notitle");
+        plot_expression(d, "0 with lines ls 12 notitle");
         for (size_t i = 0; i < d->n_groups; i++)
             plot_item(d, d->data[i],
                       "($1+x_offset):($%d):($%d):($%d) with yerrorbars ls %zu notitle", DIFFERENCE,
@@ -230,12 +230,12 @@ static void draw_common_law(figure_drawing *d)
     text_add(&d->script, "unset multiplot\n");
 }
 
-static void caption_common_law(figure_drawing *d)
+static void caption_shared_shift_law(figure_drawing *d)
 {
-    const char *settled = shared_shift_law_words(d->table, SHARED_SHIFT_LAW_KEY_SETTLED_BY);
+    const char *settled = shared_shift_law_key_text(d->table, SHARED_SHIFT_LAW_KEY_SETTLED_BY);
     text_append_translated(&d->caption, " Reference temperatures: %s. One law? %s.",
-                           shared_shift_law_words(d->table, SHARED_SHIFT_LAW_KEY_MOVED),
-                           shared_shift_law_words(d->table, SHARED_SHIFT_LAW_KEY_AGREE));
+                           shared_shift_law_key_text(d->table, SHARED_SHIFT_LAW_KEY_MOVED),
+                           shared_shift_law_key_text(d->table, SHARED_SHIFT_LAW_KEY_AGREE));
     if (settled != NULL)
         text_append_translated(&d->caption, " What would settle it: %s.", settled);
 }
@@ -289,7 +289,7 @@ const figure_description figures_materials[] = {
               "about the one law fitted to all (lines; bands: 95 % intervals) and, below, what the "
               "law of each alone has more, from the middle of its isotherms on (bars: limits on "
               "the safe side of 95 %).",
-     .draw = draw_common_law,
-     .caption = caption_common_law},
+     .draw = draw_shared_shift_law,
+     .caption = caption_shared_shift_law},
     {.name = NULL},
 };

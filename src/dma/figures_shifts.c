@@ -11,9 +11,9 @@
 
 /* Returns the temperature range of the isotherms that determine the law. The law is drawn only
  * there. */
-static value_span span_of_law(const figure_drawing *d)
+static value_span law_temperature_span(const figure_drawing *d)
 {
-    value_span span = SPAN_EMPTY;
+    value_span span = EMPTY_SPAN;
     for (size_t row = 0; row < d->table->n_rows; row++)
         if (shift_factors_get(d->table, row, SHIFT_FACTORS_DETERMINED) != 0)
             span_add(&span, shift_factors_get(d->table, row, SHIFT_FACTORS_TEMPERATURE), true);
@@ -22,7 +22,7 @@ static value_span span_of_law(const figure_drawing *d)
 
 /* Writes the fitted law, with the offset of the reference isotherm, as gnuplot functions. They
  * are limited to the determined range, which never includes the pole. */
-static bool define_law(figure_drawing *d)
+static bool define_shift_law(figure_drawing *d)
 {
     const table_view *shifts = d->table;
     const double c1 = shift_factors_value(shifts, SHIFT_FACTORS_KEY_WLF_C1).value,
@@ -33,16 +33,17 @@ static bool define_law(figure_drawing *d)
                  reference =
                      shift_factors_value(shifts, SHIFT_FACTORS_KEY_REFERENCE_TEMPERATURE).value;
     const bool has_wlf = isfinite(c1) && isfinite(c2), has_energy = isfinite(energy);
-    const value_span over = span_of_law(d);
-    if ((!has_wlf && !has_energy) || !isfinite(reference) || !isfinite(offset) || span_empty(&over))
+    const value_span over = law_temperature_span(d);
+    if ((!has_wlf && !has_energy) || !isfinite(reference) || !isfinite(offset) ||
+        span_is_empty(&over))
         return false;
     /* joint [K] converted to degrees Celsius; WLF applies above it, Arrhenius below */
-    const double at = isfinite(joint) ? joint - WT_ZERO_CELSIUS : has_wlf ? -300 : 1e6;
+    const double joint_celsius = isfinite(joint) ? joint - WT_ZERO_CELSIUS : has_wlf ? -300 : 1e6;
     text_format(&d->script, "c1 = %s; c2 = %s; t_ref = %s; offset = %s\n",
                 LITERAL(has_wlf ? c1 : 0), LITERAL(has_wlf ? c2 : 1),
                 LITERAL(reference - WT_ZERO_CELSIUS), LITERAL(offset));
     text_format(&d->script, "slope = %s; joint = %s; t_low = %s; t_high = %s\n",
-                LITERAL(has_energy ? energy / (GAS_CONSTANT * M_LN10) : 0), LITERAL(at),
+                LITERAL(has_energy ? energy / (GAS_CONSTANT * M_LN10) : 0), LITERAL(joint_celsius),
                 LITERAL(over.low - WT_ZERO_CELSIUS), LITERAL(over.high - WT_ZERO_CELSIUS));
     text_add(&d->script,
              "upper(t) = t > joint ? t : joint\nlower(t) = t < joint ? t : joint\n"
@@ -65,15 +66,15 @@ static size_t count_undetermined(const table_view *shift_factors)
 }
 
 /* Range of the residuals of the law. The data columns are shift, its error, a flag and the law. */
-static value_span span_residual(const figure_drawing *d, double offset)
+static value_span residual_span(const figure_drawing *d, double offset)
 {
     const wt_table *data = d->sections[d->data[0]];
-    value_span span = SPAN_EMPTY;
+    value_span span = EMPTY_SPAN;
     for (size_t row = 0; row < wt_table_n_rows(data); row++) {
         const double law = wt_table_number(data, row, 4), error = wt_table_number(data, row, 2);
-        const double left = wt_table_number(data, row, 1) - offset - law;
-        span_add(&span, left - error, false);
-        span_add(&span, left + error, false);
+        const double residual = wt_table_number(data, row, 1) - offset - law;
+        span_add(&span, residual - error, false);
+        span_add(&span, residual + error, false);
         span_add(&span, wt_table_number(data, row, 5) - law, false);
         span_add(&span, wt_table_number(data, row, 6) - law, false);
     }
@@ -84,21 +85,21 @@ static value_span span_residual(const figure_drawing *d, double offset)
 static void plot_residual(figure_drawing *d)
 {
     const double offset = shift_factors_value(d->table, SHIFT_FACTORS_KEY_OFFSET).value;
-    drawing_axis(d, "y", &d->figure->y[1], NULL, span_residual(d, offset));
+    drawing_axis(d, "y", &d->figure->y[1], NULL, residual_span(d, offset));
     text_add(&d->script, "unset key\n");
     text_format(&d->script, "set ylabel '%s' enhanced\n",
                 translate(d->language, "Residual, log_{10} a_T"));
     plot_item(d, d->data[0],
               "($1+x_offset):(over($1+x_offset,$6)-$5):($7-$5) with filledcurves ls 61 "
               "notitle");
-    plot_other(d, "0 with lines ls 11 notitle");
+    plot_expression(d, "0 with lines ls 11 notitle");
     plot_item(d, d->data[0],
               "($1+x_offset):($4 == 0 ? NaN : $2-offset-$5):3 with yerrorbars ls 1 notitle");
     plot_end(d);
 }
 
 /* Returns true if the law was stated. Only a fitted law has a standard error. */
-static bool law_is_given(const table_view *shifts)
+static bool law_is_stated(const table_view *shifts)
 {
     const wt_estimate slope = shift_factors_value(shifts, SHIFT_FACTORS_KEY_LAW_SLOPE);
     return isfinite(slope.value) && !isfinite(slope.standard_error);
@@ -107,12 +108,12 @@ static bool law_is_given(const table_view *shifts)
 /* The upper panel shows the shifts and their law, the lower panel the residuals. */
 void draw_shift_factors(figure_drawing *d)
 {
-    if (!drawing_data(d))
+    if (!drawing_build_data(d))
         return;
     drawing_axes(d);
     text_format(&d->script, "set ylabel '%s' enhanced\n",
                 translate(d->language, "Shift factor, log_{10} a_T"));
-    const bool law = define_law(d);
+    const bool law = define_shift_law(d);
     if (law) {
         d->height = 1.6;
         text_add(&d->script, "set multiplot layout 2,1\n");
@@ -120,8 +121,9 @@ void draw_shift_factors(figure_drawing *d)
                   "($1+x_offset):(over($1+x_offset,$6)+offset):($7+offset) with filledcurves ls 61 "
                   "title '%s'",
                   translate(d->language, "95 % interval of the law"));
-        plot_other(d, "law(x) with lines ls 11 title '%s'",
-                   translate(d->language, law_is_given(d->table) ? "given law" : "fitted law"));
+        plot_expression(
+            d, "law(x) with lines ls 11 title '%s'",
+            translate(d->language, law_is_stated(d->table) ? "given law" : "fitted law"));
     }
     plot_item(d, d->data[0], "($1+x_offset):($4 == 0 ? NaN : $2):3 with yerrorbars ls 1 title '%s'",
               translate(d->language, "from overlap"));
@@ -143,12 +145,12 @@ void caption_shift_factors(figure_drawing *d)
     const wt_estimate c1 = shift_factors_value(d->table, SHIFT_FACTORS_KEY_WLF_C1),
                       c2 = shift_factors_value(d->table, SHIFT_FACTORS_KEY_WLF_C2),
                       energy = shift_factors_value(d->table, SHIFT_FACTORS_KEY_ACTIVATION_ENERGY);
-    const char *verdict = shift_factors_words(d->table, SHIFT_FACTORS_KEY_SUPERPOSITION);
+    const char *verdict = shift_factors_key_text(d->table, SHIFT_FACTORS_KEY_SUPERPOSITION);
     if (isfinite(c1.value))
         text_append_translated(
             &d->caption, " Line: WLF law with C₁ = %s and C₂ = %s, %s.", ESTIMATE(d->language, &c1),
             ESTIMATE(d->language, &c2),
-            translate(d->language, law_is_given(d->table)
+            translate(d->language, law_is_stated(d->table)
                                        ? "by which the shifts were given"
                                        : "with the offset of the reference isotherm that was "
                                          "fitted; band: its 95 % interval"));
@@ -167,8 +169,8 @@ void caption_shift_factors(figure_drawing *d)
 
 void draw_vertical_shifts(figure_drawing *d)
 {
-    const char *vertical = shift_factors_words(d->table, SHIFT_FACTORS_KEY_VERTICAL);
-    if (d->table->n_rows < 2 || strcmp(vertical, "none") == 0 || !drawing_data(d))
+    const char *vertical = shift_factors_key_text(d->table, SHIFT_FACTORS_KEY_VERTICAL);
+    if (d->table->n_rows < 2 || strcmp(vertical, "none") == 0 || !drawing_build_data(d))
         return;
     drawing_axes(d);
     text_format(&d->script, "set ylabel '%s' enhanced\n",
@@ -186,9 +188,9 @@ void caption_vertical_shifts(figure_drawing *d)
 {
     double most = 0;
     for (size_t row = 0; row < d->table->n_rows; row++) {
-        const double off = shift_factors_get(d->table, row, SHIFT_FACTORS_LOG_B) -
-                           shift_factors_get(d->table, row, SHIFT_FACTORS_LOG_B_PHYSICAL);
-        most = fmax(most, isfinite(off) ? fabs(off) : 0);
+        const double deviation = shift_factors_get(d->table, row, SHIFT_FACTORS_LOG_B) -
+                                 shift_factors_get(d->table, row, SHIFT_FACTORS_LOG_B_PHYSICAL);
+        most = fmax(most, isfinite(deviation) ? fabs(deviation) : 0);
     }
     text_append_translated(
         &d->caption,

@@ -7,7 +7,7 @@
 /* Data columns: strain, the moduli and the laws, and the frequency. */
 enum { STORAGE = 2, LOSS = 3, STORAGE_LAW = 4, LOSS_LAW = 5, FREQUENCY = 6 };
 
-static bool has_law(const figure_drawing *d)
+static bool has_kraus_law(const figure_drawing *d)
 {
     for (size_t row = 0; row < d->table->n_rows; row++)
         if (!isnan(payne_sweep_get(d->table, row, PAYNE_SWEEP_STORAGE_KRAUS)))
@@ -17,48 +17,49 @@ static bool has_law(const figure_drawing *d)
 
 /* Plots the points of a panel and the law of Kraus. Several frequencies are distinguished by
  * colour. */
-static void plot_points(figure_drawing *d, int column, int law, int style, const char *title)
+static void plot_strain_points(figure_drawing *d, int column, int law, int style, const char *title)
 {
     const bool coloured = d->colour.high > d->colour.low;
     char colour[32] = "";
     if (coloured)
         (void)snprintf(colour, sizeof colour, ":($%d*cb_unit)", FREQUENCY);
-    if (has_law(d))
+    if (has_kraus_law(d))
         plot_item(d, d->data[0], "($1*x_unit):($%d*y_unit) with lines ls 11 title '%s'", law,
                   translate(d->language, "law of Kraus"));
     plot_item(d, d->data[0], "($1*x_unit):($%d*y_unit)%s with points ls %d %s notitle", column,
               colour, style, coloured ? "lc palette" : "lc rgb 'black'");
-    plot_other(d, "keyentry with points ls %d lc rgb '#111111' title '%s'", style,
-               translate(d->language, title));
+    plot_expression(d, "keyentry with points ls %d lc rgb '#111111' title '%s'", style,
+                    translate(d->language, title));
 }
 
 /* Marks the strain at which the given fraction of the initial storage modulus remains. */
-static void plot_mark(figure_drawing *d, payne_column strain, double left, const char *title)
+static void plot_fraction_mark(figure_drawing *d, payne_column strain, double fraction,
+                               const char *title)
 {
     const unsigned columns[] = {strain, PAYNE_STORAGE_START};
     const int marks = drawing_section(d, &d->tables->payne, title, NULL, columns, 2, 2);
-    plot_item(d, marks, "($1*x_unit):(%g*$2*y_unit) with points ls 14 ps 1.5 title '%s'", left,
+    plot_item(d, marks, "($1*x_unit):(%g*$2*y_unit) with points ls 14 ps 1.5 title '%s'", fraction,
               translate(d->language, title));
 }
 
 /* The upper panel shows the storage modulus, the lower panel the loss modulus. */
 static void draw_payne(figure_drawing *d)
 {
-    if (!drawing_data(d))
+    if (!drawing_build_data(d))
         return;
-    const char letter = drawing_letter(payne_sweep_words(d->table, PAYNE_SWEEP_KEY_DEFORMATION));
+    const char letter = modulus_letter(payne_sweep_key_text(d->table, PAYNE_SWEEP_KEY_DEFORMATION));
     char storage[16], loss[16];
     (void)snprintf(storage, sizeof storage, "%c′", letter);
     (void)snprintf(loss, sizeof loss, "%c″", letter);
     d->height = 1.6;
     text_add(&d->script, "set multiplot layout 2,1\n");
     drawing_axes(d);
-    plot_points(d, STORAGE, STORAGE_LAW, 51, storage);
-    plot_mark(d, PAYNE_STRAIN_TENTH, 0.9, "a tenth lost");
-    plot_mark(d, PAYNE_STRAIN_HALF, 0.5, "half lost");
+    plot_strain_points(d, STORAGE, STORAGE_LAW, 51, storage);
+    plot_fraction_mark(d, PAYNE_STRAIN_TENTH, 0.9, "a tenth lost");
+    plot_fraction_mark(d, PAYNE_STRAIN_HALF, 0.5, "half lost");
     plot_end(d);
     drawing_axis(d, "y", &d->figure->y[1], NULL, d->y[1]);
-    plot_points(d, LOSS, LOSS_LAW, 52, loss);
+    plot_strain_points(d, LOSS, LOSS_LAW, 52, loss);
     drawing_colours(d, "points ls 51"); /* for both panels; the key of this panel has free space */
     plot_end(d);
     text_add(&d->script, "unset multiplot\n");

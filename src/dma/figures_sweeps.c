@@ -14,7 +14,7 @@ static void draw_dma_comparison(figure_drawing *d)
     static const unsigned dma[] = {DMA_COMPARISON_EQUIVALENT_FREQUENCY,
                                    DMA_COMPARISON_STORAGE_MODULUS, DMA_COMPARISON_COMPLEX_MODULUS};
     int section = drawing_section(d, d->table, "DMA", NULL, dma, 3, 2);
-    if (!drawing_data(d))
+    if (!drawing_build_data(d))
         return;
     span_add_section(&d->y[0], d, section, 1, true);
     span_add_section(&d->y[0], d, section, 2, true);
@@ -45,7 +45,7 @@ static void caption_dma_comparison(figure_drawing *d)
 
 static void draw_relaxation_spectrum(figure_drawing *d)
 {
-    if (!drawing_data(d))
+    if (!drawing_build_data(d))
         return;
     drawing_axes(d);
     plot_item(d, d->data[0],
@@ -65,8 +65,8 @@ static void plot_ramp(figure_drawing *d, int column, int style, const char *titl
     const bool coloured = d->colour.high > d->colour.low;
     plot_item(d, d->data[0], "($1+x_offset):($%d*y_unit)%s with points ls %d %s notitle", column,
               coloured ? ":($5*cb_unit)" : "", style, coloured ? "lc palette" : "lc rgb 'black'");
-    plot_other(d, "keyentry with points ls %d lc rgb '#111111' title '%s'", style,
-               translate(d->language, title));
+    plot_expression(d, "keyentry with points ls %d lc rgb '#111111' title '%s'", style,
+                    translate(d->language, title));
 }
 
 static void plot_peaks(figure_drawing *d, glass_transition_column peak, const char *title)
@@ -81,9 +81,9 @@ static void plot_peaks(figure_drawing *d, glass_transition_column peak, const ch
 /* The upper panel shows the moduli, the lower panel the loss factor. */
 static void draw_ramp(figure_drawing *d)
 {
-    if (!drawing_data(d))
+    if (!drawing_build_data(d))
         return;
-    const char letter = drawing_letter(ramp_words(d->table, RAMP_KEY_DEFORMATION));
+    const char letter = modulus_letter(ramp_key_text(d->table, RAMP_KEY_DEFORMATION));
     char label[64], storage[16], loss[16];
     (void)snprintf(label, sizeof label, "%c′, %c″", letter, letter);
     (void)snprintf(storage, sizeof storage, "%c′", letter);

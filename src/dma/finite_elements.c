@@ -22,13 +22,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const struct system {
+static const struct unit_system {
     const char *words;
     double stress, time, density; /* size of the unit in Pa, s and kg/m^3 */
-} systems[] = {
-    [WT_SOLID_M_KG_S] = {"metre, kilogram, second; stress in Pa", 1, 1, 1},
-    [WT_SOLID_MM_T_S] = {"millimetre, tonne, second; stress in MPa", 1e6, 1, 1e12},
-    [WT_SOLID_MM_KG_MS] = {"millimetre, kilogram, millisecond; stress in GPa", 1e9, 1e-3, 1e9}};
+} unit_systems[] = {
+    [WT_FEM_M_KG_S] = {"metre, kilogram, second; stress in Pa", 1, 1, 1},
+    [WT_FEM_MM_T_S] = {"millimetre, tonne, second; stress in MPa", 1e6, 1, 1e12},
+    [WT_FEM_MM_KG_MS] = {"millimetre, kilogram, millisecond; stress in GPa", 1e9, 1e-3, 1e9}};
 
 wt_fem_export_options wt_fem_export_options_defaults(void)
 {
@@ -61,12 +61,12 @@ PARAM_TABLE(wt_fem_export_options_params, wt_fem_export_options, rows,
             wt_fem_export_options_defaults, NO_PARTS)
 
 /* Material data in the units of the file. */
-typedef struct solid {
+typedef struct fem_material {
     FILE *out;
     const char *comment; /* start of a comment line */
     wt_rubber rubber;
     table_view series, shifts_of; /* shifts_of.table is NULL if the shift factors are unknown */
-    const struct system *system;
+    const struct unit_system *unit_system;
     const wt_fem_export_options *options;
     const char *name;
     bool incompressible;
@@ -78,10 +78,10 @@ typedef struct solid {
     double fastest;  /* storage modulus (Young's) at the highest measured frequency */
     size_t n_levels; /* number of temperature levels; 1: the moduli do not depend on temperature */
     double *level, *factor; /* temperature and the factor on the moduli there */
-} solid;
+} fem_material;
 
-static void print_solid(solid *s, const char *format, ...) WT_PRINTF(2, 3);
-static void print_solid(solid *s, const char *format, ...)
+static void write_formatted(fem_material *s, const char *format, ...) WT_PRINTF(2, 3);
+static void write_formatted(fem_material *s, const char *format, ...)
 {
     va_list list;
     const locale_t before = clocale_enter();
@@ -93,31 +93,32 @@ static void print_solid(solid *s, const char *format, ...)
 
 /* ---- values from the tables ------------------------------------------------------------------ */
 
-static double shear_of(const solid *s, double young)
+static double shear_modulus(const fem_material *s, double young)
 {
     return young / (2 * (1 + s->nu));
 }
 
-static double bulk_of(const solid *s, double young)
+static double bulk_modulus(const fem_material *s, double young)
 {
     return young / (3 * (1 - 2 * s->nu));
 }
 
 /* The Arrhenius law is a WLF law with its pole at absolute zero, for any reference temperature. */
-static void arrhenius_as_wlf(double activation_energy, double about, double *c1, double *c2)
+static void arrhenius_to_wlf(double activation_energy, double about, double *c1, double *c2)
 {
     *c1 = -2 * wt_arrhenius_log_shift(activation_energy, about, 2 * about);
     *c2 = about;
 }
 
 /* Sets the WLF constants. For a joined law it uses the branch at the reference temperature. */
-static void take_law(solid *s)
+static void set_wlf_constants(fem_material *s)
 {
     const wt_shift_law *law = &s->rubber.law;
     const double reference = s->rubber.prony.reference_temperature;
     s->shifts = law->kind != WT_LAW_NONE;
-    if (law->kind == WT_LAW_ARRHENIUS || (law->kind == WT_LAW_JOINED && reference < law->joint)) {
-        arrhenius_as_wlf(law->activation_energy, reference, &s->c1, &s->c2);
+    if (law->kind == WT_LAW_ARRHENIUS ||
+        (law->kind == WT_LAW_WLF_ARRHENIUS && reference < law->joint)) {
+        arrhenius_to_wlf(law->activation_energy, reference, &s->c1, &s->c2);
     } else {
         s->c1 = law->wlf.c1;
         s->c2 = law->wlf.c2;
@@ -126,7 +127,7 @@ static void take_law(solid *s)
 
 /* Fills the temperature levels with their factors. A reference outside the isotherms becomes a
  * level with factor 1. */
-static wt_status take_levels(solid *s, wt_error *err)
+static wt_status set_modulus_factors(fem_material *s, wt_error *err)
 {
     const wt_rubber *r = &s->rubber;
     const double reference = r->prony.reference_temperature;
@@ -154,11 +155,11 @@ static wt_status take_levels(solid *s, wt_error *err)
 }
 
 /* Converts the series to Young's moduli in the units of the file. */
-static wt_status take_series(solid *s, wt_error *err)
+static wt_status scale_series(fem_material *s, wt_error *err)
 {
     wt_prony *p = &s->rubber.prony;
     const double to_young = p->deformation == WT_SHEAR ? 2 * (1 + s->nu) : 1;
-    const double scale = to_young / s->system->stress;
+    const double scale = to_young / s->unit_system->stress;
     if (isnan(p->reference_temperature))
         return wt_fail(err, WT_E_MISSING, "the reference temperature of the series is not known");
     s->reference = p->reference_temperature - s->zero;
@@ -166,13 +167,13 @@ static wt_status take_series(solid *s, wt_error *err)
     for (size_t i = 0; i < p->n; i++) {
         const double x = pow(p->frequency_max * p->relaxation_time[i], 2);
         p->modulus[i] *= scale;
-        p->relaxation_time[i] /= s->system->time;
+        p->relaxation_time[i] /= s->unit_system->time;
         s->instant += p->modulus[i];
         s->fastest += p->modulus[i] * x / (1 + x);
     }
     if (!(s->instant > 0))
         return wt_fail(err, WT_E_RANGE, "the series has no modulus");
-    if (s->options->domain == WT_SOLID_FREQUENCY && !(s->long_term > 0)) {
+    if (s->options->domain == WT_FEM_FREQUENCY && !(s->long_term > 0)) {
         wt_fail(err, WT_E_RANGE,
                 "the series has no modulus in the end, which the frequency domain "
                 "of Abaqus begins with");
@@ -186,7 +187,7 @@ static wt_status take_series(solid *s, wt_error *err)
 
 /* Writes the other branch of a joined law as a comment for a user subroutine. The programs
  * accept only one branch. */
-static void say_other_branch(solid *s)
+static void write_other_branch(fem_material *s)
 {
     const wt_shift_law *law = &s->rubber.law;
     const bool below = s->reference + s->zero < law->joint;
@@ -196,43 +197,43 @@ static void say_other_branch(solid *s)
         c1 = law->wlf.c1 * law->wlf.c2 / (law->wlf.c2 + from);
         c2 = law->wlf.c2 + from;
     } else {
-        arrhenius_as_wlf(law->activation_energy, law->joint, &c1, &c2);
+        arrhenius_to_wlf(law->activation_energy, law->joint, &c1, &c2);
     }
-    print_solid(s,
-                "%sOnly %s Tj = %.6g. On the other side it is log10 aT = %.12g - C1 (T - Tj)/"
-                "(C2 + T - Tj)\n%swith C1 = %.12g and C2 = %.12g (%s), which is not in the cards "
-                "below.\n",
-                s->comment, below ? "below" : "above", law->joint - s->zero,
-                wt_shift_law_log_a(law, law->joint), s->comment, c1, c2,
-                below ? "WLF" : "Arrhenius");
+    write_formatted(
+        s,
+        "%sOnly %s Tj = %.6g. On the other side it is log10 aT = %.12g - C1 (T - Tj)/"
+        "(C2 + T - Tj)\n%swith C1 = %.12g and C2 = %.12g (%s), which is not in the cards "
+        "below.\n",
+        s->comment, below ? "below" : "above", law->joint - s->zero,
+        wt_shift_law_log_a(law, law->joint), s->comment, c1, c2, below ? "WLF" : "Arrhenius");
 }
 
-static void say_law(solid *s)
+static void write_shift_law(fem_material *s)
 {
     const wt_shift_law *law = &s->rubber.law;
     const double zero = s->zero;
     if (!s->shifts) {
-        print_solid(s, "%sNo law of the shifts: for the reference temperature alone.\n",
-                    s->comment);
+        write_formatted(s, "%sNo law of the shifts: for the reference temperature alone.\n",
+                        s->comment);
         return;
     }
-    print_solid(
+    write_formatted(
         s,
         "%sShift: log10 aT = -C1 (T - T0)/(C2 + T - T0), relaxation times are multiplied by aT.\n",
         s->comment);
     if (law->kind == WT_LAW_ARRHENIUS)
-        print_solid(
+        write_formatted(
             s, "%sThis is the Arrhenius law, %.6g kJ/mol, to which C2 = T0 in kelvin makes it.\n",
             s->comment, law->activation_energy / 1000);
-    if (law->kind == WT_LAW_JOINED)
-        say_other_branch(s);
-    print_solid(s, "%sThe isotherms were measured from %.6g to %.6g.\n", s->comment,
-                s->rubber.temperature_min - zero, s->rubber.temperature_max - zero);
+    if (law->kind == WT_LAW_WLF_ARRHENIUS)
+        write_other_branch(s);
+    write_formatted(s, "%sThe isotherms were measured from %.6g to %.6g.\n", s->comment,
+                    s->rubber.temperature_min - zero, s->rubber.temperature_max - zero);
 }
 
 static double deviation_percent(const table_view *series, prony_reduced_key key)
 {
-    const char *words = prony_reduced_words(series, key);
+    const char *words = prony_reduced_key_text(series, key);
     double share = (double)NAN;
     if (words == NULL || !wt_number_parse(words, strlen(words), '.', &share))
         return (double)NAN;
@@ -240,55 +241,56 @@ static double deviation_percent(const table_view *series, prony_reduced_key key)
 }
 
 /* Writes the verdict on superposition, so that each exported file contains it. */
-static void say_superposition(solid *s)
+static void write_superposition(fem_material *s)
 {
     if (s->shifts_of.table != NULL) {
-        const char *verdict = shift_factors_words(&s->shifts_of, SHIFT_FACTORS_KEY_SUPERPOSITION);
-        const char *route = shift_factors_words(&s->shifts_of, SHIFT_FACTORS_KEY_ROUTE);
+        const char *verdict =
+            shift_factors_key_text(&s->shifts_of, SHIFT_FACTORS_KEY_SUPERPOSITION);
+        const char *route = shift_factors_key_text(&s->shifts_of, SHIFT_FACTORS_KEY_ROUTE);
         if (verdict != NULL)
-            print_solid(s, "%sTime-temperature superposition: %s.\n", s->comment, verdict);
+            write_formatted(s, "%sTime-temperature superposition: %s.\n", s->comment, verdict);
         if (route != NULL)
-            print_solid(s, "%sShifts by: %s.\n", s->comment, route);
+            write_formatted(s, "%sShifts by: %s.\n", s->comment, route);
     }
     if (isfinite(s->fastest))
-        print_solid(
+        write_formatted(
             s,
             "%sThe modulus at once is an extrapolation: at the highest frequency measured the "
             "storage modulus is %.6g,\n%sand %.2g %% of the modulus at once lies beyond it.\n",
             s->comment, s->fastest, s->comment, 100 * (1 - s->fastest / s->instant));
 }
 
-static void say_series(solid *s)
+static void write_fem_header(fem_material *s)
 {
     const table_view *v = &s->series;
     const wt_prony *p = &s->rubber.prony;
-    print_solid(
+    write_formatted(
         s, "%sProny series of %zu terms from a dynamic mechanical analysis in %s, weartrack %s\n",
         s->comment, p->n, flow_deformation_name(p->deformation), wt_version());
-    print_solid(s, "%sUnits: %s; temperatures in %s.\n", s->comment, s->system->words,
-                s->zero > 0 ? "degrees Celsius" : "kelvin");
-    print_solid(
+    write_formatted(s, "%sUnits: %s; temperatures in %s.\n", s->comment, s->unit_system->words,
+                    s->zero > 0 ? "degrees Celsius" : "kelvin");
+    write_formatted(
         s,
         "%sReference temperature %.10g. Young's modulus %.6g at once, %.6g in the end; shear "
         "modulus %.6g, %.6g.\n",
-        s->comment, s->reference, s->instant, s->long_term, shear_of(s, s->instant),
-        shear_of(s, s->long_term));
+        s->comment, s->reference, s->instant, s->long_term, shear_modulus(s, s->instant),
+        shear_modulus(s, s->long_term));
     if (s->incompressible)
-        print_solid(s, "%sIncompressible: Poisson's ratio 0.5, no bulk modulus.\n", s->comment);
+        write_formatted(s, "%sIncompressible: Poisson's ratio 0.5, no bulk modulus.\n", s->comment);
     else
-        print_solid(
+        write_formatted(
             s,
             "%sPoisson's ratio %.6g at all times, so that bulk and shear modulus relax alike; "
             "bulk modulus %.6g, %.6g.\n",
-            s->comment, s->nu, bulk_of(s, s->instant), bulk_of(s, s->long_term));
-    print_solid(s,
-                "%sHolds for times from %s at the reference temperature; what is faster or "
-                "slower was not measured.\n",
-                s->comment,
-                format_range(1 / p->frequency_max / s->system->time,
-                             1 / p->frequency_min / s->system->time, 3)
-                    .text);
-    print_solid(
+            s->comment, s->nu, bulk_modulus(s, s->instant), bulk_modulus(s, s->long_term));
+    write_formatted(s,
+                    "%sHolds for times from %s at the reference temperature; what is faster or "
+                    "slower was not measured.\n",
+                    s->comment,
+                    format_range(1 / p->frequency_max / s->unit_system->time,
+                                 1 / p->frequency_min / s->unit_system->time, 3)
+                        .text);
+    write_formatted(
         s,
         "%sStorage and loss modulus are within %.2g %% and %.2g %% of the spectrum that was "
         "fitted; "
@@ -297,117 +299,121 @@ static void say_series(solid *s)
         deviation_percent(v, PRONY_REDUCED_KEY_DEVIATION_LOSS), s->comment,
         deviation_percent(v, PRONY_REDUCED_KEY_INTERVAL_STORAGE),
         deviation_percent(v, PRONY_REDUCED_KEY_INTERVAL_LOSS));
-    say_superposition(s);
-    say_law(s);
+    write_superposition(s);
+    write_shift_law(s);
     if (s->n_levels > 1)
-        print_solid(s, "%sThe moduli at each isotherm have its vertical shift in them.\n",
-                    s->comment);
+        write_formatted(s, "%sThe moduli at each isotherm have its vertical shift in them.\n",
+                        s->comment);
     if (!(s->long_term > 0))
-        print_solid(s, "%sNo long-term modulus: the material flows, and the shares add up to 1.\n",
-                    s->comment);
+        write_formatted(s,
+                        "%sNo long-term modulus: the material flows, and the shares add up to 1.\n",
+                        s->comment);
 }
 
 /* ---- the programs ---------------------------------------------------------------------------- */
 
-static double term_share(const solid *s, size_t i)
+static double term_share(const fem_material *s, size_t i)
 {
     return s->rubber.prony.modulus[i] / s->instant;
 }
 
-static void write_abaqus(solid *s)
+static void write_abaqus(fem_material *s)
 {
     const wt_prony *p = &s->rubber.prony;
-    const bool frequency = s->options->domain == WT_SOLID_FREQUENCY;
+    const bool frequency = s->options->domain == WT_FEM_FREQUENCY;
     const char *moduli = frequency ? "LONG TERM" : "INSTANTANEOUS";
-    print_solid(s, "*MATERIAL, NAME=%s\n", s->name);
+    write_formatted(s, "*MATERIAL, NAME=%s\n", s->name);
     if (!isnan(s->options->density))
-        print_solid(s, "*DENSITY\n%.12g,\n", s->options->density / s->system->density);
+        write_formatted(s, "*DENSITY\n%.12g,\n", s->options->density / s->unit_system->density);
     if (!isnan(s->options->expansion))
-        print_solid(s, "*EXPANSION\n%.12g,\n", s->options->expansion);
+        write_formatted(s, "*EXPANSION\n%.12g,\n", s->options->expansion);
     if (s->incompressible) {
-        print_solid(s, "** neo-Hooke with D1 = 0: elements with hybrid formulation\n");
-        print_solid(s, "*HYPERELASTIC, NEO HOOKE, MODULI=%s\n", moduli);
+        write_formatted(s, "** neo-Hooke with D1 = 0: elements with hybrid formulation\n");
+        write_formatted(s, "*HYPERELASTIC, NEO HOOKE, MODULI=%s\n", moduli);
     } else {
-        print_solid(s, "*ELASTIC, MODULI=%s\n", moduli);
+        write_formatted(s, "*ELASTIC, MODULI=%s\n", moduli);
     }
     for (size_t i = 0; i < s->n_levels; i++) {
         const double young = (frequency ? s->long_term : s->instant) * s->factor[i];
         if (s->incompressible)
-            print_solid(s, "%.12g, 0.", shear_of(s, young) / 2);
+            write_formatted(s, "%.12g, 0.", shear_modulus(s, young) / 2);
         else
-            print_solid(s, "%.12g, %.12g", young, s->nu);
+            write_formatted(s, "%.12g, %.12g", young, s->nu);
         if (s->n_levels > 1)
-            print_solid(s, ", %.10g", s->level[i]);
-        print_solid(s, "\n");
+            write_formatted(s, ", %.10g", s->level[i]);
+        write_formatted(s, "\n");
     }
-    print_solid(s, "*VISCOELASTIC, %s=PRONY\n", frequency ? "FREQUENCY" : "TIME");
+    write_formatted(s, "*VISCOELASTIC, %s=PRONY\n", frequency ? "FREQUENCY" : "TIME");
     for (size_t i = 0; i < p->n; i++)
-        print_solid(s, "%.12g, %.12g, %.12g\n", term_share(s, i),
-                    s->incompressible ? 0 : term_share(s, i), p->relaxation_time[i]);
+        write_formatted(s, "%.12g, %.12g, %.12g\n", term_share(s, i),
+                        s->incompressible ? 0 : term_share(s, i), p->relaxation_time[i]);
     if (s->shifts && !frequency)
-        print_solid(s, "*TRS, DEFINITION=WLF\n%.12g, %.12g, %.12g\n", s->reference, s->c1, s->c2);
+        write_formatted(s, "*TRS, DEFINITION=WLF\n%.12g, %.12g, %.12g\n", s->reference, s->c1,
+                        s->c2);
 }
 
 enum { ANSYS_PAIRS = 3, ANSYS_TEMPERATURES = 6 }; /* values in one input line */
 
-static void ansys_prony(solid *s, const char *what)
+static void write_ansys_prony(fem_material *s, const char *what)
 {
     const wt_prony *p = &s->rubber.prony;
-    print_solid(s, "TB,PRONY,%s,1,%zu,%s\n", s->name, p->n, what);
+    write_formatted(s, "TB,PRONY,%s,1,%zu,%s\n", s->name, p->n, what);
     for (size_t i = 0; i < p->n; i++) {
         if (i % ANSYS_PAIRS == 0)
-            print_solid(s, "TBDATA,%zu", 2 * i + 1);
-        print_solid(s, ",%.12g,%.12g", term_share(s, i), p->relaxation_time[i]);
+            write_formatted(s, "TBDATA,%zu", 2 * i + 1);
+        write_formatted(s, ",%.12g,%.12g", term_share(s, i), p->relaxation_time[i]);
         if ((i + 1) % ANSYS_PAIRS == 0 || i + 1 == p->n)
-            print_solid(s, "\n");
+            write_formatted(s, "\n");
     }
 }
 
 /* Writes up to six values, starting at index i. */
-static void ansys_row(solid *s, const char *command, const char *name, const double *value,
-                      double scale, size_t i)
+static void write_ansys_row(fem_material *s, const char *command, const char *name,
+                            const double *value, double scale, size_t i)
 {
     const size_t last = s->n_levels - i < ANSYS_TEMPERATURES ? s->n_levels : i + ANSYS_TEMPERATURES;
-    print_solid(s, "%s%s%s%zu", command, name, *name != '\0' ? "," : "", i + 1);
+    write_formatted(s, "%s%s%s%zu", command, name, *name != '\0' ? "," : "", i + 1);
     for (size_t k = i; k < last; k++)
-        print_solid(s, ",%.10g", scale * value[k]);
-    print_solid(s, "\n");
+        write_formatted(s, ",%.10g", scale * value[k]);
+    write_formatted(s, "\n");
 }
 
-static void write_ansys(solid *s)
+static void write_ansys(fem_material *s)
 {
-    print_solid(s, "%s=1 ! number of the material\n", s->name);
+    write_formatted(s, "%s=1 ! number of the material\n", s->name);
     if (!isnan(s->options->density))
-        print_solid(s, "MP,DENS,%s,%.12g\n", s->name, s->options->density / s->system->density);
+        write_formatted(s, "MP,DENS,%s,%.12g\n", s->name,
+                        s->options->density / s->unit_system->density);
     if (!isnan(s->options->expansion))
-        print_solid(s, "MP,ALPX,%s,%.12g\n", s->name, s->options->expansion);
+        write_formatted(s, "MP,ALPX,%s,%.12g\n", s->name, s->options->expansion);
     if (s->incompressible) {
-        print_solid(s,
-                    "! neo-Hooke with d = 0: elements with mixed u-P formulation (KEYOPT(6)=1)\n");
-        print_solid(s, "TB,HYPER,%s,%zu,2,NEO\n", s->name, s->n_levels);
+        write_formatted(
+            s, "! neo-Hooke with d = 0: elements with mixed u-P formulation (KEYOPT(6)=1)\n");
+        write_formatted(s, "TB,HYPER,%s,%zu,2,NEO\n", s->name, s->n_levels);
         for (size_t i = 0; i < s->n_levels; i++) {
             if (s->n_levels > 1)
-                print_solid(s, "TBTEMP,%.10g\n", s->level[i]);
-            print_solid(s, "TBDATA,1,%.12g,0\n", shear_of(s, s->instant * s->factor[i]));
+                write_formatted(s, "TBTEMP,%.10g\n", s->level[i]);
+            write_formatted(s, "TBDATA,1,%.12g,0\n", shear_modulus(s, s->instant * s->factor[i]));
         }
     } else if (s->n_levels == 1) {
-        print_solid(s, "MP,EX,%s,%.12g\nMP,PRXY,%s,%.12g\n", s->name, s->instant, s->name, s->nu);
+        write_formatted(s, "MP,EX,%s,%.12g\nMP,PRXY,%s,%.12g\n", s->name, s->instant, s->name,
+                        s->nu);
     } else {
-        print_solid(s, "MPTEMP\n");
+        write_formatted(s, "MPTEMP\n");
         for (size_t i = 0; i < s->n_levels; i += ANSYS_TEMPERATURES)
-            ansys_row(s, "MPTEMP,", "", s->level, 1, i);
+            write_ansys_row(s, "MPTEMP,", "", s->level, 1, i);
         for (size_t i = 0; i < s->n_levels; i += ANSYS_TEMPERATURES)
-            ansys_row(s, "MPDATA,EX,", s->name, s->factor, s->instant, i);
-        print_solid(s, "MP,PRXY,%s,%.12g\n", s->name, s->nu);
+            write_ansys_row(s, "MPDATA,EX,", s->name, s->factor, s->instant, i);
+        write_formatted(s, "MP,PRXY,%s,%.12g\n", s->name, s->nu);
     }
-    ansys_prony(s, "SHEAR");
+    write_ansys_prony(s, "SHEAR");
     if (!s->incompressible)
-        ansys_prony(s, "BULK");
+        write_ansys_prony(s, "BULK");
     if (!s->shifts)
         return;
-    print_solid(s, "! log10 A = C1 (T - T0)/(C2 + T - T0), with A = 1/aT\n");
-    print_solid(s, "TB,SHIFT,%s,1,3,WLF\nTBDATA,1,%.12g,%.12g,%.12g\n", s->name, s->reference,
-                s->c1, s->c2);
+    write_formatted(s, "! log10 A = C1 (T - T0)/(C2 + T - T0), with A = 1/aT\n");
+    write_formatted(s, "TB,SHIFT,%s,1,3,WLF\nTBDATA,1,%.12g,%.12g,%.12g\n", s->name, s->reference,
+                    s->c1, s->c2);
 }
 
 /* The stress of each term relaxes by its elastic law. The step is exact for a constant strain
@@ -438,12 +444,13 @@ static const char mfront_integrator[] =
     "    Dt = young * (l * Stensor4::IxI() + m * Stensor4::Id());\n"
     "}\n";
 
-static void write_code_aster(solid *s)
+static void write_code_aster(fem_material *s)
 {
     const wt_prony *p = &s->rubber.prony;
-    print_solid(s, "MFRONT_SOURCE = r\"\"\"\n@DSL Default;\n@Behaviour WeartrackMaxwell;\n");
-    print_solid(s, "@IntegerConstant nt = %zu;\n@IntegerConstant nb = %zu;\n", p->n, s->n_levels);
-    print_solid(
+    write_formatted(s, "MFRONT_SOURCE = r\"\"\"\n@DSL Default;\n@Behaviour WeartrackMaxwell;\n");
+    write_formatted(s, "@IntegerConstant nt = %zu;\n@IntegerConstant nb = %zu;\n", p->n,
+                    s->n_levels);
+    write_formatted(
         s,
         "@MaterialProperty real Nu;\n@MaterialProperty stress El;\n"
         "@MaterialProperty stress Ei[%zu];\n@MaterialProperty real Tau[%zu];\n"
@@ -452,54 +459,58 @@ static void write_code_aster(solid *s)
         "@AuxiliaryStateVariable StressStensor Si[%zu];\n"
         "@ProvidesSymmetricTangentOperator;\n%s\"\"\"\n",
         p->n, p->n, s->n_levels, s->n_levels, p->n, mfront_integrator);
-    print_solid(s, "with open(\"fort.38\", \"w\") as source:\n    source.write(MFRONT_SOURCE)\n");
-    print_solid(s, "MAXWELL = CREA_LIB_MFRONT(NOM_COMPOR=\"WeartrackMaxwell\", UNITE_MFRONT=38)\n");
-    print_solid(
+    write_formatted(s,
+                    "with open(\"fort.38\", \"w\") as source:\n    source.write(MFRONT_SOURCE)\n");
+    write_formatted(
+        s, "MAXWELL = CREA_LIB_MFRONT(NOM_COMPOR=\"WeartrackMaxwell\", UNITE_MFRONT=38)\n");
+    write_formatted(
         s,
         "# COMPORTEMENT=_F(RELATION=\"MFRONT\", COMPOR_MFRONT=MAXWELL, DEFORMATION=\"PETIT\")\n");
-    print_solid(s, "%s = DEFI_MATERIAU(\n    ELAS=_F(E=%.12g, NU=%.12g", s->name, s->instant,
-                s->nu);
+    write_formatted(s, "%s = DEFI_MATERIAU(\n    ELAS=_F(E=%.12g, NU=%.12g", s->name, s->instant,
+                    s->nu);
     if (!isnan(s->options->density))
-        print_solid(s, ", RHO=%.12g", s->options->density / s->system->density);
+        write_formatted(s, ", RHO=%.12g", s->options->density / s->unit_system->density);
     if (!isnan(s->options->expansion))
-        print_solid(s, ", ALPHA=%.12g", s->options->expansion);
-    print_solid(
+        write_formatted(s, ", ALPHA=%.12g", s->options->expansion);
+    write_formatted(
         s, "),\n    MFRONT=_F(\n        LISTE_COEF=(\n            %.12g,\n            %.12g,\n",
         s->nu, s->long_term);
     for (size_t i = 0; i < p->n; i++)
-        print_solid(s, "            %.12g,\n", p->modulus[i]);
+        write_formatted(s, "            %.12g,\n", p->modulus[i]);
     for (size_t i = 0; i < p->n; i++)
-        print_solid(s, "            %.12g,\n", p->relaxation_time[i]);
-    print_solid(s, "            %.12g,\n            %.12g,\n            %.12g,\n", s->reference,
-                s->shifts ? s->c1 : 0, s->shifts ? s->c2 : 1e9);
+        write_formatted(s, "            %.12g,\n", p->relaxation_time[i]);
+    write_formatted(s, "            %.12g,\n            %.12g,\n            %.12g,\n", s->reference,
+                    s->shifts ? s->c1 : 0, s->shifts ? s->c2 : 1e9);
     for (size_t i = 0; i < s->n_levels; i++)
-        print_solid(s, "            %.10g,\n", s->level[i]);
+        write_formatted(s, "            %.10g,\n", s->level[i]);
     for (size_t i = 0; i < s->n_levels; i++)
-        print_solid(s, "            %.12g,\n", log10(s->factor[i]));
-    print_solid(s, "        )\n    ),\n)\n");
+        write_formatted(s, "            %.12g,\n", log10(s->factor[i]));
+    write_formatted(s, "        )\n    ),\n)\n");
 }
 
-static void write_table(solid *s)
+static void write_prony_table(fem_material *s)
 {
     const wt_prony *p = &s->rubber.prony;
-    print_solid(s,
-                "%spoisson_ratio %.12g\n%sinstantaneous_modulus %.12g\n%slong_term_modulus %.12g\n",
-                s->comment, s->nu, s->comment, s->instant, s->comment, s->long_term);
-    print_solid(s, "%sreference_temperature %.12g\n", s->comment, s->reference);
+    write_formatted(
+        s, "%spoisson_ratio %.12g\n%sinstantaneous_modulus %.12g\n%slong_term_modulus %.12g\n",
+        s->comment, s->nu, s->comment, s->instant, s->comment, s->long_term);
+    write_formatted(s, "%sreference_temperature %.12g\n", s->comment, s->reference);
     if (!isnan(s->options->density))
-        print_solid(s, "%sdensity %.12g\n", s->comment, s->options->density / s->system->density);
+        write_formatted(s, "%sdensity %.12g\n", s->comment,
+                        s->options->density / s->unit_system->density);
     if (!isnan(s->options->expansion))
-        print_solid(s, "%sthermal_expansion %.12g\n", s->comment, s->options->expansion);
+        write_formatted(s, "%sthermal_expansion %.12g\n", s->comment, s->options->expansion);
     if (s->shifts)
-        print_solid(s, "%swlf_c1 %.12g\n%swlf_c2 %.12g\n", s->comment, s->c1, s->comment, s->c2);
+        write_formatted(s, "%swlf_c1 %.12g\n%swlf_c2 %.12g\n", s->comment, s->c1, s->comment,
+                        s->c2);
     for (size_t i = 0; s->n_levels > 1 && i < s->n_levels; i++)
-        print_solid(s, "%sfactor of the moduli at %.10g: %.12g\n", s->comment, s->level[i],
-                    s->factor[i]);
-    print_solid(s, "relaxation_time\tg\tk\tyoungs_modulus\tshear_modulus\tbulk_modulus\n");
+        write_formatted(s, "%sfactor of the moduli at %.10g: %.12g\n", s->comment, s->level[i],
+                        s->factor[i]);
+    write_formatted(s, "relaxation_time\tg\tk\tyoungs_modulus\tshear_modulus\tbulk_modulus\n");
     for (size_t i = 0; i < p->n; i++) {
         const double e = p->modulus[i], k = s->incompressible ? 0 : term_share(s, i);
-        print_solid(s, "%.12g\t%.12g\t%.12g\t%.12g\t%.12g\t%.12g\n", p->relaxation_time[i],
-                    term_share(s, i), k, e, shear_of(s, e), bulk_of(s, e));
+        write_formatted(s, "%.12g\t%.12g\t%.12g\t%.12g\t%.12g\t%.12g\n", p->relaxation_time[i],
+                        term_share(s, i), k, e, shear_modulus(s, e), bulk_modulus(s, e));
     }
 }
 
@@ -507,11 +518,11 @@ static void write_table(solid *s)
 
 static const struct program {
     const char *name, *comment;
-    void (*write)(solid *s);
-} programs[] = {[WT_SOLID_ABAQUS] = {"abaqus", "** ", write_abaqus},
-                [WT_SOLID_ANSYS] = {"ansys", "! ", write_ansys},
-                [WT_SOLID_CODE_ASTER] = {"code_aster", "# ", write_code_aster},
-                [WT_SOLID_TABLE] = {"table", "# ", write_table}};
+    void (*write)(fem_material *s);
+} programs[] = {[WT_FEM_ABAQUS] = {"abaqus", "** ", write_abaqus},
+                [WT_FEM_ANSYS] = {"ansys", "! ", write_ansys},
+                [WT_FEM_CODE_ASTER] = {"code_aster", "# ", write_code_aster},
+                [WT_FEM_TABLE] = {"table", "# ", write_prony_table}};
 
 bool wt_fem_program_find(const char *name, size_t length, wt_fem_program *program)
 {
@@ -527,11 +538,11 @@ static const char default_name[] = "RUBBER";
 
 /* Checks the material name. Ansys allows 32 characters for a parameter, Code_Aster 8 for a
  * concept. */
-static wt_status check_name(wt_fem_program program, const char *name, wt_error *err)
+static wt_status check_material_name(wt_fem_program program, const char *name, wt_error *err)
 {
     static const char letters[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz";
     static const char others[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_";
-    const size_t most = program == WT_SOLID_CODE_ASTER ? 8 : 32;
+    const size_t most = program == WT_FEM_CODE_ASTER ? 8 : 32;
     if (name == NULL ||
         (strspn(name, letters) > 0 && name[strspn(name, others)] == '\0' && strlen(name) <= most))
         return WT_OK;
@@ -547,8 +558,8 @@ wt_status wt_fem_export_check(wt_fem_program program, const wt_fem_export_option
 {
     wt_status status = param_check(wt_fem_export_options_params(), options, err);
     if (status == WT_OK)
-        status = check_name(program, options->name, err);
-    if (status != WT_OK || program != WT_SOLID_CODE_ASTER || options->poisson_ratio < 0.5)
+        status = check_material_name(program, options->name, err);
+    if (status != WT_OK || program != WT_FEM_CODE_ASTER || options->poisson_ratio < 0.5)
         return status;
     wt_fail(err, WT_E_RANGE, "Code_Aster needs a Poisson's ratio below 0.5");
     wt_error_place(err, "poisson-ratio");
@@ -568,13 +579,13 @@ wt_status wt_fem_export(FILE *out, wt_fem_program program, const wt_table *prony
                        "there is no series to export: the loss modulus or the "
                        "loss factor alone tells no level of the moduli");
     const wt_fem_export_options o = options != NULL ? *options : wt_fem_export_options_defaults();
-    solid s = {.out = out,
-               .comment = programs[program].comment,
-               .options = &o,
-               .name = o.name != NULL ? o.name : default_name,
-               .nu = o.poisson_ratio,
-               .incompressible = o.poisson_ratio >= 0.5,
-               .zero = o.temperature == WT_SOLID_CELSIUS ? WT_ZERO_CELSIUS : 0};
+    fem_material s = {.out = out,
+                      .comment = programs[program].comment,
+                      .options = &o,
+                      .name = o.name != NULL ? o.name : default_name,
+                      .nu = o.poisson_ratio,
+                      .incompressible = o.poisson_ratio >= 0.5,
+                      .zero = o.temperature == WT_FEM_CELSIUS ? WT_ZERO_CELSIUS : 0};
     wt_status status = wt_fem_export_check(program, &o, err);
     if (status == WT_OK)
         status = table_bind(prony_reduced, &prony_reduced_schema, "", &s.series, err);
@@ -585,14 +596,14 @@ wt_status wt_fem_export(FILE *out, wt_fem_program program, const wt_table *prony
             &(wt_rubber_tables){.prony = prony_reduced, .shift_factors = shift_factors}, s.nu,
             &s.rubber, err);
     if (status == WT_OK) {
-        s.system = &systems[o.units];
-        take_law(&s);
-        status = take_series(&s, err);
+        s.unit_system = &unit_systems[o.units];
+        set_wlf_constants(&s);
+        status = scale_series(&s, err);
     }
     if (status == WT_OK)
-        status = take_levels(&s, err);
+        status = set_modulus_factors(&s, err);
     if (status == WT_OK) {
-        say_series(&s);
+        write_fem_header(&s);
         programs[program].write(&s);
         if (ferror(out) != 0)
             status = wt_fail(err, WT_E_IO, "cannot write: %s", strerror(errno));

@@ -22,17 +22,17 @@ wt_master_job wt_master_job_defaults(void)
                            .reduction = wt_reduction_defaults()};
 }
 
-static wt_status check_law(const void *member, wt_error *err)
+static wt_status check_shift_law(const void *member, wt_error *err)
 {
     wt_shift_law law;
-    return flow_shift_law(*(const char *const *)member, &law, err);
+    return flow_parse_shift_law(*(const char *const *)member, &law, err);
 }
 
-static wt_status check_cuts(const void *member, wt_error *err)
+static wt_status check_exclusions(const void *member, wt_error *err)
 {
     const char *at = member;
     const wt_master_job *job = (const void *)(at - offsetof(wt_master_job, leave_out));
-    return flow_cuts_check(job->leave_out, job->n_leave_out, err);
+    return flow_exclusions_check(job->leave_out, job->n_leave_out, err);
 }
 
 static const wt_param rows[] = {
@@ -42,12 +42,12 @@ static const wt_param rows[] = {
      .help = "leave out isotherms and points of the DMA: temperature:LOW..HIGH or "
              "frequency:LOW..HIGH, such as temperature:..-20degC, or one value, such as "
              "frequency:50Hz; of relaxation and creep time:LOW..HIGH; repeatable",
-     .check = check_cuts},
+     .check = check_exclusions},
     {PARAM_TEXT_OF("shift-law", wt_master_job, shift_law), .value = "LAW", .unset = "fitted",
      .help = "law that gives all horizontal shifts of the DMA: "
              "wlf:reference-temperature=20degC,c1=8.86,c2=101.6K or "
              "arrhenius:activation-energy=80kJ/mol; its errors are in no interval",
-     .check = check_law},
+     .check = check_shift_law},
 };
 PARAM_TABLE(wt_master_job_params, wt_master_job, rows, wt_master_job_defaults,
             PARAM_PART(wt_master_options_params, wt_master_job, fit))
@@ -68,9 +68,9 @@ void wt_master_tables_clear(wt_master_tables *tables)
     *tables = (wt_master_tables){0};
 }
 
-static const char *shifted_by_name(const wt_master *m)
+static const char *shift_quantity_name(const wt_master *m)
 {
-    const wt_shift_by by = wt_master_shifted_by(m);
+    const wt_shift_quantity by = wt_master_shift_quantity(m);
     if (m->loading != WT_OSCILLATION)
         return m->loading == WT_CREEP ? "creep compliance" : "relaxation modulus";
     static const char *const names[] = {"both moduli", "storage modulus alone",
@@ -87,15 +87,15 @@ static void set_interval(table_writer *t, shift_factors_key key, wt_interval x)
     shift_factors_set_value(t, key, x.value, x.standard_error, 0);
 }
 
-static void set_law(table_writer *t, const wt_master *m)
+static void set_law_keys(table_writer *t, const wt_master *m)
 {
     static const char *const names[] = {[WT_LAW_NONE] = "none",
                                         [WT_LAW_WLF] = "WLF",
                                         [WT_LAW_ARRHENIUS] = "Arrhenius",
-                                        [WT_LAW_JOINED] = "joined"};
+                                        [WT_LAW_WLF_ARRHENIUS] = "joined"};
     const bool none = m->law.kind == WT_LAW_NONE;
     shift_factors_set_print(t, SHIFT_FACTORS_KEY_LAW, "%s%s%s", names[m->law.kind],
-                            none ? ": " : "", none ? m->no_law : "");
+                            none ? ": " : "", none ? m->no_law_reason : "");
     if (none)
         return;
     if (m->law.kind != WT_LAW_ARRHENIUS) {
@@ -106,7 +106,7 @@ static void set_law(table_writer *t, const wt_master *m)
     }
     if (m->law.kind != WT_LAW_WLF)
         set_interval(t, SHIFT_FACTORS_KEY_ACTIVATION_ENERGY, m->activation_energy);
-    if (m->law.kind == WT_LAW_JOINED)
+    if (m->law.kind == WT_LAW_WLF_ARRHENIUS)
         shift_factors_set_value(t, SHIFT_FACTORS_KEY_JOINT, m->law.joint, (double)NAN, 0);
     set_interval(t, SHIFT_FACTORS_KEY_LAW_SLOPE, m->slope);
     set_interval(t, SHIFT_FACTORS_KEY_OFFSET, m->offset);
@@ -115,7 +115,7 @@ static void set_law(table_writer *t, const wt_master *m)
                             (double)NAN, 0);
 }
 
-static void set_verdict(table_writer *t, const wt_master *m)
+static void set_superposition_keys(table_writer *t, const wt_master *m)
 {
     static const char *const words[] = {"holds", "fails", "cannot say"};
     shift_factors_set_print(t, SHIFT_FACTORS_KEY_SUPERPOSITION, "%s%s%s", words[m->superposition],
@@ -132,43 +132,43 @@ static void set_verdict(table_writer *t, const wt_master *m)
 }
 
 /* Fraction of a standard error that is visible in an interval: a twentieth of its half width. */
-static const double seen = 0.1;
+static const double visible_step = 0.1;
 
-static bool is_settled(const wt_master *m)
+static bool fit_has_converged(const wt_master *m)
 {
-    return m->settled && !(m->step_left > seen);
+    return m->settled && !(m->step_left > visible_step);
 }
 
-static void set_route(table_writer *t, const wt_master *m)
+static void set_route_keys(table_writer *t, const wt_master *m)
 {
-    if (m->shift_route == WT_SHIFTS_OF_OVERLAP)
+    if (m->shift_route == WT_SHIFTS_FROM_OVERLAP)
         shift_factors_set_text(t, SHIFT_FACTORS_KEY_ROUTE,
                                "overlap of the storage modulus, neighbour by neighbour");
     if (!isnan(m->valid_from)) {
         shift_factors_set_value(t, SHIFT_FACTORS_KEY_HOLDS_FROM, m->valid_from, 0, 0);
         shift_factors_set_value(t, SHIFT_FACTORS_KEY_HOLDS_TO, m->valid_to, 0, 0);
     }
-    if (!is_settled(m))
+    if (!fit_has_converged(m))
         shift_factors_set_print(t, SHIFT_FACTORS_KEY_STEP_LEFT, "%.3g", m->step_left);
 }
 
-static wt_status shift_table(const wt_master *m, wt_table **table, wt_error *err)
+static wt_status build_shift_table(const wt_master *m, wt_table **table, wt_error *err)
 {
     table_writer t = table_begin(&shift_factors_schema, err);
     for (size_t i = 0; i < m->n_shifts; i++)
         TABLE_ADD(shift_factors, &t, m->shifts[i], wt_master_closed_form(m, i));
-    set_law(&t, m);
+    set_law_keys(&t, m);
     shift_factors_set_value(&t, SHIFT_FACTORS_KEY_REFERENCE_TEMPERATURE, m->reference_temperature,
                             0, 0);
-    char word[PARAM_WORD];
-    param_word(wt_master_options_params(), "vertical-shift", m->vertical, word, sizeof word);
+    char word[PARAM_CHOICE_NAME_SIZE];
+    param_choice_name(wt_master_options_params(), "vertical-shift", m->vertical, word, sizeof word);
     shift_factors_set_text(&t, SHIFT_FACTORS_KEY_VERTICAL, word);
-    if (wt_master_shifted_by(m) != WT_BY_MODULI)
-        shift_factors_set_text(&t, SHIFT_FACTORS_KEY_SHIFTED_BY, shifted_by_name(m));
-    set_route(&t, m);
+    if (wt_master_shift_quantity(m) != WT_SHIFT_MODULI)
+        shift_factors_set_text(&t, SHIFT_FACTORS_KEY_SHIFTED_BY, shift_quantity_name(m));
+    set_route_keys(&t, m);
     shift_factors_set_text(&t, SHIFT_FACTORS_KEY_DEFORMATION,
                            flow_deformation_name(m->deformation));
-    set_verdict(&t, m);
+    set_superposition_keys(&t, m);
     return table_end(&t, table);
 }
 
@@ -182,12 +182,12 @@ TABLE_ROW(master_curve, MASTER_CURVE, double angular_frequency, storage_modulus,
 TABLE_KEYS_OF(master_curve, MASTER_CURVE, wt_master)
 
 /* Converts the interval of log10 of a modulus to that of the compliance, its inverse. */
-static wt_interval inverse_of(wt_interval x)
+static wt_interval inverse_interval(wt_interval x)
 {
     return flow_power_of_ten((wt_interval){-x.value, x.standard_error, -x.high, -x.low});
 }
 
-static void put_point(table_writer *t, const wt_master *m, size_t i)
+static void add_master_curve_row(table_writer *t, const wt_master *m, size_t i)
 {
     const wt_master_shift *shift = &m->shifts[m->isotherm[i]];
     const double frequency = m->log_frequency[i], storage = m->log_storage[i],
@@ -208,14 +208,14 @@ static void put_point(table_writer *t, const wt_master *m, size_t i)
               .relaxation_modulus = relaxes ? pow(10, step) : none,
               .creep_compliance = creeps ? pow(10, -step) : none,
               .fitted_relaxation = relaxes ? flow_power_of_ten(m->fitted_step[i]) : unknown,
-              .fitted_creep = creeps ? inverse_of(m->fitted_step[i]) : unknown,
+              .fitted_creep = creeps ? inverse_interval(m->fitted_step[i]) : unknown,
               .own_relaxation = relaxes ? pow(10, own_step) : none,
               .own_creep = creeps ? pow(10, -own_step) : none,
               .own_time = relaxes || creeps ? 1 / own_frequency : none);
 }
 
 /* Returns a bit mask of the columns without measured data. */
-static uint64_t not_measured(const wt_master *m)
+static uint64_t unmeasured_columns(const wt_master *m)
 {
     static const master_curve_column relaxation[] = {
         MASTER_CURVE_RELAXATION_MODULUS, MASTER_CURVE_FITTED_RELAXATION,
@@ -234,15 +234,15 @@ static uint64_t not_measured(const wt_master *m)
     return left;
 }
 
-static wt_status master_table(const wt_master *m, wt_table **table, wt_error *err)
+static wt_status build_master_table(const wt_master *m, wt_table **table, wt_error *err)
 {
     table_writer t = table_begin_variant(&master_curve_schema,
-                                         (table_variant){.left_out = not_measured(m)}, err);
+                                         (table_variant){.left_out = unmeasured_columns(m)}, err);
     for (size_t k = 0; k < m->n_shifts; k++) {
         table_block(&t);
         for (size_t i = 0; i < m->n; i++)
             if (m->isotherm[i] == k)
-                put_point(&t, m, i);
+                add_master_curve_row(&t, m, i);
     }
     master_curve_set_keys(&t, m);
     master_curve_set_text(&t, MASTER_CURVE_KEY_DEFORMATION, flow_deformation_name(m->deformation));
@@ -254,7 +254,7 @@ TABLE_KEYS(prony, PRONY, wt_prony series; wt_estimate equilibrium_modulus;
 
 TABLE_ROW(prony, PRONY, double relaxation_time, modulus;)
 
-static wt_status prony_table(const wt_master *m, wt_table **table, wt_error *err)
+static wt_status build_prony_table(const wt_master *m, wt_table **table, wt_error *err)
 {
     const wt_prony *p = &m->prony;
     table_writer t = table_begin(&prony_schema, err);
@@ -273,7 +273,7 @@ static wt_status prony_table(const wt_master *m, wt_table **table, wt_error *err
 enum { DRAWS_SEED = 1 };
 
 /* Rounds to seven digits, far below the scatter of the draws, which shortens the tables. */
-static double to_seven_digits(double x)
+static double round_to_seven_digits(double x)
 {
     if (!(fabs(x) > 0) || !isfinite(x))
         return x;
@@ -286,8 +286,9 @@ TABLE_ROW(material_draws, MATERIAL_DRAWS, double draw, temperature, log_b, equil
 
 /* Adds a row for each isotherm with a vertical shift, or one row. The first row also has the
  * constants of the draw. */
-static void put_material(table_writer *t, const wt_master *m, size_t draw, const wt_prony *prony,
-                         const wt_shift_law *law, const double *log_b)
+static void add_material_draw_rows(table_writer *t, const wt_master *m, size_t draw,
+                                   const wt_prony *prony, const wt_shift_law *law,
+                                   const double *log_b)
 {
     const bool vertical = m->vertical != WT_VERTICAL_NONE && m->n_shifts > 1;
     const double none = (double)NAN;
@@ -295,17 +296,17 @@ static void put_material(table_writer *t, const wt_master *m, size_t draw, const
     material_draws_row row = {(double)draw + 1,
                               none,
                               none,
-                              to_seven_digits(prony->equilibrium_modulus),
-                              to_seven_digits(law->wlf.c1),
-                              to_seven_digits(law->wlf.c2),
-                              to_seven_digits(law->activation_energy)};
+                              round_to_seven_digits(prony->equilibrium_modulus),
+                              round_to_seven_digits(law->wlf.c1),
+                              round_to_seven_digits(law->wlf.c2),
+                              round_to_seven_digits(law->activation_energy)};
     table_block(t);
     for (size_t i = 0; vertical ? i < m->n_shifts : first; i++) {
         if (vertical && !m->shifts[i].determined)
             continue;
         if (vertical) {
             row.temperature = m->shifts[i].temperature;
-            row.log_b = to_seven_digits(log_b[i]);
+            row.log_b = round_to_seven_digits(log_b[i]);
         }
         material_draws_add_row(t, &row);
         row.equilibrium_modulus = row.wlf_c1 = row.wlf_c2 = row.activation_energy = none;
@@ -315,15 +316,17 @@ static void put_material(table_writer *t, const wt_master *m, size_t draw, const
 
 TABLE_ROW(series_draws, SERIES_DRAWS, double draw, relaxation_time, modulus;)
 
-static void put_series(table_writer *t, size_t draw, const wt_prony *prony)
+static void add_series_draw_rows(table_writer *t, size_t draw, const wt_prony *prony)
 {
     table_block(t);
     for (size_t k = 0; k < prony->n; k++)
-        TABLE_ADD(series_draws, t, (double)draw + 1, to_seven_digits(prony->relaxation_time[k]),
-                  to_seven_digits(prony->modulus[k]));
+        TABLE_ADD(series_draws, t, (double)draw + 1,
+                  round_to_seven_digits(prony->relaxation_time[k]),
+                  round_to_seven_digits(prony->modulus[k]));
 }
 
-static wt_status draw_tables(const wt_master *m, size_t n, wt_master_tables *tables, wt_error *err)
+static wt_status build_draw_tables(const wt_master *m, size_t n, wt_master_tables *tables,
+                                   wt_error *err)
 {
     double *log_b = malloc((m->n_shifts + 1) * sizeof *log_b);
     if (log_b == NULL)
@@ -336,8 +339,8 @@ static wt_status draw_tables(const wt_master *m, size_t n, wt_master_tables *tab
         wt_shift_law law;
         status = wt_master_draw(m, DRAWS_SEED, i, &prony, &law, log_b, err);
         if (status == WT_OK) {
-            put_material(&material, m, i, &prony, &law, log_b);
-            put_series(&series, i, &prony);
+            add_material_draw_rows(&material, m, i, &prony, &law, log_b);
+            add_series_draw_rows(&series, i, &prony);
         }
         wt_prony_clear(&prony);
     }
@@ -353,7 +356,7 @@ static wt_status draw_tables(const wt_master *m, size_t n, wt_master_tables *tab
 
 /* Strain sweeps contain no information about the spectrum. The function warns if they are
  * skipped and fails if there is no other data. */
-static wt_status check_strain(const wt_sweep *sweep, const wt_job *work, wt_error *err)
+static wt_status check_strain_sweeps(const wt_sweep *sweep, const wt_job *work, wt_error *err)
 {
     const size_t n = sweep->n_strain_sweeps;
     if (n > 0 && sweep->n_isotherms + sweep->n_ramps > 0)
@@ -372,13 +375,13 @@ static wt_status check_strain(const wt_sweep *sweep, const wt_job *work, wt_erro
 static wt_status prepare_sweep(const wt_master_job *job, const wt_job *work, wt_shift_law *law,
                                wt_sweep *sweep, wt_error *err)
 {
-    wt_status status = flow_sweep_cut(job->leave_out, job->n_leave_out, sweep, work->log, err);
+    wt_status status = flow_sweep_exclude(job->leave_out, job->n_leave_out, sweep, work->log, err);
     if (status == WT_OK)
-        status = flow_shift_law(job->shift_law, law, err);
+        status = flow_parse_shift_law(job->shift_law, law, err);
     if (status == WT_OK && law->kind != WT_LAW_NONE && job->shifts != NULL)
         status = wt_fail(err, WT_E_ARG, "shifts are given by a law and by a table; give one");
     if (status == WT_OK)
-        status = flow_shifts_give(law, job->shifts, job->fit.vertical, sweep, work->log, err);
+        status = flow_set_stated_shifts(law, job->shifts, job->fit.vertical, sweep, work->log, err);
     if (status == WT_OK && law->kind != WT_LAW_NONE)
         wt_log_add(work->log, WT_NOTE, NULL, NULL,
                    "the shifts are those of the law that is given: its errors are in no "
@@ -387,8 +390,8 @@ static wt_status prepare_sweep(const wt_master_job *job, const wt_job *work, wt_
 }
 
 /* Fits the sweeps. Temperature sweeps are converted to isotherms of `sweep`. */
-static wt_status fit_sweeps(const wt_master_job *job, const wt_job *work, wt_sweep *sweep,
-                            wt_master *master, wt_error *err)
+static wt_status fit_master_curve(const wt_master_job *job, const wt_job *work, wt_sweep *sweep,
+                                  wt_master *master, wt_error *err)
 {
     wt_shift_law law;
     wt_status status = prepare_sweep(job, work, &law, sweep, err);
@@ -409,22 +412,22 @@ static wt_status fit_sweeps(const wt_master_job *job, const wt_job *work, wt_swe
 }
 
 /* Returns true if the data determine the level of the moduli. Without it there is no series. */
-static bool tells_level(const wt_master *m)
+static bool has_modulus_level(const wt_master *m)
 {
-    const wt_shift_by by = wt_master_shifted_by(m);
-    return by == WT_BY_MODULI || by == WT_BY_STORAGE;
+    const wt_shift_quantity by = wt_master_shift_quantity(m);
+    return by == WT_SHIFT_MODULI || by == WT_SHIFT_STORAGE;
 }
 
-static wt_status no_level(const wt_master *m, wt_error *err)
+static wt_status fail_no_modulus_level(const wt_master *m, wt_error *err)
 {
     wt_fail(err, WT_E_MISSING, "the %s alone tells no level of the moduli, and friction needs both",
-            wt_master_shifted_by(m) == WT_BY_LOSS ? "loss modulus" : "loss factor");
+            wt_master_shift_quantity(m) == WT_SHIFT_LOSS ? "loss modulus" : "loss factor");
     wt_error_expected(err, "isotherms with storage and loss modulus");
     return WT_E_MISSING;
 }
 
 /* Returns the sample name if all sweeps have the same one, otherwise NULL. */
-static const char *sample_of(const wt_sweep *sweep)
+static const char *common_sample_name(const wt_sweep *sweep)
 {
     const char *name = sweep->n_isotherms > 0 ? sweep->isotherms[0].sample
                        : sweep->n_ramps > 0   ? sweep->ramps[0].sample
@@ -437,9 +440,9 @@ static const char *sample_of(const wt_sweep *sweep)
     return same ? name : NULL;
 }
 
-static wt_status say_sample(const wt_sweep *sweep, wt_table *shift_factors, wt_error *err)
+static wt_status store_sample_name(const wt_sweep *sweep, wt_table *shift_factors, wt_error *err)
 {
-    const char *const sample = sample_of(sweep);
+    const char *const sample = common_sample_name(sweep);
     if (sample == NULL)
         return WT_OK;
     table_writer t = table_continue(shift_factors, &shift_factors_schema, "", err);
@@ -448,17 +451,17 @@ static wt_status say_sample(const wt_sweep *sweep, wt_table *shift_factors, wt_e
 }
 
 /* Builds all tables except the master curve. */
-static wt_status make_tables(const wt_master *m, size_t n_draws, const wt_job *work,
-                             wt_master_tables *t, wt_error *err)
+static wt_status build_fit_tables(const wt_master *m, size_t n_draws, const wt_job *work,
+                                  wt_master_tables *t, wt_error *err)
 {
     t->n_isotherms = m->n_shifts;
-    wt_status status = shift_table(m, &t->shift_factors, err);
-    if (status != WT_OK || !tells_level(m))
+    wt_status status = build_shift_table(m, &t->shift_factors, err);
+    if (status != WT_OK || !has_modulus_level(m))
         return status;
     if (status == WT_OK)
-        status = prony_table(m, &t->prony, err);
+        status = build_prony_table(m, &t->prony, err);
     return status == WT_OK && (work->left_out & WT_EXTRA_DRAWS) == 0
-               ? draw_tables(m, n_draws, t, err)
+               ? build_draw_tables(m, n_draws, t, err)
                : status;
 }
 
@@ -471,7 +474,7 @@ wt_status flow_rubber_fit(const wt_sweep *sweep, const wt_master_options *option
     own.series_only = true;
     wt_status status = wt_master_fit(sweep, &own, NULL, fit, err);
     if (status == WT_OK)
-        status = make_tables(fit, n_draws, work, &t, err);
+        status = build_fit_tables(fit, n_draws, work, &t, err);
     const wt_rubber_tables of = {.prony = t.prony,
                                  .shift_factors = t.shift_factors,
                                  .material_draws = t.material_draws,
@@ -489,7 +492,7 @@ wt_status wt_rubber_refit(const wt_rubber *rubber, wt_vertical_shift vertical, w
         return wt_fail(err, WT_E_ARG, "no rubber");
     if (rubber->sweep.n_isotherms == 0)
         return wt_fail(err, WT_E_MISSING, "there are no isotherms to be fitted again");
-    const wt_job work = {.left_out = WT_EXTRAS};
+    const wt_job work = {.left_out = WT_EXTRA_ALL};
     wt_master_options options = rubber->fit;
     wt_master fit = {0};
     options.vertical = vertical;
@@ -503,9 +506,9 @@ wt_status wt_rubber_refit(const wt_rubber *rubber, wt_vertical_shift vertical, w
     return status;
 }
 
-static void say_unfinished(const wt_master *m, const wt_job *work)
+static void warn_unconverged(const wt_master *m, const wt_job *work)
 {
-    if (!is_settled(m))
+    if (!fit_has_converged(m))
         wt_log_add(work->log, WT_WARNING, NULL, NULL,
                    "the fit ended before it was settled: a further step would move a number "
                    "by up to %.2g of its standard error",
@@ -514,7 +517,7 @@ static void say_unfinished(const wt_master *m, const wt_job *work)
 
 /* Returns the standard error [decade] of the fitted E' if it exists, otherwise of E'' or tan
  * delta. */
-static double shown_error(const wt_master *m, size_t i)
+static double reported_error(const wt_master *m, size_t i)
 {
     return !isnan(m->fitted_storage[i].value) ? m->fitted_storage[i].standard_error
            : !isnan(m->fitted_loss[i].value)  ? m->fitted_loss[i].standard_error
@@ -522,11 +525,11 @@ static double shown_error(const wt_master *m, size_t i)
 }
 
 /* Reports the cost. The reported number is the mean relative standard error of E'. */
-static void say_cost(const wt_master *m, const wt_job *work)
+static void report_fit_cost(const wt_master *m, const wt_job *work)
 {
     double error = 0;
     for (size_t i = 0; i < m->n; i++)
-        error += M_LN10 * shown_error(m, i) / (double)m->n;
+        error += M_LN10 * reported_error(m, i) / (double)m->n;
     cost_add_nodes(work->cost, m->evaluations);
     cost_report(work, (cost_summary){.items = (double)m->n_shifts,
                                      .tolerance_asked = m->step_allowed * error,
@@ -534,8 +537,8 @@ static void say_cost(const wt_master *m, const wt_job *work)
                                      .number = {1, error, 0, "1"}});
 }
 
-wt_status wt_master_make(const wt_master_job *job, const wt_job *work, wt_master_tables *tables,
-                         wt_rubber *rubber, wt_error *err)
+wt_status wt_master_compute(const wt_master_job *job, const wt_job *work, wt_master_tables *tables,
+                            wt_rubber *rubber, wt_error *err)
 {
     if (job == NULL || work == NULL)
         return wt_fail(err, WT_E_ARG, "no DMA job");
@@ -548,25 +551,26 @@ wt_status wt_master_make(const wt_master_job *job, const wt_job *work, wt_master
     if (status == WT_OK)
         status = flow_sweeps_read(job->sets, job->n_sets, work, &sweep, err);
     if (status == WT_OK)
-        status = check_strain(&sweep, work, err);
+        status = check_strain_sweeps(&sweep, work, err);
     if (status == WT_OK)
-        status = flow_one_sample(&sweep, job->sets, job->n_sets, work->log, err);
+        status = flow_require_one_sample(&sweep, job->sets, job->n_sets, work->log, err);
     if (status == WT_OK)
-        status = flow_one_amplitude(&sweep, job->sets, job->n_sets, work->log, err);
+        status = flow_select_amplitude(&sweep, job->sets, job->n_sets, work->log, err);
     if (status == WT_OK)
-        status = fit_sweeps(job, work, &sweep, &master, err);
+        status = fit_master_curve(job, work, &sweep, &master, err);
     if (status == WT_OK)
-        status = make_tables(&master, FLOW_STORED_DRAWS, work, &t, err);
+        status = build_fit_tables(&master, FLOW_STORED_DRAWS, work, &t, err);
     if (status == WT_OK)
-        status = say_sample(&sweep, t.shift_factors, err);
+        status = store_sample_name(&sweep, t.shift_factors, err);
     if (status == WT_OK)
-        status = master_table(&master, &t.master_curve, err);
-    if (status == WT_OK && tells_level(&master) && (work->left_out & WT_EXTRA_SPECTRUM) == 0)
+        status = build_master_table(&master, &t.master_curve, err);
+    if (status == WT_OK && has_modulus_level(&master) && (work->left_out & WT_EXTRA_SPECTRUM) == 0)
         status = flow_spectrum_table(&master, &t.relaxation_spectrum, err);
-    if (status == WT_OK && tells_level(&master) && (work->left_out & WT_EXTRA_REDUCED) == 0)
+    if (status == WT_OK && has_modulus_level(&master) &&
+        (work->left_out & WT_EXTRA_REDUCED_SERIES) == 0)
         status = flow_reduced_table(&master, job, work, &t.prony_reduced, err);
-    if (status == WT_OK && rubber != NULL && !tells_level(&master))
-        status = no_level(&master, err);
+    if (status == WT_OK && rubber != NULL && !has_modulus_level(&master))
+        status = fail_no_modulus_level(&master, err);
     if (status == WT_OK && rubber != NULL) {
         const wt_rubber_tables of = {.prony = t.prony,
                                      .shift_factors = t.shift_factors,
@@ -583,8 +587,8 @@ wt_status wt_master_make(const wt_master_job *job, const wt_job *work, wt_master
     if (status == WT_OK && tables != NULL && (t.fit = malloc(sizeof *t.fit)) == NULL)
         status = wt_fail(err, WT_E_MEMORY, "out of memory");
     if (status == WT_OK) {
-        say_unfinished(&master, work);
-        say_cost(&master, work);
+        warn_unconverged(&master, work);
+        report_fit_cost(&master, work);
     }
     if (status == WT_OK && tables != NULL) {
         *t.fit = master;

@@ -45,8 +45,8 @@ static double widest_interval(const wt_interval *fitted, size_t n)
 
 /* Sets the keys of the fractional Zener law with tensile moduli, in the syntax of the friction
  * option, and its comparison with the series. */
-static wt_status put_zener(const wt_master *m, const wt_prony *p, double poisson_ratio,
-                           table_writer *t, wt_error *err)
+static wt_status set_zener_keys(const wt_master *m, const wt_prony *p, double poisson_ratio,
+                                table_writer *t, wt_error *err)
 {
     const double to_young = m->deformation == WT_SHEAR ? 2 * (1 + poisson_ratio) : 1;
     char words[256];
@@ -73,8 +73,8 @@ static wt_status put_zener(const wt_master *m, const wt_prony *p, double poisson
 
 TABLE_ROW(prony_reduced, PRONY_REDUCED, double relaxation_time, modulus, share;)
 
-static wt_status put_reduced(const wt_master *m, const wt_prony *p, double poisson_ratio,
-                             wt_table **table, wt_error *err)
+static wt_status build_reduced_table(const wt_master *m, const wt_prony *p, double poisson_ratio,
+                                     wt_table **table, wt_error *err)
 {
     double sum = p->equilibrium_modulus, deviation[2];
     table_writer t = table_begin(&prony_reduced_schema, err);
@@ -101,7 +101,8 @@ static wt_status put_reduced(const wt_master *m, const wt_prony *p, double poiss
         prony_reduced_set_print(&t, plain[i].key, "%.3g", plain[i].value);
     prony_reduced_set_text(&t, PRONY_REDUCED_KEY_DEFORMATION,
                            flow_deformation_name(p->deformation));
-    const wt_status status = put_zener(m, p, poisson_ratio, &t, err), ended = table_end(&t, table);
+    const wt_status status = set_zener_keys(m, p, poisson_ratio, &t, err),
+                    ended = table_end(&t, table);
     return status != WT_OK ? status : ended;
 }
 
@@ -109,22 +110,22 @@ static wt_status put_reduced(const wt_master *m, const wt_prony *p, double poiss
 wt_status flow_reduced_table(const wt_master *m, const wt_master_job *job, const wt_job *work,
                              wt_table **table, wt_error *err)
 {
-    const wt_reduction *how = &job->reduction;
+    const wt_reduction *options = &job->reduction;
     wt_prony p = {0};
     double deviation[2];
-    wt_status status = wt_prony_reduce(&m->prony, how, &p, err);
+    wt_status status = wt_prony_reduce(&m->prony, options, &p, err);
     if (status == WT_OK)
-        status = put_reduced(m, &p, job->poisson_ratio, table, err);
+        status = build_reduced_table(m, &p, job->poisson_ratio, table, err);
     if (status == WT_OK) {
         wt_prony_deviation(&m->prony, &p, deviation);
         const double most = fmax(deviation[0], deviation[1]);
-        if (most > how->error)
+        if (most > options->error)
             wt_log_add(work->log, WT_WARNING, NULL, NULL,
                        "the reduced Prony series of %zu term%s is off the spectrum by up to "
                        "%.3g %%, more than the %.3g %% of --prony-error: %s",
-                       p.n, p.n == 1 ? "" : "s", 100 * most, 100 * how->error,
-                       how->terms > 0 ? "more terms are closer"
-                                      : "its long-term modulus may not be that of the rubber");
+                       p.n, p.n == 1 ? "" : "s", 100 * most, 100 * options->error,
+                       options->terms > 0 ? "more terms are closer"
+                                          : "its long-term modulus may not be that of the rubber");
     }
     wt_prony_clear(&p);
     return status;

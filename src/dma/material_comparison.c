@@ -16,7 +16,7 @@
 enum { Q = MATERIALS_QUANTITIES };
 /* Points of the comparison: six per width of a relaxation time (1.14 decades), up to 50 decades,
  * and 25 temperatures. A finer grid does not find further differences. */
-enum { PER_DECADE = 6, MOST_PLACES = 300, TEMPERATURES = 25 };
+enum { PER_DECADE = 6, MAX_POINTS = 300, TEMPERATURES = 25 };
 
 /* A material without a shift law is used within 1 K of its reference. A chamber is no more
  * stable. */
@@ -59,18 +59,18 @@ typedef struct range {
     double low, high;
 } range;
 
-static range common_range(range a, range b)
+static range range_intersection(range a, range b)
 {
     return (range){fmax(a.low, b.low), fmin(a.high, b.high)};
 }
 
-static bool range_holds(range r, double x)
+static bool range_contains(range r, double x)
 {
     return x >= r.low && x <= r.high;
 }
 
 /* Returns the measured temperature range [K]. A law without isotherms has no limits. */
-static range temperatures_of(const wt_rubber *rubber)
+static range measured_temperatures(const wt_rubber *rubber)
 {
     const double reference = rubber->prony.reference_temperature;
     if (rubber->law.kind == WT_LAW_NONE)
@@ -82,12 +82,12 @@ static range temperatures_of(const wt_rubber *rubber)
 
 /* Returns the measured frequency range at a temperature [rad/s]. An unknown limit is 0 or
  * infinity. */
-static wt_status frequencies_of(const wt_rubber *rubber, double temperature, range *r,
-                                wt_error *err)
+static wt_status measured_frequencies(const wt_rubber *rubber, double temperature, range *r,
+                                      wt_error *err)
 {
     wt_material *material = NULL;
     const wt_status status =
-        wt_rubber_at(rubber, temperature, 1, WT_NO_REPLICATE, &material, NULL, err);
+        wt_rubber_material(rubber, temperature, 1, WT_NO_REPLICATE, &material, NULL, err);
     if (status != WT_OK)
         return status;
     *r = (range){isnan(material->frequency_min) ? 0 : material->frequency_min,
@@ -96,11 +96,11 @@ static wt_status frequencies_of(const wt_rubber *rubber, double temperature, ran
     return WT_OK;
 }
 
-static wt_status no_common_temperature(const wt_materials_job *job, wt_error *err)
+static wt_status fail_no_common_temperature(const wt_materials_job *job, wt_error *err)
 {
     char found[256] = "";
     for (size_t i = 0; i < job->n_materials; i++) {
-        const range r = temperatures_of(job->materials[i].rubber);
+        const range r = measured_temperatures(job->materials[i].rubber);
         const size_t used = strlen(found);
         clocale_print(found + used, sizeof found - used, "%s%s: %.1f to %.1f °C", i > 0 ? "; " : "",
                       job->materials[i].name, r.low - WT_ZERO_CELSIUS, r.high - WT_ZERO_CELSIUS);
@@ -112,32 +112,33 @@ static wt_status no_common_temperature(const wt_materials_job *job, wt_error *er
     return WT_E_RANGE;
 }
 
-typedef struct setting {
+typedef struct comparison_conditions {
     range temperature;
     double at_temperature, at_frequency; /* [K], [rad/s]; frequency NaN: not yet chosen */
-} setting;
+} comparison_conditions;
 
-static wt_status find_temperature(const wt_materials_job *job, setting *s, wt_error *err)
+static wt_status find_comparison_temperature(const wt_materials_job *job, comparison_conditions *s,
+                                             wt_error *err)
 {
     const double reference = job->materials[0].rubber->prony.reference_temperature;
     s->temperature = (range){0, (double)INFINITY};
     for (size_t i = 0; i < job->n_materials; i++) {
-        const wt_compared *m = &job->materials[i];
+        const wt_compared_material *m = &job->materials[i];
         if (isnan(m->rubber->prony.reference_temperature)) {
             wt_fail(err, WT_E_MISSING, "the temperature of the material is not known");
             wt_error_file(err, m->name);
             wt_error_advice(err, "--temperature says it");
             return WT_E_MISSING;
         }
-        s->temperature = common_range(s->temperature, temperatures_of(m->rubber));
+        s->temperature = range_intersection(s->temperature, measured_temperatures(m->rubber));
     }
     const range r = s->temperature;
     if (!(r.low <= r.high))
-        return no_common_temperature(job, err);
-    s->at_temperature = !isnan(job->temperature)    ? job->temperature
-                        : range_holds(r, reference) ? reference
-                                                    : (r.low + r.high) / 2;
-    if (range_holds(r, s->at_temperature))
+        return fail_no_common_temperature(job, err);
+    s->at_temperature = !isnan(job->temperature)       ? job->temperature
+                        : range_contains(r, reference) ? reference
+                                                       : (r.low + r.high) / 2;
+    if (range_contains(r, s->at_temperature))
         return WT_OK;
     wt_fail(err, WT_E_RANGE, "not all materials were measured at the at-temperature");
     wt_error_expected(err, "%.1f to %.1f °C", r.low - WT_ZERO_CELSIUS, r.high - WT_ZERO_CELSIUS);
@@ -145,8 +146,8 @@ static wt_status find_temperature(const wt_materials_job *job, setting *s, wt_er
     return WT_E_RANGE;
 }
 
-static wt_status no_common_frequency(const wt_compared pair[2], const range own[2],
-                                     double temperature, wt_error *err)
+static wt_status fail_no_common_frequency(const wt_compared_material pair[2], const range own[2],
+                                          double temperature, wt_error *err)
 {
     wt_fail(err, WT_E_RANGE, "the materials have no frequency in common at %.1f °C",
             temperature - WT_ZERO_CELSIUS);
@@ -159,8 +160,8 @@ static wt_status no_common_frequency(const wt_compared pair[2], const range own[
 }
 
 /* Fails because no temperature has the requested frequency in both materials. */
-static wt_status no_such_frequency(const wt_compared pair[2], const range own[2], const setting *s,
-                                   wt_error *err)
+static wt_status fail_frequency_not_measured(const wt_compared_material pair[2], const range own[2],
+                                             const comparison_conditions *s, wt_error *err)
 {
     const range t = s->temperature;
     const bool one = !(t.high - t.low > 2 * same_temperature);
@@ -179,20 +180,22 @@ static wt_status no_such_frequency(const wt_compared pair[2], const range own[2]
 /* ---- points of comparison -------------------------------------------------------------------- */
 
 /* Fills PER_DECADE points per decade of a range, including its limits. Returns their number. */
-static size_t over_frequency(range r, double temperature, material_place place[MOST_PLACES])
+static size_t list_frequency_points(range r, double temperature, comparison_point point[MAX_POINTS])
 {
     const double decades = log10(r.high / r.low);
     const double wanted = ceil(decades * PER_DECADE) + 1;
-    const size_t n = wanted < 2 ? 2 : wanted > MOST_PLACES ? MOST_PLACES : (size_t)wanted;
+    const size_t n = wanted < 2 ? 2 : wanted > MAX_POINTS ? MAX_POINTS : (size_t)wanted;
     for (size_t i = 0; i < n; i++)
-        place[i] =
-            (material_place){temperature, r.low * pow(10, decades * (double)i / (double)(n - 1))};
+        point[i] =
+            (comparison_point){temperature, r.low * pow(10, decades * (double)i / (double)(n - 1))};
     return n;
 }
 
 /* Fills the temperatures of the common range at which both materials have the frequency. */
-static wt_status over_temperature(const wt_compared pair[2], const setting *s, double frequency,
-                                  material_place place[TEMPERATURES], size_t *n, wt_error *err)
+static wt_status list_temperature_points(const wt_compared_material pair[2],
+                                         const comparison_conditions *s, double frequency,
+                                         comparison_point point[TEMPERATURES], size_t *n,
+                                         wt_error *err)
 {
     const range r = s->temperature;
     *n = 0;
@@ -202,12 +205,12 @@ static wt_status over_temperature(const wt_compared pair[2], const setting *s, d
         const double t = r.low + (r.high - r.low) * (double)i / (TEMPERATURES - 1);
         range own[2] = {{0, 0}, {0, 0}};
         for (int k = 0; k < 2; k++) {
-            const wt_status status = frequencies_of(pair[k].rubber, t, &own[k], err);
+            const wt_status status = measured_frequencies(pair[k].rubber, t, &own[k], err);
             if (status != WT_OK)
                 return status;
         }
-        if (range_holds(common_range(own[0], own[1]), frequency))
-            place[(*n)++] = (material_place){t, frequency};
+        if (range_contains(range_intersection(own[0], own[1]), frequency))
+            point[(*n)++] = (comparison_point){t, frequency};
     }
     return WT_OK;
 }
@@ -216,18 +219,18 @@ static wt_status over_temperature(const wt_compared pair[2], const setting *s, d
 
 /* Finds the errors that the draws do not contain. If superposition fails, the spectrum deviates
  * from the isotherms by its misfit. E'' also deviates by the Kramers-Kronig inconsistency. */
-static wt_status find_beside(const wt_compared *m, double sample_error, compared_material *b,
-                             wt_error *err)
+static wt_status find_systematic_errors(const wt_compared_material *m, double sample_error,
+                                        material_systematic_errors *b, wt_error *err)
 {
     table_view view;
-    *b = (compared_material){.sample = {sample_error, sample_error, 0}};
+    *b = (material_systematic_errors){.sample = {sample_error, sample_error, 0}};
     if (m->shift_factors == NULL)
         return WT_OK;
     const wt_status status = table_bind(m->shift_factors, &shift_factors_schema, "", &view, err);
     if (status != WT_OK)
         return status;
-    const char *verdict = shift_factors_words(&view, SHIFT_FACTORS_KEY_SUPERPOSITION),
-               *high = shift_factors_words(&view, SHIFT_FACTORS_KEY_MISFIT_HIGH);
+    const char *verdict = shift_factors_key_text(&view, SHIFT_FACTORS_KEY_SUPERPOSITION),
+               *high = shift_factors_key_text(&view, SHIFT_FACTORS_KEY_MISFIT_HIGH);
     double misfit = 0;
     if (strncmp(verdict, "holds", 5) == 0 || high == NULL ||
         !wt_number_parse(high, strlen(high), '.', &misfit) || !isfinite(misfit))
@@ -251,48 +254,48 @@ TABLE_KEYS(material_ratio, MATERIAL_RATIO, const char *differs, *settled_by, *fi
            *outside;
            double temperature, angular_frequency, margin; char includes[160], lacks[160];)
 
-static wt_interval interval_of(double ln, double error)
+static wt_interval exp_interval(double ln, double error)
 {
     return (wt_interval){exp(ln), (double)NAN, exp(ln - NORMAL_95 * error),
                          exp(ln + NORMAL_95 * error)};
 }
 
-static wt_status add_material(const wt_compared *m, const compared_material *beside,
-                              double temperature, const wt_job *work, table_writer *t,
-                              wt_error *err)
+static wt_status add_material_rows(const wt_compared_material *m,
+                                   const material_systematic_errors *systematic, double temperature,
+                                   const wt_job *work, table_writer *t, wt_error *err)
 {
-    material_place place[MOST_PLACES];
+    comparison_point point[MAX_POINTS];
     material_values v = {0};
     range own;
-    wt_status status = frequencies_of(m->rubber, temperature, &own, err);
+    wt_status status = measured_frequencies(m->rubber, temperature, &own, err);
     if (status != WT_OK || !(own.low > 0) || !isfinite(own.high))
         return status; /* a material without a known range is an error in the comparison only */
-    const size_t n = over_frequency(own, temperature, place);
-    status = material_values_make(m->rubber, beside, place, n, work, &v, err);
+    const size_t n = list_frequency_points(own, temperature, point);
+    status = material_values_compute(m->rubber, systematic, point, n, work, &v, err);
     table_block(t);
     for (size_t i = 0; status == WT_OK && i < n; i++) {
         const double *x = v.value + i * Q, *e = v.error + i * Q;
-        TABLE_ADD(materials, t, m->name, place[i].frequency,
-                  interval_of(x[MATERIALS_E1], e[MATERIALS_E1]),
-                  interval_of(x[MATERIALS_E2], e[MATERIALS_E2]),
-                  interval_of(x[MATERIALS_TAN], e[MATERIALS_TAN]));
+        TABLE_ADD(materials, t, m->name, point[i].frequency,
+                  exp_interval(x[MATERIALS_E1], e[MATERIALS_E1]),
+                  exp_interval(x[MATERIALS_E2], e[MATERIALS_E2]),
+                  exp_interval(x[MATERIALS_TAN], e[MATERIALS_TAN]));
     }
     material_values_clear(&v);
     return status;
 }
 
-static void put_ratios(table_writer *t, const char *name, const char *over,
-                       const material_place *place, const material_ratio *r, size_t first,
-                       size_t last)
+static void add_ratio_rows(table_writer *t, const char *name, const char *over,
+                           const comparison_point *point, const material_ratio *r, size_t first,
+                           size_t last)
 {
     if (first < last)
         table_block(t);
     for (size_t i = first; i < last; i++) {
         const double *x = r->value + i * Q, *e = r->error + i * Q;
-        TABLE_ADD(material_ratio, t, name, over, place[i].temperature, place[i].frequency,
-                  interval_of(x[MATERIALS_E1], e[MATERIALS_E1]),
-                  interval_of(x[MATERIALS_E2], e[MATERIALS_E2]),
-                  interval_of(x[MATERIALS_TAN], e[MATERIALS_TAN]));
+        TABLE_ADD(material_ratio, t, name, over, point[i].temperature, point[i].frequency,
+                  exp_interval(x[MATERIALS_E1], e[MATERIALS_E1]),
+                  exp_interval(x[MATERIALS_E2], e[MATERIALS_E2]),
+                  exp_interval(x[MATERIALS_TAN], e[MATERIALS_TAN]));
     }
 }
 
@@ -301,10 +304,10 @@ static void put_ratios(table_writer *t, const char *name, const char *over,
 /* Verdict texts of all pairs. */
 typedef struct verdict_texts {
     char differs[1024], settled_by[640], outside[640];
-    bool known, misfit; /* true if some interval is known; true if one contains a misfit */
+    bool errors_known, misfit; /* true if some interval is known; true if one contains a misfit */
 } verdict_texts;
 
-#define ADD(field, ...)                                                                            \
+#define APPEND_ITEM(field, ...)                                                                    \
     do {                                                                                           \
         const size_t used_ = strlen(field);                                                        \
         clocale_print((field) + used_, sizeof(field) - used_, "%s", used_ > 0 ? "; " : "");        \
@@ -313,75 +316,77 @@ typedef struct verdict_texts {
     } while (0)
 
 /* Lists the frequencies that only one material has, if they are a fifth of a decade or more. */
-static void say_outside(const wt_compared *m, range own, range shared, double temperature,
-                        verdict_texts *s)
+static void append_unshared_frequencies(const wt_compared_material *m, range own, range shared,
+                                        double temperature, verdict_texts *s)
 {
     const double at = temperature - WT_ZERO_CELSIUS;
     if (own.low < shared.low / 1.6 && own.low > 0)
-        ADD(s->outside, "%s below %.2g rad/s at %.1f °C", m->name, shared.low, at);
+        APPEND_ITEM(s->outside, "%s below %.2g rad/s at %.1f °C", m->name, shared.low, at);
     if (own.high > shared.high * 1.6 && isfinite(own.high))
-        ADD(s->outside, "%s above %.2g rad/s at %.1f °C", m->name, shared.high, at);
+        APPEND_ITEM(s->outside, "%s above %.2g rad/s at %.1f °C", m->name, shared.high, at);
 }
 
-static void say_temperatures(const wt_materials_job *job, const setting *set, verdict_texts *s)
+static void append_unshared_temperatures(const wt_materials_job *job,
+                                         const comparison_conditions *set, verdict_texts *s)
 {
     const range r = set->temperature;
     for (size_t i = 0; i < job->n_materials; i++) {
-        const wt_compared *m = &job->materials[i];
-        const range own = temperatures_of(m->rubber);
+        const wt_compared_material *m = &job->materials[i];
+        const range own = measured_temperatures(m->rubber);
         const bool law = m->rubber->law.kind != WT_LAW_NONE;
         if (!law)
-            ADD(s->outside, "%s has no shift law: all are compared at its temperature only",
-                m->name);
+            APPEND_ITEM(s->outside, "%s has no shift law: all are compared at its temperature only",
+                        m->name);
         if (law && isfinite(own.high) && own.low < r.low - same_temperature)
-            ADD(s->outside, "%s below %.1f °C", m->name, r.low - WT_ZERO_CELSIUS);
+            APPEND_ITEM(s->outside, "%s below %.1f °C", m->name, r.low - WT_ZERO_CELSIUS);
         if (law && isfinite(own.high) && own.high > r.high + same_temperature)
-            ADD(s->outside, "%s above %.1f °C", m->name, r.high - WT_ZERO_CELSIUS);
+            APPEND_ITEM(s->outside, "%s above %.1f °C", m->name, r.high - WT_ZERO_CELSIUS);
     }
 }
 
 /* ---- the job --------------------------------------------------------------------------------- */
 
 /* Compares a material with the first one. */
-static wt_status add_pair(const wt_materials_job *job, const wt_compared pair[2],
-                          const compared_material beside[2], const wt_job *work, setting *s,
-                          table_writer *t, verdict_texts *words, wt_error *err)
+static wt_status compare_pair(const wt_materials_job *job, const wt_compared_material pair[2],
+                              const material_systematic_errors systematic[2], const wt_job *work,
+                              comparison_conditions *s, table_writer *t, verdict_texts *texts,
+                              wt_error *err)
 {
-    material_place place[MOST_PLACES + TEMPERATURES];
+    comparison_point point[MAX_POINTS + TEMPERATURES];
     material_values values[2] = {{0}, {0}};
     material_ratio ratio = {0};
     range own[2] = {{0, 0}, {0, 0}};
     size_t n_temperatures = 0;
     wt_status status = WT_OK;
     for (int k = 0; status == WT_OK && k < 2; k++)
-        status = frequencies_of(pair[k].rubber, s->at_temperature, &own[k], err);
+        status = measured_frequencies(pair[k].rubber, s->at_temperature, &own[k], err);
     if (status != WT_OK)
         return status;
-    const range shared = common_range(own[0], own[1]);
+    const range shared = range_intersection(own[0], own[1]);
     if (!(shared.low > 0 && shared.low < shared.high && isfinite(shared.high)))
-        return no_common_frequency(pair, own, s->at_temperature, err);
-    const size_t n = over_frequency(shared, s->at_temperature, place);
+        return fail_no_common_frequency(pair, own, s->at_temperature, err);
+    const size_t n = list_frequency_points(shared, s->at_temperature, point);
     if (isnan(s->at_frequency))
         s->at_frequency =
-            range_holds(shared, ten_hertz) ? ten_hertz : sqrt(shared.low * shared.high);
-    status = over_temperature(pair, s, s->at_frequency, place + n, &n_temperatures, err);
+            range_contains(shared, ten_hertz) ? ten_hertz : sqrt(shared.low * shared.high);
+    status = list_temperature_points(pair, s, s->at_frequency, point + n, &n_temperatures, err);
     if (status == WT_OK && n_temperatures == 0 && !isnan(job->frequency))
-        status = no_such_frequency(pair, own, s, err);
+        status = fail_frequency_not_measured(pair, own, s, err);
     for (int k = 0; status == WT_OK && k < 2; k++)
-        status = material_values_make(pair[k].rubber, &beside[k], place, n + n_temperatures, work,
-                                      &values[k], err);
+        status = material_values_compute(pair[k].rubber, &systematic[k], point, n + n_temperatures,
+                                         work, &values[k], err);
     if (status == WT_OK)
-        status = material_ratio_make(&values[0], &values[1], &ratio, err);
+        status = material_ratio_compute(&values[0], &values[1], &ratio, err);
     if (status == WT_OK) {
-        put_ratios(t, pair[1].name, "frequency", place, &ratio, 0, n);
-        put_ratios(t, pair[1].name, "temperature", place, &ratio, n, n + n_temperatures);
-        const material_verdict v = material_judge(pair, values, beside, &ratio, job->margin);
-        ADD(words->differs, "%s", v.differs);
+        add_ratio_rows(t, pair[1].name, "frequency", point, &ratio, 0, n);
+        add_ratio_rows(t, pair[1].name, "temperature", point, &ratio, n, n + n_temperatures);
+        const material_verdict v = material_assess(pair, values, systematic, &ratio, job->margin);
+        APPEND_ITEM(texts->differs, "%s", v.differs);
         if (v.settled_by[0] != '\0')
-            ADD(words->settled_by, "%s", v.settled_by);
-        words->known = words->known || ratio.known;
-        say_outside(&pair[0], own[0], shared, s->at_temperature, words);
-        say_outside(&pair[1], own[1], shared, s->at_temperature, words);
+            APPEND_ITEM(texts->settled_by, "%s", v.settled_by);
+        texts->errors_known = texts->errors_known || ratio.errors_known;
+        append_unshared_frequencies(&pair[0], own[0], shared, s->at_temperature, texts);
+        append_unshared_frequencies(&pair[1], own[1], shared, s->at_temperature, texts);
     }
     material_ratio_clear(&ratio);
     material_values_clear(&values[0]);
@@ -389,23 +394,23 @@ static wt_status add_pair(const wt_materials_job *job, const wt_compared pair[2]
     return status;
 }
 
-static void set_keys(const wt_materials_job *job, const setting *s, const verdict_texts *words,
-                     table_writer *t)
+static void set_ratio_keys(const wt_materials_job *job, const comparison_conditions *s,
+                           const verdict_texts *texts, table_writer *t)
 {
-    material_ratio_keys keys = {words->differs,
-                                words->settled_by,
+    material_ratio_keys keys = {texts->differs,
+                                texts->settled_by,
                                 job->materials[0].name,
-                                words->outside,
+                                texts->outside,
                                 s->at_temperature,
                                 s->at_frequency,
                                 job->margin,
                                 "",
                                 ""};
     const bool sizes = job->sample_error > 0;
-    if (words->known) {
+    if (texts->errors_known) {
         clocale_print(keys.includes, sizeof keys.includes,
                       "noise of the isotherms, shifts and their law%s%s",
-                      words->misfit ? ", misfit of superposition" : "",
+                      texts->misfit ? ", misfit of superposition" : "",
                       sizes ? ", dimensions of the samples" : "");
         clocale_print(keys.lacks, sizeof keys.lacks, "other samples of the same materials%s",
                       sizes ? ""
@@ -417,9 +422,9 @@ static void set_keys(const wt_materials_job *job, const setting *s, const verdic
 
 static void warn_deformation(const wt_materials_job *job, const wt_job *work)
 {
-    const wt_compared *first = &job->materials[0];
+    const wt_compared_material *first = &job->materials[0];
     for (size_t i = 1; i < job->n_materials; i++) {
-        const wt_compared *m = &job->materials[i];
+        const wt_compared_material *m = &job->materials[i];
         if (m->rubber->prony.deformation != first->rubber->prony.deformation)
             wt_log_add(work->log, WT_WARNING, m->name, NULL,
                        "one of %s and %s was measured in shear and the other in tension: E = "
@@ -428,32 +433,33 @@ static void warn_deformation(const wt_materials_job *job, const wt_job *work)
     }
 }
 
-static wt_status make_tables(const wt_materials_job *job, const wt_job *work,
-                             wt_materials_tables *tables, wt_error *err)
+static wt_status build_comparison_tables(const wt_materials_job *job, const wt_job *work,
+                                         wt_materials_tables *tables, wt_error *err)
 {
-    setting s = {.at_frequency = job->frequency};
-    verdict_texts words = {.known = false};
-    compared_material first;
-    wt_status status = find_temperature(job, &s, err);
+    comparison_conditions s = {.at_frequency = job->frequency};
+    verdict_texts texts = {.errors_known = false};
+    material_systematic_errors first;
+    wt_status status = find_comparison_temperature(job, &s, err);
     if (status == WT_OK)
-        status = find_beside(&job->materials[0], job->sample_error, &first, err);
+        status = find_systematic_errors(&job->materials[0], job->sample_error, &first, err);
     if (status != WT_OK)
         return status;
-    say_temperatures(job, &s, &words);
+    append_unshared_temperatures(job, &s, &texts);
     table_writer curves = table_begin(&materials_schema, err),
                  ratios = table_begin(&material_ratio_schema, err);
     for (size_t i = 0; status == WT_OK && i < job->n_materials; i++) {
-        const wt_compared pair[2] = {job->materials[0], job->materials[i]};
-        compared_material beside[2] = {first, first};
-        status = find_beside(&pair[1], job->sample_error, &beside[1], err);
-        words.misfit = words.misfit || beside[1].misfit[MATERIALS_E1] > 0;
+        const wt_compared_material pair[2] = {job->materials[0], job->materials[i]};
+        material_systematic_errors systematic[2] = {first, first};
+        status = find_systematic_errors(&pair[1], job->sample_error, &systematic[1], err);
+        texts.misfit = texts.misfit || systematic[1].misfit[MATERIALS_E1] > 0;
         if (status == WT_OK)
-            status = add_material(&pair[1], &beside[1], s.at_temperature, work, &curves, err);
+            status =
+                add_material_rows(&pair[1], &systematic[1], s.at_temperature, work, &curves, err);
         if (status == WT_OK && i > 0)
-            status = add_pair(job, pair, beside, work, &s, &ratios, &words, err);
+            status = compare_pair(job, pair, systematic, work, &s, &ratios, &texts, err);
     }
     materials_set_value(&curves, MATERIALS_KEY_TEMPERATURE, s.at_temperature, 0, 0);
-    set_keys(job, &s, &words, &ratios);
+    set_ratio_keys(job, &s, &texts, &ratios);
     const wt_status one = table_end(&curves, &tables->materials),
                     other = table_end(&ratios, &tables->material_ratio);
     return status != WT_OK ? status : one != WT_OK ? one : other;
@@ -468,7 +474,7 @@ wt_status wt_compare_materials(const wt_materials_job *job, const wt_job *work,
     wt_materials_tables t = {0};
     wt_status status = param_check(wt_materials_job_params(), job, err);
     if (status == WT_OK)
-        status = make_tables(job, work, &t, err);
+        status = build_comparison_tables(job, work, &t, err);
     if (status == WT_OK) {
         warn_deformation(job, work);
         *tables = t;

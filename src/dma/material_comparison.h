@@ -8,9 +8,9 @@
 enum { MATERIALS_E1, MATERIALS_E2, MATERIALS_TAN, MATERIALS_QUANTITIES };
 
 /* Point at which moduli are compared: temperature [K] and angular frequency [rad/s]. */
-typedef struct material_place {
+typedef struct comparison_point {
     double temperature, frequency;
-} material_place;
+} comparison_point;
 
 /* ln E', ln E'' and ln tan delta of a material at the points. */
 typedef struct material_values {
@@ -22,14 +22,15 @@ typedef struct material_values {
 } material_values;
 
 /* Relative systematic errors by quantity, which the draws do not contain. */
-typedef struct compared_material {
+typedef struct material_systematic_errors {
     double misfit[MATERIALS_QUANTITIES], sample[MATERIALS_QUANTITIES];
-} compared_material;
+} material_systematic_errors;
 
 /* Computes the moduli at n points. The caller clears v, also on failure. */
-wt_status material_values_make(const wt_rubber *rubber, const compared_material *beside,
-                               const material_place *place, size_t n, const wt_job *work,
-                               material_values *v, wt_error *err) WT_NODISCARD;
+wt_status material_values_compute(const wt_rubber *rubber,
+                                  const material_systematic_errors *systematic,
+                                  const comparison_point *point, size_t n, const wt_job *work,
+                                  material_values *v, wt_error *err) WT_NODISCARD;
 void material_values_clear(material_values *v);
 
 /* Ratio of the second material to the first: ln ratio and standard error, both [n *
@@ -37,11 +38,11 @@ void material_values_clear(material_values *v);
 typedef struct material_ratio {
     size_t n;
     double *value, *error;
-    double critical; /* in standard errors; no point deviates more by chance in 95 of 100 cases */
-    bool known;      /* true if both errors are known */
+    double critical;   /* in standard errors; no point deviates more by chance in 95 of 100 cases */
+    bool errors_known; /* true if both errors are known */
 } material_ratio;
-wt_status material_ratio_make(const material_values *first, const material_values *second,
-                              material_ratio *r, wt_error *err) WT_NODISCARD;
+wt_status material_ratio_compute(const material_values *first, const material_values *second,
+                                 material_ratio *r, wt_error *err) WT_NODISCARD;
 void material_ratio_clear(material_ratio *r);
 
 typedef struct material_verdict {
@@ -49,8 +50,9 @@ typedef struct material_verdict {
 } material_verdict;
 
 /* Assesses the difference of the second material from the first. */
-material_verdict material_judge(const wt_compared pair[2], const material_values values[2],
-                                const compared_material beside[2], const material_ratio *ratio,
-                                double margin);
+material_verdict material_assess(const wt_compared_material pair[2],
+                                 const material_values values[2],
+                                 const material_systematic_errors systematic[2],
+                                 const material_ratio *ratio, double margin);
 
 #endif

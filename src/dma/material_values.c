@@ -18,8 +18,9 @@ void material_values_clear(material_values *v)
 }
 
 /* Computes the log moduli of one draw. Consecutive points of one temperature share one material. */
-static wt_status moduli_of_draw(const wt_rubber *rubber, const material_place *place, size_t n,
-                                uint64_t seed, size_t replicate, double *value, wt_error *err)
+static wt_status compute_log_moduli(const wt_rubber *rubber, const comparison_point *point,
+                                    size_t n, uint64_t seed, size_t replicate, double *value,
+                                    wt_error *err)
 {
     double *omega = malloc((3 * n + 1) * sizeof *omega);
     if (omega == NULL)
@@ -28,10 +29,10 @@ static wt_status moduli_of_draw(const wt_rubber *rubber, const material_place *p
     wt_status status = WT_OK;
     for (size_t first = 0, last; status == WT_OK && first < n; first = last) {
         wt_material *material = NULL;
-        for (last = first; last < n && place[last].temperature == place[first].temperature; last++)
-            omega[last - first] = place[last].frequency;
-        status =
-            wt_rubber_at(rubber, place[first].temperature, seed, replicate, &material, NULL, err);
+        for (last = first; last < n && point[last].temperature == point[first].temperature; last++)
+            omega[last - first] = point[last].frequency;
+        status = wt_rubber_material(rubber, point[first].temperature, seed, replicate, &material,
+                                    NULL, err);
         if (status != WT_OK)
             break;
         material->law->modulus(material, omega, last - first, storage, loss);
@@ -62,9 +63,10 @@ static void centre_draws(material_values *v)
     }
 }
 
-wt_status material_values_make(const wt_rubber *rubber, const compared_material *beside,
-                               const material_place *place, size_t n, const wt_job *work,
-                               material_values *v, wt_error *err)
+wt_status material_values_compute(const wt_rubber *rubber,
+                                  const material_systematic_errors *systematic,
+                                  const comparison_point *point, size_t n, const wt_job *work,
+                                  material_values *v, wt_error *err)
 {
     const size_t m = n * Q;
     *v = (material_values){.n = n, .n_draws = rubber->n_draws > 1 ? rubber->n_draws : 0};
@@ -73,17 +75,19 @@ wt_status material_values_make(const wt_rubber *rubber, const compared_material 
     if (v->value == NULL || v->draw == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     v->error = v->value + m;
-    wt_status status = moduli_of_draw(rubber, place, n, work->seed, WT_NO_REPLICATE, v->value, err);
+    wt_status status =
+        compute_log_moduli(rubber, point, n, work->seed, WT_NO_REPLICATE, v->value, err);
     for (size_t d = 0; status == WT_OK && d < v->n_draws; d++)
-        status = moduli_of_draw(rubber, place, n, work->seed, d, v->draw + d * m, err);
+        status = compute_log_moduli(rubber, point, n, work->seed, d, v->draw + d * m, err);
     if (status != WT_OK)
         return status;
     if (v->n_draws > 0)
         centre_draws(v);
     for (size_t k = 0; k < m; k++)
-        v->error[k] = v->n_draws == 0
-                          ? (double)NAN
-                          : hypot(v->error[k], hypot(beside->misfit[k % Q], beside->sample[k % Q]));
+        v->error[k] =
+            v->n_draws == 0
+                ? (double)NAN
+                : hypot(v->error[k], hypot(systematic->misfit[k % Q], systematic->sample[k % Q]));
     return WT_OK;
 }
 
@@ -95,17 +99,17 @@ void material_ratio_clear(material_ratio *r)
 
 /* Finds the 95 % quantile of the largest deviation over pairs of draws, in standard errors.
  * Draws of equal number share random numbers, so only different numbers are paired. */
-static wt_status find_critical(const material_values *a, const material_values *b,
-                               material_ratio *r, wt_error *err)
+static wt_status find_critical_deviation(const material_values *a, const material_values *b,
+                                         material_ratio *r, wt_error *err)
 {
-    enum { WAYS = 4 }; /* pairs for each draw; a draw is expensive, a pair is not */
-    const size_t m = r->n * Q, n = WAYS * a->n_draws;
+    enum { PAIRINGS = 4 }; /* pairs for each draw; a draw is expensive, a pair is not */
+    const size_t m = r->n * Q, n = PAIRINGS * a->n_draws;
     double *most = calloc(n + 1, sizeof *most);
     if (most == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     for (size_t i = 0; i < n; i++) {
-        const size_t d = i % a->n_draws, way = i / a->n_draws + 1;
-        const size_t e = (d + way * b->n_draws / (WAYS + 1)) % b->n_draws;
+        const size_t d = i % a->n_draws, pairing = i / a->n_draws + 1;
+        const size_t e = (d + pairing * b->n_draws / (PAIRINGS + 1)) % b->n_draws;
         for (size_t k = 0; k < m; k++)
             most[i] = fmax(most[i], fabs(b->draw[e * m + k] - a->draw[d * m + k]) / r->error[k]);
     }
@@ -115,11 +119,11 @@ static wt_status find_critical(const material_values *a, const material_values *
     return WT_OK;
 }
 
-wt_status material_ratio_make(const material_values *first, const material_values *second,
-                              material_ratio *r, wt_error *err)
+wt_status material_ratio_compute(const material_values *first, const material_values *second,
+                                 material_ratio *r, wt_error *err)
 {
     const size_t m = first->n * Q;
-    *r = (material_ratio){.n = first->n, .known = first->n_draws > 0 && second->n_draws > 0};
+    *r = (material_ratio){.n = first->n, .errors_known = first->n_draws > 0 && second->n_draws > 0};
     r->value = malloc((2 * m + 1) * sizeof *r->value);
     if (r->value == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
@@ -128,5 +132,5 @@ wt_status material_ratio_make(const material_values *first, const material_value
         r->value[k] = second->value[k] - first->value[k];
         r->error[k] = hypot(first->error[k], second->error[k]);
     }
-    return r->known ? find_critical(first, second, r, err) : WT_OK;
+    return r->errors_known ? find_critical_deviation(first, second, r, err) : WT_OK;
 }

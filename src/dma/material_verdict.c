@@ -14,45 +14,45 @@ enum { Q = MATERIALS_QUANTITIES };
 static const char *const quantity_names[Q] = {"E'", "E''", "tan delta"};
 
 /* Result for one quantity over all compared points. */
-typedef struct result_value {
-    double low, high;     /* extremes of the ratio */
-    bool differs, within; /* significant at some point; within the margin at all points */
-    size_t widest;        /* index of the point whose interval is farthest from 1 */
-    double reach;         /* limit of that interval, |ln ratio| */
-} result_value;
+typedef struct quantity_difference {
+    double low, high;      /* extremes of the ratio */
+    bool differs, within;  /* significant at some point; within the margin at all points */
+    size_t widest;         /* index of the point whose interval is farthest from 1 */
+    double farthest_limit; /* limit of that interval, |ln ratio| */
+} quantity_difference;
 
-static result_value find_difference(const material_ratio *r, int q, double margin)
+static quantity_difference assess_quantity(const material_ratio *r, int q, double margin)
 {
-    result_value f = {(double)INFINITY, 0, false, true, 0, 0};
+    quantity_difference f = {(double)INFINITY, 0, false, true, 0, 0};
     for (size_t i = 0; i < r->n; i++) {
         const double x = r->value[i * Q + (size_t)q], e = r->error[i * Q + (size_t)q];
-        const double reach = fabs(x) + NORMAL_95 * e;
+        const double farthest_limit = fabs(x) + NORMAL_95 * e;
         f.low = fmin(f.low, exp(x));
         f.high = fmax(f.high, exp(x));
         f.differs = f.differs || fabs(x) > r->critical * e;
-        f.within = f.within && reach < margin;
-        if (reach > f.reach) {
-            f.reach = reach;
+        f.within = f.within && farthest_limit < margin;
+        if (farthest_limit > f.farthest_limit) {
+            f.farthest_limit = farthest_limit;
             f.widest = i;
         }
     }
     return f;
 }
 
-#define SAY(field, ...)                                                                            \
+#define APPEND(field, ...)                                                                         \
     do {                                                                                           \
         const size_t used_ = strlen(field);                                                        \
         clocale_print((field) + used_, sizeof(field) - used_, __VA_ARGS__);                        \
     } while (0)
 
-static void say_list(char *text, size_t size, const result_value *f,
-                     bool (*is_one)(const result_value *))
+static void append_quantity_list(char *text, size_t size, const quantity_difference *f,
+                                 bool (*matches)(const quantity_difference *))
 {
     size_t n = 0, left = 0;
     for (int q = 0; q < Q; q++)
-        left += is_one(&f[q]);
+        left += matches(&f[q]);
     for (int q = 0; q < Q; q++) {
-        if (!is_one(&f[q]))
+        if (!matches(&f[q]))
             continue;
         const size_t used = strlen(text);
         left--;
@@ -64,120 +64,126 @@ static void say_list(char *text, size_t size, const result_value *f,
     }
 }
 
-static bool is_alike(const result_value *f)
+static bool is_equivalent(const quantity_difference *f)
 {
     return f->within && !f->differs;
 }
 
-static bool is_open(const result_value *f)
+static bool is_inconclusive(const quantity_difference *f)
 {
     return !f->within && !f->differs;
 }
 
-static void say_difference(const result_value *f, const wt_compared pair[2], material_verdict *v)
+static void append_differences(const quantity_difference *f, const wt_compared_material pair[2],
+                               material_verdict *v)
 {
     int n = 0, left = 0;
     for (int q = 0; q < Q; q++)
         left += f[q].differs;
-    SAY(v->differs, "yes: %s has ", pair[1].name);
+    APPEND(v->differs, "yes: %s has ", pair[1].name);
     for (int q = 0; q < Q; q++) {
         if (!f[q].differs)
             continue;
         left--;
-        SAY(v->differs, "%s%.3g", n++ == 0 ? "" : left == 0 ? " and " : ", ", f[q].low);
+        APPEND(v->differs, "%s%.3g", n++ == 0 ? "" : left == 0 ? " and " : ", ", f[q].low);
         if (f[q].high > 1.01 * f[q].low)
-            SAY(v->differs, " to %.3g", f[q].high);
-        SAY(v->differs, " times the %s%s", quantity_names[q],
-            f[q].within ? " (within the margin)" : "");
+            APPEND(v->differs, " to %.3g", f[q].high);
+        APPEND(v->differs, " times the %s%s", quantity_names[q],
+               f[q].within ? " (within the margin)" : "");
     }
-    SAY(v->differs, " of %s", pair[0].name);
+    APPEND(v->differs, " of %s", pair[0].name);
     char list[48] = "";
-    say_list(list, sizeof list, f, is_alike);
+    append_quantity_list(list, sizeof list, f, is_equivalent);
     if (list[0] != '\0')
-        SAY(v->differs, "; within the margin: %s", list);
+        APPEND(v->differs, "; within the margin: %s", list);
     list[0] = '\0';
-    say_list(list, sizeof list, f, is_open);
+    append_quantity_list(list, sizeof list, f, is_inconclusive);
     if (list[0] != '\0')
-        SAY(v->differs, "; not shown to differ: %s", list);
+        APPEND(v->differs, "; not shown to differ: %s", list);
 }
 
 /* Names the largest contribution to the widest inconclusive interval as the remedy. */
-static void say_what_settles(const result_value *f, const wt_compared pair[2],
-                             const material_values values[2], const compared_material beside[2],
-                             material_verdict *v)
+static void append_remedy(const quantity_difference *f, const wt_compared_material pair[2],
+                          const material_values values[2],
+                          const material_systematic_errors systematic[2], material_verdict *v)
 {
     int worst = -1;
     for (int q = 0; q < Q; q++)
-        if (is_open(&f[q]) && (worst < 0 || f[q].reach > f[worst].reach))
+        if (is_inconclusive(&f[q]) && (worst < 0 || f[q].farthest_limit > f[worst].farthest_limit))
             worst = q;
     if (worst < 0)
         return;
     double part[2], sample = 0, misfit[2];
     for (int k = 0; k < 2; k++) {
         part[k] = pow(values[k].error[f[worst].widest * Q + (size_t)worst], 2);
-        misfit[k] = pow(beside[k].misfit[worst], 2);
-        sample += pow(beside[k].sample[worst], 2);
+        misfit[k] = pow(systematic[k].misfit[worst], 2);
+        sample += pow(systematic[k].sample[worst], 2);
     }
     const int larger = part[1] > part[0];
     const double sum = part[0] + part[1];
     if (sample > sum / 2)
-        SAY(v->settled_by, "dimensions of the samples known better than sample-error, or several "
-                           "samples of each");
+        APPEND(v->settled_by,
+               "dimensions of the samples known better than sample-error, or several "
+               "samples of each");
     else if (misfit[larger] > sum / 2)
-        SAY(v->settled_by,
+        APPEND(
+            v->settled_by,
             "a master curve of %s in which superposition holds: most of the interval is its misfit",
             pair[larger].name);
     else
-        SAY(v->settled_by,
+        APPEND(
+            v->settled_by,
             "more isotherms of %s, or less noise in them: it has %.0f %% of the variance where the "
             "interval is widest",
             pair[larger].name, 100 * part[larger] / sum);
 }
 
-static void say_no_error(const wt_compared pair[2], const material_values values[2],
-                         material_verdict *v)
+static void append_missing_errors(const wt_compared_material pair[2],
+                                  const material_values values[2], material_verdict *v)
 {
     const bool both = values[0].n_draws == 0 && values[1].n_draws == 0;
     const char *name = pair[values[0].n_draws == 0 ? 0 : 1].name;
-    SAY(v->differs, "cannot say: the error of %s%s%s is not known", name, both ? " and of " : "",
-        both ? pair[1].name : "");
-    SAY(v->settled_by,
-        "the isotherms of %s%s%s, or what `weartrack master` makes of them with its tables of "
-        "draws",
-        name, both ? " and of " : "", both ? pair[1].name : "");
+    APPEND(v->differs, "cannot say: the error of %s%s%s is not known", name, both ? " and of " : "",
+           both ? pair[1].name : "");
+    APPEND(v->settled_by,
+           "the isotherms of %s%s%s, or what `weartrack master` makes of them with its tables of "
+           "draws",
+           name, both ? " and of " : "", both ? pair[1].name : "");
 }
 
-material_verdict material_judge(const wt_compared pair[2], const material_values values[2],
-                                const compared_material beside[2], const material_ratio *ratio,
-                                double margin)
+material_verdict material_assess(const wt_compared_material pair[2],
+                                 const material_values values[2],
+                                 const material_systematic_errors systematic[2],
+                                 const material_ratio *ratio, double margin)
 {
     material_verdict v = {0};
-    result_value f[Q];
+    quantity_difference f[Q];
     bool differs = false, within = true;
-    if (!ratio->known) {
-        say_no_error(pair, values, &v);
+    if (!ratio->errors_known) {
+        append_missing_errors(pair, values, &v);
         return v;
     }
     for (int q = 0; q < Q; q++) {
-        f[q] = find_difference(ratio, q, log1p(margin));
+        f[q] = assess_quantity(ratio, q, log1p(margin));
         differs = differs || f[q].differs;
         within = within && f[q].within;
     }
     if (differs) {
-        say_difference(f, pair, &v);
+        append_differences(f, pair, &v);
     } else if (within) {
-        SAY(v.differs,
-            "no: E', E'' and tan delta of %s are those of %s within %.3g %%, the margin "
-            "set",
-            pair[1].name, pair[0].name, 100 * margin);
+        APPEND(v.differs,
+               "no: E', E'' and tan delta of %s are those of %s within %.3g %%, the margin "
+               "set",
+               pair[1].name, pair[0].name, 100 * margin);
     } else {
         char list[48] = "";
-        say_list(list, sizeof list, f, is_open);
-        SAY(v.differs,
+        append_quantity_list(list, sizeof list, f, is_inconclusive);
+        APPEND(
+            v.differs,
             "cannot say: the intervals of the ratio of %s have room for no difference and for one "
             "above %.3g %%",
             list, 100 * margin);
     }
-    say_what_settles(f, pair, values, beside, &v);
+    append_remedy(f, pair, values, systematic, &v);
     return v;
 }

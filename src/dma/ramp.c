@@ -17,20 +17,20 @@
 /* Frequencies within 1e-3 are one frequency, because exports with four digits differ by 5e-4. A
  * temperature sweep needs two temperatures more than the constants of a parabola. */
 static const double same_frequency = 1e-3;
-enum { FEWEST = 5 };
+enum { MIN_POINTS = 5 };
 
 wt_ramp_job wt_ramp_job_defaults(void)
 {
     return (wt_ramp_job){.n_temperatures = 0};
 }
 
-static wt_status check_points(const void *member, wt_error *err)
+static wt_status check_peak_points(const void *member, wt_error *err)
 {
     const size_t points = *(const size_t *)member;
-    if (points == 0 || points >= FEWEST)
+    if (points == 0 || points >= MIN_POINTS)
         return WT_OK;
     wt_fail(err, WT_E_RANGE, "a parabola through so few points has no error");
-    wt_error_expected(err, "%d or more, or 0", FEWEST);
+    wt_error_expected(err, "%d or more, or 0", MIN_POINTS);
     return WT_E_RANGE;
 }
 
@@ -39,7 +39,7 @@ static const wt_param rows[] = {
      .value = "T", .unset = "",
      .help = "temperatures at which the moduli are told, such as 0degC,25degC,60degC"},
     {PARAM("peak-points", wt_ramp_job, peak_points, WT_Q_NONE, FROM_TO(0, 10000)), .value = "N",
-     .check = check_points,
+     .check = check_peak_points,
      .help = "place peaks by a plain parabola through so many points; 0: by a smooth curve through "
              "all that are higher than 60 % of the peak"},
 };
@@ -57,15 +57,18 @@ void wt_ramp_tables_clear(wt_ramp_tables *tables)
 
 /* ---- isotherms by frequency ------------------------------------------------------------------ */
 
-typedef struct point {
+typedef struct ramp_point {
     double frequency, temperature, storage, loss, factor, strain;
-} point;
+} ramp_point;
 
-static wt_status add_ramp(wt_sweep *sweep, const point *points, size_t n, wt_error *err)
+static wt_status add_ramp_from_points(wt_sweep *sweep, const ramp_point *points, size_t n,
+                                      wt_error *err)
 {
     wt_ramp *ramp =
-        n >= FEWEST ? wt_sweep_add_ramp(sweep, n, WT_WITH_LOSS_FACTOR | WT_WITH_STRAIN) : NULL;
-    if (n < FEWEST)
+        n >= MIN_POINTS
+            ? wt_sweep_add_ramp(sweep, n, WT_SWEEP_HAS_LOSS_FACTOR | WT_SWEEP_HAS_STRAIN)
+            : NULL;
+    if (n < MIN_POINTS)
         return WT_OK;
     if (ramp == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
@@ -84,23 +87,23 @@ static wt_status add_ramp(wt_sweep *sweep, const point *points, size_t n, wt_err
 }
 
 /* Converts the isotherms to temperature sweeps, one for each shared frequency, and adds them. */
-static wt_status add_isotherms(wt_sweep *sweep, wt_error *err)
+static wt_status add_isotherm_ramps(wt_sweep *sweep, wt_error *err)
 {
     size_t n = 0, all = 0;
     for (size_t i = 0; i < sweep->n_isotherms; i++)
         all += sweep->isotherms[i].n;
-    point *points = malloc((all + 1) * sizeof *points);
+    ramp_point *points = malloc((all + 1) * sizeof *points);
     if (points == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     for (size_t i = 0; i < sweep->n_isotherms; i++) {
         const wt_isotherm *t = &sweep->isotherms[i];
         for (size_t k = 0; k < t->n; k++)
-            points[n++] = (point){t->angular_frequency[k],
-                                  t->temperature,
-                                  t->storage_modulus[k],
-                                  t->loss_modulus[k],
-                                  t->loss_factor != NULL ? t->loss_factor[k] : (double)NAN,
-                                  t->strain != NULL ? t->strain[k] : (double)NAN};
+            points[n++] = (ramp_point){t->angular_frequency[k],
+                                       t->temperature,
+                                       t->storage_modulus[k],
+                                       t->loss_modulus[k],
+                                       t->loss_factor != NULL ? t->loss_factor[k] : (double)NAN,
+                                       t->strain != NULL ? t->strain[k] : (double)NAN};
     }
     qsort(points, n, sizeof *points, numbers_compare);
     wt_status status = WT_OK;
@@ -108,7 +111,7 @@ static wt_status add_isotherms(wt_sweep *sweep, wt_error *err)
         for (end = first + 1;
              end < n && points[end].frequency < points[first].frequency * (1 + same_frequency);)
             end++;
-        status = add_ramp(sweep, points + first, end - first, err);
+        status = add_ramp_from_points(sweep, points + first, end - first, err);
     }
     free(points);
     wt_sweep_sort(sweep);
@@ -117,14 +120,14 @@ static wt_status add_isotherms(wt_sweep *sweep, wt_error *err)
 
 /* ---- one temperature sweep ------------------------------------------------------------------- */
 
-typedef enum quantity { STORAGE, LOSS, FACTOR, QUANTITIES } quantity;
+typedef enum sweep_quantity { STORAGE, LOSS, FACTOR, QUANTITIES } sweep_quantity;
 
 /* Points of a temperature sweep whose measured quantities are all positive. */
-typedef struct usable {
+typedef struct usable_points {
     size_t n;
     double *temperature, *value[QUANTITIES];
     bool has[QUANTITIES]; /* the quantity was measured */
-} usable;
+} usable_points;
 
 /* Returns the ratio of the moduli, or the measured tan delta if the moduli are missing. */
 static double loss_factor(const wt_ramp *ramp, size_t i)
@@ -135,10 +138,10 @@ static double loss_factor(const wt_ramp *ramp, size_t i)
     return ramp->loss_factor != NULL ? ramp->loss_factor[i] : (double)NAN;
 }
 
-static wt_status take_usable(const wt_ramp *ramp, arena *memory, wt_log *log, usable *u,
-                             wt_error *err)
+static wt_status select_usable_points(const wt_ramp *ramp, arena *memory, wt_log *log,
+                                      usable_points *u, wt_error *err)
 {
-    *u = (usable){.temperature = arena_numbers(memory, ramp->n)};
+    *u = (usable_points){.temperature = arena_numbers(memory, ramp->n)};
     for (int q = 0; q < QUANTITIES; q++)
         u->value[q] = arena_numbers(memory, ramp->n);
     if (memory->failed)
@@ -173,7 +176,7 @@ TABLE_ROW(ramp, RAMP, double temperature, angular_frequency, storage_modulus, lo
           loss_factor, strain;
           const char *source;)
 
-static void put_points(table_writer *t, const wt_ramp *r)
+static void add_ramp_rows(table_writer *t, const wt_ramp *r)
 {
     table_block(t);
     for (size_t i = 0; i < r->n; i++)
@@ -182,32 +185,32 @@ static void put_points(table_writer *t, const wt_ramp *r)
                   r->strain != NULL ? r->strain[i] : (double)NAN, r->source);
 }
 
-typedef struct shown_peak {
+typedef struct peak_columns {
     wt_interval at;
     double height, points, misfit;
     const char *why_not;
-} shown_peak;
+} peak_columns;
 
-TABLE_ROW(glass_transition, GLASS_TRANSITION, shown_peak factor, loss; wt_interval onset;
+TABLE_ROW(glass_transition, GLASS_TRANSITION, peak_columns factor, loss; wt_interval onset;
           const char *onset_note; double angular_frequency, temperature_min, temperature_max;
           const char *source; bool other;)
 
-static const wt_interval not_known = {(double)NAN, (double)NAN, (double)NAN, (double)NAN};
+static const wt_interval unknown_interval = {(double)NAN, (double)NAN, (double)NAN, (double)NAN};
 
-static shown_peak show_peak(const wt_peak *p)
+static peak_columns peak_to_columns(const wt_peak *p)
 {
     const double none = (double)NAN;
-    return p->found ? (shown_peak){p->at, p->height.value, (double)p->n, p->misfit, p->why_not}
-                    : (shown_peak){not_known, none, none, none, p->why_not};
+    return p->found ? (peak_columns){p->at, p->height.value, (double)p->n, p->misfit, p->why_not}
+                    : (peak_columns){unknown_interval, none, none, none, p->why_not};
 }
 
-typedef struct peaks {
+typedef struct peak_set {
     wt_peak factor, loss;
     wt_onset onset;
-} peaks;
+} peak_set;
 
-static wt_status find_peak(const wt_ramp_job *job, const usable *u, quantity q, wt_peak *peak,
-                           wt_error *err)
+static wt_status find_quantity_peak(const wt_ramp_job *job, const usable_points *u,
+                                    sweep_quantity q, wt_peak *peak, wt_error *err)
 {
     if (u->has[q])
         return wt_peak_find(u->temperature, u->value[q], u->n, job->peak_points, peak, err);
@@ -216,69 +219,69 @@ static wt_status find_peak(const wt_ramp_job *job, const usable *u, quantity q, 
 }
 
 /* A rubber has fewer transitions than this; further peaks are scatter. */
-enum { MOST_OTHERS = 8 };
+enum { MAX_SECONDARY_PEAKS = 8 };
 
 /* Adds a row for each lower peak of one quantity. Its assignment to a peak of the other quantity
  * is unknown. */
-static wt_status put_others(table_writer *t, const wt_ramp *ramp, const usable *u, quantity q,
-                            wt_error *err)
+static wt_status add_secondary_peak_rows(table_writer *t, const wt_ramp *ramp,
+                                         const usable_points *u, sweep_quantity q, wt_error *err)
 {
-    wt_peak lower[MOST_OTHERS];
+    wt_peak lower[MAX_SECONDARY_PEAKS];
     size_t n = 0;
     const wt_status status =
-        wt_secondary_peaks(u->temperature, u->value[q], u->n, MOST_OTHERS, lower, &n, err);
+        wt_secondary_peaks(u->temperature, u->value[q], u->n, MAX_SECONDARY_PEAKS, lower, &n, err);
     for (size_t i = 0; i < n; i++) {
         const wt_peak none = {.found = false,
                               .why_not = q == LOSS ? "of the loss modulus" : "of tan delta"};
-        TABLE_ADD(glass_transition, t, show_peak(q == FACTOR ? &lower[i] : &none),
-                  show_peak(q == LOSS ? &lower[i] : &none), not_known,
+        TABLE_ADD(glass_transition, t, peak_to_columns(q == FACTOR ? &lower[i] : &none),
+                  peak_to_columns(q == LOSS ? &lower[i] : &none), unknown_interval,
                   "in the row of the largest peak", ramp->angular_frequency, ramp->temperature[0],
                   ramp->temperature[ramp->n - 1], ramp->source, true);
     }
     return status;
 }
 
-static wt_status put_transition(table_writer *t, const wt_ramp_job *job, const wt_ramp *ramp,
-                                const usable *u, peaks *found, wt_error *err)
+static wt_status add_transition_row(table_writer *t, const wt_ramp_job *job, const wt_ramp *ramp,
+                                    const usable_points *u, peak_set *found, wt_error *err)
 {
-    wt_status status = find_peak(job, u, FACTOR, &found->factor, err);
+    wt_status status = find_quantity_peak(job, u, FACTOR, &found->factor, err);
     if (status == WT_OK)
-        status = find_peak(job, u, LOSS, &found->loss, err);
-    found->onset = (wt_onset){.at = not_known, .why_not = "not measured"};
+        status = find_quantity_peak(job, u, LOSS, &found->loss, err);
+    found->onset = (wt_onset){.at = unknown_interval, .why_not = "not measured"};
     if (status == WT_OK && u->has[STORAGE])
         status = wt_onset_find(u->temperature, u->value[STORAGE], u->n, &found->onset, err);
     if (status != WT_OK)
         return status;
-    TABLE_ADD(glass_transition, t, show_peak(&found->factor), show_peak(&found->loss),
+    TABLE_ADD(glass_transition, t, peak_to_columns(&found->factor), peak_to_columns(&found->loss),
               found->onset.at, found->onset.why_not, ramp->angular_frequency, ramp->temperature[0],
               ramp->temperature[ramp->n - 1], ramp->source, false);
-    for (quantity q = LOSS; q <= FACTOR && status == WT_OK && job->peak_points == 0; q++)
-        status = u->has[q] ? put_others(t, ramp, u, q, err) : WT_OK;
+    for (sweep_quantity q = LOSS; q <= FACTOR && status == WT_OK && job->peak_points == 0; q++)
+        status = u->has[q] ? add_secondary_peak_rows(t, ramp, u, q, err) : WT_OK;
     return status;
 }
 
 TABLE_ROW(moduli_at, MODULI_AT, double temperature, angular_frequency;
           wt_interval modulus[QUANTITIES]; const char *note, *source;)
 
-static wt_status put_moduli(table_writer *t, const wt_ramp_job *job, const wt_ramp *ramp,
-                            const usable *u, wt_error *err)
+static wt_status add_moduli_rows(table_writer *t, const wt_ramp_job *job, const wt_ramp *ramp,
+                                 const usable_points *u, wt_error *err)
 {
     wt_status status = WT_OK;
     for (size_t k = 0; status == WT_OK && k < job->n_temperatures; k++) {
         const double at = job->temperature[k];
         const bool within =
-            u->n >= FEWEST && at >= u->temperature[0] && at <= u->temperature[u->n - 1];
+            u->n >= MIN_POINTS && at >= u->temperature[0] && at <= u->temperature[u->n - 1];
         moduli_at_row row = {at,
                              ramp->angular_frequency,
-                             {not_known, not_known, not_known},
-                             within           ? ""
-                             : u->n >= FEWEST ? "outside of the temperatures measured"
-                                              : "too few points",
+                             {unknown_interval, unknown_interval, unknown_interval},
+                             within               ? ""
+                             : u->n >= MIN_POINTS ? "outside of the temperatures measured"
+                                                  : "too few points",
                              ramp->source};
         for (int q = 0; within && status == WT_OK && q < QUANTITIES; q++)
             if (u->has[q])
-                status =
-                    wt_value_between(u->temperature, u->value[q], u->n, at, &row.modulus[q], err);
+                status = wt_smooth_interpolate(u->temperature, u->value[q], u->n, at,
+                                               &row.modulus[q], err);
         moduli_at_add_row(t, &row);
     }
     return status;
@@ -287,13 +290,13 @@ static wt_status put_moduli(table_writer *t, const wt_ramp_job *job, const wt_ra
 /* ---- activation energy of a peak ------------------------------------------------------------- */
 
 /* Weighted sums over the peaks at all frequencies, for x = 1/T with its error and y = ln omega. */
-typedef struct motion {
+typedef struct peak_regression {
     size_t n;
     double w, x, y, xx, xy, yy; /* sums relative to the first peak */
     double x0, y0;
-} motion;
+} peak_regression;
 
-static void add_motion(motion *m, const wt_peak *peak, double angular_frequency)
+static void add_regression_point(peak_regression *m, const wt_peak *peak, double angular_frequency)
 {
     const double temperature = peak->at.value,
                  error = peak->at.standard_error / (temperature * temperature);
@@ -316,7 +319,7 @@ static void add_motion(motion *m, const wt_peak *peak, double angular_frequency)
 /* Returns the apparent activation energy -R d ln omega / d (1/T) from a line of 1/T over ln
  * omega. The errors are those of the peaks, or their scatter if it is larger; WLF curvature
  * counts as scatter. A line through two frequencies has the errors of the peaks alone. */
-static wt_estimate activation_energy(const motion *m)
+static wt_estimate activation_energy(const peak_regression *m)
 {
     const double none = (double)NAN, yy = m->yy - m->y * m->y / m->w,
                  xy = m->xy - m->x * m->y / m->w, xx = m->xx - m->x * m->x / m->w, slope = xy / yy;
@@ -329,46 +332,46 @@ static wt_estimate activation_energy(const motion *m)
 
 /* ---- the job --------------------------------------------------------------------------------- */
 
-typedef struct writers {
+typedef struct ramp_writers {
     table_writer ramp, transition, moduli;
-} writers;
+} ramp_writers;
 
 /* The keys describe the frequency nearest to 1 Hz that has a peak. */
 TABLE_KEYS(glass_transition, GLASS_TRANSITION, wt_interval factor_peak, loss_peak, onset;
            wt_estimate factor_energy, loss_energy; double angular_frequency;
            const char *deformation;)
 
-static wt_status put_all(const wt_ramp_job *job, const wt_job *work, const wt_sweep *sweep,
-                         writers *w, wt_error *err)
+static wt_status add_sweep_rows(const wt_ramp_job *job, const wt_job *work, const wt_sweep *sweep,
+                                ramp_writers *w, wt_error *err)
 {
     double away = HUGE_VAL;
-    motion factors = {0}, losses = {0};
-    glass_transition_keys best = {.factor_peak = not_known,
-                                  .loss_peak = not_known,
-                                  .onset = not_known,
+    peak_regression factors = {0}, losses = {0};
+    glass_transition_keys best = {.factor_peak = unknown_interval,
+                                  .loss_peak = unknown_interval,
+                                  .onset = unknown_interval,
                                   .angular_frequency = (double)NAN,
                                   .deformation = flow_deformation_name(sweep->deformation)};
     wt_status status = WT_OK;
     for (size_t i = 0; i < sweep->n_ramps && status == WT_OK; i++) {
         const wt_ramp *ramp = &sweep->ramps[i];
         arena memory = {0};
-        usable u;
-        peaks found = {0};
-        put_points(&w->ramp, ramp);
-        status = take_usable(ramp, &memory, work->log, &u, err);
+        usable_points u;
+        peak_set found = {0};
+        add_ramp_rows(&w->ramp, ramp);
+        status = select_usable_points(ramp, &memory, work->log, &u, err);
         if (status == WT_OK && (work->left_out & WT_EXTRA_TRANSITION) == 0)
-            status = put_transition(&w->transition, job, ramp, &u, &found, err);
+            status = add_transition_row(&w->transition, job, ramp, &u, &found, err);
         if (status == WT_OK)
-            status = put_moduli(&w->moduli, job, ramp, &u, err);
+            status = add_moduli_rows(&w->moduli, job, ramp, &u, err);
         arena_free(&memory);
-        add_motion(&factors, &found.factor, ramp->angular_frequency);
-        add_motion(&losses, &found.loss, ramp->angular_frequency);
+        add_regression_point(&factors, &found.factor, ramp->angular_frequency);
+        add_regression_point(&losses, &found.loss, ramp->angular_frequency);
         const double off = fabs(log(ramp->angular_frequency / (2 * M_PI)));
         if (status == WT_OK && (found.factor.found || found.loss.found) && off < away) {
             away = off;
             best.angular_frequency = ramp->angular_frequency;
-            best.factor_peak = found.factor.found ? found.factor.at : not_known;
-            best.loss_peak = found.loss.found ? found.loss.at : not_known;
+            best.factor_peak = found.factor.found ? found.factor.at : unknown_interval;
+            best.loss_peak = found.loss.found ? found.loss.at : unknown_interval;
             best.onset = found.onset.at;
         }
     }
@@ -378,13 +381,13 @@ static wt_status put_all(const wt_ramp_job *job, const wt_job *work, const wt_sw
     return status;
 }
 
-static wt_status make_tables(const wt_ramp_job *job, const wt_job *work, const wt_sweep *sweep,
-                             wt_ramp_tables *t, wt_error *err)
+static wt_status build_ramp_tables(const wt_ramp_job *job, const wt_job *work,
+                                   const wt_sweep *sweep, wt_ramp_tables *t, wt_error *err)
 {
     const char *deformation = flow_deformation_name(sweep->deformation);
-    writers w = {table_begin(&ramp_schema, err), table_begin(&glass_transition_schema, err),
-                 table_begin(&moduli_at_schema, err)};
-    wt_status status = put_all(job, work, sweep, &w, err);
+    ramp_writers w = {table_begin(&ramp_schema, err), table_begin(&glass_transition_schema, err),
+                      table_begin(&moduli_at_schema, err)};
+    wt_status status = add_sweep_rows(job, work, sweep, &w, err);
     ramp_set_text(&w.ramp, RAMP_KEY_DEFORMATION, deformation);
     moduli_at_set_text(&w.moduli, MODULI_AT_KEY_DEFORMATION, deformation);
     const wt_status ended[] = {table_end(&w.ramp, &t->ramp),
@@ -399,8 +402,8 @@ static wt_status make_tables(const wt_ramp_job *job, const wt_job *work, const w
     return status;
 }
 
-wt_status wt_ramp_make(const wt_ramp_job *job, const wt_job *work, wt_ramp_tables *tables,
-                       wt_error *err)
+wt_status wt_ramp_compute(const wt_ramp_job *job, const wt_job *work, wt_ramp_tables *tables,
+                          wt_error *err)
 {
     if (job == NULL || work == NULL || tables == NULL)
         return wt_fail(err, WT_E_ARG, "no job of temperature sweeps");
@@ -410,23 +413,23 @@ wt_status wt_ramp_make(const wt_ramp_job *job, const wt_job *work, wt_ramp_table
     if (status == WT_OK)
         status = flow_sweeps_read(job->sets, job->n_sets, work, &sweep, err);
     if (status == WT_OK)
-        status = flow_one_sample(&sweep, job->sets, job->n_sets, work->log, err);
+        status = flow_require_one_sample(&sweep, job->sets, job->n_sets, work->log, err);
     if (status == WT_OK)
-        status = flow_one_amplitude(&sweep, job->sets, job->n_sets, work->log, err);
+        status = flow_select_amplitude(&sweep, job->sets, job->n_sets, work->log, err);
     const size_t isotherms = sweep.n_isotherms, strain_sweeps = sweep.n_strain_sweeps;
     if (status == WT_OK)
-        status = flow_needs_oscillation(&sweep, "a temperature sweep", err);
+        status = flow_require_oscillation(&sweep, "a temperature sweep", err);
     if (status == WT_OK)
-        status = add_isotherms(&sweep, err);
+        status = add_isotherm_ramps(&sweep, err);
     if (status == WT_OK && sweep.n_ramps == 0) {
         status = wt_fail(err, WT_E_EMPTY, "no temperature sweep could be read");
-        wt_error_expected(err, "moduli at one frequency at %d temperatures or more", FEWEST);
+        wt_error_expected(err, "moduli at one frequency at %d temperatures or more", MIN_POINTS);
         wt_error_found(err, "isotherms: %zu, strain sweeps: %zu", isotherms, strain_sweeps);
         if (strain_sweeps > 0)
             wt_error_advice(err, "`weartrack payne FILE` tells how the rubber softens with strain");
     }
     if (status == WT_OK)
-        status = make_tables(job, work, &sweep, &t, err);
+        status = build_ramp_tables(job, work, &sweep, &t, err);
     if (status == WT_OK) {
         cost_report(work, (cost_summary){.items = (double)sweep.n_ramps});
         *tables = t;

@@ -14,7 +14,7 @@
  * oven. */
 #define SAME_TEMPERATURE 1.0
 
-void flow_rubber_drop_draws(wt_rubber *rubber)
+void flow_rubber_clear_draws(wt_rubber *rubber)
 {
     for (size_t i = 0; i < rubber->n_draws; i++) {
         wt_prony_clear(&rubber->draws[i].prony);
@@ -32,7 +32,7 @@ void wt_rubber_clear(wt_rubber *rubber)
     wt_prony_clear(&rubber->prony);
     free(rubber->vertical_temperature);
     free(rubber->vertical_log_b);
-    flow_rubber_drop_draws(rubber);
+    flow_rubber_clear_draws(rubber);
     wt_sweep_clear(&rubber->sweep);
     *rubber = (wt_rubber){0};
 }
@@ -49,10 +49,11 @@ static double vertical_shift(const wt_rubber *rubber, const double *b, double te
         return 0;
     if (temperature <= t[0] || temperature >= t[n - 1]) {
         size_t end = temperature <= t[0] ? 0 : n - 1;
-        double way = rubber->prony.reference_temperature - t[end], gone = temperature - t[end];
-        *held = gone != 0;
-        if ((end == 0 ? way < 0 : way > 0) && gone != 0)
-            return b[end] * (1 - fmin(gone / way, 1));
+        double reference_distance = rubber->prony.reference_temperature - t[end],
+               distance = temperature - t[end];
+        *held = distance != 0;
+        if ((end == 0 ? reference_distance < 0 : reference_distance > 0) && distance != 0)
+            return b[end] * (1 - fmin(distance / reference_distance, 1));
         return b[end];
     }
     size_t i = 1;
@@ -106,15 +107,15 @@ static wt_status horizontal_shift(const wt_shift_law *law, double reference, dou
     return WT_OK;
 }
 
-bool flow_rubber_reaches(const wt_rubber *rubber, double temperature, wt_error *why)
+bool flow_rubber_can_shift(const wt_rubber *rubber, double temperature, wt_error *reason)
 {
     double log_a;
     return isnan(temperature) || horizontal_shift(&rubber->law, rubber->prony.reference_temperature,
-                                                  temperature, &log_a, why) == WT_OK;
+                                                  temperature, &log_a, reason) == WT_OK;
 }
 
 /* Returns the standard error of log10 a_T from the errors of stated WLF constants. */
-static double law_error(const wt_rubber *rubber, double temperature)
+static double shift_law_error(const wt_rubber *rubber, double temperature)
 {
     const wt_wlf *wlf = &rubber->law.wlf;
     if (rubber->law.kind != WT_LAW_WLF)
@@ -127,8 +128,8 @@ static double law_error(const wt_rubber *rubber, double temperature)
     return variance > 0 ? sqrt(variance) : 0;
 }
 
-static void make_statement(const wt_rubber *rubber, double temperature, bool held,
-                           char statement[256])
+static void write_extrapolation_note(const wt_rubber *rubber, double temperature, bool held,
+                                     char statement[256])
 {
     statement[0] = '\0';
     if (temperature < rubber->temperature_min || temperature > rubber->temperature_max)
@@ -142,7 +143,8 @@ static void make_statement(const wt_rubber *rubber, double temperature, bool hel
 
 /* Returns the draw of a replicate. The default seed starts with the first draw, other seeds
  * start later. NULL means the fitted values. */
-static const wt_rubber_draw *draw_of(const wt_rubber *rubber, uint64_t seed, size_t replicate)
+static const wt_rubber_draw *replicate_draw(const wt_rubber *rubber, uint64_t seed,
+                                            size_t replicate)
 {
     if (replicate == WT_NO_REPLICATE || rubber->n_draws == 0)
         return NULL;
@@ -150,9 +152,9 @@ static const wt_rubber_draw *draw_of(const wt_rubber *rubber, uint64_t seed, siz
     return &rubber->draws[(first + replicate) % rubber->n_draws];
 }
 
-wt_shift_law flow_rubber_law(const wt_rubber *rubber, uint64_t seed, size_t replicate)
+wt_shift_law flow_rubber_shift_law(const wt_rubber *rubber, uint64_t seed, size_t replicate)
 {
-    const wt_rubber_draw *draw = draw_of(rubber, seed, replicate);
+    const wt_rubber_draw *draw = replicate_draw(rubber, seed, replicate);
     return draw != NULL ? draw->law : rubber->law;
 }
 
@@ -175,8 +177,9 @@ static wt_status shifted_series(const wt_rubber *rubber, const wt_rubber_draw *d
     return WT_OK;
 }
 
-static wt_status series_at(const wt_rubber *rubber, const wt_rubber_draw *draw, double temperature,
-                           double a, double b, wt_material **material, wt_error *err)
+static wt_status series_material(const wt_rubber *rubber, const wt_rubber_draw *draw,
+                                 double temperature, double a, double b, wt_material **material,
+                                 wt_error *err)
 {
     wt_prony prony = {0};
     wt_status status = shifted_series(rubber, draw, temperature, a, b, &prony, err);
@@ -186,8 +189,8 @@ static wt_status series_at(const wt_rubber *rubber, const wt_rubber_draw *draw, 
     return status;
 }
 
-static wt_status table_at(const wt_rubber *rubber, double a, double b, wt_material **material,
-                          wt_error *err)
+static wt_status table_material(const wt_rubber *rubber, double a, double b, wt_material **material,
+                                wt_error *err)
 {
     const wt_isotherm *points = &rubber->sweep.isotherms[0];
     const size_t n = points->n;
@@ -209,27 +212,28 @@ static wt_status table_at(const wt_rubber *rubber, double a, double b, wt_materi
 }
 
 /* Creates the material, with times multiplied by a and moduli divided by b. */
-static wt_status law_at(const wt_rubber *rubber, const wt_rubber_draw *draw, double temperature,
-                        double a, double b, wt_material **material, wt_error *err)
+static wt_status rubber_material(const wt_rubber *rubber, const wt_rubber_draw *draw,
+                                 double temperature, double a, double b, wt_material **material,
+                                 wt_error *err)
 {
     const wt_zener *z = &rubber->zener;
     switch (rubber->kind) {
     case WT_RUBBER_TABLE:
-        return table_at(rubber, a, b, material, err);
+        return table_material(rubber, a, b, material, err);
     case WT_RUBBER_ZENER:
         return wt_material_fractional_zener(z->e0 / b, z->eg / b, z->tau * a, z->alpha,
                                             rubber->poisson_ratio, material, err);
     case WT_RUBBER_SERIES:
         break;
     }
-    return series_at(rubber, draw, temperature, a, b, material, err);
+    return series_material(rubber, draw, temperature, a, b, material, err);
 }
 
 /* Computes the factors of times and moduli at a temperature. NaN means the reference, which then
  * replaces it. held: the factor of the moduli is extrapolated. */
-static wt_status factors_at(const wt_rubber *rubber, const wt_rubber_draw *draw, uint64_t seed,
-                            size_t replicate, double *temperature, double *a, double *b, bool *held,
-                            wt_error *err)
+static wt_status temperature_factors(const wt_rubber *rubber, const wt_rubber_draw *draw,
+                                     uint64_t seed, size_t replicate, double *temperature,
+                                     double *a, double *b, bool *held, wt_error *err)
 {
     const double reference = rubber->prony.reference_temperature;
     const wt_shift_law *law = draw != NULL ? &draw->law : &rubber->law;
@@ -243,7 +247,7 @@ static wt_status factors_at(const wt_rubber *rubber, const wt_rubber_draw *draw,
     if (status != WT_OK)
         return status;
     if (rubber->n_draws == 0 && *temperature != reference)
-        log_a += law_error(rubber, *temperature) *
+        log_a += shift_law_error(rubber, *temperature) *
                  flow_draw_normal(seed, replicate, FLOW_DRAW_SHIFT_LAW);
     *a = pow(10, log_a);
     *b = pow(10, vertical_shift(rubber, log_b, *temperature, held));
@@ -255,25 +259,27 @@ wt_status flow_rubber_shift(const wt_rubber *rubber, double temperature, rubber_
 {
     bool held = false;
     *shift = (rubber_shift){.a = 1, .b = 1};
-    const wt_status status = factors_at(rubber, NULL, 1, WT_NO_REPLICATE, &temperature, &shift->a,
-                                        &shift->b, &held, err);
+    const wt_status status = temperature_factors(rubber, NULL, 1, WT_NO_REPLICATE, &temperature,
+                                                 &shift->a, &shift->b, &held, err);
     if (status == WT_OK)
-        make_statement(rubber, temperature, held, shift->statement);
+        write_extrapolation_note(rubber, temperature, held, shift->statement);
     return status;
 }
 
-wt_status wt_rubber_at(const wt_rubber *rubber, double temperature, uint64_t seed, size_t replicate,
-                       wt_material **material, char statement[256], wt_error *err)
+wt_status wt_rubber_material(const wt_rubber *rubber, double temperature, uint64_t seed,
+                             size_t replicate, wt_material **material, char statement[256],
+                             wt_error *err)
 {
     if (rubber == NULL || material == NULL)
         return wt_fail(err, WT_E_ARG, "no rubber");
-    const wt_rubber_draw *draw = draw_of(rubber, seed, replicate);
+    const wt_rubber_draw *draw = replicate_draw(rubber, seed, replicate);
     wt_material *made = NULL;
     double a = 1, b = 1;
     bool held = false;
-    wt_status status = factors_at(rubber, draw, seed, replicate, &temperature, &a, &b, &held, err);
+    wt_status status =
+        temperature_factors(rubber, draw, seed, replicate, &temperature, &a, &b, &held, err);
     if (status == WT_OK)
-        status = law_at(rubber, draw, temperature, a, b, &made, err);
+        status = rubber_material(rubber, draw, temperature, a, b, &made, err);
     if (status == WT_OK && rubber->is_transverse)
         status = wt_material_transverse(made, NULL, NULL, &rubber->transverse,
                                         rubber->poisson_ratio, &made, err);
@@ -281,7 +287,7 @@ wt_status wt_rubber_at(const wt_rubber *rubber, double temperature, uint64_t see
         return status;
     *material = made;
     if (statement != NULL)
-        make_statement(rubber, temperature, held, statement);
+        write_extrapolation_note(rubber, temperature, held, statement);
     return WT_OK;
 }
 
@@ -292,7 +298,7 @@ wt_status flow_rubber_spectrum(const wt_rubber *rubber, double temperature, wt_p
     double a = 1, b = 1;
     bool held = false;
     wt_status status =
-        factors_at(rubber, NULL, 1, WT_NO_REPLICATE, &temperature, &a, &b, &held, err);
+        temperature_factors(rubber, NULL, 1, WT_NO_REPLICATE, &temperature, &a, &b, &held, err);
     if (status == WT_OK)
         status = shifted_series(rubber, NULL, temperature, a, b, prony, err);
     if (status == WT_OK)
@@ -300,7 +306,7 @@ wt_status flow_rubber_spectrum(const wt_rubber *rubber, double temperature, wt_p
     wt_material_free(checked);
     if (status != WT_OK)
         return status;
-    make_statement(rubber, temperature, held, statement);
+    write_extrapolation_note(rubber, temperature, held, statement);
     const double to_young = prony->deformation == WT_SHEAR ? 2 * (1 + rubber->poisson_ratio) : 1;
     prony->deformation = WT_TENSION;
     prony->equilibrium_modulus *= to_young;
@@ -311,7 +317,7 @@ wt_status flow_rubber_spectrum(const wt_rubber *rubber, double temperature, wt_p
 
 enum { ZENER_CONSTANTS = 4 }; /* of the fractional Zener model */
 
-void wt_rubber_cost(const wt_rubber *rubber, const wt_job *work)
+void wt_rubber_add_cost(const wt_rubber *rubber, const wt_job *work)
 {
     const size_t items = rubber->kind == WT_RUBBER_TABLE   ? rubber->sweep.isotherms[0].n
                          : rubber->kind == WT_RUBBER_ZENER ? ZENER_CONSTANTS

@@ -10,12 +10,12 @@
 wt_status flow_rubber_spectrum(const wt_rubber *rubber, double temperature, wt_prony *prony,
                                char statement[256], wt_error *err) WT_NODISCARD;
 
-void flow_rubber_drop_draws(wt_rubber *rubber);
+void flow_rubber_clear_draws(wt_rubber *rubber);
 /* Returns the shift law of a replicate. Errors of stated constants are not drawn. */
-wt_shift_law flow_rubber_law(const wt_rubber *rubber, uint64_t seed, size_t replicate);
+wt_shift_law flow_rubber_shift_law(const wt_rubber *rubber, uint64_t seed, size_t replicate);
 /* Returns true if the shift law reaches the temperature [K] (NaN: the reference). Otherwise the
  * error states the reason. */
-bool flow_rubber_reaches(const wt_rubber *rubber, double temperature, wt_error *why);
+bool flow_rubber_can_shift(const wt_rubber *rubber, double temperature, wt_error *reason);
 /* Factors from the reference temperature to another one (NaN: the reference): E(w) =
  * E_reference(w a_T) / b_T. The statement is a warning, or "" if there is none. */
 typedef struct rubber_shift {

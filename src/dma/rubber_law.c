@@ -18,9 +18,9 @@
 
 /* Points of several isotherms closer than this in ln omega are averaged: a twentieth of a
  * decade. */
-#define CLOSE (0.05 * M_LN10)
+#define MERGE_WIDTH (0.05 * M_LN10)
 
-static wt_rubber rubber_of(wt_rubber_kind kind, double poisson_ratio)
+static wt_rubber new_rubber(wt_rubber_kind kind, double poisson_ratio)
 {
     const double unknown = (double)NAN;
     return (wt_rubber){.kind = kind,
@@ -34,11 +34,11 @@ static wt_rubber rubber_of(wt_rubber_kind kind, double poisson_ratio)
 }
 
 /* Checks that the material can be created at its reference temperature. */
-static wt_status check_points(const wt_rubber *rubber, wt_error *err)
+static wt_status check_rubber(const wt_rubber *rubber, wt_error *err)
 {
     wt_material *material = NULL;
     const wt_status status =
-        wt_rubber_at(rubber, (double)NAN, 0, WT_NO_REPLICATE, &material, NULL, err);
+        wt_rubber_material(rubber, (double)NAN, 0, WT_NO_REPLICATE, &material, NULL, err);
     if (status == WT_OK)
         wt_material_free(material);
     return status;
@@ -91,9 +91,9 @@ static const flow_law_text zener_text = {
 wt_status flow_rubber_zener(const wt_zener *zener, double poisson_ratio, wt_rubber *rubber,
                             wt_error *err)
 {
-    wt_rubber made = rubber_of(WT_RUBBER_ZENER, poisson_ratio);
+    wt_rubber made = new_rubber(WT_RUBBER_ZENER, poisson_ratio);
     made.zener = *zener;
-    const wt_status status = check_points(&made, err);
+    const wt_status status = check_rubber(&made, err);
     if (status == WT_OK)
         *rubber = made;
     return status;
@@ -101,7 +101,7 @@ wt_status flow_rubber_zener(const wt_zener *zener, double poisson_ratio, wt_rubb
 
 /* ---- points ---------------------------------------------------------------------------------- */
 
-static void set_points(wt_rubber *rubber, const wt_isotherm *points)
+static void set_frequency_range(wt_rubber *rubber, const wt_isotherm *points)
 {
     rubber->prony.deformation = rubber->sweep.deformation;
     rubber->prony.frequency_min = points->angular_frequency[0];
@@ -112,16 +112,16 @@ wt_status flow_rubber_read(flow_file *file, const wt_rubber_options *options, do
                            const wt_job *work, wt_rubber *rubber, wt_error *err)
 {
     wt_input *input = NULL;
-    wt_rubber made = rubber_of(WT_RUBBER_TABLE, poisson_ratio);
+    wt_rubber made = new_rubber(WT_RUBBER_TABLE, poisson_ratio);
     made.extrapolation = options->extrapolation;
     wt_status status = flow_open(work, file, "material", WT_KIND_SWEEP, &input, err);
     wt_read_options read = flow_read_options(file);
-    read.any_temperature = true;
+    read.allow_missing_temperature = true;
     if (status == WT_OK)
         status = wt_sweep_read(work->formats, input, &read, work->log, &made.sweep, err);
     wt_input_close(input);
     if (status == WT_OK)
-        status = flow_needs_oscillation(&made.sweep, "a table of the material", err);
+        status = flow_require_oscillation(&made.sweep, "a table of the material", err);
     if (status == WT_OK && made.sweep.n_isotherms != 1) {
         status = wt_fail(err, WT_E_ARG, "a table of the material has one temperature");
         wt_error_found(err, "%zu isotherms", made.sweep.n_isotherms);
@@ -129,9 +129,9 @@ wt_status flow_rubber_read(flow_file *file, const wt_rubber_options *options, do
     }
     if (status == WT_OK) {
         wt_sweep_sort(&made.sweep); /* by frequency */
-        set_points(&made, &made.sweep.isotherms[0]);
+        set_frequency_range(&made, &made.sweep.isotherms[0]);
         made.prony.reference_temperature = made.sweep.isotherms[0].temperature;
-        status = check_points(&made, err);
+        status = check_rubber(&made, err);
     }
     if (status == WT_OK) {
         *rubber = made;
@@ -150,42 +150,42 @@ wt_status wt_rubber_open(const char *text, const wt_read_options *read,
         return wt_fail(err, WT_E_ARG, "no material");
     wt_zener zener = flow_zener_defaults();
     const wt_rubber_options o = options != NULL ? *options : wt_rubber_options_defaults();
-    if (flow_is_law(&zener_text, text)) {
+    if (flow_has_law_prefix(&zener_text, text)) {
         const wt_status status = flow_law_parse(&zener_text, text, &zener, err);
         return status == WT_OK ? flow_rubber_zener(&zener, poisson_ratio, rubber, err) : status;
     }
     const wt_file_set set = {.read = read != NULL ? *read : wt_read_defaults()};
     flow_file file = {.path = text, .name = text, .set = &set};
-    return flow_law_meant(&zener_text, text,
-                          flow_rubber_read(&file, &o, poisson_ratio, work, rubber, err), err);
+    return flow_law_suggest(&zener_text, text,
+                            flow_rubber_read(&file, &o, poisson_ratio, work, rubber, err), err);
 }
 
 /* ---- the points of a master curve ------------------------------------------------------------ */
 
-typedef struct point {
+typedef struct curve_point {
     double frequency, storage, loss; /* natural logarithms */
-} point;
+} curve_point;
 
 /* Collects the points that are not excluded, sorts them and averages close ones. Returns their
  * number. */
-static size_t join_points(const table_view *view, point *p)
+static size_t merge_points(const table_view *view, curve_point *p)
 {
     size_t n = 0, joined = 0;
     for (size_t i = 0; i < view->n_rows; i++) {
-        p[n] = (point){log(master_curve_get(view, i, MASTER_CURVE_ANGULAR_FREQUENCY)),
-                       log(master_curve_get(view, i, MASTER_CURVE_STORAGE_MODULUS)),
-                       log(master_curve_get(view, i, MASTER_CURVE_LOSS_MODULUS))};
+        p[n] = (curve_point){log(master_curve_get(view, i, MASTER_CURVE_ANGULAR_FREQUENCY)),
+                             log(master_curve_get(view, i, MASTER_CURVE_STORAGE_MODULUS)),
+                             log(master_curve_get(view, i, MASTER_CURVE_LOSS_MODULUS))};
         n += !(master_curve_get(view, i, MASTER_CURVE_LEFT_OUT) > 0) && isfinite(p[n].frequency) &&
              isfinite(p[n].storage) && isfinite(p[n].loss);
     }
     if (n > 0)
         qsort(p, n, sizeof *p, numbers_compare);
     for (size_t i = 0; i < n;) {
-        point mean = {0, 0, 0};
-        size_t of = 0;
+        curve_point mean = {0, 0, 0};
+        size_t count = 0;
         const double first = p[i].frequency;
-        for (; i < n && (of == 0 || p[i].frequency < first + CLOSE); i++) {
-            const double share = 1 / (double)++of;
+        for (; i < n && (count == 0 || p[i].frequency < first + MERGE_WIDTH); i++) {
+            const double share = 1 / (double)++count;
             mean.frequency += share * (p[i].frequency - mean.frequency);
             mean.storage += share * (p[i].storage - mean.storage);
             mean.loss += share * (p[i].loss - mean.loss);
@@ -195,13 +195,13 @@ static size_t join_points(const table_view *view, point *p)
     return joined;
 }
 
-static wt_status take_points(const table_view *view, wt_sweep *sweep, wt_error *err)
+static wt_status read_curve_points(const table_view *view, wt_sweep *sweep, wt_error *err)
 {
-    point *p = calloc(view->n_rows + 1, sizeof *p);
+    curve_point *p = calloc(view->n_rows + 1, sizeof *p);
     if (p == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     wt_status status = WT_OK;
-    const size_t n = join_points(view, p);
+    const size_t n = merge_points(view, p);
     wt_isotherm *points = n < 2 ? NULL : wt_sweep_add(sweep, n, 0);
     if (n < 2)
         status = wt_fail(err, WT_E_EMPTY, "the master curve has %zu points that can be used", n);
@@ -225,26 +225,26 @@ wt_status wt_rubber_tabulate(wt_rubber *rubber, const wt_table *master_curve,
     wt_sweep sweep = {.n_isotherms = 0};
     wt_status status = table_bind(master_curve, &master_curve_schema, "", &view, err);
     if (status == WT_OK)
-        status = take_points(&view, &sweep, err);
+        status = read_curve_points(&view, &sweep, err);
     if (status != WT_OK)
         return status;
-    const char *deformation = master_curve_words(&view, MASTER_CURVE_KEY_DEFORMATION);
+    const char *deformation = master_curve_key_text(&view, MASTER_CURVE_KEY_DEFORMATION);
     sweep.deformation =
         deformation != NULL && strcmp(deformation, "shear") == 0 ? WT_SHEAR : WT_TENSION;
     const double reference =
         master_curve_value(&view, MASTER_CURVE_KEY_REFERENCE_TEMPERATURE).value;
     wt_prony_clear(&rubber->prony);
     wt_sweep_clear(&rubber->sweep);
-    flow_rubber_drop_draws(rubber);
+    flow_rubber_clear_draws(rubber);
     rubber->c1_error = rubber->c2_error = 0; /* they are not the whole error of the points */
     rubber->kind = WT_RUBBER_TABLE;
     rubber->extrapolation = options->extrapolation;
     rubber->sweep = sweep;
     rubber->prony.reference_temperature = reference;
-    set_points(rubber, &sweep.isotherms[0]);
+    set_frequency_range(rubber, &sweep.isotherms[0]);
     if (rubber->n_vertical == 0 && rubber->law.kind == WT_LAW_NONE)
         rubber->temperature_min = rubber->temperature_max = (double)NAN;
-    return check_points(rubber, err);
+    return check_rubber(rubber, err);
 }
 
 /* ---- description ----------------------------------------------------------------------------- */

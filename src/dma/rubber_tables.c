@@ -10,24 +10,24 @@
 #include <stdlib.h>
 #include <string.h>
 
-static wt_law_kind law_kind(const char *words)
+static wt_law_kind parse_law_kind(const char *text)
 {
-    return strcmp(words, "WLF") == 0         ? WT_LAW_WLF
-           : strcmp(words, "Arrhenius") == 0 ? WT_LAW_ARRHENIUS
-           : strcmp(words, "joined") == 0    ? WT_LAW_JOINED
-                                             : WT_LAW_NONE;
+    return strcmp(text, "WLF") == 0         ? WT_LAW_WLF
+           : strcmp(text, "Arrhenius") == 0 ? WT_LAW_ARRHENIUS
+           : strcmp(text, "joined") == 0    ? WT_LAW_WLF_ARRHENIUS
+                                            : WT_LAW_NONE;
 }
 
-static wt_status read_shifts(const table_view *shifts, wt_rubber *rubber, wt_error *err)
+static wt_status read_shift_factors(const table_view *shifts, wt_rubber *rubber, wt_error *err)
 {
-    const char *vertical = shift_factors_words(shifts, SHIFT_FACTORS_KEY_VERTICAL);
-    const char *correlation = shift_factors_words(shifts, SHIFT_FACTORS_KEY_WLF_CORRELATION);
-    const char *kind = shift_factors_words(shifts, SHIFT_FACTORS_KEY_LAW);
+    const char *vertical = shift_factors_key_text(shifts, SHIFT_FACTORS_KEY_VERTICAL);
+    const char *correlation = shift_factors_key_text(shifts, SHIFT_FACTORS_KEY_WLF_CORRELATION);
+    const char *kind = shift_factors_key_text(shifts, SHIFT_FACTORS_KEY_LAW);
     const wt_estimate c1 = shift_factors_value(shifts, SHIFT_FACTORS_KEY_WLF_C1),
                       c2 = shift_factors_value(shifts, SHIFT_FACTORS_KEY_WLF_C2);
     const size_t rows = shifts->n_rows;
     rubber->law = (wt_shift_law){
-        .kind = law_kind(kind),
+        .kind = parse_law_kind(kind),
         .wlf = {rubber->prony.reference_temperature, c1.value, c2.value},
         .activation_energy = shift_factors_value(shifts, SHIFT_FACTORS_KEY_ACTIVATION_ENERGY).value,
         .joint = shift_factors_value(shifts, SHIFT_FACTORS_KEY_JOINT).value};
@@ -59,7 +59,7 @@ static wt_status read_shifts(const table_view *shifts, wt_rubber *rubber, wt_err
 
 static wt_status read_prony(const table_view *table, wt_prony *prony, wt_error *err)
 {
-    const char *deformation = prony_words(table, PRONY_KEY_DEFORMATION);
+    const char *deformation = prony_key_text(table, PRONY_KEY_DEFORMATION);
     wt_status status = wt_prony_alloc(prony, table->n_rows, err);
     if (status != WT_OK)
         return status;
@@ -89,7 +89,7 @@ static wt_status read_prony(const table_view *table, wt_prony *prony, wt_error *
 
 /* ---- draws ----------------------------------------------------------------------------------- */
 
-static wt_status bad_draw(const table_view *view, size_t row, const char *expected, wt_error *err)
+static wt_status fail_draw(const table_view *view, size_t row, const char *expected, wt_error *err)
 {
     wt_fail(err, WT_E_RANGE, "the draws of the material cannot be used");
     wt_error_place(err, "row %zu of %s", row + 1, view->schema->name);
@@ -99,33 +99,34 @@ static wt_status bad_draw(const table_view *view, size_t row, const char *expect
 }
 
 /* Checks that every draw has the same number of rows and that the draws are in order. */
-static wt_status check_order(const table_view *view, size_t n_draws, long column, wt_error *err)
+static wt_status check_draw_order(const table_view *view, size_t n_draws, long column,
+                                  wt_error *err)
 {
     const size_t each = view->n_rows / n_draws;
     for (size_t i = 0; i < view->n_rows; i++)
         if (each * n_draws != view->n_rows ||
             wt_table_number(view->table, i, (size_t)column) != (double)(i / each + 1))
-            return bad_draw(view, i, "draws 1, 2, 3 ... with as many rows each", err);
+            return fail_draw(view, i, "draws 1, 2, 3 ... with as many rows each", err);
     return WT_OK;
 }
 
-static bool is_above(double x, double least)
+static bool is_finite_above(double x, double least)
 {
     return isfinite(x) && x > least;
 }
 
 /* Constants that the kind of law lacks stay NaN, as in the fitted law. */
-static wt_status read_law(const table_view *view, size_t first, const wt_rubber *rubber,
-                          wt_rubber_draw *draw, wt_error *err)
+static wt_status read_draw_law(const table_view *view, size_t first, const wt_rubber *rubber,
+                               wt_rubber_draw *draw, wt_error *err)
 {
     const wt_law_kind kind = rubber->law.kind;
     const double c1 = material_draws_get(view, first, MATERIAL_DRAWS_WLF_C1),
                  c2 = material_draws_get(view, first, MATERIAL_DRAWS_WLF_C2),
                  energy = material_draws_get(view, first, MATERIAL_DRAWS_ACTIVATION_ENERGY);
-    const bool has_wlf = kind == WT_LAW_WLF || kind == WT_LAW_JOINED,
-               has_energy = kind == WT_LAW_ARRHENIUS || kind == WT_LAW_JOINED;
+    const bool has_wlf = kind == WT_LAW_WLF || kind == WT_LAW_WLF_ARRHENIUS,
+               has_energy = kind == WT_LAW_ARRHENIUS || kind == WT_LAW_WLF_ARRHENIUS;
     if ((has_wlf && (!isfinite(c1) || !isfinite(c2))) || (has_energy && !isfinite(energy)))
-        return bad_draw(view, first, "the constants of the law of the shift factors", err);
+        return fail_draw(view, first, "the constants of the law of the shift factors", err);
     draw->law = rubber->law;
     draw->law.wlf.c1 = c1;
     draw->law.wlf.c2 = c2;
@@ -133,8 +134,8 @@ static wt_status read_law(const table_view *view, size_t first, const wt_rubber 
     return WT_OK;
 }
 
-static wt_status read_draw(const table_view *material, const table_view *series, size_t draw,
-                           wt_rubber *rubber, wt_error *err)
+static wt_status read_one_draw(const table_view *material, const table_view *series, size_t draw,
+                               wt_rubber *rubber, wt_error *err)
 {
     wt_rubber_draw *d = &rubber->draws[draw];
     const size_t first = draw * (material->n_rows / rubber->n_draws),
@@ -149,23 +150,24 @@ static wt_status read_draw(const table_view *material, const table_view *series,
     d->prony.frequency_max = rubber->prony.frequency_max;
     d->prony.equilibrium_modulus =
         material_draws_get(material, first, MATERIAL_DRAWS_EQUILIBRIUM_MODULUS);
-    if (!is_above(d->prony.equilibrium_modulus, -DBL_MIN))
-        return bad_draw(material, first, "an equilibrium modulus, 0 or above", err);
+    if (!is_finite_above(d->prony.equilibrium_modulus, -DBL_MIN))
+        return fail_draw(material, first, "an equilibrium modulus, 0 or above", err);
     for (size_t k = 0; k < rubber->n_vertical; k++) {
         d->log_b[k] = material_draws_get(material, first + k, MATERIAL_DRAWS_LOG_B);
         if (!isfinite(d->log_b[k]) ||
             material_draws_get(material, first + k, MATERIAL_DRAWS_TEMPERATURE) !=
                 rubber->vertical_temperature[k])
-            return bad_draw(material, first + k, "log_b_material at each shifted isotherm", err);
+            return fail_draw(material, first + k, "log_b_material at each shifted isotherm", err);
     }
     for (size_t k = 0; k < n; k++) {
         const size_t row = draw * n + k;
         d->prony.relaxation_time[k] = series_draws_get(series, row, SERIES_DRAWS_RELAXATION_TIME);
         d->prony.modulus[k] = series_draws_get(series, row, SERIES_DRAWS_MODULUS);
-        if (!is_above(d->prony.relaxation_time[k], 0) || !is_above(d->prony.modulus[k], -DBL_MIN))
-            return bad_draw(series, row, "a relaxation time above 0 and a modulus", err);
+        if (!is_finite_above(d->prony.relaxation_time[k], 0) ||
+            !is_finite_above(d->prony.modulus[k], -DBL_MIN))
+            return fail_draw(series, row, "a relaxation time above 0 and a modulus", err);
     }
-    return read_law(material, first, rubber, d, err);
+    return read_draw_law(material, first, rubber, d, err);
 }
 
 static wt_status read_draws(const wt_table *material_draws, const wt_table *series_draws,
@@ -183,14 +185,14 @@ static wt_status read_draws(const wt_table *material_draws, const wt_table *seri
         material_draws_value(&material, MATERIAL_DRAWS_KEY_REFERENCE_TEMPERATURE);
     if (!(last >= 1) || !(last <= (double)rows) || series.n_rows < (size_t)last ||
         (rubber->n_vertical > 0 && (double)rubber->n_vertical * last != (double)rows))
-        return bad_draw(&material, rows > 0 ? rows - 1 : 0,
-                        "draws 1, 2, 3 ... with a row for each shifted isotherm", err);
+        return fail_draw(&material, rows > 0 ? rows - 1 : 0,
+                         "draws 1, 2, 3 ... with a row for each shifted isotherm", err);
     if (reference.value != rubber->prony.reference_temperature)
-        return bad_draw(&material, 0, "the reference temperature of the Prony series", err);
+        return fail_draw(&material, 0, "the reference temperature of the Prony series", err);
     const size_t n_draws = (size_t)last;
-    status = check_order(&material, n_draws, material.column[MATERIAL_DRAWS_DRAW], err);
+    status = check_draw_order(&material, n_draws, material.column[MATERIAL_DRAWS_DRAW], err);
     if (status == WT_OK)
-        status = check_order(&series, n_draws, series.column[SERIES_DRAWS_DRAW], err);
+        status = check_draw_order(&series, n_draws, series.column[SERIES_DRAWS_DRAW], err);
     if (status != WT_OK)
         return status;
     rubber->draws = calloc(n_draws, sizeof *rubber->draws);
@@ -198,7 +200,7 @@ static wt_status read_draws(const wt_table *material_draws, const wt_table *seri
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     rubber->n_draws = n_draws;
     for (size_t i = 0; status == WT_OK && i < n_draws; i++)
-        status = read_draw(&material, &series, i, rubber, err);
+        status = read_one_draw(&material, &series, i, rubber, err);
     return status;
 }
 
@@ -224,7 +226,7 @@ wt_status wt_rubber_from_tables(const wt_rubber_tables *tables, double poisson_r
     if (status == WT_OK && tables->shift_factors != NULL)
         status = table_bind(tables->shift_factors, &shift_factors_schema, "", &view, err);
     if (status == WT_OK && tables->shift_factors != NULL)
-        status = read_shifts(&view, &rubber, err);
+        status = read_shift_factors(&view, &rubber, err);
     if (status == WT_OK && tables->material_draws != NULL)
         status = read_draws(tables->material_draws, tables->series_draws, &rubber, err);
     if (status == WT_OK)

@@ -7,18 +7,18 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char no_name[] = "(without a name)";
+static const char unnamed_label[] = "(without a name)";
 /* Isotherms within 0.5 K have the same temperature. */
 static const double same_temperature = 0.5;
 
-static bool is_of(const char *sample, const char *name)
+static bool has_sample_name(const char *sample, const char *name)
 {
     return strcmp(sample != NULL ? sample : "", name) == 0;
 }
 
 /* ---- list of samples ------------------------------------------------------------------------- */
 
-static wt_status add_name(wt_samples *samples, const char *sample, wt_error *err)
+static wt_status add_sample_name(wt_sample_names *samples, const char *sample, wt_error *err)
 {
     const char *name = sample != NULL ? sample : "";
     for (size_t i = 0; i < samples->n; i++)
@@ -32,40 +32,40 @@ static wt_status add_name(wt_samples *samples, const char *sample, wt_error *err
     return WT_OK;
 }
 
-static int by_name(const void *a, const void *b)
+static int compare_names(const void *a, const void *b)
 {
     return strverscmp(*(char *const *)a, *(char *const *)b);
 }
 
-wt_status flow_samples_find(const wt_sweep *sweep, wt_samples *samples, wt_error *err)
+wt_status flow_samples_find(const wt_sweep *sweep, wt_sample_names *samples, wt_error *err)
 {
     wt_status status = WT_OK;
     for (size_t i = 0; i < sweep->n_isotherms && status == WT_OK; i++)
-        status = add_name(samples, sweep->isotherms[i].sample, err);
+        status = add_sample_name(samples, sweep->isotherms[i].sample, err);
     for (size_t i = 0; i < sweep->n_ramps && status == WT_OK; i++)
-        status = add_name(samples, sweep->ramps[i].sample, err);
+        status = add_sample_name(samples, sweep->ramps[i].sample, err);
     if (samples->n > 1)
-        qsort(samples->name, samples->n, sizeof *samples->name, by_name);
+        qsort(samples->name, samples->n, sizeof *samples->name, compare_names);
     return status;
 }
 
-void wt_samples_clear(wt_samples *samples)
+void wt_sample_names_clear(wt_sample_names *samples)
 {
     if (samples == NULL)
         return;
     for (size_t i = 0; i < samples->n; i++)
         free(samples->name[i]);
     free(samples->name);
-    *samples = (wt_samples){0, NULL};
+    *samples = (wt_sample_names){0, NULL};
 }
 
 /* ---- selection of one sample ----------------------------------------------------------------- */
 
-static void list_names(const wt_samples *samples, char *text, size_t size)
+static void list_sample_names(const wt_sample_names *samples, char *text, size_t size)
 {
     size_t used = 0;
     for (size_t i = 0; i < samples->n && used < size; i++) {
-        const char *name = samples->name[i][0] != '\0' ? samples->name[i] : no_name;
+        const char *name = samples->name[i][0] != '\0' ? samples->name[i] : unnamed_label;
         if (used + strlen(name) + 8 > size) {
             snprintf(text + used, size - used, ", ...");
             return;
@@ -74,15 +74,15 @@ static void list_names(const wt_samples *samples, char *text, size_t size)
     }
 }
 
-static wt_status not_there(const wt_sweep *sweep, const char *name, wt_error *err)
+static wt_status fail_sample_missing(const wt_sweep *sweep, const char *name, wt_error *err)
 {
     char found[256] = "";
-    wt_samples samples = {0, NULL};
+    wt_sample_names samples = {0, NULL};
     wt_status status = flow_samples_find(sweep, &samples, err);
     for (size_t i = 0; i < sweep->n_strain_sweeps && status == WT_OK; i++)
-        status = add_name(&samples, sweep->strain_sweeps[i].sample, err);
-    list_names(&samples, found, sizeof found);
-    wt_samples_clear(&samples);
+        status = add_sample_name(&samples, sweep->strain_sweeps[i].sample, err);
+    list_sample_names(&samples, found, sizeof found);
+    wt_sample_names_clear(&samples);
     if (status != WT_OK)
         return status;
     wt_fail(err, WT_E_NOT_FOUND, "no sweep is of the sample \"%s\"", name);
@@ -90,22 +90,22 @@ static wt_status not_there(const wt_sweep *sweep, const char *name, wt_error *er
     return WT_E_NOT_FOUND;
 }
 
-wt_status flow_sample_take(wt_sweep *sweep, const char *name, wt_error *err)
+wt_status flow_select_sample(wt_sweep *sweep, const char *name, wt_error *err)
 {
     if (name == NULL || strcmp(name, "all") == 0)
         return WT_OK;
-    bool there = false;
+    bool is_found = false;
     for (size_t i = 0; i < sweep->n_isotherms; i++)
-        there = there || is_of(sweep->isotherms[i].sample, name);
+        is_found = is_found || has_sample_name(sweep->isotherms[i].sample, name);
     for (size_t i = 0; i < sweep->n_ramps; i++)
-        there = there || is_of(sweep->ramps[i].sample, name);
+        is_found = is_found || has_sample_name(sweep->ramps[i].sample, name);
     for (size_t i = 0; i < sweep->n_strain_sweeps; i++)
-        there = there || is_of(sweep->strain_sweeps[i].sample, name);
-    return there ? wt_sweep_keep_sample(sweep, name) : not_there(sweep, name, err);
+        is_found = is_found || has_sample_name(sweep->strain_sweeps[i].sample, name);
+    return is_found ? wt_sweep_select_sample(sweep, name) : fail_sample_missing(sweep, name, err);
 }
 
 /* Warns if two files measured at one temperature and neither names a sample. */
-static void warn_of_files(const wt_sweep *sweep, wt_log *log)
+static void warn_repeated_temperature(const wt_sweep *sweep, wt_log *log)
 {
     for (size_t i = 1; i < sweep->n_isotherms; i++) {
         const wt_isotherm *a = &sweep->isotherms[i - 1], *b = &sweep->isotherms[i];
@@ -122,23 +122,23 @@ static void warn_of_files(const wt_sweep *sweep, wt_log *log)
     }
 }
 
-wt_status flow_one_sample(const wt_sweep *sweep, const wt_file_set *sets, size_t n_sets,
-                          wt_log *log, wt_error *err)
+wt_status flow_require_one_sample(const wt_sweep *sweep, const wt_file_set *sets, size_t n_sets,
+                                  wt_log *log, wt_error *err)
 {
     char found[256] = "";
-    wt_samples samples = {0, NULL};
+    wt_sample_names samples = {0, NULL};
     if (n_sets > 0 && sets[0].read.sample != NULL)
         return WT_OK;
-    warn_of_files(sweep, log);
+    warn_repeated_temperature(sweep, log);
     wt_status status = flow_samples_find(sweep, &samples, err);
     if (status == WT_OK && samples.n > 1) {
-        list_names(&samples, found, sizeof found);
+        list_sample_names(&samples, found, sizeof found);
         status = wt_fail(err, WT_E_AMBIGUOUS, "sweeps of several samples");
         wt_error_expected(err, "those of one");
         wt_error_found(err, "%s", found);
         wt_error_advice(err,
                         "choose one with --sample NAME; --sample all if they are of one material");
     }
-    wt_samples_clear(&samples);
+    wt_sample_names_clear(&samples);
     return status;
 }

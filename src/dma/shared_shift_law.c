@@ -13,7 +13,7 @@
 /* Significance level: the probability that samples of one law are reported as different. */
 static const double level = 0.01;
 /* Characters of the text of a sample in addition to its name. */
-enum { MOST_WORDS = 160 };
+enum { MAX_SAMPLE_TEXT = 160 };
 
 wt_shared_shift_law_job wt_shared_shift_law_job_defaults(void)
 {
@@ -40,13 +40,13 @@ PARAM_TABLE(wt_shared_shift_law_job_params, wt_shared_shift_law_job, rows,
 TABLE_ROW(shared_shift_law, SHARED_SHIFT_LAW, const char *sample, *note; wt_interval moved;
           wt_shared_law_point point;)
 
-static void put_sample(const wt_shared_shift_law_job *job, const wt_shared_shift_law *law,
-                       size_t sample, table_writer *t)
+static void add_sample_rows(const wt_shared_shift_law_job *job, const wt_shared_shift_law *law,
+                            size_t sample, table_writer *t)
 {
     const double none = (double)NAN;
     const wt_interval unknown = {none, none, none, none};
     const wt_shared_law_member *m = &law->members[sample];
-    const wt_interval moved = job->common == WT_COMMON_MOVED ? m->moved : unknown;
+    const wt_interval moved = job->common == WT_SHARED_LAW_SHIFTED ? m->moved : unknown;
     table_block(t);
     if (!m->used)
         TABLE_ADD(shared_shift_law, t, job->names[sample], m->why_not, unknown,
@@ -59,26 +59,27 @@ static void put_sample(const wt_shared_shift_law_job *job, const wt_shared_shift
 /* ---- verdict and texts ----------------------------------------------------------------------- */
 
 /* Returns the limit of a difference that is farthest from 0, or NaN if no difference is known. */
-static double furthest_difference(const wt_shared_shift_law *law, size_t *sample)
+static double largest_difference(const wt_shared_shift_law *law, size_t *sample)
 {
     double most = (double)NAN;
     for (size_t i = 0; i < law->n; i++) {
         const wt_interval *d = &law->points[i].difference;
-        const double far = fmax(fabs(d->low), fabs(d->high));
-        if (isfinite(d->low) && !(far <= most)) {
-            most = far;
+        const double farthest = fmax(fabs(d->low), fabs(d->high));
+        if (isfinite(d->low) && !(farthest <= most)) {
+            most = farthest;
             *sample = law->points[i].sample;
         }
     }
     return most;
 }
 
-static void set_verdict(const wt_shared_shift_law_job *job, const wt_shared_shift_law *law,
-                        table_writer *t)
+static void set_agreement_keys(const wt_shared_shift_law_job *job, const wt_shared_shift_law *law,
+                               table_writer *t)
 {
     size_t sample = 0;
-    const double most = furthest_difference(law, &sample);
-    const char *const kind = job->common == WT_COMMON_MOVED ? ", moved along the temperature" : "";
+    const double most = largest_difference(law, &sample);
+    const char *const kind =
+        job->common == WT_SHARED_LAW_SHIFTED ? ", moved along the temperature" : "";
     shared_shift_law_set_print(t, SHARED_SHIFT_LAW_KEY_MARGIN, "%g", job->margin);
     if (!isnan(most)) {
         shared_shift_law_set_value(t, SHARED_SHIFT_LAW_KEY_FURTHEST, most, (double)NAN,
@@ -119,7 +120,8 @@ static void set_verdict(const wt_shared_shift_law_job *job, const wt_shared_shif
 }
 
 /* Formats the law at a reference temperature in the syntax of --shift-law. */
-static void law_words(const wt_shared_shift_law *law, double reference, char *text, size_t size)
+static void format_shift_law_option(const wt_shared_shift_law *law, double reference, char *text,
+                                    size_t size)
 {
     if (law->kind == WT_LAW_WLF)
         clocale_print(text, size, "wlf:reference-temperature=%.6gdegC,c1=%.6g,c2=%.6gK",
@@ -130,54 +132,54 @@ static void law_words(const wt_shared_shift_law *law, double reference, char *te
 }
 
 /* Text buffer with space for the text of each sample. */
-typedef struct list {
+typedef struct text_list {
     char *text; /* NULL: out of memory */
     size_t size, used;
-} list;
+} text_list;
 
-static list make_list(const wt_shared_shift_law_job *job)
+static text_list list_new(const wt_shared_shift_law_job *job)
 {
-    list made = {.size = 1};
+    text_list made = {.size = 1};
     for (size_t i = 0; i < job->n; i++)
-        made.size += strlen(job->names[i]) + MOST_WORDS;
+        made.size += strlen(job->names[i]) + MAX_SAMPLE_TEXT;
     made.text = calloc(made.size, 1);
     return made;
 }
 
-static void add_words(list *to, const char *format, ...) WT_PRINTF(2, 3);
-static void add_words(list *to, const char *format, ...)
+static void append_list_text(text_list *to, const char *format, ...) WT_PRINTF(2, 3);
+static void append_list_text(text_list *to, const char *format, ...)
 {
     if (to->text == NULL)
         return;
-    va_list words;
-    va_start(words, format);
-    clocale_vprint(to->text + to->used, to->size - to->used, format, words);
-    va_end(words);
+    va_list arguments;
+    va_start(arguments, format);
+    clocale_vprint(to->text + to->used, to->size - to->used, format, arguments);
+    va_end(arguments);
     to->used += strlen(to->text + to->used);
 }
 
-static void set_each(const wt_shared_shift_law_job *job, const wt_shared_shift_law *law,
-                     table_writer *t)
+static void set_sample_keys(const wt_shared_shift_law_job *job, const wt_shared_shift_law *law,
+                            table_writer *t)
 {
-    char one[MOST_WORDS];
-    const bool each = job->common == WT_COMMON_MOVED;
-    list moved = make_list(job), given = make_list(job), without = make_list(job);
+    char one[MAX_SAMPLE_TEXT];
+    const bool each = job->common == WT_SHARED_LAW_SHIFTED;
+    text_list moved = list_new(job), given = list_new(job), without = list_new(job);
     for (size_t i = 0; i < law->n_members; i++) {
         const wt_shared_law_member *m = &law->members[i];
         if (!m->used) {
-            add_words(&without, "%s%s: %s", without.used > 0 ? ", " : "", job->names[i],
-                      m->why_not);
+            append_list_text(&without, "%s%s: %s", without.used > 0 ? ", " : "", job->names[i],
+                             m->why_not);
             continue;
         }
         const double reference = law->reference + m->moved.value;
-        add_words(&moved, "%s%s %.2f °C", moved.used > 0 ? ", " : "", job->names[i],
-                  reference - WT_ZERO_CELSIUS);
+        append_list_text(&moved, "%s%s %.2f °C", moved.used > 0 ? ", " : "", job->names[i],
+                         reference - WT_ZERO_CELSIUS);
         if (m->moved.standard_error > 0)
-            add_words(&moved, " ± %.2g K", m->moved.standard_error);
-        law_words(law, reference, one, sizeof one);
+            append_list_text(&moved, " ± %.2g K", m->moved.standard_error);
+        format_shift_law_option(law, reference, one, sizeof one);
         if (each || given.used == 0)
-            add_words(&given, "%s%s%s%s", given.used > 0 ? "; " : "", each ? job->names[i] : "",
-                      each ? " " : "", one);
+            append_list_text(&given, "%s%s%s%s", given.used > 0 ? "; " : "",
+                             each ? job->names[i] : "", each ? " " : "", one);
     }
     if (moved.text == NULL || given.text == NULL || without.text == NULL) {
         t->status = wt_fail(t->err, WT_E_MEMORY, "out of memory");
@@ -192,7 +194,7 @@ static void set_each(const wt_shared_shift_law_job *job, const wt_shared_shift_l
     free(without.text);
 }
 
-static void set_constants(const wt_shared_shift_law *law, table_writer *t)
+static void set_constant_keys(const wt_shared_shift_law *law, table_writer *t)
 {
     const bool wlf = law->kind == WT_LAW_WLF;
     shared_shift_law_set_text(t, SHARED_SHIFT_LAW_KEY_LAW, wlf ? "WLF" : "Arrhenius");
@@ -213,8 +215,8 @@ static void set_constants(const wt_shared_shift_law *law, table_writer *t)
                                0);
 }
 
-wt_status wt_shared_shift_law_make(const wt_shared_shift_law_job *job, wt_table **table,
-                                   wt_error *err)
+wt_status wt_shared_shift_law_compute(const wt_shared_shift_law_job *job, wt_table **table,
+                                      wt_error *err)
 {
     if (job == NULL || table == NULL || job->names == NULL)
         return wt_fail(err, WT_E_ARG, "no samples for a common law");
@@ -226,10 +228,10 @@ wt_status wt_shared_shift_law_make(const wt_shared_shift_law_job *job, wt_table 
         return status;
     table_writer t = table_begin(&shared_shift_law_schema, err);
     for (size_t i = 0; i < job->n; i++)
-        put_sample(job, &law, i, &t);
-    set_verdict(job, &law, &t);
-    set_constants(&law, &t);
-    set_each(job, &law, &t);
+        add_sample_rows(job, &law, i, &t);
+    set_agreement_keys(job, &law, &t);
+    set_constant_keys(&law, &t);
+    set_sample_keys(job, &law, &t);
     wt_shared_shift_law_clear(&law);
     return table_end(&t, table);
 }

@@ -13,7 +13,7 @@ static const double same_temperature = 0.5;
 
 /* ---- law as an option value ------------------------------------------------------------------ */
 
-static wt_wlf no_wlf(void)
+static wt_wlf unset_wlf(void)
 {
     return (wt_wlf){(double)NAN, (double)NAN, (double)NAN};
 }
@@ -26,13 +26,13 @@ static const wt_param wlf_rows[] = {
     {PARAM("c2", wt_wlf, c2, WT_Q_TEMPERATURE_DIFFERENCE, ABOVE(0)),
      .flags = PARAM_REQUIRED | PARAM_NO_OPTION, .help = "constant C2"},
 };
-PARAM_LOCAL_TABLE(wlf_params, wt_wlf, wlf_rows, no_wlf, NO_PARTS)
+PARAM_LOCAL_TABLE(wlf_params, wt_wlf, wlf_rows, unset_wlf, NO_PARTS)
 
 typedef struct arrhenius {
     double activation_energy; /* [J/mol] */
 } arrhenius;
 
-static arrhenius no_arrhenius(void)
+static arrhenius unset_arrhenius(void)
 {
     return (arrhenius){(double)NAN};
 }
@@ -41,7 +41,7 @@ static const wt_param arrhenius_rows[] = {
     {PARAM("activation-energy", arrhenius, activation_energy, WT_Q_MOLAR_ENERGY, ABOVE(0)),
      .flags = PARAM_REQUIRED | PARAM_NO_OPTION, .help = "activation energy"},
 };
-PARAM_LOCAL_TABLE(arrhenius_params, arrhenius, arrhenius_rows, no_arrhenius, NO_PARTS)
+PARAM_LOCAL_TABLE(arrhenius_params, arrhenius, arrhenius_rows, unset_arrhenius, NO_PARTS)
 
 static const flow_law_text wlf_text = {.prefix = "wlf:",
                                        .name = "WLF law",
@@ -54,51 +54,51 @@ static const flow_law_text arrhenius_text = {.prefix = "arrhenius:",
                                              .example = "activation-energy=80kJ/mol",
                                              .params = arrhenius_params};
 
-static void advise_law(const char *text, wt_error *err)
+static void suggest_law(const char *text, wt_error *err)
 {
     static const flow_law_text *const laws[] = {&wlf_text, &arrhenius_text};
-    spell_suggestion near = nearest_to(text, strcspn(text, ":"));
+    spell_suggestion near = spell_suggestion_begin(text, strcspn(text, ":"));
     for (size_t i = 0; i < sizeof laws / sizeof *laws; i++)
         spell_suggestion_try(&near, laws[i]->prefix, strlen(laws[i]->prefix) - 1);
     if (near.name != NULL)
         wt_error_advice(err, "did you mean %.*s?", (int)near.name_length, near.name);
 }
 
-wt_status flow_shift_law(const char *text, wt_shift_law *law, wt_error *err)
+wt_status flow_parse_shift_law(const char *text, wt_shift_law *law, wt_error *err)
 {
-    const double unknown = (double)NAN, room = 293.15;
-    *law = (wt_shift_law){.wlf = no_wlf(), .activation_energy = unknown, .joint = unknown};
+    const double unknown = (double)NAN, room_temperature = 293.15;
+    *law = (wt_shift_law){.wlf = unset_wlf(), .activation_energy = unknown, .joint = unknown};
     if (text == NULL)
         return WT_OK;
     wt_status status;
-    if (flow_is_law(&wlf_text, text)) {
+    if (flow_has_law_prefix(&wlf_text, text)) {
         law->kind = WT_LAW_WLF;
         status = flow_law_parse(&wlf_text, text, &law->wlf, err);
-    } else if (flow_is_law(&arrhenius_text, text)) {
-        arrhenius a = no_arrhenius();
+    } else if (flow_has_law_prefix(&arrhenius_text, text)) {
+        arrhenius a = unset_arrhenius();
         law->kind = WT_LAW_ARRHENIUS;
         law->wlf.reference_temperature =
-            room; /* arbitrary, because differences of shifts do not depend on it */
+            room_temperature; /* arbitrary, because differences of shifts do not depend on it */
         status = flow_law_parse(&arrhenius_text, text, &a, err);
         law->activation_energy = a.activation_energy;
     } else {
         status = wt_fail(err, WT_E_ARG, "\"%s\" is no law of shifts", text);
         wt_error_expected(err, "%s%s or %s%s", wlf_text.prefix, wlf_text.example,
                           arrhenius_text.prefix, arrhenius_text.example);
-        advise_law(text, err);
+        suggest_law(text, err);
     }
     return status;
 }
 
 /* ---- shifts of the isotherms ----------------------------------------------------------------- */
 
-static wt_status give_law(const wt_shift_law *law, wt_sweep *sweep, wt_error *err)
+static wt_status set_law_shifts(const wt_shift_law *law, wt_sweep *sweep, wt_error *err)
 {
     for (size_t i = 0; i < sweep->n_isotherms; i++) {
         wt_isotherm *t = &sweep->isotherms[i];
-        t->given_log_a = wt_shift_law_log_a(law, t->temperature);
-        t->shift_given = isfinite(t->given_log_a);
-        if (t->shift_given)
+        t->stated_log_a = wt_shift_law_log_a(law, t->temperature);
+        t->shift_is_stated = isfinite(t->stated_log_a);
+        if (t->shift_is_stated)
             continue;
         wt_fail(err, WT_E_RANGE, "an isotherm is at or below the pole of the law that is given");
         wt_error_place(err, "shift-law");
@@ -116,7 +116,7 @@ typedef struct shift_rows {
     double to_kelvin, zero;
 } shift_rows;
 
-static double row_kelvin(const shift_rows *r, size_t row)
+static double row_temperature(const shift_rows *r, size_t row)
 {
     return wt_table_number(r->table, row, r->temperature) * r->to_kelvin + r->zero;
 }
@@ -128,27 +128,27 @@ static bool has_shift(const shift_rows *r, size_t row)
 
 /* Returns the first of the rows nearest to a temperature, or the number of rows. *n_alike:
  * number of such rows. */
-static size_t nearest_rows(const shift_rows *r, double t, size_t *n_alike)
+static size_t find_nearest_rows(const shift_rows *r, double t, size_t *n_alike)
 {
     const size_t n = wt_table_n_rows(r->table);
     size_t best = n;
     double away = same_temperature;
     *n_alike = 0;
     for (size_t i = 0; i < n; i++) {
-        const double off = fabs(row_kelvin(r, i) - t);
+        const double off = fabs(row_temperature(r, i) - t);
         if (off < away || (best == n && off <= away)) {
             away = off;
             best = i;
             *n_alike = 0;
         }
-        *n_alike += best < n && row_kelvin(r, i) == row_kelvin(r, best);
+        *n_alike += best < n && row_temperature(r, i) == row_temperature(r, best);
     }
     return best;
 }
 
 /* Finds the row of an isotherm. Runs at one temperature use the rows in their order. */
-static wt_status row_of(const shift_rows *r, const wt_sweep *sweep, size_t isotherm, size_t *row,
-                        wt_error *err)
+static wt_status find_isotherm_row(const shift_rows *r, const wt_sweep *sweep, size_t isotherm,
+                                   size_t *row, wt_error *err)
 {
     const double t = sweep->isotherms[isotherm].temperature;
     size_t rank = 0, runs = 0, n_alike;
@@ -157,43 +157,44 @@ static wt_status row_of(const shift_rows *r, const wt_sweep *sweep, size_t isoth
         runs += same;
         rank += same && i < isotherm;
     }
-    *row = nearest_rows(r, t, &n_alike);
+    *row = find_nearest_rows(r, t, &n_alike);
     if (n_alike <= 1)
         return WT_OK;
     if (n_alike != runs) {
         wt_fail(err, WT_E_AMBIGUOUS, "the table has %zu shifts for one temperature", n_alike);
         wt_error_place(err, "shifts");
         wt_error_expected(err, "one, or one for each of the isotherms there (%zu)", runs);
-        wt_error_found(err, "%.2f degC", row_kelvin(r, *row) - WT_ZERO_CELSIUS);
+        wt_error_found(err, "%.2f degC", row_temperature(r, *row) - WT_ZERO_CELSIUS);
         return WT_E_AMBIGUOUS;
     }
-    const double here = row_kelvin(r, *row);
-    while (rank > 0 || row_kelvin(r, *row) != here)
-        rank -= row_kelvin(r, (*row)++) == here;
+    const double here = row_temperature(r, *row);
+    while (rank > 0 || row_temperature(r, *row) != here)
+        rank -= row_temperature(r, (*row)++) == here;
     return WT_OK;
 }
 
 /* Counts the rows that belong to no isotherm. They probably come from other files. */
-static size_t count_unused(const shift_rows *r, const wt_sweep *sweep)
+static size_t count_unused_rows(const shift_rows *r, const wt_sweep *sweep)
 {
     size_t n = 0;
     for (size_t i = 0; i < wt_table_n_rows(r->table); i++) {
         bool used = !has_shift(r, i);
         for (size_t k = 0; k < sweep->n_isotherms && !used; k++)
-            used = fabs(row_kelvin(r, i) - sweep->isotherms[k].temperature) <= same_temperature;
+            used =
+                fabs(row_temperature(r, i) - sweep->isotherms[k].temperature) <= same_temperature;
         n += !used;
     }
     return n;
 }
 
 /* Sets the vertical shift of an isotherm if the table has one. */
-static wt_status give_vertical(const wt_table *table, size_t row, wt_vertical_shift vertical,
-                               wt_isotherm *t, wt_error *err)
+static wt_status set_vertical_shift(const wt_table *table, size_t row, wt_vertical_shift vertical,
+                                    wt_isotherm *t, wt_error *err)
 {
     const long column = wt_table_find(table, "log_b");
-    t->vertical_given = false;
-    t->given_log_b = 0;
-    if (!t->shift_given || column < 0 ||
+    t->vertical_shift_is_stated = false;
+    t->stated_log_b = 0;
+    if (!t->shift_is_stated || column < 0 ||
         wt_table_column_kind(table, (size_t)column) == WT_COLUMN_TEXT)
         return WT_OK;
     const double b = wt_table_number(table, row, (size_t)column);
@@ -204,13 +205,13 @@ static wt_status give_vertical(const wt_table *table, size_t row, wt_vertical_sh
         wt_error_advice(err, "leave out its column log_b, or give another --vertical-shift");
         return WT_E_ARG;
     }
-    t->vertical_given = isfinite(b);
-    t->given_log_b = t->vertical_given ? b : 0;
+    t->vertical_shift_is_stated = isfinite(b);
+    t->stated_log_b = t->vertical_shift_is_stated ? b : 0;
     return WT_OK;
 }
 
-static wt_status give_table(const wt_table *table, wt_vertical_shift vertical, wt_sweep *sweep,
-                            wt_log *log, wt_error *err)
+static wt_status set_table_shifts(const wt_table *table, wt_vertical_shift vertical,
+                                  wt_sweep *sweep, wt_log *log, wt_error *err)
 {
     const long temperature = wt_table_find(table, "temperature"),
                log_a = wt_table_find(table, "log_a");
@@ -236,16 +237,16 @@ static wt_status give_table(const wt_table *table, wt_vertical_shift vertical, w
     for (size_t i = 0; i < sweep->n_isotherms; i++) {
         wt_isotherm *t = &sweep->isotherms[i];
         size_t row;
-        status = row_of(&r, sweep, i, &row, err);
+        status = find_isotherm_row(&r, sweep, i, &row, err);
         if (status != WT_OK)
             return status;
-        t->shift_given = row < wt_table_n_rows(table) && has_shift(&r, row);
-        t->given_log_a = t->shift_given ? wt_table_number(table, row, r.log_a) : 0;
-        given += t->shift_given;
-        status = give_vertical(table, row, vertical, t, err);
+        t->shift_is_stated = row < wt_table_n_rows(table) && has_shift(&r, row);
+        t->stated_log_a = t->shift_is_stated ? wt_table_number(table, row, r.log_a) : 0;
+        given += t->shift_is_stated;
+        status = set_vertical_shift(table, row, vertical, t, err);
         if (status != WT_OK)
             return status;
-        held += t->vertical_given;
+        held += t->vertical_shift_is_stated;
     }
     if (given == 0) {
         wt_fail(err, WT_E_MISSING, "the table has a shift of none of the isotherms");
@@ -257,7 +258,7 @@ static wt_status give_table(const wt_table *table, wt_vertical_shift vertical, w
                "%zu of %zu shifts are as given, %zu of them with their vertical shift, without "
                "an error of their own; the others are fitted",
                given, sweep->n_isotherms, held);
-    const size_t unused = count_unused(&r, sweep);
+    const size_t unused = count_unused_rows(&r, sweep);
     if (unused > 0)
         wt_log_add(log, WT_WARNING, NULL, NULL,
                    "%zu of the %zu given shifts are of no isotherm: no temperature within %g "
@@ -266,11 +267,12 @@ static wt_status give_table(const wt_table *table, wt_vertical_shift vertical, w
     return WT_OK;
 }
 
-wt_status flow_shifts_give(const wt_shift_law *law, const wt_table *table,
-                           wt_vertical_shift vertical, wt_sweep *sweep, wt_log *log, wt_error *err)
+wt_status flow_set_stated_shifts(const wt_shift_law *law, const wt_table *table,
+                                 wt_vertical_shift vertical, wt_sweep *sweep, wt_log *log,
+                                 wt_error *err)
 {
-    wt_status status = law->kind != WT_LAW_NONE ? give_law(law, sweep, err) : WT_OK;
+    wt_status status = law->kind != WT_LAW_NONE ? set_law_shifts(law, sweep, err) : WT_OK;
     if (status == WT_OK && table != NULL)
-        status = give_table(table, vertical, sweep, log, err);
+        status = set_table_shifts(table, vertical, sweep, log, err);
     return status;
 }

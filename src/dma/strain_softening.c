@@ -13,7 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static wt_status no_memory(wt_error *err)
+static wt_status fail_memory(wt_error *err)
 {
     return wt_fail(err, WT_E_MEMORY, "out of memory for the softening with strain");
 }
@@ -23,20 +23,20 @@ wt_strain_softening_choice wt_strain_softening_choice_defaults(void)
     return (wt_strain_softening_choice){.temperature = (double)NAN};
 }
 
-void wt_strain_softening_clear(wt_strain_softening *softness)
+void wt_strain_softening_clear(wt_strain_softening *softening)
 {
-    if (softness == NULL)
+    if (softening == NULL)
         return;
-    free(softness->table.strain); /* the other arrays are in the same block */
-    *softness = (wt_strain_softening){0};
+    free(softening->table.strain); /* the other arrays are in the same block */
+    *softening = (wt_strain_softening){0};
 }
 
 /* Allocates n points, with or without errors. */
-static wt_status make_room(wt_strain_softening *s, size_t n, bool errors, wt_error *err)
+static wt_status softening_alloc(wt_strain_softening *s, size_t n, bool errors, wt_error *err)
 {
     double *numbers = calloc(5 * n, sizeof *numbers);
     if (numbers == NULL)
-        return no_memory(err);
+        return fail_memory(err);
     *s = (wt_strain_softening){
         .table = {.n = n, .strain = numbers, .storage = numbers + n, .loss = numbers + 2 * n},
         .temperature = (double)NAN};
@@ -47,7 +47,7 @@ static wt_status make_room(wt_strain_softening *s, size_t n, bool errors, wt_err
     return WT_OK;
 }
 
-static bool is_usable(double x)
+static bool is_positive(double x)
 {
     return isfinite(x) && x > 0;
 }
@@ -55,10 +55,10 @@ static bool is_usable(double x)
 /* ---- strain sweeps --------------------------------------------------------------------------- */
 
 /* One strain sweep: its rows that have moduli. */
-typedef struct one_sweep {
+typedef struct softening_sweep {
     size_t n;
     double *log_strain, *f, *g;
-} one_sweep;
+} softening_sweep;
 
 /* Amplitudes closer than this [ln] are merged: 5 %, over which the law of Kraus falls by at most
  * 1.5 % of its height. */
@@ -70,19 +70,19 @@ static const double same_temperature = 1.5, other_temperature = 10;
 
 /* Returns true if a row has moduli and matches the selected temperature and sample (NaN, NULL:
  * any). */
-static bool is_of(const table_view *v, size_t row, wt_strain_softening_choice choice)
+static bool row_matches(const table_view *v, size_t row, wt_strain_softening_choice choice)
 {
     const double temperature = payne_sweep_get(v, row, PAYNE_SWEEP_TEMPERATURE);
-    return is_usable(payne_sweep_get(v, row, PAYNE_SWEEP_STRAIN)) &&
-           is_usable(payne_sweep_get(v, row, PAYNE_SWEEP_STORAGE_RATIO)) &&
-           is_usable(payne_sweep_get(v, row, PAYNE_SWEEP_LOSS_RATIO)) &&
+    return is_positive(payne_sweep_get(v, row, PAYNE_SWEEP_STRAIN)) &&
+           is_positive(payne_sweep_get(v, row, PAYNE_SWEEP_STORAGE_RATIO)) &&
+           is_positive(payne_sweep_get(v, row, PAYNE_SWEEP_LOSS_RATIO)) &&
            (isnan(choice.temperature) ||
             fabs(temperature - choice.temperature) <= same_temperature) &&
            (choice.sample == NULL ||
             strcmp(payne_sweep_text(v, row, PAYNE_SWEEP_SAMPLE), choice.sample) == 0);
 }
 
-static wt_status refuse_several(const char *what, const char *one, const char *other,
+static wt_status fail_ambiguous(const char *what, const char *one, const char *other,
                                 const char *advice, wt_error *err)
 {
     wt_fail(err, WT_E_AMBIGUOUS, "strain sweeps of several %s are no repeats", what);
@@ -94,28 +94,28 @@ static wt_status refuse_several(const char *what, const char *one, const char *o
 }
 
 /* Selects a named sample if the table has names. A table without names is one sample. */
-static wt_status choose_sample(const table_view *v, wt_strain_softening_choice *choice,
+static wt_status select_sample(const table_view *v, wt_strain_softening_choice *choice,
                                wt_error *err)
 {
     const wt_strain_softening_choice any = wt_strain_softening_choice_defaults();
     const char *first = NULL;
-    bool named = false, there = false;
+    bool named = false, is_found = false;
     for (size_t row = 0; row < v->n_rows; row++) {
         const char *const here = payne_sweep_text(v, row, PAYNE_SWEEP_SAMPLE);
-        if (!is_of(v, row, any))
+        if (!row_matches(v, row, any))
             continue;
         named = named || here[0] != '\0';
-        there = there || (choice->sample != NULL && strcmp(here, choice->sample) == 0);
+        is_found = is_found || (choice->sample != NULL && strcmp(here, choice->sample) == 0);
         first = first == NULL ? here : first;
         if (choice->sample == NULL && strcmp(here, first) != 0)
-            return refuse_several("samples", first, here,
+            return fail_ambiguous("samples", first, here,
                                   "choose one with --sample NAME, here "
                                   "if the moduli are of that sample, else of weartrack payne",
                                   err);
     }
     if (!named || (choice->sample != NULL && strcmp(choice->sample, "all") == 0)) {
         choice->sample = NULL;
-    } else if (choice->sample != NULL && !there) {
+    } else if (choice->sample != NULL && !is_found) {
         wt_fail(err, WT_E_NOT_FOUND, "no strain sweep is of the sample \"%s\"", choice->sample);
         wt_error_found(err, "%s", first);
         wt_error_advice(err, "--sample is of moduli and strain sweeps alike");
@@ -124,7 +124,7 @@ static wt_status choose_sample(const table_view *v, wt_strain_softening_choice *
     return WT_OK;
 }
 
-static wt_status without_temperature(const char *what, wt_error *err)
+static wt_status fail_no_temperature(const char *what, wt_error *err)
 {
     wt_fail(err, WT_E_MISSING, "%s", what);
     wt_error_advice(err, "leave --softening-temperature out");
@@ -132,14 +132,15 @@ static wt_status without_temperature(const char *what, wt_error *err)
 }
 
 /* Selects the sweep temperature that is nearest to the requested one. */
-static wt_status choose_temperature(const table_view *v, wt_strain_softening_choice *choice,
+static wt_status select_temperature(const table_view *v, wt_strain_softening_choice *choice,
                                     wt_error *err)
 {
-    const wt_strain_softening_choice of = {.temperature = (double)NAN, .sample = choice->sample};
+    const wt_strain_softening_choice any_temperature = {.temperature = (double)NAN,
+                                                        .sample = choice->sample};
     double low = (double)NAN, high = (double)NAN, nearest = (double)NAN;
     for (size_t row = 0; row < v->n_rows; row++) {
         const double here = payne_sweep_get(v, row, PAYNE_SWEEP_TEMPERATURE);
-        if (!is_of(v, row, of) || isnan(here))
+        if (!row_matches(v, row, any_temperature) || isnan(here))
             continue;
         low = fmin(low, here);
         high = fmax(high, here);
@@ -151,14 +152,14 @@ static wt_status choose_temperature(const table_view *v, wt_strain_softening_cho
         char one[32], other[32];
         clocale_print(one, sizeof one, "%.1f", low - WT_ZERO_CELSIUS);
         clocale_print(other, sizeof other, "%.1f degC", high - WT_ZERO_CELSIUS);
-        return refuse_several(
+        return fail_ambiguous(
             "temperatures", one, other,
             "choose one with --softening-temperature T, such as that of the contact; in a "
             "case give sweeps of one temperature",
             err);
     }
     if (!isnan(choice->temperature) && isnan(nearest)) {
-        return without_temperature("the strain sweeps do not say their temperature", err);
+        return fail_no_temperature("the strain sweeps do not say their temperature", err);
     }
     choice->temperature = isnan(choice->temperature) ? choice->temperature : nearest;
     return WT_OK;
@@ -168,14 +169,14 @@ static double mean_temperature(const table_view *v, wt_strain_softening_choice c
 {
     double sum = 0, n = 0;
     for (size_t row = 0; row < v->n_rows; row++)
-        if (is_of(v, row, choice)) {
+        if (row_matches(v, row, choice)) {
             sum += payne_sweep_get(v, row, PAYNE_SWEEP_TEMPERATURE);
             n++;
         }
     return n > 0 ? sum / n : (double)NAN;
 }
 
-static bool begins_sweep(const table_view *v, size_t row)
+static bool is_sweep_start(const table_view *v, size_t row)
 {
     return row == 0 || wt_table_block(v->table, row) != wt_table_block(v->table, row - 1) ||
            payne_sweep_get(v, row, PAYNE_SWEEP_STRAIN) <=
@@ -185,8 +186,8 @@ static bool begins_sweep(const table_view *v, size_t row)
 }
 
 /* Stores the sweeps one after another in the given arrays and returns their number. */
-static size_t take_sweeps(const table_view *v, wt_strain_softening_choice choice, one_sweep room,
-                          one_sweep *sweeps)
+static size_t collect_sweeps(const table_view *v, wt_strain_softening_choice choice,
+                             softening_sweep arrays, softening_sweep *sweeps)
 {
     size_t n = 0, at = 0;
     bool begins = false;
@@ -194,23 +195,23 @@ static size_t take_sweeps(const table_view *v, wt_strain_softening_choice choice
         const double strain = payne_sweep_get(v, row, PAYNE_SWEEP_STRAIN),
                      f = payne_sweep_get(v, row, PAYNE_SWEEP_STORAGE_RATIO),
                      g = payne_sweep_get(v, row, PAYNE_SWEEP_LOSS_RATIO);
-        begins = begins || begins_sweep(v, row);
-        if (!is_of(v, row, choice))
+        begins = begins || is_sweep_start(v, row);
+        if (!row_matches(v, row, choice))
             continue;
         if (begins)
-            sweeps[n++] =
-                (one_sweep){.log_strain = room.log_strain + at, .f = room.f + at, .g = room.g + at};
+            sweeps[n++] = (softening_sweep){
+                .log_strain = arrays.log_strain + at, .f = arrays.f + at, .g = arrays.g + at};
         begins = false;
-        room.log_strain[at] = log(strain);
-        room.f[at] = f;
-        room.g[at++] = g;
+        arrays.log_strain[at] = log(strain);
+        arrays.f[at] = f;
+        arrays.g[at++] = g;
         sweeps[n - 1].n++;
     }
     return n;
 }
 
 /* Interpolates linearly in ln strain within the sweep. */
-static double value_at(const one_sweep *s, const double *value, double log_strain)
+static double interpolate_sweep(const softening_sweep *s, const double *value, double log_strain)
 {
     size_t k = 0;
     while (k + 2 < s->n && s->log_strain[k + 1] < log_strain)
@@ -222,7 +223,7 @@ static double value_at(const one_sweep *s, const double *value, double log_strai
 }
 
 /* Collects the strains within the common range of all sweeps and returns their number. */
-static size_t common_strains(const one_sweep *sweeps, size_t n, double *x, wt_error *err)
+static size_t common_strains(const softening_sweep *sweeps, size_t n, double *x, wt_error *err)
 {
     double low = -(double)INFINITY, high = (double)INFINITY;
     size_t count = 0, kept = 0;
@@ -250,18 +251,18 @@ static size_t common_strains(const one_sweep *sweeps, size_t n, double *x, wt_er
 
 /* Computes the mean of the sweeps and the standard deviation of a further sweep. Student's
  * factor widens it, so that 1.96 deviations contain 95 %. */
-static void put_mean(const one_sweep *sweeps, size_t n, const double *x, bool loss, double *mean,
-                     double *error, size_t points)
+static void compute_mean(const softening_sweep *sweeps, size_t n, const double *x, bool loss,
+                         double *mean, double *error, size_t points)
 {
-    const double wider = n > 1 ? wt_student((double)(n - 1)) / NORMAL_95 : 1;
+    const double wider = n > 1 ? wt_student_quantile((double)(n - 1)) / NORMAL_95 : 1;
     for (size_t k = 0; k < points; k++) {
         double sum = 0, squares = 0;
         for (size_t i = 0; i < n; i++)
-            sum += value_at(&sweeps[i], loss ? sweeps[i].g : sweeps[i].f, x[k]);
+            sum += interpolate_sweep(&sweeps[i], loss ? sweeps[i].g : sweeps[i].f, x[k]);
         mean[k] = sum / (double)n;
         for (size_t i = 0; error != NULL && i < n; i++) {
             const double off =
-                value_at(&sweeps[i], loss ? sweeps[i].g : sweeps[i].f, x[k]) - mean[k];
+                interpolate_sweep(&sweeps[i], loss ? sweeps[i].g : sweeps[i].f, x[k]) - mean[k];
             squares += off * off;
         }
         if (error != NULL)
@@ -269,49 +270,49 @@ static void put_mean(const one_sweep *sweeps, size_t n, const double *x, bool lo
     }
 }
 
-static wt_status mean_of(const one_sweep *sweeps, size_t n, double *x, wt_strain_softening *s,
-                         wt_error *err)
+static wt_status average_sweeps(const softening_sweep *sweeps, size_t n, double *x,
+                                wt_strain_softening *s, wt_error *err)
 {
     const size_t points = common_strains(sweeps, n, x, err);
-    wt_status status = points > 0 ? make_room(s, points, n > 1, err) : WT_E_RANGE;
+    wt_status status = points > 0 ? softening_alloc(s, points, n > 1, err) : WT_E_RANGE;
     if (status != WT_OK)
         return status;
-    put_mean(sweeps, n, x, false, s->table.storage, s->storage_error, points);
-    put_mean(sweeps, n, x, true, s->table.loss, s->loss_error, points);
+    compute_mean(sweeps, n, x, false, s->table.storage, s->storage_error, points);
+    compute_mean(sweeps, n, x, true, s->table.loss, s->loss_error, points);
     for (size_t k = 0; k < points; k++)
         s->table.strain[k] = exp(x[k]);
     s->n_sweeps = n;
     return WT_OK;
 }
 
-static wt_status of_sweeps(const wt_table *table, wt_strain_softening_choice choice,
-                           wt_strain_softening *softness, wt_error *err)
+static wt_status read_strain_sweeps(const wt_table *table, wt_strain_softening_choice choice,
+                                    wt_strain_softening *softening, wt_error *err)
 {
     table_view v;
     wt_status status = table_bind(table, &payne_sweep_schema, "", &v, err);
     if (status == WT_OK)
-        status = choose_sample(&v, &choice, err);
+        status = select_sample(&v, &choice, err);
     if (status == WT_OK)
-        status = choose_temperature(&v, &choice, err);
+        status = select_temperature(&v, &choice, err);
     if (status != WT_OK)
         return status;
     double *numbers = calloc(4 * v.n_rows + 1, sizeof *numbers);
-    one_sweep *sweeps = calloc(v.n_rows + 1, sizeof *sweeps);
+    softening_sweep *sweeps = calloc(v.n_rows + 1, sizeof *sweeps);
     size_t n = 0;
     if (numbers == NULL || sweeps == NULL)
-        status = no_memory(err);
+        status = fail_memory(err);
     else
-        n = take_sweeps(&v, choice,
-                        (one_sweep){0, numbers, numbers + v.n_rows, numbers + 2 * v.n_rows},
-                        sweeps);
+        n = collect_sweeps(
+            &v, choice, (softening_sweep){0, numbers, numbers + v.n_rows, numbers + 2 * v.n_rows},
+            sweeps);
     if (status == WT_OK && n == 0) {
         status = wt_fail(err, WT_E_EMPTY, "no strain sweep has both moduli");
         wt_error_expected(err, "storage_ratio and loss_ratio above 0 in the table payne_sweep");
     }
     if (status == WT_OK)
-        status = mean_of(sweeps, n, numbers + 3 * v.n_rows, softness, err);
+        status = average_sweeps(sweeps, n, numbers + 3 * v.n_rows, softening, err);
     if (status == WT_OK)
-        softness->temperature = mean_temperature(&v, choice);
+        softening->temperature = mean_temperature(&v, choice);
     free(numbers);
     free(sweeps);
     return status;
@@ -319,15 +320,15 @@ static wt_status of_sweeps(const wt_table *table, wt_strain_softening_choice cho
 
 /* ---- table of ratios ------------------------------------------------------------------------- */
 
-enum { STRAIN, F, G, F_ERROR, G_ERROR, GIVEN };
-static const char *const names[GIVEN] = {"strain", "f", "g", "f_error", "g_error"};
+enum { STRAIN, F, G, F_ERROR, G_ERROR, N_COLUMNS };
+static const char *const names[N_COLUMNS] = {"strain", "f", "g", "f_error", "g_error"};
 
-static bool has_numbers(const wt_table *table, long column)
+static bool is_numeric_column(const wt_table *table, long column)
 {
     return column >= 0 && wt_table_column_kind(table, (size_t)column) != WT_COLUMN_TEXT;
 }
 
-static wt_status refuse_table(wt_error *err)
+static wt_status fail_not_softening(wt_error *err)
 {
     wt_fail(err, WT_E_MISSING, "the table is none of a softening with strain");
     wt_error_expected(err, "columns strain, f and g, and f_error and g_error if they are known; "
@@ -335,35 +336,35 @@ static wt_status refuse_table(wt_error *err)
     return WT_E_MISSING;
 }
 
-static wt_status of_given(const wt_table *table, wt_strain_softening *s, wt_error *err)
+static wt_status read_softening_table(const wt_table *table, wt_strain_softening *s, wt_error *err)
 {
     const size_t n = wt_table_n_rows(table);
-    long column[GIVEN];
-    double factor[GIVEN], zero;
+    long column[N_COLUMNS];
+    double factor[N_COLUMNS], zero;
     wt_status status = WT_OK;
-    for (size_t i = 0; i < GIVEN; i++) {
+    for (size_t i = 0; i < N_COLUMNS; i++) {
         column[i] = wt_table_find(table, names[i]);
         factor[i] = 1;
-        if (!has_numbers(table, column[i]) && (i <= G || column[i] >= 0))
-            return refuse_table(err);
+        if (!is_numeric_column(table, column[i]) && (i <= G || column[i] >= 0))
+            return fail_not_softening(err);
         if (column[i] >= 0 && status == WT_OK)
             status = wt_unit_to_si(wt_table_column_unit(table, (size_t)column[i]), WT_Q_STRAIN,
                                    &factor[i], &zero, err);
     }
     if (status != WT_OK || n == 0)
-        return status != WT_OK ? status : refuse_table(err);
+        return status != WT_OK ? status : fail_not_softening(err);
     if ((column[F_ERROR] >= 0) != (column[G_ERROR] >= 0)) {
         wt_fail(err, WT_E_MISSING, "a softening with strain has the error of one ratio alone");
         wt_error_expected(err, "f_error and g_error, 0 where there is none");
         wt_error_found(err, "%s", names[column[F_ERROR] >= 0 ? F_ERROR : G_ERROR]);
         return WT_E_MISSING;
     }
-    status = make_room(s, n, column[F_ERROR] >= 0, err);
+    status = softening_alloc(s, n, column[F_ERROR] >= 0, err);
     if (status != WT_OK)
         return status;
-    double *const to[GIVEN] = {s->table.strain, s->table.storage, s->table.loss, s->storage_error,
-                               s->loss_error};
-    for (size_t i = 0; i < GIVEN; i++)
+    double *const to[N_COLUMNS] = {s->table.strain, s->table.storage, s->table.loss,
+                                   s->storage_error, s->loss_error};
+    for (size_t i = 0; i < N_COLUMNS; i++)
         for (size_t k = 0; to[i] != NULL && k < n; k++)
             to[i][k] = factor[i] * wt_table_number(table, k, (size_t)column[i]);
     return WT_OK;
@@ -371,7 +372,7 @@ static wt_status of_given(const wt_table *table, wt_strain_softening *s, wt_erro
 
 /* ---- both ------------------------------------------------------------------------------------ */
 
-static wt_status check_errors(const wt_strain_softening *s, wt_error *err)
+static wt_status check_softening_errors(const wt_strain_softening *s, wt_error *err)
 {
     for (size_t k = 0; s->storage_error != NULL && k < s->table.n; k++)
         if (!(s->storage_error[k] >= 0 && isfinite(s->storage_error[k])) ||
@@ -385,25 +386,25 @@ static wt_status check_errors(const wt_strain_softening *s, wt_error *err)
 }
 
 wt_status wt_strain_softening_from_table(const wt_table *table, wt_strain_softening_choice choice,
-                                         wt_strain_softening *softness, wt_error *err)
+                                         wt_strain_softening *softening, wt_error *err)
 {
-    if (table == NULL || softness == NULL)
+    if (table == NULL || softening == NULL)
         return wt_fail(err, WT_E_ARG, "no table of a softening with strain");
     wt_strain_softening s = {0};
     const bool swept = wt_table_find(table, "storage_ratio") >= 0;
     wt_status status = WT_OK;
     if (swept)
-        status = of_sweeps(table, choice, &s, err);
+        status = read_strain_sweeps(table, choice, &s, err);
     else if (!isnan(choice.temperature))
-        status = without_temperature("a table of strain, f and g has no temperature", err);
+        status = fail_no_temperature("a table of strain, f and g has no temperature", err);
     else
-        status = of_given(table, &s, err);
+        status = read_softening_table(table, &s, err);
     if (status == WT_OK)
         status = wt_softening_check(&s.table, err);
     if (status == WT_OK)
-        status = check_errors(&s, err);
+        status = check_softening_errors(&s, err);
     if (status == WT_OK)
-        *softness = s;
+        *softening = s;
     else
         wt_strain_softening_clear(&s);
     return status;
@@ -411,7 +412,7 @@ wt_status wt_strain_softening_from_table(const wt_table *table, wt_strain_soften
 
 wt_status wt_strain_softening_read(const char *path, const char *name,
                                    wt_strain_softening_choice choice, const wt_job *work,
-                                   wt_strain_softening *softness, wt_error *err)
+                                   wt_strain_softening *softening, wt_error *err)
 {
     static const wt_tables_role role = {
         "softening", "softening",
@@ -422,24 +423,24 @@ wt_status wt_strain_softening_read(const char *path, const char *name,
     if (status == WT_OK) {
         const wt_table *swept = wt_result_find(tables, "payne_sweep");
         status = wt_strain_softening_from_table(swept != NULL ? swept : wt_result_table(tables, 0),
-                                                choice, softness, err);
+                                                choice, softening, err);
     }
     if (status != WT_OK)
         wt_error_file(err, name);
-    else if (fabs(softness->temperature - choice.temperature) > other_temperature)
+    else if (fabs(softening->temperature - choice.temperature) > other_temperature)
         wt_log_add(work->log, WT_WARNING, name, NULL,
                    "strain sweeps at %.1f °C are asked for; the nearest were measured at "
                    "%.1f °C",
-                   choice.temperature - WT_ZERO_CELSIUS, softness->temperature - WT_ZERO_CELSIUS);
+                   choice.temperature - WT_ZERO_CELSIUS, softening->temperature - WT_ZERO_CELSIUS);
     wt_result_free(tables);
     return status;
 }
 
-bool strain_softening_has_errors(const wt_strain_softening *softness)
+bool strain_softening_has_errors(const wt_strain_softening *softening)
 {
     bool any = false;
-    for (size_t k = 0; softness->storage_error != NULL && k < softness->table.n; k++)
-        any = any || softness->storage_error[k] > 0 || softness->loss_error[k] > 0;
+    for (size_t k = 0; softening->storage_error != NULL && k < softening->table.n; k++)
+        any = any || softening->storage_error[k] > 0 || softening->loss_error[k] > 0;
     return any;
 }
 
@@ -465,17 +466,17 @@ void strain_softening_describe(const wt_strain_softening *s, char *text, size_t 
 }
 
 /* Moves all points by the same normal number, because sweeps differ as whole curves. */
-static void move_curve(double *value, const double *error, size_t n, double normal)
+static void scale_curve(double *value, const double *error, size_t n, double normal)
 {
     for (size_t k = 0; error != NULL && k < n; k++)
         value[k] *= exp(normal * error[k] / value[k]);
 }
 
-wt_status strain_softening_draw(const wt_strain_softening *softness, uint64_t seed,
+wt_status strain_softening_draw(const wt_strain_softening *softening, uint64_t seed,
                                 size_t replicate, wt_strain_softening *drawn, wt_error *err)
 {
-    const wt_softening *t = &softness->table;
-    const wt_status status = make_room(drawn, t->n, false, err);
+    const wt_softening *t = &softening->table;
+    const wt_status status = softening_alloc(drawn, t->n, false, err);
     if (status != WT_OK)
         return status;
     memcpy(drawn->table.strain, t->strain, t->n * sizeof *t->strain);
@@ -483,9 +484,9 @@ wt_status strain_softening_draw(const wt_strain_softening *softness, uint64_t se
     memcpy(drawn->table.loss, t->loss, t->n * sizeof *t->loss);
     if (replicate == WT_NO_REPLICATE)
         return WT_OK;
-    move_curve(drawn->table.storage, softness->storage_error, t->n,
-               flow_draw_normal(seed, replicate, FLOW_DRAW_SOFT_STORAGE));
-    move_curve(drawn->table.loss, softness->loss_error, t->n,
-               flow_draw_normal(seed, replicate, FLOW_DRAW_SOFT_LOSS));
+    scale_curve(drawn->table.storage, softening->storage_error, t->n,
+                flow_draw_normal(seed, replicate, FLOW_DRAW_SOFT_STORAGE));
+    scale_curve(drawn->table.loss, softening->loss_error, t->n,
+                flow_draw_normal(seed, replicate, FLOW_DRAW_SOFT_LOSS));
     return WT_OK;
 }

@@ -6,12 +6,12 @@
 #include "weartrack/flow.h"
 
 /* Returns true if at least one point has a standard error. */
-bool strain_softening_has_errors(const wt_strain_softening *softness);
+bool strain_softening_has_errors(const wt_strain_softening *softening);
 /* Describes the source and the error of the softening. */
-void strain_softening_describe(const wt_strain_softening *softness, char *text, size_t size);
+void strain_softening_describe(const wt_strain_softening *softening, char *text, size_t size);
 /* Creates a copy without errors for a replicate (WT_NO_REPLICATE: unchanged). The caller clears
  * it. */
-wt_status strain_softening_draw(const wt_strain_softening *softness, uint64_t seed,
+wt_status strain_softening_draw(const wt_strain_softening *softening, uint64_t seed,
                                 size_t replicate, wt_strain_softening *drawn,
                                 wt_error *err) WT_NODISCARD;
 

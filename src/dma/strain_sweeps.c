@@ -24,27 +24,27 @@ void wt_payne_tables_clear(wt_payne_tables *tables)
 }
 
 /* Points with positive moduli, to which a law is fitted. */
-typedef struct usable {
+typedef struct usable_points {
     size_t n;
     double *strain, *storage, *loss;
     bool loss_measured;
-} usable;
+} usable_points;
 
-static wt_status take_usable(const wt_strain_sweep *sweep, arena *memory, wt_log *log, usable *u,
-                             wt_error *err)
+static wt_status select_usable_points(const wt_strain_sweep *sweep, arena *memory, wt_log *log,
+                                      usable_points *u, wt_error *err)
 {
-    *u = (usable){.strain = arena_numbers(memory, sweep->n),
-                  .storage = arena_numbers(memory, sweep->n),
-                  .loss = arena_numbers(memory, sweep->n)};
+    *u = (usable_points){.strain = arena_numbers(memory, sweep->n),
+                         .storage = arena_numbers(memory, sweep->n),
+                         .loss = arena_numbers(memory, sweep->n)};
     if (memory->failed)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
-    bool alone = true;
-    for (size_t i = 0; i < sweep->n && alone; i++)
-        alone = isnan(sweep->loss_modulus[i]);
-    u->loss_measured = !alone;
+    bool storage_only = true;
+    for (size_t i = 0; i < sweep->n && storage_only; i++)
+        storage_only = isnan(sweep->loss_modulus[i]);
+    u->loss_measured = !storage_only;
     for (size_t i = 0; i < sweep->n; i++) {
         const double storage = sweep->storage_modulus[i], loss = sweep->loss_modulus[i];
-        if (!(storage > 0 && isfinite(storage) && (alone || (loss > 0 && isfinite(loss)))))
+        if (!(storage > 0 && isfinite(storage) && (storage_only || (loss > 0 && isfinite(loss)))))
             continue;
         u->strain[u->n] = sweep->strain[i];
         u->storage[u->n] = storage;
@@ -62,7 +62,7 @@ TABLE_ROW(payne_sweep, PAYNE_SWEEP, double strain, angular_frequency, temperatur
           loss_factor;
           double storage_ratio, loss_ratio, storage_kraus, loss_kraus; const char *source, *sample;)
 
-static void put_points(table_writer *t, const wt_strain_sweep *s, const wt_payne *p)
+static void add_sweep_point_rows(table_writer *t, const wt_strain_sweep *s, const wt_payne *p)
 {
     const double unknown = (double)NAN;
     table_block(t);
@@ -79,34 +79,34 @@ static void put_points(table_writer *t, const wt_strain_sweep *s, const wt_payne
 TABLE_ROW(payne, PAYNE, wt_strain_sweep sweep; wt_payne payne; size_t points;
           double strain_min, strain_max;)
 
-static wt_status make_tables(const wt_job *work, const wt_sweep *sweep, wt_payne_tables *t,
-                             wt_error *err)
+static wt_status build_payne_tables(const wt_job *work, const wt_sweep *sweep, wt_payne_tables *t,
+                                    wt_error *err)
 {
     const char *deformation = flow_deformation_name(sweep->deformation);
     table_writer points = table_begin(&payne_sweep_schema, err),
                  numbers = table_begin(&payne_schema, err);
     wt_status status = WT_OK;
-    size_t told = 0;
+    size_t n_fitted = 0;
     payne_sweep_set_text(&points, PAYNE_SWEEP_KEY_DEFORMATION, deformation);
     payne_set_text(&numbers, PAYNE_KEY_DEFORMATION, deformation);
     for (size_t i = 0; i < sweep->n_strain_sweeps && status == WT_OK; i++) {
         const wt_strain_sweep *s = &sweep->strain_sweeps[i];
         arena memory = {0};
-        usable u;
+        usable_points u;
         wt_payne payne;
-        status = take_usable(s, &memory, work->log, &u, err);
+        status = select_usable_points(s, &memory, work->log, &u, err);
         if (status == WT_OK && u.n > 0) {
             status = wt_payne_fit(u.strain, u.storage, u.loss_measured ? u.loss : NULL, u.n, &payne,
                                   err);
             if (status == WT_OK) {
-                put_points(&points, s, &payne);
+                add_sweep_point_rows(&points, s, &payne);
                 TABLE_ADD(payne, &numbers, *s, payne, u.n, u.strain[0], u.strain[u.n - 1]);
-                told++;
+                n_fitted++;
             }
         }
         arena_free(&memory);
     }
-    if (status == WT_OK && told == 0) {
+    if (status == WT_OK && n_fitted == 0) {
         status = wt_fail(err, WT_E_RANGE, "no strain sweep has a positive modulus");
         wt_error_place(err, "%s", sweep->strain_sweeps[0].source);
     }
@@ -115,8 +115,8 @@ static wt_status make_tables(const wt_job *work, const wt_sweep *sweep, wt_payne
     return status != WT_OK ? status : first != WT_OK ? first : second;
 }
 
-wt_status wt_payne_make(const wt_payne_job *job, const wt_job *work, wt_payne_tables *tables,
-                        wt_error *err)
+wt_status wt_payne_compute(const wt_payne_job *job, const wt_job *work, wt_payne_tables *tables,
+                           wt_error *err)
 {
     if (job == NULL || work == NULL || tables == NULL)
         return wt_fail(err, WT_E_ARG, "no job of strain sweeps");
@@ -131,7 +131,7 @@ wt_status wt_payne_make(const wt_payne_job *job, const wt_job *work, wt_payne_ta
                        sweep.n_ramps);
     }
     if (status == WT_OK)
-        status = make_tables(work, &sweep, &t, err);
+        status = build_payne_tables(work, &sweep, &t, err);
     if (status == WT_OK) {
         cost_report(work, (cost_summary){.items = (double)sweep.n_strain_sweeps});
         *tables = t;

@@ -12,15 +12,15 @@
  * frequency. */
 static const double same_temperature = 0.5, same_frequency = 0.01;
 
-typedef struct cut {
-    bool of_frequency; /* frequency, or time, which isotherms store as its inverse */
-    bool of_time;
+typedef struct exclusion_range {
+    bool by_frequency; /* frequency, or time, which isotherms store as its inverse */
+    bool by_time;
     double low, high; /* limits [K] or [rad/s] */
-} cut;
+} exclusion_range;
 
 /* ---- option values --------------------------------------------------------------------------- */
 
-static wt_status bad_text(const char *text, wt_error *err)
+static wt_status fail_exclusion_text(const char *text, wt_error *err)
 {
     wt_fail(err, WT_E_ARG, "\"%s\" does not say what to leave out", text);
     wt_error_expected(err,
@@ -29,75 +29,76 @@ static wt_status bad_text(const char *text, wt_error *err)
     return WT_E_ARG;
 }
 
-static wt_status read_value(const cut *c, const char *text, double *value, wt_error *err)
+static wt_status parse_limit(const exclusion_range *c, const char *text, double *value,
+                             wt_error *err)
 {
-    const wt_quantity quantity = c->of_time        ? WT_Q_TIME
-                                 : c->of_frequency ? WT_Q_FREQUENCY
+    const wt_quantity quantity = c->by_time        ? WT_Q_TIME
+                                 : c->by_frequency ? WT_Q_FREQUENCY
                                                    : WT_Q_TEMPERATURE;
     const wt_status status = wt_quantity_parse(text, quantity, value, err);
-    if (status == WT_OK && c->of_time)
+    if (status == WT_OK && c->by_time)
         *value = 1 / *value;
-    else if (status == WT_OK && c->of_frequency)
+    else if (status == WT_OK && c->by_frequency)
         *value *= 2 * M_PI;
     return status;
 }
 
-static wt_status read_range(const char *text, cut *c, wt_error *err)
+static wt_status parse_range(const char *text, exclusion_range *c, wt_error *err)
 {
     const char *dots = strstr(text, "..");
     if (dots == NULL) {
         double at;
-        const wt_status status = read_value(c, text, &at, err);
-        c->low = c->of_frequency ? at / (1 + same_frequency) : at - same_temperature;
-        c->high = c->of_frequency ? at * (1 + same_frequency) : at + same_temperature;
+        const wt_status status = parse_limit(c, text, &at, err);
+        c->low = c->by_frequency ? at / (1 + same_frequency) : at - same_temperature;
+        c->high = c->by_frequency ? at * (1 + same_frequency) : at + same_temperature;
         return status;
     }
     char *low = strndup(text, (size_t)(dots - text));
     wt_status status = low == NULL ? wt_fail(err, WT_E_MEMORY, "out of memory") : WT_OK;
-    double *const from = c->of_time ? &c->high : &c->low, *const to =
-                                                              c->of_time ? &c->low : &c->high;
+    double *const from = c->by_time ? &c->high : &c->low, *const to =
+                                                              c->by_time ? &c->low : &c->high;
     c->low = -HUGE_VAL;
     c->high = HUGE_VAL;
     if (status == WT_OK && low[0] != '\0')
-        status = read_value(c, low, from, err);
+        status = parse_limit(c, low, from, err);
     if (status == WT_OK && dots[2] != '\0')
-        status = read_value(c, dots + 2, to, err);
+        status = parse_limit(c, dots + 2, to, err);
     free(low);
-    return status == WT_OK && !(c->low < c->high) ? bad_text(text, err) : status;
+    return status == WT_OK && !(c->low < c->high) ? fail_exclusion_text(text, err) : status;
 }
 
-static wt_status read_cut(const char *text, cut *c, wt_error *err)
+static wt_status parse_exclusion(const char *text, exclusion_range *c, wt_error *err)
 {
     static const char temperature[] = "temperature:", frequency[] = "frequency:", time[] = "time:";
-    *c = (cut){.of_time = strncmp(text, time, strlen(time)) == 0};
-    c->of_frequency = c->of_time || strncmp(text, frequency, strlen(frequency)) == 0;
+    *c = (exclusion_range){.by_time = strncmp(text, time, strlen(time)) == 0};
+    c->by_frequency = c->by_time || strncmp(text, frequency, strlen(frequency)) == 0;
     const char *range = strchr(text, ':');
-    if ((!c->of_frequency && strncmp(text, temperature, strlen(temperature)) != 0) ||
+    if ((!c->by_frequency && strncmp(text, temperature, strlen(temperature)) != 0) ||
         strcmp(range, ":") == 0 || strcmp(range, ":..") == 0)
-        return bad_text(text, err);
-    return read_range(range + 1, c, err);
+        return fail_exclusion_text(text, err);
+    return parse_range(range + 1, c, err);
 }
 
 /* ---- exclusion ------------------------------------------------------------------------------- */
 
-static bool is_cut(const cut *c, double x)
+static bool is_excluded(const exclusion_range *c, double x)
 {
     return x >= c->low && x <= c->high;
 }
 
 /* Moves the remaining points to the front and returns their number. */
-static size_t keep_points(const cut *c, sweep_points p)
+static size_t compact_points(const exclusion_range *c, sweep_points p)
 {
-    size_t kept = 0;
+    size_t n_left = 0;
     for (size_t i = 0; i < p.n; i++) {
-        if (is_cut(c, p.array[SWEEP_FIRST][i]))
+        if (is_excluded(c, p.array[SWEEP_VARIABLE][i]))
             continue;
         for (size_t k = 0; k < SWEEP_ARRAYS; k++)
             if (p.array[k] != NULL)
-                p.array[k][kept] = p.array[k][i];
-        kept++;
+                p.array[k][n_left] = p.array[k][i];
+        n_left++;
     }
-    return kept;
+    return n_left;
 }
 
 /* Excluded sweeps and the number of excluded single points. */
@@ -106,49 +107,49 @@ typedef struct removed_data {
     size_t points;
 } removed_data;
 
-static void cut_isotherms(const cut *c, wt_sweep *sweep, removed_data *g)
+static void exclude_isotherms(const exclusion_range *c, wt_sweep *sweep, removed_data *g)
 {
-    size_t kept = 0;
+    size_t n_left = 0;
     for (size_t i = 0; i < sweep->n_isotherms; i++) {
         wt_isotherm *t = &sweep->isotherms[i];
         const size_t before = t->n;
-        if (c->of_frequency)
-            t->n = keep_points(c, points_of_isotherm(t));
-        if (t->n == 0 || (!c->of_frequency && is_cut(c, t->temperature))) {
+        if (c->by_frequency)
+            t->n = compact_points(c, isotherm_points(t));
+        if (t->n == 0 || (!c->by_frequency && is_excluded(c, t->temperature))) {
             g->sweep.isotherms[g->sweep.n_isotherms++] = *t;
         } else {
             g->points += before - t->n;
-            sweep->isotherms[kept++] = *t;
+            sweep->isotherms[n_left++] = *t;
         }
     }
-    sweep->n_isotherms = kept;
+    sweep->n_isotherms = n_left;
 }
 
-static void cut_ramps(const cut *c, wt_sweep *sweep, removed_data *g)
+static void exclude_ramps(const exclusion_range *c, wt_sweep *sweep, removed_data *g)
 {
-    size_t kept = 0;
+    size_t n_left = 0;
     for (size_t i = 0; i < sweep->n_ramps; i++) {
         wt_ramp *t = &sweep->ramps[i];
         const size_t before = t->n;
-        if (!c->of_frequency)
-            t->n = keep_points(c, points_of_ramp(t));
-        if (t->n == 0 || (c->of_frequency && is_cut(c, t->angular_frequency))) {
+        if (!c->by_frequency)
+            t->n = compact_points(c, ramp_points(t));
+        if (t->n == 0 || (c->by_frequency && is_excluded(c, t->angular_frequency))) {
             g->sweep.ramps[g->sweep.n_ramps++] = *t;
         } else {
             g->points += before - t->n;
-            sweep->ramps[kept++] = *t;
+            sweep->ramps[n_left++] = *t;
         }
     }
-    sweep->n_ramps = kept;
+    sweep->n_ramps = n_left;
 }
 
-static wt_status take_out(const char *text, wt_sweep *sweep, wt_log *log, wt_error *err)
+static wt_status apply_exclusion(const char *text, wt_sweep *sweep, wt_log *log, wt_error *err)
 {
-    cut c;
-    wt_status status = read_cut(text, &c, err);
-    if (status == WT_OK && c.of_frequency && c.of_time != (sweep->loading != WT_OSCILLATION)) {
+    exclusion_range c;
+    wt_status status = parse_exclusion(text, &c, err);
+    if (status == WT_OK && c.by_frequency && c.by_time != (sweep->loading != WT_OSCILLATION)) {
         status = wt_fail(err, WT_E_ARG, "\"%s\" is of no point of this DMA", text);
-        wt_error_expected(err, c.of_time ? "frequency: for an oscillation"
+        wt_error_expected(err, c.by_time ? "frequency: for an oscillation"
                                          : "time: for relaxation and creep");
     }
     removed_data g = {
@@ -157,8 +158,8 @@ static wt_status take_out(const char *text, wt_sweep *sweep, wt_log *log, wt_err
     if (status == WT_OK && (g.sweep.isotherms == NULL || g.sweep.ramps == NULL))
         status = wt_fail(err, WT_E_MEMORY, "out of memory");
     if (status == WT_OK) {
-        cut_isotherms(&c, sweep, &g);
-        cut_ramps(&c, sweep, &g);
+        exclude_isotherms(&c, sweep, &g);
+        exclude_ramps(&c, sweep, &g);
         const size_t isotherms = g.sweep.n_isotherms, ramps = g.sweep.n_ramps;
         const bool none = isotherms + ramps + g.points == 0;
         wt_log_add(log, none ? WT_WARNING : WT_NOTE, NULL, NULL,
@@ -170,21 +171,21 @@ static wt_status take_out(const char *text, wt_sweep *sweep, wt_log *log, wt_err
     return status;
 }
 
-wt_status flow_cuts_check(const char *const *texts, size_t n, wt_error *err)
+wt_status flow_exclusions_check(const char *const *texts, size_t n, wt_error *err)
 {
     wt_status status = WT_OK;
-    cut c;
+    exclusion_range c;
     for (size_t i = 0; i < n && status == WT_OK; i++)
-        status = read_cut(texts[i], &c, err);
+        status = parse_exclusion(texts[i], &c, err);
     return status;
 }
 
-wt_status flow_sweep_cut(const char *const *texts, size_t n, wt_sweep *sweep, wt_log *log,
-                         wt_error *err)
+wt_status flow_sweep_exclude(const char *const *texts, size_t n, wt_sweep *sweep, wt_log *log,
+                             wt_error *err)
 {
     wt_status status = WT_OK;
     for (size_t i = 0; i < n && status == WT_OK; i++)
-        status = take_out(texts[i], sweep, log, err);
+        status = apply_exclusion(texts[i], sweep, log, err);
     if (status == WT_OK && n > 0 && sweep->n_isotherms + sweep->n_ramps == 0) {
         status = wt_fail(err, WT_E_EMPTY, "no isotherm is left");
         wt_error_place(err, "exclude");

@@ -12,10 +12,10 @@ const char *flow_deformation_name(wt_deformation deformation)
     return deformation == WT_SHEAR ? "shear" : "tension";
 }
 
-static unsigned arrays_of(sweep_points p)
+static unsigned optional_arrays(sweep_points p)
 {
-    return (p.array[SWEEP_STRAIN] != NULL ? (unsigned)WT_WITH_STRAIN : 0) |
-           (p.array[SWEEP_LOSS_FACTOR] != NULL ? (unsigned)WT_WITH_LOSS_FACTOR : 0);
+    return (p.array[SWEEP_STRAIN] != NULL ? (unsigned)WT_SWEEP_HAS_STRAIN : 0) |
+           (p.array[SWEEP_LOSS_FACTOR] != NULL ? (unsigned)WT_SWEEP_HAS_LOSS_FACTOR : 0);
 }
 
 /* Copies the arrays and the sample name. Returns false if memory is exhausted. */
@@ -30,25 +30,25 @@ static bool copy_points(sweep_points to, sweep_points from, char **sample)
 
 static bool copy_isotherm(wt_sweep *to, const wt_isotherm *s)
 {
-    const sweep_points from = points_of_isotherm(s);
-    wt_isotherm *t = wt_sweep_add(to, s->n, arrays_of(from));
+    const sweep_points from = isotherm_points(s);
+    wt_isotherm *t = wt_sweep_add(to, s->n, optional_arrays(from));
     if (t == NULL)
         return false;
     t->temperature = s->temperature;
     t->temperature_spread = s->temperature_spread;
     memcpy(t->source, s->source, sizeof t->source);
-    return copy_points(points_of_isotherm(t), from, &t->sample);
+    return copy_points(isotherm_points(t), from, &t->sample);
 }
 
 static bool copy_ramp(wt_sweep *to, const wt_ramp *s)
 {
-    const sweep_points from = points_of_ramp(s);
-    wt_ramp *t = wt_sweep_add_ramp(to, s->n, arrays_of(from));
+    const sweep_points from = ramp_points(s);
+    wt_ramp *t = wt_sweep_add_ramp(to, s->n, optional_arrays(from));
     if (t == NULL)
         return false;
     t->angular_frequency = s->angular_frequency;
     memcpy(t->source, s->source, sizeof t->source);
-    return copy_points(points_of_ramp(t), from, &t->sample);
+    return copy_points(ramp_points(t), from, &t->sample);
 }
 
 static bool copy_strain_sweep(wt_sweep *to, const wt_strain_sweep *s)
@@ -59,7 +59,7 @@ static bool copy_strain_sweep(wt_sweep *to, const wt_strain_sweep *s)
     t->angular_frequency = s->angular_frequency;
     t->temperature = s->temperature;
     memcpy(t->source, s->source, sizeof t->source);
-    return copy_points(points_of_strain_sweep(t), points_of_strain_sweep(s), &t->sample);
+    return copy_points(strain_sweep_points(t), strain_sweep_points(s), &t->sample);
 }
 
 /* Copies all sweeps to `to`, which must be empty. */
@@ -77,7 +77,7 @@ static wt_status copy_sweep(wt_sweep *to, const wt_sweep *from, wt_error *err)
     return good ? WT_OK : wt_fail(err, WT_E_MEMORY, "out of memory");
 }
 
-static size_t n_sweeps(const wt_sweep *sweep)
+static size_t count_sweeps(const wt_sweep *sweep)
 {
     return sweep->n_isotherms + sweep->n_ramps + sweep->n_strain_sweeps;
 }
@@ -85,7 +85,7 @@ static size_t n_sweeps(const wt_sweep *sweep)
 static wt_status read_sweeps(const wt_file_set *sets, size_t n_sets, const wt_job *work,
                              wt_sweep *sweep, wt_error *err)
 {
-    if (work->dma != NULL && n_sweeps(work->dma) > 0)
+    if (work->dma != NULL && count_sweeps(work->dma) > 0)
         return copy_sweep(sweep, work->dma, err);
     flow_files files = {NULL, 0, NULL};
     wt_status status = flow_files_list(sets, n_sets, work, &files, err);
@@ -107,15 +107,15 @@ static wt_status read_sweeps(const wt_file_set *sets, size_t n_sets, const wt_jo
         if (status != WT_OK)
             status = flow_skip_file(work, &files.file[i], &failure)
                          ? WT_OK
-                         : wt_job_failed(work, files.file[i].name, status, &failure, err);
+                         : wt_job_add_failure(work, files.file[i].name, status, &failure, err);
     }
-    if (status == WT_OK && n_sweeps(sweep) == 0) {
+    if (status == WT_OK && count_sweeps(sweep) == 0) {
         status = wt_fail(err, WT_E_EMPTY, "no DMA sweep could be read");
         flow_error_add_files(&files, 0, err);
     }
     if (status == WT_OK) {
         wt_sweep_sort(sweep);
-        wt_sweep_drop_copies(sweep, work->log);
+        wt_sweep_remove_duplicates(sweep, work->log);
         if (work->dma != NULL)
             status = copy_sweep(work->dma, sweep, err);
     }
@@ -127,11 +127,11 @@ wt_status flow_sweeps_read(const wt_file_set *sets, size_t n_sets, const wt_job 
                            wt_sweep *sweep, wt_error *err)
 {
     const wt_status status = read_sweeps(sets, n_sets, work, sweep, err);
-    return status == WT_OK && n_sets > 0 ? flow_sample_take(sweep, sets[0].read.sample, err)
+    return status == WT_OK && n_sets > 0 ? flow_select_sample(sweep, sets[0].read.sample, err)
                                          : status;
 }
 
-wt_status flow_needs_oscillation(const wt_sweep *sweep, const char *what, wt_error *err)
+wt_status flow_require_oscillation(const wt_sweep *sweep, const char *what, wt_error *err)
 {
     if (sweep->loading == WT_OSCILLATION)
         return WT_OK;
@@ -142,16 +142,16 @@ wt_status flow_needs_oscillation(const wt_sweep *sweep, const char *what, wt_err
     return WT_E_UNSUPPORTED;
 }
 
-wt_status wt_samples_read(const wt_file_set *sets, size_t n_sets, const wt_job *work,
-                          wt_samples *samples, wt_error *err)
+wt_status wt_sample_names_read(const wt_file_set *sets, size_t n_sets, const wt_job *work,
+                               wt_sample_names *samples, wt_error *err)
 {
     wt_sweep sweep = {0};
-    *samples = (wt_samples){0, NULL};
+    *samples = (wt_sample_names){0, NULL};
     wt_status status = flow_sweeps_read(sets, n_sets, work, &sweep, err);
     if (status == WT_OK)
         status = flow_samples_find(&sweep, samples, err);
     if (status != WT_OK)
-        wt_samples_clear(samples);
+        wt_sample_names_clear(samples);
     wt_sweep_clear(&sweep);
     return status;
 }

@@ -14,37 +14,38 @@ const char *flow_deformation_name(wt_deformation deformation);
 wt_status flow_sweeps_read(const wt_file_set *sets, size_t n_sets, const wt_job *work,
                            wt_sweep *sweep, wt_error *err) WT_NODISCARD;
 /* Returns WT_E_UNSUPPORTED for step experiments. `what` names the data that need an oscillation. */
-wt_status flow_needs_oscillation(const wt_sweep *sweep, const char *what,
-                                 wt_error *err) WT_NODISCARD;
+wt_status flow_require_oscillation(const wt_sweep *sweep, const char *what,
+                                   wt_error *err) WT_NODISCARD;
 /* Lists the samples of isotherms and temperature sweeps. `samples` must be empty; the caller
  * clears it. */
-wt_status flow_samples_find(const wt_sweep *sweep, wt_samples *samples, wt_error *err) WT_NODISCARD;
+wt_status flow_samples_find(const wt_sweep *sweep, wt_sample_names *samples,
+                            wt_error *err) WT_NODISCARD;
 /* Removes the sweeps of other samples, unless `name` is NULL or "all". Returns WT_E_NOT_FOUND if
  * no sweep has this sample. */
-wt_status flow_sample_take(wt_sweep *sweep, const char *name, wt_error *err) WT_NODISCARD;
+wt_status flow_select_sample(wt_sweep *sweep, const char *name, wt_error *err) WT_NODISCARD;
 /* Returns WT_E_AMBIGUOUS if the sweeps have several samples and the first set names none. */
-wt_status flow_one_sample(const wt_sweep *sweep, const wt_file_set *sets, size_t n_sets,
-                          wt_log *log, wt_error *err) WT_NODISCARD;
+wt_status flow_require_one_sample(const wt_sweep *sweep, const wt_file_set *sets, size_t n_sets,
+                                  wt_log *log, wt_error *err) WT_NODISCARD;
 /* If sweeps at one temperature and frequency have several strain amplitudes, this selects the
  * one nearest to the amplitude of the first set. Without a stated amplitude it returns
  * WT_E_AMBIGUOUS. */
-wt_status flow_one_amplitude(wt_sweep *sweep, const wt_file_set *sets, size_t n_sets, wt_log *log,
-                             wt_error *err) WT_NODISCARD;
+wt_status flow_select_amplitude(wt_sweep *sweep, const wt_file_set *sets, size_t n_sets,
+                                wt_log *log, wt_error *err) WT_NODISCARD;
 
 /* Excludes the isotherms, temperature sweeps and points that the texts describe. */
-wt_status flow_sweep_cut(const char *const *texts, size_t n, wt_sweep *sweep, wt_log *log,
-                         wt_error *err) WT_NODISCARD;
+wt_status flow_sweep_exclude(const char *const *texts, size_t n, wt_sweep *sweep, wt_log *log,
+                             wt_error *err) WT_NODISCARD;
 
 /* Checks the syntax of the texts. */
-wt_status flow_cuts_check(const char *const *texts, size_t n, wt_error *err) WT_NODISCARD;
+wt_status flow_exclusions_check(const char *const *texts, size_t n, wt_error *err) WT_NODISCARD;
 
 /* Parses a shift law. NULL gives kind NONE. */
-wt_status flow_shift_law(const char *text, wt_shift_law *law, wt_error *err) WT_NODISCARD;
+wt_status flow_parse_shift_law(const char *text, wt_shift_law *law, wt_error *err) WT_NODISCARD;
 /* Sets the shifts of the isotherms from the law (unless its kind is NONE) or from the table
  * (unless NULL). Vertical shifts of the table are fixed, too. They are an error if `vertical` is
  * NONE. */
-wt_status flow_shifts_give(const wt_shift_law *law, const wt_table *table,
-                           wt_vertical_shift vertical, wt_sweep *sweep, wt_log *log,
-                           wt_error *err) WT_NODISCARD;
+wt_status flow_set_stated_shifts(const wt_shift_law *law, const wt_table *table,
+                                 wt_vertical_shift vertical, wt_sweep *sweep, wt_log *log,
+                                 wt_error *err) WT_NODISCARD;
 
 #endif

@@ -29,8 +29,8 @@ void anisotropy_describe(const wt_anisotropy *anisotropy, char *text, size_t siz
         }
 }
 
-static void say_effect(const wt_friction_point *with, const wt_friction_point *without, char *text,
-                       size_t size)
+static void describe_effect(const wt_friction_point *with, const wt_friction_point *without,
+                            char *text, size_t size)
 {
     char against[128];
     clocale_print(against, sizeof against,
@@ -49,25 +49,25 @@ static wt_status make_table(const friction_difference *c, wt_table **table, wt_e
     anisotropy_keys keys = {.side = c->with[n].side};
     keys.side.standard_error = (double)NAN; /* this table draws no replicates */
     anisotropy_describe(&c->sliding->anisotropy, keys.texture, sizeof keys.texture);
-    say_effect(&c->with[n], &c->without[n], keys.effect, sizeof keys.effect);
+    describe_effect(&c->with[n], &c->without[n], keys.effect, sizeof keys.effect);
     anisotropy_set_keys(&t, &keys);
     return table_end(&t, table);
 }
 
-wt_status wt_anisotropy_make(const wt_sliding *sliding, const wt_job *work, wt_table **table,
-                             wt_error *err)
+wt_status wt_anisotropic_friction_compute(const wt_sliding *sliding, const wt_job *work,
+                                          wt_table **table, wt_error *err)
 {
     if (work == NULL || table == NULL)
         return wt_fail(err, WT_E_ARG, "no anisotropy to compute");
     wt_status status = flow_sliding_check(sliding, work, err);
-    if (status == WT_OK && !anisotropy_is_any(&sliding->anisotropy))
+    if (status == WT_OK && !anisotropy_is_present(&sliding->anisotropy))
         status = wt_fail(err, WT_E_ARG, "the roughness is the same in all directions");
     if (status != WT_OK)
         return status;
     friction_difference c;
     wt_sliding without = *sliding;
     without.anisotropy = (wt_anisotropy){{0}, {0}};
-    status = friction_difference_make(sliding, &without, work, NULL, NULL, &c, err);
+    status = friction_difference_compute(sliding, &without, work, NULL, NULL, &c, err);
     if (status == WT_OK)
         status = make_table(&c, table, err);
     friction_difference_clear(&c);

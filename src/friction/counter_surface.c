@@ -86,7 +86,7 @@ static wt_status parse_self_affine(const char *text, wt_surface *surface, wt_err
     return flow_law_parse(&self_affine, text, surface, err);
 }
 
-static double positive_key(const wt_table *table, size_t key)
+static double positive_key_value(const wt_table *table, size_t key)
 {
     wt_estimate value = {0};
     return wt_table_estimate(table, power_spectrum_schema.keys[key].name, &value) &&
@@ -97,7 +97,7 @@ static double positive_key(const wt_table *table, size_t key)
 
 /* Returns the errors of a column as an array [n] that the caller frees. Missing errors are 0, also
  * if the table has no such column. NULL if out of memory. */
-static double *column_errors(const wt_table *table, power_spectrum_column which, size_t n)
+static double *read_error_column(const wt_table *table, power_spectrum_column which, size_t n)
 {
     const long column = wt_table_find(table, power_spectrum_schema.columns[which].name);
     const bool known =
@@ -112,8 +112,8 @@ static double *column_errors(const wt_table *table, power_spectrum_column which,
 
 /* Reads an index from the table of position errors, where it counts from 1, and converts it to
  * count from 0. */
-static bool counted(const table_view *places, size_t row, place_errors_column column, size_t most,
-                    size_t *to)
+static bool read_index(const table_view *places, size_t row, place_errors_column column,
+                       size_t most, size_t *to)
 {
     const double value = place_errors_get(places, row, column);
     if (!(value >= 1) || !(value <= (double)most))
@@ -124,7 +124,7 @@ static bool counted(const table_view *places, size_t row, place_errors_column co
 
 /* Copies the errors that the positions of scans of several sizes give to the rows of the spectrum.
  * Scans of one size have no such table. */
-static wt_status take_places(const wt_table *table, wt_surface *surface, wt_error *err)
+static wt_status copy_position_errors(const wt_table *table, wt_surface *surface, wt_error *err)
 {
     table_view view = {.n_rows = 0};
     wt_status status =
@@ -133,15 +133,15 @@ static wt_status take_places(const wt_table *table, wt_surface *surface, wt_erro
     if (status != WT_OK || rows == 0)
         return status;
     for (size_t i = 0, size; status == WT_OK && i < rows; i++)
-        if (counted(&view, i, PLACE_ERRORS_SIZE, rows, &size) && size >= surface->n_sizes)
+        if (read_index(&view, i, PLACE_ERRORS_SIZE, rows, &size) && size >= surface->n_sizes)
             surface->n_sizes = size + 1;
     surface->place_parts = calloc(surface->n_sizes * n + 1, sizeof *surface->place_parts);
     if (surface->place_parts == NULL)
         status = wt_fail(err, WT_E_MEMORY, "out of memory");
     for (size_t i = 0, size, at; status == WT_OK && i < rows; i++) {
         const double error = place_errors_get(&view, i, PLACE_ERRORS_ERROR);
-        if (!counted(&view, i, PLACE_ERRORS_SIZE, surface->n_sizes, &size) ||
-            !counted(&view, i, PLACE_ERRORS_ROW, n, &at) || !(error >= 0) || !isfinite(error)) {
+        if (!read_index(&view, i, PLACE_ERRORS_SIZE, surface->n_sizes, &size) ||
+            !read_index(&view, i, PLACE_ERRORS_ROW, n, &at) || !(error >= 0) || !isfinite(error)) {
             wt_fail(err, WT_E_RANGE, "row %zu of the table %s is of no row of the spectrum", i + 1,
                     place_errors_schema.name);
             wt_error_expected(err, "a size from 1, a row from 1 to %zu, an error of 0 or more", n);
@@ -156,20 +156,20 @@ static wt_status take_places(const wt_table *table, wt_surface *surface, wt_erro
 /* Copies the errors and the limits of the table power_spectrum and, if the second table exists, the
  * errors of the positions. The flag is true if the rows of the table are the points that were read.
  */
-static wt_status take_errors(const wt_table *table, const wt_table *places, wt_surface *surface,
-                             bool *taken, wt_error *err)
+static wt_status copy_table_errors(const wt_table *table, const wt_table *places,
+                                   wt_surface *surface, bool *copied, wt_error *err)
 {
     const wt_power_spectrum *s = &surface->spectrum;
     const long column =
         wt_table_find(table, power_spectrum_schema.columns[POWER_SPECTRUM_MODES_ERROR].name);
     wt_estimate place = {0};
-    *taken = column >= 0 && wt_table_n_rows(table) == s->n &&
-             wt_table_column_kind(table, (size_t)column) == WT_COLUMN_NUMBER;
-    if (!*taken)
+    *copied = column >= 0 && wt_table_n_rows(table) == s->n &&
+              wt_table_column_kind(table, (size_t)column) == WT_COLUMN_NUMBER;
+    if (!*copied)
         return WT_OK;
-    surface->modes_error = column_errors(table, POWER_SPECTRUM_MODES_ERROR, s->n);
-    surface->modes_tie = column_errors(table, POWER_SPECTRUM_MODES_TIE, s->n);
-    surface->law_error = column_errors(table, POWER_SPECTRUM_LAW_ERROR, s->n);
+    surface->modes_error = read_error_column(table, POWER_SPECTRUM_MODES_ERROR, s->n);
+    surface->modes_tie = read_error_column(table, POWER_SPECTRUM_MODES_TIE, s->n);
+    surface->law_error = read_error_column(table, POWER_SPECTRUM_LAW_ERROR, s->n);
     if (surface->modes_error == NULL || surface->modes_tie == NULL || surface->law_error == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     if (wt_table_estimate(table, power_spectrum_schema.keys[POWER_SPECTRUM_KEY_PLACES_ERROR].name,
@@ -178,24 +178,25 @@ static wt_status take_errors(const wt_table *table, const wt_table *places, wt_s
         surface->c0.standard_error = place.value;
         surface->places_known = true;
     }
-    surface->reliable_to = positive_key(table, POWER_SPECTRUM_KEY_TO);
-    surface->steep = positive_key(table, POWER_SPECTRUM_KEY_STEEP);
-    return surface->c0.standard_error > 0 ? take_places(places, surface, err) : WT_OK;
+    surface->reliable_to = positive_key_value(table, POWER_SPECTRUM_KEY_TO);
+    surface->steep = positive_key_value(table, POWER_SPECTRUM_KEY_STEEP);
+    return surface->c0.standard_error > 0 ? copy_position_errors(places, surface, err) : WT_OK;
 }
 
 /* Reads the errors from a file that this program wrote. A pipe can be read only once, so that its
  * errors are not available; the log then has a warning. */
-static wt_status read_errors(const flow_file *file, const wt_job *work, wt_surface *surface,
-                             wt_error *err)
+static wt_status read_spectrum_errors(const flow_file *file, const wt_job *work,
+                                      wt_surface *surface, wt_error *err)
 {
     static const char *const own[] = {"weartrack-stream", "weartrack-hdf5"};
-    bool is_own = false;
+    bool is_weartrack_file = false;
     for (size_t i = 0; i < COUNT_OF(own); i++)
-        is_own = is_own || (file->format != NULL && strcmp(file->format->id, own[i]) == 0);
-    if (!is_own)
+        is_weartrack_file =
+            is_weartrack_file || (file->format != NULL && strcmp(file->format->id, own[i]) == 0);
+    if (!is_weartrack_file)
         return WT_OK;
     wt_result *tables = NULL;
-    bool taken = false;
+    bool copied = false;
     const bool piped = strcmp(file->path, "-") == 0;
     wt_status status = piped ? WT_OK
                              : wt_tables_read(file->path, file->name, NULL,
@@ -203,9 +204,9 @@ static wt_status read_errors(const flow_file *file, const wt_job *work, wt_surfa
     const wt_table *table =
         status == WT_OK && !piped ? wt_result_find(tables, power_spectrum_schema.name) : NULL;
     if (table != NULL)
-        status = take_errors(table, wt_result_find(tables, place_errors_schema.name), surface,
-                             &taken, err);
-    if (status == WT_OK && !taken && (piped || table != NULL))
+        status = copy_table_errors(table, wt_result_find(tables, place_errors_schema.name), surface,
+                                   &copied, err);
+    if (status == WT_OK && !copied && (piped || table != NULL))
         wt_log_add(work->log, WT_WARNING, file->name, NULL,
                    "the errors of the spectrum are not read%s: no error holds the surface",
                    piped ? " from a pipe; give a file" : "");
@@ -214,14 +215,14 @@ static wt_status read_errors(const flow_file *file, const wt_job *work, wt_surfa
 }
 
 /* Converts the spectrum of a profile to the spectrum C of the surface. */
-static wt_status take_profile(const char *name, const wt_job *work, wt_power_spectrum *spectrum,
-                              wt_error *err)
+static wt_status convert_profile_spectrum(const char *name, const wt_job *work,
+                                          wt_power_spectrum *spectrum, wt_error *err)
 {
     double *c = malloc((spectrum->n + 1) * sizeof *c);
     if (c == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     const wt_status status =
-        wt_surface_of_profile(spectrum->wavenumber, spectrum->density, spectrum->n, c, err);
+        wt_surface_from_profile(spectrum->wavenumber, spectrum->density, spectrum->n, c, err);
     if (status != WT_OK) {
         free(c);
         wt_error_file(err, name);
@@ -246,20 +247,20 @@ wt_status flow_surface_read(flow_file *file, const wt_job *work, wt_surface *sur
             wt_power_spectrum_read(work->formats, input, &read, work->log, &surface->spectrum, err);
     wt_input_close(input);
     if (status == WT_OK && surface->spectrum.kind != WT_SPECTRUM_2D)
-        status = take_profile(file->name, work, &surface->spectrum, err);
+        status = convert_profile_spectrum(file->name, work, &surface->spectrum, err);
     surface->q0 = surface->q1 = (double)NAN;
     surface->c0 = (wt_estimate){1, 0, 0, "1"};
-    return status == WT_OK ? read_errors(file, work, surface, err) : status;
+    return status == WT_OK ? read_spectrum_errors(file, work, surface, err) : status;
 }
 
 /* ---- from height maps ------------------------------------------------------------------------ */
 
-static wt_status take_spectrum(const wt_topography_tables *made, wt_surface *surface, wt_error *err)
+static wt_status copy_spectrum(const wt_topography_tables *made, wt_surface *surface, wt_error *err)
 {
     const wt_table *const table = made->power_spectrum;
     const size_t n = wt_table_n_rows(table);
     wt_power_spectrum *const s = &surface->spectrum;
-    bool taken = false;
+    bool copied = false;
     s->kind = WT_SPECTRUM_2D;
     s->wavenumber = malloc((n + 1) * sizeof *s->wavenumber);
     s->density = malloc((n + 1) * sizeof *s->density);
@@ -269,18 +270,18 @@ static wt_status take_spectrum(const wt_topography_tables *made, wt_surface *sur
         s->wavenumber[s->n] = wt_table_number(table, s->n, POWER_SPECTRUM_WAVENUMBER);
         s->density[s->n] = wt_table_number(table, s->n, POWER_SPECTRUM_DENSITY);
     }
-    return take_errors(table, made->place_errors, surface, &taken, err);
+    return copy_table_errors(table, made->place_errors, surface, &copied, err);
 }
 
 wt_status flow_surface_measure(const wt_topography_job *job, const wt_job *work,
                                wt_surface *surface, wt_topography_tables *tables, wt_error *err)
 {
     wt_topography_tables made = {.power_spectrum = NULL};
-    wt_status status = wt_topography_make(job, work, &made, err);
+    wt_status status = wt_topography_compute(job, work, &made, err);
     surface->q0 = surface->q1 = (double)NAN;
     surface->c0 = (wt_estimate){1, 0, 0, "1"};
     if (status == WT_OK)
-        status = take_spectrum(&made, surface, err);
+        status = copy_spectrum(&made, surface, err);
     if (status == WT_OK && tables != NULL) {
         *tables = made;
         return WT_OK;
@@ -290,8 +291,8 @@ wt_status flow_surface_measure(const wt_topography_job *job, const wt_job *work,
 }
 
 /* True for several files, or for one file that can be a height map and cannot be a spectrum. */
-static wt_status is_measured(const flow_files *files, const wt_job *work, bool *heights,
-                             wt_error *err)
+static wt_status detect_height_maps(const flow_files *files, const wt_job *work, bool *heights,
+                                    wt_error *err)
 {
     wt_input *input = NULL;
     const wt_format_info *format = NULL;
@@ -301,8 +302,8 @@ static wt_status is_measured(const flow_files *files, const wt_job *work, bool *
     const wt_read_options *const read = &files->file[0].set->read;
     wt_status status = wt_input_open(files->file[0].path, &input, err);
     if (status == WT_OK && read->format == NULL)
-        status =
-            wt_detect(work->formats, input, read, WT_KIND_SPECTRUM | WT_KIND_IMAGE, &format, err);
+        status = wt_format_detect(work->formats, input, read, WT_KIND_SPECTRUM | WT_KIND_IMAGE,
+                                  &format, err);
     else if (status == WT_OK)
         format = wt_formats_find(work->formats, read->format);
     const unsigned kinds = status == WT_OK && format != NULL ? format->kinds : 0;
@@ -312,8 +313,8 @@ static wt_status is_measured(const flow_files *files, const wt_job *work, bool *
 }
 
 /* Reads a spectrum, or the height maps of a file, a folder or a file pattern. */
-static wt_status read_surface(const char *path, const wt_read_options *read, const wt_job *work,
-                              wt_surface *surface, wt_error *err)
+static wt_status read_roughness_input(const char *path, const wt_read_options *read,
+                                      const wt_job *work, wt_surface *surface, wt_error *err)
 {
     const wt_file_set set = {
         .patterns = &path, .n_patterns = 1, .read = read != NULL ? *read : wt_read_defaults()};
@@ -326,7 +327,7 @@ static wt_status read_surface(const char *path, const wt_read_options *read, con
         return wt_fail(err, WT_E_ARG, "no formats given to a job that reads files");
     wt_status status = flow_files_list(&set, 1, work, &files, err);
     if (status == WT_OK)
-        status = is_measured(&files, work, &heights, err);
+        status = detect_height_maps(&files, work, &heights, err);
     if (status == WT_OK && !heights)
         status = flow_surface_read(&files.file[0], work, surface, err);
     else if (status == WT_OK)
@@ -335,7 +336,7 @@ static wt_status read_surface(const char *path, const wt_read_options *read, con
     return status;
 }
 
-void flow_surface_cost(const wt_surface *surface, const wt_job *work)
+void flow_surface_report_cost(const wt_surface *surface, const wt_job *work)
 {
     const size_t items = surface->self_affine ? COUNT_OF(law_rows) : surface->spectrum.n;
     cost_report(work, (cost_summary){.items = (double)items});
@@ -347,9 +348,10 @@ wt_status wt_surface_open(const char *text, const wt_read_options *read, const w
     if (text == NULL || surface == NULL || work == NULL)
         return wt_fail(err, WT_E_ARG, "no roughness");
     wt_surface s = {0};
-    wt_status status = flow_is_law(&self_affine, text) ? parse_self_affine(text, &s, err)
-                                                       : read_surface(text, read, work, &s, err);
-    status = flow_law_meant(&self_affine, text, status, err);
+    wt_status status = flow_has_law_prefix(&self_affine, text)
+                           ? parse_self_affine(text, &s, err)
+                           : read_roughness_input(text, read, work, &s, err);
+    status = flow_law_suggest(&self_affine, text, status, err);
     if (status == WT_OK)
         status = flow_surface_check(&s, err);
     if (status != WT_OK) {
@@ -357,15 +359,15 @@ wt_status wt_surface_open(const char *text, const wt_read_options *read, const w
         return status;
     }
     *surface = s;
-    flow_surface_cost(&s, work);
+    flow_surface_report_cost(&s, work);
     return WT_OK;
 }
 
 /* ---- the law --------------------------------------------------------------------------------- */
 
 /* Measured densities from q0 to q1. The densities at the limits are interpolated in log-log. */
-static wt_status spectrum_roughness(const wt_surface *surface, double factor,
-                                    wt_roughness **roughness, wt_error *err)
+static wt_status measured_spectrum_roughness(const wt_surface *surface, double factor,
+                                             wt_roughness **roughness, wt_error *err)
 {
     const wt_power_spectrum *s = &surface->spectrum;
     if (s->n < 2)
@@ -385,13 +387,13 @@ static wt_status spectrum_roughness(const wt_surface *surface, double factor,
     double *c = q + s->n + 2;
     size_t n = 0;
     for (size_t i = 0; i < s->n; i++) {
-        double ends[2] = {q0, q1};
+        double limits[2] = {q0, q1};
         for (int e = 0; e < 2; e++) {
-            if (i == 0 || !(ends[e] > s->wavenumber[i - 1]) || !(ends[e] < s->wavenumber[i]))
+            if (i == 0 || !(limits[e] > s->wavenumber[i - 1]) || !(limits[e] < s->wavenumber[i]))
                 continue;
-            double t =
-                log(ends[e] / s->wavenumber[i - 1]) / log(s->wavenumber[i] / s->wavenumber[i - 1]);
-            q[n] = ends[e];
+            double t = log(limits[e] / s->wavenumber[i - 1]) /
+                       log(s->wavenumber[i] / s->wavenumber[i - 1]);
+            q[n] = limits[e];
             c[n++] = factor * exp((1 - t) * log(s->density[i - 1]) + t * log(s->density[i]));
         }
         if (s->wavenumber[i] < q0 || s->wavenumber[i] > q1)
@@ -412,21 +414,21 @@ wt_status wt_surface_roughness(const wt_surface *surface, double factor, wt_roug
     if (surface->self_affine)
         return wt_roughness_self_affine(surface->q0, surface->qr, surface->q1, surface->hurst,
                                         factor * surface->c0.value, roughness, err);
-    return spectrum_roughness(surface, factor, roughness, err);
+    return measured_spectrum_roughness(surface, factor, roughness, err);
 }
 
 /* Normal deviates of which only neighbours are correlated. They are computed from independent
  * deviates by the Cholesky factor of the correlation matrix. */
-typedef struct chain {
-    double tie, own, before; /* correlation with the next deviate; factor of the own independent
-                                deviate; last independent deviate */
-} chain;
+typedef struct deviate_chain {
+    double correlation, own, before; /* correlation with the next deviate; factor of the own
+                                independent deviate; last independent deviate */
+} deviate_chain;
 
-static double chain_next(chain *c, double tie, double independent)
+static double draw_chain_deviate(deviate_chain *c, double correlation, double independent)
 {
-    const double shared = c->own > 0 ? c->tie / c->own : 0, own = sqrt(1 - shared * shared);
+    const double shared = c->own > 0 ? c->correlation / c->own : 0, own = sqrt(1 - shared * shared);
     const double z = shared * c->before + own * independent;
-    *c = (chain){fmin(tie, POWER_SPECTRUM_MOST_TIE), own, independent};
+    *c = (deviate_chain){fmin(correlation, POWER_SPECTRUM_MAX_CORRELATION), own, independent};
     return z;
 }
 
@@ -446,11 +448,11 @@ wt_status flow_surface_draw(const wt_surface *surface, double factor, uint64_t s
     const double law = flow_draw_normal(seed, replicate, (flow_draw)(FLOW_DRAW_MODES + s->n));
     const bool sizes = surface->place_parts != NULL;
     const double places = surface->c0.standard_error / surface->c0.value;
-    chain scatter = {0};
+    deviate_chain scatter = {0};
     for (size_t i = 0; i < s->n; i++) {
         const double z =
-            chain_next(&scatter, surface->modes_tie != NULL ? surface->modes_tie[i] : 0,
-                       flow_draw_normal(seed, replicate, (flow_draw)(FLOW_DRAW_MODES + i)));
+            draw_chain_deviate(&scatter, surface->modes_tie != NULL ? surface->modes_tie[i] : 0,
+                               flow_draw_normal(seed, replicate, (flow_draw)(FLOW_DRAW_MODES + i)));
         const double by_law = surface->law_error != NULL ? surface->law_error[i] * law : 0;
         drawn.spectrum.density[i] = s->density[i] * exp(surface->modes_error[i] * z + by_law);
     }
@@ -469,7 +471,7 @@ wt_status flow_surface_draw(const wt_surface *surface, double factor, uint64_t s
 /* ---- the table ------------------------------------------------------------------------------- */
 
 /* Resolution of a figure. */
-#define POINTS_PER_DECADE 20
+#define ROUGHNESS_POINTS_PER_DECADE 20
 
 TABLE_ROW(roughness, ROUGHNESS, double wavenumber, density;)
 
@@ -481,7 +483,7 @@ wt_status wt_surface_table(const wt_surface *surface, wt_table **table, wt_error
         return status;
     table_writer t = table_begin(&roughness_schema, err);
     double decades = log10(roughness->q1 / roughness->q0);
-    size_t n = 2 + (size_t)ceil(decades * POINTS_PER_DECADE);
+    size_t n = 2 + (size_t)ceil(decades * ROUGHNESS_POINTS_PER_DECADE);
     for (size_t i = 0; i < n; i++) {
         double density = (double)NAN;
         double q = i + 1 == n ? roughness->q1
@@ -491,7 +493,7 @@ wt_status wt_surface_table(const wt_surface *surface, wt_table **table, wt_error
     }
     /* The rms height is proportional to the square root of C, so that its relative error is half
      * that of C. */
-    const wt_estimate c0 = flow_as_stated(surface->c0);
+    const wt_estimate c0 = flow_stated_estimate(surface->c0);
     double share = c0.standard_error / c0.value / 2;
     double height = wt_roughness_rms_height(roughness), slope = wt_roughness_rms_slope(roughness);
     roughness_set_value(&t, ROUGHNESS_KEY_RMS_HEIGHT, height, share * height, 0);

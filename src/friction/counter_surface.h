@@ -10,7 +10,7 @@ wt_surface flow_surface_defaults(void); /* all values unset */
 const wt_params *flow_self_affine_params(void);
 const wt_params *flow_spectrum_params(void);
 /* Reports the number of spectrum points, or of the constants of a law, to the cost. */
-void flow_surface_cost(const wt_surface *surface, const wt_job *work);
+void flow_surface_report_cost(const wt_surface *surface, const wt_job *work);
 /* Checks that the values define a law. An unset roll-off becomes q0. */
 wt_status flow_surface_check(wt_surface *surface, wt_error *err) WT_NODISCARD;
 /* Roughness of a replicate: all densities are multiplied by `factor`, and each has its own scatter.

@@ -5,7 +5,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-wt_status error_nodes_make(const double *v, size_t n, double **nodes, size_t *m, wt_error *err)
+wt_status error_nodes_choose(const double *v, size_t n, double **nodes, size_t *m, wt_error *err)
 {
     const size_t last = n - 1;
     *nodes = NULL;
@@ -26,8 +26,8 @@ wt_status error_nodes_make(const double *v, size_t n, double **nodes, size_t *m,
     return WT_OK;
 }
 
-void error_nodes_spread(const double *nodes, size_t m, const double *at_nodes, const double *v,
-                        size_t n, double *error)
+void error_nodes_interpolate(const double *nodes, size_t m, const double *at_nodes, const double *v,
+                             size_t n, double *error)
 {
     size_t k = 0; /* v[i] lies between the nodes k and k + 1 */
     for (size_t i = 0; i + 1 < n; i++) {

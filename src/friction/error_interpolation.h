@@ -15,11 +15,11 @@ enum { ERROR_NODES = 1000 };
 /* Chooses the nodes for the replicates. The velocities v [n] rise, except the last, which is the
  * reference. *nodes [*m] ends with the reference; the caller frees it. NULL means that the nodes
  * are v. */
-wt_status error_nodes_make(const double *v, size_t n, double **nodes, size_t *m,
-                           wt_error *err) WT_NODISCARD;
+wt_status error_nodes_choose(const double *v, size_t n, double **nodes, size_t *m,
+                             wt_error *err) WT_NODISCARD;
 /* Interpolates the errors from at_nodes [m] to error [n] at v, linearly in ln v. The last value is
  * copied. */
-void error_nodes_spread(const double *nodes, size_t m, const double *at_nodes, const double *v,
-                        size_t n, double *error);
+void error_nodes_interpolate(const double *nodes, size_t m, const double *at_nodes, const double *v,
+                             size_t n, double *error);
 
 #endif

@@ -20,9 +20,9 @@ static void caption_spectrum(figure_drawing *d)
 
 static void prepare_friction(figure_drawing *d)
 {
-    value_span total = SPAN_EMPTY;
+    value_span total = EMPTY_SPAN;
     span_add_column(&total, d->table, FRICTION_TOTAL, false);
-    if (span_empty(&total))
+    if (span_is_empty(&total))
         d->y_label = "Hysteresis friction coefficient";
     span_add(&d->y[0], 0, false);
     span_add(&d->y[0], 1.1 * d->y[0].high, false); // margin for the bands
@@ -39,17 +39,17 @@ static double largest_error(const table_view *friction)
     return largest;
 }
 
-static void caption_friction(figure_drawing *d)
+static void caption_friction_curves(figure_drawing *d)
 {
-    value_span layer = SPAN_EMPTY, share = SPAN_EMPTY;
-    const char *includes = friction_words(d->table, FRICTION_KEY_ERROR_INCLUDES);
+    value_span layer = EMPTY_SPAN, share = EMPTY_SPAN;
+    const char *includes = friction_key_text(d->table, FRICTION_KEY_ERROR_INCLUDES);
     span_add_column(&layer, d->table, FRICTION_WITH_LAYER, false);
     span_add_column(&share, d->table, FRICTION_EXTRAPOLATED_SHARE, false);
 
     if (includes != NULL && includes[0] != '\0')
         text_append_translated(&d->caption, " (from %s)", includes);
     text_append_phrase(&d->caption, ".");
-    if (!span_empty(&layer)) {
+    if (!span_is_empty(&layer)) {
         wt_estimate thickness = friction_value(d->table, FRICTION_KEY_LAYER_THICKNESS);
         text_append_phrase(&d->caption, " Dashed: with the modified layer on the surface");
         if (!isnan(thickness.value))
@@ -74,7 +74,7 @@ static void caption_friction(figure_drawing *d)
             &d->caption,
             " Largest numerical error of the hysteresis part: %s %%, not in the bands.",
             NUMBER(d->language, 100 * numerical, 2));
-    if (!span_empty(&share) && share.high > 0)
+    if (!span_is_empty(&share) && share.high > 0)
         text_append_translated(
             &d->caption,
             " %s %s %% of the hysteresis part comes from frequencies outside the measured "
@@ -89,21 +89,21 @@ static void caption_softening(figure_drawing *d)
 {
     text_append_translated(
         &d->caption, " Softening: %s. Largest strain met: %s. %s.",
-        softening_words(d->table, SOFTENING_KEY_SOURCE),
+        softening_key_text(d->table, SOFTENING_KEY_SOURCE),
         NUMBER(d->language, softening_value(d->table, SOFTENING_KEY_STRAIN).value, 2),
-        softening_words(d->table, SOFTENING_KEY_EFFECT));
+        softening_key_text(d->table, SOFTENING_KEY_EFFECT));
 }
 
 /* ---- flash temperature ----------------------------------------------------------------------- */
 
 static void caption_flash(figure_drawing *d)
 {
-    const char *two = flash_words(d->table, FLASH_KEY_BRANCHES),
-               *none = flash_words(d->table, FLASH_KEY_UNSETTLED);
+    const char *two = flash_key_text(d->table, FLASH_KEY_BRANCHES),
+               *none = flash_key_text(d->table, FLASH_KEY_UNSETTLED);
     text_append_translated(&d->caption, " Surroundings at %s; %s.",
                            VALUE(d->language, WT_Q_TEMPERATURE, NULL,
                                  flash_value(d->table, FLASH_KEY_SURROUNDINGS).value),
-                           flash_words(d->table, FLASH_KEY_EFFECT));
+                           flash_key_text(d->table, FLASH_KEY_EFFECT));
     if (two != NULL)
         text_append_translated(&d->caption, " Two solutions: %s.", two);
     if (none != NULL)
@@ -112,15 +112,15 @@ static void caption_flash(figure_drawing *d)
 
 /* ---- directions ------------------------------------------------------------------------------ */
 
-static void draw_directions(figure_drawing *d)
+static void draw_transverse_isotropy(figure_drawing *d)
 {
     static const struct {
         const char *factors, *title;
         int style;
-    } kept[] = {{"none", "isotropic", 23},
-                {"loss", "factors on E″ alone", 22},
-                {"storage", "factors on E′ alone", 21},
-                {"both", "both", 24}};
+    } factor_sets[] = {{"none", "isotropic", 23},
+                       {"loss", "factors on E″ alone", 22},
+                       {"storage", "factors on E′ alone", 21},
+                       {"both", "both", 24}};
     static const struct {
         transverse_isotropy_column column;
         const char *label;
@@ -129,27 +129,28 @@ static void draw_directions(figure_drawing *d)
     static const unsigned columns[] = {TRANSVERSE_ISOTROPY_VELOCITY, TRANSVERSE_ISOTROPY_HYSTERESIS,
                                        TRANSVERSE_ISOTROPY_AREA_RATIO};
     const schema_field *field = d->table->schema->columns;
-    int section[COUNT_OF(kept)];
-    value_span velocity = SPAN_EMPTY, friction = SPAN_EMPTY;
+    int section[COUNT_OF(factor_sets)];
+    value_span velocity = EMPTY_SPAN, friction = EMPTY_SPAN;
     span_add_column(&velocity, d->table, TRANSVERSE_ISOTROPY_VELOCITY, true);
     span_add_column(&friction, d->table, TRANSVERSE_ISOTROPY_HYSTERESIS, false);
-    if (span_empty(&velocity) || span_empty(&friction))
+    if (span_is_empty(&velocity) || span_is_empty(&friction))
         return;
     d->height = 1.5;
     text_add(&d->script, "set multiplot layout 2,1\n");
-    for (size_t k = 0; k < COUNT_OF(kept); k++) {
-        const row_filter rows = {{TRANSVERSE_ISOTROPY_FACTORS, 0}, {kept[k].factors, NULL}, false};
-        section[k] = drawing_section(d, d->table, kept[k].factors, &rows, columns, 3, 3);
+    for (size_t k = 0; k < COUNT_OF(factor_sets); k++) {
+        const row_filter rows = {
+            {TRANSVERSE_ISOTROPY_FACTORS, 0}, {factor_sets[k].factors, NULL}, false};
+        section[k] = drawing_section(d, d->table, factor_sets[k].factors, &rows, columns, 3, 3);
     }
     axis_log(d, "x", "Sliding velocity", &field[TRANSVERSE_ISOTROPY_VELOCITY], velocity);
     for (size_t p = 0; p < COUNT_OF(panels); p++) {
-        value_span span = SPAN_EMPTY;
+        value_span span = EMPTY_SPAN;
         span_add(&span, 0, false);
         span_add_column(&span, d->table, panels[p].column, false);
         axis_linear(d, "y", panels[p].label, &field[panels[p].column], span);
-        for (size_t k = 0; k < COUNT_OF(kept); k++)
+        for (size_t k = 0; k < COUNT_OF(factor_sets); k++)
             plot_item(d, section[k], "($1*x_unit):($%zu*y_unit) with lines ls %d title '%s'", p + 2,
-                      kept[k].style, translate(d->language, kept[k].title));
+                      factor_sets[k].style, translate(d->language, factor_sets[k].title));
         plot_end(d);
         text_add(&d->script, "unset key\n");
     }
@@ -183,7 +184,7 @@ const figure_description figures_friction[] = {
      .words = "Friction coefficient and its parts against sliding velocity. Bands: one standard "
               "error",
      .prepare = prepare_friction,
-     .caption = caption_friction},
+     .caption = caption_friction_curves},
     {
         .name = "contact_area",
         .in_depth = true,
@@ -221,7 +222,7 @@ const figure_description figures_friction[] = {
      .words = "Hysteresis friction and contact area of the transversely isotropic material against "
               "velocity: with its factors on the moduli, with those on one modulus alone and as "
               "the isotropic material.",
-     .draw = draw_directions},
+     .draw = draw_transverse_isotropy},
     {.name = "softening",
      .title = "What softening with strain does",
      .table = &softening_schema,

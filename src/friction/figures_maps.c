@@ -12,27 +12,28 @@
 #include <string.h>
 
 /* Relative width of a figure with a colour bar, as in the figure engine. */
-static const double with_scale = 1.15;
+static const double width_with_colour_bar = 1.15;
 
 /* ---- several temperatures -------------------------------------------------------------------- */
 
 /* Returns the column of the total friction if it has values, else the column of the hysteresis
  * friction. */
-static unsigned shown_friction(const table_view *table)
+static unsigned displayed_friction_column(const table_view *table)
 {
-    value_span total = SPAN_EMPTY;
+    value_span total = EMPTY_SPAN;
     span_add_column(&total, table, FRICTION_MAP_TOTAL, false);
-    return span_empty(&total) ? FRICTION_MAP_HYSTERESIS : FRICTION_MAP_TOTAL;
+    return span_is_empty(&total) ? FRICTION_MAP_HYSTERESIS : FRICTION_MAP_TOTAL;
 }
 
-static const char *label_of(unsigned column)
+static const char *friction_label(unsigned column)
 {
     return column == FRICTION_MAP_TOTAL ? "Friction coefficient μ"
                                         : "Hysteresis friction coefficient";
 }
 
 /* Adds the rows of the temperatures or of the pressures as a section. */
-static int map_section(figure_drawing *d, const char *against, const unsigned *columns, size_t n)
+static int add_map_section(figure_drawing *d, const char *against, const unsigned *columns,
+                           size_t n)
 {
     const row_filter rows = {{FRICTION_MAP_AGAINST, 0}, {against, NULL}, false};
     return drawing_section(d, d->table, against, &rows, columns, n, n);
@@ -42,10 +43,10 @@ static int map_section(figure_drawing *d, const char *against, const unsigned *c
  * colour. */
 enum { AT_VELOCITY = 1, AT_REDUCED, AT_FRICTION, AT_COLOUR };
 
-static void draw_lines(figure_drawing *d, int section, int x, const char *label,
-                       const schema_field *field)
+static void draw_coloured_lines(figure_drawing *d, int section, int x, const char *label,
+                                const schema_field *field)
 {
-    value_span span = SPAN_EMPTY;
+    value_span span = EMPTY_SPAN;
     span_add_section(&span, d, section, (size_t)x - 1, true);
     axis_log(d, "x", label, field, span);
     plot_item(d, section,
@@ -56,25 +57,26 @@ static void draw_lines(figure_drawing *d, int section, int x, const char *label,
 
 static void draw_collapse(figure_drawing *d)
 {
-    const unsigned friction = shown_friction(d->table);
+    const unsigned friction = displayed_friction_column(d->table);
     const unsigned columns[] = {FRICTION_MAP_VELOCITY, FRICTION_MAP_REDUCED_VELOCITY, friction,
                                 FRICTION_MAP_TEMPERATURE};
     const schema_field *field = d->table->schema->columns;
-    const int section = map_section(d, "temperature", columns, COUNT_OF(columns));
-    value_span height = SPAN_EMPTY, colour = SPAN_EMPTY;
+    const int section = add_map_section(d, "temperature", columns, COUNT_OF(columns));
+    value_span height = EMPTY_SPAN, colour = EMPTY_SPAN;
     if (section < 0)
         return;
     span_add(&height, 0, false);
     span_add_section(&height, d, section, AT_FRICTION - 1, false);
     span_add_section(&colour, d, section, AT_COLOUR - 1, false);
-    d->width = with_scale;
+    d->width = width_with_colour_bar;
     d->height = 1.7;
     axis_linear(d, "cb", "Temperature", &field[FRICTION_MAP_TEMPERATURE], colour);
     text_add(&d->script, "set cblabel offset 1.5,0\nset multiplot layout 2,1\nunset key\n");
-    axis_linear(d, "y", label_of(friction), &field[friction], height);
-    draw_lines(d, section, AT_VELOCITY, "Sliding velocity v", &field[FRICTION_MAP_VELOCITY]);
-    draw_lines(d, section, AT_REDUCED, "Reduced velocity v a_T",
-               &field[FRICTION_MAP_REDUCED_VELOCITY]);
+    axis_linear(d, "y", friction_label(friction), &field[friction], height);
+    draw_coloured_lines(d, section, AT_VELOCITY, "Sliding velocity v",
+                        &field[FRICTION_MAP_VELOCITY]);
+    draw_coloured_lines(d, section, AT_REDUCED, "Reduced velocity v a_T",
+                        &field[FRICTION_MAP_REDUCED_VELOCITY]);
     text_add(&d->script, "unset multiplot\n");
 }
 
@@ -86,9 +88,10 @@ static void caption_collapse(figure_drawing *d)
               friction_map_value(d->table, FRICTION_MAP_KEY_PRESSURE).value),
         VALUE(d->language, WT_Q_TEMPERATURE, NULL,
               friction_map_value(d->table, FRICTION_MAP_KEY_REFERENCE_TEMPERATURE).value));
-    const char *beyond = friction_map_words(d->table, FRICTION_MAP_KEY_MATERIAL_STATEMENT);
-    if (beyond != NULL && beyond[0] != '\0')
-        text_append_translated(&d->caption, " Note: %s.", beyond);
+    const char *extrapolation_note =
+        friction_map_key_text(d->table, FRICTION_MAP_KEY_MATERIAL_STATEMENT);
+    if (extrapolation_note != NULL && extrapolation_note[0] != '\0')
+        text_append_translated(&d->caption, " Note: %s.", extrapolation_note);
 }
 
 /* ---- maps ------------------------------------------------------------------------------------ */
@@ -98,30 +101,31 @@ enum { BOX_FROM_X, BOX_TO_X, BOX_FROM_Y, BOX_TO_Y, BOX_VALUE, BOX_COLUMNS };
 static const char *const box_names[] = {"velocity_from", "velocity_to", "from", "to",
                                         "value",         NULL};
 
-typedef struct map_side {
+typedef struct map_axis {
     unsigned column;
     bool is_log;
     const char *label;
-} map_side;
+} map_axis;
 
-static double half_way(double a, double b, bool is_log)
+static double midpoint(double a, double b, bool is_log)
 {
     return is_log ? sqrt(a * b) : 0.5 * (a + b);
 }
 
 /* Edge of a box towards a neighbour. A box at the border of the map is symmetric about its
  * position. */
-static double box_end(double here, double neighbour, double other, bool is_log)
+static double box_edge(double here, double neighbour, double other, bool is_log)
 {
     if (isfinite(neighbour))
-        return half_way(here, neighbour, is_log);
-    const double end = half_way(here, other, is_log);
+        return midpoint(here, neighbour, is_log);
+    const double end = midpoint(here, other, is_log);
     return is_log ? here * here / end : 2 * here - end;
 }
 
 /* Value of the same column `step` rows away; NaN if that row belongs to another map. With
  * `in_block` it must also belong to the same block of velocities. */
-static double value_near(const table_view *t, size_t row, long step, unsigned column, bool in_block)
+static double neighbour_value(const table_view *t, size_t row, long step, unsigned column,
+                              bool in_block)
 {
     const long there = (long)row + step;
     if (there < 0 || there >= (long)t->n_rows ||
@@ -133,7 +137,7 @@ static double value_near(const table_view *t, size_t row, long step, unsigned co
 }
 
 /* Returns the number of rows of a block, which is the number of velocities. */
-static size_t rows_of_block(const table_view *t)
+static size_t block_length(const table_view *t)
 {
     size_t n = 1;
     while (n < t->n_rows && wt_table_block(t->table, n) == wt_table_block(t->table, 0))
@@ -141,27 +145,27 @@ static size_t rows_of_block(const table_view *t)
     return n;
 }
 
-static void fill_box(const table_view *t, size_t row, const map_side *up, unsigned friction,
+static void fill_box(const table_view *t, size_t row, const map_axis *up, unsigned friction,
                      double box[BOX_COLUMNS])
 {
-    const long velocities = (long)rows_of_block(t);
+    const long velocities = (long)block_length(t);
     const double x = friction_map_get(t, row, FRICTION_MAP_VELOCITY);
-    const double left = value_near(t, row, -1, FRICTION_MAP_VELOCITY, true),
-                 right = value_near(t, row, 1, FRICTION_MAP_VELOCITY, true);
+    const double left = neighbour_value(t, row, -1, FRICTION_MAP_VELOCITY, true),
+                 right = neighbour_value(t, row, 1, FRICTION_MAP_VELOCITY, true);
     const double y = view_number(t, t->schema, row, up->column);
-    const double below = value_near(t, row, -velocities, up->column, false),
-                 above = value_near(t, row, velocities, up->column, false);
-    box[BOX_FROM_X] = box_end(x, left, right, true);
-    box[BOX_TO_X] = box_end(x, right, left, true);
-    box[BOX_FROM_Y] = box_end(y, below, above, up->is_log);
-    box[BOX_TO_Y] = box_end(y, above, below, up->is_log);
+    const double below = neighbour_value(t, row, -velocities, up->column, false),
+                 above = neighbour_value(t, row, velocities, up->column, false);
+    box[BOX_FROM_X] = box_edge(x, left, right, true);
+    box[BOX_TO_X] = box_edge(x, right, left, true);
+    box[BOX_FROM_Y] = box_edge(y, below, above, up->is_log);
+    box[BOX_TO_Y] = box_edge(y, above, below, up->is_log);
     box[BOX_VALUE] = view_number(t, t->schema, row, friction);
 }
 
 /* Adds the boxes as a section. There is no section if an axis has one position only, for that is no
  * map. */
-static int box_section(figure_drawing *d, const char *against, const map_side *up,
-                       unsigned friction)
+static int add_box_section(figure_drawing *d, const char *against, const map_axis *up,
+                           unsigned friction)
 {
     const table_view *t = d->table;
     const schema_field *field = t->schema->columns;
@@ -181,17 +185,17 @@ static int box_section(figure_drawing *d, const char *against, const map_side *u
         fill_box(t, row, up, friction, box);
         n += isfinite(box[BOX_TO_X]) && isfinite(box[BOX_TO_Y]) && isfinite(box[BOX_VALUE]);
     }
-    const int section = drawing_numbers(d, against, box_names, units, boxes, n);
+    const int section = drawing_number_section(d, against, box_names, units, boxes, n);
     free(boxes);
     return section;
 }
 
-static void draw_map(figure_drawing *d, const char *against, const map_side *up)
+static void draw_box_map(figure_drawing *d, const char *against, const map_axis *up)
 {
-    const unsigned friction = shown_friction(d->table);
+    const unsigned friction = displayed_friction_column(d->table);
     const schema_field *field = d->table->schema->columns;
-    const int section = box_section(d, against, up, friction);
-    value_span x = SPAN_EMPTY, y = SPAN_EMPTY, colour = SPAN_EMPTY;
+    const int section = add_box_section(d, against, up, friction);
+    value_span x = EMPTY_SPAN, y = EMPTY_SPAN, colour = EMPTY_SPAN;
     if (section < 0)
         return;
     for (size_t i = BOX_FROM_X; i <= BOX_TO_X; i++)
@@ -201,8 +205,8 @@ static void draw_map(figure_drawing *d, const char *against, const map_side *up)
     span_add_section(&colour, d, section, BOX_VALUE, false);
     axis_log(d, "x", "Sliding velocity", &field[FRICTION_MAP_VELOCITY], x);
     (up->is_log ? axis_log : axis_linear)(d, "y", up->label, &field[up->column], y);
-    axis_linear(d, "cb", label_of(friction), &field[friction], colour);
-    d->width = with_scale;
+    axis_linear(d, "cb", friction_label(friction), &field[friction], colour);
+    d->width = width_with_colour_bar;
     text_add(&d->script, "set cblabel offset 1.5,0\nunset key\nset border 15\n");
     const char *const offset = up->is_log ? "" : "+y_offset";
     plot_item(d, section,
@@ -214,14 +218,14 @@ static void draw_map(figure_drawing *d, const char *against, const map_side *up)
 
 static void draw_temperature_map(figure_drawing *d)
 {
-    static const map_side up = {FRICTION_MAP_TEMPERATURE, false, "Temperature"};
-    draw_map(d, "temperature", &up);
+    static const map_axis up = {FRICTION_MAP_TEMPERATURE, false, "Temperature"};
+    draw_box_map(d, "temperature", &up);
 }
 
 static void draw_pressure_map(figure_drawing *d)
 {
-    static const map_side up = {FRICTION_MAP_PRESSURE, true, "Nominal pressure"};
-    draw_map(d, "pressure", &up);
+    static const map_axis up = {FRICTION_MAP_PRESSURE, true, "Nominal pressure"};
+    draw_box_map(d, "pressure", &up);
 }
 
 static void caption_pressure_map(figure_drawing *d)
@@ -235,14 +239,14 @@ static void caption_pressure_map(figure_drawing *d)
 /* ---- decades --------------------------------------------------------------------------------- */
 
 /* The table has at most three velocities, one block each. */
-enum { MOST_VELOCITIES = 3 };
+enum { MAX_VELOCITIES = 3 };
 
-static size_t find_velocities(const table_view *table, double velocity[MOST_VELOCITIES])
+static size_t list_velocities(const table_view *table, double velocity[MAX_VELOCITIES])
 {
     size_t n = 0;
     for (size_t row = 0; row < table->n_rows; row++) {
         const double v = friction_decades_get(table, row, FRICTION_DECADES_VELOCITY);
-        if ((n == 0 || v != velocity[n - 1]) && n < MOST_VELOCITIES)
+        if ((n == 0 || v != velocity[n - 1]) && n < MAX_VELOCITIES)
             velocity[n++] = v;
     }
     return n;
@@ -253,9 +257,9 @@ static void draw_decades(figure_drawing *d)
     static const unsigned columns[] = {FRICTION_DECADES_FROM, FRICTION_DECADES_TO,
                                        FRICTION_DECADES_HYSTERESIS, FRICTION_DECADES_VELOCITY};
     const schema_field *field = d->table->schema->columns;
-    double velocity[MOST_VELOCITIES];
-    value_span x = SPAN_EMPTY, y = SPAN_EMPTY;
-    const size_t n = find_velocities(d->table, velocity);
+    double velocity[MAX_VELOCITIES];
+    value_span x = EMPTY_SPAN, y = EMPTY_SPAN;
+    const size_t n = list_velocities(d->table, velocity);
     const int section = drawing_section(d, d->table, "decades", NULL, columns, COUNT_OF(columns),
                                         COUNT_OF(columns));
     if (section < 0)
@@ -270,7 +274,7 @@ static void draw_decades(figure_drawing *d)
     for (size_t k = 0; k < n; k++) {
         char title[48];
         wt_format_si(velocity[k], "m/s", 2, title, sizeof title);
-        language_decimals(d->language, title);
+        language_set_decimal_mark(d->language, title);
         /* bars within a decade: from the first velocity on the left to the last on the right */
         plot_item(
             d, section,
@@ -286,7 +290,7 @@ static void draw_decades(figure_drawing *d)
 static void caption_decades(figure_drawing *d)
 {
     text_append_translated(&d->caption, " The most: %s.",
-                           friction_decades_words(d->table, FRICTION_DECADES_KEY_STRONGEST));
+                           friction_decades_key_text(d->table, FRICTION_DECADES_KEY_STRONGEST));
 }
 
 /* ---- direction of sliding -------------------------------------------------------------------- */
@@ -296,8 +300,8 @@ static void caption_anisotropy(figure_drawing *d)
     text_append_translated(&d->caption,
                            " Power spectrum over its mean at an angle phi from the velocity: 1 + "
                            "%s. %s.",
-                           anisotropy_words(d->table, ANISOTROPY_KEY_TEXTURE),
-                           anisotropy_words(d->table, ANISOTROPY_KEY_EFFECT));
+                           anisotropy_key_text(d->table, ANISOTROPY_KEY_TEXTURE),
+                           anisotropy_key_text(d->table, ANISOTROPY_KEY_EFFECT));
 }
 
 const figure_description figures_friction_maps[] = {

@@ -18,15 +18,15 @@ TABLE_KEYS(flash, FLASH, wt_estimate surroundings;
 /* ---- text ------------------------------------------------------------------------------------ */
 
 /* Number of points in a subset, with their slowest and fastest velocity. */
-typedef struct extent {
+typedef struct velocity_extent {
     size_t n;
     double slowest, fastest;
-} extent;
+} velocity_extent;
 
-static extent extent_of(const wt_friction_point *points, size_t n,
-                        bool (*counts)(const wt_friction_point *point))
+static velocity_extent find_velocity_extent(const wt_friction_point *points, size_t n,
+                                            bool (*counts)(const wt_friction_point *point))
 {
-    extent e = {0, (double)INFINITY, 0};
+    velocity_extent e = {0, (double)INFINITY, 0};
     for (size_t i = 0; i < n; i++) {
         if (!counts(&points[i]))
             continue;
@@ -37,17 +37,17 @@ static extent extent_of(const wt_friction_point *points, size_t n,
     return e;
 }
 
-static bool has_two(const wt_friction_point *point)
+static bool has_hot_solution(const wt_friction_point *point)
 {
     return !isnan(point->hot.hysteresis);
 }
 
-static bool has_none(const wt_friction_point *point)
+static bool is_unsolved(const wt_friction_point *point)
 {
     return point->unsettled;
 }
 
-static void say_extent(extent e, size_t n, const char *words, char *text, size_t size)
+static void describe_extent(velocity_extent e, size_t n, const char *label, char *text, size_t size)
 {
     char slowest[32], fastest[32];
     text[0] = '\0';
@@ -55,7 +55,7 @@ static void say_extent(extent e, size_t n, const char *words, char *text, size_t
         return;
     wt_format_si(e.slowest, "m/s", 3, slowest, sizeof slowest);
     wt_format_si(e.fastest, "m/s", 3, fastest, sizeof fastest);
-    snprintf(text, size, "%s at %zu of %zu velocities, %s to %s", words, e.n, n, slowest, fastest);
+    snprintf(text, size, "%s at %zu of %zu velocities, %s to %s", label, e.n, n, slowest, fastest);
 }
 
 void flash_describe(const wt_sliding *sliding, const wt_friction_point *points, size_t n,
@@ -65,14 +65,16 @@ void flash_describe(const wt_sliding *sliding, const wt_friction_point *points, 
     text[0] = '\0';
     if (!sliding->flash.on)
         return;
-    say_extent(extent_of(points, n, has_two), n, "; a second, hot solution", two, sizeof two);
-    say_extent(extent_of(points, n, has_none), n, "; none found", none, sizeof none);
+    describe_extent(find_velocity_extent(points, n, has_hot_solution), n,
+                    "; a second, hot solution", two, sizeof two);
+    describe_extent(find_velocity_extent(points, n, is_unsolved), n, "; none found", none,
+                    sizeof none);
     clocale_print(text, 256, "contacts of %.3g m%s%s", sliding->flash.contact_size, two, none);
 }
 
 /* ---- the job --------------------------------------------------------------------------------- */
 
-static void say_change(const friction_difference *e, char text[192])
+static void describe_flash_effect(const friction_difference *e, char text[192])
 {
     const wt_friction_point *with = &e->with[e->n - 1], *without = &e->without[e->n - 1];
     char velocity[32];
@@ -90,7 +92,7 @@ static void say_change(const friction_difference *e, char text[192])
 
 /* WLF constants are valid up to 100 K above the glass transition (Ferry, Viscoelastic Properties of
  * Polymers). A temperature above the isotherms is outside the range to which the law was fitted. */
-static void say_law_range(const friction_difference *e, char text[192])
+static void describe_law_range(const friction_difference *e, char text[192])
 {
     const double most = e->sliding->rubber->temperature_max;
     double hottest = 0;
@@ -118,19 +120,19 @@ static wt_status make_table(const friction_difference *e, wt_table **table, wt_e
                        .heat_capacity = flash->heat_capacity,
                        .diffusivity = flash->diffusivity,
                        .macroscopic = flash->macroscopic};
-    say_change(e, keys.effect);
-    say_extent(extent_of(e->with, n, has_two), n, "a contact that was hot stays hot", keys.branches,
-               sizeof keys.branches);
-    say_extent(extent_of(e->with, n, has_none), n,
-               "no temperature below 300 degC was found that makes itself", keys.unsettled,
-               sizeof keys.unsettled);
-    say_law_range(e, keys.law_range);
+    describe_flash_effect(e, keys.effect);
+    describe_extent(find_velocity_extent(e->with, n, has_hot_solution), n,
+                    "a contact that was hot stays hot", keys.branches, sizeof keys.branches);
+    describe_extent(find_velocity_extent(e->with, n, is_unsolved), n,
+                    "no temperature below 300 degC was found that makes itself", keys.unsettled,
+                    sizeof keys.unsettled);
+    describe_law_range(e, keys.law_range);
     flash_set_keys(&t, &keys);
     return table_end(&t, table);
 }
 
-wt_status wt_flash_make(const wt_sliding *sliding, const wt_job *work, wt_table **table,
-                        wt_error *err)
+wt_status wt_flash_temperature_compute(const wt_sliding *sliding, const wt_job *work,
+                                       wt_table **table, wt_error *err)
 {
     if (work == NULL || table == NULL)
         return wt_fail(err, WT_E_ARG, "no flash temperature to compute");
@@ -142,7 +144,7 @@ wt_status wt_flash_make(const wt_sliding *sliding, const wt_job *work, wt_table 
     friction_difference e;
     wt_sliding without = *sliding;
     without.flash.on = false;
-    status = friction_difference_make(sliding, &without, work, NULL, NULL, &e, err);
+    status = friction_difference_compute(sliding, &without, work, NULL, NULL, &e, err);
     if (status == WT_OK)
         status = make_table(&e, table, err);
     friction_difference_clear(&e);

@@ -26,32 +26,33 @@ typedef struct friction_task {
     const wt_sliding *sliding;
     const wt_layer_observation *layer; /* NULL = none */
     const wt_job *work;
-    size_t n;                   /* number of velocities; the reference counts if it is not the
-                                   only one */
-    double *velocity;           /* [n] the reference is the last */
-    double *centre;             /* [N_KINDS * n] */
-    double worst;               /* relative numerical error at points that miss the tolerance */
-    double strain;              /* largest strain, with softening */
-    double numerical[2];        /* numerical error of the total friction at the reference: without
-                                   and with the layer */
-    wt_friction_point *points;  /* [n] results for the stated values, without a layer */
-    wt_friction_sensitivity by; /* sensitivities for the stated values; NaN if not requested */
+    size_t n;                  /* number of velocities; the reference counts if it is not the
+                                  only one */
+    double *velocity;          /* [n] the reference is the last */
+    double *centre;            /* [N_KINDS * n] */
+    double worst;              /* relative numerical error at points that miss the tolerance */
+    double strain;             /* largest strain, with softening */
+    double numerical[2];       /* numerical error of the total friction at the reference: without
+                                  and with the layer */
+    wt_friction_point *points; /* [n] results for the stated values, without a layer */
+    wt_friction_sensitivity
+        sensitivity; /* sensitivities for the stated values; NaN if not requested */
     replicates replicates;
-    size_t drawn;         /* number of velocities in all replicates */
-    double layer_outside; /* share of the hysteresis on a layer with its own moduli from
-                             extrapolated frequencies, at the reference */
-    double layer_gain[2]; /* range in which the loss modulus of the layer is set to 0 [rad/s];
+    size_t drawn;              /* number of velocities in all replicates */
+    double layer_outside;      /* share of the hysteresis on a layer with its own moduli from
+                                  extrapolated frequencies, at the reference */
+    double zero_loss_range[2]; /* range in which the loss modulus of the layer is set to 0 [rad/s];
                              NaN if none */
 } friction_task;
 
-static double *numbers_of_kind(double *values, size_t n, int kind)
+static double *kind_values(double *values, size_t n, int kind)
 {
     return values + (size_t)kind * n;
 }
 
-static wt_layer_state layer_of(const friction_task *task, size_t replicate)
+static wt_layer_state replicate_layer(const friction_task *task, size_t replicate)
 {
-    return sliding_layer(task->layer, task->work->seed, replicate);
+    return sliding_layer_state(task->layer, task->work->seed, replicate);
 }
 
 static wt_status compute_bulk(const friction_task *task, size_t replicate,
@@ -59,22 +60,23 @@ static wt_status compute_bulk(const friction_task *task, size_t replicate,
                               wt_error *err)
 {
     const wt_layer_state none = {.modulus_ratio = 1};
-    wt_status status = sliding_contact_make(task->sliding, task->work, replicate,
-                                            task->replicates.drawn, none, c, err);
+    wt_status status = sliding_contact_create(task->sliding, task->work, replicate,
+                                              task->replicates.drawn, none, c, err);
     if (status == WT_OK)
         status =
             wt_friction_compute(c->workspace, c->pressure, task->velocity, task->n, points, err);
     for (size_t i = 0; status == WT_OK && i < task->n; i++) {
-        numbers_of_kind(out, task->n, HYSTERESIS)[i] = points[i].hysteresis.value;
-        numbers_of_kind(out, task->n, AREA)[i] = points[i].area_ratio.value;
-        numbers_of_kind(out, task->n, TOTAL)[i] =
+        kind_values(out, task->n, HYSTERESIS)[i] = points[i].hysteresis.value;
+        kind_values(out, task->n, AREA)[i] = points[i].area_ratio.value;
+        kind_values(out, task->n, TOTAL)[i] =
             points[i].hysteresis.value +
-            sliding_layer_shear(task->layer, sliding_shear(task->sliding, c, &points[i]), none,
-                                points[i].area_ratio.value) *
+            sliding_layer_shear_stress(task->layer,
+                                       sliding_shear_stress(task->sliding, c, &points[i]), none,
+                                       points[i].area_ratio.value) *
                 points[i].area_ratio.value / c->pressure;
-        numbers_of_kind(out, task->n, LAYERED)[i] = (double)NAN;
-        numbers_of_kind(out, task->n, CHANGE)[i] = (double)NAN;
-        numbers_of_kind(out, task->n, RELATIVE)[i] = (double)NAN;
+        kind_values(out, task->n, LAYERED)[i] = (double)NAN;
+        kind_values(out, task->n, CHANGE)[i] = (double)NAN;
+        kind_values(out, task->n, RELATIVE)[i] = (double)NAN;
     }
     return status;
 }
@@ -82,28 +84,29 @@ static wt_status compute_bulk(const friction_task *task, size_t replicate,
 static wt_status compute_layered(const friction_task *task, size_t replicate,
                                  wt_friction_point *points, double *out, wt_error *err)
 {
-    wt_layer_state layer = layer_of(task, replicate);
+    wt_layer_state layer = replicate_layer(task, replicate);
     sliding_contact c = {0};
-    wt_status status = sliding_contact_make(task->sliding, task->work, replicate,
-                                            task->replicates.drawn, layer, &c, err);
+    wt_status status = sliding_contact_create(task->sliding, task->work, replicate,
+                                              task->replicates.drawn, layer, &c, err);
     if (status == WT_OK)
         status = wt_friction_compute(c.workspace, c.pressure, task->velocity, task->n, points, err);
     for (size_t i = 0; status == WT_OK && i < task->n; i++) {
-        const wt_layer_state sheared = sliding_layer_sheared(&c, layer, task->velocity[i]);
+        const wt_layer_state sheared = sliding_layer_at_shear_rate(&c, layer, task->velocity[i]);
         double with = points[i].hysteresis.value +
-                      sliding_layer_shear(task->layer, sliding_shear(task->sliding, &c, &points[i]),
-                                          sheared, points[i].area_ratio.value) *
+                      sliding_layer_shear_stress(
+                          task->layer, sliding_shear_stress(task->sliding, &c, &points[i]), sheared,
+                          points[i].area_ratio.value) *
                           points[i].area_ratio.value / c.pressure;
-        double without = numbers_of_kind(out, task->n, TOTAL)[i];
-        numbers_of_kind(out, task->n, LAYERED)[i] = with;
-        numbers_of_kind(out, task->n, CHANGE)[i] = with - without;
-        numbers_of_kind(out, task->n, RELATIVE)[i] = with / without - 1;
+        double without = kind_values(out, task->n, TOTAL)[i];
+        kind_values(out, task->n, LAYERED)[i] = with;
+        kind_values(out, task->n, CHANGE)[i] = with - without;
+        kind_values(out, task->n, RELATIVE)[i] = with / without - 1;
     }
     sliding_contact_clear(&c);
     return status;
 }
 
-static wt_status one_replicate(const void *user, size_t i, double *out, wt_error *err)
+static wt_status friction_replicate(const void *user, size_t i, double *out, wt_error *err)
 {
     const friction_task *task = user;
     sliding_contact c = {0};
@@ -143,64 +146,66 @@ TABLE_KEYS(friction, FRICTION, double gamma, reference_velocity;
            char area_law[128], shear_law[256], layer_shear[256];)
 
 /* Result for the stated values with the standard error from the replicates. */
-static wt_estimate with_error(friction_task *task, int kind, size_t i, double numerical_error)
+static wt_estimate estimate_with_error(friction_task *task, int kind, size_t i,
+                                       double numerical_error)
 {
-    return (wt_estimate){numbers_of_kind(task->centre, task->n, kind)[i],
-                         numbers_of_kind(task->replicates.error, task->n, kind)[i], numerical_error,
+    return (wt_estimate){kind_values(task->centre, task->n, kind)[i],
+                         kind_values(task->replicates.error, task->n, kind)[i], numerical_error,
                          NULL};
 }
 
-static void add_rows(friction_task *task, const sliding_contact *c, table_writer *t)
+static void add_friction_rows(friction_task *task, const sliding_contact *c, table_writer *t)
 {
     const wt_sliding *s = task->sliding;
     for (size_t i = 0; i < s->n_velocity; i++) {
         const wt_friction_point *p = &task->points[i];
         const wt_layer_state none = {.modulus_ratio = 1};
-        const wt_estimate shear = {
-            sliding_layer_shear(task->layer, sliding_shear(s, c, p), none, p->area_ratio.value), 0,
-            0, "Pa"};
+        const wt_estimate shear = {sliding_layer_shear_stress(task->layer,
+                                                              sliding_shear_stress(s, c, p), none,
+                                                              p->area_ratio.value),
+                                   0, 0, "Pa"};
         friction_row row = {
             .velocity = p->velocity,
             .extrapolated_share = extrapolated_share(s->rubber, p),
             .hysteresis = {p->hysteresis.value, 0, p->hysteresis.numerical_error, "1"},
             .area = {p->area_ratio.value, 0, p->area_ratio.numerical_error, "1"},
-            .with_layer = with_error(task, LAYERED, i, 0)};
+            .with_layer = estimate_with_error(task, LAYERED, i, 0)};
         row.total = wt_friction_total(row.hysteresis, row.area, shear, s->pressure.value);
         row.adhesion = row.total.value - row.hysteresis.value;
-        row.total.standard_error = with_error(task, TOTAL, i, 0).standard_error;
-        row.hysteresis.standard_error = with_error(task, HYSTERESIS, i, 0).standard_error;
-        row.area.standard_error = with_error(task, AREA, i, 0).standard_error;
+        row.total.standard_error = estimate_with_error(task, TOTAL, i, 0).standard_error;
+        row.hysteresis.standard_error = estimate_with_error(task, HYSTERESIS, i, 0).standard_error;
+        row.area.standard_error = estimate_with_error(task, AREA, i, 0).standard_error;
         friction_add_row(t, &row);
     }
 }
 
-static const wt_estimate not_known = {(double)NAN, (double)NAN, (double)NAN, NULL};
+static const wt_estimate unknown_estimate = {(double)NAN, (double)NAN, (double)NAN, NULL};
 
-static void find_layer_keys(friction_task *task, friction_keys *keys)
+static void set_layer_keys(friction_task *task, friction_keys *keys)
 {
     const size_t last = task->n - 1;
-    const double *relative = numbers_of_kind(task->centre, task->n, RELATIVE);
+    const double *relative = kind_values(task->centre, task->n, RELATIVE);
     const double both = task->numerical[0] + task->numerical[1];
-    keys->relative_change_low = keys->relative_change_high = not_known;
+    keys->relative_change_low = keys->relative_change_high = unknown_estimate;
     keys->relative_change_low.value = keys->relative_change_high.value = relative[0];
     for (size_t i = 1; i < last; i++) {
         keys->relative_change_low.value = fmin(keys->relative_change_low.value, relative[i]);
         keys->relative_change_high.value = fmax(keys->relative_change_high.value, relative[i]);
     }
-    keys->layer_thickness = flow_as_stated(task->layer->thickness);
-    sliding_layer_describe(task->sliding, task->layer, task->layer_gain, task->work->log,
+    keys->layer_thickness = flow_stated_estimate(task->layer->thickness);
+    sliding_layer_describe(task->sliding, task->layer, task->zero_loss_range, task->work->log,
                            keys->layer_moduli, sizeof keys->layer_moduli);
     if (task->sliding->layer_rubber == NULL)
-        keys->layer_modulus_ratio = flow_as_stated(task->layer->modulus_ratio);
+        keys->layer_modulus_ratio = flow_stated_estimate(task->layer->modulus_ratio);
     if (keys->layer_moduli[0] != '\0') {
         keys->layer_outside.value = task->layer_outside;
         if (keys->layer_modulus_ratio.value > 0)
-            keys->layer_slope = flow_as_stated(task->layer->ratio_slope);
+            keys->layer_slope = flow_stated_estimate(task->layer->ratio_slope);
     }
-    keys->with_layer = with_error(task, LAYERED, last, task->numerical[1]);
-    keys->change = with_error(task, CHANGE, last, both);
-    keys->relative_change = with_error(task, RELATIVE, last,
-                                       both / numbers_of_kind(task->centre, task->n, TOTAL)[last]);
+    keys->with_layer = estimate_with_error(task, LAYERED, last, task->numerical[1]);
+    keys->change = estimate_with_error(task, CHANGE, last, both);
+    keys->relative_change = estimate_with_error(
+        task, RELATIVE, last, both / kind_values(task->centre, task->n, TOTAL)[last]);
 }
 
 /* Writes the options that differ from the default theory as text. */
@@ -215,8 +220,8 @@ static void describe_options(const friction_task *task, const sliding_contact *c
     snprintf(keys->area_law, sizeof keys->area_law, "%s", areas[s->area_law]);
     flash_describe(s, task->points, task->n, keys->flash);
     if (!isnan(s->shear_stress.value) && task->layer != NULL && task->layer->shear != NULL) {
-        const wt_layer_shear shear = sliding_layer_shear_of(task->layer);
-        if (!sliding_layer_shear_is_plain(&shear))
+        const wt_layer_shear shear = sliding_layer_shear_law(task->layer);
+        if (!sliding_layer_shear_is_default(&shear))
             sliding_layer_shear_describe(&shear, keys->layer_shear, sizeof keys->layer_shear);
     }
     if (isnan(s->shear_stress.value) || law->kind == WT_SHEAR_CONSTANT)
@@ -226,11 +231,11 @@ static void describe_options(const friction_task *task, const sliding_contact *c
                   "energy %.3g eV",
                   law->peak_velocity, law->reference_temperature - WT_ZERO_CELSIUS, law->width,
                   law->activation_energy / ELECTRONVOLT);
-    keys->shear_at_reference.value = sliding_shear(s, c, &task->points[task->n - 1]);
+    keys->shear_at_reference.value = sliding_shear_stress(s, c, &task->points[task->n - 1]);
 }
 
 /* Sets the keys of the table. The reference velocity is the last one. */
-static void set_keys(friction_task *task, const sliding_contact *c, table_writer *t)
+static void set_friction_keys(friction_task *task, const sliding_contact *c, table_writer *t)
 {
     const wt_sliding *s = task->sliding;
     const size_t last = task->n - 1;
@@ -238,35 +243,36 @@ static void set_keys(friction_task *task, const sliding_contact *c, table_writer
     friction_keys keys = {
         .gamma = s->gamma,
         .reference_velocity = task->velocity[last],
-        .pressure = flow_as_stated(s->pressure),
+        .pressure = flow_stated_estimate(s->pressure),
         .temperature = s->temperature,
-        .shear_stress = flow_as_stated(s->shear_stress),
-        .total = with_error(task, TOTAL, last, task->numerical[0]),
-        .hysteresis = with_error(task, HYSTERESIS, last, reference->hysteresis.numerical_error),
-        .area = with_error(task, AREA, last, reference->area_ratio.numerical_error),
-        .strain = not_known,
-        .shear_at_reference = not_known,
-        .by_modulus = flow_as_stated((wt_estimate){.value = task->by.modulus}),
-        .by_density = flow_as_stated((wt_estimate){.value = task->by.density}),
-        .by_pressure = flow_as_stated((wt_estimate){.value = task->by.pressure}),
-        .by_cutoff = flow_as_stated((wt_estimate){.value = task->by.cutoff}),
-        .layer_thickness = not_known,
-        .layer_modulus_ratio = not_known,
-        .layer_slope = not_known,
-        .layer_outside = not_known,
-        .with_layer = not_known,
-        .change = not_known,
-        .relative_change = not_known,
-        .relative_change_low = not_known,
-        .relative_change_high = not_known,
+        .shear_stress = flow_stated_estimate(s->shear_stress),
+        .total = estimate_with_error(task, TOTAL, last, task->numerical[0]),
+        .hysteresis =
+            estimate_with_error(task, HYSTERESIS, last, reference->hysteresis.numerical_error),
+        .area = estimate_with_error(task, AREA, last, reference->area_ratio.numerical_error),
+        .strain = unknown_estimate,
+        .shear_at_reference = unknown_estimate,
+        .by_modulus = flow_stated_estimate((wt_estimate){.value = task->sensitivity.modulus}),
+        .by_density = flow_stated_estimate((wt_estimate){.value = task->sensitivity.density}),
+        .by_pressure = flow_stated_estimate((wt_estimate){.value = task->sensitivity.pressure}),
+        .by_cutoff = flow_stated_estimate((wt_estimate){.value = task->sensitivity.cutoff}),
+        .layer_thickness = unknown_estimate,
+        .layer_modulus_ratio = unknown_estimate,
+        .layer_slope = unknown_estimate,
+        .layer_outside = unknown_estimate,
+        .with_layer = unknown_estimate,
+        .change = unknown_estimate,
+        .relative_change = unknown_estimate,
+        .relative_change_low = unknown_estimate,
+        .relative_change_high = unknown_estimate,
         .replicates = task->replicates.n,
-        .includes = replicates_include(&task->replicates),
+        .includes = replicates_included_errors(&task->replicates),
         .lacks = task->replicates.lacks,
         .statement = c->statement};
     describe_options(task, c, &keys);
     if (isnan(keys.temperature.value))
         keys.temperature.value = s->rubber->prony.reference_temperature;
-    keys.temperature = flow_as_stated(keys.temperature);
+    keys.temperature = flow_stated_estimate(keys.temperature);
     if (wt_rubber_describe(s->rubber, keys.material, sizeof keys.material) == 0)
         keys.material[0] = '\0';
     if (s->softness != NULL) {
@@ -278,30 +284,30 @@ static void set_keys(friction_task *task, const sliding_contact *c, table_writer
         clocale_print(keys.numerical, sizeof keys.numerical, TOLERANCE_STATEMENT,
                       task->work->tolerance, task->worst);
     if (task->layer != NULL)
-        find_layer_keys(task, &keys);
+        set_layer_keys(task, &keys);
     friction_set_keys(t, &keys);
     if (isnan(s->shear_stress.value))
         friction_set_text(t, FRICTION_KEY_SHEAR_STRESS,
                           "not given: only the hysteresis part is known");
 }
 
-static wt_status friction_table(friction_task *task, const sliding_contact *c, wt_table **out,
-                                wt_error *err)
+static wt_status make_friction_table(friction_task *task, const sliding_contact *c, wt_table **out,
+                                     wt_error *err)
 {
     table_writer t = table_begin(&friction_schema, err);
-    add_rows(task, c, &t);
-    set_keys(task, c, &t);
+    add_friction_rows(task, c, &t);
+    set_friction_keys(task, c, &t);
     return table_end(&t, out);
 }
 
 /* ---- the job --------------------------------------------------------------------------------- */
 
-static bool is_reference_alone(const wt_sliding *sliding)
+static bool is_only_reference(const wt_sliding *sliding)
 {
     return sliding->n_velocity == 1 && sliding->velocity[0] == flow_reference_velocity(sliding);
 }
 
-static wt_status allocate_numbers(friction_task *task, wt_error *err)
+static wt_status allocate_results(friction_task *task, wt_error *err)
 {
     task->velocity = malloc(task->n * sizeof *task->velocity);
     task->centre = malloc(N_KINDS * task->n * sizeof *task->centre);
@@ -314,7 +320,7 @@ static wt_status allocate_numbers(friction_task *task, wt_error *err)
     return WT_OK;
 }
 
-static void release_numbers(friction_task *task)
+static void free_results(friction_task *task)
 {
     free(task->velocity);
     free(task->centre);
@@ -322,7 +328,7 @@ static void release_numbers(friction_task *task)
     replicates_clear(&task->replicates);
 }
 
-static wt_status check_layer(const wt_layer_observation *layer, wt_error *err)
+static wt_status check_layer_thickness(const wt_layer_observation *layer, wt_error *err)
 {
     if (layer != NULL && isinf(layer->thickness.value)) {
         wt_fail(err, WT_E_RANGE, "friction needs a layer of finite thickness");
@@ -335,12 +341,12 @@ static wt_status check_layer(const wt_layer_observation *layer, wt_error *err)
 }
 
 /* Numerical error of hysteresis friction plus shear factor times contact area. */
-static double total_error(const wt_friction_point *point, double shear)
+static double total_numerical_error(const wt_friction_point *point, double shear)
 {
     return point->hysteresis.numerical_error + shear * point->area_ratio.numerical_error;
 }
 
-static double relative_error(wt_estimate e)
+static double relative_numerical_error(wt_estimate e)
 {
     return e.numerical_error > 0 ? e.numerical_error / fabs(e.value) : 0;
 }
@@ -350,48 +356,47 @@ static void summarise_friction(const friction_task *task, wt_friction_tables *t)
     const bool total = !isnan(task->sliding->shear_stress.value);
     const int kind = total ? TOTAL : HYSTERESIS;
     const size_t contacts = task->layer != NULL ? 2 : 1;
-    cost_summary cost = {
-        .items = (double)((task->n + task->drawn) * contacts),
-        .tolerance_asked = task->work->tolerance,
-        .number = {.value = numbers_of_kind(task->centre, task->n, kind)[task->n - 1],
-                   .standard_error =
-                       numbers_of_kind(task->replicates.error, task->n, kind)[task->n - 1]}};
+    cost_summary cost = {.items = (double)((task->n + task->drawn) * contacts),
+                         .tolerance_asked = task->work->tolerance,
+                         .number = {.value = kind_values(task->centre, task->n, kind)[task->n - 1],
+                                    .standard_error = kind_values(task->replicates.error, task->n,
+                                                                  kind)[task->n - 1]}};
     for (size_t i = 0; i < task->n; i++) {
         const wt_friction_point *p = &task->points[i];
-        cost.error_estimated = fmax(cost.error_estimated, relative_error(p->hysteresis));
+        cost.error_estimated = fmax(cost.error_estimated, relative_numerical_error(p->hysteresis));
         if (p->extrapolated_share > t->extrapolated_share)
             t->extrapolated_share = p->extrapolated_share;
     }
     cost_report(task->work, cost);
 }
 
-static void note_not_reached(friction_task *task, const wt_friction_point *points)
+static void update_worst_error(friction_task *task, const wt_friction_point *points)
 {
     for (size_t i = 0; i < task->n; i++) {
         const wt_friction_point *p = &points[i];
         if (!p->reached && !p->unsettled)
             task->worst =
-                fmax(task->worst,
-                     fmax(relative_error(p->hysteresis),
-                          fmax(relative_error(p->area_ratio), relative_error(p->stress_variance))));
+                fmax(task->worst, fmax(relative_numerical_error(p->hysteresis),
+                                       fmax(relative_numerical_error(p->area_ratio),
+                                            relative_numerical_error(p->stress_variance))));
     }
 }
 
 /* Computes the results for the stated values. `c` receives the contact without a layer. */
-static wt_status compute_centre(friction_task *task, sliding_contact *c, wt_error *err)
+static wt_status compute_stated_values(friction_task *task, sliding_contact *c, wt_error *err)
 {
     const size_t last = task->n - 1;
     wt_status status = compute_bulk(task, WT_NO_REPLICATE, task->points, task->centre, c, err);
     if (status == WT_OK && task->sliding->sensitivities)
         status = wt_friction_sensitivities(c->workspace, c->pressure, task->velocity[last],
-                                           &task->by, err);
+                                           &task->sensitivity, err);
     if (status != WT_OK)
         return status;
     const double pressure = task->sliding->pressure.value,
-                 shear = sliding_shear(task->sliding, c, &task->points[last]);
+                 shear = sliding_shear_stress(task->sliding, c, &task->points[last]);
     task->strain = wt_friction_strain(c->workspace, c->roughness->q1);
-    task->numerical[0] = total_error(&task->points[last], shear / pressure);
-    note_not_reached(task, task->points);
+    task->numerical[0] = total_numerical_error(&task->points[last], shear / pressure);
+    update_worst_error(task, task->points);
     if (task->layer == NULL)
         return WT_OK;
     wt_friction_point *layered = malloc(task->n * sizeof *layered);
@@ -399,16 +404,18 @@ static wt_status compute_centre(friction_task *task, sliding_contact *c, wt_erro
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     status = compute_layered(task, WT_NO_REPLICATE, layered, task->centre, err);
     if (status == WT_OK)
-        status = sliding_layer_gain(task->sliding, task->layer, task->work, task->layer_gain, err);
+        status = sliding_layer_zero_loss_range(task->sliding, task->layer, task->work,
+                                               task->zero_loss_range, err);
     if (status == WT_OK) {
         const wt_rubber *const own = task->sliding->layer_rubber;
         task->layer_outside = own != NULL ? extrapolated_share(own, &layered[last])
                                           : layered[last].extrapolated_share;
-        task->numerical[1] = total_error(
-            &layered[last], sliding_layer_shear(task->layer, shear, layer_of(task, WT_NO_REPLICATE),
-                                                layered[last].area_ratio.value) /
-                                pressure);
-        note_not_reached(task, layered);
+        task->numerical[1] = total_numerical_error(
+            &layered[last],
+            sliding_layer_shear_stress(task->layer, shear, replicate_layer(task, WT_NO_REPLICATE),
+                                       layered[last].area_ratio.value) /
+                pressure);
+        update_worst_error(task, layered);
     }
     free(layered);
     return status;
@@ -416,12 +423,12 @@ static wt_status compute_centre(friction_task *task, sliding_contact *c, wt_erro
 
 /* Draws the replicates at the nodes of the velocity and interpolates the standard errors to all
  * velocities. */
-static wt_status draw_at_nodes(friction_task *task, wt_error *err)
+static wt_status draw_error_nodes(friction_task *task, wt_error *err)
 {
     replicates *r = &task->replicates;
     const friction_task all = *task;
     double *nodes = NULL, *error = NULL;
-    wt_status status = error_nodes_make(all.velocity, all.n, &nodes, &task->n, err);
+    wt_status status = error_nodes_choose(all.velocity, all.n, &nodes, &task->n, err);
     if (status == WT_OK && nodes != NULL) {
         task->velocity = nodes;
         error = malloc(N_KINDS * all.n * sizeof *error);
@@ -429,10 +436,10 @@ static wt_status draw_at_nodes(friction_task *task, wt_error *err)
             status = wt_fail(err, WT_E_MEMORY, "out of memory");
     }
     if (status == WT_OK)
-        status = replicates_draw(r, N_KINDS * task->n, one_replicate, task, err);
+        status = replicates_draw(r, N_KINDS * task->n, friction_replicate, task, err);
     for (int kind = 0; status == WT_OK && nodes != NULL && kind < N_KINDS; kind++)
-        error_nodes_spread(nodes, task->n, numbers_of_kind(r->error, task->n, kind), all.velocity,
-                           all.n, numbers_of_kind(error, all.n, kind));
+        error_nodes_interpolate(nodes, task->n, kind_values(r->error, task->n, kind), all.velocity,
+                                all.n, kind_values(error, all.n, kind));
     if (status == WT_OK && nodes != NULL) {
         free(r->error);
         r->error = error;
@@ -448,7 +455,7 @@ static wt_status draw_at_nodes(friction_task *task, wt_error *err)
 
 /* Draws the replicates. If only inputs of the layer vary, results without the layer have no
  * standard error. */
-static wt_status draw_replicates(friction_task *task, wt_error *err)
+static wt_status draw_friction_replicates(friction_task *task, wt_error *err)
 {
     replicates *r = &task->replicates;
     const wt_layer_observation *layer = task->layer;
@@ -461,40 +468,39 @@ static wt_status draw_replicates(friction_task *task, wt_error *err)
                        "thickness of the layer");
         replicates_add_layer(r, task->sliding, layer, "modulus ratio of the layer");
     }
-    wt_status status = draw_at_nodes(task, err);
+    wt_status status = draw_error_nodes(task, err);
     for (size_t i = 0; status == WT_OK && !bulk_varies && i < task->n; i++)
-        numbers_of_kind(r->error, task->n, HYSTERESIS)[i] =
-            numbers_of_kind(r->error, task->n, AREA)[i] =
-                numbers_of_kind(r->error, task->n, TOTAL)[i] = (double)NAN;
+        kind_values(r->error, task->n, HYSTERESIS)[i] = kind_values(r->error, task->n, AREA)[i] =
+            kind_values(r->error, task->n, TOTAL)[i] = (double)NAN;
     return status;
 }
 
-wt_status wt_friction_make(const wt_sliding *sliding, const wt_layer_observation *layer,
-                           const wt_job *work, wt_friction_tables *tables, wt_error *err)
+wt_status wt_sliding_friction_compute(const wt_sliding *sliding, const wt_layer_observation *layer,
+                                      const wt_job *work, wt_friction_tables *tables, wt_error *err)
 {
     if (work == NULL || tables == NULL)
         return wt_fail(err, WT_E_ARG, "no friction job");
     wt_status status = flow_sliding_check(sliding, work, err);
     if (status == WT_OK)
-        status = check_layer(layer, err);
+        status = check_layer_thickness(layer, err);
     if (status != WT_OK)
         return status;
     friction_task task = {.sliding = sliding,
                           .layer = layer,
                           .work = work,
-                          .n = sliding->n_velocity + !is_reference_alone(sliding),
-                          .by = {(double)NAN, (double)NAN, (double)NAN, (double)NAN},
-                          .layer_gain = {(double)NAN, (double)NAN},
-                          .replicates = replicates_of(sliding, work, "friction")};
+                          .n = sliding->n_velocity + !is_only_reference(sliding),
+                          .sensitivity = {(double)NAN, (double)NAN, (double)NAN, (double)NAN},
+                          .zero_loss_range = {(double)NAN, (double)NAN},
+                          .replicates = replicates_create(sliding, work, "friction")};
     wt_friction_tables t = {0};
     sliding_contact c = {0};
-    status = allocate_numbers(&task, err);
+    status = allocate_results(&task, err);
     if (status == WT_OK)
-        status = compute_centre(&task, &c, err);
+        status = compute_stated_values(&task, &c, err);
     if (status == WT_OK)
-        status = draw_replicates(&task, err);
+        status = draw_friction_replicates(&task, err);
     if (status == WT_OK)
-        status = friction_table(&task, &c, &t.friction, err);
+        status = make_friction_table(&task, &c, &t.friction, err);
     if (status == WT_OK) {
         summarise_friction(&task, &t);
         *tables = t;
@@ -502,7 +508,7 @@ wt_status wt_friction_make(const wt_sliding *sliding, const wt_layer_observation
     }
     sliding_contact_clear(&c);
     wt_friction_tables_clear(&t);
-    release_numbers(&task);
+    free_results(&task);
     return status;
 }
 

@@ -16,34 +16,35 @@ TABLE_ROW(friction_decades, FRICTION_DECADES, double velocity, from, to, share;
 TABLE_KEYS(friction_decades, FRICTION_DECADES, char strongest[160];)
 
 /* Limits of the decades: q0, the powers of ten in between, q1. */
-typedef struct decades {
+typedef struct decade_contributions {
     const wt_sliding *sliding;
-    const wt_layer_observation *known; /* layer with its crack energy; NULL if none */
+    const wt_layer_observation *observation; /* layer with its crack energy; NULL if none */
     size_t n;
     double *q;               /* [n] */
     wt_friction_node *nodes; /* [n] */
     char strongest[160];
-} decades;
+} decade_contributions;
 
-static wt_status find_edges(const wt_roughness *road, decades *d, wt_error *err)
+static wt_status find_decade_edges(const wt_roughness *spectrum, decade_contributions *d,
+                                   wt_error *err)
 {
     /* a power of ten that differs from a limit by rounding only is that limit */
     const double slack = 1e-9;
-    const int first = (int)floor(log10(road->q0) + slack) + 1,
-              last = (int)ceil(log10(road->q1) - slack) - 1;
+    const int first = (int)floor(log10(spectrum->q0) + slack) + 1,
+              last = (int)ceil(log10(spectrum->q1) - slack) - 1;
     const size_t inner = last >= first ? (size_t)(last - first + 1) : 0;
     d->q = malloc((inner + 2) * sizeof *d->q);
     d->nodes = malloc((inner + 2) * sizeof *d->nodes);
     if (d->q == NULL || d->nodes == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
-    d->q[d->n++] = road->q0;
+    d->q[d->n++] = spectrum->q0;
     for (int k = first; k <= last; k++)
         d->q[d->n++] = pow(10, k);
-    d->q[d->n++] = road->q1;
+    d->q[d->n++] = spectrum->q1;
     return WT_OK;
 }
 
-static void say_strongest(decades *d, double velocity, size_t i, double share)
+static void describe_strongest(decade_contributions *d, double velocity, size_t i, double share)
 {
     char speed[32];
     wt_format_si(velocity, "m/s", 3, speed, sizeof speed);
@@ -57,21 +58,22 @@ static void say_strongest(decades *d, double velocity, size_t i, double share)
 
 /* Adds the friction of shearing the contact area if the roughness ends at a node, and the part of
  * crack opening. The rubber has no layer. */
-static void add_shearing(const sliding_contact *c, const decades *d, double velocity,
-                         const wt_friction_node *node, friction_decades_row *row)
+static void add_shear_friction(const sliding_contact *c, const decade_contributions *d,
+                               double velocity, const wt_friction_node *node,
+                               friction_decades_row *row)
 {
     const wt_layer_state none = {.modulus_ratio = 1};
     const wt_friction_point point = {.velocity = velocity,
                                      .temperature = {.value = node->temperature}};
-    const double bulk = sliding_shear(d->sliding, c, &point), area = node->area_ratio;
-    const double all = sliding_layer_shear(d->known, bulk, none, area);
+    const double bulk = sliding_shear_stress(d->sliding, c, &point), area = node->area_ratio;
+    const double all = sliding_layer_shear_stress(d->observation, bulk, none, area);
     row->shearing = all * area / c->pressure;
     row->cracks = (all - bulk) * area / c->pressure;
     row->total = node->hysteresis + row->shearing;
 }
 
-static void add_decades(const sliding_contact *c, decades *d, double velocity, bool is_reference,
-                        table_writer *t, cost_summary *cost)
+static void add_decade_rows(const sliding_contact *c, decade_contributions *d, double velocity,
+                            bool is_reference, table_writer *t, cost_summary *cost)
 {
     double most = -1;
     if (t->status == WT_OK)
@@ -91,50 +93,51 @@ static void add_decades(const sliding_contact *c, decades *d, double velocity, b
             .share = share,
             .hysteresis = {part, (double)NAN, a->hysteresis_error + b->hysteresis_error, "1"},
             .area_ratio = {b->area_ratio, (double)NAN, b->numerical_error, "1"}};
-        add_shearing(c, d, velocity, b, &row);
+        add_shear_friction(c, d, velocity, b, &row);
         friction_decades_add_row(t, &row);
         cost->items++;
         if (all > 0)
             cost->error_estimated = fmax(cost->error_estimated, b->hysteresis_error / all);
         if (is_reference && share > most) {
             most = share;
-            say_strongest(d, velocity, i, share);
+            describe_strongest(d, velocity, i, share);
         }
     }
 }
 
-static void add_velocities(const wt_sliding *sliding, const sliding_contact *c, decades *d,
-                           table_writer *t, cost_summary *cost)
+static void add_velocity_blocks(const wt_sliding *sliding, const sliding_contact *c,
+                                decade_contributions *d, table_writer *t, cost_summary *cost)
 {
     const double first = sliding->velocity[0], last = sliding->velocity[sliding->n_velocity - 1],
                  reference = flow_reference_velocity(sliding);
     if (first < reference)
-        add_decades(c, d, first, false, t, cost);
-    add_decades(c, d, reference, true, t, cost);
+        add_decade_rows(c, d, first, false, t, cost);
+    add_decade_rows(c, d, reference, true, t, cost);
     if (last > reference)
-        add_decades(c, d, last, false, t, cost);
+        add_decade_rows(c, d, last, false, t, cost);
 }
 
-wt_status wt_friction_decades_make(const wt_sliding *sliding, const wt_layer_observation *known,
-                                   const wt_job *work, wt_table **table, wt_error *err)
+wt_status wt_friction_by_scale_compute(const wt_sliding *sliding,
+                                       const wt_layer_observation *observation, const wt_job *work,
+                                       wt_table **table, wt_error *err)
 {
     if (work == NULL || table == NULL)
         return wt_fail(err, WT_E_ARG, "no decades to make");
     const wt_layer_state none = {.modulus_ratio = 1};
     sliding_contact c = {0};
-    decades d = {.sliding = sliding, .known = known};
+    decade_contributions d = {.sliding = sliding, .observation = observation};
     wt_status status = flow_sliding_check(sliding, work, err);
     if (status != WT_OK)
         return status;
-    wt_job own = *work;
-    own.left_out = WT_EXTRAS;
-    status = sliding_contact_make(sliding, &own, WT_NO_REPLICATE, NULL, none, &c, err);
+    wt_job local_job = *work;
+    local_job.left_out = WT_EXTRA_ALL;
+    status = sliding_contact_create(sliding, &local_job, WT_NO_REPLICATE, NULL, none, &c, err);
     if (status == WT_OK)
-        status = find_edges(c.roughness, &d, err);
+        status = find_decade_edges(c.roughness, &d, err);
     if (status == WT_OK) {
         table_writer t = table_begin(&friction_decades_schema, err);
         cost_summary cost = {.tolerance_asked = work->tolerance};
-        add_velocities(sliding, &c, &d, &t, &cost);
+        add_velocity_blocks(sliding, &c, &d, &t, &cost);
         friction_decades_keys keys;
         snprintf(keys.strongest, sizeof keys.strongest, "%s",
                  d.strongest[0] != '\0' ? d.strongest : "none: there is no hysteresis friction");

@@ -9,22 +9,22 @@
 #include <math.h>
 #include <stdlib.h>
 
-static wt_status compute(const friction_difference *c, const wt_sliding *sliding,
-                         const wt_job *work, wt_friction_point *points, sliding_contact *contact,
-                         wt_error *err)
+static wt_status compute_points(const friction_difference *c, const wt_sliding *sliding,
+                                const wt_job *work, wt_friction_point *points,
+                                sliding_contact *contact, wt_error *err)
 {
     const wt_layer_state none = {.modulus_ratio = 1};
-    wt_job own = *work;
-    own.left_out = WT_EXTRAS;
+    wt_job local_job = *work;
+    local_job.left_out = WT_EXTRA_ALL;
     wt_status status =
-        sliding_contact_make(sliding, &own, WT_NO_REPLICATE, NULL, none, contact, err);
+        sliding_contact_create(sliding, &local_job, WT_NO_REPLICATE, NULL, none, contact, err);
     if (status == WT_OK)
         status = wt_friction_compute(contact->workspace, contact->pressure, c->velocity, c->n,
                                      points, err);
     return status;
 }
 
-static void say_cost(const friction_difference *c, const wt_job *work)
+static void report_difference_cost(const friction_difference *c, const wt_job *work)
 {
     cost_summary cost = {.tolerance_asked = work->tolerance, .items = 2 * (double)c->n};
     for (size_t i = 0; i < c->n; i++) {
@@ -35,9 +35,9 @@ static void say_cost(const friction_difference *c, const wt_job *work)
     cost_report(work, cost);
 }
 
-wt_status friction_difference_make(const wt_sliding *with, const wt_sliding *without,
-                                   const wt_job *work, friction_difference_extend *more, void *user,
-                                   friction_difference *c, wt_error *err)
+wt_status friction_difference_compute(const wt_sliding *with, const wt_sliding *without,
+                                      const wt_job *work, friction_difference_fn *extend,
+                                      void *user, friction_difference *c, wt_error *err)
 {
     sliding_contact contact = {0}, other = {0};
     *c = (friction_difference){.sliding = with, .n = with->n_velocity + 1};
@@ -49,16 +49,16 @@ wt_status friction_difference_make(const wt_sliding *with, const wt_sliding *wit
     for (size_t i = 0; i < with->n_velocity; i++)
         c->velocity[i] = with->velocity[i];
     c->velocity[c->n - 1] = flow_reference_velocity(with);
-    wt_status status = compute(c, with, work, c->with, &contact, err);
+    wt_status status = compute_points(c, with, work, c->with, &contact, err);
     c->temperature = contact.temperature;
-    if (status == WT_OK && more != NULL)
-        status = more(user, c, &contact, err);
+    if (status == WT_OK && extend != NULL)
+        status = extend(user, c, &contact, err);
     sliding_contact_clear(&contact);
     if (status == WT_OK)
-        status = compute(c, without, work, c->without, &other, err);
+        status = compute_points(c, without, work, c->without, &other, err);
     sliding_contact_clear(&other);
     if (status == WT_OK)
-        say_cost(c, work);
+        report_difference_cost(c, work);
     return status;
 }
 

@@ -15,14 +15,15 @@ typedef struct friction_difference {
 } friction_difference;
 
 /* Evaluates further quantities of the contact with the effect. */
-typedef wt_status friction_difference_extend(void *user, const friction_difference *c,
-                                             const sliding_contact *contact, wt_error *err);
+typedef wt_status friction_difference_fn(void *user, const friction_difference *c,
+                                         const sliding_contact *contact, wt_error *err);
 
 /* Computes both variants for the stated values and reports the cost. The callback may be NULL. The
  * caller clears the result, also on failure. */
-wt_status friction_difference_make(const wt_sliding *with, const wt_sliding *without,
-                                   const wt_job *work, friction_difference_extend *more, void *user,
-                                   friction_difference *c, wt_error *err) WT_NODISCARD;
+wt_status friction_difference_compute(const wt_sliding *with, const wt_sliding *without,
+                                      const wt_job *work, friction_difference_fn *extend,
+                                      void *user, friction_difference *c,
+                                      wt_error *err) WT_NODISCARD;
 void friction_difference_clear(friction_difference *c);
 /* Writes the change at one velocity: "at 300 mm/s hysteresis friction +1.0 %, contact area -2.0 %
  * against AGAINST". */

@@ -33,7 +33,7 @@ typedef struct map_line {
 
 typedef struct friction_map {
     const wt_sliding *sliding;
-    const wt_layer_observation *known; /* NULL if none */
+    const wt_layer_observation *observation; /* NULL if none */
     const wt_job *work;
     size_t n_lines;
     map_line *lines;           /* [n_lines] */
@@ -43,12 +43,12 @@ typedef struct friction_map {
     double worst;              /* relative numerical error at points that miss the tolerance */
     size_t n_unsettled;        /* points without a solution for the flash temperature; they are
                                   NaN */
-    size_t n_extrapolated;     /* temperatures outside the isotherms */
+    size_t count_extrapolated; /* temperatures outside the isotherms */
     char statement[320];       /* text about them */
 } friction_map;
 
-static wt_status add_line(friction_map *m, const char *against, double temperature, double pressure,
-                          wt_error *err)
+static wt_status add_map_line(friction_map *m, const char *against, double temperature,
+                              double pressure, wt_error *err)
 {
     map_line *line = &m->lines[m->n_lines++];
     *line = (map_line){.against = against, .temperature = temperature, .pressure = pressure};
@@ -59,43 +59,43 @@ static wt_status add_line(friction_map *m, const char *against, double temperatu
     m->lowest = fmin(m->lowest, v[0] * line->shift.a);
     m->highest = fmax(m->highest, v[m->sliding->n_velocity - 1] * line->shift.a);
     if (line->shift.statement[0] != '\0') {
-        m->n_extrapolated++;
+        m->count_extrapolated++;
         snprintf(m->statement, sizeof m->statement, "%s", line->shift.statement);
     }
     return WT_OK;
 }
 
-static wt_status find_lines(friction_map *m, wt_error *err)
+static wt_status list_map_lines(friction_map *m, wt_error *err)
 {
     const wt_sliding *s = m->sliding;
     wt_status status = WT_OK;
     for (size_t i = 0; status == WT_OK && i < s->n_temperatures; i++)
-        status = add_line(m, "temperature", s->temperatures[i], s->pressure.value, err);
+        status = add_map_line(m, "temperature", s->temperatures[i], s->pressure.value, err);
     for (size_t i = 0; status == WT_OK && i < s->n_pressures; i++)
-        status = add_line(m, "pressure", s->temperature.value, s->pressures[i], err);
-    if (m->n_extrapolated > 1)
+        status = add_map_line(m, "pressure", s->temperature.value, s->pressures[i], err);
+    if (m->count_extrapolated > 1)
         clocale_print(m->statement, sizeof m->statement,
                       "at %zu of %zu temperatures and pressures the shift law is extrapolated "
                       "beyond the isotherms",
-                      m->n_extrapolated, m->n_lines);
+                      m->count_extrapolated, m->n_lines);
     return status;
 }
 
 /* Creates the contact at the temperature of a line. */
-static wt_status open_line(const friction_map *m, const map_line *line, sliding_contact *c,
-                           wt_error *err)
+static wt_status create_line_contact(const friction_map *m, const map_line *line,
+                                     sliding_contact *c, wt_error *err)
 {
     const wt_layer_state none = {.modulus_ratio = 1};
     wt_sliding sliding = *m->sliding;
     wt_job work = *m->work;
     sliding.temperature.value = line->temperature;
     work.drawn = NULL; /* the cache is for another temperature */
-    return sliding_contact_make(&sliding, &work, WT_NO_REPLICATE, NULL, none, c, err);
+    return sliding_contact_create(&sliding, &work, WT_NO_REPLICATE, NULL, none, c, err);
 }
 
 /* Creates the contact at the reference temperature for the range of all reduced velocities. */
-static wt_status open_contact(const friction_map *m, double range[2], sliding_contact *c,
-                              wt_error *err)
+static wt_status create_reference_contact(const friction_map *m, double range[2],
+                                          sliding_contact *c, wt_error *err)
 {
     const wt_layer_state none = {.modulus_ratio = 1};
     wt_sliding sliding = *m->sliding;
@@ -107,10 +107,10 @@ static wt_status open_contact(const friction_map *m, double range[2], sliding_co
     sliding.n_velocity = m->highest > m->lowest ? 2 : 1;
     sliding.reference_velocity = m->lowest;
     work.drawn = NULL; /* the cache is for another temperature */
-    return sliding_contact_make(&sliding, &work, WT_NO_REPLICATE, NULL, none, c, err);
+    return sliding_contact_create(&sliding, &work, WT_NO_REPLICATE, NULL, none, c, err);
 }
 
-static void add_rows(friction_map *m, const map_line *line, table_writer *t, cost_summary *cost)
+static void add_map_rows(friction_map *m, const map_line *line, table_writer *t, cost_summary *cost)
 {
     const wt_sliding *s = m->sliding;
     const double reference = s->rubber->prony.reference_temperature;
@@ -120,8 +120,8 @@ static void add_rows(friction_map *m, const map_line *line, table_writer *t, cos
         const double warm = isnan(p->temperature.value) ? temperature : p->temperature.value;
         const double factor = wt_shear_factor(&s->shear_law, s->velocity[i], warm);
         const double bare =
-            sliding_layer_shear(m->known, s->shear_stress.value * factor,
-                                (wt_layer_state){.modulus_ratio = 1}, p->area_ratio.value);
+            sliding_layer_shear_stress(m->observation, s->shear_stress.value * factor,
+                                       (wt_layer_state){.modulus_ratio = 1}, p->area_ratio.value);
         const wt_estimate shear = {bare, 0, 0, "Pa"};
         friction_map_row row = {
             .against = line->against,
@@ -145,10 +145,10 @@ static void add_rows(friction_map *m, const map_line *line, table_writer *t, cos
     }
 }
 
-static wt_status compute_warmed(const friction_map *m, const map_line *line, wt_error *err)
+static wt_status compute_heated_line(const friction_map *m, const map_line *line, wt_error *err)
 {
     sliding_contact c = {0};
-    wt_status status = open_line(m, line, &c, err);
+    wt_status status = create_line_contact(m, line, &c, err);
     if (status == WT_OK)
         status = wt_friction_compute(c.workspace, line->pressure, m->sliding->velocity,
                                      m->sliding->n_velocity, m->points, err);
@@ -156,8 +156,8 @@ static wt_status compute_warmed(const friction_map *m, const map_line *line, wt_
     return status;
 }
 
-static void add_lines(friction_map *m, const sliding_contact *c, table_writer *t,
-                      cost_summary *cost)
+static void add_map_blocks(friction_map *m, const sliding_contact *c, table_writer *t,
+                           cost_summary *cost)
 {
     const wt_sliding *s = m->sliding;
     for (size_t k = 0; t->status == WT_OK && k < m->n_lines; k++) {
@@ -165,23 +165,23 @@ static void add_lines(friction_map *m, const sliding_contact *c, table_writer *t
         for (size_t i = 0; i < s->n_velocity; i++)
             m->velocity[i] = s->velocity[i] * line->shift.a;
         t->status = s->flash.on
-                        ? compute_warmed(m, line, t->err)
+                        ? compute_heated_line(m, line, t->err)
                         : wt_friction_compute(c->workspace, line->pressure * line->shift.b,
                                               m->velocity, s->n_velocity, m->points, t->err);
         table_block(t);
         if (t->status == WT_OK)
-            add_rows(m, line, t, cost);
+            add_map_rows(m, line, t, cost);
     }
 }
 
-static void set_keys(const friction_map *m, const sliding_contact *c, table_writer *t)
+static void set_map_keys(const friction_map *m, const sliding_contact *c, table_writer *t)
 {
     const wt_sliding *s = m->sliding;
     const double reference = s->rubber->prony.reference_temperature;
-    friction_map_keys keys = {.pressure = flow_as_stated(s->pressure),
-                              .temperature = flow_as_stated(s->temperature),
+    friction_map_keys keys = {.pressure = flow_stated_estimate(s->pressure),
+                              .temperature = flow_stated_estimate(s->temperature),
                               .reference_temperature = {reference, (double)NAN, (double)NAN, NULL},
-                              .shear_stress = flow_as_stated(s->shear_stress)};
+                              .shear_stress = flow_stated_estimate(s->shear_stress)};
     if (isnan(keys.temperature.value))
         keys.temperature.value = reference;
     (void)wt_rubber_describe(s->rubber, keys.material, sizeof keys.material);
@@ -202,21 +202,22 @@ static wt_status make_table(friction_map *m, wt_table **table, wt_error *err)
 {
     double range[2];
     sliding_contact c = {0};
-    const wt_status status = open_contact(m, range, &c, err);
+    const wt_status status = create_reference_contact(m, range, &c, err);
     if (status != WT_OK)
         return status;
     table_writer t = table_begin(&friction_map_schema, err);
     cost_summary cost = {.tolerance_asked = m->work->tolerance};
-    add_lines(m, &c, &t, &cost);
+    add_map_blocks(m, &c, &t, &cost);
     if (t.status == WT_OK)
-        set_keys(m, &c, &t);
+        set_map_keys(m, &c, &t);
     cost_report(m->work, cost);
     sliding_contact_clear(&c);
     return table_end(&t, table);
 }
 
-wt_status wt_friction_map_make(const wt_sliding *sliding, const wt_layer_observation *known,
-                               const wt_job *work, wt_table **table, wt_error *err)
+wt_status wt_friction_map_compute(const wt_sliding *sliding,
+                                  const wt_layer_observation *observation, const wt_job *work,
+                                  wt_table **table, wt_error *err)
 {
     if (work == NULL || table == NULL)
         return wt_fail(err, WT_E_ARG, "no friction map to make");
@@ -226,15 +227,18 @@ wt_status wt_friction_map_make(const wt_sliding *sliding, const wt_layer_observa
     const size_t n = sliding->n_temperatures + sliding->n_pressures;
     if (n == 0)
         return wt_fail(err, WT_E_ARG, "a friction map needs temperatures or pressures");
-    friction_map m = {
-        .sliding = sliding, .known = known, .work = work, .lowest = (double)INFINITY, .highest = 0};
+    friction_map m = {.sliding = sliding,
+                      .observation = observation,
+                      .work = work,
+                      .lowest = (double)INFINITY,
+                      .highest = 0};
     m.lines = calloc(n, sizeof *m.lines);
     m.velocity = malloc(sliding->n_velocity * sizeof *m.velocity);
     m.points = malloc(sliding->n_velocity * sizeof *m.points);
     if (m.lines == NULL || m.velocity == NULL || m.points == NULL)
         status = wt_fail(err, WT_E_MEMORY, "out of memory");
     if (status == WT_OK)
-        status = find_lines(&m, err);
+        status = list_map_lines(&m, err);
     if (status == WT_OK)
         status = make_table(&m, table, err);
     free(m.lines);

@@ -25,7 +25,7 @@ wt_layer_observation wt_layer_observation_defaults(void)
                                   .ratio_temperature = unknown};
 }
 
-static const wt_param rows[] = {
+static const wt_param parameter_rows[] = {
     LAYER_STATE_ROWS(wt_layer_observation, ),
     {PARAM("modulus-ratio-df", wt_layer_observation, modulus_ratio_df, WT_Q_NONE, AT_LEAST(0)),
      .value = "N",
@@ -59,8 +59,8 @@ static const wt_param rows[] = {
     {PARAM_FLAG_OF("bulk-shear", wt_layer_observation, bulk_shear),
      .help = "shear stress of the bulk for the layer, too, not times the modulus ratio"},
 };
-PARAM_TABLE(wt_layer_observation_params, wt_layer_observation, rows, wt_layer_observation_defaults,
-            NO_PARTS)
+PARAM_TABLE(wt_layer_observation_params, wt_layer_observation, parameter_rows,
+            wt_layer_observation_defaults, NO_PARTS)
 
 /* Checks the frequencies that the slope of a modulus ratio requires. */
 static wt_status check_slope(const wt_layer_observation *k, wt_error *err)
@@ -81,94 +81,97 @@ static wt_status check_slope(const wt_layer_observation *k, wt_error *err)
     return WT_E_RANGE;
 }
 
-wt_status sliding_layer_check(const wt_layer_observation *known, wt_error *err)
+wt_status sliding_layer_check(const wt_layer_observation *observation, wt_error *err)
 {
-    if (known == NULL)
+    if (observation == NULL)
         return WT_OK;
-    const wt_status status = param_check(wt_layer_observation_params(), known, err);
-    return status == WT_OK ? check_slope(known, err) : status;
+    const wt_status status = param_check(wt_layer_observation_params(), observation, err);
+    return status == WT_OK ? check_slope(observation, err) : status;
 }
 
-wt_ratio_slope sliding_layer_slope(const wt_layer_observation *known, uint64_t seed,
-                                   size_t replicate)
+wt_ratio_slope sliding_layer_ratio_slope(const wt_layer_observation *observation, uint64_t seed,
+                                         size_t replicate)
 {
     wt_ratio_slope slope = {.exponent = 0};
-    if (known == NULL || !(known->ratio_frequency > 0))
+    if (observation == NULL || !(observation->ratio_frequency > 0))
         return slope;
-    slope.exponent = flow_draw_value(known->ratio_slope, seed, replicate, FLOW_DRAW_RATIO_SLOPE);
-    slope.reference = known->ratio_frequency;
-    slope.low = known->ratio_lowest;
-    slope.high = known->ratio_highest;
-    const double at = known->ratio_temperature;
+    slope.exponent =
+        flow_draw_value(observation->ratio_slope, seed, replicate, FLOW_DRAW_RATIO_SLOPE);
+    slope.reference = observation->ratio_frequency;
+    slope.low = observation->ratio_lowest;
+    slope.high = observation->ratio_highest;
+    const double at = observation->ratio_temperature;
     slope.temperature = at > 0 ? at : (double)NAN;
     return slope;
 }
 
 /* Index into the draws of the layer material. The offset avoids equal indices, because the draws of
  * two materials may come from the same random numbers. */
-static size_t own_replicate(const wt_rubber *rubber, size_t replicate)
+static size_t layer_replicate(const wt_rubber *rubber, size_t replicate)
 {
     return replicate != WT_NO_REPLICATE ? replicate + rubber->n_draws / 2 : replicate;
 }
 
-wt_status sliding_layer_rubber(const wt_sliding *sliding, double temperature, uint64_t seed,
-                               size_t replicate, wt_material **material, wt_error *err)
+wt_status sliding_layer_material(const wt_sliding *sliding, double temperature, uint64_t seed,
+                                 size_t replicate, wt_material **material, wt_error *err)
 {
     const wt_rubber *rubber = sliding->layer_rubber;
-    const wt_status status = wt_rubber_at(rubber, temperature, seed,
-                                          own_replicate(rubber, replicate), material, NULL, err);
+    const wt_status status = wt_rubber_material(
+        rubber, temperature, seed, layer_replicate(rubber, replicate), material, NULL, err);
     if (status != WT_OK)
         wt_error_place(err, "material of the layer");
     return status;
 }
 
-wt_shift_law sliding_layer_law(const wt_sliding *sliding, uint64_t seed, size_t replicate)
+wt_shift_law sliding_layer_shift_law(const wt_sliding *sliding, uint64_t seed, size_t replicate)
 {
     const wt_rubber *rubber = sliding->layer_rubber;
-    return flow_rubber_law(rubber, seed, own_replicate(rubber, replicate));
+    return flow_rubber_shift_law(rubber, seed, layer_replicate(rubber, replicate));
 }
 
 /* Widens the range by the frequencies of the waves of a contact. Waves across the sliding direction
  * have any low frequency. The search begins at the lowest measured frequency or at that of the
  * longest wave along the sliding. */
-static void widen_by_gain(const wt_sliding *sliding, const wt_roughness *roughness,
-                          const layer_moduli *moduli, double range[2])
+static void widen_zero_loss_range(const wt_sliding *sliding, const wt_roughness *roughness,
+                                  const layer_moduli *moduli, double range[2])
 {
     double slowest = HUGE_VAL, fastest = 0, found[2];
     for (size_t i = 0; i < sliding->n_velocity; i++) {
         slowest = fmin(slowest, sliding->velocity[i]);
         fastest = fmax(fastest, sliding->velocity[i]);
     }
-    if (!layer_moduli_gain(moduli, fmin(moduli->limit[0], roughness->q0 * slowest),
-                           roughness->q1 * fastest, found))
+    if (!layer_moduli_zero_loss_range(moduli, fmin(moduli->limit[0], roughness->q0 * slowest),
+                                      roughness->q1 * fastest, found))
         return;
     range[0] = fmin(range[0], found[0]);
     range[1] = fmax(range[1], found[1]);
 }
 
-wt_status sliding_layer_gain(const wt_sliding *sliding, const wt_layer_observation *known,
-                             const wt_job *work, double range[2], wt_error *err)
+wt_status sliding_layer_zero_loss_range(const wt_sliding *sliding,
+                                        const wt_layer_observation *observation, const wt_job *work,
+                                        double range[2], wt_error *err)
 {
     const double reference = sliding->rubber->prony.reference_temperature,
                  temperature = sliding->temperature.value;
-    const wt_shift_law law = flow_rubber_law(sliding->rubber, work->seed, WT_NO_REPLICATE);
-    wt_layer_state layer = {.thickness = 1,
-                            .modulus_ratio = 1,
-                            .slope = sliding_layer_slope(known, work->seed, WT_NO_REPLICATE)};
+    const wt_shift_law law = flow_rubber_shift_law(sliding->rubber, work->seed, WT_NO_REPLICATE);
+    wt_layer_state layer = {
+        .thickness = 1,
+        .modulus_ratio = 1,
+        .slope = sliding_layer_ratio_slope(observation, work->seed, WT_NO_REPLICATE)};
     wt_material *bulk = NULL;
     wt_roughness *roughness = NULL;
     if (sliding->layer_rubber != NULL || layer.slope.exponent == 0)
         return WT_OK;
-    wt_status status =
-        wt_rubber_at(sliding->rubber, temperature, work->seed, WT_NO_REPLICATE, &bulk, NULL, err);
+    wt_status status = wt_rubber_material(sliding->rubber, temperature, work->seed, WT_NO_REPLICATE,
+                                          &bulk, NULL, err);
     if (status == WT_OK)
         status = wt_surface_roughness(sliding->surface, 1, &roughness, err);
     if (status == WT_OK)
         status = layer_slope_shift(&law, isnan(temperature) ? reference : temperature, &layer.slope,
                                    err);
     if (status == WT_OK) {
-        const layer_moduli moduli = layer_moduli_of(bulk, layer, work->tolerance);
-        widen_by_gain(sliding, roughness, &moduli, range);
+        const layer_moduli moduli = layer_moduli_create(bulk, layer, work->tolerance);
+        widen_zero_loss_range(sliding, roughness, &moduli, range);
     }
     wt_roughness_free(roughness);
     wt_material_free(bulk);
@@ -177,12 +180,12 @@ wt_status sliding_layer_gain(const wt_sliding *sliding, const wt_layer_observati
 
 /* Writes the frequency dependence of the modulus ratio, and warns if its loss modulus is set to 0.
  */
-static void describe_slope(const wt_layer_observation *known, const double range[2], wt_log *log,
-                           char *text, size_t size)
+static void describe_slope(const wt_layer_observation *observation, const double range[2],
+                           wt_log *log, char *text, size_t size)
 {
-    char says[128] = "";
+    char warning[128] = "";
     if (range[0] > 0)
-        clocale_print(says, sizeof says,
+        clocale_print(warning, sizeof warning,
                       "from %s rad/s its loss modulus would be below 0 by such a slope, and is "
                       "taken as 0",
                       format_range(range[0], range[1], 2).text);
@@ -190,11 +193,12 @@ static void describe_slope(const wt_layer_observation *known, const double range
                   "%.4g times those of the bulk at %.3g rad/s, as omega^%.3g with the phase of a "
                   "causal ratio (reconstructed) from %s rad/s, constant outside; "
                   "sheared at the frequency velocity over thickness%s%s",
-                  known->modulus_ratio.value, known->ratio_frequency, known->ratio_slope.value,
-                  format_range(known->ratio_lowest, known->ratio_highest, 3).text,
-                  says[0] != '\0' ? "; " : "", says);
-    if (says[0] != '\0')
-        wt_log_add(log, WT_WARNING, NULL, NULL, "layer: %s", says);
+                  observation->modulus_ratio.value, observation->ratio_frequency,
+                  observation->ratio_slope.value,
+                  format_range(observation->ratio_lowest, observation->ratio_highest, 3).text,
+                  warning[0] != '\0' ? "; " : "", warning);
+    if (warning[0] != '\0')
+        wt_log_add(log, WT_WARNING, NULL, NULL, "layer: %s", warning);
 }
 
 /* Writes the text for a layer with its own material. A material without a shift law is shifted by
@@ -209,49 +213,52 @@ static void describe_material(const wt_sliding *sliding, char *text, size_t size
                          "for it has none of its own");
 }
 
-void sliding_layer_describe(const wt_sliding *sliding, const wt_layer_observation *known,
+void sliding_layer_describe(const wt_sliding *sliding, const wt_layer_observation *observation,
                             const double range[2], wt_log *log, char *text, size_t size)
 {
     text[0] = '\0';
     if (sliding->layer_rubber != NULL)
         describe_material(sliding, text, size);
-    else if (known->ratio_slope.value != 0 || known->ratio_slope.standard_error > 0)
-        describe_slope(known, range, log, text, size);
+    else if (observation->ratio_slope.value != 0 || observation->ratio_slope.standard_error > 0)
+        describe_slope(observation, range, log, text, size);
 }
 
-wt_layer_state sliding_layer(const wt_layer_observation *known, uint64_t seed, size_t replicate)
+wt_layer_state sliding_layer_state(const wt_layer_observation *observation, uint64_t seed,
+                                   size_t replicate)
 {
     wt_layer_state state = {.modulus_ratio = 1};
-    if (known == NULL)
+    if (observation == NULL)
         return state;
     const double thickness =
-        flow_draw_value(known->thickness, seed, replicate, FLOW_DRAW_THICKNESS);
+        flow_draw_value(observation->thickness, seed, replicate, FLOW_DRAW_THICKNESS);
     state.thickness = thickness > 0 ? thickness : 0;
     if (state.thickness > 0)
-        state.modulus_ratio = flow_draw_positive_t(known->modulus_ratio, known->modulus_ratio_df,
-                                                   seed, replicate, FLOW_DRAW_RATIO);
-    state.slope = sliding_layer_slope(known, seed, replicate);
+        state.modulus_ratio =
+            flow_draw_positive_t(observation->modulus_ratio, observation->modulus_ratio_df, seed,
+                                 replicate, FLOW_DRAW_RATIO);
+    state.slope = sliding_layer_ratio_slope(observation, seed, replicate);
     return state;
 }
 
-wt_layer_shear sliding_layer_shear_of(const wt_layer_observation *known)
+wt_layer_shear sliding_layer_shear_law(const wt_layer_observation *observation)
 {
-    wt_layer_shear shear = known->shear != NULL ? *known->shear : wt_layer_shear_defaults();
-    if (known->bulk_shear)
+    wt_layer_shear shear =
+        observation->shear != NULL ? *observation->shear : wt_layer_shear_defaults();
+    if (observation->bulk_shear)
         shear.exponent = 0;
     return shear;
 }
 
-double sliding_layer_shear(const wt_layer_observation *known, double bulk, wt_layer_state layer,
-                           double area_ratio)
+double sliding_layer_shear_stress(const wt_layer_observation *observation, double bulk,
+                                  wt_layer_state layer, double area_ratio)
 {
-    if (known == NULL)
+    if (observation == NULL)
         return bulk;
-    const wt_layer_shear shear = sliding_layer_shear_of(known);
+    const wt_layer_shear shear = sliding_layer_shear_law(observation);
     return wt_layer_shear_stress(&shear, bulk, layer, area_ratio);
 }
 
-bool sliding_layer_shear_is_plain(const wt_layer_shear *shear)
+bool sliding_layer_shear_is_default(const wt_layer_shear *shear)
 {
     return shear->exponent == 1 && !(shear->reach > 0) && !(shear->crack_energy > 0);
 }

@@ -9,47 +9,47 @@
 
 /* Only this number of replicates is stored: the series of a Prony material takes 1 kB, that of a
  * table some 100 kB. */
-enum { MOST_KEPT = 1024 };
+enum { MAX_CACHED = 1024 };
 
-typedef struct drawn_item {
-    drawn_material of;
+typedef struct cached_material {
+    replicate_material content;
     arena memory; /* memory of the series */
-} drawn_item;
+} cached_material;
 
-typedef struct own_material {
+typedef struct stated_material {
     const wt_rubber *rubber; /* NULL if not yet created */
     double temperature, tolerance;
-    drawn_item item;
+    cached_material item;
     char statement[512];
-    bool held;
-} own_material;
+    bool pinned;
+} stated_material;
 
 struct wt_material_cache {
-    own_material own;        /* material for the stated values; all other members belong to the
-                                replicates */
+    stated_material stated;  /* material for the stated values; all other members belong to the
+                          replicates */
     const wt_rubber *rubber; /* rubber of the cached materials; NULL if none yet */
     wt_estimate temperature;
     uint64_t seed;
-    bool one; /* no property of the material is drawn: all replicates share the first */
+    bool is_single; /* no property of the material is drawn: all replicates share the first */
     size_t n;
-    drawn_item *items;      /* [n] */
+    cached_material *items; /* [n] */
     double lowest, highest; /* range of the angular frequencies [rad/s] */
 };
 
-static void drop_item(drawn_item *item)
+static void free_cached_material(cached_material *item)
 {
-    angular_clear(item->of.series);
+    angular_clear(item->content.series);
     arena_free(&item->memory);
-    wt_material_free(item->of.material);
-    *item = (drawn_item){0};
+    wt_material_free(item->content.material);
+    *item = (cached_material){0};
 }
 
-static void drop_materials(wt_material_cache *d)
+static void free_replicate_materials(wt_material_cache *d)
 {
     for (size_t i = 0; i < d->n; i++)
-        drop_item(&d->items[i]);
+        free_cached_material(&d->items[i]);
     free(d->items);
-    *d = (wt_material_cache){.own = d->own};
+    *d = (wt_material_cache){.stated = d->stated};
 }
 
 wt_material_cache *material_cache_new(void)
@@ -60,152 +60,157 @@ wt_material_cache *material_cache_new(void)
 void material_cache_free(wt_material_cache *drawn)
 {
     if (drawn != NULL) {
-        drop_item(&drawn->own.item);
-        drop_materials(drawn);
+        free_cached_material(&drawn->stated.item);
+        free_replicate_materials(drawn);
     }
     free(drawn);
 }
 
-static bool is_that(double a, double b)
+static bool is_same_number(double a, double b)
 {
     return a == b || (isnan(a) && isnan(b));
 }
 
-static bool is_of(const wt_material_cache *d, const wt_sliding *s, const wt_job *work)
+static bool is_current(const wt_material_cache *d, const wt_sliding *s, const wt_job *work)
 {
     return d->rubber == s->rubber && d->seed == work->seed &&
-           is_that(d->temperature.value, s->temperature.value) &&
-           is_that(d->temperature.standard_error, s->temperature.standard_error) &&
-           (d->one || d->n == MOST_KEPT || d->n >= work->replicates);
+           is_same_number(d->temperature.value, s->temperature.value) &&
+           is_same_number(d->temperature.standard_error, s->temperature.standard_error) &&
+           (d->is_single || d->n == MAX_CACHED || d->n >= work->replicates);
 }
 
-static wt_status start_materials(wt_material_cache *d, const wt_sliding *sliding,
+static wt_status reset_materials(wt_material_cache *d, const wt_sliding *sliding,
                                  const wt_job *work, wt_error *err)
 {
     const wt_rubber *rubber = sliding->rubber;
-    const bool one = rubber->n_draws == 0 && !(rubber->c1_error > 0) && !(rubber->c2_error > 0) &&
-                     !(sliding->temperature.standard_error > 0);
-    const size_t n = work->replicates < MOST_KEPT ? work->replicates : MOST_KEPT;
-    drop_materials(d);
-    *d = (wt_material_cache){.own = d->own,
+    const bool is_single = rubber->n_draws == 0 && !(rubber->c1_error > 0) &&
+                           !(rubber->c2_error > 0) && !(sliding->temperature.standard_error > 0);
+    const size_t n = work->replicates < MAX_CACHED ? work->replicates : MAX_CACHED;
+    free_replicate_materials(d);
+    *d = (wt_material_cache){.stated = d->stated,
                              .rubber = rubber,
                              .temperature = sliding->temperature,
                              .seed = work->seed,
-                             .one = one,
-                             .items = calloc(one ? 1 : n + 1, sizeof *d->items)};
+                             .is_single = is_single,
+                             .items = calloc(is_single ? 1 : n + 1, sizeof *d->items)};
     if (d->items == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory for the materials of the replicates");
-    d->n = one ? 1 : n;
+    d->n = is_single ? 1 : n;
     return WT_OK;
 }
 
-wt_status material_cache_begin(wt_material_cache *d, const wt_sliding *sliding, const wt_job *work,
-                               double slowest, double fastest, wt_error *err)
+wt_status material_cache_prepare(wt_material_cache *d, const wt_sliding *sliding,
+                                 const wt_job *work, double slowest, double fastest, wt_error *err)
 {
-    wt_roughness *road = NULL;
-    wt_status status = is_of(d, sliding, work) ? WT_OK : start_materials(d, sliding, work, err);
+    wt_roughness *roughness = NULL;
+    wt_status status =
+        is_current(d, sliding, work) ? WT_OK : reset_materials(d, sliding, work, err);
     if (status == WT_OK)
-        status = wt_surface_roughness(sliding->surface, 1, &road, err);
+        status = wt_surface_roughness(sliding->surface, 1, &roughness, err);
     if (status != WT_OK)
         return status;
-    d->lowest = slowest * road->q0;
-    d->highest = fastest * road->q1;
-    wt_roughness_free(road);
+    d->lowest = slowest * roughness->q0;
+    d->highest = fastest * roughness->q1;
+    wt_roughness_free(roughness);
     /* from here on, the threads only read it */
-    drawn_material all;
-    return d->one ? material_cache_get(d, 0, &all, err) : WT_OK;
+    replicate_material all;
+    return d->is_single ? material_cache_get(d, 0, &all, err) : WT_OK;
 }
 
-static wt_status make_material(const wt_material_cache *d, size_t replicate, drawn_item *item,
-                               wt_error *err)
+static wt_status create_material(const wt_material_cache *d, size_t replicate,
+                                 cached_material *item, wt_error *err)
 {
-    drawn_material *of = &item->of;
-    wt_status status = wt_rubber_at(
+    replicate_material *content = &item->content;
+    wt_status status = wt_rubber_material(
         d->rubber, flow_draw_value(d->temperature, d->seed, replicate, FLOW_DRAW_TEMPERATURE),
-        d->seed, replicate, &of->material, NULL, err);
+        d->seed, replicate, &content->material, NULL, err);
     if (status == WT_OK)
-        status = angular_new(of->material, REPLICATE_TOLERANCE, &item->memory, &of->series, err);
+        status = angular_new(content->material, REPLICATE_TOLERANCE, &item->memory,
+                             &content->series, err);
     if (status != WT_OK) { /* the next contact reports the error again */
-        wt_material_free(of->material);
+        wt_material_free(content->material);
         arena_free(&item->memory);
-        *item = (drawn_item){0};
+        *item = (cached_material){0};
     }
     return status;
 }
 
-wt_status material_cache_get(wt_material_cache *d, size_t replicate, drawn_material *material,
+wt_status material_cache_get(wt_material_cache *d, size_t replicate, replicate_material *material,
                              wt_error *err)
 {
-    *material = (drawn_material){0};
-    if (!d->one && replicate >= d->n)
+    *material = (replicate_material){0};
+    if (!d->is_single && replicate >= d->n)
         return WT_OK;
-    drawn_item *item = &d->items[d->one ? 0 : replicate];
-    wt_status status = item->of.material == NULL ? make_material(d, replicate, item, err) : WT_OK;
+    cached_material *item = &d->items[d->is_single ? 0 : replicate];
+    wt_status status =
+        item->content.material == NULL ? create_material(d, replicate, item, err) : WT_OK;
     if (status == WT_OK)
-        status = angular_cover(item->of.series, d->lowest, d->highest, err);
+        status = angular_extend(item->content.series, d->lowest, d->highest, err);
     if (status == WT_OK)
-        *material = item->of;
+        *material = item->content;
     return status;
 }
 
 /* ---- stated values --------------------------------------------------------------------------- */
 
-static wt_status make_own(own_material *own, const wt_sliding *sliding, double tolerance,
-                          wt_error *err)
+static wt_status create_stated_material(stated_material *stated, const wt_sliding *sliding,
+                                        double tolerance, wt_error *err)
 {
-    drawn_item *item = &own->item;
-    drop_item(item);
-    *own = (own_material){.temperature = sliding->temperature.value, .tolerance = tolerance};
-    wt_status status = wt_rubber_at(sliding->rubber, own->temperature, 0, WT_NO_REPLICATE,
-                                    &item->of.material, own->statement, err);
-    if (status == WT_OK && item->of.material->law->angular == NULL)
-        status = angular_new(item->of.material, tolerance, &item->memory, &item->of.series, err);
+    cached_material *item = &stated->item;
+    free_cached_material(item);
+    *stated = (stated_material){.temperature = sliding->temperature.value, .tolerance = tolerance};
+    wt_status status = wt_rubber_material(sliding->rubber, stated->temperature, 0, WT_NO_REPLICATE,
+                                          &item->content.material, stated->statement, err);
+    if (status == WT_OK && item->content.material->law->angular == NULL)
+        status = angular_new(item->content.material, tolerance, &item->memory,
+                             &item->content.series, err);
     if (status == WT_OK)
-        own->rubber = sliding->rubber;
+        stated->rubber = sliding->rubber;
     else
-        drop_item(item);
+        free_cached_material(item);
     return status;
 }
 
 /* Extends the series to the wavenumbers of the surface. A range that the material cannot have is
  * left to the contact, which reports it. */
-static wt_status cover_own(own_material *own, const wt_sliding *sliding, double slowest,
-                           double fastest, wt_error *err)
+static wt_status extend_stated_series(stated_material *stated, const wt_sliding *sliding,
+                                      double slowest, double fastest, wt_error *err)
 {
-    wt_roughness *road = NULL;
-    wt_status status = wt_surface_roughness(sliding->surface, 1, &road, err);
-    const double lowest = status == WT_OK ? slowest * road->q0 : 0,
-                 highest = status == WT_OK ? fastest * road->q1 : 0;
-    wt_roughness_free(road);
-    const wt_material *m = own->item.of.material;
+    wt_roughness *roughness = NULL;
+    wt_status status = wt_surface_roughness(sliding->surface, 1, &roughness, err);
+    const double lowest = status == WT_OK ? slowest * roughness->q0 : 0,
+                 highest = status == WT_OK ? fastest * roughness->q1 : 0;
+    wt_roughness_free(roughness);
+    const wt_material *m = stated->item.content.material;
     char ignored[256];
-    if (status != WT_OK || !(lowest >= ANGULAR_LEAST && highest <= DBL_MAX) ||
+    if (status != WT_OK || !(lowest >= ANGULAR_MIN_FREQUENCY && highest <= DBL_MAX) ||
         (m->law->check != NULL && m->law->check(m, lowest, highest, ignored, NULL) != WT_OK))
         return status;
-    return angular_cover(own->item.of.series, lowest, highest, err);
+    return angular_extend(stated->item.content.series, lowest, highest, err);
 }
 
-wt_status drawn_values_get(wt_material_cache *drawn, const wt_sliding *sliding, double tolerance,
-                           double slowest, double fastest, drawn_values *values, wt_error *err)
+wt_status material_cache_get_stated(wt_material_cache *drawn, const wt_sliding *sliding,
+                                    double tolerance, double slowest, double fastest,
+                                    shared_material *values, wt_error *err)
 {
-    *values = (drawn_values){.statement = ""};
+    *values = (shared_material){.statement = ""};
     if (drawn == NULL)
         return WT_OK;
-    own_material *own = &drawn->own;
-    const bool is_it = own->rubber == sliding->rubber && own->tolerance == tolerance &&
-                       is_that(own->temperature, sliding->temperature.value);
-    if (own->held && !is_it)
+    stated_material *stated = &drawn->stated;
+    const bool matches = stated->rubber == sliding->rubber && stated->tolerance == tolerance &&
+                         is_same_number(stated->temperature, sliding->temperature.value);
+    if (stated->pinned && !matches)
         return WT_OK;
-    wt_status status = is_it ? WT_OK : make_own(own, sliding, tolerance, err);
-    if (status == WT_OK && !own->held && own->item.of.series != NULL)
-        status = cover_own(own, sliding, slowest, fastest, err);
+    wt_status status = matches ? WT_OK : create_stated_material(stated, sliding, tolerance, err);
+    if (status == WT_OK && !stated->pinned && stated->item.content.series != NULL)
+        status = extend_stated_series(stated, sliding, slowest, fastest, err);
     if (status == WT_OK)
-        *values = (drawn_values){own->item.of, own->statement};
+        *values = (shared_material){stated->item.content, stated->statement};
     return status;
 }
 
-void material_cache_pin(wt_material_cache *drawn, bool held)
+void material_cache_pin(wt_material_cache *drawn, bool pinned)
 {
     if (drawn != NULL)
-        drawn->own.held = held;
+        drawn->stated.pinned = pinned;
 }

@@ -9,19 +9,19 @@
 #include <stdlib.h>
 
 /* Creates the contact for the stated values, without a layer and without the extrapolated share. */
-static wt_status make_contact(const wt_sliding *sliding, const wt_job *work, sliding_contact *c,
-                              wt_error *err)
+static wt_status create_contact(const wt_sliding *sliding, const wt_job *work, sliding_contact *c,
+                                wt_error *err)
 {
     const wt_layer_state none = {.modulus_ratio = 1};
-    wt_job own = *work;
-    own.left_out = WT_EXTRAS;
-    return sliding_contact_make(sliding, &own, WT_NO_REPLICATE, NULL, none, c, err);
+    wt_job local_job = *work;
+    local_job.left_out = WT_EXTRA_ALL;
+    return sliding_contact_create(sliding, &local_job, WT_NO_REPLICATE, NULL, none, c, err);
 }
 
 /* ---- contact area ---------------------------------------------------------------------------- */
 
 /* Resolution of a figure. */
-#define POINTS_PER_DECADE 20
+#define CONTACT_POINTS_PER_DECADE 20
 
 TABLE_ROW(contact_area, CONTACT_AREA, double velocity, magnification, wavenumber;
           wt_friction_node node;)
@@ -40,13 +40,13 @@ static void add_area_block(const sliding_contact *c, double velocity, const doub
     }
 }
 
-static void add_areas(const wt_sliding *sliding, const sliding_contact *c, table_writer *t,
-                      cost_summary *cost)
+static void add_area_blocks(const wt_sliding *sliding, const sliding_contact *c, table_writer *t,
+                            cost_summary *cost)
 {
     const double first = sliding->velocity[0], last = sliding->velocity[sliding->n_velocity - 1],
                  middle = flow_reference_velocity(sliding);
     const double decades = log10(c->roughness->q1 / c->roughness->q0);
-    const size_t n = 2 + (size_t)ceil(decades * POINTS_PER_DECADE);
+    const size_t n = 2 + (size_t)ceil(decades * CONTACT_POINTS_PER_DECADE);
     double *q = malloc(n * sizeof *q);
     wt_friction_node *nodes = malloc(n * sizeof *nodes);
     if (q == NULL || nodes == NULL) {
@@ -65,20 +65,20 @@ static void add_areas(const wt_sliding *sliding, const sliding_contact *c, table
     free(nodes);
 }
 
-wt_status wt_contact_area_table(const wt_sliding *sliding, const wt_job *work, wt_table **table,
-                                wt_error *err)
+wt_status wt_contact_area_compute(const wt_sliding *sliding, const wt_job *work, wt_table **table,
+                                  wt_error *err)
 {
     if (work == NULL || table == NULL)
         return wt_fail(err, WT_E_ARG, "no contact area to make");
     sliding_contact c = {0};
     wt_status status = flow_sliding_check(sliding, work, err);
     if (status == WT_OK)
-        status = make_contact(sliding, work, &c, err);
+        status = create_contact(sliding, work, &c, err);
     if (status != WT_OK)
         return status;
     table_writer t = table_begin(&contact_area_schema, err);
     cost_summary cost = {.tolerance_asked = work->tolerance};
-    add_areas(sliding, &c, &t, &cost);
+    add_area_blocks(sliding, &c, &t, &cost);
     cost_report(work, cost);
     sliding_contact_clear(&c);
     return table_end(&t, table);

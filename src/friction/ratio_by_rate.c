@@ -10,7 +10,7 @@
 #include <math.h>
 
 /* Upper limit of the number of indentation rates. */
-enum { MOST_RATES = 64 };
+enum { MAX_RATES = 64 };
 
 typedef struct rate_ratio {
     double log_frequency, log_ratio, error, df; /* standard error and degrees of freedom of ln
@@ -19,11 +19,11 @@ typedef struct rate_ratio {
 
 typedef struct rate_ratios {
     size_t n;
-    rate_ratio of[MOST_RATES];
+    rate_ratio item[MAX_RATES];
 } rate_ratios;
 
 /* Mean ln frequency of the curves of a row, over both groups; NaN if no frequency is available. */
-static double frequency_of(const table_view *rates, double low, double high)
+static double mean_log_frequency(const table_view *rates, double low, double high)
 {
     const double rounding = 1e-9;
     double sum = 0, n = 0;
@@ -49,18 +49,19 @@ static wt_status read_rates(const table_view *comparison, const table_view *rate
                      ratio_high = comparison_get(comparison, i, COMPARISON_RATIO_HIGH),
                      welch_df = comparison_get(comparison, i, COMPARISON_WELCH_DF),
                      df = isnan(welch_df) ? (double)INFINITY : welch_df;
-        const rate_ratio one = {.log_frequency = frequency_of(rates, low, high),
-                                .log_ratio = log(comparison_get(comparison, i, COMPARISON_RATIO)),
-                                .error = log(ratio_high / ratio_low) / 2 / students_t_quantile(df),
-                                .df = df};
-        if (!isfinite(one.log_frequency) || !isfinite(one.log_ratio) || !(one.error > 0))
+        const rate_ratio entry = {.log_frequency = mean_log_frequency(rates, low, high),
+                                  .log_ratio = log(comparison_get(comparison, i, COMPARISON_RATIO)),
+                                  .error =
+                                      log(ratio_high / ratio_low) / 2 / students_t_quantile(df),
+                                  .df = df};
+        if (!isfinite(entry.log_frequency) || !isfinite(entry.log_ratio) || !(entry.error > 0))
             continue;
-        if (r->n == MOST_RATES) {
+        if (r->n == MAX_RATES) {
             wt_fail(err, WT_E_RANGE, "a comparison at more indentation rates than can be");
-            wt_error_expected(err, "at most %d", MOST_RATES);
+            wt_error_expected(err, "at most %d", MAX_RATES);
             return WT_E_RANGE;
         }
-        r->of[r->n++] = one;
+        r->item[r->n++] = entry;
     }
     return WT_OK;
 }
@@ -72,39 +73,40 @@ static wt_status read_rates(const table_view *comparison, const table_view *rate
 static void fit_slope(const rate_ratios *r, double *slope, double *error)
 {
     double w = 0, wx = 0, wy = 0, wxx = 0, wxy = 0, chi = 0;
-    t_error part[MOST_RATES];
+    t_error part[MAX_RATES];
     for (size_t i = 0; i < r->n; i++) {
-        const double weight = 1 / (r->of[i].error * r->of[i].error);
+        const double weight = 1 / (r->item[i].error * r->item[i].error);
         w += weight;
-        wx += weight * r->of[i].log_frequency;
-        wy += weight * r->of[i].log_ratio;
+        wx += weight * r->item[i].log_frequency;
+        wy += weight * r->item[i].log_ratio;
     }
     const double x0 = wx / w, y0 = wy / w;
     for (size_t i = 0; i < r->n; i++) {
-        const double weight = 1 / (r->of[i].error * r->of[i].error),
-                     x = r->of[i].log_frequency - x0;
+        const double weight = 1 / (r->item[i].error * r->item[i].error),
+                     x = r->item[i].log_frequency - x0;
         wxx += weight * x * x;
-        wxy += weight * x * (r->of[i].log_ratio - y0);
+        wxy += weight * x * (r->item[i].log_ratio - y0);
     }
     *slope = wxy / wxx;
     for (size_t i = 0; i < r->n; i++) {
-        const double x = r->of[i].log_frequency - x0;
-        const double off = (r->of[i].log_ratio - y0 - *slope * x) / r->of[i].error;
+        const double x = r->item[i].log_frequency - x0;
+        const double off = (r->item[i].log_ratio - y0 - *slope * x) / r->item[i].error;
         chi += off * off;
-        part[i] = (t_error){fabs(x) / (r->of[i].error * wxx), r->of[i].df};
+        part[i] = (t_error){fabs(x) / (r->item[i].error * wxx), r->item[i].df};
     }
     const t_error all = t_error_sum(part, r->n);
     const double scatter = r->n > 2 ? fmax(1, chi / (double)(r->n - 2)) : 1;
     *error = all.error * sqrt(scatter) * students_t_quantile(all.df) / NORMAL_95;
 }
 
-static wt_status take_slope(const rate_ratios *r, wt_layer_observation *known, wt_error *err)
+static wt_status set_ratio_slope(const rate_ratios *r, wt_layer_observation *observation,
+                                 wt_error *err)
 {
     double low = (double)INFINITY, high = -(double)INFINITY, sum = 0;
     for (size_t i = 0; i < r->n; i++) {
-        low = fmin(low, r->of[i].log_frequency);
-        high = fmax(high, r->of[i].log_frequency);
-        sum += r->of[i].log_frequency;
+        low = fmin(low, r->item[i].log_frequency);
+        high = fmax(high, r->item[i].log_frequency);
+        sum += r->item[i].log_frequency;
     }
     if (!(high > low)) {
         wt_fail(err, WT_E_MISSING, "the modulus ratio is known at one indentation rate only");
@@ -114,20 +116,20 @@ static wt_status take_slope(const rate_ratios *r, wt_layer_observation *known, w
                              "that the ratio goes with the rate");
         return WT_E_MISSING;
     }
-    known->ratio_slope = (wt_estimate){.unit = "1"};
-    fit_slope(r, &known->ratio_slope.value, &known->ratio_slope.standard_error);
-    known->ratio_frequency = exp(sum / (double)r->n); /* each spot has all rates */
-    known->ratio_lowest = exp(low);
-    known->ratio_highest = exp(high);
+    observation->ratio_slope = (wt_estimate){.unit = "1"};
+    fit_slope(r, &observation->ratio_slope.value, &observation->ratio_slope.standard_error);
+    observation->ratio_frequency = exp(sum / (double)r->n); /* each spot has all rates */
+    observation->ratio_lowest = exp(low);
+    observation->ratio_highest = exp(high);
     return WT_OK;
 }
 
-wt_status wt_layer_observation_by_rate(const wt_table *comparison, const wt_table *modulus_rate,
-                                       wt_layer_observation *known, wt_error *err)
+wt_status wt_layer_observation_from_rates(const wt_table *comparison, const wt_table *modulus_rate,
+                                          wt_layer_observation *observation, wt_error *err)
 {
     table_view c, m;
     rate_ratios r = {.n = 0};
-    if (comparison == NULL || modulus_rate == NULL || known == NULL) {
+    if (comparison == NULL || modulus_rate == NULL || observation == NULL) {
         wt_fail(err, WT_E_MISSING, "no comparison of wear track and bulk at several rates");
         wt_error_advice(err, "a ratio by rate needs curves of both at several rates; ratio-slope, "
                              "ratio-frequency, ratio-lowest and ratio-highest give it otherwise");
@@ -139,15 +141,15 @@ wt_status wt_layer_observation_by_rate(const wt_table *comparison, const wt_tabl
     if (status == WT_OK)
         status = read_rates(&c, &m, &r, err);
     if (status == WT_OK)
-        status = take_slope(&r, known, err);
+        status = set_ratio_slope(&r, observation, err);
     if (status != WT_OK)
         return status;
     const wt_estimate ratio = comparison_value(&c, COMPARISON_KEY_MODULUS_RATIO);
     const double df = comparison_value(&c, COMPARISON_KEY_MODULUS_RATIO_DF).value;
     if (!(ratio.value > 0))
         return wt_fail(err, WT_E_MISSING, "the comparison tells no modulus ratio of all rates");
-    known->modulus_ratio = ratio;
-    known->modulus_ratio.unit = "1"; /* the table uses another unit text */
-    known->modulus_ratio_df = isnan(df) ? 0 : df;
+    observation->modulus_ratio = ratio;
+    observation->modulus_ratio.unit = "1"; /* the table uses another unit text */
+    observation->modulus_ratio_df = isnan(df) ? 0 : df;
     return WT_OK;
 }

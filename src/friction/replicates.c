@@ -12,49 +12,50 @@
 #include <string.h>
 
 /* Appends an item to a list of text; the text is truncated at the size. */
-static void add_words(char *list, size_t size, const char *words)
+static void append_list_item(char *list, size_t size, const char *words)
 {
     const size_t used = strlen(list);
     snprintf(list + used, size - used, "%s%s", used > 0 ? ", " : "", words);
 }
 
-static void add_drawn(replicates *r, const char *words)
+static void add_error_source(replicates *r, const char *words)
 {
     if (r->work->replicates < 2) {
-        add_words(r->lacks, sizeof r->lacks, words);
+        append_list_item(r->lacks, sizeof r->lacks, words);
         return;
     }
     r->varies = true;
     r->n = r->work->replicates;
-    add_words(r->includes, sizeof r->includes, words);
+    append_list_item(r->includes, sizeof r->includes, words);
 }
 
 /* Adds a draw with a linear effect. Beyond the capacity, its effect is part of the nonlinear rest,
  * as that of the material. */
-static void add_line(replicates *r, flow_draw draw)
+static void add_linear_draw(replicates *r, flow_draw draw)
 {
-    if (r->n_draws < REPLICATES_MOST)
+    if (r->n_draws < REPLICATES_MAX_DRAWS)
         r->draw[r->n_draws++] = draw;
 }
 
 void replicates_add(replicates *r, double standard_error, flow_draw draw, const char *words)
 {
     if (standard_error > 0) {
-        add_drawn(r, words);
-        add_line(r, draw);
+        add_error_source(r, words);
+        add_linear_draw(r, draw);
     } else {
-        add_words(r->lacks, sizeof r->lacks, words);
+        append_list_item(r->lacks, sizeof r->lacks, words);
     }
 }
 
-replicates replicates_of(const wt_sliding *sliding, const wt_job *work, const char *what)
+replicates replicates_create(const wt_sliding *sliding, const wt_job *work, const char *what)
 {
     const wt_rubber *rubber = sliding->rubber;
     replicates r = {.sliding = sliding, .work = work, .what = what};
     if (rubber->n_draws > 0) {
-        add_drawn(&r, rubber->law.kind == WT_LAW_NONE ? "material" : "material with its shift law");
+        add_error_source(&r, rubber->law.kind == WT_LAW_NONE ? "material"
+                                                             : "material with its shift law");
     } else {
-        add_words(r.lacks, sizeof r.lacks, "material");
+        append_list_item(r.lacks, sizeof r.lacks, "material");
         if (rubber->c1_error > 0 || rubber->c2_error > 0)
             replicates_add(&r, 1, FLOW_DRAW_SHIFT_LAW, "shift law");
     }
@@ -67,14 +68,14 @@ replicates replicates_of(const wt_sliding *sliding, const wt_job *work, const ch
         replicates_add(&r, places, FLOW_DRAW_DENSITY,
                        measured ? "places of the surface" : "roughness");
     if (measured)
-        add_drawn(&r, "scatter of the spectrum");
-    if (anisotropy_is_any(&sliding->anisotropy))
-        add_words(r.lacks, sizeof r.lacks, "anisotropy of the roughness");
+        add_error_source(&r, "scatter of the spectrum");
+    if (anisotropy_is_present(&sliding->anisotropy))
+        append_list_item(r.lacks, sizeof r.lacks, "anisotropy of the roughness");
     if (sliding->softness != NULL) {
         const bool drawn = strain_softening_has_errors(sliding->softness);
         replicates_add(&r, drawn, FLOW_DRAW_SOFT_STORAGE, "softening with strain");
         if (drawn)
-            add_line(&r, FLOW_DRAW_SOFT_LOSS);
+            add_linear_draw(&r, FLOW_DRAW_SOFT_LOSS);
     }
     return r;
 }
@@ -84,9 +85,9 @@ void replicates_add_layer(replicates *r, const wt_sliding *sliding,
 {
     if (sliding->layer_rubber != NULL) {
         if (sliding->layer_rubber->n_draws > 0)
-            add_drawn(r, "material of the layer");
+            add_error_source(r, "material of the layer");
         else
-            add_words(r->lacks, sizeof r->lacks, "material of the layer");
+            append_list_item(r->lacks, sizeof r->lacks, "material of the layer");
         return;
     }
     replicates_add(r, known->modulus_ratio.standard_error, FLOW_DRAW_RATIO, ratio);
@@ -95,7 +96,7 @@ void replicates_add_layer(replicates *r, const wt_sliding *sliding,
                        "its slope with the frequency");
 }
 
-const char *replicates_include(const replicates *r)
+const char *replicates_included_errors(const replicates *r)
 {
     return r->varies                 ? r->includes
            : r->work->replicates < 2 ? "nothing, for no replicates were asked for"
@@ -104,16 +105,16 @@ const char *replicates_include(const replicates *r)
 
 /* ---- drawing --------------------------------------------------------------------------------- */
 
-typedef struct drawing {
+typedef struct replicate_run {
     replicates *r;
     replicate_fn one;
     const void *user;
-} drawing;
+} replicate_run;
 
-static wt_status draw_one(void *user, size_t i, unsigned worker)
+static wt_status draw_replicate(void *user, size_t i, unsigned worker)
 {
     (void)worker;
-    const drawing *d = user;
+    const replicate_run *d = user;
     double *out = d->r->value + i * d->r->stride;
     wt_error ignored = WT_ERROR_INIT;
     wt_status status = d->one(d->user, i, out, &ignored);
@@ -124,23 +125,23 @@ static wt_status draw_one(void *user, size_t i, unsigned worker)
 
 /* Prepares the materials for the velocities of this job. A shared cache covers all velocities of
  * the contact, so that the result does not depend on the order of the jobs. */
-static wt_status begin_materials(replicates *r, wt_error *err)
+static wt_status prepare_materials(replicates *r, wt_error *err)
 {
     const wt_sliding *s = r->sliding;
     const double *v = s->velocity, reference = flow_reference_velocity(s);
     const bool shared = r->work->drawn != NULL, alone = r->velocity > 0;
-    const double own = alone ? r->velocity : reference;
-    double slowest = own, fastest = own;
+    const double single_velocity = alone ? r->velocity : reference;
+    double slowest = single_velocity, fastest = single_velocity;
     if (shared || !alone) {
         slowest = fmin(slowest, fmin(v[0], reference));
         fastest = fmax(fastest, fmax(v[s->n_velocity - 1], reference));
     }
     r->drawn = shared ? r->work->drawn : material_cache_new();
-    return r->drawn != NULL ? material_cache_begin(r->drawn, s, r->work, slowest, fastest, err)
+    return r->drawn != NULL ? material_cache_prepare(r->drawn, s, r->work, slowest, fastest, err)
                             : wt_fail(err, WT_E_MEMORY, "out of memory");
 }
 
-static void end_materials(replicates *r)
+static void release_materials(replicates *r)
 {
     if (r->drawn != r->work->drawn)
         material_cache_free(r->drawn);
@@ -150,13 +151,14 @@ static void end_materials(replicates *r)
 /* ---- standard deviations --------------------------------------------------------------------- */
 
 enum {
-    LINE_MOST = REPLICATES_MOST + 1
+    MAX_COEFFICIENTS = REPLICATES_MAX_DRAWS + 1
 }; /* number of coefficients of the linear fit: a constant
       and the slopes */
 
 /* Accumulates the normal equations of the linear fit to the finite values of quantity k; returns
  * their number. */
-static size_t collect(const replicates *r, const double *z, size_t k, double *a, double *b)
+static size_t collect_normal_equations(const replicates *r, const double *z, size_t k, double *a,
+                                       double *b)
 {
     const size_t p = r->n_draws + 1;
     size_t n = 0;
@@ -176,28 +178,28 @@ static size_t collect(const replicates *r, const double *z, size_t k, double *a,
 
 /* Fits quantity k as a linear function of the draws; b receives the constant and the slopes. False
  * if there are too few replicates. */
-static bool find_line(const replicates *r, const double *z, size_t k, double *b, size_t *n)
+static bool fit_line(const replicates *r, const double *z, size_t k, double *b, size_t *n)
 {
     /* Required replicates for each coefficient, so that the scatter of a slope is small against the
      * rest. */
-    enum { FOR_EACH = 5 };
-    double a[LINE_MOST * LINE_MOST] = {0};
+    enum { REPLICATES_PER_COEFFICIENT = 5 };
+    double a[MAX_COEFFICIENTS * MAX_COEFFICIENTS] = {0};
     const size_t p = r->n_draws + 1;
-    memset(b, 0, LINE_MOST * sizeof *b);
-    *n = collect(r, z, k, a, b);
-    return *n >= FOR_EACH * p && cholesky_solve(a, p, p, 0, b);
+    memset(b, 0, MAX_COEFFICIENTS * sizeof *b);
+    *n = collect_normal_equations(r, z, k, a, b);
+    return *n >= REPLICATES_PER_COEFFICIENT * p && cholesky_solve(a, p, p, 0, b);
 }
 
 /* Standard deviation of quantity k with linear effects of the draws z [n * p]: the squares of the
  * slopes plus the residual variance. The residuals scatter the slopes, which makes each square too
  * large by the residual variance over n; this bias is subtracted. */
-static double spread_about_lines(const replicates *r, const double *z, size_t k)
+static double line_standard_deviation(const replicates *r, const double *z, size_t k)
 {
-    double b[LINE_MOST], rest = 0, lines = 0;
+    double b[MAX_COEFFICIENTS], rest = 0, lines = 0;
     const size_t p = r->n_draws + 1;
     size_t n;
-    if (!find_line(r, z, k, b, &n))
-        return flow_spread(r->value + k, r->n, r->stride);
+    if (!fit_line(r, z, k, b, &n))
+        return flow_standard_deviation(r->value + k, r->n, r->stride);
     for (size_t i = 0; i < r->n; i++) {
         double left = r->value[i * r->stride + k];
         for (size_t u = 0; u < p; u++)
@@ -212,7 +214,7 @@ static double spread_about_lines(const replicates *r, const double *z, size_t k)
 
 /* Returns [n * p]: 1 and the draws of each replicate, or NULL if out of memory. The caller frees
  * it. */
-static double *make_draws(const replicates *r)
+static double *create_draw_matrix(const replicates *r)
 {
     const size_t p = r->n_draws + 1;
     double *const z = malloc((r->n + 1) * p * sizeof *z);
@@ -224,15 +226,15 @@ static double *make_draws(const replicates *r)
     return z;
 }
 
-wt_status replicates_along_line(const replicates *r, size_t k, double *at, bool *known)
+wt_status replicates_line_positions(const replicates *r, size_t k, double *at, bool *known)
 {
-    double *const z = make_draws(r);
-    double b[LINE_MOST], square = 0;
+    double *const z = create_draw_matrix(r);
+    double b[MAX_COEFFICIENTS], square = 0;
     const size_t p = r->n_draws + 1;
     size_t n;
     if (z == NULL)
         return WT_E_MEMORY;
-    *known = find_line(r, z, k, b, &n);
+    *known = fit_line(r, z, k, b, &n);
     for (size_t u = 1; *known && u < p; u++)
         square += b[u] * b[u];
     *known = *known && square > 0;
@@ -245,13 +247,13 @@ wt_status replicates_along_line(const replicates *r, size_t k, double *at, bool 
     return WT_OK;
 }
 
-static wt_status find_errors(replicates *r, wt_error *err)
+static wt_status compute_standard_errors(replicates *r, wt_error *err)
 {
-    double *const z = make_draws(r);
+    double *const z = create_draw_matrix(r);
     if (z == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     for (size_t k = 0; k < r->stride; k++)
-        r->error[k] = spread_about_lines(r, z, k);
+        r->error[k] = line_standard_deviation(r, z, k);
     free(z);
     return WT_OK;
 }
@@ -264,27 +266,27 @@ wt_status replicates_draw(replicates *r, size_t stride, replicate_fn one, const 
     r->value = calloc(r->n + 1, stride * sizeof *r->value);
     if (r->error == NULL || r->value == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
-    drawing d = {r, one, user};
+    replicate_run d = {r, one, user};
     char words[64];
     snprintf(words, sizeof words, "%s replicates", r->what);
-    wt_status status = r->n > 0 ? begin_materials(r, err) : WT_OK;
+    wt_status status = r->n > 0 ? prepare_materials(r, err) : WT_OK;
     if (status != WT_OK) {
-        end_materials(r);
+        release_materials(r);
         return status;
     }
-    status = wt_parallel_for(r->n, r->work->threads, draw_one, &d, &r->work->progress, words);
-    end_materials(r);
+    status = wt_parallel_for(r->n, r->work->threads, draw_replicate, &d, &r->work->progress, words);
+    release_materials(r);
     if (status != WT_OK)
         return wt_fail(err, status, "the replicates of the %s failed", r->what);
-    size_t lost = 0;
+    size_t n_unsolved = 0;
     for (size_t i = 0; i < r->n; i++)
-        lost += isnan(r->value[i * stride]) != 0;
-    if (lost > 0)
+        n_unsolved += isnan(r->value[i * stride]) != 0;
+    if (n_unsolved > 0)
         wt_log_add(r->work->log, WT_WARNING, NULL, NULL,
                    "%zu of %zu replicates of the %s have no solution and are left out of the "
                    "standard errors",
-                   lost, r->n, r->what);
-    return find_errors(r, err);
+                   n_unsolved, r->n, r->what);
+    return compute_standard_errors(r, err);
 }
 
 void replicates_clear(replicates *r)

@@ -8,16 +8,16 @@
 #include "job/random_draws.h"
 
 /* Capacity above the eleven stated errors of a contact and its layer. */
-enum { REPLICATES_MOST = 12 };
+enum { REPLICATES_MAX_DRAWS = 12 };
 
 typedef struct replicates {
     const wt_sliding *sliding;
     const wt_job *work;
-    double velocity;                 /* the only velocity [m/s]; 0 for those of the list and the
-                                        reference */
-    wt_material_cache *drawn;        /* cache; set while replicates are drawn */
-    const char *what;                /* "friction", for messages */
-    flow_draw draw[REPLICATES_MOST]; /* [n_draws] identifiers of the normal deviates */
+    double velocity;          /* the only velocity [m/s]; 0 for those of the list and the
+                                 reference */
+    wt_material_cache *drawn; /* cache; set while replicates are drawn */
+    const char *what;         /* "friction", for messages */
+    flow_draw draw[REPLICATES_MAX_DRAWS]; /* [n_draws] identifiers of the normal deviates */
     size_t n_draws;
     bool varies;                    /* at least one error is stated or measured */
     char includes[256], lacks[256]; /* text: error sources that are drawn, and inputs without a
@@ -29,7 +29,7 @@ typedef struct replicates {
 
 /* Collects the errors of a sliding contact. The error of the shear stress is not included, because
  * only the total friction depends on it. */
-replicates replicates_of(const wt_sliding *sliding, const wt_job *work, const char *what);
+replicates replicates_create(const wt_sliding *sliding, const wt_job *work, const char *what);
 /* Adds an error source. It is drawn by `draw` if its standard error is > 0, and listed as missing
  * otherwise. */
 void replicates_add(replicates *r, double standard_error, flow_draw draw, const char *words);
@@ -37,7 +37,7 @@ void replicates_add(replicates *r, double standard_error, flow_draw draw, const 
 void replicates_add_layer(replicates *r, const wt_sliding *sliding,
                           const wt_layer_observation *known, const char *ratio);
 /* Returns the text of the error sources that are drawn, for a table. */
-const char *replicates_include(const replicates *r);
+const char *replicates_included_errors(const replicates *r);
 
 /* Computes one replicate: `stride` numbers, the first of which is not NaN. */
 typedef wt_status (*replicate_fn)(const void *user, size_t replicate, double *out, wt_error *err);
@@ -50,8 +50,8 @@ wt_status replicates_draw(replicates *r, size_t stride, replicate_fn one, const 
 /* Position of each replicate along the linear fit of quantity k, in standard deviations: a sample
  * of a standard normal variable. at [n] belongs to the caller. The flag is false if there are too
  * few replicates for a fit, or if no draw has an effect. */
-wt_status replicates_along_line(const replicates *r, size_t k, double *at,
-                                bool *known) WT_NODISCARD;
+wt_status replicates_line_positions(const replicates *r, size_t k, double *at,
+                                    bool *known) WT_NODISCARD;
 void replicates_clear(replicates *r);
 
 #endif

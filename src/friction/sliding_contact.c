@@ -68,7 +68,7 @@ PARAM_TABLE(wt_sliding_params, wt_sliding, rows, wt_sliding_defaults, NO_PARTS)
 
 /* Upper limit for a plausible pressure: tyres have less than 1 MPa, seals and bearings less than
  * 100 MPa; rubber fails above. */
-static const double most_borne = 100e6; /* [Pa] */
+static const double max_rubber_pressure = 100e6; /* [Pa] */
 
 wt_status flow_sliding_check(const wt_sliding *sliding, const wt_job *work, wt_error *err)
 {
@@ -79,11 +79,11 @@ wt_status flow_sliding_check(const wt_sliding *sliding, const wt_job *work, wt_e
         status = param_check(wt_job_params(), work, err);
     if (status == WT_OK)
         status = wt_anisotropy_check(&sliding->anisotropy, err);
-    if (status == WT_OK && sliding->pressure.value > most_borne)
+    if (status == WT_OK && sliding->pressure.value > max_rubber_pressure)
         wt_log_add(work->log, WT_WARNING, NULL, NULL,
                    "the nominal pressure of %.4g MPa is above the %.4g MPa that rubber bears: "
                    "is its unit right?",
-                   1e-6 * sliding->pressure.value, 1e-6 * most_borne);
+                   1e-6 * sliding->pressure.value, 1e-6 * max_rubber_pressure);
     return status;
 }
 
@@ -99,8 +99,9 @@ double flow_layer_velocity(const wt_sliding *sliding, const wt_layer_job *layer)
 }
 
 /* Creates the workspace with the strain softening of the replicate. */
-static wt_status make_workspace(const wt_sliding *sliding, wt_friction_options options,
-                                uint64_t seed, size_t replicate, sliding_contact *c, wt_error *err)
+static wt_status create_workspace(const wt_sliding *sliding, wt_friction_options options,
+                                  uint64_t seed, size_t replicate, sliding_contact *c,
+                                  wt_error *err)
 {
     wt_strain_softening softness = {0};
     wt_status status = WT_OK;
@@ -117,7 +118,7 @@ static wt_status make_workspace(const wt_sliding *sliding, wt_friction_options o
 
 /* Checks the validity of the material at the frequencies of the velocities, and appends a statement
  * about it. */
-static wt_status check_material(const wt_sliding *sliding, sliding_contact *c, wt_error *err)
+static wt_status check_material_range(const wt_sliding *sliding, sliding_contact *c, wt_error *err)
 {
     const wt_material_law *law = c->material->law;
     char words[256] = "";
@@ -133,22 +134,22 @@ static wt_status check_material(const wt_sliding *sliding, sliding_contact *c, w
 }
 
 /* Uses the cached material for the stated values, if the jobs share it. */
-static wt_status share_values(const wt_sliding *sliding, const wt_job *work, drawn_material *kept,
-                              sliding_contact *c, wt_error *err)
+static wt_status use_shared_material(const wt_sliding *sliding, const wt_job *work,
+                                     replicate_material *cached, sliding_contact *c, wt_error *err)
 {
     const double *v = sliding->velocity, reference = flow_reference_velocity(sliding);
-    drawn_values values;
+    shared_material values;
     const wt_status status =
-        drawn_values_get(work->drawn, sliding, work->tolerance, fmin(v[0], reference),
-                         fmax(v[sliding->n_velocity - 1], reference), &values, err);
-    *kept = values.of;
+        material_cache_get_stated(work->drawn, sliding, work->tolerance, fmin(v[0], reference),
+                                  fmax(v[sliding->n_velocity - 1], reference), &values, err);
+    *cached = values.content;
     snprintf(c->statement, sizeof c->statement, "%s", values.statement);
     return status;
 }
 
-wt_status sliding_contact_make(const wt_sliding *sliding, const wt_job *work, size_t replicate,
-                               wt_material_cache *shared, wt_layer_state layer,
-                               sliding_contact *contact, wt_error *err)
+wt_status sliding_contact_create(const wt_sliding *sliding, const wt_job *work, size_t replicate,
+                                 wt_material_cache *shared, wt_layer_state layer,
+                                 sliding_contact *contact, wt_error *err)
 {
     sliding_contact c = {.cost = work->cost};
     const uint64_t seed = work->seed;
@@ -167,35 +168,35 @@ wt_status sliding_contact_make(const wt_sliding *sliding, const wt_job *work, si
     options.anisotropy = sliding->anisotropy;
     options.area_law = sliding->area_law;
     options.flash = sliding->flash;
-    options.shift = flow_rubber_law(sliding->rubber, seed, replicate);
+    options.shift = flow_rubber_shift_law(sliding->rubber, seed, replicate);
     options.temperature = c.temperature =
         isnan(temperature) ? sliding->rubber->prony.reference_temperature : temperature;
     options.threads = drawn ? 1 : work->threads;
     options.layer = layer;
     const bool layered = layer.thickness > 0, own = layered && sliding->layer_rubber != NULL;
-    options.without_share = drawn || (layered && !own && layer.slope.exponent == 0) ||
-                            (work->left_out & WT_EXTRA_SHARE) != 0;
-    drawn_material kept = {0};
-    wt_status status = shared != NULL ? material_cache_get(shared, replicate, &kept, err)
+    options.skip_extrapolated_share = drawn || (layered && !own && layer.slope.exponent == 0) ||
+                                      (work->left_out & WT_EXTRA_EXTRAPOLATED_SHARE) != 0;
+    replicate_material cached = {0};
+    wt_status status = shared != NULL ? material_cache_get(shared, replicate, &cached, err)
                        : drawn        ? WT_OK
-                                      : share_values(sliding, work, &kept, &c, err);
-    c.shared = kept.material != NULL;
-    c.material = kept.material;
-    options.series = kept.series;
+                                      : use_shared_material(sliding, work, &cached, &c, err);
+    c.shared = cached.material != NULL;
+    c.material = cached.material;
+    options.series = cached.series;
     if (status == WT_OK && !c.shared)
-        status = wt_rubber_at(sliding->rubber, temperature, seed, replicate, &c.material,
-                              c.statement, err);
+        status = wt_rubber_material(sliding->rubber, temperature, seed, replicate, &c.material,
+                                    c.statement, err);
     if (status == WT_OK)
         status = flow_surface_draw(sliding->surface, factor, seed, replicate, &c.roughness, err);
     if (status == WT_OK)
-        status = check_material(sliding, &c, err);
+        status = check_material_range(sliding, &c, err);
     if (status == WT_OK && own)
-        status = sliding_layer_rubber(sliding, c.temperature, seed, replicate, &c.layer, err);
+        status = sliding_layer_material(sliding, c.temperature, seed, replicate, &c.layer, err);
     options.layer.own = c.layer;
     if (own)
-        options.layer.own_law = sliding_layer_law(sliding, seed, replicate);
+        options.layer.material_law = sliding_layer_shift_law(sliding, seed, replicate);
     if (status == WT_OK)
-        status = make_workspace(sliding, options, seed, replicate, &c, err);
+        status = create_workspace(sliding, options, seed, replicate, &c, err);
     if (status != WT_OK) {
         sliding_contact_clear(&c);
         return status;
@@ -204,16 +205,16 @@ wt_status sliding_contact_make(const wt_sliding *sliding, const wt_job *work, si
     return WT_OK;
 }
 
-double sliding_shear(const wt_sliding *sliding, const sliding_contact *contact,
-                     const wt_friction_point *point)
+double sliding_shear_stress(const wt_sliding *sliding, const sliding_contact *contact,
+                            const wt_friction_point *point)
 {
     const double warm = point->temperature.value;
     return contact->shear_stress * wt_shear_factor(&sliding->shear_law, point->velocity,
                                                    isnan(warm) ? contact->temperature : warm);
 }
 
-wt_layer_state sliding_layer_sheared(const sliding_contact *contact, wt_layer_state layer,
-                                     double velocity)
+wt_layer_state sliding_layer_at_shear_rate(const sliding_contact *contact, wt_layer_state layer,
+                                           double velocity)
 {
     const double rate = fabs(velocity) / layer.thickness;
     if (contact->workspace->own != NULL && rate > 0)
@@ -224,7 +225,7 @@ wt_layer_state sliding_layer_sheared(const sliding_contact *contact, wt_layer_st
 void sliding_contact_clear(sliding_contact *contact)
 {
     if (contact->workspace != NULL)
-        cost_add_nodes(contact->cost, friction_nodes(contact->workspace));
+        cost_add_nodes(contact->cost, friction_node_count(contact->workspace));
     wt_friction_workspace_free(contact->workspace);
     wt_roughness_free(contact->roughness);
     if (!contact->shared)

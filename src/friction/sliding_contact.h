@@ -29,18 +29,18 @@ double flow_layer_velocity(const wt_sliding *sliding, const wt_layer_job *layer)
 /* Draws replicate `replicate` and prepares the kernel. WT_NO_REPLICATE, with a NULL cache, gives
  * the stated values. A replicate uses one thread and the tolerance of replicates, because many run
  * in parallel. */
-wt_status sliding_contact_make(const wt_sliding *sliding, const wt_job *work, size_t replicate,
-                               wt_material_cache *drawn, wt_layer_state layer,
-                               sliding_contact *contact, wt_error *err) WT_NODISCARD;
+wt_status sliding_contact_create(const wt_sliding *sliding, const wt_job *work, size_t replicate,
+                                 wt_material_cache *drawn, wt_layer_state layer,
+                                 sliding_contact *contact, wt_error *err) WT_NODISCARD;
 /* Statement about results whose relative error exceeds the tolerance. */
 #define TOLERANCE_STATEMENT "the tolerance %.2g is not reached, the numerical error is up to %.2g"
 /* Shear stress of the contact at the temperature of a point. */
-double sliding_shear(const wt_sliding *sliding, const sliding_contact *contact,
-                     const wt_friction_point *point);
+double sliding_shear_stress(const wt_sliding *sliding, const sliding_contact *contact,
+                            const wt_friction_point *point);
 /* State of the layer with the modulus ratio at its shear frequency, velocity / thickness. This is
  * the shear rate of the layer and the frequency of a wave as long as its thickness. */
-wt_layer_state sliding_layer_sheared(const sliding_contact *contact, wt_layer_state layer,
-                                     double velocity);
+wt_layer_state sliding_layer_at_shear_rate(const sliding_contact *contact, wt_layer_state layer,
+                                           double velocity);
 void sliding_contact_clear(sliding_contact *contact);
 
 #endif

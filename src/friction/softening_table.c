@@ -24,13 +24,13 @@ typedef struct effect {
 } effect;
 
 /* Computes the share of the friction up to the first and beyond the last strain of the table. */
-static wt_status find_shares(void *user, const friction_difference *of, const sliding_contact *c,
-                             wt_error *err)
+static wt_status compute_shares(void *user, const friction_difference *of, const sliding_contact *c,
+                                wt_error *err)
 {
     effect *e = user;
     wt_status status = WT_OK;
     e->strain = wt_friction_strain(c->workspace, c->roughness->q1);
-    wt_friction_strained(c->workspace, e->range);
+    wt_friction_strain_range(c->workspace, e->range);
     for (size_t i = 0; i < of->n && status == WT_OK; i++) {
         wt_friction_node nodes[2];
         softening_row *r = &e->rows[i];
@@ -76,8 +76,8 @@ static wt_status make_table(const friction_difference *c, const effect *e, wt_ta
     return table_end(&t, table);
 }
 
-wt_status wt_softening_make(const wt_sliding *sliding, const wt_job *work, wt_table **table,
-                            wt_error *err)
+wt_status wt_softened_friction_compute(const wt_sliding *sliding, const wt_job *work,
+                                       wt_table **table, wt_error *err)
 {
     if (work == NULL || table == NULL)
         return wt_fail(err, WT_E_ARG, "no softening to compute");
@@ -92,7 +92,7 @@ wt_status wt_softening_make(const wt_sliding *sliding, const wt_job *work, wt_ta
     effect e = {.rows = calloc(sliding->n_velocity + 1, sizeof *e.rows)};
     if (e.rows == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
-    status = friction_difference_make(sliding, &without, work, find_shares, &e, &c, err);
+    status = friction_difference_compute(sliding, &without, work, compute_shares, &e, &c, err);
     if (status == WT_OK)
         status = make_table(&c, &e, table, err);
     friction_difference_clear(&c);

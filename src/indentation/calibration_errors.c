@@ -15,58 +15,58 @@
 
 /* Relative shift of a source without a stated error, and upper limit of each shift. A curve may no
  * longer be accepted after a larger shift. */
-static const double small_step = 0.01, most_step = 0.3;
+static const double default_step = 0.01, max_step = 0.3;
 
-const char *calibration_source_text(wt_shared_law_source source)
+const char *calibration_source_text(wt_systematic_source source)
 {
-    static const char *const words[WT_COMMON_SOURCES] = {
-        [WT_COMMON_SPRING_CONSTANT] = "spring constant",
-        [WT_COMMON_SENSITIVITY] = "deflection sensitivity",
-        [WT_COMMON_HALF_ANGLE] = "half-angle of the tip",
-        [WT_COMMON_RADIUS] = "radius of the tip"};
+    static const char *const words[WT_SYSTEMATIC_SOURCES] = {
+        [WT_SYSTEMATIC_SPRING_CONSTANT] = "spring constant",
+        [WT_SYSTEMATIC_SENSITIVITY] = "deflection sensitivity",
+        [WT_SYSTEMATIC_HALF_ANGLE] = "half-angle of the tip",
+        [WT_SYSTEMATIC_RADIUS] = "radius of the tip"};
     return words[source];
 }
 
-static double relative_error(double value, double error)
+static double stated_relative_error(double value, double error)
 {
     return error > 0 ? error / value : (double)NAN;
 }
 
-static double first_known(double a, double b)
+static double first_stated(double a, double b)
 {
     return isnan(a) && b > 0 ? b : a;
 }
 
-static wt_tip moved_tip(const wt_tip *tip, wt_shared_law_source source, double factor)
+static wt_tip shifted_tip(const wt_tip *tip, wt_systematic_source source, double factor)
 {
-    wt_tip moved = *tip;
+    wt_tip shifted = *tip;
     /* A cap that was tangent to the faces stays tangent. */
     const bool tangent =
         tip->transition_radius > 0 &&
         tip->transition_radius == wt_tip_tangent_transition(tip->radius, tip->half_angle);
-    *(source == WT_COMMON_RADIUS ? &moved.radius : &moved.half_angle) *= factor;
+    *(source == WT_SYSTEMATIC_RADIUS ? &shifted.radius : &shifted.half_angle) *= factor;
     const double smooth =
-        moved.radius * tip_facet_factor(tip->sides) /
-        tan(moved.half_angle); /* a larger transition radius makes the tip concave */
+        shifted.radius * tip_facet_factor(tip->sides) /
+        tan(shifted.half_angle); /* a larger transition radius makes the tip concave */
     if (tangent)
-        moved.transition_radius = wt_tip_tangent_transition(moved.radius, moved.half_angle);
+        shifted.transition_radius = wt_tip_tangent_transition(shifted.radius, shifted.half_angle);
     else if (tip->transition_radius > 0)
-        moved.transition_radius = fmin(tip->transition_radius, smooth);
-    moved.half_angle_error = moved.radius_error = 0;
-    return moved;
+        shifted.transition_radius = fmin(tip->transition_radius, smooth);
+    shifted.half_angle_error = shifted.radius_error = 0;
+    return shifted;
 }
 
 /* Creates the contact tables of the shifted tips. A step beyond 90 degrees is halved. */
-static wt_status move_tip(const wt_tip *tip, wt_shared_law_source source, calibration_errors *to,
-                          wt_error *err)
+static wt_status create_shifted_tables(const wt_tip *tip, wt_systematic_source source,
+                                       calibration_errors *to, wt_error *err)
 {
     wt_status status = WT_OK;
-    if (source == WT_COMMON_HALF_ANGLE)
+    if (source == WT_SYSTEMATIC_HALF_ANGLE)
         while (tip->half_angle * exp(to->step[source]) >= M_PI_2)
             to->step[source] /= 2;
-    for (int way = 0; status == WT_OK && way < 2; way++) {
-        const wt_tip moved = moved_tip(tip, source, exp((2 * way - 1) * to->step[source]));
-        status = indent_contact_table(&moved, &to->tip[source][way], err);
+    for (int side = 0; status == WT_OK && side < 2; side++) {
+        const wt_tip shifted = shifted_tip(tip, source, exp((2 * side - 1) * to->step[source]));
+        status = indent_contact_table(&shifted, &to->tip[source][side], err);
     }
     return status;
 }
@@ -76,60 +76,61 @@ wt_status calibration_errors_begin(const wt_indent_job *job, calibration_errors 
     const wt_tip *tip = &job->tip;
     const wt_estimate k = job->spring_constant, s = job->sensitivity;
     *to = (calibration_errors){
-        .error = {[WT_COMMON_SPRING_CONSTANT] =
-                      first_known(relative_error(k.value, k.standard_error), job->lever_error),
-                  [WT_COMMON_SENSITIVITY] = first_known(relative_error(s.value, s.standard_error),
-                                                        job->sensitivity_error),
-                  [WT_COMMON_HALF_ANGLE] = relative_error(tip->half_angle, tip->half_angle_error),
-                  [WT_COMMON_RADIUS] = relative_error(tip->radius, tip->radius_error)},
+        .error = {[WT_SYSTEMATIC_SPRING_CONSTANT] = first_stated(
+                      stated_relative_error(k.value, k.standard_error), job->lever_error),
+                  [WT_SYSTEMATIC_SENSITIVITY] = first_stated(
+                      stated_relative_error(s.value, s.standard_error), job->sensitivity_error),
+                  [WT_SYSTEMATIC_HALF_ANGLE] =
+                      stated_relative_error(tip->half_angle, tip->half_angle_error),
+                  [WT_SYSTEMATIC_RADIUS] = stated_relative_error(tip->radius, tip->radius_error)},
         .stride = 1};
-    for (int i = 0; i < WT_COMMON_SOURCES; i++) {
+    for (int i = 0; i < WT_SYSTEMATIC_SOURCES; i++) {
         to->stated = to->stated || to->error[i] > 0;
-        to->step[i] = fmin(to->error[i] > 0 ? to->error[i] : small_step, most_step);
+        to->step[i] = fmin(to->error[i] > 0 ? to->error[i] : default_step, max_step);
     }
     if (!(tip->half_angle > 0))
-        to->step[WT_COMMON_HALF_ANGLE] = 0;
+        to->step[WT_SYSTEMATIC_HALF_ANGLE] = 0;
     if (!(tip->radius > 0))
-        to->step[WT_COMMON_RADIUS] = 0;
-    const bool tells_misfit =
-        job->options.least_chance > 0; /* the misfit test needs the effect of an unstated radius */
+        to->step[WT_SYSTEMATIC_RADIUS] = 0;
+    const bool tests_misfit = job->options.misfit_p_threshold >
+                              0; /* the misfit test needs the effect of an unstated radius */
     wt_status status = WT_OK;
-    for (int i = WT_COMMON_HALF_ANGLE; i <= WT_COMMON_RADIUS; i++)
+    for (int i = WT_SYSTEMATIC_HALF_ANGLE; i <= WT_SYSTEMATIC_RADIUS; i++)
         if (status == WT_OK && to->step[i] > 0 &&
-            (to->stated || (i == WT_COMMON_RADIUS && tells_misfit)))
-            status = move_tip(tip, (wt_shared_law_source)i, to, err);
+            (to->stated || (i == WT_SYSTEMATIC_RADIUS && tests_misfit)))
+            status = create_shifted_tables(tip, (wt_systematic_source)i, to, err);
     return status;
 }
 
 void calibration_errors_apply(const calibration_errors *of, wt_indent_workspace *workspace)
 {
     size_t n = 0;
-    for (int i = WT_COMMON_HALF_ANGLE; i <= WT_COMMON_RADIUS; i++)
+    for (int i = WT_SYSTEMATIC_HALF_ANGLE; i <= WT_SYSTEMATIC_RADIUS; i++)
         if (of->error[i] > 0 && of->tip[i][1] != NULL)
-            workspace->tip_move[n++] =
-                (tip_move){of->tip[i][0], of->tip[i][1], of->error[i] / of->step[i]};
-    const double step = of->step[WT_COMMON_RADIUS];
-    if (!(of->error[WT_COMMON_RADIUS] > 0) && of->tip[WT_COMMON_RADIUS][1] != NULL)
-        workspace->any_radius =
-            (tip_move){of->tip[WT_COMMON_RADIUS][0], of->tip[WT_COMMON_RADIUS][1], 1 / step};
+            workspace->tip_variation[n++] =
+                (tip_variation){of->tip[i][0], of->tip[i][1], of->error[i] / of->step[i]};
+    const double step = of->step[WT_SYSTEMATIC_RADIUS];
+    if (!(of->error[WT_SYSTEMATIC_RADIUS] > 0) && of->tip[WT_SYSTEMATIC_RADIUS][1] != NULL)
+        workspace->unstated_radius = (tip_variation){of->tip[WT_SYSTEMATIC_RADIUS][0],
+                                                     of->tip[WT_SYSTEMATIC_RADIUS][1], 1 / step};
 }
 
 cached_tips calibration_errors_reset(wt_indent_workspace *workspace)
 {
-    cached_tips told = {.any_radius = workspace->any_radius};
-    memcpy(told.moves, workspace->tip_move, sizeof told.moves);
-    memset(workspace->tip_move, 0, sizeof workspace->tip_move);
-    workspace->any_radius = (tip_move){0};
-    return told;
+    cached_tips saved = {.unstated_radius = workspace->unstated_radius};
+    memcpy(saved.variations, workspace->tip_variation, sizeof saved.variations);
+    memset(workspace->tip_variation, 0, sizeof workspace->tip_variation);
+    workspace->unstated_radius = (tip_variation){0};
+    return saved;
 }
 
-void calibration_errors_apply_cached(const cached_tips *told, wt_indent_workspace *workspace)
+void calibration_errors_apply_cached(const cached_tips *saved, wt_indent_workspace *workspace)
 {
-    memcpy(workspace->tip_move, told->moves, sizeof told->moves);
-    workspace->any_radius = told->any_radius;
+    memcpy(workspace->tip_variation, saved->variations, sizeof saved->variations);
+    workspace->unstated_radius = saved->unstated_radius;
 }
 
-static void clear_curve(common_curve *curve)
+static void clear_common_curve(common_curve *curve)
 {
     for (int i = 0; i < 2; i++)
         free(curve->branch[i].height);
@@ -138,11 +139,11 @@ static void clear_curve(common_curve *curve)
 
 void calibration_errors_clear(calibration_errors *errors)
 {
-    for (int i = 0; i < WT_COMMON_SOURCES; i++)
-        for (int way = 0; way < 2; way++)
-            wt_contact_table_free(errors->tip[i][way]);
+    for (int i = 0; i < WT_SYSTEMATIC_SOURCES; i++)
+        for (int side = 0; side < 2; side++)
+            wt_contact_table_free(errors->tip[i][side]);
     for (size_t i = 0; i < errors->n; i++)
-        clear_curve(&errors->curve[i]);
+        clear_common_curve(&errors->curve[i]);
     *errors = (calibration_errors){0};
 }
 
@@ -174,34 +175,36 @@ static wt_status copy_branch(const wt_force_curve *curve, wt_segment_kind kind, 
 
 /* Keeps every second curve. The remaining curves are those that twice the stride selects from the
  * start. */
-static void thin_out(calibration_errors *to)
+static void halve_curves(calibration_errors *to)
 {
-    size_t kept = 0;
+    size_t stored = 0;
     for (size_t i = 0; i < to->n; i++)
         if (i % 2 == 0)
-            to->curve[kept++] = to->curve[i];
+            to->curve[stored++] = to->curve[i];
         else
-            clear_curve(&to->curve[i]);
-    to->n = kept;
+            clear_common_curve(&to->curve[i]);
+    to->n = stored;
     to->stride *= 2;
 }
 
 wt_status calibration_errors_store(calibration_errors *to, const wt_force_curve *curve,
-                                   const wt_contact_table *contact, bool own_tip, wt_error *err)
+                                   const wt_contact_table *contact, bool has_file_tip,
+                                   wt_error *err)
 {
-    if (!to->stated || to->seen++ % to->stride != 0)
+    if (!to->stated || to->n_offered++ % to->stride != 0)
         return WT_OK;
     if (to->n == COMMON_CURVES) {
-        thin_out(to);
-        if ((to->seen - 1) % to->stride != 0)
+        halve_curves(to);
+        if ((to->n_offered - 1) % to->stride != 0)
             return WT_OK;
     }
-    common_curve *kept = &to->curve[to->n++];
-    *kept = (common_curve){.spring_constant = curve->cantilever.spring_constant,
-                           .contact = contact,
-                           .own_tip = own_tip};
-    const wt_status status = copy_branch(curve, WT_SEGMENT_APPROACH, &kept->branch[0], err);
-    return status == WT_OK ? copy_branch(curve, WT_SEGMENT_RETRACT, &kept->branch[1], err) : status;
+    common_curve *stored = &to->curve[to->n++];
+    *stored = (common_curve){.spring_constant = curve->cantilever.spring_constant,
+                             .contact = contact,
+                             .has_file_tip = has_file_tip};
+    const wt_status status = copy_branch(curve, WT_SEGMENT_APPROACH, &stored->branch[0], err);
+    return status == WT_OK ? copy_branch(curve, WT_SEGMENT_RETRACT, &stored->branch[1], err)
+                           : status;
 }
 
 /* ---- fits ------------------------------------------------------------------------------------ */
@@ -211,7 +214,7 @@ typedef struct refit {
     const wt_indent_options *options;
     wt_indent_workspace *const *workspaces;
     double *scratch; /* scaled forces, [capacity] for each thread */
-    size_t room;
+    size_t capacity;
     wt_error *errors; /* one error for each item */
 } refit;
 
@@ -224,29 +227,30 @@ static curve_branch scale_branch(const common_branch *b, double factor, double *
 
 /* Computes the logarithm of the modulus of a curve with a shifted source. The source scales the
  * forces or changes the tip. A fit that no longer passes its tests counts as well. */
-static wt_status fit_moved(const refit *f, size_t item, int way, unsigned worker,
-                           double *log_modulus)
+static wt_status fit_shifted_source(const refit *f, size_t item, int side, unsigned worker,
+                                    double *log_modulus)
 {
     const calibration_errors *to = f->to;
-    const wt_shared_law_source source = (wt_shared_law_source)(item % WT_COMMON_SOURCES);
-    const common_curve *curve = &to->curve[item / WT_COMMON_SOURCES];
-    const double factor = exp((2 * way - 1) * to->step[source]);
-    double *scratch = f->scratch + worker * f->room;
-    const bool lever = source == WT_COMMON_SPRING_CONSTANT,
-               signal = lever || source == WT_COMMON_SENSITIVITY;
+    const wt_systematic_source source = (wt_systematic_source)(item % WT_SYSTEMATIC_SOURCES);
+    const common_curve *curve = &to->curve[item / WT_SYSTEMATIC_SOURCES];
+    const double factor = exp((2 * side - 1) * to->step[source]);
+    double *scratch = f->scratch + worker * f->capacity;
+    const bool is_spring_constant = source == WT_SYSTEMATIC_SPRING_CONSTANT,
+               scales_force = is_spring_constant || source == WT_SYSTEMATIC_SENSITIVITY;
     const curve_branch scaled[2] = {
-        scale_branch(&curve->branch[0], signal ? factor : 1, scratch),
-        scale_branch(&curve->branch[1], signal ? factor : 1, scratch + curve->branch[0].n)};
+        scale_branch(&curve->branch[0], scales_force ? factor : 1, scratch),
+        scale_branch(&curve->branch[1], scales_force ? factor : 1, scratch + curve->branch[0].n)};
     wt_indent_workspace *workspace = f->workspaces[worker];
-    cached_tips told;
+    cached_tips saved;
     wt_indent_fit fit;
-    if (curve->own_tip)
-        told = calibration_errors_reset(workspace);
+    if (curve->has_file_tip)
+        saved = calibration_errors_reset(workspace);
     const wt_status status = curve_fit_branches(
-        signal ? curve->contact : to->tip[source][way], f->options, &scaled[0], &scaled[1],
-        curve->spring_constant * (lever ? factor : 1), workspace, &fit, &f->errors[item]);
-    if (curve->own_tip)
-        calibration_errors_apply_cached(&told, workspace);
+        scales_force ? curve->contact : to->tip[source][side], f->options, &scaled[0], &scaled[1],
+        curve->spring_constant * (is_spring_constant ? factor : 1), workspace, &fit,
+        &f->errors[item]);
+    if (curve->has_file_tip)
+        calibration_errors_apply_cached(&saved, workspace);
     if (status == WT_OK)
         *log_modulus = fit.modulus.value > 0 ? log(fit.modulus.value) : (double)NAN;
     return status;
@@ -254,18 +258,18 @@ static wt_status fit_moved(const refit *f, size_t item, int way, unsigned worker
 
 /* Computes d ln E / d ln source from one step in each direction. The tip of a single file has no
  * stated error, so its sources are not shifted. */
-static wt_status move_source(void *user, size_t item, unsigned worker)
+static wt_status measure_source_gain(void *user, size_t item, unsigned worker)
 {
     const refit *f = user;
     calibration_errors *to = f->to;
-    const size_t at = item / WT_COMMON_SOURCES;
-    const wt_shared_law_source source = (wt_shared_law_source)(item % WT_COMMON_SOURCES);
-    const bool of_tip = source == WT_COMMON_HALF_ANGLE || source == WT_COMMON_RADIUS;
-    const double step = of_tip && to->curve[at].own_tip ? 0 : to->step[source];
+    const size_t at = item / WT_SYSTEMATIC_SOURCES;
+    const wt_systematic_source source = (wt_systematic_source)(item % WT_SYSTEMATIC_SOURCES);
+    const bool is_tip_source = source == WT_SYSTEMATIC_HALF_ANGLE || source == WT_SYSTEMATIC_RADIUS;
+    const double step = is_tip_source && to->curve[at].has_file_tip ? 0 : to->step[source];
     double log_modulus[2] = {0, 0};
     to->gain[at][source] = (double)NAN;
-    for (int way = 0; way < 2 && step > 0; way++) {
-        const wt_status status = fit_moved(f, item, way, worker, &log_modulus[way]);
+    for (int side = 0; side < 2 && step > 0; side++) {
+        const wt_status status = fit_shifted_source(f, item, side, worker, &log_modulus[side]);
         if (status != WT_OK)
             return status;
     }
@@ -278,20 +282,20 @@ wt_status calibration_errors_fit(calibration_errors *to, const wt_indent_options
                                  unsigned threads, wt_indent_workspace *const *workspaces,
                                  wt_error *err)
 {
-    const size_t n = to->n * WT_COMMON_SOURCES;
+    const size_t n = to->n * WT_SYSTEMATIC_SOURCES;
     refit f = {.to = to, .options = options, .workspaces = workspaces};
     if (n == 0)
         return WT_OK;
     for (size_t i = 0; i < to->n; i++)
-        if (f.room < to->curve[i].branch[0].n + to->curve[i].branch[1].n)
-            f.room = to->curve[i].branch[0].n + to->curve[i].branch[1].n;
-    f.scratch = calloc(threads * f.room, sizeof *f.scratch);
+        if (f.capacity < to->curve[i].branch[0].n + to->curve[i].branch[1].n)
+            f.capacity = to->curve[i].branch[0].n + to->curve[i].branch[1].n;
+    f.scratch = calloc(threads * f.capacity, sizeof *f.scratch);
     f.errors = calloc(n, sizeof *f.errors);
     wt_status status = WT_E_MEMORY;
     if (f.scratch == NULL || f.errors == NULL) {
         status = wt_fail(err, status, "out of memory");
     } else {
-        status = wt_parallel_for(n, threads, move_source, &f, NULL, "fitting curves anew");
+        status = wt_parallel_for(n, threads, measure_source_gain, &f, NULL, "fitting curves anew");
         size_t first = 0;
         while (first < n && f.errors[first].status == WT_OK)
             first++;
@@ -307,7 +311,7 @@ wt_status calibration_errors_fit(calibration_errors *to, const wt_indent_options
 
 void calibration_errors_set_keys(const calibration_errors *of, table_writer *rows)
 {
-    for (int i = 0; i < WT_COMMON_SOURCES && of->stated; i++) {
+    for (int i = 0; i < WT_SYSTEMATIC_SOURCES && of->stated; i++) {
         const indentation_key error = (indentation_key)(INDENTATION_KEY_LEVER_ERROR + i),
                               gain = (indentation_key)(INDENTATION_KEY_LEVER_GAIN + i);
         double sum = 0, squares = 0;

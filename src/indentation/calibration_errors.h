@@ -22,19 +22,19 @@ typedef struct common_curve {
     common_branch branch[2]; /* approach, retract */
     double spring_constant;
     const wt_contact_table *contact; /* table of the tip of the fit; borrowed */
-    bool own_tip; /* the tip belongs to the file, so the shifted tips do not apply */
+    bool has_file_tip; /* the tip belongs to the file, so the shifted tips do not apply */
 } common_curve;
 
 /* Effect of each error source on the modulus, from curves that are fitted again with a shifted
  * source. */
 typedef struct calibration_errors {
-    bool stated;                     /* if false, nothing is computed */
-    double error[WT_COMMON_SOURCES]; /* relative; NaN if not stated */
-    double step[WT_COMMON_SOURCES];  /* step of ln(source); 0 if the tip lacks this size */
-    wt_contact_table *tip[WT_COMMON_SOURCES][2]; /* tables of the tips shifted down and up */
+    bool stated;                         /* if false, nothing is computed */
+    double error[WT_SYSTEMATIC_SOURCES]; /* relative; NaN if not stated */
+    double step[WT_SYSTEMATIC_SOURCES];  /* step of ln(source); 0 if the tip lacks this size */
+    wt_contact_table *tip[WT_SYSTEMATIC_SOURCES][2]; /* tables of the tips shifted down and up */
     common_curve curve[COMMON_CURVES];
-    double gain[COMMON_CURVES][WT_COMMON_SOURCES];
-    size_t n, seen, stride;
+    double gain[COMMON_CURVES][WT_SYSTEMATIC_SOURCES];
+    size_t n, n_offered, stride;
 } calibration_errors;
 
 wt_status calibration_errors_begin(const wt_indent_job *job, calibration_errors *to,
@@ -44,14 +44,14 @@ wt_status calibration_errors_begin(const wt_indent_job *job, calibration_errors 
 void calibration_errors_apply(const calibration_errors *of, wt_indent_workspace *workspace);
 /* Settings removed from a workspace while it fits a curve with the tip of a file. */
 typedef struct cached_tips {
-    tip_move moves[CURVE_TIP_MOVES], any_radius;
+    tip_variation variations[CURVE_TIP_VARIATIONS], unstated_radius;
 } cached_tips;
 cached_tips calibration_errors_reset(wt_indent_workspace *workspace);
-void calibration_errors_apply_cached(const cached_tips *told, wt_indent_workspace *workspace);
+void calibration_errors_apply_cached(const cached_tips *saved, wt_indent_workspace *workspace);
 /* Stores a copy of every n-th accepted curve. `contact` is the table of its tip and must outlive
- * the errors. `own_tip` states that this tip differs from the tip of the job. */
+ * the errors. `has_file_tip` states that this tip differs from the tip of the job. */
 wt_status calibration_errors_store(calibration_errors *to, const wt_force_curve *curve,
-                                   const wt_contact_table *contact, bool own_tip,
+                                   const wt_contact_table *contact, bool has_file_tip,
                                    wt_error *err) WT_NODISCARD;
 /* Fits the stored curves. `workspaces` has one workspace for each thread. */
 wt_status calibration_errors_fit(calibration_errors *to, const wt_indent_options *options,
@@ -60,11 +60,11 @@ wt_status calibration_errors_fit(calibration_errors *to, const wt_indent_options
 void calibration_errors_set_keys(const calibration_errors *of, table_writer *rows);
 void calibration_errors_clear(calibration_errors *errors);
 
-const char *calibration_source_text(wt_shared_law_source source);
+const char *calibration_source_text(wt_systematic_source source);
 
 /* Creates the table modulus_budget. The table is NULL if no group states a shared error. names:
  * [n]; a group without curves has no row. */
-wt_status modulus_budget_make(const wt_group_data *groups, const char *const *names, size_t n,
-                              wt_table **table, wt_error *err) WT_NODISCARD;
+wt_status modulus_budget_create(const wt_group_data *groups, const char *const *names, size_t n,
+                                wt_table **table, wt_error *err) WT_NODISCARD;
 
 #endif

@@ -22,10 +22,10 @@ TABLE_ROW(curves, CURVES, const char *group, *file; size_t curve; const char *se
 
 /* ---- selection terms ------------------------------------------------------------------------- */
 
-static const char worst[] = "worst:";
+static const char worst_prefix[] = "worst:";
 
 /* Returns the start of the number in FILE:N, or NULL if the term does not name a curve. */
-static const char *number_in(const char *word)
+static const char *curve_number_text(const char *word)
 {
     const char *colon = strrchr(word, ':');
     if (colon == NULL || colon == word || colon[1] == '\0' ||
@@ -34,77 +34,78 @@ static const char *number_in(const char *word)
     return colon + 1;
 }
 
-static wt_status read_word(const char *word, curve_selection *shown, wt_error *err)
+static wt_status read_selection_term(const char *word, curve_selection *selection, wt_error *err)
 {
-    const char *number = number_in(word);
-    const bool is_worst = strncmp(word, worst, strlen(worst)) == 0;
+    const char *number = curve_number_text(word);
+    const bool is_among_worst = strncmp(word, worst_prefix, strlen(worst_prefix)) == 0;
     const unsigned long n = number != NULL ? strtoul(number, NULL, 10) : 0;
-    if (is_worst && n > 0) {
-        shown->most_worst = n;
+    if (is_among_worst && n > 0) {
+        selection->max_worst = n;
         return WT_OK;
     }
-    if (!is_worst && number != NULL)
+    if (!is_among_worst && number != NULL)
         return WT_OK; /* FILE:N */
     if (strcmp(word, "median") == 0)
-        shown->median = true;
+        selection->median = true;
     else if (strcmp(word, "rejected") == 0)
-        shown->rejected = true;
+        selection->rejected = true;
     else if (strcmp(word, "all") == 0)
-        shown->all = true;
+        selection->all = true;
     else
         return wt_fail(err, WT_E_ARG, "'%s' is none of median, rejected, worst:N, all and FILE:N",
                        word);
     return WT_OK;
 }
 
-wt_status curve_selection_begin(const wt_indent_job *job, curve_selection *shown, wt_error *err)
+wt_status curve_selection_begin(const wt_indent_job *job, curve_selection *selection, wt_error *err)
 {
-    *shown = (curve_selection){.words = job->curves, .n_words = job->n_curves};
+    *selection = (curve_selection){.terms = job->curves, .n_terms = job->n_curves};
     wt_status status = WT_OK;
     for (size_t i = 0; status == WT_OK && i < job->n_curves; i++)
-        status = read_word(job->curves[i], shown, err);
-    shown->median = shown->median || job->median_curve;
+        status = read_selection_term(job->curves[i], selection, err);
+    selection->median = selection->median || job->median_curve;
     if (status == WT_OK && job->n_curves > 0 &&
-        (shown->met = calloc(job->n_curves, sizeof *shown->met)) == NULL)
+        (selection->matched = calloc(job->n_curves, sizeof *selection->matched)) == NULL)
         status = wt_fail(err, WT_E_MEMORY, "out of memory");
     return status;
 }
 
-static bool is_named(curve_selection *shown, const flow_file *file, size_t curve)
+static bool match_named_terms(curve_selection *selection, const flow_file *file, size_t curve)
 {
-    bool named = false;
-    for (size_t i = 0; i < shown->n_words; i++) {
-        const char *number = number_in(shown->words[i]);
-        if (number == NULL || strncmp(shown->words[i], worst, strlen(worst)) == 0 ||
+    bool is_match = false;
+    for (size_t i = 0; i < selection->n_terms; i++) {
+        const char *number = curve_number_text(selection->terms[i]);
+        if (number == NULL ||
+            strncmp(selection->terms[i], worst_prefix, strlen(worst_prefix)) == 0 ||
             strtoul(number, NULL, 10) != curve ||
-            flow_file_is(file, shown->words[i], (size_t)(number - 1 - shown->words[i])) ==
-                FLOW_OTHER_FILE)
+            flow_file_match(file, selection->terms[i],
+                            (size_t)(number - 1 - selection->terms[i])) == FLOW_NAME_DIFFERENT)
             continue;
-        named = shown->met[i] = true;
+        is_match = selection->matched[i] = true;
     }
-    return named;
+    return is_match;
 }
 
 /* Removes the curve with the smallest error if the list of the worst curves is full. Returns false
  * if this error does not belong to the list. */
-static bool is_worst(curve_selection *shown, double error)
+static bool is_among_worst(curve_selection *selection, double error)
 {
-    size_t best = shown->n;
-    if (!(error >= 0) || shown->most_worst == 0)
+    size_t best = selection->n;
+    if (!(error >= 0) || selection->max_worst == 0)
         return false;
-    if (shown->n_worst < shown->most_worst)
+    if (selection->n_worst < selection->max_worst)
         return true;
-    for (size_t i = 0; i < shown->n; i++)
-        if (shown->curve[i].by_error &&
-            (best == shown->n || shown->curve[i].error <= shown->curve[best].error))
+    for (size_t i = 0; i < selection->n; i++)
+        if (selection->curve[i].by_error &&
+            (best == selection->n || selection->curve[i].error <= selection->curve[best].error))
             best = i;
-    if (!(error > shown->curve[best].error))
+    if (!(error > selection->curve[best].error))
         return false;
-    free(shown->curve[best].sample);
-    memmove(&shown->curve[best], &shown->curve[best + 1],
-            (shown->n - best - 1) * sizeof *shown->curve);
-    shown->n--;
-    shown->n_worst--;
+    free(selection->curve[best].sample);
+    memmove(&selection->curve[best], &selection->curve[best + 1],
+            (selection->n - best - 1) * sizeof *selection->curve);
+    selection->n--;
+    selection->n_worst--;
     return true;
 }
 
@@ -112,30 +113,31 @@ static bool is_worst(curve_selection *shown, double error)
 
 /* Origin of positions and forces: the contact point, or the first sample if there is no contact
  * point. */
-typedef struct origin {
+typedef struct segment_origin {
     double direction, position, force, tilt, spring_constant;
-} origin;
+} segment_origin;
 
-static origin origin_of(const wt_indent_fit *fit, const wt_segment *approach, double k)
+static segment_origin find_segment_origin(const wt_indent_fit *fit, const wt_segment *approach,
+                                          double k)
 {
     const double *height = segment_height(approach);
     const size_t n = approach->n_points;
     if (isfinite(fit->contact_point.value) && isfinite(fit->direction))
-        return (origin){fit->direction, fit->contact_point.value, fit->baseline_offset.value,
-                        fit->baseline_tilt.value, k};
+        return (segment_origin){fit->direction, fit->contact_point.value,
+                                fit->baseline_offset.value, fit->baseline_tilt.value, k};
     size_t first = 0, last = n;
     while (first < n && !isfinite(height[first]))
         first++;
     while (last > first && !isfinite(height[last - 1]))
         last--;
     if (first >= last)
-        return (origin){1, 0, 0, 0, k};
+        return (segment_origin){1, 0, 0, 0, k};
     const double direction = height[last - 1] < height[first] ? -1 : 1;
-    return (origin){direction, direction * height[first], 0, 0, k};
+    return (segment_origin){direction, direction * height[first], 0, 0, k};
 }
 
-static selected_sample sample_at(const origin *from, const wt_segment *segment, const double *force,
-                                 size_t i)
+static selected_sample convert_sample(const segment_origin *from, const wt_segment *segment,
+                                      const double *force, size_t i)
 {
     const double z = from->direction * segment_height(segment)[i] - from->position;
     const double f = force[i] - from->force - from->tilt * z;
@@ -144,7 +146,7 @@ static selected_sample sample_at(const origin *from, const wt_segment *segment, 
 }
 
 /* Appends at most 2 samples of each bin, in their order. */
-static void thin(const selected_sample *from, size_t n, size_t bins, selected_curve *to)
+static void thin_samples(const selected_sample *from, size_t n, size_t bins, selected_curve *to)
 {
     if (n <= 2 * bins) {
         for (size_t i = 0; i < n; i++)
@@ -172,29 +174,29 @@ typedef struct selection_scratch {
 } selection_scratch;
 
 /* Collects the finite samples of a segment and returns their number. */
-static size_t take_samples(const origin *from, const wt_segment *segment, const double *force,
-                           selected_sample *to)
+static size_t collect_samples(const segment_origin *from, const wt_segment *segment,
+                              const double *force, selected_sample *to)
 {
     const double *height = segment_height(segment);
     size_t n = 0;
     for (size_t i = 0; i < segment->n_points; i++)
         if (isfinite(height[i]) && isfinite(force[i]))
-            to[n++] = sample_at(from, segment, force, i);
+            to[n++] = convert_sample(from, segment, force, i);
     return n;
 }
 
 /* Sets the fitted forces: 0 on the baseline, the contact law in contact. `first` receives the first
  * sample in contact. */
-static wt_status add_fit(const wt_indent_fit *fit, const wt_indent_options *options,
-                         const wt_contact_table *contact, const wt_segment *approach,
-                         const double *force, const origin *from, selection_scratch *s, size_t n,
-                         size_t *first, wt_error *err)
+static wt_status add_fitted_forces(const wt_indent_fit *fit, const wt_indent_options *options,
+                                   const wt_contact_table *contact, const wt_segment *approach,
+                                   const double *force, const segment_origin *from,
+                                   selection_scratch *s, size_t n, size_t *first, wt_error *err)
 {
     *first = n;
     if (!isfinite(fit->modulus.value) || !isfinite(fit->contact_point.value))
         return WT_OK;
-    const size_t m = wt_indent_curve(fit, segment_height(approach), force, approach->n_points,
-                                     from->spring_constant, s->delta, s->out);
+    const size_t m = wt_indent_plot_points(fit, segment_height(approach), force, approach->n_points,
+                                           from->spring_constant, s->delta, s->out);
     const wt_status status =
         fitted_forces(fit, options, contact, approach, s->delta, m, s->time, s->model, err);
     size_t j = 0;
@@ -207,43 +209,45 @@ static wt_status add_fit(const wt_indent_fit *fit, const wt_indent_options *opti
     return status;
 }
 
-static wt_status add_samples(selected_curve *to, const wt_force_curve *curve,
-                             const wt_indent_fit *fit, const wt_contact_table *contact,
-                             const wt_indent_options *options, selection_scratch *s, wt_error *err)
+static wt_status add_curve_samples(selected_curve *to, const wt_force_curve *curve,
+                                   const wt_indent_fit *fit, const wt_contact_table *contact,
+                                   const wt_indent_options *options, selection_scratch *s,
+                                   wt_error *err)
 {
     const wt_segment *approach = wt_force_curve_segment(curve, WT_SEGMENT_APPROACH);
     const wt_segment *retract = wt_force_curve_segment(curve, WT_SEGMENT_RETRACT);
     const double *force = segment_force(approach, &curve->cantilever, s->force);
     if (force == NULL)
         return WT_OK;
-    const origin from = origin_of(fit, approach, curve->cantilever.spring_constant);
-    size_t first = 0, n = take_samples(&from, approach, force, s->sample);
+    const segment_origin from =
+        find_segment_origin(fit, approach, curve->cantilever.spring_constant);
+    size_t first = 0, n = collect_samples(&from, approach, force, s->sample);
     const wt_status status =
-        add_fit(fit, options, contact, approach, force, &from, s, n, &first, err);
+        add_fitted_forces(fit, options, contact, approach, force, &from, s, n, &first, err);
     if (status != WT_OK)
         return status;
     if (first == n) /* without contact, all samples have equal density */
         first = n * BINS_BEFORE / (BINS_BEFORE + BINS_CONTACT);
-    thin(s->sample, first, BINS_BEFORE, to);
-    thin(s->sample + first, n - first, BINS_CONTACT, to);
+    thin_samples(s->sample, first, BINS_BEFORE, to);
+    thin_samples(s->sample + first, n - first, BINS_CONTACT, to);
     force = retract == NULL || segment_height(retract) == NULL
                 ? NULL
                 : segment_force(retract, &curve->cantilever, s->force);
     if (force == NULL)
         return WT_OK;
-    n = take_samples(&from, retract, force, s->sample);
+    n = collect_samples(&from, retract, force, s->sample);
     for (first = 0; first < n && s->sample[first].displacement >= 0;)
         first++;
     if (first == n)
         first = n / 2;
-    thin(s->sample, first, BINS_RETRACT, to);
-    thin(s->sample + first, n - first, BINS_RETRACT, to);
+    thin_samples(s->sample, first, BINS_RETRACT, to);
+    thin_samples(s->sample + first, n - first, BINS_RETRACT, to);
     return WT_OK;
 }
 
-static wt_status keep_samples(selected_curve *to, const wt_force_curve *curve,
-                              const wt_indent_fit *fit, const wt_contact_table *contact,
-                              const wt_indent_options *options, wt_error *err)
+static wt_status store_samples(selected_curve *to, const wt_force_curve *curve,
+                               const wt_indent_fit *fit, const wt_contact_table *contact,
+                               const wt_indent_options *options, wt_error *err)
 {
     const size_t arrays = 5, most = 2 * (BINS_BEFORE + BINS_CONTACT + 2 * BINS_RETRACT);
     const wt_segment *approach = wt_force_curve_segment(curve, WT_SEGMENT_APPROACH);
@@ -263,55 +267,56 @@ static wt_status keep_samples(selected_curve *to, const wt_force_curve *curve,
     to->sample = malloc(most * sizeof *to->sample);
     wt_status status = numbers == NULL || s.sample == NULL || to->sample == NULL
                            ? wt_fail(err, WT_E_MEMORY, "out of memory for the curves to look at")
-                           : add_samples(to, curve, fit, contact, options, &s, err);
+                           : add_curve_samples(to, curve, fit, contact, options, &s, err);
     free(numbers);
     free(s.sample);
     return status;
 }
 
-wt_status curve_selection_add(curve_selection *shown, const flow_file *file,
+wt_status curve_selection_add(curve_selection *selection, const flow_file *file,
                               const wt_force_curve *curve, const wt_indent_fit *fit,
                               const wt_contact_table *contact, const wt_indent_options *options,
                               wt_error *err)
 {
-    if (shown->n_words == 0)
+    if (selection->n_terms == 0)
         return WT_OK;
-    const bool usable = wt_curve_usable(fit->verdict);
-    const bool named = is_named(shown, file, curve->index);
+    const bool usable = wt_curve_verdict_is_usable(fit->verdict);
+    const bool is_match = match_named_terms(selection, file, curve->index);
     selected_curve kept = {.file = file->name, .curve = curve->index};
     if (usable)
         kept.error = fit->modulus.standard_error / fit->modulus.value;
-    if (!named && !shown->all && !(shown->rejected && !usable)) {
-        if (!usable || !is_worst(shown, kept.error))
+    if (!is_match && !selection->all && !(selection->rejected && !usable)) {
+        if (!usable || !is_among_worst(selection, kept.error))
             return WT_OK;
         kept.by_error = true;
     }
-    selected_curve *grown = array_grow(shown->curve, shown->n, sizeof *grown);
+    selected_curve *grown = array_grow(selection->curve, selection->n, sizeof *grown);
     if (grown == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory for the curves to look at");
-    shown->curve = grown;
-    const wt_status status = keep_samples(&kept, curve, fit, contact, options, err);
-    shown->n_worst += kept.by_error;
-    shown->curve[shown->n++] = kept;
+    selection->curve = grown;
+    const wt_status status = store_samples(&kept, curve, fit, contact, options, err);
+    selection->n_worst += kept.by_error;
+    selection->curve[selection->n++] = kept;
     return status;
 }
 
 /* ---- the table ------------------------------------------------------------------------------- */
 
-wt_status curve_selection_table(const curve_selection *shown, const char *group, wt_table **table,
-                                wt_error *err)
+wt_status curve_selection_table(const curve_selection *selection, const char *group,
+                                wt_table **table, wt_error *err)
 {
-    for (size_t i = 0; i < shown->n_words; i++) {
-        if (shown->met[i] || number_in(shown->words[i]) == NULL ||
-            strncmp(shown->words[i], worst, strlen(worst)) == 0)
+    for (size_t i = 0; i < selection->n_terms; i++) {
+        if (selection->matched[i] || curve_number_text(selection->terms[i]) == NULL ||
+            strncmp(selection->terms[i], worst_prefix, strlen(worst_prefix)) == 0)
             continue;
-        const wt_status status = wt_fail(
-            err, WT_E_NOT_FOUND, "no curve of the group \"%s\" is '%s'", group, shown->words[i]);
+        const wt_status status =
+            wt_fail(err, WT_E_NOT_FOUND, "no curve of the group \"%s\" is '%s'", group,
+                    selection->terms[i]);
         wt_error_advice(err, "the columns file and curve of the table indentation/%s name them all",
                         group);
         return status;
     }
-    if (shown->n == 0)
+    if (selection->n == 0)
         return WT_OK;
     table_writer t = {0};
     if (*table == NULL) {
@@ -320,8 +325,8 @@ wt_status curve_selection_table(const curve_selection *shown, const char *group,
             return t.status;
     }
     t = table_continue(*table, &curves_schema, group, err);
-    for (size_t i = 0; i < shown->n; i++) {
-        const selected_curve *c = &shown->curve[i];
+    for (size_t i = 0; i < selection->n; i++) {
+        const selected_curve *c = &selection->curve[i];
         table_block(&t);
         for (size_t j = 0; j < c->n; j++) {
             const selected_sample *s = &c->sample[j];
@@ -332,11 +337,11 @@ wt_status curve_selection_table(const curve_selection *shown, const char *group,
     return table_end(&t, NULL);
 }
 
-void curve_selection_clear(curve_selection *shown)
+void curve_selection_clear(curve_selection *selection)
 {
-    for (size_t i = 0; i < shown->n; i++)
-        free(shown->curve[i].sample);
-    free(shown->curve);
-    free(shown->met);
-    *shown = (curve_selection){0};
+    for (size_t i = 0; i < selection->n; i++)
+        free(selection->curve[i].sample);
+    free(selection->curve);
+    free(selection->matched);
+    *selection = (curve_selection){0};
 }

@@ -15,17 +15,17 @@
 #include <string.h>
 
 /* Upper limit of the samples that one replicate fits in about a second. */
-#define MOST_SAMPLES ((size_t)1 << 20)
+#define MAX_SIMULATED_SAMPLES ((size_t)1 << 20)
 
-enum { IN, OUT, WAYS };
+enum { APPROACH, RETRACT, BRANCHES };
 
 typedef struct stored_curve {
     wt_indent_fit fit;
     double spring_constant;
-    size_t n[WAYS];
-    double *position[WAYS]; /* [m]; rises on approach, falls on retract */
-    double *time[WAYS]; /* [s]; the times of the retract continue those of the approach; NULL if not
-                           known */
+    size_t n[BRANCHES];
+    double *position[BRANCHES]; /* [m]; rises on approach, falls on retract */
+    double *time[BRANCHES]; /* [s]; the times of the retract continue those of the approach; NULL if
+                           not known */
     double *block;
 } stored_curve;
 
@@ -35,7 +35,7 @@ struct wt_curve_set {
     double temperature;
     stored_curve *curves;
     size_t n, samples;
-    bool useless;
+    bool is_unusable;
 };
 
 wt_curve_set *wt_curve_set_new(void)
@@ -60,16 +60,16 @@ void wt_curve_set_free(wt_curve_set *set)
     free(set);
 }
 
-wt_status curve_set_give_up(wt_curve_set *set)
+wt_status curve_set_mark_unusable(wt_curve_set *set)
 {
     clear_curves(set);
-    set->useless = true;
+    set->is_unusable = true;
     return WT_OK;
 }
 
 size_t curve_set_size(const wt_curve_set *set)
 {
-    return set != NULL && !set->useless ? set->n : 0;
+    return set != NULL && !set->is_unusable ? set->n : 0;
 }
 
 const wt_tip *curve_set_tip(const wt_curve_set *set)
@@ -90,7 +90,7 @@ bool curve_set_has_spectrum(const wt_curve_set *set)
     return set->n > 0;
 }
 
-static double relative_error(wt_estimate e)
+static double estimate_relative_error(wt_estimate e)
 {
     return e.standard_error / e.value;
 }
@@ -99,7 +99,7 @@ double curve_set_variance(const wt_curve_set *set)
 {
     double sum = 0;
     for (size_t i = 0; i < set->n; i++)
-        sum += pow(relative_error(set->curves[i].fit.modulus), 2);
+        sum += pow(estimate_relative_error(set->curves[i].fit.modulus), 2);
     return sum / (double)set->n;
 }
 
@@ -115,8 +115,8 @@ void curve_set_begin(wt_curve_set *set, const wt_indent_job *job)
 
 /* Stores sorted positions, because the noise of the height is not noise of the piezo, and times.
  * Returns the number of samples, or 0 if the branch has no height. */
-static size_t keep_way(const wt_segment *segment, double direction, double *position, double *time,
-                       bool *timed)
+static size_t store_branch(const wt_segment *segment, double direction, double *position,
+                           double *time, bool *timed)
 {
     const double *height = segment != NULL ? segment_height(segment) : NULL;
     const double *at = height != NULL ? segment_time(segment, time) : NULL;
@@ -139,15 +139,16 @@ static size_t keep_way(const wt_segment *segment, double direction, double *posi
 /* Shifts the times of the retract so that it begins one step after the approach ends. */
 static void join_times(stored_curve *k)
 {
-    const size_t n = k->n[IN];
-    if (k->n[OUT] == 0)
+    const size_t n = k->n[APPROACH];
+    if (k->n[RETRACT] == 0)
         return;
-    const double shift = 2 * k->time[IN][n - 1] - k->time[IN][n - 2] - k->time[OUT][0];
-    for (size_t i = 0; i < k->n[OUT]; i++)
-        k->time[OUT][i] += shift;
+    const double shift =
+        2 * k->time[APPROACH][n - 1] - k->time[APPROACH][n - 2] - k->time[RETRACT][0];
+    for (size_t i = 0; i < k->n[RETRACT]; i++)
+        k->time[RETRACT][i] += shift;
 }
 
-static bool has_memory(const wt_indent_fit *fit)
+static bool has_relaxation(const wt_indent_fit *fit)
 {
     return fit->spectrum_factor.value > 0 || fit->loss_power > 0;
 }
@@ -155,18 +156,19 @@ static bool has_memory(const wt_indent_fit *fit)
 wt_status curve_set_add(wt_curve_set *set, const wt_force_curve *curve, const wt_indent_fit *fit,
                         wt_error *err)
 {
-    const wt_segment *way[WAYS] = {wt_force_curve_segment(curve, WT_SEGMENT_APPROACH),
-                                   wt_force_curve_segment(curve, WT_SEGMENT_RETRACT)};
-    const size_t n[WAYS] = {way[IN] != NULL ? way[IN]->n_points : 0,
-                            way[OUT] != NULL ? way[OUT]->n_points : 0};
-    set->samples += n[IN] + n[OUT];
-    set->useless = set->useless || set->samples > MOST_SAMPLES || fit->work_of_adhesion.value > 0;
-    if (set->useless) {
+    const wt_segment *branch[BRANCHES] = {wt_force_curve_segment(curve, WT_SEGMENT_APPROACH),
+                                          wt_force_curve_segment(curve, WT_SEGMENT_RETRACT)};
+    const size_t n[BRANCHES] = {branch[APPROACH] != NULL ? branch[APPROACH]->n_points : 0,
+                                branch[RETRACT] != NULL ? branch[RETRACT]->n_points : 0};
+    set->samples += n[APPROACH] + n[RETRACT];
+    set->is_unusable =
+        set->is_unusable || set->samples > MAX_SIMULATED_SAMPLES || fit->work_of_adhesion.value > 0;
+    if (set->is_unusable) {
         clear_curves(set);
         return WT_OK;
     }
     stored_curve *curves = array_grow(set->curves, set->n, sizeof *curves);
-    double *block = malloc(2 * (n[IN] + n[OUT] + 1) * sizeof *block), *next = block;
+    double *block = malloc(2 * (n[APPROACH] + n[RETRACT] + 1) * sizeof *block), *next = block;
     if (curves != NULL)
         set->curves = curves;
     if (curves == NULL || block == NULL) {
@@ -176,20 +178,20 @@ wt_status curve_set_add(wt_curve_set *set, const wt_force_curve *curve, const wt
     stored_curve *k = &curves[set->n++];
     *k = (stored_curve){
         .fit = *fit, .spring_constant = curve->cantilever.spring_constant, .block = block};
-    bool timed[WAYS];
-    for (int w = 0; w < WAYS; w++) {
+    bool timed[BRANCHES];
+    for (int w = 0; w < BRANCHES; w++) {
         k->position[w] = next;
         k->time[w] = next + n[w];
         next += 2 * n[w];
-        k->n[w] = keep_way(way[w], fit->direction, k->position[w], k->time[w], &timed[w]);
+        k->n[w] = store_branch(branch[w], fit->direction, k->position[w], k->time[w], &timed[w]);
     }
-    numbers_reverse(k->position[OUT], k->n[OUT]);
-    if (timed[IN] && (timed[OUT] || k->n[OUT] == 0) && k->n[IN] > 1)
+    numbers_reverse(k->position[RETRACT], k->n[RETRACT]);
+    if (timed[APPROACH] && (timed[RETRACT] || k->n[RETRACT] == 0) && k->n[APPROACH] > 1)
         join_times(k);
-    else if (has_memory(fit))
-        set->useless = true;
+    else if (has_relaxation(fit))
+        set->is_unusable = true;
     else
-        k->time[IN] = k->time[OUT] = NULL;
+        k->time[APPROACH] = k->time[RETRACT] = NULL;
     return WT_OK;
 }
 
@@ -198,8 +200,8 @@ wt_status curve_set_add(wt_curve_set *set, const wt_force_curve *curve, const wt
 struct curve_scratch {
     wt_indent_workspace *workspace;
     hereditary law;
-    double *force[WAYS];        /* forces of the samples */
-    double *base, *time, *push; /* samples in contact, both branches */
+    double *force[BRANCHES];             /* forces of the samples */
+    double *base, *time, *contact_force; /* samples in contact, both branches */
     double *block;
 };
 
@@ -212,7 +214,7 @@ curve_scratch *curve_scratch_new(const wt_curve_set *const sets[2])
     for (int g = 0; g < 2; g++)
         for (size_t i = 0; i < curve_set_size(sets[g]); i++) {
             const stored_curve *k = &sets[g]->curves[i];
-            most = k->n[IN] + k->n[OUT] > most ? k->n[IN] + k->n[OUT] : most;
+            most = k->n[APPROACH] + k->n[RETRACT] > most ? k->n[APPROACH] + k->n[RETRACT] : most;
         }
     s->workspace = wt_indent_workspace_new();
     s->block = malloc(4 * (most + 2) * sizeof *s->block);
@@ -222,8 +224,8 @@ curve_scratch *curve_scratch_new(const wt_curve_set *const sets[2])
     }
     s->base = s->block;
     s->time = s->base + most + 2;
-    s->push = s->time + most + 2;
-    s->force[IN] = s->push + most + 2;
+    s->contact_force = s->time + most + 2;
+    s->force[APPROACH] = s->contact_force + most + 2;
     return s;
 }
 
@@ -239,41 +241,45 @@ void curve_scratch_free(curve_scratch *s)
 
 /* Collects the samples in contact after the moment of contact. `first` receives the first sample of
  * each branch. */
-static size_t in_contact(const stored_curve *k, curve_scratch *s, size_t first[WAYS])
+static size_t collect_contact_samples(const stored_curve *k, curve_scratch *s,
+                                      size_t first[BRANCHES])
 {
-    const double contact = k->fit.contact_point.value, *x = k->position[IN];
+    const double contact = k->fit.contact_point.value, *x = k->position[APPROACH];
     size_t n = 0, i = 0;
-    while (i < k->n[IN] && !(x[i] > contact))
+    while (i < k->n[APPROACH] && !(x[i] > contact))
         i++;
-    first[IN] = i;
-    first[OUT] = 0;
+    first[APPROACH] = i;
+    first[RETRACT] = 0;
     const double step = i > 0 ? (contact - x[i - 1]) / (x[i] - x[i - 1]) : 0;
-#define TIME(w, i) (k->time[w] != NULL ? k->time[w][i] : (double)((w) == IN ? (i) : k->n[IN] + (i)))
-    const double before = i > 0 ? TIME(IN, i - 1) : TIME(IN, 0) - 1;
+#define SAMPLE_TIME(w, i)                                                                          \
+    (k->time[w] != NULL ? k->time[w][i] : (double)((w) == APPROACH ? (i) : k->n[APPROACH] + (i)))
+    const double before = i > 0 ? SAMPLE_TIME(APPROACH, i - 1) : SAMPLE_TIME(APPROACH, 0) - 1;
     s->base[n] = 0;
-    s->time[n++] = i < k->n[IN] ? before + step * (TIME(IN, i) - before) : before;
-    for (int w = 0; w < WAYS; w++)
+    s->time[n++] =
+        i < k->n[APPROACH] ? before + step * (SAMPLE_TIME(APPROACH, i) - before) : before;
+    for (int w = 0; w < BRANCHES; w++)
         for (i = first[w]; i < k->n[w] && k->position[w][i] > contact; i++) {
             s->base[n] = k->position[w][i] - contact;
-            s->time[n++] = TIME(w, i);
+            s->time[n++] = SAMPLE_TIME(w, i);
         }
-#undef TIME
+#undef SAMPLE_TIME
     return n;
 }
 
 /* Prepares the relaxation series with the moduli of the simulated curve. */
-static wt_status begin_law(const wt_curve_set *set, const stored_curve *k, double level,
-                           const wt_prony *made, size_t n, curve_scratch *s, wt_error *err)
+static wt_status begin_hereditary_law(const wt_curve_set *set, const stored_curve *k, double level,
+                                      const wt_prony *true_spectrum, size_t n, curve_scratch *s,
+                                      wt_error *err)
 {
     const double reduced = 1 - set->options.poisson_ratio * set->options.poisson_ratio;
     const wt_prony elastic = {.equilibrium_modulus = 1};
     const wt_prony *series = &elastic;
     double scale = level / reduced, shortest = (double)INFINITY;
     curve_power power;
-    if (k->fit.spectrum_factor.value > 0 && made != NULL) {
-        series = made;
+    if (k->fit.spectrum_factor.value > 0 && true_spectrum != NULL) {
+        series = true_spectrum;
     } else if (k->fit.loss_power > 0) {
-        curve_power_make(&power, k->fit.loss_power, k->fit.load_time);
+        curve_power_create(&power, k->fit.loss_power, k->fit.load_time);
         scale /= (1 + k->fit.loss_shift) * hereditary_modulus(&power.series, 1 / k->fit.load_time);
         series = &power.series;
     }
@@ -287,55 +293,60 @@ static wt_status begin_law(const wt_curve_set *set, const stored_curve *k, doubl
 
 /* Computes the simulated forces: baseline, contact force and noise. The ratio of slow to fast noise
  * is that of the measured curve. */
-static void add_noise(const stored_curve *k, const size_t first[WAYS], size_t n, uint64_t seed,
-                      size_t place, curve_scratch *s)
+static void simulate_forces(const stored_curve *k, const size_t first[BRANCHES], size_t n,
+                            uint64_t seed, size_t curve_index, curve_scratch *s)
 {
     const wt_indent_fit *fit = &k->fit;
     const double length = fit->correlation_length > 1 ? fit->correlation_length : 1;
-    const double kept = (length - 1) / (length + 1), rest = sqrt(1 - kept * kept);
+    const double correlation = (length - 1) / (length + 1),
+                 innovation = sqrt(1 - correlation * correlation);
     size_t at = 1, draw = 0;
     double noise = 0;
-    s->force[OUT] = s->force[IN] + k->n[IN];
-    for (int w = 0; w < WAYS; w++)
+    s->force[RETRACT] = s->force[APPROACH] + k->n[APPROACH];
+    for (int w = 0; w < BRANCHES; w++)
         for (size_t i = 0; i < k->n[w]; i++) {
             const double x = k->position[w][i] - fit->contact_point.value;
-            const double z = flow_draw_normal(seed, (place << 24) + draw++, FLOW_DRAW_FORCE);
-            noise = draw == 1 ? z : kept * noise + rest * z;
+            const double z = flow_draw_normal(seed, (curve_index << 24) + draw++, FLOW_DRAW_FORCE);
+            noise = draw == 1 ? z : correlation * noise + innovation * z;
             s->force[w][i] =
                 fit->baseline_offset.value + fit->baseline_tilt.value * x + fit->noise * noise;
             if (i >= first[w] && x > 0 && at < n)
-                s->force[w][i] += s->push[at++];
+                s->force[w][i] += s->contact_force[at++];
         }
 }
 
-wt_status curve_set_try(const wt_curve_set *set, size_t i, double level, const wt_prony *made,
-                        const wt_prony *fitted, const wt_contact_table *contact, uint64_t seed,
-                        curve_scratch *s, curve_again *again, wt_error *err)
+wt_status curve_set_simulate_fit(const wt_curve_set *set, size_t i, double level,
+                                 const wt_prony *true_spectrum, const wt_prony *fitted_spectrum,
+                                 const wt_contact_table *contact, uint64_t seed, curve_scratch *s,
+                                 simulated_fit *result, wt_error *err)
 {
     const stored_curve *k = &set->curves[i];
     wt_indent_options options = set->options;
     wt_indent_fit fit;
-    size_t first[WAYS];
-    const size_t n = in_contact(k, s, first);
-    wt_status status = begin_law(set, k, level, made, n, s, err);
+    size_t first[BRANCHES];
+    const size_t n = collect_contact_samples(k, s, first);
+    wt_status status = begin_hereditary_law(set, k, level, true_spectrum, n, s, err);
     if (status == WT_OK)
         status = hereditary_loop(&s->law, contact, 1 / k->spring_constant, s->time, s->base, n,
-                                 s->push, err);
+                                 s->contact_force, err);
     if (status != WT_OK)
         return status;
-    add_noise(k, first, n, seed, i, s);
-    options.spectrum = fitted;
-    const curve_branch in = {k->position[IN], s->force[IN], k->time[IN], k->n[IN]},
-                       out = {k->position[OUT], s->force[OUT], k->time[OUT], k->n[OUT]};
+    simulate_forces(k, first, n, seed, i, s);
+    options.spectrum = fitted_spectrum;
+    const curve_branch in = {k->position[APPROACH], s->force[APPROACH], k->time[APPROACH],
+                             k->n[APPROACH]},
+                       out = {k->position[RETRACT], s->force[RETRACT], k->time[RETRACT],
+                              k->n[RETRACT]};
     status = curve_fit_branches(contact, &options, &in, &out, k->spring_constant, s->workspace,
                                 &fit, err);
     if (status != WT_OK)
         return status;
-    const wt_estimate found = fitted != NULL ? fit.spectrum_factor : fit.modulus;
-    *again = (curve_again){.accepted = wt_curve_usable(fit.verdict) && found.value > 0,
-                           .level = found.value,
-                           .log_level = {log(found.value / level), relative_error(found), 0, "1"},
-                           .contact_point = fit.contact_point};
-    again->contact_point.value -= k->fit.contact_point.value;
+    const wt_estimate found = fitted_spectrum != NULL ? fit.spectrum_factor : fit.modulus;
+    *result = (simulated_fit){
+        .accepted = wt_curve_verdict_is_usable(fit.verdict) && found.value > 0,
+        .level = found.value,
+        .log_level = {log(found.value / level), estimate_relative_error(found), 0, "1"},
+        .contact_point = fit.contact_point};
+    result->contact_point.value -= k->fit.contact_point.value;
     return WT_OK;
 }

@@ -14,7 +14,7 @@ wt_status curve_set_add(wt_curve_set *set, const wt_force_curve *curve, const wt
 
 /* Marks the set as unusable because the simulation does not support one of its curves. Returns
  * WT_OK. */
-wt_status curve_set_give_up(wt_curve_set *set) WT_NODISCARD;
+wt_status curve_set_mark_unusable(wt_curve_set *set) WT_NODISCARD;
 
 /* Returns the number of curves, or 0 if they cannot be simulated. */
 size_t curve_set_size(const wt_curve_set *set);
@@ -32,19 +32,21 @@ curve_scratch *curve_scratch_new(const wt_curve_set *const sets[2]);
 void curve_scratch_free(curve_scratch *scratch);
 
 /* Result of the fit of one simulated curve. */
-typedef struct curve_again {
+typedef struct simulated_fit {
     bool accepted;
     double level; /* modulus [Pa], or factor on the spectrum */
     wt_estimate log_level,
         contact_point; /* natural logarithm; difference to the true contact point [m] */
-} curve_again;
+} simulated_fit;
 
 /* Simulates and fits curve i with a true `level`. Cantilever and viscoelastic rubber are in
  * equilibrium on approach and retract. The baseline, the noise level and its correlation are those
  * of the measured curve. The two spectra are those of the simulation and of the fit; NULL means no
  * spectrum. */
-wt_status curve_set_try(const wt_curve_set *set, size_t i, double level, const wt_prony *made,
-                        const wt_prony *fitted, const wt_contact_table *contact, uint64_t seed,
-                        curve_scratch *scratch, curve_again *again, wt_error *err) WT_NODISCARD;
+wt_status curve_set_simulate_fit(const wt_curve_set *set, size_t i, double level,
+                                 const wt_prony *true_spectrum, const wt_prony *fitted_spectrum,
+                                 const wt_contact_table *contact, uint64_t seed,
+                                 curve_scratch *scratch, simulated_fit *result,
+                                 wt_error *err) WT_NODISCARD;
 
 #endif

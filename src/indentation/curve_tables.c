@@ -31,8 +31,8 @@ static table_writer next_block(wt_table **table, const table_schema *schema, con
     return t;
 }
 
-static void set_keys(table_writer *t, const char *file, const wt_force_curve *curve,
-                     const wt_indent_fit *fit)
+static void set_force_displacement_keys(table_writer *t, const char *file,
+                                        const wt_force_curve *curve, const wt_indent_fit *fit)
 {
     force_displacement_set_print(t, FORCE_DISPLACEMENT_KEY_CURVE, "%s curve %zu", file,
                                  curve->index);
@@ -42,8 +42,8 @@ static void set_keys(table_writer *t, const char *file, const wt_force_curve *cu
                                  fit->baseline_offset.standard_error, 0);
 }
 
-static void add_segment(table_writer *t, const wt_segment *segment, const wt_indent_fit *fit,
-                        const double *force)
+static void add_displacement_segment(table_writer *t, const wt_segment *segment,
+                                     const wt_indent_fit *fit, const double *force)
 {
     const double *height = segment_height(segment);
     for (size_t i = 0; height != NULL && i < segment->n_points; i++) {
@@ -81,10 +81,10 @@ wt_status flow_curve_tables_add(wt_indent_tables *tables, const char *group, con
     }
     table_writer whole =
         next_block(&tables->force_displacement, &force_displacement_schema, group, err);
-    set_keys(&whole, file, curve, fit);
-    add_segment(&whole, approach, fit, force);
+    set_force_displacement_keys(&whole, file, curve, fit);
+    add_displacement_segment(&whole, approach, fit, force);
 
-    size_t n = wt_indent_curve(fit, height, force, approach->n_points, k, delta, shown);
+    size_t n = wt_indent_plot_points(fit, height, force, approach->n_points, k, delta, shown);
     wt_status status = fitted_forces(fit, options, contact, approach, delta, n, time, model, err);
     if (status == WT_OK) {
         table_writer branch =
@@ -93,7 +93,7 @@ wt_status flow_curve_tables_add(wt_indent_tables *tables, const char *group, con
             TABLE_ADD(force_indentation, &branch, group, delta[i], shown[i], model[i]);
         force = retract == NULL ? NULL : segment_force(retract, &curve->cantilever, scratch);
         if (force != NULL)
-            add_segment(&whole, retract, fit, force);
+            add_displacement_segment(&whole, retract, fit, force);
         status = table_end(&whole, NULL);
         if (status == WT_OK)
             status = table_end(&branch, NULL);
@@ -121,11 +121,11 @@ static double equivalent_frequency(const wt_indent_job *job, const wt_indent_fit
 }
 
 TABLE_ROW(indentation, INDENTATION, const char *file, *spot, *verdict; size_t curve;
-          double x, y, equivalent_frequency; wt_indent_fit fit; wt_depth_curve deep;)
+          double x, y, equivalent_frequency; wt_indent_fit fit; wt_curve_residuals deep;)
 
-void flow_indentation_row(table_writer *t, const wt_indent_job *job, const char *file,
-                          const char *spot, const wt_force_curve *curve, const wt_indent_fit *fit,
-                          const wt_depth_curve *deep)
+void flow_indentation_row_add(table_writer *t, const wt_indent_job *job, const char *file,
+                              const char *spot, const wt_force_curve *curve,
+                              const wt_indent_fit *fit, const wt_curve_residuals *deep)
 {
     indentation_row row = {.file = file,
                            .spot = spot,

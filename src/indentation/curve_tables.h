@@ -7,9 +7,9 @@
 #include "weartrack/flow.h"
 
 /* Adds the results of one curve as a row. `deep` has its data on the modulus against depth. */
-void flow_indentation_row(table_writer *t, const wt_indent_job *job, const char *file,
-                          const char *spot, const wt_force_curve *curve, const wt_indent_fit *fit,
-                          const wt_depth_curve *deep);
+void flow_indentation_row_add(table_writer *t, const wt_indent_job *job, const char *file,
+                              const char *spot, const wt_force_curve *curve,
+                              const wt_indent_fit *fit, const wt_curve_residuals *deep);
 
 /* Appends the whole curve (approach and retract) and its contact part with the fit to the curve
  * tables of `tables`. The function creates tables that are NULL. `options` are those of the fit. */
@@ -20,6 +20,6 @@ wt_status flow_curve_tables_add(wt_indent_tables *tables, const char *group, con
 
 /* Appends the modulus against depth of a group. */
 wt_status flow_depth_table_add(wt_indent_tables *tables, const char *group,
-                               const wt_curve_depth *depth, wt_error *err) WT_NODISCARD;
+                               const wt_modulus_profile *depth, wt_error *err) WT_NODISCARD;
 
 #endif

@@ -13,53 +13,53 @@ TABLE_ROW(modulus_depth, MODULUS_DEPTH, const char *group; double depth; wt_inte
 TABLE_KEYS(modulus_depth, MODULUS_DEPTH, const char *changes, *reading; wt_interval ratio;
            double chance, misfit_p;)
 
-typedef struct depth_words {
+typedef struct depth_text {
     char text[48];
-} depth_words;
+} depth_text;
 
-static depth_words format_si_value(double value, const char *unit)
+static depth_text format_si_value(double value, const char *unit)
 {
-    depth_words w;
+    depth_text w;
     wt_format_si(value, unit, 3, w.text, sizeof w.text);
     return w;
 }
 
 /* Returns advice on how to decide. The flag states that the residual is not a change with depth. */
-static const char *depth_advice(const wt_curve_depth *d, bool other)
+static const char *depth_advice(const wt_modulus_profile *d, bool other_misfit)
 {
-    if (d->loss_share > 0.5 || (other && d->loss_share > 0))
+    if (d->loss_share > 0.5 || (other_misfit && d->loss_share > 0))
         return "the DMA of the rubber would tell";
-    if (d->bend_share > 0.5 || (other && d->bend_share > 0))
+    if (d->bend_share > 0.5 || (other_misfit && d->bend_share > 0))
         return "the baselines are bent: a straight piezo, or one that has settled, would tell";
-    return other ? "another tip or rate would tell" : "more curves would tell";
+    return other_misfit ? "another tip or rate would tell" : "more curves would tell";
 }
 
-static void say_change(const wt_curve_depth *d, char text[320])
+static void describe_depth_change(const wt_modulus_profile *d, char text[320])
 {
-    const depth_words shallow = format_si_value(d->depth[0], "m"),
-                      deep = format_si_value(d->depth[WT_DEPTHS - 1], "m");
+    const depth_text shallow = format_si_value(d->depth[0], "m"),
+                     deep = format_si_value(d->depth[WT_DEPTHS - 1], "m");
     const double margin = 100 * WT_DEPTH_MARGIN;
-    const bool small = fabs(log(d->change.low)) < log1p(WT_DEPTH_MARGIN) &&
-                       fabs(log(d->change.high)) < log1p(WT_DEPTH_MARGIN);
+    const bool is_small = fabs(log(d->change.low)) < log1p(WT_DEPTH_MARGIN) &&
+                          fabs(log(d->change.high)) < log1p(WT_DEPTH_MARGIN);
     char range[96];
     clocale_print(range, sizeof range, "%.3f, 95 %% interval %.3f to %.3f", d->change.value,
                   d->change.low, d->change.high);
-    if (d->n_lossy > 0 && d->n_lossy >= d->n)
+    if (d->n_excluded_by_loss > 0 && d->n_excluded_by_loss >= d->n)
         clocale_print(text, 320,
                       "cannot say: %zu of %zu curves lose work on the way out, and what that does "
                       "to their moduli is not known; the DMA of the rubber would tell",
-                      d->n_lossy, d->n + d->n_lossy);
+                      d->n_excluded_by_loss, d->n + d->n_excluded_by_loss);
     else if (isnan(d->change.value))
         clocale_print(text, 320,
                       "cannot say: %zu curves without adhesion do not tell, 12 are "
                       "needed that differ by noise alone",
                       d->n);
-    else if (d->verdict == WT_DEPTH_OTHERWISE)
+    else if (d->verdict == WT_DEPTH_OTHER_RESIDUAL)
         clocale_print(
             text, 320,
             "cannot say: the curves have a residual in common that no modulus that changes "
             "with depth leaves (chance %s); %s",
-            number_chance(d->misfit_p).text, depth_advice(d, true));
+            format_probability(d->misfit_p).text, depth_advice(d, true));
     else if (d->verdict == WT_DEPTH_CHANGES && d->change.low < 1 && d->change.high > 1)
         clocale_print(text, 320,
                       "yes: between %s and %s the modulus changes, by how much and which way the "
@@ -68,7 +68,7 @@ static void say_change(const wt_curve_depth *d, char text[320])
     else if (d->verdict == WT_DEPTH_CHANGES)
         clocale_print(text, 320,
                       "yes%s: at %s the modulus is another than at %s, by a factor of %s",
-                      small ? ", but hardly" : "", deep.text, shallow.text, range);
+                      is_small ? ", but hardly" : "", deep.text, shallow.text, range);
     else if (d->verdict == WT_DEPTH_SAME)
         clocale_print(text, 320,
                       "no: between %s and %s the modulus changes by less than %g %% (factor %s)",
@@ -81,7 +81,7 @@ static void say_change(const wt_curve_depth *d, char text[320])
 }
 
 /* Describes the layer that would cause such a change, and other possible causes. */
-static void say_reading(const wt_curve_depth *d, char text[640])
+static void describe_layer_reading(const wt_modulus_profile *d, char text[640])
 {
     char numbers[256] = "";
     if (!isnan(d->thickness.value))
@@ -104,8 +104,8 @@ static void say_reading(const wt_curve_depth *d, char text[640])
                   numbers);
 }
 
-wt_status flow_depth_table_add(wt_indent_tables *tables, const char *group, const wt_curve_depth *d,
-                               wt_error *err)
+wt_status flow_depth_table_add(wt_indent_tables *tables, const char *group,
+                               const wt_modulus_profile *d, wt_error *err)
 {
     table_writer t = {0};
     char text[320], reading[640];
@@ -116,10 +116,10 @@ wt_status flow_depth_table_add(wt_indent_tables *tables, const char *group, cons
     }
     t = table_continue(tables->modulus_depth, &modulus_depth_schema, group, err);
     table_block(&t);
-    say_change(d, text);
+    describe_depth_change(d, text);
     modulus_depth_keys keys = {text, NULL, d->change, (double)NAN, (double)NAN};
     if (d->verdict == WT_DEPTH_CHANGES) {
-        say_reading(d, reading);
+        describe_layer_reading(d, reading);
         keys.reading = reading;
     }
     if (!isnan(d->change.value)) {

@@ -16,7 +16,7 @@
 #include <string.h>
 
 /* Customary significance level of the misfit. Below it wt_dwell states no standard errors. */
-static const double least_chance = 0.01;
+static const double misfit_p_threshold = 0.01;
 
 void wt_dwell_tables_clear(wt_dwell_tables *tables)
 {
@@ -41,16 +41,16 @@ typedef struct dwell_task {
 /* Returns NaN for a tensile force and for a depth outside the range of the contact law. */
 static double point_modulus(const dwell_task *task, const wt_dwell_point *p, double modulus)
 {
-    const bool tells = p->force > 0 && modulus > 0 && p->indentation > 0 &&
-                       contact_law_holds(&task->job->tip, p->indentation);
-    return tells ? modulus : (double)NAN;
+    const bool is_valid = p->force > 0 && modulus > 0 && p->indentation > 0 &&
+                          contact_law_is_valid(&task->job->tip, p->indentation);
+    return is_valid ? modulus : (double)NAN;
 }
 
 TABLE_ROW(dwell_points, DWELL_POINTS, double time, force, indentation, modulus, fitted_modulus;
           const char *file; size_t curve;)
 
-static void put_points(dwell_task *task, const flow_file *file, const wt_force_curve *curve,
-                       const wt_dwell *dwell)
+static void add_dwell_points(dwell_task *task, const flow_file *file, const wt_force_curve *curve,
+                             const wt_dwell *dwell)
 {
     table_writer *t = &task->points;
     table_block(t);
@@ -66,7 +66,7 @@ TABLE_ROW(dwell_moduli, DWELL_MODULI, const char *file; size_t curve, segment; c
           wt_dwell_moduli moduli;)
 
 /* Writes the moduli to the row of the dwell. */
-static void put_row_moduli(table_writer *t, const wt_dwell_moduli *m)
+static void set_row_moduli(table_writer *t, const wt_dwell_moduli *m)
 {
     dwell_put(t, DWELL_ANGULAR_FREQUENCY, m->angular_frequency);
     dwell_put(t, DWELL_STORAGE, m->storage.value);
@@ -75,8 +75,8 @@ static void put_row_moduli(table_writer *t, const wt_dwell_moduli *m)
     dwell_put(t, DWELL_LOSS_STANDARD_ERROR, m->loss.standard_error);
 }
 
-static void begin_row(dwell_task *task, const flow_file *file, const wt_force_curve *curve,
-                      const wt_segment *s, const char *kind, const char *note)
+static void begin_dwell_row(dwell_task *task, const flow_file *file, const wt_force_curve *curve,
+                            const wt_segment *s, const char *kind, const char *note)
 {
     table_writer *t = &task->rows;
     table_row(t);
@@ -88,22 +88,22 @@ static void begin_row(dwell_task *task, const flow_file *file, const wt_force_cu
 }
 
 /* Writes the remarks on a dwell, or the reason why it has no moduli. */
-static void note_of(const wt_dwell *d, char note[256])
+static void format_dwell_note(const wt_dwell *d, char note[256])
 {
     const char *misfit =
-        d->misfit_p < least_chance
+        d->misfit_p < misfit_p_threshold
             ? "a rubber of a broad spectrum does not describe it; no errors are told"
         : isnan(d->misfit_p) ? "whether a rubber of a broad spectrum describes it could not be "
                                "tested; no errors are told"
                              : "";
-    bool all = true, pushes = true;
+    bool all = true, is_repulsive = true;
     for (size_t i = 0; i < d->n; i++)
-        all = all && dwell_is_modulus(&d->moduli[i]);
+        all = all && dwell_is_valid_modulus(&d->moduli[i]);
     for (size_t i = 0; i < d->n_points; i++)
-        pushes = pushes && d->point[i].force > 0;
+        is_repulsive = is_repulsive && d->point[i].force > 0;
     const char *const parts[] = {d->found ? misfit : d->why_not,
                                  all ? "" : "moduli that are not positive were left out",
-                                 pushes ? "" : "the force falls below the baseline in it"};
+                                 is_repulsive ? "" : "the force falls below the baseline in it"};
     note[0] = '\0';
     for (size_t i = 0; i < COUNT_OF(parts); i++) {
         const size_t used = strlen(note);
@@ -112,14 +112,14 @@ static void note_of(const wt_dwell *d, char note[256])
     }
 }
 
-static void put_dwell(dwell_task *task, const flow_file *file, const wt_force_curve *curve,
-                      const wt_segment *s, const wt_dwell *d)
+static void add_dwell_row(dwell_task *task, const flow_file *file, const wt_force_curve *curve,
+                          const wt_segment *s, const wt_dwell *d)
 {
     table_writer *t = &task->rows;
     const char *kind = d->n_points == 0 ? "" : d->creep ? "creep" : "relaxation";
     char note[256];
-    note_of(d, note);
-    begin_row(task, file, curve, s, kind, note);
+    format_dwell_note(d, note);
+    begin_dwell_row(task, file, curve, s, kind, note);
     if (d->n_points == 0)
         return;
     dwell_put(t, DWELL_LOAD_TIME, d->load_time);
@@ -130,53 +130,53 @@ static void put_dwell(dwell_task *task, const flow_file *file, const wt_force_cu
     dwell_put(t, DWELL_INDENTATION_END, d->point[d->n_points - 1].indentation);
     dwell_put(t, DWELL_MISFIT, d->misfit);
     dwell_put(t, DWELL_MISFIT_CHANCE, d->misfit_p);
-    put_points(task, file, curve, d);
+    add_dwell_points(task, file, curve, d);
     if (!d->found)
         return;
-    if (dwell_is_modulus(&d->moduli[d->n / 2]))
-        put_row_moduli(t, &d->moduli[d->n / 2]);
+    if (dwell_is_valid_modulus(&d->moduli[d->n / 2]))
+        set_row_moduli(t, &d->moduli[d->n / 2]);
     for (size_t i = 0; i < d->n; i++)
-        if (dwell_is_modulus(&d->moduli[i]))
+        if (dwell_is_valid_modulus(&d->moduli[i]))
             TABLE_ADD(dwell_moduli, &task->moduli, file->name, curve->index, s->index, kind,
                       d->moduli[i]);
 }
 
-static void put_modulated(dwell_task *task, const flow_file *file, const wt_force_curve *curve,
-                          const dwell_modulated *m)
+static void add_modulation_row(dwell_task *task, const flow_file *file, const wt_force_curve *curve,
+                               const dwell_modulation *m)
 {
     table_writer *t = &task->rows;
-    begin_row(task, file, curve, m->segment, "modulation", m->note);
+    begin_dwell_row(task, file, curve, m->segment, "modulation", m->note);
     if (!m->found)
         return;
     dwell_put(t, DWELL_FORCE_START, m->above);
     dwell_put(t, DWELL_INDENTATION_START, m->indentation);
     dwell_put(t, DWELL_AMPLITUDE, m->amplitude);
-    put_row_moduli(t, &m->moduli);
+    set_row_moduli(t, &m->moduli);
     TABLE_ADD(dwell_moduli, &task->moduli, file->name, curve->index, m->segment->index,
               "modulation", m->moduli);
 }
 
 /* Fits the held segments after the approach, up to the retract or another motion. */
-static wt_status read_curve(dwell_task *task, const flow_file *file, const wt_force_curve *curve,
-                            wt_error *err)
+static wt_status read_dwell_curve(dwell_task *task, const flow_file *file,
+                                  const wt_force_curve *curve, wt_error *err)
 {
     const wt_segment *const approach = wt_force_curve_segment(curve, WT_SEGMENT_APPROACH);
     const wt_segment *const end = curve->segments + curve->n_segments;
     if (approach == NULL)
         return WT_OK;
     const wt_segment *first = approach + 1;
-    while (first < end && first->kind != WT_SEGMENT_RETRACT && !dwell_is_held(first))
+    while (first < end && first->kind != WT_SEGMENT_RETRACT && !dwell_is_hold_segment(first))
         first++;
-    if (first == end || !dwell_is_held(first))
+    if (first == end || !dwell_is_hold_segment(first))
         return WT_OK;
     wt_indent_fit fit;
-    wt_status status = wt_indent_force_curve(task->contact, &task->job->options, curve,
-                                             task->workspace, &fit, err);
+    wt_status status = wt_indent_fit_force_curve(task->contact, &task->job->options, curve,
+                                                 task->workspace, &fit, err);
     if (status != WT_OK)
         return status;
     task->n_dwells++;
     if (!isfinite(fit.contact_point.value) || !(fit.modulus.value > 0)) {
-        begin_row(task, file, curve, first, "", fit.reason);
+        begin_dwell_row(task, file, curve, first, "", fit.reason);
         return WT_OK;
     }
     status = dwell_curve_fit(task->contact, task->job->options.poisson_ratio, curve, approach,
@@ -184,13 +184,13 @@ static wt_status read_curve(dwell_task *task, const flow_file *file, const wt_fo
     if (status != WT_OK)
         return status;
     table_block(&task->moduli);
-    put_dwell(task, file, curve, first, &task->curve.dwell);
+    add_dwell_row(task, file, curve, first, &task->curve.dwell);
     for (size_t i = 0; i < task->curve.n; i++)
-        put_modulated(task, file, curve, &task->curve.modulated[i]);
+        add_modulation_row(task, file, curve, &task->curve.modulations[i]);
     return WT_OK;
 }
 
-static wt_status read_file(void *user, flow_file *file, size_t i, wt_error *err)
+static wt_status read_dwell_file(void *user, flow_file *file, size_t i, wt_error *err)
 {
     dwell_task *task = user;
     wt_input *input = NULL;
@@ -201,13 +201,13 @@ static wt_status read_file(void *user, flow_file *file, size_t i, wt_error *err)
     wt_read_options options = flow_read_options(file);
     options.want = WT_Q_BIT(WT_Q_HEIGHT) | WT_Q_BIT(WT_Q_MEASURED_HEIGHT) | WT_Q_BIT(WT_Q_FORCE) |
                    WT_Q_BIT(WT_Q_TIME);
-    options.one_height = true;
+    options.sensor_height_only = true;
     if (status == WT_OK)
         status = wt_force_open(task->work->formats, input, &options, task->work->log, &source, err);
     while (status == WT_OK) {
         status = wt_force_next(source, &curve, err);
         if (status == WT_OK)
-            status = read_curve(task, file, &curve, err);
+            status = read_dwell_curve(task, file, &curve, err);
     }
     wt_force_curve_clear(&curve);
     wt_force_close(source);
@@ -215,10 +215,10 @@ static wt_status read_file(void *user, flow_file *file, size_t i, wt_error *err)
     return status == WT_END ? WT_OK : status;
 }
 
-static wt_status read_files(dwell_task *task, const flow_files *files, wt_error *err)
+static wt_status read_dwell_files(dwell_task *task, const flow_files *files, wt_error *err)
 {
     size_t n_failed;
-    wt_status status = flow_files_process(files, task->work, read_file, task, &n_failed, err);
+    wt_status status = flow_files_process(files, task->work, read_dwell_file, task, &n_failed, err);
     if (status == WT_OK && task->n_dwells == 0) {
         status = wt_fail(err, WT_E_EMPTY, "no curve dwells behind its approach");
         flow_error_add_files(files, n_failed, err);
@@ -228,7 +228,7 @@ static wt_status read_files(dwell_task *task, const flow_files *files, wt_error 
 
 /* Writes the keys for the frequency that most dwells cover. If several frequencies qualify, the
  * middle one is used. */
-static wt_status set_keys(table_writer *t, const wt_table *moduli, wt_error *err)
+static wt_status set_dwell_keys(table_writer *t, const wt_table *moduli, wt_error *err)
 {
     dwell_mean *means;
     size_t n, most = 0, first = 0, last = 0;
@@ -249,13 +249,13 @@ static wt_status set_keys(table_writer *t, const wt_table *moduli, wt_error *err
     return status;
 }
 
-wt_status wt_dwell_make(const wt_indent_job *job, const wt_job *work, wt_dwell_tables *tables,
-                        wt_error *err)
+wt_status wt_dwell_compute(const wt_indent_job *job, const wt_job *work, wt_dwell_tables *tables,
+                           wt_error *err)
 {
     if (job == NULL || work == NULL || tables == NULL)
         return wt_fail(err, WT_E_ARG, "no job of dwells");
     dwell_task task = {.job = job, .work = work};
-    wt_dwell_tables made = {0};
+    wt_dwell_tables result = {0};
     flow_files files = {NULL, 0, NULL};
     wt_status status = param_check(wt_indent_job_params(), job, err);
     if (status == WT_OK && (job->tip.half_angle_error > 0 || job->tip.radius_error > 0)) {
@@ -272,20 +272,20 @@ wt_status wt_dwell_make(const wt_indent_job *job, const wt_job *work, wt_dwell_t
     task.points = table_begin(&dwell_points_schema, err);
     task.moduli = table_begin(&dwell_moduli_schema, err);
     if (status == WT_OK)
-        status = read_files(&task, &files, err);
-    const wt_status third = table_end(&task.moduli, &made.dwell_moduli);
+        status = read_dwell_files(&task, &files, err);
+    const wt_status third = table_end(&task.moduli, &result.dwell_moduli);
     if (status == WT_OK && third == WT_OK)
-        status = set_keys(&task.rows, made.dwell_moduli, err);
-    const wt_status first = table_end(&task.rows, &made.dwell),
-                    second = table_end(&task.points, &made.dwell_points);
+        status = set_dwell_keys(&task.rows, result.dwell_moduli, err);
+    const wt_status first = table_end(&task.rows, &result.dwell),
+                    second = table_end(&task.points, &result.dwell_points);
     if (status == WT_OK)
         status = first != WT_OK ? first : second != WT_OK ? second : third;
     if (status == WT_OK) {
         cost_report(work, (cost_summary){.items = (double)task.n_dwells});
-        *tables = made;
-        made = (wt_dwell_tables){0};
+        *tables = result;
+        result = (wt_dwell_tables){0};
     }
-    wt_dwell_tables_clear(&made);
+    wt_dwell_tables_clear(&result);
     wt_indent_workspace_free(task.workspace);
     wt_contact_table_free(task.contact);
     flow_files_clear(&files);

@@ -20,7 +20,7 @@ wt_status dwell_means(const wt_table *moduli, dwell_mean **means, size_t *n,
                       wt_error *err) WT_NODISCARD;
 
 /* Modulation of a held segment, or of a segment before the approach or after the retract. */
-typedef struct dwell_modulated {
+typedef struct dwell_modulation {
     const wt_segment *segment;
     wt_modulation sine;
     wt_dwell_moduli moduli;
@@ -28,14 +28,14 @@ typedef struct dwell_modulated {
     double indentation, above, amplitude; /* mean indentation [m], force above the baseline [N],
                                              amplitude of the indentation [m] */
     const char *note;                     /* static string */
-} dwell_modulated;
+} dwell_modulation;
 
 /* Largest number of modulations of one curve. The user of a JPK instrument sets the number of
  * segments. */
-enum { DWELL_MOST_MODULATED = 32 };
+enum { DWELL_MAX_MODULATIONS = 32 };
 typedef struct dwell_curve {
     wt_dwell dwell; /* all held segments combined, without the sines */
-    dwell_modulated modulated[DWELL_MOST_MODULATED], air[DWELL_MOST_MODULATED];
+    dwell_modulation modulations[DWELL_MAX_MODULATIONS], air[DWELL_MAX_MODULATIONS];
     size_t n, n_air;
 } dwell_curve;
 
@@ -47,8 +47,8 @@ wt_status dwell_curve_fit(const wt_contact_table *contact, double poisson,
 /* True if E' is positive and E'' is positive or compatible with 0. Other values indicate a wrong
  * model. Values of E'' near 0 are valid, because their exclusion would bias the means of many
  * curves. */
-bool dwell_is_modulus(const wt_dwell_moduli *moduli);
+bool dwell_is_valid_modulus(const wt_dwell_moduli *moduli);
 /* True for a dwell or a modulation with samples. */
-bool dwell_is_held(const wt_segment *segment);
+bool dwell_is_hold_segment(const wt_segment *segment);
 
 #endif

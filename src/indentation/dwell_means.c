@@ -13,41 +13,41 @@
 /* Frequencies with a smaller relative difference count as equal, because the user sets them. */
 static const double same_frequency = 1e-3;
 
-typedef struct place {
+typedef struct moduli_row {
     double frequency;
     size_t row;
     long unit;
-} place;
+} moduli_row;
 
-static int by_frequency(const void *a, const void *b)
+static int compare_frequencies(const void *a, const void *b)
 {
-    const place *x = a, *y = b;
+    const moduli_row *x = a, *y = b;
     return x->frequency != y->frequency ? (x->frequency > y->frequency ? 1 : -1)
                                         : (x->row > y->row) - (x->row < y->row);
 }
 
-static int by_row(const void *a, const void *b)
+static int compare_rows(const void *a, const void *b)
 {
-    const place *x = a, *y = b;
+    const moduli_row *x = a, *y = b;
     return (x->row > y->row) - (x->row < y->row);
 }
 
 /* Mean of n rows of one frequency. The rows are sorted by file. values: scratch. */
-static wt_interval mean_of(const table_view *v, const place *at, size_t n, bool loss,
-                           double *values, long *units, size_t *n_units)
+static wt_interval mean_modulus(const table_view *v, const moduli_row *at, size_t n, bool loss,
+                                double *values, long *units, size_t *n_units)
 {
-    double common = 0, known = 0;
+    double common = 0, n_known = 0;
     for (size_t i = 0; i < n; i++) {
         const size_t row = at[i].row;
         values[i] = dwell_moduli_get(v, row, loss ? DWELL_MODULI_LOSS : DWELL_MODULI_STORAGE);
         units[i] = at[i].unit;
-        const double own =
+        const double common_error =
             dwell_moduli_get(v, row, loss ? DWELL_MODULI_LOSS_COMMON : DWELL_MODULI_STORAGE_COMMON);
-        common += isfinite(own) ? own * own : 0;
-        known += isfinite(own) ? 1 : 0;
+        common += isfinite(common_error) ? common_error * common_error : 0;
+        n_known += isfinite(common_error) ? 1 : 0;
     }
     /* the scatter does not include a systematic error that most curves share */
-    common = known > 0 && 2 * known >= (double)n ? common / known : (double)NAN;
+    common = n_known > 0 && 2 * n_known >= (double)n ? common / n_known : (double)NAN;
     wt_interval m = wt_student_mean(values, units, n, n_units);
     double half = hypot(m.high - m.value, NORMAL_95 * sqrt(common));
     m.standard_error = hypot(m.standard_error, sqrt(common));
@@ -70,39 +70,39 @@ wt_status dwell_means(const wt_table *moduli, dwell_mean **means, size_t *n, wt_
     *n = 0;
     if (status != WT_OK)
         return status;
-    place *at = calloc(v.n_rows + 1, sizeof *at);
+    moduli_row *at = calloc(v.n_rows + 1, sizeof *at);
     double *values = calloc(v.n_rows + 1, sizeof *values);
     long *units = calloc(v.n_rows + 1, sizeof *units);
-    dwell_mean *made = calloc(v.n_rows + 1, sizeof *made);
-    if (at == NULL || values == NULL || units == NULL || made == NULL) {
+    dwell_mean *list = calloc(v.n_rows + 1, sizeof *list);
+    if (at == NULL || values == NULL || units == NULL || list == NULL) {
         status = wt_fail(err, WT_E_MEMORY, "out of memory for the means of dwells");
-        free(made);
-        made = NULL;
+        free(list);
+        list = NULL;
     }
     for (size_t row = 0; status == WT_OK && row < v.n_rows; row++) {
         const bool same = row > 0 && strcmp(dwell_moduli_text(&v, row, DWELL_MODULI_FILE),
                                             dwell_moduli_text(&v, row - 1, DWELL_MODULI_FILE)) == 0;
-        at[row] = (place){dwell_moduli_get(&v, row, DWELL_MODULI_ANGULAR_FREQUENCY), row,
-                          row == 0 ? 0 : at[row - 1].unit + (same ? 0 : 1)};
+        at[row] = (moduli_row){dwell_moduli_get(&v, row, DWELL_MODULI_ANGULAR_FREQUENCY), row,
+                               row == 0 ? 0 : at[row - 1].unit + (same ? 0 : 1)};
     }
     if (status == WT_OK)
-        qsort(at, v.n_rows, sizeof *at, by_frequency);
+        qsort(at, v.n_rows, sizeof *at, compare_frequencies);
     for (size_t from = 0, to; status == WT_OK && from < v.n_rows; from = to) {
         for (to = from + 1;
              to < v.n_rows && at[to].frequency < at[from].frequency * (1 + same_frequency);)
             to++;
-        dwell_mean *m = &made[(*n)++];
+        dwell_mean *m = &list[(*n)++];
         m->angular_frequency = at[from].frequency;
         /* Sorting by nearly equal frequencies interleaves the files, and each curve would become a
          * unit. Sort by row again. */
-        qsort(at + from, to - from, sizeof *at, by_row);
+        qsort(at + from, to - from, sizeof *at, compare_rows);
         m->n = to - from;
-        m->storage = mean_of(&v, at + from, m->n, false, values, units, &m->n_units);
-        m->loss = mean_of(&v, at + from, m->n, true, values, units, &m->n_units);
+        m->storage = mean_modulus(&v, at + from, m->n, false, values, units, &m->n_units);
+        m->loss = mean_modulus(&v, at + from, m->n, true, values, units, &m->n_units);
     }
     free(at);
     free(values);
     free(units);
-    *means = made;
+    *means = list;
     return status;
 }

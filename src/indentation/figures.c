@@ -13,7 +13,7 @@ enum { LINE_POINTS = 1200, MARKER_POINTS = 220, CROWD_POINTS = 3000 };
 /* ---- force against displacement, a panel for each group -------------------------------------- */
 
 /* Returns the table with the keys of group i. */
-static table_view keys_of_group(const figure_drawing *d, size_t i)
+static table_view group_keys(const figure_drawing *d, size_t i)
 {
     table_view keys = *d->table;
     keys.suffix = d->groups[i];
@@ -36,14 +36,14 @@ static int contact_section(figure_drawing *d, size_t i)
     static const char *const columns[] = {"contact_point", "contact_point_standard_error",
                                           "contact_force", NULL};
     static const char *const units[] = {"m", "m", "N", NULL};
-    const table_view keys = keys_of_group(d, i);
+    const table_view keys = group_keys(d, i);
     const wt_estimate contact =
         force_displacement_value(&keys, FORCE_DISPLACEMENT_KEY_CONTACT_POINT);
     const double force =
         force_displacement_value(&keys, FORCE_DISPLACEMENT_KEY_CONTACT_FORCE).value;
     const double values[] = {contact.value, contact.standard_error, force};
     return isfinite(contact.value) && isfinite(force)
-               ? drawing_numbers(d, "contact point", columns, units, values, 1)
+               ? drawing_number_section(d, "contact point", columns, units, values, 1)
                : NO_SECTION;
 }
 
@@ -51,7 +51,7 @@ static void plot_force(figure_drawing *d, int section, int style, const char *ti
 {
     plot_item(d, section,
               "(($1-contact_point)*x_unit):($2*y_unit) every %zu with lines ls %d title '%s'",
-              drawing_every(d, section, LINE_POINTS), style, translate(d->language, title));
+              drawing_stride(d, section, LINE_POINTS), style, translate(d->language, title));
 }
 
 static void draw_force_displacement(figure_drawing *d)
@@ -93,8 +93,8 @@ static void draw_force_displacement(figure_drawing *d)
 static void caption_force_displacement(figure_drawing *d)
 {
     for (size_t i = 0; i < d->n_groups; i++) {
-        const table_view keys = keys_of_group(d, i);
-        const char *curve = force_displacement_words(&keys, FORCE_DISPLACEMENT_KEY_CURVE);
+        const table_view keys = group_keys(d, i);
+        const char *curve = force_displacement_key_text(&keys, FORCE_DISPLACEMENT_KEY_CURVE);
         const double error =
             force_displacement_value(&keys, FORCE_DISPLACEMENT_KEY_CONTACT_POINT).standard_error;
         if (curve != NULL && error > 0)
@@ -108,7 +108,7 @@ static void caption_force_displacement(figure_drawing *d)
     text_append_phrase(&d->caption,
                        " The vertical line is the fitted contact point; its horizontal bar is "
                        "one standard error.");
-    size_t every = drawing_thinning(d, LINE_POINTS);
+    size_t every = drawing_max_stride(d, LINE_POINTS);
     if (every > 1)
         text_append_translated(&d->caption, " One sample of %zu is drawn.", every);
 }
@@ -117,11 +117,11 @@ static void caption_force_displacement(figure_drawing *d)
 
 static void caption_force_indentation(figure_drawing *d)
 {
-    value_span fit = SPAN_EMPTY;
+    value_span fit = EMPTY_SPAN;
     span_add_column(&fit, d->table, FORCE_INDENTATION_FITTED_FORCE, false);
-    if (!span_empty(&fit))
+    if (!span_is_empty(&fit))
         text_append_phrase(&d->caption, " Lines: contact model with the fitted modulus.");
-    size_t every = drawing_thinning(d, MARKER_POINTS);
+    size_t every = drawing_max_stride(d, MARKER_POINTS);
     if (every > 1)
         text_append_translated(&d->caption, " One sample of up to %zu is drawn.", every);
 }
@@ -131,7 +131,8 @@ static void caption_force_indentation(figure_drawing *d)
 /* Draws the accepted curves of each group next to its mean. */
 static void draw_modulus_groups(figure_drawing *d)
 {
-    static const unsigned of_curve[] = {INDENTATION_MODULUS, INDENTATION_MODULUS_STANDARD_ERROR};
+    static const unsigned curve_columns[] = {INDENTATION_MODULUS,
+                                             INDENTATION_MODULUS_STANDARD_ERROR};
     static const row_filter accepted = {{INDENTATION_VERDICT}, {"accepted"}, false},
                             doubtful = {{INDENTATION_VERDICT}, {"doubtful"}, false};
     const size_t n = d->n_groups;
@@ -142,17 +143,17 @@ static void draw_modulus_groups(figure_drawing *d)
         const table_view *curves = figure_tables_indentation(d->tables, d->groups[i]);
         d->data[i] = curves == NULL
                          ? NO_SECTION
-                         : drawing_section(d, curves, d->groups[i], &accepted, of_curve, 2, 1);
+                         : drawing_section(d, curves, d->groups[i], &accepted, curve_columns, 2, 1);
         open[i] = curves == NULL
                       ? NO_SECTION
-                      : drawing_section(d, curves, "doubtful", &doubtful, of_curve, 2, 1);
+                      : drawing_section(d, curves, "doubtful", &doubtful, curve_columns, 2, 1);
         span_add_section(&d->y[0], d, open[i], 0, true);
         mean[i] = drawing_section(d, d->table, d->groups[i], &rows, d->columns, d->n_columns, 1);
         span_add_section(&d->y[0], d, d->data[i], 0, true);
         for (size_t k = 0; k < d->n_columns; k++)
             span_add_section(&d->y[0], d, mean[i], k, true);
     }
-    if (span_empty(&d->y[0]) || d->status != WT_OK)
+    if (span_is_empty(&d->y[0]) || d->status != WT_OK)
         return;
     d->width = n <= 2 ? 0.8 : 1;
     drawing_axis(d, "y", &d->figure->y[0], NULL, d->y[0]);
@@ -160,9 +161,9 @@ static void draw_modulus_groups(figure_drawing *d)
     for (size_t i = 0; i < n; i++) {
         text_buffer label = {0};
         text_format(&label, "%s (n = %zu)", drawing_group_name(d, d->groups[i]),
-                    drawing_rows(d, d->data[i]) + drawing_rows(d, open[i]));
+                    drawing_row_count(d, d->data[i]) + drawing_row_count(d, open[i]));
         text_add(&d->script, i == 0 ? "" : ", ");
-        text_tic(&d->script, text_string(&label));
+        text_tic_label(&d->script, text_string(&label));
         text_format(&d->script, " %zu", i + 1);
         text_free(&label);
     }
@@ -173,10 +174,10 @@ static void draw_modulus_groups(figure_drawing *d)
     for (size_t i = 0; i < n; i++) {
         plot_item(d, d->data[i],
                   "(%zu + spread($0)):($1*y_unit) every %zu with points ls %d ps 0.6", i + 1,
-                  drawing_every(d, d->data[i], CROWD_POINTS), drawing_group_style(d, i) + 40);
+                  drawing_stride(d, d->data[i], CROWD_POINTS), drawing_group_style(d, i) + 40);
         plot_item(d, open[i],
                   "(%zu + spread($0)):($1*y_unit) every %zu with points ls %d pt 6 ps 0.6", i + 1,
-                  drawing_every(d, open[i], CROWD_POINTS), drawing_group_style(d, i) + 40);
+                  drawing_stride(d, open[i], CROWD_POINTS), drawing_group_style(d, i) + 40);
         plot_item(d, mean[i], "(%zu.32):($1*y_unit):($2*y_unit):($3*y_unit) with yerrorbars ls 13",
                   i + 1);
     }
@@ -185,10 +186,10 @@ static void draw_modulus_groups(figure_drawing *d)
 
 static void caption_modulus_groups(figure_drawing *d)
 {
-    size_t every = drawing_thinning(d, CROWD_POINTS);
+    size_t every = drawing_max_stride(d, CROWD_POINTS);
     if (every > 1)
         text_append_translated(&d->caption, " One curve of up to %zu is drawn.", every);
-    const char *unit = comparison_words(&d->tables->comparison, COMPARISON_KEY_UNIT_OF_ANALYSIS);
+    const char *unit = comparison_key_text(&d->tables->comparison, COMPARISON_KEY_UNIT_OF_ANALYSIS);
     if (unit != NULL)
         text_append_translated(&d->caption, " Unit of analysis of the interval: %s.",
                                translate(d->language, unit));

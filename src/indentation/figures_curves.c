@@ -8,11 +8,12 @@
 enum { SHEET_CURVES = 12, SHEET_COLUMNS = 3 };
 
 /* Returns the largest number of title lines in one row of panels. */
-static size_t most_lines(const figure_drawing *d, const curve_list *list, size_t first, size_t n)
+static size_t max_title_lines(const figure_drawing *d, const curve_list *list, size_t first,
+                              size_t n)
 {
     size_t most = 0;
     for (size_t i = first; i < first + n && i < list->n; i++) {
-        const size_t lines = curve_panel_lines(d, &list->curves[i]);
+        const size_t lines = curve_panel_line_count(d, &list->curves[i]);
         most = lines > most ? lines : most;
     }
     return most;
@@ -29,12 +30,12 @@ static void draw_sheet(figure_drawing *d, const curve_list *list)
                 columns);
     for (size_t i = 0; i < n; i++) {
         if (i % columns == 0)
-            text_format(&d->script, "set tmargin %zu\n", most_lines(d, list, i, columns) + 1);
-        curve_panel(d, &list->curves[i]);
+            text_format(&d->script, "set tmargin %zu\n", max_title_lines(d, list, i, columns) + 1);
+        draw_curve_panel(d, &list->curves[i]);
     }
     text_add(&d->script, "unset multiplot\n");
     text_append_translated(&d->caption, " %s %zu of %zu curves.",
-                           translate(d->language, curve_panel_words), n, list->n_rows);
+                           translate(d->language, curve_panel_legend), n, list->n_rows);
     if (n < list->n)
         text_append_phrase(&d->caption, " weartrack report --sheets draws the others.");
 }
@@ -42,7 +43,7 @@ static void draw_sheet(figure_drawing *d, const curve_list *list)
 static void draw_curves(figure_drawing *d)
 {
     curve_list list;
-    d->status = curve_list_make(d->tables, &list, d->err);
+    d->status = curve_list_init(d->tables, &list, d->err);
     if (d->status == WT_OK && list.n > 0)
         draw_sheet(d, &list);
     curve_list_clear(&list);

@@ -41,7 +41,7 @@ typedef struct map_panel {
 
 /* True if all positions are known and come from one file. Several files need not share an origin.
  */
-static bool is_map(map_panel *panel)
+static bool has_map_positions(map_panel *panel)
 {
     const table_view *table = panel->table;
     if (table == NULL || table->n_rows < MAP_POINTS || table->n_rows > MAP_LIMIT)
@@ -60,13 +60,13 @@ static bool is_map(map_panel *panel)
 static void map_axis(figure_drawing *d, const char *letter, const map_panel *panel,
                      indentation_column column, double step)
 {
-    value_span span = SPAN_EMPTY;
+    value_span span = EMPTY_SPAN;
     span_add_column(&span, panel->table, column, false);
     span = (value_span){span.low - step / 2, span.high + step / 2};
     axis_linear(d, letter, letter, &indentation_schema.columns[column], span);
 }
 
-static void draw_panel(figure_drawing *d, const map_panel *panel)
+static void draw_modulus_panel(figure_drawing *d, const map_panel *panel)
 {
     map_axis(d, "x", panel, INDENTATION_X, panel->step_x);
     map_axis(d, "y", panel, INDENTATION_Y, panel->step_y);
@@ -94,12 +94,12 @@ void draw_modulus_map(figure_drawing *d)
         {INDENTATION_VERDICT, INDENTATION_VERDICT}, {"accepted", "doubtful"}, true};
     map_panel panels[DRAWING_GROUPS];
     size_t n = 0;
-    value_span colour = SPAN_EMPTY;
+    value_span colour = EMPTY_SPAN;
 
     for (size_t i = 0; i < d->n_groups && d->status == WT_OK; i++) {
         map_panel panel = {.group = d->groups[i],
                            .table = figure_tables_indentation(d->tables, d->groups[i])};
-        if (!is_map(&panel))
+        if (!has_map_positions(&panel))
             continue;
         panel.accepted = drawing_section(d, panel.table, panel.group, &accepted, columns, 3, 3);
         panel.doubtful = drawing_section(d, panel.table, "doubtful", &doubtful, columns, 3, 3);
@@ -109,7 +109,7 @@ void draw_modulus_map(figure_drawing *d)
         if (panel.accepted >= 0 || panel.doubtful >= 0)
             panels[n++] = panel;
     }
-    if (n == 0 || span_empty(&colour) || d->status != WT_OK)
+    if (n == 0 || span_is_empty(&colour) || d->status != WT_OK)
         return;
     d->width = 0.95 * (double)n;
     axis_log(d, "cb", "Modulus", &indentation_schema.columns[INDENTATION_MODULUS], colour);
@@ -118,6 +118,6 @@ void draw_modulus_map(figure_drawing *d)
         "set size ratio -1\nset border 15\nset cblabel offset 1,0\nset multiplot layout 1,%zu\n",
         n);
     for (size_t i = 0; i < n; i++)
-        draw_panel(d, &panels[i]);
+        draw_modulus_panel(d, &panels[i]);
     text_add(&d->script, "unset multiplot\n");
 }

@@ -20,29 +20,31 @@ static double grid_pitch(const table_view *table, spot_map_column column)
 }
 
 /* Draws the cells of one column in colour, with the circle of the contact. */
-static void draw_panel(figure_drawing *d, int section, const char *title)
+static void draw_spot_panel(figure_drawing *d, int section, const char *title)
 {
     plot_heading(d, title);
     plot_item(d, section,
               "($1*x_unit):($2*y_unit):(half_x*x_unit):(half_y*y_unit):($3*cb_unit) with "
               "boxxyerror fc palette notitle");
-    plot_other(d, "[t=0:2*pi] contact*x_unit*cos(t), contact*y_unit*sin(t) with lines lw 1 lc rgb "
-                  "'white' notitle");
+    plot_expression(
+        d, "[t=0:2*pi] contact*x_unit*cos(t), contact*y_unit*sin(t) with lines lw 1 lc rgb "
+           "'white' notitle");
     plot_end(d);
 }
 
 static void draw_spot_map(figure_drawing *d)
 {
-    static const spot_map_column shown[] = {SPOT_MAP_BEFORE, SPOT_MAP_AFTER, SPOT_MAP_CHANGE};
+    static const spot_map_column shown_columns[] = {SPOT_MAP_BEFORE, SPOT_MAP_AFTER,
+                                                    SPOT_MAP_CHANGE};
     static const char *const titles[] = {"before", "after", "change"};
-    enum { PANELS = sizeof shown / sizeof *shown };
+    enum { PANELS = sizeof shown_columns / sizeof *shown_columns };
     const double contact = spot_map_value(d->table, SPOT_MAP_KEY_CONTACT_RADIUS).value;
     int sections[PANELS];
-    value_span x = SPAN_EMPTY, y = SPAN_EMPTY,
-               colours[PANELS] = {SPAN_EMPTY, SPAN_EMPTY, SPAN_EMPTY};
+    value_span x = EMPTY_SPAN, y = EMPTY_SPAN,
+               colours[PANELS] = {EMPTY_SPAN, EMPTY_SPAN, EMPTY_SPAN};
     size_t n = 0;
     for (size_t i = 0; i < PANELS; i++) {
-        const unsigned columns[] = {SPOT_MAP_X, SPOT_MAP_Y, shown[i]};
+        const unsigned columns[] = {SPOT_MAP_X, SPOT_MAP_Y, shown_columns[i]};
         sections[i] = drawing_section(d, d->table, titles[i], NULL, columns, 3, 3);
         /* Both heights share one colour scale. */
         span_add_section(&colours[i < 2 ? 0 : i], d, sections[i], 2, false);
@@ -69,8 +71,8 @@ static void draw_spot_map(figure_drawing *d)
         if (sections[i] < 0)
             continue;
         axis_linear(d, "cb", i < 2 ? "Height" : "Change of the height",
-                    &spot_map_schema.columns[shown[i]], colours[i < 2 ? 0 : i]);
-        draw_panel(d, sections[i], translate(d->language, titles[i]));
+                    &spot_map_schema.columns[shown_columns[i]], colours[i < 2 ? 0 : i]);
+        draw_spot_panel(d, sections[i], translate(d->language, titles[i]));
     }
     text_add(&d->script, "unset multiplot\n");
 }

@@ -12,8 +12,8 @@
 #include <stdlib.h>
 
 /* Replaces elastic forces over modulus by viscoelastic forces. */
-static wt_status apply_memory(const wt_prony *spectrum, const double *time, size_t n, double *force,
-                              wt_error *err)
+static wt_status apply_relaxation(const wt_prony *spectrum, const double *time, size_t n,
+                                  double *force, wt_error *err)
 {
     hereditary law = {0};
     double before = 0, shortest = (double)INFINITY;
@@ -24,9 +24,9 @@ static wt_status apply_memory(const wt_prony *spectrum, const double *time, size
         hereditary_begin(&law, spectrum, 1, shortest, time[n - 1] - time[0]);
         for (size_t i = 0; i < n; i++) {
             const double f = force[i];
-            hereditary_step(&law, i > 0 ? time[i] - time[i - 1] : shortest);
-            force[i] = hereditary_force(&law, hereditary_fade(&law, law.memory[0]), before, f);
-            hereditary_add(&law, law.memory[0], f - before);
+            hereditary_set_step(&law, i > 0 ? time[i] - time[i - 1] : shortest);
+            force[i] = hereditary_force(&law, hereditary_decay(&law, law.memory[0]), before, f);
+            hereditary_add_change(&law, law.memory[0], f - before);
             before = f;
         }
     }
@@ -49,7 +49,7 @@ static wt_status apply_adhesion(const wt_indent_fit *fit, double reduced,
     for (size_t i = 0; i < n; i += ADHESION_BLOCK) {
         const size_t m = n - i < ADHESION_BLOCK ? n - i : ADHESION_BLOCK;
         adhesive_contacts at;
-        adhesion_along(&law, bare + i, m, &at);
+        adhesion_contacts(&law, bare + i, m, &at);
         for (size_t j = 0; j < m; j++)
             force[i + j] = at.force[j];
     }
@@ -63,27 +63,28 @@ wt_status fitted_forces(const wt_indent_fit *fit, const wt_indent_options *optio
 {
     const double *height = segment_height(approach), *all = segment_time(approach, time);
     const double reduced = 1 - options->poisson_ratio * options->poisson_ratio;
-    const bool known = options->spectrum != NULL && isnan(fit->work_of_adhesion.value) &&
-                       !isnan(fit->spectrum_factor.value);
+    const bool has_spectrum = options->spectrum != NULL && isnan(fit->work_of_adhesion.value) &&
+                              !isnan(fit->spectrum_factor.value);
     curve_power power;
     double modulus = fit->modulus.value;
     wt_status status = WT_OK;
     if (fit->work_of_adhesion.value > 0 && modulus > 0)
         return apply_adhesion(fit, modulus / reduced, contact, delta, n, model, err);
     wt_contact_table_eval(contact, delta, n, model, NULL);
-    if (all != NULL && (known || fit->loss_power > 0)) {
-        size_t m = 0; /* the samples that wt_indent_curve returns */
+    if (all != NULL && (has_spectrum || fit->loss_power > 0)) {
+        size_t m = 0; /* the samples that wt_indent_plot_points returns */
         for (size_t i = 0; i < approach->n_points && m < n; i++)
             if (fit->direction * height[i] >= fit->contact_point.value)
                 time[m++] = all[i];
-        if (known) {
+        if (has_spectrum) {
             modulus = fit->spectrum_factor.value;
         } else {
-            curve_power_make(&power, fit->loss_power, fit->load_time);
+            curve_power_create(&power, fit->loss_power, fit->load_time);
             modulus /=
                 (1 + fit->loss_shift) * hereditary_modulus(&power.series, 1 / fit->load_time);
         }
-        status = apply_memory(known ? options->spectrum : &power.series, time, m, model, err);
+        status =
+            apply_relaxation(has_spectrum ? options->spectrum : &power.series, time, m, model, err);
     }
     for (size_t i = 0; i < n; i++)
         model[i] = model[i] * (modulus / reduced) -

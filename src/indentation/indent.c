@@ -20,14 +20,14 @@
 
 /* Number of queued curves for each thread. Finished curves wait until all earlier curves are
  * written. */
-#define CURVES_EACH 8
-#define MOST_WORKERS 64
+#define CURVES_PER_WORKER 8
+#define MAX_WORKERS 64
 
 /* ---- the representative curve ---------------------------------------------------------------- */
 
-static int by_modulus(const void *a, const void *b)
+static int compare_moduli(const void *a, const void *b)
 {
-    const accepted *x = a, *y = b;
+    const accepted_modulus *x = a, *y = b;
     if (x->modulus < y->modulus || x->modulus > y->modulus)
         return x->modulus < y->modulus ? -1 : 1;
     return x->order < y->order ? -1 : x->order > y->order;
@@ -35,10 +35,11 @@ static int by_modulus(const void *a, const void *b)
 
 /* Reads the representative curve again, with its retract. It has the (lower) median modulus; the
  * first curve counts among equal moduli. */
-static wt_status add_representative(indent_task *task, wt_indent_tables *tables, wt_error *err)
+static wt_status add_representative_curve(indent_task *task, wt_indent_tables *tables,
+                                          wt_error *err)
 {
-    qsort(task->moduli, task->n_moduli, sizeof *task->moduli, by_modulus);
-    const accepted *median = &task->moduli[(task->n_moduli - 1) / 2];
+    qsort(task->moduli, task->n_moduli, sizeof *task->moduli, compare_moduli);
+    const accepted_modulus *median = &task->moduli[(task->n_moduli - 1) / 2];
     const flow_file *file = median->file;
     if (strcmp(file->path, "-") == 0)
         return WT_OK; /* a pipe cannot be read twice */
@@ -62,8 +63,8 @@ static wt_status add_representative(indent_task *task, wt_indent_tables *tables,
             continue;
         wt_indent_fit fit;
         const wt_indent_options fit_options = indent_curve_options(task, &median->choice);
-        status = wt_indent_force_curve(task->file_contact, &fit_options, curve, task->scratch[0],
-                                       &fit, err);
+        status = wt_indent_fit_force_curve(task->file_contact, &fit_options, curve,
+                                           task->scratch[0], &fit, err);
         if (status == WT_OK)
             status = flow_curve_tables_add(tables, task->job->group, file->name, curve, &fit,
                                            task->file_contact, &fit_options, err);
@@ -79,25 +80,25 @@ static wt_status add_representative(indent_task *task, wt_indent_tables *tables,
 /* Describes the tips of the group. The text names only a few tips, so that it fits in one line. */
 static void describe_tips(const indent_task *task, char *text, size_t size)
 {
-    enum { NAMED = 3 }; /* each name fills a line of a terminal */
+    enum { MAX_NAMED_TIPS = 3 }; /* each name fills a line of a terminal */
     char tip[256];
     size_t used = 0;
     if (task->n_tips < 2) {
         wt_tip_describe(task->n_tips > 0 ? task->tips[0] : &task->job->tip, text, size);
         return;
     }
-    for (size_t i = 0; i < task->n_tips && i < NAMED; i++) {
+    for (size_t i = 0; i < task->n_tips && i < MAX_NAMED_TIPS; i++) {
         wt_tip_describe(task->tips[i], tip, sizeof tip);
         used += (size_t)snprintf(text + used, size - used, "%s%s",
-                                 i == 0 ? INDENTATION_SEVERAL : "; ", tip);
+                                 i == 0 ? INDENTATION_SEVERAL_TIPS : "; ", tip);
     }
-    if (task->n_tips > NAMED)
-        (void)snprintf(text + used, size - used, "; and %zu more", task->n_tips - NAMED);
+    if (task->n_tips > MAX_NAMED_TIPS)
+        (void)snprintf(text + used, size - used, "; and %zu more", task->n_tips - MAX_NAMED_TIPS);
 }
 
 /* Returns the given value. If all curves had another value, returns this value with the relative
  * error of the given one. The files state no error. */
-static wt_estimate value_used(wt_estimate given, double low, double high)
+static wt_estimate used_value(wt_estimate given, double low, double high)
 {
     const double relative = given.standard_error / given.value;
     if (low >= high && !(low == given.value))
@@ -108,34 +109,34 @@ static wt_estimate value_used(wt_estimate given, double low, double high)
 static void set_calibration_keys(const indent_task *task, table_writer *t)
 {
     const wt_indent_job *job = task->job;
-    wt_estimate k = value_used(job->spring_constant, task->k_low, task->k_high);
-    const wt_estimate s = value_used(job->sensitivity, task->s_low, task->s_high);
+    wt_estimate k = used_value(job->spring_constant, task->k_low, task->k_high);
+    const wt_estimate s = used_value(job->sensitivity, task->s_low, task->s_high);
     if (!(k.standard_error > 0))
         k.standard_error = job->lever_error * k.value;
-    if (task->by_sensitivity && task->s_low < task->s_high)
+    if (task->has_given_sensitivity && task->s_low < task->s_high)
         indentation_set_print(t, INDENTATION_KEY_SENSITIVITIES, "%s m/V",
                               format_range(task->s_low, task->s_high, 4).text);
-    else if (task->by_sensitivity && !isnan(s.value))
-        indentation_set(t, INDENTATION_KEY_SENSITIVITY, flow_as_stated(s));
-    calibration_errors_set_keys(&task->common, t);
+    else if (task->has_given_sensitivity && !isnan(s.value))
+        indentation_set(t, INDENTATION_KEY_SENSITIVITY, flow_stated_estimate(s));
+    calibration_errors_set_keys(&task->calibration, t);
     if (!isnan(k.value))
-        indentation_set(t, INDENTATION_KEY_SPRING_CONSTANT, flow_as_stated(k));
+        indentation_set(t, INDENTATION_KEY_SPRING_CONSTANT, flow_stated_estimate(k));
     if (task->k_low < task->k_high)
         indentation_set_print(t, INDENTATION_KEY_SPRING_CONSTANTS, "%s N/m",
                               format_range(task->k_low, task->k_high, 4).text);
 }
 
-static void set_keys(const indent_task *task, const flow_files *files, table_writer *t)
+static void set_indentation_keys(const indent_task *task, const flow_files *files, table_writer *t)
 {
     const wt_indent_job *job = task->job;
     char tip[1024], range[256];
-    size_t named = 0;
+    size_t n_named = 0;
     for (size_t i = 0; i < files->n; i++)
-        named += files->file[i].set->spot != NULL;
+        n_named += files->file[i].set->spot != NULL;
     const char *spots = "mixed: some named, the others one for each file";
-    if (named == files->n)
+    if (n_named == files->n)
         spots = "named";
-    else if (named == 0)
+    else if (n_named == 0)
         spots = "file: each file is a spot, none were named";
     describe_tips(task, tip, sizeof tip);
     if (task->options.spectrum != NULL)
@@ -191,8 +192,8 @@ static wt_status prepare_task(indent_task *task, wt_error *err)
         status = indent_contact_table(&task->job->tip, &task->contact, err);
     if (status == WT_OK)
         status = manual_overrides_read(task->job, task->work, &task->choices, err);
-    if (status == WT_OK && (task->work->left_out & WT_EXTRA_COMMON) == 0)
-        status = calibration_errors_begin(task->job, &task->common, err);
+    if (status == WT_OK && (task->work->left_out & WT_EXTRA_SYSTEMATIC_ERRORS) == 0)
+        status = calibration_errors_begin(task->job, &task->calibration, err);
     if (status != WT_OK)
         return status;
     char title[96];
@@ -204,17 +205,17 @@ static wt_status prepare_task(indent_task *task, wt_error *err)
     if (task->job->keep != NULL)
         curve_set_begin(task->job->keep, task->job);
     task->n_workers = wt_thread_count(task->work->threads);
-    if (task->n_workers > MOST_WORKERS)
-        task->n_workers = MOST_WORKERS;
+    if (task->n_workers > MAX_WORKERS)
+        task->n_workers = MAX_WORKERS;
     task->scratch = calloc(task->n_workers, sizeof(wt_indent_workspace *));
-    task->n_items = task->n_workers > 1 ? (size_t)task->n_workers * CURVES_EACH : 1;
+    task->n_items = task->n_workers > 1 ? (size_t)task->n_workers * CURVES_PER_WORKER : 1;
     task->items = calloc(task->n_items, sizeof *task->items);
     if (task->scratch == NULL || task->items == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     for (unsigned i = 0; i < task->n_workers; i++) {
         if ((task->scratch[i] = wt_indent_workspace_new()) == NULL)
             return wt_fail(err, WT_E_MEMORY, "out of memory");
-        calibration_errors_apply(&task->common, task->scratch[i]);
+        calibration_errors_apply(&task->calibration, task->scratch[i]);
     }
     return WT_OK;
 }
@@ -229,8 +230,8 @@ static void release_task(indent_task *task)
     free(task->items);
     free(task->moduli);
     free(task->tips);
-    indent_summary_clear(&task->together);
-    calibration_errors_clear(&task->common);
+    indent_summary_clear(&task->summary);
+    calibration_errors_clear(&task->calibration);
     indent_depths_clear(&task->depths);
     wt_prony_clear(&task->spectrum);
     wt_contact_table_free(task->contact);
@@ -243,10 +244,11 @@ static void release_task(indent_task *task)
 
 /* Reports the cost. The main number is the modulus of a curve, with the root mean square of its
  * relative errors. */
-static void say_cost(const indent_task *task)
+static void report_indentation_cost(const indent_task *task)
 {
-    cost_summary cost = {.items = (double)task->n_curves,
-                         .number = {1, sqrt(task->squares / (double)task->n_moduli), 0, "1"}};
+    cost_summary cost = {
+        .items = (double)task->n_curves,
+        .number = {1, sqrt(task->sum_squared_errors / (double)task->n_moduli), 0, "1"}};
     for (unsigned i = 0; i < task->n_workers; i++) {
         const wt_indent_workspace *w = task->scratch[i];
         cost_add_nodes(task->work->cost, w->evaluations);
@@ -285,18 +287,18 @@ wt_status wt_indent_group(const wt_indent_job *job, const wt_job *work, wt_inden
     }
     task.rows.err = err; /* the last row used the error of its file */
     if (status == WT_OK)
-        status =
-            calibration_errors_fit(&task.common, &task.options, task.n_workers, task.scratch, err);
+        status = calibration_errors_fit(&task.calibration, &task.options, task.n_workers,
+                                        task.scratch, err);
     if (status == WT_OK) {
-        set_keys(&task, &files, &task.rows);
-        status = indent_summary_report(&task.together, job, work, &task.rows, err);
+        set_indentation_keys(&task, &files, &task.rows);
+        status = indent_summary_report(&task.summary, job, work, &task.rows, err);
     }
     if (status == WT_OK)
         status = indent_depths_table(&task.depths, job, task.contact, tables, err);
     if (status == WT_OK)
         status = manual_overrides_table(&task.choices, work, &tables->choices, err);
     if (status == WT_OK && task.shown.median && task.n_moduli > 0)
-        status = add_representative(&task, tables, err);
+        status = add_representative_curve(&task, tables, err);
     if (status == WT_OK)
         status = curve_selection_table(&task.shown, job->group, &tables->curves, err);
     if (status == WT_OK) {
@@ -306,7 +308,7 @@ wt_status wt_indent_group(const wt_indent_job *job, const wt_job *work, wt_inden
         tables->n_curves = task.n_curves;
         tables->n_accepted = task.n_accepted;
         tables->n_failed = task.n_failed;
-        say_cost(&task);
+        report_indentation_cost(&task);
     }
     release_task(&task);
     flow_files_clear(&files);

@@ -11,39 +11,39 @@ wt_status indent_contact_table(const wt_tip *tip, wt_contact_table **table,
                                wt_error *err) WT_NODISCARD;
 
 /* Sum over the shifts of the moduli that are not zero. */
-typedef struct indent_shifts {
+typedef struct indent_shift_sum {
     double sum;
     size_t n;
-} indent_shifts;
+} indent_shift_sum;
 
 /* Sums over the curves with a modulus. */
 typedef struct indent_summary {
     size_t n;
-    indent_shifts bend, loss, loss_error, misfit; /* relative to the modulus */
-    size_t n_misfit;                              /* curves with a significant misfit */
-    size_t n_unknown;                  /* curves with a loss of unknown effect on the modulus */
-    double deepest;                    /* largest indentation [m] */
-    double (*misfits)[WT_CURVE_WAVES]; /* [n_misfits] cosines of curves that have them */
+    indent_shift_sum bend, loss, loss_error, misfit; /* relative to the modulus */
+    size_t n_significant_misfit;                     /* curves with a significant misfit */
+    size_t n_unknown_loss;              /* curves with a loss of unknown effect on the modulus */
+    double max_depth;                   /* largest indentation [m] */
+    double (*misfits)[WT_MISFIT_TERMS]; /* [n_misfits] cosines of curves that have them */
     size_t n_misfits;
     double (*contacts)[WT_CONTACT_ESTIMATORS]; /* [n] contact points of other estimators; NULL if
                                                   not requested */
 } indent_summary;
 wt_status indent_summary_add(indent_summary *to, const wt_indent_fit *fit,
                              const wt_indent_options *options, wt_error *err);
-void indent_summary_clear(indent_summary *together);
+void indent_summary_clear(indent_summary *summary);
 /* Writes the systematic errors that curves of this depth cannot show, and how to detect them. */
 void indent_systematic_errors(const wt_indent_job *job, double depth, char *text, size_t size);
 /* Reports the shifts that all moduli share, tests the mean residual and reports the contact points
  * of other estimators. */
-wt_status indent_summary_report(const indent_summary *together, const wt_indent_job *job,
+wt_status indent_summary_report(const indent_summary *summary, const wt_indent_job *job,
                                 const wt_job *work, table_writer *rows, wt_error *err);
 
 /* True if the curve loses work and the effect on its modulus is not known. */
-bool indent_loss_is_unknown(const wt_indent_fit *fit);
+bool indent_has_unknown_loss(const wt_indent_fit *fit);
 
 /* Curves for the modulus against depth, including curves that one modulus does not describe. */
 typedef struct indent_depths {
-    wt_depth_curve *curve; /* [n] */
+    wt_curve_residuals *curve; /* [n] */
     size_t n;
     long n_spots;
     const char *last_spot; /* borrowed */
@@ -51,8 +51,8 @@ typedef struct indent_depths {
 /* Collects the data of a curve on the modulus against depth. Returns false and sets all members to
  * NaN if there are none or `asked` is false. */
 bool indent_depth_curve(const wt_indent_fit *fit, const wt_force_curve *curve, bool asked,
-                        wt_depth_curve *to);
-wt_status indent_depths_add(indent_depths *to, const wt_depth_curve *curve, const char *spot,
+                        wt_curve_residuals *to);
+wt_status indent_depths_add(indent_depths *to, const wt_curve_residuals *curve, const char *spot,
                             wt_error *err);
 /* Adds the table "modulus_depth" if there are such curves. */
 wt_status indent_depths_table(const indent_depths *depths, const wt_indent_job *job,

@@ -12,7 +12,7 @@
 #include <string.h>
 
 /* Largest number of samples in the queue once each thread has a curve. It bounds the memory. */
-#define MOST_SAMPLES ((size_t)1 << 18)
+#define MAX_QUEUED_SAMPLES ((size_t)1 << 18)
 
 wt_read_options indent_read_options(indent_task *task, const flow_file *file, bool time)
 {
@@ -24,10 +24,11 @@ wt_read_options indent_read_options(indent_task *task, const flow_file *file, bo
         options.sensitivity = job->sensitivity.value;
     task->file_contact = task->contact;
     task->file_tip = &job->tip;
-    manual_overrides_of_file(&task->choices, file, &options, &task->file_contact, &task->file_tip);
+    manual_overrides_apply_file(&task->choices, file, &options, &task->file_contact,
+                                &task->file_tip);
     options.want &= WT_Q_BIT(WT_Q_HEIGHT) | WT_Q_BIT(WT_Q_MEASURED_HEIGHT) | WT_Q_BIT(WT_Q_FORCE) |
                     (time ? WT_Q_BIT(WT_Q_TIME) : 0);
-    options.one_height = true;
+    options.sensor_height_only = true;
     options.segments &= WT_SEGMENT_BIT(WT_SEGMENT_APPROACH) | WT_SEGMENT_BIT(WT_SEGMENT_RETRACT);
     return options;
 }
@@ -53,11 +54,11 @@ static wt_status flush_failures(indent_task *task, wt_error *err)
         wt_error_place(&failure, "curve %zu", task->first_equal);
     task->n_equal = 0;
     task->n_failed++;
-    return wt_job_failed(task->work, task->file->name, failure.status, &failure, err);
+    return wt_job_add_failure(task->work, task->file->name, failure.status, &failure, err);
 }
 
-static wt_status note_failure(indent_task *task, size_t curve, const wt_error *failure,
-                              wt_error *err)
+static wt_status record_curve_failure(indent_task *task, size_t curve, const wt_error *failure,
+                                      wt_error *err)
 {
     if (task->n_equal > 0 && strcmp(failure->message, task->failure.message) == 0) {
         task->n_equal++;
@@ -72,20 +73,20 @@ static wt_status note_failure(indent_task *task, size_t curve, const wt_error *f
 
 /* ---- one curve ------------------------------------------------------------------------------- */
 
-static bool has_room(const indent_task *task)
+static bool may_read_curve(const indent_task *task)
 {
-    return task->n_taken < task->n_items &&
-           (task->n_taken < task->n_workers || task->n_samples < MOST_SAMPLES);
+    return task->n_busy < task->n_items &&
+           (task->n_busy < task->n_workers || task->n_samples < MAX_QUEUED_SAMPLES);
 }
 
 /* Reads the next curve. Returns NULL if there is none. */
-static item *take_curve(indent_task *task)
+static queued_curve *read_next_curve(indent_task *task)
 {
-    while (task->status == WT_OK && task->source != NULL && !has_room(task))
+    while (task->status == WT_OK && task->source != NULL && !may_read_curve(task))
         (void)pthread_cond_wait(&task->written, &task->lock);
     if (task->status != WT_OK || task->source == NULL)
         return NULL;
-    item *it = task->items;
+    queued_curve *it = task->items;
     while (it->state != ITEM_FREE)
         it++;
     it->error = (wt_error)WT_ERROR_INIT;
@@ -98,10 +99,10 @@ static item *take_curve(indent_task *task)
     it->samples = 0;
     for (size_t i = 0; it->status == WT_OK && i < it->curve.n_segments; i++)
         it->samples += it->curve.segments[i].n_points * it->curve.segments[i].n_channels;
-    it->choice = manual_overrides_of_curve(&task->choices, task->file, it->curve.index);
-    it->state = ITEM_TAKEN;
+    it->choice = manual_overrides_curve_choice(&task->choices, task->file, it->curve.index);
+    it->state = ITEM_BUSY;
     it->order = task->n_read++;
-    task->n_taken++;
+    task->n_busy++;
     task->n_samples += it->samples;
     return it;
 }
@@ -113,39 +114,39 @@ static void mark_unreadable(wt_indent_fit *fit, const wt_error *error)
     utf8_copy(fit->reason, sizeof fit->reason, error->message);
 }
 
-static wt_status keep_modulus(indent_task *task, const item *it, wt_error *err)
+static wt_status store_modulus(indent_task *task, const queued_curve *it, wt_error *err)
 {
-    accepted *moduli = array_grow(task->moduli, task->n_moduli, sizeof *moduli);
+    accepted_modulus *moduli = array_grow(task->moduli, task->n_moduli, sizeof *moduli);
     if (moduli == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     task->moduli = moduli;
-    task->moduli[task->n_moduli] = (accepted){.modulus = it->fit.modulus.value,
-                                              .file = task->file,
-                                              .curve = it->curve.index,
-                                              .choice = it->choice,
-                                              .order = task->n_moduli};
+    task->moduli[task->n_moduli] = (accepted_modulus){.modulus = it->fit.modulus.value,
+                                                      .file = task->file,
+                                                      .curve = it->curve.index,
+                                                      .choice = it->choice,
+                                                      .order = task->n_moduli};
     task->n_moduli++;
-    return indent_summary_add(&task->together, &it->fit, &task->options, err);
+    return indent_summary_add(&task->summary, &it->fit, &task->options, err);
 }
 
-static bool is_described_alike(const wt_tip *a, const wt_tip *b)
+static bool has_same_description(const wt_tip *a, const wt_tip *b)
 {
-    char words[2][256];
-    wt_tip_describe(a, words[0], sizeof words[0]);
-    wt_tip_describe(b, words[1], sizeof words[1]);
-    return strcmp(words[0], words[1]) == 0;
+    char descriptions[2][256];
+    wt_tip_describe(a, descriptions[0], sizeof descriptions[0]);
+    wt_tip_describe(b, descriptions[1], sizeof descriptions[1]);
+    return strcmp(descriptions[0], descriptions[1]) == 0;
 }
 
 /* Records the calibration of the curve for the keys of the group. */
-static wt_status note_calibration(indent_task *task, const wt_cantilever *used, wt_error *err)
+static wt_status record_calibration(indent_task *task, const wt_cantilever *used, wt_error *err)
 {
     task->k_low = fmin(task->k_low, used->spring_constant);
     task->k_high = fmax(task->k_high, used->spring_constant);
     task->s_low = fmin(task->s_low, used->sensitivity);
     task->s_high = fmax(task->s_high, used->sensitivity);
-    task->by_sensitivity = task->by_sensitivity || used->sensitivity_given;
+    task->has_given_sensitivity = task->has_given_sensitivity || used->sensitivity_is_overridden;
     for (size_t i = 0; i < task->n_tips; i++)
-        if (task->tips[i] == task->file_tip || is_described_alike(task->tips[i], task->file_tip))
+        if (task->tips[i] == task->file_tip || has_same_description(task->tips[i], task->file_tip))
             return WT_OK;
     const wt_tip **tips = array_grow(task->tips, task->n_tips, sizeof(const wt_tip *));
     if (tips == NULL)
@@ -157,80 +158,81 @@ static wt_status note_calibration(indent_task *task, const wt_cantilever *used, 
 
 /* Writes the row of a curve. The row has data on depth only if the fit used the settings of the
  * job. */
-static wt_status write_row(indent_task *task, const item *it, const wt_indent_options *options,
-                           bool alike, wt_error *err)
+static wt_status write_row(indent_task *task, const queued_curve *it,
+                           const wt_indent_options *options, bool has_job_settings, wt_error *err)
 {
     const unsigned left_out = task->work->left_out;
     const bool columns = (left_out & WT_EXTRA_DEPTH_CURVES) == 0,
                table = (left_out & WT_EXTRA_MODULUS_DEPTH) == 0;
-    const bool may_tell = alike && !options->plain_least_squares;
+    const bool may_have_depth = has_job_settings && !options->plain_least_squares;
     wt_indent_job job = *task->job;
-    wt_depth_curve deep, shown;
+    wt_curve_residuals deep, shown;
     job.tip = *task->file_tip;
     job.options = *options;
-    const bool tells = indent_depth_curve(&it->fit, &it->curve, may_tell && table, &deep);
-    (void)indent_depth_curve(&it->fit, &it->curve, may_tell && columns, &shown);
+    const bool has_depth = indent_depth_curve(&it->fit, &it->curve, may_have_depth && table, &deep);
+    (void)indent_depth_curve(&it->fit, &it->curve, may_have_depth && columns, &shown);
     task->rows.err = err;
-    flow_indentation_row(&task->rows, &job, task->file->name, task->spot, &it->curve, &it->fit,
-                         &shown);
-    return tells ? indent_depths_add(&task->depths, &deep, task->spot, err) : WT_OK;
+    flow_indentation_row_add(&task->rows, &job, task->file->name, task->spot, &it->curve, &it->fit,
+                             &shown);
+    return has_depth ? indent_depths_add(&task->depths, &deep, task->spot, err) : WT_OK;
 }
 
-static wt_status write_item(indent_task *task, item *it, wt_error *err)
+static wt_status write_item(indent_task *task, queued_curve *it, wt_error *err)
 {
     wt_status status = WT_OK;
     if (it->status != WT_OK) {
         if (!flow_may_continue(task->work, it->status))
-            return wt_job_failed(task->work, task->file->name, it->status, &it->error, err);
+            return wt_job_add_failure(task->work, task->file->name, it->status, &it->error, err);
         mark_unreadable(&it->fit, &it->error);
-        status = note_failure(task, it->curve.index, &it->error, err);
+        status = record_curve_failure(task, it->curve.index, &it->error, err);
     }
     if (status != WT_OK)
         return status;
-    const bool own_tip = task->file_contact != task->contact,
-               as_fitted = isnan(it->choice.contact_point);
-    const bool alike = !own_tip && as_fitted;
+    const bool has_file_tip = task->file_contact != task->contact,
+               has_fitted_contact = isnan(it->choice.contact_point);
+    const bool has_job_settings = !has_file_tip && has_fitted_contact;
     const wt_indent_options options = indent_curve_options(task, &it->choice);
     task->n_curves++;
-    status = write_row(task, it, &options, alike, err);
+    status = write_row(task, it, &options, has_job_settings, err);
     if (status == WT_OK)
         status = curve_selection_add(&task->shown, task->file, &it->curve, &it->fit,
                                      task->file_contact, &options, err);
     if (status != WT_OK)
         return status;
-    if (task->rows.status != WT_OK || !wt_curve_usable(it->fit.verdict))
+    if (task->rows.status != WT_OK || !wt_curve_verdict_is_usable(it->fit.verdict))
         return task->rows.status;
     task->n_accepted++;
     task->n_doubtful += it->fit.verdict == WT_CURVE_DOUBTFUL;
-    status = note_calibration(task, &it->curve.cantilever, err);
+    status = record_calibration(task, &it->curve.cantilever, err);
     const double error = it->fit.modulus.standard_error / it->fit.modulus.value;
-    task->squares += error * error;
-    if (status == WT_OK && as_fitted) /* shifted sources do not apply to a fixed contact point */
-        status =
-            calibration_errors_store(&task->common, &it->curve, task->file_contact, own_tip, err);
+    task->sum_squared_errors += error * error;
+    if (status == WT_OK &&
+        has_fitted_contact) /* shifted sources do not apply to a fixed contact point */
+        status = calibration_errors_store(&task->calibration, &it->curve, task->file_contact,
+                                          has_file_tip, err);
     if (status == WT_OK && task->job->keep != NULL)
-        status = alike ? curve_set_add(task->job->keep, &it->curve, &it->fit, err)
-                       : curve_set_give_up(task->job->keep);
-    return status == WT_OK ? keep_modulus(task, it, err) : status;
+        status = has_job_settings ? curve_set_add(task->job->keep, &it->curve, &it->fit, err)
+                                  : curve_set_mark_unusable(task->job->keep);
+    return status == WT_OK ? store_modulus(task, it, err) : status;
 }
 
 static bool is_cancelled(const indent_task *task)
 {
     const wt_progress *progress = &task->work->progress;
-    char what[64] = "indentation: curve";
+    char stage[64] = "indentation: curve";
     if (progress->report == NULL)
         return false;
     if (task->n_files > 1)
-        snprintf(what, sizeof what, "indentation: file %zu of %zu, curve", task->file_number,
+        snprintf(stage, sizeof stage, "indentation: file %zu of %zu, curve", task->file_number,
                  task->n_files);
-    return !progress->report(progress->user, what, task->n_written + 1, task->n_of_file);
+    return !progress->report(progress->user, stage, task->n_written + 1, task->n_expected);
 }
 
 /* Writes the finished curves that are next in order. */
-static void write_done(indent_task *task)
+static void write_finished_items(indent_task *task)
 {
     for (size_t i = 0; task->status == WT_OK && i < task->n_items; i++) {
-        item *it = &task->items[i];
+        queued_curve *it = &task->items[i];
         if (it->state != ITEM_DONE || it->order != task->n_written)
             continue;
         task->status = write_item(task, it, task->err);
@@ -238,7 +240,7 @@ static void write_done(indent_task *task)
             task->status = wt_fail(task->err, WT_E_CANCELLED, "cancelled");
         it->state = ITEM_FREE;
         task->n_written++;
-        task->n_taken--;
+        task->n_busy--;
         task->n_samples -= it->samples;
         i = (size_t)-1; /* the next curve may have a lower index */
     }
@@ -246,36 +248,36 @@ static void write_done(indent_task *task)
 }
 
 /* Fits one curve. The stated errors of the job do not apply to the tip of a single file. */
-static void fit_item(const indent_task *task, item *it, wt_indent_workspace *workspace)
+static void fit_item(const indent_task *task, queued_curve *it, wt_indent_workspace *workspace)
 {
     const wt_indent_options options = indent_curve_options(task, &it->choice);
-    const bool own_tip = task->file_contact != task->contact;
-    cached_tips told;
-    if (own_tip)
-        told = calibration_errors_reset(workspace);
-    it->status = wt_indent_force_curve(task->file_contact, &options, &it->curve, workspace,
-                                       &it->fit, &it->error);
-    if (own_tip)
-        calibration_errors_apply_cached(&told, workspace);
+    const bool has_file_tip = task->file_contact != task->contact;
+    cached_tips saved;
+    if (has_file_tip)
+        saved = calibration_errors_reset(workspace);
+    it->status = wt_indent_fit_force_curve(task->file_contact, &options, &it->curve, workspace,
+                                           &it->fit, &it->error);
+    if (has_file_tip)
+        calibration_errors_apply_cached(&saved, workspace);
     if (it->status == WT_OK)
-        manual_overrides_check(&it->choice, &it->fit);
+        manual_overrides_apply_fit(&it->choice, &it->fit);
 }
 
 static wt_status fit_curves(void *user, size_t i, unsigned worker)
 {
     indent_task *task = user;
-    item *it;
-    if (i == 0 && task->beside != NULL)
-        return flow_record(task->work, task->beside, task->file, task->job->group,
-                           task->beside_err);
+    queued_curve *it;
+    if (i == 0 && task->paired_input != NULL)
+        return flow_record_input(task->work, task->paired_input, task->file, task->job->group,
+                                 task->paired_err);
     (void)pthread_mutex_lock(&task->lock);
-    while ((it = take_curve(task)) != NULL) {
+    while ((it = read_next_curve(task)) != NULL) {
         (void)pthread_mutex_unlock(&task->lock);
         if (it->status == WT_OK)
             fit_item(task, it, task->scratch[worker]);
         (void)pthread_mutex_lock(&task->lock);
         it->state = ITEM_DONE;
-        write_done(task);
+        write_finished_items(task);
     }
     (void)pthread_mutex_unlock(&task->lock);
     return WT_OK; /* task->status has the result */
@@ -283,12 +285,13 @@ static wt_status fit_curves(void *user, size_t i, unsigned worker)
 
 /* ---- one file -------------------------------------------------------------------------------- */
 
-static wt_status read_file(indent_task *task, wt_error *err)
+static wt_status read_curve_file(indent_task *task, wt_error *err)
 {
     wt_input *input = NULL;
     wt_error failure = WT_ERROR_INIT;
-    wt_status status = flow_open_paired(task->work, task->file, task->job->group, WT_KIND_FORCE,
-                                        &input, task->n_workers > 1 ? &task->beside : NULL, err);
+    wt_status status =
+        flow_open_paired(task->work, task->file, task->job->group, WT_KIND_FORCE, &input,
+                         task->n_workers > 1 ? &task->paired_input : NULL, err);
     const wt_read_options options =
         indent_read_options(task, task->file, task->job->rates || task->options.spectrum != NULL);
     if (status == WT_OK)
@@ -299,14 +302,14 @@ static wt_status read_file(indent_task *task, wt_error *err)
         for (size_t i = 0; i < task->n_items;
              i++) /* an earlier file may have failed in the middle */
             task->items[i].state = ITEM_FREE;
-        task->n_of_file = count;
-        task->n_read = task->n_written = task->n_taken = task->n_samples = 0;
+        task->n_expected = count;
+        task->n_read = task->n_written = task->n_busy = task->n_samples = 0;
         task->status = WT_OK;
         task->err = err;
-        task->beside_err = &failure;
+        task->paired_err = &failure;
         const size_t fits = n < task->n_workers ? n : task->n_workers;
-        status = wt_parallel_for(fits + (task->beside != NULL), task->n_workers, fit_curves, task,
-                                 NULL, "fitting curves");
+        status = wt_parallel_for(fits + (task->paired_input != NULL), task->n_workers, fit_curves,
+                                 task, NULL, "fitting curves");
         if (status == WT_OK || task->status != WT_OK)
             status = task->status;
         else
@@ -316,26 +319,27 @@ static wt_status read_file(indent_task *task, wt_error *err)
         status = flush_failures(task, err);
     wt_force_close(task->source);
     task->source = NULL;
-    wt_input_close(task->beside);
-    task->beside = NULL;
+    wt_input_close(task->paired_input);
+    task->paired_input = NULL;
     wt_input_close(input);
     return status;
 }
 
-static wt_status take_file(void *user, flow_file *file, size_t i, wt_error *err)
+static wt_status process_curve_file(void *user, flow_file *file, size_t i, wt_error *err)
 {
     indent_task *task = user;
     task->file = file;
     task->file_number = i + 1;
     task->spot = file->set->spot != NULL ? file->set->spot : file->name;
-    return read_file(task, err);
+    return read_curve_file(task, err);
 }
 
 wt_status indent_read_files(indent_task *task, const flow_files *files, wt_error *err)
 {
     size_t n_failed; /* in addition to the failed curves */
     task->n_files = files->n;
-    const wt_status status = flow_files_process(files, task->work, take_file, task, &n_failed, err);
+    const wt_status status =
+        flow_files_process(files, task->work, process_curve_file, task, &n_failed, err);
     task->n_failed += n_failed;
     return status;
 }

@@ -9,58 +9,59 @@
 #include <stdlib.h>
 #include <string.h>
 
-bool indent_loss_is_unknown(const wt_indent_fit *fit)
+bool indent_has_unknown_loss(const wt_indent_fit *fit)
 {
-    const bool pull =
+    const bool has_pull =
         fit->adhesion_force > 0 || fit->pull_off_force > 0; /* a pull loses work too */
-    return fit->loss > CURVE_LEAST_LOSS && isnan(fit->loss_bias) &&
-           isnan(fit->spectrum_factor.value) && !pull;
+    return fit->loss > CURVE_MIN_LOSS && isnan(fit->loss_bias) &&
+           isnan(fit->spectrum_factor.value) && !has_pull;
 }
 
 /* True if the curve has data on the modulus against depth. A fit that begins at a depth lacks the
  * misfit at small depths. */
-static bool tells_depth(const wt_indent_fit *fit)
+static bool has_depth_information(const wt_indent_fit *fit)
 {
-    const bool pull = fit->adhesion_force > 0 || fit->pull_off_force > 0;
+    const bool has_pull = fit->adhesion_force > 0 || fit->pull_off_force > 0;
     return !(fit->fitted_from > 0) &&
-           (wt_curve_usable(fit->verdict) || fit->verdict == WT_CURVE_POOR_FIT) &&
-           !(fit->verdict == WT_CURVE_DOUBTFUL && pull) && isnan(fit->work_of_adhesion.value) &&
+           (wt_curve_verdict_is_usable(fit->verdict) || fit->verdict == WT_CURVE_POOR_FIT) &&
+           !(fit->verdict == WT_CURVE_DOUBTFUL && has_pull) && isnan(fit->work_of_adhesion.value) &&
            isnan(fit->contact_pull.value) && fit->modulus.value > 0 && !isnan(fit->misfit[0]);
 }
 
-bool indent_depth_curve(const wt_indent_fit *fit, const wt_force_curve *curve, bool asked,
-                        wt_depth_curve *to)
+bool indent_depth_curve(const wt_indent_fit *fit, const wt_force_curve *curve, bool is_requested,
+                        wt_curve_residuals *to)
 {
     const double none = (double)NAN;
-    *to = (wt_depth_curve){.baseline = none, .window = none, .curvature = none, .loss_error = none};
-    for (size_t i = 0; i < WT_CURVE_WAVES; i++)
+    *to = (wt_curve_residuals){
+        .baseline = none, .window = none, .curvature = none, .loss_error = none};
+    for (size_t i = 0; i < WT_MISFIT_TERMS; i++)
         to->misfit[i] = none;
-    if (!asked || !tells_depth(fit))
+    if (!is_requested || !has_depth_information(fit))
         return false;
-    *to = (wt_depth_curve){.modulus = fit->modulus.value,
-                           .depth = fit->max_indentation,
-                           .spring_constant = curve->cantilever.spring_constant,
-                           .baseline = fit->baseline_length,
-                           .window = fit->misfit_length,
-                           .curvature = fit->baseline_curvature,
-                           .loss_error = indent_loss_is_unknown(fit) ? none : fit->loss_error};
+    *to = (wt_curve_residuals){.modulus = fit->modulus.value,
+                               .depth = fit->max_indentation,
+                               .spring_constant = curve->cantilever.spring_constant,
+                               .baseline = fit->baseline_length,
+                               .window = fit->misfit_length,
+                               .curvature = fit->baseline_curvature,
+                               .loss_error = indent_has_unknown_loss(fit) ? none : fit->loss_error};
     memcpy(to->misfit, fit->misfit, sizeof to->misfit);
     return true;
 }
 
-wt_status indent_depths_add(indent_depths *to, const wt_depth_curve *curve, const char *spot,
+wt_status indent_depths_add(indent_depths *to, const wt_curve_residuals *curve, const char *spot,
                             wt_error *err)
 {
-    wt_depth_curve *deep = array_grow(to->curve, to->n, sizeof *deep);
-    if (deep == NULL)
+    wt_curve_residuals *grown = array_grow(to->curve, to->n, sizeof *grown);
+    if (grown == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
-    to->curve = deep;
-    deep += to->n++;
+    to->curve = grown;
+    grown += to->n++;
     if (to->last_spot == NULL || strcmp(spot, to->last_spot) != 0)
         to->n_spots++;
     to->last_spot = spot;
-    *deep = *curve;
-    deep->spot = to->n_spots;
+    *grown = *curve;
+    grown->spot = to->n_spots;
     return WT_OK;
 }
 
@@ -68,11 +69,11 @@ wt_status indent_depths_table(const indent_depths *depths, const wt_indent_job *
                               const wt_contact_table *contact, wt_indent_tables *tables,
                               wt_error *err)
 {
-    wt_curve_depth depth;
+    wt_modulus_profile depth;
     if (job->options.plain_least_squares || depths->n == 0)
         return WT_OK;
-    const wt_status status = wt_curve_depth_make(contact, job->options.poisson_ratio, depths->curve,
-                                                 depths->n, &depth, err);
+    const wt_status status = wt_modulus_profile_fit(contact, job->options.poisson_ratio,
+                                                    depths->curve, depths->n, &depth, err);
     return status == WT_OK ? flow_depth_table_add(tables, job->group, &depth, err) : status;
 }
 

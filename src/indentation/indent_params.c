@@ -28,13 +28,13 @@ wt_indent_job wt_indent_job_defaults(void)
 
 wt_status indent_read_tip(const char *text, void *tip, wt_error *err)
 {
-    wt_tip made, *to = tip;
-    const wt_status status = wt_tip_parse(text, &made, err);
+    wt_tip parsed, *to = tip;
+    const wt_status status = wt_tip_parse(text, &parsed, err);
     if (status != WT_OK)
         return status;
-    made.sample_thickness = to->sample_thickness; /* parameters of their own */
-    made.unbonded = to->unbonded;
-    *to = made;
+    parsed.sample_thickness = to->sample_thickness; /* parameters of their own */
+    parsed.unbonded = to->unbonded;
+    *to = parsed;
     return WT_OK;
 }
 
@@ -43,7 +43,7 @@ wt_status indent_check_tip(const void *tip, wt_error *err)
     return wt_tip_check(tip, err);
 }
 
-static wt_status check_group(const void *member, wt_error *err)
+static wt_status check_group_name(const void *member, wt_error *err)
 {
     const char *group = *(const char *const *)member;
     if (*group != '\0' && group[strspn(group, "abcdefghijklmnopqrstuvwxyz0123456789_")] == '\0')
@@ -51,13 +51,13 @@ static wt_status check_group(const void *member, wt_error *err)
     return wt_fail(err, WT_E_ARG, "'%s' is not made of a-z, 0-9 and _", group);
 }
 
-static wt_status check_curves(const void *member, wt_error *err)
+static wt_status check_curve_selection(const void *member, wt_error *err)
 {
     const char *at = member;
     const wt_indent_job *job = (const void *)(at - offsetof(wt_indent_job, curves));
-    curve_selection shown;
-    const wt_status status = curve_selection_begin(job, &shown, err);
-    curve_selection_clear(&shown);
+    curve_selection selection;
+    const wt_status status = curve_selection_begin(job, &selection, err);
+    curve_selection_clear(&selection);
     return status;
 }
 
@@ -85,7 +85,7 @@ static const wt_param rows[] = {
      .value = "H", .help = "of a thin sample on a rigid base, such as 2um; 0 is thick"},
     {PARAM_FLAG_OF("unbonded", wt_indent_job, tip.unbonded),
      .help = "the thin sample slides on its base"},
-    {PARAM_TEXT_OF("group", wt_indent_job, group), .check = check_group, .value = "NAME",
+    {PARAM_TEXT_OF("group", wt_indent_job, group), .check = check_group_name, .value = "NAME",
      .flags = PARAM_NO_CASE, .help = "what these curves are: bulk, track or another name"},
     {PARAM("indentation-temperature", wt_indent_job, temperature, WT_Q_TEMPERATURE, ABOVE(0)),
      .value = "T", .unset = "the reference temperature of the DMA", .flags = PARAM_NO_CASE,
@@ -98,7 +98,7 @@ static const wt_param rows[] = {
     {PARAM("sensitivity-error", wt_indent_job, sensitivity_error, WT_Q_NONE, FROM_BELOW(0, 1)),
      .value = "X", .flags = PARAM_NO_CASE,
      .help = "relative standard error of a deflection sensitivity that states none, such as 0.05"},
-    {PARAM_TEXTS_OF("curves", wt_indent_job, curves, n_curves), .check = check_curves,
+    {PARAM_TEXTS_OF("curves", wt_indent_job, curves, n_curves), .check = check_curve_selection,
      .value = "WHICH", .unset = "",
      .help = "curves to look at, as the table curves: rejected, worst:N (of the largest relative "
              "error of the modulus), all or FILE:N; median is the representative one, whole, as "
@@ -133,18 +133,18 @@ wt_status indent_job_check(const wt_indent_job *job, wt_error *err)
     return status == WT_OK ? curve_range_check(&job->options, &job->tip, err) : status;
 }
 
-static size_t add_words(char *text, size_t size, size_t length, const char *words)
+static size_t append_range_text(char *text, size_t size, size_t length, const char *addition)
 {
-    if (length + strlen(words) >= size)
+    if (length + strlen(addition) >= size)
         return length;
-    strcpy(text + length, words);
-    return length + strlen(words);
+    strcpy(text + length, addition);
+    return length + strlen(addition);
 }
 
 bool indent_range_text(const wt_indent_options *o, char *text, size_t size)
 {
     const struct {
-        const char *what, *unit;
+        const char *quantity, *unit;
         double from, to;
         const char *of;
     } ranges[] = {
@@ -160,8 +160,8 @@ bool indent_range_text(const wt_indent_options *o, char *text, size_t size)
         char number[32];
         if (!(ranges[i].from > 0) && !(ranges[i].to > 0))
             continue;
-        length = add_words(text, size, length, length > 0 ? ", " : "");
-        length = add_words(text, size, length, ranges[i].what);
+        length = append_range_text(text, size, length, length > 0 ? ", " : "");
+        length = append_range_text(text, size, length, ranges[i].quantity);
         for (int end = 0; end < 2; end++) {
             const double value = end == 0 ? ranges[i].from : ranges[i].to;
             if (!(value > 0))
@@ -170,10 +170,10 @@ bool indent_range_text(const wt_indent_options *o, char *text, size_t size)
                 wt_format_si(value, ranges[i].unit, 4, number, sizeof number);
             else
                 wt_number_format(value, number);
-            length = add_words(text, size, length, end == 0 ? " from " : " to ");
-            length = add_words(text, size, length, number);
+            length = append_range_text(text, size, length, end == 0 ? " from " : " to ");
+            length = append_range_text(text, size, length, number);
         }
-        length = add_words(text, size, length, ranges[i].of);
+        length = append_range_text(text, size, length, ranges[i].of);
     }
     return length > 0;
 }

@@ -10,9 +10,9 @@
 
 #include <pthread.h>
 
-typedef enum item_state { ITEM_FREE, ITEM_TAKEN, ITEM_DONE } item_state;
+typedef enum item_state { ITEM_FREE, ITEM_BUSY, ITEM_DONE } item_state;
 
-typedef struct item {
+typedef struct queued_curve {
     item_state state;
     size_t order; /* index among all curves of the file */
     size_t samples;
@@ -21,14 +21,14 @@ typedef struct item {
     wt_status status;
     wt_error error;
     wt_indent_fit fit;
-} item;
+} queued_curve;
 
-typedef struct accepted {
+typedef struct accepted_modulus {
     double modulus;
     const flow_file *file;
     size_t curve, order;
     curve_choice choice;
-} accepted;
+} accepted_modulus;
 
 typedef struct indent_task {
     const wt_indent_job *job;
@@ -50,13 +50,14 @@ typedef struct indent_task {
     pthread_mutex_t lock;
     pthread_cond_t written;
     wt_force_source *source; /* NULL after the last curve */
-    wt_input *beside; /* file for its digest, which one thread computes first; NULL after that */
-    wt_error *beside_err;
-    item *items;              /* [n_items] queue */
-    size_t n_items, n_taken;  /* size of the queue; items in use */
+    wt_input
+        *paired_input; /* file for its digest, which one thread computes first; NULL after that */
+    wt_error *paired_err;
+    queued_curve *items;      /* [n_items] queue */
+    size_t n_items, n_busy;   /* size of the queue; items in use */
     size_t n_samples;         /* samples in the items in use */
     size_t n_read, n_written; /* curves of the file */
-    size_t n_of_file;         /* number of curves that the file states; 0 if unknown */
+    size_t n_expected;        /* number of curves that the file states; 0 if unknown */
     size_t n_files, file_number;
     wt_status status;
     wt_error *err;
@@ -66,18 +67,18 @@ typedef struct indent_task {
     wt_error failure;
     size_t n_equal, first_equal;
     /* Accepted moduli with their curves, for the representative curve. */
-    accepted *moduli;
+    accepted_modulus *moduli;
     size_t n_moduli;
-    indent_summary together;
-    calibration_errors common;
+    indent_summary summary;
+    calibration_errors calibration;
     indent_depths depths;
     /* Range of the spring constants [N/m] and sensitivities [m/V] of the accepted curves, and their
      * tips with different descriptions. */
     double k_low, k_high, s_low, s_high;
     const wt_tip **tips;
     size_t n_tips;
-    bool by_sensitivity; /* a given sensitivity determined a force */
-    double squares;      /* sum of the squared relative errors of the moduli */
+    bool has_given_sensitivity; /* a given sensitivity determined a force */
+    double sum_squared_errors;  /* sum of the squared relative errors of the moduli */
 } indent_task;
 
 /* Returns the quantities that the fit reads from a file, with the manual overrides for the file.

@@ -16,7 +16,7 @@
 TABLE_ROW(overrides, OVERRIDES, const char *group, *file; double curve;
           const char *choice, *value, *note; size_t applied;)
 
-static choice_values no_values(void)
+static choice_values empty_choice_values(void)
 {
     return (choice_values){(double)NAN, (double)NAN, (double)NAN, {0}};
 }
@@ -29,11 +29,11 @@ static const wt_param rows[] = {
     {PARAM("sensitivity", choice_values, sensitivity, WT_Q_SENSITIVITY, ABOVE(0)), .unset = ""},
     {PARAM_OTHER_OF("tip", choice_values, tip, indent_read_tip), .check = indent_check_tip},
 };
-PARAM_LOCAL_TABLE(value_params, choice_values, rows, no_values, NO_PARTS)
+PARAM_LOCAL_TABLE(value_params, choice_values, rows, empty_choice_values, NO_PARTS)
 
 static const struct {
-    const char *word;
-    bool of_curve, of_file; /* valid targets */
+    const char *id;
+    bool for_curve, for_file; /* valid targets */
 } kinds[CHOICE_KINDS] = {[CHOICE_EXCLUDE] = {"exclude", true, true},
                          [CHOICE_CONTACT_POINT] = {"contact-point", true, false},
                          [CHOICE_SPRING_CONSTANT] = {"spring-constant", false, true},
@@ -41,27 +41,28 @@ static const struct {
                          [CHOICE_TIP] = {"tip", false, true}};
 
 /* Adds the file and the row of the override to an error. */
-static wt_status at_choice(const manual_overrides *choices, const manual_override *c, wt_error *err)
+static wt_status locate_choice_error(const manual_overrides *choices, const manual_override *c,
+                                     wt_error *err)
 {
     wt_error_file(err, choices->path);
     if (isnan(c->curve))
-        wt_error_place(err, "row %zu, %s of %s", c->row + 1, kinds[c->kind].word, c->file);
+        wt_error_place(err, "row %zu, %s of %s", c->row + 1, kinds[c->kind].id, c->file);
     else
-        wt_error_place(err, "row %zu, %s of %s curve %.0f", c->row + 1, kinds[c->kind].word,
-                       c->file, c->curve);
+        wt_error_place(err, "row %zu, %s of %s curve %.0f", c->row + 1, kinds[c->kind].id, c->file,
+                       c->curve);
     return err != NULL ? err->status : WT_E_ARG;
 }
 
 /* ---- reading --------------------------------------------------------------------------------- */
 
-static wt_status check_place(const manual_override *c, wt_error *err)
+static wt_status check_choice_target(const manual_override *c, wt_error *err)
 {
-    if (isnan(c->curve) ? !kinds[c->kind].of_file : !kinds[c->kind].of_curve) {
+    if (isnan(c->curve) ? !kinds[c->kind].for_file : !kinds[c->kind].for_curve) {
         const wt_status status =
-            wt_fail(err, WT_E_ARG, "%s is chosen for %s", kinds[c->kind].word,
-                    kinds[c->kind].of_file ? "a file, not for one curve" : "one curve");
+            wt_fail(err, WT_E_ARG, "%s is chosen for %s", kinds[c->kind].id,
+                    kinds[c->kind].for_file ? "a file, not for one curve" : "one curve");
         wt_error_advice(err, "%s in the column curve",
-                        kinds[c->kind].of_file ? "write nan" : "write the number of the curve");
+                        kinds[c->kind].for_file ? "write nan" : "write the number of the curve");
         return status;
     }
     if (!isnan(c->curve) && !(c->curve >= 0 && c->curve < 0x1p53 && floor(c->curve) == c->curve)) {
@@ -73,11 +74,11 @@ static wt_status check_place(const manual_override *c, wt_error *err)
     return WT_OK;
 }
 
-static wt_status read_value(manual_override *c, const wt_indent_job *job, const wt_job *work,
-                            wt_error *err)
+static wt_status read_choice_value(manual_override *c, const wt_indent_job *job, const wt_job *work,
+                                   wt_error *err)
 {
     uint64_t given = 0;
-    c->values = no_values();
+    c->values = empty_choice_values();
     c->values.tip = job->tip; /* the thickness and the bond of the sample do not change */
     if (c->kind == CHOICE_EXCLUDE)
         return c->value[0] == '\0'
@@ -85,7 +86,7 @@ static wt_status read_value(manual_override *c, const wt_indent_job *job, const 
                    : wt_fail(err, WT_E_ARG, "exclude has no value, but \"%s\"; a reason is a note",
                              c->value);
     wt_status status =
-        wt_params_set(value_params(), kinds[c->kind].word, &c->values, c->value, &given, err);
+        wt_params_set(value_params(), kinds[c->kind].id, &c->values, c->value, &given, err);
     if (status != WT_OK || c->kind != CHOICE_TIP)
         return status;
     const bool has_error = c->values.tip.radius_error > 0 || c->values.tip.half_angle_error > 0;
@@ -96,10 +97,10 @@ static wt_status read_value(manual_override *c, const wt_indent_job *job, const 
     return indent_contact_table(&c->values.tip, &c->contact, err);
 }
 
-static wt_status read_choice(const table_view *view, size_t row, const wt_indent_job *job,
-                             const wt_job *work, manual_overrides *to, wt_error *err)
+static wt_status read_choice_row(const table_view *view, size_t row, const wt_indent_job *job,
+                                 const wt_job *work, manual_overrides *to, wt_error *err)
 {
-    const char *word = overrides_text(view, row, OVERRIDES_CHOICE);
+    const char *id = overrides_text(view, row, OVERRIDES_CHOICE);
     manual_override *grown = array_grow(to->choice, to->n, sizeof *grown);
     if (grown == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
@@ -111,18 +112,18 @@ static wt_status read_choice(const table_view *view, size_t row, const wt_indent
                            .value = overrides_text(view, row, OVERRIDES_VALUE),
                            .note = overrides_text(view, row, OVERRIDES_NOTE),
                            .curve = overrides_get(view, row, OVERRIDES_CURVE)};
-    while (c->kind < CHOICE_KINDS && strcmp(kinds[c->kind].word, word) != 0)
+    while (c->kind < CHOICE_KINDS && strcmp(kinds[c->kind].id, id) != 0)
         c->kind++;
     if (c->kind == CHOICE_KINDS) {
-        const wt_status status = wt_fail(err, WT_E_ARG, "no choice is called \"%s\"", word);
+        const wt_status status = wt_fail(err, WT_E_ARG, "no choice is called \"%s\"", id);
         wt_error_file(err, to->path);
         wt_error_place(err, "row %zu", row + 1);
         wt_error_expected(err, "exclude, contact-point, spring-constant, sensitivity or tip");
         return status;
     }
-    wt_status status = check_place(c, err);
+    wt_status status = check_choice_target(c, err);
     if (status == WT_OK)
-        status = read_value(c, job, work, err);
+        status = read_choice_value(c, job, work, err);
     for (size_t i = 0; status == WT_OK && i + 1 < to->n; i++) {
         const manual_override *before = &to->choice[i];
         const bool same_curve =
@@ -131,7 +132,7 @@ static wt_status read_choice(const table_view *view, size_t row, const wt_indent
             status =
                 wt_fail(err, WT_E_ARG, "chosen twice, the first time in row %zu", before->row + 1);
     }
-    return status == WT_OK ? WT_OK : at_choice(to, c, err);
+    return status == WT_OK ? WT_OK : locate_choice_error(to, c, err);
 }
 
 /* True if the file is an input already. Each group of a case reads it, but it is one input. */
@@ -147,8 +148,8 @@ static bool is_recorded(const wt_job *work, const char *path)
 wt_status manual_overrides_read(const wt_indent_job *job, const wt_job *work,
                                 manual_overrides *choices, wt_error *err)
 {
-    static const wt_tables_role role = {.of_curves = "overrides",
-                                        .of_others = "overrides",
+    static const wt_tables_role role = {.curve_role = "overrides",
+                                        .other_role = "overrides",
                                         .instead = "a table of choices, as report --browse writes "
                                                    "it: weartrack-indent(1)"};
     *choices = (manual_overrides){.path = job->choices, .group = job->group};
@@ -169,7 +170,7 @@ wt_status manual_overrides_read(const wt_indent_job *job, const wt_job *work,
     for (size_t row = 0; status == WT_OK && row < view.n_rows; row++) {
         const char *group = overrides_text(&view, row, OVERRIDES_GROUP);
         if (group[0] == '\0' || strcmp(group, job->group) == 0)
-            status = read_choice(&view, row, job, work, choices, err);
+            status = read_choice_row(&view, row, job, work, choices, err);
     }
     if (status == WT_OK && choices->n == 0 && view.n_rows > 0)
         wt_log_add(work->log, WT_WARNING, job->choices, NULL, "no choice is for the group \"%s\"",
@@ -178,14 +179,14 @@ wt_status manual_overrides_read(const wt_indent_job *job, const wt_job *work,
 }
 
 /* Finds the file of an override. An exact name takes precedence over paths with the same end. */
-static wt_status find_file(const manual_overrides *choices, manual_override *c,
-                           const flow_files *files, wt_error *err)
+static wt_status find_choice_file(const manual_overrides *choices, manual_override *c,
+                                  const flow_files *files, wt_error *err)
 {
-    flow_naming best = FLOW_OTHER_FILE;
+    flow_name_match best = FLOW_NAME_DIFFERENT;
     const flow_file *other = NULL;
     for (size_t k = 0; k < files->n; k++) {
-        const flow_naming as = flow_file_is(&files->file[k], c->file, strlen(c->file));
-        if (as == FLOW_OTHER_FILE || as < best)
+        const flow_name_match as = flow_file_match(&files->file[k], c->file, strlen(c->file));
+        if (as == FLOW_NAME_DIFFERENT || as < best)
             continue;
         other = as == best ? c->of : NULL;
         c->of = &files->file[k];
@@ -196,29 +197,29 @@ static wt_status find_file(const manual_overrides *choices, manual_override *c,
                       choices->group);
         wt_error_advice(err, "correct the column file, delete the row, or name another group in "
                              "the column group");
-        return at_choice(choices, c, err);
+        return locate_choice_error(choices, c, err);
     }
     if (other == NULL)
         return WT_OK;
     (void)wt_fail(err, WT_E_ARG, "two files are called so");
     wt_error_found(err, "%s and %s", other->name, c->of->name);
     wt_error_advice(err, "write more of the path in the column file");
-    return at_choice(choices, c, err);
+    return locate_choice_error(choices, c, err);
 }
 
 wt_status manual_overrides_bind(manual_overrides *choices, const flow_files *files, wt_error *err)
 {
     wt_status status = WT_OK;
     for (size_t i = 0; status == WT_OK && i < choices->n; i++)
-        status = find_file(choices, &choices->choice[i], files, err);
+        status = find_choice_file(choices, &choices->choice[i], files, err);
     return status;
 }
 
 /* ---- applying -------------------------------------------------------------------------------- */
 
-void manual_overrides_of_file(const manual_overrides *choices, const flow_file *file,
-                              wt_read_options *read, const wt_contact_table **contact,
-                              const wt_tip **tip)
+void manual_overrides_apply_file(const manual_overrides *choices, const flow_file *file,
+                                 wt_read_options *read, const wt_contact_table **contact,
+                                 const wt_tip **tip)
 {
     for (size_t i = 0; i < choices->n; i++) {
         const manual_override *c = &choices->choice[i];
@@ -235,8 +236,8 @@ void manual_overrides_of_file(const manual_overrides *choices, const flow_file *
     }
 }
 
-curve_choice manual_overrides_of_curve(manual_overrides *choices, const flow_file *file,
-                                       size_t curve)
+curve_choice manual_overrides_curve_choice(manual_overrides *choices, const flow_file *file,
+                                           size_t curve)
 {
     curve_choice of = {(double)NAN, NULL};
     for (size_t i = 0; i < choices->n; i++) {
@@ -252,23 +253,25 @@ curve_choice manual_overrides_of_curve(manual_overrides *choices, const flow_fil
     return of;
 }
 
-void manual_overrides_check(const curve_choice *choice, wt_indent_fit *fit)
+void manual_overrides_apply_fit(const curve_choice *choice, wt_indent_fit *fit)
 {
     enum { NOTE = 60 }; /* characters of the note, so that the verdict of the fit has space */
-    char said[2 * sizeof fit->reason], text[4 * sizeof fit->reason];
+    char fit_text[2 * sizeof fit->reason], text[4 * sizeof fit->reason];
     const char *verdict = wt_curve_verdict_id(fit->verdict);
-    const bool by_hand = !isnan(choice->contact_point), some = fit->reason[0] != '\0';
-    snprintf(said, sizeof said, "%s%s%s", by_hand ? "contact point by hand" : "",
-             by_hand && some ? "; " : "", fit->reason);
+    const bool has_manual_contact = !isnan(choice->contact_point),
+               has_reason = fit->reason[0] != '\0';
+    snprintf(fit_text, sizeof fit_text, "%s%s%s", has_manual_contact ? "contact point by hand" : "",
+             has_manual_contact && has_reason ? "; " : "", fit->reason);
     if (choice->exclude == NULL) {
-        utf8_copy(fit->reason, sizeof fit->reason, said);
+        utf8_copy(fit->reason, sizeof fit->reason, fit_text);
         return;
     }
     const char *note = choice->exclude->note;
-    const bool says_verdict = strncmp(said, verdict, strlen(verdict)) == 0;
+    const bool has_verdict_prefix = strncmp(fit_text, verdict, strlen(verdict)) == 0;
     snprintf(text, sizeof text, "left out by hand%s%.*s; the fit: %s%s%s",
-             note[0] != '\0' ? ": " : "", (int)utf8_cut(note, strlen(note), NOTE), note,
-             says_verdict ? "" : verdict, says_verdict || said[0] == '\0' ? "" : ", ", said);
+             note[0] != '\0' ? ": " : "", (int)utf8_truncated_length(note, strlen(note), NOTE),
+             note, has_verdict_prefix ? "" : verdict,
+             has_verdict_prefix || fit_text[0] == '\0' ? "" : ", ", fit_text);
     utf8_copy(fit->reason, sizeof fit->reason, text);
     fit->verdict = WT_CURVE_EXCLUDED;
 }
@@ -276,7 +279,7 @@ void manual_overrides_check(const curve_choice *choice, wt_indent_fit *fit)
 /* ---- the table ------------------------------------------------------------------------------- */
 
 /* Reports the applied overrides to the reader of the result. */
-static void note_choices(const manual_overrides *choices, const wt_job *work)
+static void report_choices(const manual_overrides *choices, const wt_job *work)
 {
     size_t n_curves[CHOICE_KINDS] = {0}, used = 0;
     char text[256] = "";
@@ -285,7 +288,7 @@ static void note_choices(const manual_overrides *choices, const wt_job *work)
     for (int k = 0; k < CHOICE_KINDS; k++)
         if (n_curves[k] > 0)
             used += (size_t)snprintf(text + used, sizeof text - used, "%s%s of %zu",
-                                     used > 0 ? ", " : "", kinds[k].word, n_curves[k]);
+                                     used > 0 ? ", " : "", kinds[k].id, n_curves[k]);
     wt_log_add(work->log, WT_NOTE, choices->path, NULL,
                "%s: chosen by hand, in curves: %s (table choices)", choices->group, text);
 }
@@ -295,7 +298,7 @@ wt_status manual_overrides_table(const manual_overrides *choices, const wt_job *
 {
     if (choices->n == 0)
         return WT_OK;
-    note_choices(choices, work);
+    report_choices(choices, work);
     table_writer t = {0};
     if (*table == NULL) {
         t = table_begin(&overrides_schema, err);
@@ -309,9 +312,9 @@ wt_status manual_overrides_table(const manual_overrides *choices, const wt_job *
             (void)wt_fail(err, WT_E_NOT_FOUND,
                           isnan(c->curve) ? "no curve of the file could be read"
                                           : "the file has no such curve");
-            return at_choice(choices, c, err);
+            return locate_choice_error(choices, c, err);
         }
-        TABLE_ADD(overrides, &t, choices->group, c->file, c->curve, kinds[c->kind].word, c->value,
+        TABLE_ADD(overrides, &t, choices->group, c->file, c->curve, kinds[c->kind].id, c->value,
                   c->note, c->n_curves);
     }
     return table_end(&t, NULL);

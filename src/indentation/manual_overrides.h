@@ -51,19 +51,19 @@ wt_status manual_overrides_bind(manual_overrides *choices, const flow_files *fil
 
 /* Applies the overrides of a file to `read`. Without an override `contact` and `tip` do not change.
  */
-void manual_overrides_of_file(const manual_overrides *choices, const flow_file *file,
-                              wt_read_options *read, const wt_contact_table **contact,
-                              const wt_tip **tip);
+void manual_overrides_apply_file(const manual_overrides *choices, const flow_file *file,
+                                 wt_read_options *read, const wt_contact_table **contact,
+                                 const wt_tip **tip);
 /* Overrides of one curve; NaN and NULL if there are none. */
 typedef struct curve_choice {
     double contact_point;
     const manual_override *exclude;
 } curve_choice;
 /* Returns the overrides of a curve and counts the curve. */
-curve_choice manual_overrides_of_curve(manual_overrides *choices, const flow_file *file,
-                                       size_t curve);
+curve_choice manual_overrides_curve_choice(manual_overrides *choices, const flow_file *file,
+                                           size_t curve);
 /* Applies the overrides to the fit of the curve: verdict and reason. */
-void manual_overrides_check(const curve_choice *choice, wt_indent_fit *fit);
+void manual_overrides_apply_fit(const curve_choice *choice, wt_indent_fit *fit);
 
 /* Appends the applied overrides to the table "choices" and creates the table if it is NULL. An
  * override without a curve is WT_E_NOT_FOUND. */

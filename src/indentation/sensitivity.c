@@ -17,17 +17,17 @@
 #include <string.h>
 
 /* Number of directions (approach, retract) and of table rows (these and their mean). */
-enum { WAYS = 2, ROWS = 3 };
+enum { DIRECTIONS = 2, ROWS = 3 };
 /* Smallest number of curves of a file for the exclusion of outliers. This is a heuristic: fewer
  * curves do not determine the typical values well enough. */
-enum { OUTLIER_LEAST = 8 };
-static const wt_segment_kind kinds[WAYS] = {WT_SEGMENT_APPROACH, WT_SEGMENT_RETRACT};
+enum { OUTLIER_MIN_CURVES = 8 };
+static const wt_segment_kind kinds[DIRECTIONS] = {WT_SEGMENT_APPROACH, WT_SEGMENT_RETRACT};
 
 wt_sensitivity_job wt_sensitivity_job_defaults(void)
 {
     /* Changes of 5 % bias the mean slope by less than half of that, which is the repeatability of
      * deflection sensitivities (a heuristic). */
-    return (wt_sensitivity_job){.options = wt_slope_defaults(), .most_bend = 0.05};
+    return (wt_sensitivity_job){.options = wt_slope_defaults(), .max_slope_change = 0.05};
 }
 
 static const wt_param job_rows[] = {
@@ -35,7 +35,7 @@ static const wt_param job_rows[] = {
      .flags = PARAM_NO_CASE,
      .help = "which ways of the curves the answer is of; the mean of both is free of friction of "
              "the tip and of the piezo's hysteresis to first order"},
-    {PARAM("max-slope-change", wt_sensitivity_job, most_bend, WT_Q_NONE, ABOVE(0)),
+    {PARAM("max-slope-change", wt_sensitivity_job, max_slope_change, WT_Q_NONE, ABOVE(0)),
      .former = "most-bend", .value = "X", .flags = PARAM_NO_CASE,
      .help = "largest change of the slope within the part, of the slope, that is still straight"},
 };
@@ -55,50 +55,50 @@ void wt_sensitivity_tables_clear(wt_sensitivity_tables *tables)
 
 /* Slopes of the two branches of a curve. A force is divided by the spring constant to obtain the
  * deflection. */
-typedef struct item {
+typedef struct curve_slopes {
     const flow_file *file;
     long unit;
     size_t curve;
-    bool there[WAYS], outlier;
-    bool volts;     /* if false, the signal is a deflection in metres */
-    double of_file; /* sensitivity [m/V]; NaN if not stated */
-    wt_contact_slope way[WAYS];
-} item;
+    bool has_segment[DIRECTIONS], outlier;
+    bool volts;              /* if false, the signal is a deflection in metres */
+    double file_sensitivity; /* sensitivity [m/V]; NaN if not stated */
+    wt_contact_slope direction[DIRECTIONS];
+} curve_slopes;
 
 typedef struct sensitivity_task {
     const wt_sensitivity_job *job;
     const wt_job *work;
-    item *items; /* [n] */
+    curve_slopes *items; /* [n] */
     size_t n;
 } sensitivity_task;
 
-static wt_status measure_ways(const sensitivity_task *task, const wt_force_curve *curve,
-                              wt_quantity signal, item *it, wt_error *err)
+static wt_status measure_slopes(const sensitivity_task *task, const wt_force_curve *curve,
+                                wt_quantity signal, curve_slopes *it, wt_error *err)
 {
     wt_status status = WT_OK;
-    it->of_file = curve->cantilever.sensitivity;
+    it->file_sensitivity = curve->cantilever.sensitivity;
     it->volts = signal == WT_Q_DEFLECTION_VOLTAGE;
     it->curve = curve->index;
-    for (size_t w = 0; w < WAYS && status == WT_OK; w++) {
+    for (size_t w = 0; w < DIRECTIONS && status == WT_OK; w++) {
         const wt_segment *segment = wt_force_curve_segment(curve, kinds[w]);
         if (segment == NULL)
             continue;
         const double *height = segment_height(segment);
         const wt_channel *channel = wt_segment_channel(segment, signal);
-        it->there[w] = true;
+        it->has_segment[w] = true;
         if (height != NULL && channel != NULL)
             status = wt_contact_slope_fit(height, channel->values, segment->n_points,
-                                          &task->job->options, &it->way[w], err);
+                                          &task->job->options, &it->direction[w], err);
         else
-            snprintf(it->way[w].why_not, sizeof it->way[w].why_not, "no %s in the curve",
-                     height == NULL ? "height" : "deflection");
+            snprintf(it->direction[w].why_not, sizeof it->direction[w].why_not,
+                     "no %s in the curve", height == NULL ? "height" : "deflection");
     }
-    for (size_t w = 0; w < WAYS && signal == WT_Q_FORCE; w++) {
-        it->way[w].slope /= curve->cantilever.spring_constant;
-        it->way[w].slope_error /= curve->cantilever.spring_constant;
-        it->way[w].found = it->way[w].found && isfinite(it->way[w].slope);
+    for (size_t w = 0; w < DIRECTIONS && signal == WT_Q_FORCE; w++) {
+        it->direction[w].slope /= curve->cantilever.spring_constant;
+        it->direction[w].slope_error /= curve->cantilever.spring_constant;
+        it->direction[w].found = it->direction[w].found && isfinite(it->direction[w].slope);
         if (isnan(curve->cantilever.spring_constant))
-            snprintf(it->way[w].why_not, sizeof it->way[w].why_not,
+            snprintf(it->direction[w].why_not, sizeof it->direction[w].why_not,
                      "a force without a spring constant: give --spring-constant 0.1N/m");
     }
     return status;
@@ -106,15 +106,16 @@ static wt_status measure_ways(const sensitivity_task *task, const wt_force_curve
 
 /* Reads all curves of a file with one signal. *no_signal is true if the first curve lacks it; then
  * no curve is read. */
-static wt_status read_curves(sensitivity_task *task, const flow_file *file, long unit,
-                             wt_input *input, wt_quantity signal, bool *no_signal, wt_error *err)
+static wt_status read_sensitivity_curves(sensitivity_task *task, const flow_file *file, long unit,
+                                         wt_input *input, wt_quantity signal, bool *no_signal,
+                                         wt_error *err)
 {
     wt_read_options options = flow_read_options(file);
     wt_force_source *source = NULL;
     wt_force_curve curve = {0};
     bool first = true;
     options.want = WT_Q_BIT(WT_Q_HEIGHT) | WT_Q_BIT(WT_Q_MEASURED_HEIGHT) | WT_Q_BIT(signal);
-    options.one_height = true;
+    options.sensor_height_only = true;
     options.segments = WT_SEGMENT_BIT(WT_SEGMENT_APPROACH) | WT_SEGMENT_BIT(WT_SEGMENT_RETRACT);
     wt_status status =
         wt_force_open(task->work->formats, input, &options, task->work->log, &source, err);
@@ -129,14 +130,14 @@ static wt_status read_curves(sensitivity_task *task, const flow_file *file, long
             if (*no_signal)
                 break;
         }
-        item *items = array_grow(task->items, task->n, sizeof *items);
+        curve_slopes *items = array_grow(task->items, task->n, sizeof *items);
         if (items == NULL) {
             status = wt_fail(err, WT_E_MEMORY, "out of memory");
             break;
         }
         task->items = items;
-        items[task->n] = (item){.file = file, .unit = unit};
-        status = measure_ways(task, &curve, signal, &items[task->n], err);
+        items[task->n] = (curve_slopes){.file = file, .unit = unit};
+        status = measure_slopes(task, &curve, signal, &items[task->n], err);
         task->n++;
     }
     wt_force_curve_clear(&curve);
@@ -145,7 +146,7 @@ static wt_status read_curves(sensitivity_task *task, const flow_file *file, long
 }
 
 /* Reads the detector signal in volts, or the deflection in metres if the file has no volts. */
-static wt_status read_file(void *user, flow_file *file, size_t unit, wt_error *err)
+static wt_status read_sensitivity_file(void *user, flow_file *file, size_t unit, wt_error *err)
 {
     sensitivity_task *task = user;
     static const wt_quantity signals[] = {WT_Q_DEFLECTION_VOLTAGE, WT_Q_DEFLECTION, WT_Q_FORCE};
@@ -153,7 +154,8 @@ static wt_status read_file(void *user, flow_file *file, size_t unit, wt_error *e
     bool no_signal = true;
     wt_status status = flow_open(task->work, file, "sensitivity", WT_KIND_FORCE, &input, err);
     for (size_t i = 0; i < COUNT_OF(signals) && status == WT_OK && no_signal; i++)
-        status = read_curves(task, file, (long)unit, input, signals[i], &no_signal, err);
+        status =
+            read_sensitivity_curves(task, file, (long)unit, input, signals[i], &no_signal, err);
     if (status == WT_OK && no_signal) {
         status = wt_fail(err, WT_E_MISSING, "the curves have no deflection");
         wt_error_expected(err, "a channel of deflection in volts or metres, or of force");
@@ -163,10 +165,12 @@ static wt_status read_file(void *user, flow_file *file, size_t unit, wt_error *e
     return status;
 }
 
-static wt_status read_files(sensitivity_task *task, const flow_files *files, wt_error *err)
+static wt_status read_sensitivity_files(sensitivity_task *task, const flow_files *files,
+                                        wt_error *err)
 {
     size_t n_failed;
-    wt_status status = flow_files_process(files, task->work, read_file, task, &n_failed, err);
+    wt_status status =
+        flow_files_process(files, task->work, read_sensitivity_file, task, &n_failed, err);
     if (status == WT_OK && task->n == 0) {
         status = wt_fail(err, WT_E_EMPTY, "no force curve could be read");
         flow_error_add_files(files, n_failed, err);
@@ -176,39 +180,40 @@ static wt_status read_files(sensitivity_task *task, const flow_files *files, wt_
 
 /* ---- curves ---------------------------------------------------------------------------------- */
 
-static bool has_way(const item *it, size_t way)
+static bool has_slope(const curve_slopes *it, size_t direction)
 {
-    return it->there[way] && it->way[way].found;
+    return it->has_segment[direction] && it->direction[direction].found;
 }
 
-static double travel_per_signal(const item *it, size_t way)
+static double travel_per_signal(const curve_slopes *it, size_t direction)
 {
-    return 1 / it->way[way].slope;
+    return 1 / it->direction[direction].slope;
 }
 
-static double sensitivity_of(const item *it, size_t way)
+static double curve_sensitivity(const curve_slopes *it, size_t direction)
 {
-    return it->volts ? travel_per_signal(it, way) : (double)NAN;
+    return it->volts ? travel_per_signal(it, direction) : (double)NAN;
 }
 
-static double factor_of(const item *it, size_t way)
+static double sensitivity_factor(const curve_slopes *it, size_t direction)
 {
-    return it->volts ? travel_per_signal(it, way) / it->of_file : travel_per_signal(it, way);
+    return it->volts ? travel_per_signal(it, direction) / it->file_sensitivity
+                     : travel_per_signal(it, direction);
 }
 
 /* Marks curves of one file whose slope in one direction is an outlier. */
-static void mark_outliers_of(item *items, size_t n, size_t way, double *values)
+static void mark_file_outliers(curve_slopes *items, size_t n, size_t direction, double *values)
 {
     size_t m = 0;
     for (size_t i = 0; i < n; i++)
-        if (has_way(&items[i], way))
-            values[m++] = travel_per_signal(&items[i], way);
-    if (m < OUTLIER_LEAST)
+        if (has_slope(&items[i], direction))
+            values[m++] = travel_per_signal(&items[i], direction);
+    if (m < OUTLIER_MIN_CURVES)
         return;
-    const typical_values usual = flow_usual_values(values, m);
+    const typical_values typical = flow_typical_values(values, m);
     for (size_t i = 0; i < n; i++)
-        if (has_way(&items[i], way) &&
-            fabs(travel_per_signal(&items[i], way) - usual.middle) > usual.most)
+        if (has_slope(&items[i], direction) &&
+            fabs(travel_per_signal(&items[i], direction) - typical.middle) > typical.most)
             items[i].outlier = true;
 }
 
@@ -220,8 +225,8 @@ static wt_status mark_outliers(sensitivity_task *task, wt_error *err)
     for (size_t first = 0, end; first < task->n; first = end) {
         for (end = first + 1; end < task->n && task->items[end].unit == task->items[first].unit;)
             end++;
-        for (size_t w = 0; w < WAYS; w++)
-            mark_outliers_of(task->items + first, end - first, w, values);
+        for (size_t w = 0; w < DIRECTIONS; w++)
+            mark_file_outliers(task->items + first, end - first, w, values);
     }
     free(values);
     return WT_OK;
@@ -231,10 +236,10 @@ static wt_status mark_outliers(sensitivity_task *task, wt_error *err)
  * factor, so a common mean has no meaning. */
 static wt_status check_signals(const sensitivity_task *task, wt_error *err)
 {
-    const item *volts = NULL, *metres = NULL;
+    const curve_slopes *volts = NULL, *metres = NULL;
     for (size_t i = 0; i < task->n; i++) {
-        const item *it = &task->items[i];
-        const item **const of = it->volts ? &volts : &metres;
+        const curve_slopes *it = &task->items[i];
+        const curve_slopes **const of = it->volts ? &volts : &metres;
         *of = *of == NULL ? it : *of;
     }
     if (volts == NULL || metres == NULL)
@@ -247,16 +252,16 @@ static wt_status check_signals(const sensitivity_task *task, wt_error *err)
     return WT_E_AMBIGUOUS;
 }
 
-static wt_status put_curves(const sensitivity_task *task, wt_table **table, wt_error *err)
+static wt_status create_curve_table(const sensitivity_task *task, wt_table **table, wt_error *err)
 {
     table_writer t = table_begin(&sensitivity_curves_schema, err);
     sensitivity_curves_set_print(&t, SENSITIVITY_CURVES_KEY_FROM, "%g", task->job->options.from);
     sensitivity_curves_set_print(&t, SENSITIVITY_CURVES_KEY_TO, "%g", task->job->options.to);
     for (size_t i = 0; i < task->n; i++)
-        for (size_t w = 0; w < WAYS; w++) {
-            const item *it = &task->items[i];
-            const wt_contact_slope *c = &it->way[w];
-            if (!it->there[w])
+        for (size_t w = 0; w < DIRECTIONS; w++) {
+            const curve_slopes *it = &task->items[i];
+            const wt_contact_slope *c = &it->direction[w];
+            if (!it->has_segment[w])
                 continue;
             table_row(&t);
             sensitivity_curves_put_text(&t, SENSITIVITY_CURVES_FILE, it->file->name);
@@ -270,11 +275,11 @@ static wt_status put_curves(const sensitivity_task *task, wt_table **table, wt_e
             sensitivity_curves_put(&t, SENSITIVITY_CURVES_POINTS, (double)c->n);
             if (!c->found)
                 continue;
-            const double s = sensitivity_of(it, w);
+            const double s = curve_sensitivity(it, w);
             sensitivity_curves_put(&t, SENSITIVITY_CURVES_SENSITIVITY, s);
             sensitivity_curves_put(&t, SENSITIVITY_CURVES_SENSITIVITY_STANDARD_ERROR,
                                    s * c->slope_error / c->slope);
-            sensitivity_curves_put(&t, SENSITIVITY_CURVES_FACTOR, factor_of(it, w));
+            sensitivity_curves_put(&t, SENSITIVITY_CURVES_FACTOR, sensitivity_factor(it, w));
             sensitivity_curves_put(&t, SENSITIVITY_CURVES_CHANGE, c->change);
             sensitivity_curves_put(&t, SENSITIVITY_CURVES_CHANGE_STANDARD_ERROR, c->change_error);
             sensitivity_curves_put(&t, SENSITIVITY_CURVES_TILT, c->tilt);
@@ -287,42 +292,44 @@ static wt_status put_curves(const sensitivity_task *task, wt_table **table, wt_e
 /* ---- all curves combined --------------------------------------------------------------------- */
 
 /* Results of the curves that have the directions of a row. */
-typedef struct group {
+typedef struct direction_group {
     size_t n, n_units;
     wt_interval sensitivity, factor, change, difference; /* difference: retract over approach */
-    double tilt, own_error; /* of one curve alone, of the sensitivity */
-    double scatter;         /* of a unit, of the sensitivity */
+    double tilt, curve_error; /* of one curve alone, of the sensitivity */
+    double scatter;           /* of a unit, of the sensitivity */
     double direction_error; /* by the difference of the ways, of the sensitivity; NaN: not known */
     const char *verdict;
     bool refused;
-} group;
+} direction_group;
 
 /* Names of the table rows; the first two are the directions. */
 static const char *const row_names[ROWS] = {"approach", "retract", "both"};
 
-typedef struct collected {
+typedef struct collected_values {
     double *values; /* [n] */
     long *units;
     size_t n;
-    const item *last;
-} collected;
+    const curve_slopes *last;
+} collected_values;
 
-static bool is_usable(const item *it, size_t row)
+static bool is_usable_curve(const curve_slopes *it, size_t row)
 {
-    return !it->outlier && (row < WAYS ? has_way(it, row) : has_way(it, 0) && has_way(it, 1));
+    return !it->outlier &&
+           (row < DIRECTIONS ? has_slope(it, row) : has_slope(it, 0) && has_slope(it, 1));
 }
 
 /* Interval of the slope change of one curve, with the error of the scatter within it. */
-static wt_interval own_change(const item *it, size_t row, double value)
+static wt_interval single_curve_change(const curve_slopes *it, size_t row, double value)
 {
-    const bool both = row == WAYS;
-    const wt_contact_slope *const a = &it->way[both ? 0 : row], *const b = &it->way[1];
+    const bool both = row == DIRECTIONS;
+    const wt_contact_slope *const a = &it->direction[both ? 0 : row], *const b = &it->direction[1];
     const double error = both ? hypot(a->change_error, b->change_error) / 2 : a->change_error;
-    const double half = wt_student(both ? fmin(a->freedom, b->freedom) : a->freedom) * error;
+    const double half =
+        wt_student_quantile(both ? fmin(a->freedom, b->freedom) : a->freedom) * error;
     return (wt_interval){value, error, value - half, value + half};
 }
 
-static void decide_straight(group *g, double most)
+static void assess_linearity(direction_group *g, double most)
 {
     const wt_interval *c = &g->change;
     const bool rises = c->value > most && c->low > 0, falls = c->value < -most && c->high < 0;
@@ -335,34 +342,36 @@ static void decide_straight(group *g, double most)
 }
 
 /* Returns the mean of `of` over the directions of a row. */
-static double over_ways(const item *it, size_t row, double (*of)(const item *it, size_t way))
+static double direction_mean(const curve_slopes *it, size_t row,
+                             double (*of)(const curve_slopes *it, size_t direction))
 {
-    return row < WAYS ? of(it, row) : 0.5 * (of(it, 0) + of(it, 1));
+    return row < DIRECTIONS ? of(it, row) : 0.5 * (of(it, 0) + of(it, 1));
 }
 
-static double change_of(const item *it, size_t way)
+static double slope_change(const curve_slopes *it, size_t direction)
 {
-    return it->way[way].change;
+    return it->direction[direction].change;
 }
 
-static double tilt_of(const item *it, size_t way)
+static double baseline_tilt_ratio(const curve_slopes *it, size_t direction)
 {
-    return it->way[way].tilt;
+    return it->direction[direction].tilt;
 }
 
-static double difference_of(const item *it, size_t way)
+static double retract_over_approach_ratio(const curve_slopes *it, size_t direction)
 {
-    (void)way;
+    (void)direction;
     return travel_per_signal(it, 1) / travel_per_signal(it, 0);
 }
 
-static wt_interval mean_of(const sensitivity_task *task, size_t row, collected *c, size_t *n_units,
-                           double (*of)(const item *it, size_t way))
+static wt_interval curve_mean(const sensitivity_task *task, size_t row, collected_values *c,
+                              size_t *n_units,
+                              double (*of)(const curve_slopes *it, size_t direction))
 {
     c->n = 0;
     for (size_t i = 0; i < task->n; i++) {
-        const item *it = &task->items[i];
-        const double value = is_usable(it, row) ? over_ways(it, row, of) : (double)NAN;
+        const curve_slopes *it = &task->items[i];
+        const double value = is_usable_curve(it, row) ? direction_mean(it, row, of) : (double)NAN;
         if (isnan(value))
             continue;
         c->values[c->n] = value;
@@ -379,7 +388,7 @@ static wt_interval mean_of(const sensitivity_task *task, size_t row, collected *
 static double direction_error(size_t row, double retract_over_approach)
 {
     const double of[ROWS] = {1, retract_over_approach, (1 + retract_over_approach) / 2};
-    return fabs(retract_over_approach - 1) / of[row] / sqrt(row < WAYS ? 3 : 12);
+    return fabs(retract_over_approach - 1) / of[row] / sqrt(row < DIRECTIONS ? 3 : 12);
 }
 
 static void widen_interval(wt_interval *i, double relative)
@@ -392,11 +401,12 @@ static void widen_interval(wt_interval *i, double relative)
 }
 
 /* Adds the error of the directions. It is unknown and omitted if no curve has both directions. */
-static void add_ways_error(group groups[ROWS])
+static void add_direction_error(direction_group groups[ROWS])
 {
-    const double difference = groups[WAYS].n > 0 ? groups[WAYS].difference.value : (double)NAN;
+    const double difference =
+        groups[DIRECTIONS].n > 0 ? groups[DIRECTIONS].difference.value : (double)NAN;
     for (size_t row = 0; row < ROWS; row++) {
-        group *g = &groups[row];
+        direction_group *g = &groups[row];
         const wt_interval *of = isnan(g->sensitivity.value) ? &g->factor : &g->sensitivity;
         g->scatter = of->standard_error * sqrt((double)g->n_units) / of->value;
         g->direction_error = direction_error(row, difference);
@@ -407,35 +417,38 @@ static void add_ways_error(group groups[ROWS])
     }
 }
 
-static wt_status make_groups(const sensitivity_task *task, group groups[ROWS], wt_error *err)
+static wt_status compute_groups(const sensitivity_task *task, direction_group groups[ROWS],
+                                wt_error *err)
 {
-    collected c = {malloc(task->n * sizeof *c.values), malloc(task->n * sizeof *c.units), 0, NULL};
+    collected_values c = {malloc(task->n * sizeof *c.values), malloc(task->n * sizeof *c.units), 0,
+                          NULL};
     wt_status status = WT_OK;
     if (c.values == NULL || c.units == NULL)
         status = wt_fail(err, WT_E_MEMORY, "out of memory");
     for (size_t row = 0; row < ROWS && status == WT_OK; row++) {
-        group *g = &groups[row];
+        direction_group *g = &groups[row];
         size_t ignored;
-        g->sensitivity = mean_of(task, row, &c, &ignored, sensitivity_of);
-        g->factor = mean_of(task, row, &c, &ignored, factor_of);
-        g->tilt = mean_of(task, row, &c, &ignored, tilt_of).value;
-        g->change = mean_of(task, row, &c, &g->n_units, change_of);
+        g->sensitivity = curve_mean(task, row, &c, &ignored, curve_sensitivity);
+        g->factor = curve_mean(task, row, &c, &ignored, sensitivity_factor);
+        g->tilt = curve_mean(task, row, &c, &ignored, baseline_tilt_ratio).value;
+        g->change = curve_mean(task, row, &c, &g->n_units, slope_change);
         g->n = c.n;
         if (g->n == 0)
             continue;
         if (g->n == 1) {
-            const item *it = c.last;
-            const double own[] = {it->way[0].slope_error / it->way[0].slope,
-                                  it->way[1].slope_error / it->way[1].slope};
-            g->change = own_change(it, row, g->change.value);
-            g->own_error = row < WAYS ? own[row] : hypot(own[0], own[1]) / 2;
+            const curve_slopes *it = c.last;
+            const double slope_errors[] = {it->direction[0].slope_error / it->direction[0].slope,
+                                           it->direction[1].slope_error / it->direction[1].slope};
+            g->change = single_curve_change(it, row, g->change.value);
+            g->curve_error =
+                row < DIRECTIONS ? slope_errors[row] : hypot(slope_errors[0], slope_errors[1]) / 2;
         }
-        if (row == WAYS)
-            g->difference = mean_of(task, row, &c, &ignored, difference_of);
-        decide_straight(g, task->job->most_bend);
+        if (row == DIRECTIONS)
+            g->difference = curve_mean(task, row, &c, &ignored, retract_over_approach_ratio);
+        assess_linearity(g, task->job->max_slope_change);
     }
     if (status == WT_OK)
-        add_ways_error(groups);
+        add_direction_error(groups);
     free(c.values);
     free(c.units);
     return status;
@@ -458,7 +471,7 @@ static double sphere_share(const wt_slope_options *o)
 }
 
 /* Sets a number, its error and the limits of its interval. Their columns must be consecutive. */
-static void put_interval(table_writer *t, sensitivity_column first, wt_interval i)
+static void set_interval_columns(table_writer *t, sensitivity_column first, wt_interval i)
 {
     sensitivity_put(t, first, i.value);
     sensitivity_put(t, first + 1, i.standard_error);
@@ -466,14 +479,14 @@ static void put_interval(table_writer *t, sensitivity_column first, wt_interval 
     sensitivity_put(t, first + 3, i.high);
 }
 
-static void put_group(table_writer *t, size_t row, const group *g, double share)
+static void add_group_row(table_writer *t, size_t row, const direction_group *g, double share)
 {
     char note[160] = "";
     if (g->n == 1)
         snprintf(note, sizeof note,
                  "one curve: the scatter between curves is not known; standard error within the "
                  "curve %.2g %%",
-                 100 * g->own_error);
+                 100 * g->curve_error);
     table_row(t);
     sensitivity_put_text(t, SENSITIVITY_DIRECTION, row_names[row]);
     sensitivity_put(t, SENSITIVITY_N, (double)g->n);
@@ -481,18 +494,18 @@ static void put_group(table_writer *t, size_t row, const group *g, double share)
     sensitivity_put_text(t, SENSITIVITY_VERDICT, g->verdict);
     sensitivity_put_text(t, SENSITIVITY_NOTE, note);
     sensitivity_put(t, SENSITIVITY_TILT, g->tilt);
-    put_interval(t, SENSITIVITY_CHANGE, g->change);
+    set_interval_columns(t, SENSITIVITY_CHANGE, g->change);
     sensitivity_put(t, SENSITIVITY_SHARE, share * fmax(0, g->change.high));
     if (g->refused)
         return;
-    put_interval(t, SENSITIVITY_VALUE, g->sensitivity);
-    put_interval(t, SENSITIVITY_FACTOR, g->factor);
+    set_interval_columns(t, SENSITIVITY_VALUE, g->sensitivity);
+    set_interval_columns(t, SENSITIVITY_FACTOR, g->factor);
     sensitivity_put(t, SENSITIVITY_SCATTER, g->scatter);
     sensitivity_put(t, SENSITIVITY_WAYS_ERROR, g->direction_error);
 }
 
 /* Writes options for other subcommands. */
-static void set_options(table_writer *t, const group *g)
+static void set_option_keys(table_writer *t, const direction_group *g)
 {
     const double share = g->sensitivity.standard_error / g->sensitivity.value;
     if (!isnan(g->sensitivity.value))
@@ -505,76 +518,77 @@ static void set_options(table_writer *t, const group *g)
                               1 / (g->factor.value * g->factor.value));
 }
 
-static void set_interval(table_writer *t, sensitivity_key key, wt_interval i)
+static void set_interval_key(table_writer *t, sensitivity_key key, wt_interval i)
 {
     sensitivity_set_value(t, key, i.value, i.standard_error, 0);
 }
 
-static void set_keys(table_writer *t, const sensitivity_task *task, size_t row, const group *g)
+static void set_sensitivity_keys(table_writer *t, const sensitivity_task *task, size_t row,
+                                 const direction_group *g)
 {
-    size_t left_out = 0;
+    size_t n_excluded = 0;
     for (size_t i = 0; i < task->n; i++)
-        left_out +=
-            task->items[i].outlier || !(has_way(&task->items[i], 0) || has_way(&task->items[i], 1));
+        n_excluded += task->items[i].outlier ||
+                      !(has_slope(&task->items[i], 0) || has_slope(&task->items[i], 1));
     sensitivity_set_text(t, SENSITIVITY_KEY_DIRECTION, row_names[row]);
     sensitivity_set_text(t, SENSITIVITY_KEY_VERDICT, g->verdict);
     sensitivity_set_print(t, SENSITIVITY_KEY_N_CURVES, "%zu", task->n);
-    sensitivity_set_print(t, SENSITIVITY_KEY_N_LEFT_OUT, "%zu", left_out);
-    if (row == WAYS)
-        set_interval(t, SENSITIVITY_KEY_DIFFERENCE, g->difference);
+    sensitivity_set_print(t, SENSITIVITY_KEY_N_LEFT_OUT, "%zu", n_excluded);
+    if (row == DIRECTIONS)
+        set_interval_key(t, SENSITIVITY_KEY_DIFFERENCE, g->difference);
     if (g->refused)
         return;
     if (!isnan(g->sensitivity.value))
-        set_interval(t, SENSITIVITY_KEY_SENSITIVITY, g->sensitivity);
+        set_interval_key(t, SENSITIVITY_KEY_SENSITIVITY, g->sensitivity);
     if (!isnan(g->factor.value))
-        set_interval(t, SENSITIVITY_KEY_FACTOR, g->factor);
-    set_options(t, g);
+        set_interval_key(t, SENSITIVITY_KEY_FACTOR, g->factor);
+    set_option_keys(t, g);
 }
 
 /* Returns the row of the result: the requested direction. If no curve has both directions, an
  * available one is used. */
-static size_t answer_row(const sensitivity_task *task, const group groups[ROWS])
+static size_t reported_row(const sensitivity_task *task, const direction_group groups[ROWS])
 {
-    static const size_t asked[] = {
-        [WT_WAYS_BOTH] = WAYS, [WT_WAYS_APPROACH] = 0, [WT_WAYS_RETRACT] = 1};
-    const size_t row = asked[task->job->ways];
-    if (row < WAYS || groups[row].n > 0)
+    static const size_t requested[] = {
+        [WT_DIRECTION_BOTH] = DIRECTIONS, [WT_DIRECTION_APPROACH] = 0, [WT_DIRECTION_RETRACT] = 1};
+    const size_t row = requested[task->job->ways];
+    if (row < DIRECTIONS || groups[row].n > 0)
         return row;
     return groups[0].n > 0 ? 0 : 1;
 }
 
-static wt_status put_groups(const sensitivity_task *task, wt_table **table, wt_error *err)
+static wt_status create_group_table(const sensitivity_task *task, wt_table **table, wt_error *err)
 {
-    group groups[ROWS] = {{0}};
-    wt_status status = make_groups(task, groups, err);
+    direction_group groups[ROWS] = {{0}};
+    wt_status status = compute_groups(task, groups, err);
     if (status != WT_OK)
         return status;
-    const size_t answer = answer_row(task, groups);
+    const size_t answer = reported_row(task, groups);
     if (groups[answer].n == 0) {
         status = wt_fail(err, WT_E_RANGE, "no curve has a slope in contact");
         wt_error_place(err, "%s", task->items[0].file->name);
-        for (size_t w = WAYS; w-- > 0;)
-            if (task->items[0].there[w] && !task->items[0].way[w].found)
+        for (size_t w = DIRECTIONS; w-- > 0;)
+            if (task->items[0].has_segment[w] && !task->items[0].direction[w].found)
                 wt_error_found(err, "%s: %s", wt_segment_kind_name(kinds[w]),
-                               task->items[0].way[w].why_not);
+                               task->items[0].direction[w].why_not);
         return status;
     }
     table_writer t = table_begin(&sensitivity_schema, err);
     for (size_t row = 0; row < ROWS; row++)
         if (groups[row].n > 0)
-            put_group(&t, row, &groups[row], sphere_share(&task->job->options));
-    set_keys(&t, task, answer, &groups[answer]);
+            add_group_row(&t, row, &groups[row], sphere_share(&task->job->options));
+    set_sensitivity_keys(&t, task, answer, &groups[answer]);
     cost_report(task->work, (cost_summary){.items = (double)task->n});
     return table_end(&t, table);
 }
 
-wt_status wt_sensitivity_make(const wt_sensitivity_job *job, const wt_job *work,
-                              wt_sensitivity_tables *tables, wt_error *err)
+wt_status wt_sensitivity_compute(const wt_sensitivity_job *job, const wt_job *work,
+                                 wt_sensitivity_tables *tables, wt_error *err)
 {
     if (job == NULL || work == NULL || tables == NULL)
         return wt_fail(err, WT_E_ARG, "no job of sensitivity");
     sensitivity_task task = {.job = job, .work = work};
-    wt_sensitivity_tables made = {0};
+    wt_sensitivity_tables result = {0};
     flow_files files = {NULL, 0, NULL};
     wt_status status = param_check(wt_sensitivity_job_params(), job, err);
     if (status == WT_OK && !(job->options.from < job->options.to))
@@ -582,20 +596,20 @@ wt_status wt_sensitivity_make(const wt_sensitivity_job *job, const wt_job *work,
     if (status == WT_OK)
         status = flow_files_list(job->sets, job->n_sets, work, &files, err);
     if (status == WT_OK)
-        status = read_files(&task, &files, err);
+        status = read_sensitivity_files(&task, &files, err);
     if (status == WT_OK)
         status = check_signals(&task, err);
     if (status == WT_OK)
         status = mark_outliers(&task, err);
     if (status == WT_OK)
-        status = put_curves(&task, &made.sensitivity_curves, err);
+        status = create_curve_table(&task, &result.sensitivity_curves, err);
     if (status == WT_OK)
-        status = put_groups(&task, &made.sensitivity, err);
+        status = create_group_table(&task, &result.sensitivity, err);
     if (status == WT_OK) {
-        *tables = made;
-        made = (wt_sensitivity_tables){0};
+        *tables = result;
+        result = (wt_sensitivity_tables){0};
     }
-    wt_sensitivity_tables_clear(&made);
+    wt_sensitivity_tables_clear(&result);
     free(task.items);
     flow_files_clear(&files);
     return status;

@@ -18,7 +18,7 @@
 
 /* Steps of the position within its error to each side. The function reports the range over 81
  * positions. */
-enum { WITHIN = 4 };
+enum { POSITION_STEPS = 4 };
 
 wt_spot_job wt_spot_job_defaults(void)
 {
@@ -69,15 +69,15 @@ static double contact_radius(const wt_tip *tip, double depth)
 
 /* Finds the range of the roughness. Returns false if a position is not covered by measured pixels.
  */
-static bool find_range(const wt_height_map *f, spot *s)
+static bool find_roughness_range(const wt_height_map *f, spot *s)
 {
     s->low = s->high = s->plane.rms;
-    for (int j = -WITHIN; j <= WITHIN; j++)
-        for (int i = -WITHIN; i <= WITHIN; i++) {
-            const double u = s->error * i / WITHIN, v = s->error * j / WITHIN;
+    for (int j = -POSITION_STEPS; j <= POSITION_STEPS; j++)
+        for (int i = -POSITION_STEPS; i <= POSITION_STEPS; i++) {
+            const double u = s->error * i / POSITION_STEPS, v = s->error * j / POSITION_STEPS;
             if (hypot(u, v) > s->error)
                 continue;
-            if (!spot_covers(f, s->x + u, s->y + v, s->contact))
+            if (!spot_disc_is_covered(f, s->x + u, s->y + v, s->contact))
                 return false;
             const double rms = spot_plane_fit(f, s->x + u, s->y + v, s->contact).rms;
             s->low = fmin(s->low, rms);
@@ -86,58 +86,60 @@ static bool find_range(const wt_height_map *f, spot *s)
     return true;
 }
 
-static wt_status find_median(const wt_height_map *f, spot *s, wt_error *err)
+static wt_status find_median_roughness(const wt_height_map *f, spot *s, wt_error *err)
 {
-    const spot_positions p = spot_positions_make(f, s->contact);
+    const spot_positions p = spot_positions_create(f, s->contact);
     double *rms = malloc((p.nx * p.ny + 1) * sizeof *rms);
     size_t n = 0;
     if (rms == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     for (size_t j = 0; j < p.ny; j++)
         for (size_t i = 0; i < p.nx; i++) {
-            const double here = spot_plane_fit(f, p.radius * (2 * (double)i + 1),
-                                               p.radius * (2 * (double)j + 1), s->contact)
-                                    .rms;
-            if (!isnan(here))
-                rms[n++] = here;
+            const double local_rms = spot_plane_fit(f, p.radius * (2 * (double)i + 1),
+                                                    p.radius * (2 * (double)j + 1), s->contact)
+                                         .rms;
+            if (!isnan(local_rms))
+                rms[n++] = local_rms;
         }
     s->median = n > 0 ? numbers_median(rms, n) : (double)NAN;
     free(rms);
     return WT_OK;
 }
 
-static double limit_of(const wt_spot_job *job, const spot *s)
+static double roughness_limit(const wt_spot_job *job, const spot *s)
 {
     return s->power > 0 ? job->largest_effect / (2 * s->power) : (double)NAN;
 }
 
 /* Tests the roughness against its limit. The text "cannot say" also states how to decide. */
-static void judge_roughness(const wt_spot_job *job, const wt_height_map *f, bool covered, spot *s)
+static void assess_roughness(const wt_spot_job *job, const wt_height_map *f, bool covered, spot *s)
 {
-    const double limit = limit_of(job, s), low = s->low / job->depth, high = s->high / job->depth;
-    char pixel[32], contact[32], need[32], within[32];
+    const double limit = roughness_limit(job, s), low = s->low / job->depth,
+                 high = s->high / job->depth;
+    char pixel[32], contact[32], required_pixel[32], search_radius[32];
     wt_format_si(fmax(f->dx, f->dy), "m", 3, pixel, sizeof pixel);
     wt_format_si(s->contact, "m", 3, contact, sizeof contact);
-    wt_format_si(s->contact * sqrt(M_PI / (SPOT_LEAST_PIXELS + 2)), "m", 2, need, sizeof need);
-    wt_format_si(s->contact + s->error, "m", 3, within, sizeof within);
+    wt_format_si(s->contact * sqrt(M_PI / (SPOT_MIN_PIXELS + 2)), "m", 2, required_pixel,
+                 sizeof required_pixel);
+    wt_format_si(s->contact + s->error, "m", 3, search_radius, sizeof search_radius);
     if (s->x < 0 || s->y < 0 || s->x > f->dx * (double)(f->nx - 1) ||
         s->y > f->dy * (double)(f->ny - 1))
         clocale_print(s->verdict, sizeof s->verdict,
                       "cannot say: the place lies outside of the image; its coordinates, as the "
                       "image counts them, would tell (--at-x, --at-y)");
-    else if (isnan(s->plane.rms) && s->plane.n + s->plane.missing < SPOT_LEAST_PIXELS)
+    else if (isnan(s->plane.rms) && s->plane.n + s->plane.missing < SPOT_MIN_PIXELS)
         clocale_print(
             s->verdict, sizeof s->verdict,
             "cannot say: pixels of %s are too coarse for a contact radius of %s (%zu in it, "
             "%d are needed); an image with pixels of %s or less would tell",
-            pixel, contact, s->plane.n + s->plane.missing, SPOT_LEAST_PIXELS, need);
+            pixel, contact, s->plane.n + s->plane.missing, SPOT_MIN_PIXELS, required_pixel);
     else if (!covered)
         clocale_print(
             s->verdict, sizeof s->verdict,
             "cannot say: the contact radius of %s is not measured about each place that the "
             "tip may have gone in (%d heights and nine tenths of its pixels); an image that has "
             "heights up to %s from the place would tell",
-            contact, SPOT_LEAST_PIXELS, within);
+            contact, SPOT_MIN_PIXELS, search_radius);
     else if (isnan(limit))
         clocale_print(
             s->verdict, sizeof s->verdict,
@@ -176,13 +178,13 @@ static wt_status find_roughness(const wt_spot_job *job, const wt_image *image,
     const bool inside = s->x >= s->contact + s->error && s->y >= s->contact + s->error &&
                         s->x <= image->width - s->contact - s->error &&
                         s->y <= image->height - s->contact - s->error;
-    const bool covered = inside && find_range(f, s);
+    const bool covered = inside && find_roughness_range(f, s);
     wt_status status = WT_OK;
     if (covered)
-        status = find_median(f, s, err);
+        status = find_median_roughness(f, s, err);
     else
         s->plane.rms = (double)NAN;
-    judge_roughness(job, f, covered, s);
+    assess_roughness(job, f, covered, s);
     return status;
 }
 
@@ -194,24 +196,25 @@ TABLE_ROW(spot, SPOT, spot spot; imprint left; wt_interval roughness, ratio;
 
 TABLE_KEYS(spot, SPOT, const char *tip, *image, *verdict; wt_estimate effect;)
 
-static wt_status put_spot(const wt_spot_job *job, const wt_image *image, const spot *s,
-                          const imprint *left, wt_table **table, wt_error *err)
+static wt_status add_spot_row(const wt_spot_job *job, const wt_image *image, const spot *s,
+                              const imprint *left, wt_table **table, wt_error *err)
 {
     const double nan = (double)NAN, depth = job->depth, rms = s->plane.rms;
     const wt_interval none = {nan, nan, nan, nan};
-    const bool rough = !isnan(rms), found = left->shift.found;
+    const bool has_roughness = !isnan(rms), found = left->shift.found;
     const spot_shift *shift = &left->shift;
     char tip[256];
     table_writer t = table_begin(&spot_schema, err);
     TABLE_ADD(
         spot, &t, .spot = *s, .left = *left,
-        .roughness = rough ? (wt_interval){rms, nan, s->low, s->high} : none,
-        .ratio = rough ? (wt_interval){rms / depth, nan, s->low / depth, s->high / depth} : none,
+        .roughness = has_roughness ? (wt_interval){rms, nan, s->low, s->high} : none,
+        .ratio =
+            has_roughness ? (wt_interval){rms / depth, nan, s->low / depth, s->high / depth} : none,
         .shift_x = {found ? shift->x : nan, found ? shift->x_error : nan, 0, NULL},
         .shift_y = {found ? shift->y : nan, found ? shift->y_error : nan, 0, NULL},
         .x = s->x + image->x_min, .y = s->y + image->y_min, .depth = depth,
-        .tilt = rough ? hypot(s->plane.slope_x, s->plane.slope_y) : nan, .limit = limit_of(job, s),
-        .places = job->after != NULL ? (double)left->places : nan,
+        .tilt = has_roughness ? hypot(s->plane.slope_x, s->plane.slope_y) : nan,
+        .limit = roughness_limit(job, s), .places = job->after != NULL ? (double)left->places : nan,
         .deepest_x = left->deepest_x + image->x_min, .deepest_y = left->deepest_y + image->y_min);
     if (job->after != NULL)
         spot_set_text(&t, SPOT_KEY_IMPRINT, left->verdict);
@@ -229,36 +232,36 @@ void wt_spot_tables_clear(wt_spot_tables *tables)
     *tables = (wt_spot_tables){0};
 }
 
-wt_status wt_spot_make(const wt_spot_job *job, const char *path, const wt_job *work,
-                       wt_spot_tables *tables, wt_error *err)
+wt_status wt_spot_compute(const wt_spot_job *job, const char *path, const wt_job *work,
+                          wt_spot_tables *tables, wt_error *err)
 {
     if (job == NULL || path == NULL || work == NULL || tables == NULL)
         return wt_fail(err, WT_E_ARG, "no image of a spot");
     wt_image image = {.values = NULL};
     wt_height_map field = {.z = NULL};
     spot s = {0};
-    imprint left = spot_no_imprint();
-    wt_spot_tables made = {0};
+    imprint left = spot_empty_imprint();
+    wt_spot_tables result = {0};
     wt_status status = param_check(wt_spot_job_params(), job, err);
     if (status == WT_OK)
         status = wt_tip_check(&job->tip, err);
     if (status == WT_OK)
         status = spot_image_read(job, path, "before", work, &image, err);
     if (status == WT_OK) {
-        field = wt_height_map_of(&image);
+        field = wt_image_height_map(&image);
         status = find_roughness(job, &image, &field, &s, err);
     }
     if (status == WT_OK && job->after != NULL)
         status = spot_imprint_find(job, &image, &s, work, &left, err);
     if (status == WT_OK)
-        status = put_spot(job, &image, &s, &left, &made.spot, err);
+        status = add_spot_row(job, &image, &s, &left, &result.spot, err);
     if (status == WT_OK && job->map)
-        status = spot_map_make(&field, &s, left.difference, &made.spot_map, err);
+        status = spot_map_create(&field, &s, left.difference, &result.spot_map, err);
     cost_report(work, (cost_summary){.items = 1});
     if (status == WT_OK)
-        *tables = made;
+        *tables = result;
     else
-        wt_spot_tables_clear(&made);
+        wt_spot_tables_clear(&result);
     free(left.difference);
     wt_image_clear(&image);
     return status;

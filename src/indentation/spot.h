@@ -30,19 +30,19 @@ typedef struct spot_positions {
     size_t nx, ny;
     double radius;
 } spot_positions;
-spot_positions spot_positions_make(const wt_height_map *field, double radius);
+spot_positions spot_positions_create(const wt_height_map *field, double radius);
 
 /* Reads the height image that the job names from a file. Other images are freed. */
 wt_status spot_image_read(const wt_spot_job *job, const char *path, const char *role,
                           const wt_job *work, wt_image *image, wt_error *err) WT_NODISCARD;
 /* Returns an imprint of unknown values, for a job without an image after the indentation. */
-imprint spot_no_imprint(void);
+imprint spot_empty_imprint(void);
 /* Measures the change at the spot in the image job->after. */
 wt_status spot_imprint_find(const wt_spot_job *job, const wt_image *before, const spot *s,
                             const wt_job *work, imprint *to, wt_error *err) WT_NODISCARD;
 /* Creates the table spot_map: the heights around the spot, and with `difference` those after it.
  * `difference` may be NULL. */
-wt_status spot_map_make(const wt_height_map *before, const spot *s, const double *difference,
-                        wt_table **table, wt_error *err) WT_NODISCARD;
+wt_status spot_map_create(const wt_height_map *before, const spot *s, const double *difference,
+                          wt_table **table, wt_error *err) WT_NODISCARD;
 
 #endif

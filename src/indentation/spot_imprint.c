@@ -11,26 +11,27 @@
 
 /* Smallest number of reference positions. Largest ratio of pixel sizes and of image sides. Steps
  * per contact radius of the search for the deepest change, and search distance in contact radii. */
-enum { LEAST_PLACES = 8, MOST_RATIO = 4, STEPS = 4, SEARCHED = 2 };
+enum { MIN_REFERENCES = 8, MAX_SIZE_RATIO = 4, STEPS_PER_RADIUS = 4, SEARCH_RADII = 2 };
 
 /* Factor of the 97.5 % quantile for the largest of several deviates. The largest of 50 normal
  * deviates exceeds a further one by 4.43 in 2.5 % of cases, a single one by 1.96. At most 50
  * independent discs fit in the search distance of two radii. */
-static const double more_of_many = 4.43 / 1.96;
+static const double largest_of_many_factor = 4.43 / 1.96;
 
 /* Value at the spot minus the mean of the reference positions. Their scatter is its error. */
-static wt_interval less_untouched(double value, const double *others, size_t n)
+static wt_interval subtract_reference_mean(double value, const double *others, size_t n)
 {
-    const moments m = moments_of(others, n);
+    const moments m = sample_moments(others, n);
     const double error = sqrt(m.variance * (1 + 1 / (double)n)),
-                 reach = students_t_quantile((double)n - 1) * error;
-    return (wt_interval){value - m.mean, error, value - m.mean - reach, value - m.mean + reach};
+                 half_width = students_t_quantile((double)n - 1) * error;
+    return (wt_interval){value - m.mean, error, value - m.mean - half_width,
+                         value - m.mean + half_width};
 }
 
 /* Measures the depressions at reference positions. depth, volume: space for all positions. */
-static wt_status measure_others(const wt_height_map *difference, const spot *s,
-                                const spot_positions *p, double *depth, double *volume, size_t *n,
-                                wt_error *err)
+static wt_status measure_references(const wt_height_map *difference, const spot *s,
+                                    const spot_positions *p, double *depth, double *volume,
+                                    size_t *n, wt_error *err)
 {
     wt_status status = WT_OK;
     for (size_t k = 0; k < p->nx * p->ny && status == WT_OK; k++) {
@@ -39,7 +40,7 @@ static wt_status measure_others(const wt_height_map *difference, const spot *s,
         spot_depression other;
         if (hypot(x - s->x, y - s->y) < 6 * s->contact + s->error)
             continue;
-        status = spot_depression_at(difference, x, y, s->contact, &other, err);
+        status = spot_measure_depression(difference, x, y, s->contact, &other, err);
         if (isnan(other.depth) || isnan(other.volume))
             continue;
         depth[*n] = other.depth;
@@ -52,52 +53,54 @@ static wt_status measure_others(const wt_height_map *difference, const spot *s,
 static wt_status find_deepest(const wt_height_map *difference, const spot *s, imprint *to,
                               wt_error *err)
 {
-    enum { MOST = 24 }; /* steps to each side; limits the run time */
-    const double within = fmin(s->error, SEARCHED * s->contact);
-    const int steps = (int)fmin(MOST, ceil(STEPS * within / s->contact));
+    enum { MAX_SEARCH_STEPS = 24 }; /* steps to each side; limits the run time */
+    const double search_radius = fmin(s->error, SEARCH_RADII * s->contact);
+    const int steps =
+        (int)fmin(MAX_SEARCH_STEPS, ceil(STEPS_PER_RADIUS * search_radius / s->contact));
     wt_status status = WT_OK;
     for (int k = 0; k < (2 * steps + 1) * (2 * steps + 1) && status == WT_OK; k++) {
-        const double x = s->x + within * (k % (2 * steps + 1) - steps) / fmax(steps, 1),
-                     y = s->y + within * (k / (2 * steps + 1) - steps) / fmax(steps, 1);
-        spot_depression dent;
-        if (hypot(x - s->x, y - s->y) > within * (1 + 1e-9))
+        const double x = s->x + search_radius * (k % (2 * steps + 1) - steps) / fmax(steps, 1),
+                     y = s->y + search_radius * (k / (2 * steps + 1) - steps) / fmax(steps, 1);
+        spot_depression depression;
+        if (hypot(x - s->x, y - s->y) > search_radius * (1 + 1e-9))
             continue;
-        status = spot_depression_at(difference, x, y, s->contact, &dent, err);
-        if (isnan(dent.depth) || dent.depth <= to->deepest)
+        status = spot_measure_depression(difference, x, y, s->contact, &depression, err);
+        if (isnan(depression.depth) || depression.depth <= to->deepest)
             continue;
-        to->deepest = dent.depth;
+        to->deepest = depression.depth;
         to->deepest_x = x;
         to->deepest_y = y;
     }
     return status;
 }
 
-static wt_status measure_dent(const wt_height_map *difference, const spot *s, imprint *to,
-                              wt_error *err)
+static wt_status measure_imprint(const wt_height_map *difference, const spot *s, imprint *to,
+                                 wt_error *err)
 {
-    if (s->plane.n + s->plane.missing < SPOT_LEAST_PIXELS)
+    if (s->plane.n + s->plane.missing < SPOT_MIN_PIXELS)
         return WT_OK; /* there are far more positions than pixels */
-    const spot_positions p = spot_positions_make(difference, 2 * s->contact);
-    spot_depression here;
+    const spot_positions p = spot_positions_create(difference, 2 * s->contact);
+    spot_depression imprint_value;
     double *depth = malloc(2 * (p.nx * p.ny + 1) * sizeof *depth);
     if (depth == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     double *volume = depth + p.nx * p.ny + 1;
-    wt_status status = spot_depression_at(difference, s->x, s->y, s->contact, &here, err);
+    wt_status status =
+        spot_measure_depression(difference, s->x, s->y, s->contact, &imprint_value, err);
     if (status == WT_OK)
-        status = measure_others(difference, s, &p, depth, volume, &to->places, err);
-    if (status == WT_OK && !isnan(here.depth) && !isnan(here.volume) &&
-        to->places >= LEAST_PLACES) {
-        to->depth = less_untouched(here.depth, depth, to->places);
-        to->volume = less_untouched(here.volume, volume, to->places);
+        status = measure_references(difference, s, &p, depth, volume, &to->places, err);
+    if (status == WT_OK && !isnan(imprint_value.depth) && !isnan(imprint_value.volume) &&
+        to->places >= MIN_REFERENCES) {
+        to->depth = subtract_reference_mean(imprint_value.depth, depth, to->places);
+        to->volume = subtract_reference_mean(imprint_value.volume, volume, to->places);
         status = find_deepest(difference, s, to, err);
-        to->deepest -= here.depth - to->depth.value;
+        to->deepest -= imprint_value.depth - to->depth.value;
     }
     free(depth);
     return status;
 }
 
-static void judge_shift(const imprint *to, char *verdict, size_t size)
+static void describe_failed_shift(const imprint *to, char *verdict, size_t size)
 {
     if (isnan(to->shift.overlap))
         clocale_print(
@@ -118,10 +121,11 @@ static void judge_shift(const imprint *to, char *verdict, size_t size)
 static bool is_deeper_elsewhere(const imprint *to)
 {
     return to->deepest - fmax(to->depth.value, 0) >
-           more_of_many * (to->depth.high - to->depth.value);
+           largest_of_many_factor * (to->depth.high - to->depth.value);
 }
 
-static void judge_elsewhere(const wt_image *before, const imprint *to, char *verdict, size_t size)
+static void describe_deeper_position(const wt_image *before, const imprint *to, char *verdict,
+                                     size_t size)
 {
     char depth[32], x[32], y[32];
     wt_format_si(to->deepest, "m", 3, depth, sizeof depth);
@@ -133,7 +137,7 @@ static void judge_elsewhere(const wt_image *before, const imprint *to, char *ver
                   depth, x, y);
 }
 
-static void judge_imprint(const wt_image *before, const spot *s, imprint *to)
+static void assess_imprint(const wt_image *before, const spot *s, imprint *to)
 {
     char depth[32], error[32], high[32], around[32];
     wt_format_si(to->depth.value, "m", 3, depth, sizeof depth);
@@ -141,13 +145,13 @@ static void judge_imprint(const wt_image *before, const spot *s, imprint *to)
     wt_format_si(to->depth.high, "m", 2, high, sizeof high);
     wt_format_si(4 * s->contact, "m", 3, around, sizeof around);
     if (!to->shift.found)
-        judge_shift(to, to->verdict, sizeof to->verdict);
-    else if (isnan(to->depth.value) && to->places < LEAST_PLACES)
+        describe_failed_shift(to, to->verdict, sizeof to->verdict);
+    else if (isnan(to->depth.value) && to->places < MIN_REFERENCES)
         clocale_print(
             to->verdict, sizeof to->verdict,
             "cannot say: %zu untouched places as large as the contact tell the error, %d are "
             "needed; images that show more around it or a better known position would tell",
-            to->places, LEAST_PLACES);
+            to->places, MIN_REFERENCES);
     else if (isnan(to->depth.value))
         clocale_print(
             to->verdict, sizeof to->verdict,
@@ -162,7 +166,7 @@ static void judge_imprint(const wt_image *before, const spot *s, imprint *to)
         clocale_print(to->verdict, sizeof to->verdict,
                       "yes: %s deep over the contact, on average, standard error %s", depth, error);
     else if (is_deeper_elsewhere(to))
-        judge_elsewhere(before, to, to->verdict, sizeof to->verdict);
+        describe_deeper_position(before, to, to->verdict, sizeof to->verdict);
     else if (to->depth.high < 0)
         clocale_print(
             to->verdict, sizeof to->verdict,
@@ -171,18 +175,20 @@ static void judge_imprint(const wt_image *before, const spot *s, imprint *to)
     else
         clocale_print(to->verdict, sizeof to->verdict,
                       "none is seen%s: at most %s over the contact, on average",
-                      s->error > SEARCHED * s->contact ? " within two contact radii" : "", high);
+                      s->error > SEARCH_RADII * s->contact ? " within two contact radii" : "",
+                      high);
 }
 
 /* Checks the image sizes. Different pixel sizes are resampled; very different images are rejected.
  */
-static wt_status check_sizes(const wt_image *a, const wt_image *b, const char *path, wt_error *err)
+static wt_status check_image_sizes(const wt_image *a, const wt_image *b, const char *path,
+                                   wt_error *err)
 {
-    const wt_height_map f = wt_height_map_of(a), g = wt_height_map_of(b);
+    const wt_height_map f = wt_image_height_map(a), g = wt_image_height_map(b);
     const double ratios[] = {f.dx / g.dx, f.dy / g.dy, a->width / b->width, a->height / b->height};
     bool good = true;
     for (size_t i = 0; i < sizeof ratios / sizeof *ratios; i++)
-        good = good && ratios[i] >= 1.0 / MOST_RATIO && ratios[i] <= MOST_RATIO;
+        good = good && ratios[i] >= 1.0 / MAX_SIZE_RATIO && ratios[i] <= MAX_SIZE_RATIO;
     if (good)
         return WT_OK;
     char size[4][32];
@@ -193,13 +199,13 @@ static wt_status check_sizes(const wt_image *a, const wt_image *b, const char *p
         err, WT_E_RANGE, "the image after the indentation is too different from the one before");
     wt_error_file(err, path);
     wt_error_expected(err, "sides and pixels within %d times of %zu x %zu pixels over %s x %s",
-                      MOST_RATIO, a->n_columns, a->n_rows, size[0], size[1]);
+                      MAX_SIZE_RATIO, a->n_columns, a->n_rows, size[0], size[1]);
     wt_error_found(err, "%zu x %zu pixels over %s x %s", b->n_columns, b->n_rows, size[2], size[3]);
     wt_error_advice(err, "take an image of the same area with as many pixels");
     return status;
 }
 
-static double strain_of(const double g[2][2])
+static double largest_strain(const double g[2][2])
 {
     /* Largest singular value of the gradient. */
     const double sum = hypot(g[0][0] + g[1][1], g[1][0] - g[0][1]),
@@ -220,11 +226,11 @@ static wt_status compare_images(const wt_height_map *before, const wt_height_map
     spot_difference(before, after, &to->shift, to->difference);
     wt_height_map changed = *before;
     changed.z = to->difference;
-    to->strain = strain_of((const double(*)[2])to->shift.gradient);
-    return measure_dent(&changed, s, to, err);
+    to->strain = largest_strain((const double(*)[2])to->shift.gradient);
+    return measure_imprint(&changed, s, to, err);
 }
 
-imprint spot_no_imprint(void)
+imprint spot_empty_imprint(void)
 {
     const double nan = (double)NAN;
     const wt_interval unknown = {nan, nan, nan, nan};
@@ -241,21 +247,23 @@ wt_status spot_imprint_find(const wt_spot_job *job, const wt_image *before, cons
                             const wt_job *work, imprint *to, wt_error *err)
 {
     wt_image after = {.values = NULL};
-    wt_height_map again = {.z = NULL};
-    *to = spot_no_imprint();
+    wt_height_map resampled = {.z = NULL};
+    *to = spot_empty_imprint();
     wt_status status = spot_image_read(job, job->after, "after", work, &after, err);
     if (status == WT_OK)
-        status = check_sizes(before, &after, job->after, err);
+        status = check_image_sizes(before, &after, job->after, err);
     if (status == WT_OK) {
-        const wt_height_map was = wt_height_map_of(before), is = wt_height_map_of(&after);
-        const bool same = fabs(is.dx / was.dx - 1) < 1e-6 && fabs(is.dy / was.dy - 1) < 1e-6;
+        const wt_height_map first = wt_image_height_map(before),
+                            second = wt_image_height_map(&after);
+        const bool same =
+            fabs(second.dx / first.dx - 1) < 1e-6 && fabs(second.dy / first.dy - 1) < 1e-6;
         if (!same)
-            status = spot_resample(&is, was.dx, was.dy, &again, err);
+            status = spot_resample(&second, first.dx, first.dy, &resampled, err);
         if (status == WT_OK)
-            status = compare_images(&was, same ? &is : &again, s, to, err);
-        judge_imprint(before, s, to);
+            status = compare_images(&first, same ? &second : &resampled, s, to, err);
+        assess_imprint(before, s, to);
     }
-    free((void *)again.z);
+    free((void *)resampled.z);
     wt_image_clear(&after);
     return status;
 }

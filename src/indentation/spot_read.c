@@ -13,7 +13,7 @@ wt_status spot_image_read(const wt_spot_job *job, const char *path, const char *
     return flow_heights_read(&file, job->image, false, role, work, image, err);
 }
 
-spot_positions spot_positions_make(const wt_height_map *f, double radius)
+spot_positions spot_positions_create(const wt_height_map *f, double radius)
 {
     const double width = (double)(f->nx - 1) * f->dx, height = (double)(f->ny - 1) * f->dy;
     return (spot_positions){(size_t)fmax(0, floor(width / (2 * radius))),

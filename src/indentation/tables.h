@@ -4,7 +4,7 @@
 #ifndef WT_INDENTATION_TABLES_H
 #define WT_INDENTATION_TABLES_H
 
-/* The number of cosines is WT_CURVE_WAVES. */
+/* The number of cosines is WT_MISFIT_TERMS. */
 #define MISFIT_WAVE(X, n)                                                                          \
     X(INDENTATION_MISFIT_WAVE_##n, "misfit_wave_" #n,                                              \
       "cosine " #n " of the residual over the contact, of the largest force; of curves that tell " \
@@ -144,7 +144,7 @@
       NUMBER, SHOWS(deep.loss_error), OPTIONAL)
 
 /* Keys of the systematic errors if one is stated. They have the relative standard error of each
- * source, d ln E / d ln source and its standard error. The order is that of wt_shared_law_source.
+ * source, d ln E / d ln source and its standard error. The order is that of wt_systematic_source.
  */
 #define INDENTATION_COMMON_KEYS(X)                                                                 \
     X(INDENTATION_KEY_LEVER_ERROR, "spring_constant_error", NUMBER, OPTIONAL)                      \
@@ -160,7 +160,7 @@
     X(INDENTATION_KEY_MISFIT_ERROR, "misfit_error", NUMBER, OPTIONAL)
 
 /* Start of the key tip if the curves of a group had different tips. */
-#define INDENTATION_SEVERAL "several: "
+#define INDENTATION_SEVERAL_TIPS "several: "
 
 #define INDENTATION_KEYS(X)                                                                        \
     X(INDENTATION_KEY_TIP, "tip", TEXT, OPTIONAL)                                                  \

@@ -21,19 +21,19 @@ static const double room_temperature =
 static const double first_mode = 0.971, free_over_pressed = 1.09;
 /* Significance level of the misfit below which no interval is reported. This is a heuristic: one
  * good spectrum in a thousand has such a misfit. */
-static const double least_chance = 1e-3;
+static const double misfit_p_threshold = 1e-3;
 /* Largest ratio of the stated averages to those from the scatter. This is a heuristic: windows
  * share bins, and instruments count averages differently. */
-static const double averages_agree = 2;
+static const double max_averages_ratio = 2;
 /* Smallest number of spectra for an interval from their scatter. The interval of two spectra, with
  * one degree of freedom, is 13 standard errors wide. */
-enum { LEAST_SPECTRA = 3 };
+enum { MIN_SPECTRA = 3 };
 /* Factor beyond which two spring constants of one cantilever are inconsistent. This is a heuristic:
  * thermal noise, Sader's method and the plan view are each accurate to 10 to 20 %. The factor is at
  * least two standard deviations of their ratio. */
-static const double contradiction = 1.5;
+static const double inconsistency = 1.5;
 /* Range of length over width in which Sader, Chon and Mulvaney tested their formula. */
-static const double least_slender = 3.3, most_slender = 13.7;
+static const double min_slenderness = 3.3, max_slenderness = 13.7;
 
 wt_thermal_job wt_thermal_job_defaults(void)
 {
@@ -92,11 +92,11 @@ typedef struct cantilever_result {
     double sensitivity;             /* 1 for a spectrum in metres */
     double constant, common, error; /* relative errors: systematic, and of this spectrum */
     wt_estimate sader;              /* by Sader's method; NaN if not requested */
-    char contradiction[512];        /* inconsistency with another spring constant; "" if none */
+    char inconsistency[512];        /* inconsistency with another spring constant; "" if none */
     char note[768];
 } cantilever_result;
 
-static void add_note(cantilever_result *l, const char *note)
+static void append_cantilever_note(cantilever_result *l, const char *note)
 {
     const size_t used = strlen(l->note);
     snprintf(l->note + used, sizeof l->note - used, "%s%s", used > 0 ? "; " : "", note);
@@ -105,16 +105,19 @@ static void add_note(cantilever_result *l, const char *note)
 static wt_status find_sensitivity(const wt_job *work, cantilever_result *l, const flow_file *file,
                                   wt_error *err)
 {
-    const double given = file->set->read.sensitivity, own = l->spectrum.sensitivity;
+    const double given_sensitivity = file->set->read.sensitivity,
+                 file_sensitivity = l->spectrum.sensitivity;
     if (!l->spectrum.volts) {
-        l->sensitivity = given > 0 && own > 0 ? given / own : 1;
-        if (given > 0 && !(own > 0))
+        l->sensitivity = given_sensitivity > 0 && file_sensitivity > 0
+                             ? given_sensitivity / file_sensitivity
+                             : 1;
+        if (given_sensitivity > 0 && !(file_sensitivity > 0))
             wt_log_add(work->log, WT_WARNING, file->name, NULL,
                        "the spectrum is in metres and the file does not say by which "
                        "sensitivity: that of --sensitivity is not used");
         return WT_OK;
     }
-    l->sensitivity = !isnan(given) ? given : own;
+    l->sensitivity = !isnan(given_sensitivity) ? given_sensitivity : file_sensitivity;
     if (l->sensitivity > 0)
         return WT_OK;
     const wt_status status = wt_fail(err, WT_E_MISSING, "the spectrum is in volts");
@@ -123,8 +126,8 @@ static wt_status find_sensitivity(const wt_job *work, cantilever_result *l, cons
     return status;
 }
 
-static void find_temperature(const wt_thermal_job *job, const wt_job *work, const flow_file *file,
-                             cantilever_result *l)
+static void find_cantilever_temperature(const wt_thermal_job *job, const wt_job *work,
+                                        const flow_file *file, cantilever_result *l)
 {
     l->temperature = job->temperature;
     if (!isnan(l->temperature.value))
@@ -142,7 +145,7 @@ static void find_temperature(const wt_thermal_job *job, const wt_job *work, cons
 
 /* Reports excluded points. The point at 0 Hz is no noise and its exclusion is normal; a missing or
  * zero density may be an error. */
-static void say_left_out(const wt_job *work, const flow_file *file, cantilever_result *l)
+static void report_excluded_points(const wt_job *work, const flow_file *file, cantilever_result *l)
 {
     const wt_noise_spectrum *s = &l->spectrum;
     size_t n = 0, first = 0;
@@ -151,60 +154,61 @@ static void say_left_out(const wt_job *work, const flow_file *file, cantilever_r
         if (s->frequency[i] > 0 && !(s->density[i] > 0 && isfinite(s->density[i])))
             first = n++ == 0 ? i : first;
     if (s->n > 0 && s->frequency[0] == 0)
-        add_note(l, "the point at 0 Hz is left out");
+        append_cantilever_note(l, "the point at 0 Hz is left out");
     if (n == 0)
         return;
     snprintf(text, sizeof text, "%zu of %zu points without a density above 0 left out", n, s->n);
-    add_note(l, text);
+    append_cantilever_note(l, text);
     wt_log_add(work->log, WT_WARNING, file->name, NULL, "%s, the first at %g Hz", text,
                s->frequency[first]);
 }
 
-static void say_misfit(const wt_job *work, const flow_file *file, cantilever_result *l)
+static void report_spectrum_misfit(const wt_job *work, const flow_file *file, cantilever_result *l)
 {
-    const double said = l->spectrum.averages;
+    const double stated_averages = l->spectrum.averages;
     if (!l->fit.found) {
-        add_note(l, l->fit.why_not);
+        append_cantilever_note(l, l->fit.why_not);
         return;
     }
-    if (l->fit.chance < least_chance) {
-        add_note(l, "the spectrum departs from an oscillator on a white floor: no interval");
+    if (l->fit.chance < misfit_p_threshold) {
+        append_cantilever_note(
+            l, "the spectrum departs from an oscillator on a white floor: no interval");
         wt_log_add(work->log, WT_WARNING, file->name, NULL,
                    "the spectrum departs from an oscillator on a white floor more than its "
                    "scatter explains; another range of the fit (--fit-from, --fit-to) may "
                    "help; no interval is told");
     }
-    if (said > averages_agree * l->fit.averages)
-        add_note(l, "scatters more than so many averages do");
+    if (stated_averages > max_averages_ratio * l->fit.averages)
+        append_cantilever_note(l, "scatters more than so many averages do");
     if (l->spectrum.amplitudes)
-        add_note(l, "amplitudes are taken for roots of averaged power");
+        append_cantilever_note(l, "amplitudes are taken for roots of averaged power");
 }
 
 static void find_spring_constant(const wt_thermal_job *job, cantilever_result *l)
 {
     const double square = l->sensitivity * l->sensitivity * l->fit.mean_square.value;
-    const double of_temperature = l->temperature.standard_error > 0
-                                      ? l->temperature.standard_error / l->temperature.value
-                                      : 0;
+    const double has_temperature_error = l->temperature.standard_error > 0
+                                             ? l->temperature.standard_error / l->temperature.value
+                                             : 0;
     l->constant =
         job->mode_shape / (job->chi * job->chi) * boltzmann * l->temperature.value / square;
     l->error = l->fit.mean_square.standard_error / l->fit.mean_square.value;
-    l->common = hypot(of_temperature, 2 * job->sensitivity_error);
+    l->common = hypot(has_temperature_error, 2 * job->sensitivity_error);
 }
 
 /* ---- comparison: Sader's method, the file ---------------------------------------------------- */
 
-static wt_estimate estimate_of(wt_interval i, const char *unit)
+static wt_estimate estimate_from_interval(wt_interval i, const char *unit)
 {
     return (wt_estimate){i.value, i.standard_error, 0, unit};
 }
 
 /* Computes the spring constant by Sader's method from resonance and quality factor of the fit. */
-static void find_sader(const wt_thermal_job *job, cantilever_result *l)
+static void find_sader_constant(const wt_thermal_job *job, cantilever_result *l)
 {
-    const wt_estimate f = estimate_of(l->fit.resonance, "Hz"), q = estimate_of(l->fit.quality, "1"),
-                      a = job->sader_coefficient;
-    const double slender = job->length.value / job->width.value;
+    const wt_estimate f = estimate_from_interval(l->fit.resonance, "Hz"),
+                      q = estimate_from_interval(l->fit.quality, "1"), a = job->sader_coefficient;
+    const double slenderness = job->length.value / job->width.value;
     if (!isnan(a.value)) {
         const double k = a.value * q.value * pow(1e-3 * f.value, 1.3);
         l->sader = (wt_estimate){
@@ -214,24 +218,25 @@ static void find_sader(const wt_thermal_job *job, cantilever_result *l)
             0, "N/m"};
         return;
     }
-    if (isnan(slender))
+    if (isnan(slenderness))
         return;
     l->sader = wt_sader_spring_constant(job->length, job->width, f, q,
                                         wt_medium_properties(job->medium, l->temperature.value));
     if (isnan(l->sader.value))
-        add_note(l,
-                 "no spring constant by Sader's method: water is not liquid at this temperature");
-    if (slender < least_slender || slender > most_slender)
-        add_note(l, "Sader's method was tried on levers 3.3 to 13.7 times as long as wide");
+        append_cantilever_note(
+            l, "no spring constant by Sader's method: water is not liquid at this temperature");
+    if (slenderness < min_slenderness || slenderness > max_slenderness)
+        append_cantilever_note(
+            l, "Sader's method was tried on levers 3.3 to 13.7 times as long as wide");
 }
 
 /* Describes possible causes if the spring constant from noise is `ratio` times another one. */
-static void say_contradiction(cantilever_result *l, const char *other, double ratio)
+static void describe_inconsistency(cantilever_result *l, const char *other, double ratio)
 {
     const bool small = ratio < 1;
-    if (!(fmax(ratio, 1 / ratio) > contradiction) || l->contradiction[0] != '\0')
+    if (!(fmax(ratio, 1 / ratio) > inconsistency) || l->inconsistency[0] != '\0')
         return;
-    clocale_print(l->contradiction, sizeof l->contradiction,
+    clocale_print(l->inconsistency, sizeof l->inconsistency,
                   "the noise gives %.3g times the spring constant %s; what could be the cause: a "
                   "deflection sensitivity %.3g times too %s, %s, or the other one (nominal, or of "
                   "a plan view or quality factor that is not this lever's)",
@@ -244,16 +249,16 @@ static void say_contradiction(cantilever_result *l, const char *other, double ra
 static void compare_spring_constants(const wt_job *work, const flow_file *file,
                                      cantilever_result *l)
 {
-    say_contradiction(l, "by Sader's method", l->constant / l->sader.value);
-    say_contradiction(l, "of the file", l->constant / l->spectrum.spring_constant);
-    if (l->contradiction[0] == '\0')
+    describe_inconsistency(l, "by Sader's method", l->constant / l->sader.value);
+    describe_inconsistency(l, "of the file", l->constant / l->spectrum.spring_constant);
+    if (l->inconsistency[0] == '\0')
         return;
-    add_note(l, l->contradiction);
-    wt_log_add(work->log, WT_WARNING, file->name, NULL, "%s; none is advised", l->contradiction);
+    append_cantilever_note(l, l->inconsistency);
+    wt_log_add(work->log, WT_WARNING, file->name, NULL, "%s; none is advised", l->inconsistency);
 }
 
-static wt_status measure_lever(const wt_thermal_job *job, const wt_job *work, flow_file *file,
-                               cantilever_result *l, wt_error *err)
+static wt_status measure_cantilever(const wt_thermal_job *job, const wt_job *work, flow_file *file,
+                                    cantilever_result *l, wt_error *err)
 {
     wt_input *input = NULL;
     wt_status status = flow_open(work, file, "thermal", WT_KIND_NOISE, &input, err);
@@ -268,14 +273,14 @@ static wt_status measure_lever(const wt_thermal_job *job, const wt_job *work, fl
     wt_input_close(input);
     if (status != WT_OK)
         return status;
-    find_temperature(job, work, file, l);
-    say_left_out(work, file, l);
-    say_misfit(work, file, l);
+    find_cantilever_temperature(job, work, file, l);
+    report_excluded_points(work, file, l);
+    report_spectrum_misfit(work, file, l);
     l->sader.value = l->sader.standard_error = (double)NAN;
     if (!l->fit.found)
         return WT_OK;
     find_spring_constant(job, l);
-    find_sader(job, l);
+    find_sader_constant(job, l);
     compare_spring_constants(work, file, l);
     return WT_OK;
 }
@@ -284,24 +289,25 @@ static wt_status measure_lever(const wt_thermal_job *job, const wt_job *work, fl
 
 static bool has_interval(const cantilever_result *l)
 {
-    return l->fit.found && !(l->fit.chance < least_chance);
+    return l->fit.found && !(l->fit.chance < misfit_p_threshold);
 }
 
 /* Sets a number, its error and the limits of its interval. Their columns must be consecutive. */
-static void put_interval(table_writer *t, thermal_column first, wt_interval i, bool known)
+static void set_interval_columns(table_writer *t, thermal_column first, wt_interval i,
+                                 bool has_errors)
 {
     thermal_put(t, first, i.value);
-    if (!known)
+    if (!has_errors)
         return;
     thermal_put(t, first + 1, i.standard_error);
     thermal_put(t, first + 2, i.low);
     thermal_put(t, first + 3, i.high);
 }
 
-static void put_lever(table_writer *t, const flow_file *file, const cantilever_result *l)
+static void add_cantilever_row(table_writer *t, const flow_file *file, const cantilever_result *l)
 {
     const wt_thermal *f = &l->fit;
-    const bool known = has_interval(l);
+    const bool has_errors = has_interval(l);
     table_row(t);
     thermal_put_text(t, THERMAL_FILE, file->name);
     thermal_put_text(t, THERMAL_NOTE, l->note);
@@ -314,19 +320,19 @@ static void put_lever(table_writer *t, const flow_file *file, const cantilever_r
     if (!f->found)
         return;
     const double error = hypot(l->error, l->common), half = NORMAL_95 * error;
-    put_interval(t, THERMAL_SPRING_CONSTANT,
-                 (wt_interval){l->constant, l->constant * error, l->constant * exp(-half),
-                               l->constant * exp(half)},
-                 known);
-    put_interval(t, THERMAL_RESONANCE, f->resonance, known);
-    put_interval(t, THERMAL_QUALITY, f->quality, known);
-    if (known)
+    set_interval_columns(t, THERMAL_SPRING_CONSTANT,
+                         (wt_interval){l->constant, l->constant * error, l->constant * exp(-half),
+                                       l->constant * exp(half)},
+                         has_errors);
+    set_interval_columns(t, THERMAL_RESONANCE, f->resonance, has_errors);
+    set_interval_columns(t, THERMAL_QUALITY, f->quality, has_errors);
+    if (has_errors)
         thermal_put(t, THERMAL_FIT_ERROR, l->error);
     thermal_put(t, THERMAL_DEFLECTION, l->sensitivity * sqrt(f->mean_square.value));
     thermal_put(t, THERMAL_FLOOR, l->sensitivity * sqrt(f->floor));
     thermal_put(t, THERMAL_RATIO, l->constant / l->spectrum.spring_constant);
     thermal_put(t, THERMAL_SADER, l->sader.value);
-    if (known)
+    if (has_errors)
         thermal_put(t, THERMAL_SADER_STANDARD_ERROR, l->sader.standard_error);
     thermal_put(t, THERMAL_SADER_RATIO, l->constant / l->sader.value);
     thermal_put(t, THERMAL_AVERAGES, f->averages);
@@ -335,55 +341,57 @@ static void put_lever(table_writer *t, const flow_file *file, const cantilever_r
 
 /* Mean spring constant of all spectra. Its error is that of the spectrum, or from three spectra on
  * the scatter between them. */
-static wt_estimate all_together(const cantilever_result *levers, size_t n, double *scatter)
+static wt_estimate mean_spring_constant(const cantilever_result *cantilevers, size_t n,
+                                        double *scatter)
 {
     wt_estimate k = {(double)NAN, (double)NAN, 0, "N/m"};
-    double sum = 0, own = 0, squares = 0, common = 0, found = 0;
-    bool known = true; /* a departure from the oscillator may be systematic */
+    double sum = 0, file_sensitivity = 0, squares = 0, common = 0, found = 0;
+    bool has_errors = true; /* a departure from the oscillator may be systematic */
     *scatter = (double)NAN;
     for (size_t i = 0; i < n; i++)
-        if (levers[i].fit.found) {
-            sum += levers[i].constant;
-            own += levers[i].error * levers[i].error;
-            common = levers[i].common;
-            known = known && has_interval(&levers[i]);
+        if (cantilevers[i].fit.found) {
+            sum += cantilevers[i].constant;
+            file_sensitivity += cantilevers[i].error * cantilevers[i].error;
+            common = cantilevers[i].common;
+            has_errors = has_errors && has_interval(&cantilevers[i]);
             found++;
         }
     if (!(found > 0))
         return k;
     k.value = sum / found;
     for (size_t i = 0; i < n; i++)
-        if (levers[i].fit.found)
-            squares += pow(levers[i].constant / k.value - 1, 2);
-    if (found >= LEAST_SPECTRA)
+        if (cantilevers[i].fit.found)
+            squares += pow(cantilevers[i].constant / k.value - 1, 2);
+    if (found >= MIN_SPECTRA)
         *scatter = sqrt(squares / (found - 1));
-    const double of_mean = (found >= LEAST_SPECTRA ? *scatter : sqrt(own / found)) / sqrt(found);
-    if (known)
-        k.standard_error = k.value * hypot(of_mean, common);
+    const double mean_error =
+        (found >= MIN_SPECTRA ? *scatter : sqrt(file_sensitivity / found)) / sqrt(found);
+    if (has_errors)
+        k.standard_error = k.value * hypot(mean_error, common);
     return k;
 }
 
-static void set_keys(table_writer *t, const wt_thermal_job *job, const cantilever_result *levers,
-                     size_t n)
+static void set_thermal_keys(table_writer *t, const wt_thermal_job *job,
+                             const cantilever_result *cantilevers, size_t n)
 {
     double scatter;
-    const wt_estimate k = all_together(levers, n, &scatter);
-    const bool of_temperature = n > 0 && levers[0].temperature.standard_error > 0;
+    const wt_estimate k = mean_spring_constant(cantilevers, n, &scatter);
+    const bool has_temperature_error = n > 0 && cantilevers[0].temperature.standard_error > 0;
     thermal_set_print(t, THERMAL_KEY_MODE_SHAPE, "%g", job->mode_shape);
     thermal_set_print(t, THERMAL_KEY_CHI, "%g", job->chi);
     thermal_set_print(t, THERMAL_KEY_N_SPECTRA, "%zu", n);
     thermal_set_print(t, THERMAL_KEY_INCLUDES, "%s%s%s",
                       isnan(scatter) ? "the fit" : "the scatter between spectra",
                       job->sensitivity_error > 0 ? " and the sensitivity" : "",
-                      of_temperature ? " and the temperature" : "");
+                      has_temperature_error ? " and the temperature" : "");
     if (isnan(k.value))
         return;
     thermal_set(t, THERMAL_KEY_SPRING_CONSTANT, k);
     if (!isnan(scatter))
         thermal_set_print(t, THERMAL_KEY_SCATTER, "%.3g", scatter);
     for (size_t i = 0; i < n; i++)
-        if (levers[i].contradiction[0] != '\0') {
-            thermal_set_text(t, THERMAL_KEY_CONTRADICTION, levers[i].contradiction);
+        if (cantilevers[i].inconsistency[0] != '\0') {
+            thermal_set_text(t, THERMAL_KEY_CONTRADICTION, cantilevers[i].inconsistency);
             return;
         }
     thermal_set_print(t, THERMAL_KEY_INDENT, "--spring-constant %.6gN/m", k.value);
@@ -397,22 +405,22 @@ static wt_status make_table(const wt_thermal_job *job, const wt_job *work, const
 {
     wt_status status = WT_OK;
     size_t n = 0, n_failed = 0;
-    cantilever_result *levers = calloc(files->n + 1, sizeof *levers);
-    if (levers == NULL)
+    cantilever_result *cantilevers = calloc(files->n + 1, sizeof *cantilevers);
+    if (cantilevers == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     table_writer t = table_begin(&thermal_schema, err);
     for (size_t i = 0; status == WT_OK && i < files->n; i++) {
         wt_error failure = WT_ERROR_INIT;
         cantilever_result l = {.note = ""};
-        status = measure_lever(job, work, &files->file[i], &l, &failure);
+        status = measure_cantilever(job, work, &files->file[i], &l, &failure);
         if (status == WT_OK) {
-            put_lever(&t, &files->file[i], &l);
-            levers[n++] = l;
+            add_cantilever_row(&t, &files->file[i], &l);
+            cantilevers[n++] = l;
         } else if (flow_skip_file(work, &files->file[i], &failure)) {
             status = WT_OK;
         } else {
             n_failed++;
-            status = wt_job_failed(work, files->file[i].name, status, &failure, err);
+            status = wt_job_add_failure(work, files->file[i].name, status, &failure, err);
         }
         wt_noise_spectrum_clear(&l.spectrum);
     }
@@ -420,8 +428,8 @@ static wt_status make_table(const wt_thermal_job *job, const wt_job *work, const
         status = wt_fail(err, WT_E_EMPTY, "no spectrum of thermal noise could be read");
         flow_error_add_files(files, n_failed, err);
     }
-    set_keys(&t, job, levers, n);
-    free(levers);
+    set_thermal_keys(&t, job, cantilevers, n);
+    free(cantilevers);
     cost_report(work, (cost_summary){.items = (double)n});
     const wt_status written = table_end(&t, table);
     if (status != WT_OK && written == WT_OK) {
@@ -431,8 +439,8 @@ static wt_status make_table(const wt_thermal_job *job, const wt_job *work, const
     return status != WT_OK ? status : written;
 }
 
-wt_status wt_thermal_make(const wt_thermal_job *job, const wt_job *work, wt_table **table,
-                          wt_error *err)
+wt_status wt_thermal_compute(const wt_thermal_job *job, const wt_job *work, wt_table **table,
+                             wt_error *err)
 {
     if (job == NULL || work == NULL || table == NULL)
         return wt_fail(err, WT_E_ARG, "no job of thermal noise");

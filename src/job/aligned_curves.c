@@ -11,14 +11,14 @@
 
 /* Largest relative difference of the maximum force from that of the result. The fit may exclude
  * samples at the end of the curve; a larger difference means another calibration. */
-static const double alike = 0.02;
+static const double force_tolerance = 0.02;
 
 wt_status contact_points_read(const char *path, const wt_job *work, contact_points *points,
                               wt_error *err)
 {
     static const wt_tables_role role = {
-        .of_curves = "contact points",
-        .of_others = "contact points",
+        .curve_role = "contact points",
+        .other_role = "contact points",
         .instead = "what weartrack indent or weartrack run wrote of these curves"};
     *points = (contact_points){.path = path};
     return wt_tables_read(path, path, work, role, &points->tables, err);
@@ -31,47 +31,47 @@ void contact_points_clear(contact_points *points)
 }
 
 /* Contact point of a curve, and its baseline at this point. */
-typedef struct contact_of_curve {
+typedef struct curve_contact {
     double point, offset, tilt, max_force;
-} contact_of_curve;
+} curve_contact;
 
 /* Search for the row of a curve. A row with the exact name of the file takes precedence over rows
  * whose paths have the same end. */
 typedef struct row_search {
     const flow_file *file;
     size_t curve;
-    flow_naming best;
-    bool twice; /* another row matches equally well */
-    contact_of_curve contact;
+    flow_name_match best;
+    bool is_ambiguous; /* another row matches equally well */
+    curve_contact contact;
     char verdict[64];
 } row_search;
 
-static void search_table(row_search *s, const table_view *view)
+static void search_indentation_table(row_search *s, const table_view *view)
 {
     for (size_t row = 0; row < view->n_rows; row++) {
         const double number = indentation_get(view, row, INDENTATION_CURVE);
         if (!(number >= 0 && (size_t)number == s->curve))
             continue;
         const char *name = indentation_text(view, row, INDENTATION_FILE);
-        const flow_naming as = flow_file_is(s->file, name, strlen(name));
-        if (as == FLOW_OTHER_FILE || as < s->best)
+        const flow_name_match as = flow_file_match(s->file, name, strlen(name));
+        if (as == FLOW_NAME_DIFFERENT || as < s->best)
             continue;
-        s->twice = as == s->best;
+        s->is_ambiguous = as == s->best;
         s->best = as;
-        s->contact = (contact_of_curve){indentation_get(view, row, INDENTATION_CONTACT_POINT),
-                                        indentation_get(view, row, INDENTATION_BASELINE_OFFSET),
-                                        indentation_get(view, row, INDENTATION_BASELINE_TILT),
-                                        indentation_get(view, row, INDENTATION_MAX_FORCE)};
+        s->contact = (curve_contact){indentation_get(view, row, INDENTATION_CONTACT_POINT),
+                                     indentation_get(view, row, INDENTATION_BASELINE_OFFSET),
+                                     indentation_get(view, row, INDENTATION_BASELINE_TILT),
+                                     indentation_get(view, row, INDENTATION_MAX_FORCE)};
         snprintf(s->verdict, sizeof s->verdict, "%s",
                  indentation_text(view, row, INDENTATION_VERDICT));
     }
 }
 
 static wt_status find_contact(const contact_points *points, const flow_file *file, size_t curve,
-                              contact_of_curve *to, wt_error *err)
+                              curve_contact *to, wt_error *err)
 {
     const char *const prefix = indentation_schema.name;
-    row_search s = {.file = file, .curve = curve, .best = FLOW_OTHER_FILE};
+    row_search s = {.file = file, .curve = curve, .best = FLOW_NAME_DIFFERENT};
     for (size_t i = 0; i < wt_result_n_tables(points->tables); i++) {
         const wt_table *table = wt_result_table(points->tables, i);
         table_view view;
@@ -81,14 +81,14 @@ static wt_status find_contact(const contact_points *points, const flow_file *fil
                                             wt_table_name(table) + strlen(prefix), &view, err);
         if (status != WT_OK)
             return status;
-        search_table(&s, &view);
+        search_indentation_table(&s, &view);
     }
-    if (s.best == FLOW_OTHER_FILE) {
+    if (s.best == FLOW_NAME_DIFFERENT) {
         wt_fail(err, WT_E_NOT_FOUND, "the curve is not in %s", points->path);
         wt_error_advice(err, "give the result that weartrack indent made of this file");
         return WT_E_NOT_FOUND;
     }
-    if (s.twice) {
+    if (s.is_ambiguous) {
         wt_fail(err, WT_E_AMBIGUOUS, "two files of %s are called so", points->path);
         wt_error_advice(err, "name the file by the path that it has there");
         return WT_E_AMBIGUOUS;
@@ -99,7 +99,7 @@ static wt_status find_contact(const contact_points *points, const flow_file *fil
     return wt_fail(err, WT_E_NOT_FOUND, "no contact point in %s: %s", points->path, s.verdict);
 }
 
-static void name_channel(wt_channel *channel, wt_quantity quantity, const char *name)
+static void set_channel_label(wt_channel *channel, wt_quantity quantity, const char *name)
 {
     channel->quantity = quantity;
     snprintf(channel->name, sizeof channel->name, "%s", name);
@@ -107,9 +107,9 @@ static void name_channel(wt_channel *channel, wt_quantity quantity, const char *
 }
 
 /* Adds one segment; a segment without height or force is skipped. force: scratch [n_points]. */
-static wt_status add_segment(const wt_segment *from, const wt_cantilever *lever, double direction,
-                             const contact_of_curve *contact, double *force, wt_force_curve *to,
-                             wt_error *err)
+static wt_status add_aligned_segment(const wt_segment *from, const wt_cantilever *lever,
+                                     double direction, const curve_contact *contact, double *force,
+                                     wt_force_curve *to, wt_error *err)
 {
     enum { HEIGHT, FORCE, INDENTATION, TIME };
     const double *height = segment_height(from);
@@ -126,9 +126,9 @@ static wt_status add_segment(const wt_segment *from, const wt_cantilever *lever,
     s->setpoint = from->setpoint;
     s->velocity = from->velocity;
     s->frequency = from->frequency;
-    name_channel(&s->channels[HEIGHT], WT_Q_HEIGHT, "height from the contact point");
-    name_channel(&s->channels[FORCE], WT_Q_FORCE, "force above the baseline");
-    name_channel(&s->channels[INDENTATION], WT_Q_INDENTATION, "indentation");
+    set_channel_label(&s->channels[HEIGHT], WT_Q_HEIGHT, "height from the contact point");
+    set_channel_label(&s->channels[FORCE], WT_Q_FORCE, "force above the baseline");
+    set_channel_label(&s->channels[INDENTATION], WT_Q_INDENTATION, "indentation");
     for (size_t i = 0; i < from->n_points; i++) {
         const double z = direction * height[i] - contact->point;
         const double f = measured[i] - contact->offset - contact->tilt * z;
@@ -137,14 +137,14 @@ static wt_status add_segment(const wt_segment *from, const wt_cantilever *lever,
         s->channels[INDENTATION].values[i] = tip_position(z, f, lever->spring_constant);
     }
     if (time != NULL) {
-        name_channel(&s->channels[TIME], WT_Q_TIME, time->name);
+        set_channel_label(&s->channels[TIME], WT_Q_TIME, time->name);
         memcpy(s->channels[TIME].values, time->values, from->n_points * sizeof *time->values);
     }
     return WT_OK;
 }
 
 /* Returns +1 if the height increases into the sample, else -1, like the fit. */
-static double direction_of(const wt_segment *approach)
+static double height_direction(const wt_segment *approach)
 {
     const double *height = approach != NULL ? segment_height(approach) : NULL;
     size_t first = 0, last = height != NULL ? approach->n_points : 0;
@@ -157,7 +157,7 @@ static double direction_of(const wt_segment *approach)
     return height[last - 1] < height[first] ? -1 : 1;
 }
 
-static double largest_force(const wt_force_curve *curve)
+static double largest_approach_force(const wt_force_curve *curve)
 {
     const wt_segment *approach = wt_force_curve_segment(curve, WT_SEGMENT_APPROACH);
     const wt_channel *force = approach != NULL ? wt_segment_channel(approach, WT_Q_FORCE) : NULL;
@@ -167,13 +167,13 @@ static double largest_force(const wt_force_curve *curve)
     return largest;
 }
 
-wt_status from_contact(const contact_points *points, const flow_file *file,
-                       const wt_force_curve *curve, const wt_job *work, wt_force_curve *to,
-                       wt_error *err)
+wt_status align_with_contact(const contact_points *points, const flow_file *file,
+                             const wt_force_curve *curve, const wt_job *work, wt_force_curve *to,
+                             wt_error *err)
 {
-    contact_of_curve contact;
+    curve_contact contact;
     size_t longest = 1;
-    const double direction = direction_of(wt_force_curve_segment(curve, WT_SEGMENT_APPROACH));
+    const double direction = height_direction(wt_force_curve_segment(curve, WT_SEGMENT_APPROACH));
     wt_status status = find_contact(points, file, curve->index, &contact, err);
     if (status == WT_OK && (isnan(direction) || isnan(curve->cantilever.spring_constant)))
         status = wt_fail(err, WT_E_MISSING, "no height or no spring constant");
@@ -193,11 +193,12 @@ wt_status from_contact(const contact_points *points, const flow_file *file,
     to->grid_y = curve->grid_y;
     to->cantilever = curve->cantilever;
     for (size_t i = 0; status == WT_OK && i < curve->n_segments; i++)
-        status = add_segment(&curve->segments[i], &curve->cantilever, direction, &contact, force,
-                             to, err);
+        status = add_aligned_segment(&curve->segments[i], &curve->cantilever, direction, &contact,
+                                     force, to, err);
     free(force);
-    const double ratio = largest_force(to) / contact.max_force;
-    if (status == WT_OK && !(ratio > 1 - alike && ratio < 1 + alike) && isfinite(ratio))
+    const double ratio = largest_approach_force(to) / contact.max_force;
+    if (status == WT_OK && !(ratio > 1 - force_tolerance && ratio < 1 + force_tolerance) &&
+        isfinite(ratio))
         wt_log_add(work->log, WT_WARNING, file->name, NULL,
                    "curve %zu: the largest force is %.3g times that of the result: give the "
                    "spring constant and sensitivity that it was made with",

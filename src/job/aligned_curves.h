@@ -18,8 +18,8 @@ void contact_points_clear(contact_points *points);
 /* Aligns a curve. The new curve has three channels, and time if it is known: the height from the
  * contact point, increasing into the sample; the force above the baseline; the indentation. `to` is
  * reused. WT_E_NOT_FOUND if the result lacks the curve or its contact point. */
-wt_status from_contact(const contact_points *points, const flow_file *file,
-                       const wt_force_curve *curve, const wt_job *work, wt_force_curve *to,
-                       wt_error *err) WT_NODISCARD;
+wt_status align_with_contact(const contact_points *points, const flow_file *file,
+                             const wt_force_curve *curve, const wt_job *work, wt_force_curve *to,
+                             wt_error *err) WT_NODISCARD;
 
 #endif

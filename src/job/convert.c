@@ -49,7 +49,7 @@ static void set_curve_key(table_writer *t, force_curve_key key, double value)
 }
 
 /* Ends a table and passes it to the caller. */
-static wt_status hand_on_table(const conversion *c, table_writer *t, wt_error *err)
+static wt_status send_table(const conversion *c, table_writer *t, wt_error *err)
 {
     wt_table *table = NULL;
     wt_status status = table_end(t, &table);
@@ -83,10 +83,11 @@ static wt_status send_curve(const conversion *c, const wt_force_curve *curve, wt
             force_curve_put_text(&t, FORCE_CURVE_SEGMENT, wt_segment_kind_name(segment->kind));
             for (size_t k = 0; k < n && t.status == WT_OK; k++)
                 if (of_segment[k] != NULL)
-                    wt_table_put(t.table, FORCE_CURVE_N_COLUMNS + k, of_segment[k]->values[i]);
+                    wt_table_set_number(t.table, FORCE_CURVE_N_COLUMNS + k,
+                                        of_segment[k]->values[i]);
         }
     }
-    return hand_on_table(c, &t, err);
+    return send_table(c, &t, err);
 }
 
 /* A curve that cannot be read is recorded as a failure, and the conversion continues. */
@@ -94,7 +95,7 @@ static wt_status convert_force(const conversion *c, wt_error *err)
 {
     wt_force_source *source = NULL;
     wt_force_curve curve = {0}, moved = {0};
-    const bool moves = c->contact.tables != NULL;
+    const bool uses_contact = c->contact.tables != NULL;
     size_t n = 0, n_failed = 0;
     wt_status status =
         wt_force_open(c->work->formats, c->input, &c->read, c->work->log, &source, err);
@@ -103,16 +104,16 @@ static wt_status convert_force(const conversion *c, wt_error *err)
         wt_status got = wt_force_next(source, &curve, &failure);
         if (got == WT_END)
             break;
-        if (got == WT_OK && moves) {
-            got = from_contact(&c->contact, &c->file, &curve, c->work, &moved, &failure);
+        if (got == WT_OK && uses_contact) {
+            got = align_with_contact(&c->contact, &c->file, &curve, c->work, &moved, &failure);
             wt_error_place(got != WT_OK ? &failure : NULL, "curve %zu", curve.index);
         }
         if (got != WT_OK) {
             n_failed++;
-            status = wt_job_failed(c->work, wt_input_name(c->input), got, &failure, err);
+            status = wt_job_add_failure(c->work, wt_input_name(c->input), got, &failure, err);
             continue;
         }
-        const wt_force_curve *sent = moves ? &moved : &curve;
+        const wt_force_curve *sent = uses_contact ? &moved : &curve;
         status = c->curves != NULL ? c->curves(c->user, sent, err) : send_curve(c, sent, err);
         n++;
     }
@@ -144,7 +145,7 @@ typedef struct dma_table {
     bool counting; /* first pass: nothing is written */
 } dma_table;
 
-static void put_known(dma_table *t, sweep_column column, double value)
+static void write_measured(dma_table *t, sweep_column column, double value)
 {
     if (isnan(value))
         return;
@@ -153,20 +154,20 @@ static void put_known(dma_table *t, sweep_column column, double value)
         sweep_put(&t->writer, column, value);
 }
 
-static void put_point(dma_table *t, const dma_point *p)
+static void write_dma_point(dma_table *t, const dma_point *p)
 {
     if (!t->counting) {
         table_row(&t->writer);
         sweep_put(&t->writer, SWEEP_TEMPERATURE, p->temperature);
     }
     if (t->loading == WT_OSCILLATION)
-        put_known(t, SWEEP_ANGULAR_FREQUENCY, p->angular_frequency);
+        write_measured(t, SWEEP_ANGULAR_FREQUENCY, p->angular_frequency);
     else
-        put_known(t, SWEEP_TIME, 1 / p->angular_frequency);
-    put_known(t, t->storage, t->loading == WT_CREEP ? 1 / p->storage : p->storage);
-    put_known(t, t->loss, p->loss);
-    put_known(t, SWEEP_STRAIN, p->strain);
-    put_known(t, SWEEP_LOSS_FACTOR, p->factor);
+        write_measured(t, SWEEP_TIME, 1 / p->angular_frequency);
+    write_measured(t, t->storage, t->loading == WT_CREEP ? 1 / p->storage : p->storage);
+    write_measured(t, t->loss, p->loss);
+    write_measured(t, SWEEP_STRAIN, p->strain);
+    write_measured(t, SWEEP_LOSS_FACTOR, p->factor);
     if (p->sample == NULL)
         return;
     t->used |= SCHEMA_BIT(SWEEP_SAMPLE);
@@ -174,59 +175,60 @@ static void put_point(dma_table *t, const dma_point *p)
         sweep_put_text(&t->writer, SWEEP_SAMPLE, p->sample);
 }
 
-static void put_block(dma_table *t)
+static void begin_sweep_block(dma_table *t)
 {
     if (!t->counting)
         table_block(&t->writer);
 }
 
-static void put_sweep(dma_table *t, const wt_sweep *sweep)
+static void write_sweep_points(dma_table *t, const wt_sweep *sweep)
 {
     for (size_t k = 0; k < sweep->n_isotherms; k++) {
         const wt_isotherm *s = &sweep->isotherms[k];
-        put_block(t);
+        begin_sweep_block(t);
         for (size_t row = 0; row < s->n; row++) {
             const size_t i = t->loading == WT_OSCILLATION ? row : s->n - 1 - row; /* rising time */
-            put_point(t,
-                      &(dma_point){s->temperature, s->angular_frequency[i], s->storage_modulus[i],
-                                   s->loss_modulus[i], value_or_nan(s->strain, i),
-                                   value_or_nan(s->loss_factor, i), s->sample});
+            write_dma_point(t, &(dma_point){s->temperature, s->angular_frequency[i],
+                                            s->storage_modulus[i], s->loss_modulus[i],
+                                            value_or_nan(s->strain, i),
+                                            value_or_nan(s->loss_factor, i), s->sample});
         }
     }
     for (size_t k = 0; k < sweep->n_ramps; k++) {
         const wt_ramp *s = &sweep->ramps[k];
-        put_block(t);
+        begin_sweep_block(t);
         for (size_t i = 0; i < s->n; i++)
-            put_point(t,
-                      &(dma_point){s->temperature[i], s->angular_frequency, s->storage_modulus[i],
-                                   s->loss_modulus[i], value_or_nan(s->strain, i),
-                                   value_or_nan(s->loss_factor, i), s->sample});
+            write_dma_point(t, &(dma_point){s->temperature[i], s->angular_frequency,
+                                            s->storage_modulus[i], s->loss_modulus[i],
+                                            value_or_nan(s->strain, i),
+                                            value_or_nan(s->loss_factor, i), s->sample});
     }
     for (size_t k = 0; k < sweep->n_strain_sweeps; k++) {
         const wt_strain_sweep *s = &sweep->strain_sweeps[k];
-        put_block(t);
+        begin_sweep_block(t);
         for (size_t i = 0; i < s->n; i++)
-            put_point(t, &(dma_point){s->temperature, s->angular_frequency, s->storage_modulus[i],
-                                      s->loss_modulus[i], s->strain[i], (double)NAN, s->sample});
+            write_dma_point(t, &(dma_point){s->temperature, s->angular_frequency,
+                                            s->storage_modulus[i], s->loss_modulus[i], s->strain[i],
+                                            (double)NAN, s->sample});
     }
 }
 
 /* Sends a table without empty columns. */
 static wt_status send_sweep(const conversion *c, const wt_sweep *sweep, wt_error *err)
 {
-    static const sweep_column maybe[] = {SWEEP_ANGULAR_FREQUENCY,
-                                         SWEEP_TIME,
-                                         SWEEP_RELAXATION_MODULUS,
-                                         SWEEP_SHEAR_RELAXATION_MODULUS,
-                                         SWEEP_CREEP_COMPLIANCE,
-                                         SWEEP_SHEAR_CREEP_COMPLIANCE,
-                                         SWEEP_STORAGE_MODULUS,
-                                         SWEEP_LOSS_MODULUS,
-                                         SWEEP_SHEAR_STORAGE_MODULUS,
-                                         SWEEP_SHEAR_LOSS_MODULUS,
-                                         SWEEP_STRAIN,
-                                         SWEEP_LOSS_FACTOR,
-                                         SWEEP_SAMPLE};
+    static const sweep_column optional_columns[] = {SWEEP_ANGULAR_FREQUENCY,
+                                                    SWEEP_TIME,
+                                                    SWEEP_RELAXATION_MODULUS,
+                                                    SWEEP_SHEAR_RELAXATION_MODULUS,
+                                                    SWEEP_CREEP_COMPLIANCE,
+                                                    SWEEP_SHEAR_CREEP_COMPLIANCE,
+                                                    SWEEP_STORAGE_MODULUS,
+                                                    SWEEP_LOSS_MODULUS,
+                                                    SWEEP_SHEAR_STORAGE_MODULUS,
+                                                    SWEEP_SHEAR_LOSS_MODULUS,
+                                                    SWEEP_STRAIN,
+                                                    SWEEP_LOSS_FACTOR,
+                                                    SWEEP_SAMPLE};
     /* by type of loading, in tension and in shear */
     static const sweep_column moduli[][2] = {
         [WT_OSCILLATION] = {SWEEP_STORAGE_MODULUS, SWEEP_SHEAR_STORAGE_MODULUS},
@@ -238,13 +240,13 @@ static wt_status send_sweep(const conversion *c, const wt_sweep *sweep, wt_error
                    .loss = shear ? SWEEP_SHEAR_LOSS_MODULUS : SWEEP_LOSS_MODULUS,
                    .counting = true};
     uint64_t left_out = 0;
-    put_sweep(&t, sweep);
-    for (size_t i = 0; i < COUNT_OF(maybe); i++)
-        left_out |= SCHEMA_BIT(maybe[i]) & ~t.used;
+    write_sweep_points(&t, sweep);
+    for (size_t i = 0; i < COUNT_OF(optional_columns); i++)
+        left_out |= SCHEMA_BIT(optional_columns[i]) & ~t.used;
     t.writer = table_begin_variant(&sweep_schema, (table_variant){.left_out = left_out}, err);
     t.counting = false;
-    put_sweep(&t, sweep);
-    return hand_on_table(c, &t.writer, err);
+    write_sweep_points(&t, sweep);
+    return send_table(c, &t.writer, err);
 }
 
 static wt_status convert_sweep(const conversion *c, wt_error *err)
@@ -289,7 +291,7 @@ static wt_status send_image(const conversion *c, const wt_image *image, size_t n
             image_put(&t, IMAGE_VALUE, image->values[row * image->n_columns + column]);
         }
     }
-    return hand_on_table(c, &t, err);
+    return send_table(c, &t, err);
 }
 
 static wt_status convert_images(const conversion *c, wt_error *err)
@@ -318,7 +320,7 @@ static wt_status send_spectrum(const conversion *c, const wt_power_spectrum *s, 
         spectrum_put(&t, SPECTRUM_WAVENUMBER, s->wavenumber[i]);
         spectrum_put(&t, density, s->density[i]);
     }
-    return hand_on_table(c, &t, err);
+    return send_table(c, &t, err);
 }
 
 static wt_status convert_spectrum(const conversion *c, wt_error *err)
@@ -341,20 +343,20 @@ static const struct {
              {"sweep", WT_KIND_SWEEP, convert_sweep},
              {"spectrum", WT_KIND_SPECTRUM, convert_spectrum},
              {"image", WT_KIND_IMAGE, convert_images}};
-#define KIND_WORDS "force|sweep|spectrum|image"
+#define KIND_NAMES "force|sweep|spectrum|image"
 
-static wt_status read_kind(const char *text, void *member, wt_error *err)
+static wt_status parse_kind(const char *text, void *member, wt_error *err)
 {
     for (size_t i = 0; i < sizeof kinds / sizeof kinds[0]; i++)
         if (strcmp(kinds[i].word, text) == 0) {
             *(unsigned *)member = kinds[i].kind;
             return WT_OK;
         }
-    return wt_fail(err, WT_E_ARG, "'%s' is none of %s", text, KIND_WORDS);
+    return wt_fail(err, WT_E_ARG, "'%s' is none of %s", text, KIND_NAMES);
 }
 
 static const wt_param rows[] = {
-    {PARAM_OTHER_OF("kind", wt_convert_job, kind, read_kind), .value = KIND_WORDS,
+    {PARAM_OTHER_OF("kind", wt_convert_job, kind, parse_kind), .value = KIND_NAMES,
      .unset = "the first of these that the file has", .flags = PARAM_NO_CASE,
      .help = "which data of a file that holds several kinds"},
     {PARAM_TEXT_OF("contact", wt_convert_job, contact), .value = "RESULT", .unset = "",

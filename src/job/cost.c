@@ -13,7 +13,7 @@ typedef struct cost_row {
     char stage[64], because[256];
     bool runs;
     double wall, cpu;
-    cost_summary said;
+    cost_summary reported;
     size_t nodes, files, bytes;
 } cost_row;
 
@@ -73,12 +73,12 @@ void cost_add_file(wt_cost *cost, size_t bytes)
 void cost_report(const wt_job *work, cost_summary summary)
 {
     if (work->cost != NULL && work->cost->open && (work->left_out & WT_EXTRA_SUMMARY) == 0)
-        work->cost->rows[work->cost->n_rows - 1].said = summary;
+        work->cost->rows[work->cost->n_rows - 1].reported = summary;
 }
 
 /* ---- stages ---------------------------------------------------------------------------------- */
 
-static cost_row *add_row(wt_cost *cost, const char *stage, const char *because)
+static cost_row *add_cost_row(wt_cost *cost, const char *stage, const char *because)
 {
     cost_row *rows = array_grow(cost->rows, cost->n_rows, sizeof *rows);
     if (rows == NULL) {
@@ -96,7 +96,7 @@ static cost_row *add_row(wt_cost *cost, const char *stage, const char *because)
 void cost_begin(wt_cost *cost, const char *stage, const char *because)
 {
     cost_end(cost);
-    cost_row *row = cost != NULL ? add_row(cost, stage, because) : NULL;
+    cost_row *row = cost != NULL ? add_cost_row(cost, stage, because) : NULL;
     if (row == NULL)
         return;
     cost->open = row->runs = true;
@@ -117,19 +117,19 @@ void cost_end(wt_cost *cost)
     row->bytes = atomic_exchange(&cost->bytes, 0);
 }
 
-void cost_explain(wt_cost *cost, const char *because)
+void cost_set_reason(wt_cost *cost, const char *because)
 {
     cost_row *row = cost->n_rows > 0 ? &cost->rows[cost->n_rows - 1] : NULL;
     if (row != NULL)
         snprintf(row->because, sizeof row->because, "%s", because);
 }
 
-void cost_leave_out(wt_cost *cost, const char *stage, const char *because)
+void cost_skip_stage(wt_cost *cost, const char *stage, const char *because)
 {
-    (void)add_row(cost, stage, because);
+    (void)add_cost_row(cost, stage, because);
 }
 
-void wt_cost_stage(wt_cost *cost, const char *stage)
+void wt_cost_begin_stage(wt_cost *cost, const char *stage)
 {
     cost_begin(cost, stage, "runs because it is asked for");
 }
@@ -151,7 +151,7 @@ void cost_set_part(wt_cost *cost, const char *words, double seconds)
     parts[cost->n_parts++] = (cost_part_row){words, seconds};
 }
 
-double cost_part(const wt_cost *cost, const char *words)
+double cost_part_seconds(const wt_cost *cost, const char *words)
 {
     for (size_t i = 0; cost != NULL && i < cost->n_parts; i++)
         if (strcmp(cost->parts[i].words, words) == 0)
@@ -159,17 +159,17 @@ double cost_part(const wt_cost *cost, const char *words)
     return (double)NAN;
 }
 
-cost_of_stages cost_stages(const wt_cost *cost, const char *beginning)
+stage_cost_sum cost_sum_stages(const wt_cost *cost, const char *beginning)
 {
-    cost_of_stages sum = {(double)NAN, (double)NAN};
+    stage_cost_sum sum = {(double)NAN, (double)NAN};
     const size_t ended = cost != NULL ? cost->n_rows - cost->open : 0;
     for (size_t i = 0; i < ended; i++) {
         const cost_row *row = &cost->rows[i];
         if (!row->runs || strncmp(row->stage, beginning, strlen(beginning)) != 0)
             continue;
         sum.seconds = isnan(sum.seconds) ? row->wall : sum.seconds + row->wall;
-        if (row->said.tolerance_asked > 0)
-            sum.error = fmax(sum.error, row->said.error_estimated);
+        if (row->reported.tolerance_asked > 0)
+            sum.error = fmax(sum.error, row->reported.error_estimated);
     }
     return sum;
 }
@@ -181,9 +181,9 @@ static const double unknown = (double)NAN;
 TABLE_ROW_OF(cost, COST, struct cost_row)
 TABLE_KEYS(cost, COST, wt_estimate wall, cpu, threads;)
 
-static void put_row(table_writer *t, bool timed, cost_row row)
+static void write_cost_row(table_writer *t, bool timed, cost_row row)
 {
-    cost_summary *s = &row.said;
+    cost_summary *s = &row.reported;
     const double error = s->number.standard_error / fabs(s->number.value);
     if (!timed)
         row.wall = row.cpu = unknown;
@@ -204,7 +204,7 @@ wt_status wt_cost_table(wt_cost *cost, wt_table **table, wt_error *err)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     table_writer t = table_begin(&cost_schema, err);
     for (size_t i = 0; i < cost->n_rows; i++)
-        put_row(&t, cost->timed, cost->rows[i]);
+        write_cost_row(&t, cost->timed, cost->rows[i]);
     if (cost->timed)
         TABLE_SET(cost, &t, {wt_time_wall() - cost->wall, unknown, unknown, NULL},
                   {wt_time_cpu() - cost->cpu, unknown, unknown, NULL},

@@ -21,21 +21,21 @@ void cost_add_file(wt_cost *cost, size_t bytes);
 void cost_begin(wt_cost *cost, const char *stage, const char *because);
 void cost_end(wt_cost *cost);
 /* Replaces the reason of the last stage. */
-void cost_explain(wt_cost *cost, const char *because);
+void cost_set_reason(wt_cost *cost, const char *because);
 /* Adds a stage that does not run. */
-void cost_leave_out(wt_cost *cost, const char *stage, const char *because);
+void cost_skip_stage(wt_cost *cost, const char *stage, const char *because);
 
 /* Elapsed time [s] of a part of the work, which a later stage requests by its name. The name is
  * borrowed. NaN if it is unknown. */
 double cost_clock(const wt_cost *cost); /* NaN without times */
 void cost_set_part(wt_cost *cost, const char *words, double seconds);
-double cost_part(const wt_cost *cost, const char *words);
+double cost_part_seconds(const wt_cost *cost, const char *words);
 
 /* Sum over the finished stages whose names begin with `beginning`: elapsed time [s] and largest
  * relative numerical error; NaN if unknown. */
-typedef struct cost_of_stages {
+typedef struct stage_cost_sum {
     double seconds, error;
-} cost_of_stages;
-cost_of_stages cost_stages(const wt_cost *cost, const char *beginning);
+} stage_cost_sum;
+stage_cost_sum cost_sum_stages(const wt_cost *cost, const char *beginning);
 
 #endif

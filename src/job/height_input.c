@@ -5,7 +5,7 @@
 #include <string.h>
 
 /* True for a signal of the cantilever, which may also be in metres. */
-static bool is_of_lever(const wt_image *image)
+static bool is_cantilever_signal(const wt_image *image)
 {
     return strncmp(image->name, "Deflection", strlen("Deflection")) == 0 ||
            strncmp(image->name, "Amplitude", strlen("Amplitude")) == 0;
@@ -17,7 +17,7 @@ static bool has_heights(const wt_image *image, const char *name, bool profiles)
     const bool profile = profiles && image->n_rows == 1 && strcmp(image->x_unit, "m") == 0;
     return strcmp(image->unit, "m") == 0 && image->n_columns > 1 && image->width > 0 &&
            (area || profile) &&
-           (name == NULL ? !is_of_lever(image) : strstr(image->name, name) != NULL);
+           (name == NULL ? !is_cantilever_signal(image) : strstr(image->name, name) != NULL);
 }
 
 wt_status flow_heights_read(flow_file *file, const char *name, bool profiles, const char *role,

@@ -23,7 +23,7 @@ wt_job wt_job_defaults(void)
 static const wt_param job_rows[] = {JOB_ROWS(wt_job)};
 PARAM_TABLE(wt_job_params, wt_job, job_rows, wt_job_defaults, NO_PARTS)
 
-static wt_file_set no_files(void)
+static wt_file_set file_set_defaults(void)
 {
     return (wt_file_set){.read = wt_read_defaults()};
 }
@@ -32,7 +32,7 @@ static const wt_param set_rows[] = {
     {PARAM_TEXT_OF("spot", wt_file_set, spot), .value = "NAME", .unset = "each file is a spot",
      .help = "place on the sample that all these curves come from"},
 };
-PARAM_TABLE(wt_file_set_params, wt_file_set, set_rows, no_files,
+PARAM_TABLE(wt_file_set_params, wt_file_set, set_rows, file_set_defaults,
             PARAM_PART(wt_read_params, wt_file_set, read))
 
 wt_table *wt_failures_new(void)
@@ -43,7 +43,7 @@ wt_table *wt_failures_new(void)
 }
 
 /* Returns `path` without the prefix `folder`. */
-static const char *path_below(const char *folder, const char *path)
+static const char *relative_path(const char *folder, const char *path)
 {
     size_t length = folder == NULL ? 0 : strlen(folder);
     if (length == 0 || strncmp(path, folder, length) != 0 || path[length] != '/')
@@ -58,7 +58,7 @@ wt_status wt_notes_table(const wt_log *log, const char *folder, wt_table **table
     table_writer t = table_begin(&notes_schema, err);
     for (size_t i = 0; i < wt_log_count(log); i++) {
         wt_log_entry entry = wt_log_get(log, i);
-        TABLE_ADD(notes, &t, wt_severity_name(entry.severity), path_below(folder, entry.file),
+        TABLE_ADD(notes, &t, wt_severity_name(entry.severity), relative_path(folder, entry.file),
                   entry);
     }
     return table_end(&t, table);
@@ -76,24 +76,24 @@ wt_status flow_add_failure(const wt_job *work, const char *what, const wt_error 
                            wt_error *err)
 {
     char message[2048];
-    wt_error said = *failure;
+    wt_error message_parts = *failure;
     if (work->case_advice != NULL)
-        work->case_advice(&said);
-    wt_error_format(&said, message, sizeof message);
+        work->case_advice(&message_parts);
+    wt_error_format(&message_parts, message, sizeof message);
     table_writer t = table_continue(work->failures, &failures_schema, "", err);
     TABLE_ADD(failures, &t, what, message);
     return table_end(&t, NULL);
 }
 
-wt_status wt_failures_answered(wt_table *failures, wt_answered answered, wt_error *err)
+wt_status wt_failures_set_status(wt_table *failures, wt_result_status answered, wt_error *err)
 {
     table_writer t = table_continue(failures, &failures_schema, "", err);
     failures_set_print(&t, FAILURES_KEY_STATUS, "%d", (int)answered);
     return table_end(&t, NULL);
 }
 
-wt_status wt_job_failed(const wt_job *work, const char *file, wt_status status, wt_error *failure,
-                        wt_error *err)
+wt_status wt_job_add_failure(const wt_job *work, const char *file, wt_status status,
+                             wt_error *failure, wt_error *err)
 {
     if (flow_may_continue(work, status)) {
         failure->file[0] = '\0'; /* the table of failures has a column for it */
@@ -128,20 +128,20 @@ static wt_status files_add(flow_files *files, char *path, const char *pattern,
         free(path);
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     }
-    const char *name = path_below(set->folder, path);
+    const char *name = relative_path(set->folder, path);
     files->file[files->n++] = (flow_file){.path = path,
                                           .name = name,
                                           .set = set,
-                                          .of_folder = path_depth(name) > path_depth(pattern)};
+                                          .from_folder = path_depth(name) > path_depth(pattern)};
     return WT_OK;
 }
 
-static int by_path(const void *a, const void *b)
+static int compare_path_texts(const void *a, const void *b)
 {
     return strcmp(a, b);
 }
 
-static void keep_path(void *path)
+static void free_no_path(void *path)
 {
     (void)path; /* the list owns the paths */
 }
@@ -157,9 +157,9 @@ static wt_status list_pattern(const wt_file_set *set, const char *pattern, const
         return files_add(files, strdup("-"), pattern, set, err);
     status = wt_glob(set->folder, pattern, &paths, &n, &failure);
     if (status != WT_OK)
-        return wt_job_failed(work, pattern, status, &failure, err);
+        return wt_job_add_failure(work, pattern, status, &failure, err);
     for (size_t i = 0; status == WT_OK && i < n; i++) {
-        char *const *const found = tsearch(paths[i], &files->paths, by_path);
+        char *const *const found = tsearch(paths[i], &files->paths, compare_path_texts);
         if (found == NULL) {
             status = wt_fail(err, WT_E_MEMORY, "out of memory");
             break;
@@ -176,7 +176,7 @@ static wt_status list_pattern(const wt_file_set *set, const char *pattern, const
     return status;
 }
 
-static int by_name(const void *a, const void *b)
+static int compare_file_paths(const void *a, const void *b)
 {
     const flow_file *const p = a, *const q = b;
     return strcmp(p->path, q->path);
@@ -191,7 +191,7 @@ wt_status flow_files_list(const wt_file_set *sets, size_t n_sets, const wt_job *
         for (size_t j = 0; status == WT_OK && j < sets[i].n_patterns; j++)
             status = list_pattern(&sets[i], sets[i].patterns[j], work, files, err);
     if (files->n > 1)
-        qsort(files->file, files->n, sizeof *files->file, by_name);
+        qsort(files->file, files->n, sizeof *files->file, compare_file_paths);
     if (status != WT_OK)
         flow_files_clear(files);
     return status;
@@ -202,35 +202,36 @@ void flow_files_clear(flow_files *files)
     for (size_t i = 0; i < files->n; i++)
         free((void *)files->file[i].path);
     free(files->file);
-    tdestroy(files->paths, keep_path);
+    tdestroy(files->paths, free_no_path);
     *files = (flow_files){NULL, 0, NULL};
 }
 
-static bool is_end_of(const char *end, size_t n_end, const char *path, size_t n)
+static bool is_path_suffix(const char *end, size_t n_end, const char *path, size_t n)
 {
     return n_end > 0 && n > n_end && path[n - n_end - 1] == '/' &&
            memcmp(path + n - n_end, end, n_end) == 0;
 }
 
-flow_naming flow_file_is(const flow_file *file, const char *named, size_t length)
+flow_name_match flow_file_match(const flow_file *file, const char *named, size_t length)
 {
     const size_t n = strlen(file->path);
     if ((strlen(file->name) == length && memcmp(file->name, named, length) == 0) ||
         (n == length && memcmp(file->path, named, length) == 0))
-        return FLOW_SAME_NAME;
-    const bool same_end =
-        is_end_of(named, length, file->path, n) || is_end_of(file->path, n, named, length);
-    return same_end ? FLOW_SAME_END : FLOW_OTHER_FILE;
+        return FLOW_NAME_EQUAL;
+    const bool same_end = is_path_suffix(named, length, file->path, n) ||
+                          is_path_suffix(file->path, n, named, length);
+    return same_end ? FLOW_NAME_SAME_SUFFIX : FLOW_NAME_DIFFERENT;
 }
 
 /* ---- opening files --------------------------------------------------------------------------- */
 
-static wt_status read_piece(void *user, size_t from, void *to, size_t n, wt_error *err)
+static wt_status read_input_bytes(void *user, size_t from, void *to, size_t n, wt_error *err)
 {
-    return wt_input_at(user, from, to, n, err);
+    return wt_input_copy(user, from, to, n, err);
 }
 
-wt_status wt_job_input(const wt_job *work, wt_provenance_input input, wt_input *file, wt_error *err)
+wt_status wt_job_add_input(const wt_job *work, wt_provenance_input input, wt_input *file,
+                           wt_error *err)
 {
     size_t length = 0;
     wt_status status = wt_input_size(file, &length, err);
@@ -239,7 +240,7 @@ wt_status wt_job_input(const wt_job *work, wt_provenance_input input, wt_input *
     if (status != WT_OK || work->provenance == NULL)
         return status;
     input.bytes = length;
-    status = digest_pieces(read_piece, file, length,
+    status = digest_stream(read_input_bytes, file, length,
                            (work->left_out & WT_EXTRA_DIGESTS) == 0 ? input.sha256 : NULL,
                            &input.fingerprint, err);
     if (status != WT_OK)
@@ -248,13 +249,13 @@ wt_status wt_job_input(const wt_job *work, wt_provenance_input input, wt_input *
     return status == WT_OK ? WT_OK : wt_fail(err, status, "cannot keep the list of inputs");
 }
 
-wt_status flow_record(const wt_job *work, wt_input *input, const flow_file *file, const char *role,
-                      wt_error *err)
+wt_status flow_record_input(const wt_job *work, wt_input *input, const flow_file *file,
+                            const char *role, wt_error *err)
 {
     const wt_format_info *info = file->format;
     char format[128];
     snprintf(format, sizeof format, "%s %s", info->id, info->version != NULL ? info->version : "");
-    const wt_status status = wt_job_input(
+    const wt_status status = wt_job_add_input(
         work, (wt_provenance_input){.path = file->name, .role = role, .format = format}, input,
         err);
     if (status != WT_OK)
@@ -269,7 +270,7 @@ wt_status flow_open(const wt_job *work, flow_file *file, const char *role, unsig
 }
 
 wt_status flow_open_paired(const wt_job *work, flow_file *file, const char *role, unsigned kinds,
-                           wt_input **result, wt_input **beside, wt_error *err)
+                           wt_input **result, wt_input **paired, wt_error *err)
 {
     if (work->formats == NULL)
         return wt_fail(err, WT_E_ARG, "no formats given to a job that reads files");
@@ -283,15 +284,15 @@ wt_status flow_open_paired(const wt_job *work, flow_file *file, const char *role
             wt_error_advice(err, "`weartrack formats list` shows the formats");
         }
     } else if (status == WT_OK) {
-        status = wt_detect(work->formats, input, read, kinds, &file->format, err);
+        status = wt_format_detect(work->formats, input, read, kinds, &file->format, err);
     }
-    if (beside != NULL)
-        *beside = NULL;
-    if (status == WT_OK && work->provenance != NULL && beside != NULL)
-        status = wt_input_sibling(input, beside, err);
+    if (paired != NULL)
+        *paired = NULL;
+    if (status == WT_OK && work->provenance != NULL && paired != NULL)
+        status = wt_input_sibling(input, paired, err);
     if (status == WT_OK && (work->provenance != NULL || work->cost != NULL) &&
-        (beside == NULL || *beside == NULL))
-        status = flow_record(work, input, file, role, err);
+        (paired == NULL || *paired == NULL))
+        status = flow_record_input(work, input, file, role, err);
     if (status != WT_OK) {
         wt_error_file(err, file->name);
         wt_input_close(input);
@@ -312,40 +313,40 @@ wt_read_options flow_read_options(const flow_file *file)
 bool flow_skip_file(const wt_job *work, const flow_file *file, const wt_error *failure)
 {
     const bool unknown = failure->status == WT_E_FORMAT && file->format == NULL;
-    if (!file->of_folder || !(unknown || failure->status == WT_E_EMPTY))
+    if (!file->from_folder || !(unknown || failure->status == WT_E_EMPTY))
         return false;
     wt_log_add(work->log, WT_WARNING, file->name, NULL, "left out of its folder: %s%s%s",
                failure->message, failure->found[0] != '\0' ? "; found " : "", failure->found);
     return true;
 }
 
-wt_status flow_files_process(const flow_files *files, const wt_job *work, flow_process *take,
+wt_status flow_files_process(const flow_files *files, const wt_job *work, flow_process *process,
                              void *user, size_t *n_failed, wt_error *err)
 {
     wt_status status = WT_OK;
     *n_failed = 0;
     for (size_t i = 0; status == WT_OK && i < files->n; i++) {
         wt_error failure = WT_ERROR_INIT;
-        status = take(user, &files->file[i], i, &failure);
+        status = process(user, &files->file[i], i, &failure);
         if (status == WT_OK || flow_skip_file(work, &files->file[i], &failure)) {
             status = WT_OK;
             continue;
         }
         ++*n_failed;
-        status = wt_job_failed(work, files->file[i].name, status, &failure, err);
+        status = wt_job_add_failure(work, files->file[i].name, status, &failure, err);
     }
     return status;
 }
 
 void flow_error_add_files(const flow_files *files, size_t n_failed, wt_error *err)
 {
-    bool of_folder = false;
+    bool from_folder = false;
     for (size_t i = 0; i < files->n; i++)
-        of_folder = of_folder || files->file[i].of_folder;
+        from_folder = from_folder || files->file[i].from_folder;
     if (n_failed > 0)
         wt_error_found(err, "files: %zu, failed: %zu", files->n, n_failed);
     else
         wt_error_found(err, "files: %zu", files->n);
     wt_error_advice(err, "`weartrack info FILE` shows what a file holds%s",
-                    of_folder ? "; 'FOLDER/*' takes the files of the folders in a folder" : "");
+                    from_folder ? "; 'FOLDER/*' takes the files of the folders in a folder" : "");
 }

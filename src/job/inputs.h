@@ -20,7 +20,7 @@ typedef struct flow_file {
     const char *path; /* for opening; owned by the list */
     const char *name; /* for messages: `path` without the folder of the set; points into `path` */
     const wt_file_set *set; /* set with the options for this file */
-    bool of_folder;         /* found in a folder, not named itself */
+    bool from_folder;       /* found in a folder, not named itself */
     /* set by flow_open: */
     const wt_format_info *format;
 } flow_file;
@@ -40,19 +40,23 @@ void flow_files_clear(flow_files *files);
 
 /* Result of matching a name with a file: equal to its name or path, or one path is the end of the
  * other after a '/', for example if a result was created in another folder. */
-typedef enum flow_naming { FLOW_OTHER_FILE, FLOW_SAME_END, FLOW_SAME_NAME } flow_naming;
-flow_naming flow_file_is(const flow_file *file, const char *named, size_t length);
+typedef enum flow_name_match {
+    FLOW_NAME_DIFFERENT,
+    FLOW_NAME_SAME_SUFFIX,
+    FLOW_NAME_EQUAL
+} flow_name_match;
+flow_name_match flow_file_match(const flow_file *file, const char *named, size_t length);
 
 /* Opens a file, detects its format among `kinds` and adds it to the provenance under `role`. */
 wt_status flow_open(const wt_job *work, flow_file *file, const char *role, unsigned kinds,
                     wt_input **input, wt_error *err) WT_NODISCARD;
 /* Variant for large files. If *paired is not NULL, the caller must add the file to the provenance
- * with flow_record, using this second input in another thread. */
+ * with flow_record_input, using this second input in another thread. */
 wt_status flow_open_paired(const wt_job *work, flow_file *file, const char *role, unsigned kinds,
-                           wt_input **input, wt_input **beside, wt_error *err) WT_NODISCARD;
+                           wt_input **input, wt_input **paired, wt_error *err) WT_NODISCARD;
 /* Adds an opened file to the provenance. */
-wt_status flow_record(const wt_job *work, wt_input *input, const flow_file *file, const char *role,
-                      wt_error *err) WT_NODISCARD;
+wt_status flow_record_input(const wt_job *work, wt_input *input, const flow_file *file,
+                            const char *role, wt_error *err) WT_NODISCARD;
 
 /* Returns the read options of a file: those of its set, with the detected format. */
 wt_read_options flow_read_options(const flow_file *file);
@@ -67,7 +71,7 @@ bool flow_skip_file(const wt_job *work, const flow_file *file, const wt_error *f
 /* Calls `process` for each file. A file with an error is skipped or recorded as a failure, and the
  * others are processed. *n_failed is the number of failures. */
 typedef wt_status flow_process(void *user, flow_file *file, size_t i, wt_error *err);
-wt_status flow_files_process(const flow_files *files, const wt_job *work, flow_process *take,
+wt_status flow_files_process(const flow_files *files, const wt_job *work, flow_process *process,
                              void *user, size_t *n_failed, wt_error *err) WT_NODISCARD;
 
 /* Returns true if the job continues after a failure of one file. False for lack of memory,

@@ -12,6 +12,6 @@ typedef struct typical_values {
 /* Computes the median and five standard deviations of n > 0 values, which are changed. The standard
  * deviation follows from the median absolute deviation. If more than half of the values equal the
  * median, it follows from the mean absolute deviation (Iglewicz and Hoaglin 1993). */
-typical_values flow_usual_values(double *values, size_t n);
+typical_values flow_typical_values(double *values, size_t n);
 
 #endif

@@ -8,7 +8,7 @@
 #include <math.h>
 
 /* Converts bits to a number in (0, 1). */
-static double uniform_of(uint64_t bits)
+static double uniform_from_bits(uint64_t bits)
 {
     return ((double)(bits >> 11) + 0.5) * 0x1p-53;
 }
@@ -19,8 +19,8 @@ double flow_draw_normal(uint64_t seed, size_t replicate, flow_draw what)
         return 0;
     uint64_t state =
         splitmix64(splitmix64(splitmix64(seed) ^ (uint64_t)replicate) ^ (uint64_t)what);
-    double radius = sqrt(-2 * log(uniform_of(state)));
-    return radius * cos(2 * M_PI * uniform_of(splitmix64(state)));
+    double radius = sqrt(-2 * log(uniform_from_bits(state)));
+    return radius * cos(2 * M_PI * uniform_from_bits(splitmix64(state)));
 }
 
 double flow_draw_value(wt_estimate e, uint64_t seed, size_t replicate, flow_draw what)
@@ -37,7 +37,7 @@ double flow_draw_positive(wt_estimate e, uint64_t seed, size_t replicate, flow_d
     return e.value * exp(e.standard_error / e.value * flow_draw_normal(seed, replicate, what));
 }
 
-wt_estimate flow_as_stated(wt_estimate input)
+wt_estimate flow_stated_estimate(wt_estimate input)
 {
     if (!(input.standard_error > 0))
         input.standard_error = (double)NAN;
@@ -50,10 +50,10 @@ double flow_draw_positive_t(wt_estimate e, double df, uint64_t seed, size_t repl
     const double z = flow_draw_normal(seed, replicate, what);
     if (!(df > 0) || !(e.standard_error > 0) || !(e.value > 0))
         return flow_draw_positive(e, seed, replicate, what);
-    return e.value * exp(e.standard_error / e.value * students_t_of_normal(z, df));
+    return e.value * exp(e.standard_error / e.value * students_t_from_normal(z, df));
 }
 
-double flow_spread(const double *x, size_t n, size_t stride)
+double flow_standard_deviation(const double *x, size_t n, size_t stride)
 {
     double mean = 0, sum = 0;
     size_t count = 0;

@@ -45,10 +45,10 @@ double flow_draw_positive_t(wt_estimate e, double df, uint64_t seed, size_t repl
 
 /* Converts an input for a table: a standard error of 0 means that none was stated, and becomes
  * NaN. */
-wt_estimate flow_as_stated(wt_estimate input);
+wt_estimate flow_stated_estimate(wt_estimate input);
 
 /* Standard deviation (n - 1) of the finite values among x[0], x[stride], ...; NaN for fewer than
  * two. */
-double flow_spread(const double *x, size_t n, size_t stride);
+double flow_standard_deviation(const double *x, size_t n, size_t stride);
 
 #endif

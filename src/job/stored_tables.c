@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-static wt_status read_stream(FILE *in, const char *name, wt_result *tables, wt_error *err)
+static wt_status read_stream_tables(FILE *in, const char *name, wt_result *tables, wt_error *err)
 {
     for (;;) {
         wt_table *table = NULL;
@@ -18,13 +18,13 @@ static wt_status read_stream(FILE *in, const char *name, wt_result *tables, wt_e
 }
 
 /* Reads the tables of a text stream in memory. */
-static wt_status read_text(const unsigned char *bytes, size_t length, const char *path,
-                           const char *instead, wt_result **tables, wt_error *err)
+static wt_status read_stream_memory(const unsigned char *bytes, size_t length, const char *path,
+                                    const char *instead, wt_result **tables, wt_error *err)
 {
     wt_result *const read = wt_result_new();
     FILE *const in = fmemopen((void *)(uintptr_t)bytes, length, "r");
     wt_status status = read == NULL || in == NULL ? wt_fail(err, WT_E_MEMORY, "out of memory")
-                                                  : read_stream(in, path, read, err);
+                                                  : read_stream_tables(in, path, read, err);
     if (in != NULL)
         (void)fclose(in);
     if (status == WT_OK && wt_result_n_tables(read) == 0) {
@@ -44,7 +44,7 @@ static wt_status read_text(const unsigned char *bytes, size_t length, const char
     return status;
 }
 
-static bool have_table(const wt_result *tables, const char *prefix)
+static bool has_table_prefix(const wt_result *tables, const char *prefix)
 {
     for (size_t i = 0; i < wt_result_n_tables(tables); i++)
         if (strncmp(wt_table_name(wt_result_table(tables, i)), prefix, strlen(prefix)) == 0)
@@ -66,23 +66,24 @@ wt_status wt_tables_read(const char *path, const char *name, const wt_job *work,
                        memcmp(bytes, hdf5_signature, sizeof hdf5_signature) == 0;
     if (status == WT_OK)
         status = store ? wt_store_read_memory(bytes, length, name, tables, err)
-                       : read_text(bytes, length, name, role.instead, tables, err);
+                       : read_stream_memory(bytes, length, name, role.instead, tables, err);
     if (status == WT_OK && work != NULL)
-        status = wt_job_input(
+        status = wt_job_add_input(
             work,
             (wt_provenance_input){.path = name,
-                                  .role = have_table(*tables, "indentation/") ? role.of_curves
-                                                                              : role.of_others,
+                                  .role = has_table_prefix(*tables, "indentation/")
+                                              ? role.curve_role
+                                              : role.other_role,
                                   .format = store ? "weartrack-hdf5" : "weartrack-stream"},
             input, err);
     wt_input_close(input);
     return status;
 }
 
-wt_status wt_tables_read_headlines(const char *path, wt_result **tables, wt_error *err)
+wt_status wt_tables_read_main_values(const char *path, wt_result **tables, wt_error *err)
 {
     const bool named = strcmp(path, "-") != 0;
-    const wt_status status = named ? wt_store_read_headlines(path, tables, err) : WT_E_FORMAT;
+    const wt_status status = named ? wt_store_read_main_values(path, tables, err) : WT_E_FORMAT;
     if (status != WT_E_FORMAT && status != WT_E_IO && status != WT_E_NOT_FOUND)
         return status;
     /* Standard input, a text stream or a compressed file; wt_tables_read reports other errors. */

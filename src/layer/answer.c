@@ -7,8 +7,8 @@
 #include <math.h>
 #include <string.h>
 
-static const char how_thick[] = "How thick is it?",
-                  what_friction[] = "What does it do to friction?";
+static const char thickness_question[] = "How thick is it?",
+                  friction_question[] = "What does it do to friction?";
 
 /* Returns the smallest stable thickness [m]; NaN if there is none. */
 static double thinnest_stable(const table_view *v)
@@ -31,38 +31,38 @@ void append_balance(text_builder *t, const table_view *balances)
                 least > 0 ? format_with_unit(least, "m").text : "");
 }
 
-static bool cannot_say(const char *words)
+static bool is_inconclusive(const char *text_value)
 {
-    return words != NULL && strncmp(words, "cannot say", strlen("cannot say")) == 0;
+    return text_value != NULL && strncmp(text_value, "cannot say", strlen("cannot say")) == 0;
 }
 
-static void say_balances(const answer_context *story)
+static void add_balances(const answer_context *context)
 {
-    const table_view *const v = &story->layer_feedback;
+    const table_view *const v = &context->layer_feedback;
     if (v->table == NULL)
         return;
-    const char *const agreement = layer_feedback_words(v, LAYER_FEEDBACK_KEY_AGREEMENT);
+    const char *const agreement = layer_feedback_key_text(v, LAYER_FEEDBACK_KEY_AGREEMENT);
     char text[160];
     text_builder t = {text, sizeof text, 0};
     append_balance(&t, v);
     text[0] = (char)toupper((unsigned char)text[0]);
-    answer_add_sentence(story, how_thick, "thickness", "%s: %s.", text,
-                        layer_feedback_words(v, LAYER_FEEDBACK_KEY_WORDS));
-    if (cannot_say(agreement))
-        answer_add_sentence(story, how_thick, "thickness",
+    answer_add_sentence(context, thickness_question, "thickness", "%s: %s.", text,
+                        layer_feedback_key_text(v, LAYER_FEEDBACK_KEY_WORDS));
+    if (is_inconclusive(agreement))
+        answer_add_sentence(context, thickness_question, "thickness",
                             "Whether that many balances are there, the inputs %s.", agreement);
 }
 
-static void say_existence(const answer_context *story)
+static void add_existence(const answer_context *context)
 {
-    const table_view *const v = &story->existence;
+    const table_view *const v = &context->existence;
     if (v->table == NULL)
         return;
-    const char *const known = layer_regime_map_words(v, LAYER_REGIME_MAP_KEY_KNOWN);
+    const char *const assessment = layer_regime_map_key_text(v, LAYER_REGIME_MAP_KEY_KNOWN);
     answer_add_sentence(
-        story, how_thick, "thickness", "At %s a layer exists %s.",
+        context, thickness_question, "thickness", "At %s a layer exists %s.",
         format_with_unit(layer_regime_map_value(v, LAYER_REGIME_MAP_KEY_PRESSURE).value, "Pa").text,
-        layer_regime_map_words(v, LAYER_REGIME_MAP_KEY_WORDS));
+        layer_regime_map_key_text(v, LAYER_REGIME_MAP_KEY_WORDS));
     const wt_estimate from = layer_regime_map_value(v, LAYER_REGIME_MAP_KEY_FROM_VELOCITY),
                       to = layer_regime_map_value(v, LAYER_REGIME_MAP_KEY_TO_VELOCITY);
     const double begins[] =
@@ -71,24 +71,25 @@ static void say_existence(const answer_context *story)
                  ends[] = {layer_regime_map_value(v, LAYER_REGIME_MAP_KEY_TO_VELOCITY_LOW).value,
                            layer_regime_map_value(v, LAYER_REGIME_MAP_KEY_TO_VELOCITY_HIGH).value};
     if (isfinite(begins[0]))
-        answer_add_sentence(story, how_thick, "thickness", "It begins at %s.",
+        answer_add_sentence(context, thickness_question, "thickness", "It begins at %s.",
                             format_estimate_interval(from, begins[0], begins[1]).text);
     if (isfinite(ends[0]))
-        answer_add_sentence(story, how_thick, "thickness", "It ends at %s.",
+        answer_add_sentence(context, thickness_question, "thickness", "It ends at %s.",
                             format_estimate_interval(to, ends[0], ends[1]).text);
-    if (cannot_say(known))
-        answer_add_sentence(story, how_thick, "thickness", "Of its edges the inputs %s.", known);
+    if (is_inconclusive(assessment))
+        answer_add_sentence(context, thickness_question, "thickness", "Of its edges the inputs %s.",
+                            assessment);
 }
 
-void answer_track_layer(const answer_context *story)
+void answer_track_layer(const answer_context *context)
 {
-    const table_view *const v = &story->track_layer;
+    const table_view *const v = &context->track_layer;
     if (v->table == NULL)
         return;
-    const char *const allowed = track_layer_words(v, TRACK_LAYER_KEY_ALLOWED),
-                      *const agree = track_layer_words(v, TRACK_LAYER_KEY_AGREE),
-                      *const settled_by = track_layer_words(v, TRACK_LAYER_KEY_SETTLED_BY);
-    answer_add_sentence(story, how_thick, "thickness",
+    const char *const allowed = track_layer_key_text(v, TRACK_LAYER_KEY_ALLOWED),
+                      *const agree = track_layer_key_text(v, TRACK_LAYER_KEY_AGREE),
+                      *const settled_by = track_layer_key_text(v, TRACK_LAYER_KEY_SETTLED_BY);
+    answer_add_sentence(context, thickness_question, "thickness",
                         "What thickness do the curves alone allow? %c%s.%s%s%s%s%s%s",
                         toupper((unsigned char)allowed[0]), allowed + 1,
                         agree != NULL ? " Does the theory agree? " : "", agree != NULL ? agree : "",
@@ -97,42 +98,44 @@ void answer_track_layer(const answer_context *story)
                         settled_by != NULL ? settled_by : "", settled_by != NULL ? "." : "");
 }
 
-static void say_bands(const answer_context *story)
+static void add_bands(const answer_context *context)
 {
-    const table_view *const v = &story->layer_bands;
+    const table_view *const v = &context->layer_bands;
     const char *const events =
-        v->table != NULL ? layer_bands_words(v, LAYER_BANDS_KEY_EVENTS) : NULL;
+        v->table != NULL ? layer_bands_key_text(v, LAYER_BANDS_KEY_EVENTS) : NULL;
     if (events == NULL)
         return;
     const wt_estimate first = layer_bands_value(v, LAYER_BANDS_KEY_FIRST);
-    answer_add_sentence(story, how_thick, "thickness", "By the transport of damage: %s.", events);
+    answer_add_sentence(context, thickness_question, "thickness", "By the transport of damage: %s.",
+                        events);
     if (first.standard_error > 0 &&
         isfinite(layer_bands_value(v, LAYER_BANDS_KEY_FIRST_HIGH).value))
         answer_add_sentence(
-            story, how_thick, "thickness", "Rubber is first modified after %s.",
+            context, thickness_question, "thickness", "Rubber is first modified after %s.",
             format_estimate_interval(first, layer_bands_value(v, LAYER_BANDS_KEY_FIRST_LOW).value,
                                      layer_bands_value(v, LAYER_BANDS_KEY_FIRST_HIGH).value)
                 .text);
-    const char *const known = layer_bands_words(v, LAYER_BANDS_KEY_KNOWN);
-    if (cannot_say(known))
-        answer_add_sentence(story, how_thick, "thickness", "Of that the inputs %s.", known);
+    const char *const assessment = layer_bands_key_text(v, LAYER_BANDS_KEY_KNOWN);
+    if (is_inconclusive(assessment))
+        answer_add_sentence(context, thickness_question, "thickness", "Of that the inputs %s.",
+                            assessment);
 }
 
-void answer_layer_models(const answer_context *story)
+void answer_layer_models(const answer_context *context)
 {
-    say_bands(story);
-    say_balances(story);
-    say_existence(story);
+    add_bands(context);
+    add_balances(context);
+    add_existence(context);
 }
 
-static number_text words_of_end(wt_estimate e)
+static number_text format_endpoint(wt_estimate e)
 {
     return e.standard_error > 0 ? format_estimate(e) : format_value(e);
 }
 
-void answer_running_in(const answer_context *story)
+void answer_running_in(const answer_context *context)
 {
-    const table_view *const v = &story->running_in;
+    const table_view *const v = &context->running_in;
     if (v->table == NULL)
         return;
     const wt_estimate bare = running_in_value(v, RUNNING_IN_KEY_BARE),
@@ -150,11 +153,11 @@ void answer_running_in(const answer_context *story)
         text_append(&t, "; 5 %% of the change are left after %s in contact",
                     format_estimate_interval(settled, low, high).text);
     if (!isnan(end.value))
-        answer_add_sentence(story, what_friction, "friction",
+        answer_add_sentence(context, friction_question, "friction",
                             "While the layer grows, friction goes from %s to %s%s.",
-                            words_of_end(bare).text, words_of_end(end).text, text);
-    const char *const known = running_in_words(v, RUNNING_IN_KEY_KNOWN);
-    if (cannot_say(known))
-        answer_add_sentence(story, what_friction, "friction", "Of when that is the inputs %s.",
-                            known);
+                            format_endpoint(bare).text, format_endpoint(end).text, text);
+    const char *const assessment = running_in_key_text(v, RUNNING_IN_KEY_KNOWN);
+    if (is_inconclusive(assessment))
+        answer_add_sentence(context, friction_question, "friction",
+                            "Of when that is the inputs %s.", assessment);
 }

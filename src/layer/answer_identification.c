@@ -17,7 +17,8 @@ typedef struct reported_pair {
 
 /* Reads a pair. Value, error and limits of each constant are adjacent columns, as are the
  * correlation and the least known combination. */
-static reported_pair pair_at(const table_view *v, size_t row, unsigned energy, unsigned correlation)
+static reported_pair read_reported_pair(const table_view *v, size_t row, unsigned energy,
+                                        unsigned correlation)
 {
     enum { VALUE, ERROR, LOW, HIGH, NEXT };
     const table_schema *const of = v->schema;
@@ -35,7 +36,7 @@ static reported_pair pair_at(const table_view *v, size_t row, unsigned energy, u
 
 /* Appends a pair. The constants are correlated, so that one combination of them has the largest
  * uncertainty. */
-static void tell_pair(text_builder *t, const reported_pair *p)
+static void append_pair(text_builder *t, const reported_pair *p)
 {
     text_append(t, "U_c = %s, k = %s",
                 format_estimate_interval((wt_estimate){.value = p->energy, .unit = "J/m^3"},
@@ -61,16 +62,17 @@ void append_identification(text_builder *t, const table_view *v)
             "before a wear rate or a running-in time is known",
             format_known_estimate(identification_value(v, IDENTIFICATION_KEY_PRODUCT)).text);
     for (size_t i = 1; i < v->n_rows; i++) {
-        const reported_pair p = pair_at(v, i, IDENTIFICATION_ENERGY, IDENTIFICATION_CORRELATION);
+        const reported_pair p =
+            read_reported_pair(v, i, IDENTIFICATION_ENERGY, IDENTIFICATION_CORRELATION);
         text_append(t, "%sby %s ", i > 1 ? "; " : "", identification_text(v, i, IDENTIFICATION_BY));
         if (isnan(p.energy_low))
             text_append(t, "U_c = %s, k = %s (%s)", format_with_unit(p.energy, "J/m^3").text,
                         format_with_unit(p.wear, "m^2/N").text,
                         identification_text(v, i, IDENTIFICATION_NOTE));
         else
-            tell_pair(t, &p);
+            append_pair(t, &p);
     }
-    const char *const lacks = identification_words(v, IDENTIFICATION_KEY_LACKS);
+    const char *const lacks = identification_key_text(v, IDENTIFICATION_KEY_LACKS);
     if (lacks != NULL)
         text_append(t, "; no error of %s is known, and none is in that", lacks);
 }
@@ -79,38 +81,39 @@ void append_identification(text_builder *t, const table_view *v)
  * sample or condition. */
 void append_shared_pairs(text_builder *t, const table_view *v)
 {
-    const char *const settled_by = shared_pairs_words(v, SHARED_PAIRS_KEY_SETTLED_BY);
-    bool open = false, told = false;
+    const char *const settled_by = shared_pairs_key_text(v, SHARED_PAIRS_KEY_SETTLED_BY);
+    bool open = false, is_first_appended = false;
     for (size_t i = 0; i < v->n_rows; i++) {
-        const char *const one = shared_pairs_text(v, i, SHARED_PAIRS_ONE_PAIR);
-        const reported_pair p = pair_at(v, i, SHARED_PAIRS_ENERGY, SHARED_PAIRS_CORRELATION);
+        const char *const one_pair = shared_pairs_text(v, i, SHARED_PAIRS_ONE_PAIR);
+        const reported_pair p =
+            read_reported_pair(v, i, SHARED_PAIRS_ENERGY, SHARED_PAIRS_CORRELATION);
         if (strcmp(shared_pairs_text(v, i, SHARED_PAIRS_OVER), "all cases") != 0)
             continue;
-        text_append(t, "%sone U_c and k of %.0f cases by %s: %s", told ? "; " : "",
+        text_append(t, "%sone U_c and k of %.0f cases by %s: %s", is_first_appended ? "; " : "",
                     shared_pairs_get(v, i, SHARED_PAIRS_N),
-                    shared_pairs_text(v, i, SHARED_PAIRS_BY), one);
-        told = true;
-        open = open || strcmp(one, "cannot say") == 0;
-        if (strcmp(one, "one") != 0)
+                    shared_pairs_text(v, i, SHARED_PAIRS_BY), one_pair);
+        is_first_appended = true;
+        open = open || strcmp(one_pair, "cannot say") == 0;
+        if (strcmp(one_pair, "one") != 0)
             text_append(t, " (U_c: %s; k: %s)", shared_pairs_text(v, i, SHARED_PAIRS_ONE_ENERGY),
                         shared_pairs_text(v, i, SHARED_PAIRS_ONE_WEAR));
-        if (strcmp(one, "differs") == 0) /* cases that differ have no common mean */
+        if (strcmp(one_pair, "differs") == 0) /* cases that differ have no common mean */
             continue;
-        text_append(t, strcmp(one, "one") == 0 ? ", " : "; as one ");
-        tell_pair(t, &p);
+        text_append(t, strcmp(one_pair, "one") == 0 ? ", " : "; as one ");
+        append_pair(t, &p);
     }
     if (open && settled_by != NULL)
         text_append(t, "; what would settle it: %s", settled_by);
 }
 
-void answer_identification(const answer_context *story)
+void answer_identification(const answer_context *context)
 {
-    const table_view *const v = &story->identification;
+    const table_view *const v = &context->identification;
     char text[1000];
     text_builder t = {text, sizeof text, 0};
     if (v->table == NULL)
         return;
     append_identification(&t, v);
-    answer_add_sentence(story, "How thick is it?", "thickness", "What makes it so thick? %c%s.",
+    answer_add_sentence(context, "How thick is it?", "thickness", "What makes it so thick? %c%s.",
                         toupper((unsigned char)text[0]), text + 1);
 }

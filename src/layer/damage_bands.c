@@ -19,13 +19,13 @@
 enum { TIMES_OF_LOAD = 20 };
 static const double first_part = 1e-3;
 /* Largest number of events in the text, and text sizes of a load and of an event. */
-enum { MOST_EVENTS = 12, LOAD_WORDS = 192, EVENT_WORDS = 96 };
+enum { MAX_EVENTS = 12, LOAD_TEXT_SIZE = 192, EVENT_TEXT_SIZE = 96 };
 
 /* Loads for one set of values. */
 typedef struct loads {
     size_t n;
-    layer_energy *energy;  /* [n] */
-    wt_layer_stage *stage; /* [n] */
+    layer_energy *energy; /* [n] */
+    wt_layer_load *stage; /* [n] */
 } loads;
 
 typedef struct bands_task {
@@ -40,8 +40,8 @@ typedef struct bands_task {
     wt_layer_section *section; /* [n_times] */
     double latest;             /* latest of the times [s] */
     double first;              /* time at which rubber is first modified [s]; NaN if never */
-    char *words;               /* [(n + 1) LOAD_WORDS] */
-    char events[(MOST_EVENTS + 1) * EVENT_WORDS], known[200], errors[560];
+    char *words;               /* [(n + 1) LOAD_TEXT_SIZE] */
+    char events[(MAX_EVENTS + 1) * EVENT_TEXT_SIZE], known[200], errors[560];
 } bands_task;
 
 TABLE_ROW(layer_bands, LAYER_BANDS, double time, load, worn, band; wt_estimate upper, lower;
@@ -51,7 +51,7 @@ TABLE_KEYS(layer_bands, LAYER_BANDS, const char *loads, *events, *method;
 
 /* ---- loads ----------------------------------------------------------------------------------- */
 
-static void loads_clear(loads *l)
+static void clear_loads(loads *l)
 {
     for (size_t i = 0; l->energy != NULL && i < l->n; i++)
         layer_energy_clear(&l->energy[i]);
@@ -60,11 +60,11 @@ static void loads_clear(loads *l)
     *l = (loads){0};
 }
 
-static void say_load(bands_task *task, size_t i)
+static void append_load(bands_task *task, size_t i)
 {
     const layer_load *load = &task->load[i];
     const wt_layer_parameters *p = &task->centre.stage[i].parameters;
-    const size_t used = strlen(task->words), size = (task->n + 1) * LOAD_WORDS;
+    const size_t used = strlen(task->words), size = (task->n + 1) * LOAD_TEXT_SIZE;
     char lasts[48] = "for ever", warm[32] = "";
     if (!isnan(load->temperature))
         clocale_print(warm, sizeof warm, ", %.1f degC", load->temperature - WT_ZERO_CELSIUS);
@@ -76,16 +76,16 @@ static void say_load(bands_task *task, size_t i)
 }
 
 /* Draws the wear rate of a load. It has the relative error of that of the job and the same draw. */
-static double wear_of(const layer_context *scene, double own)
+static double draw_load_wear(const layer_context *context, double sliding_velocity)
 {
-    wt_estimate wear = scene->job->specific_wear_rate;
-    wear.standard_error *= wear.value > 0 ? own / wear.value : 0;
-    wear.value = own;
-    return flow_draw_positive(wear, scene->work->seed, scene->replicate, FLOW_DRAW_WEAR);
+    wt_estimate wear = context->job->specific_wear_rate;
+    wear.standard_error *= wear.value > 0 ? sliding_velocity / wear.value : 0;
+    wear.value = sliding_velocity;
+    return flow_draw_positive(wear, context->work->seed, context->replicate, FLOW_DRAW_WEAR);
 }
 
-static wt_status loads_make(const bands_task *task, const layer_context *scene, loads *l,
-                            wt_error *err)
+static wt_status create_loads(const bands_task *task, const layer_context *context, loads *l,
+                              wt_error *err)
 {
     *l = (loads){.energy = calloc(task->n + 1, sizeof *l->energy),
                  .stage = calloc(task->n + 1, sizeof *l->stage)};
@@ -93,15 +93,17 @@ static wt_status loads_make(const bands_task *task, const layer_context *scene, 
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     for (size_t i = 0; i < task->n; i++) {
         const layer_load *load = &task->load[i];
-        const operating_point spot = {load->pressure, load->velocity, load->temperature,
-                                      operating_point_default().layer};
-        wt_layer_stage *stage = &l->stage[i];
-        const wt_status status = layer_at(scene, spot, &l->energy[i], &stage->parameters, err);
+        const operating_point conditions = {load->pressure, load->velocity, load->temperature,
+                                            operating_point_default().layer};
+        wt_layer_load *stage = &l->stage[i];
+        const wt_status status =
+            layer_compute_energy(context, conditions, &l->energy[i], &stage->parameters, err);
         if (status != WT_OK)
             return status;
         l->n++;
         if (!isnan(load->specific_wear_rate))
-            stage->parameters.specific_wear_rate = wear_of(scene, load->specific_wear_rate);
+            stage->parameters.specific_wear_rate =
+                draw_load_wear(context, load->specific_wear_rate);
         stage->parameters.incubation = true;
         stage->source = &l->energy[i].source;
         stage->duration = isnan(load->time) ? 0 : load->time;
@@ -115,7 +117,7 @@ static wt_status parse_loads(bands_task *task, const wt_layer_job *job, wt_error
     const double unset = (double)NAN;
     task->n = job->n_loads > 0 ? job->n_loads : 1;
     task->load = calloc(task->n, sizeof *task->load);
-    task->words = calloc(task->n + 1, LOAD_WORDS);
+    task->words = calloc(task->n + 1, LOAD_TEXT_SIZE);
     if (task->load == NULL || task->words == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     task->load[0] = (layer_load){unset, unset, unset, unset, unset};
@@ -126,11 +128,11 @@ static wt_status parse_loads(bands_task *task, const wt_layer_job *job, wt_error
 }
 
 /* Sets the range of velocities, for the materials of the replicates. */
-static void take_range(bands_task *task, const wt_sliding *sliding)
+static void set_velocity_range(bands_task *task, const wt_sliding *sliding)
 {
-    const double own = flow_layer_velocity(sliding, &task->draws.stated);
+    const double sliding_velocity = flow_layer_velocity(sliding, &task->draws.stated);
     double *const v = task->velocity;
-    v[0] = v[1] = own;
+    v[0] = v[1] = sliding_velocity;
     for (size_t i = 0; i < task->n; i++)
         if (!isnan(task->load[i].velocity)) {
             v[0] = fmin(v[0], task->load[i].velocity);
@@ -139,14 +141,14 @@ static void take_range(bands_task *task, const wt_sliding *sliding)
     task->range = *sliding;
     task->range.velocity = v;
     task->range.n_velocity = 2;
-    task->range.reference_velocity = own;
+    task->range.reference_velocity = sliding_velocity;
     task->draws.replicates.sliding = &task->range;
 }
 
 /* ---- times ----------------------------------------------------------------------------------- */
 
 /* Adds times from a share of the length to `to`, in equal ratios. */
-static void add_times(bands_task *task, double begin, double length, double to)
+static void add_log_times(bands_task *task, double begin, double length, double to)
 {
     const double from = first_part * length;
     for (size_t k = 0; k < TIMES_OF_LOAD; k++)
@@ -156,16 +158,17 @@ static void add_times(bands_task *task, double begin, double length, double to)
 
 /* Chooses the times: those of the job, else those of each load, and for the last load as long as it
  * changes the layer. Each load includes its start, where the layer is that of the previous load. */
-static wt_status take_times(bands_task *task, wt_error *err)
+static wt_status choose_band_times(bands_task *task, wt_error *err)
 {
-    const wt_layer_stage *last = &task->centre.stage[task->n - 1];
+    const wt_layer_load *last = &task->centre.stage[task->n - 1];
     const wt_layer_job *job = &task->draws.calibrated;
-    wt_layer_balance balance;
-    double *of_last = NULL, begin = 0;
+    wt_layer_steady_state balance;
+    double *last_load_times = NULL, begin = 0;
     size_t n = 0;
-    wt_status status = wt_layer_balance_compute(last->source, &last->parameters, &balance, err);
+    wt_status status =
+        wt_layer_steady_state_compute(last->source, &last->parameters, &balance, err);
     if (status == WT_OK)
-        status = layer_times_choose(job, &balance, &of_last, &n, err);
+        status = layer_times_choose(job, &balance, &last_load_times, &n, err);
     if (status != WT_OK)
         return status;
     const bool chosen = job->time == NULL;
@@ -175,21 +178,21 @@ static wt_status take_times(bands_task *task, wt_error *err)
     for (size_t i = 0; status == WT_OK && chosen && i + 1 < task->n; i++) {
         const double length = task->centre.stage[i].duration;
         if (length > 0)
-            add_times(task, begin, length, length);
+            add_log_times(task, begin, length, length);
         begin += length;
     }
     /* The times of the last load begin where that load alone would have an effect. */
-    if (status == WT_OK && begin > 0 && of_last[0] > first_part * begin)
-        add_times(task, begin, begin, of_last[0]);
+    if (status == WT_OK && begin > 0 && last_load_times[0] > first_part * begin)
+        add_log_times(task, begin, begin, last_load_times[0]);
     for (size_t i = 0; status == WT_OK && i < n; i++)
-        task->time[task->n_times++] = begin + of_last[i];
-    free(of_last);
+        task->time[task->n_times++] = begin + last_load_times[i];
+    free(last_load_times);
     return status;
 }
 
 /* ---- events ---------------------------------------------------------------------------------- */
 
-static void say_event(const wt_layer_event *e, char *text, size_t size)
+static void append_event(const wt_layer_event *e, char *text, size_t size)
 {
     static const char *const words[] = {"a band opens below the surface", "the surface is modified",
                                         "a band reaches the surface", "two bands merge",
@@ -202,25 +205,24 @@ static void say_event(const wt_layer_event *e, char *text, size_t size)
         clocale_print(text + strlen(text), size - strlen(text), ", %.4g um deep", 1e6 * e->depth);
 }
 
-static wt_status find_events(bands_task *task, wt_error *err)
+static wt_status list_events(bands_task *task, wt_error *err)
 {
-    wt_layer_event events[MOST_EVENTS];
+    wt_layer_event events[MAX_EVENTS];
     size_t n = 0;
     const wt_status status =
-        wt_layer_stage_events(task->centre.stage, task->n, events, MOST_EVENTS, &n, err);
-    for (size_t i = 0; status == WT_OK && i < n && i < MOST_EVENTS; i++)
-        say_event(&events[i], task->events, sizeof task->events);
+        wt_layer_load_events(task->centre.stage, task->n, events, MAX_EVENTS, &n, err);
+    for (size_t i = 0; status == WT_OK && i < n && i < MAX_EVENTS; i++)
+        append_event(&events[i], task->events, sizeof task->events);
     task->first = n > 0 ? events[0].time : (double)NAN;
     const size_t used = strlen(task->events);
-    if (status == WT_OK && n > MOST_EVENTS)
-        snprintf(task->events + used, sizeof task->events - used, "; and %zu more",
-                 n - MOST_EVENTS);
+    if (status == WT_OK && n > MAX_EVENTS)
+        snprintf(task->events + used, sizeof task->events - used, "; and %zu more", n - MAX_EVENTS);
     if (status == WT_OK && n == 0)
         snprintf(task->events, sizeof task->events, "nothing is ever modified");
     return status;
 }
 
-static wt_status find_sections(bands_task *task, wt_error *err)
+static wt_status compute_sections(bands_task *task, wt_error *err)
 {
     task->section = malloc((task->n_times + 1) * sizeof *task->section);
     for (size_t i = 0; i < task->n_times; i++)
@@ -235,10 +237,10 @@ static wt_status find_sections(bands_task *task, wt_error *err)
 /* Quantities of a replicate. Those of each time follow: the number of bands and their edges, NaN if
  * that number differs from the stated values. */
 enum { SOLVED, FIRST, LN_FIRST, THICKNESS, N_NUMBERS };
-enum { AT_BANDS, AT_EDGES, N_AT = AT_EDGES + 2 * WT_LAYER_BANDS };
+enum { AT_BANDS, AT_EDGES, N_AT = AT_EDGES + 2 * WT_LAYER_MAX_BANDS };
 
 /* Depth of the modified rubber at the latest time [m]. */
-static wt_estimate last_depth(const wt_layer_section *section, size_t n)
+static wt_estimate final_depth(const wt_layer_section *section, size_t n)
 {
     wt_estimate depth = {(double)NAN, (double)NAN, (double)NAN, "m"};
     double latest = -1;
@@ -252,29 +254,30 @@ static wt_estimate last_depth(const wt_layer_section *section, size_t n)
     return depth;
 }
 
-static void put_section(const wt_layer_section *s, const wt_layer_section *centre, double *out)
+static void store_section(const wt_layer_section *s, const wt_layer_section *centre, double *out)
 {
-    const size_t n = s->n == centre->n && s->n <= WT_LAYER_BANDS ? s->n : 0;
+    const size_t n = s->n == centre->n && s->n <= WT_LAYER_MAX_BANDS ? s->n : 0;
     out[AT_BANDS] = (double)s->n;
-    for (size_t i = 0; i < WT_LAYER_BANDS; i++) {
+    for (size_t i = 0; i < WT_LAYER_MAX_BANDS; i++) {
         out[AT_EDGES + 2 * i] = i < n ? s->band[i].upper.value : (double)NAN;
         out[AT_EDGES + 2 * i + 1] = i < n ? s->band[i].lower.value : (double)NAN;
     }
 }
 
-static wt_status one_replicate(const void *user, size_t k, double *out, wt_error *err)
+static wt_status bands_replicate(const void *user, size_t k, double *out, wt_error *err)
 {
     const bands_task *task = user;
     wt_layer_job job;
-    layer_context scene;
+    layer_context context;
     loads l = {0};
     wt_layer_event first = {.time = (double)NAN};
     const size_t rows = k < LAYER_ROW_REPLICATES ? task->n_times : 0;
     wt_layer_section *section = malloc((task->n_times + 1) * sizeof *section);
-    wt_status status = section != NULL ? layer_draws_context(&task->draws, k, &job, &scene, err)
-                                       : wt_fail(err, WT_E_MEMORY, "out of memory");
+    wt_status status = section != NULL
+                           ? layer_draws_replicate_context(&task->draws, k, &job, &context, err)
+                           : wt_fail(err, WT_E_MEMORY, "out of memory");
     if (status == WT_OK)
-        status = loads_make(task, &scene, &l, err);
+        status = create_loads(task, &context, &l, err);
     if (status == WT_OK)
         status = wt_layer_first_event(l.stage, l.n, &first, err);
     if (status == WT_OK)
@@ -286,19 +289,19 @@ static wt_status one_replicate(const void *user, size_t k, double *out, wt_error
         out[SOLVED] = 1;
         out[FIRST] = first.time;
         out[LN_FIRST] = log(first.time);
-        out[THICKNESS] = last_depth(section, rows > 0 || task->n_times == 0 ? rows : 1).value;
+        out[THICKNESS] = final_depth(section, rows > 0 || task->n_times == 0 ? rows : 1).value;
         for (size_t i = 0; i < N_AT * task->n_times; i++)
             out[N_NUMBERS + i] = (double)NAN;
         for (size_t i = 0; i < rows; i++)
-            put_section(&section[i], &task->section[i], out + N_NUMBERS + N_AT * i);
+            store_section(&section[i], &task->section[i], out + N_NUMBERS + N_AT * i);
     }
-    loads_clear(&l);
+    clear_loads(&l);
     free(section);
     return status;
 }
 
 /* Share of the replicates with this number of bands at a time; NaN without replicates. */
-static double share_of(const replicates *r, size_t bands, size_t time)
+static double matching_share(const replicates *r, size_t bands, size_t time)
 {
     size_t solved = 0, same = 0;
     for (size_t i = 0; i < r->n && i < LAYER_ROW_REPLICATES; i++) {
@@ -311,7 +314,7 @@ static double share_of(const replicates *r, size_t bands, size_t time)
 
 /* ---- the table ------------------------------------------------------------------------------- */
 
-static double load_at(const bands_task *task, double time)
+static double load_number(const bands_task *task, double time)
 {
     size_t i = 0;
     for (double end = 0; i + 1 < task->n; i++) {
@@ -322,38 +325,39 @@ static double load_at(const bands_task *task, double time)
     return (double)(i + 1);
 }
 
-static wt_estimate edge_of(wt_estimate edge, double error)
+static wt_estimate edge_with_error(wt_estimate edge, double error)
 {
     edge.standard_error = error;
     return edge;
 }
 
-static void add_section(const bands_task *task, size_t at, table_writer *t)
+static void add_section_rows(const bands_task *task, size_t at, table_writer *t)
 {
     const wt_layer_section *s = &task->section[at];
     const wt_estimate none = {(double)NAN, (double)NAN, (double)NAN, NULL};
-    const double load = load_at(task, s->time), share = share_of(&task->draws.replicates, s->n, at);
+    const double load = load_number(task, s->time),
+                 share = matching_share(&task->draws.replicates, s->n, at);
     const double *const e = task->draws.replicates.error + N_NUMBERS + N_AT * at + AT_EDGES;
     if (s->n == 0)
         TABLE_ADD(layer_bands, t, s->time, load, s->worn, 0, none, none, share);
-    for (size_t i = 0; i < s->n && i < WT_LAYER_BANDS; i++)
+    for (size_t i = 0; i < s->n && i < WT_LAYER_MAX_BANDS; i++)
         TABLE_ADD(layer_bands, t, s->time, load, s->worn, (double)(i + 1),
-                  edge_of(s->band[i].upper, e[2 * i]), edge_of(s->band[i].lower, e[2 * i + 1]),
-                  share);
+                  edge_with_error(s->band[i].upper, e[2 * i]),
+                  edge_with_error(s->band[i].lower, e[2 * i + 1]), share);
 }
 
 static wt_status make_table(bands_task *task, wt_table **table, wt_error *err)
 {
     const double *const e = task->draws.replicates.error;
-    const wt_interval first = layer_interval(&task->draws, LN_FIRST, task->first);
-    wt_estimate thickness = last_depth(task->section, task->n_times);
+    const wt_interval first = layer_draws_interval(&task->draws, LN_FIRST, task->first);
+    wt_estimate thickness = final_depth(task->section, task->n_times);
     thickness.standard_error = e[THICKNESS];
     layer_draws_describe(&task->draws, task->errors, sizeof task->errors);
-    layer_say_known(&task->draws, LN_FIRST, task->first, "nothing is ever modified",
-                    "something is modified", task->known, sizeof task->known);
+    layer_draws_assess(&task->draws, LN_FIRST, task->first, "nothing is ever modified",
+                       "something is modified", task->known, sizeof task->known);
     table_writer t = table_begin(&layer_bands_schema, err);
     for (size_t i = 0; i < task->n_times; i++)
-        add_section(task, i, &t);
+        add_section_rows(task, i, &t);
     TABLE_SET(
         layer_bands, &t, task->words, task->events,
         "exact transport of damage (derived); an observed layer at the start is worn from "
@@ -365,33 +369,33 @@ static wt_status make_table(bands_task *task, wt_table **table, wt_error *err)
 
 /* ---- the job --------------------------------------------------------------------------------- */
 
-static wt_status make_centre(bands_task *task, wt_error *err)
+static wt_status compute_stated_values(bands_task *task, wt_error *err)
 {
-    wt_status status = loads_make(task, &task->draws.values, &task->centre, err);
+    wt_status status = create_loads(task, &task->draws.values, &task->centre, err);
     for (size_t i = 0; status == WT_OK && i < task->n; i++)
-        say_load(task, i);
+        append_load(task, i);
     if (status == WT_OK)
-        status = take_times(task, err);
+        status = choose_band_times(task, err);
     if (status == WT_OK)
-        status = find_events(task, err);
-    return status == WT_OK ? find_sections(task, err) : status;
+        status = list_events(task, err);
+    return status == WT_OK ? compute_sections(task, err) : status;
 }
 
-wt_status wt_layer_bands_make(const wt_sliding *sliding, const wt_layer_job *job,
-                              const wt_job *work, wt_table **table, wt_error *err)
+wt_status wt_layer_bands_compute(const wt_sliding *sliding, const wt_layer_job *job,
+                                 const wt_job *work, wt_table **table, wt_error *err)
 {
     if (job == NULL || work == NULL || table == NULL)
         return wt_fail(err, WT_E_ARG, "no bands of a layer to make");
     bands_task task = {.n = 0};
-    wt_status status = layer_draws_open(&task.draws, sliding, job, NULL, work, "bands", false, err);
+    wt_status status = layer_draws_init(&task.draws, sliding, job, NULL, work, "bands", false, err);
     if (status == WT_OK)
         status = parse_loads(&task, job, err);
     if (status == WT_OK)
-        status = make_centre(&task, err);
+        status = compute_stated_values(&task, err);
     if (status == WT_OK) {
-        take_range(&task, sliding);
+        set_velocity_range(&task, sliding);
         status = replicates_draw(&task.draws.replicates, N_NUMBERS + N_AT * task.n_times,
-                                 one_replicate, &task, err);
+                                 bands_replicate, &task, err);
     }
     if (status == WT_OK)
         status = make_table(&task, table, err);
@@ -399,7 +403,7 @@ wt_status wt_layer_bands_make(const wt_sliding *sliding, const wt_layer_job *job
                 (cost_summary){.items = (double)(task.n_times * (1 + task.draws.replicates.n)),
                                .tolerance_asked = work->tolerance});
     layer_draws_clear(&task.draws);
-    loads_clear(&task.centre);
+    clear_loads(&task.centre);
     free(task.load);
     free(task.words);
     free(task.time);

@@ -26,24 +26,24 @@ static void add_depths(const wt_energy_source *source, table_writer *t)
     }
 }
 
-wt_status wt_energy_density_table(const wt_sliding *sliding, const wt_layer_job *job,
-                                  const wt_job *work, wt_table **table, wt_error *err)
+wt_status wt_energy_density_compute(const wt_sliding *sliding, const wt_layer_job *job,
+                                    const wt_job *work, wt_table **table, wt_error *err)
 {
     if (job == NULL || work == NULL || table == NULL)
         return wt_fail(err, WT_E_ARG, "no energy density to make");
     sliding_contact c = {0};
     layer_energy energy = {.source = {.n = 0}};
     wt_job own = *work;
-    own.left_out = WT_EXTRAS;
+    own.left_out = WT_EXTRA_ALL;
     const wt_layer_state none = {.modulus_ratio = 1};
     wt_status status = flow_sliding_check(sliding, work, err);
     if (status == WT_OK)
         status = wt_layer_job_check(job, err);
     if (status == WT_OK)
-        status = sliding_contact_make(sliding, &own, WT_NO_REPLICATE, NULL, none, &c, err);
+        status = sliding_contact_create(sliding, &own, WT_NO_REPLICATE, NULL, none, &c, err);
     const double velocity = status == WT_OK ? flow_layer_velocity(sliding, job) : 0;
     if (status == WT_OK)
-        status = layer_energy_make(sliding, job, &c, velocity, none, &energy, err);
+        status = layer_energy_compute(sliding, job, &c, velocity, none, &energy, err);
     sliding_contact_clear(&c);
     if (status != WT_OK)
         return status;

@@ -31,28 +31,28 @@ TABLE_KEYS(layer_feedback, LAYER_FEEDBACK, wt_estimate one_way, ratio, modulus_r
 wt_status feedback_energy(double thickness, void *user, wt_energy_source *source,
                           wt_layer_parameters *parameters, wt_error *err)
 {
-    const layer_context *scene = user;
+    const layer_context *context = user;
     layer_energy energy = {.source = {.n = 0}};
-    const wt_status status =
-        layer_at(scene, layer_under(scene, thickness), &energy, parameters, err);
+    const wt_status status = layer_compute_energy(
+        context, operating_point_under_layer(context, thickness), &energy, parameters, err);
     *source = energy.source;
     return status;
 }
 
-wt_status feedback_find(layer_context *scene, wt_layer_loop *loop, wt_error *err)
+wt_status feedback_find_balances(layer_context *context, wt_layer_feedback *loop, wt_error *err)
 {
     wt_energy_source source = {0};
     wt_layer_parameters p;
     double low = 0, high = 0;
-    wt_status status = feedback_energy(0, scene, &source, &p, err);
+    wt_status status = feedback_energy(0, context, &source, &p, err);
     for (size_t i = 0; status == WT_OK && i < source.n; i++) {
         low = i == 0 ? source.wavenumber[0] : fmin(low, source.wavenumber[i]);
         high = fmax(high, source.wavenumber[i]);
     }
     if (status == WT_OK)
-        status = wt_layer_loop_find(feedback_energy, scene, thinnest / high, thickest / low,
-                                    scene->replicate == WT_NO_REPLICATE ? GRID : REPLICATE_GRID,
-                                    loop, err);
+        status = wt_layer_feedback_solve(
+            feedback_energy, context, thinnest / high, thickest / low,
+            context->replicate == WT_NO_REPLICATE ? GRID : REPLICATE_GRID, loop, err);
     wt_energy_source_clear(&source);
     return status;
 }
@@ -61,22 +61,22 @@ wt_status feedback_find(layer_context *scene, wt_layer_loop *loop, wt_error *err
 
 /* Quantities of a balance or a fold, with the friction there. */
 enum { AT_THICKNESS, AT_SLOPE, AT_EIGENVALUE, AT_WEAR, AT_HYSTERESIS, AT_AREA, AT_FRICTION, N_AT };
-typedef struct place {
+typedef struct balance_state {
     double value[N_AT], numerical[N_AT];
-} place;
+} balance_state;
 
 typedef struct balances {
-    layer_context *scene;
-    wt_layer_loop loop;
-    wt_layer_balance one_way;
-    place root[WT_LAYER_ROOTS], fold[WT_LAYER_ROOTS];
+    layer_context *context;
+    wt_layer_feedback loop;
+    wt_layer_steady_state one_way;
+    balance_state root[WT_LAYER_MAX_ROOTS], fold[WT_LAYER_MAX_ROOTS];
 } balances;
 
-static wt_status add_friction(const balances *b, place *at, wt_error *err)
+static wt_status add_friction(const balances *b, balance_state *at, wt_error *err)
 {
     layer_friction f;
-    const wt_status status =
-        layer_friction_at(b->scene, layer_under(b->scene, at->value[AT_THICKNESS]), &f, err);
+    const wt_status status = layer_compute_friction(
+        b->context, operating_point_under_layer(b->context, at->value[AT_THICKNESS]), &f, err);
     if (status != WT_OK)
         return status;
     at->value[AT_HYSTERESIS] = f.hysteresis;
@@ -89,14 +89,14 @@ static wt_status add_friction(const balances *b, place *at, wt_error *err)
 }
 
 /* An error of formation over wear moves a root by that error over the slope of ln(Qf / Qw). */
-static wt_status add_root_error(const balances *b, place *at, wt_error *err)
+static wt_status add_root_error(const balances *b, balance_state *at, wt_error *err)
 {
     wt_energy_source source = {0};
     wt_layer_parameters p;
-    wt_layer_balance here;
-    wt_status status = feedback_energy(at->value[AT_THICKNESS], b->scene, &source, &p, err);
+    wt_layer_steady_state here;
+    wt_status status = feedback_energy(at->value[AT_THICKNESS], b->context, &source, &p, err);
     if (status == WT_OK)
-        status = wt_layer_balance_compute(&source, &p, &here, err);
+        status = wt_layer_steady_state_compute(&source, &p, &here, err);
     if (status == WT_OK)
         at->numerical[AT_THICKNESS] =
             here.ratio_error * here.wear_rate / fabs(at->value[AT_EIGENVALUE]);
@@ -104,12 +104,12 @@ static wt_status add_root_error(const balances *b, place *at, wt_error *err)
     return status;
 }
 
-static wt_status find_places(balances *b, wt_error *err)
+static wt_status compute_states(balances *b, wt_error *err)
 {
-    const double wear = b->scene->job->specific_wear_rate.value;
-    const bool with_errors = b->scene->replicate == WT_NO_REPLICATE;
-    const place unknown = {.numerical = {(double)NAN, (double)NAN, (double)NAN, (double)NAN,
-                                         (double)NAN, (double)NAN, (double)NAN}};
+    const double wear = b->context->job->specific_wear_rate.value;
+    const bool with_errors = b->context->replicate == WT_NO_REPLICATE;
+    const balance_state unknown = {.numerical = {(double)NAN, (double)NAN, (double)NAN, (double)NAN,
+                                                 (double)NAN, (double)NAN, (double)NAN}};
     wt_status status = WT_OK;
     for (size_t i = 0; status == WT_OK && i < b->loop.n_roots; i++) {
         const wt_layer_root *r = &b->loop.root[i];
@@ -133,17 +133,17 @@ static wt_status find_places(balances *b, wt_error *err)
     return status;
 }
 
-static wt_status find_balances(balances *b, wt_error *err)
+static wt_status compute_balances(balances *b, wt_error *err)
 {
     wt_energy_source source = {0};
     wt_layer_parameters p;
-    wt_status status = feedback_find(b->scene, &b->loop, err);
+    wt_status status = feedback_find_balances(b->context, &b->loop, err);
     if (status == WT_OK)
-        status = feedback_energy(0, b->scene, &source, &p, err);
+        status = feedback_energy(0, b->context, &source, &p, err);
     if (status == WT_OK)
-        status = wt_layer_balance_compute(&source, &p, &b->one_way, err);
+        status = wt_layer_steady_state_compute(&source, &p, &b->one_way, err);
     wt_energy_source_clear(&source);
-    return status == WT_OK ? find_places(b, err) : status;
+    return status == WT_OK ? compute_states(b, err) : status;
 }
 
 /* ---- replicates ------------------------------------------------------------------------------ */
@@ -155,12 +155,12 @@ enum { RATIO, ONE_WAY, BALANCES, SAME_BALANCES, SAME_FOLDS, N_NUMBERS };
 typedef struct balances_task {
     layer_draws draws;
     balances centre;
-    size_t solved, same_balances, same_folds; /* number of replicates: solved, and with the same
-                                                 balances or folds as the stated values */
+    size_t solved, has_same_balances, has_same_folds; /* number of replicates: solved, and with the
+                                                 same balances or folds as the stated values */
     char agreement[320], errors[760];
 } balances_task;
 
-static size_t count_stable(const wt_layer_loop *loop)
+static size_t count_stable(const wt_layer_feedback *loop)
 {
     size_t n = 0;
     for (size_t i = 0; i < loop->n_roots; i++)
@@ -168,7 +168,7 @@ static size_t count_stable(const wt_layer_loop *loop)
     return n;
 }
 
-static bool same_balances(const wt_layer_loop *a, const wt_layer_loop *b)
+static bool has_same_balances(const wt_layer_feedback *a, const wt_layer_feedback *b)
 {
     if (a->n_roots != b->n_roots)
         return false;
@@ -179,7 +179,7 @@ static bool same_balances(const wt_layer_loop *a, const wt_layer_loop *b)
     return true;
 }
 
-static bool same_folds(const wt_layer_loop *a, const wt_layer_loop *b)
+static bool has_same_folds(const wt_layer_feedback *a, const wt_layer_feedback *b)
 {
     if (a->n_folds != b->n_folds)
         return false;
@@ -189,37 +189,37 @@ static bool same_folds(const wt_layer_loop *a, const wt_layer_loop *b)
     return true;
 }
 
-static void put_places(const place *places, size_t n, bool same, double *out)
+static void store_states(const balance_state *states, size_t n, bool same, double *out)
 {
     for (size_t i = 0; i < n; i++)
         for (size_t k = 0; k < N_AT; k++)
-            out[N_AT * i + k] = same ? places[i].value[k] : (double)NAN;
+            out[N_AT * i + k] = same ? states[i].value[k] : (double)NAN;
 }
 
-static wt_status one_replicate(const void *user, size_t i, double *out, wt_error *err)
+static wt_status balances_replicate(const void *user, size_t i, double *out, wt_error *err)
 {
     const balances_task *task = user;
-    const wt_layer_loop *centre = &task->centre.loop;
+    const wt_layer_feedback *centre = &task->centre.loop;
     wt_layer_job job;
-    layer_context scene;
-    balances b = {.scene = &scene};
-    wt_status status = layer_draws_context(&task->draws, i, &job, &scene, err);
+    layer_context context;
+    balances b = {.context = &context};
+    wt_status status = layer_draws_replicate_context(&task->draws, i, &job, &context, err);
     if (status == WT_OK) {
         job.specific_wear_rate = (wt_estimate){
-            flow_draw_positive(job.specific_wear_rate, scene.work->seed, i, FLOW_DRAW_WEAR), 0, 0,
+            flow_draw_positive(job.specific_wear_rate, context.work->seed, i, FLOW_DRAW_WEAR), 0, 0,
             "m^2/N"};
-        status = find_balances(&b, err);
+        status = compute_balances(&b, err);
     }
     if (status != WT_OK)
         return status;
     out[RATIO] = b.loop.ratio;
     out[ONE_WAY] = b.one_way.thickness.value;
     out[BALANCES] = (double)b.loop.n_roots;
-    out[SAME_BALANCES] = same_balances(&b.loop, centre);
-    out[SAME_FOLDS] = same_folds(&b.loop, centre);
+    out[SAME_BALANCES] = has_same_balances(&b.loop, centre);
+    out[SAME_FOLDS] = has_same_folds(&b.loop, centre);
     double *const roots = out + N_NUMBERS, *const folds = roots + N_AT * centre->n_roots;
-    put_places(b.root, centre->n_roots, out[SAME_BALANCES] > 0, roots);
-    put_places(b.fold, centre->n_folds, out[SAME_FOLDS] > 0, folds);
+    store_states(b.root, centre->n_roots, out[SAME_BALANCES] > 0, roots);
+    store_states(b.fold, centre->n_folds, out[SAME_FOLDS] > 0, folds);
     for (size_t k = 0; k < centre->n_roots; k++)
         roots[N_AT * k + AT_WEAR] = job.specific_wear_rate.value; /* the wear rate is an input */
     return WT_OK;
@@ -230,35 +230,35 @@ static wt_status one_replicate(const void *user, size_t i, double *out, wt_error
 /* Share of replicates that must have the same balances for a conclusive number and for errors of
  * them. Below it, the replicates with other balances are not a random subset, and the rest scatter
  * too little. */
-static const double sure = 0.95;
+static const double agreement_share = 0.95;
 
-static bool is_sure(const balances_task *task, size_t same)
+static bool is_conclusive(const balances_task *task, size_t same)
 {
-    return (double)same >= sure * (double)task->solved;
+    return (double)same >= agreement_share * (double)task->solved;
 }
 
 /* Tests if the replicates have the same number of balances with the same stability. */
-static void say_agreement(balances_task *task)
+static void assess_agreement(balances_task *task)
 {
     const replicates *r = &task->draws.replicates;
-    size_t fewest = WT_LAYER_ROOTS, most = 0;
+    size_t fewest = WT_LAYER_MAX_ROOTS, most = 0;
     for (size_t i = 0; i < r->n; i++) {
         const double *const out = r->value + i * r->stride;
         if (isnan(out[RATIO]))
             continue;
         const size_t n = (size_t)out[BALANCES];
         task->solved++;
-        task->same_balances += out[SAME_BALANCES] > 0;
-        task->same_folds += out[SAME_FOLDS] > 0;
+        task->has_same_balances += out[SAME_BALANCES] > 0;
+        task->has_same_folds += out[SAME_FOLDS] > 0;
         fewest = n < fewest ? n : fewest;
         most = n > most ? n : most;
     }
-    const size_t solved = task->solved, same = task->same_balances;
-    const bool known = is_sure(task, same);
+    const size_t solved = task->solved, same = task->has_same_balances;
+    const bool known = is_conclusive(task, same);
     char *const text = task->agreement;
     const size_t size = sizeof task->agreement;
     if (solved == 0)
-        snprintf(text, size, "not tested: %s", replicates_include(r));
+        snprintf(text, size, "not tested: %s", replicates_included_errors(r));
     else if (known)
         snprintf(text, size, "yes: %zu of %zu replicates have as many balances, equally stable",
                  same, solved);
@@ -275,12 +275,12 @@ static void say_agreement(balances_task *task)
 }
 
 /* Removes the errors of n balances or folds that too few replicates share. */
-static void forget_errors(balances_task *task, size_t same, size_t first, size_t n, bool given_wear,
-                          const char *what)
+static void clear_uncertain_errors(balances_task *task, size_t same, size_t first, size_t n,
+                                   bool given_wear, const char *what)
 {
     char *const text = task->errors;
     const size_t used = strlen(text);
-    if (n == 0 || is_sure(task, same))
+    if (n == 0 || is_conclusive(task, same))
         return;
     for (size_t k = 0; k < N_AT * n; k++)
         if (!given_wear || k % N_AT != AT_WEAR)
@@ -291,41 +291,43 @@ static void forget_errors(balances_task *task, size_t same, size_t first, size_t
 }
 
 /* Writes the error sources, and the balances and folds without errors. */
-static void say_errors(balances_task *task)
+static void describe_errors(balances_task *task)
 {
-    const wt_layer_loop *const loop = &task->centre.loop;
+    const wt_layer_feedback *const loop = &task->centre.loop;
     const size_t folds = N_NUMBERS + N_AT * loop->n_roots;
     layer_draws_describe(&task->draws, task->errors, sizeof task->errors);
-    forget_errors(task, task->same_balances, N_NUMBERS, loop->n_roots, true, "balances");
-    forget_errors(task, task->same_folds, folds, loop->n_folds, false, "folds");
+    clear_uncertain_errors(task, task->has_same_balances, N_NUMBERS, loop->n_roots, true,
+                           "balances");
+    clear_uncertain_errors(task, task->has_same_folds, folds, loop->n_folds, false, "folds");
 }
 
-static wt_estimate estimate_of(const place *at, const double *error, size_t k)
+static wt_estimate state_estimate(const balance_state *at, const double *error, size_t k)
 {
     return (wt_estimate){at->value[k], error[k], at->numerical[k], NULL};
 }
 
-static void add_place(const place *at, const double *e, const char *kind, const char *stable,
-                      table_writer *t)
+static void add_state_row(const balance_state *at, const double *e, const char *kind,
+                          const char *stable, table_writer *t)
 {
-    TABLE_ADD(layer_feedback, t, kind, stable, estimate_of(at, e, AT_THICKNESS),
-              estimate_of(at, e, AT_SLOPE), estimate_of(at, e, AT_EIGENVALUE),
-              estimate_of(at, e, AT_WEAR), estimate_of(at, e, AT_HYSTERESIS),
-              estimate_of(at, e, AT_AREA), estimate_of(at, e, AT_FRICTION));
+    TABLE_ADD(layer_feedback, t, kind, stable, state_estimate(at, e, AT_THICKNESS),
+              state_estimate(at, e, AT_SLOPE), state_estimate(at, e, AT_EIGENVALUE),
+              state_estimate(at, e, AT_WEAR), state_estimate(at, e, AT_HYSTERESIS),
+              state_estimate(at, e, AT_AREA), state_estimate(at, e, AT_FRICTION));
 }
 
-static void add_rows(const balances_task *task, table_writer *t)
+static void add_balance_rows(const balances_task *task, table_writer *t)
 {
-    const wt_layer_loop *loop = &task->centre.loop;
+    const wt_layer_feedback *loop = &task->centre.loop;
     const double *e = task->draws.replicates.error + N_NUMBERS;
     for (size_t i = 0; i < loop->n_roots; i++, e += N_AT)
-        add_place(&task->centre.root[i], e, "balance", loop->root[i].stable ? "stable" : "unstable",
-                  t);
+        add_state_row(&task->centre.root[i], e, "balance",
+                      loop->root[i].stable ? "stable" : "unstable", t);
     for (size_t i = 0; i < loop->n_folds; i++, e += N_AT)
-        add_place(&task->centre.fold[i], e, "fold", loop->fold[i].maximum ? "above" : "below", t);
+        add_state_row(&task->centre.fold[i], e, "fold", loop->fold[i].maximum ? "above" : "below",
+                      t);
 }
 
-static const char *say_loop(const wt_layer_loop *loop)
+static const char *describe_loop(const wt_layer_feedback *loop)
 {
     const size_t stable = count_stable(loop);
     if (loop->n_roots == 0)
@@ -348,32 +350,33 @@ static wt_status make_table(balances_task *task, wt_table **table, wt_error *err
     one_way.standard_error = e[ONE_WAY];
     const wt_estimate ratio = {b->loop.ratio, e[RATIO], b->loop.ratio * b->one_way.ratio_error,
                                NULL};
-    say_agreement(task);
-    say_errors(task);
+    assess_agreement(task);
+    describe_errors(task);
     table_writer t = table_begin(&layer_feedback_schema, err);
-    add_rows(task, &t);
-    TABLE_SET(layer_feedback, &t, one_way, ratio, layer_draws_ratio(&task->draws), b->loop.low,
-              b->loop.high, say_loop(&b->loop), task->agreement, task->errors, task->draws.moduli);
+    add_balance_rows(task, &t);
+    TABLE_SET(layer_feedback, &t, one_way, ratio, layer_draws_modulus_ratio(&task->draws),
+              b->loop.low, b->loop.high, describe_loop(&b->loop), task->agreement, task->errors,
+              task->draws.moduli);
     return table_end(&t, table);
 }
 
-wt_status wt_layer_balances_make(const wt_sliding *sliding, const wt_layer_job *job,
-                                 const wt_layer_observation *known, const wt_job *work,
-                                 wt_table **table, wt_error *err)
+wt_status wt_layer_steady_states_compute(const wt_sliding *sliding, const wt_layer_job *job,
+                                         const wt_layer_observation *known, const wt_job *work,
+                                         wt_table **table, wt_error *err)
 {
     if (job == NULL || known == NULL || work == NULL || table == NULL)
         return wt_fail(err, WT_E_ARG, "no balances of a layer to make");
-    balances_task task = {.centre = {.scene = &task.draws.values}};
+    balances_task task = {.centre = {.context = &task.draws.values}};
     wt_status status =
-        layer_draws_open(&task.draws, sliding, job, known, work, "layer that acts back", true, err);
+        layer_draws_init(&task.draws, sliding, job, known, work, "layer that acts back", true, err);
     if (status == WT_OK)
-        status = find_balances(&task.centre, err);
+        status = compute_balances(&task.centre, err);
     if (status == WT_OK) {
-        const wt_layer_loop *loop = &task.centre.loop;
+        const wt_layer_feedback *loop = &task.centre.loop;
         task.draws.replicates.velocity = flow_layer_velocity(sliding, job);
         status = replicates_draw(&task.draws.replicates,
-                                 N_NUMBERS + N_AT * (loop->n_roots + loop->n_folds), one_replicate,
-                                 &task, err);
+                                 N_NUMBERS + N_AT * (loop->n_roots + loop->n_folds),
+                                 balances_replicate, &task, err);
     }
     if (status == WT_OK)
         status = make_table(&task, table, err);

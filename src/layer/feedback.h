@@ -9,6 +9,7 @@
 wt_status feedback_energy(double thickness, void *user, wt_energy_source *source,
                           wt_layer_parameters *parameters, wt_error *err) WT_NODISCARD;
 /* Finds all balances with thicknesses from the shortest wave to the longest. */
-wt_status feedback_find(layer_context *scene, wt_layer_loop *loop, wt_error *err) WT_NODISCARD;
+wt_status feedback_find_balances(layer_context *context, wt_layer_feedback *loop,
+                                 wt_error *err) WT_NODISCARD;
 
 #endif

@@ -17,7 +17,7 @@ static double positive_value(const figure_drawing *d, layer_key key)
 
 /* Incubation time [s]; NaN if unknown or if the curve does not show it. Without incubation in the
  * model the layer grows from the beginning, and a mark would contradict the curve. */
-static double shown_incubation(const figure_drawing *d)
+static double visible_incubation(const figure_drawing *d)
 {
     double incubation = positive_value(d, LAYER_KEY_INCUBATION_TIME);
     for (size_t row = 0; row < d->table->n_rows; row++)
@@ -28,7 +28,7 @@ static double shown_incubation(const figure_drawing *d)
 }
 
 /* Draws a vertical line at a time, with a label at this fraction of the height. */
-static void mark_time(figure_drawing *d, double time, const char *label, double place)
+static void mark_time(figure_drawing *d, double time, const char *label, double graph_position)
 {
     if (!(time >= d->x.low && time <= d->x.high))
         return;
@@ -37,7 +37,7 @@ static void mark_time(figure_drawing *d, double time, const char *label, double 
                 LITERAL(time), LITERAL(time));
     if (label != NULL)
         text_format(&d->script, "set label '%s' at %s*x_unit, graph %s offset 0.6,0 left front\n",
-                    translate(d->language, label), LITERAL(time), LITERAL(place));
+                    translate(d->language, label), LITERAL(time), LITERAL(graph_position));
 }
 
 static void draw_thickness(figure_drawing *d)
@@ -45,14 +45,14 @@ static void draw_thickness(figure_drawing *d)
     double balance = positive_value(d, LAYER_KEY_BALANCE_THICKNESS);
     span_add(&d->y[0], balance, true);
     drawing_axis(d, "y", &d->figure->y[0], NULL, d->y[0]);
-    mark_time(d, shown_incubation(d), "incubation", 0.75);
+    mark_time(d, visible_incubation(d), "incubation", 0.75);
     mark_time(d, positive_value(d, LAYER_KEY_RELAXATION_TIME), "relaxation", 0.1);
     if (isfinite(balance))
         text_format(&d->script, "balance = %s  # m\n", LITERAL(balance));
     drawing_bands(d, 0);
     if (isfinite(balance))
-        plot_other(d, "balance*y_unit with lines ls 15 title '%s'",
-                   translate(d->language, "balance"));
+        plot_expression(d, "balance*y_unit with lines ls 15 title '%s'",
+                        translate(d->language, "balance"));
     drawing_curves(d, 0);
     plot_end(d);
 }
@@ -61,7 +61,7 @@ static void draw_rates(figure_drawing *d)
 {
     text_add(&d->script, "unset arrow\nunset label\n");
     drawing_axis(d, "y", &d->figure->y[1], NULL, d->y[1]);
-    mark_time(d, shown_incubation(d), NULL, 0);
+    mark_time(d, visible_incubation(d), NULL, 0);
     mark_time(d, positive_value(d, LAYER_KEY_RELAXATION_TIME), NULL, 0);
     drawing_curves(d, 1);
     plot_end(d);
@@ -69,9 +69,9 @@ static void draw_rates(figure_drawing *d)
 
 static void draw_layer(figure_drawing *d)
 {
-    if (!drawing_data(d))
+    if (!drawing_build_data(d))
         return;
-    bool thickness = !span_empty(&d->y[0]), rates = !span_empty(&d->y[1]);
+    bool thickness = !span_is_empty(&d->y[0]), rates = !span_is_empty(&d->y[1]);
     drawing_axis(d, "x", &d->figure->x, NULL, d->x);
     if (thickness && rates) {
         d->height = 1.5;
@@ -93,7 +93,7 @@ static void caption_layer(figure_drawing *d)
     if (isfinite(positive_value(d, LAYER_KEY_BALANCE_THICKNESS)))
         text_append_translated(&d->caption, " Balance thickness %s.",
                                ESTIMATE(d->language, &balance));
-    if (isfinite(shown_incubation(d)))
+    if (isfinite(visible_incubation(d)))
         text_append_translated(&d->caption, " Incubation time %s.",
                                ESTIMATE(d->language, &incubation));
     if (isfinite(positive_value(d, LAYER_KEY_RELAXATION_TIME)))
@@ -105,7 +105,7 @@ static void caption_layer(figure_drawing *d)
  */
 static void draw_bands(figure_drawing *d)
 {
-    if (!drawing_data(d))
+    if (!drawing_build_data(d))
         return;
     drawing_axis(d, "x", &d->figure->x, NULL, d->x);
     drawing_axis(d, "y", &d->figure->y[0], NULL, d->y[0]);
@@ -119,9 +119,9 @@ static void draw_bands(figure_drawing *d)
 
 static void caption_bands(figure_drawing *d)
 {
-    const char *events = layer_bands_words(d->table, LAYER_BANDS_KEY_EVENTS);
+    const char *events = layer_bands_key_text(d->table, LAYER_BANDS_KEY_EVENTS);
     text_append_translated(&d->caption, " Loads: %s.",
-                           layer_bands_words(d->table, LAYER_BANDS_KEY_LOADS));
+                           layer_bands_key_text(d->table, LAYER_BANDS_KEY_LOADS));
     if (events != NULL)
         text_append_translated(&d->caption, " What happens: %s.", events);
     const wt_estimate first = layer_bands_value(d->table, LAYER_BANDS_KEY_FIRST);
@@ -134,8 +134,8 @@ static void caption_running_in(figure_drawing *d)
 {
     const wt_estimate settled = running_in_value(d->table, RUNNING_IN_KEY_SETTLED);
     text_append_translated(&d->caption, " Shear stress of the layer: %s; %s.",
-                           running_in_words(d->table, RUNNING_IN_KEY_SHEAR),
-                           running_in_words(d->table, RUNNING_IN_KEY_BACK));
+                           running_in_key_text(d->table, RUNNING_IN_KEY_SHEAR),
+                           running_in_key_text(d->table, RUNNING_IN_KEY_BACK));
     if (isfinite(settled.value))
         text_append_translated(&d->caption, " After %s 5 %% of the change are left.",
                                ESTIMATE(d->language, &settled));
@@ -144,7 +144,7 @@ static void caption_running_in(figure_drawing *d)
 /* ---- thickness by the curves ----------------------------------------------------------------- */
 
 /* Marks the thickness from other data on the depth axis as a line with its interval. */
-static void mark_other(figure_drawing *d)
+static void mark_independent_thickness(figure_drawing *d)
 {
     const double at = track_layer_value(d->table, TRACK_LAYER_KEY_OTHER).value,
                  low = track_layer_value(d->table, TRACK_LAYER_KEY_OTHER_LOW).value,
@@ -162,10 +162,10 @@ static void mark_other(figure_drawing *d)
 /* Draws measured groups with their intervals, and layers as lines. */
 static void draw_track_layer(figure_drawing *d)
 {
-    if (!drawing_data(d))
+    if (!drawing_build_data(d))
         return;
     drawing_axes(d);
-    mark_other(d);
+    mark_independent_thickness(d);
     for (size_t i = 0; i < d->n_groups; i++) {
         const bool measured =
             strcmp(d->groups[i], "bulk") == 0 || strcmp(d->groups[i], "track") == 0;
@@ -182,9 +182,9 @@ static void draw_track_layer(figure_drawing *d)
 
 static void caption_track_layer(figure_drawing *d)
 {
-    const char *const agree = track_layer_words(d->table, TRACK_LAYER_KEY_AGREE);
+    const char *const agree = track_layer_key_text(d->table, TRACK_LAYER_KEY_AGREE);
     text_append_translated(&d->caption, " By the curves: %s.",
-                           track_layer_words(d->table, TRACK_LAYER_KEY_ALLOWED));
+                           track_layer_key_text(d->table, TRACK_LAYER_KEY_ALLOWED));
     if (agree != NULL)
         text_append_translated(&d->caption, " Do both agree? %s.", agree);
 }

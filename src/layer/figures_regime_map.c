@@ -13,18 +13,18 @@
 #include <string.h>
 
 /* Relative width of a figure with a colour bar, as in the figure engine. */
-static const double with_scale = 1.15;
+static const double width_with_colour_bar = 1.15;
 
 static void caption_existence(figure_drawing *d)
 {
     const wt_estimate from = layer_regime_map_value(d->table, LAYER_REGIME_MAP_KEY_FROM_VELOCITY),
                       to = layer_regime_map_value(d->table, LAYER_REGIME_MAP_KEY_TO_VELOCITY);
-    const char *const known = layer_regime_map_words(d->table, LAYER_REGIME_MAP_KEY_KNOWN);
+    const char *const known = layer_regime_map_key_text(d->table, LAYER_REGIME_MAP_KEY_KNOWN);
     text_append_translated(
         &d->caption, " At %s there is a layer %s.",
         VALUE(d->language, WT_Q_PRESSURE, NULL,
               layer_regime_map_value(d->table, LAYER_REGIME_MAP_KEY_PRESSURE).value),
-        layer_regime_map_words(d->table, LAYER_REGIME_MAP_KEY_WORDS));
+        layer_regime_map_key_text(d->table, LAYER_REGIME_MAP_KEY_WORDS));
     if (isfinite(from.value))
         text_append_translated(&d->caption, " It begins at %s.", ESTIMATE(d->language, &from));
     if (isfinite(to.value))
@@ -34,7 +34,7 @@ static void caption_existence(figure_drawing *d)
 }
 
 /* ln R, shifted by this number of standard errors of R. */
-static double log_ratio(const table_view *t, size_t row, double errors)
+static double shifted_log_ratio(const table_view *t, size_t row, double errors)
 {
     const double ratio = layer_regime_map_get(t, row, LAYER_REGIME_MAP_RATIO),
                  error = layer_regime_map_get(t, row, LAYER_REGIME_MAP_RATIO_STANDARD_ERROR);
@@ -43,9 +43,10 @@ static double log_ratio(const table_view *t, size_t row, double errors)
 
 /* Velocity at which R = 1 between two velocities, linear in the logarithms; NaN if not between
  * them. */
-static double edge_between(const table_view *t, size_t row, double errors)
+static double interpolate_edge(const table_view *t, size_t row, double errors)
 {
-    const double from = log_ratio(t, row, errors), to = log_ratio(t, row + 1, errors);
+    const double from = shifted_log_ratio(t, row, errors),
+                 to = shifted_log_ratio(t, row + 1, errors);
     const double a = log(layer_regime_map_get(t, row, LAYER_REGIME_MAP_VELOCITY)),
                  b = log(layer_regime_map_get(t, row + 1, LAYER_REGIME_MAP_VELOCITY));
     if (isnan(from) || isnan(to) || (from > 0) == (to > 0) ||
@@ -56,7 +57,7 @@ static double edge_between(const table_view *t, size_t row, double errors)
 
 /* Adds the line R = 1 as a section of velocity and pressure, for an R shifted by this number of
  * standard errors. There is no section without points. */
-static int edge_section(figure_drawing *d, const char *title, double errors)
+static int add_edge_section(figure_drawing *d, const char *title, double errors)
 {
     static const char *const names[] = {"velocity", "pressure", NULL};
     static const char *const units[] = {"m/s", "Pa"};
@@ -68,20 +69,21 @@ static int edge_section(figure_drawing *d, const char *title, double errors)
         return NO_SECTION;
     }
     for (size_t row = 0; row + 1 < t->n_rows; row++) {
-        const double velocity = edge_between(t, row, errors);
+        const double velocity = interpolate_edge(t, row, errors);
         if (isnan(velocity))
             continue;
         values[2 * n] = velocity;
         values[2 * n++ + 1] = layer_regime_map_get(t, row, LAYER_REGIME_MAP_PRESSURE);
     }
-    const int section = n > 0 ? drawing_numbers(d, title, names, units, values, n) : NO_SECTION;
+    const int section =
+        n > 0 ? drawing_number_section(d, title, names, units, values, n) : NO_SECTION;
     free(values);
     return section;
 }
 
 /* Square root of the smallest ratio of two values of a column: the half width of a box of the map.
  */
-static double half_step(figure_drawing *d, layer_regime_map_column column)
+static double half_step_factor(figure_drawing *d, layer_regime_map_column column)
 {
     const size_t n = d->table->n_rows;
     double *values = malloc(n * sizeof *values), least = (double)INFINITY;
@@ -100,19 +102,19 @@ static double half_step(figure_drawing *d, layer_regime_map_column column)
     return isfinite(least) ? sqrt(least) : 1;
 }
 
-static void widen(value_span *span, double factor)
+static void widen_span(value_span *span, double factor)
 {
     span_add(span, span->low / factor, true);
     span_add(span, span->high * factor, true);
 }
 
 /* Boxes coloured by a column, crosses where there is no layer, and the line between. */
-static void draw_map(figure_drawing *d, layer_regime_map_column shown, const char *label)
+static void draw_existence_map(figure_drawing *d, layer_regime_map_column shown, const char *label)
 {
     const unsigned columns[] = {LAYER_REGIME_MAP_VELOCITY, LAYER_REGIME_MAP_PRESSURE,
                                 (unsigned)shown, LAYER_REGIME_MAP_RATIO};
     const schema_field *field = d->table->schema->columns;
-    value_span x = SPAN_EMPTY, y = SPAN_EMPTY, colour = SPAN_EMPTY;
+    value_span x = EMPTY_SPAN, y = EMPTY_SPAN, colour = EMPTY_SPAN;
     span_add_column(&y, d->table, LAYER_REGIME_MAP_PRESSURE, true);
     if (!(y.high > y.low))
         return; /* a single pressure is no map */
@@ -122,19 +124,19 @@ static void draw_map(figure_drawing *d, layer_regime_map_column shown, const cha
         return;
     span_add_section(&x, d, section, 0, true);
     span_add_section(&colour, d, section, 2, false);
-    const double half_x = half_step(d, LAYER_REGIME_MAP_VELOCITY),
-                 half_y = half_step(d, LAYER_REGIME_MAP_PRESSURE);
-    if (d->status != WT_OK || span_empty(&x))
+    const double half_x = half_step_factor(d, LAYER_REGIME_MAP_VELOCITY),
+                 half_y = half_step_factor(d, LAYER_REGIME_MAP_PRESSURE);
+    if (d->status != WT_OK || span_is_empty(&x))
         return;
-    widen(&x, half_x);
-    widen(&y, half_y);
+    widen_span(&x, half_x);
+    widen_span(&y, half_y);
     axis_log(d, "x", "Sliding velocity", &field[LAYER_REGIME_MAP_VELOCITY], x);
     axis_log(d, "y", "Nominal pressure", &field[LAYER_REGIME_MAP_PRESSURE], y);
     axis_linear(d, "cb", label, &field[shown], colour);
-    d->width = with_scale;
-    const int edge = edge_section(d, "no layer", 0),
-              low = edge_section(d, "no layer, R lower", -NORMAL_95),
-              high = edge_section(d, "no layer, R higher", NORMAL_95);
+    d->width = width_with_colour_bar;
+    const int edge = add_edge_section(d, "no layer", 0),
+              low = add_edge_section(d, "no layer, R lower", -NORMAL_95),
+              high = add_edge_section(d, "no layer, R higher", NORMAL_95);
     text_format(&d->script,
                 "half_x = %s; half_y = %s  # of a box, as factors\nset cblabel offset 1.5,0\n"
                 "set border 15\nset key above\n",
@@ -149,12 +151,12 @@ static void draw_map(figure_drawing *d, layer_regime_map_column shown, const cha
               translate(d->language, "no layer"));
     if (edge >= 0)
         plot_item(d, edge, "($1*x_unit):($2*y_unit) with lines lw 2 lc rgb 'black' title 'R = 1'");
-    const int ends[] = {low, high};
+    const int edge_limits[] = {low, high};
     bool titled = false;
-    for (size_t i = 0; i < COUNT_OF(ends); i++) {
-        if (ends[i] < 0)
+    for (size_t i = 0; i < COUNT_OF(edge_limits); i++) {
+        if (edge_limits[i] < 0)
             continue;
-        plot_item(d, ends[i], "($1*x_unit):($2*y_unit) with lines dt 2 lc rgb 'black'");
+        plot_item(d, edge_limits[i], "($1*x_unit):($2*y_unit) with lines dt 2 lc rgb 'black'");
         plot_key(d, titled ? NULL : "95 % interval");
         titled = true;
     }
@@ -163,12 +165,12 @@ static void draw_map(figure_drawing *d, layer_regime_map_column shown, const cha
 
 static void draw_thickness_map(figure_drawing *d)
 {
-    draw_map(d, LAYER_REGIME_MAP_THICKNESS, "Layer thickness");
+    draw_existence_map(d, LAYER_REGIME_MAP_THICKNESS, "Layer thickness");
 }
 
 static void draw_friction_map(figure_drawing *d)
 {
-    draw_map(d, LAYER_REGIME_MAP_CHANGE, "Relative change of friction");
+    draw_existence_map(d, LAYER_REGIME_MAP_CHANGE, "Relative change of friction");
 }
 
 const figure_description figures_existence[] = {
@@ -180,7 +182,7 @@ const figure_description figures_existence[] = {
      .y = {{LAYER_REGIME_MAP_THICKNESS, AXIS_LOG, "Layer thickness at balance"}},
      .colour = {LAYER_REGIME_MAP_PRESSURE, AXIS_LOG, "Nominal pressure"},
      .curves = {CURVE(LAYER_REGIME_MAP_THICKNESS, LINE, .style = 21, .above_zero = true)},
-     .of_several = true,
+     .needs_several_x = true,
      .nothing = "there is no layer at any velocity",
      .words = "Thickness at balance against the power per area that modifies the rubber, as the "
               "velocity grows along each line: where a line ends wear takes the layer away "

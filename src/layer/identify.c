@@ -23,14 +23,14 @@
 static const double wear_low = 1e-13, wear_high = 1e-11;  /* [m^2/N] */
 static const double energy_low = 1e9, energy_high = 1e12; /* [J/m^3] */
 /* Share of the thickness after which an instrument resolves no further change of friction. */
-static const double settled = 0.95;
+static const double default_running_in_share = 0.95;
 
 wt_identify_job wt_identify_job_defaults(void)
 {
     return (wt_identify_job){.observed_thickness = {(double)NAN, 0, 0, "m"},
                              .specific_wear_rate = {(double)NAN, 0, 0, "m^2/N"},
                              .running_in_time = {(double)NAN, 0, 0, "s"},
-                             .running_in_share = settled,
+                             .running_in_share = default_running_in_share,
                              .damage = wt_layer_defaults().damage,
                              .duty = wt_layer_defaults().duty,
                              .profile = WT_PROFILE_PERSSON,
@@ -70,9 +70,9 @@ PARAM_TABLE(wt_identify_job_params, wt_identify_job, rows, wt_identify_job_defau
 
 /* ---- one set of values ----------------------------------------------------------------------- */
 
-typedef enum way { BY_WEAR, BY_RATES, BY_TRANSPORT, WAYS } way;
+typedef enum method { BY_WEAR, BY_RATES, BY_TRANSPORT, N_METHODS } method;
 
-static const char *const way_words[WAYS] = {
+static const char *const method_labels[N_METHODS] = {
     [BY_WEAR] = "thickness and wear rate",
     [BY_RATES] = "thickness and running-in, by the balance of rates",
     [BY_TRANSPORT] = "thickness and running-in, by the transport of damage"};
@@ -82,9 +82,9 @@ enum {
     LN_PRODUCT, /* ln(k U_c); never NaN */
     LN_RATIO,
     LN_ENERGY,
-    LN_WEAR = LN_ENERGY + WAYS,
-    LN_APART = LN_WEAR + WAYS, /* ln of k of a method over the measured k */
-    NUMBERS = LN_APART + WAYS
+    LN_WEAR = LN_ENERGY + N_METHODS,
+    LN_DISCREPANCY = LN_WEAR + N_METHODS, /* ln of k of a method over the measured k */
+    N_NUMBERS = LN_DISCREPANCY + N_METHODS
 };
 
 typedef struct identify_task {
@@ -95,8 +95,9 @@ typedef struct identify_task {
     replicates replicates;
 } identify_task;
 
-static wt_status find_way(const identify_task *task, way by, const wt_energy_source *source,
-                          wt_layer_parameters p, size_t replicate, double *out, wt_error *err)
+static wt_status identify_by_method(const identify_task *task, method by,
+                                    const wt_energy_source *source, wt_layer_parameters p,
+                                    size_t replicate, double *out, wt_error *err)
 {
     const wt_identify_job *const job = task->job;
     const uint64_t seed = task->work->seed;
@@ -106,9 +107,9 @@ static wt_status find_way(const identify_task *task, way by, const wt_energy_sou
                      flow_draw_positive(job->specific_wear_rate, seed, replicate, FLOW_DRAW_WEAR),
                  /* the draw of the critical energy is free, because it is not an input here */
         time = flow_draw_positive(job->running_in_time, seed, replicate, FLOW_DRAW_CRITICAL_ENERGY);
-    wt_layer_identified found = {0};
+    wt_identified_constants found = {0};
     p.incubation = by == BY_TRANSPORT;
-    out[LN_ENERGY + by] = out[LN_WEAR + by] = out[LN_APART + by] = (double)NAN;
+    out[LN_ENERGY + by] = out[LN_WEAR + by] = out[LN_DISCREPANCY + by] = (double)NAN;
     if (isnan(by == BY_WEAR ? wear : time))
         return WT_OK;
     const wt_status status = by == BY_WEAR
@@ -118,22 +119,24 @@ static wt_status find_way(const identify_task *task, way by, const wt_energy_sou
     if (status == WT_OK) {
         out[LN_ENERGY + by] = log(found.critical_energy);
         out[LN_WEAR + by] = log(found.specific_wear_rate);
-        out[LN_APART + by] = out[LN_WEAR + by] - log(wear);
+        out[LN_DISCREPANCY + by] = out[LN_WEAR + by] - log(wear);
     }
     return status;
 }
 
-static wt_status find_all(const identify_task *task, size_t replicate, double *out, wt_error *err)
+static wt_status identify_all_methods(const identify_task *task, size_t replicate, double *out,
+                                      wt_error *err)
 {
     const wt_layer_state none = {.modulus_ratio = 1};
     const wt_identify_job *const job = task->job;
     wt_energy_source source = {.n = 0};
     sliding_contact c = {0};
-    wt_layer_identified found = {0};
-    wt_status status = sliding_contact_make(task->sliding, task->work, replicate,
-                                            task->replicates.drawn, none, &c, err);
+    wt_identified_constants found = {0};
+    wt_status status = sliding_contact_create(task->sliding, task->work, replicate,
+                                              task->replicates.drawn, none, &c, err);
     if (status == WT_OK)
-        status = wt_energy_source_friction(c.workspace, c.pressure, task->velocity, &source, err);
+        status =
+            wt_energy_source_from_friction(c.workspace, c.pressure, task->velocity, &source, err);
     wt_layer_parameters p = wt_layer_defaults();
     p.damage = job->damage;
     p.duty = job->duty;
@@ -149,35 +152,35 @@ static wt_status find_all(const identify_task *task, size_t replicate, double *o
                                    1, &found, err);
     out[LN_PRODUCT] = log(found.critical_energy);
     out[LN_RATIO] = log(found.ratio);
-    for (way by = 0; status == WT_OK && by < WAYS; by++)
-        status = find_way(task, by, &source, p, replicate, out, err);
+    for (method by = 0; status == WT_OK && by < N_METHODS; by++)
+        status = identify_by_method(task, by, &source, p, replicate, out, err);
     wt_energy_source_clear(&source);
     sliding_contact_clear(&c);
     return status;
 }
 
-static wt_status one_replicate(const void *user, size_t i, double *out, wt_error *err)
+static wt_status identify_replicate(const void *user, size_t i, double *out, wt_error *err)
 {
-    return find_all(user, i, out, err);
+    return identify_all_methods(user, i, out, err);
 }
 
 /* ---- intervals from the draws ---------------------------------------------------------------- */
 
 /* Results for the stated values, their standard deviations with and without the thickness, and the
  * results at both limits of the interval of the thickness. */
-typedef struct identified {
-    double value[NUMBERS], at_end[2][NUMBERS];
-    double error[NUMBERS], rest[NUMBERS];
-    double inputs[NUMBERS]; /* standard deviation due to material, surface and conditions only */
-} identified;
+typedef struct identified_constants {
+    double value[N_NUMBERS], at_limit[2][N_NUMBERS];
+    double error[N_NUMBERS], rest[N_NUMBERS];
+    double inputs[N_NUMBERS]; /* standard deviation due to material, surface and conditions only */
+} identified_constants;
 
 /* exp of quantity k with its 95 % interval. The thickness is an argument of an exponential, so that
  * its error has an asymmetric effect. The results at its own limits are therefore used and combined
  * in quadrature with the other errors. */
-static wt_interval interval_of(const identified *found, size_t k)
+static wt_interval confidence_interval(const identified_constants *found, size_t k)
 {
     const double value = found->value[k], rest = NORMAL_95 * found->rest[k],
-                 one = found->at_end[0][k] - value, other = found->at_end[1][k] - value,
+                 one = found->at_limit[0][k] - value, other = found->at_limit[1][k] - value,
                  up = fmax(fmax(one, other), 0), down = fmin(fmin(one, other), 0);
     return (wt_interval){exp(value), exp(value) * found->error[k], exp(value - hypot(down, rest)),
                          exp(value + hypot(up, rest))};
@@ -189,10 +192,10 @@ TABLE_ROW(identification, IDENTIFICATION, const char *by; wt_interval energy, we
           constant_axes axes; char note[256];
           double energy_inputs, wear_inputs, correlation_inputs;)
 
-static const wt_interval not_known = {(double)NAN, (double)NAN, (double)NAN, (double)NAN};
+static const wt_interval unknown_interval = {(double)NAN, (double)NAN, (double)NAN, (double)NAN};
 
 /* Returns the reason why a method has no interval; NULL if it has one. */
-static const char *no_interval(const identify_task *task, bool wear, bool time)
+static const char *missing_interval_reason(const identify_task *task, bool wear, bool time)
 {
     const wt_identify_job *const job = task->job;
     if (!(job->observed_thickness.standard_error > 0))
@@ -204,55 +207,57 @@ static const char *no_interval(const identify_task *task, bool wear, bool time)
     return task->work->replicates == 0 ? "no interval: no replicates are drawn" : NULL;
 }
 
-static constant_axes axes_of(const double error[NUMBERS], way by)
+static constant_axes covariance_axes(const double error[N_NUMBERS], method by)
 {
     const double energy = error[LN_ENERGY + by], wear = error[LN_WEAR + by],
                  both = error[LN_PRODUCT];
-    return constant_axes_of((pair_covariance){energy * energy, wear * wear,
-                                              0.5 * (both * both - energy * energy - wear * wear)});
+    return constant_axes_compute((pair_covariance){
+        energy * energy, wear * wear, 0.5 * (both * both - energy * energy - wear * wear)});
 }
 
-static void add_way(const identify_task *task, way by, const identified *found, table_writer *t)
+static void add_method_row(const identify_task *task, method by, const identified_constants *found,
+                           table_writer *t)
 {
-    const char *const none = no_interval(task, by == BY_WEAR, by != BY_WEAR);
+    const char *const none = missing_interval_reason(task, by == BY_WEAR, by != BY_WEAR);
     const double unknown = (double)NAN;
-    identification_row row = {.by = way_words[by],
-                              .axes =
-                                  constant_axes_of((pair_covariance){unknown, unknown, unknown}),
-                              .energy_inputs = unknown,
-                              .wear_inputs = unknown,
-                              .correlation_inputs = unknown};
+    identification_row row = {
+        .by = method_labels[by],
+        .axes = constant_axes_compute((pair_covariance){unknown, unknown, unknown}),
+        .energy_inputs = unknown,
+        .wear_inputs = unknown,
+        .correlation_inputs = unknown};
     if (isnan(found->value[LN_ENERGY + by]))
         return;
-    row.energy = interval_of(found, LN_ENERGY + by);
-    row.wear = interval_of(found, LN_WEAR + by);
+    row.energy = confidence_interval(found, LN_ENERGY + by);
+    row.wear = confidence_interval(found, LN_WEAR + by);
     if (none != NULL) {
         const double energy = row.energy.value, wear = row.wear.value;
-        row.energy = row.wear = not_known;
+        row.energy = row.wear = unknown_interval;
         row.energy.value = energy;
         row.wear.value = wear;
         snprintf(row.note, sizeof row.note, "%s", none);
     } else {
-        row.axes = axes_of(found->error, by);
+        row.axes = covariance_axes(found->error, by);
         row.energy_inputs = found->inputs[LN_ENERGY + by];
         row.wear_inputs = found->inputs[LN_WEAR + by];
-        row.correlation_inputs = axes_of(found->inputs, by).correlation;
+        row.correlation_inputs = covariance_axes(found->inputs, by).correlation;
     }
     identification_add_row(t, &row);
 }
 
 /* Sets the headline to the first method with an interval; a value without an interval is no
  * headline. */
-static void set_headline(const identify_task *task, const identified *found, table_writer *t)
+static void set_headline(const identify_task *task, const identified_constants *found,
+                         table_writer *t)
 {
-    way by = BY_WEAR;
-    while (by < WAYS && (isnan(found->value[LN_ENERGY + by]) ||
-                         no_interval(task, by == BY_WEAR, by != BY_WEAR) != NULL))
+    method by = BY_WEAR;
+    while (by < N_METHODS && (isnan(found->value[LN_ENERGY + by]) ||
+                              missing_interval_reason(task, by == BY_WEAR, by != BY_WEAR) != NULL))
         by++;
-    if (by == WAYS)
+    if (by == N_METHODS)
         return;
-    const wt_interval energy = interval_of(found, LN_ENERGY + by),
-                      wear = interval_of(found, LN_WEAR + by);
+    const wt_interval energy = confidence_interval(found, LN_ENERGY + by),
+                      wear = confidence_interval(found, LN_WEAR + by);
     identification_set_value(t, IDENTIFICATION_KEY_ENERGY, energy.value, energy.standard_error,
                              (double)NAN);
     identification_set_value(t, IDENTIFICATION_KEY_WEAR, wear.value, wear.standard_error,
@@ -261,13 +266,13 @@ static void set_headline(const identify_task *task, const identified *found, tab
 
 /* Adds the row of the thickness alone: the part of the literature ranges that the product allows.
  */
-static void add_thickness_alone(const identify_task *task, wt_interval product, table_writer *t)
+static void add_thickness_row(const identify_task *task, wt_interval product, table_writer *t)
 {
     const wt_identify_job *const job = task->job;
     identification_row row = {
         .by = "thickness alone",
-        .energy = not_known,
-        .wear = not_known,
+        .energy = unknown_interval,
+        .wear = unknown_interval,
         .axes = {.correlation = (double)NAN,
                  .loose = "U_c k^-1.00",
                  .loose_error = HUGE_VAL,
@@ -282,7 +287,7 @@ static void add_thickness_alone(const identify_task *task, wt_interval product, 
     row.wear.low = fmax(job->wear_low, low / job->energy_high);
     row.wear.high = fmin(job->wear_high, high / job->energy_low);
     if (!(row.energy.low <= row.energy.high)) {
-        row.energy = row.wear = not_known;
+        row.energy = row.wear = unknown_interval;
         snprintf(row.note, sizeof row.note,
                  "the product contradicts the ranges of the literature for k and U_c");
     } else {
@@ -295,56 +300,58 @@ static void add_thickness_alone(const identify_task *task, wt_interval product, 
 
 /* Compares the wear rate of the running-in with the measured one. A verdict needs the errors of
  * thickness, wear rate and running-in time. */
-static void say_agreement(const identify_task *task, const identified *found, table_writer *t)
+static void set_agreement_text(const identify_task *task, const identified_constants *found,
+                               table_writer *t)
 {
-    const char *const none = no_interval(task, true, true);
+    const char *const none = missing_interval_reason(task, true, true);
     char text[400] = "";
-    for (way by = BY_RATES; by < WAYS; by++) {
+    for (method by = BY_RATES; by < N_METHODS; by++) {
         const size_t used = strlen(text);
-        if (isnan(found->value[LN_APART + by]))
+        if (isnan(found->value[LN_DISCREPANCY + by]))
             return;
-        const wt_interval apart = interval_of(found, LN_APART + by);
-        const bool known = none == NULL && apart.high > apart.low;
+        const wt_interval discrepancy = confidence_interval(found, LN_DISCREPANCY + by);
+        const bool known = none == NULL && discrepancy.high > discrepancy.low;
         char range[64] = "";
         if (known)
             clocale_print(range, sizeof range, " (95 %%: %s)",
-                          format_range(apart.low, apart.high, 3).text);
+                          format_range(discrepancy.low, discrepancy.high, 3).text);
         clocale_print(text + used, sizeof text - used,
                       "%s%s the running-in asks for %.3g times the wear rate that was measured%s, "
                       "%s",
                       used > 0 ? "; " : "",
                       by == BY_RATES ? "by the balance of rates" : "by the transport of damage",
-                      apart.value, range,
-                      !known                              ? "which cannot be judged"
-                      : apart.low <= 1 && apart.high >= 1 ? "which agrees"
-                                                          : "which contradicts it");
+                      discrepancy.value, range,
+                      !known                                          ? "which cannot be judged"
+                      : discrepancy.low <= 1 && discrepancy.high >= 1 ? "which agrees"
+                                                                      : "which contradicts it");
     }
     if (none != NULL)
         clocale_print(text + strlen(text), sizeof text - strlen(text), " (%s)", none);
     identification_set_text(t, IDENTIFICATION_KEY_AGREES, text);
 }
 
-static wt_status make_table(const identify_task *task, const identified *found, wt_table **table,
-                            wt_error *err)
+static wt_status make_table(const identify_task *task, const identified_constants *found,
+                            wt_table **table, wt_error *err)
 {
     const replicates *const r = &task->replicates;
     table_writer t = table_begin(&identification_schema, err);
-    const wt_interval product = interval_of(found, LN_PRODUCT);
+    const wt_interval product = confidence_interval(found, LN_PRODUCT);
     const double ratio = exp(found->value[LN_RATIO]);
-    add_thickness_alone(task, product, &t);
-    for (way by = 0; by < WAYS; by++)
-        add_way(task, by, found, &t);
+    add_thickness_row(task, product, &t);
+    for (method by = 0; by < N_METHODS; by++)
+        add_method_row(task, by, found, &t);
     set_headline(task, found, &t);
     identification_set_value(&t, IDENTIFICATION_KEY_PRODUCT, product.value, product.standard_error,
                              (double)NAN);
     identification_set_value(&t, IDENTIFICATION_KEY_RATIO, ratio, ratio * found->error[LN_RATIO],
                              (double)NAN);
-    say_agreement(task, found, &t);
+    set_agreement_text(task, found, &t);
     identification_set_value(&t, IDENTIFICATION_KEY_VELOCITY, task->velocity, 0, 0);
-    identification_set(&t, IDENTIFICATION_KEY_PRESSURE, flow_as_stated(task->sliding->pressure));
+    identification_set(&t, IDENTIFICATION_KEY_PRESSURE,
+                       flow_stated_estimate(task->sliding->pressure));
     identification_set(&t, IDENTIFICATION_KEY_THICKNESS,
-                       flow_as_stated(task->job->observed_thickness));
-    identification_set_text(&t, IDENTIFICATION_KEY_INCLUDES, replicates_include(r));
+                       flow_stated_estimate(task->job->observed_thickness));
+    identification_set_text(&t, IDENTIFICATION_KEY_INCLUDES, replicates_included_errors(r));
     if (r->lacks[0] != '\0')
         identification_set_text(&t, IDENTIFICATION_KEY_LACKS, r->lacks);
     return table_end(&t, table);
@@ -353,14 +360,14 @@ static wt_status make_table(const identify_task *task, const identified *found, 
 /* ---- the job --------------------------------------------------------------------------------- */
 
 /* Creates the task with the errors of the job. */
-static identify_task task_of(const wt_sliding *sliding, const wt_identify_job *job,
-                             const wt_job *work)
+static identify_task create_task(const wt_sliding *sliding, const wt_identify_job *job,
+                                 const wt_job *work)
 {
     identify_task task = {.sliding = sliding,
                           .job = job,
                           .work = work,
                           .velocity = flow_reference_velocity(sliding),
-                          .replicates = replicates_of(sliding, work, "identification")};
+                          .replicates = replicates_create(sliding, work, "identification")};
     task.replicates.velocity = task.velocity;
     replicates_add(&task.replicates, job->observed_thickness.standard_error, FLOW_DRAW_OBSERVED,
                    "observed thickness");
@@ -373,45 +380,47 @@ static identify_task task_of(const wt_sliding *sliding, const wt_identify_job *j
     return task;
 }
 
-static wt_status draw_errors(identify_task *task, double error[NUMBERS], wt_error *err)
+static wt_status draw_errors(identify_task *task, double error[N_NUMBERS], wt_error *err)
 {
-    const wt_status status = replicates_draw(&task->replicates, NUMBERS, one_replicate, task, err);
-    for (size_t k = 0; status == WT_OK && k < NUMBERS; k++)
+    const wt_status status =
+        replicates_draw(&task->replicates, N_NUMBERS, identify_replicate, task, err);
+    for (size_t k = 0; status == WT_OK && k < N_NUMBERS; k++)
         error[k] = task->replicates.error[k];
     return status;
 }
 
 /* Standard deviations with some inputs fixed: 0 if no other input varies, NaN if no replicates are
  * requested. */
-static wt_status draw_held(const identify_task *task, const wt_identify_job *job,
-                           double error[NUMBERS], wt_error *err)
+static wt_status draw_fixed_errors(const identify_task *task, const wt_identify_job *job,
+                                   double error[N_NUMBERS], wt_error *err)
 {
-    identify_task held = task_of(task->sliding, job, task->work);
-    const wt_status status = draw_errors(&held, error, err);
-    replicates_clear(&held.replicates);
-    for (size_t k = 0; k < NUMBERS && held.replicates.n == 0; k++)
+    identify_task fixed = create_task(task->sliding, job, task->work);
+    const wt_status status = draw_errors(&fixed, error, err);
+    replicates_clear(&fixed.replicates);
+    for (size_t k = 0; k < N_NUMBERS && fixed.replicates.n == 0; k++)
         error[k] = task->work->replicates > 0 ? 0 : (double)NAN;
     return status;
 }
 
 /* Repeats the draws with fixed thickness: at its value, and at the limits of its interval; then
  * with all layer measurements fixed. */
-static wt_status hold_thickness(const identify_task *task, identified *found, wt_error *err)
+static wt_status compute_fixed_thickness(const identify_task *task, identified_constants *found,
+                                         wt_error *err)
 {
     wt_identify_job job = *task->job;
     const wt_estimate thickness = job.observed_thickness;
     const double factor = exp(NORMAL_95 * thickness.standard_error / thickness.value);
     job.observed_thickness.standard_error = 0;
-    wt_status status = draw_held(task, &job, found->rest, err);
-    identify_task held = task_of(task->sliding, &job, task->work);
+    wt_status status = draw_fixed_errors(task, &job, found->rest, err);
+    identify_task fixed = create_task(task->sliding, &job, task->work);
     for (int end = 0; status == WT_OK && end < 2; end++) {
         job.observed_thickness.value =
             end == 0 ? thickness.value / factor : thickness.value * factor;
-        status = find_all(&held, WT_NO_REPLICATE, found->at_end[end], err);
+        status = identify_all_methods(&fixed, WT_NO_REPLICATE, found->at_limit[end], err);
     }
     job.observed_thickness.value = thickness.value;
     job.specific_wear_rate.standard_error = job.running_in_time.standard_error = 0;
-    return status == WT_OK ? draw_held(task, &job, found->inputs, err) : status;
+    return status == WT_OK ? draw_fixed_errors(task, &job, found->inputs, err) : status;
 }
 
 static wt_status check_range(const char *first, const char *last, double low, double high,
@@ -426,7 +435,7 @@ static wt_status check_range(const char *first, const char *last, double low, do
     return WT_E_RANGE;
 }
 
-static wt_status check_job(const wt_identify_job *job, wt_error *err)
+static wt_status check_identify_job(const wt_identify_job *job, wt_error *err)
 {
     wt_status status = param_check(wt_identify_job_params(), job, err);
     if (status == WT_OK)
@@ -437,23 +446,23 @@ static wt_status check_job(const wt_identify_job *job, wt_error *err)
                            : status;
 }
 
-wt_status wt_identify_make(const wt_sliding *sliding, const wt_identify_job *job,
-                           const wt_job *work, wt_table **table, wt_error *err)
+wt_status wt_identification_compute(const wt_sliding *sliding, const wt_identify_job *job,
+                                    const wt_job *work, wt_table **table, wt_error *err)
 {
     if (job == NULL || work == NULL || table == NULL)
         return wt_fail(err, WT_E_ARG, "no identification job");
     wt_status status = flow_sliding_check(sliding, work, err);
     if (status == WT_OK)
-        status = check_job(job, err);
+        status = check_identify_job(job, err);
     if (status != WT_OK)
         return status;
-    identify_task task = task_of(sliding, job, work);
-    identified found;
-    status = find_all(&task, WT_NO_REPLICATE, found.value, err);
+    identify_task task = create_task(sliding, job, work);
+    identified_constants found;
+    status = identify_all_methods(&task, WT_NO_REPLICATE, found.value, err);
     if (status == WT_OK)
         status = draw_errors(&task, found.error, err);
     if (status == WT_OK)
-        status = hold_thickness(&task, &found, err);
+        status = compute_fixed_thickness(&task, &found, err);
     if (status == WT_OK)
         status = make_table(&task, &found, table, err);
     if (status == WT_OK)

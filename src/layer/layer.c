@@ -20,7 +20,7 @@
 typedef struct layer_run {
     layer_energy energy;
     wt_layer_parameters parameters;
-    wt_layer_balance balance;
+    wt_layer_steady_state balance;
     wt_estimate critical_energy, time_to_90_percent;
     wt_layer_point *points; /* [n of the task] */
     char statement[512];
@@ -29,13 +29,13 @@ typedef struct layer_run {
 /* Scalar quantities of a run with their keys; the thicknesses at the times follow them. */
 #define NUMBERS(X)                                                                                 \
     X(BALANCE_THICKNESS, run->balance.thickness)                                                   \
-    X(FORMATION_WEAR_RATIO, of_rates(run, run->balance.ratio))                                     \
+    X(FORMATION_WEAR_RATIO, rate_estimate(run, run->balance.ratio))                                \
     X(INCUBATION_TIME, run->balance.incubation_time)                                               \
     X(RELAXATION_TIME, run->balance.relaxation_time)                                               \
-    X(CRITICAL_WEAR_RATE, of_rates(run, run->balance.critical_specific_wear_rate))                 \
+    X(CRITICAL_WEAR_RATE, rate_estimate(run, run->balance.critical_specific_wear_rate))            \
     X(REMOVAL_TIME, run->balance.removal_time)                                                     \
     X(CRITICAL_ENERGY, run->critical_energy)                                                       \
-    X(SURFACE_POWER, of_power(run, run->balance.surface_power))                                    \
+    X(SURFACE_POWER, power_estimate(run, run->balance.surface_power))                              \
     X(TIME_TO_90_PERCENT, run->time_to_90_percent)
 #define NUMBER_ID(key, value) NUMBER_##key,
 enum { NUMBERS(NUMBER_ID) N_NUMBERS };
@@ -59,7 +59,7 @@ void wt_layer_tables_clear(wt_layer_tables *tables)
 }
 
 /* Estimate of a quantity proportional to the total power, with its relative numerical error. */
-static wt_estimate of_power(const layer_run *run, double value)
+static wt_estimate power_estimate(const layer_run *run, double value)
 {
     return (wt_estimate){.value = value,
                          .numerical_error = fabs(value) * run->energy.source.numerical_error};
@@ -67,45 +67,46 @@ static wt_estimate of_power(const layer_run *run, double value)
 
 /* Estimate of a quantity proportional to formation or wear, which depend on the power through
  * closure and severity. */
-static wt_estimate of_rates(const layer_run *run, double value)
+static wt_estimate rate_estimate(const layer_run *run, double value)
 {
     return (wt_estimate){.value = value, .numerical_error = fabs(value) * run->balance.ratio_error};
 }
 
-static void put_numbers(const layer_run *run, wt_estimate *out)
+static void store_numbers(const layer_run *run, wt_estimate *out)
 {
-#define PUT_NUMBER(key, number) out[NUMBER_##key] = number;
-    NUMBERS(PUT_NUMBER)
+#define STORE_NUMBER(key, number) out[NUMBER_##key] = number;
+    NUMBERS(STORE_NUMBER)
 }
 
 /* ---- one run --------------------------------------------------------------------------------- */
 
-static wt_status find_balance(const layer_task *task, size_t replicate, layer_run *run,
-                              wt_error *err)
+static wt_status compute_balance(const layer_task *task, size_t replicate, layer_run *run,
+                                 wt_error *err)
 {
     const wt_layer_state none = {.modulus_ratio = 1};
     const wt_layer_job *job = task->job;
     const uint64_t seed = task->work->seed;
     sliding_contact c = {0};
     wt_job work = *task->work;
-    const bool with_times = (work.left_out & WT_EXTRA_TIMES) == 0;
-    work.left_out |= WT_EXTRA_SHARE;
-    wt_status status = sliding_contact_make(task->sliding, &work, replicate, task->replicates.drawn,
-                                            none, &c, err);
+    const bool with_times = (work.left_out & WT_EXTRA_LAYER_TIMES) == 0;
+    work.left_out |= WT_EXTRA_EXTRAPOLATED_SHARE;
+    wt_status status = sliding_contact_create(task->sliding, &work, replicate,
+                                              task->replicates.drawn, none, &c, err);
     if (status == WT_OK)
-        status = layer_energy_make(task->sliding, job, &c, task->velocity, none, &run->energy, err);
+        status =
+            layer_energy_compute(task->sliding, job, &c, task->velocity, none, &run->energy, err);
     if (status == WT_OK) {
         memcpy(run->statement, c.statement, sizeof c.statement);
         wt_layer_parameters *p = &run->parameters;
-        *p = layer_parameters_of(job, &c, task->velocity, &run->energy, seed, replicate);
+        *p = layer_parameters_create(job, &c, task->velocity, &run->energy, seed, replicate);
         p->balance_only = !with_times;
         const bool calibrated = !isnan(job->observed_thickness.value);
         if (calibrated)
             p->critical_energy = wt_layer_calibrate(
                 &run->energy.source, p,
                 flow_draw_positive(job->observed_thickness, seed, replicate, FLOW_DRAW_OBSERVED));
-        status = wt_layer_balance_compute(&run->energy.source, p, &run->balance, err);
-        run->critical_energy = calibrated ? of_rates(run, p->critical_energy)
+        status = wt_layer_steady_state_compute(&run->energy.source, p, &run->balance, err);
+        run->critical_energy = calibrated ? rate_estimate(run, p->critical_energy)
                                           : (wt_estimate){.value = p->critical_energy};
     }
     wt_estimate most = run->balance.thickness;
@@ -113,13 +114,13 @@ static wt_status find_balance(const layer_task *task, size_t replicate, layer_ru
     most.numerical_error *= 0.9;
     run->time_to_90_percent = (wt_estimate){(double)NAN, (double)NAN, (double)NAN, "s"};
     if (status == WT_OK && with_times)
-        status = wt_layer_time(&run->energy.source, &run->parameters, most,
-                               &run->time_to_90_percent, err);
+        status = wt_layer_growth_time(&run->energy.source, &run->parameters, most,
+                                      &run->time_to_90_percent, err);
     sliding_contact_clear(&c);
     return status;
 }
 
-static wt_status follow_thickness(const layer_task *task, layer_run *run, wt_error *err)
+static wt_status compute_history(const layer_task *task, layer_run *run, wt_error *err)
 {
     run->points = malloc((task->n + 1) * sizeof *run->points);
     if (run->points == NULL)
@@ -128,40 +129,40 @@ static wt_status follow_thickness(const layer_task *task, layer_run *run, wt_err
                             err);
 }
 
-static void run_clear(layer_run *run)
+static void clear_run(layer_run *run)
 {
     layer_energy_clear(&run->energy);
     free(run->points);
 }
 
-static wt_status one_replicate(const void *user, size_t i, double *out, wt_error *err)
+static wt_status layer_replicate(const void *user, size_t i, double *out, wt_error *err)
 {
     const layer_task *task = user;
     layer_run run = {.points = NULL};
-    wt_status status = find_balance(task, i, &run, err);
+    wt_status status = compute_balance(task, i, &run, err);
     if (status == WT_OK)
-        status = follow_thickness(task, &run, err);
+        status = compute_history(task, &run, err);
     if (status == WT_OK) {
         wt_estimate number[N_NUMBERS];
-        put_numbers(&run, number);
+        store_numbers(&run, number);
         for (size_t k = 0; k < N_NUMBERS; k++)
             out[k] = number[k].value;
         for (size_t k = 0; k < task->n; k++)
             out[N_NUMBERS + k] = run.points[k].thickness.value;
     }
-    run_clear(&run);
+    clear_run(&run);
     return status;
 }
 
 /* ---- replicates ------------------------------------------------------------------------------ */
 
-static wt_status draw_replicates(layer_task *task, wt_error *err)
+static wt_status draw_layer_replicates(layer_task *task, wt_error *err)
 {
     const wt_layer_job *job = task->job;
     replicates *r = &task->replicates;
     const bool calibrated = !isnan(job->observed_thickness.value);
     const double given = layer_replicates_add(r, task->sliding, job);
-    wt_status status = replicates_draw(r, N_NUMBERS + task->n, one_replicate, task, err);
+    wt_status status = replicates_draw(r, N_NUMBERS + task->n, layer_replicate, task, err);
     if (status == WT_OK && !(given > 0)) /* an input without an error has no standard error */
         r->error[calibrated ? NUMBER_BALANCE_THICKNESS : NUMBER_CRITICAL_ENERGY] = (double)NAN;
     size_t without = 0, solved = 0;
@@ -190,9 +191,9 @@ static void set_numbers(const layer_task *task, const layer_run *run, table_writ
 {
 #define NUMBER_KEY(key, value) LAYER_KEY_##key,
     static const layer_key keys[] = {NUMBERS(NUMBER_KEY)};
-    const wt_layer_balance *b = &run->balance;
+    const wt_layer_steady_state *b = &run->balance;
     wt_estimate number[N_NUMBERS];
-    put_numbers(run, number);
+    store_numbers(run, number);
     for (size_t i = 0; i < N_NUMBERS; i++) {
         if (keys[i] == LAYER_KEY_REMOVAL_TIME && isnan(number[i].value))
             continue; /* no layer is removed */
@@ -210,10 +211,10 @@ TABLE_ROW_OF(layer, LAYER, wt_layer_point)
 
 TABLE_KEYS(layer, LAYER, const char *regime, *critical_energy_from, *includes, *lacks, *statement;
            double velocity, damage, duty; wt_estimate pressure, wear_rate, observed;
-           char softening[256], anisotropy[192], numerical[512]; layer_saying said;
+           char softening[256], anisotropy[192], numerical[512]; layer_description said;
            wt_estimate hysteresis_power, shear_power, unloaded_rate, shelf_life, severe;)
 
-static void set_keys(const layer_task *task, const layer_run *run, table_writer *t)
+static void set_layer_keys(const layer_task *task, const layer_run *run, table_writer *t)
 {
     const wt_layer_job *job = task->job;
     const bool calibrated = !isnan(job->observed_thickness.value);
@@ -222,15 +223,15 @@ static void set_keys(const layer_task *task, const layer_run *run, table_writer 
                            calibrated ? "calibrated: makes the observed thickness the balance"
                            : job->closure == WT_CLOSURE_ACTIVATED ? "none: the closure is activated"
                                                                   : "given",
-                       .includes = replicates_include(&task->replicates),
+                       .includes = replicates_included_errors(&task->replicates),
                        .lacks = task->replicates.lacks,
                        .statement = run->statement,
                        .velocity = task->velocity,
                        .damage = job->damage,
                        .duty = job->duty,
-                       .pressure = flow_as_stated(task->sliding->pressure),
-                       .wear_rate = flow_as_stated(job->specific_wear_rate),
-                       .observed = flow_as_stated(job->observed_thickness)};
+                       .pressure = flow_stated_estimate(task->sliding->pressure),
+                       .wear_rate = flow_stated_estimate(job->specific_wear_rate),
+                       .observed = flow_stated_estimate(job->observed_thickness)};
     if (!calibrated)
         keys.observed.value = (double)NAN;
     keys.hysteresis_power = keys.shear_power = keys.unloaded_rate = keys.shelf_life = keys.severe =
@@ -241,7 +242,7 @@ static void set_keys(const layer_task *task, const layer_run *run, table_writer 
         keys.shear_power.value = run->energy.shear_power;
     }
     if (job->closure == WT_CLOSURE_ACTIVATED) {
-        keys.unloaded_rate.value = wt_activation_background(&run->parameters.activation);
+        keys.unloaded_rate.value = wt_activation_unloaded_rate(&run->parameters.activation);
         keys.shelf_life.value = job->damage / keys.unloaded_rate.value;
     }
     if (job->severity_power > 0)
@@ -257,8 +258,8 @@ static void set_keys(const layer_task *task, const layer_run *run, table_writer 
     layer_set_keys(t, &keys);
 }
 
-static wt_status layer_table(const layer_task *task, const layer_run *run, wt_table **out,
-                             wt_error *err)
+static wt_status make_layer_table(const layer_task *task, const layer_run *run, wt_table **out,
+                                  wt_error *err)
 {
     table_writer t = table_begin(&layer_schema, err);
     for (size_t i = 0; i < task->n; i++) {
@@ -266,14 +267,14 @@ static wt_status layer_table(const layer_task *task, const layer_run *run, wt_ta
         row.thickness.standard_error = task->replicates.error[N_NUMBERS + i];
         layer_add_row(&t, &row);
     }
-    set_keys(task, run, &t);
+    set_layer_keys(task, run, &t);
     return table_end(&t, out);
 }
 
 /* ---- the job --------------------------------------------------------------------------------- */
 
-wt_status wt_layer_make(const wt_sliding *sliding, const wt_layer_job *job, const wt_job *work,
-                        wt_layer_tables *tables, wt_error *err)
+wt_status wt_layer_thickness_compute(const wt_sliding *sliding, const wt_layer_job *job,
+                                     const wt_job *work, wt_layer_tables *tables, wt_error *err)
 {
     if (job == NULL || work == NULL || tables == NULL)
         return wt_fail(err, WT_E_ARG, "no layer job");
@@ -286,21 +287,21 @@ wt_status wt_layer_make(const wt_sliding *sliding, const wt_layer_job *job, cons
                        .job = job,
                        .work = work,
                        .velocity = flow_layer_velocity(sliding, job),
-                       .replicates = replicates_of(sliding, work, "layer")};
+                       .replicates = replicates_create(sliding, work, "layer")};
     task.replicates.velocity = task.velocity;
     layer_run centre = {.points = NULL};
     wt_layer_tables t = {0};
-    status = find_balance(&task, WT_NO_REPLICATE, &centre, err);
+    status = compute_balance(&task, WT_NO_REPLICATE, &centre, err);
     if (status == WT_OK)
-        layer_warn(job, &centre.parameters, work->log);
+        layer_warn_shelf_life(job, &centre.parameters, work->log);
     if (status == WT_OK)
         status = layer_times_choose(job, &centre.balance, &task.time, &task.n, err);
     if (status == WT_OK)
-        status = follow_thickness(&task, &centre, err);
+        status = compute_history(&task, &centre, err);
     if (status == WT_OK)
-        status = draw_replicates(&task, err);
+        status = draw_layer_replicates(&task, err);
     if (status == WT_OK)
-        status = layer_table(&task, &centre, &t.layer, err);
+        status = make_layer_table(&task, &centre, &t.layer, err);
     if (status == WT_OK) {
         t.balance = centre.balance;
         t.thickness = centre.balance.thickness;
@@ -314,7 +315,7 @@ wt_status wt_layer_make(const wt_sliding *sliding, const wt_layer_job *job, cons
         *tables = t;
         t = (wt_layer_tables){0};
     }
-    run_clear(&centre);
+    clear_run(&centre);
     wt_layer_tables_clear(&t);
     free(task.time);
     replicates_clear(&task.replicates);

@@ -25,24 +25,24 @@ static double power_factor(const wt_layer_job *job, const layer_energy *e)
 }
 
 /* Computes friction, contact area and the power of shearing. */
-static wt_status find_area(const wt_sliding *sliding, const wt_layer_job *job,
-                           const sliding_contact *c, double velocity, wt_layer_state layer,
-                           layer_energy *e, wt_error *err)
+static wt_status compute_contact_area(const wt_sliding *sliding, const wt_layer_job *job,
+                                      const sliding_contact *c, double velocity,
+                                      wt_layer_state layer, layer_energy *e, wt_error *err)
 {
     const wt_status status =
         wt_friction_compute(c->workspace, c->pressure, &velocity, 1, &e->point, err);
     if (status != WT_OK)
         return status;
     const double area = e->point.area_ratio.value;
-    e->shear_power = wt_layer_shear_stress(&job->shear, sliding_shear(sliding, c, &e->point),
-                                           sliding_layer_sheared(c, layer, velocity), area) *
+    e->shear_power = wt_layer_shear_stress(&job->shear, sliding_shear_stress(sliding, c, &e->point),
+                                           sliding_layer_at_shear_rate(c, layer, velocity), area) *
                      area * fabs(velocity);
     return WT_OK;
 }
 
-wt_status layer_energy_make(const wt_sliding *sliding, const wt_layer_job *job,
-                            const sliding_contact *contact, double velocity, wt_layer_state layer,
-                            layer_energy *energy, wt_error *err)
+wt_status layer_energy_compute(const wt_sliding *sliding, const wt_layer_job *job,
+                               const sliding_contact *contact, double velocity,
+                               wt_layer_state layer, layer_energy *energy, wt_error *err)
 {
     layer_energy e = {.shear_power = (double)NAN};
     if (job->energy != WT_LAYER_HYSTERESIS && isnan(sliding->shear_stress.value)) {
@@ -51,10 +51,10 @@ wt_status layer_energy_make(const wt_sliding *sliding, const wt_layer_job *job,
         wt_error_advice(err, "give the shear stress of the real contact, such as 5MPa");
         return WT_E_MISSING;
     }
-    wt_status status =
-        wt_energy_source_friction(contact->workspace, contact->pressure, velocity, &e.source, err);
+    wt_status status = wt_energy_source_from_friction(contact->workspace, contact->pressure,
+                                                      velocity, &e.source, err);
     if (status == WT_OK && layer_needs_area(job))
-        status = find_area(sliding, job, contact, velocity, layer, &e, err);
+        status = compute_contact_area(sliding, job, contact, velocity, layer, &e, err);
     e.source.profile = job->profile;
     e.source.local_friction = job->local_friction;
     for (size_t i = 0; i < e.source.n; i++)
@@ -75,16 +75,16 @@ wt_status layer_energy_make(const wt_sliding *sliding, const wt_layer_job *job,
     return status;
 }
 
-wt_layer_parameters layer_parameters_of(const wt_layer_job *job, const sliding_contact *contact,
-                                        double velocity, const layer_energy *energy, uint64_t seed,
-                                        size_t replicate)
+wt_layer_parameters layer_parameters_create(const wt_layer_job *job, const sliding_contact *contact,
+                                            double velocity, const layer_energy *energy,
+                                            uint64_t seed, size_t replicate)
 {
     wt_layer_parameters p = wt_layer_defaults();
     p.damage = job->damage;
     p.duty = job->duty;
     p.start_thickness = job->start_thickness;
     p.incubation = job->incubation;
-    p.without_errors = replicate != WT_NO_REPLICATE;
+    p.skip_numerical_errors = replicate != WT_NO_REPLICATE;
     p.pressure = contact->pressure;
     p.velocity = velocity;
     p.severity_power = job->severity_power;

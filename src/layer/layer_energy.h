@@ -17,18 +17,19 @@ typedef struct layer_energy {
 bool layer_needs_area(const wt_layer_job *job);
 /* Computes the energy; the caller clears it. Returns WT_E_MISSING if shearing contributes and its
  * stress is not stated. */
-wt_status layer_energy_make(const wt_sliding *sliding, const wt_layer_job *job,
-                            const sliding_contact *contact, double velocity, wt_layer_state layer,
-                            layer_energy *energy, wt_error *err) WT_NODISCARD;
+wt_status layer_energy_compute(const wt_sliding *sliding, const wt_layer_job *job,
+                               const sliding_contact *contact, double velocity,
+                               wt_layer_state layer, layer_energy *energy,
+                               wt_error *err) WT_NODISCARD;
 void layer_energy_clear(layer_energy *energy);
 /* Parameters of a replicate. The critical energy may still have to be calibrated. */
-wt_layer_parameters layer_parameters_of(const wt_layer_job *job, const sliding_contact *contact,
-                                        double velocity, const layer_energy *energy, uint64_t seed,
-                                        size_t replicate);
+wt_layer_parameters layer_parameters_create(const wt_layer_job *job, const sliding_contact *contact,
+                                            double velocity, const layer_energy *energy,
+                                            uint64_t seed, size_t replicate);
 
 /* Times of a job, by default from well before the first change of the layer to well after the last:
  * *time [n], which the caller frees. */
-wt_status layer_times_choose(const wt_layer_job *job, const wt_layer_balance *balance,
+wt_status layer_times_choose(const wt_layer_job *job, const wt_layer_steady_state *balance,
                              double **time, size_t *n, wt_error *err) WT_NODISCARD;
 
 /* ---- context and operating point ------------------------------------------------------------- */
@@ -55,11 +56,12 @@ typedef struct operating_point {
 operating_point operating_point_default(void);
 /* Operating point under a layer with the modulus of the context; thickness 0 gives the bare bulk.
  */
-operating_point layer_under(const layer_context *scene, double thickness);
+operating_point operating_point_under_layer(const layer_context *context, double thickness);
 
 /* Computes energy and layer parameters at an operating point. */
-wt_status layer_at(const layer_context *scene, operating_point spot, layer_energy *energy,
-                   wt_layer_parameters *parameters, wt_error *err) WT_NODISCARD;
+wt_status layer_compute_energy(const layer_context *context, operating_point conditions,
+                               layer_energy *energy, wt_layer_parameters *parameters,
+                               wt_error *err) WT_NODISCARD;
 /* Friction at an operating point, with the shear stress of a layer if present. The total is NaN if
  * no shear stress is stated. Errors are numerical. */
 typedef struct layer_friction {
@@ -68,22 +70,23 @@ typedef struct layer_friction {
     double bulk_stress, pressure; /* inputs of the total */
     double ratio;                 /* modulus ratio at the shear frequency; input of the total */
 } layer_friction;
-wt_status layer_friction_at(const layer_context *scene, operating_point spot,
-                            layer_friction *friction, wt_error *err) WT_NODISCARD;
+wt_status layer_compute_friction(const layer_context *context, operating_point conditions,
+                                 layer_friction *friction, wt_error *err) WT_NODISCARD;
 /* Computes energy and friction in one contact; NULL arguments are not computed. */
-wt_status layer_look(const layer_context *scene, operating_point spot, layer_energy *energy,
-                     wt_layer_parameters *parameters, layer_friction *friction,
-                     wt_error *err) WT_NODISCARD;
+wt_status layer_compute_contact(const layer_context *context, operating_point conditions,
+                                layer_energy *energy, wt_layer_parameters *parameters,
+                                layer_friction *friction, wt_error *err) WT_NODISCARD;
 /* Computes shear stress and total friction from hysteresis, contact area and shear stress of the
  * bulk. */
-void layer_friction_join(const wt_layer_job *job, wt_layer_state layer, layer_friction *friction);
+void layer_friction_set_total(const wt_layer_job *job, wt_layer_state layer,
+                              layer_friction *friction);
 /* Total friction, or hysteresis friction if no shear stress is stated. */
-double layer_friction_known(const layer_friction *friction);
+double layer_friction_coefficient(const layer_friction *friction);
 /* Estimate without errors. */
 wt_estimate estimate_without_error(double value);
 /* Copies the job of a context and calibrates its critical energy if it has an observed thickness.
  */
-wt_status layer_job_calibrated(const layer_context *scene, wt_layer_job *calibrated,
-                               wt_error *err) WT_NODISCARD;
+wt_status layer_job_calibrate(const layer_context *context, wt_layer_job *calibrated,
+                              wt_error *err) WT_NODISCARD;
 
 #endif

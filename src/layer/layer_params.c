@@ -98,7 +98,7 @@ static const wt_param rows[] = {
              "the last lasts for ever"},
     {PARAM_FLAG_OF("running-in-friction", wt_layer_job, running_in),
      .help = "also friction in time while the layer grows; needs the modulus ratio"},
-    {PARAM_FLAG_OF("feedback", wt_layer_job, acts_back), .former = "acts-back",
+    {PARAM_FLAG_OF("feedback", wt_layer_job, has_feedback), .former = "acts-back",
      .help = "also all balances of a layer whose own modulus changes the energy that makes it, "
              "their stability and folds; needs the modulus ratio"},
     {PARAM_FLAG_OF("regime-map", wt_layer_job, existence), .former = "existence",

@@ -14,14 +14,14 @@
 /* Running-in ends when this share of the change of friction remains. */
 static const double settled_share = 0.05;
 /* Number of bisections of a time step, to 1e-12 of it. */
-enum { HALVES = 40 };
+enum { MAX_HALVINGS = 40 };
 
 /* One computation through the times of the task. */
-typedef struct running {
-    layer_context *scene;
+typedef struct running_in_run {
+    layer_context *context;
     const double *time; /* [n] borrowed */
     size_t n;
-    layer_friction_model friction_of;
+    layer_friction_model friction_model;
     wt_energy_source source; /* source of bare rubber, and its parameters; empty with feedback */
     wt_layer_parameters parameters;
     wt_layer_point *points;   /* [n] */
@@ -29,13 +29,13 @@ typedef struct running {
     wt_estimate thickness;    /* at balance; NaN or infinite if there is none */
     layer_friction bare, balance;
     double settled; /* settling time [s]; NaN if outside the times */
-} running;
+} running_in_run;
 
 typedef struct running_task {
     layer_draws draws;
     double *time;
     size_t n;
-    running centre;
+    running_in_run centre;
     char shear[256], known[200], errors[560];
 } running_task;
 
@@ -49,32 +49,33 @@ TABLE_KEYS(running_in, RUNNING_IN, double velocity; wt_estimate modulus_ratio;
 
 /* Computes the balance that a bare surface reaches, and the thickness against time, with feedback.
  */
-static wt_status grow_back(running *r, wt_error *err)
+static wt_status compute_feedback_thickness(running_in_run *r, wt_error *err)
 {
-    wt_layer_loop loop;
-    wt_status status = feedback_find(r->scene, &loop, err);
+    wt_layer_feedback loop;
+    wt_status status = feedback_find_balances(r->context, &loop, err);
     if (status != WT_OK)
         return status;
     r->thickness = estimate_without_error(loop.ratio > 1 ? (double)NAN : 0);
     for (size_t i = loop.n_roots; i-- > 0;)
         if (loop.root[i].stable)
             r->thickness.value = loop.root[i].thickness;
-    return wt_layer_loop_history(feedback_energy, r->scene, &loop, r->time, r->n, r->points, err);
+    return wt_layer_feedback_history(feedback_energy, r->context, &loop, r->time, r->n, r->points,
+                                     err);
 }
 
-static wt_status grow(running *r, wt_error *err)
+static wt_status compute_thickness(running_in_run *r, wt_error *err)
 {
-    wt_layer_balance balance;
+    wt_layer_steady_state balance;
     wt_status status = WT_OK;
     r->points = calloc(r->n + 1, sizeof *r->points);
     r->friction = calloc(r->n + 1, sizeof *r->friction);
     if (r->points == NULL || r->friction == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
-    if (r->scene->job->acts_back)
-        return grow_back(r, err);
-    status = feedback_energy(0, r->scene, &r->source, &r->parameters, err);
+    if (r->context->job->has_feedback)
+        return compute_feedback_thickness(r, err);
+    status = feedback_energy(0, r->context, &r->source, &r->parameters, err);
     if (status == WT_OK)
-        status = wt_layer_balance_compute(&r->source, &r->parameters, &balance, err);
+        status = wt_layer_steady_state_compute(&r->source, &r->parameters, &balance, err);
     if (status == WT_OK) {
         r->thickness = balance.thickness;
         status = wt_layer_history(&r->source, &r->parameters, r->time, r->n, r->points, err);
@@ -86,8 +87,8 @@ static wt_status grow(running *r, wt_error *err)
 
 /* Thickness at a time between two of the list. With feedback it is interpolated linearly in the
  * logarithm of the time. */
-static wt_status thickness_at(const running *r, size_t i, double time, double *thickness,
-                              wt_error *err)
+static wt_status interpolate_thickness(const running_in_run *r, size_t i, double time,
+                                       double *thickness, wt_error *err)
 {
     const double from = r->points[i].thickness.value, to = r->points[i + 1].thickness.value;
     wt_layer_point point;
@@ -101,20 +102,20 @@ static wt_status thickness_at(const running *r, size_t i, double time, double *t
     return status;
 }
 
-static wt_status settle_between(running *r, size_t i, double limit, wt_error *err)
+static wt_status bisect_settling_time(running_in_run *r, size_t i, double limit, wt_error *err)
 {
     double low = r->time[i], high = r->time[i + 1];
-    const double end = layer_friction_known(&r->balance);
-    for (int k = 0; k < HALVES; k++) {
+    const double end = layer_friction_coefficient(&r->balance);
+    for (int k = 0; k < MAX_HALVINGS; k++) {
         const double middle = sqrt(low * high);
         double thickness;
         layer_friction f;
-        wt_status status = thickness_at(r, i, middle, &thickness, err);
+        wt_status status = interpolate_thickness(r, i, middle, &thickness, err);
         if (status == WT_OK)
-            status = layer_friction_model_at(&r->friction_of, thickness, &f, err);
+            status = layer_friction_model_evaluate(&r->friction_model, thickness, &f, err);
         if (status != WT_OK)
             return status;
-        if (fabs(layer_friction_known(&f) - end) > limit)
+        if (fabs(layer_friction_coefficient(&f) - end) > limit)
             low = middle;
         else
             high = middle;
@@ -123,46 +124,48 @@ static wt_status settle_between(running *r, size_t i, double limit, wt_error *er
     return WT_OK;
 }
 
-static wt_status find_settled(running *r, wt_error *err)
+static wt_status find_settling_time(running_in_run *r, wt_error *err)
 {
-    const double end = layer_friction_known(&r->balance);
-    const double limit = settled_share * fabs(layer_friction_known(&r->bare) - end);
+    const double end = layer_friction_coefficient(&r->balance);
+    const double limit = settled_share * fabs(layer_friction_coefficient(&r->bare) - end);
     r->settled = (double)NAN;
     for (size_t i = r->n; isfinite(limit) && i-- > 1;)
-        if (fabs(layer_friction_known(&r->friction[i - 1]) - end) > limit)
-            return fabs(layer_friction_known(&r->friction[i]) - end) <= limit && r->time[i - 1] > 0
-                       ? settle_between(r, i - 1, limit, err)
+        if (fabs(layer_friction_coefficient(&r->friction[i - 1]) - end) > limit)
+            return fabs(layer_friction_coefficient(&r->friction[i]) - end) <= limit &&
+                           r->time[i - 1] > 0
+                       ? bisect_settling_time(r, i - 1, limit, err)
                        : WT_OK;
     return WT_OK;
 }
 
 /* Computes thickness and friction at the times. `nodes` is the number of nodes for the
  * interpolation of friction; 0 for direct computation. */
-static wt_status run_through(running *r, size_t nodes, wt_error *err)
+static wt_status compute_run(running_in_run *r, size_t nodes, wt_error *err)
 {
     double thinnest = HUGE_VAL, thickest = 0;
-    wt_status status = grow(r, err);
+    wt_status status = compute_thickness(r, err);
     for (size_t i = 0; status == WT_OK && i <= r->n; i++) {
         const double d = i < r->n ? r->points[i].thickness.value : r->thickness.value;
         thinnest = d > 0 ? fmin(thinnest, d) : thinnest;
         thickest = isfinite(d) ? fmax(thickest, d) : thickest;
     }
     if (status == WT_OK)
+        status = layer_friction_model_create(r->context, thinnest, thickest, nodes,
+                                             &r->friction_model, err);
+    if (status == WT_OK)
+        status = layer_friction_model_evaluate(&r->friction_model, 0, &r->bare, err);
+    if (status == WT_OK)
         status =
-            layer_friction_model_make(r->scene, thinnest, thickest, nodes, &r->friction_of, err);
-    if (status == WT_OK)
-        status = layer_friction_model_at(&r->friction_of, 0, &r->bare, err);
-    if (status == WT_OK)
-        status = layer_friction_model_at(&r->friction_of, r->thickness.value, &r->balance, err);
+            layer_friction_model_evaluate(&r->friction_model, r->thickness.value, &r->balance, err);
     for (size_t i = 0; status == WT_OK && i < r->n; i++)
-        status = layer_friction_model_at(&r->friction_of, r->points[i].thickness.value,
-                                         &r->friction[i], err);
-    return status == WT_OK ? find_settled(r, err) : status;
+        status = layer_friction_model_evaluate(&r->friction_model, r->points[i].thickness.value,
+                                               &r->friction[i], err);
+    return status == WT_OK ? find_settling_time(r, err) : status;
 }
 
-static void running_clear(running *r)
+static void clear_running_in_run(running_in_run *r)
 {
-    layer_friction_model_clear(&r->friction_of);
+    layer_friction_model_clear(&r->friction_model);
     wt_energy_source_clear(&r->source);
     free(r->points);
     free(r->friction);
@@ -177,10 +180,10 @@ enum { AT_THICKNESS, AT_HYSTERESIS, AT_AREA, AT_SHEAR, AT_FRICTION, N_AT };
  * replicates. */
 enum { NODES = 24 };
 
-static void put_numbers(const running *r, double *out)
+static void store_running_in(const running_in_run *r, double *out)
 {
-    out[BARE] = layer_friction_known(&r->bare);
-    out[BALANCE] = layer_friction_known(&r->balance);
+    out[BARE] = layer_friction_coefficient(&r->bare);
+    out[BALANCE] = layer_friction_coefficient(&r->balance);
     out[THICKNESS] = r->thickness.value;
     out[SETTLED] = r->settled;
     out[LN_SETTLED] = log(r->settled);
@@ -194,24 +197,24 @@ static void put_numbers(const running *r, double *out)
     }
 }
 
-static wt_status one_replicate(const void *user, size_t i, double *out, wt_error *err)
+static wt_status running_in_replicate(const void *user, size_t i, double *out, wt_error *err)
 {
     const running_task *task = user;
     wt_layer_job job;
-    layer_context scene;
-    running r = {.scene = &scene, .time = task->time, .n = task->n};
-    wt_status status = layer_draws_context(&task->draws, i, &job, &scene, err);
+    layer_context context;
+    running_in_run r = {.context = &context, .time = task->time, .n = task->n};
+    wt_status status = layer_draws_replicate_context(&task->draws, i, &job, &context, err);
     if (status == WT_OK)
-        status = run_through(&r, NODES, err);
+        status = compute_run(&r, NODES, err);
     if (status == WT_OK)
-        put_numbers(&r, out);
-    running_clear(&r);
+        store_running_in(&r, out);
+    clear_running_in_run(&r);
     return status;
 }
 
 /* ---- the table ------------------------------------------------------------------------------- */
 
-static void say_shear(running_task *task)
+static void describe_shear(running_task *task)
 {
     if (isnan(task->draws.values.sliding->shear_stress.value))
         snprintf(task->shear, sizeof task->shear, "not known: hysteresis alone");
@@ -220,34 +223,34 @@ static void say_shear(running_task *task)
                                      sizeof task->shear);
 }
 
-static wt_estimate with_errors(double value, double standard, double numerical)
+static wt_estimate estimate_with_errors(double value, double standard, double numerical)
 {
     return (wt_estimate){value, standard, numerical, NULL};
 }
 
-static void add_rows(const running_task *task, table_writer *t)
+static void add_running_in_rows(const running_task *task, table_writer *t)
 {
     for (size_t i = 0; i < task->n; i++) {
         const layer_friction *f = &task->centre.friction[i];
         const wt_estimate d = task->centre.points[i].thickness;
         const double *const e = task->draws.replicates.error + N_NUMBERS + N_AT * i;
         TABLE_ADD(running_in, t, task->time[i],
-                  with_errors(d.value, e[AT_THICKNESS], d.numerical_error),
-                  with_errors(f->hysteresis, e[AT_HYSTERESIS], f->hysteresis_error),
-                  with_errors(f->area_ratio, e[AT_AREA], f->area_error),
-                  with_errors(f->shear_stress, e[AT_SHEAR], (double)NAN),
-                  with_errors(f->total, e[AT_FRICTION], f->total_error));
+                  estimate_with_errors(d.value, e[AT_THICKNESS], d.numerical_error),
+                  estimate_with_errors(f->hysteresis, e[AT_HYSTERESIS], f->hysteresis_error),
+                  estimate_with_errors(f->area_ratio, e[AT_AREA], f->area_error),
+                  estimate_with_errors(f->shear_stress, e[AT_SHEAR], (double)NAN),
+                  estimate_with_errors(f->total, e[AT_FRICTION], f->total_error));
     }
 }
 
-static double known_error(const layer_friction *f)
+static double coefficient_error(const layer_friction *f)
 {
     return isnan(f->total) ? f->hysteresis_error : f->total_error;
 }
 
-static const char *say_back(const wt_layer_job *job)
+static const char *describe_feedback(const wt_layer_job *job)
 {
-    if (job->acts_back)
+    if (job->has_feedback)
         return "the layer acts back on the energy that makes it; by the rate balance "
                "(reconstructed)";
     return job->closure == WT_CLOSURE_ACTIVATED && job->activation.ageing
@@ -258,23 +261,27 @@ static const char *say_back(const wt_layer_job *job)
 
 static wt_status make_table(running_task *task, wt_table **table, wt_error *err)
 {
-    const running *r = &task->centre;
+    const running_in_run *r = &task->centre;
     const layer_context *values = &task->draws.values;
     const double *const e = task->draws.replicates.error;
-    const wt_interval settled = layer_interval(&task->draws, LN_SETTLED, r->settled);
-    layer_say_known(&task->draws, LN_SETTLED, r->settled, "friction does not settle at these times",
-                    "friction settles at these times", task->known, sizeof task->known);
+    const wt_interval settled = layer_draws_interval(&task->draws, LN_SETTLED, r->settled);
+    layer_draws_assess(&task->draws, LN_SETTLED, r->settled,
+                       "friction does not settle at these times", "friction settles at these times",
+                       task->known, sizeof task->known);
     table_writer t = table_begin(&running_in_schema, err);
-    add_rows(task, &t);
-    say_shear(task);
+    add_running_in_rows(task, &t);
+    describe_shear(task);
     layer_draws_describe(&task->draws, task->errors, sizeof task->errors);
     TABLE_SET(running_in, &t, flow_layer_velocity(values->sliding, values->job),
-              layer_draws_ratio(&task->draws),
-              with_errors(layer_friction_known(&r->bare), e[BARE], known_error(&r->bare)),
-              with_errors(layer_friction_known(&r->balance), e[BALANCE], known_error(&r->balance)),
-              with_errors(r->thickness.value, e[THICKNESS], r->thickness.numerical_error),
-              with_errors(r->settled, isnan(settled.low) ? (double)NAN : e[SETTLED], (double)NAN),
-              settled.low, settled.high, task->known, task->shear, say_back(values->job),
+              layer_draws_modulus_ratio(&task->draws),
+              estimate_with_errors(layer_friction_coefficient(&r->bare), e[BARE],
+                                   coefficient_error(&r->bare)),
+              estimate_with_errors(layer_friction_coefficient(&r->balance), e[BALANCE],
+                                   coefficient_error(&r->balance)),
+              estimate_with_errors(r->thickness.value, e[THICKNESS], r->thickness.numerical_error),
+              estimate_with_errors(r->settled, isnan(settled.low) ? (double)NAN : e[SETTLED],
+                                   (double)NAN),
+              settled.low, settled.high, task->known, task->shear, describe_feedback(values->job),
               task->errors, task->draws.moduli);
     return table_end(&t, table);
 }
@@ -283,14 +290,14 @@ static wt_status make_table(running_task *task, wt_table **table, wt_error *err)
 
 /* Chooses the times from the balance without feedback, in rising order: the settling time is
  * searched for from the last one. */
-static wt_status take_times(running_task *task, wt_error *err)
+static wt_status choose_running_in_times(running_task *task, wt_error *err)
 {
     wt_energy_source source = {0};
     wt_layer_parameters p;
-    wt_layer_balance balance;
+    wt_layer_steady_state balance;
     wt_status status = feedback_energy(0, &task->draws.values, &source, &p, err);
     if (status == WT_OK)
-        status = wt_layer_balance_compute(&source, &p, &balance, err);
+        status = wt_layer_steady_state_compute(&source, &p, &balance, err);
     if (status == WT_OK)
         status = layer_times_choose(task->draws.values.job, &balance, &task->time, &task->n, err);
     if (status == WT_OK)
@@ -299,13 +306,13 @@ static wt_status take_times(running_task *task, wt_error *err)
     return status;
 }
 
-wt_status wt_running_in_make(const wt_sliding *sliding, const wt_layer_job *job,
-                             const wt_layer_observation *known, const wt_job *work,
-                             wt_table **table, wt_error *err)
+wt_status wt_running_in_compute(const wt_sliding *sliding, const wt_layer_job *job,
+                                const wt_layer_observation *known, const wt_job *work,
+                                wt_table **table, wt_error *err)
 {
     if (job == NULL || known == NULL || work == NULL || table == NULL)
         return wt_fail(err, WT_E_ARG, "no running-in of a layer to make");
-    if (job->acts_back && job->start_thickness > 0) {
+    if (job->has_feedback && job->start_thickness > 0) {
         wt_fail(err, WT_E_ARG, "a layer that acts back is followed from a bare surface alone");
         wt_error_place(err, "start-thickness");
         wt_error_found(err, "%g m", job->start_thickness);
@@ -314,22 +321,22 @@ wt_status wt_running_in_make(const wt_sliding *sliding, const wt_layer_job *job,
     }
     running_task task = {.n = 0};
     wt_status status =
-        layer_draws_open(&task.draws, sliding, job, known, work, "running-in", true, err);
+        layer_draws_init(&task.draws, sliding, job, known, work, "running-in", true, err);
     if (status == WT_OK)
-        status = take_times(&task, err);
+        status = choose_running_in_times(&task, err);
     task.draws.replicates.velocity = status == WT_OK ? flow_layer_velocity(sliding, job) : 0;
-    task.centre = (running){.scene = &task.draws.values, .time = task.time, .n = task.n};
+    task.centre = (running_in_run){.context = &task.draws.values, .time = task.time, .n = task.n};
     if (status == WT_OK)
-        status = run_through(&task.centre, 0, err);
+        status = compute_run(&task.centre, 0, err);
     if (status == WT_OK)
-        status = replicates_draw(&task.draws.replicates, N_NUMBERS + N_AT * task.n, one_replicate,
-                                 &task, err);
+        status = replicates_draw(&task.draws.replicates, N_NUMBERS + N_AT * task.n,
+                                 running_in_replicate, &task, err);
     if (status == WT_OK)
         status = make_table(&task, table, err);
     cost_report(work, (cost_summary){.items = (double)(task.n * (1 + task.draws.replicates.n)),
                                      .tolerance_asked = work->tolerance});
     layer_draws_clear(&task.draws);
-    running_clear(&task.centre);
+    clear_running_in_run(&task.centre);
     free(task.time);
     return status;
 }

@@ -11,10 +11,10 @@
 static const double shelf_rate = 1e-9; /* [1/s] */
 
 void layer_describe(const wt_layer_job *job, const layer_energy *energy,
-                    const wt_layer_parameters *parameters, layer_saying *words)
+                    const wt_layer_parameters *parameters, layer_description *words)
 {
     const wt_activation *a = &parameters->activation;
-    *words = (layer_saying){.energy = ""};
+    *words = (layer_description){.energy = ""};
     if (job->energy == WT_LAYER_SHEAR)
         clocale_print(words->energy, sizeof words->energy,
                       "%.3g %% of the shearing of the surface, which goes as deep as the "
@@ -41,15 +41,16 @@ void layer_describe(const wt_layer_job *job, const layer_energy *energy,
                       job->severity_exponent);
 }
 
-void layer_warn(const wt_layer_job *job, const wt_layer_parameters *parameters, wt_log *log)
+void layer_warn_shelf_life(const wt_layer_job *job, const wt_layer_parameters *parameters,
+                           wt_log *log)
 {
     const wt_activation *a = &parameters->activation;
-    if (job->closure != WT_CLOSURE_ACTIVATED || wt_activation_background(a) <= shelf_rate)
+    if (job->closure != WT_CLOSURE_ACTIVATED || wt_activation_unloaded_rate(a) <= shelf_rate)
         return;
     wt_log_add(log, WT_WARNING, NULL, NULL,
                "a barrier of %.4g eV lets the rubber be modified in %.3g s without any load "
                "at %.1f degC: below %.4g eV it does not keep",
-               a->barrier / ELECTRONVOLT, parameters->damage / wt_activation_background(a),
+               a->barrier / ELECTRONVOLT, parameters->damage / wt_activation_unloaded_rate(a),
                a->temperature - WT_ZERO_CELSIUS,
-               wt_activation_least_barrier(a->temperature, a->attempt, shelf_rate) / ELECTRONVOLT);
+               wt_activation_min_barrier(a->temperature, a->attempt, shelf_rate) / ELECTRONVOLT);
 }

@@ -9,16 +9,16 @@
 /* Number of default times, as many as a figure shows well. They reach from half the first time
  * scale to a multiple of the last, where the layer is steady. A missing scale is set by a ratio to
  * the other one. The choice of times does not affect their results. */
-#define TIMES 61
+#define DEFAULT_TIMES 61
 #define TIME_SPAN 100
-#define SHORT_OF_LAST 1e-3
-#define PAST_FIRST 1e6
+#define FIRST_OVER_LAST 1e-3
+#define LAST_OVER_FIRST 1e6
 
 /* Times from well before the first change to well after the last one. */
-wt_status layer_times_choose(const wt_layer_job *job, const wt_layer_balance *b, double **time,
+wt_status layer_times_choose(const wt_layer_job *job, const wt_layer_steady_state *b, double **time,
                              size_t *n, wt_error *err)
 {
-    *n = job->time != NULL ? job->n_time : TIMES;
+    *n = job->time != NULL ? job->n_time : DEFAULT_TIMES;
     *time = malloc((*n > 0 ? *n : 1) * sizeof **time);
     if (*time == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
@@ -28,9 +28,9 @@ wt_status layer_times_choose(const wt_layer_job *job, const wt_layer_balance *b,
     }
     double first = b->incubation_time.value, last = b->relaxation_time.value;
     if (!(first > 0) || !isfinite(first))
-        first = isfinite(last) && last > 0 ? SHORT_OF_LAST * last : 1;
+        first = isfinite(last) && last > 0 ? FIRST_OVER_LAST * last : 1;
     if (!(last > 0) || !isfinite(last))
-        last = PAST_FIRST * first;
+        last = LAST_OVER_FIRST * first;
     first /= 2;
     last = TIME_SPAN * fmax(last, first);
     for (size_t i = 0; i < *n; i++)

@@ -29,8 +29,8 @@ double layer_replicates_add(replicates *r, const wt_sliding *sliding, const wt_l
     return given;
 }
 
-static wt_status check(const wt_sliding *sliding, const wt_layer_job *job,
-                       const wt_layer_observation *known, const wt_job *work, wt_error *err)
+static wt_status check_inputs(const wt_sliding *sliding, const wt_layer_job *job,
+                              const wt_layer_observation *known, const wt_job *work, wt_error *err)
 {
     wt_status status = flow_sliding_check(sliding, work, err);
     if (status == WT_OK)
@@ -43,18 +43,18 @@ static wt_status check(const wt_sliding *sliding, const wt_layer_job *job,
     return status == WT_OK ? sliding_layer_check(known, err) : status;
 }
 
-wt_status layer_draws_open(layer_draws *d, const wt_sliding *sliding, const wt_layer_job *job,
+wt_status layer_draws_init(layer_draws *d, const wt_sliding *sliding, const wt_layer_job *job,
                            const wt_layer_observation *known, const wt_job *work, const char *what,
                            bool friction, wt_error *err)
 {
     *d = (layer_draws){.known = known};
-    wt_status status = check(sliding, job, known, work, err);
+    wt_status status = check_inputs(sliding, job, known, work, err);
     if (status != WT_OK)
         return status;
     d->stated = *job;
     if (known != NULL) {
         double gain[2] = {(double)NAN, (double)NAN};
-        status = sliding_layer_gain(sliding, known, work, gain, err);
+        status = sliding_layer_zero_loss_range(sliding, known, work, gain, err);
         if (status != WT_OK)
             return status;
         sliding_layer_describe(sliding, known, gain, work->log, d->moduli, sizeof d->moduli);
@@ -67,10 +67,10 @@ wt_status layer_draws_open(layer_draws *d, const wt_sliding *sliding, const wt_l
                         .work = work,
                         .replicate = WT_NO_REPLICATE,
                         .modulus_ratio = known != NULL ? known->modulus_ratio.value : (double)NAN,
-                        .slope = sliding_layer_slope(known, work->seed, WT_NO_REPLICATE)};
-    status = layer_job_calibrated(&d->values, &d->calibrated, err);
+                        .slope = sliding_layer_ratio_slope(known, work->seed, WT_NO_REPLICATE)};
+    status = layer_job_calibrate(&d->values, &d->calibrated, err);
     d->values.job = &d->calibrated;
-    d->replicates = replicates_of(sliding, work, what);
+    d->replicates = replicates_create(sliding, work, what);
     layer_replicates_add(&d->replicates, sliding, job);
     if (friction && job->energy == WT_LAYER_HYSTERESIS && !isnan(sliding->shear_stress.value))
         replicates_add(&d->replicates, sliding->shear_stress.standard_error, FLOW_DRAW_SHEAR_STRESS,
@@ -80,34 +80,34 @@ wt_status layer_draws_open(layer_draws *d, const wt_sliding *sliding, const wt_l
     return status;
 }
 
-wt_status layer_draws_context(const layer_draws *d, size_t replicate, wt_layer_job *job,
-                              layer_context *scene, wt_error *err)
+wt_status layer_draws_replicate_context(const layer_draws *d, size_t replicate, wt_layer_job *job,
+                                        layer_context *context, wt_error *err)
 {
-    *scene = d->values;
-    scene->job = &d->stated;
-    scene->replicate = replicate;
-    scene->drawn = d->replicates.drawn;
-    scene->slope = sliding_layer_slope(d->known, scene->work->seed, replicate);
+    *context = d->values;
+    context->job = &d->stated;
+    context->replicate = replicate;
+    context->drawn = d->replicates.drawn;
+    context->slope = sliding_layer_ratio_slope(d->known, context->work->seed, replicate);
     if (d->known != NULL)
-        scene->modulus_ratio =
+        context->modulus_ratio =
             flow_draw_positive_t(d->known->modulus_ratio, d->known->modulus_ratio_df,
-                                 scene->work->seed, replicate, FLOW_DRAW_RATIO);
-    const wt_status status = layer_job_calibrated(scene, job, err);
-    scene->job = job;
+                                 context->work->seed, replicate, FLOW_DRAW_RATIO);
+    const wt_status status = layer_job_calibrate(context, job, err);
+    context->job = job;
     return status;
 }
 
 void layer_draws_describe(const layer_draws *d, char *text, size_t size)
 {
     const char *const lacks = d->replicates.lacks;
-    snprintf(text, size, "%s%s%s", replicates_include(&d->replicates),
+    snprintf(text, size, "%s%s%s", replicates_included_errors(&d->replicates),
              lacks[0] != '\0' ? "; no error is known of: " : "", lacks);
 }
 
-wt_estimate layer_draws_ratio(const layer_draws *d)
+wt_estimate layer_draws_modulus_ratio(const layer_draws *d)
 {
     if (d->values.sliding->layer_rubber == NULL)
-        return flow_as_stated(d->known->modulus_ratio);
+        return flow_stated_estimate(d->known->modulus_ratio);
     return (wt_estimate){(double)NAN, (double)NAN, (double)NAN, "1"};
 }
 
@@ -116,9 +116,9 @@ void layer_draws_clear(layer_draws *d)
     replicates_clear(&d->replicates);
 }
 
-static const double beyond = 0.025; /* probability beyond each limit of a 95 % interval */
+static const double tail_probability = 0.025; /* probability beyond each limit of a 95 % interval */
 
-static size_t count_known(const replicates *r, size_t k)
+static size_t count_finite(const replicates *r, size_t k)
 {
     size_t known = 0;
     for (size_t i = 0; i < r->n; i++)
@@ -126,33 +126,33 @@ static size_t count_known(const replicates *r, size_t k)
     return known;
 }
 
-wt_interval layer_interval(const layer_draws *d, size_t k, double value)
+wt_interval layer_draws_interval(const layer_draws *d, size_t k, double value)
 {
     const replicates *r = &d->replicates;
     const double error = r->error[k], wide = exp(NORMAL_95 * error);
-    const size_t known = count_known(r, k);
+    const size_t known = count_finite(r, k);
     wt_interval interval = {value, value * error, value / wide, value * wide};
-    const bool whole = (double)(r->n - known) <= beyond * (double)r->n;
+    const bool whole = (double)(r->n - known) <= tail_probability * (double)r->n;
     /* Without memory there is no interval, because another method would give a different one. */
-    if (!whole || (isfinite(value) && r->n >= REPLICATES_FOR_ENDS &&
-                   replicate_interval(r, k, beyond, &interval) != WT_OK))
+    if (!whole || (isfinite(value) && r->n >= REPLICATES_FOR_QUANTILES &&
+                   replicate_interval(r, k, tail_probability, &interval) != WT_OK))
         interval.low = interval.high = interval.standard_error = (double)NAN;
     return interval;
 }
 
-void layer_say_known(const layer_draws *d, size_t k, double value, const char *without,
-                     const char *with, char *text, size_t size)
+void layer_draws_assess(const layer_draws *d, size_t k, double value, const char *without,
+                        const char *with, char *text, size_t size)
 {
     const replicates *r = &d->replicates;
-    const size_t known = count_known(r, k), other = isfinite(value) ? r->n - known : known;
+    const size_t known = count_finite(r, k), n_other = isfinite(value) ? r->n - known : known;
     if (r->n == 0)
         snprintf(text, size, "not tested: no replicates are drawn");
-    else if ((double)other <= beyond * (double)r->n)
+    else if ((double)n_other <= tail_probability * (double)r->n)
         snprintf(text, size, "yes: nearly all replicates agree");
     else
         clocale_print(
             text, size,
             "cannot say: in %.3g %% of the replicates %s; smaller errors of what is drawn "
             "would settle it",
-            100 * (double)other / (double)r->n, isfinite(value) ? without : with);
+            100 * (double)n_other / (double)r->n, isfinite(value) ? without : with);
 }

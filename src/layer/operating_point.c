@@ -14,13 +14,14 @@ operating_point operating_point_default(void)
                              .layer = {.modulus_ratio = 1}};
 }
 
-operating_point layer_under(const layer_context *scene, double thickness)
+operating_point operating_point_under_layer(const layer_context *context, double thickness)
 {
-    operating_point spot = operating_point_default();
+    operating_point conditions = operating_point_default();
     if (thickness > 0)
-        spot.layer = (wt_layer_state){
-            .thickness = thickness, .modulus_ratio = scene->modulus_ratio, .slope = scene->slope};
-    return spot;
+        conditions.layer = (wt_layer_state){.thickness = thickness,
+                                            .modulus_ratio = context->modulus_ratio,
+                                            .slope = context->slope};
+    return conditions;
 }
 
 wt_estimate estimate_without_error(double value)
@@ -29,34 +30,37 @@ wt_estimate estimate_without_error(double value)
 }
 
 /* Sliding with the values of an operating point; *velocity must outlive the result. */
-static wt_sliding sliding_at(const layer_context *scene, operating_point spot, double *velocity)
+static wt_sliding sliding_at_conditions(const layer_context *context, operating_point conditions,
+                                        double *velocity)
 {
-    wt_sliding s = *scene->sliding;
-    *velocity =
-        isnan(spot.velocity) ? flow_layer_velocity(scene->sliding, scene->job) : spot.velocity;
+    wt_sliding s = *context->sliding;
+    *velocity = isnan(conditions.velocity) ? flow_layer_velocity(context->sliding, context->job)
+                                           : conditions.velocity;
     s.velocity = velocity;
     s.n_velocity = 1;
     s.reference_velocity = *velocity;
-    if (!isnan(spot.pressure)) {
-        s.pressure.standard_error *= spot.pressure / s.pressure.value;
-        s.pressure.value = spot.pressure;
+    if (!isnan(conditions.pressure)) {
+        s.pressure.standard_error *= conditions.pressure / s.pressure.value;
+        s.pressure.value = conditions.pressure;
     }
-    if (!isnan(spot.temperature))
-        s.temperature.value = spot.temperature;
+    if (!isnan(conditions.temperature))
+        s.temperature.value = conditions.temperature;
     return s;
 }
 
-static wt_status contact_at(const layer_context *scene, const wt_sliding *s, operating_point spot,
-                            sliding_contact *c, wt_error *err)
+static wt_status create_operating_contact(const layer_context *context, const wt_sliding *s,
+                                          operating_point conditions, sliding_contact *c,
+                                          wt_error *err)
 {
-    wt_job own = *scene->work;
-    own.left_out = WT_EXTRAS;
+    wt_job local_job = *context->work;
+    local_job.left_out = WT_EXTRA_ALL;
     /* the cached materials are for the temperature of the sliding */
-    return sliding_contact_make(s, &own, scene->replicate,
-                                isnan(spot.temperature) ? scene->drawn : NULL, spot.layer, c, err);
+    return sliding_contact_create(s, &local_job, context->replicate,
+                                  isnan(conditions.temperature) ? context->drawn : NULL,
+                                  conditions.layer, c, err);
 }
 
-void layer_friction_join(const wt_layer_job *job, wt_layer_state layer, layer_friction *f)
+void layer_friction_set_total(const wt_layer_job *job, wt_layer_state layer, layer_friction *f)
 {
     layer.modulus_ratio = f->ratio;
     const double stress = wt_layer_shear_stress(&job->shear, f->bulk_stress, layer, f->area_ratio);
@@ -65,14 +69,14 @@ void layer_friction_join(const wt_layer_job *job, wt_layer_state layer, layer_fr
     f->total_error = f->hysteresis_error + stress * f->area_error / f->pressure;
 }
 
-double layer_friction_known(const layer_friction *f)
+double layer_friction_coefficient(const layer_friction *f)
 {
     return isnan(f->total) ? f->hysteresis : f->total;
 }
 
-static wt_status find_friction(const layer_context *scene, const wt_sliding *s,
-                               const sliding_contact *c, operating_point spot,
-                               layer_friction *friction, wt_error *err)
+static wt_status compute_friction(const layer_context *context, const wt_sliding *s,
+                                  const sliding_contact *c, operating_point conditions,
+                                  layer_friction *friction, wt_error *err)
 {
     wt_friction_point p;
     const wt_status status =
@@ -84,58 +88,61 @@ static wt_status find_friction(const layer_context *scene, const wt_sliding *s,
         .area_ratio = p.area_ratio.value,
         .hysteresis_error = p.hysteresis.numerical_error,
         .area_error = p.area_ratio.numerical_error,
-        .bulk_stress = sliding_shear(s, c, &p),
+        .bulk_stress = sliding_shear_stress(s, c, &p),
         .pressure = c->pressure,
-        .ratio = sliding_layer_sheared(c, spot.layer, s->velocity[0]).modulus_ratio};
-    layer_friction_join(scene->job, spot.layer, friction);
+        .ratio = sliding_layer_at_shear_rate(c, conditions.layer, s->velocity[0]).modulus_ratio};
+    layer_friction_set_total(context->job, conditions.layer, friction);
     return WT_OK;
 }
 
-wt_status layer_look(const layer_context *scene, operating_point spot, layer_energy *energy,
-                     wt_layer_parameters *parameters, layer_friction *friction, wt_error *err)
+wt_status layer_compute_contact(const layer_context *context, operating_point conditions,
+                                layer_energy *energy, wt_layer_parameters *parameters,
+                                layer_friction *friction, wt_error *err)
 {
     double velocity;
-    const wt_sliding s = sliding_at(scene, spot, &velocity);
+    const wt_sliding s = sliding_at_conditions(context, conditions, &velocity);
     sliding_contact c = {0};
-    wt_status status = contact_at(scene, &s, spot, &c, err);
+    wt_status status = create_operating_contact(context, &s, conditions, &c, err);
     if (status == WT_OK && friction != NULL)
-        status = find_friction(scene, &s, &c, spot, friction, err);
+        status = compute_friction(context, &s, &c, conditions, friction, err);
     if (status == WT_OK && energy != NULL) {
-        status = layer_energy_make(&s, scene->job, &c, velocity, spot.layer, energy, err);
+        status =
+            layer_energy_compute(&s, context->job, &c, velocity, conditions.layer, energy, err);
         if (status == WT_OK)
-            *parameters = layer_parameters_of(scene->job, &c, velocity, energy, scene->work->seed,
-                                              scene->replicate);
+            *parameters = layer_parameters_create(context->job, &c, velocity, energy,
+                                                  context->work->seed, context->replicate);
     }
     sliding_contact_clear(&c);
     return status;
 }
 
-wt_status layer_at(const layer_context *scene, operating_point spot, layer_energy *energy,
-                   wt_layer_parameters *parameters, wt_error *err)
+wt_status layer_compute_energy(const layer_context *context, operating_point conditions,
+                               layer_energy *energy, wt_layer_parameters *parameters, wt_error *err)
 {
-    return layer_look(scene, spot, energy, parameters, NULL, err);
+    return layer_compute_contact(context, conditions, energy, parameters, NULL, err);
 }
 
-wt_status layer_friction_at(const layer_context *scene, operating_point spot,
-                            layer_friction *friction, wt_error *err)
+wt_status layer_compute_friction(const layer_context *context, operating_point conditions,
+                                 layer_friction *friction, wt_error *err)
 {
-    return layer_look(scene, spot, NULL, NULL, friction, err);
+    return layer_compute_contact(context, conditions, NULL, NULL, friction, err);
 }
 
-wt_status layer_job_calibrated(const layer_context *scene, wt_layer_job *calibrated, wt_error *err)
+wt_status layer_job_calibrate(const layer_context *context, wt_layer_job *calibrated, wt_error *err)
 {
-    *calibrated = *scene->job;
-    if (isnan(scene->job->observed_thickness.value))
+    *calibrated = *context->job;
+    if (isnan(context->job->observed_thickness.value))
         return WT_OK;
     layer_energy energy = {.source = {.n = 0}};
     wt_layer_parameters p;
-    const wt_status status = layer_at(scene, operating_point_default(), &energy, &p, err);
+    const wt_status status =
+        layer_compute_energy(context, operating_point_default(), &energy, &p, err);
     if (status != WT_OK)
         return status;
     calibrated->critical_energy = (wt_estimate){
         wt_layer_calibrate(&energy.source, &p,
-                           flow_draw_positive(scene->job->observed_thickness, scene->work->seed,
-                                              scene->replicate, FLOW_DRAW_OBSERVED)),
+                           flow_draw_positive(context->job->observed_thickness, context->work->seed,
+                                              context->replicate, FLOW_DRAW_OBSERVED)),
         0, 0, "J/m^3"};
     calibrated->observed_thickness.value = (double)NAN;
     layer_energy_clear(&energy);

@@ -16,7 +16,7 @@
 
 /* Relative tolerances of the velocity of an edge, for the stated values and for a replicate, which
  * scatters far more. */
-static const double edge_close = 1e-9, replicate_close = 1e-4;
+static const double edge_tolerance = 1e-9, replicate_tolerance = 1e-4;
 
 TABLE_ROW(layer_regime_map, LAYER_REGIME_MAP, double pressure, velocity;
           wt_estimate power, ratio, thickness; double share;
@@ -30,43 +30,44 @@ TABLE_KEYS(layer_regime_map, LAYER_REGIME_MAP, double pressure;
 /* ---- at one velocity and pressure ------------------------------------------------------------ */
 
 enum { AT_POWER, AT_RATIO, AT_THICKNESS, AT_FRICTION, AT_WITH_LAYER, AT_CHANGE, N_AT };
-typedef struct regime_map_at {
+typedef struct regime_map_point {
     double value[N_AT], numerical[N_AT];
-} regime_map_at;
+} regime_map_point;
 
 /* Computes power, R and thickness, and the friction on bare rubber unless it is NULL. */
-static wt_status balance_at(const layer_context *scene, operating_point spot,
-                            wt_layer_balance *balance, layer_friction *friction, wt_error *err)
+static wt_status compute_point_balance(const layer_context *context, operating_point conditions,
+                                       wt_layer_steady_state *balance, layer_friction *friction,
+                                       wt_error *err)
 {
     layer_energy energy = {.source = {.n = 0}};
     wt_layer_parameters p;
-    wt_status status = layer_look(scene, spot, &energy, &p, friction, err);
+    wt_status status = layer_compute_contact(context, conditions, &energy, &p, friction, err);
     if (status != WT_OK)
         return status;
     p.balance_only = true;
-    p.without_errors = friction == NULL || scene->replicate != WT_NO_REPLICATE;
-    status = wt_layer_balance_compute(&energy.source, &p, balance, err);
+    p.skip_numerical_errors = friction == NULL || context->replicate != WT_NO_REPLICATE;
+    status = wt_layer_steady_state_compute(&energy.source, &p, balance, err);
     layer_energy_clear(&energy);
     return status;
 }
 
-static double known_error(const layer_friction *f)
+static double coefficient_error(const layer_friction *f)
 {
     return isnan(f->total) ? f->hysteresis_error : f->total_error;
 }
 
-static wt_status add_layer(const layer_context *scene, operating_point spot, bool total,
-                           regime_map_at *at, wt_error *err)
+static wt_status add_layer_friction(const layer_context *context, operating_point conditions,
+                                    bool total, regime_map_point *at, wt_error *err)
 {
     layer_friction with;
     const double thickness = at->value[AT_THICKNESS], bare = at->value[AT_FRICTION];
-    spot.layer = layer_under(scene, thickness).layer;
-    const wt_status status = layer_friction_at(scene, spot, &with, err);
+    conditions.layer = operating_point_under_layer(context, thickness).layer;
+    const wt_status status = layer_compute_friction(context, conditions, &with, err);
     if (status != WT_OK)
         return status;
     at->value[AT_WITH_LAYER] = total ? with.total : with.hysteresis;
     at->value[AT_CHANGE] = at->value[AT_WITH_LAYER] / bare - 1;
-    at->numerical[AT_WITH_LAYER] = known_error(&with);
+    at->numerical[AT_WITH_LAYER] = coefficient_error(&with);
     at->numerical[AT_CHANGE] =
         (at->numerical[AT_WITH_LAYER] +
          at->numerical[AT_FRICTION] * fabs(at->value[AT_WITH_LAYER] / bare)) /
@@ -74,44 +75,44 @@ static wt_status add_layer(const layer_context *scene, operating_point spot, boo
     return WT_OK;
 }
 
-static wt_status look_at(const layer_context *scene, operating_point spot, regime_map_at *at,
-                         wt_error *err)
+static wt_status compute_existence_point(const layer_context *context, operating_point conditions,
+                                         regime_map_point *at, wt_error *err)
 {
-    wt_layer_balance b;
+    wt_layer_steady_state b;
     layer_friction f;
-    const wt_status status = balance_at(scene, spot, &b, &f, err);
+    const wt_status status = compute_point_balance(context, conditions, &b, &f, err);
     if (status != WT_OK)
         return status;
     const double unknown = (double)NAN;
-    *at = (regime_map_at){
-        {b.surface_power, b.ratio, b.thickness.value, layer_friction_known(&f), unknown, unknown},
-        {unknown, fabs(b.ratio) * b.ratio_error, b.thickness.numerical_error, known_error(&f),
-         unknown, unknown}};
-    if (isnan(scene->modulus_ratio) || !isfinite(b.thickness.value))
+    *at = (regime_map_point){{b.surface_power, b.ratio, b.thickness.value,
+                              layer_friction_coefficient(&f), unknown, unknown},
+                             {unknown, fabs(b.ratio) * b.ratio_error, b.thickness.numerical_error,
+                              coefficient_error(&f), unknown, unknown}};
+    if (isnan(context->modulus_ratio) || !isfinite(b.thickness.value))
         return WT_OK;
-    return add_layer(scene, spot, !isnan(f.total), at, err);
+    return add_layer_friction(context, conditions, !isnan(f.total), at, err);
 }
 
 /* ---- edges ----------------------------------------------------------------------------------- */
 
-enum { FROM, TO, ENDS };
+enum { EDGE_FIRST, EDGE_LAST, N_EDGES };
 typedef struct edges {
-    const layer_context *scene;
+    const layer_context *context;
     wt_status status; /* first failure of a root search */
     wt_error *err;
-    double velocity[ENDS], power[ENDS]; /* first and last edge; NaN if outside the list */
+    double velocity[N_EDGES], power[N_EDGES]; /* first and last edge; NaN if outside the list */
     size_t n;
     char words[256];
 } edges;
 
-static double log_ratio_at(double log_velocity, void *user)
+static double log_rate_ratio(double log_velocity, void *user)
 {
     edges *e = user;
-    operating_point spot = operating_point_default();
-    wt_layer_balance b = {.ratio = (double)NAN};
-    spot.velocity = exp(log_velocity);
+    operating_point conditions = operating_point_default();
+    wt_layer_steady_state b = {.ratio = (double)NAN};
+    conditions.velocity = exp(log_velocity);
     if (e->status == WT_OK)
-        e->status = balance_at(e->scene, spot, &b, NULL, e->err);
+        e->status = compute_point_balance(e->context, conditions, &b, NULL, e->err);
     return b.ratio > 0 ? log(b.ratio) : -HUGE_VAL;
 }
 
@@ -119,40 +120,42 @@ static double log_ratio_at(double log_velocity, void *user)
 static void add_edge(edges *e, double low, double high, bool begins)
 {
     double at;
-    const bool replicate = e->scene->replicate != WT_NO_REPLICATE;
-    const wt_status status = root_find(log_ratio_at, e, log(low), log(high),
-                                       replicate ? replicate_close : edge_close, &at, e->err);
+    const bool replicate = e->context->replicate != WT_NO_REPLICATE;
+    const wt_status status =
+        root_find(log_rate_ratio, e, log(low), log(high),
+                  replicate ? replicate_tolerance : edge_tolerance, &at, e->err);
     e->status = e->status == WT_OK ? status : e->status;
-    operating_point spot = operating_point_default();
-    wt_layer_balance b;
-    spot.velocity = exp(at);
+    operating_point conditions = operating_point_default();
+    wt_layer_steady_state b;
+    conditions.velocity = exp(at);
     if (e->status == WT_OK)
-        e->status = balance_at(e->scene, spot, &b, NULL, e->err);
+        e->status = compute_point_balance(e->context, conditions, &b, NULL, e->err);
     if (e->status != WT_OK)
         return;
     const size_t used = strlen(e->words);
     clocale_print(e->words + used, sizeof e->words - used, "%s%s %.4g m/s (%.4g W/m^2)",
-                  used > 0 ? ", " : "", begins ? "from" : "up to", spot.velocity, b.surface_power);
-    const size_t k = begins ? FROM : TO;
+                  used > 0 ? ", " : "", begins ? "from" : "up to", conditions.velocity,
+                  b.surface_power);
+    const size_t k = begins ? EDGE_FIRST : EDGE_LAST;
     if (!begins || e->n == 0) {
-        e->velocity[k] = spot.velocity;
+        e->velocity[k] = conditions.velocity;
         e->power[k] = b.surface_power;
     }
     if (begins) /* a range that ended before is not the last one */
-        e->velocity[TO] = e->power[TO] = (double)NAN;
+        e->velocity[EDGE_LAST] = e->power[EDGE_LAST] = (double)NAN;
     e->n++;
 }
 
 /* Finds the edges at the nominal pressure. */
-static edges find_edges(const layer_context *scene, wt_error *err)
+static edges find_existence_edges(const layer_context *context, wt_error *err)
 {
     const double unset = (double)NAN;
-    edges e = {.scene = scene, .err = err, .velocity = {unset, unset}, .power = {unset, unset}};
-    const wt_sliding *s = scene->sliding;
-    double before = log_ratio_at(log(s->velocity[0]), &e);
+    edges e = {.context = context, .err = err, .velocity = {unset, unset}, .power = {unset, unset}};
+    const wt_sliding *s = context->sliding;
+    double before = log_rate_ratio(log(s->velocity[0]), &e);
     bool any = before > 0;
     for (size_t i = 1; e.status == WT_OK && i < s->n_velocity; i++) {
-        const double now = log_ratio_at(log(s->velocity[i]), &e);
+        const double now = log_rate_ratio(log(s->velocity[i]), &e);
         if ((now > 0) != (before > 0))
             add_edge(&e, s->velocity[i - 1], s->velocity[i], now > 0);
         any = any || now > 0;
@@ -172,54 +175,56 @@ typedef struct regime_map_task {
     double *velocity;   /* [n_velocity] */
     size_t blocks, n;   /* number of pressures and of rows */
     edges edges;
-    regime_map_at *at; /* [n] */
+    regime_map_point *at; /* [n] */
     char known[400], errors[560];
 } regime_map_task;
 
-static operating_point spot_of(const regime_map_task *task, size_t row)
+static operating_point row_conditions(const regime_map_task *task, size_t row)
 {
-    operating_point spot = operating_point_default();
+    operating_point conditions = operating_point_default();
     const wt_sliding *s = &task->sliding;
-    spot.velocity = s->velocity[row % s->n_velocity];
-    spot.pressure = s->n_pressures > 0 ? s->pressures[row / s->n_velocity] : s->pressure.value;
-    return spot;
+    conditions.velocity = s->velocity[row % s->n_velocity];
+    conditions.pressure =
+        s->n_pressures > 0 ? s->pressures[row / s->n_velocity] : s->pressure.value;
+    return conditions;
 }
 
-static wt_status look_at_rows(const regime_map_task *task, const layer_context *scene,
-                              regime_map_at *at, wt_error *err)
+static wt_status compute_existence_rows(const regime_map_task *task, const layer_context *context,
+                                        regime_map_point *at, wt_error *err)
 {
     wt_status status = WT_OK;
     for (size_t i = 0; status == WT_OK && i < task->n; i++)
-        status = look_at(scene, spot_of(task, i), &at[i], err);
+        status = compute_existence_point(context, row_conditions(task, i), &at[i], err);
     return status;
 }
 
 /* ---- replicates ------------------------------------------------------------------------------ */
 
 /* Quantities of a replicate; those of each row follow. Edges are logarithms. */
-enum { SOLVED, LN_VELOCITY, LN_POWER = LN_VELOCITY + ENDS, N_NUMBERS = LN_POWER + ENDS };
+enum { SOLVED, LN_VELOCITY, LN_POWER = LN_VELOCITY + N_EDGES, N_NUMBERS = LN_POWER + N_EDGES };
 
 /* Largest share of replicates without an edge for which the quantiles of a 95 % interval exist. */
-static const double most_lost = 0.025;
+static const double max_missing_share = 0.025;
 
-static wt_status one_replicate(const void *user, size_t i, double *out, wt_error *err)
+static wt_status existence_replicate(const void *user, size_t i, double *out, wt_error *err)
 {
     const regime_map_task *task = user;
     wt_layer_job job;
-    layer_context scene;
+    layer_context context;
     edges found = {.status = WT_OK};
     const size_t rows = i < LAYER_ROW_REPLICATES ? task->n : 0;
-    regime_map_at *at = malloc((task->n + 1) * sizeof *at);
-    wt_status status = at != NULL ? layer_draws_context(&task->draws, i, &job, &scene, err)
-                                  : wt_fail(err, WT_E_MEMORY, "out of memory");
+    regime_map_point *at = malloc((task->n + 1) * sizeof *at);
+    wt_status status = at != NULL
+                           ? layer_draws_replicate_context(&task->draws, i, &job, &context, err)
+                           : wt_fail(err, WT_E_MEMORY, "out of memory");
     if (status == WT_OK) {
-        found = find_edges(&scene, err);
+        found = find_existence_edges(&context, err);
         status = found.status;
     }
     if (status == WT_OK && rows > 0)
-        status = look_at_rows(task, &scene, at, err);
+        status = compute_existence_rows(task, &context, at, err);
     out[SOLVED] = 1;
-    for (size_t k = 0; k < ENDS; k++) {
+    for (size_t k = 0; k < N_EDGES; k++) {
         out[LN_VELOCITY + k] = log(found.velocity[k]);
         out[LN_POWER + k] = log(found.power[k]);
     }
@@ -231,7 +236,7 @@ static wt_status one_replicate(const void *user, size_t i, double *out, wt_error
 }
 
 /* Share of the first n replicates in which a quantity exceeds a limit; NaN without replicates. */
-static double share_above(const replicates *r, size_t n, size_t k, double limit)
+static double share_above_limit(const replicates *r, size_t n, size_t k, double limit)
 {
     size_t solved = 0, above = 0;
     for (size_t i = 0; i < n && i < r->n; i++) {
@@ -244,49 +249,50 @@ static double share_above(const replicates *r, size_t n, size_t k, double limit)
 
 /* Of the replicates that have an edge, how many are too few for an interval; words of those that
  * have none where the values have one, or the other way round. */
-static bool edge_known(regime_map_task *task, size_t end)
+static bool assess_edge(regime_map_task *task, size_t end)
 {
     const replicates *r = &task->draws.replicates;
-    const double with = share_above(r, r->n, LN_VELOCITY + end, -HUGE_VAL);
+    const double with = share_above_limit(r, r->n, LN_VELOCITY + end, -HUGE_VAL);
     const bool there = !isnan(task->edges.velocity[end]);
-    const double lost = there ? 1 - with : with;
+    const double missing = there ? 1 - with : with;
     const size_t used = strlen(task->known);
-    if (!(lost > most_lost))
+    if (!(missing > max_missing_share))
         return true;
     clocale_print(task->known + used, sizeof task->known - used,
                   "%s: in %.3g %% of the replicates there is %s %s edge between the velocities of "
                   "the list; more velocities, or smaller errors of what is drawn, would settle it",
-                  used > 0 ? "" : "cannot say", 100 * lost, there ? "no" : "a",
-                  end == FROM ? "first" : "last");
+                  used > 0 ? "" : "cannot say", 100 * missing, there ? "no" : "a",
+                  end == EDGE_FIRST ? "first" : "last");
     return false;
 }
 
 /* ---- the table ------------------------------------------------------------------------------- */
 
-static wt_estimate estimate_of(const regime_map_at *at, const double *error, size_t k)
+static wt_estimate existence_estimate(const regime_map_point *at, const double *error, size_t k)
 {
     return (wt_estimate){at->value[k], error[k], at->numerical[k], NULL};
 }
 
-static void add_rows(const regime_map_task *task, table_writer *t)
+static void add_existence_rows(const regime_map_task *task, table_writer *t)
 {
     const replicates *r = &task->draws.replicates;
     for (size_t i = 0; i < task->n; i++) {
-        const regime_map_at *at = &task->at[i];
-        const operating_point spot = spot_of(task, i);
+        const regime_map_point *at = &task->at[i];
+        const operating_point conditions = row_conditions(task, i);
         const size_t first = N_NUMBERS + N_AT * i;
         const double *const e = r->error + first;
         if (i % task->sliding.n_velocity == 0)
             table_block(t);
-        TABLE_ADD(layer_regime_map, t, spot.pressure, spot.velocity, estimate_of(at, e, AT_POWER),
-                  estimate_of(at, e, AT_RATIO), estimate_of(at, e, AT_THICKNESS),
-                  share_above(r, LAYER_ROW_REPLICATES, first + AT_RATIO, 1),
-                  estimate_of(at, e, AT_FRICTION), estimate_of(at, e, AT_WITH_LAYER),
-                  estimate_of(at, e, AT_CHANGE));
+        TABLE_ADD(layer_regime_map, t, conditions.pressure, conditions.velocity,
+                  existence_estimate(at, e, AT_POWER), existence_estimate(at, e, AT_RATIO),
+                  existence_estimate(at, e, AT_THICKNESS),
+                  share_above_limit(r, LAYER_ROW_REPLICATES, first + AT_RATIO, 1),
+                  existence_estimate(at, e, AT_FRICTION), existence_estimate(at, e, AT_WITH_LAYER),
+                  existence_estimate(at, e, AT_CHANGE));
     }
 }
 
-static wt_interval no_interval(double value)
+static wt_interval empty_interval(double value)
 {
     return (wt_interval){value, (double)NAN, (double)NAN, (double)NAN};
 }
@@ -294,13 +300,13 @@ static wt_interval no_interval(double value)
 static wt_status make_table(regime_map_task *task, wt_table **table, wt_error *err)
 {
     const replicates *r = &task->draws.replicates;
-    wt_interval velocity[ENDS], power[ENDS];
-    for (size_t k = 0; k < ENDS; k++) {
-        velocity[k] = layer_interval(&task->draws, LN_VELOCITY + k, task->edges.velocity[k]);
-        power[k] = layer_interval(&task->draws, LN_POWER + k, task->edges.power[k]);
-        if (!edge_known(task, k)) {
-            velocity[k] = no_interval(task->edges.velocity[k]);
-            power[k] = no_interval(task->edges.power[k]);
+    wt_interval velocity[N_EDGES], power[N_EDGES];
+    for (size_t k = 0; k < N_EDGES; k++) {
+        velocity[k] = layer_draws_interval(&task->draws, LN_VELOCITY + k, task->edges.velocity[k]);
+        power[k] = layer_draws_interval(&task->draws, LN_POWER + k, task->edges.power[k]);
+        if (!assess_edge(task, k)) {
+            velocity[k] = empty_interval(task->edges.velocity[k]);
+            power[k] = empty_interval(task->edges.power[k]);
         }
     }
     if (task->known[0] == '\0')
@@ -309,24 +315,25 @@ static wt_status make_table(regime_map_task *task, wt_table **table, wt_error *e
                           : "not tested: no replicates are drawn");
     layer_draws_describe(&task->draws, task->errors, sizeof task->errors);
     table_writer t = table_begin(&layer_regime_map_schema, err);
-    add_rows(task, &t);
+    add_existence_rows(task, &t);
     layer_regime_map_keys keys = {.pressure = task->sliding.pressure.value,
-                                  .from_velocity_low = velocity[FROM].low,
-                                  .from_velocity_high = velocity[FROM].high,
-                                  .to_velocity_low = velocity[TO].low,
-                                  .to_velocity_high = velocity[TO].high,
-                                  .from_power_low = power[FROM].low,
-                                  .from_power_high = power[FROM].high,
-                                  .to_power_low = power[TO].low,
-                                  .to_power_high = power[TO].high,
+                                  .from_velocity_low = velocity[EDGE_FIRST].low,
+                                  .from_velocity_high = velocity[EDGE_FIRST].high,
+                                  .to_velocity_low = velocity[EDGE_LAST].low,
+                                  .to_velocity_high = velocity[EDGE_LAST].high,
+                                  .from_power_low = power[EDGE_FIRST].low,
+                                  .from_power_high = power[EDGE_FIRST].high,
+                                  .to_power_low = power[EDGE_LAST].low,
+                                  .to_power_high = power[EDGE_LAST].high,
                                   .words = task->edges.words,
                                   .known = task->known,
                                   .errors = task->errors,
                                   .moduli = task->draws.moduli};
     wt_estimate *const ends[] = {&keys.from_velocity, &keys.to_velocity, &keys.from_power,
                                  &keys.to_power};
-    const wt_interval *const of[] = {&velocity[FROM], &velocity[TO], &power[FROM], &power[TO]};
-    for (size_t k = 0; k < 2 * ENDS; k++) {
+    const wt_interval *const of[] = {&velocity[EDGE_FIRST], &velocity[EDGE_LAST],
+                                     &power[EDGE_FIRST], &power[EDGE_LAST]};
+    for (size_t k = 0; k < 2 * N_EDGES; k++) {
         *ends[k] = estimate_without_error(of[k]->value);
         ends[k]->standard_error = of[k]->standard_error;
     }
@@ -335,7 +342,7 @@ static wt_status make_table(regime_map_task *task, wt_table **table, wt_error *e
 }
 
 /* The same with its velocities from the least on, between which edges are looked for. */
-static wt_status order_velocities(regime_map_task *task, const wt_sliding *sliding, wt_error *err)
+static wt_status sort_velocities(regime_map_task *task, const wt_sliding *sliding, wt_error *err)
 {
     const size_t n = sliding->n_velocity;
     task->blocks = sliding->n_pressures > 0 ? sliding->n_pressures : 1;
@@ -351,26 +358,26 @@ static wt_status order_velocities(regime_map_task *task, const wt_sliding *slidi
     return WT_OK;
 }
 
-wt_status wt_layer_regime_map_make(const wt_sliding *sliding, const wt_layer_job *job,
-                                   const wt_layer_observation *known, const wt_job *work,
-                                   wt_table **table, wt_error *err)
+wt_status wt_regime_map_compute(const wt_sliding *sliding, const wt_layer_job *job,
+                                const wt_layer_observation *known, const wt_job *work,
+                                wt_table **table, wt_error *err)
 {
     if (sliding == NULL || job == NULL || work == NULL || table == NULL)
         return wt_fail(err, WT_E_ARG, "no existence of a layer to make");
     regime_map_task task = {.n = 0};
-    wt_status status = order_velocities(&task, sliding, err);
+    wt_status status = sort_velocities(&task, sliding, err);
     if (status == WT_OK)
         status =
-            layer_draws_open(&task.draws, &task.sliding, job, known, work, "existence", true, err);
+            layer_draws_init(&task.draws, &task.sliding, job, known, work, "existence", true, err);
     if (status == WT_OK) {
-        task.edges = find_edges(&task.draws.values, err);
+        task.edges = find_existence_edges(&task.draws.values, err);
         status = task.edges.status;
     }
     if (status == WT_OK)
-        status = look_at_rows(&task, &task.draws.values, task.at, err);
+        status = compute_existence_rows(&task, &task.draws.values, task.at, err);
     if (status == WT_OK)
-        status = replicates_draw(&task.draws.replicates, N_NUMBERS + N_AT * task.n, one_replicate,
-                                 &task, err);
+        status = replicates_draw(&task.draws.replicates, N_NUMBERS + N_AT * task.n,
+                                 existence_replicate, &task, err);
     if (status == WT_OK)
         status = make_table(&task, table, err);
     cost_report(work, (cost_summary){.items = (double)(task.blocks * (1 + task.draws.replicates.n)),

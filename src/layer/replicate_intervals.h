@@ -6,7 +6,7 @@
 #include "friction/replicates.h"
 
 /* Number of replicates for quantiles: two of them lie beyond each limit of 95 %. */
-enum { REPLICATES_FOR_ENDS = 80 };
+enum { REPLICATES_FOR_QUANTILES = 80 };
 
 /* Limits of the quantity whose logarithm is quantity k of the replicates, with this probability
  * beyond each limit. Replicates without a value count as above all others. Quantiles of some
@@ -14,7 +14,7 @@ enum { REPLICATES_FOR_ENDS = 80 };
  * seed. The draws are standard normal, however. Each replicate is therefore moved along the
  * parabola fit from its draw to the expected value of its rank. Returns WT_E_MEMORY without a
  * change if out of memory. */
-wt_status replicate_interval(const replicates *r, size_t k, double beyond,
+wt_status replicate_interval(const replicates *r, size_t k, double tail_probability,
                              wt_interval *interval) WT_NODISCARD;
 
 #endif

@@ -128,22 +128,22 @@
                           "the same with this layer", NUMBER, SHOWS(with_layer))                   \
     COLUMN_AND_NEW_ERRORS(X, LAYER_REGIME_MAP_CHANGE, "change",                                    \
                           "relative change of friction by the layer", NUMBER, SHOWS(change))
-#define LAYER_REGIME_MAP_ENDS(X, ID, name, unit)                                                   \
+#define LAYER_REGIME_MAP_LIMITS(X, ID, name, unit)                                                 \
     X(ID##_LOW, AS(name##_low), unit, LABEL("Its 95 % interval from"), OPTIONAL)                   \
     X(ID##_HIGH, AS(name##_high), unit, LABEL("to"), OPTIONAL)
 #define LAYER_REGIME_MAP_KEYS(X)                                                                   \
     X(LAYER_REGIME_MAP_KEY_PRESSURE, AS(pressure), SI(PRESSURE), LABEL("Nominal pressure"))        \
     X(LAYER_REGIME_MAP_KEY_FROM_VELOCITY, AS(from_velocity), SI(VELOCITY),                         \
       LABEL("There is a layer from the velocity"))                                                 \
-    LAYER_REGIME_MAP_ENDS(X, LAYER_REGIME_MAP_KEY_FROM_VELOCITY, from_velocity, SI(VELOCITY))      \
+    LAYER_REGIME_MAP_LIMITS(X, LAYER_REGIME_MAP_KEY_FROM_VELOCITY, from_velocity, SI(VELOCITY))    \
     X(LAYER_REGIME_MAP_KEY_TO_VELOCITY, AS(to_velocity), SI(VELOCITY),                             \
       LABEL("up to the velocity"))                                                                 \
-    LAYER_REGIME_MAP_ENDS(X, LAYER_REGIME_MAP_KEY_TO_VELOCITY, to_velocity, SI(VELOCITY))          \
+    LAYER_REGIME_MAP_LIMITS(X, LAYER_REGIME_MAP_KEY_TO_VELOCITY, to_velocity, SI(VELOCITY))        \
     X(LAYER_REGIME_MAP_KEY_FROM_POWER, AS(from_power), UNIT("W/m^2"),                              \
       LABEL("That is from the power"))                                                             \
-    LAYER_REGIME_MAP_ENDS(X, LAYER_REGIME_MAP_KEY_FROM_POWER, from_power, UNIT("W/m^2"))           \
+    LAYER_REGIME_MAP_LIMITS(X, LAYER_REGIME_MAP_KEY_FROM_POWER, from_power, UNIT("W/m^2"))         \
     X(LAYER_REGIME_MAP_KEY_TO_POWER, AS(to_power), UNIT("W/m^2"), LABEL("up to the power"))        \
-    LAYER_REGIME_MAP_ENDS(X, LAYER_REGIME_MAP_KEY_TO_POWER, to_power, UNIT("W/m^2"))               \
+    LAYER_REGIME_MAP_LIMITS(X, LAYER_REGIME_MAP_KEY_TO_POWER, to_power, UNIT("W/m^2"))             \
     X(LAYER_REGIME_MAP_KEY_WORDS, AS(words), TEXT, LABEL("Where a layer exists"))                  \
     X(LAYER_REGIME_MAP_KEY_KNOWN, AS(known), TEXT,                                                 \
       LABEL("Whether the edges are known within the errors"), OPTIONAL)                            \

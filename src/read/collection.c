@@ -13,17 +13,17 @@
 
 /* The limit on the unpacked size of an entry stops an archive that is made to expand without
  * end. */
-#define ENTRY_MAX ((size_t)256 << 20)
+#define MAX_ENTRY_SIZE ((size_t)256 << 20)
 enum { NAMES_SHOWN = 5 };
 
-typedef struct entry {
+typedef struct collection_entry {
     const char *name;
     size_t number; /* index in the archive */
-} entry;
+} collection_entry;
 
 typedef struct collection {
     zip_archive *archive;
-    entry *entries; /* sorted by name, 2 before 10 */
+    collection_entry *entries; /* sorted by name, 2 before 10 */
     size_t n;
     const char *name; /* name of the archive */
 } collection;
@@ -35,9 +35,9 @@ static void close_collection(collection *c)
     *c = (collection){.n = 0};
 }
 
-static int by_name(const void *a, const void *b)
+static int compare_entry_names(const void *a, const void *b)
 {
-    const entry *x = a, *y = b;
+    const collection_entry *x = a, *y = b;
     const int order = strverscmp(x->name, y->name);
     return order != 0 ? order : (x->number > y->number) - (x->number < y->number);
 }
@@ -63,40 +63,40 @@ static wt_status open_collection(wt_input *input, collection *c, wt_error *err)
     }
     for (size_t i = 0; i < c->archive->n; i++)
         if (is_file(archive_name(c->archive, i)))
-            c->entries[c->n++] = (entry){archive_name(c->archive, i), i};
-    qsort(c->entries, c->n, sizeof *c->entries, by_name);
+            c->entries[c->n++] = (collection_entry){archive_name(c->archive, i), i};
+    qsort(c->entries, c->n, sizeof *c->entries, compare_entry_names);
     return WT_OK;
 }
 
 /* Unpacks entry `i` into a new input, which the caller closes. */
-static wt_status open_entry(const collection *c, size_t i, wt_input **input, wt_error *err)
+static wt_status unpack_entry(const collection *c, size_t i, wt_input **input, wt_error *err)
 {
     char *name = NULL;
     byte_buffer buffer = {.data = NULL};
-    wt_status status = archive_read(c->archive, c->entries[i].number, ENTRY_MAX, &buffer, err);
+    wt_status status = archive_read(c->archive, c->entries[i].number, MAX_ENTRY_SIZE, &buffer, err);
     if (status == WT_OK && asprintf(&name, "%s, %s", c->name, c->entries[i].name) < 0) {
         name = NULL;
         status = wt_fail(err, WT_E_MEMORY, "no memory for an archive entry");
     }
     if (status == WT_OK)
-        status = input_own((char *)buffer.data, buffer.length, name, input, err);
+        status = input_from_bytes((char *)buffer.data, buffer.length, name, input, err);
     else
         free(buffer.data);
     free(name);
     return status;
 }
 
-wt_status collection_each(wt_input *input, collection_look *look, void *user, wt_error *err)
+wt_status collection_visit(wt_input *input, collection_visitor *look, void *user, wt_error *err)
 {
     collection c;
-    bool taken = false;
+    bool is_done = false;
     wt_status status = open_collection(input, &c, err);
-    for (size_t i = 0; i < c.n && status == WT_OK && !taken; i++) {
+    for (size_t i = 0; i < c.n && status == WT_OK && !is_done; i++) {
         wt_input *content = NULL;
         wt_error damaged = WT_ERROR_INIT;
-        status = open_entry(&c, i, &content, &damaged);
+        status = unpack_entry(&c, i, &content, &damaged);
         if (status == WT_OK)
-            status = look(content, user, &taken, err);
+            status = look(content, user, &is_done, err);
         else if (status != WT_E_MEMORY)
             status = WT_OK; /* the reader of the entry reports the damage */
         else
@@ -113,7 +113,7 @@ typedef struct collection_source {
     wt_force_source base;
     collection files;
     const wt_formats *formats;
-    collection_open *open;
+    collection_opener *open;
     size_t next, n_curves; /* next entry, and number of curves read */
     wt_input *input;       /* input of the current entry, or NULL */
     wt_force_source *inner;
@@ -129,24 +129,24 @@ static void close_entry(collection_source *s)
 
 /* An entry that is not a force curve is skipped with a warning. One that is a force curve but
  * cannot be read is an error. */
-static wt_status next_entry(collection_source *s, wt_error *err)
+static wt_status open_next_entry(collection_source *s, wt_error *err)
 {
     const char *place = s->files.entries[s->next].name;
-    wt_error why = WT_ERROR_INIT;
-    char words[512];
-    wt_status status = open_entry(&s->files, s->next++, &s->input, &why);
+    wt_error cause = WT_ERROR_INIT;
+    char text[512];
+    wt_status status = unpack_entry(&s->files, s->next++, &s->input, &cause);
     if (status == WT_OK)
-        status = s->open(s->formats, s->input, &s->base.options, s->base.log, &s->inner, &why);
+        status = s->open(s->formats, s->input, &s->base.options, s->base.log, &s->inner, &cause);
     if (status == WT_OK)
         return WT_OK;
     close_entry(s);
     if (status == WT_E_FORMAT || status == WT_E_UNSUPPORTED || status == WT_E_EMPTY) {
-        wt_error_format(&why, words, sizeof words);
-        wt_log_add(s->base.log, WT_WARNING, s->base.name, place, "left out: %s", words);
+        wt_error_format(&cause, text, sizeof text);
+        wt_log_add(s->base.log, WT_WARNING, s->base.name, place, "left out: %s", text);
         return WT_OK;
     }
     if (err != NULL)
-        *err = why;
+        *err = cause;
     return status;
 }
 
@@ -164,7 +164,7 @@ static wt_status next_curve(wt_force_source *base, wt_force_curve *curve, wt_err
         close_entry(s);
         if (s->next == s->files.n)
             return WT_END;
-        status = next_entry(s, err);
+        status = open_next_entry(s, err);
         if (status != WT_OK) {
             curve->index = s->n_curves++;
             return status;
@@ -192,7 +192,8 @@ static const force_stream collection_force = {.size = sizeof(collection_source),
                                               .next = next_curve,
                                               .close = close_source};
 
-void collection_use(wt_force_source *source, const wt_formats *formats, collection_open *open)
+void collection_set_opener(wt_force_source *source, const wt_formats *formats,
+                           collection_opener *open)
 {
     collection_source *s = (collection_source *)source;
     s->formats = formats;
@@ -202,20 +203,20 @@ void collection_use(wt_force_source *source, const wt_formats *formats, collecti
 /* ---- the descriptor -------------------------------------------------------------------------- */
 
 static wt_status describe(const file_reader *self, wt_input *input, const wt_read_options *options,
-                          wt_log *log, table_writer *facts)
+                          wt_log *log, table_writer *metadata)
 {
     collection c;
     (void)self;
     (void)options;
     (void)log;
-    wt_status status = open_collection(input, &c, facts->err);
+    wt_status status = open_collection(input, &c, metadata->err);
     if (status != WT_OK)
         return status;
-    facts_add(facts, "files", "", "entries of the archive", "%zu", c.n);
+    metadata_add(metadata, "files", "", "entries of the archive", "%zu", c.n);
     for (size_t i = 0; i < c.n && i < NAMES_SHOWN; i++)
-        facts_add(facts, "file", "", "", "%s", c.entries[i].name);
+        metadata_add(metadata, "file", "", "", "%s", c.entries[i].name);
     if (c.n > NAMES_SHOWN)
-        facts_add(facts, "more files", "", "", "%zu", c.n - NAMES_SHOWN);
+        metadata_add(metadata, "more files", "", "", "%zu", c.n - NAMES_SHOWN);
     close_collection(&c);
     return WT_OK;
 }

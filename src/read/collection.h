@@ -13,16 +13,17 @@
 extern const file_reader reader_collection;
 
 /* Visits one entry. The visitor sets the flag to end the iteration. */
-typedef wt_status collection_look(wt_input *entry, void *user, bool *taken, wt_error *err);
+typedef wt_status collection_visitor(wt_input *entry, void *user, bool *is_done, wt_error *err);
 /* Calls `look` for each entry in sorted order, until `look` ends the iteration or fails. An entry
  * that cannot be unpacked is skipped. */
-wt_status collection_each(wt_input *input, collection_look *look, void *user,
-                          wt_error *err) WT_NODISCARD;
+wt_status collection_visit(wt_input *input, collection_visitor *look, void *user,
+                           wt_error *err) WT_NODISCARD;
 
-typedef wt_status collection_open(const wt_formats *formats, wt_input *entry,
-                                  const wt_read_options *options, wt_log *log,
-                                  wt_force_source **source, wt_error *err);
+typedef wt_status collection_opener(const wt_formats *formats, wt_input *entry,
+                                    const wt_read_options *options, wt_log *log,
+                                    wt_force_source **source, wt_error *err);
 /* Sets the function that opens the curves of an entry. Call it before the first curve is read. */
-void collection_use(wt_force_source *source, const wt_formats *formats, collection_open *open);
+void collection_set_opener(wt_force_source *source, const wt_formats *formats,
+                           collection_opener *open);
 
 #endif

@@ -10,12 +10,12 @@
 #include <string.h>
 
 /* An option "NAME=QUANTITY:UNIT". The unit applies where the file does not state one. */
-typedef struct given_column {
+typedef struct column_option {
     text_span name, unit;
     wt_quantity quantity;
-} given_column;
+} column_option;
 
-static wt_status fail_column(const char *text, const char *message, wt_error *err)
+static wt_status fail_column_option(const char *text, const char *message, wt_error *err)
 {
     wt_fail(err, WT_E_ARG, "%s", message);
     wt_error_expected(err, "NAME=QUANTITY or NAME=QUANTITY:UNIT");
@@ -25,24 +25,24 @@ static wt_status fail_column(const char *text, const char *message, wt_error *er
     return WT_E_ARG;
 }
 
-static wt_status parse_column(const char *text, given_column *column, wt_error *err)
+static wt_status parse_column_option(const char *text, column_option *column, wt_error *err)
 {
     char id[64];
     double factor, offset;
     const char *equal = strrchr(text, '=');
     if (equal == NULL || equal == text || equal[1] == '\0')
-        return fail_column(text, "a column is not given as NAME=QUANTITY:UNIT", err);
+        return fail_column_option(text, "a column is not given as NAME=QUANTITY:UNIT", err);
     const char *unit = strchr(equal, ':');
     const size_t n = unit != NULL ? (size_t)(unit - equal) - 1 : strlen(equal + 1);
     snprintf(id, sizeof id, "%.*s", (int)(n < sizeof id ? n : sizeof id - 1), equal + 1);
-    *column = (given_column){.name = {text, (size_t)(equal - text)}};
+    *column = (column_option){.name = {text, (size_t)(equal - text)}};
     if (!wt_quantity_find(id, &column->quantity) || column->quantity == WT_Q_NONE)
-        return fail_column(text, "a column is given for a quantity that there is not", err);
+        return fail_column_option(text, "a column is given for a quantity that there is not", err);
     if (unit == NULL)
         return WT_OK;
     column->unit = (text_span){unit + 1, strlen(unit + 1)};
     if (wt_unit_to_si(column->unit.text, column->quantity, &factor, &offset, NULL) != WT_OK)
-        return fail_column(text, "the unit of a column does not fit its quantity", err);
+        return fail_column_option(text, "the unit of a column does not fit its quantity", err);
     return WT_OK;
 }
 
@@ -53,7 +53,7 @@ typedef struct base_table {
 } base_table;
 
 /* Selects the plain table that contains the quantities of the columns. */
-static const base_table *base_of(const given_column *columns, size_t n)
+static const base_table *select_base_table(const column_option *columns, size_t n)
 {
     static const base_table bases[] = {{WT_KIND_FORCE, "table-force"},
                                        {WT_KIND_SPECTRUM, "table-spectrum"},
@@ -61,16 +61,17 @@ static const base_table *base_of(const given_column *columns, size_t n)
                                        {WT_KIND_RECORD, "table-record"},
                                        {WT_KIND_SWEEP, "table-units"}};
     const size_t last = sizeof bases / sizeof *bases - 1;
-    const wt_quantity_set of_sweeps =
-        quantities_of(bases[last].kind); /* a frequency belongs to sweeps and to noise */
+    const wt_quantity_set sweep_quantities =
+        kind_quantities(bases[last].kind); /* a frequency belongs to sweeps and to noise */
     for (size_t i = 0; i < n; i++)
         for (size_t b = 0; b < last; b++)
-            if ((quantities_of(bases[b].kind) & ~of_sweeps & WT_Q_BIT(columns[i].quantity)) != 0)
+            if ((kind_quantities(bases[b].kind) & ~sweep_quantities &
+                 WT_Q_BIT(columns[i].quantity)) != 0)
                 return &bases[b];
     return &bases[last];
 }
 
-static void put_escaped(FILE *out, text_span text)
+static void write_escaped(FILE *out, text_span text)
 {
     for (size_t i = 0; i < text.length; i++) {
         const char c = text.text[i];
@@ -81,17 +82,17 @@ static void put_escaped(FILE *out, text_span text)
     }
 }
 
-static void put_columns(FILE *out, const given_column *columns, size_t n)
+static void write_columns(FILE *out, const column_option *columns, size_t n)
 {
     for (size_t i = 0; i < n; i++) {
         (void)fprintf(out, "<column quantity=\"%s\"", wt_quantity_id(columns[i].quantity));
         if (columns[i].unit.length > 0) {
             (void)fputs(" unit=\"", out);
-            put_escaped(out, columns[i].unit);
+            write_escaped(out, columns[i].unit);
             (void)fputc('"', out);
         }
         (void)fputs("><name>", out);
-        put_escaped(out, columns[i].name);
+        write_escaped(out, columns[i].name);
         (void)fputs("</name></column>\n    ", out);
     }
 }
@@ -100,7 +101,7 @@ static void put_columns(FILE *out, const given_column *columns, size_t n)
  * description without the name of a manufacturer. The columns of the user precede those of the
  * plain table. */
 static wt_status write_description(const base_table *base, const char *xml,
-                                   const given_column *columns, size_t n, char **text,
+                                   const column_option *columns, size_t n, char **text,
                                    size_t *length, wt_error *err)
 {
     static const char score[] = "score=\"30\"";
@@ -120,7 +121,7 @@ static wt_status write_description(const base_table *base, const char *xml,
     (void)fwrite(detect, 1, (size_t)(scored - detect), out);
     (void)fputs("score=\"60\"", out);
     (void)fwrite(scored + strlen(score), 1, (size_t)(first - scored) - strlen(score), out);
-    put_columns(out, columns, n);
+    write_columns(out, columns, n);
     (void)fputs(first, out);
     return fclose(out) == 0 ? WT_OK : wt_fail(err, WT_E_MEMORY, "no memory for a description");
 }
@@ -134,15 +135,15 @@ wt_status wt_formats_add_columns(wt_formats *formats, const char *const *columns
     description_xsd *schema = NULL;
     if (n == 0)
         return WT_OK;
-    given_column *given = calloc(n, sizeof *given);
-    if (given == NULL)
+    column_option *parsed = calloc(n, sizeof *parsed);
+    if (parsed == NULL)
         return wt_fail(err, WT_E_MEMORY, "no memory for the columns");
     wt_status status = WT_OK;
     for (size_t i = 0; i < n && status == WT_OK; i++)
-        status = parse_column(columns[i], &given[i], err);
+        status = parse_column_option(columns[i], &parsed[i], err);
     if (status == WT_OK) {
-        const base_table *base = base_of(given, n);
-        status = write_description(base, wt_formats_xml(formats, base->id), given, n, &text,
+        const base_table *base = select_base_table(parsed, n);
+        status = write_description(base, wt_formats_xml(formats, base->id), parsed, n, &text,
                                    &length, err);
     }
     if (status == WT_OK)
@@ -150,9 +151,9 @@ wt_status wt_formats_add_columns(wt_formats *formats, const char *const *columns
     if (status == WT_OK)
         status = description_parse(schema, text, length, "the columns given", &d, err);
     if (status == WT_OK)
-        status = formats_add_text(formats, d, NULL, "the columns given", err);
+        status = formats_add_description(formats, d, NULL, "the columns given", err);
     description_xsd_free(schema);
     free(text);
-    free(given);
+    free(parsed);
     return status;
 }

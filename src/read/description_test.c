@@ -40,31 +40,31 @@ static void report_tables(table_writer *report, const text_file *file)
 }
 
 /* Reads the sample as each kind of data for which its columns suffice. */
-static wt_status try_kinds(const file_reader *reader, const text_file *file, wt_input *sample,
-                           const wt_read_options *options, wt_log *log, wt_error *err)
+static wt_status read_all_kinds(const file_reader *reader, const text_file *file, wt_input *sample,
+                                const wt_read_options *options, wt_log *log, wt_error *err)
 {
     wt_status status = WT_OK;
-    if (text_has(file, WT_KIND_SWEEP)) {
+    if (text_has_kind(file, WT_KIND_SWEEP)) {
         wt_sweep sweep = {.n_isotherms = 0};
         status = reader->read_sweep(reader, sample, options, log, &sweep, err);
         wt_sweep_clear(&sweep);
     }
-    if (status == WT_OK && text_has(file, WT_KIND_SPECTRUM)) {
+    if (status == WT_OK && text_has_kind(file, WT_KIND_SPECTRUM)) {
         wt_power_spectrum spectrum = {.n = 0};
         status = reader->read_spectrum(reader, sample, options, log, &spectrum, err);
         wt_power_spectrum_clear(&spectrum);
     }
-    if (status == WT_OK && text_has(file, WT_KIND_NOISE)) {
+    if (status == WT_OK && text_has_kind(file, WT_KIND_NOISE)) {
         wt_noise_spectrum noise = {.n = 0};
         status = reader->read_noise(reader, sample, options, log, &noise, err);
         wt_noise_spectrum_clear(&noise);
     }
-    if (status == WT_OK && text_has(file, WT_KIND_RECORD)) {
+    if (status == WT_OK && text_has_kind(file, WT_KIND_RECORD)) {
         wt_record record = {.n = 0};
         status = reader->read_record(reader, sample, options, log, &record, err);
         wt_record_clear(&record);
     }
-    if (status == WT_OK && text_has(file, WT_KIND_FORCE)) {
+    if (status == WT_OK && text_has_kind(file, WT_KIND_FORCE)) {
         wt_force_source *source = NULL;
         wt_force_curve curve = {.n_segments = 0};
         status = force_open(reader->force, reader, sample, options, log, &source, err);
@@ -79,8 +79,8 @@ static wt_status try_kinds(const file_reader *reader, const text_file *file, wt_
 }
 
 /* Reads the sample, unpacked if necessary, and reports its columns and problems. */
-static wt_status try_sample(const wt_formats *alone, wt_input *sample, wt_read_options options,
-                            wt_log *log, table_writer *report, wt_error *err)
+static wt_status check_on_sample(const wt_formats *alone, wt_input *sample, wt_read_options options,
+                                 wt_log *log, table_writer *report, wt_error *err)
 {
     text_file file;
     const file_reader *reader = NULL;
@@ -103,14 +103,14 @@ static wt_status try_sample(const wt_formats *alone, wt_input *sample, wt_read_o
         status = text_fail_empty(&file, "table whose names are understood", err);
     report_tables(report, &file);
     if (status == WT_OK)
-        status = try_kinds(reader, &file, content, &options, log, err);
+        status = read_all_kinds(reader, &file, content, &options, log, err);
     text_file_free(&file);
     return status;
 }
 
-wt_status wt_description_check(const char *xml_path, wt_input *sample,
-                               const wt_read_options *options, wt_log *log, wt_table **report,
-                               wt_error *err)
+wt_status wt_format_description_check(const char *xml_path, wt_input *sample,
+                                      const wt_read_options *options, wt_log *log,
+                                      wt_table **report, wt_error *err)
 {
     description_xsd *xsd = NULL;
     text_description *d = NULL;
@@ -121,10 +121,10 @@ wt_status wt_description_check(const char *xml_path, wt_input *sample,
     if (status == WT_OK)
         status = description_parse_file(xsd, xml_path, &d, err);
     if (status == WT_OK)
-        status = formats_of(d, xml_path, &alone, err);
+        status = formats_from_description(d, xml_path, &alone, err);
     if (status == WT_OK && sample != NULL) {
-        status = try_sample(alone, sample, options != NULL ? *options : wt_read_defaults(), log,
-                            &writer, err);
+        status = check_on_sample(alone, sample, options != NULL ? *options : wt_read_defaults(),
+                                 log, &writer, err);
         if (status != WT_OK)
             wt_error_file(err, wt_input_name(sample));
     }

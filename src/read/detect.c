@@ -14,71 +14,74 @@
 
 /* ---- unknown files --------------------------------------------------------------------------- */
 
-typedef struct signature {
+typedef struct file_signature {
     size_t at; /* offset in the file */
     const char *bytes;
     size_t length;
-    const char *words;
+    const char *label;
     const char *advice;
     bool measured; /* may contain measured data */
-} signature;
+} file_signature;
 
-#define SIGNATURE_AT(at, bytes, words, advice, measured)                                           \
+#define SIGNATURE_AT(at, bytes, label, advice, measured)                                           \
     {                                                                                              \
-        at, bytes, sizeof bytes - 1, words, advice, measured                                       \
+        at, bytes, sizeof bytes - 1, label, advice, measured                                       \
     }
-#define SIGNATURE(bytes, words, advice) SIGNATURE_AT(0, bytes, words, advice, false)
-#define NOT_READ(bytes, words, advice) SIGNATURE_AT(0, bytes, words, advice, true)
-#define AS_TEXT "export it as text or CSV from the program of the instrument"
-#define NO_DATA "give the file that the instrument exported, as text or CSV"
-#define CURVES "export force curves as text: columns of height and force with their units"
-#define RESULT "a result of weartrack (text stream) without measured curves, sweeps or spectra"
-#define TABLES                                                                                     \
+#define SIGNATURE(bytes, label, advice) SIGNATURE_AT(0, bytes, label, advice, false)
+#define SIGNATURE_MEASURED(bytes, label, advice) SIGNATURE_AT(0, bytes, label, advice, true)
+#define ADVICE_TEXT "export it as text or CSV from the program of the instrument"
+#define ADVICE_EXPORT "give the file that the instrument exported, as text or CSV"
+#define ADVICE_CURVES "export force curves as text: columns of height and force with their units"
+#define LABEL_RESULT                                                                               \
+    "a result of weartrack (text stream) without measured curves, sweeps or spectra"
+#define ADVICE_TABLES                                                                              \
     "`weartrack table --list` shows its tables; where something is measured anew, give the file "  \
     "of the instrument"
-#define DESCRIBE                                                                                   \
+#define ADVICE_DESCRIBE                                                                            \
     "export it in one of the formats of `weartrack formats list`; say what its columns hold, "     \
     "with "                                                                                        \
     "--columns \"NAME=QUANTITY:UNIT\" for each; or describe its layout in a file "                 \
     "(weartrack-format(5)) and give its folder with --formats"
-static const signature signatures[] = {
-    NOT_READ("PK\3\4", "a ZIP archive without force curves that is no spreadsheet, or a cut one",
-             "copy a JPK file or a spreadsheet again, unpack any other archive"),
-    NOT_READ("PK\5\6", "an empty ZIP archive", NO_DATA),
-    NOT_READ(HDF5_SIGNATURE, "an HDF5 file of another program", AS_TEXT),
-    SIGNATURE("%PDF", "a PDF document", NO_DATA),
-    SIGNATURE("SQLite format 3", "an SQLite database", AS_TEXT),
-    SIGNATURE("\211PNG", "a PNG picture", NO_DATA),
-    SIGNATURE("\377\330\377", "a JPEG picture", NO_DATA),
-    SIGNATURE("II*\0", "a TIFF picture", NO_DATA),
-    SIGNATURE("MM\0*", "a TIFF picture", NO_DATA),
-    NOT_READ("WSxM file copyright", "a WSxM file", CURVES),
-    NOT_READ("\1\260\223\377", "an NT-MDT file (.mdt)",
-             "export each curve as text from Nova: height, approach and retract"),
+static const file_signature signatures[] = {
+    SIGNATURE_MEASURED("PK\3\4",
+                       "a ZIP archive without force curves that is no spreadsheet, or a cut one",
+                       "copy a JPK file or a spreadsheet again, unpack any other archive"),
+    SIGNATURE_MEASURED("PK\5\6", "an empty ZIP archive", ADVICE_EXPORT),
+    SIGNATURE_MEASURED(HDF5_SIGNATURE, "an HDF5 file of another program", ADVICE_TEXT),
+    SIGNATURE("%PDF", "a PDF document", ADVICE_EXPORT),
+    SIGNATURE("SQLite format 3", "an SQLite database", ADVICE_TEXT),
+    SIGNATURE("\211PNG", "a PNG picture", ADVICE_EXPORT),
+    SIGNATURE("\377\330\377", "a JPEG picture", ADVICE_EXPORT),
+    SIGNATURE("II*\0", "a TIFF picture", ADVICE_EXPORT),
+    SIGNATURE("MM\0*", "a TIFF picture", ADVICE_EXPORT),
+    SIGNATURE_MEASURED("WSxM file copyright", "a WSxM file", ADVICE_CURVES),
+    SIGNATURE_MEASURED("\1\260\223\377", "an NT-MDT file (.mdt)",
+                       "export each curve as text from Nova: height, approach and retract"),
     SIGNATURE_AT(8, "ARDF", "an Asylum Research map (ARDF)",
                  "export its curves as Igor binary waves (.ibw), and give their folder", true),
-    NOT_READ("Experiment\t", "a Nanonis (SPECS) spectrum", CURVES),
-    SIGNATURE(":NANONIS_VERSION:", "a Nanonis (SPECS) image", AS_TEXT),
+    SIGNATURE_MEASURED("Experiment\t", "a Nanonis (SPECS) spectrum", ADVICE_CURVES),
+    SIGNATURE(":NANONIS_VERSION:", "a Nanonis (SPECS) image", ADVICE_TEXT),
     SIGNATURE_AT(257, "ustar", "a tar archive", "give its files, or a ZIP archive of them", true),
-    NOT_READ("\5\0", "an Igor binary wave (Asylum Research), or unknown binary data", AS_TEXT),
-    NOT_READ("## weartrack: ", RESULT, TABLES),
-    NOT_READ("## table: ", RESULT, TABLES),
-    SIGNATURE("<?xml", "an XML document", "a case file is for `weartrack run`; " NO_DATA),
-    SIGNATURE("<!DOCTYPE", "an HTML or XML document", NO_DATA),
-    SIGNATURE("<html", "an HTML page", NO_DATA),
-    SIGNATURE("\377\376", "UTF-16 text of no known layout", DESCRIBE),
-    SIGNATURE("\376\377", "UTF-16 text of no known layout", DESCRIBE),
+    SIGNATURE_MEASURED("\5\0", "an Igor binary wave (Asylum Research), or unknown binary data",
+                       ADVICE_TEXT),
+    SIGNATURE_MEASURED("## weartrack: ", LABEL_RESULT, ADVICE_TABLES),
+    SIGNATURE_MEASURED("## table: ", LABEL_RESULT, ADVICE_TABLES),
+    SIGNATURE("<?xml", "an XML document", "a case file is for `weartrack run`; " ADVICE_EXPORT),
+    SIGNATURE("<!DOCTYPE", "an HTML or XML document", ADVICE_EXPORT),
+    SIGNATURE("<html", "an HTML page", ADVICE_EXPORT),
+    SIGNATURE("\377\376", "UTF-16 text of no known layout", ADVICE_DESCRIBE),
+    SIGNATURE("\376\377", "UTF-16 text of no known layout", ADVICE_DESCRIBE),
 };
-static const signature empty = {0, "", 0, "an empty file", "export it again", true};
-static const signature binary = {0, "", 0, "unknown binary data", AS_TEXT, false};
-static const signature text = {0, "", 0, "text of no known layout", DESCRIBE, false};
+static const file_signature empty = {0, "", 0, "an empty file", "export it again", true};
+static const file_signature binary = {0, "", 0, "unknown binary data", ADVICE_TEXT, false};
+static const file_signature text = {0, "", 0, "text of no known layout", ADVICE_DESCRIBE, false};
 
-static const signature *looks_like(const unsigned char *bytes, size_t length)
+static const file_signature *classify_bytes(const unsigned char *bytes, size_t length)
 {
     if (length == 0)
         return &empty;
     for (size_t i = 0; i < sizeof signatures / sizeof *signatures; i++) {
-        const signature *s = &signatures[i];
+        const file_signature *s = &signatures[i];
         if (length >= s->at + s->length && memcmp(bytes + s->at, s->bytes, s->length) == 0)
             return s;
     }
@@ -94,19 +97,24 @@ static const signature *looks_like(const unsigned char *bytes, size_t length)
 /* ---- querying the readers -------------------------------------------------------------------- */
 
 /* Passes of the detection. A later pass runs only if no reader has recognised the file. */
-typedef enum question { ASK_SIGNATURES, ASK_TEXTS, ASK_TEXTS_OF_OTHER_KINDS, N_QUESTIONS } question;
+typedef enum detection_pass {
+    PASS_SIGNATURES,
+    PASS_TEXTS,
+    PASS_TEXTS_OF_OTHER_KINDS,
+    N_PASSES
+} detection_pass;
 
 /* Combined answers of a group of readers: the best reader, one with an equal score, and one that
  * recognises the file but cannot read it. */
-typedef struct verdict {
+typedef struct detection_result {
     const file_reader *best;
     const file_reader *tied;
     int score;
     const file_reader *unsupported;
     char reason[sizeof((recognition *)0)->reason];
-} verdict;
+} detection_result;
 
-static void take_answer(verdict *v, const file_reader *reader, const recognition *answer)
+static void record_answer(detection_result *v, const file_reader *reader, const recognition *answer)
 {
     if (answer->answer == ANSWER_UNSUPPORTED && v->unsupported == NULL) {
         v->unsupported = reader;
@@ -129,17 +137,17 @@ static bool has_kind(const file_reader *reader, unsigned kinds)
     return kinds == 0 || (reader->info.kinds & kinds) != 0;
 }
 
-static bool is_asked(const file_reader *reader, question q, unsigned kinds)
+static bool is_in_pass(const file_reader *reader, detection_pass q, unsigned kinds)
 {
-    if (q == ASK_SIGNATURES || !reader_is_text(reader))
-        return q == ASK_SIGNATURES && !reader_is_text(reader);
-    return has_kind(reader, kinds) == (q == ASK_TEXTS);
+    if (q == PASS_SIGNATURES || !reader_is_text(reader))
+        return q == PASS_SIGNATURES && !reader_is_text(reader);
+    return has_kind(reader, kinds) == (q == PASS_TEXTS);
 }
 
 /* Runs one pass. Element [1] collects the answers of the readers of the requested kinds, element
  * [0] those of all others. */
-static wt_status ask_readers(const wt_formats *formats, wt_input *input, question q, unsigned kinds,
-                             verdict verdicts[2], wt_error *err)
+static wt_status query_readers(const wt_formats *formats, wt_input *input, detection_pass q,
+                               unsigned kinds, detection_result results[2], wt_error *err)
 {
     const size_t n = wt_formats_count(formats);
     wt_status status = WT_OK;
@@ -148,7 +156,7 @@ static wt_status ask_readers(const wt_formats *formats, wt_input *input, questio
         return wt_fail(err, WT_E_MEMORY, "no memory to detect the format");
     size_t n_open = 0;
     for (size_t i = 0; i < n; i++)
-        if (is_asked(formats_reader(formats, i), q, kinds))
+        if (is_in_pass(formats_reader(formats, i), q, kinds))
             open[n_open++] = formats_reader(formats, i);
     size_t want = FIRST_PEEK;
     resource_error_clear();
@@ -167,7 +175,7 @@ static wt_status ask_readers(const wt_formats *formats, wt_input *input, questio
                 need = answer.need > need ? answer.need : need;
                 open[still_open++] = open[i];
             } else {
-                take_answer(&verdicts[has_kind(open[i], kinds)], open[i], &answer);
+                record_answer(&results[has_kind(open[i], kinds)], open[i], &answer);
             }
         }
         text_peek_free(peek.text);
@@ -182,7 +190,7 @@ static wt_status ask_readers(const wt_formats *formats, wt_input *input, questio
     return resource_error_finish(status, err);
 }
 
-static const char *kind_words(unsigned kinds)
+static const char *data_kind_name(unsigned kinds)
 {
     switch (kinds) {
     case WT_KIND_FORCE:
@@ -202,20 +210,22 @@ static const char *kind_words(unsigned kinds)
     }
 }
 
-static wt_status wrong_kind(const file_reader *reader, unsigned kinds, wt_error *err)
+static wt_status fail_wrong_kind(const file_reader *reader, unsigned kinds, wt_error *err)
 {
-    wt_fail(err, WT_E_EMPTY, "this format holds no %s", kind_words(kinds));
+    wt_fail(err, WT_E_EMPTY, "this format holds no %s", data_kind_name(kinds));
     wt_error_found(err, "%s (%s)", reader->info.title, reader->info.id);
-    const unsigned held = reader->info.kinds;
-    const char *const fits = (held & WT_KIND_FORCE) != 0      ? "weartrack indent"
-                             : (held & WT_KIND_SWEEP) != 0    ? "weartrack master"
-                             : (held & WT_KIND_IMAGE) != 0    ? "weartrack spot"
-                             : (held & WT_KIND_NOISE) != 0    ? "weartrack thermal"
-                             : (held & WT_KIND_RECORD) != 0   ? "weartrack record"
-                             : (held & WT_KIND_SPECTRUM) != 0 ? "weartrack friction --roughness"
-                                                              : NULL;
+    const unsigned reader_kinds = reader->info.kinds;
+    const char *const fits = (reader_kinds & WT_KIND_FORCE) != 0    ? "weartrack indent"
+                             : (reader_kinds & WT_KIND_SWEEP) != 0  ? "weartrack master"
+                             : (reader_kinds & WT_KIND_IMAGE) != 0  ? "weartrack spot"
+                             : (reader_kinds & WT_KIND_NOISE) != 0  ? "weartrack thermal"
+                             : (reader_kinds & WT_KIND_RECORD) != 0 ? "weartrack record"
+                             : (reader_kinds & WT_KIND_SPECTRUM) != 0
+                                 ? "weartrack friction --roughness"
+                                 : NULL;
     if (fits != NULL)
-        wt_error_advice(err, "`%s` takes %s", fits, kind_words(held & (~held + 1)));
+        wt_error_advice(err, "`%s` takes %s", fits,
+                        data_kind_name(reader_kinds & (~reader_kinds + 1)));
     return WT_E_EMPTY;
 }
 
@@ -227,10 +237,10 @@ static wt_status fail_unknown(wt_input *input, unsigned kinds, wt_error *err)
     wt_status status = wt_input_peek(input, FIRST_PEEK, &bytes, &length, &whole, err);
     if (status != WT_OK)
         return status;
-    const signature *like = looks_like(bytes, length);
+    const file_signature *like = classify_bytes(bytes, length);
     status = like->measured ? wt_fail(err, WT_E_UNSUPPORTED, "such a file is not read")
                             : wt_fail(err, WT_E_FORMAT, "file format not recognised");
-    wt_error_found(err, "%s", like->words);
+    wt_error_found(err, "%s", like->label);
     if (like == &binary && (kinds & WT_KIND_IMAGE) != 0)
         wt_error_advice(err, "--format gwyddion has the program Gwyddion read it, which knows many "
                              "height maps; or export it as .x3p, .gwy or .gsf");
@@ -249,15 +259,15 @@ static wt_status fail_ambiguous(const file_reader *a, const file_reader *b, wt_e
 
 /* The score of descriptions that recognise numbers without names. Such numbers fit any kind of
  * data, so a match of another kind is no reason to fail. */
-static const int numbers_alone = 5;
+static const int nameless_score = 5;
 
 static wt_status detect(const wt_formats *formats, wt_input *input, unsigned kinds,
                         const file_reader **reader, wt_error *err)
 {
-    verdict verdicts[2] = {{.score = 0}};
-    const verdict *other = &verdicts[0], *v = &verdicts[1];
-    for (question q = ASK_SIGNATURES; q < N_QUESTIONS; q++) {
-        wt_status status = ask_readers(formats, input, q, kinds, verdicts, err);
+    detection_result results[2] = {{.score = 0}};
+    const detection_result *other = &results[0], *v = &results[1];
+    for (detection_pass q = PASS_SIGNATURES; q < N_PASSES; q++) {
+        wt_status status = query_readers(formats, input, q, kinds, results, err);
         if (status != WT_OK)
             return status;
         if (v->tied != NULL)
@@ -266,9 +276,9 @@ static wt_status detect(const wt_formats *formats, wt_input *input, unsigned kin
             *reader = v->best;
             return WT_OK;
         }
-        if (other->best != NULL && other->score > numbers_alone)
-            return wrong_kind(other->best, kinds, err);
-        if (q == ASK_TEXTS && v->unsupported != NULL) {
+        if (other->best != NULL && other->score > nameless_score)
+            return fail_wrong_kind(other->best, kinds, err);
+        if (q == PASS_TEXTS && v->unsupported != NULL) {
             wt_fail(err, WT_E_UNSUPPORTED, "%s", v->reason);
             wt_error_found(err, "%s (%s)", v->unsupported->info.title, v->unsupported->info.id);
             return WT_E_UNSUPPORTED;
@@ -304,7 +314,7 @@ wt_status detect_reader(const wt_formats *formats, wt_input *input, const char *
             wt_fail(err, status, "there is no format \"%s\"", format);
             wt_error_advice(err, "see `weartrack formats list`");
         } else if (!has_kind(found, kinds)) {
-            status = wrong_kind(found, kinds, err);
+            status = fail_wrong_kind(found, kinds, err);
         } else {
             *reader = found;
             status = WT_OK;

@@ -11,7 +11,7 @@ static wt_status open_content(const wt_formats *formats, wt_input *input,
                               const wt_read_options *options, wt_log *log, wt_force_source **source,
                               const file_reader **reader, wt_error *err)
 {
-    reading r;
+    read_request r;
     const wt_status status = read_start(formats, input, options, WT_KIND_FORCE, &r, err);
     *reader = r.reader;
     return status == WT_OK
@@ -21,15 +21,16 @@ static wt_status open_content(const wt_formats *formats, wt_input *input,
 
 /* Opens an entry of an archive with the options of the archive. The format option is dropped if it
  * names the archive itself. An archive within the archive is an error. */
-static wt_status open_entry(const wt_formats *formats, wt_input *entry,
-                            const wt_read_options *options, wt_log *log, wt_force_source **source,
-                            wt_error *err)
+static wt_status open_archive_entry(const wt_formats *formats, wt_input *entry,
+                                    const wt_read_options *options, wt_log *log,
+                                    wt_force_source **source, wt_error *err)
 {
     const file_reader *reader = NULL;
-    wt_read_options own = *options;
-    if (own.format != NULL && strcmp(own.format, reader_collection.info.id) == 0)
-        own.format = NULL;
-    wt_status status = open_content(formats, entry, &own, log, source, &reader, err);
+    wt_read_options entry_options = *options;
+    if (entry_options.format != NULL &&
+        strcmp(entry_options.format, reader_collection.info.id) == 0)
+        entry_options.format = NULL;
+    wt_status status = open_content(formats, entry, &entry_options, log, source, &reader, err);
     if (status == WT_OK && reader == &reader_collection) {
         wt_force_close(*source);
         *source = NULL;
@@ -45,7 +46,7 @@ wt_status wt_force_open(const wt_formats *formats, wt_input *input, const wt_rea
     const file_reader *reader = NULL;
     wt_status status = open_content(formats, input, options, log, source, &reader, err);
     if (status == WT_OK && reader == &reader_collection)
-        collection_use(*source, formats, open_entry);
+        collection_set_opener(*source, formats, open_archive_entry);
     const wt_status end = read_end(input, status, err);
     if (status == WT_OK && end != WT_OK) {
         wt_force_close(*source);

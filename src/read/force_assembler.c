@@ -67,38 +67,38 @@ size_t wt_force_count(const wt_force_source *source)
     return source->n_curves;
 }
 
-bool force_wants_segment(const wt_force_source *source, wt_segment_kind kind)
+bool force_is_segment_requested(const wt_force_source *source, wt_segment_kind kind)
 {
     return (source->options.segments & WT_SEGMENT_BIT(kind)) != 0;
 }
 
 /* ---- signals and calibration ----------------------------------------------------------------- */
 
-double force_positive(double value)
+double force_positive_or_nan(double value)
 {
     return value > 0 && isfinite(value) ? value : (double)NAN;
 }
 
-const force_signal *force_find_signal(const force_metadata *facts, wt_quantity quantity)
+const force_signal *force_find_signal(const force_metadata *metadata, wt_quantity quantity)
 {
-    for (size_t i = 0; i < facts->n_signals; i++)
-        if (facts->signals[i].quantity == quantity)
-            return &facts->signals[i];
+    for (size_t i = 0; i < metadata->n_signals; i++)
+        if (metadata->signals[i].quantity == quantity)
+            return &metadata->signals[i];
     return NULL;
 }
 
-void force_add_signal(force_metadata *facts, force_signal signal)
+void force_add_signal(force_metadata *metadata, force_signal signal)
 {
-    if (force_find_signal(facts, signal.quantity) == NULL)
-        facts->signals[facts->n_signals++] = signal;
+    if (force_find_signal(metadata, signal.quantity) == NULL)
+        metadata->signals[metadata->n_signals++] = signal;
 }
 
-void force_offer(force_metadata *facts, wt_quantity quantity)
+void force_add_offer(force_metadata *metadata, wt_quantity quantity)
 {
-    for (size_t i = 0; i < facts->n_offers; i++)
-        if (facts->offers[i] == quantity)
+    for (size_t i = 0; i < metadata->n_offers; i++)
+        if (metadata->offers[i] == quantity)
             return;
-    facts->offers[facts->n_offers++] = quantity;
+    metadata->offers[metadata->n_offers++] = quantity;
 }
 
 /* The conversion chain of the deflection signal. The sensitivity converts the first quantity to the
@@ -107,7 +107,7 @@ static const wt_quantity chain[] = {WT_Q_DEFLECTION_VOLTAGE, WT_Q_DEFLECTION, WT
 enum { CHAIN = sizeof chain / sizeof *chain };
 
 /* Returns the index in the chain, or CHAIN for a quantity that is not in it. */
-static size_t chain_place(wt_quantity quantity)
+static size_t chain_index(wt_quantity quantity)
 {
     size_t i = 0;
     while (i < CHAIN && chain[i] != quantity)
@@ -119,36 +119,36 @@ static size_t chain_place(wt_quantity quantity)
  * chain. A calibration stated by the user replaces a step of the chain. The quantities after this
  * step are then recomputed from those before it. A signal of another channel is not used for this,
  * since it may belong to another measurement. */
-static const force_signal *origin_signal(const force_metadata *facts,
+static const force_signal *select_signal(const force_metadata *metadata,
                                          const wt_read_options *options, wt_quantity wanted)
 {
     const double given[] = {options->sensitivity, options->spring_constant};
-    const force_signal *own = force_find_signal(facts, wanted), *found = NULL;
-    const size_t place = chain_place(wanted);
+    const force_signal *own = force_find_signal(metadata, wanted), *found = NULL;
+    const size_t place = chain_index(wanted);
     if (place == CHAIN)
         return own;
     for (size_t i = 0; i < place && found == NULL; i++)
         if (!isnan(given[i]))
-            found = force_find_signal(facts, chain[i]);
+            found = force_find_signal(metadata, chain[i]);
     if (found != NULL && (own == NULL || own->channel == found->channel))
         return found;
     found = own;
     for (size_t i = place; i-- > 0 && found == NULL;)
-        found = force_find_signal(facts, chain[i]);
+        found = force_find_signal(metadata, chain[i]);
     for (size_t i = place + 1; i < CHAIN && found == NULL; i++)
-        found = force_find_signal(facts, chain[i]);
+        found = force_find_signal(metadata, chain[i]);
     return found;
 }
 
-static wt_cantilever cantilever_used(const wt_cantilever *file, const wt_read_options *options)
+static wt_cantilever select_cantilever(const wt_cantilever *file, const wt_read_options *options)
 {
     wt_cantilever used = {.spring_constant = options->spring_constant,
                           .sensitivity = options->sensitivity,
-                          .spring_constant_given = !isnan(options->spring_constant),
-                          .sensitivity_given = !isnan(options->sensitivity)};
-    if (!used.spring_constant_given)
+                          .spring_constant_is_overridden = !isnan(options->spring_constant),
+                          .sensitivity_is_overridden = !isnan(options->sensitivity)};
+    if (!used.spring_constant_is_overridden)
         used.spring_constant = file->spring_constant;
-    if (!used.sensitivity_given)
+    if (!used.sensitivity_is_overridden)
         used.sensitivity = file->sensitivity;
     return used;
 }
@@ -185,19 +185,20 @@ typedef struct force_plan {
     size_t n;
 } force_plan;
 
-static wt_status cannot_make(const wt_force_source *source, const force_metadata *facts,
-                             wt_quantity wanted, const force_signal *signal,
-                             const wt_cantilever *used, wt_error *err)
+static wt_status report_missing_quantity(const wt_force_source *source,
+                                         const force_metadata *metadata, wt_quantity wanted,
+                                         const force_signal *signal, const wt_cantilever *used,
+                                         wt_error *err)
 {
     if (wanted == WT_Q_DEFLECTION_VOLTAGE) {
-        wt_log_add(source->log, WT_NOTE, source->name, facts->place,
+        wt_log_add(source->log, WT_NOTE, source->name, metadata->place,
                    "no %s: the file's own calibration is not known", wt_quantity_id(wanted));
         return WT_OK;
     }
     wt_error missing = WT_ERROR_INIT;
-    wt_status status = fail_uncalibrated(signal, used, facts->place, &missing);
+    wt_status status = fail_uncalibrated(signal, used, metadata->place, &missing);
     if (source->options.want == WT_Q_ALL) {
-        wt_log_add(source->log, WT_WARNING, source->name, facts->place, "no %s: %s; %s",
+        wt_log_add(source->log, WT_WARNING, source->name, metadata->place, "no %s: %s; %s",
                    wt_quantity_id(wanted), missing.message, missing.advice);
         return WT_OK;
     }
@@ -208,20 +209,20 @@ static wt_status cannot_make(const wt_force_source *source, const force_metadata
 
 /* Warns if a calibration stated by the user cannot be applied, because the file does not state its
  * own value. */
-static void note_kept(const wt_force_source *source, const force_metadata *facts,
-                      const force_signal *signal)
+static void warn_value_not_applied(const wt_force_source *source, const force_metadata *metadata,
+                                   const force_signal *signal)
 {
     const wt_read_options *o = &source->options;
     const bool force = signal->quantity == WT_Q_FORCE;
     const char *column = wt_quantity_id(signal->quantity);
     if (signal->quantity == WT_Q_DEFLECTION_VOLTAGE)
         return;
-    if (!isnan(o->sensitivity) && !(facts->cantilever.sensitivity > 0))
+    if (!isnan(o->sensitivity) && !(metadata->cantilever.sensitivity > 0))
         wt_log_add(source->log, WT_WARNING, source->name, NULL,
                    "the file does not say its sensitivity, so the given one cannot replace "
                    "it in a column of %s",
                    column);
-    if (force && !isnan(o->spring_constant) && !(facts->cantilever.spring_constant > 0))
+    if (force && !isnan(o->spring_constant) && !(metadata->cantilever.spring_constant > 0))
         wt_log_add(source->log, WT_WARNING, source->name, NULL,
                    "the file does not say its spring constant, so the given one cannot "
                    "replace it in a column of %s",
@@ -229,30 +230,31 @@ static void note_kept(const wt_force_source *source, const force_metadata *facts
 }
 
 /* Adds the column of a quantity if a signal exists from which it can be computed. */
-static wt_status plan_column(const wt_force_source *source, const force_metadata *facts,
+static wt_status plan_column(const wt_force_source *source, const force_metadata *metadata,
                              wt_quantity wanted, force_plan *plan, wt_error *err)
 {
-    const force_signal *signal = origin_signal(facts, &source->options, wanted);
-    if (signal == NULL && (wanted != WT_Q_TIME || !isfinite(facts->start + facts->duration))) {
+    const force_signal *signal = select_signal(metadata, &source->options, wanted);
+    if (signal == NULL &&
+        (wanted != WT_Q_TIME || !isfinite(metadata->start + metadata->duration))) {
         if (wanted == WT_Q_TIME)
-            wt_log_add(source->log, WT_WARNING, source->name, facts->place,
+            wt_log_add(source->log, WT_WARNING, source->name, metadata->place,
                        "no duration: the time is left out");
         return WT_OK;
     }
     if (signal != NULL && signal->problem != NULL) {
-        wt_log_add(source->log, WT_WARNING, source->name, facts->place, "channel %s left out: %s",
-                   signal->name, signal->problem);
+        wt_log_add(source->log, WT_WARNING, source->name, metadata->place,
+                   "channel %s left out: %s", signal->name, signal->problem);
         return WT_OK;
     }
     force_linear scaling = signal != NULL ? signal->to_si : (force_linear){1, 0};
-    if (chain_place(wanted) < CHAIN) {
-        const wt_cantilever used = cantilever_used(&facts->cantilever, &source->options);
+    if (chain_index(wanted) < CHAIN) {
+        const wt_cantilever used = select_cantilever(&metadata->cantilever, &source->options);
         const double factor =
-            deflection_factor(signal->quantity, wanted, &facts->cantilever, &used);
+            deflection_factor(signal->quantity, wanted, &metadata->cantilever, &used);
         if (isnan(factor))
-            return cannot_make(source, facts, wanted, signal, &used, err);
+            return report_missing_quantity(source, metadata, wanted, signal, &used, err);
         if (wanted != WT_Q_DEFLECTION_VOLTAGE)
-            note_kept(source, facts, signal);
+            warn_value_not_applied(source, metadata, signal);
         scaling = (force_linear){factor * scaling.multiplier, factor * scaling.offset};
     }
     plan->columns[plan->n].quantity = wanted;
@@ -262,7 +264,7 @@ static wt_status plan_column(const wt_force_source *source, const force_metadata
 }
 
 /* Returns the rank of a quantity in the fixed column order, which is independent of the file. */
-static size_t place_of(wt_quantity quantity)
+static size_t column_rank(wt_quantity quantity)
 {
     static const wt_quantity order[] = {WT_Q_TIME,  WT_Q_HEIGHT,     WT_Q_MEASURED_HEIGHT,
                                         WT_Q_FORCE, WT_Q_DEFLECTION, WT_Q_DEFLECTION_VOLTAGE};
@@ -275,8 +277,8 @@ static size_t place_of(wt_quantity quantity)
 static void sort_columns(force_plan *plan)
 {
     for (size_t i = 1; i < plan->n; i++)
-        for (size_t k = i;
-             k > 0 && place_of(plan->columns[k].quantity) < place_of(plan->columns[k - 1].quantity);
+        for (size_t k = i; k > 0 && column_rank(plan->columns[k].quantity) <
+                                        column_rank(plan->columns[k - 1].quantity);
              k--) {
             const force_column column = plan->columns[k];
             plan->columns[k] = plan->columns[k - 1];
@@ -285,77 +287,78 @@ static void sort_columns(force_plan *plan)
 }
 
 /* True if a stated sensitivity replaces that of the file or is used to compute a column. */
-static bool takes_sensitivity(const force_metadata *facts, const force_plan *plan)
+static bool uses_sensitivity(const force_metadata *metadata, const force_plan *plan)
 {
-    bool takes = facts->cantilever.sensitivity > 0;
+    bool takes = metadata->cantilever.sensitivity > 0;
     for (size_t i = 0; i < plan->n; i++)
         takes = takes || (plan->columns[i].signal != NULL &&
                           plan->columns[i].signal->quantity == WT_Q_DEFLECTION_VOLTAGE);
     return takes;
 }
 
-static bool is_wanted(const wt_read_options *options, const force_metadata *facts,
-                      wt_quantity quantity)
+static bool is_quantity_requested(const wt_read_options *options, const force_metadata *metadata,
+                                  wt_quantity quantity)
 {
     if ((options->want & WT_Q_BIT(quantity)) == 0)
         return false;
-    if (!options->one_height || quantity != WT_Q_HEIGHT)
+    if (!options->sensor_height_only || quantity != WT_Q_HEIGHT)
         return true;
-    const force_signal *sensor = force_find_signal(facts, WT_Q_MEASURED_HEIGHT);
+    const force_signal *sensor = force_find_signal(metadata, WT_Q_MEASURED_HEIGHT);
     return (options->want & WT_Q_BIT(WT_Q_MEASURED_HEIGHT)) == 0 || sensor == NULL ||
            sensor->problem != NULL;
 }
 
 /* Decodes a channel. A value that is not finite counts as missing. The warning contains no count,
  * so that the log merges the warnings of a map into one line. */
-static wt_status fill_channel(wt_force_source *source, const force_metadata *facts,
+static wt_status fill_channel(wt_force_source *source, const force_metadata *metadata,
                               const force_column *column, size_t n, double *values, wt_error *err)
 {
     const wt_status status =
         source->stream->decode(source, column->signal, column->scaling, n, values, err);
-    if (status == WT_OK && samples_mend(values, n) > 0)
-        wt_log_add(source->log, WT_WARNING, source->name, facts->place,
+    if (status == WT_OK && samples_mark_missing(values, n) > 0)
+        wt_log_add(source->log, WT_WARNING, source->name, metadata->place,
                    "samples of %s are missing: not measured, or no finite number",
                    column->signal->name);
     return status;
 }
 
-wt_status force_add_segment(wt_force_source *source, const force_metadata *facts,
+wt_status force_add_segment(wt_force_source *source, const force_metadata *metadata,
                             wt_force_curve *curve, wt_error *err)
 {
-    const wt_cantilever used = cantilever_used(&facts->cantilever, &source->options);
-    const size_t n = facts->n_points;
+    const wt_cantilever used = select_cantilever(&metadata->cantilever, &source->options);
+    const size_t n = metadata->n_points;
     force_plan plan = {.n = 0};
     wt_status status = WT_OK;
     /* A segment without calibration leaves the calibration of the earlier segments unchanged. */
-    const bool taken = curve->n_segments > 0 && curve->cantilever.sensitivity_given;
+    const bool was_used = curve->n_segments > 0 && curve->cantilever.sensitivity_is_overridden;
     if (!isnan(used.spring_constant) || !isnan(used.sensitivity))
         curve->cantilever = used;
     if (n == 0)
         return WT_OK;
-    contradiction_given(source, facts);
-    status = contradiction_constant(source, facts, force_find_signal(facts, WT_Q_FORCE),
-                                    force_find_signal(facts, WT_Q_DEFLECTION), err);
-    for (size_t i = 0; i < facts->n_offers && status == WT_OK; i++)
-        if (is_wanted(&source->options, facts, facts->offers[i]))
-            status = plan_column(source, facts, facts->offers[i], &plan, err);
+    report_overrides(source, metadata);
+    status = check_spring_constant(source, metadata, force_find_signal(metadata, WT_Q_FORCE),
+                                   force_find_signal(metadata, WT_Q_DEFLECTION), err);
+    for (size_t i = 0; i < metadata->n_offers && status == WT_OK; i++)
+        if (is_quantity_requested(&source->options, metadata, metadata->offers[i]))
+            status = plan_column(source, metadata, metadata->offers[i], &plan, err);
     if (status != WT_OK)
         return status;
     sort_columns(&plan);
-    if (used.sensitivity_given && !taken && !takes_sensitivity(facts, &plan)) {
+    if (used.sensitivity_is_overridden && !was_used && !uses_sensitivity(metadata, &plan)) {
         curve->cantilever.sensitivity = (double)NAN;
-        curve->cantilever.sensitivity_given = false;
+        curve->cantilever.sensitivity_is_overridden = false;
     }
-    wt_segment *segment = wt_force_curve_add_segment(curve, facts->kind, n, plan.n);
+    wt_segment *segment = wt_force_curve_add_segment(curve, metadata->kind, n, plan.n);
     if (segment == NULL)
         return wt_fail(err, WT_E_MEMORY, "no memory for a segment of %zu samples", n);
-    segment->index = facts->index;
-    segment->duration = facts->duration;
-    segment->velocity = facts->velocity;
-    segment->frequency = facts->frequency > 0 ? facts->frequency : (double)NAN;
-    segment->setpoint = facts->setpoint * deflection_factor(facts->setpoint_quantity, WT_Q_FORCE,
-                                                            &facts->cantilever, &used);
-    (void)samples_mend(&segment->setpoint, 1);
+    segment->index = metadata->index;
+    segment->duration = metadata->duration;
+    segment->velocity = metadata->velocity;
+    segment->frequency = metadata->frequency > 0 ? metadata->frequency : (double)NAN;
+    segment->setpoint =
+        metadata->setpoint *
+        deflection_factor(metadata->setpoint_quantity, WT_Q_FORCE, &metadata->cantilever, &used);
+    (void)samples_mark_missing(&segment->setpoint, 1);
     for (size_t i = 0; i < plan.n && status == WT_OK; i++) {
         const force_signal *signal = plan.columns[i].signal;
         wt_channel *channel = &segment->channels[i];
@@ -363,16 +366,17 @@ wt_status force_add_segment(wt_force_source *source, const force_metadata *facts
         snprintf(channel->name, sizeof channel->name, "%s", signal != NULL ? signal->name : "time");
         snprintf(channel->unit, sizeof channel->unit, "%s", signal != NULL ? signal->unit : "s");
         if (signal == NULL)
-            sample_times(facts->start, facts->duration, n, channel->values);
+            sample_times(metadata->start, metadata->duration, n, channel->values);
         else
-            status = fill_channel(source, facts, &plan.columns[i], n, channel->values, err);
+            status = fill_channel(source, metadata, &plan.columns[i], n, channel->values, err);
     }
     if (status == WT_OK)
-        contradiction_heights(source, facts, segment);
+        check_height_ranges(source, metadata, segment);
     return status;
 }
 
-bool force_place(long columns, long rows, bool back_and_forth, size_t number, wt_force_curve *curve)
+bool force_set_grid_position(long columns, long rows, bool back_and_forth, size_t number,
+                             wt_force_curve *curve)
 {
     if (columns == 0 || number / (size_t)columns >= (size_t)rows)
         return false;
@@ -385,45 +389,49 @@ bool force_place(long columns, long rows, bool back_and_forth, size_t number, wt
 /* ---- for info ----------------------------------------------------------------------------- */
 
 /* Returns the signal from which the quantity is computed; NULL if it cannot be computed. */
-static const force_signal *signal_made_of(const force_metadata *facts,
-                                          const wt_read_options *options, wt_quantity quantity)
+static const force_signal *select_convertible_signal(const force_metadata *metadata,
+                                                     const wt_read_options *options,
+                                                     wt_quantity quantity)
 {
-    const wt_cantilever used = cantilever_used(&facts->cantilever, options);
-    const force_signal *signal = origin_signal(facts, options, quantity);
-    if (signal == NULL || chain_place(quantity) == CHAIN)
+    const wt_cantilever used = select_cantilever(&metadata->cantilever, options);
+    const force_signal *signal = select_signal(metadata, options, quantity);
+    if (signal == NULL || chain_index(quantity) == CHAIN)
         return signal;
-    return isnan(deflection_factor(signal->quantity, quantity, &facts->cantilever, &used)) ? NULL
-                                                                                           : signal;
+    return isnan(deflection_factor(signal->quantity, quantity, &metadata->cantilever, &used))
+               ? NULL
+               : signal;
 }
 
-wt_quantity force_read_as(const force_metadata *facts, const wt_read_options *options,
-                          const void *channel)
+wt_quantity force_channel_quantity(const force_metadata *metadata, const wt_read_options *options,
+                                   const void *channel)
 {
-    for (size_t i = 0; i < facts->n_offers; i++) {
-        const force_signal *signal = signal_made_of(facts, options, facts->offers[i]);
+    for (size_t i = 0; i < metadata->n_offers; i++) {
+        const force_signal *signal =
+            select_convertible_signal(metadata, options, metadata->offers[i]);
         if (signal != NULL && signal->channel == channel)
-            return facts->offers[i];
+            return metadata->offers[i];
     }
     return WT_Q_NONE;
 }
 
-void force_describe_calibration(const force_metadata *facts, const wt_read_options *options,
+void force_describe_calibration(const force_metadata *metadata, const wt_read_options *options,
                                 const char *spring_constant_source, const char *sensitivity_source,
                                 table_writer *list)
 {
     static const char given[] = "given by the user";
-    const wt_cantilever used = cantilever_used(&facts->cantilever, options);
-    const force_signal *signal = origin_signal(facts, options, WT_Q_FORCE);
+    const wt_cantilever used = select_cantilever(&metadata->cantilever, options);
+    const force_signal *signal = select_signal(metadata, options, WT_Q_FORCE);
     wt_error missing = WT_ERROR_INIT;
-    facts_number(list, "spring constant", used.spring_constant, "N/m",
-                 used.spring_constant_given ? given : spring_constant_source);
-    facts_number(list, "deflection sensitivity", used.sensitivity, "m/V",
-                 used.sensitivity_given ? given : sensitivity_source);
+    metadata_add_number(list, "spring constant", used.spring_constant, "N/m",
+                        used.spring_constant_is_overridden ? given : spring_constant_source);
+    metadata_add_number(list, "deflection sensitivity", used.sensitivity, "m/V",
+                        used.sensitivity_is_overridden ? given : sensitivity_source);
     /* both constants are needed, because the tip position is the height less the deflection */
-    if (signal != NULL && (signal_made_of(facts, options, WT_Q_FORCE) == NULL ||
-                           (isnan(used.spring_constant) && signal->quantity == WT_Q_FORCE &&
-                            signal_made_of(facts, options, WT_Q_DEFLECTION) == NULL))) {
+    if (signal != NULL &&
+        (select_convertible_signal(metadata, options, WT_Q_FORCE) == NULL ||
+         (isnan(used.spring_constant) && signal->quantity == WT_Q_FORCE &&
+          select_convertible_signal(metadata, options, WT_Q_DEFLECTION) == NULL))) {
         fail_uncalibrated(signal, &used, NULL, &missing);
-        facts_add(list, "missing", "", missing.advice, "%s", missing.message);
+        metadata_add(list, "missing", "", missing.advice, "%s", missing.message);
     }
 }

@@ -87,34 +87,34 @@ wt_status force_open(const force_stream *stream, const struct file_reader *self,
 /* Skips the curves before the one with this index, which was read before. It has no effect if the
  * format cannot skip. */
 void force_seek(wt_force_source *source, size_t index);
-bool force_wants_segment(const wt_force_source *source, wt_segment_kind kind);
+bool force_is_segment_requested(const wt_force_source *source, wt_segment_kind kind);
 
 /* Returns a positive finite value unchanged, else NaN. */
-double force_positive(double value);
+double force_positive_or_nan(double value);
 /* Each quantity is added once; a later addition is ignored. */
-void force_add_signal(force_metadata *facts, force_signal signal);
-void force_offer(force_metadata *facts, wt_quantity quantity);
+void force_add_signal(force_metadata *metadata, force_signal signal);
+void force_add_offer(force_metadata *metadata, wt_quantity quantity);
 /* Returns NULL if there is none. */
-const force_signal *force_find_signal(const force_metadata *facts, wt_quantity quantity);
+const force_signal *force_find_signal(const force_metadata *metadata, wt_quantity quantity);
 /* Adds a segment with the requested quantities, if it has samples. A quantity that cannot be
  * computed is WT_E_MISSING if it was requested by name. It is a warning if all quantities were
  * requested. */
-wt_status force_add_segment(wt_force_source *source, const force_metadata *facts,
+wt_status force_add_segment(wt_force_source *source, const force_metadata *metadata,
                             wt_force_curve *curve, wt_error *err);
 
 /* Sets the grid position of curve `number` of a grid measured line by line. With back_and_forth
  * every other line runs backwards. Returns false if the number lies outside of the grid. */
-bool force_place(long columns, long rows, bool back_and_forth, size_t number,
-                 wt_force_curve *curve);
+bool force_set_grid_position(long columns, long rows, bool back_and_forth, size_t number,
+                             wt_force_curve *curve);
 
 /* ---- for info ----------------------------------------------------------------------------- */
 
 /* Returns the first offered quantity that is computed from this channel, or WT_Q_NONE. */
-wt_quantity force_read_as(const force_metadata *facts, const wt_read_options *options,
-                          const void *channel);
+wt_quantity force_channel_quantity(const force_metadata *metadata, const wt_read_options *options,
+                                   const void *channel);
 /* Adds rows with the calibration in use, the sources of the values of the file, and what is missing
  * for a force. */
-void force_describe_calibration(const force_metadata *facts, const wt_read_options *options,
+void force_describe_calibration(const force_metadata *metadata, const wt_read_options *options,
                                 const char *spring_constant_source, const char *sensitivity_source,
                                 table_writer *list);
 

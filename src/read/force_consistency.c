@@ -11,11 +11,11 @@
 enum { SAMPLES_MIN = 4 };
 /* Relative tolerances. Rounded values agree within them; a piezo with creep or hysteresis may
  * exceed them. */
-static const double constants_agree = 0.02, heights_agree = 0.05;
+static const double constant_tolerance = 0.02, height_tolerance = 0.05;
 /* A ratio above this indicates a wrong unit and not another calibration. */
-static const double far_off = 3;
+static const double unit_error_ratio = 3;
 /* Minimum share of explained variance for which the slope is used. */
-static const double share_least = 0.9;
+static const double explained_share_min = 0.9;
 
 /* Returns the slope of y over x. *share is the share of the variance of y that it explains. Pairs
  * with a missing sample are skipped. */
@@ -38,60 +38,63 @@ static double fitted_slope(const double *x, const double *y, size_t n, double *s
     return sxy / sxx;
 }
 
-static bool is_usable(const force_signal *signal)
+static bool is_usable_signal(const force_signal *signal)
 {
     return signal != NULL && signal->problem == NULL;
 }
 
-wt_status contradiction_constant(wt_force_source *source, const force_metadata *facts,
-                                 const force_signal *force, const force_signal *bend, wt_error *err)
+wt_status check_spring_constant(wt_force_source *source, const force_metadata *metadata,
+                                const force_signal *force, const force_signal *deflection,
+                                wt_error *err)
 {
-    const double own = facts->cantilever.spring_constant;
+    const double own = metadata->cantilever.spring_constant;
     const double k = own > 0 ? own : source->options.spring_constant;
-    const size_t n = facts->n_points;
+    const size_t n = metadata->n_points;
     double share = 0;
-    if (source->constant_checked || !is_usable(force) || !is_usable(bend) ||
-        force->channel == bend->channel || !(k > 0) || n < SAMPLES_MIN)
+    if (source->constant_checked || !is_usable_signal(force) || !is_usable_signal(deflection) ||
+        force->channel == deflection->channel || !(k > 0) || n < SAMPLES_MIN)
         return WT_OK;
     double *values = calloc(2 * n, sizeof *values);
     if (values == NULL)
         return wt_fail(err, WT_E_MEMORY, "no memory for %zu samples", n);
-    wt_status status = source->stream->decode(source, bend, bend->to_si, n, values, err);
+    wt_status status =
+        source->stream->decode(source, deflection, deflection->to_si, n, values, err);
     if (status == WT_OK)
         status = source->stream->decode(source, force, force->to_si, n, values + n, err);
-    const double seen = status == WT_OK ? fitted_slope(values, values + n, n, &share) : 0;
+    const double fitted = status == WT_OK ? fitted_slope(values, values + n, n, &share) : 0;
     free(values);
-    if (share < share_least)
+    if (share < explained_share_min)
         return status;
     source->constant_checked = true;
-    if (fabs(seen / k - 1) > constants_agree + 1 - share)
-        wt_log_add(source->log, WT_WARNING, source->name, facts->place,
+    if (fabs(fitted / k - 1) > constant_tolerance + 1 - share)
+        wt_log_add(source->log, WT_WARNING, source->name, metadata->place,
                    "force and deflection of the file mean a spring constant of %.4g N/m, %s "
                    "%.4g N/m",
-                   seen, own > 0 ? "the file says" : "given is", k);
+                   fitted, own > 0 ? "the file says" : "given is", k);
     return status;
 }
 
-static void say_given(const wt_force_source *source, const char *what, const char *unit,
-                      double given, double own, double scale)
+static void report_override(const wt_force_source *source, const char *what, const char *unit,
+                            double given, double own, double scale)
 {
-    if (!(own > 0) || isnan(given) || fabs(given / own - 1) <= constants_agree)
+    if (!(own > 0) || isnan(given) || fabs(given / own - 1) <= constant_tolerance)
         return;
-    const bool far = fmax(given / own, own / given) > far_off;
-    wt_log_add(source->log, far ? WT_WARNING : WT_NOTE, source->name, NULL,
+    const bool is_suspicious = fmax(given / own, own / given) > unit_error_ratio;
+    wt_log_add(source->log, is_suspicious ? WT_WARNING : WT_NOTE, source->name, NULL,
                "the %s given, %.4g %s, takes the place of that of the file, %.4g %s%s", what,
-               scale * given, unit, scale * own, unit, far ? ": is its unit the right one?" : "");
+               scale * given, unit, scale * own, unit,
+               is_suspicious ? ": is its unit the right one?" : "");
 }
 
-void contradiction_given(wt_force_source *source, const force_metadata *facts)
+void report_overrides(wt_force_source *source, const force_metadata *metadata)
 {
     if (source->given_checked)
         return;
     source->given_checked = true;
-    say_given(source, "spring constant", "N/m", source->options.spring_constant,
-              facts->cantilever.spring_constant, 1);
-    say_given(source, "deflection sensitivity", "nm/V", source->options.sensitivity,
-              facts->cantilever.sensitivity, 1e9);
+    report_override(source, "spring constant", "N/m", source->options.spring_constant,
+                    metadata->cantilever.spring_constant, 1);
+    report_override(source, "deflection sensitivity", "nm/V", source->options.sensitivity,
+                    metadata->cantilever.sensitivity, 1e9);
 }
 
 static double value_range(const double *values, size_t n)
@@ -104,8 +107,8 @@ static double value_range(const double *values, size_t n)
     return high - low;
 }
 
-void contradiction_heights(wt_force_source *source, const force_metadata *facts,
-                           const wt_segment *segment)
+void check_height_ranges(wt_force_source *source, const force_metadata *metadata,
+                         const wt_segment *segment)
 {
     if (source->heights_checked || segment->kind != WT_SEGMENT_APPROACH ||
         segment->n_points < SAMPLES_MIN)
@@ -119,8 +122,8 @@ void contradiction_heights(wt_force_source *source, const force_metadata *facts,
     if (!(piezo > 0) || !(sensor > 0))
         return;
     source->heights_checked = true;
-    if (fabs(piezo - sensor) > heights_agree * sensor)
-        wt_log_add(source->log, WT_NOTE, source->name, facts->place,
+    if (fabs(piezo - sensor) > height_tolerance * sensor)
+        wt_log_add(source->log, WT_NOTE, source->name, metadata->place,
                    "the height of the piezo changes by %.4g um, that of its sensor by %.4g "
                    "um; the sensor is used",
                    1e6 * piezo, 1e6 * sensor);

@@ -9,15 +9,15 @@
 
 /* Warns once per source if stored force and deflection imply another spring constant than the
  * stated one. The file states it, else the user. Either signal may be NULL if it is not stored. */
-wt_status contradiction_constant(wt_force_source *source, const force_metadata *facts,
-                                 const force_signal *force, const force_signal *bend,
-                                 wt_error *err);
+wt_status check_spring_constant(wt_force_source *source, const force_metadata *metadata,
+                                const force_signal *force, const force_signal *deflection,
+                                wt_error *err);
 /* Reports once per source which calibration values of the user replace those of the file. It is a
  * warning if the ratio suggests a wrong unit. */
-void contradiction_given(wt_force_source *source, const force_metadata *facts);
+void report_overrides(wt_force_source *source, const force_metadata *metadata);
 /* Notes once per source if the piezo height and the measured height of an approach differ in their
  * range. */
-void contradiction_heights(wt_force_source *source, const force_metadata *facts,
-                           const wt_segment *segment);
+void check_height_ranges(wt_force_source *source, const force_metadata *metadata,
+                         const wt_segment *segment);
 
 #endif

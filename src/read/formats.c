@@ -43,8 +43,8 @@ const file_reader *formats_find_reader(const wt_formats *formats, const char *id
     return NULL;
 }
 
-wt_status formats_add_text(wt_formats *f, text_description *d, wt_log *log, const char *path,
-                           wt_error *err)
+wt_status formats_add_description(wt_formats *f, text_description *d, wt_log *log, const char *path,
+                                  wt_error *err)
 {
     wt_status status = WT_OK;
     const file_reader reader = text_reader(d);
@@ -69,14 +69,15 @@ wt_status formats_add_text(wt_formats *f, text_description *d, wt_log *log, cons
     return status;
 }
 
-wt_status formats_of(text_description *d, const char *path, wt_formats **formats, wt_error *err)
+wt_status formats_from_description(text_description *d, const char *path, wt_formats **formats,
+                                   wt_error *err)
 {
     wt_formats *f = calloc(1, sizeof *f);
     if (f == NULL) {
         description_free(d);
         return wt_fail(err, WT_E_MEMORY, "no memory for the formats");
     }
-    const wt_status status = formats_add_text(f, d, NULL, path, err);
+    const wt_status status = formats_add_description(f, d, NULL, path, err);
     if (status == WT_OK)
         *formats = f;
     else
@@ -84,7 +85,7 @@ wt_status formats_of(text_description *d, const char *path, wt_formats **formats
     return status;
 }
 
-static wt_status add_built_in(wt_formats *f, wt_error *err)
+static wt_status add_library_descriptions(wt_formats *f, wt_error *err)
 {
     wt_status status = WT_OK;
     for (const embedded_text *e = embedded_formats; e->name != NULL && status == WT_OK; e++) {
@@ -92,14 +93,15 @@ static wt_status add_built_in(wt_formats *f, wt_error *err)
         const size_t n = strlen(e->name);
         if (n < 4 || strcmp(e->name + n - 4, ".xml") != 0)
             continue;
-        status = description_of_library(e, &d, err);
+        status = description_from_library(e, &d, err);
         if (status == WT_OK)
-            status = formats_add_text(f, d, NULL, e->name, err);
+            status = formats_add_description(f, d, NULL, e->name, err);
     }
     return status;
 }
 
-static wt_status add_folder(wt_formats *f, const char *folder, wt_log *log, wt_error *err)
+static wt_status add_description_folder(wt_formats *f, const char *folder, wt_log *log,
+                                        wt_error *err)
 {
     description_xsd *schema = NULL;
     char **paths = NULL;
@@ -111,7 +113,7 @@ static wt_status add_folder(wt_formats *f, const char *folder, wt_log *log, wt_e
         text_description *d = NULL;
         status = description_parse_file(schema, paths[i], &d, err);
         if (status == WT_OK)
-            status = formats_add_text(f, d, log, paths[i], err);
+            status = formats_add_description(f, d, log, paths[i], err);
     }
     description_xsd_free(schema);
     wt_strings_free(paths, n);
@@ -119,7 +121,7 @@ static wt_status add_folder(wt_formats *f, const char *folder, wt_log *log, wt_e
 }
 
 /* Adds the binary readers. Those that run a description are added after it and borrow it. */
-static wt_status add_binary(wt_formats *f, bool running, wt_error *err)
+static wt_status add_binary_readers(wt_formats *f, bool running, wt_error *err)
 {
     wt_status status = WT_OK;
     for (size_t i = 0; i < N_BINARY && status == WT_OK; i++) {
@@ -138,13 +140,13 @@ wt_status wt_formats_new(const char *folder, wt_formats **formats, wt_log *log, 
     wt_formats *f = calloc(1, sizeof *f);
     if (f == NULL)
         return wt_fail(err, WT_E_MEMORY, "no memory for the formats");
-    wt_status status = add_binary(f, false, err);
+    wt_status status = add_binary_readers(f, false, err);
     if (status == WT_OK)
-        status = add_built_in(f, err);
+        status = add_library_descriptions(f, err);
     if (status == WT_OK && folder != NULL)
-        status = add_folder(f, folder, log, err);
+        status = add_description_folder(f, folder, log, err);
     if (status == WT_OK)
-        status = add_binary(f, true, err);
+        status = add_binary_readers(f, true, err);
     if (status == WT_OK)
         *formats = f;
     else

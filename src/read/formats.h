@@ -11,11 +11,11 @@
 const file_reader *formats_reader(const wt_formats *formats, size_t i);
 /* Adds a description and takes ownership of it, also on failure. A description with the same id is
  * replaced, with a note in the log. */
-wt_status formats_add_text(wt_formats *formats, struct text_description *description, wt_log *log,
-                           const char *path, wt_error *err);
+wt_status formats_add_description(wt_formats *formats, struct text_description *description,
+                                  wt_log *log, const char *path, wt_error *err);
 /* Creates a set with this description alone. Ownership passes to the function, also on failure. */
-wt_status formats_of(struct text_description *description, const char *path, wt_formats **formats,
-                     wt_error *err);
+wt_status formats_from_description(struct text_description *description, const char *path,
+                                   wt_formats **formats, wt_error *err);
 /* Returns the reader with this id, or NULL. */
 const file_reader *formats_find_reader(const wt_formats *formats, const char *id);
 
@@ -33,13 +33,13 @@ wt_status find_reader(const wt_formats *formats, wt_input *input, const wt_read_
 
 /* reader_select.c: begins every kind of read. It checks `given` (NULL: the defaults), and finds the
  * reader and the unpacked content. */
-typedef struct reading {
+typedef struct read_request {
     wt_read_options options;
     const file_reader *reader;
     wt_input *content;
-} reading;
+} read_request;
 wt_status read_start(const wt_formats *formats, wt_input *input, const wt_read_options *given,
-                     unsigned kind, reading *begun, wt_error *err);
+                     unsigned kind, read_request *request, wt_error *err);
 /* Ends every kind of read: adds the file name to an error and reports a resource error of a
  * library. */
 wt_status read_end(wt_input *input, wt_status status, wt_error *err);

@@ -11,16 +11,16 @@
  * stay below it. */
 static const double spike_steps = 4.0;
 /* Minimum share of the spikes in the mean square step. Below it they do not dominate the slopes. */
-static const double spike_share = 0.5;
+static const double spike_fraction_min = 0.5;
 /* Minimum number of points for a meaningful rms step. */
-enum { POINTS_LEAST = 64 };
+enum { MIN_POINTS = 64 };
 
-typedef struct neighbours {
+typedef struct neighbour_range {
     double low, high;
     size_t n; /* number of valid neighbours */
-} neighbours;
+} neighbour_range;
 
-static void add_neighbour(neighbours *all, double height)
+static void add_neighbour(neighbour_range *all, double height)
 {
     if (isnan(height))
         return;
@@ -29,10 +29,10 @@ static void add_neighbour(neighbours *all, double height)
     all->n++;
 }
 
-static neighbours neighbours_of(const wt_image *image, size_t column, size_t row)
+static neighbour_range find_neighbours(const wt_image *image, size_t column, size_t row)
 {
     const double *const at = image->values + row * image->n_columns + column;
-    neighbours all = {HUGE_VAL, -HUGE_VAL, 0};
+    neighbour_range all = {HUGE_VAL, -HUGE_VAL, 0};
     if (column > 0)
         add_neighbour(&all, at[-1]);
     if (column + 1 < image->n_columns)
@@ -46,14 +46,14 @@ static neighbours neighbours_of(const wt_image *image, size_t column, size_t row
 
 /* Returns the distance of a height beyond the range of its neighbours. It is 0 within the range or
  * with less than two neighbours. */
-static double excess_of(double height, const neighbours *all)
+static double height_excess(double height, const neighbour_range *all)
 {
     return all->n < 2 || isnan(height) ? 0 : fmax(0, fmax(height - all->high, all->low - height));
 }
 
 /* Returns the sum of the squared steps between adjacent points, in units of `scale`, which prevents
  * overflow. *n is the number of steps. */
-static double sum_steps(const wt_image *image, double scale, size_t *n)
+static double sum_squared_steps(const wt_image *image, double scale, size_t *n)
 {
     double sum = 0;
     *n = 0;
@@ -71,7 +71,7 @@ static double sum_steps(const wt_image *image, double scale, size_t *n)
     return sum;
 }
 
-static double largest_of(const wt_image *image)
+static double largest_height(const wt_image *image)
 {
     double largest = 0;
     for (size_t i = 0; i < image->n_columns * image->n_rows; i++)
@@ -79,33 +79,34 @@ static double largest_of(const wt_image *image)
     return largest;
 }
 
-void images_warn_of_spikes(const wt_image *image, const char *file, wt_log *log)
+void images_check_spikes(const wt_image *image, const char *file, wt_log *log)
 {
     const size_t n = image->n_columns * image->n_rows;
-    const double scale = largest_of(image);
+    const double scale = largest_height(image);
     size_t n_steps = 0, n_spikes = 0, at = 0;
-    double of_spikes = 0, largest = 0;
-    if (n < POINTS_LEAST || !(scale > 0))
+    double spike_sum = 0, largest = 0;
+    if (n < MIN_POINTS || !(scale > 0))
         return;
-    const double sum = sum_steps(image, scale, &n_steps);
+    const double sum = sum_squared_steps(image, scale, &n_steps);
     const double least = spike_steps * scale * sqrt(sum / (double)n_steps);
     for (size_t i = 0; i < n; i++) {
-        const neighbours all = neighbours_of(image, i % image->n_columns, i / image->n_columns);
-        const double excess = excess_of(image->values[i], &all);
+        const neighbour_range all =
+            find_neighbours(image, i % image->n_columns, i / image->n_columns);
+        const double excess = height_excess(image->values[i], &all);
         if (!(excess > least))
             continue;
         n_spikes++;
-        of_spikes += (double)all.n * (excess / scale) * (excess / scale);
+        spike_sum += (double)all.n * (excess / scale) * (excess / scale);
         at = excess > largest ? i : at;
         largest = fmax(largest, excess);
     }
-    if (n_spikes == 0 || !(of_spikes > spike_share * sum))
+    if (n_spikes == 0 || !(spike_sum > spike_fraction_min * sum))
         return;
-    char by[32];
-    wt_format_si(largest, "m", 3, by, sizeof by);
+    char excess_text[32];
+    wt_format_si(largest, "m", 3, excess_text, sizeof excess_text);
     wt_log_add(log, WT_WARNING, file, image->name,
                "%zu of %zu heights stand out alone, the farthest, in column %zu and row %zu from "
                "below, by %s, and make most of the slopes: spikes, or a damaged file; take them "
                "out before",
-               n_spikes, n, at % image->n_columns, at / image->n_columns, by);
+               n_spikes, n, at % image->n_columns, at / image->n_columns, excess_text);
 }

@@ -58,13 +58,13 @@ void images_set_units(wt_image *head, const char *unit_xy, const char *unit_z, d
 void images_set_name(wt_image *head, const char *name)
 {
     snprintf(head->name, sizeof head->name, "%s", name);
-    utf8_tidy(head->name);
+    utf8_sanitize(head->name);
 }
 
-static void note_missing(wt_image *image, const char *file, wt_log *log)
+static void mark_missing_pixels(wt_image *image, const char *file, wt_log *log)
 {
     const size_t n = image->n_columns * image->n_rows;
-    const size_t missing = samples_mend(image->values, n);
+    const size_t missing = samples_mark_missing(image->values, n);
     if (missing > 0)
         wt_log_add(log, WT_WARNING, file, image->name,
                    "%zu of %zu pixels are not finite numbers and left out", missing, n);
@@ -73,22 +73,22 @@ static void note_missing(wt_image *image, const char *file, wt_log *log)
         image->width = (double)NAN;
     if (isinf(image->height) || (!(image->height > 0) && image->n_rows > 1))
         image->height = (double)NAN;
-    (void)samples_mend(&image->x_min, 1);
-    (void)samples_mend(&image->y_min, 1);
+    (void)samples_mark_missing(&image->x_min, 1);
+    (void)samples_mark_missing(&image->y_min, 1);
 }
 
 /* ---- options of the user --------------------------------------------------------------------- */
 
 /* Relative difference above which two pixel sizes are different and not just rounded. */
-static const double other_size = 1e-3;
+static const double size_tolerance = 1e-3;
 
-static void give_pixels(wt_image *image, double pixel, const char *file, wt_log *log)
+static void apply_pixel_size(wt_image *image, double pixel, const char *file, wt_log *log)
 {
     const bool area = strcmp(image->x_unit, "m") == 0 || image->n_rows > 1;
     const double width = pixel * (double)(image->n_columns - 1);
     if (isnan(pixel) || !area)
         return;
-    if (fabs(image->width - width) > other_size * width)
+    if (fabs(image->width - width) > size_tolerance * width)
         wt_log_add(log, WT_WARNING, file, image->name,
                    "the file gives pixels of another size; that of --pixel-size is taken");
     image->width = width;
@@ -96,8 +96,8 @@ static void give_pixels(wt_image *image, double pixel, const char *file, wt_log 
     snprintf(image->x_unit, sizeof image->x_unit, "m");
 }
 
-static wt_status give_unit(wt_image *image, const char *unit, const char *file, wt_log *log,
-                           wt_error *err)
+static wt_status apply_height_unit(wt_image *image, const char *unit, const char *file, wt_log *log,
+                                   wt_error *err)
 {
     double factor = 1, offset = 0;
     if (unit == NULL || strcmp(image->unit, "m") == 0)
@@ -115,18 +115,18 @@ static wt_status give_unit(wt_image *image, const char *unit, const char *file, 
     return WT_OK;
 }
 
-wt_status images_given(wt_image *images, size_t n, const wt_read_options *options, const char *file,
-                       wt_log *log, wt_error *err)
+wt_status images_apply_options(wt_image *images, size_t n, const wt_read_options *options,
+                               const char *file, wt_log *log, wt_error *err)
 {
     wt_status status = WT_OK;
     for (size_t i = 0; status == WT_OK && i < n; i++) {
-        give_pixels(&images[i], options->pixel_size, file, log);
-        status = give_unit(&images[i], options->height_unit, file, log, err);
+        apply_pixel_size(&images[i], options->pixel_size, file, log);
+        status = apply_height_unit(&images[i], options->height_unit, file, log, err);
         if (isnan(images[i].width) || isnan(images[i].height))
             wt_log_add(log, WT_WARNING, file, images[i].name,
                        "the size of the image is not known; --pixel-size gives it");
         if (status == WT_OK && strcmp(images[i].unit, "m") == 0)
-            images_warn_of_spikes(&images[i], file, log);
+            images_check_spikes(&images[i], file, log);
     }
     return status;
 }
@@ -140,11 +140,11 @@ void images_free(wt_image **images, size_t *n)
     *n = 0;
 }
 
-wt_status images_end(image_list *list, wt_status status, const char *file, wt_log *log,
-                     wt_image **images, size_t *n, wt_error *err)
+wt_status images_finish(image_list *list, wt_status status, const char *file, wt_log *log,
+                        wt_image **images, size_t *n, wt_error *err)
 {
     for (size_t i = 0; status == WT_OK && i < list->n; i++)
-        note_missing(&list->images[i], file, log);
+        mark_missing_pixels(&list->images[i], file, log);
     if (status == WT_OK && list->n == 0)
         status = wt_fail(err, WT_E_EMPTY, "the file holds no image");
     if (status == WT_OK) {
@@ -157,44 +157,44 @@ wt_status images_end(image_list *list, wt_status status, const char *file, wt_lo
     return status;
 }
 
-wt_status images_facts(const file_reader *reader, wt_input *input, const wt_read_options *options,
-                       wt_log *log, table_writer *facts, wt_status curves,
-                       const wt_error *no_curves)
+wt_status images_add_metadata(const file_reader *reader, wt_input *input,
+                              const wt_read_options *options, wt_log *log, table_writer *metadata,
+                              wt_status curves, const wt_error *curves_error)
 {
     wt_image *images = NULL;
-    wt_error no_images = WT_ERROR_INIT;
+    wt_error images_error = WT_ERROR_INIT;
     size_t n = 0;
-    wt_status status = reader->read_images(reader, input, options, log, &images, &n, &no_images);
+    wt_status status = reader->read_images(reader, input, options, log, &images, &n, &images_error);
     if (status == WT_OK)
-        status = images_given(images, n, options, wt_input_name(input), log, &no_images);
+        status = images_apply_options(images, n, options, wt_input_name(input), log, &images_error);
     for (size_t i = 0; i < n; i++) {
         char item[32], width[32], height[32];
         wt_format_si(images[i].width, "m", 4, width, sizeof width);
         wt_format_si(images[i].height, "m", 4, height, sizeof height);
         snprintf(item, sizeof item, "image %zu", i);
-        facts_add(facts, item, images[i].unit, "", "%s, %zu x %zu pixels, %s x %s", images[i].name,
-                  images[i].n_columns, images[i].n_rows, width, height);
+        metadata_add(metadata, item, images[i].unit, "", "%s, %zu x %zu pixels, %s x %s",
+                     images[i].name, images[i].n_columns, images[i].n_rows, width, height);
         wt_image_clear(&images[i]);
     }
     free(images);
-    if (status == WT_E_MEMORY && facts->err != NULL)
-        *facts->err = no_images;
+    if (status == WT_E_MEMORY && metadata->err != NULL)
+        *metadata->err = images_error;
     if (status == WT_E_MEMORY)
         return status;
     if (curves == WT_OK && status != WT_OK && status != WT_E_EMPTY)
-        facts_add(facts, "image not read", "", "", "%s", no_images.message);
+        metadata_add(metadata, "image not read", "", "", "%s", images_error.message);
     if (curves == WT_OK || (curves == WT_E_EMPTY && status == WT_OK))
         return WT_OK;
     /* If both fail, the error of the curves is returned. */
-    if (facts->err != NULL)
-        *facts->err = no_curves == NULL || (curves == WT_E_EMPTY && status != WT_E_EMPTY)
-                          ? no_images
-                          : *no_curves;
+    if (metadata->err != NULL)
+        *metadata->err = curves_error == NULL || (curves == WT_E_EMPTY && status != WT_E_EMPTY)
+                             ? images_error
+                             : *curves_error;
     return curves == WT_E_EMPTY ? status : curves;
 }
 
 wt_status images_describe(const file_reader *reader, wt_input *input,
-                          const wt_read_options *options, wt_log *log, table_writer *facts)
+                          const wt_read_options *options, wt_log *log, table_writer *metadata)
 {
-    return images_facts(reader, input, options, log, facts, WT_E_EMPTY, NULL);
+    return images_add_metadata(reader, input, options, log, metadata, WT_E_EMPTY, NULL);
 }

@@ -33,22 +33,22 @@ void images_set_name(wt_image *head, const char *name);
 void images_free(wt_image **images, size_t *n);
 /* Transfers the list to the caller on success and frees it on failure. WT_E_EMPTY if there is no
  * image. Missing pixels are logged; an invalid size becomes NaN. */
-wt_status images_end(image_list *list, wt_status status, const char *file, wt_log *log,
-                     wt_image **images, size_t *n, wt_error *err);
+wt_status images_finish(image_list *list, wt_status status, const char *file, wt_log *log,
+                        wt_image **images, size_t *n, wt_error *err);
 /* Applies the options of the user to images whose file states no pixel size or height unit. Warns
  * of an unknown size and of spikes. */
-wt_status images_given(wt_image *images, size_t n, const wt_read_options *options, const char *file,
-                       wt_log *log, wt_error *err);
+wt_status images_apply_options(wt_image *images, size_t n, const wt_read_options *options,
+                               const char *file, wt_log *log, wt_error *err);
 /* Warns of single heights that dominate the slopes of a height image. */
-void images_warn_of_spikes(const wt_image *image, const char *file, wt_log *log);
+void images_check_spikes(const wt_image *image, const char *file, wt_log *log);
 /* Adds the rows of the images for `info` after those of the force curves, whose status is `curves`
- * and whose error is `no_curves`. A file with images but without curves is no failure. */
+ * and whose error is `curves_error`. A file with images but without curves is no failure. */
 struct file_reader;
-wt_status images_facts(const struct file_reader *reader, wt_input *input,
-                       const wt_read_options *options, wt_log *log, table_writer *facts,
-                       wt_status curves, const wt_error *no_curves);
-/* Variant of images_facts for a reader of images alone. */
+wt_status images_add_metadata(const struct file_reader *reader, wt_input *input,
+                              const wt_read_options *options, wt_log *log, table_writer *metadata,
+                              wt_status curves, const wt_error *curves_error);
+/* Variant of images_add_metadata for a reader of images alone. */
 wt_status images_describe(const struct file_reader *reader, wt_input *input,
-                          const wt_read_options *options, wt_log *log, table_writer *facts);
+                          const wt_read_options *options, wt_log *log, table_writer *metadata);
 
 #endif

@@ -9,10 +9,10 @@
 #include "core/table/table_writer.h"
 
 /* Adds a row; the value is formatted as with printf. */
-void facts_add(table_writer *facts, const char *item, const char *unit, const char *source,
-               const char *format, ...) WT_PRINTF(5, 6);
+void metadata_add(table_writer *metadata, const char *item, const char *unit, const char *source,
+                  const char *format, ...) WT_PRINTF(5, 6);
 /* Adds a row with a number; NaN is written as "unknown". */
-void facts_number(table_writer *facts, const char *item, double value, const char *unit,
-                  const char *source);
+void metadata_add_number(table_writer *metadata, const char *item, double value, const char *unit,
+                         const char *source);
 
 #endif

@@ -11,7 +11,7 @@
 wt_status wt_sweep_read(const wt_formats *formats, wt_input *input, const wt_read_options *options,
                         wt_log *log, wt_sweep *sweep, wt_error *err)
 {
-    reading r;
+    read_request r;
     wt_status status = read_start(formats, input, options, WT_KIND_SWEEP, &r, err);
     if (status == WT_OK)
         status = r.reader->read_sweep(r.reader, r.content, &r.options, log, sweep, err);
@@ -19,8 +19,8 @@ wt_status wt_sweep_read(const wt_formats *formats, wt_input *input, const wt_rea
 }
 
 /* Converts spectral densities of another convention to that of this program. */
-static wt_status take_convention(const reading *r, const char *name, wt_log *log,
-                                 wt_power_spectrum *spectrum, wt_error *err)
+static wt_status apply_spectrum_convention(const read_request *r, const char *name, wt_log *log,
+                                           wt_power_spectrum *spectrum, wt_error *err)
 {
     if (r->options.spectrum_convention == WT_CONVENTION_WEARTRACK)
         return WT_OK;
@@ -44,62 +44,62 @@ wt_status wt_power_spectrum_read(const wt_formats *formats, wt_input *input,
                                  const wt_read_options *options, wt_log *log,
                                  wt_power_spectrum *spectrum, wt_error *err)
 {
-    reading r;
-    wt_power_spectrum made = {.n = 0};
+    read_request r;
+    wt_power_spectrum result = {.n = 0};
     wt_status status = read_start(formats, input, options, WT_KIND_SPECTRUM, &r, err);
     if (status == WT_OK)
-        status = r.reader->read_spectrum(r.reader, r.content, &r.options, log, &made, err);
+        status = r.reader->read_spectrum(r.reader, r.content, &r.options, log, &result, err);
     if (status == WT_OK)
-        status = take_convention(&r, wt_input_name(input), log, &made, err);
+        status = apply_spectrum_convention(&r, wt_input_name(input), log, &result, err);
     status = read_end(input, status, err);
     if (status == WT_OK)
-        *spectrum = made;
+        *spectrum = result;
     else
-        wt_power_spectrum_clear(&made);
+        wt_power_spectrum_clear(&result);
     return status;
 }
 
 wt_status wt_noise_read(const wt_formats *formats, wt_input *input, const wt_read_options *options,
                         wt_log *log, wt_noise_spectrum *spectrum, wt_error *err)
 {
-    reading r;
-    wt_noise_spectrum made = {.n = 0};
+    read_request r;
+    wt_noise_spectrum result = {.n = 0};
     wt_status status = read_start(formats, input, options, WT_KIND_NOISE, &r, err);
     if (status == WT_OK)
-        status = r.reader->read_noise(r.reader, r.content, &r.options, log, &made, err);
+        status = r.reader->read_noise(r.reader, r.content, &r.options, log, &result, err);
     status = read_end(input, status, err);
     if (status == WT_OK)
-        *spectrum = made;
+        *spectrum = result;
     else
-        wt_noise_spectrum_clear(&made);
+        wt_noise_spectrum_clear(&result);
     return status;
 }
 
 wt_status wt_record_read(const wt_formats *formats, wt_input *input, const wt_read_options *options,
                          wt_log *log, wt_record *record, wt_error *err)
 {
-    reading r;
-    wt_record made = {.n = 0};
+    read_request r;
+    wt_record result = {.n = 0};
     wt_status status = read_start(formats, input, options, WT_KIND_RECORD, &r, err);
     if (status == WT_OK)
-        status = r.reader->read_record(r.reader, r.content, &r.options, log, &made, err);
+        status = r.reader->read_record(r.reader, r.content, &r.options, log, &result, err);
     status = read_end(input, status, err);
     if (status == WT_OK)
-        *record = made;
+        *record = result;
     else
-        wt_record_clear(&made);
+        wt_record_clear(&result);
     return status;
 }
 
 wt_status wt_images_read(const wt_formats *formats, wt_input *input, const wt_read_options *options,
                          wt_log *log, wt_image **images, size_t *n, wt_error *err)
 {
-    reading r;
+    read_request r;
     wt_status status = read_start(formats, input, options, WT_KIND_IMAGE, &r, err);
     if (status == WT_OK)
         status = r.reader->read_images(r.reader, r.content, &r.options, log, images, n, err);
     if (status == WT_OK) {
-        status = images_given(*images, *n, &r.options, wt_input_name(input), log, err);
+        status = images_apply_options(*images, *n, &r.options, wt_input_name(input), log, err);
         if (status != WT_OK)
             images_free(images, n);
     }

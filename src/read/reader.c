@@ -8,13 +8,13 @@ bool peek_begins(const file_peek *peek, const char *bytes, size_t n)
     return peek->length >= n && memcmp(peek->bytes, bytes, n) == 0;
 }
 
-bool peek_holds(const file_peek *peek, const char *bytes, size_t n)
+bool peek_contains(const file_peek *peek, const char *bytes, size_t n)
 {
     return memmem(peek->bytes, peek->length, bytes, n) != NULL;
 }
 
-recognition recognised(bool mine, int score)
+recognition recognition_result(bool matches, int score)
 {
-    return mine ? (recognition){.answer = ANSWER_YES, .score = score}
-                : (recognition){.answer = ANSWER_NO};
+    return matches ? (recognition){.answer = ANSWER_YES, .score = score}
+                   : (recognition){.answer = ANSWER_NO};
 }

@@ -66,7 +66,7 @@ typedef struct file_reader {
     /* Adds the rows for `info`: segments, channels, calibration and defects. Fails if the file
      * cannot be read. */
     wt_status (*describe)(const struct file_reader *self, wt_input *input,
-                          const wt_read_options *options, wt_log *log, table_writer *facts);
+                          const wt_read_options *options, wt_log *log, table_writer *metadata);
 } file_reader;
 
 /* True for a reader that recognises text. It is queried only if no reader recognises a
@@ -76,15 +76,15 @@ static inline bool reader_is_text(const file_reader *reader)
     return reader->description != NULL && reader->runs == NULL;
 }
 
-/* peek_begins: true if the file begins with these bytes. peek_holds: true if the visible part
+/* peek_begins: true if the file begins with these bytes. peek_contains: true if the visible part
  * contains them. */
 bool peek_begins(const file_peek *peek, const char *bytes, size_t n);
-bool peek_holds(const file_peek *peek, const char *bytes, size_t n);
+bool peek_contains(const file_peek *peek, const char *bytes, size_t n);
 #define PEEK_BEGINS(peek, text) peek_begins(peek, text, sizeof(text) - 1)
-#define PEEK_HOLDS(peek, text) peek_holds(peek, text, sizeof(text) - 1)
+#define PEEK_CONTAINS(peek, text) peek_contains(peek, text, sizeof(text) - 1)
 #define HDF5_SIGNATURE "\211HDF\r\n\032\n"
 /* Returns ANSWER_YES with this score, or ANSWER_NO. */
-recognition recognised(bool mine, int score);
+recognition recognition_result(bool matches, int score);
 
 #define READER(id) extern const file_reader reader_##id;
 #include "read/readers.def"

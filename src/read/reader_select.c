@@ -28,7 +28,7 @@ wt_read_options wt_read_defaults(void)
     };
 }
 
-static wt_status check_pattern(const void *member, wt_error *err)
+static wt_status check_name_pattern(const void *member, wt_error *err)
 {
     const char *pattern = *(const char *const *)member;
     const char *place = pattern != NULL ? strchr(pattern, '#') : NULL;
@@ -55,7 +55,7 @@ static const wt_param rows[] = {
      .unset = "",
      .help = "where in the names of DMA files that say no temperature it stands, in degrees "
              "Celsius: # is the number and * anything, such as \"*_#C.txt\"",
-     .check = check_pattern},
+     .check = check_name_pattern},
     {PARAM("frequency", wt_read_options, frequency, WT_Q_FREQUENCY, ABOVE(0)), .value = "F",
      .unset = "",
      .help = "frequency of strain and temperature sweeps whose files say none, such as 10Hz"},
@@ -97,14 +97,15 @@ static const wt_param rows[] = {
 PARAM_TABLE(wt_read_params, wt_read_options, rows, wt_read_defaults, NO_PARTS)
 
 wt_status read_start(const wt_formats *formats, wt_input *input, const wt_read_options *given,
-                     unsigned kind, reading *begun, wt_error *err)
+                     unsigned kind, read_request *request, wt_error *err)
 {
     resource_error_clear();
-    *begun = (reading){.options = given != NULL ? *given : wt_read_defaults()};
-    wt_status status = param_check(wt_read_params(), &begun->options, err);
+    *request = (read_request){.options = given != NULL ? *given : wt_read_defaults()};
+    wt_status status = param_check(wt_read_params(), &request->options, err);
     if (status != WT_OK)
         return status;
-    return find_reader(formats, input, &begun->options, kind, &begun->reader, &begun->content, err);
+    return find_reader(formats, input, &request->options, kind, &request->reader, &request->content,
+                       err);
 }
 
 wt_status read_end(wt_input *input, wt_status status, wt_error *err)

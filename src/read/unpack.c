@@ -15,7 +15,7 @@
 
 /* ---- the sheet ------------------------------------------------------------------------------- */
 
-typedef struct choice {
+typedef struct sheet_choice {
     const wt_formats *formats;
     const wt_read_options *options;
     unsigned kinds;
@@ -23,25 +23,25 @@ typedef struct choice {
     const char *file;
     bool *chosen; /* one flag for each sheet */
     wt_error *err;
-} choice;
+} sheet_choice;
 
-static bool wants_all(const choice *c)
+static bool uses_all_sheets(const sheet_choice *c)
 {
     return c->options->sheet != NULL && strcmp(c->options->sheet, "all") == 0;
 }
 
 /* Formats the names of all sheets, or of those chosen, for a message. */
-static void list_sheets(const choice *c, bool chosen, char *words, size_t size)
+static void format_sheet_names(const sheet_choice *c, bool chosen, char *names, size_t size)
 {
     size_t used = 0;
-    words[0] = '\0';
+    names[0] = '\0';
     for (size_t i = 0; i < c->book->n && used < size; i++)
         if (!chosen || c->chosen[i])
-            used += (size_t)snprintf(words + used, size - used, "%s\"%s\"", used > 0 ? ", " : "",
+            used += (size_t)snprintf(names + used, size - used, "%s\"%s\"", used > 0 ? ", " : "",
                                      c->book->sheets[i].name);
 }
 
-static wt_status sheet_input(const choice *c, size_t i, wt_input **input)
+static wt_status sheet_input(const sheet_choice *c, size_t i, wt_input **input)
 {
     const book_sheet *s = &c->book->sheets[i];
     char *name = NULL, *copy = malloc(s->length + 1);
@@ -51,22 +51,22 @@ static wt_status sheet_input(const choice *c, size_t i, wt_input **input)
     }
     memcpy(copy, s->text, s->length);
     copy[s->length] = '\0';
-    const wt_status status = input_own(copy, s->length, name, input, c->err);
+    const wt_status status = input_from_bytes(copy, s->length, name, input, c->err);
     free(name);
     return status;
 }
 
 /* Sets *yes if a reader of the requested kinds recognises the sheet. */
-static wt_status sheet_recognised(const choice *c, size_t i, bool *yes)
+static wt_status detect_sheet(const sheet_choice *c, size_t i, bool *yes)
 {
-    wt_error why = WT_ERROR_INIT;
+    wt_error cause = WT_ERROR_INIT;
     wt_input *input = NULL;
     const file_reader *reader = NULL;
     wt_status status = wt_input_open_memory(c->book->sheets[i].text, c->book->sheets[i].length,
                                             c->file, &input, c->err);
     if (status != WT_OK)
         return status;
-    status = detect_reader(c->formats, input, c->options->format, c->kinds, &reader, &why);
+    status = detect_reader(c->formats, input, c->options->format, c->kinds, &reader, &cause);
     if (status == WT_OK && c->options->format != NULL) {
         const unsigned char *bytes = NULL;
         file_peek peek = {.whole = true, .name = c->file, .input = input};
@@ -76,47 +76,47 @@ static wt_status sheet_recognised(const choice *c, size_t i, bool *yes)
         text_peek_free(peek.text);
     } else {
         *yes = status == WT_OK;
-        status = status == WT_E_MEMORY ? wt_fail(c->err, status, "%s", why.message) : WT_OK;
+        status = status == WT_E_MEMORY ? wt_fail(c->err, status, "%s", cause.message) : WT_OK;
     }
     wt_input_close(input);
     return status;
 }
 
-static wt_status choose_by_name(const choice *c)
+static wt_status choose_by_name(const sheet_choice *c)
 {
-    char words[200];
+    char names[200];
     for (size_t i = 0; i < c->book->n; i++) {
         c->chosen[i] = strcasecmp(c->book->sheets[i].name, c->options->sheet) == 0;
         if (c->chosen[i])
             return WT_OK;
     }
-    list_sheets(c, false, words, sizeof words);
+    format_sheet_names(c, false, names, sizeof names);
     wt_fail(c->err, WT_E_NOT_FOUND, "the spreadsheet has no sheet \"%s\"", c->options->sheet);
-    wt_error_found(c->err, "%s", words);
+    wt_error_found(c->err, "%s", names);
     return WT_E_NOT_FOUND;
 }
 
 /* Chooses the sheets that a reader recognises. Hidden sheets are skipped unless they are named. */
-static wt_status choose_by_content(const choice *c)
+static wt_status choose_by_content(const sheet_choice *c)
 {
-    char words[200];
+    char names[200];
     size_t n = 0, visible = 0, last = 0;
     for (size_t i = 0; i < c->book->n; i++) {
         if (c->book->sheets[i].hidden)
             continue;
-        const wt_status status = sheet_recognised(c, i, &c->chosen[i]);
+        const wt_status status = detect_sheet(c, i, &c->chosen[i]);
         if (status != WT_OK)
             return status;
         n += c->chosen[i];
         visible++;
         last = i;
     }
-    if (n == 1 || (n > 1 && wants_all(c)))
+    if (n == 1 || (n > 1 && uses_all_sheets(c)))
         return WT_OK;
-    list_sheets(c, n > 0, words, sizeof words);
+    format_sheet_names(c, n > 0, names, sizeof names);
     if (n > 1) {
         wt_fail(c->err, WT_E_AMBIGUOUS, "%zu sheets of the spreadsheet hold data", n);
-        wt_error_found(c->err, "%s", words);
+        wt_error_found(c->err, "%s", names);
         wt_error_advice(c->err, "choose one with --sheet NAME, or take all of them as one "
                                 "measurement with --sheet all");
         return WT_E_AMBIGUOUS;
@@ -126,7 +126,7 @@ static wt_status choose_by_content(const choice *c)
     if (visible == 1)
         return WT_OK;
     wt_fail(c->err, WT_E_FORMAT, "no sheet of the spreadsheet is recognised");
-    wt_error_found(c->err, "%s", words);
+    wt_error_found(c->err, "%s", names);
     wt_error_advice(c->err, "a table of data begins with the names of its columns, such as f, E', "
                             "E'' and T, with their units behind them in brackets or in the next "
                             "row; `weartrack formats list` shows what is known");
@@ -134,10 +134,10 @@ static wt_status choose_by_content(const choice *c)
 }
 
 /* Joins the chosen sheets to one text. */
-static wt_status join_sheets(const choice *c, wt_input **content)
+static wt_status join_sheets(const sheet_choice *c, wt_input **content)
 {
     char *text = NULL, *name = NULL;
-    char words[200];
+    char names[200];
     size_t length = 0, n = 0, one = 0;
     for (size_t i = 0; i < c->book->n; i++) {
         n += c->chosen[i];
@@ -152,13 +152,13 @@ static wt_status join_sheets(const choice *c, wt_input **content)
         if (c->chosen[i])
             (void)fwrite(c->book->sheets[i].text, 1, c->book->sheets[i].length, out);
     const bool failed = ferror(out) != 0;
-    list_sheets(c, true, words, sizeof words);
+    format_sheet_names(c, true, names, sizeof names);
     if (fclose(out) != 0 || failed ||
-        asprintf(&name, "%s, sheets %s one after the other", c->file, words) < 0) {
+        asprintf(&name, "%s, sheets %s one after the other", c->file, names) < 0) {
         free(text);
         return wt_fail(c->err, WT_E_MEMORY, "no memory for the sheets");
     }
-    const wt_status status = input_own(text, length, name, content, c->err);
+    const wt_status status = input_from_bytes(text, length, name, content, c->err);
     free(name);
     return status;
 }
@@ -167,21 +167,21 @@ static wt_status choose_sheet(const wt_formats *formats, wt_input *input, const 
                               const wt_read_options *options, unsigned kinds, wt_input **content,
                               wt_error *err)
 {
-    const choice c = {.formats = formats,
-                      .options = options,
-                      .kinds = kinds,
-                      .book = book,
-                      .file = wt_input_name(input),
-                      .chosen = calloc(book->n + 1, sizeof(bool)),
-                      .err = err};
+    const sheet_choice c = {.formats = formats,
+                            .options = options,
+                            .kinds = kinds,
+                            .book = book,
+                            .file = wt_input_name(input),
+                            .chosen = calloc(book->n + 1, sizeof(bool)),
+                            .err = err};
     wt_status status = WT_OK;
     if (c.chosen == NULL)
         return wt_fail(err, WT_E_MEMORY, "no memory for the sheets");
     if (book->n == 0)
         status = wt_fail(err, WT_E_EMPTY, "the spreadsheet has no sheet with cells");
     else
-        status =
-            options->sheet != NULL && !wants_all(&c) ? choose_by_name(&c) : choose_by_content(&c);
+        status = options->sheet != NULL && !uses_all_sheets(&c) ? choose_by_name(&c)
+                                                                : choose_by_content(&c);
     if (status == WT_OK)
         status = join_sheets(&c, content);
     free(c.chosen);
@@ -191,8 +191,9 @@ static wt_status choose_sheet(const wt_formats *formats, wt_input *input, const 
 /* ---- unpacking ------------------------------------------------------------------------------- */
 
 /* Unpacks one layer. *content stays NULL if nothing is packed. */
-static wt_status unpack(const wt_formats *formats, wt_input *input, const wt_read_options *options,
-                        unsigned kinds, wt_input **content, wt_error *err)
+static wt_status unpack_layer(const wt_formats *formats, wt_input *input,
+                              const wt_read_options *options, unsigned kinds, wt_input **content,
+                              wt_error *err)
 {
     const unsigned char *bytes = NULL;
     size_t length = 0;
@@ -201,10 +202,10 @@ static wt_status unpack(const wt_formats *formats, wt_input *input, const wt_rea
     wt_status status = wt_input_peek(input, PACKED_PEEK, &bytes, &length, &whole, err);
     if (status != WT_OK)
         return status;
-    if (gzip_is(bytes, length))
+    if (gzip_is_archive(bytes, length))
         return gzip_unpack(input, content, err);
-    const bool new_book = xlsx_is(bytes, length);
-    if (!new_book && !xls_is(bytes, length))
+    const bool new_book = xlsx_is_workbook(bytes, length);
+    if (!new_book && !xls_is_workbook(bytes, length))
         return WT_OK;
     status = new_book ? xlsx_read(input, &book, err) : xls_read(input, &book, err);
     if (status == WT_OK)
@@ -214,28 +215,28 @@ static wt_status unpack(const wt_formats *formats, wt_input *input, const wt_rea
 }
 
 /* Maximum nesting of archives, such as a gzip archive of a gzip archive of a spreadsheet. */
-enum { MOST_LAYERS = 3 };
+enum { MAX_ARCHIVE_DEPTH = 3 };
 
 /* ---- an archive of force curves -------------------------------------------------------------- */
 
 /* Maximum number of files without a curve before the first file with one. */
-enum { LOOKED_AT_MAX = 64 };
+enum { MAX_FILES_WITHOUT_CURVE = 64 };
 
-typedef struct search {
+typedef struct curve_search {
     const wt_formats *formats;
     bool found;
     size_t n;
-} search;
+} curve_search;
 
-static wt_status look_for_curves(wt_input *entry, void *user, bool *taken, wt_error *err)
+static wt_status detect_entry_curves(wt_input *entry, void *user, bool *is_done, wt_error *err)
 {
-    search *s = user;
+    curve_search *s = user;
     const file_reader *reader = NULL;
-    wt_error why = WT_ERROR_INIT;
-    const wt_status status = detect_reader(s->formats, entry, NULL, WT_KIND_FORCE, &reader, &why);
+    wt_error cause = WT_ERROR_INIT;
+    const wt_status status = detect_reader(s->formats, entry, NULL, WT_KIND_FORCE, &reader, &cause);
     s->found = status == WT_OK;
-    *taken = s->found || ++s->n == LOOKED_AT_MAX;
-    return status == WT_E_MEMORY ? wt_fail(err, status, "%s", why.message) : WT_OK;
+    *is_done = s->found || ++s->n == MAX_FILES_WITHOUT_CURVE;
+    return status == WT_E_MEMORY ? wt_fail(err, status, "%s", cause.message) : WT_OK;
 }
 
 static bool is_zip(wt_input *input)
@@ -252,7 +253,7 @@ static bool is_zip(wt_input *input)
 static wt_status detect_content(const wt_formats *formats, wt_input *in, const char *format,
                                 unsigned kinds, const file_reader **reader, wt_error *err)
 {
-    search s = {.formats = formats};
+    curve_search s = {.formats = formats};
     const bool zip = (kinds == 0 || (kinds & WT_KIND_FORCE) != 0) && is_zip(in);
     const file_reader *given = format != NULL ? formats_find_reader(formats, format) : NULL;
     wt_status status = WT_OK;
@@ -263,7 +264,7 @@ static wt_status detect_content(const wt_formats *formats, wt_input *in, const c
         status = detect_reader(formats, in, format, kinds, reader, err);
     if ((status == WT_E_FORMAT || status == WT_E_UNSUPPORTED) && zip && format == NULL) {
         wt_error damaged = WT_ERROR_INIT;
-        const wt_status looked = collection_each(in, look_for_curves, &s, &damaged);
+        const wt_status looked = collection_visit(in, detect_entry_curves, &s, &damaged);
         if (looked == WT_E_MEMORY)
             return wt_fail(err, looked, "%s", damaged.message);
     }
@@ -277,12 +278,12 @@ wt_status find_reader(const wt_formats *formats, wt_input *input, const wt_read_
 {
     wt_input *in = input_content(input);
     wt_status status = WT_OK;
-    for (int i = in == input ? 0 : MOST_LAYERS; i < MOST_LAYERS; i++) {
+    for (int i = in == input ? 0 : MAX_ARCHIVE_DEPTH; i < MAX_ARCHIVE_DEPTH; i++) {
         wt_input *inner = NULL;
-        status = unpack(formats, in, options, kinds, &inner, err);
+        status = unpack_layer(formats, in, options, kinds, &inner, err);
         if (status != WT_OK || inner == NULL)
             break;
-        input_keep(in, inner);
+        input_attach_content(in, inner);
         in = inner;
     }
     *content = in;
@@ -293,8 +294,9 @@ wt_status find_reader(const wt_formats *formats, wt_input *input, const wt_read_
     return status;
 }
 
-wt_status wt_detect(const wt_formats *formats, wt_input *input, const wt_read_options *options,
-                    unsigned kinds, const wt_format_info **info, wt_error *err)
+wt_status wt_format_detect(const wt_formats *formats, wt_input *input,
+                           const wt_read_options *options, unsigned kinds,
+                           const wt_format_info **info, wt_error *err)
 {
     static const wt_read_options usual = {.format = NULL, .sheet = NULL};
     const file_reader *reader = NULL;

@@ -8,7 +8,7 @@
 
 /* Returns the smallest (sign -1) or largest (sign 1) friction coefficient of all rows that are not
  * at rest. *n counts these rows. */
-static double extreme_friction(const table_view *v, double sign, size_t *n)
+static double extreme_sliding_friction(const table_view *v, double sign, size_t *n)
 {
     double most = (double)NAN;
     *n = 0;
@@ -25,7 +25,8 @@ void append_record(text_builder *t, const table_view *v)
 {
     const wt_estimate mu = record_value(v, RECORD_KEY_FRICTION);
     size_t n;
-    const double least = extreme_friction(v, -1, &n), most = extreme_friction(v, 1, &n);
+    const double least = extreme_sliding_friction(v, -1, &n),
+                 most = extreme_sliding_friction(v, 1, &n);
     if (n == 0)
         text_append(t, "no friction of sliding: nothing slides");
     else if (isnan(mu.value))
@@ -43,7 +44,7 @@ void append_record(text_builder *t, const table_view *v)
 }
 
 /* Appends the nominal pressure under the ball and its duty. Both are known without a wear rate. */
-static void tell_ball(text_builder *t, const table_view *v)
+static void append_ball_contact(text_builder *t, const table_view *v)
 {
     double least = (double)NAN, most = (double)NAN;
     for (size_t i = 0; i < v->n_rows; i++) {
@@ -66,43 +67,43 @@ void append_wear(text_builder *t, const table_view *v)
     if (isnan(k.value))
         text_append(t, "no specific wear rate: %s", wear_text(v, 0, WEAR_NOTE));
     else
-        text_append(t, "specific wear rate %s", format_positive(k).text);
-    tell_ball(t, v);
+        text_append(t, "specific wear rate %s", format_positive_estimate(k).text);
+    append_ball_contact(t, v);
 }
 
-void answer_wear_of_layer(const answer_context *story, const char *question)
+void answer_layer_wear_rate(const answer_context *context, const char *question)
 {
-    const table_view *const layer = &story->found.layer;
-    if (story->wear.table == NULL || layer->table == NULL)
+    const table_view *const layer = &context->found.layer;
+    if (context->wear.table == NULL || layer->table == NULL)
         return;
-    const wt_estimate is = wear_value(&story->wear, WEAR_KEY_RATE),
+    const wt_estimate is = wear_value(&context->wear, WEAR_KEY_RATE),
                       used = layer_value(layer, LAYER_KEY_WEAR_RATE);
     if (!(is.value > 0) || !(used.value > 0))
         return;
     if (used.value == is.value)
-        answer_add_sentence(story, question, "thickness",
+        answer_add_sentence(context, question, "thickness",
                             "Its specific wear rate is the one measured by the records: %s.",
-                            format_positive(is).text);
+                            format_positive_estimate(is).text);
     else
         answer_add_sentence(
-            story, question, "thickness",
+            context, question, "thickness",
             "Its specific wear rate is the one given, %s; the one measured by the records is "
             "%.3g times that: %s.",
-            format_value(used).text, is.value / used.value, format_positive(is).text);
+            format_value(used).text, is.value / used.value, format_positive_estimate(is).text);
 }
 
-void answer_record(const answer_context *story)
+void answer_record(const answer_context *context)
 {
     char text[900];
     text_builder t = {text, sizeof text, 0};
-    if (story->record.n_rows == 0)
+    if (context->record.n_rows == 0)
         return;
-    append_record(&t, &story->record);
-    if (story->wear.n_rows > 0) {
+    append_record(&t, &context->record);
+    if (context->wear.n_rows > 0) {
         text_append(&t, "; ");
-        append_wear(&t, &story->wear);
+        append_wear(&t, &context->wear);
     }
     if (text[0] >= 'a' && text[0] <= 'z')
         text[0] = (char)(text[0] - 'a' + 'A');
-    answer_add_sentence(story, "What was measured of friction?", "record", "%s.", text);
+    answer_add_sentence(context, "What was measured of friction?", "record", "%s.", text);
 }

@@ -11,27 +11,27 @@ static const char question[] = "Does the theory explain the friction that was me
 void append_verdict(text_builder *t, const table_view *v)
 {
     text_append(t, "the theory (%s) against the record: %s",
-                validation_words(v, VALIDATION_KEY_JUDGED),
-                validation_words(v, VALIDATION_KEY_VERDICT));
+                validation_key_text(v, VALIDATION_KEY_JUDGED),
+                validation_key_text(v, VALIDATION_KEY_VERDICT));
 }
 
 void append_required_shear(text_builder *t, const table_view *v)
 {
-    const wt_estimate needed = validation_value(v, VALIDATION_KEY_NEEDED);
-    if (isnan(needed.value))
+    const wt_estimate required = validation_value(v, VALIDATION_KEY_NEEDED);
+    if (isnan(required.value))
         return;
     text_append(t, "the record asks for a shear stress of %s; plausible: %s",
-                format_estimate_interval(needed,
+                format_estimate_interval(required,
                                          validation_value(v, VALIDATION_KEY_NEEDED_LOW).value,
                                          validation_value(v, VALIDATION_KEY_NEEDED_HIGH).value)
                     .text,
-                validation_words(v, VALIDATION_KEY_PLAUSIBLE));
+                validation_key_text(v, VALIDATION_KEY_PLAUSIBLE));
 }
 
 void append_running_in_verdict(text_builder *t, const table_view *v)
 {
     text_append(t, "the running-in with the layer against the record: %s",
-                validation_running_in_words(v, VALIDATION_RUNNING_IN_KEY_VERDICT));
+                validation_running_in_key_text(v, VALIDATION_RUNNING_IN_KEY_VERDICT));
 }
 
 void append_required_wear(text_builder *t, const table_view *v)
@@ -51,27 +51,27 @@ void append_required_wear(text_builder *t, const table_view *v)
                     .text);
 }
 
-static void say_running_in(const answer_context *story)
+static void report_running_in(const answer_context *context)
 {
-    const table_view *const v = &story->validation_running_in;
+    const table_view *const v = &context->validation_running_in;
     if (v->table == NULL)
         return;
     char text[800];
     text_builder t = {text, sizeof text, 0};
     const char *const settled =
-                          validation_running_in_words(v, VALIDATION_RUNNING_IN_KEY_SETTLED_BY),
+                          validation_running_in_key_text(v, VALIDATION_RUNNING_IN_KEY_SETTLED_BY),
                       *const agrees =
-                          validation_running_in_words(v, VALIDATION_RUNNING_IN_KEY_AGREES);
+                          validation_running_in_key_text(v, VALIDATION_RUNNING_IN_KEY_AGREES);
     append_running_in_verdict(&t, v);
     text[0] = (char)toupper((unsigned char)text[0]);
-    answer_add_sentence(story, question, "validation", "%s.", text);
-    if (validation_running_in_words(v, VALIDATION_RUNNING_IN_KEY_REMARKS) != NULL)
-        answer_add_sentence(story, question, "validation",
+    answer_add_sentence(context, question, "validation", "%s.", text);
+    if (validation_running_in_key_text(v, VALIDATION_RUNNING_IN_KEY_REMARKS) != NULL)
+        answer_add_sentence(context, question, "validation",
                             "To be kept in mind of the running-in: %s.",
-                            validation_running_in_words(v, VALIDATION_RUNNING_IN_KEY_REMARKS));
+                            validation_running_in_key_text(v, VALIDATION_RUNNING_IN_KEY_REMARKS));
     if (settled != NULL)
-        answer_add_sentence(story, question, "validation", "What would settle the running-in: %s.",
-                            settled);
+        answer_add_sentence(context, question, "validation",
+                            "What would settle the running-in: %s.", settled);
     t.used = 0;
     append_required_wear(&t, v);
     if (t.used == 0)
@@ -79,24 +79,24 @@ static void say_running_in(const answer_context *story)
     text[0] = (char)toupper((unsigned char)text[0]);
     if (agrees != NULL)
         text_append(&t, "; against the wear that was measured: %s", agrees);
-    answer_add_sentence(story, question, "validation", "%s.", text);
+    answer_add_sentence(context, question, "validation", "%s.", text);
 }
 
-static void say_needed(const answer_context *story, const table_view *v)
+static void report_required_shear(const answer_context *context, const table_view *v)
 {
     char text[700] = "";
     text_builder t = {text, sizeof text, 0};
-    const char *const shape = validation_words(v, VALIDATION_KEY_SHAPE);
+    const char *const shape = validation_key_text(v, VALIDATION_KEY_SHAPE);
     append_required_shear(&t, v);
     if (t.used == 0)
         return;
     text[0] = (char)toupper((unsigned char)text[0]);
     if (shape != NULL)
         text_append(&t, ". The verdict with it: %s", shape);
-    answer_add_sentence(story, question, "validation", "%s.", text);
+    answer_add_sentence(context, question, "validation", "%s.", text);
 }
 
-static void say_narrowed(const answer_context *story, const table_view *v)
+static void report_narrowed_range(const answer_context *context, const table_view *v)
 {
     const bool layer = !isnan(validation_value(v, VALIDATION_KEY_LAYERED_KEPT_LOW).value);
     const double all[] = {validation_value(v, layer ? VALIDATION_KEY_LAYERED_ALL_LOW
@@ -114,38 +114,38 @@ static void say_narrowed(const answer_context *story, const table_view *v)
     if (isnan(kept[0]))
         return;
     answer_add_sentence(
-        story, question, "validation",
+        context, question, "validation",
         "Over the choices of the model the friction at the reference velocity is %s; over "
         "those that the record leaves, %s.",
         format_range(all[0], all[1], 3).text, format_range(kept[0], kept[1], 3).text);
 }
 
-void answer_validation(const answer_context *story)
+void answer_validation(const answer_context *context)
 {
-    const table_view *const v = &story->validation;
+    const table_view *const v = &context->validation;
     if (v->table == NULL) { /* this stage may have failed */
-        say_running_in(story);
+        report_running_in(context);
         return;
     }
     char text[400];
     text_builder t = {text, sizeof text, 0};
-    const char *const settled = validation_words(v, VALIDATION_KEY_SETTLED_BY),
-                      *const wear = validation_words(v, VALIDATION_KEY_WEAR);
+    const char *const settled = validation_key_text(v, VALIDATION_KEY_SETTLED_BY),
+                      *const wear = validation_key_text(v, VALIDATION_KEY_WEAR);
     append_verdict(&t, v);
     text[0] = (char)toupper((unsigned char)text[0]);
-    answer_add_sentence(story, question, "validation", "%s.", text);
+    answer_add_sentence(context, question, "validation", "%s.", text);
     if (settled != NULL)
-        answer_add_sentence(story, question, "validation", "What would settle it: %s.", settled);
-    if (story->validation_sources.table != NULL)
-        answer_add_sentence(
-            story, question, "validation", "What would narrow it most: %s.",
-            validation_sources_words(&story->validation_sources, VALIDATION_SOURCES_KEY_ADVICE));
-    say_needed(story, v);
-    say_narrowed(story, v);
+        answer_add_sentence(context, question, "validation", "What would settle it: %s.", settled);
+    if (context->validation_sources.table != NULL)
+        answer_add_sentence(context, question, "validation", "What would narrow it most: %s.",
+                            validation_sources_key_text(&context->validation_sources,
+                                                        VALIDATION_SOURCES_KEY_ADVICE));
+    report_required_shear(context, v);
+    report_narrowed_range(context, v);
     if (wear != NULL)
         answer_add_sentence(
-            story, question, "validation",
+            context, question, "validation",
             "The specific wear rate as measured is %.3g times that of the layer: %s.",
             validation_value(v, VALIDATION_KEY_WEAR_RATIO).value, wear);
-    say_running_in(story);
+    report_running_in(context);
 }

@@ -22,23 +22,23 @@ typedef enum condition {
     CONDITIONS
 } condition;
 
-static double value_of(const wt_cycle *c, condition which)
+static double condition_value(const wt_cycle *c, condition which)
 {
     const double values[CONDITIONS] = {c->velocity, c->rotation, c->normal_force, c->pressure,
                                        c->temperature};
     return values[which];
 }
 
-static double least_change(condition which, double value)
+static double min_change(condition which, double value)
 {
     return which == TEMPERATURE ? same_temperature : same_ratio * fabs(value);
 }
 
-typedef struct spread {
+typedef struct running_moments {
     double n, mean, squares;
-} spread;
+} running_moments;
 
-static void add(spread *s, double value)
+static void moments_add_value(running_moments *s, double value)
 {
     if (isnan(value))
         return;
@@ -48,67 +48,67 @@ static void add(spread *s, double value)
     s->squares += off * (value - s->mean);
 }
 
-static spread spread_of(const wt_cycle *cycles, size_t n, condition which)
+static running_moments condition_moments(const wt_cycle *cycles, size_t n, condition which)
 {
-    spread s = {0};
+    running_moments s = {0};
     for (size_t i = 0; i < n; i++)
-        add(&s, value_of(&cycles[i], which));
+        moments_add_value(&s, condition_value(&cycles[i], which));
     return s;
 }
 
 /* True if the mean of the next cycles differs from the mean before. */
-static bool changes(const spread *before, const spread *next, condition which)
+static bool has_changed(const running_moments *before, const running_moments *next, condition which)
 {
     const double change = fabs(next->mean - before->mean);
-    if (!(before->n > 0) || !(next->n > 0) || change <= least_change(which, before->mean))
+    if (!(before->n > 0) || !(next->n > 0) || change <= min_change(which, before->mean))
         return false;
     const double variance = (before->squares + next->squares) / fmax(before->n + next->n - 2, 1);
     return change > outstanding * sqrt(variance * (1 / before->n + 1 / next->n));
 }
 
 /* Returns the first cycle that is closer to the new value than to the old one. */
-static size_t nearer(const wt_cycle *cycles, size_t i, size_t n, condition which, double old)
+static size_t find_change(const wt_cycle *cycles, size_t i, size_t n, condition which, double old)
 {
     const size_t from = i + LASTING < n ? i + LASTING / 2 : i;
     const size_t end = from + LASTING < n ? from + LASTING : n;
-    const double next = spread_of(cycles + from, end - from, which).mean;
-    while (i < n &&
-           fabs(value_of(&cycles[i], which) - old) < fabs(value_of(&cycles[i], which) - next))
+    const double next = condition_moments(cycles + from, end - from, which).mean;
+    while (i < n && fabs(condition_value(&cycles[i], which) - old) <
+                        fabs(condition_value(&cycles[i], which) - next))
         i++;
     return i;
 }
 
-static bool rests(const wt_cycle *c)
+static bool is_at_rest(const wt_cycle *c)
 {
     return c->velocity == 0 || (isnan(c->velocity) && c->rotation == 0);
 }
 
-size_t conditions_step(const wt_cycle *cycles, size_t n)
+size_t conditions_step_length(const wt_cycle *cycles, size_t n)
 {
-    spread before[CONDITIONS] = {{0}};
+    running_moments before[CONDITIONS] = {{0}};
     size_t end = 1;
     while (end < n && cycles[end].step == cycles[0].step)
         end++;
     /* A rest before sliding begins is a step of its own, however short it is. */
-    for (size_t still = 0; still < end && rests(&cycles[still]); still++)
-        if (still + 1 < end && !rests(&cycles[still + 1]))
+    for (size_t still = 0; still < end && is_at_rest(&cycles[still]); still++)
+        if (still + 1 < end && !is_at_rest(&cycles[still + 1]))
             return still + 1;
     for (size_t i = 0; i < end; i++) {
         const size_t next = i + LASTING < end ? LASTING : end - i;
         for (condition c = VELOCITY; c < CONDITIONS && i >= FEWEST && next >= FEWEST; c++) {
-            const spread ahead = spread_of(cycles + i, next, c);
-            if (changes(&before[c], &ahead, c))
-                return nearer(cycles, i, end, c, before[c].mean);
+            const running_moments ahead = condition_moments(cycles + i, next, c);
+            if (has_changed(&before[c], &ahead, c))
+                return find_change(cycles, i, end, c, before[c].mean);
         }
         for (condition c = VELOCITY; c < CONDITIONS; c++)
-            add(&before[c], value_of(&cycles[i], c));
+            moments_add_value(&before[c], condition_value(&cycles[i], c));
     }
     return end;
 }
 
-static double mean_or_nan(const wt_cycle *cycles, size_t n, condition which)
+static double mean_condition(const wt_cycle *cycles, size_t n, condition which)
 {
-    const spread s = spread_of(cycles, n, which);
+    const running_moments s = condition_moments(cycles, n, which);
     return s.n > 0 ? s.mean : (double)NAN;
 }
 
@@ -121,35 +121,35 @@ static double mean_velocity(const wt_cycle *cycles, size_t n)
             path += cycles[i].velocity * cycles[i].duration;
             time += cycles[i].duration;
         }
-    return time > 0 ? path / time : mean_or_nan(cycles, n, VELOCITY);
+    return time > 0 ? path / time : mean_condition(cycles, n, VELOCITY);
 }
 
-record_conditions conditions_of(const wt_cycle *cycles, size_t n)
+record_conditions conditions_mean(const wt_cycle *cycles, size_t n)
 {
-    return (record_conditions){mean_velocity(cycles, n), mean_or_nan(cycles, n, ROTATION),
-                               mean_or_nan(cycles, n, NORMAL_FORCE),
-                               mean_or_nan(cycles, n, PRESSURE),
-                               mean_or_nan(cycles, n, TEMPERATURE)};
+    return (record_conditions){mean_velocity(cycles, n), mean_condition(cycles, n, ROTATION),
+                               mean_condition(cycles, n, NORMAL_FORCE),
+                               mean_condition(cycles, n, PRESSURE),
+                               mean_condition(cycles, n, TEMPERATURE)};
 }
 
-bool conditions_rest(record_conditions at)
+bool conditions_are_at_rest(record_conditions at)
 {
     return !(at.velocity > 0 || at.rotation > 0) && (at.velocity == 0 || at.rotation == 0);
 }
 
 /* A quantity that only one of both states is not equal. */
-static bool alike(double a, double b, condition which)
+static bool is_same_condition(double a, double b, condition which)
 {
     if (isnan(a) || isnan(b))
         return isnan(a) && isnan(b);
-    return fabs(a - b) <= least_change(which, fmax(fabs(a), fabs(b)));
+    return fabs(a - b) <= min_change(which, fmax(fabs(a), fabs(b)));
 }
 
-bool conditions_alike(record_conditions a, record_conditions b)
+bool conditions_are_equal(record_conditions a, record_conditions b)
 {
-    return alike(a.velocity, b.velocity, VELOCITY) &&
-           (!isnan(a.velocity) || alike(a.rotation, b.rotation, ROTATION)) &&
-           alike(a.normal_force, b.normal_force, NORMAL_FORCE) &&
-           alike(a.pressure, b.pressure, PRESSURE) &&
-           alike(a.temperature, b.temperature, TEMPERATURE);
+    return is_same_condition(a.velocity, b.velocity, VELOCITY) &&
+           (!isnan(a.velocity) || is_same_condition(a.rotation, b.rotation, ROTATION)) &&
+           is_same_condition(a.normal_force, b.normal_force, NORMAL_FORCE) &&
+           is_same_condition(a.pressure, b.pressure, PRESSURE) &&
+           is_same_condition(a.temperature, b.temperature, TEMPERATURE);
 }

@@ -45,7 +45,7 @@ static size_t find_drawn(flow_draw draw)
     return i;
 }
 
-const char *source_of_draw(flow_draw draw, const char **remedy)
+const char *draw_source_name(flow_draw draw, const char **remedy)
 {
     const size_t k = find_drawn(draw);
     *remedy = drawn[k].remedy;
@@ -83,25 +83,26 @@ static source *find_source(source_list *list, const char *words, const char *rem
 /* ---- variance by source ---------------------------------------------------------------------- */
 
 /* Names the variance that is not attributed to a single draw. */
-static const char *words_of_rest(const wt_sliding *sliding, bool split)
+static const char *other_sources_name(const wt_sliding *sliding, bool split)
 {
     const bool with_surface = sliding->surface->modes_error != NULL;
     const bool two = sliding->layer_rubber != NULL && sliding->layer_rubber->n_draws > 0;
     if (!split)
-        return VALIDATION_OF_MATERIAL " and all else that is drawn";
+        return VALIDATION_MATERIAL_PREFIX " and all else that is drawn";
     if (with_surface)
-        return two ? VALIDATION_OF_MATERIAL ", that of the layer, scatter of the measured spectrum"
-                   : VALIDATION_OF_MATERIAL ", and scatter of the measured spectrum";
-    return two ? VALIDATION_OF_MATERIAL ", and that of the layer" : VALIDATION_OF_MATERIAL;
+        return two ? VALIDATION_MATERIAL_PREFIX
+                   ", that of the layer, scatter of the measured spectrum"
+                   : VALIDATION_MATERIAL_PREFIX ", and scatter of the measured spectrum";
+    return two ? VALIDATION_MATERIAL_PREFIX ", and that of the layer" : VALIDATION_MATERIAL_PREFIX;
 }
 
-static void add_rest(source_list *list, const wt_sliding *sliding, bool split,
-                     const model_variant_parts *parts, const model_variant_parts *needed)
+static void add_other_sources(source_list *list, const wt_sliding *sliding, bool split,
+                              const variance_components *parts, const variance_components *needed)
 {
     const struct {
         const char *words, *remedy;
         double variance, needed;
-    } rest[] = {{words_of_rest(sliding, split),
+    } rest[] = {{other_sources_name(sliding, split),
                  !split ? "more replicates, which tell the errors apart"
                  : sliding->surface->modes_error != NULL
                      ? "a second DMA run; more scans of the counter surface"
@@ -119,8 +120,8 @@ static void add_rest(source_list *list, const wt_sliding *sliding, bool split,
         }
 }
 
-static void list_sources(const validation *v, bool split, const model_variant_parts *parts,
-                         const model_variant_parts *needed, source_list *list)
+static void list_sources(const validation *v, bool split, const variance_components *parts,
+                         const variance_components *needed, source_list *list)
 {
     *list = (source_list){.all = parts->all, .all_needed = needed->all};
     for (size_t u = 0; split && u < v->p.n_lines; u++) {
@@ -129,16 +130,16 @@ static void list_sources(const validation *v, bool split, const model_variant_pa
         s->variance += parts->line[u];
         s->needed += needed->line[u];
     }
-    add_rest(list, v->job->sliding, split, parts, needed);
+    add_other_sources(list, v->job->sliding, split, parts, needed);
 }
 
 /* Computes how far the record shifts each drawn number, whose prior is 0 +- 1. The value is noise
  * plus slope times the true offset of the number. This is the inverse problem. */
-static wt_status find_pulls(const validation *v, const model_variant *t, source_list *list,
-                            wt_error *err)
+static wt_status find_source_pulls(const validation *v, const model_variant *t, source_list *list,
+                                   wt_error *err)
 {
-    agreement_data data = model_variant_data(t);
-    data.allowed = validation_allowed(v);
+    agreement_data data = model_variant_agreement_data(t);
+    data.allowed = validation_discrepancy_variance(v);
     double *const weight = malloc((t->n + 1) * sizeof *weight);
     wt_status status = weight == NULL ? wt_fail(err, WT_E_MEMORY, "out of memory") : WT_OK;
     for (size_t u = 0; status == WT_OK && u < t->n_lines; u++) {
@@ -162,7 +163,7 @@ static wt_status find_pulls(const validation *v, const model_variant *t, source_
 
 /* ---- advice ---------------------------------------------------------------------------------- */
 
-static int by_variance(const void *a, const void *b)
+static int compare_variances(const void *a, const void *b)
 {
     const source *x = a, *y = b;
     return (x->variance < y->variance) - (x->variance > y->variance);
@@ -170,11 +171,12 @@ static int by_variance(const void *a, const void *b)
 
 /* Number of sources, the largest first, that must vanish until the interval no longer contains the
  * bound of the margin. Returns the number of sources + 1 if all of them do not suffice. */
-static size_t count_to_settle(const validation *v, const model_variant *t, const source_list *list)
+static size_t count_required_sources(const validation *v, const model_variant *t,
+                                     const source_list *list)
 {
     const agreement *const fit = &t->fit;
-    const size_t at = fit->where;
-    const double off = fabs(fabs(fit->smooth[at]) - validation_margin(v)),
+    const size_t at = fit->deciding_step;
+    const double off = fabs(fabs(fit->fitted_value[at]) - validation_margin(v)),
                  wanted = off / agreement_quantile(fit->df[at]);
     double left = list->all;
     size_t n = 0;
@@ -186,16 +188,16 @@ static size_t count_to_settle(const validation *v, const model_variant *t, const
 /* Advice that names more sources at once is not useful. */
 enum { MOST_NAMED = 2 };
 
-static void give_advice(const validation *v, const model_variant *t, const source_list *list,
-                        source_advice *advice)
+static void write_advice(const validation *v, const model_variant *t, const source_list *list,
+                         source_advice *advice)
 {
     const source *const first = &list->of[0];
     const double share = first->variance / list->all;
     clocale_print(advice->narrows, sizeof advice->narrows, "%s: %.0f %% of the variance is the %s",
                   first->remedy, 100 * share, first->words);
-    if (t->fit.verdict != AGREEMENT_OPEN)
+    if (t->fit.verdict != AGREEMENT_INCONCLUSIVE)
         return;
-    const size_t n = count_to_settle(v, t, list);
+    const size_t n = count_required_sources(v, t, list);
     char words[200] = "";
     for (size_t i = 0, used = 0; i < n && i < list->n && used < sizeof words; i++)
         used += (size_t)snprintf(words + used, sizeof words - used, "%s%s", i > 0 ? ", " : "",
@@ -211,8 +213,8 @@ static void give_advice(const validation *v, const model_variant *t, const sourc
 
 /* ---- table ----------------------------------------------------------------------------------- */
 
-static wt_status write_table(const source_list *list, const source_advice *advice, wt_table **table,
-                             wt_error *err)
+static wt_status write_sources_table(const source_list *list, const source_advice *advice,
+                                     wt_table **table, wt_error *err)
 {
     table_writer w = table_begin(&validation_sources_schema, err);
     for (size_t i = 0; i < list->n; i++) {
@@ -225,7 +227,8 @@ static wt_status write_table(const source_list *list, const source_advice *advic
     return table_end(&w, table);
 }
 
-wt_status sources_make(const validation *v, source_advice *advice, wt_table **table, wt_error *err)
+wt_status error_sources_tabulate(const validation *v, source_advice *advice, wt_table **table,
+                                 wt_error *err)
 {
     const model_variant *const t = v->has_shear ? &v->ratio[v->layered] : &v->shear;
     double *const row = malloc((t->n + 1) * sizeof *row);
@@ -233,18 +236,18 @@ wt_status sources_make(const validation *v, source_advice *advice, wt_table **ta
     *advice = (source_advice){.narrows = ""};
     if (row == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
-    agreement_row(&t->fit, t->fit.where, row);
-    const model_variant_parts parts = model_variant_variance(t, row);
-    agreement_row(&v->shear.fit, 0, row);
-    const model_variant_parts needed = model_variant_variance(&v->shear, row);
+    agreement_weights(&t->fit, t->fit.deciding_step, row);
+    const variance_components parts = model_variant_components(t, row);
+    agreement_weights(&v->shear.fit, 0, row);
+    const variance_components needed = model_variant_components(&v->shear, row);
     free(row);
     const bool split = t->split || v->p.n_draws == 0; /* without draws there is nothing to
                                                          attribute */
     list_sources(v, split, &parts, &needed, &list);
-    const wt_status status = v->has_shear && split ? find_pulls(v, t, &list, err) : WT_OK;
+    const wt_status status = v->has_shear && split ? find_source_pulls(v, t, &list, err) : WT_OK;
     if (status != WT_OK)
         return status;
-    qsort(list.of, list.n, sizeof *list.of, by_variance);
-    give_advice(v, t, &list, advice);
-    return write_table(&list, advice, table, err);
+    qsort(list.of, list.n, sizeof *list.of, compare_variances);
+    write_advice(v, t, &list, advice);
+    return write_sources_table(&list, advice, table, err);
 }

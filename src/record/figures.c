@@ -13,7 +13,7 @@ static void draw_record(figure_drawing *d)
 {
     static const unsigned columns[] = {RECORD_RUNNING_IN, RECORD_FRICTION, RECORD_RUNNING_IN_LOW,
                                        RECORD_RUNNING_IN_HIGH};
-    if (!drawing_data(d))
+    if (!drawing_build_data(d))
         return;
     drawing_axes(d);
     const int ends = drawing_section(d, &d->tables->record, "end of the running-in", NULL, columns,
@@ -41,7 +41,7 @@ static void caption_record(figure_drawing *d)
  * and its interval. */
 static void draw_temperature(figure_drawing *d)
 {
-    if (!drawing_data(d))
+    if (!drawing_build_data(d))
         return;
     drawing_axes(d);
     plot_item(d, d->data[0], "($1+x_offset):2:4:5 with yerrorbars ls 1 notitle");
@@ -52,7 +52,7 @@ static void draw_temperature(figure_drawing *d)
     {                                                                                              \
         .name = "record_" which, .title = "Friction as measured, against " which,                  \
         .table = &record_schema, .data_title = "steady part", .x = {column, scale, label},         \
-        .of_several = true, .y = {{RECORD_FRICTION, AXIS_NUMBER, "Friction coefficient μ"}},       \
+        .needs_several_x = true, .y = {{RECORD_FRICTION, AXIS_NUMBER, "Friction coefficient μ"}},  \
         .curves = {CURVE(RECORD_FRICTION, BARS, .style = 1, .with_errors = true)}, .words = words_ \
     }
 
@@ -83,7 +83,7 @@ const figure_description figures_record[] = {
      .table = &record_schema,
      .data_title = "steady part",
      .x = {RECORD_TEMPERATURE, AXIS_LINEAR, "Temperature"},
-     .of_several = true,
+     .needs_several_x = true,
      .y = {{RECORD_FRICTION, AXIS_NUMBER, "Friction coefficient μ"}},
      .curves = {CURVE(RECORD_FRICTION, OWN, .with_errors = true)},
      .words =

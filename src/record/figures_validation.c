@@ -8,14 +8,14 @@
 static void caption_verdict(figure_drawing *d)
 {
     text_append_translated(&d->caption, " Of %s: %s.",
-                           validation_words(d->table, VALIDATION_KEY_JUDGED),
-                           validation_words(d->table, VALIDATION_KEY_VERDICT));
+                           validation_key_text(d->table, VALIDATION_KEY_JUDGED),
+                           validation_key_text(d->table, VALIDATION_KEY_VERDICT));
 }
 
-static void caption_course(figure_drawing *d)
+static void caption_running_in_verdict(figure_drawing *d)
 {
     text_append_translated(&d->caption, " Running-in: %s.",
-                           validation_course_words(d->table, VALIDATION_COURSE_KEY_VERDICT));
+                           validation_course_key_text(d->table, VALIDATION_COURSE_KEY_VERDICT));
 }
 
 /* Marks the ratio 1, at which measured and predicted friction agree. */
@@ -75,6 +75,6 @@ const figure_description figures_validation[] = {
      .words = "Friction coefficient of the records from their start on, means of the cycles with "
               "their interval of 95 %, as predicted while the layer grows and without one, with "
               "one standard error, and the predicted course as it lies nearest to the record.",
-     .caption = caption_course},
+     .caption = caption_running_in_verdict},
     {.name = NULL},
 };

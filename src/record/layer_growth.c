@@ -19,7 +19,7 @@ enum { NODES = 32 };
  * shortest wave hardly senses it. */
 static const double thinnest = 0.02, least_part = 1e-3;
 
-typedef struct growing {
+typedef struct growth_inputs {
     wt_sliding sliding; /* at the conditions of the record */
     double velocity;
     const wt_sliding *stated; /* at the conditions of the case, where a thickness was observed */
@@ -29,14 +29,14 @@ typedef struct growing {
     bool transport; /* true: damage transport; false: rate balance */
     double *time;   /* [n] */
     size_t n;
-} growing;
+} growth_inputs;
 
 /* ---- one draw -------------------------------------------------------------------------------- */
 
 /* Creates the context of a draw at the conditions of the record. The caller owns its job. The
  * critical energy reproduces the observed thickness at the conditions of the case. */
-static wt_status scene_of(const growing *g, size_t replicate, wt_material_cache *drawn,
-                          wt_layer_job *job, layer_context *scene, wt_error *err)
+static wt_status draw_context(const growth_inputs *g, size_t replicate, wt_material_cache *drawn,
+                              wt_layer_job *job, layer_context *scene, wt_error *err)
 {
     const wt_layer_observation *const known = g->known;
     const uint64_t seed = g->work->seed;
@@ -45,7 +45,7 @@ static wt_status scene_of(const growing *g, size_t replicate, wt_material_cache 
                              .work = g->work,
                              .replicate = replicate,
                              .modulus_ratio = (double)NAN};
-    const wt_status status = layer_job_calibrated(scene, job, err);
+    const wt_status status = layer_job_calibrate(scene, job, err);
     job->velocity = g->velocity;
     job->time = NULL;
     *scene = (layer_context){.sliding = &g->sliding,
@@ -56,46 +56,47 @@ static wt_status scene_of(const growing *g, size_t replicate, wt_material_cache 
                              .modulus_ratio =
                                  flow_draw_positive_t(known->modulus_ratio, known->modulus_ratio_df,
                                                       seed, replicate, FLOW_DRAW_RATIO),
-                             .slope = sliding_layer_slope(known, seed, replicate)};
+                             .slope = sliding_layer_ratio_slope(known, seed, replicate)};
     return status;
 }
 
 /* Friction with a layer, and the thickness in time. */
-typedef struct one_draw {
+typedef struct growth_draw {
     layer_context *scene;
     wt_layer_parameters parameters;
     wt_layer_point *points; /* [n] at the times */
     double thickness, bare; /* final thickness [m]; friction coefficient without a layer */
     layer_friction_model friction_of;
-} one_draw;
+} growth_draw;
 
-static wt_status grow_back(const growing *g, one_draw *d, wt_error *err)
+static wt_status grow_with_feedback(const growth_inputs *g, growth_draw *d, wt_error *err)
 {
-    wt_layer_loop loop;
-    const wt_status status = feedback_find(d->scene, &loop, err);
+    wt_layer_feedback loop;
+    const wt_status status = feedback_find_balances(d->scene, &loop, err);
     if (status != WT_OK)
         return status;
     d->thickness = 0;
     for (size_t i = loop.n_roots; i-- > 0;)
         if (loop.root[i].stable)
             d->thickness = loop.root[i].thickness;
-    return wt_layer_loop_history(feedback_energy, d->scene, &loop, g->time, g->n, d->points, err);
+    return wt_layer_feedback_history(feedback_energy, d->scene, &loop, g->time, g->n, d->points,
+                                     err);
 }
 
-static wt_status grow(const growing *g, one_draw *d, wt_error *err)
+static wt_status grow_layer(const growth_inputs *g, growth_draw *d, wt_error *err)
 {
     wt_layer_parameters *const p = &d->parameters;
     layer_energy energy = {.source = {.n = 0}};
-    wt_layer_balance balance;
-    wt_status status = layer_at(d->scene, operating_point_default(), &energy, p, err);
+    wt_layer_steady_state balance;
+    wt_status status = layer_compute_energy(d->scene, operating_point_default(), &energy, p, err);
     p->balance_only = true;
     if (status == WT_OK)
-        status = wt_layer_balance_compute(&energy.source, p, &balance, err);
+        status = wt_layer_steady_state_compute(&energy.source, p, &balance, err);
     if (status == WT_OK)
         d->thickness = balance.thickness.value;
-    p->without_errors = true;
-    if (status == WT_OK && g->job.acts_back)
-        status = grow_back(g, d, err);
+    p->skip_numerical_errors = true;
+    if (status == WT_OK && g->job.has_feedback)
+        status = grow_with_feedback(g, d, err);
     else if (status == WT_OK && isfinite(d->thickness))
         status = wt_layer_history(&energy.source, p, g->time, g->n, d->points, err);
     layer_energy_clear(&energy);
@@ -104,45 +105,48 @@ static wt_status grow(const growing *g, one_draw *d, wt_error *err)
     return status;
 }
 
-static wt_status find_friction(const growing *g, one_draw *d, wt_error *err)
+static wt_status find_layer_friction(const growth_inputs *g, growth_draw *d, wt_error *err)
 {
     layer_friction bare;
     double most = d->thickness;
     for (size_t i = 0; i < g->n; i++)
         most = fmax(most, d->points[i].thickness.value);
-    wt_status status = layer_friction_at(d->scene, operating_point_default(), &bare, err);
+    wt_status status = layer_compute_friction(d->scene, operating_point_default(), &bare, err);
     if (status != WT_OK)
         return status;
     d->bare = bare.total;
     if (most > 0)
-        status = layer_friction_model_make(
+        status = layer_friction_model_create(
             d->scene, fmin(thinnest / g->sliding.surface->q1, least_part * most), most, NODES,
             &d->friction_of, err);
     return status;
 }
 
-static wt_status put_friction(const one_draw *d, double thickness, double *out, wt_error *err)
+static wt_status evaluate_friction(const growth_draw *d, double thickness, double *out,
+                                   wt_error *err)
 {
     layer_friction at = {.total = d->bare};
     const wt_status status =
-        thickness > 0 ? layer_friction_model_at(&d->friction_of, thickness, &at, err) : WT_OK;
+        thickness > 0 ? layer_friction_model_evaluate(&d->friction_of, thickness, &at, err) : WT_OK;
     *out = at.total;
     return status;
 }
 
-/* out: [GROWTH_NUMBERS + n] */
-static wt_status follow(const growing *g, layer_context *scene, double *out, wt_error *err)
+/* out: [GROWTH_QUANTITIES + n] */
+static wt_status compute_draw(const growth_inputs *g, layer_context *scene, double *out,
+                              wt_error *err)
 {
     const wt_layer_job *const job = scene->job;
-    one_draw d = {.scene = scene, .points = calloc(g->n, sizeof *d.points)};
+    growth_draw d = {.scene = scene, .points = calloc(g->n, sizeof *d.points)};
     wt_status status =
-        d.points == NULL ? wt_fail(err, WT_E_MEMORY, "out of memory") : grow(g, &d, err);
+        d.points == NULL ? wt_fail(err, WT_E_MEMORY, "out of memory") : grow_layer(g, &d, err);
     if (status == WT_OK)
-        status = find_friction(g, &d, err);
+        status = find_layer_friction(g, &d, err);
     for (size_t i = 0; status == WT_OK && i < g->n; i++)
-        status = put_friction(&d, d.points[i].thickness.value, &out[GROWTH_NUMBERS + i], err);
+        status =
+            evaluate_friction(&d, d.points[i].thickness.value, &out[GROWTH_QUANTITIES + i], err);
     if (status == WT_OK)
-        status = put_friction(&d, d.thickness, &out[GROWTH_END], err);
+        status = evaluate_friction(&d, d.thickness, &out[GROWTH_END], err);
     out[GROWTH_BARE] = d.bare;
     out[GROWTH_WEAR] = d.parameters.specific_wear_rate;
     out[GROWTH_ENERGY] =
@@ -155,22 +159,22 @@ static wt_status follow(const growing *g, layer_context *scene, double *out, wt_
 /* ---- times ----------------------------------------------------------------------------------- */
 
 /* Refines the times at which a layer is shown. */
-static wt_status choose_times(growing *g, growth *out, wt_error *err)
+static wt_status choose_times(growth_inputs *g, growth *out, wt_error *err)
 {
     layer_energy energy = {.source = {.n = 0}};
     wt_layer_parameters p;
-    wt_layer_balance balance;
+    wt_layer_steady_state balance;
     wt_layer_job job;
     layer_context scene;
     double *shown = NULL;
     size_t n = 0;
-    wt_status status = scene_of(g, WT_NO_REPLICATE, NULL, &job, &scene, err);
+    wt_status status = draw_context(g, WT_NO_REPLICATE, NULL, &job, &scene, err);
     if (status == WT_OK)
-        status = layer_at(&scene, operating_point_default(), &energy, &p, err);
+        status = layer_compute_energy(&scene, operating_point_default(), &energy, &p, err);
     if (status == WT_OK)
-        status = wt_layer_balance_compute(&energy.source, &p, &balance, err);
+        status = wt_layer_steady_state_compute(&energy.source, &p, &balance, err);
     layer_energy_clear(&energy);
-    if (status == WT_OK && balance.thickness.value <= 0 && !g->job.acts_back)
+    if (status == WT_OK && balance.thickness.value <= 0 && !g->job.has_feedback)
         status = wt_fail(err, WT_E_RANGE, "no layer is predicted there: wear exceeds formation");
     if (status == WT_OK)
         status = layer_times_choose(&job, &balance, &shown, &n, err);
@@ -190,23 +194,23 @@ static wt_status choose_times(growing *g, growth *out, wt_error *err)
 
 /* ---- draws ----------------------------------------------------------------------------------- */
 
-typedef struct drawing {
-    growing g;
+typedef struct growth_replicates {
+    growth_inputs g;
     replicates *r;
-} drawing;
+} growth_replicates;
 
-static wt_status one_replicate(const void *user, size_t i, double *out, wt_error *err)
+static wt_status compute_replicate(const void *user, size_t i, double *out, wt_error *err)
 {
-    const drawing *const d = user;
+    const growth_replicates *const d = user;
     wt_layer_job job;
     layer_context scene;
-    const wt_status status = scene_of(&d->g, i, d->r->drawn, &job, &scene, err);
-    return status == WT_OK ? follow(&d->g, &scene, out, err) : status;
+    const wt_status status = draw_context(&d->g, i, d->r->drawn, &job, &scene, err);
+    return status == WT_OK ? compute_draw(&d->g, &scene, out, err) : status;
 }
 
-static replicates begin_replicates(const growing *g)
+static replicates begin_growth_replicates(const growth_inputs *g)
 {
-    replicates r = replicates_of(&g->sliding, g->work, "friction in running-in");
+    replicates r = replicates_create(&g->sliding, g->work, "friction in running-in");
     r.velocity = g->velocity;
     layer_replicates_add(&r, &g->sliding, &g->job);
     if (g->job.energy == WT_LAYER_HYSTERESIS)
@@ -216,74 +220,75 @@ static replicates begin_replicates(const growing *g)
     return r;
 }
 
-static wt_status draw_all(const growing *g, growth *out, wt_error *err)
+static wt_status draw_growth(const growth_inputs *g, growth *out, wt_error *err)
 {
-    replicates r = begin_replicates(g);
-    const drawing d = {*g, &r};
-    if (g->job.acts_back)
+    replicates r = begin_growth_replicates(g);
+    const growth_replicates d = {*g, &r};
+    if (g->job.has_feedback)
         r.n = 0;
     out->n_draws = r.n;
     out->value = calloc((1 + r.n) * out->stride, sizeof *out->value);
-    out->course = calloc((1 + r.n) * out->n, sizeof *out->course);
-    wt_status status = out->value == NULL || out->course == NULL
+    out->running_in_curve = calloc((1 + r.n) * out->n, sizeof *out->running_in_curve);
+    wt_status status = out->value == NULL || out->running_in_curve == NULL
                            ? wt_fail(err, WT_E_MEMORY, "out of memory")
                            : WT_OK;
     wt_layer_job job;
     layer_context nominal;
     if (status == WT_OK)
-        status = scene_of(g, WT_NO_REPLICATE, NULL, &job, &nominal, err);
+        status = draw_context(g, WT_NO_REPLICATE, NULL, &job, &nominal, err);
     if (status == WT_OK)
-        status = follow(g, &nominal, out->value, err);
+        status = compute_draw(g, &nominal, out->value, err);
     if (status == WT_OK && r.n > 0)
-        status = replicates_draw(&r, out->stride, one_replicate, &d, err);
+        status = replicates_draw(&r, out->stride, compute_replicate, &d, err);
     if (status == WT_OK && r.n > 0)
         memcpy(out->value + out->stride, r.value, r.n * out->stride * sizeof *r.value);
     memcpy(out->line, r.draw, sizeof out->line);
     out->n_lines = r.n_draws;
-    snprintf(out->includes, sizeof out->includes, "%s", replicates_include(&r));
+    snprintf(out->includes, sizeof out->includes, "%s", replicates_included_errors(&r));
     replicates_clear(&r);
     return status;
 }
 
-static void find_courses(growth *g)
+static void find_curves(growth *g)
 {
     for (size_t k = 0; k <= g->n_draws; k++) {
         const double *const v = g->value + k * g->stride;
         double most = 0;
         for (size_t i = 0; i < g->n; i++) {
-            g->course[k * g->n + i] = v[GROWTH_NUMBERS + i] - v[GROWTH_END];
-            most = fmax(most, fabs(g->course[k * g->n + i]));
+            g->running_in_curve[k * g->n + i] = v[GROWTH_QUANTITIES + i] - v[GROWTH_END];
+            most = fmax(most, fabs(g->running_in_curve[k * g->n + i]));
         }
         g->n_bare += isfinite(v[GROWTH_END]) && most <= 0;
     }
 }
 
-static growing growing_of(const wt_sliding *sliding, const wt_layer_job *layer,
-                          const wt_layer_observation *known, const measured_step *at,
-                          const wt_job *work)
+static growth_inputs growth_inputs_read(const wt_sliding *sliding, const wt_layer_job *layer,
+                                        const wt_layer_observation *known, const measured_step *at,
+                                        const wt_job *work)
 {
-    growing g = {.sliding = *sliding,
-                 .velocity = at->velocity,
-                 .stated = sliding,
-                 .job = *layer,
-                 .known = known,
-                 .work = work};
-    measured_conditions(at, &g.sliding);
-    g.job.shear = sliding_layer_shear_of(known);
+    growth_inputs g = {.sliding = *sliding,
+                       .velocity = at->velocity,
+                       .stated = sliding,
+                       .job = *layer,
+                       .known = known,
+                       .work = work};
+    measured_step_conditions(at, &g.sliding);
+    g.job.shear = sliding_layer_shear_law(known);
     return g;
 }
 
-wt_status growth_make(const wt_sliding *sliding, const wt_layer_job *layer,
-                      const wt_layer_observation *known, const measured_step *at,
-                      const wt_job *work, growth *out, wt_error *err)
+wt_status growth_compute(const wt_sliding *sliding, const wt_layer_job *layer,
+                         const wt_layer_observation *known, const measured_step *at,
+                         const wt_job *work, growth *out, wt_error *err)
 {
     wt_job own = *work;
     own.drawn = NULL; /* the stored draws are for another temperature */
-    own.left_out = WT_EXTRAS;
-    growing g = growing_of(sliding, layer, known, at, &own);
-    g.transport = layer->incubation && !layer->acts_back;
+    own.left_out = WT_EXTRA_ALL;
+    growth_inputs g = growth_inputs_read(sliding, layer, known, at, &own);
+    g.transport = layer->incubation && !layer->has_feedback;
     g.n = g.transport ? TIMES_TRANSPORT : TIMES_RATES;
-    *out = (growth){.n = g.n, .stride = GROWTH_NUMBERS + g.n, .without_errors = layer->acts_back};
+    *out = (growth){
+        .n = g.n, .stride = GROWTH_QUANTITIES + g.n, .skip_numerical_errors = layer->has_feedback};
     g.sliding.velocity = &g.velocity;
     g.sliding.n_velocity = 1;
     g.sliding.reference_velocity = g.velocity;
@@ -292,9 +297,9 @@ wt_status growth_make(const wt_sliding *sliding, const wt_layer_job *layer,
     if (status == WT_OK)
         status = choose_times(&g, out, err);
     if (status == WT_OK)
-        status = draw_all(&g, out, err);
+        status = draw_growth(&g, out, err);
     if (status == WT_OK)
-        find_courses(out);
+        find_curves(out);
     free(g.time);
     return status;
 }
@@ -302,27 +307,27 @@ wt_status growth_make(const wt_sliding *sliding, const wt_layer_job *layer,
 void growth_clear(growth *g)
 {
     free(g->value);
-    free(g->course);
+    free(g->running_in_curve);
     *g = (growth){.n = 0};
 }
 
-double growth_number_of(const growth *g, size_t k, growth_number number)
+double growth_quantity_value(const growth *g, size_t k, growth_quantity number)
 {
     return g->value[k * g->stride + (size_t)number];
 }
 
-course growth_course(const growth *g, size_t k)
+running_in_curve growth_curve(const growth *g, size_t k)
 {
-    return (course){g->n, g->log_first, g->log_step, g->course + k * g->n};
+    return (running_in_curve){g->n, g->log_first, g->log_step, g->running_in_curve + k * g->n};
 }
 
-double growth_friction(const growth *g, size_t k, double time)
+double growth_friction_at(const growth *g, size_t k, double time)
 {
-    const course c = growth_course(g, k);
-    return growth_number_of(g, k, GROWTH_END) + running_in_curve_at(&c, log(time));
+    const running_in_curve c = growth_curve(g, k);
+    return growth_quantity_value(g, k, GROWTH_END) + running_in_curve_at(&c, log(time));
 }
 
-double growth_scatter(const growth *g, growth_value *of, double time)
+double growth_standard_deviation(const growth *g, growth_function *of, double time)
 {
     double sum = 0, squares = 0, n = 0;
     for (size_t k = 1; k <= g->n_draws; k++) {

@@ -16,7 +16,7 @@ static const double same_temperature = 0.25 /* [K] */, same_pressure = 0.01;
 /* Loads of one step agree to 10 %; see conditions.c. */
 static const double same_load = 1.1;
 
-static const char *why_not(const measured_step *s)
+static const char *exclusion_reason(const measured_step *s)
 {
     if (!(s->velocity > 0))
         return "nothing slides in it";
@@ -27,37 +27,37 @@ static const char *why_not(const measured_step *s)
     return "";
 }
 
-static bool is_used(const measured_step *s)
+static bool is_step_used(const measured_step *s)
 {
     return s->note[0] == '\0';
 }
 
 /* Unknown values are equal and sort after all known values. */
-static int by_value(double a, double b)
+static int compare_values(double a, double b)
 {
     if (isnan(a) || isnan(b))
         return (isnan(a) ? 1 : 0) - (isnan(b) ? 1 : 0);
     return (a > b) - (a < b);
 }
 
-static int by_condition(const void *x, const void *y)
+static int compare_conditions(const void *x, const void *y)
 {
     const measured_step *a = x, *b = y;
-    int order = is_used(b) - is_used(a);
+    int order = is_step_used(b) - is_step_used(a);
     if (order == 0)
-        order = by_value(a->temperature, b->temperature);
+        order = compare_values(a->temperature, b->temperature);
     if (order == 0)
-        order = by_value(a->pressure, b->pressure);
+        order = compare_values(a->pressure, b->pressure);
     if (order == 0)
-        order = by_value(a->velocity, b->velocity);
+        order = compare_values(a->velocity, b->velocity);
     if (order == 0)
-        order = by_value(a->friction, b->friction);
-    return order != 0 ? order : by_value(a->error, b->error);
+        order = compare_values(a->friction, b->friction);
+    return order != 0 ? order : compare_values(a->error, b->error);
 }
 
 /* Replaces values that merely fluctuate by the first of them, so that the steps sort by
  * velocity. */
-static void join_flicker(measured *m)
+static void merge_fluctuations(measured *m)
 {
     for (size_t i = 0; i < m->n_all; i++)
         for (size_t k = 0; k < i; k++) {
@@ -69,18 +69,19 @@ static void join_flicker(measured *m)
         }
 }
 
-static void add_remark(char *remarks, size_t size, const char *words)
+static void append_remark(char *remarks, size_t size, const char *words)
 {
     const size_t used = strlen(remarks);
     snprintf(remarks + used, size - used, "%s%s", used > 0 ? "; " : "", words);
 }
 
-void measured_remark(measured *m, const char *words)
+void measured_steps_add_remark(measured *m, const char *words)
 {
-    add_remark(m->remarks, sizeof m->remarks, words);
+    append_remark(m->remarks, sizeof m->remarks, words);
 }
 
-void measured_taken(const table_view *record, bool first_steps, char *remarks, size_t size)
+void measured_default_remarks(const table_view *record, bool first_steps, char *remarks,
+                              size_t size)
 {
     bool velocity = false, temperature = false, pressure = false;
     double lightest = (double)INFINITY, heaviest = 0;
@@ -95,22 +96,22 @@ void measured_taken(const table_view *record, bool first_steps, char *remarks, s
         heaviest = fmax(heaviest, load);
     }
     if (velocity)
-        add_remark(remarks, size,
-                   "the record does not say the velocity of every step: that of the case");
+        append_remark(remarks, size,
+                      "the record does not say the velocity of every step: that of the case");
     if (temperature)
-        add_remark(remarks, size,
-                   "the record does not say the temperature of every step: that of the case");
+        append_remark(remarks, size,
+                      "the record does not say the temperature of every step: that of the case");
     if (pressure)
-        add_remark(remarks, size,
-                   "the record does not say the nominal pressure of every step: that of the "
-                   "case");
+        append_remark(remarks, size,
+                      "the record does not say the nominal pressure of every step: that of the "
+                      "case");
     if (pressure && heaviest > same_load * lightest)
-        add_remark(remarks, size,
-                   "the load changes between the steps, and the pressure with it: what the "
-                   "steps of another load say is not of the theory alone");
+        append_remark(remarks, size,
+                      "the load changes between the steps, and the pressure with it: what the "
+                      "steps of another load say is not of the theory alone");
 }
 
-measured_step measured_step_of(const table_view *record, size_t row, const wt_sliding *sliding)
+measured_step measured_step_read(const table_view *record, size_t row, const wt_sliding *sliding)
 {
     const double velocity = record_get(record, row, RECORD_VELOCITY),
                  temperature = record_get(record, row, RECORD_TEMPERATURE),
@@ -126,11 +127,11 @@ measured_step measured_step_of(const table_view *record, size_t row, const wt_sl
                        .file = record_text(record, row, RECORD_FILE)};
     s.measured = (wt_interval){s.friction, s.error, record_get(record, row, RECORD_FRICTION_LOW),
                                record_get(record, row, RECORD_FRICTION_HIGH)};
-    s.note = why_not(&s);
+    s.note = exclusion_reason(&s);
     return s;
 }
 
-void measured_conditions(const measured_step *step, wt_sliding *sliding)
+void measured_step_conditions(const measured_step *step, wt_sliding *sliding)
 {
     const wt_estimate stated = sliding->pressure;
     const double relative = stated.standard_error / stated.value;
@@ -139,20 +140,20 @@ void measured_conditions(const measured_step *step, wt_sliding *sliding)
     sliding->temperature.value = step->temperature;
 }
 
-wt_status measured_make(const table_view *record, const wt_sliding *sliding, measured *m,
-                        wt_error *err)
+wt_status measured_steps_read(const table_view *record, const wt_sliding *sliding, measured *m,
+                              wt_error *err)
 {
     *m = (measured){.step = calloc(record->n_rows + 1, sizeof *m->step)};
     if (m->step == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     for (size_t i = 0; i < record->n_rows; i++) {
         measured_step *const s = &m->step[m->n_all++];
-        *s = measured_step_of(record, i, sliding);
-        m->n += is_used(s);
+        *s = measured_step_read(record, i, sliding);
+        m->n += is_step_used(s);
     }
-    measured_taken(record, false, m->remarks, sizeof m->remarks);
-    join_flicker(m);
-    qsort(m->step, m->n_all, sizeof *m->step, by_condition);
+    measured_default_remarks(record, false, m->remarks, sizeof m->remarks);
+    merge_fluctuations(m);
+    qsort(m->step, m->n_all, sizeof *m->step, compare_conditions);
     if (m->n == 0) {
         wt_fail(err, WT_E_EMPTY, "no step of the record has a friction coefficient with an error");
         wt_error_advice(err, "longer records: the error comes of the scatter of the cycles");
@@ -167,20 +168,20 @@ wt_status measured_make(const table_view *record, const wt_sliding *sliding, mea
     return WT_OK;
 }
 
-void measured_clear(measured *m)
+void measured_steps_clear(measured *m)
 {
     free(m->step);
     *m = (measured){.step = NULL};
 }
 
-size_t measured_alike(const measured *m, size_t first)
+size_t measured_group_length(const measured *m, size_t first)
 {
     size_t n = 1;
     const measured_step *const a = &m->step[first];
     for (; first + n < m->n; n++) {
         const measured_step *const b = &m->step[first + n];
-        const bool same = by_value(a->temperature, b->temperature) == 0 &&
-                          by_value(a->pressure, b->pressure) == 0;
+        const bool same = compare_values(a->temperature, b->temperature) == 0 &&
+                          compare_values(a->pressure, b->pressure) == 0;
         if (!same)
             break;
     }

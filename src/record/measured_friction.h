@@ -24,19 +24,20 @@ typedef struct measured {
 } measured;
 
 /* Reads a row of the record. Missing conditions come from the case. */
-measured_step measured_step_of(const table_view *record, size_t row, const wt_sliding *sliding);
+measured_step measured_step_read(const table_view *record, size_t row, const wt_sliding *sliding);
 /* Sets pressure and temperature of the step, with the relative errors of the case. */
-void measured_conditions(const measured_step *step, wt_sliding *sliding);
+void measured_step_conditions(const measured_step *step, wt_sliding *sliding);
 
 /* Appends remarks on conditions that come from the case, for the first steps or for all steps. */
-void measured_taken(const table_view *record, bool first_steps, char *remarks, size_t size);
+void measured_default_remarks(const table_view *record, bool first_steps, char *remarks,
+                              size_t size);
 
-wt_status measured_make(const table_view *record, const wt_sliding *sliding, measured *m,
-                        wt_error *err) WT_NODISCARD;
+wt_status measured_steps_read(const table_view *record, const wt_sliding *sliding, measured *m,
+                              wt_error *err) WT_NODISCARD;
 /* Appends a remark to the key "remarks". */
-void measured_remark(measured *m, const char *words);
-void measured_clear(measured *m);
+void measured_steps_add_remark(measured *m, const char *words);
+void measured_steps_clear(measured *m);
 /* Returns the number of steps from `first` on with the same temperature and pressure. */
-size_t measured_alike(const measured *m, size_t first);
+size_t measured_group_length(const measured *m, size_t first);
 
 #endif

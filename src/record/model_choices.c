@@ -25,8 +25,8 @@ TABLE_ROW_OF(validation_choices, VALIDATION_CHOICES, choice_row)
 
 /* Predicts friction at the steps for a model choice, with the thickness that the table has for
  * it. */
-static wt_status predict(const validation *v, setting *s, double thickness, prediction *p,
-                         wt_error *err)
+static wt_status predict_setting(const validation *v, case_variant *s, double thickness,
+                                 prediction *p, wt_error *err)
 {
     wt_rubber refitted = {0};
     wt_layer_observation known =
@@ -44,29 +44,29 @@ static wt_status predict(const validation *v, setting *s, double thickness, pred
     s->sliding.surface = &s->surface;
     s->sliding.softness = s->has_softness ? &s->softness : NULL;
     if (status == WT_OK)
-        status = prediction_make(&s->sliding, v->layered ? &known : NULL, &v->steps, v->work, false,
-                                 p, err);
+        status = predict_friction(&s->sliding, v->layered ? &known : NULL, &v->steps, v->work,
+                                  false, p, err);
     wt_rubber_clear(&refitted);
     return status;
 }
 
 /* Assesses the ratio with the covariance of the values used: the draws affect a choice in the same
  * way. */
-static wt_status judge(const validation *v, const prediction *p, choice_row *r, wt_error *err)
+static wt_status assess_row(const validation *v, const prediction *p, choice_row *r, wt_error *err)
 {
     const model_variant *const used = &v->ratio[v->layered];
-    const ratio_of of = {p, &v->steps, p->shear, v->layered};
+    const ratio_inputs of = {p, &v->steps, p->shear, v->layered};
     agreement fit = {.n = 0};
-    agreement_data data = model_variant_data(used);
+    agreement_data data = model_variant_agreement_data(used);
     double *const value = malloc((data.n + 1) * sizeof *value);
     wt_status status = value == NULL ? wt_fail(err, WT_E_MEMORY, "out of memory") : WT_OK;
     for (size_t i = 0; status == WT_OK && i < data.n; i++) {
-        value[i] = ratio_value(&of, 0, i);
+        value[i] = ratio_log_value(&of, 0, i);
         if (!isfinite(value[i]))
             status = wt_fail(err, WT_E_RANGE, "friction is not predicted at every step");
     }
     data.value = value;
-    data.allowed = validation_allowed(v);
+    data.allowed = validation_discrepancy_variance(v);
     if (status == WT_OK)
         status = agreement_likelihood(&data, used->fit.scatter, &r->log_likelihood, err);
     if (status == WT_OK)
@@ -85,8 +85,8 @@ static wt_status judge(const validation *v, const prediction *p, choice_row *r, 
     return status;
 }
 
-static wt_status compute_row(const validation *v, const table_view *what_if, size_t i, setting *s,
-                             choice_row *r, wt_error *err)
+static wt_status compute_row(const validation *v, const table_view *what_if, size_t i,
+                             case_variant *s, choice_row *r, wt_error *err)
 {
     wt_error why = WT_ERROR_INIT;
     prediction p = {.part = NULL};
@@ -102,9 +102,9 @@ static wt_status compute_row(const validation *v, const table_view *what_if, siz
     if (isinf(thickness) && v->layered)
         status = wt_fail(&why, WT_E_RANGE, "the layer grows without end");
     if (status == WT_OK)
-        status = predict(v, s, thickness, &p, &why);
+        status = predict_setting(v, s, thickness, &p, &why);
     if (status == WT_OK)
-        status = judge(v, &p, r, &why);
+        status = assess_row(v, &p, r, &why);
     prediction_clear(&p);
     if (status == WT_E_MEMORY || status == WT_E_INTERNAL)
         return wt_fail(err, status, "a choice of the model could not be tried");
@@ -116,7 +116,7 @@ static wt_status compute_row(const validation *v, const table_view *what_if, siz
 /* ---- weights --------------------------------------------------------------------------------- */
 
 /* Selects the fewest rows that hold most of the weight, the largest weight first. */
-static void keep_rows(choice_row *rows, size_t n)
+static void select_rows(choice_row *rows, size_t n)
 {
     double sum = 0;
     while (sum < most_of_it) {
@@ -131,7 +131,7 @@ static void keep_rows(choice_row *rows, size_t n)
     }
 }
 
-static void weigh_rows(choice_row *rows, size_t n)
+static void find_row_weights(choice_row *rows, size_t n)
 {
     double largest = -(double)INFINITY, sum = 0;
     for (size_t i = 0; i < n; i++)
@@ -147,7 +147,7 @@ static void weigh_rows(choice_row *rows, size_t n)
 
 /* ---- ranges ---------------------------------------------------------------------------------- */
 
-static void extend(double range[2], double value)
+static void extend_range(double range[2], double value)
 {
     if (!isfinite(value))
         return;
@@ -158,27 +158,27 @@ static void extend(double range[2], double value)
 static void find_ranges(const table_view *what_if, const choice_row *rows, size_t n,
                         choice_ranges *ranges)
 {
-    static const what_if_column columns[SETTING_NUMBERS] = {
-        [SETTING_HYSTERESIS] = WHAT_IF_HYSTERESIS,
-        [SETTING_AREA_RATIO] = WHAT_IF_AREA_RATIO,
-        [SETTING_FRICTION] = WHAT_IF_FRICTION,
-        [SETTING_THICKNESS] = WHAT_IF_THICKNESS,
-        [SETTING_WITH_LAYER] = WHAT_IF_WITH_LAYER};
-    for (size_t k = 0; k < SETTING_NUMBERS; k++) {
+    static const what_if_column columns[CASE_QUANTITIES] = {
+        [CASE_QUANTITY_HYSTERESIS] = WHAT_IF_HYSTERESIS,
+        [CASE_QUANTITY_AREA_RATIO] = WHAT_IF_AREA_RATIO,
+        [CASE_QUANTITY_FRICTION] = WHAT_IF_FRICTION,
+        [CASE_QUANTITY_THICKNESS] = WHAT_IF_THICKNESS,
+        [CASE_QUANTITY_WITH_LAYER] = WHAT_IF_WITH_LAYER};
+    for (size_t k = 0; k < CASE_QUANTITIES; k++) {
         double *const all = ranges->all[k], *const kept = ranges->kept[k];
         all[0] = all[1] = kept[0] = kept[1] = (double)NAN;
         for (size_t i = 0; i < n; i++) {
             const double value = what_if_get(what_if, i, columns[k]);
-            extend(all, value);
+            extend_range(all, value);
             if (rows[i].kept)
-                extend(kept, value);
+                extend_range(kept, value);
         }
     }
 }
 
 /* If no likely row agrees with the record, the text says so: the relative likelihood is then of
  * little use. */
-static void say_narrowed(const choice_row *rows, size_t n, choice_ranges *ranges)
+static void write_narrowed_range(const choice_row *rows, size_t n, choice_ranges *ranges)
 {
     size_t kept = 0, explained = 0, best = 0;
     for (size_t i = 0; i < n; i++) {
@@ -195,8 +195,8 @@ static void say_narrowed(const choice_row *rows, size_t n, choice_ranges *ranges
 
 /* ---- table ----------------------------------------------------------------------------------- */
 
-static wt_status write_table(const validation *v, const choice_row *rows, size_t n,
-                             const choice_ranges *ranges, wt_table **table, wt_error *err)
+static wt_status write_choices_table(const validation *v, const choice_row *rows, size_t n,
+                                     const choice_ranges *ranges, wt_table **table, wt_error *err)
 {
     table_writer t = table_begin(&validation_choices_schema, err);
     for (size_t i = 0; i < n; i++)
@@ -208,12 +208,12 @@ static wt_status write_table(const validation *v, const choice_row *rows, size_t
     return table_end(&t, table);
 }
 
-wt_status choices_make(const validation *v, const table_view *what_if, choice_ranges *ranges,
-                       wt_table **table, wt_error *err)
+wt_status model_choices_tabulate(const validation *v, const table_view *what_if,
+                                 choice_ranges *ranges, wt_table **table, wt_error *err)
 {
-    setting *settings = NULL;
+    case_variant *settings = NULL;
     size_t n = 0;
-    wt_status status = what_if_settings(&v->used, &settings, &n, err);
+    wt_status status = what_if_list_variants(&v->used, &settings, &n, err);
     if (status == WT_OK && n != what_if->n_rows) { /* the table was computed with a layer, and
                                                       this comparison is without one */
         free(settings);
@@ -225,11 +225,11 @@ wt_status choices_make(const validation *v, const table_view *what_if, choice_ra
     for (size_t i = 0; status == WT_OK && i < n; i++)
         status = compute_row(v, what_if, i, &settings[i], &rows[i], err);
     if (status == WT_OK) {
-        weigh_rows(rows, n);
-        keep_rows(rows, n);
+        find_row_weights(rows, n);
+        select_rows(rows, n);
         find_ranges(what_if, rows, n, ranges);
-        say_narrowed(rows, n, ranges);
-        status = write_table(v, rows, n, ranges, table, err);
+        write_narrowed_range(rows, n, ranges);
+        status = write_choices_table(v, rows, n, ranges, table, err);
     }
     free(settings);
     free(rows);

@@ -10,20 +10,21 @@
 
 /* Draws per slope. The scatter of the slopes is then small, as for the standard errors of
  * replicates. */
-enum { FOR_EACH = 5, MOST_COLUMNS = REPLICATES_MOST + 1 };
+enum { FOR_EACH = 5, MOST_COLUMNS = REPLICATES_MAX_DRAWS + 1 };
 
 /* ---- error sources --------------------------------------------------------------------------- */
 
-typedef struct splitting {
+typedef struct draw_regression {
     const prediction *p;
     model_variant *t;
     double *z;     /* [n_draws * columns] 1, then the drawn numbers */
     double *value; /* [n_draws * n] */
     size_t columns, n_good;
-} splitting;
+} draw_regression;
 
 /* Collects the draws that have a solution, with their standard normal numbers. */
-static void collect_draws(splitting *s, model_variant_value *of, const void *user, uint64_t seed)
+static void collect_draws(draw_regression *s, model_variant_value *of, const void *user,
+                          uint64_t seed)
 {
     const size_t n = s->t->n;
     for (size_t k = 0; k < s->p->n_draws; k++) {
@@ -41,7 +42,7 @@ static void collect_draws(splitting *s, model_variant_value *of, const void *use
 }
 
 /* Subtracts the linear regression on the drawn numbers from the values and stores the slopes. */
-static bool take_lines(splitting *s)
+static bool subtract_regression(draw_regression *s)
 {
     const size_t p = s->columns, n = s->t->n;
     double normal[MOST_COLUMNS * MOST_COLUMNS] = {0};
@@ -66,7 +67,7 @@ static bool take_lines(splitting *s)
     return true;
 }
 
-static void take_mean(splitting *s)
+static void subtract_mean(draw_regression *s)
 {
     const size_t n = s->t->n;
     for (size_t i = 0; i < n; i++) {
@@ -80,14 +81,14 @@ static void take_mean(splitting *s)
 
 /* Drawn numbers are standard normal. Their part of the covariance follows from the slopes without
  * sampling error. The sample covariance gives the remainder. */
-static wt_status find_covariance(splitting *s, wt_error *err)
+static wt_status find_variant_covariance(draw_regression *s, wt_error *err)
 {
     model_variant *const t = s->t;
-    const bool lines = s->n_good >= FOR_EACH * s->columns && take_lines(s);
+    const bool lines = s->n_good >= FOR_EACH * s->columns && subtract_regression(s);
     t->split = lines;
     if (!lines) {
         s->columns = 1;
-        take_mean(s);
+        subtract_mean(s);
     }
     if (s->p->n_draws == 0) /* no errors are requested */
         return WT_OK;
@@ -102,24 +103,26 @@ static wt_status find_covariance(splitting *s, wt_error *err)
             for (size_t k = 0; k < s->n_good; k++)
                 sum += s->value[k * t->n + i] * s->value[k * t->n + j];
             t->rest[i * t->n + j] = sum / (double)(s->n_good - s->columns);
-            t->common[i * t->n + j] = t->rest[i * t->n + j];
+            t->prediction_covariance[i * t->n + j] = t->rest[i * t->n + j];
             for (size_t u = 0; lines && u < t->n_lines; u++)
-                t->common[i * t->n + j] += t->slope[u * t->n + i] * t->slope[u * t->n + j];
+                t->prediction_covariance[i * t->n + j] +=
+                    t->slope[u * t->n + i] * t->slope[u * t->n + j];
         }
     return WT_OK;
 }
 
-static wt_status split_draws(const prediction *p, model_variant_value *of, const void *user,
-                             uint64_t seed, model_variant *t, wt_error *err)
+static wt_status find_draw_covariance(const prediction *p, model_variant_value *of,
+                                      const void *user, uint64_t seed, model_variant *t,
+                                      wt_error *err)
 {
-    splitting s = {.p = p, .t = t, .columns = p->n_lines + 1};
+    draw_regression s = {.p = p, .t = t, .columns = p->n_lines + 1};
     s.z = malloc((p->n_draws + 1) * s.columns * sizeof *s.z);
     s.value = malloc((p->n_draws + 1) * t->n * sizeof *s.value);
     wt_status status =
         s.z == NULL || s.value == NULL ? wt_fail(err, WT_E_MEMORY, "out of memory") : WT_OK;
     if (status == WT_OK) {
         collect_draws(&s, of, user, seed);
-        status = find_covariance(&s, err);
+        status = find_variant_covariance(&s, err);
     }
     free(s.z);
     free(s.value);
@@ -128,10 +131,10 @@ static wt_status split_draws(const prediction *p, model_variant_value *of, const
 
 /* ---- model variant --------------------------------------------------------------------------- */
 
-static wt_status allocate(model_variant *t, wt_error *err)
+static wt_status alloc_variant(model_variant *t, wt_error *err)
 {
-    double **const vectors[] = {&t->place, &t->value, &t->own},
-                   **const squares[] = {&t->common, &t->rest};
+    double **const vectors[] = {&t->log_velocity, &t->value, &t->measurement_variance},
+                   **const squares[] = {&t->prediction_covariance, &t->rest};
     bool good = true;
     for (size_t i = 0; i < sizeof vectors / sizeof *vectors; i++)
         good = (*vectors[i] = calloc(t->n, sizeof(double))) != NULL && good;
@@ -141,37 +144,38 @@ static wt_status allocate(model_variant *t, wt_error *err)
     return good && t->slope != NULL ? WT_OK : wt_fail(err, WT_E_MEMORY, "out of memory");
 }
 
-agreement_data model_variant_data(const model_variant *t)
+agreement_data model_variant_agreement_data(const model_variant *t)
 {
-    return (agreement_data){t->n, t->place, t->value, t->own, t->common, 0};
+    return (agreement_data){
+        t->n, t->log_velocity, t->value, t->measurement_variance, t->prediction_covariance, 0};
 }
 
-wt_status model_variant_make(const prediction *p, const measured *steps, model_variant_value *of,
-                             const void *user, const double *own, uint64_t seed, size_t most_terms,
-                             model_variant *t, wt_error *err)
+wt_status model_variant_fit(const prediction *p, const measured *steps, model_variant_value *of,
+                            const void *user, const double *measurement_variance, uint64_t seed,
+                            size_t most_terms, model_variant *t, wt_error *err)
 {
     *t = (model_variant){.n = steps->n, .n_lines = p->n_lines};
-    wt_status status = allocate(t, err);
+    wt_status status = alloc_variant(t, err);
     for (size_t i = 0; status == WT_OK && i < t->n; i++) {
-        t->place[i] = log10(steps->step[i].velocity);
+        t->log_velocity[i] = log10(steps->step[i].velocity);
         t->value[i] = of(user, 0, i);
-        t->own[i] = own[i];
+        t->measurement_variance[i] = measurement_variance[i];
         if (!isfinite(t->value[i]))
             status = wt_fail(err, WT_E_RANGE, "the friction at %g m/s is not predicted",
                              steps->step[i].velocity);
     }
     if (status == WT_OK)
-        status = split_draws(p, of, user, seed, t, err);
-    const agreement_data data = model_variant_data(t);
+        status = find_draw_covariance(p, of, user, seed, t, err);
+    const agreement_data data = model_variant_agreement_data(t);
     return status == WT_OK ? agreement_fit(&data, most_terms, &t->fit, err) : status;
 }
 
 void model_variant_clear(model_variant *t)
 {
-    free(t->place);
+    free(t->log_velocity);
     free(t->value);
-    free(t->own);
-    free(t->common);
+    free(t->measurement_variance);
+    free(t->prediction_covariance);
     free(t->slope);
     free(t->rest);
     agreement_clear(&t->fit);
@@ -180,63 +184,65 @@ void model_variant_clear(model_variant *t)
 
 /* ---- compared quantities --------------------------------------------------------------------- */
 
-double ratio_value(const void *user, size_t k, size_t step)
+double ratio_log_value(const void *user, size_t k, size_t step)
 {
-    const ratio_of *r = user;
+    const ratio_inputs *r = user;
     return log(r->steps->step[step].friction /
                prediction_total(r->p, k, r->layered, step, r->shear[k]));
 }
 
-wt_status model_variant_of_ratio(const ratio_of *of, uint64_t seed, model_variant *t, wt_error *err)
+wt_status model_variant_fit_ratio(const ratio_inputs *of, uint64_t seed, model_variant *t,
+                                  wt_error *err)
 {
-    double *const own = malloc((of->steps->n + 1) * sizeof *own);
+    double *const measurement_variance = malloc((of->steps->n + 1) * sizeof *measurement_variance);
     *t = (model_variant){.n = 0};
-    if (own == NULL)
+    if (measurement_variance == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     for (size_t i = 0; i < of->steps->n; i++) {
         const measured_step *const s = &of->steps->step[i];
-        own[i] = (s->error / s->friction) * (s->error / s->friction);
+        measurement_variance[i] = (s->error / s->friction) * (s->error / s->friction);
     }
-    const wt_status status =
-        model_variant_make(of->p, of->steps, ratio_value, of, own, seed, 0, t, err);
-    free(own);
+    const wt_status status = model_variant_fit(of->p, of->steps, ratio_log_value, of,
+                                               measurement_variance, seed, 0, t, err);
+    free(measurement_variance);
     return status;
 }
 
-static double by_shear(const ratio_of *r, size_t k, size_t step)
+static double friction_per_shear(const ratio_inputs *r, size_t k, size_t step)
 {
-    return prediction_part_of(r->p, k, r->layered ? PART_BY_SHEAR_LAYER : PART_BY_SHEAR, step);
+    return prediction_part_value(r->p, k, r->layered ? PART_BY_SHEAR_LAYER : PART_BY_SHEAR, step);
 }
 
 static double shear_value(const void *user, size_t k, size_t step)
 {
-    const ratio_of *r = user;
+    const ratio_inputs *r = user;
     return (r->steps->step[step].friction - prediction_total(r->p, k, r->layered, step, 0)) /
-           by_shear(r, k, step);
+           friction_per_shear(r, k, step);
 }
 
-wt_status model_variant_of_shear(const prediction *p, const measured *steps, bool layered,
-                                 uint64_t seed, model_variant *t, wt_error *err)
+wt_status model_variant_fit_shear(const prediction *p, const measured *steps, bool layered,
+                                  uint64_t seed, model_variant *t, wt_error *err)
 {
-    const ratio_of of = {p, steps, NULL, layered};
-    double *const own = malloc((steps->n + 1) * sizeof *own);
+    const ratio_inputs of = {p, steps, NULL, layered};
+    double *const measurement_variance = malloc((steps->n + 1) * sizeof *measurement_variance);
     *t = (model_variant){.n = 0};
-    if (own == NULL)
+    if (measurement_variance == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     for (size_t i = 0; i < steps->n; i++) {
-        const double error = steps->step[i].error / by_shear(&of, 0, i);
-        own[i] = error * error;
+        const double error = steps->step[i].error / friction_per_shear(&of, 0, i);
+        measurement_variance[i] = error * error;
     }
-    const wt_status status = model_variant_make(p, steps, shear_value, &of, own, seed, 1, t, err);
-    free(own);
+    const wt_status status =
+        model_variant_fit(p, steps, shear_value, &of, measurement_variance, seed, 1, t, err);
+    free(measurement_variance);
     return status;
 }
 
 /* ---- components of the variance -------------------------------------------------------------- */
 
-model_variant_parts model_variant_variance(const model_variant *t, const double *row)
+variance_components model_variant_components(const model_variant *t, const double *row)
 {
-    model_variant_parts parts = {.all = 0};
+    variance_components parts = {.all = 0};
     for (size_t u = 0; u < t->n_lines; u++) {
         double sum = 0;
         for (size_t i = 0; i < t->n; i++)
@@ -245,7 +251,7 @@ model_variant_parts model_variant_variance(const model_variant *t, const double 
         parts.all += parts.line[u];
     }
     for (size_t i = 0; i < t->n; i++) {
-        parts.record += row[i] * row[i] * t->own[i];
+        parts.record += row[i] * row[i] * t->measurement_variance[i];
         parts.scatter += row[i] * row[i] * t->fit.scatter;
         for (size_t j = 0; j < t->n; j++)
             parts.material += row[i] * t->rest[i * t->n + j] * row[j];

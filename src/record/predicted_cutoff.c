@@ -16,18 +16,18 @@ static const double tenth = 0.1;
 /* [m] no surface has waves below the size of a molecule */
 static const double shortest_wave = 1e-9;
 
-typedef struct scan {
+typedef struct cutoff_scan {
     size_t n;
     double log_q1[TRIED], likelihood[TRIED];
-} scan;
+} cutoff_scan;
 
-static double limit_low(const setting *s)
+static double lowest_cutoff(const case_variant *s)
 {
     const double roll_off = s->surface.self_affine ? s->surface.qr : 0;
     return fmax(2 * s->surface.q0, roll_off);
 }
 
-static double limit_high(const setting *s)
+static double highest_cutoff(const case_variant *s)
 {
     const wt_power_spectrum *const p = &s->surface.spectrum;
     const double known = s->surface.self_affine ? (double)INFINITY : p->wavenumber[p->n - 1];
@@ -36,34 +36,34 @@ static double limit_high(const setting *s)
 
 /* ln of the likelihood of the record for another q1, with the same covariance. value: [n]
  * scratch. */
-static wt_status likelihood_at(const validation *v, double q1, double *value, double *likelihood,
-                               wt_error *err)
+static wt_status cutoff_likelihood(const validation *v, double q1, double *value,
+                                   double *likelihood, wt_error *err)
 {
     const model_variant *const used = &v->ratio[v->layered];
-    setting s = v->used;
+    case_variant s = v->used;
     prediction p = {.part = NULL};
     s.surface.q1 = q1;
     s.sliding.rubber = s.given;
     s.sliding.surface = &s.surface;
     s.sliding.softness = s.has_softness ? &s.softness : NULL;
-    wt_status status = prediction_make(&s.sliding, v->layered ? v->known : NULL, &v->steps, v->work,
-                                       false, &p, err);
-    const ratio_of of = {&p, &v->steps, p.shear, v->layered};
+    wt_status status = predict_friction(&s.sliding, v->layered ? v->known : NULL, &v->steps,
+                                        v->work, false, &p, err);
+    const ratio_inputs of = {&p, &v->steps, p.shear, v->layered};
     for (size_t i = 0; status == WT_OK && i < v->steps.n; i++)
-        value[i] = ratio_value(&of, 0, i);
-    agreement_data data = model_variant_data(used);
+        value[i] = ratio_log_value(&of, 0, i);
+    agreement_data data = model_variant_agreement_data(used);
     data.value = value;
-    data.allowed = validation_allowed(v);
+    data.allowed = validation_discrepancy_variance(v);
     if (status == WT_OK)
         status = agreement_likelihood(&data, used->fit.scatter, likelihood, err);
     prediction_clear(&p);
     return status;
 }
 
-static wt_status scan_make(const validation *v, scan *s, wt_error *err)
+static wt_status scan_cutoffs(const validation *v, cutoff_scan *s, wt_error *err)
 {
-    const double used = log10(v->used.surface.q1), low = log10(limit_low(&v->used)),
-                 high = log10(limit_high(&v->used));
+    const double used = log10(v->used.surface.q1), low = log10(lowest_cutoff(&v->used)),
+                 high = log10(highest_cutoff(&v->used));
     double *const value = malloc((v->steps.n + 1) * sizeof *value);
     wt_status status = value == NULL ? wt_fail(err, WT_E_MEMORY, "out of memory") : WT_OK;
     s->n = 0;
@@ -72,8 +72,8 @@ static wt_status scan_make(const validation *v, scan *s, wt_error *err)
         if (i != 0 && (at < low || at > high))
             continue;
         /* rounding may place the logarithm of the used value beyond the last density */
-        const double q1 = i == 0 ? v->used.surface.q1 : fmin(pow(10, at), limit_high(&v->used));
-        status = likelihood_at(v, q1, value, &s->likelihood[s->n], err);
+        const double q1 = i == 0 ? v->used.surface.q1 : fmin(pow(10, at), highest_cutoff(&v->used));
+        status = cutoff_likelihood(v, q1, value, &s->likelihood[s->n], err);
         s->log_q1[s->n++] = at;
     }
     free(value);
@@ -82,7 +82,7 @@ static wt_status scan_make(const validation *v, scan *s, wt_error *err)
 
 /* Maximum of the parabola through the best point and its neighbours. NaN if the best point is at a
  * limit of the scan. */
-static double place_of_best(const scan *s, size_t best)
+static double refine_maximum(const cutoff_scan *s, size_t best)
 {
     if (best == 0 || best + 1 == s->n)
         return (double)NAN;
@@ -91,7 +91,7 @@ static double place_of_best(const scan *s, size_t best)
 }
 
 /* Limit of the 95 % profile likelihood interval on one side. NaN if the scan does not reach it. */
-static double end_of(const scan *s, size_t best, int side)
+static double interval_bound(const cutoff_scan *s, size_t best, int side)
 {
     const double level = s->likelihood[best] - 0.5 * NORMAL_95 * NORMAL_95;
     for (size_t i = best; side < 0 ? i > 0 : i + 1 < s->n; i += side < 0 ? SIZE_MAX : 1) {
@@ -103,18 +103,18 @@ static double end_of(const scan *s, size_t best, int side)
     return (double)NAN;
 }
 
-static void set_value(table_writer *t, validation_key key, double log_q1, double error)
+static void set_cutoff_value(table_writer *t, validation_key key, double log_q1, double error)
 {
     if (!isnan(log_q1))
         validation_set_value(t, key, pow(10, log_q1), error, error);
 }
 
-wt_status cutoff_set_keys(const validation *v, table_writer *t, wt_error *err)
+wt_status required_cutoff_set_keys(const validation *v, table_writer *t, wt_error *err)
 {
-    scan s;
+    cutoff_scan s;
     size_t best = 0;
     char text[256];
-    const wt_status status = scan_make(v, &s, err);
+    const wt_status status = scan_cutoffs(v, &s, err);
     if (status == WT_E_RANGE || status == WT_E_CONVERGENCE) { /* the other results remain valid */
         validation_set_text(t, VALIDATION_KEY_CUTOFF_NOTE,
                             "not known: friction is not predicted at every wavenumber tried");
@@ -125,7 +125,7 @@ wt_status cutoff_set_keys(const validation *v, table_writer *t, wt_error *err)
     for (size_t i = 0; i < s.n; i++)
         if (s.likelihood[i] > s.likelihood[best] || isnan(s.likelihood[best]))
             best = i;
-    const double at = place_of_best(&s, best), first = pow(10, s.log_q1[0]),
+    const double at = refine_maximum(&s, best), first = pow(10, s.log_q1[0]),
                  last = pow(10, s.log_q1[s.n - 1]);
     if (isnan(at)) {
         clocale_print(text, sizeof text,
@@ -135,9 +135,9 @@ wt_status cutoff_set_keys(const validation *v, table_writer *t, wt_error *err)
         validation_set_text(t, VALIDATION_KEY_CUTOFF_NOTE, text);
         return WT_OK;
     }
-    set_value(t, VALIDATION_KEY_CUTOFF, at, (double)NAN);
-    set_value(t, VALIDATION_KEY_CUTOFF_LOW, end_of(&s, best, -1), 0);
-    set_value(t, VALIDATION_KEY_CUTOFF_HIGH, end_of(&s, best, 1), 0);
+    set_cutoff_value(t, VALIDATION_KEY_CUTOFF, at, (double)NAN);
+    set_cutoff_value(t, VALIDATION_KEY_CUTOFF_LOW, interval_bound(&s, best, -1), 0);
+    set_cutoff_value(t, VALIDATION_KEY_CUTOFF_HIGH, interval_bound(&s, best, 1), 0);
     clocale_print(
         text, sizeof text,
         "%.3g times that used; the thickness of the layer is held, and an end that is not "

@@ -8,61 +8,63 @@
 #include <string.h>
 
 /* Steps with the same temperature and pressure. */
-typedef struct group {
+typedef struct prediction_group {
     wt_sliding sliding;
     const wt_layer_observation *known; /* or NULL */
     const wt_job *work;
     size_t n;
     const double *velocity;
-} group;
+} prediction_group;
 
-static double *numbers_of(double *out, size_t n, prediction_part part)
+static double *part_values(double *out, size_t n, prediction_part part)
 {
     return out + (size_t)part * n;
 }
 
 /* Computes one contact. `hysteresis` is friction without a shear stress of the bulk: hysteresis and
- * crack losses. `by_shear` is its derivative with respect to this stress. */
-static wt_status compute_contact(const group *g, wt_material_cache *drawn, size_t replicate,
-                                 wt_layer_state layer, wt_friction_point *points,
-                                 double *hysteresis, double *by_shear, wt_error *err)
+ * crack losses. `friction_per_shear` is its derivative with respect to this stress. */
+static wt_status compute_contact(const prediction_group *g, wt_material_cache *drawn,
+                                 size_t replicate, wt_layer_state layer, wt_friction_point *points,
+                                 double *hysteresis, double *friction_per_shear, wt_error *err)
 {
     sliding_contact c = {0};
-    wt_status status = sliding_contact_make(&g->sliding, g->work, replicate, drawn, layer, &c, err);
+    wt_status status =
+        sliding_contact_create(&g->sliding, g->work, replicate, drawn, layer, &c, err);
     if (status == WT_OK)
         status = wt_friction_compute(c.workspace, c.pressure, g->velocity, g->n, points, err);
     for (size_t i = 0; status == WT_OK && i < g->n; i++) {
-        const wt_layer_state sheared = sliding_layer_sheared(&c, layer, g->velocity[i]);
+        const wt_layer_state sheared = sliding_layer_at_shear_rate(&c, layer, g->velocity[i]);
         const double warm = points[i].temperature.value, area = points[i].area_ratio.value,
-                     cracks = sliding_layer_shear(g->known, 0, sheared, area),
+                     cracks = sliding_layer_shear_stress(g->known, 0, sheared, area),
                      of_bulk = wt_shear_factor(&g->sliding.shear_law, g->velocity[i],
                                                isnan(warm) ? c.temperature : warm);
         hysteresis[i] = points[i].hysteresis.value + cracks * area / c.pressure;
-        by_shear[i] =
-            (sliding_layer_shear(g->known, of_bulk, sheared, area) - cracks) * area / c.pressure;
+        friction_per_shear[i] =
+            (sliding_layer_shear_stress(g->known, of_bulk, sheared, area) - cracks) * area /
+            c.pressure;
     }
     sliding_contact_clear(&c);
     return status;
 }
 
-static wt_status compute_group(const group *g, wt_material_cache *drawn, size_t replicate,
-                               double *out, wt_error *err)
+static wt_status compute_group(const prediction_group *g, wt_material_cache *drawn,
+                               size_t replicate, double *out, wt_error *err)
 {
     const wt_layer_state none = {.modulus_ratio = 1};
     wt_friction_point *const points = malloc((g->n + 1) * sizeof *points);
     if (points == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     wt_status status =
-        compute_contact(g, drawn, replicate, none, points, numbers_of(out, g->n, PART_HYSTERESIS),
-                        numbers_of(out, g->n, PART_BY_SHEAR), err);
+        compute_contact(g, drawn, replicate, none, points, part_values(out, g->n, PART_HYSTERESIS),
+                        part_values(out, g->n, PART_BY_SHEAR), err);
     for (size_t i = 0; i < g->n; i++)
-        numbers_of(out, g->n, PART_HYSTERESIS_LAYER)[i] =
-            numbers_of(out, g->n, PART_BY_SHEAR_LAYER)[i] = (double)NAN;
+        part_values(out, g->n, PART_HYSTERESIS_LAYER)[i] =
+            part_values(out, g->n, PART_BY_SHEAR_LAYER)[i] = (double)NAN;
     if (status == WT_OK && g->known != NULL) {
-        const wt_layer_state layer = sliding_layer(g->known, g->work->seed, replicate);
+        const wt_layer_state layer = sliding_layer_state(g->known, g->work->seed, replicate);
         status = compute_contact(g, drawn, replicate, layer, points,
-                                 numbers_of(out, g->n, PART_HYSTERESIS_LAYER),
-                                 numbers_of(out, g->n, PART_BY_SHEAR_LAYER), err);
+                                 part_values(out, g->n, PART_HYSTERESIS_LAYER),
+                                 part_values(out, g->n, PART_BY_SHEAR_LAYER), err);
     }
     free(points);
     return status;
@@ -70,21 +72,22 @@ static wt_status compute_group(const group *g, wt_material_cache *drawn, size_t 
 
 /* ---- draws ----------------------------------------------------------------------------------- */
 
-typedef struct drawing {
-    const group *group;
+typedef struct group_replicates {
+    const prediction_group *prediction_group;
     replicates *r;
-} drawing;
+} group_replicates;
 
-static wt_status one_replicate(const void *user, size_t i, double *out, wt_error *err)
+static wt_status friction_replicate(const void *user, size_t i, double *out, wt_error *err)
 {
-    const drawing *d = user;
-    return compute_group(d->group, d->r->drawn, i, out, err);
+    const group_replicates *d = user;
+    return compute_group(d->prediction_group, d->r->drawn, i, out, err);
 }
 
 /* Numbers that are drawn for friction with a shear stress and a layer. */
-static replicates begin_replicates(const group *g, const wt_sliding *sliding, const wt_job *work)
+static replicates begin_friction_replicates(const prediction_group *g, const wt_sliding *sliding,
+                                            const wt_job *work)
 {
-    replicates r = replicates_of(&g->sliding, work, "validation");
+    replicates r = replicates_create(&g->sliding, work, "validation");
     if (!isnan(sliding->shear_stress.value))
         replicates_add(&r, sliding->shear_stress.standard_error, FLOW_DRAW_SHEAR_STRESS,
                        "shear stress");
@@ -99,27 +102,28 @@ static replicates begin_replicates(const group *g, const wt_sliding *sliding, co
 /* ---- all groups ------------------------------------------------------------------------------ */
 
 /* Stores the numbers of a group in the steps from `first` on. */
-static void spread_numbers(const double *from, size_t n, size_t first, prediction *p, size_t k)
+static void store_group(const double *from, size_t n, size_t first, prediction *p, size_t k)
 {
     for (size_t part = 0; part < PARTS; part++)
         memcpy(p->part + (k * PARTS + part) * p->n + first, from + part * n, n * sizeof *from);
 }
 
-static wt_status predict_group(const group *g, const wt_sliding *sliding, const wt_job *work,
-                               bool draws, size_t first, prediction *p, wt_error *err)
+static wt_status predict_group(const prediction_group *g, const wt_sliding *sliding,
+                               const wt_job *work, bool draws, size_t first, prediction *p,
+                               wt_error *err)
 {
     double *const own = malloc(PARTS * g->n * sizeof *own);
-    replicates r = begin_replicates(g, sliding, work);
+    replicates r = begin_friction_replicates(g, sliding, work);
     wt_status status = own == NULL ? wt_fail(err, WT_E_MEMORY, "out of memory")
                                    : compute_group(g, NULL, WT_NO_REPLICATE, own, err);
     if (status == WT_OK)
-        spread_numbers(own, g->n, first, p, 0);
+        store_group(own, g->n, first, p, 0);
     if (status == WT_OK && draws && r.n > 0) {
-        const drawing d = {g, &r};
-        status = replicates_draw(&r, PARTS * g->n, one_replicate, &d, err);
+        const group_replicates d = {g, &r};
+        status = replicates_draw(&r, PARTS * g->n, friction_replicate, &d, err);
     }
     for (size_t k = 0; status == WT_OK && k < p->n_draws; k++)
-        spread_numbers(r.value + k * r.stride, g->n, first, p, 1 + k);
+        store_group(r.value + k * r.stride, g->n, first, p, 1 + k);
     memcpy(p->line, r.draw, sizeof p->line);
     p->n_lines = r.n_draws;
     replicates_clear(&r);
@@ -127,12 +131,13 @@ static wt_status predict_group(const group *g, const wt_sliding *sliding, const 
     return status;
 }
 
-static group group_of(const wt_sliding *sliding, const wt_layer_observation *known,
-                      const measured_step *step, const double *velocity, size_t n,
-                      const wt_job *work)
+static prediction_group step_group(const wt_sliding *sliding, const wt_layer_observation *known,
+                                   const measured_step *step, const double *velocity, size_t n,
+                                   const wt_job *work)
 {
-    group g = {.sliding = *sliding, .known = known, .work = work, .n = n, .velocity = velocity};
-    measured_conditions(step, &g.sliding);
+    prediction_group g = {
+        .sliding = *sliding, .known = known, .work = work, .n = n, .velocity = velocity};
+    measured_step_conditions(step, &g.sliding);
     g.sliding.velocity = velocity;
     g.sliding.n_velocity = n;
     g.sliding.reference_velocity = velocity[0];
@@ -150,27 +155,30 @@ static wt_status predict_groups(const wt_sliding *sliding, const wt_layer_observ
         velocity[i] = steps->step[i].velocity;
     wt_status status = WT_OK;
     for (size_t first = 0, n; status == WT_OK && first < steps->n; first += n) {
-        n = measured_alike(steps, first);
-        const group g = group_of(sliding, known, &steps->step[first], velocity + first, n, work);
+        n = measured_group_length(steps, first);
+        const prediction_group g =
+            step_group(sliding, known, &steps->step[first], velocity + first, n, work);
         status = predict_group(&g, sliding, work, draws, first, p, err);
         if (status == WT_OK && known != NULL)
-            status = sliding_layer_gain(&g.sliding, known, work, p->layer_gain, err);
+            status =
+                sliding_layer_zero_loss_range(&g.sliding, known, work, p->zero_loss_range, err);
     }
     free(velocity);
     return status;
 }
 
-wt_status prediction_make(const wt_sliding *sliding, const wt_layer_observation *known,
-                          const measured *steps, const wt_job *work, bool draws, prediction *p,
-                          wt_error *err)
+wt_status predict_friction(const wt_sliding *sliding, const wt_layer_observation *known,
+                           const measured *steps, const wt_job *work, bool draws, prediction *p,
+                           wt_error *err)
 {
     wt_job own = *work;
     own.drawn = NULL; /* the stored draws are for another temperature */
-    own.left_out |= WT_EXTRA_SHARE;
+    own.left_out |= WT_EXTRA_EXTRAPOLATED_SHARE;
     *p = (prediction){
-        .n = steps->n, .layered = known != NULL, .layer_gain = {(double)NAN, (double)NAN}};
-    const group any = group_of(sliding, known, &steps->step[0], &steps->step[0].velocity, 1, &own);
-    p->n_draws = draws ? begin_replicates(&any, sliding, &own).n : 0;
+        .n = steps->n, .layered = known != NULL, .zero_loss_range = {(double)NAN, (double)NAN}};
+    const prediction_group any =
+        step_group(sliding, known, &steps->step[0], &steps->step[0].velocity, 1, &own);
+    p->n_draws = draws ? begin_friction_replicates(&any, sliding, &own).n : 0;
     p->part = calloc((1 + p->n_draws) * PARTS * p->n, sizeof *p->part);
     p->shear = calloc(1 + p->n_draws, sizeof *p->shear);
     if (p->part == NULL || p->shear == NULL)
@@ -188,13 +196,13 @@ void prediction_clear(prediction *p)
     *p = (prediction){.part = NULL};
 }
 
-double prediction_part_of(const prediction *p, size_t k, prediction_part part, size_t step)
+double prediction_part_value(const prediction *p, size_t k, prediction_part part, size_t step)
 {
     return p->part[(k * PARTS + (size_t)part) * p->n + step];
 }
 
 double prediction_total(const prediction *p, size_t k, bool layered, size_t step, double shear)
 {
-    return prediction_part_of(p, k, layered ? PART_HYSTERESIS_LAYER : PART_HYSTERESIS, step) +
-           shear * prediction_part_of(p, k, layered ? PART_BY_SHEAR_LAYER : PART_BY_SHEAR, step);
+    return prediction_part_value(p, k, layered ? PART_HYSTERESIS_LAYER : PART_HYSTERESIS, step) +
+           shear * prediction_part_value(p, k, layered ? PART_BY_SHEAR_LAYER : PART_BY_SHEAR, step);
 }

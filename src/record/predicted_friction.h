@@ -7,7 +7,7 @@
 #include "friction/replicates.h"
 #include "record/measured_friction.h"
 
-/* Friction is hysteresis + tau_f x by_shear. */
+/* Friction is hysteresis + tau_f x friction_per_shear. */
 typedef enum prediction_part {
     PART_HYSTERESIS,
     PART_BY_SHEAR, /* [1/Pa] */
@@ -21,22 +21,22 @@ typedef struct prediction {
     bool layered;
     double *part;  /* [(1 + n_draws) * PARTS * n] nominal values first */
     double *shear; /* [1 + n_draws] tau_f [Pa]; NaN if not stated */
-    flow_draw line[REPLICATES_MOST];
+    flow_draw line[REPLICATES_MAX_DRAWS];
     size_t n_lines;
-    double layer_gain[2]; /* range where the loss modulus of the layer is set to 0; NaN if
+    double zero_loss_range[2]; /* range where the loss modulus of the layer is set to 0; NaN if
                              nowhere */
 } prediction;
 
 /* Predicts friction. A NULL observation means no layer. Without `draws` only nominal values are
  * computed. The caller clears `p`, also after a failure. */
-wt_status prediction_make(const wt_sliding *sliding, const wt_layer_observation *known,
-                          const measured *steps, const wt_job *work, bool draws, prediction *p,
-                          wt_error *err) WT_NODISCARD;
+wt_status predict_friction(const wt_sliding *sliding, const wt_layer_observation *known,
+                           const measured *steps, const wt_job *work, bool draws, prediction *p,
+                           wt_error *err) WT_NODISCARD;
 void prediction_clear(prediction *p);
 
 /* Returns a component of the nominal values (k = 0) or of draw k - 1. */
-double prediction_part_of(const prediction *p, size_t k, prediction_part part, size_t step);
-/* hysteresis + shear x by_shear. */
+double prediction_part_value(const prediction *p, size_t k, prediction_part part, size_t step);
+/* hysteresis + shear x friction_per_shear. */
 double prediction_total(const prediction *p, size_t k, bool layered, size_t step, double shear);
 
 #endif

@@ -43,83 +43,83 @@ TABLE_ROW(record, RECORD, record_conditions at; wt_steady steady;
 TABLE_ROW(record_cycles, RECORD_CYCLES, wt_cycle cycle; size_t number; bool steady; size_t step;
           const char *file;)
 
-typedef struct found_end {
+typedef struct running_in_end {
     wt_interval cycles;
-    size_t steady_from;
+    size_t steady_start;
     const char *why_not;
-} found_end;
+} running_in_end;
 
-static wt_status find_end(const wt_record_job *job, const double *y, size_t n, found_end *end,
-                          wt_error *err)
+static wt_status find_running_in_end(const wt_record_job *job, const double *y, size_t n,
+                                     running_in_end *end, wt_error *err)
 {
     wt_running_in found = {.why_not = ""};
     wt_status status = WT_OK;
-    *end = (found_end){not_known, 0, "not looked for"};
+    *end = (running_in_end){not_known, 0, "not looked for"};
     switch (job->running_in) {
     case WT_RUNNING_IN_LIKELIHOOD:
         status = wt_running_in_find(y, n, &found, err);
-        *end = (found_end){found.end, found.steady_from, found.why_not};
+        *end = (running_in_end){found.end, found.steady_start, found.why_not};
         break;
     case WT_RUNNING_IN_STEP:
-        end->steady_from = wt_step_detect(y, n);
+        end->steady_start = wt_step_detect(y, n);
         break;
     case WT_RUNNING_IN_MSER:
-        end->steady_from = wt_mser_5(y, n);
+        end->steady_start = wt_mser_5(y, n);
         break;
     default:
         break;
     }
     if (job->running_in == WT_RUNNING_IN_STEP || job->running_in == WT_RUNNING_IN_MSER) {
-        end->cycles.value = (double)end->steady_from;
+        end->cycles.value = (double)end->steady_start;
         end->why_not = "this rule tells no interval";
     }
     return status;
 }
 
-static double middle(const wt_cycle *cycle, bool distance)
+static double cycle_middle(const wt_cycle *cycle, bool distance)
 {
     return distance ? cycle->distance : cycle->time;
 }
 
 /* Time or distance at the beginning of a cycle from the beginning of the step on: half-way between
  * the middles. */
-static double begins_at(const wt_cycle *c, size_t n, double number, bool distance)
+static double cycle_start(const wt_cycle *c, size_t n, double number, bool distance)
 {
     if (isnan(number) || n < 2)
         return (double)NAN;
     const size_t k = (size_t)number;
-    const double first = middle(&c[0], distance),
-                 start = first - 0.5 * (middle(&c[1], distance) - first);
+    const double first = cycle_middle(&c[0], distance),
+                 start = first - 0.5 * (cycle_middle(&c[1], distance) - first);
     if (k == 0)
         return 0;
-    return k < n ? 0.5 * (middle(&c[k - 1], distance) + middle(&c[k], distance)) - start
-                 : middle(&c[n - 1], distance) - start;
+    return k < n ? 0.5 * (cycle_middle(&c[k - 1], distance) + cycle_middle(&c[k], distance)) - start
+                 : cycle_middle(&c[n - 1], distance) - start;
 }
 
-static wt_interval in_units(const wt_cycle *c, size_t n, wt_interval cycles, bool distance)
+static wt_interval interval_in_units(const wt_cycle *c, size_t n, wt_interval cycles, bool distance)
 {
-    const double value = begins_at(c, n, cycles.value, distance),
-                 low = begins_at(c, n, cycles.low, distance),
-                 high = begins_at(c, n, cycles.high, distance);
+    const double value = cycle_start(c, n, cycles.value, distance),
+                 low = cycle_start(c, n, cycles.low, distance),
+                 high = cycle_start(c, n, cycles.high, distance);
     const double per_cycle = cycles.high > cycles.low
                                  ? (high - low) / (cycles.high - cycles.low)
-                                 : begins_at(c, n, fmin(cycles.value, 1), distance);
+                                 : cycle_start(c, n, fmin(cycles.value, 1), distance);
     return (wt_interval){value, cycles.standard_error * per_cycle, low, high};
 }
 
-static wt_interval times(wt_interval i, double factor)
+static wt_interval scale_interval(wt_interval i, double factor)
 {
     return (wt_interval){i.value * factor, i.standard_error * factor, i.low * factor,
                          i.high * factor};
 }
 
-static const char *kind_words(wt_cycle_kind kind)
+static const char *cycle_kind_name(wt_cycle_kind kind)
 {
     static const char *const words[] = {"", "double stroke", "lap", "span of time", "sample"};
     return words[kind];
 }
 
-static void add_note(char *note, size_t size, const char *words)
+static void append_note(char *note, size_t size, const char *words)
 {
     const size_t used = strlen(note);
     if (words[0] != '\0')
@@ -141,21 +141,21 @@ static void count_pauses(const record_pauses *pauses, const wt_cycle *first, con
         return;
     clocale_print(words, sizeof words, "%.0f pause%s of %s%.4g s left out", r->pauses,
                   r->pauses > 1 ? "s" : "", r->pauses > 1 ? "together " : "", r->paused);
-    add_note(note, size, words);
+    append_note(note, size, words);
 }
 
 /* Notes the limitations of a step. */
-static void say_step(const wt_job *work, const wt_cycles *cycles, const record_row *r, char *note,
-                     size_t size)
+static void note_step(const wt_job *work, const wt_cycles *cycles, const record_row *r, char *note,
+                      size_t size)
 {
     char words[160];
     const bool periodic = cycles->kind == WT_CYCLE_LAP || cycles->kind == WT_CYCLE_STROKE;
-    add_note(note, size, r->steady.note);
+    append_note(note, size, r->steady.note);
     if (periodic && cycles->samples < fewest_samples)
-        add_note(note, size, "few samples in a cycle: its mean holds a part of its wave");
+        append_note(note, size, "few samples in a cycle: its mean holds a part of its wave");
     if (isnan(r->end.value) && r->steady.n < r->cycles) { /* no end was found, and yet a part is
                                                              truncated */
-        add_note(note, size, "not steady: the last tenth is told");
+        append_note(note, size, "not steady: the last tenth is told");
         wt_log_add(work->log, WT_WARNING, r->file, NULL,
                    "friction does not become steady before the last tenth of step %zu, whose "
                    "mean is told",
@@ -163,17 +163,17 @@ static void say_step(const wt_job *work, const wt_cycles *cycles, const record_r
     }
     if (r->drift.low * r->drift.high > 0) {
         clocale_print(words, sizeof words, "drifts by %.2g over the steady part", r->drift.value);
-        add_note(note, size, words);
+        append_note(note, size, words);
     }
-    if (conditions_rest(r->at))
-        add_note(note, size, "nothing slides in it");
+    if (conditions_are_at_rest(r->at))
+        append_note(note, size, "nothing slides in it");
     else if (isnan(r->at.velocity) && !isnan(r->at.rotation))
-        add_note(note, size, "velocity not known: give --track-radius");
+        append_note(note, size, "velocity not known: give --track-radius");
     if (cycles->kind == WT_CYCLE_STROKE && !cycles->has_zero)
-        add_note(note, size, "friction has no sign, so that its zero is not known");
+        append_note(note, size, "friction has no sign, so that its zero is not known");
 }
 
-static double mean_zero(const wt_cycle *cycles, size_t n)
+static double mean_zero_offset(const wt_cycle *cycles, size_t n)
 {
     double sum = 0, count = 0;
     for (size_t i = 0; i < n; i++)
@@ -185,16 +185,16 @@ static double mean_zero(const wt_cycle *cycles, size_t n)
 }
 
 static wt_status measure_step(const wt_record_job *job, const wt_cycles *all, const wt_cycle *cycle,
-                              size_t n, record_row *r, size_t *steady_from, wt_error *err)
+                              size_t n, record_row *r, size_t *steady_start, wt_error *err)
 {
-    found_end end = {not_known, 0, ""};
+    running_in_end end = {not_known, 0, ""};
     double *const y = malloc((n + 1) * sizeof *y);
     if (y == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     for (size_t i = 0; i < n; i++)
         y[i] = cycle[i].coefficient;
-    wt_status status = find_end(job, y, n, &end, err);
-    const size_t from = end.steady_from < n ? end.steady_from : 0;
+    wt_status status = find_running_in_end(job, y, n, &end, err);
+    const size_t from = end.steady_start < n ? end.steady_start : 0;
     const wt_cycle *const steady = cycle + from, *const last = cycle + n - 1;
     if (status == WT_OK)
         status = wt_steady_mean(y + from, n - from, &r->steady, err);
@@ -203,51 +203,52 @@ static wt_status measure_step(const wt_record_job *job, const wt_cycles *all, co
         status = wt_stick_slip_find(all->friction + steady->first,
                                     last->first + last->n - steady->first, &r->slips, err);
     free(y);
-    r->at = conditions_of(steady, n - from);
-    r->drift = times(r->steady.drift, (double)(n - from) - 1);
+    r->at = conditions_mean(steady, n - from);
+    r->drift = scale_interval(r->steady.drift, (double)(n - from) - 1);
     r->end = end.cycles;
-    r->end_time = in_units(cycle, n, end.cycles, false);
-    r->end_distance = in_units(cycle, n, end.cycles, true);
+    r->end_time = interval_in_units(cycle, n, end.cycles, false);
+    r->end_distance = interval_in_units(cycle, n, end.cycles, true);
     r->end_note = end.why_not;
-    r->zero = mean_zero(steady, n - from);
+    r->zero = mean_zero_offset(steady, n - from);
     r->cycles = n;
-    *steady_from = from;
+    *steady_start = from;
     return status;
 }
 
 /* ---- one file -------------------------------------------------------------------------------- */
 
 /* Rows so far, for their common conditions. */
-typedef struct together {
+typedef struct common_rows {
     record_group friction;
     record_conditions first;
     bool alike;
-} together;
+} common_rows;
 
-typedef struct writers {
+typedef struct record_writers {
     table_writer record, cycles, wear;
-    together all;
+    common_rows all;
     bool has_wear;    /* requested, or read from a stored record */
     wear_rates rates; /* of it */
     size_t n_files;
-} writers;
+} record_writers;
 
 /* Rows at rest have no friction coefficient of sliding. */
-static void count_row(together *all, const record_row *r)
+static void add_row_friction(common_rows *all, const record_row *r)
 {
-    if (conditions_rest(r->at))
+    if (conditions_are_at_rest(r->at))
         return;
     if (!(all->friction.n > 0)) {
         all->first = r->at;
         all->alike = true;
     }
-    all->alike = all->alike && conditions_alike(all->first, r->at);
+    all->alike = all->alike && conditions_are_equal(all->first, r->at);
     record_group_add(&all->friction,
                      (wt_estimate){r->steady.mean.value, r->steady.mean.standard_error, 0, "1"});
 }
 
-static wt_status put_steps(const wt_record_job *job, const wt_job *work, const wt_cycles *cycles,
-                           const record_pauses *pauses, const char *file, writers *w, wt_error *err)
+static wt_status add_steps(const wt_record_job *job, const wt_job *work, const wt_cycles *cycles,
+                           const record_pauses *pauses, const char *file, record_writers *w,
+                           wt_error *err)
 {
     wt_status status = WT_OK;
     size_t step = 0;
@@ -256,19 +257,19 @@ static wt_status put_steps(const wt_record_job *job, const wt_job *work, const w
         size_t from = 0;
         record_row r = {.difference = cycles->difference,
                         .samples = cycles->samples,
-                        .averaged_over = kind_words(cycles->kind),
+                        .averaged_over = cycle_kind_name(cycles->kind),
                         .step = ++step,
                         .note = note,
                         .file = file};
         const wt_cycle *const cycle = cycles->cycle + first;
-        n = conditions_step(cycle, cycles->n - first);
+        n = conditions_step_length(cycle, cycles->n - first);
         status = measure_step(job, cycles, cycle, n, &r, &from, err);
         if (status != WT_OK)
             return status;
         count_pauses(pauses, cycle, cycle + n - 1, &r, note, sizeof note);
-        say_step(work, cycles, &r, note, sizeof note);
+        note_step(work, cycles, &r, note, sizeof note);
         record_add_row(&w->record, &r);
-        count_row(&w->all, &r);
+        add_row_friction(&w->all, &r);
         table_block(&w->cycles);
         for (size_t i = 0; i < n; i++)
             TABLE_ADD(record_cycles, &w->cycles, cycle[i], i + 1, i >= from, step, file);
@@ -276,7 +277,7 @@ static wt_status put_steps(const wt_record_job *job, const wt_job *work, const w
     return status;
 }
 
-static void say_difference(const wt_job *work, const wt_cycles *cycles, const char *file)
+static void warn_difference(const wt_job *work, const wt_cycles *cycles, const char *file)
 {
     double sum = 0;
     for (size_t i = 0; i < cycles->n; i++)
@@ -288,7 +289,7 @@ static void say_difference(const wt_job *work, const wt_cycles *cycles, const ch
                    cycles->difference);
 }
 
-static void say_pauses(const wt_job *work, const record_pauses *pauses, const char *file)
+static void warn_pauses(const wt_job *work, const record_pauses *pauses, const char *file)
 {
     double all = 0;
     for (size_t i = 0; i < pauses->n; i++)
@@ -308,7 +309,7 @@ static void say_pauses(const wt_job *work, const record_pauses *pauses, const ch
 }
 
 /* Radius of a disc from distance and laps. NaN if the record lacks one of them. */
-static double radius_of_laps(const wt_record *record)
+static double track_radius_from_laps(const wt_record *record)
 {
     const double *const distance = record->channel[WT_RECORD_DISTANCE],
                         *const laps = record->channel[WT_RECORD_LAPS];
@@ -322,10 +323,10 @@ static double radius_of_laps(const wt_record *record)
 /* The track length needs the radius. A record of laps determines it for a disc. */
 static wt_status measure_wear(const wt_record_job *job, const wt_job *work, const wt_record *record,
                               const wt_cycles *cycles, wt_estimate radius, const char *file,
-                              writers *w, wt_error *err)
+                              record_writers *w, wt_error *err)
 {
     if (isnan(radius.value) && isnan(job->track_length.value) && cycles->kind != WT_CYCLE_STROKE) {
-        radius.value = radius_of_laps(record);
+        radius.value = track_radius_from_laps(record);
         if (!isnan(radius.value))
             wt_log_add(work->log, WT_WARNING, file, NULL,
                        "the track is %.4g mm long by distance and laps, taken for that of a disc; "
@@ -347,14 +348,14 @@ static void count_stored(void *user, const table_view *v, size_t row)
                           .steady.mean.value = record_get(v, row, RECORD_FRICTION),
                           .steady.mean.standard_error =
                               record_get(v, row, RECORD_FRICTION_STANDARD_ERROR)};
-    count_row(user, &r);
+    add_row_friction(user, &r);
 }
 
 static void count_stored_wear(void *user, const table_view *v, size_t row)
 {
     wear_rates *const rates = user;
     if (row > 0 && strcmp(wear_text(v, row, WEAR_FILE), wear_text(v, row - 1, WEAR_FILE)) != 0)
-        wear_rates_end_run(rates);
+        wear_rates_close_run(rates);
     const double rate = wear_get(v, row, WEAR_RATE);
     if (!isnan(rate))
         record_group_add(
@@ -362,7 +363,7 @@ static void count_stored_wear(void *user, const table_view *v, size_t row)
             (wt_estimate){rate, wear_get(v, row, WEAR_RATE_STANDARD_ERROR), 0, "m^2/N"});
 }
 
-static void begin_wear(writers *w, wt_error *err)
+static void begin_wear(record_writers *w, wt_error *err)
 {
     if (!w->has_wear)
         w->wear = table_begin(&wear_schema, err);
@@ -370,8 +371,8 @@ static void begin_wear(writers *w, wt_error *err)
 }
 
 /* Adds the rows of a stored record to those that are measured in this call. */
-static wt_status take_stored(const wt_job *work, const flow_file *file, writers *w, wt_error *all,
-                             wt_error *err)
+static wt_status read_stored_record(const wt_job *work, const flow_file *file, record_writers *w,
+                                    wt_error *all, wt_error *err)
 {
     const wt_tables_role role = {"record", "record", "what weartrack record wrote"};
     wt_result *result = NULL;
@@ -381,14 +382,16 @@ static wt_status take_stored(const wt_job *work, const flow_file *file, writers 
         wt_error_advice(err, "give what weartrack record wrote");
     }
     if (status == WT_OK)
-        status = stored_record_rows(result, &record_schema, &w->record, count_stored, &w->all, err);
+        status =
+            stored_record_copy_rows(result, &record_schema, &w->record, count_stored, &w->all, err);
     if (status == WT_OK)
-        status = stored_record_rows(result, &record_cycles_schema, &w->cycles, NULL, NULL, err);
+        status =
+            stored_record_copy_rows(result, &record_cycles_schema, &w->cycles, NULL, NULL, err);
     if (status == WT_OK && wt_result_find(result, "wear") != NULL) {
         begin_wear(w, all);
-        status =
-            stored_record_rows(result, &wear_schema, &w->wear, count_stored_wear, &w->rates, err);
-        wear_rates_end_run(&w->rates);
+        status = stored_record_copy_rows(result, &wear_schema, &w->wear, count_stored_wear,
+                                         &w->rates, err);
+        wear_rates_close_run(&w->rates);
     }
     wt_result_free(result);
     if (status != WT_OK)
@@ -403,14 +406,13 @@ static bool is_stored(const flow_file *file)
     wt_input *input = NULL;
     struct stat found;
     const bool stored = stat(file->path, &found) == 0 && S_ISREG(found.st_mode) &&
-                        wt_input_open(file->path, &input, NULL) == WT_OK &&
-                        stored_record_begins(input);
+                        wt_input_open(file->path, &input, NULL) == WT_OK && is_stored_record(input);
     wt_input_close(input);
     return stored;
 }
 
 static wt_status measure_file(const wt_record_job *job, const wt_job *work, flow_file *file,
-                              writers *w, wt_error *err)
+                              record_writers *w, wt_error *err)
 {
     wt_input *input = NULL;
     wt_record record = {.n = 0};
@@ -425,19 +427,20 @@ static wt_status measure_file(const wt_record_job *job, const wt_job *work, flow
     if (isnan(radius.value))
         radius = (wt_estimate){record.radius, 0, 0, "m"};
     if (status == WT_OK)
-        status = record_leave_out_pauses(&record, &pauses, err);
+        status = record_remove_pauses(&record, &pauses, err);
     if (status == WT_OK)
-        status = wt_cycles_make(&record, job->cycle, radius.value, job->load.value, &cycles, err);
+        status =
+            wt_cycles_compute(&record, job->cycle, radius.value, job->load.value, &cycles, err);
     if (status == WT_OK && cycles.n == 0)
         status = wt_fail(err, WT_E_EMPTY, "the record holds no whole cycle");
     if (status == WT_OK) {
-        say_difference(work, &cycles, file->name);
-        say_pauses(work, &pauses, file->name);
+        warn_difference(work, &cycles, file->name);
+        warn_pauses(work, &pauses, file->name);
         if (cycles.n_unloaded > 0)
             wt_log_add(work->log, WT_WARNING, file->name, NULL,
                        "%zu of %zu samples are at no load and left out", cycles.n_unloaded,
                        record.n);
-        status = put_steps(job, work, &cycles, &pauses, file->name, w, err);
+        status = add_steps(job, work, &cycles, &pauses, file->name, w, err);
     }
     if (status == WT_OK && wear_is_requested(job))
         status = measure_wear(job, work, &record, &cycles, radius, file->name, w, err);
@@ -453,28 +456,28 @@ static wt_status measure_file(const wt_record_job *job, const wt_job *work, flow
 typedef struct record_task {
     const wt_record_job *job;
     const wt_job *work;
-    writers *w;
+    record_writers *w;
     wt_error *all; /* error of the tables, independent of the file */
 } record_task;
 
-static wt_status take_file(void *user, flow_file *file, size_t i, wt_error *err)
+static wt_status process_file(void *user, flow_file *file, size_t i, wt_error *err)
 {
     const record_task *const task = user;
     (void)i;
-    return is_stored(file) ? take_stored(task->work, file, task->w, task->all, err)
+    return is_stored(file) ? read_stored_record(task->work, file, task->w, task->all, err)
                            : measure_file(task->job, task->work, file, task->w, err);
 }
 
 /* ---- tables ---------------------------------------------------------------------------------- */
 
-static wt_status end_tables(writers *w, wt_status status, wt_record_tables *made)
+static wt_status end_tables(record_writers *w, wt_status status, wt_record_tables *made)
 {
     record_set_print(&w->record, RECORD_KEY_N_FILES, "%zu", w->n_files);
     if (w->all.friction.n > 0 && w->all.alike)
         record_set(&w->record, RECORD_KEY_FRICTION, record_group_mean(&w->all.friction, "1"));
     if (w->has_wear && w->rates.all.n > 0) {
         wear_set(&w->wear, WEAR_KEY_RATE, wear_rates_mean(&w->rates));
-        wear_set_value(&w->wear, WEAR_KEY_RATE_DF, wear_rates_freedom(&w->rates), 0, 0);
+        wear_set_value(&w->wear, WEAR_KEY_RATE_DF, wear_rates_df(&w->rates), 0, 0);
     }
     const wt_status written[] = {table_end(&w->record, &made->record),
                                  table_end(&w->cycles, &made->record_cycles),
@@ -484,19 +487,19 @@ static wt_status end_tables(writers *w, wt_status status, wt_record_tables *made
     return status;
 }
 
-static wt_status make_tables(const wt_record_job *job, const wt_job *work, const flow_files *files,
-                             wt_record_tables *made, wt_error *err)
+static wt_status make_record_tables(const wt_record_job *job, const wt_job *work,
+                                    const flow_files *files, wt_record_tables *made, wt_error *err)
 {
     size_t n_failed;
-    writers w = {.record = table_begin(&record_schema, err),
-                 .cycles = table_begin(&record_cycles_schema, err)};
+    record_writers w = {.record = table_begin(&record_schema, err),
+                        .cycles = table_begin(&record_cycles_schema, err)};
     if (wear_is_requested(job))
         begin_wear(&w, err);
     record_cycles_set_text(&w.cycles, RECORD_CYCLES_KEY_AVERAGED_OVER,
                            job->cycle == WT_CYCLE_AUTO ? "what each record tells"
-                                                       : kind_words(job->cycle));
+                                                       : cycle_kind_name(job->cycle));
     record_task task = {job, work, &w, err};
-    wt_status status = flow_files_process(files, work, take_file, &task, &n_failed, err);
+    wt_status status = flow_files_process(files, work, process_file, &task, &n_failed, err);
     if (status == WT_OK && w.n_files == 0) {
         status = wt_fail(err, WT_E_EMPTY, "no record of friction could be read");
         flow_error_add_files(files, n_failed, err);
@@ -511,14 +514,14 @@ wt_status wt_record_job_check(const wt_record_job *job, wt_error *err)
         return wt_fail(err, WT_E_ARG, "profile and track-area both tell what the track lost: one");
     if (isnan(job->mass_loss.value) == isnan(job->density.value))
         return WT_OK;
-    const char *const lacks = isnan(job->density.value) ? "density" : "mass-loss";
-    const wt_status status = wt_fail(err, WT_E_ARG, "no %s, and a volume takes both", lacks);
+    const char *const missing = isnan(job->density.value) ? "density" : "mass-loss";
+    const wt_status status = wt_fail(err, WT_E_ARG, "no %s, and a volume takes both", missing);
     wt_error_advice(err, "give mass-loss, such as 3mg, and density, such as 1150kg/m^3");
     return status;
 }
 
-wt_status wt_record_make(const wt_record_job *job, const wt_job *work, wt_record_tables *tables,
-                         wt_error *err)
+wt_status wt_record_compute(const wt_record_job *job, const wt_job *work, wt_record_tables *tables,
+                            wt_error *err)
 {
     if (job == NULL || work == NULL || tables == NULL)
         return wt_fail(err, WT_E_ARG, "no job of records");
@@ -531,9 +534,9 @@ wt_status wt_record_make(const wt_record_job *job, const wt_job *work, wt_record
         status = flow_files_list(job->sets, job->n_sets, work, &files, err);
     wt_record_job whole = *job;
     if (status == WT_OK && job->profile != NULL && job->n_sets > 0)
-        status = wear_area_of_profiles(job, work, &whole.track_area, err);
+        status = wear_profile_area(job, work, &whole.track_area, err);
     if (status == WT_OK)
-        status = make_tables(&whole, work, &files, &made, err);
+        status = make_record_tables(&whole, work, &files, &made, err);
     flow_files_clear(&files);
     if (status == WT_OK) {
         *tables = made;

@@ -12,39 +12,40 @@ typedef struct record_conditions {
     double velocity, rotation, normal_force, pressure, temperature;
 } record_conditions;
 /* Returns means over cycles; the velocity is weighted by their time. */
-record_conditions conditions_of(const wt_cycle *cycles, size_t n);
-bool conditions_alike(record_conditions a, record_conditions b);
+record_conditions conditions_mean(const wt_cycle *cycles, size_t n);
+bool conditions_are_equal(record_conditions a, record_conditions b);
 /* True if nothing slides. */
-bool conditions_rest(record_conditions at);
+bool conditions_are_at_rest(record_conditions at);
 /* Returns the number of cycles from the first on that belong to one step. */
-size_t conditions_step(const wt_cycle *cycles, size_t n);
+size_t conditions_step_length(const wt_cycle *cycles, size_t n);
 
 /* Repeated measurements of one quantity. The error of their mean is the scatter if it exceeds the
  * stated errors. */
 typedef struct record_group {
-    double n, mean, squares, own; /* squares about the mean; sum of squared standard errors */
+    double n, mean, squares,
+        error_squares; /* squares about the mean; sum of squared standard errors */
 } record_group;
 void record_group_add(record_group *s, wt_estimate e);
 /* Returns the mean with its standard error; NaN if the group is empty. */
 wt_estimate record_group_mean(const record_group *s, const char *unit);
 /* Returns the degrees of freedom of the error if it is the scatter, else NaN. */
-double record_group_freedom(const record_group *s);
+double record_group_df(const record_group *s);
 
 /* Wear rates. Several rates of one run (by mass, by area) count as one measurement. */
 typedef struct wear_rates {
     record_group run, all; /* current run; previous runs */
     double freedom;        /* of the last run */
 } wear_rates;
-void wear_rates_end_run(wear_rates *rates);
+void wear_rates_close_run(wear_rates *rates);
 wt_estimate wear_rates_mean(const wear_rates *rates);
-double wear_rates_freedom(const wear_rates *rates);
+double wear_rates_df(const wear_rates *rates);
 
 /* True if any input for the wear is stated. */
 bool wear_is_requested(const wt_record_job *job);
-wt_record_job wear_left_out(wt_record_job job);
+wt_record_job wear_without_inputs(wt_record_job job);
 /* Mean cross-section of the profiles of job->profile, with their scatter. */
-wt_status wear_area_of_profiles(const wt_record_job *job, const wt_job *work, wt_estimate *area,
-                                wt_error *err);
+wt_status wear_profile_area(const wt_record_job *job, const wt_job *work, wt_estimate *area,
+                            wt_error *err);
 /* Adds the rows of a file to the table of the wear. `radius` [m] of the track; NaN if unknown. The
  * rates are added to `rates` as one run. */
 wt_status wear_add(const wt_record_job *job, const wt_record *record, const wt_cycles *cycles,
@@ -52,11 +53,12 @@ wt_status wear_add(const wt_record_job *job, const wt_record *record, const wt_c
                    wt_error *err);
 
 /* True if a file is a result of weartrack: a text stream or HDF5. */
-bool stored_record_begins(wt_input *input);
+bool is_stored_record(wt_input *input);
 /* Copies the rows of a table of the result, if it exists, to the table that is written. `each` is
  * called with every row. */
-typedef void stored_row(void *user, const table_view *view, size_t row);
-wt_status stored_record_rows(const wt_result *result, const table_schema *schema, table_writer *t,
-                             stored_row *each, void *user, wt_error *err) WT_NODISCARD;
+typedef void stored_row_callback(void *user, const table_view *view, size_t row);
+wt_status stored_record_copy_rows(const wt_result *result, const table_schema *schema,
+                                  table_writer *t, stored_row_callback *each, void *user,
+                                  wt_error *err) WT_NODISCARD;
 
 #endif

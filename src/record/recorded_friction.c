@@ -11,7 +11,7 @@ enum { MOST_MEANS = 1000 };
 
 /* Converts middles of cycles to their ends, half-way to the next. Missing cycles before the first
  * have its duration. */
-static bool find_ends(recorded *r, double lost)
+static bool convert_middles_to_ends(recorded_run *r, double lost)
 {
     double *const t = r->end;
     const double first = t[1] - t[0], last = t[r->n - 1] - t[r->n - 2];
@@ -26,13 +26,13 @@ static bool find_ends(recorded *r, double lost)
     return true;
 }
 
-static double time_of(const table_view *cycles, size_t row, double velocity)
+static double cycle_time(const table_view *cycles, size_t row, double velocity)
 {
     const double time = record_cycles_get(cycles, row, RECORD_CYCLES_TIME);
     return isnan(time) ? record_cycles_get(cycles, row, RECORD_CYCLES_DISTANCE) / velocity : time;
 }
 
-static bool is_of(const table_view *cycles, size_t row, const recorded *r)
+static bool is_cycle_of_step(const table_view *cycles, size_t row, const recorded_run *r)
 {
     return record_cycles_get(cycles, row, RECORD_CYCLES_STEP) == (double)r->step &&
            strcmp(record_cycles_text(cycles, row, RECORD_CYCLES_FILE), r->at.file) == 0;
@@ -46,30 +46,30 @@ static double cycles_before(const double count[2])
     return before > 1 && isfinite(before) ? before : 0;
 }
 
-static void take_cycles(const table_view *cycles, recorded *r)
+static void read_cycles(const table_view *cycles, recorded_run *r)
 {
     bool timed = true;
     double laps[2] = {(double)NAN, (double)NAN}, slid[2] = {(double)NAN, (double)NAN};
     for (size_t i = 0; i < cycles->n_rows; i++) {
         const double friction = record_cycles_get(cycles, i, RECORD_CYCLES_FRICTION);
-        if (!is_of(cycles, i, r) || !isfinite(friction))
+        if (!is_cycle_of_step(cycles, i, r) || !isfinite(friction))
             continue;
         if (r->n < 2) {
             laps[r->n] = record_cycles_get(cycles, i, RECORD_CYCLES_LAPS);
             slid[r->n] = record_cycles_get(cycles, i, RECORD_CYCLES_DISTANCE);
         }
-        r->end[r->n] = time_of(cycles, i, r->at.velocity);
+        r->end[r->n] = cycle_time(cycles, i, r->at.velocity);
         timed = timed && isfinite(r->end[r->n]);
         r->friction[r->n++] = friction;
     }
     const double lost = isnan(laps[0]) ? cycles_before(slid) : cycles_before(laps);
     if (r->at.note[0] != '\0')
         r->note = r->at.note;
-    else if (r->n < COURSE_FEWEST)
+    else if (r->n < RUNNING_IN_CURVE_MIN_MEANS)
         r->note = "too few cycles to follow friction in time";
     else if (!timed)
         r->note = "neither time nor distance of its cycles is known";
-    else if (!find_ends(r, lost))
+    else if (!convert_middles_to_ends(r, lost))
         r->note = "the times of its cycles do not rise";
 }
 
@@ -77,7 +77,7 @@ static void take_cycles(const table_view *cycles, recorded *r)
 static size_t first_sliding(const table_view *record, size_t row, const wt_sliding *sliding)
 {
     const char *const file = record_text(record, row, RECORD_FILE);
-    while (!(measured_step_of(record, row, sliding).velocity > 0) && row + 1 < record->n_rows &&
+    while (!(measured_step_read(record, row, sliding).velocity > 0) && row + 1 < record->n_rows &&
            record_get(record, row + 1, RECORD_STEP) == record_get(record, row, RECORD_STEP) + 1 &&
            strcmp(record_text(record, row + 1, RECORD_FILE), file) == 0)
         row++;
@@ -85,7 +85,7 @@ static size_t first_sliding(const table_view *record, size_t row, const wt_slidi
 }
 
 wt_status recorded_read(const table_view *record, const table_view *cycles,
-                        const wt_sliding *sliding, recorded **runs, size_t *n, wt_error *err)
+                        const wt_sliding *sliding, recorded_run **runs, size_t *n, wt_error *err)
 {
     *n = 0;
     *runs = calloc(record->n_rows + 1, sizeof **runs);
@@ -94,22 +94,22 @@ wt_status recorded_read(const table_view *record, const table_view *cycles,
     for (size_t i = 0; i < record->n_rows; i++) {
         if (record_get(record, i, RECORD_STEP) != 1)
             continue;
-        recorded *const r = &(*runs)[(*n)++];
+        recorded_run *const r = &(*runs)[(*n)++];
         const size_t row = first_sliding(record, i, sliding);
-        *r = (recorded){.at = measured_step_of(record, row, sliding),
-                        .step = (size_t)record_get(record, row, RECORD_STEP),
-                        .end = calloc(cycles->n_rows + 1, sizeof *r->end),
-                        .friction = calloc(cycles->n_rows + 1, sizeof *r->friction),
-                        .running_in = record_get(record, row, RECORD_RUNNING_IN),
-                        .note = ""};
+        *r = (recorded_run){.at = measured_step_read(record, row, sliding),
+                            .step = (size_t)record_get(record, row, RECORD_STEP),
+                            .end = calloc(cycles->n_rows + 1, sizeof *r->end),
+                            .friction = calloc(cycles->n_rows + 1, sizeof *r->friction),
+                            .running_in = record_get(record, row, RECORD_RUNNING_IN),
+                            .note = ""};
         if (r->end == NULL || r->friction == NULL)
             return wt_fail(err, WT_E_MEMORY, "out of memory");
-        take_cycles(cycles, r);
+        read_cycles(cycles, r);
     }
     return WT_OK;
 }
 
-void recorded_free(recorded *runs, size_t n)
+void recorded_free(recorded_run *runs, size_t n)
 {
     for (size_t i = 0; runs != NULL && i < n; i++) {
         free(runs[i].end);
@@ -118,7 +118,7 @@ void recorded_free(recorded *runs, size_t n)
     free(runs);
 }
 
-static size_t count_until(const recorded *r, double until)
+static size_t count_cycles_until(const recorded_run *r, double until)
 {
     size_t n = 0;
     while (n < r->n && r->end[n] <= until)
@@ -126,26 +126,28 @@ static size_t count_until(const recorded *r, double until)
     return n;
 }
 
-static size_t length_of(size_t n)
+static size_t mean_length(size_t n)
 {
     return (n + MOST_MEANS - 1) / MOST_MEANS;
 }
 
-bool recorded_is_joined(const recorded *r, double until)
+bool recorded_is_averaged(const recorded_run *r, double until)
 {
-    return length_of(count_until(r, until)) > 1;
+    return mean_length(count_cycles_until(r, until)) > 1;
 }
 
-size_t recorded_means(const recorded *r, double until)
+size_t recorded_mean_count(const recorded_run *r, double until)
 {
-    const size_t n = count_until(r, until);
-    return n > 0 ? n / length_of(n) : 0;
+    const size_t n = count_cycles_until(r, until);
+    return n > 0 ? n / mean_length(n) : 0;
 }
 
-wt_status recorded_series(const recorded *r, double until, running_in_series *s, wt_error *err)
+wt_status recorded_read_series(const recorded_run *r, double until, running_in_series *s,
+                               wt_error *err)
 {
-    const size_t cycles = count_until(r, until), length = cycles > 0 ? length_of(cycles) : 1;
-    const wt_status status = running_in_series_new(recorded_means(r, until), s, err);
+    const size_t cycles = count_cycles_until(r, until),
+                 length = cycles > 0 ? mean_length(cycles) : 1;
+    const wt_status status = running_in_series_alloc(recorded_mean_count(r, until), s, err);
     if (status != WT_OK)
         return status;
     s->begin = r->begin;

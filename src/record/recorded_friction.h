@@ -7,7 +7,7 @@
 #include "record/numerics/running_in_curve.h"
 
 /* First sliding step of a record, on a surface without a layer. Later steps begin with one. */
-typedef struct recorded {
+typedef struct recorded_run {
     measured_step at;
     size_t n, step;    /* cycles; number of the step in its file, from 1 on */
     double begin;      /* start of the first cycle with a friction, from the start of sliding on
@@ -16,20 +16,20 @@ typedef struct recorded {
     double *friction;  /* [n] */
     double running_in; /* cycles of running-in, by the scatter alone; NaN if unknown */
     const char *note;  /* reason of exclusion, or "" */
-} recorded;
+} recorded_run;
 
 /* *runs: [*n], freed by recorded_free, also after a failure. */
 wt_status recorded_read(const table_view *record, const table_view *cycles,
-                        const wt_sliding *sliding, recorded **runs, size_t *n,
+                        const wt_sliding *sliding, recorded_run **runs, size_t *n,
                         wt_error *err) WT_NODISCARD;
-void recorded_free(recorded *runs, size_t n);
+void recorded_free(recorded_run *runs, size_t n);
 
 /* Returns the cycles up to a time, as means over equal numbers of cycles. */
-wt_status recorded_series(const recorded *r, double until, running_in_series *s,
-                          wt_error *err) WT_NODISCARD;
+wt_status recorded_read_series(const recorded_run *r, double until, running_in_series *s,
+                               wt_error *err) WT_NODISCARD;
 /* Returns the number of these means. */
-size_t recorded_means(const recorded *r, double until);
+size_t recorded_mean_count(const recorded_run *r, double until);
 /* True if each mean holds more than one cycle. */
-bool recorded_is_joined(const recorded *r, double until);
+bool recorded_is_averaged(const recorded_run *r, double until);
 
 #endif

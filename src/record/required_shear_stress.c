@@ -21,7 +21,7 @@ wt_interval required_shear_interval(double value, double error, double df)
 
 /* Weighted mean of the required shear stress of the steps, for the nominal values and for each
  * draw. */
-static wt_status find_needed(validation *v, wt_error *err)
+static wt_status find_required_shear(validation *v, wt_error *err)
 {
     const model_variant *const t = &v->shear;
     v->needed = required_shear_interval(t->fit.coefficient[0], t->fit.error[0], t->fit.df[0]);
@@ -39,16 +39,16 @@ static wt_status find_needed(validation *v, wt_error *err)
     return WT_OK;
 }
 
-wt_status required_shear_make(validation *v, wt_error *err)
+wt_status required_shear_compute(validation *v, wt_error *err)
 {
     wt_status status =
-        model_variant_of_shear(&v->p, &v->steps, v->layered, v->work->seed, &v->shear, err);
+        model_variant_fit_shear(&v->p, &v->steps, v->layered, v->work->seed, &v->shear, err);
     if (status == WT_OK)
-        status = find_needed(v, err);
+        status = find_required_shear(v, err);
     if (status != WT_OK || !(v->needed.value > 0) || v->ratio[0].fit.terms < 2)
         return status; /* one velocity determines one number, the shear stress */
-    const ratio_of of = {&v->p, &v->steps, v->needed_shear, v->layered};
-    status = model_variant_of_ratio(&of, v->work->seed, &v->shape, err);
+    const ratio_inputs of = {&v->p, &v->steps, v->needed_shear, v->layered};
+    status = model_variant_fit_ratio(&of, v->work->seed, &v->shape, err);
     if (status == WT_OK)
         agreement_assess(&v->shape.fit, validation_margin(v));
     return status;
@@ -57,7 +57,7 @@ wt_status required_shear_make(validation *v, wt_error *err)
 /* Source of the range, so that a reader can disagree. */
 static const char literature[] = "the range of the literature for rubber on rough counter surfaces";
 
-static void say_plausible(const validation *v, table_writer *t)
+static void set_plausibility(const validation *v, table_writer *t)
 {
     const double low = v->job->plausible_low, high = v->job->plausible_high;
     const wt_interval *const n = &v->needed;
@@ -84,7 +84,7 @@ void required_shear_set_keys(const validation *v, table_writer *t)
                          (double)NAN);
     validation_set_value(t, VALIDATION_KEY_NEEDED_LOW, v->needed.low, 0, 0);
     validation_set_value(t, VALIDATION_KEY_NEEDED_HIGH, v->needed.high, 0, 0);
-    say_plausible(v, t);
+    set_plausibility(v, t);
     if (v->shape.n > 0)
         validation_set_text(t, VALIDATION_KEY_SHAPE, model_variant_verdict(v, &v->shape).text);
     else

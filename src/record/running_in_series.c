@@ -14,28 +14,28 @@ enum { MOST_ROWS = 48 };
 TABLE_ROW(validation_course, VALIDATION_COURSE, double time; wt_interval measured;
           wt_estimate layered, bare; double fitted; const char *file;)
 
-static double bare_friction(const growth *g, size_t k, double time)
+static double friction_without_layer(const growth *g, size_t k, double time)
 {
     (void)time;
-    return growth_number_of(g, k, GROWTH_BARE);
+    return growth_quantity_value(g, k, GROWTH_BARE);
 }
 
 /* Predicted value with its standard deviation over the draws. */
-static wt_estimate predicted(const growth *g, growth_value *of, double time)
+static wt_estimate predicted_estimate(const growth *g, growth_function *of, double time)
 {
-    return (wt_estimate){of(g, 0, time), growth_scatter(g, of, time), (double)NAN, NULL};
+    return (wt_estimate){of(g, 0, time), growth_standard_deviation(g, of, time), (double)NAN, NULL};
 }
 
 /* Adds the mean over the means from `first` to before `end` of the series. */
-static void add_row(const run_fit *run, const running_in_series *s, size_t first, size_t end,
-                    table_writer *t)
+static void add_running_in_row(const run_fit *run, const running_in_series *s, size_t first,
+                               size_t end, table_writer *t)
 {
     const running_in_curve_fit *const fit = &run->fit;
-    const course c = growth_course(run->growth, 0);
+    const running_in_curve c = growth_curve(run->growth, 0);
     const size_t n = end - first;
     const double from = first > 0 ? s->end[first - 1] : s->begin,
                  time = 0.5 * (from + s->end[end - 1]),
-                 error = sqrt(fit->scatter * scatter_of_mean(fit->law, n));
+                 error = sqrt(fit->scatter * scatter_mean_variance(fit->law, n));
     double mean = 0;
     for (size_t i = first; i < end; i++)
         mean += s->friction[i] / (double)n;
@@ -43,8 +43,8 @@ static void add_row(const run_fit *run, const running_in_series *s, size_t first
     const validation_course_row row = {
         .time = time,
         .measured = {mean, error, mean - half, mean + half},
-        .layered = predicted(run->growth, growth_friction, time),
-        .bare = predicted(run->growth, bare_friction, time),
+        .layered = predicted_estimate(run->growth, growth_friction_at, time),
+        .bare = predicted_estimate(run->growth, friction_without_layer, time),
         .fitted = fit->seen ? fit->level +
                                   fit->ratio * running_in_curve_at(&c, log(time) - fit->log_factor)
                             : (double)NAN,
@@ -52,7 +52,7 @@ static void add_row(const run_fit *run, const running_in_series *s, size_t first
     validation_course_add_row(t, &row);
 }
 
-static void add_rows(const run_fit *run, const running_in_series *s, table_writer *t)
+static void add_running_in_rows(const run_fit *run, const running_in_series *s, table_writer *t)
 {
     const double step = pow(s->end[s->n - 1] / s->end[0], 1.0 / MOST_ROWS);
     for (size_t first = 0, end; first < s->n; first = end) {
@@ -60,22 +60,22 @@ static void add_rows(const run_fit *run, const running_in_series *s, table_write
         end = first + 1;
         while (end < s->n && s->end[end] <= until)
             end++;
-        add_row(run, s, first, end, t);
+        add_running_in_row(run, s, first, end, t);
     }
 }
 
-wt_status running_in_course_table(const run_set *all, const char *verdict, wt_table **table,
-                                  wt_error *err)
+wt_status running_in_curve_tabulate(const run_set *all, const char *verdict, wt_table **table,
+                                    wt_error *err)
 {
     table_writer t = table_begin(&validation_course_schema, err);
     for (size_t i = 0; i < all->n && t.status == WT_OK; i++) {
         running_in_series s;
         if (all->runs[i].value == NULL)
             continue;
-        t.status = recorded_series(all->runs[i].rec, all->runs[i].until, &s, err);
+        t.status = recorded_read_series(all->runs[i].rec, all->runs[i].until, &s, err);
         if (t.status == WT_OK) {
             table_block(&t);
-            add_rows(&all->runs[i], &s, &t);
+            add_running_in_rows(&all->runs[i], &s, &t);
         }
         running_in_series_clear(&s);
     }

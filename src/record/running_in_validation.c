@@ -17,7 +17,7 @@ void wt_running_in_tables_clear(wt_running_in_tables *tables)
     if (tables == NULL)
         return;
     wt_table_free(tables->running_in);
-    wt_table_free(tables->course);
+    wt_table_free(tables->running_in_curve);
     *tables = (wt_running_in_tables){0};
 }
 
@@ -27,10 +27,10 @@ static const wt_estimate no_number = {(double)NAN, (double)NAN, (double)NAN, NUL
 typedef struct running_in_task {
     const wt_validation_job *job;
     const wt_job *work;
-    recorded *rec;  /* [n] */
-    run_fit *run;   /* [n] */
-    growth *growth; /* [n] of runs with conditions of their own */
-    bool *own;      /* [n] true if the run has a prediction of its own */
+    recorded_run *rec; /* [n] */
+    run_fit *run;      /* [n] */
+    growth *growth;    /* [n] of runs with conditions of their own */
+    bool *has_growth;  /* [n] true if the run has a prediction of its own */
     size_t n, n_compared;
     char remarks[640]; /* assumptions about the record */
 } running_in_task;
@@ -40,33 +40,33 @@ typedef struct running_in_task {
 /* Tolerances of conditions that share one prediction: the control accuracy of a record. */
 static const double same_velocity = 0.01, same_pressure = 0.01, same_temperature = 0.25 /* [K] */;
 
-static bool is_near(double a, double b, double off)
+static bool is_within_tolerance(double a, double b, double off)
 {
     return (isnan(a) && isnan(b)) || fabs(a - b) <= off;
 }
 
-static bool are_alike(const measured_step *a, const measured_step *b)
+static bool steps_are_equal(const measured_step *a, const measured_step *b)
 {
-    return is_near(a->velocity, b->velocity, same_velocity * b->velocity) &&
-           is_near(a->pressure, b->pressure, same_pressure * b->pressure) &&
-           is_near(a->temperature, b->temperature, same_temperature);
+    return is_within_tolerance(a->velocity, b->velocity, same_velocity * b->velocity) &&
+           is_within_tolerance(a->pressure, b->pressure, same_pressure * b->pressure) &&
+           is_within_tolerance(a->temperature, b->temperature, same_temperature);
 }
 
 /* Uses the prediction of an earlier run with the same conditions, or computes one. */
-static wt_status predict(running_in_task *task, size_t i, wt_error *err)
+static wt_status predict_run(running_in_task *task, size_t i, wt_error *err)
 {
     run_fit *const run = &task->run[i];
     wt_error why = WT_ERROR_INIT;
     for (size_t k = 0; k < i; k++)
-        if (task->own[k] && are_alike(&task->rec[k].at, &task->rec[i].at)) {
+        if (task->has_growth[k] && steps_are_equal(&task->rec[k].at, &task->rec[i].at)) {
             run->growth = &task->growth[k];
             return WT_OK;
         }
-    const wt_status status = growth_make(task->job->sliding, task->job->layer, task->job->known,
-                                         &task->rec[i].at, task->work, &task->growth[i], &why);
+    const wt_status status = growth_compute(task->job->sliding, task->job->layer, task->job->known,
+                                            &task->rec[i].at, task->work, &task->growth[i], &why);
     if (status == WT_E_MEMORY || status == WT_E_INTERNAL)
         return wt_fail(err, status, "friction in running-in could not be predicted");
-    task->own[i] = status == WT_OK;
+    task->has_growth[i] = status == WT_OK;
     if (status == WT_OK)
         run->growth = &task->growth[i];
     else
@@ -81,29 +81,29 @@ static wt_status compare_run(running_in_task *task, size_t i, wt_error *err)
     snprintf(run->note, sizeof run->note, "%s", run->rec->note);
     if (run->note[0] != '\0' || isnan(task->job->sliding->shear_stress.value))
         return WT_OK;
-    wt_status status = predict(task, i, err);
+    wt_status status = predict_run(task, i, err);
     if (status == WT_OK && run->growth != NULL)
         status = run_fit_compute(run, task->job->running_in_margin, err);
     task->n_compared += run->value != NULL;
     return status;
 }
 
-static wt_status begin(running_in_task *task, wt_error *err)
+static wt_status compare_runs(running_in_task *task, wt_error *err)
 {
     table_view record = {0}, cycles = {0};
     wt_status status = table_bind(task->job->record, &record_schema, "", &record, err);
     if (status == WT_OK)
         status = table_bind(task->job->cycles, &record_cycles_schema, "", &cycles, err);
     if (status == WT_OK)
-        measured_taken(&record, true, task->remarks, sizeof task->remarks);
+        measured_default_remarks(&record, true, task->remarks, sizeof task->remarks);
     if (status == WT_OK)
         status = recorded_read(&record, &cycles, task->job->sliding, &task->rec, &task->n, err);
     if (status != WT_OK)
         return status;
     task->run = calloc(task->n + 1, sizeof *task->run);
     task->growth = calloc(task->n + 1, sizeof *task->growth);
-    task->own = calloc(task->n + 1, sizeof *task->own);
-    if (task->run == NULL || task->growth == NULL || task->own == NULL)
+    task->has_growth = calloc(task->n + 1, sizeof *task->has_growth);
+    if (task->run == NULL || task->growth == NULL || task->has_growth == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     for (size_t i = 0; status == WT_OK && i < task->n; i++)
         status = compare_run(task, i, err);
@@ -120,7 +120,7 @@ static void task_clear(running_in_task *task)
     }
     free(task->run);
     free(task->growth);
-    free(task->own);
+    free(task->has_growth);
     recorded_free(task->rec, task->n);
 }
 
@@ -132,48 +132,51 @@ TABLE_ROW(validation_running_in, VALIDATION_RUNNING_IN, measured_step at;
 
 /* Standard error of a number of a run. NaN without draws, since the interval must include the error
  * of the prediction. */
-static double error_of(const run_fit *run, run_number number)
+static double run_standard_error(const run_fit *run, run_quantity number)
 {
-    return hypot(sqrt(run_fit_own(run, number)), run_fit_spread(run, number));
+    return hypot(sqrt(run_fit_record_variance(run, number)),
+                 run_fit_prediction_deviation(run, number));
 }
 
 /* Interval of a time or its ratio. If the record determines one limit alone, the other is NaN. */
-static wt_interval factor_of(const run_fit *run, run_number number)
+static wt_interval run_factor_interval(const run_fit *run, run_quantity number)
 {
     const bool has_low = !isnan(run->fit.low), has_high = !isnan(run->fit.high);
-    const double end = exp(run_fit_end(run, number)), none = (double)NAN;
+    const double end = exp(run_fit_bound(run, number)), none = (double)NAN;
     if (has_low && has_high)
-        return validation_factor(run_fit_value(run, 0, number), error_of(run, number),
+        return validation_factor(run_fit_value(run, 0, number), run_standard_error(run, number),
                                  (double)INFINITY);
     return (wt_interval){none, none, has_low ? end : none, has_high ? end : none};
 }
 
-static wt_interval ratio_of_run(const run_fit *run)
+static wt_interval run_ratio_interval(const run_fit *run)
 {
-    const double value = run_fit_value(run, 0, RUN_RATIO), error = error_of(run, RUN_RATIO),
+    const double value = run_fit_value(run, 0, RUN_RATIO),
+                 error = run_standard_error(run, RUN_RATIO),
                  half = agreement_quantile((double)INFINITY) * error;
     return (wt_interval){value, error, value - half, value + half};
 }
 
 /* Largest difference of friction from its final value. NaN without a final value. */
-static double farthest(const growth *g, size_t k, double time)
+static double largest_change(const growth *g, size_t k, double time)
 {
-    const course c = growth_course(g, k);
+    const running_in_curve c = growth_curve(g, k);
     double most = 0;
     (void)time;
     for (size_t i = 0; i < c.n; i++)
         if (fabs(c.value[i]) > fabs(most))
             most = c.value[i];
-    return k == 0 || isfinite(growth_number_of(g, k, GROWTH_END)) ? most : (double)NAN;
+    return k == 0 || isfinite(growth_quantity_value(g, k, GROWTH_END)) ? most : (double)NAN;
 }
 
-static wt_estimate change_of(const growth *g)
+static wt_estimate predicted_change(const growth *g)
 {
     const double none = (double)NAN;
-    return (wt_estimate){-farthest(g, 0, none), growth_scatter(g, farthest, none), none, NULL};
+    return (wt_estimate){-largest_change(g, 0, none),
+                         growth_standard_deviation(g, largest_change, none), none, NULL};
 }
 
-static void add_run(const run_fit *run, const wt_sliding *sliding, table_writer *t)
+static void add_run_row(const run_fit *run, const wt_sliding *sliding, table_writer *t)
 {
     validation_running_in_row row = {.at = run->rec->at,
                                      .settled = not_known,
@@ -188,12 +191,12 @@ static void add_run(const run_fit *run, const wt_sliding *sliding, table_writer 
     if (run->value != NULL) {
         const double predicted = exp(run_fit_value(run, 0, RUN_PREDICTED));
         row.predicted.value = predicted;
-        row.predicted.standard_error = predicted * run_fit_spread(run, RUN_PREDICTED);
-        row.change = change_of(run->growth);
-        row.change_ratio = ratio_of_run(run);
+        row.predicted.standard_error = predicted * run_fit_prediction_deviation(run, RUN_PREDICTED);
+        row.change = predicted_change(run->growth);
+        row.change_ratio = run_ratio_interval(run);
         if (run->fit.seen) {
-            row.settled = factor_of(run, RUN_MEASURED);
-            row.time_ratio = factor_of(run, RUN_TIME_RATIO);
+            row.settled = run_factor_interval(run, RUN_MEASURED);
+            row.time_ratio = run_factor_interval(run, RUN_TIME_RATIO);
         }
     }
     validation_running_in_add_row(t, &row);
@@ -203,38 +206,38 @@ static void add_run(const run_fit *run, const wt_sliding *sliding, table_writer 
 
 /* Without an error of the prediction, the error of the record alone is not an interval of the
  * number. */
-static wt_interval level_of(const run_set *all, run_number number)
+static wt_interval level_interval(const run_set *all, run_quantity number)
 {
     wt_interval i = run_level_interval(&all->level[number]);
-    if (all->without_errors != NULL)
+    if (all->skip_numerical_errors != NULL)
         i.standard_error = i.low = i.high = (double)NAN;
     return i;
 }
 
-static wt_interval exponential_of(wt_interval i)
+static wt_interval exponential_interval(wt_interval i)
 {
     const double value = exp(i.value);
     return (wt_interval){value, value * i.standard_error, exp(i.low), exp(i.high)};
 }
 
-static void set_interval(table_writer *t, validation_running_in_key key, wt_interval i)
+static void set_running_in_interval(table_writer *t, validation_running_in_key key, wt_interval i)
 {
     if (isnan(i.value))
         return;
     validation_running_in_set_value(t, key, i.value, i.standard_error, (double)NAN);
     if (isnan(i.low) || isnan(i.high))
         return;
-    /* the limits follow the value, see KEY_ENDS, and have no error */
+    /* the limits follow the value, see KEY_BOUNDS, and have no error */
     validation_running_in_set_value(t, (validation_running_in_key)(key + 1), i.low, 0, 0);
     validation_running_in_set_value(t, (validation_running_in_key)(key + 2), i.high, 0, 0);
 }
 
 /* Compares the required wear rate with the measured one. */
-static wt_status set_agreement(const running_in_task *task, const run_set *all, table_writer *t,
-                               wt_error *err)
+static wt_status set_wear_agreement(const running_in_task *task, const run_set *all,
+                                    table_writer *t, wt_error *err)
 {
     table_view wear = {0};
-    const wt_interval needed = level_of(all, RUN_WEAR);
+    const wt_interval needed = level_interval(all, RUN_WEAR);
     if (task->job->wear == NULL || isnan(needed.standard_error))
         return WT_OK;
     const wt_status status = table_bind(task->job->wear, &wear_schema, "", &wear, err);
@@ -281,79 +284,81 @@ static void set_remarks(const running_in_task *task, table_writer *t)
 }
 
 /* Names the errors in the prediction of the first run that has one. */
-static const char *errors_of(const running_in_task *task)
+static const char *included_errors(const running_in_task *task)
 {
     for (size_t i = 0; i < task->n; i++)
-        if (task->own[i])
+        if (task->has_growth[i])
             return task->growth[i].n_draws > 0 ? task->growth[i].includes
                                                : "nothing: none were drawn";
     return "nothing: there is no prediction";
 }
 
-static wt_status set_keys(const running_in_task *task, const run_set *all, const run_verdict *said,
-                          table_writer *t, wt_error *err)
+static wt_status set_running_in_keys(const running_in_task *task, const run_set *all,
+                                     const run_verdict *result, table_writer *t, wt_error *err)
 {
-    validation_running_in_set_text(t, VALIDATION_RUNNING_IN_KEY_VERDICT, said->verdict);
+    validation_running_in_set_text(t, VALIDATION_RUNNING_IN_KEY_VERDICT, result->verdict);
     validation_running_in_set_print(
         t, VALIDATION_RUNNING_IN_KEY_TEST,
         "explains: the intervals of 95 %% of the time and of the change of friction, measured over "
         "predicted, are from %s; does not: one of them is outside; else it cannot say. "
         "Errors of record and prediction are in them, choices of the model are not",
         validation_requested_range(all->margin).text);
-    if (said->settled_by[0] != '\0')
-        validation_running_in_set_text(t, VALIDATION_RUNNING_IN_KEY_SETTLED_BY, said->settled_by);
-    set_interval(t, VALIDATION_RUNNING_IN_KEY_TIME_RATIO,
-                 exponential_of(level_of(all, RUN_TIME_RATIO)));
-    set_interval(t, VALIDATION_RUNNING_IN_KEY_CHANGE_RATIO, level_of(all, RUN_RATIO));
+    if (result->settled_by[0] != '\0')
+        validation_running_in_set_text(t, VALIDATION_RUNNING_IN_KEY_SETTLED_BY, result->settled_by);
+    set_running_in_interval(t, VALIDATION_RUNNING_IN_KEY_TIME_RATIO,
+                            exponential_interval(level_interval(all, RUN_TIME_RATIO)));
+    set_running_in_interval(t, VALIDATION_RUNNING_IN_KEY_CHANGE_RATIO,
+                            level_interval(all, RUN_RATIO));
     wt_status status = WT_OK;
     if (task->job->layer->closure == WT_CLOSURE_ENERGY) {
-        set_interval(t, VALIDATION_RUNNING_IN_KEY_WEAR, exponential_of(level_of(all, RUN_WEAR)));
-        set_interval(t, VALIDATION_RUNNING_IN_KEY_ENERGY,
-                     exponential_of(level_of(all, RUN_ENERGY)));
-        status = set_agreement(task, all, t, err);
+        set_running_in_interval(t, VALIDATION_RUNNING_IN_KEY_WEAR,
+                                exponential_interval(level_interval(all, RUN_WEAR)));
+        set_running_in_interval(t, VALIDATION_RUNNING_IN_KEY_ENERGY,
+                                exponential_interval(level_interval(all, RUN_ENERGY)));
+        status = set_wear_agreement(task, all, t, err);
     }
     validation_running_in_set_print(t, VALIDATION_RUNNING_IN_KEY_RUNS, "%zu", task->n_compared);
-    validation_running_in_set_text(t, VALIDATION_RUNNING_IN_KEY_INCLUDES, errors_of(task));
+    validation_running_in_set_text(t, VALIDATION_RUNNING_IN_KEY_INCLUDES, included_errors(task));
     set_remarks(task, t);
     return status;
 }
 
-static wt_status make_runs(const running_in_task *task, const run_set *all, const run_verdict *said,
-                           wt_table **table, wt_error *err)
+static wt_status tabulate_runs(const running_in_task *task, const run_set *all,
+                               const run_verdict *result, wt_table **table, wt_error *err)
 {
     table_writer t = table_begin(&validation_running_in_schema, err);
     for (size_t i = 0; i < task->n; i++)
-        add_run(&task->run[i], task->job->sliding, &t);
+        add_run_row(&task->run[i], task->job->sliding, &t);
     if (t.status == WT_OK)
-        t.status = set_keys(task, all, said, &t, err);
+        t.status = set_running_in_keys(task, all, result, &t, err);
     return table_end(&t, table);
 }
 
 /* ---- all runs -------------------------------------------------------------------------------- */
 
-static const char *why_without_errors(const running_in_task *task)
+static const char *missing_errors_reason(const running_in_task *task)
 {
     for (size_t i = 0; i < task->n; i++)
-        if (task->own[i] && task->growth[i].n_draws == 0)
-            return task->growth[i].without_errors
+        if (task->has_growth[i] && task->growth[i].n_draws == 0)
+            return task->growth[i].skip_numerical_errors
                        ? "the errors of a layer that acts back are not drawn"
                        : "the prediction has no errors: none are stated, or no replicates drawn";
     return NULL;
 }
 
-static wt_status judge(const running_in_task *task, run_set *all, wt_error *err)
+static wt_status find_run_levels(const running_in_task *task, run_set *all, wt_error *err)
 {
     *all = (run_set){.runs = task->run,
                      .n = task->n,
                      .margin = task->job->running_in_margin,
                      .seed = task->work->seed,
                      .has_shear = !isnan(task->job->sliding->shear_stress.value),
-                     .without_errors = why_without_errors(task)};
-    return run_set_levels(all, err);
+                     .skip_numerical_errors = missing_errors_reason(task)};
+    return run_set_compute_levels(all, err);
 }
 
-static wt_status check_job(const wt_validation_job *job, const wt_job *work,
-                           const wt_running_in_tables *tables, wt_error *err)
+static wt_status check_running_in_job(const wt_validation_job *job, const wt_job *work,
+                                      const wt_running_in_tables *tables, wt_error *err)
 {
     if (job == NULL || work == NULL || tables == NULL || job->record == NULL ||
         job->cycles == NULL || job->layer == NULL || job->known == NULL)
@@ -362,23 +367,23 @@ static wt_status check_job(const wt_validation_job *job, const wt_job *work,
     return status == WT_OK ? flow_sliding_check(job->sliding, work, err) : status;
 }
 
-wt_status wt_validation_running_in_make(const wt_validation_job *job, const wt_job *work,
-                                        wt_running_in_tables *tables, wt_error *err)
+wt_status wt_running_in_validation_compute(const wt_validation_job *job, const wt_job *work,
+                                           wt_running_in_tables *tables, wt_error *err)
 {
     running_in_task task = {.job = job, .work = work};
     wt_running_in_tables made = {0};
     run_set all = {.n = 0};
-    wt_status status = check_job(job, work, tables, err);
+    wt_status status = check_running_in_job(job, work, tables, err);
     if (status != WT_OK)
         return status;
-    status = begin(&task, err);
+    status = compare_runs(&task, err);
     if (status == WT_OK)
-        status = judge(&task, &all, err);
+        status = find_run_levels(&task, &all, err);
     if (status == WT_OK) {
-        const run_verdict said = run_set_assess(&all);
-        status = make_runs(&task, &all, &said, &made.running_in, err);
+        const run_verdict result = run_set_assess(&all);
+        status = tabulate_runs(&task, &all, &result, &made.running_in, err);
         if (status == WT_OK)
-            status = running_in_course_table(&all, said.verdict, &made.course, err);
+            status = running_in_curve_tabulate(&all, result.verdict, &made.running_in_curve, err);
     }
     cost_report(work, (cost_summary){.items = (double)task.n, .tolerance_asked = work->tolerance});
     run_set_clear(&all);

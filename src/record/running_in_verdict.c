@@ -15,25 +15,25 @@ static const double least_doubt = 0.025;
 
 /* ---- tests ----------------------------------------------------------------------------------- */
 
-static bool contradicts_at_one_end(const run_fit *run, double margin)
+static bool contradicts_at_bound(const run_fit *run, double margin)
 {
     if (run->value == NULL || !run->fit.seen || run_fit_is_closed(run))
         return false;
-    const double end = run_fit_end(run, RUN_TIME_RATIO);
+    const double end = run_fit_bound(run, RUN_TIME_RATIO);
     return isnan(run->fit.high) ? end > log1p(margin) : end < -log1p(margin);
 }
 
 /* Returns the first run that contradicts with its only determined limit, or NULL. */
-static const run_fit *contradicting(const run_set *all)
+static const run_fit *first_contradicting_run(const run_set *all)
 {
     for (size_t i = 0; i < all->n; i++)
-        if (contradicts_at_one_end(&all->runs[i], all->margin))
+        if (contradicts_at_bound(&all->runs[i], all->margin))
             return &all->runs[i];
     return NULL;
 }
 
 /* Returns the first compared run without both limits of the time, or NULL. */
-static const run_fit *first_open(const run_set *all)
+static const run_fit *first_inconclusive_run(const run_set *all)
 {
     for (size_t i = 0; i < all->n; i++)
         if (all->runs[i].value != NULL && !run_fit_is_closed(&all->runs[i]))
@@ -42,7 +42,7 @@ static const run_fit *first_open(const run_set *all)
 }
 
 /* Returns the first run that determines a number, or NULL. */
-static const run_fit *first_telling(const run_set *all, run_number number)
+static const run_fit *first_determined_run(const run_set *all, run_quantity number)
 {
     for (size_t i = 0; i < all->n; i++)
         if (run_fit_determines(&all->runs[i], number))
@@ -51,34 +51,35 @@ static const run_fit *first_telling(const run_set *all, run_number number)
 }
 
 /* An undetermined run prevents a yes: no other run determines its time. */
-static agreement_verdict judge_time(const run_set *all)
+static agreement_verdict assess_time(const run_set *all)
 {
     agreement judged = all->level[RUN_TIME_RATIO].fit;
-    if (contradicting(all) != NULL)
+    if (first_contradicting_run(all) != NULL)
         return AGREEMENT_NO;
     if (judged.n == 0)
-        return AGREEMENT_OPEN;
+        return AGREEMENT_INCONCLUSIVE;
     agreement_assess(&judged, log1p(all->margin));
-    return judged.verdict == AGREEMENT_YES && first_open(all) != NULL ? AGREEMENT_OPEN
-                                                                      : judged.verdict;
+    return judged.verdict == AGREEMENT_YES && first_inconclusive_run(all) != NULL
+               ? AGREEMENT_INCONCLUSIVE
+               : judged.verdict;
 }
 
 /* Both limits of the margin are separate tests, because the predicted change may be near zero. */
-static agreement_verdict judge_change(const run_set *all)
+static agreement_verdict assess_change(const run_set *all)
 {
-    const wt_interval more = run_level_interval(&all->level[RUN_MORE]),
-                      less = run_level_interval(&all->level[RUN_LESS]);
+    const wt_interval more = run_level_interval(&all->level[RUN_ABOVE_LOWER]),
+                      less = run_level_interval(&all->level[RUN_BELOW_UPPER]);
     if (more.high < 0 || less.high < 0)
         return AGREEMENT_NO;
-    return more.low > 0 && less.low > 0 ? AGREEMENT_YES : AGREEMENT_OPEN;
+    return more.low > 0 && less.low > 0 ? AGREEMENT_YES : AGREEMENT_INCONCLUSIVE;
 }
 
 /* ---- text ------------------------------------------------------------------------------------ */
 
-static void tell_open(const run_fit *run, char *text, size_t size)
+static void describe_inconclusive_run(const run_fit *run, char *text, size_t size)
 {
     const running_in_curve_fit *const fit = &run->fit;
-    const double with_prediction = run_fit_end(run, RUN_TIME_RATIO);
+    const double with_prediction = run_fit_bound(run, RUN_TIME_RATIO);
     const char *const by = isnan(with_prediction) ? ", by the record alone" : "";
     if (!fit->seen)
         clocale_print(
@@ -109,15 +110,16 @@ static void tell_open(const run_fit *run, char *text, size_t size)
 }
 
 /* Describes what decides: a run that contradicts, the common interval, or an undetermined run. */
-static void tell_time(const run_set *all, char *text, size_t size)
+static void describe_time(const run_set *all, char *text, size_t size)
 {
     const wt_interval i = run_level_interval(&all->level[RUN_TIME_RATIO]);
-    const run_fit *const against = contradicting(all), *const open = first_open(all);
+    const run_fit *const against = first_contradicting_run(all), *const open =
+                                                                     first_inconclusive_run(all);
     if (against != NULL || isnan(i.value)) {
-        if (against == NULL && first_telling(all, RUN_TIME_RATIO) != NULL)
+        if (against == NULL && first_determined_run(all, RUN_TIME_RATIO) != NULL)
             snprintf(text, size, "a record tells a time of running-in that all together do not");
         else
-            tell_open(against != NULL ? against : open, text, size);
+            describe_inconclusive_run(against != NULL ? against : open, text, size);
         return;
     }
     clocale_print(text, size,
@@ -127,7 +129,7 @@ static void tell_time(const run_set *all, char *text, size_t size)
                   open != NULL ? ", which not every record tells" : "");
 }
 
-static void append_change(const run_set *all, char *text, size_t size)
+static void describe_change(const run_set *all, char *text, size_t size)
 {
     const wt_interval ratio = run_level_interval(&all->level[RUN_RATIO]);
     if (isnan(ratio.low) || isnan(ratio.high))
@@ -137,13 +139,14 @@ static void append_change(const run_set *all, char *text, size_t size)
                       ratio.value, format_range(ratio.low, ratio.high, 3).text);
 }
 
-static void append_verdict(const run_set *all, agreement_verdict verdict, char *text, size_t size)
+static void write_run_verdict(const run_set *all, agreement_verdict verdict, char *text,
+                              size_t size)
 {
     char time[240], change[120];
     /* the deciding part comes first */
-    const bool by_change = judge_time(all) != AGREEMENT_NO && judge_change(all) == AGREEMENT_NO;
-    tell_time(all, time, sizeof time);
-    append_change(all, change, sizeof change);
+    const bool by_change = assess_time(all) != AGREEMENT_NO && assess_change(all) == AGREEMENT_NO;
+    describe_time(all, time, sizeof time);
+    describe_change(all, change, sizeof change);
     snprintf(text, size, "%s: %s; %s, and %s is asked for", validation_verdict(verdict),
              by_change ? change : time, by_change ? time : change,
              validation_requested_range(all->margin).text);
@@ -153,10 +156,10 @@ static void append_verdict(const run_set *all, agreement_verdict verdict, char *
 
 /* Finds the draw that correlates most with a number of a run and returns its share of the variance;
  * 0 if unknown. */
-static double largest_line(const run_fit *run, uint64_t seed, run_number number, size_t *line)
+static double largest_line(const run_fit *run, uint64_t seed, run_quantity number, size_t *line)
 {
     double most = 0;
-    const double all = run_fit_spread(run, number);
+    const double all = run_fit_prediction_deviation(run, number);
     for (size_t u = 0; u < run->growth->n_lines; u++) {
         double slope = 0, n = 0;
         for (size_t k = 1; k <= run->growth->n_draws; k++) {
@@ -175,7 +178,7 @@ static double largest_line(const run_fit *run, uint64_t seed, run_number number,
     return all > 0 ? most / (all * all) : 0;
 }
 
-static const run_fit *first_compared(const run_set *all)
+static const run_fit *first_compared_run(const run_set *all)
 {
     for (size_t i = 0; i < all->n; i++)
         if (all->runs[i].value != NULL)
@@ -183,7 +186,7 @@ static const run_fit *first_compared(const run_set *all)
     return NULL;
 }
 
-static const char *close_of(const running_in_curve_fit *fit)
+static const char *remedy_for_time(const running_in_curve_fit *fit)
 {
     if (fit->seen && isnan(fit->high))
         return "a record that goes on until a change as the layer makes it is over";
@@ -191,18 +194,19 @@ static const char *close_of(const running_in_curve_fit *fit)
                                         : "a longer record, or more of them, of a fresh surface";
 }
 
-static void advise(const run_set *all, run_number number, char *text, size_t size)
+static void write_run_advice(const run_set *all, run_quantity number, char *text, size_t size)
 {
-    const run_fit *const open = number == RUN_TIME_RATIO ? first_open(all) : NULL,
-                         *const run = first_telling(all, number);
+    const run_fit *const open = number == RUN_TIME_RATIO ? first_inconclusive_run(all) : NULL,
+                         *const run = first_determined_run(all, number);
     const run_level *const level = &all->level[number];
     size_t line = 0;
     if (open != NULL || run == NULL) {
-        snprintf(text, size, "%s", close_of(open != NULL ? &open->fit : &first_compared(all)->fit));
+        snprintf(text, size, "%s",
+                 remedy_for_time(open != NULL ? &open->fit : &first_compared_run(all)->fit));
         return;
     }
     const double share = largest_line(run, all->seed, number, &line),
-                 of_common = level->common / (level->own + level->common);
+                 of_common = level->common / (level->record_variance + level->common);
     if (of_common < 0.5) {
         snprintf(text, size, "a longer record, or more of them, of a fresh surface: %s",
                  level->fit.scatter > 0 ? "they scatter by more than their errors"
@@ -213,13 +217,13 @@ static void advise(const run_set *all, run_number number, char *text, size_t siz
         snprintf(text, size, "the prediction known better: material, roughness and layer together");
         return;
     }
-    const char *remedy, *words = source_of_draw(run->growth->line[line], &remedy);
+    const char *remedy, *words = draw_source_name(run->growth->line[line], &remedy);
     clocale_print(text, size, "%s known better: %s; %.0f %% of the variance is of it", words,
                   remedy, 100 * share * of_common);
 }
 
 /* True if the draws of a compared run leave the existence of a layer inconclusive. */
-static bool may_be_bare(const run_set *all)
+static bool may_have_no_layer(const run_set *all)
 {
     for (size_t i = 0; i < all->n; i++) {
         const growth *const g = all->runs[i].growth;
@@ -233,9 +237,9 @@ static bool may_be_bare(const run_set *all)
 
 /* Sets the verdict if the test is impossible. The last resort for the reason is the note of the
  * first run. */
-static bool refuse(const run_set *all, run_verdict *w)
+static bool set_missing_input_verdict(const run_set *all, run_verdict *w)
 {
-    const run_fit *const run = first_compared(all);
+    const run_fit *const run = first_compared_run(all);
     const char *why = NULL, *settles = "a record of a fresh surface from its first cycle on";
     if (!all->has_shear) {
         why = "no shear stress is given, and the total friction is not predicted without it";
@@ -247,16 +251,17 @@ static bool refuse(const run_set *all, run_verdict *w)
         settles = all->runs[0].growth == NULL && all->runs[0].rec->note[0] == '\0'
                       ? "a case that predicts a layer which changes friction at these conditions"
                       : settles;
-    } else if (all->without_errors != NULL) {
-        why = all->without_errors;
+    } else if (all->skip_numerical_errors != NULL) {
+        why = all->skip_numerical_errors;
         settles = "errors of the prediction, by replicates and without feedback";
-    } else if (may_be_bare(all)) {
+    } else if (may_have_no_layer(all)) {
         why = "within the stated errors there may be no layer";
         settles = "specific wear rate and critical energy known better";
     }
     if (why == NULL)
         return false;
-    snprintf(w->verdict, sizeof w->verdict, "%s: %s", validation_verdict(AGREEMENT_OPEN), why);
+    snprintf(w->verdict, sizeof w->verdict, "%s: %s", validation_verdict(AGREEMENT_INCONCLUSIVE),
+             why);
     snprintf(w->settled_by, sizeof w->settled_by, "%s", settles);
     return true;
 }
@@ -264,16 +269,16 @@ static bool refuse(const run_set *all, run_verdict *w)
 run_verdict run_set_assess(const run_set *all)
 {
     run_verdict w = {.settled_by = ""};
-    if (refuse(all, &w))
+    if (set_missing_input_verdict(all, &w))
         return w;
-    const agreement_verdict time = judge_time(all), change = judge_change(all);
+    const agreement_verdict time = assess_time(all), change = assess_change(all);
     const agreement_verdict verdict = time == AGREEMENT_NO || change == AGREEMENT_NO ? AGREEMENT_NO
                                       : time == AGREEMENT_YES && change == AGREEMENT_YES
                                           ? AGREEMENT_YES
-                                          : AGREEMENT_OPEN;
-    append_verdict(all, verdict, w.verdict, sizeof w.verdict);
-    if (verdict == AGREEMENT_OPEN)
-        advise(all, time != AGREEMENT_YES ? RUN_TIME_RATIO : RUN_RATIO, w.settled_by,
-               sizeof w.settled_by);
+                                          : AGREEMENT_INCONCLUSIVE;
+    write_run_verdict(all, verdict, w.verdict, sizeof w.verdict);
+    if (verdict == AGREEMENT_INCONCLUSIVE)
+        write_run_advice(all, time != AGREEMENT_YES ? RUN_TIME_RATIO : RUN_RATIO, w.settled_by,
+                         sizeof w.settled_by);
     return w;
 }

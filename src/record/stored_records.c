@@ -4,7 +4,7 @@
 
 #include <string.h>
 
-bool stored_record_begins(wt_input *input)
+bool is_stored_record(wt_input *input)
 {
     static const char *const begins[] = {"\x89HDF\r\n\x1a\n", "## weartrack:"};
     const unsigned char *bytes = NULL;
@@ -23,7 +23,7 @@ static void copy_row(const table_view *from, size_t row, table_writer *t)
     const table_schema *const schema = from->schema;
     table_row(t);
     for (unsigned c = 0; schema->columns[c].name != NULL; c++)
-        if (!view_has(from, schema, c))
+        if (!view_has_column(from, schema, c))
             continue;
         else if (schema->columns[c].kind == SCHEMA_TEXT)
             writer_text(t, schema, c, view_text(from, schema, row, c));
@@ -31,11 +31,12 @@ static void copy_row(const table_view *from, size_t row, table_writer *t)
             writer_number(t, schema, c, view_number(from, schema, row, c));
 }
 
-wt_status stored_record_rows(const wt_result *result, const table_schema *schema, table_writer *t,
-                             stored_row *each, void *user, wt_error *err)
+wt_status stored_record_copy_rows(const wt_result *result, const table_schema *schema,
+                                  table_writer *t, stored_row_callback *each, void *user,
+                                  wt_error *err)
 {
     table_view view = {0};
-    const wt_status status = table_bind_of(result, schema, "", &view, err);
+    const wt_status status = table_bind_result(result, schema, "", &view, err);
     if (status != WT_OK || view.table == NULL)
         return status;
     table_block(t);

@@ -38,7 +38,7 @@
     X(VALIDATION_FILE, AS(file), "file of the record", TEXT, LABEL("File"))
 
 /* Limits of the 95 % interval of a number whose key has no interval. */
-#define KEY_ENDS(X, ID, name, unit, heading)                                                       \
+#define KEY_BOUNDS(X, ID, name, unit, heading)                                                     \
     X(ID##_LOW, name "_low", unit, LABEL(heading ", 95 % interval from"), OPTIONAL)                \
     X(ID##_HIGH, name "_high", unit, LABEL("to"), OPTIONAL)
 /* Ranges over all model choices, and over those that hold 95 % of the weight. */
@@ -59,7 +59,7 @@
     X(VALIDATION_KEY_SETTLED_BY, "settled_by", TEXT, LABEL("What would settle it"), OPTIONAL)      \
     X(VALIDATION_KEY_RATIO, "ratio", UNIT("1"), HEADLINE("Friction, measured over predicted"),     \
       OPTIONAL)                                                                                    \
-    KEY_ENDS(X, VALIDATION_KEY_RATIO, "ratio", NUMBER, "Measured over predicted")                  \
+    KEY_BOUNDS(X, VALIDATION_KEY_RATIO, "ratio", NUMBER, "Measured over predicted")                \
     X(VALIDATION_KEY_TREND, "ratio_per_decade", UNIT("1"),                                         \
       LABEL("Change of the ratio with a decade of velocity"), OPTIONAL)                            \
     X(VALIDATION_KEY_SCATTER, "scatter", NUMBER,                                                   \
@@ -67,14 +67,14 @@
     X(VALIDATION_KEY_SHEAR, "shear_stress", SI(STRESS), LABEL("Shear stress used"), OPTIONAL)      \
     X(VALIDATION_KEY_NEEDED, "shear_stress_needed", SI(STRESS),                                    \
       HEADLINE("Shear stress that the record asks for"), OPTIONAL)                                 \
-    KEY_ENDS(X, VALIDATION_KEY_NEEDED, "shear_stress_needed", SI(STRESS), "Shear stress needed")   \
+    KEY_BOUNDS(X, VALIDATION_KEY_NEEDED, "shear_stress_needed", SI(STRESS), "Shear stress needed") \
     X(VALIDATION_KEY_PLAUSIBLE, "shear_stress_plausible", TEXT,                                    \
       LABEL("Is that shear stress plausible"), OPTIONAL)                                           \
     X(VALIDATION_KEY_SHAPE, "verdict_with_needed", TEXT,                                           \
       LABEL("With the shear stress that it asks for"), OPTIONAL)                                   \
     X(VALIDATION_KEY_CUTOFF, "largest_wavenumber_needed", SI(WAVENUMBER),                          \
       LABEL("Largest wavenumber q1 that the record asks for, all else as used"), OPTIONAL)         \
-    KEY_ENDS(X, VALIDATION_KEY_CUTOFF, "largest_wavenumber_needed", SI(WAVENUMBER), "q1 needed")   \
+    KEY_BOUNDS(X, VALIDATION_KEY_CUTOFF, "largest_wavenumber_needed", SI(WAVENUMBER), "q1 needed") \
     X(VALIDATION_KEY_CUTOFF_NOTE, "largest_wavenumber_note", TEXT,                                 \
       LABEL("Largest wavenumber q1 needed"), OPTIONAL)                                             \
     KEY_RANGE(X, VALIDATION_KEY_FRICTION, "friction", NUMBER, "Friction coefficient")              \
@@ -83,7 +83,7 @@
     KEY_RANGE(X, VALIDATION_KEY_THICKNESS, "thickness", SI(LENGTH), "Layer thickness")             \
     X(VALIDATION_KEY_WEAR_RATIO, "wear_ratio", UNIT("1"),                                          \
       LABEL("Specific wear rate, measured over used"), OPTIONAL)                                   \
-    KEY_ENDS(X, VALIDATION_KEY_WEAR_RATIO, "wear_ratio", NUMBER, "Wear rate ratio")                \
+    KEY_BOUNDS(X, VALIDATION_KEY_WEAR_RATIO, "wear_ratio", NUMBER, "Wear rate ratio")              \
     X(VALIDATION_KEY_WEAR, "verdict_wear", TEXT, LABEL("Wear, measured against used"), OPTIONAL)   \
     X(VALIDATION_KEY_LAYER_THICKNESS, "layer_thickness", SI(LENGTH), LABEL("Layer thickness"),     \
       OPTIONAL)                                                                                    \
@@ -124,7 +124,7 @@
     X(VALIDATION_CHOICES_KEY_NARROWS, "narrows", TEXT, LABEL("What the record leaves"))
 
 /* Prefix of a source that consists of the errors of the DMA and of the surface scans. */
-#define VALIDATION_OF_MATERIAL "material"
+#define VALIDATION_MATERIAL_PREFIX "material"
 
 /* Each row is a source of the error. */
 #define VALIDATION_SOURCES_COLUMNS(X)                                                              \
@@ -183,19 +183,19 @@
       OPTIONAL)                                                                                    \
     X(VALIDATION_RUNNING_IN_KEY_TIME_RATIO, "time_ratio", UNIT("1"),                               \
       HEADLINE("Running-in time, measured over predicted"), OPTIONAL)                              \
-    KEY_ENDS(X, VALIDATION_RUNNING_IN_KEY_TIME_RATIO, "time_ratio", NUMBER, "Time ratio")          \
+    KEY_BOUNDS(X, VALIDATION_RUNNING_IN_KEY_TIME_RATIO, "time_ratio", NUMBER, "Time ratio")        \
     X(VALIDATION_RUNNING_IN_KEY_CHANGE_RATIO, "change_ratio", UNIT("1"),                           \
       LABEL("Change of friction in it, measured over predicted"), OPTIONAL)                        \
-    KEY_ENDS(X, VALIDATION_RUNNING_IN_KEY_CHANGE_RATIO, "change_ratio", NUMBER, "Change ratio")    \
+    KEY_BOUNDS(X, VALIDATION_RUNNING_IN_KEY_CHANGE_RATIO, "change_ratio", NUMBER, "Change ratio")  \
     X(VALIDATION_RUNNING_IN_KEY_WEAR, "specific_wear_rate_needed", SI(WEAR_RATE),                  \
       LABEL("Specific wear rate that the running-in time asks for, thickness as predicted"),       \
       OPTIONAL)                                                                                    \
-    KEY_ENDS(X, VALIDATION_RUNNING_IN_KEY_WEAR, "specific_wear_rate_needed", SI(WEAR_RATE),        \
-             "Wear rate needed")                                                                   \
+    KEY_BOUNDS(X, VALIDATION_RUNNING_IN_KEY_WEAR, "specific_wear_rate_needed", SI(WEAR_RATE),      \
+               "Wear rate needed")                                                                 \
     X(VALIDATION_RUNNING_IN_KEY_ENERGY, "critical_energy_needed", SI(ENERGY_DENSITY),              \
       LABEL("Critical energy that it asks for with that"), OPTIONAL)                               \
-    KEY_ENDS(X, VALIDATION_RUNNING_IN_KEY_ENERGY, "critical_energy_needed", SI(ENERGY_DENSITY),    \
-             "Critical energy needed")                                                             \
+    KEY_BOUNDS(X, VALIDATION_RUNNING_IN_KEY_ENERGY, "critical_energy_needed", SI(ENERGY_DENSITY),  \
+               "Critical energy needed")                                                           \
     X(VALIDATION_RUNNING_IN_KEY_AGREES, "wear_agrees", TEXT,                                       \
       LABEL("That wear rate against the one that was measured"), OPTIONAL)                         \
     X(VALIDATION_RUNNING_IN_KEY_RUNS, "n_runs", PLAIN, LABEL("Running-ins compared"))              \

@@ -78,7 +78,8 @@ TABLE_ROW(validation, VALIDATION, double velocity, temperature, pressure; wt_int
 /* Standard error of a single step; it includes the scatter between the steps. */
 static double step_error(const model_variant *t, size_t i)
 {
-    return sqrt(t->own[i] + t->fit.scatter + t->common[i * t->n + i]);
+    return sqrt(t->measurement_variance[i] + t->fit.scatter +
+                t->prediction_covariance[i * t->n + i]);
 }
 
 static void fill_ratio(const validation *v, bool layered, size_t i, wt_estimate *predicted,
@@ -90,7 +91,8 @@ static void fill_ratio(const validation *v, bool layered, size_t i, wt_estimate 
     const double error = step_error(t, i);
     predicted->value = prediction_total(&v->p, 0, layered, i, v->p.shear[0]);
     predicted->standard_error =
-        v->p.n_draws > 0 ? predicted->value * sqrt(t->common[i * t->n + i]) : (double)NAN;
+        v->p.n_draws > 0 ? predicted->value * sqrt(t->prediction_covariance[i * t->n + i])
+                         : (double)NAN;
     *ratio = validation_factor(t->value[i], error,
                                agreement_df(error * error, t->fit.scatter, t->fit.scatter_df));
 }
@@ -125,18 +127,18 @@ static void add_step(const validation *v, size_t i, table_writer *t)
 /* ---- keys ------------------------------------------------------------------------------------ */
 
 /* Sets a limit, which has no error. */
-static void set_end(table_writer *t, validation_key key, double value)
+static void set_bound(table_writer *t, validation_key key, double value)
 {
     if (isfinite(value))
         validation_set_value(t, key, value, 0, 0);
 }
 
-static void set_interval(table_writer *t, validation_key key, validation_key low,
-                         validation_key high, wt_interval i)
+static void set_validation_interval(table_writer *t, validation_key key, validation_key low,
+                                    validation_key high, wt_interval i)
 {
     validation_set_value(t, key, i.value, i.standard_error, (double)NAN);
-    set_end(t, low, i.low);
-    set_end(t, high, i.high);
+    set_bound(t, low, i.low);
+    set_bound(t, high, i.high);
 }
 
 static void set_verdicts(const validation *v, table_writer *t)
@@ -175,11 +177,12 @@ static void set_ratio(const validation *v, table_writer *t)
     if (!v->has_shear)
         return;
     const agreement *const fit = &v->ratio[v->layered].fit;
-    set_interval(t, VALIDATION_KEY_RATIO, VALIDATION_KEY_RATIO_LOW, VALIDATION_KEY_RATIO_HIGH,
-                 validation_factor(v->mean.value, v->mean.error, v->mean.df));
+    set_validation_interval(t, VALIDATION_KEY_RATIO, VALIDATION_KEY_RATIO_LOW,
+                            VALIDATION_KEY_RATIO_HIGH,
+                            validation_factor(v->mean.value, v->mean.error, v->mean.df));
     if (fit->terms > 1) {
         const double error =
-            model_variant_variance(&v->ratio[v->layered], fit->weight + fit->n).all;
+            model_variant_components(&v->ratio[v->layered], fit->weight + fit->n).all;
         validation_set_value(t, VALIDATION_KEY_TREND, expm1(fit->coefficient[1] / fit->span),
                              exp(fit->coefficient[1] / fit->span) * sqrt(error) / fit->span,
                              (double)NAN);
@@ -192,16 +195,17 @@ static void set_ratio(const validation *v, table_writer *t)
 static void set_ranges(const choice_ranges *r, table_writer *t)
 {
     static const struct {
-        setting_number number;
+        case_quantity number;
         validation_key all, kept;
     } keys[] = {
-        {SETTING_FRICTION, VALIDATION_KEY_FRICTION_ALL_LOW, VALIDATION_KEY_FRICTION_KEPT_LOW},
-        {SETTING_WITH_LAYER, VALIDATION_KEY_LAYERED_ALL_LOW, VALIDATION_KEY_LAYERED_KEPT_LOW},
-        {SETTING_THICKNESS, VALIDATION_KEY_THICKNESS_ALL_LOW, VALIDATION_KEY_THICKNESS_KEPT_LOW}};
+        {CASE_QUANTITY_FRICTION, VALIDATION_KEY_FRICTION_ALL_LOW, VALIDATION_KEY_FRICTION_KEPT_LOW},
+        {CASE_QUANTITY_WITH_LAYER, VALIDATION_KEY_LAYERED_ALL_LOW, VALIDATION_KEY_LAYERED_KEPT_LOW},
+        {CASE_QUANTITY_THICKNESS, VALIDATION_KEY_THICKNESS_ALL_LOW,
+         VALIDATION_KEY_THICKNESS_KEPT_LOW}};
     for (size_t i = 0; i < sizeof keys / sizeof *keys; i++)
         for (unsigned end = 0; end < 4; end++) /* both limits of a range are adjacent */
-            set_end(t, (validation_key)((end < 2 ? keys[i].all : keys[i].kept) + end % 2),
-                    (end < 2 ? r->all : r->kept)[keys[i].number][end % 2]);
+            set_bound(t, (validation_key)((end < 2 ? keys[i].all : keys[i].kept) + end % 2),
+                      (end < 2 ? r->all : r->kept)[keys[i].number][end % 2]);
 }
 
 /* Compares the measured wear rate with that of the layer. */
@@ -220,8 +224,8 @@ static wt_status set_wear(const validation *v, table_writer *t, wt_error *err)
         hypot(known ? is.standard_error / is.value : (double)NAN, used.standard_error / used.value);
     const wt_interval ratio =
         validation_factor(log(is.value / used.value), error, (double)INFINITY);
-    set_interval(t, VALIDATION_KEY_WEAR_RATIO, VALIDATION_KEY_WEAR_RATIO_LOW,
-                 VALIDATION_KEY_WEAR_RATIO_HIGH, ratio);
+    set_validation_interval(t, VALIDATION_KEY_WEAR_RATIO, VALIDATION_KEY_WEAR_RATIO_LOW,
+                            VALIDATION_KEY_WEAR_RATIO_HIGH, ratio);
     validation_set_text(t, VALIDATION_KEY_WEAR,
                         isnan(error) ? "cannot say: what was worn has no stated error"
                         : ratio.low <= 1 && ratio.high >= 1
@@ -231,27 +235,28 @@ static wt_status set_wear(const validation *v, table_writer *t, wt_error *err)
 }
 
 /* Sets the keys of the layer that friction was predicted with. */
-static void set_layer(const validation *v, table_writer *t)
+static void set_layer_keys(const validation *v, table_writer *t)
 {
     const wt_sliding *const sliding = v->job->sliding;
     char moduli[512];
     if (!v->layered)
         return;
-    const wt_estimate thickness = flow_as_stated(v->known->thickness),
-                      ratio = flow_as_stated(v->known->modulus_ratio);
+    const wt_estimate thickness = flow_stated_estimate(v->known->thickness),
+                      ratio = flow_stated_estimate(v->known->modulus_ratio);
     validation_set(t, VALIDATION_KEY_LAYER_THICKNESS, thickness);
     if (sliding->layer_rubber == NULL)
         validation_set(t, VALIDATION_KEY_LAYER_RATIO, ratio);
-    sliding_layer_describe(sliding, v->known, v->p.layer_gain, v->work->log, moduli, sizeof moduli);
+    sliding_layer_describe(sliding, v->known, v->p.zero_loss_range, v->work->log, moduli,
+                           sizeof moduli);
     if (moduli[0] == '\0')
         return;
     validation_set_text(t, VALIDATION_KEY_LAYER_MODULI, moduli);
     if (sliding->layer_rubber == NULL)
-        validation_set(t, VALIDATION_KEY_LAYER_SLOPE, flow_as_stated(v->known->ratio_slope));
+        validation_set(t, VALIDATION_KEY_LAYER_SLOPE, flow_stated_estimate(v->known->ratio_slope));
 }
 
-static wt_status set_keys(const validation *v, const choice_ranges *ranges,
-                          const source_advice *advice, table_writer *t, wt_error *err)
+static wt_status set_validation_keys(const validation *v, const choice_ranges *ranges,
+                                     const source_advice *advice, table_writer *t, wt_error *err)
 {
     set_verdicts(v, t);
     if (advice->settles[0] != '\0')
@@ -259,11 +264,11 @@ static wt_status set_keys(const validation *v, const choice_ranges *ranges,
     if (!v->has_shear)
         validation_set_text(t, VALIDATION_KEY_SETTLED_BY, "a shear stress of the real contact");
     set_ratio(v, t);
-    set_layer(v, t);
+    set_layer_keys(v, t);
     if (v->has_shear)
-        validation_set(t, VALIDATION_KEY_SHEAR, flow_as_stated(v->used.sliding.shear_stress));
+        validation_set(t, VALIDATION_KEY_SHEAR, flow_stated_estimate(v->used.sliding.shear_stress));
     required_shear_set_keys(v, t);
-    wt_status status = v->has_shear ? cutoff_set_keys(v, t, err) : WT_OK;
+    wt_status status = v->has_shear ? required_cutoff_set_keys(v, t, err) : WT_OK;
     if (ranges != NULL)
         set_ranges(ranges, t);
     if (status == WT_OK)
@@ -277,53 +282,56 @@ static wt_status set_keys(const validation *v, const choice_ranges *ranges,
 
 /* ---- the job --------------------------------------------------------------------------------- */
 
-static wt_status hold_ratios(validation *v, wt_error *err)
+static wt_status compare_ratios(validation *v, wt_error *err)
 {
     wt_status status = WT_OK;
     for (int layered = 0; status == WT_OK && layered < (v->known != NULL ? 2 : 1); layered++) {
-        const ratio_of of = {&v->p, &v->steps, v->p.shear, layered != 0};
-        status = model_variant_of_ratio(&of, v->work->seed, &v->ratio[layered], err);
+        const ratio_inputs of = {&v->p, &v->steps, v->p.shear, layered != 0};
+        status = model_variant_fit_ratio(&of, v->work->seed, &v->ratio[layered], err);
         if (status == WT_OK)
             agreement_assess(&v->ratio[layered].fit, validation_margin(v));
     }
-    return status == WT_OK ? mean_ratio_make(&v->ratio[v->layered], &v->mean, err) : status;
+    return status == WT_OK ? mean_ratio_compute(&v->ratio[v->layered], &v->mean, err) : status;
 }
 
 /* A layer that grows without limit has no friction. */
-static wt_status begin(validation *v, wt_error *err)
+static wt_status begin_validation(validation *v, wt_error *err)
 {
     table_view record = {0};
     const wt_validation_job *const job = v->job;
-    wt_status status = setting_make(job->sliding, job->layer, job->known, v->work, &v->used, err);
+    wt_status status =
+        case_variant_create(job->sliding, job->layer, job->known, v->work, &v->used, err);
     if (status == WT_OK)
         status = table_bind(job->record, &record_schema, "", &record, err);
     if (status == WT_OK)
-        status = measured_make(&record, job->sliding, &v->steps, err);
+        status = measured_steps_read(&record, job->sliding, &v->steps, err);
     v->known = job->known != NULL && isfinite(job->known->thickness.value) ? job->known : NULL;
     v->layered = v->known != NULL;
     if (status == WT_OK && job->known != NULL && !v->layered)
-        measured_remark(&v->steps,
-                        "without wear, or where it ages, the layer grows without end "
-                        "and friction with it is not known: that without a layer is compared");
+        measured_steps_add_remark(
+            &v->steps, "without wear, or where it ages, the layer grows without end "
+                       "and friction with it is not known: that without a layer is compared");
     v->has_shear = !isnan(job->sliding->shear_stress.value);
     if (status == WT_OK)
-        status = prediction_make(job->sliding, v->known, &v->steps, v->work, true, &v->p, err);
+        status = predict_friction(job->sliding, v->known, &v->steps, v->work, true, &v->p, err);
     if (status == WT_OK && v->p.n_draws == 0)
-        measured_remark(&v->steps, "no interval and no verdict holds errors of the prediction, "
-                                   "which take replicates");
+        measured_steps_add_remark(&v->steps,
+                                  "no interval and no verdict holds errors of the prediction, "
+                                  "which take replicates");
     return status;
 }
 
-static wt_status make_tables(const validation *v, wt_validation_tables *tables, wt_error *err)
+static wt_status make_validation_tables(const validation *v, wt_validation_tables *tables,
+                                        wt_error *err)
 {
     choice_ranges ranges = {.narrows = ""};
     source_advice advice = {.narrows = ""};
     table_view what_if = {0};
-    wt_status status = sources_make(v, &advice, &tables->sources, err);
+    wt_status status = error_sources_tabulate(v, &advice, &tables->sources, err);
     if (status == WT_OK && v->job->what_if != NULL && v->has_shear) {
         status = table_bind(v->job->what_if, &what_if_schema, "", &what_if, err);
         if (status == WT_OK)
-            status = choices_make(v, &what_if, &ranges, &tables->choices, err);
+            status = model_choices_tabulate(v, &what_if, &ranges, &tables->choices, err);
     }
     if (status != WT_OK)
         return status;
@@ -332,12 +340,12 @@ static wt_status make_tables(const validation *v, wt_validation_tables *tables, 
     for (size_t i = 0; i < v->steps.n_all; i++) {
         if (i < v->steps.n && i == next) {
             table_block(&t);
-            next += measured_alike(&v->steps, i);
+            next += measured_group_length(&v->steps, i);
         }
         add_step(v, i, &t);
     }
     const choice_ranges *const held = tables->choices != NULL ? &ranges : NULL;
-    t.status = t.status == WT_OK ? set_keys(v, held, &advice, &t, err) : t.status;
+    t.status = t.status == WT_OK ? set_validation_keys(v, held, &advice, &t, err) : t.status;
     return table_end(&t, &tables->validation);
 }
 
@@ -350,10 +358,10 @@ static void validation_clear(validation *v)
     free(v->mean.row);
     free(v->needed_shear);
     prediction_clear(&v->p);
-    measured_clear(&v->steps);
+    measured_steps_clear(&v->steps);
 }
 
-static wt_status check_job(const wt_validation_job *job, wt_error *err)
+static wt_status check_validation_job(const wt_validation_job *job, wt_error *err)
 {
     const wt_status status = param_check(wt_validation_job_params(), job, err);
     if (status != WT_OK || job->plausible_low < job->plausible_high)
@@ -365,22 +373,22 @@ static wt_status check_job(const wt_validation_job *job, wt_error *err)
     return WT_E_RANGE;
 }
 
-wt_status wt_validation_make(const wt_validation_job *job, const wt_job *work,
-                             wt_validation_tables *tables, wt_error *err)
+wt_status wt_validation_compute(const wt_validation_job *job, const wt_job *work,
+                                wt_validation_tables *tables, wt_error *err)
 {
     if (job == NULL || work == NULL || tables == NULL || job->record == NULL)
         return wt_fail(err, WT_E_ARG, "no validation job");
     validation v = {.job = job, .work = work};
     wt_validation_tables made = {0};
-    wt_status status = check_job(job, err);
+    wt_status status = check_validation_job(job, err);
     if (status == WT_OK)
-        status = begin(&v, err);
+        status = begin_validation(&v, err);
     if (status == WT_OK && v.has_shear)
-        status = hold_ratios(&v, err);
+        status = compare_ratios(&v, err);
     if (status == WT_OK)
-        status = required_shear_make(&v, err);
+        status = required_shear_compute(&v, err);
     if (status == WT_OK)
-        status = make_tables(&v, &made, err);
+        status = make_validation_tables(&v, &made, err);
     cost_report(work,
                 (cost_summary){.items = (double)v.steps.n, .tolerance_asked = work->tolerance});
     validation_clear(&v);

@@ -17,7 +17,7 @@ typedef struct validation {
     const wt_validation_job *job;
     const wt_job *work;
     const wt_layer_observation *known; /* NULL without a layer of finite thickness */
-    setting used;
+    case_variant used;
     measured steps;
     prediction p;
     bool has_shear, layered; /* true if the tested prediction has the layer */
@@ -32,7 +32,7 @@ typedef struct validation {
 /* Returns ln of the factor within which measured and predicted friction agree. */
 double validation_margin(const validation *v);
 /* Returns the variance of ln of the model discrepancy: 95 % of it are within the margin. */
-double validation_allowed(const validation *v);
+double validation_discrepancy_variance(const validation *v);
 /* Text such as "explains: ..." for a model variant of the ratio. */
 typedef struct verdict_text {
     char text[256];
@@ -43,17 +43,18 @@ range_text validation_requested_range(double margin);
 /* Returns "explains", "does not" or "cannot say". */
 const char *validation_verdict(agreement_verdict verdict);
 
-wt_status mean_ratio_make(const model_variant *t, mean_ratio *mean, wt_error *err) WT_NODISCARD;
+wt_status mean_ratio_compute(const model_variant *t, mean_ratio *mean, wt_error *err) WT_NODISCARD;
 /* Returns the 95 % interval of exp(value). */
 wt_interval validation_factor(double value, double error, double df);
 
 /* Returns the 95 % interval of a required shear stress, with its standard error. */
 wt_interval required_shear_interval(double value, double error, double df);
 /* Computes the required shear stress and the remaining difference with it. */
-wt_status required_shear_make(validation *v, wt_error *err) WT_NODISCARD;
+wt_status required_shear_compute(validation *v, wt_error *err) WT_NODISCARD;
 void required_shear_set_keys(const validation *v, table_writer *t);
 /* Sets the keys of the required largest wavenumber, all else as used. */
-wt_status cutoff_set_keys(const validation *v, table_writer *t, wt_error *err) WT_NODISCARD;
+wt_status required_cutoff_set_keys(const validation *v, table_writer *t,
+                                   wt_error *err) WT_NODISCARD;
 
 /* Advice of the table "validation_sources": what narrows the interval most, and how to decide an
  * inconclusive verdict. */
@@ -61,17 +62,18 @@ typedef struct source_advice {
     char narrows[320], settles[320];
 } source_advice;
 /* Returns the name of a draw and the remedy that reduces its error. */
-const char *source_of_draw(flow_draw draw, const char **remedy);
-wt_status sources_make(const validation *v, source_advice *advice, wt_table **table,
-                       wt_error *err) WT_NODISCARD;
+const char *draw_source_name(flow_draw draw, const char **remedy);
+wt_status error_sources_tabulate(const validation *v, source_advice *advice, wt_table **table,
+                                 wt_error *err) WT_NODISCARD;
 
 /* Ranges of the numbers in the table "validation_choices", over all rows and over those that the
  * record selects. */
 typedef struct choice_ranges {
-    double all[SETTING_NUMBERS][2], kept[SETTING_NUMBERS][2]; /* NaN if unknown */
+    double all[CASE_QUANTITIES][2], kept[CASE_QUANTITIES][2]; /* NaN if unknown */
     char narrows[320];
 } choice_ranges;
-wt_status choices_make(const validation *v, const table_view *what_if, choice_ranges *ranges,
-                       wt_table **table, wt_error *err) WT_NODISCARD;
+wt_status model_choices_tabulate(const validation *v, const table_view *what_if,
+                                 choice_ranges *ranges, wt_table **table,
+                                 wt_error *err) WT_NODISCARD;
 
 #endif

@@ -13,7 +13,7 @@ double validation_margin(const validation *v)
     return log1p(v->job->margin);
 }
 
-double validation_allowed(const validation *v)
+double validation_discrepancy_variance(const validation *v)
 {
     const double off = validation_margin(v) / NORMAL_95;
     return off * off;
@@ -21,8 +21,9 @@ double validation_allowed(const validation *v)
 
 const char *validation_verdict(agreement_verdict verdict)
 {
-    static const char *const words[] = {
-        [AGREEMENT_OPEN] = "cannot say", [AGREEMENT_YES] = "explains", [AGREEMENT_NO] = "does not"};
+    static const char *const words[] = {[AGREEMENT_INCONCLUSIVE] = "cannot say",
+                                        [AGREEMENT_YES] = "explains",
+                                        [AGREEMENT_NO] = "does not"};
     return words[verdict];
 }
 
@@ -42,8 +43,8 @@ verdict_text model_variant_verdict(const validation *v, const model_variant *t)
     verdict_text words;
     double ends[2];
     const agreement *const fit = &t->fit;
-    const size_t at = fit->where;
-    agreement_ends(fit, at, fit->verdict == AGREEMENT_NO, ends);
+    const size_t at = fit->deciding_step;
+    agreement_interval(fit, at, fit->verdict == AGREEMENT_NO, ends);
     char all[48] = "";
     if (t->n > 1)
         snprintf(all, sizeof all, " at all %zu steps", t->n);
@@ -52,21 +53,21 @@ verdict_text model_variant_verdict(const validation *v, const model_variant *t)
                       "explains: measured over predicted is within %.3g %%%s: at %.3g m/s%s %.3g "
                       "(95 %%: %s)",
                       100 * v->job->margin, all, v->steps.step[at].velocity,
-                      t->n > 1 ? ", where it is farthest," : "", exp(fit->smooth[at]),
+                      t->n > 1 ? ", where it is farthest," : "", exp(fit->fitted_value[at]),
                       format_range(exp(ends[0]), exp(ends[1]), 3).text);
     else
         clocale_print(words.text, sizeof words.text,
                       "%s: at %.3g m/s measured over predicted is %.3g (95 %%%s: %s), and %s is "
                       "asked for",
                       validation_verdict(fit->verdict), v->steps.step[at].velocity,
-                      exp(fit->smooth[at]),
+                      exp(fit->fitted_value[at]),
                       fit->verdict == AGREEMENT_NO ? " at all steps at once" : "",
                       format_range(exp(ends[0]), exp(ends[1]), 3).text,
                       validation_requested_range(v->job->margin).text);
     return words;
 }
 
-wt_status mean_ratio_make(const model_variant *t, mean_ratio *mean, wt_error *err)
+wt_status mean_ratio_compute(const model_variant *t, mean_ratio *mean, wt_error *err)
 {
     double *const one = calloc(t->n, sizeof *one);
     *mean = (mean_ratio){.row = calloc(t->n, sizeof *mean->row)};
@@ -75,13 +76,13 @@ wt_status mean_ratio_make(const model_variant *t, mean_ratio *mean, wt_error *er
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     }
     for (size_t i = 0; i < t->n; i++) {
-        agreement_row(&t->fit, i, one);
+        agreement_weights(&t->fit, i, one);
         for (size_t k = 0; k < t->n; k++)
             mean->row[k] += one[k] / (double)t->n;
     }
     for (size_t i = 0; i < t->n; i++)
         mean->value += mean->row[i] * t->value[i];
-    const model_variant_parts parts = model_variant_variance(t, mean->row);
+    const variance_components parts = model_variant_components(t, mean->row);
     mean->error = sqrt(parts.all);
     mean->df = agreement_df(parts.all, parts.scatter, t->fit.scatter_df);
     free(one);

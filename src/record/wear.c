@@ -21,18 +21,18 @@ TABLE_ROW(wear, WEAR, wt_interval rate; const char *of; wt_estimate volume, dept
           double normal_force, distance; wt_ball_contact ball; double duty;
           const char *note, *file;)
 
-static bool given(wt_estimate e)
+static bool is_given(wt_estimate e)
 {
     return !isnan(e.value);
 }
 
 bool wear_is_requested(const wt_record_job *job)
 {
-    return job->profile != NULL || given(job->track_area) || given(job->mass_loss) ||
-           given(job->ball_radius);
+    return job->profile != NULL || is_given(job->track_area) || is_given(job->mass_loss) ||
+           is_given(job->ball_radius);
 }
 
-wt_record_job wear_left_out(wt_record_job job)
+wt_record_job wear_without_inputs(wt_record_job job)
 {
     job.track_area.value = job.mass_loss.value = job.density.value = job.ball_radius.value =
         (double)NAN;
@@ -40,22 +40,22 @@ wt_record_job wear_left_out(wt_record_job job)
     return job;
 }
 
-static double relative(wt_estimate e)
+static double relative_error(wt_estimate e)
 {
     return e.standard_error / e.value;
 }
 
-static wt_estimate product(wt_estimate a, wt_estimate b, const char *unit)
+static wt_estimate estimate_product(wt_estimate a, wt_estimate b, const char *unit)
 {
     const double value = a.value * b.value;
-    return (wt_estimate){value, value * hypot(relative(a), relative(b)), 0, unit};
+    return (wt_estimate){value, value * hypot(relative_error(a), relative_error(b)), 0, unit};
 }
 
 /* ---- quantities of the record ---------------------------------------------------------------- */
 
 /* Mean velocity of strokes on a track of known length, which is passed twice. NaN if the cycles are
  * not strokes or have no time. */
-static double velocity_of_strokes(const wt_cycles *cycles, double length)
+static double mean_stroke_velocity(const wt_cycles *cycles, double length)
 {
     double time = 0;
     for (size_t i = 0; i < cycles->n; i++)
@@ -65,7 +65,7 @@ static double velocity_of_strokes(const wt_cycles *cycles, double length)
 }
 
 /* Time of all steps without the gaps between them. */
-static double time_of_steps(const wt_record *record)
+static double total_step_time(const wt_record *record)
 {
     const double *const time = record->channel[WT_RECORD_TIME];
     double sum = 0;
@@ -74,8 +74,8 @@ static double time_of_steps(const wt_record *record)
     return sum;
 }
 
-static double distance_of(const wt_record *record, const wt_cycles *cycles, double radius,
-                          double length)
+static double sliding_distance(const wt_record *record, const wt_cycles *cycles, double radius,
+                               double length)
 {
     const double *const distance = record->channel[WT_RECORD_DISTANCE],
                         *const laps = record->channel[WT_RECORD_LAPS];
@@ -86,16 +86,16 @@ static double distance_of(const wt_record *record, const wt_cycles *cycles, doub
         return 2 * M_PI * radius * (laps[last] - laps[0]);
     if (record->channel[WT_RECORD_TIME] == NULL)
         return (double)NAN;
-    const double velocity = conditions_of(cycles->cycle, cycles->n).velocity;
-    return time_of_steps(record) *
-           (isnan(velocity) ? velocity_of_strokes(cycles, length) : velocity);
+    const double velocity = conditions_mean(cycles->cycle, cycles->n).velocity;
+    return total_step_time(record) *
+           (isnan(velocity) ? mean_stroke_velocity(cycles, length) : velocity);
 }
 
 /* Length of the track as stated, else half the path of a double stroke, else the circumference. */
 static wt_estimate track_length(const wt_record_job *job, const wt_cycles *cycles,
                                 wt_estimate radius)
 {
-    if (given(job->track_length))
+    if (is_given(job->track_length))
         return job->track_length;
     if (cycles->kind != WT_CYCLE_STROKE)
         return (wt_estimate){2 * M_PI * radius.value, 2 * M_PI * radius.standard_error, 0, "m"};
@@ -105,24 +105,24 @@ static wt_estimate track_length(const wt_record_job *job, const wt_cycles *cycle
     return (wt_estimate){path / (2 * (double)cycles->n), 0, 0, "m"};
 }
 
-static wt_estimate load_of(const wt_record_job *job, const wt_cycles *cycles)
+static wt_estimate mean_load(const wt_record_job *job, const wt_cycles *cycles)
 {
-    const double load = conditions_of(cycles->cycle, cycles->n).normal_force;
-    const double error = given(job->load) ? relative(job->load) : 0;
+    const double load = conditions_mean(cycles->cycle, cycles->n).normal_force;
+    const double error = is_given(job->load) ? relative_error(job->load) : 0;
     return (wt_estimate){load, load * error, 0, "N"};
 }
 
 /* Share of the depth between the means of the first and of the last cycles, each over `part` of all
  * cycles. By Archard's law the volume of a ball cap grows with the distance, and its depth with the
  * power 2/3. */
-static double share_between_ends(double part)
+static double depth_share_between_means(double part)
 {
     return 0.6 * ((1 - pow(1 - part, 5.0 / 3)) / part - pow(part, 2.0 / 3));
 }
 
 /* Depth at the end less depth at the beginning, by means over cycles. The correction for the finite
  * length of the means depends on the law of wear. Half of it is taken as an error. */
-static wt_status depth_of(const wt_cycles *cycles, wt_estimate *depth, wt_error *err)
+static wt_status worn_depth(const wt_cycles *cycles, wt_estimate *depth, wt_error *err)
 {
     const size_t n = cycles->n / END_SHARE > END_LEAST ? cycles->n / END_SHARE : END_LEAST;
     wt_steady end[2];
@@ -139,7 +139,7 @@ static wt_status depth_of(const wt_cycles *cycles, wt_estimate *depth, wt_error 
     free(y);
     if (status == WT_OK) {
         const double seen = end[1].mean.value - end[0].mean.value,
-                     share = share_between_ends((double)n / (double)cycles->n),
+                     share = depth_share_between_means((double)n / (double)cycles->n),
                      scatter =
                          hypot(end[0].mean.standard_error, end[1].mean.standard_error) / share;
         *depth = (wt_estimate){seen / share, hypot(scatter, 0.5 * seen * (1 / share - 1)), 0, "m"};
@@ -148,7 +148,7 @@ static wt_status depth_of(const wt_cycles *cycles, wt_estimate *depth, wt_error 
 }
 
 /* Cross-section of a ball cap, with its derivative with respect to the depth. */
-static wt_estimate cap_of(wt_estimate depth, double radius)
+static wt_estimate cap_area(wt_estimate depth, double radius)
 {
     const double h = depth.value, half = sqrt(h * (2 * radius - h));
     return (wt_estimate){radius * radius * acos(1 - h / radius) - (radius - h) * half,
@@ -158,10 +158,10 @@ static wt_estimate cap_of(wt_estimate depth, double radius)
 /* ---- rows ------------------------------------------------------------------------------------ */
 
 /* Names the first missing input of the rate. */
-static const char *what_lacks(const wt_record_job *job, const wear_row *r, wt_estimate load,
-                              bool strokes)
+static const char *missing_wear_input(const wt_record_job *job, const wear_row *r, wt_estimate load,
+                                      bool strokes)
 {
-    if (!given(job->mass_loss) && !given(job->track_area) && isnan(r->depth.value))
+    if (!is_given(job->mass_loss) && !is_given(job->track_area) && isnan(r->depth.value))
         return "nothing tells what was lost: give --profile, --track-area or --mass-loss, or "
                "record the depth";
     if (isnan(load.value))
@@ -178,12 +178,12 @@ static void set_rate(const wt_record_job *job, wear_row *r, wt_estimate load, bo
                      const char *of_ball)
 {
     const double value = r->volume.value / (load.value * r->distance),
-                 error = hypot(relative(r->volume), relative(load));
+                 error = hypot(relative_error(r->volume), relative_error(load));
     const double none = (double)NAN;
     r->rate = (wt_interval){value, none, none, none};
     if (!(value > 0)) {
         r->rate.value = none;
-        r->note = what_lacks(job, r, load, strokes);
+        r->note = missing_wear_input(job, r, load, strokes);
     } else if (error > 0) {
         r->rate = (wt_interval){value, value * error, value * exp(-NORMAL_95 * error),
                                 value * exp(NORMAL_95 * error)};
@@ -198,10 +198,10 @@ static void set_ball(const wt_record_job *job, wt_estimate load, double track_ra
     const double none = (double)NAN;
     r->ball = (wt_ball_contact){none, none};
     r->duty = none;
-    if (!given(job->ball_radius) || !given(job->modulus))
+    if (!is_given(job->ball_radius) || !is_given(job->modulus))
         return;
-    r->ball = wt_ball_contact_of(load.value, job->ball_radius.value, job->modulus.value,
-                                 job->poisson_ratio);
+    r->ball = wt_ball_contact_compute(load.value, job->ball_radius.value, job->modulus.value,
+                                      job->poisson_ratio);
     r->duty = wt_ball_duty(r->ball.contact_radius, track_radius, 0);
 }
 
@@ -215,7 +215,7 @@ typedef struct wear_rows {
     wear_rates *rates;
 } wear_rows;
 
-static void put(wear_rows *rows, const char *of, wt_estimate volume)
+static void add_wear_volume(wear_rows *rows, const char *of, wt_estimate volume)
 {
     wear_row *const r = &rows->row;
     const bool large = r->ball.contact_radius > small_contact * rows->job->ball_radius.value;
@@ -231,11 +231,11 @@ static void put(wear_rows *rows, const char *of, wt_estimate volume)
                          (wt_estimate){r->rate.value, r->rate.standard_error, 0, "m^2/N"});
 }
 
-static wt_estimate volume_of_depth(wt_estimate depth, double ball_radius, wt_estimate length)
+static wt_estimate volume_from_depth(wt_estimate depth, double ball_radius, wt_estimate length)
 {
     const wt_estimate none = {(double)NAN, (double)NAN, 0, "m^3"};
     return depth.value > 0 && depth.value < ball_radius
-               ? product(cap_of(depth, ball_radius), length, "m^3")
+               ? estimate_product(cap_area(depth, ball_radius), length, "m^3")
                : none;
 }
 
@@ -246,31 +246,33 @@ wt_status wear_add(const wt_record_job *job, const wt_record *record, const wt_c
     const double none = (double)NAN;
     const wt_estimate length = track_length(job, cycles, radius);
     wear_rows rows = {.job = job,
-                      .load = load_of(job, cycles),
+                      .load = mean_load(job, cycles),
                       .strokes = cycles->kind == WT_CYCLE_STROKE,
                       .t = t,
                       .rates = rates};
     wear_row *const r = &rows.row;
-    *r = (wear_row){.distance = distance_of(record, cycles, radius.value, job->track_length.value),
+    *r = (wear_row){.distance =
+                        sliding_distance(record, cycles, radius.value, job->track_length.value),
                     .normal_force = rows.load.value,
                     .depth = {none, none, 0, "m"},
                     .file = file};
     set_ball(job, rows.load, radius.value, r);
-    if (given(job->mass_loss)) {
-        const wt_estimate inverse = {1 / job->density.value,
-                                     relative(job->density) / job->density.value, 0, "m^3/kg"};
-        put(&rows, "mass", product(job->mass_loss, inverse, "m^3"));
+    if (is_given(job->mass_loss)) {
+        const wt_estimate inverse = {
+            1 / job->density.value, relative_error(job->density) / job->density.value, 0, "m^3/kg"};
+        add_wear_volume(&rows, "mass", estimate_product(job->mass_loss, inverse, "m^3"));
     }
-    if (given(job->track_area))
-        put(&rows, "area of the track", product(job->track_area, length, "m^3"));
+    if (is_given(job->track_area))
+        add_wear_volume(&rows, "area of the track",
+                        estimate_product(job->track_area, length, "m^3"));
     wt_status status = WT_OK;
-    if (given(job->ball_radius) && record->channel[WT_RECORD_WEAR_DEPTH] != NULL)
-        status = depth_of(cycles, &r->depth, err);
+    if (is_given(job->ball_radius) && record->channel[WT_RECORD_WEAR_DEPTH] != NULL)
+        status = worn_depth(cycles, &r->depth, err);
     if (status == WT_OK && !isnan(r->depth.value))
-        put(&rows, "depth of the record",
-            volume_of_depth(r->depth, job->ball_radius.value, length));
-    else if (status == WT_OK && !given(job->mass_loss) && !given(job->track_area))
-        put(&rows, "nothing", (wt_estimate){none, none, 0, "m^3"});
-    wear_rates_end_run(rates);
+        add_wear_volume(&rows, "depth of the record",
+                        volume_from_depth(r->depth, job->ball_radius.value, length));
+    else if (status == WT_OK && !is_given(job->mass_loss) && !is_given(job->track_area))
+        add_wear_volume(&rows, "nothing", (wt_estimate){none, none, 0, "m^3"});
+    wear_rates_close_run(rates);
     return status;
 }

@@ -26,14 +26,14 @@ static wt_status find_track(const wt_image *image, wt_track *track, wt_error *er
     return status;
 }
 
-typedef struct profiles {
+typedef struct profile_areas {
     const wt_job *work;
     record_group areas;
-} profiles;
+} profile_areas;
 
 static wt_status measure_profile(void *user, flow_file *file, size_t i, wt_error *err)
 {
-    profiles *const to = user;
+    profile_areas *const to = user;
     (void)i;
     wt_image image = {.values = NULL};
     wt_track track = {.found = false};
@@ -62,8 +62,8 @@ static wt_status measure_profile(void *user, flow_file *file, size_t i, wt_error
     return WT_OK;
 }
 
-wt_status wear_area_of_profiles(const wt_record_job *job, const wt_job *work, wt_estimate *area,
-                                wt_error *err)
+wt_status wear_profile_area(const wt_record_job *job, const wt_job *work, wt_estimate *area,
+                            wt_error *err)
 {
     wt_file_set set = job->profile_set != NULL ? *job->profile_set : job->sets[0];
     set.patterns = &job->profile;
@@ -71,7 +71,7 @@ wt_status wear_area_of_profiles(const wt_record_job *job, const wt_job *work, wt
     if (job->profile_set == NULL)
         set.read.format = NULL; /* that of the records does not apply */
     flow_files files = {NULL, 0, NULL};
-    profiles found = {.work = work};
+    profile_areas found = {.work = work};
     size_t n_failed = 0;
     wt_status status = flow_files_list(&set, 1, work, &files, err);
     if (status == WT_OK)

@@ -6,7 +6,7 @@
 #include <math.h>
 #include <string.h>
 
-bool span_empty(const value_span *span)
+bool span_is_empty(const value_span *span)
 {
     return !(span->low <= span->high);
 }
@@ -16,7 +16,7 @@ void span_add(value_span *span, double value, bool positive_only)
     // Values beyond a hundred decades are not plotted.
     if (!(fabs(value) < 1e100) || (positive_only && !(value > 1e-100)))
         return;
-    if (span_empty(span))
+    if (span_is_empty(span))
         span->low = span->high = value;
     span->low = fmin(span->low, value);
     span->high = fmax(span->high, value);
@@ -31,11 +31,12 @@ void span_add_column(value_span *span, const table_view *table, unsigned column,
 void span_add_section(value_span *span, const figure_drawing *d, int section, size_t place,
                       bool positive_only)
 {
-    for (size_t row = 0; row < drawing_rows(d, section); row++)
+    for (size_t row = 0; row < drawing_row_count(d, section); row++)
         span_add(span, wt_table_number(d->sections[section], row, place), positive_only);
 }
 
-static void write_label(figure_drawing *d, const char *axis, const char *label, const lab_unit *lab)
+static void write_label(figure_drawing *d, const char *axis, const char *label,
+                        const display_unit *lab)
 {
     text_buffer words = {0};
     text_add(&words, translate(d->language, label));
@@ -46,10 +47,11 @@ static void write_label(figure_drawing *d, const char *axis, const char *label, 
     text_format(&d->script, "set %slabel ", axis);
     text_quoted(&d->script, text_string(&words));
     text_add(&d->script, "\n");
-    text_done(&words, &d->script);
+    text_free_part(&words, &d->script);
 }
 
-static void write_unit(figure_drawing *d, const char *axis, const char *unit, const lab_unit *lab)
+static void write_unit(figure_drawing *d, const char *axis, const char *unit,
+                       const display_unit *lab)
 {
     text_buffer words = {0};
     text_format(&d->script, "%s_unit = %s", axis, LITERAL(lab->factor));
@@ -58,7 +60,7 @@ static void write_unit(figure_drawing *d, const char *axis, const char *unit, co
     text_format(&words, "from %s to %s", unit, lab->label[0] != '\0' ? lab->label : "1");
     text_add(&d->script, "  ");
     text_comment(&d->script, text_string(&words));
-    text_done(&words, &d->script);
+    text_free_part(&words, &d->script);
 }
 
 static void write_range(figure_drawing *d, const char *axis, double low, double high)
@@ -70,25 +72,25 @@ static void write_range(figure_drawing *d, const char *axis, double low, double 
 enum { PARTS = 5, FEW_PARTS = 3 };
 
 /* Returns a step of 1, 2, 2.5 or 5 times a power of ten for about `parts` intervals. */
-static double tidy_step(double width, int parts)
+static double tic_step(double width, int parts)
 {
     double raw = width / parts, power = pow(10, floor(log10(raw))), part = raw / power;
     return (part < 1.5 ? 1 : part < 2.25 ? 2 : part < 3.5 ? 2.5 : part < 7.5 ? 5 : 10) * power;
 }
 
 /* Returns a step for degrees: a fraction of a turn. */
-static double tidy_angle(double width)
+static double angle_tic_step(double width)
 {
     return width > 270   ? 90
            : width > 135 ? 45
            : width > 90  ? 30
            : width > 45  ? 15
-                         : tidy_step(width, PARTS);
+                         : tic_step(width, PARTS);
 }
 
 /* Tic labels of this width [characters] fit into the margin of the styles, together with the axis
  * label. */
-enum { WIDE = 5, BESIDE = 5 };
+enum { LABEL_WIDTH = 5, LABEL_MARGIN = 5 };
 
 /* Widens the left margin for wider tic labels: gnuplot would place the axis label outside of the
  * page. */
@@ -96,20 +98,22 @@ static void write_margin(figure_drawing *d, const char *axis, double low, double
 {
     const double size = fmax(fabs(low), fabs(high));
     int decimals = 0;
-    for (double shown = step; decimals < WIDE && fabs(shown - rint(shown)) > 1e-6; shown *= 10)
+    for (double shown = step; decimals < LABEL_WIDTH && fabs(shown - rint(shown)) > 1e-6;
+         shown *= 10)
         decimals++;
     const int whole = size < 10 ? 1 : 1 + (int)log10(size);
     const int width = (low < 0) + whole + (decimals > 0) + decimals;
-    if (strcmp(axis, "y") == 0 && width > WIDE)
-        text_format(&d->script, "set lmargin %d\n", width + BESIDE);
+    if (strcmp(axis, "y") == 0 && width > LABEL_WIDTH)
+        text_format(&d->script, "set lmargin %d\n", width + LABEL_MARGIN);
 }
 
 void axis_linear(figure_drawing *d, const char *axis, const char *label, const schema_field *column,
                  value_span span)
 {
     const char *unit = schema_unit(column);
-    lab_unit lab = lab_unit_for(column->quantity, unit, fmax(fabs(span.low), fabs(span.high)) / 2);
-    double low = lab_value(&lab, span.low), high = lab_value(&lab, span.high);
+    display_unit lab =
+        select_display_unit(column->quantity, unit, fmax(fabs(span.low), fabs(span.high)) / 2);
+    double low = to_display_value(&lab, span.low), high = to_display_value(&lab, span.high);
     double size = fmax(fabs(high), fabs(low));
     if (!(high - low > fmax(1e-12 * size, 1e-100))) { // a single value: a range around it
         double half = size > 1e-100 ? size / 2 : 1;
@@ -117,8 +121,8 @@ void axis_linear(figure_drawing *d, const char *axis, const char *label, const s
         high += half;
     }
     double step = column->quantity == WT_Q_ANGLE
-                      ? tidy_angle(high - low)
-                      : tidy_step(high - low, d->narrow ? FEW_PARTS : PARTS),
+                      ? angle_tic_step(high - low)
+                      : tic_step(high - low, d->narrow ? FEW_PARTS : PARTS),
            margin = 0.04 * (high - low);
     // If the data end at zero, the axis ends there, too.
     low = low == 0 ? 0 : low - margin;
@@ -132,7 +136,7 @@ void axis_linear(figure_drawing *d, const char *axis, const char *label, const s
 }
 
 /* True for decades whose tic labels need a power of ten. */
-static bool by_power(int decade)
+static bool uses_power_label(int decade)
 {
     return decade < -3 || decade > 4;
 }
@@ -141,13 +145,14 @@ static bool by_power(int decade)
 static void write_tic(figure_drawing *d, const char *comma, double mantissa, int decade)
 {
     text_add(&d->script, comma);
-    if (by_power(decade))
+    if (uses_power_label(decade))
         text_format(&d->script, "'%s·10^{%d}' ", SHORT_NUMBER(d->language, mantissa, 2), decade);
     text_add(&d->script, LITERAL(mantissa * pow(10, decade)));
 }
 
 /* Writes a logarithmic axis of at most 2.2 decades: 1-2-5 tics with plain numbers. */
-static void short_log(figure_drawing *d, const char *axis, double low, double high, double width)
+static void write_short_log_axis(figure_drawing *d, const char *axis, double low, double high,
+                                 double width)
 {
     double margin = pow(10, fmax(0.05 * width, 0.02));
     low /= margin;
@@ -159,7 +164,7 @@ static void short_log(figure_drawing *d, const char *axis, double low, double hi
     write_range(d, axis, low, high);
     text_format(&d->script, "unset m%stics\nset %stics (", axis, axis);
     if (width < 0.15) { // less than a factor of 1.4: tics as on a linear axis
-        double step = tidy_step(high - low, PARTS);
+        double step = tic_step(high - low, PARTS);
         for (int i = (int)ceil(low / step); i <= (int)floor(high / step); i++) {
             text_format(&d->script, "%s%s", comma, LITERAL(i * step));
             comma = ", ";
@@ -175,8 +180,8 @@ static void short_log(figure_drawing *d, const char *axis, double low, double hi
             }
     text_format(&d->script, ")\nset format %s '%%g'\n", axis);
     if (strcmp(axis, "y") == 0 &&
-        (by_power((int)floor(log10(low))) || by_power((int)floor(log10(high)))))
-        text_format(&d->script, "set lmargin %d\n", WIDE + 2 + BESIDE); /* 2·10^{-7} */
+        (uses_power_label((int)floor(log10(low))) || uses_power_label((int)floor(log10(high)))))
+        text_format(&d->script, "set lmargin %d\n", LABEL_WIDTH + 2 + LABEL_MARGIN); /* 2·10^{-7} */
 }
 
 void axis_log(figure_drawing *d, const char *axis, const char *label, const schema_field *column,
@@ -192,13 +197,13 @@ void axis_log(figure_drawing *d, const char *axis, const char *label, const sche
         size = 1;
     else if (decades > 2.5 && strcmp(unit, "Pa") == 0)
         size = 1e6;
-    lab_unit lab = lab_unit_for(column->quantity, unit, size);
+    display_unit lab = select_display_unit(column->quantity, unit, size);
     double low = span.low * lab.factor, high = span.high * lab.factor;
     write_unit(d, axis, unit, &lab);
     write_label(d, axis, label, &lab);
     text_format(&d->script, "set logscale %s\n", axis);
     if (decades < 2.2) {
-        short_log(d, axis, low, high, decades);
+        write_short_log_axis(d, axis, low, high, decades);
         return;
     }
     double margin = pow(10, 0.03 * decades);

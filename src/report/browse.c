@@ -14,12 +14,12 @@ typedef struct page_part {
     const char *mark, *text;
 } page_part;
 
-static wt_status find_drawing(const char **script, const char **style, const char **licence,
-                              wt_error *err)
+static wt_status find_dygraphs(const char **script, const char **style, const char **licence,
+                               wt_error *err)
 {
-    *script = file_of_library("dygraph.min.js");
-    *style = file_of_library("dygraph.min.css");
-    *licence = file_of_library("copyright");
+    *script = embedded_file_text("dygraph.min.js");
+    *style = embedded_file_text("dygraph.min.css");
+    *licence = embedded_file_text("copyright");
     if (*script != NULL && *style != NULL && *licence != NULL)
         return WT_OK;
     const wt_status status =
@@ -28,9 +28,9 @@ static wt_status find_drawing(const char **script, const char **style, const cha
     return status;
 }
 
-static void add_page(const page_part *parts, size_t n, text_buffer *page)
+static void append_page_template(const page_part *parts, size_t n, text_buffer *page)
 {
-    const char *p = file_of_library("browse.html");
+    const char *p = embedded_file_text("browse.html");
     for (const char *mark; (mark = strstr(p, "@@")) != NULL;) {
         text_bytes(page, p, (size_t)(mark - p));
         size_t k = 0;
@@ -45,7 +45,7 @@ static void add_page(const page_part *parts, size_t n, text_buffer *page)
     text_add(page, p);
 }
 
-static void add_source(const wt_result *result, bool with_provenance, text_buffer *to)
+static void append_provenance(const wt_result *result, bool with_provenance, text_buffer *to)
 {
     text_html(to, "weartrack %s", wt_version());
     const char *command = wt_provenance_command(wt_result_provenance_const(result));
@@ -59,27 +59,27 @@ wt_status wt_curve_browser_write(const wt_result *result, const char *path, bool
     figure_tables tables = {0};
     text_buffer data = {0}, licence = {0}, source = {0}, page = {0};
     const char *script = NULL, *style = NULL, *copyright = NULL;
-    wt_status status = find_drawing(&script, &style, &copyright, err);
+    wt_status status = find_dygraphs(&script, &style, &copyright, err);
     if (status == WT_OK)
-        status = figure_tables_make(result, &tables, err);
+        status = figure_tables_bind(result, &tables, err);
     if (status == WT_OK)
-        status = curves_check(&tables, err);
+        status = check_curve_samples(&tables, err);
     if (status == WT_OK)
-        status = browse_data(&tables, &data, err);
+        status = append_browse_data(&tables, &data, err);
     if (status == WT_OK) {
         text_html(&licence, "%s", copyright);
-        add_source(result, with_provenance, &source);
+        append_provenance(result, with_provenance, &source);
         const page_part parts[] = {{"dygraph.css", style},
-                                   {"browse.css", file_of_library("browse.css")},
+                                   {"browse.css", embedded_file_text("browse.css")},
                                    {"data", text_string(&data)},
                                    {"dygraph.js", script},
-                                   {"browse.js", file_of_library("browse.js")},
+                                   {"browse.js", embedded_file_text("browse.js")},
                                    {"licence", text_string(&licence)},
                                    {"source", text_string(&source)}};
-        add_page(parts, sizeof parts / sizeof parts[0], &page);
+        append_page_template(parts, sizeof parts / sizeof parts[0], &page);
         page.failed = page.failed || data.failed || licence.failed || source.failed;
-        status =
-            page.failed ? wt_fail(err, WT_E_MEMORY, "out of memory") : file_put(path, &page, err);
+        status = page.failed ? wt_fail(err, WT_E_MEMORY, "out of memory")
+                             : write_user_file(path, &page, err);
     }
     text_free(&data);
     text_free(&licence);

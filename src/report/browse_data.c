@@ -13,19 +13,19 @@
 #include <string.h>
 
 /* Largest value of a packed number, and the code for a missing value. */
-enum { PACKED_MOST = 65534, PACKED_NONE = 65535 };
+enum { PACKED_MAX = 65534, PACKED_NONE = 65535 };
 
 /* ---- strings and numbers -----------------------------------------------------------------------
  */
 
 /* Appends a JSON string without '<' and other markup. Invalid UTF-8 becomes U+FFFD. */
-static void add_text(text_buffer *to, const char *text)
+static void add_json_string(text_buffer *to, const char *text)
 {
     static const char escaped[] = "\"\\<>&\x7f";
     size_t left = strlen(text);
     text_add(to, "\"");
     for (const char *c = text; left > 0;) {
-        const size_t length = utf8_character(c, left), step = length > 0 ? length : 1;
+        const size_t length = utf8_character_length(c, left), step = length > 0 ? length : 1;
         const unsigned char byte = (unsigned char)*c;
         if (length == 0)
             text_add(to, "\\ufffd");
@@ -39,7 +39,7 @@ static void add_text(text_buffer *to, const char *text)
     text_add(to, "\"");
 }
 
-static void add_number(text_buffer *to, double value)
+static void add_json_number(text_buffer *to, double value)
 {
     if (isfinite(value))
         text_format(to, "%.6g", value);
@@ -49,7 +49,7 @@ static void add_number(text_buffer *to, double value)
 
 /* Appends a number with all digits. Contact points are differences of large numbers, and the page
  * exports them. */
-static void add_exact(text_buffer *to, double value)
+static void add_exact_number(text_buffer *to, double value)
 {
     char number[64];
     if (!isfinite(value)) {
@@ -77,11 +77,12 @@ static void add_base64(text_buffer *to, const uint8_t *bytes, size_t n)
 
 /* ---- samples --------------------------------------------------------------------------------- */
 
-typedef struct range {
+typedef struct number_range {
     double low, high;
-} range;
+} number_range;
 
-static range range_of(const table_view *view, curve_block b, curves_column column, range r)
+static number_range column_range(const table_view *view, curve_block b, curves_column column,
+                                 number_range r)
 {
     for (size_t i = b.from; i < b.to; i++) {
         const double value = curves_get(view, i, column);
@@ -93,14 +94,14 @@ static range range_of(const table_view *view, curve_block b, curves_column colum
     return r;
 }
 
-static unsigned packed(double value, range r)
+static unsigned pack_value(double value, number_range r)
 {
     if (!isfinite(value) || !(r.high > r.low))
         return isfinite(value) ? 0 : PACKED_NONE;
-    return (unsigned)lrint((value - r.low) / (r.high - r.low) * PACKED_MOST);
+    return (unsigned)lrint((value - r.low) / (r.high - r.low) * PACKED_MAX);
 }
 
-static uint8_t *put_packed(uint8_t *to, unsigned value)
+static uint8_t *write_packed(uint8_t *to, unsigned value)
 {
     enum { BYTE = 8, LOW = 255 };
     to[0] = (uint8_t)(value & LOW);
@@ -110,7 +111,7 @@ static uint8_t *put_packed(uint8_t *to, unsigned value)
 
 /* Returns the compliance of the cantilever: displacement minus indentation over force, at the
  * largest force. */
-static double compliance(const table_view *view, curve_block b)
+static double cantilever_compliance(const table_view *view, curve_block b)
 {
     double largest = 0, per_force = (double)NAN;
     for (size_t i = b.from; i < b.to; i++) {
@@ -128,7 +129,8 @@ static double compliance(const table_view *view, curve_block b)
 /* Appends [number of samples, of approach samples, index of the first fitted sample in contact,
  * lowest and highest displacement, lowest and highest force, compliance of the cantilever, base64
  * of displacements, forces and fitted forces in contact]. */
-static wt_status add_samples(const table_view *view, curve_block b, text_buffer *to, wt_error *err)
+static wt_status add_samples_json(const table_view *view, curve_block b, text_buffer *to,
+                                  wt_error *err)
 {
     const size_t n = b.to - b.from;
     size_t approach = 0, contact = 0;
@@ -139,24 +141,25 @@ static wt_status add_samples(const table_view *view, curve_block b, text_buffer 
            !(curves_get(view, b.from + contact, CURVES_DISPLACEMENT) >= 0 &&
              isfinite(curves_get(view, b.from + contact, CURVES_FITTED_FORCE))))
         contact++;
-    const range none = {(double)INFINITY, -(double)INFINITY};
-    const range z = range_of(view, b, CURVES_DISPLACEMENT, none);
-    const range f = range_of(view, b, CURVES_FITTED_FORCE, range_of(view, b, CURVES_FORCE, none));
+    const number_range none = {(double)INFINITY, -(double)INFINITY};
+    const number_range z = column_range(view, b, CURVES_DISPLACEMENT, none);
+    const number_range f =
+        column_range(view, b, CURVES_FITTED_FORCE, column_range(view, b, CURVES_FORCE, none));
     const size_t length = 2 * (2 * n + approach - contact);
     uint8_t *bytes = malloc(length > 0 ? length : 1), *end = bytes;
     if (bytes == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     for (size_t i = b.from; i < b.to; i++)
-        end = put_packed(end, packed(curves_get(view, i, CURVES_DISPLACEMENT), z));
+        end = write_packed(end, pack_value(curves_get(view, i, CURVES_DISPLACEMENT), z));
     for (size_t i = b.from; i < b.to; i++)
-        end = put_packed(end, packed(curves_get(view, i, CURVES_FORCE), f));
+        end = write_packed(end, pack_value(curves_get(view, i, CURVES_FORCE), f));
     for (size_t i = b.from + contact; i < b.from + approach; i++)
-        end = put_packed(end, packed(curves_get(view, i, CURVES_FITTED_FORCE), f));
+        end = write_packed(end, pack_value(curves_get(view, i, CURVES_FITTED_FORCE), f));
     text_format(to, "[%zu,%zu,%zu", n, approach, contact);
-    const double numbers[] = {z.low, z.high, f.low, f.high, compliance(view, b)};
+    const double numbers[] = {z.low, z.high, f.low, f.high, cantilever_compliance(view, b)};
     for (size_t k = 0; k < sizeof numbers / sizeof numbers[0]; k++) {
         text_add(to, ",");
-        add_number(to, numbers[k]);
+        add_json_number(to, numbers[k]);
     }
     text_add(to, ",");
     add_base64(to, bytes, length);
@@ -169,89 +172,90 @@ static wt_status add_samples(const table_view *view, curve_block b, text_buffer 
 
 /* Appends [file, curve, verdict, reason, modulus, its error, contact point, x, y, samples or null];
  * `file` is an index into the list of files. */
-static wt_status add_row(const table_view *rows, size_t row, size_t file, curve_finder *f,
-                         text_buffer *to, wt_error *err)
+static wt_status add_curve_json(const table_view *rows, size_t row, size_t file, curve_finder *f,
+                                text_buffer *to, wt_error *err)
 {
     static const indentation_column numbers[] = {INDENTATION_MODULUS,
                                                  INDENTATION_MODULUS_STANDARD_ERROR};
     text_format(to, "%s[%zu,%.0f,", row > 0 ? ",\n" : "", file,
                 indentation_get(rows, row, INDENTATION_CURVE));
-    add_text(to, indentation_text(rows, row, INDENTATION_VERDICT));
+    add_json_string(to, indentation_text(rows, row, INDENTATION_VERDICT));
     text_add(to, ",");
-    add_text(to, indentation_text(rows, row, INDENTATION_REASON));
+    add_json_string(to, indentation_text(rows, row, INDENTATION_REASON));
     for (size_t k = 0; k < sizeof numbers / sizeof numbers[0]; k++) {
         text_add(to, ",");
-        add_number(to, indentation_get(rows, row, numbers[k]));
+        add_json_number(to, indentation_get(rows, row, numbers[k]));
     }
     text_add(to, ",");
-    add_exact(to, indentation_get(rows, row, INDENTATION_CONTACT_POINT));
+    add_exact_number(to, indentation_get(rows, row, INDENTATION_CONTACT_POINT));
     text_add(to, ",");
-    add_number(to, indentation_get(rows, row, INDENTATION_X));
+    add_json_number(to, indentation_get(rows, row, INDENTATION_X));
     text_add(to, ",");
-    add_number(to, indentation_get(rows, row, INDENTATION_Y));
+    add_json_number(to, indentation_get(rows, row, INDENTATION_Y));
     text_add(to, ",");
     const curve_block *b = curve_finder_next(f, rows, row);
     wt_status status = WT_OK;
     if (b != NULL)
-        status = add_samples(f->view, *b, to, err);
+        status = add_samples_json(f->view, *b, to, err);
     else
         text_add(to, "null");
     text_add(to, "]");
     return status;
 }
 
-static wt_status add_group(const table_view *rows, curve_finder *f, text_buffer *to, wt_error *err)
+static wt_status add_group_json(const table_view *rows, curve_finder *f, text_buffer *to,
+                                wt_error *err)
 {
     text_buffer files = {0};
     wt_status status = WT_OK;
     const char *last = NULL;
     size_t n_files = 0;
     text_add(to, "{\"name\":");
-    add_text(to, rows->suffix);
+    add_json_string(to, rows->suffix);
     text_add(to, ",\"curves\":[");
     for (size_t row = 0; status == WT_OK && row < rows->n_rows; row++) {
         const char *file = indentation_text(rows, row, INDENTATION_FILE);
         if (last == NULL || strcmp(file, last) != 0) {
             text_add(&files, n_files++ > 0 ? "," : "");
-            add_text(&files, file);
+            add_json_string(&files, file);
             last = file;
         }
-        status = add_row(rows, row, n_files - 1, f, to, err);
+        status = add_curve_json(rows, row, n_files - 1, f, to, err);
     }
     text_add(to, "],\"files\":[");
     text_add(to, text_string(&files));
     text_add(to, "]}");
-    text_done(&files, to);
+    text_free_part(&files, to);
     return status;
 }
 
 /* Appends the earlier choices, which the page exports together with its own. */
-static void add_choices(const table_view *choices, text_buffer *to)
+static void add_choice_rows(const table_view *choices, text_buffer *to)
 {
     static const overrides_column texts[] = {OVERRIDES_GROUP, OVERRIDES_FILE, OVERRIDES_CHOICE,
                                              OVERRIDES_VALUE, OVERRIDES_NOTE};
     for (size_t row = 0; row < choices->n_rows; row++) {
         text_add(to, row > 0 ? ",[" : "[");
         for (size_t k = 0; k < sizeof texts / sizeof texts[0]; k++) {
-            add_text(to, overrides_text(choices, row, texts[k]));
+            add_json_string(to, overrides_text(choices, row, texts[k]));
             text_add(to, ",");
         }
-        add_exact(to, overrides_get(choices, row, OVERRIDES_CURVE));
+        add_exact_number(to, overrides_get(choices, row, OVERRIDES_CURVE));
         text_add(to, "]");
     }
 }
 
-wt_status browse_data(const figure_tables *tables, text_buffer *to, wt_error *err)
+wt_status append_browse_data(const figure_tables *tables, text_buffer *to, wt_error *err)
 {
     curve_finder f = {.view = &tables->curves};
-    wt_status status = curve_finder_make(&f, err);
+    wt_status status = curve_finder_init(&f, err);
     text_add(to, "{\"groups\":[");
     for (size_t i = 0; status == WT_OK && i < tables->n_indentation; i++) {
         text_add(to, i > 0 ? "," : "");
-        status = add_group(&tables->indentation[i], &f, to, err);
+        status = add_group_json(&tables->indentation[i], &f, to, err);
     }
     text_add(to, "],\"choices\":[");
-    add_choices(&tables->overrides, to);
+    add_choice_rows(&tables->overrides, to);
     text_add(to, "]}");
     curve_finder_clear(&f);
     return status;

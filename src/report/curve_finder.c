@@ -11,7 +11,7 @@
 /* ---- kinds and availability -------------------------------------------------------------------
  */
 
-curve_kind curve_kind_of(const table_view *rows, size_t row)
+curve_kind row_curve_kind(const table_view *rows, size_t row)
 {
     const char *verdict = indentation_text(rows, row, INDENTATION_VERDICT);
     if (strcmp(verdict, "accepted") == 0)
@@ -20,21 +20,21 @@ curve_kind curve_kind_of(const table_view *rows, size_t row)
 }
 
 /* Returns the number of curves if none is rejected, else 0. */
-static size_t n_none_refused(const figure_tables *tables)
+static size_t count_if_none_refused(const figure_tables *tables)
 {
     size_t n = 0;
     for (size_t i = 0; i < tables->n_indentation; i++)
         for (size_t row = 0; row < tables->indentation[i].n_rows; row++, n++)
-            if (curve_kind_of(&tables->indentation[i], row) == CURVE_REFUSED)
+            if (row_curve_kind(&tables->indentation[i], row) == CURVE_REFUSED)
                 return 0;
     return n;
 }
 
-wt_status curves_check(const figure_tables *tables, wt_error *err)
+wt_status check_curve_samples(const figure_tables *tables, wt_error *err)
 {
     if (tables->n_indentation > 0 && tables->curves.n_rows > 0)
         return WT_OK;
-    const size_t n = n_none_refused(tables);
+    const size_t n = count_if_none_refused(tables);
     const wt_status status = wt_fail(err, WT_E_EMPTY, "no samples of curves in the result");
     if (n > 0)
         wt_error_found(err, "%zu curve%s, none rejected, so that --curves rejected keeps none", n,
@@ -49,16 +49,16 @@ wt_status curves_check(const figure_tables *tables, wt_error *err)
 wt_status wt_report_check_curves(const wt_result *result, wt_error *err)
 {
     figure_tables tables;
-    wt_status status = figure_tables_make(result, &tables, err);
+    wt_status status = figure_tables_bind(result, &tables, err);
     if (status == WT_OK)
-        status = curves_check(&tables, err);
+        status = check_curve_samples(&tables, err);
     figure_tables_clear(&tables);
     return status;
 }
 
 /* ---- samples by row -------------------------------------------------------------------------- */
 
-wt_status curve_finder_make(curve_finder *finder, wt_error *err)
+wt_status curve_finder_init(curve_finder *finder, wt_error *err)
 {
     const table_view *view = finder->view;
     size_t last = 0;
@@ -76,7 +76,8 @@ wt_status curve_finder_make(curve_finder *finder, wt_error *err)
     return WT_OK;
 }
 
-static bool is_of_row(const table_view *curves, curve_block b, const table_view *rows, size_t row)
+static bool block_matches_row(const table_view *curves, curve_block b, const table_view *rows,
+                              size_t row)
 {
     const double a = curves_get(curves, b.from, CURVES_CURVE),
                  other = indentation_get(rows, row, INDENTATION_CURVE);
@@ -90,7 +91,7 @@ const curve_block *curve_finder_next(curve_finder *finder, const table_view *row
 {
     for (size_t tried = 0; tried < finder->n; tried++) {
         const size_t k = (finder->next + tried) % finder->n;
-        if (!is_of_row(finder->view, finder->blocks[k], rows, row))
+        if (!block_matches_row(finder->view, finder->blocks[k], rows, row))
             continue;
         finder->next = k + 1;
         return &finder->blocks[k];

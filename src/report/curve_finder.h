@@ -22,13 +22,13 @@ typedef struct curve_finder {
 typedef enum curve_kind { CURVE_REFUSED, CURVE_DOUBTFUL, CURVE_ACCEPTED, CURVE_KINDS } curve_kind;
 
 /* Returns the kind of a row from its verdict. */
-curve_kind curve_kind_of(const table_view *rows, size_t row);
+curve_kind row_curve_kind(const table_view *rows, size_t row);
 
 /* Checks that the result has samples of curves. WT_E_EMPTY explains how to produce them. */
-wt_status curves_check(const figure_tables *tables, wt_error *err) WT_NODISCARD;
+wt_status check_curve_samples(const figure_tables *tables, wt_error *err) WT_NODISCARD;
 
 /* Initialises a finder with a view. Call curve_finder_clear also after a failure. */
-wt_status curve_finder_make(curve_finder *finder, wt_error *err) WT_NODISCARD;
+wt_status curve_finder_init(curve_finder *finder, wt_error *err) WT_NODISCARD;
 /* Returns the samples of the curve of a row, NULL if it has none. */
 const curve_block *curve_finder_next(curve_finder *finder, const table_view *rows, size_t row);
 void curve_finder_clear(curve_finder *finder);

@@ -13,12 +13,12 @@
  * characters. */
 enum { LINE_LENGTH = 48, REASON_LINES = 4 };
 
-const char curve_panel_words[] =
+const char curve_panel_legend[] =
     "Points: approach; black line: fit; grey line: retract; vertical line: contact point.";
 
 /* ---- list ------------------------------------------------------------------------------------ */
 
-static bool has_numbers(const table_view *curves, curve_block b)
+static bool has_finite_samples(const table_view *curves, curve_block b)
 {
     for (size_t i = b.from; i < b.to; i++)
         if (isfinite(curves_get(curves, i, CURVES_DISPLACEMENT)) &&
@@ -37,11 +37,11 @@ static void sort_by_kind(listed_curve *to, const curve_list *list)
         to[at[list->curves[i].kind]++] = list->curves[i];
 }
 
-wt_status curve_list_make(const figure_tables *tables, curve_list *list, wt_error *err)
+wt_status curve_list_init(const figure_tables *tables, curve_list *list, wt_error *err)
 {
     curve_finder finder = {.view = &tables->curves};
     *list = (curve_list){.n = 0};
-    wt_status status = curve_finder_make(&finder, err);
+    wt_status status = curve_finder_init(&finder, err);
     const size_t most = finder.n > 0 ? finder.n : 1;
     listed_curve *found = status == WT_OK ? malloc(most * sizeof *found) : NULL;
     listed_curve *sorted = status == WT_OK ? malloc(most * sizeof *sorted) : NULL;
@@ -53,9 +53,9 @@ wt_status curve_list_make(const figure_tables *tables, curve_list *list, wt_erro
         list->n_rows += rows->n_rows;
         for (size_t row = 0; row < rows->n_rows && list->n < most; row++) {
             const curve_block *b = curve_finder_next(&finder, rows, row);
-            if (b == NULL || !has_numbers(&tables->curves, *b))
+            if (b == NULL || !has_finite_samples(&tables->curves, *b))
                 continue;
-            const curve_kind kind = curve_kind_of(rows, row);
+            const curve_kind kind = row_curve_kind(rows, row);
             found[list->n++] = (listed_curve){*b, kind, rows, row};
             list->of_kind[kind]++;
         }
@@ -81,13 +81,13 @@ void curve_list_clear(curve_list *list)
 
 /* Adds a text in at most `most` lines, broken at blanks. A text that is too long ends in dots.
  * Returns the number of lines. */
-static size_t add_lines(text_buffer *to, const char *text, size_t most)
+static size_t add_wrapped_lines(text_buffer *to, const char *text, size_t most)
 {
     size_t n = 0;
     while (*text != '\0' && n < most) {
         size_t left = strlen(text), length = left;
         if (left > LINE_LENGTH) {
-            length = utf8_cut(text, left, LINE_LENGTH);
+            length = utf8_truncated_length(text, left, LINE_LENGTH);
             const char *blank = memrchr(text, ' ', length);
             if (blank != NULL && n + 1 < most)
                 length = (size_t)(blank - text);
@@ -100,16 +100,16 @@ static size_t add_lines(text_buffer *to, const char *text, size_t most)
     return n;
 }
 
-static void add_name(text_buffer *to, const char *file, double curve)
+static void add_curve_name(text_buffer *to, const char *file, double curve)
 {
     enum { NAME = LINE_LENGTH - 8 }; /* leaves room for the number */
-    text_name(to, strrchr(file, '/') != NULL ? strrchr(file, '/') + 1 : file, NAME);
+    text_file_name(to, strrchr(file, '/') != NULL ? strrchr(file, '/') + 1 : file, NAME);
     text_format(to, ":%.0f", curve);
 }
 
 /* Adds the heading: curve, verdict and modulus, reason of a curve that was not accepted. Returns
  * the number of lines. */
-static size_t add_words(text_buffer *to, const figure_drawing *d, const listed_curve *c)
+static size_t add_heading_lines(text_buffer *to, const figure_drawing *d, const listed_curve *c)
 {
     const char *verdict = indentation_text(c->rows, c->row, INDENTATION_VERDICT),
                *reason = indentation_text(c->rows, c->row, INDENTATION_REASON);
@@ -119,8 +119,8 @@ static size_t add_words(text_buffer *to, const figure_drawing *d, const listed_c
         .numerical_error = (double)NAN,
         .unit = "Pa"};
     size_t lines = 2;
-    add_name(to, curves_text(d->table, c->block.from, CURVES_FILE),
-             curves_get(d->table, c->block.from, CURVES_CURVE));
+    add_curve_name(to, curves_text(d->table, c->block.from, CURVES_FILE),
+                   curves_get(d->table, c->block.from, CURVES_CURVE));
     text_add(to, "\n");
     if (d->tables->n_indentation > 1)
         text_format(to, "%s: ", c->rows->suffix);
@@ -132,15 +132,15 @@ static size_t add_words(text_buffer *to, const figure_drawing *d, const listed_c
         reason += same;
     if (c->kind != CURVE_ACCEPTED && reason[0] != '\0') {
         text_add(to, "\n");
-        lines += add_lines(to, reason, REASON_LINES);
+        lines += add_wrapped_lines(to, reason, REASON_LINES);
     }
     return lines;
 }
 
-size_t curve_panel_lines(const figure_drawing *d, const listed_curve *c)
+size_t curve_panel_line_count(const figure_drawing *d, const listed_curve *c)
 {
     text_buffer words = {0};
-    const size_t lines = add_words(&words, d, c);
+    const size_t lines = add_heading_lines(&words, d, c);
     text_free(&words);
     return lines;
 }
@@ -149,7 +149,7 @@ size_t curve_panel_lines(const figure_drawing *d, const listed_curve *c)
 static void add_heading(figure_drawing *d, const listed_curve *c)
 {
     text_buffer words = {0}, line = {0};
-    const size_t lines = add_words(&words, d, c);
+    const size_t lines = add_heading_lines(&words, d, c);
     size_t number = 0;
     for (const char *s = text_string(&words); number < lines; number++) {
         const size_t length = strcspn(s, "\n");
@@ -161,7 +161,7 @@ static void add_heading(figure_drawing *d, const listed_curve *c)
         text_free(&line);
         s += length + (s[length] == '\n');
     }
-    text_done(&words, &d->script);
+    text_free_part(&words, &d->script);
 }
 
 /* ---- panel ----------------------------------------------------------------------------------- */
@@ -185,13 +185,13 @@ static int curve_section(figure_drawing *d, curve_block b, const char *segment)
         values[COLUMNS * n + 1] = curves_get(d->table, i, CURVES_FORCE);
         values[COLUMNS * n++ + 2] = curves_get(d->table, i, CURVES_FITTED_FORCE);
     }
-    const int section = drawing_numbers(d, segment, columns, units, values, n);
+    const int section = drawing_number_section(d, segment, columns, units, values, n);
     free(values);
     return section;
 }
 
 /* True if the curve has a fit, which determines the contact point. */
-static bool has_contact(const figure_drawing *d, curve_block b)
+static bool has_fitted_samples(const figure_drawing *d, curve_block b)
 {
     for (size_t i = b.from; i < b.to; i++)
         if (isfinite(curves_get(d->table, i, CURVES_FITTED_FORCE)))
@@ -199,22 +199,22 @@ static bool has_contact(const figure_drawing *d, curve_block b)
     return false;
 }
 
-void curve_panel(figure_drawing *d, const listed_curve *c)
+void draw_curve_panel(figure_drawing *d, const listed_curve *c)
 {
     const int approach = curve_section(d, c->block, "approach"),
               retract = curve_section(d, c->block, "retract");
-    value_span x = SPAN_EMPTY, y = SPAN_EMPTY;
+    value_span x = EMPTY_SPAN, y = EMPTY_SPAN;
     span_add_section(&x, d, approach, 0, false);
     span_add_section(&x, d, retract, 0, false);
     span_add_section(&y, d, approach, 1, false);
     span_add_section(&y, d, retract, 1, false);
-    if (d->status != WT_OK || span_empty(&x) || span_empty(&y))
+    if (d->status != WT_OK || span_is_empty(&x) || span_is_empty(&y))
         return;
     axis_linear(d, "x", "Displacement", &curves_schema.columns[CURVES_DISPLACEMENT], x);
     axis_linear(d, "y", "Force", &curves_schema.columns[CURVES_FORCE], y);
     text_add(&d->script, "unset arrow\nunset label\n");
     add_heading(d, c);
-    if (has_contact(d, c->block))
+    if (has_fitted_samples(d, c->block))
         text_add(&d->script, "set arrow from 0, graph 0 to 0, graph 1 nohead ls 12 back\n");
     plot_item(d, retract, "($1*x_unit):($2*y_unit) with lines ls 45 notitle");
     plot_item(d, approach, "($1*x_unit):($2*y_unit) with points ls 41 pt 5 ps 0.3 notitle");

@@ -23,17 +23,17 @@ typedef struct curve_list {
 
 /* Lists all curves with samples: rejected ones first, then doubtful ones, each kind in the order of
  * the table. Call curve_list_clear also after a failure. */
-wt_status curve_list_make(const figure_tables *tables, curve_list *list,
+wt_status curve_list_init(const figure_tables *tables, curve_list *list,
                           wt_error *err) WT_NODISCARD;
 void curve_list_clear(curve_list *list);
 
 /* Returns the number of lines of the heading of a curve. */
-size_t curve_panel_lines(const figure_drawing *d, const listed_curve *curve);
+size_t curve_panel_line_count(const figure_drawing *d, const listed_curve *curve);
 /* Draws a curve of d->table, the table "curves", as one plot of a multiplot. It draws nothing if no
  * sample has displacement and force. */
-void curve_panel(figure_drawing *d, const listed_curve *curve);
+void draw_curve_panel(figure_drawing *d, const listed_curve *curve);
 
 /* Legend of points and lines for a caption. */
-extern const char curve_panel_words[];
+extern const char curve_panel_legend[];
 
 #endif

@@ -39,9 +39,9 @@ typedef struct sheets {
     text_buffer style, script;
     char *folder; /* temporary */
     int in_use;
-    size_t n, begun; /* number of sheets; of those that gnuplot has begun */
-    double since;    /* wall time when the last one began [s] */
-    bool late;
+    size_t n, begun;   /* number of sheets; of those that gnuplot has begun */
+    double begin_time; /* wall time when the last one began [s] */
+    bool timed_out;
     const wt_progress *progress;
 } sheets;
 
@@ -53,8 +53,8 @@ static void sheet_name(size_t sheet, char name[32])
     (void)snprintf(name, 32, "sheet_%zu", sheet + 1);
 }
 
-static wt_status write_file(const sheets *s, const char *name, const char *ending,
-                            const text_buffer *text, wt_error *err)
+static wt_status write_sheet_file(const sheets *s, const char *name, const char *ending,
+                                  const text_buffer *text, wt_error *err)
 {
     char file[64];
     (void)snprintf(file, sizeof file, "%s%s", name, ending);
@@ -63,13 +63,13 @@ static wt_status write_file(const sheets *s, const char *name, const char *endin
         free(path);
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     }
-    const wt_status status = file_write(path, text_string(text), text->length, err);
+    const wt_status status = write_temporary_file(path, text_string(text), text->length, err);
     free(path);
     return status;
 }
 
 /* Adds the title above the panels. */
-static void add_title(sheets *s, size_t sheet)
+static void add_sheet_title(sheets *s, size_t sheet)
 {
     static const char *const kinds[] = {"refused", "doubtful", "accepted"};
     text_buffer words = {.language = s->language};
@@ -84,12 +84,12 @@ static void add_title(sheets *s, size_t sheet)
     text_format(&s->script,
                 ".\"\\n%s\" noenhanced layout %d,%d margins 0.085,0.985,0.05,0.87 "
                 "spacing 0.085,0.135\n",
-                translate(s->language, curve_panel_words), ROWS, COLUMNS);
-    text_done(&words, &s->script);
+                translate(s->language, curve_panel_legend), ROWS, COLUMNS);
+    text_free_part(&words, &s->script);
 }
 
 /* Writes the data of a sheet and appends its script. */
-static wt_status add_sheet(sheets *s, size_t sheet, wt_error *err)
+static wt_status write_sheet(sheets *s, size_t sheet, wt_error *err)
 {
     char name[32];
     sheet_name(sheet, name);
@@ -103,17 +103,17 @@ static wt_status add_sheet(sheets *s, size_t sheet, wt_error *err)
     const size_t first = CURVES * sheet,
                  end = first + CURVES < s->list.n ? first + CURVES : s->list.n;
     text_format(&s->script, "set print '%s'\nprint ''\nunset print\n", name);
-    add_title(s, sheet);
+    add_sheet_title(s, sheet);
     for (size_t i = first; i < end; i++)
-        curve_panel(&d, &s->list.curves[i]);
+        draw_curve_panel(&d, &s->list.curves[i]);
     text_add(&s->script, text_string(&d.script));
     text_add(&s->script, "unset multiplot\n");
     s->script.failed = s->script.failed || d.script.failed;
     wt_status status = d.status;
     if (status == WT_OK)
-        status = figure_data(&d, &data, err);
+        status = figure_append_data(&d, &data, err);
     if (status == WT_OK)
-        status = write_file(s, name, ".tsv", &data, err);
+        status = write_sheet_file(s, name, ".tsv", &data, err);
     text_free(&data);
     drawing_clear(&d);
     return status;
@@ -121,13 +121,13 @@ static wt_status add_sheet(sheets *s, size_t sheet, wt_error *err)
 
 /* ---- all ------------------------------------------------------------------------------------- */
 
-static bool text_append(const sheets *s, size_t done)
+static bool notify_sheets(const sheets *s, size_t done)
 {
     return s->progress == NULL || s->progress->report == NULL ||
            s->progress->report(s->progress->user, "sheets", done, s->n);
 }
 
-static bool is_begun(const sheets *s, size_t sheet)
+static bool is_sheet_begun(const sheets *s, size_t sheet)
 {
     char name[32];
     sheet_name(sheet, name);
@@ -141,15 +141,15 @@ static bool is_begun(const sheets *s, size_t sheet)
 static bool go_on(void *user)
 {
     sheets *s = user;
-    for (; s->begun < s->n && is_begun(s, s->begun); s->begun++)
-        s->since = wt_time_wall();
-    s->late = wt_time_wall() - s->since > s->options.gnuplot_time;
-    return !s->late && text_append(s, s->begun > 0 ? s->begun - 1 : 0);
+    for (; s->begun < s->n && is_sheet_begun(s, s->begun); s->begun++)
+        s->begin_time = wt_time_wall();
+    s->timed_out = wt_time_wall() - s->begin_time > s->options.gnuplot_time;
+    return !s->timed_out && notify_sheets(s, s->begun > 0 ? s->begun - 1 : 0);
 }
 
 /* Creates a temporary folder in the folder of the output, or in that for temporary files if the
  * output is a pipe. */
-static wt_status open_folder(sheets *s, const char *path, wt_error *err)
+static wt_status create_sheets_folder(sheets *s, const char *path, wt_error *err)
 {
     struct stat info;
     const bool beside = stat(path, &info) != 0 || S_ISREG(info.st_mode);
@@ -157,8 +157,8 @@ static wt_status open_folder(sheets *s, const char *path, wt_error *err)
     if (parent == NULL && (beside || errno == ENOMEM))
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     if (parent != NULL) {
-        temporary_sweep(parent);
-        s->folder = temporary_folder(parent, &s->in_use);
+        temporary_remove_abandoned(parent);
+        s->folder = temporary_folder_create(parent, &s->in_use);
     }
     const int code = errno;
     free(parent);
@@ -172,26 +172,26 @@ static wt_status open_folder(sheets *s, const char *path, wt_error *err)
     return status;
 }
 
-static wt_status write_script(sheets *s, wt_error *err)
+static wt_status write_sheets_script(sheets *s, wt_error *err)
 {
     text_buffer output = {0};
-    wt_status status = write_file(s, "style", ".gp", &s->style, err);
-    text_add(&output, file_of_library("output.gnuplot"));
+    wt_status status = write_sheet_file(s, "style", ".gp", &s->style, err);
+    text_add(&output, embedded_file_text("output.gnuplot"));
     if (status == WT_OK)
-        status = write_file(s, "output", ".gp", &output, err);
+        status = write_sheet_file(s, "output", ".gp", &output, err);
     text_free(&output);
     text_add(&s->script, SHEET_BEGIN);
     if (s->options.font != NULL)
         text_format(&s->script, "figure_font = '%s'\n", s->options.font);
     text_add(&s->script, SHEET_STYLE);
-    figure_decimals(&s->script, s->language);
+    figure_write_decimal_mark(&s->script, s->language);
     for (size_t i = 0; i < s->n && status == WT_OK; i++)
-        status = add_sheet(s, i, err);
+        status = write_sheet(s, i, err);
     text_add(&s->script, "set output\n");
-    return status == WT_OK ? write_file(s, "sheets", ".gp", &s->script, err) : status;
+    return status == WT_OK ? write_sheet_file(s, "sheets", ".gp", &s->script, err) : status;
 }
 
-static wt_status draw(sheets *s, const char *path, wt_error *err)
+static wt_status draw_sheets(sheets *s, const char *path, wt_error *err)
 {
     static const char *const arguments[] = {"--default-settings", "sheets.gp", NULL};
     text_buffer made = {0};
@@ -200,21 +200,21 @@ static wt_status draw(sheets *s, const char *path, wt_error *err)
                                .arguments = arguments,
                                .size = s->n * sheet_size,
                                .limit = s->options.gnuplot_time,
-                               .late = &s->late,
+                               .timed_out = &s->timed_out,
                                .go_on = go_on,
                                .user = s};
-    s->since = wt_time_wall();
+    s->begin_time = wt_time_wall();
     wt_status status = gnuplot_run(&call, err);
     char *pdf = status == WT_OK ? wt_path_join(s->folder, "sheets.pdf") : NULL;
     if (status == WT_OK && pdf == NULL)
         status = wt_fail(err, WT_E_MEMORY, "out of memory");
     if (status == WT_OK)
-        status = file_read(pdf, s->n * sheet_size, &made, err);
-    text_add(&made, PDF_MARK);
+        status = read_whole_file(pdf, s->n * sheet_size, &made, err);
+    text_add(&made, PDF_SIGNATURE);
     if (status == WT_OK && made.failed)
         status = wt_fail(err, WT_E_MEMORY, "out of memory");
     if (status == WT_OK)
-        status = file_put(path, &made, err);
+        status = write_user_file(path, &made, err);
     free(pdf);
     text_free(&made);
     return status;
@@ -234,35 +234,35 @@ static void sheets_clear(sheets *s)
     figure_tables_clear(&s->tables);
 }
 
-wt_status wt_sheets_write(const wt_result *result, const char *path,
-                          const wt_report_options *options, const wt_progress *progress,
-                          wt_error *err)
+wt_status wt_curve_sheets_write(const wt_result *result, const char *path,
+                                const wt_report_options *options, const wt_progress *progress,
+                                wt_error *err)
 {
     sheets s = {.options = options != NULL ? *options : wt_report_defaults(), .progress = progress};
     wt_status status = param_check(wt_report_params(), &s.options, err);
     if (status == WT_OK)
         status = language_open(s.options.language, &s.language, err);
     if (status == WT_OK)
-        status = figure_tables_make(result, &s.tables, err);
+        status = figure_tables_bind(result, &s.tables, err);
     if (status == WT_OK)
-        status = curves_check(&s.tables, err);
+        status = check_curve_samples(&s.tables, err);
     if (status == WT_OK)
-        status = curve_list_make(&s.tables, &s.list, err);
+        status = curve_list_init(&s.tables, &s.list, err);
     s.n = (s.list.n + CURVES - 1) / CURVES;
     if (status == WT_OK && s.n == 0)
         status = wt_fail(err, WT_E_EMPTY, "no curve has samples of displacement and force");
     if (status == WT_OK)
-        status = file_style(s.options.style, &s.style, err);
+        status = read_style(s.options.style, &s.style, err);
     if (status == WT_OK)
-        status = open_folder(&s, path, err);
+        status = create_sheets_folder(&s, path, err);
     if (status == WT_OK)
-        status = write_script(&s, err);
-    if (status == WT_OK && !text_append(&s, 0))
+        status = write_sheets_script(&s, err);
+    if (status == WT_OK && !notify_sheets(&s, 0))
         status = wt_fail(err, WT_E_CANCELLED, "the sheets were cancelled");
     if (status == WT_OK)
-        status = draw(&s, path, err);
+        status = draw_sheets(&s, path, err);
     if (status == WT_OK)
-        (void)text_append(&s, s.n);
+        (void)notify_sheets(&s, s.n);
     sheets_clear(&s);
     return status;
 }

@@ -9,14 +9,14 @@
 #include <math.h>
 #include <string.h>
 
-typedef struct lab_choice {
+typedef struct display_unit_series {
     const char *unit; /* SI */
     int power;        /* exponent of ten of the first label; each next one is less by three */
     const char *labels[5];
-} lab_choice;
+} display_unit_series;
 
 /* Series of units, smallest first. */
-static const lab_choice choices[] = {
+static const display_unit_series choices[] = {
     {"m", 9, {"nm", "µm", "mm", "m"}},
     {"N", 12, {"pN", "nN", "µN", "mN", "N"}},
     {"Pa", 0, {"Pa", "kPa", "MPa", "GPa"}},
@@ -34,11 +34,11 @@ static const lab_choice choices[] = {
     {"", 0, {""}},
 };
 
-lab_unit lab_unit_for(wt_quantity quantity, const char *unit, double magnitude)
+display_unit select_display_unit(wt_quantity quantity, const char *unit, double magnitude)
 {
     if (unit == NULL)
         unit = wt_quantity_unit(quantity);
-    lab_unit lab = {.factor = 1, .offset = 0, .label = ""};
+    display_unit lab = {.factor = 1, .offset = 0, .label = ""};
     if (quantity == WT_Q_TEMPERATURE && strcmp(unit, "K") == 0) {
         lab.offset = -WT_ZERO_CELSIUS;
         (void)strcpy(lab.label, "°C");
@@ -49,7 +49,7 @@ lab_unit lab_unit_for(wt_quantity quantity, const char *unit, double magnitude)
         (void)strcpy(lab.label, "°");
         return lab;
     }
-    const lab_choice *choice = choices, *end = choices + sizeof choices / sizeof *choices;
+    const display_unit_series *choice = choices, *end = choices + sizeof choices / sizeof *choices;
     while (choice < end && strcmp(choice->unit, unit) != 0)
         choice++;
     if (choice == end)
@@ -65,7 +65,7 @@ lab_unit lab_unit_for(wt_quantity quantity, const char *unit, double magnitude)
     return lab;
 }
 
-double lab_value(const lab_unit *lab, double value)
+double to_display_value(const display_unit *lab, double value)
 {
     return value * lab->factor + lab->offset;
 }
@@ -73,18 +73,18 @@ double lab_value(const lab_unit *lab, double value)
 display_value_text format_display_value(const language *l, wt_quantity quantity, const char *unit,
                                         double value)
 {
-    lab_unit lab = lab_unit_for(quantity, unit, value);
+    display_unit lab = select_display_unit(quantity, unit, value);
     bool bare = !isfinite(value) || lab.label[0] == '\0';
     display_value_text text;
-    (void)snprintf(text.words, sizeof text.words, "%s%s%s",
-                   SHORT_NUMBER(l, lab_value(&lab, value), 3), bare ? "" : " ",
+    (void)snprintf(text.chars, sizeof text.chars, "%s%s%s",
+                   SHORT_NUMBER(l, to_display_value(&lab, value), 3), bare ? "" : " ",
                    bare ? "" : lab.label);
     return text;
 }
 
 display_value_text format_display_estimate(const language *l, const wt_estimate *estimate)
 {
-    lab_unit lab = lab_unit_for(WT_Q_NONE, estimate->unit, estimate->value);
+    display_unit lab = select_display_unit(WT_Q_NONE, estimate->unit, estimate->value);
     double error = fabs(estimate->standard_error) * lab.factor;
     if (!(error > 0) || !isfinite(estimate->value)) {
         display_value_text value =
@@ -92,15 +92,17 @@ display_value_text format_display_estimate(const language *l, const wt_estimate 
                            text;
         if (!isnan(error) || !isfinite(estimate->value))
             return value;
-        (void)snprintf(text.words, sizeof text.words, translate(l, "%.700s (error not known)"),
-                       value.words);
+        (void)snprintf(text.chars, sizeof text.chars, translate(l, "%.700s (error not known)"),
+                       value.chars);
         return text;
     }
     const int decimals = (int)fmin(9, 1 - floor(log10(error)));
     display_value_text text;
-    (void)snprintf(text.words, sizeof text.words, "%s ± %s%s%s",
-                   FIXED(l, number_to_tens(lab_value(&lab, estimate->value), decimals), decimals),
-                   FIXED(l, number_to_tens(error, decimals), decimals),
+    (void)snprintf(text.chars, sizeof text.chars, "%s ± %s%s%s",
+                   FIXED(l,
+                         round_to_power_of_ten(to_display_value(&lab, estimate->value), decimals),
+                         decimals),
+                   FIXED(l, round_to_power_of_ten(error, decimals), decimals),
                    lab.label[0] != '\0' ? " " : "", lab.label);
     return text;
 }

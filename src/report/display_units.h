@@ -7,28 +7,28 @@
 #include "report/language.h"
 
 /* displayed value = SI value * factor + offset */
-typedef struct lab_unit {
+typedef struct display_unit {
     double factor, offset;
     char label[40]; /* "MPa", "" for a number */
-} lab_unit;
+} display_unit;
 
 /* Returns the display unit for a magnitude in the SI unit `unit` (NULL = that of the quantity). A
  * magnitude of 0 or not finite gives the smallest usual unit. Temperatures are in °C, temperature
  * differences in K. */
-lab_unit lab_unit_for(wt_quantity quantity, const char *unit, double magnitude);
-double lab_value(const lab_unit *lab, double value);
+display_unit select_display_unit(wt_quantity quantity, const char *unit, double magnitude);
+double to_display_value(const display_unit *lab, double value);
 
 /* Formats a value in the SI unit `unit` (NULL = that of the quantity) with its display unit, up to
  * 3 digits: "1.15 µm". */
 typedef struct display_value_text {
-    char words[800];
+    char chars[800];
 } display_value_text;
 display_value_text format_display_value(const language *l, wt_quantity quantity, const char *unit,
                                         double value);
 /* Formats "12.3 ± 0.4 MPa" with the standard error, or the value alone without one. */
 display_value_text format_display_estimate(const language *l, const wt_estimate *estimate);
 
-#define VALUE(l, quantity, unit, value) format_display_value(l, quantity, unit, value).words
-#define ESTIMATE(l, estimate) format_display_estimate(l, estimate).words
+#define VALUE(l, quantity, unit, value) format_display_value(l, quantity, unit, value).chars
+#define ESTIMATE(l, estimate) format_display_estimate(l, estimate).chars
 
 #endif

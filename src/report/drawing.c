@@ -14,7 +14,7 @@ bool drawing_is_wide(const figure_drawing *d)
 
 const char *drawing_group_name(const figure_drawing *d, const char *name)
 {
-    return say_group(d->language, name);
+    return translate_group(d->language, name);
 }
 
 int drawing_group_style(const figure_drawing *d, size_t i)
@@ -40,7 +40,7 @@ static bool row_matches(const table_view *table, size_t row, const row_filter *r
 }
 
 /* Creates a section table with the name of the figure and a number. */
-static wt_table *section_new(figure_drawing *d, const char *title)
+static wt_table *create_section(figure_drawing *d, const char *title)
 {
     char name[96];
     (void)snprintf(name, sizeof name, "%s/%zu", d->figure->name, d->n_sections);
@@ -51,7 +51,7 @@ static wt_table *section_new(figure_drawing *d, const char *title)
 }
 
 /* Stores a section with data and returns its index; else frees it and returns NO_SECTION. */
-static int section_take(figure_drawing *d, wt_table *section, bool any)
+static int store_section(figure_drawing *d, wt_table *section, bool any)
 {
     if (d->status == WT_OK && any && d->n_sections == DRAWING_SECTIONS)
         d->status = wt_fail(d->err, WT_E_INTERNAL, "figure %s has too many parts", d->figure->name);
@@ -71,7 +71,7 @@ int drawing_section(figure_drawing *d, const table_view *table, const char *titl
     bool any = false, first = true;
     if (d->status != WT_OK)
         return NO_SECTION;
-    wt_table *section = section_new(d, title);
+    wt_table *section = create_section(d, title);
     for (size_t i = 0; i < n_columns && d->status == WT_OK; i++) {
         const schema_field *column = &table->schema->columns[columns[i]];
         d->status = wt_table_add_column(section, column->name, schema_unit(column),
@@ -93,47 +93,47 @@ int drawing_section(figure_drawing *d, const table_view *table, const char *titl
         for (size_t i = 0; i < n_columns; i++) {
             double value = view_number(table, table->schema, row, columns[i]);
             // An infinite value cannot be drawn.
-            wt_table_put(section, i,
-                         isfinite(value) ? number_to_digits(value, DATA_DIGITS) : (double)NAN);
+            wt_table_set_number(
+                section, i, isfinite(value) ? number_to_digits(value, DATA_DIGITS) : (double)NAN);
             complete = complete && (i >= needed || isfinite(value));
         }
         any = any || complete;
     }
-    return section_take(d, section, any);
+    return store_section(d, section, any);
 }
 
-int drawing_numbers(figure_drawing *d, const char *title, const char *const *columns,
-                    const char *const *units, const double *values, size_t n_rows)
+int drawing_number_section(figure_drawing *d, const char *title, const char *const *columns,
+                           const char *const *units, const double *values, size_t n_rows)
 {
     if (d->status != WT_OK || n_rows == 0)
         return NO_SECTION;
-    wt_table *section = section_new(d, title);
+    wt_table *section = create_section(d, title);
     for (size_t i = 0; d->status == WT_OK && columns[i] != NULL; i++)
         d->status = wt_table_add_column(section, columns[i], units[i], "", d->err);
     for (size_t row = 0; d->status == WT_OK && row < n_rows; row++) {
         d->status = wt_table_add_row(section, d->err);
         for (size_t i = 0; d->status == WT_OK && columns[i] != NULL; i++)
-            wt_table_put(section, i, number_to_digits(*values++, DATA_DIGITS));
+            wt_table_set_number(section, i, number_to_digits(*values++, DATA_DIGITS));
     }
-    return section_take(d, section, true);
+    return store_section(d, section, true);
 }
 
-size_t drawing_rows(const figure_drawing *d, int section)
+size_t drawing_row_count(const figure_drawing *d, int section)
 {
     return section < 0 ? 0 : wt_table_n_rows(d->sections[section]);
 }
 
-size_t drawing_every(const figure_drawing *d, int section, size_t limit)
+size_t drawing_stride(const figure_drawing *d, int section, size_t limit)
 {
-    size_t rows = drawing_rows(d, section);
+    size_t rows = drawing_row_count(d, section);
     return rows <= limit ? 1 : (rows + limit - 1) / limit;
 }
 
-size_t drawing_thinning(const figure_drawing *d, size_t limit)
+size_t drawing_max_stride(const figure_drawing *d, size_t limit)
 {
     size_t most = 1;
     for (size_t i = 0; i < d->n_groups; i++) {
-        size_t every = drawing_every(d, d->data[i], limit);
+        size_t every = drawing_stride(d, d->data[i], limit);
         most = every > most ? every : most;
     }
     return most;

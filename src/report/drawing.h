@@ -15,7 +15,7 @@ enum {
     DRAWING_SECTIONS = 64,
     DRAWING_GROUPS = 6,
     NO_SECTION = -1,
-    FEW_COLOURS = 3,
+    MAX_KEY_COLOURS = 3,
     DATA_DIGITS = 7, /* digits of the data of a figure, finer than its pictures at half the size;
                         the result has all digits */
     DRAWING_LABEL = 128
@@ -25,7 +25,7 @@ enum {
 typedef struct value_span {
     double low, high;
 } value_span;
-#define SPAN_EMPTY                                                                                 \
+#define EMPTY_SPAN                                                                                 \
     (value_span)                                                                                   \
     {                                                                                              \
         1, 0                                                                                       \
@@ -53,7 +53,7 @@ typedef struct figure_drawing {
     const char *y_label;                    /* replaces the described label, or NULL */
     bool titled[FIGURE_CURVES];             /* the curve is in the key */
     bool band_titled;                       /* the first band is in the key */
-    double colours[FEW_COLOURS];            /* colours in the key instead of a colour scale */
+    double colours[MAX_KEY_COLOURS];        /* colours in the key instead of a colour scale */
     size_t n_colours;                       /* 0: too many, or the colour has no meaning */
     text_buffer script;                     /* part of the script after loading the style */
     text_buffer caption;                    /* plain text */
@@ -65,17 +65,17 @@ bool drawing_is_wide(const figure_drawing *d);
 
 /* Builds sections, script and caption. The script is empty if there is nothing to draw. Call
  * drawing_clear also after a failure. */
-wt_status drawing_make(figure_drawing *d, const figure_description *figure,
-                       const figure_tables *tables, const language *l, wt_error *err) WT_NODISCARD;
+wt_status drawing_build(figure_drawing *d, const figure_description *figure,
+                        const figure_tables *tables, const language *l, wt_error *err) WT_NODISCARD;
 void drawing_clear(figure_drawing *d);
 
 /* ---- described parts, for the functions of figures ---------------------------------------------
  */
 
 /* Lists the columns of the data of a figure in their order. Returns their number. */
-size_t drawing_columns(const figure_description *figure, unsigned columns[FIGURE_COLUMNS]);
+size_t drawing_list_columns(const figure_description *figure, unsigned columns[FIGURE_COLUMNS]);
 /* Builds the sections of all groups and their ranges; false if there is nothing to draw. */
-bool drawing_data(figure_drawing *d);
+bool drawing_build_data(figure_drawing *d);
 /* Writes axis "x", "y" or "cb"; `label` NULL = the described one. */
 void drawing_axis(figure_drawing *d, const char *letter, const figure_axis *axis, const char *label,
                   value_span span);
@@ -85,10 +85,10 @@ void drawing_axis(figure_drawing *d, const char *letter, const figure_axis *axis
 void drawing_axes(figure_drawing *d);
 void drawing_colours(figure_drawing *d, const char *with);
 /* Writes a label such as "Angular frequency at 20 °C", or the label alone without a temperature. */
-void drawing_label_at(const figure_drawing *d, char label[DRAWING_LABEL], const char *words,
-                      double temperature);
+void drawing_temperature_label(const figure_drawing *d, char label[DRAWING_LABEL],
+                               const char *words, double temperature);
 /* Returns the letter of the moduli, 'E' or 'G', from the deformation in a table. */
-char drawing_letter(const char *deformation);
+char modulus_letter(const char *deformation);
 /* Adds the described bands, then the curves, of one panel to the plot command. */
 void drawing_bands(figure_drawing *d, size_t panel);
 void drawing_curves(figure_drawing *d, size_t panel);
@@ -110,13 +110,13 @@ int drawing_section(figure_drawing *d, const table_view *table, const char *titl
                     size_t needed);
 /* Creates a section from numbers, row by row, with a unit for each column; a NULL name ends the
  * columns. */
-int drawing_numbers(figure_drawing *d, const char *title, const char *const *columns,
-                    const char *const *units, const double *values, size_t n_rows);
-size_t drawing_rows(const figure_drawing *d, int section);
+int drawing_number_section(figure_drawing *d, const char *title, const char *const *columns,
+                           const char *const *units, const double *values, size_t n_rows);
+size_t drawing_row_count(const figure_drawing *d, int section);
 /* Returns n for drawing every n-th point, so that about `limit` remain; 1 = all. */
-size_t drawing_every(const figure_drawing *d, int section, size_t limit);
+size_t drawing_stride(const figure_drawing *d, int section, size_t limit);
 /* Returns the largest such n of the sections of all groups. */
-size_t drawing_thinning(const figure_drawing *d, size_t limit);
+size_t drawing_max_stride(const figure_drawing *d, size_t limit);
 /* Returns the translated name of bulk and track; other names stay. */
 const char *drawing_group_name(const figure_drawing *d, const char *name);
 /* Returns the line style of group i: 1 bulk, 2 track, 3... the others. */
@@ -124,7 +124,7 @@ int drawing_group_style(const figure_drawing *d, size_t i);
 
 /* ---- axes ----------------------------------------------------------------------------------- */
 
-bool span_empty(const value_span *span);
+bool span_is_empty(const value_span *span);
 void span_add(value_span *span, double value, bool positive_only);
 void span_add_column(value_span *span, const table_view *table, unsigned column,
                      bool positive_only);
@@ -146,7 +146,7 @@ void axis_log(figure_drawing *d, const char *axis, const char *label, const sche
  * nothing. */
 void plot_item(figure_drawing *d, int section, const char *format, ...) WT_PRINTF(3, 4);
 /* Begins an item without data: a function or a key entry. */
-void plot_other(figure_drawing *d, const char *format, ...) WT_PRINTF(2, 3);
+void plot_expression(figure_drawing *d, const char *format, ...) WT_PRINTF(2, 3);
 /* Ends the item with a title of the program, or without one for NULL. Neither the text nor its
  * translations contain characters that gnuplot interprets. */
 void plot_key(figure_drawing *d, const char *english);

@@ -64,7 +64,7 @@ typedef struct figure_description {
     unsigned group;
     figure_axis x, y[FIGURE_PANELS], colour;
     bool in_depth;                      /* folded on the page, after the main figures */
-    bool of_several;                    /* drawn only with several values of x */
+    bool needs_several_x;               /* drawn only with several values of x */
     figure_curve curves[FIGURE_CURVES]; /* ends with CURVE_NONE */
     const char *nothing; /* reason on the page if nothing can be drawn; NULL = no text */
     const char *words;   /* the caption */

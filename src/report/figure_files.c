@@ -21,7 +21,7 @@ static const double text_width = 0.170;
 
 /* ---- options --------------------------------------------------------------------------------- */
 
-const char *figure_format(size_t i)
+const char *figure_format_name(size_t i)
 {
     static const char *const endings[] = {"svg", "pdf", "png"};
     return i < sizeof endings / sizeof *endings ? endings[i] : NULL;
@@ -33,10 +33,10 @@ wt_status figure_formats_read(const char *text, void *member, wt_error *err)
     for (const char *word = text;; word++) {
         const size_t length = strcspn(word, ",");
         size_t i = 0;
-        while (figure_format(i) != NULL &&
-               (strlen(figure_format(i)) != length || strncmp(word, figure_format(i), length) != 0))
+        while (figure_format_name(i) != NULL && (strlen(figure_format_name(i)) != length ||
+                                                 strncmp(word, figure_format_name(i), length) != 0))
             i++;
-        if (figure_format(i) == NULL)
+        if (figure_format_name(i) == NULL)
             return wt_fail(err, WT_E_ARG, "'%.*s' is none of svg, pdf, png", (int)length, word);
         formats |= 1U << i;
         word += length;
@@ -62,7 +62,7 @@ wt_status figure_font_check(const void *member, wt_error *err)
 /* ---- before drawing ---------------------------------------------------------------------------
  */
 
-wt_status figure_data(const figure_drawing *d, text_buffer *to, wt_error *err)
+wt_status figure_append_data(const figure_drawing *d, text_buffer *to, wt_error *err)
 {
     wt_status status = WT_OK;
     char *bytes = NULL;
@@ -86,14 +86,14 @@ wt_status figure_data(const figure_drawing *d, text_buffer *to, wt_error *err)
 static wt_status write_data(const report_folder *folder, drawn_figure *figure, wt_error *err)
 {
     char name[128];
-    const wt_status status = figure_data(&figure->drawing, &figure->data, err);
+    const wt_status status = figure_append_data(&figure->drawing, &figure->data, err);
     (void)snprintf(name, sizeof name, "plots/%s.tsv", figure->drawing.figure->name);
     return status != WT_OK
                ? status
                : folder_write(folder, name, text_string(&figure->data), figure->data.length, err);
 }
 
-void figure_decimals(text_buffer *script, const language *l)
+void figure_write_decimal_mark(text_buffer *script, const language *l)
 {
     if (l != NULL) // only for tic labels: data have decimal points
         text_format(script, "set decimalsign '%c'\n", l->decimal_mark);
@@ -114,8 +114,8 @@ static void add_sizes(text_buffer *script, const figure_drawing *d,
         text_format(script, "figure_font = '%s'\n", options->font);
 }
 
-static wt_status write_script(const report_folder *folder, const wt_report_options *options,
-                              drawn_figure *drawn, wt_error *err)
+static wt_status write_figure_script(const report_folder *folder, const wt_report_options *options,
+                                     drawn_figure *drawn, wt_error *err)
 {
     const figure_drawing *const d = &drawn->drawing;
     const char *const figure = d->figure->name;
@@ -131,7 +131,7 @@ static wt_status write_script(const report_folder *folder, const wt_report_optio
     text_add(script, "reset\n");
     add_sizes(script, d, options);
     text_add(script, "load 'style.gp'\nload 'output.gp'\nset datafile separator \"\\t\"\n");
-    figure_decimals(script, d->language);
+    figure_write_decimal_mark(script, d->language);
     text_add(script, text_string(&d->script));
     text_add(script, "set output\n");
     (void)snprintf(name, sizeof name, "plots/%s.gp", figure);
@@ -144,27 +144,27 @@ wt_status figure_write(const report_folder *folder, const wt_report_options *opt
                        drawn_figure *figure, wt_error *err)
 {
     const wt_status status = write_data(folder, figure, err);
-    return status == WT_OK ? write_script(folder, options, figure, err) : status;
+    return status == WT_OK ? write_figure_script(folder, options, figure, err) : status;
 }
 
 /* ---- after drawing ----------------------------------------------------------------------------
  */
 
 /* Appends the file "plots/NAME.ENDING" and stores this name in `name`. */
-static wt_status read_picture(const report_folder *folder, const drawn_figure *figure,
-                              const char *ending, char name[128], text_buffer *picture,
-                              wt_error *err)
+static wt_status read_figure_picture(const report_folder *folder, const drawn_figure *figure,
+                                     const char *ending, char name[128], text_buffer *picture,
+                                     wt_error *err)
 {
     (void)snprintf(name, 128, "plots/%s.%s", figure->drawing.figure->name, ending);
-    char *path = wt_path_join(folder_plots(folder), wt_path_base(name));
+    char *path = wt_path_join(folder_plots_path(folder), wt_path_base(name));
     if (path == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
-    const wt_status status = file_read(path, GNUPLOT_PICTURE_LIMIT, picture, err);
+    const wt_status status = read_whole_file(path, GNUPLOT_PICTURE_LIMIT, picture, err);
     free(path);
     return status;
 }
 
-static void put_word(unsigned char *at, uint32_t word)
+static void write_big_endian(unsigned char *at, uint32_t word)
 {
     for (int i = 0; i < 4; i++)
         at[i] = (unsigned char)(word >> (24 - 8 * i));
@@ -172,17 +172,18 @@ static void put_word(unsigned char *at, uint32_t word)
 
 /* Adds the resolution to a bitmap (PNG 1.2, chunk pHYs). Without it a page uses the resolution of a
  * screen. */
-static wt_status size_bitmap(const report_folder *folder, const drawn_figure *figure, wt_error *err)
+static wt_status set_bitmap_resolution(const report_folder *folder, const drawn_figure *figure,
+                                       wt_error *err)
 {
     enum { HEAD = 8 + 25, WORDS = 8 + 9, CHUNK = WORDS + 4 }; // signature and IHDR; type and data
     unsigned char chunk[CHUNK] = "\0\0\0\x09pHYs";
     text_buffer picture = {0}, sized = {0};
     char name[128];
-    put_word(chunk + 8, (uint32_t)lrint(dots_per_metre));
-    put_word(chunk + 12, (uint32_t)lrint(dots_per_metre));
+    write_big_endian(chunk + 8, (uint32_t)lrint(dots_per_metre));
+    write_big_endian(chunk + 12, (uint32_t)lrint(dots_per_metre));
     chunk[16] = 1; // the unit is the metre
-    put_word(chunk + WORDS, (uint32_t)crc32(crc32(0, NULL, 0), chunk + 4, WORDS - 4));
-    wt_status status = read_picture(folder, figure, "png", name, &picture, err);
+    write_big_endian(chunk + WORDS, (uint32_t)crc32(crc32(0, NULL, 0), chunk + 4, WORDS - 4));
+    wt_status status = read_figure_picture(folder, figure, "png", name, &picture, err);
     if (status == WT_OK && picture.length < HEAD)
         status = wt_fail(err, WT_E_TOOL, "the picture of figure %s is not PNG",
                          figure->drawing.figure->name);
@@ -198,19 +199,19 @@ static wt_status size_bitmap(const report_folder *folder, const drawn_figure *fi
     return status;
 }
 
-wt_status figure_take(const report_folder *folder, const wt_report_options *options,
-                      drawn_figure *figure, wt_error *err)
+wt_status figure_collect(const report_folder *folder, const wt_report_options *options,
+                         drawn_figure *figure, wt_error *err)
 {
     char name[128];
-    wt_status status = read_picture(folder, figure, "svg", name, &figure->svg, err);
+    wt_status status = read_figure_picture(folder, figure, "svg", name, &figure->svg, err);
     if (status == WT_OK && (options->figures & WT_FIGURE_SVG) != 0) {
         text_buffer sized = {0};
-        svg_sized(&sized, text_string(&figure->svg), figure->svg.length, 1e3 * unit_length);
+        svg_append_sized(&sized, text_string(&figure->svg), figure->svg.length, 1e3 * unit_length);
         status = sized.failed ? wt_fail(err, WT_E_MEMORY, "out of memory")
                               : folder_write(folder, name, text_string(&sized), sized.length, err);
         text_free(&sized);
     }
     if (status == WT_OK && (options->figures & WT_FIGURE_PNG) != 0)
-        status = size_bitmap(folder, figure, err);
+        status = set_bitmap_resolution(folder, figure, err);
     return status;
 }

@@ -10,21 +10,21 @@
 
 /* Returns the suffix of the i-th format, "svg", "pdf", "png", which is bit i of the options; NULL
  * past the last one. */
-const char *figure_format(size_t i);
+const char *figure_format_name(size_t i);
 /* Parses "svg,pdf" for a parameter. */
 wt_status figure_formats_read(const char *text, void *member, wt_error *err) WT_NODISCARD;
 /* Checks that a font name is safe in scripts and on the page. */
 wt_status figure_font_check(const void *member, wt_error *err) WT_NODISCARD;
 
 /* Sets the decimal mark of the language in a script, after the style. */
-void figure_decimals(text_buffer *script, const language *l);
+void figure_write_decimal_mark(text_buffer *script, const language *l);
 /* Appends the data of a figure: its sections, as gnuplot's `index` counts them. */
-wt_status figure_data(const figure_drawing *d, text_buffer *to, wt_error *err) WT_NODISCARD;
+wt_status figure_append_data(const figure_drawing *d, text_buffer *to, wt_error *err) WT_NODISCARD;
 /* Writes data and script and stores them in `figure`. */
 wt_status figure_write(const report_folder *folder, const wt_report_options *options,
                        drawn_figure *figure, wt_error *err) WT_NODISCARD;
 /* Reads the picture for the page and adds sizes to the pictures for a paper. */
-wt_status figure_take(const report_folder *folder, const wt_report_options *options,
-                      drawn_figure *figure, wt_error *err) WT_NODISCARD;
+wt_status figure_collect(const report_folder *folder, const wt_report_options *options,
+                         drawn_figure *figure, wt_error *err) WT_NODISCARD;
 
 #endif

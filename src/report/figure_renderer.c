@@ -9,7 +9,8 @@
 /* ---- data ------------------------------------------------------------------------------------ */
 
 /* Adds a column if `is_one` and if it is not in the list yet. */
-static void add_column(unsigned columns[FIGURE_COLUMNS], size_t *n, bool is_one, unsigned column)
+static void add_figure_column(unsigned columns[FIGURE_COLUMNS], size_t *n, bool is_one,
+                              unsigned column)
 {
     for (size_t i = 0; i < *n; i++)
         is_one = is_one && columns[i] != column;
@@ -17,24 +18,25 @@ static void add_column(unsigned columns[FIGURE_COLUMNS], size_t *n, bool is_one,
         columns[(*n)++] = column;
 }
 
-size_t drawing_columns(const figure_description *figure, unsigned columns[FIGURE_COLUMNS])
+size_t drawing_list_columns(const figure_description *figure, unsigned columns[FIGURE_COLUMNS])
 {
     size_t n = 0;
-    add_column(columns, &n, figure->x.scale != AXIS_NONE, figure->x.column);
+    add_figure_column(columns, &n, figure->x.scale != AXIS_NONE, figure->x.column);
     for (const figure_curve *curve = figure->curves; curve->form != CURVE_NONE; curve++) {
         const schema_field *column = &figure->table->columns[curve->column];
         const bool errors = curve->with_errors || curve->band != 0;
-        add_column(columns, &n, true, curve->column);
-        add_column(columns, &n, errors && column->standard_error != 0, column->standard_error);
-        add_column(columns, &n, errors && column->high != 0, column->low);
-        add_column(columns, &n, errors && column->high != 0, column->high);
+        add_figure_column(columns, &n, true, curve->column);
+        add_figure_column(columns, &n, errors && column->standard_error != 0,
+                          column->standard_error);
+        add_figure_column(columns, &n, errors && column->high != 0, column->low);
+        add_figure_column(columns, &n, errors && column->high != 0, column->high);
     }
-    add_column(columns, &n, figure->colour.scale != AXIS_NONE, figure->colour.column);
+    add_figure_column(columns, &n, figure->colour.scale != AXIS_NONE, figure->colour.column);
     return n;
 }
 
 /* Returns the index of a column in the described sections, from 0. */
-static size_t place_of(const figure_drawing *d, unsigned column)
+static size_t section_column(const figure_drawing *d, unsigned column)
 {
     size_t place = 0;
     while (place < d->n_columns && d->columns[place] != column)
@@ -43,57 +45,58 @@ static size_t place_of(const figure_drawing *d, unsigned column)
 }
 
 /* Extends the range by a described column of the section of a group. */
-static void span_described(value_span *span, const figure_drawing *d, size_t group, unsigned column,
-                           const figure_axis *axis)
+static void span_add_described(value_span *span, const figure_drawing *d, size_t group,
+                               unsigned column, const figure_axis *axis)
 {
     if (axis->scale != AXIS_NONE)
-        span_add_section(span, d, d->data[group], place_of(d, column), axis->scale == AXIS_LOG);
+        span_add_section(span, d, d->data[group], section_column(d, column),
+                         axis->scale == AXIS_LOG);
 }
 
 /* Extends the range by a column plus and minus its standard error. */
-static void span_errors(value_span *span, const figure_drawing *d, size_t group, unsigned column,
-                        const figure_axis *axis)
+static void span_add_errors(value_span *span, const figure_drawing *d, size_t group,
+                            unsigned column, const figure_axis *axis)
 {
     if (d->data[group] == NO_SECTION)
         return;
     const wt_table *const section = d->sections[d->data[group]];
-    const size_t y = place_of(d, column),
-                 e = place_of(d, d->figure->table->columns[column].standard_error);
-    for (size_t row = 0; row < drawing_rows(d, d->data[group]); row++)
+    const size_t y = section_column(d, column),
+                 e = section_column(d, d->figure->table->columns[column].standard_error);
+    for (size_t row = 0; row < drawing_row_count(d, d->data[group]); row++)
         for (int side = -1; side <= 1; side += 2)
             span_add(span,
                      wt_table_number(section, row, y) + side * wt_table_number(section, row, e),
                      axis->scale == AXIS_LOG);
 }
 
-static void span_curve(figure_drawing *d, size_t group, const figure_curve *curve)
+static void span_add_curve(figure_drawing *d, size_t group, const figure_curve *curve)
 {
     const schema_field *column = &d->figure->table->columns[curve->column];
     const figure_axis *axis = &d->figure->y[curve->panel];
     if (curve->form == CURVE_FIT || curve->form == CURVE_DATA)
         return;
-    span_described(&d->y[curve->panel], d, group, curve->column, axis);
+    span_add_described(&d->y[curve->panel], d, group, curve->column, axis);
     if (curve->with_errors && column->high != 0) {
-        span_described(&d->y[curve->panel], d, group, column->low, axis);
-        span_described(&d->y[curve->panel], d, group, column->high, axis);
+        span_add_described(&d->y[curve->panel], d, group, column->low, axis);
+        span_add_described(&d->y[curve->panel], d, group, column->high, axis);
     } else if (curve->with_errors || (curve->band != 0 && axis->scale != AXIS_LOG))
-        span_errors(&d->y[curve->panel], d, group, curve->column, axis);
+        span_add_errors(&d->y[curve->panel], d, group, curve->column, axis);
 }
 
-bool drawing_data(figure_drawing *d)
+bool drawing_build_data(figure_drawing *d)
 {
     const figure_description *figure = d->figure;
     for (size_t i = 0; i < d->n_groups; i++) {
         const row_filter rows = {{figure->group}, {figure->by_group ? d->groups[i] : NULL}, false};
         d->data[i] = drawing_section(d, d->table, d->groups[i], &rows, d->columns, d->n_columns,
                                      figure->by_group ? 2 : 1);
-        span_described(&d->x, d, i, figure->x.column, &figure->x);
-        span_described(&d->colour, d, i, figure->colour.column, &figure->colour);
+        span_add_described(&d->x, d, i, figure->x.column, &figure->x);
+        span_add_described(&d->colour, d, i, figure->colour.column, &figure->colour);
         for (const figure_curve *curve = figure->curves; curve->form != CURVE_NONE; curve++)
-            span_curve(d, i, curve);
+            span_add_curve(d, i, curve);
     }
-    return !span_empty(&d->x) && (!figure->of_several || d->x.high > d->x.low) &&
-           !(span_empty(&d->y[0]) && span_empty(&d->y[1])) && d->status == WT_OK;
+    return !span_is_empty(&d->x) && (!figure->needs_several_x || d->x.high > d->x.low) &&
+           !(span_is_empty(&d->y[0]) && span_is_empty(&d->y[1])) && d->status == WT_OK;
 }
 
 /* ---- axes ------------------------------------------------------------------------------------ */
@@ -113,29 +116,29 @@ void drawing_axis(figure_drawing *d, const char *letter, const figure_axis *axis
 /* True if the colour has a meaning: different values. */
 static bool is_coloured(const figure_drawing *d)
 {
-    return !span_empty(&d->colour) && d->colour.high > d->colour.low;
+    return !span_is_empty(&d->colour) && d->colour.high > d->colour.low;
 }
 
 /* Largest difference of two colour values that count as one setting: half a kelvin, or 1 % of a
  * frequency. */
-static double setting(const figure_drawing *d, double value)
+static double colour_tolerance(const figure_drawing *d, double value)
 {
     const schema_field *column = &d->figure->table->columns[d->figure->colour.column];
     return column->quantity == WT_Q_TEMPERATURE ? 0.5 : 0.01 * fabs(value);
 }
 
 /* Collects the different values of the colour if they are few. */
-static void find_colours(figure_drawing *d)
+static void collect_colours(figure_drawing *d)
 {
-    const size_t place = place_of(d, d->figure->colour.column);
+    const size_t place = section_column(d, d->figure->colour.column);
     size_t n = 0;
     for (size_t i = 0; i < d->n_groups; i++)
-        for (size_t row = 0; row < drawing_rows(d, d->data[i]); row++) {
+        for (size_t row = 0; row < drawing_row_count(d, d->data[i]); row++) {
             const double value = wt_table_number(d->sections[d->data[i]], row, place);
             bool known = !isfinite(value);
             for (size_t k = 0; k < n && !known; k++)
-                known = fabs(value - d->colours[k]) <= setting(d, d->colours[k]);
-            if (!known && n == FEW_COLOURS)
+                known = fabs(value - d->colours[k]) <= colour_tolerance(d, d->colours[k]);
+            if (!known && n == MAX_KEY_COLOURS)
                 return;
             if (!known)
                 d->colours[n++] = value;
@@ -150,7 +153,7 @@ void drawing_axes(figure_drawing *d)
     if (!is_coloured(d))
         return;
     drawing_axis(d, "cb", &d->figure->colour, NULL, d->colour);
-    find_colours(d);
+    collect_colours(d);
     if (d->n_colours > 0)
         text_add(&d->script, "unset colorbox\nset rmargin 3\n");
     else
@@ -161,14 +164,14 @@ void drawing_colours(figure_drawing *d, const char *with)
 {
     const schema_field *column = &d->figure->table->columns[d->figure->colour.column];
     for (size_t i = 0; i < d->n_colours; i++)
-        plot_other(d, "keyentry with %s lc palette cb %s%s title '%s'", with,
-                   LITERAL(d->colours[i]),
-                   column->quantity == WT_Q_TEMPERATURE ? "+cb_offset" : "*cb_unit",
-                   VALUE(d->language, column->quantity, schema_unit(column), d->colours[i]));
+        plot_expression(d, "keyentry with %s lc palette cb %s%s title '%s'", with,
+                        LITERAL(d->colours[i]),
+                        column->quantity == WT_Q_TEMPERATURE ? "+cb_offset" : "*cb_unit",
+                        VALUE(d->language, column->quantity, schema_unit(column), d->colours[i]));
 }
 
-void drawing_label_at(const figure_drawing *d, char label[DRAWING_LABEL], const char *words,
-                      double temperature)
+void drawing_temperature_label(const figure_drawing *d, char label[DRAWING_LABEL],
+                               const char *words, double temperature)
 {
     (void)snprintf(
         label, DRAWING_LABEL, isfinite(temperature) ? translate(d->language, "%s at %s") : "%s%s",
@@ -176,7 +179,7 @@ void drawing_label_at(const figure_drawing *d, char label[DRAWING_LABEL], const 
         isfinite(temperature) ? VALUE(d->language, WT_Q_TEMPERATURE, NULL, temperature) : "");
 }
 
-char drawing_letter(const char *deformation)
+char modulus_letter(const char *deformation)
 {
     return strcmp(deformation, "shear") == 0 ? 'G' : 'E';
 }
@@ -184,10 +187,10 @@ char drawing_letter(const char *deformation)
 /* ---- curves ---------------------------------------------------------------------------------- */
 
 /* Adds a column with the factor of its axis: "($2*y_unit)". */
-static void add_place(text_buffer *item, const figure_drawing *d, const char *letter,
-                      const figure_axis *axis, unsigned column, bool above_zero)
+static void add_column_expression(text_buffer *item, const figure_drawing *d, const char *letter,
+                                  const figure_axis *axis, unsigned column, bool above_zero)
 {
-    size_t n = place_of(d, column) + 1;
+    size_t n = section_column(d, column) + 1;
     const bool of_temperature =
         d->figure->table->columns[column].quantity == WT_Q_TEMPERATURE; /* drawn in °C */
     if (axis->scale == AXIS_NUMBER)
@@ -201,12 +204,12 @@ static void add_place(text_buffer *item, const figure_drawing *d, const char *le
 }
 
 /* Plots a band of plus and minus one standard error. A logarithmic axis has no negative values. */
-static void plot_band(figure_drawing *d, size_t group, const figure_curve *curve)
+static void plot_error_band(figure_drawing *d, size_t group, const figure_curve *curve)
 {
     const bool titled = !d->band_titled && !d->figure->by_group && curve->title != NULL;
     d->band_titled = d->band_titled || titled;
-    size_t y = place_of(d, curve->column) + 1,
-           e = place_of(d, d->figure->table->columns[curve->column].standard_error) + 1;
+    size_t y = section_column(d, curve->column) + 1,
+           e = section_column(d, d->figure->table->columns[curve->column].standard_error) + 1;
     if (d->figure->y[curve->panel].scale == AXIS_LOG)
         plot_item(d, d->data[group],
                   "($1*x_unit):($%zu > 0 ? ($%zu > $%zu ? $%zu-$%zu : 1e-3*$%zu)*y_unit : NaN):"
@@ -227,7 +230,7 @@ static bool has_key(const figure_description *figure)
 }
 
 /* Adds the title. A described title appears in the key once for all groups. */
-static void add_title(figure_drawing *d, size_t group, const figure_curve *curve)
+static void add_curve_title(figure_drawing *d, size_t group, const figure_curve *curve)
 {
     bool *titled = &d->titled[curve - d->figure->curves];
     if (d->figure->by_group && curve->form != CURVE_FIT)
@@ -250,45 +253,46 @@ static void plot_curve(figure_drawing *d, size_t group, const figure_curve *curv
     const schema_field *column = &d->figure->table->columns[curve->column];
     text_buffer item = {0};
 
-    add_place(&item, d, "x", &d->figure->x, d->figure->x.column, false);
+    add_column_expression(&item, d, "x", &d->figure->x, d->figure->x.column, false);
     text_add(&item, ":");
-    add_place(&item, d, "y", axis, curve->column, curve->above_zero);
+    add_column_expression(&item, d, "y", axis, curve->column, curve->above_zero);
     if (curve->with_errors && column->high == 0) {
         text_add(&item, ":");
-        add_place(&item, d, "y", axis, column->standard_error, false);
+        add_column_expression(&item, d, "y", axis, column->standard_error, false);
     } else if (curve->with_errors) {
         text_add(&item, ":");
-        add_place(&item, d, "y", axis, column->low, false);
+        add_column_expression(&item, d, "y", axis, column->low, false);
         text_add(&item, ":");
-        add_place(&item, d, "y", axis, column->high, false);
+        add_column_expression(&item, d, "y", axis, column->high, false);
     }
     if (curve->points > 0)
-        text_format(&item, " every %zu", drawing_every(d, d->data[group], curve->points));
+        text_format(&item, " every %zu", drawing_stride(d, d->data[group], curve->points));
     if (is_coloured(d) && curve->form == CURVE_LINE)
         text_format(&item, ":($%zu*cb_unit) with lines lw 1.8 lc palette",
-                    place_of(d, d->figure->colour.column) + 1);
+                    section_column(d, d->figure->colour.column) + 1);
     else
         text_format(&item, " with %s ls %d", with[curve->form],
                     curve->style + (curve->form == CURVE_FIT ? 0 : drawing_group_style(d, group)));
     plot_item(d, d->data[group], "%s", text_string(&item));
-    add_title(d, group, curve);
-    text_done(&item, &d->script);
+    add_curve_title(d, group, curve);
+    text_free_part(&item, &d->script);
 }
 
 static bool has_number(const figure_drawing *d, size_t group, const figure_curve *curve)
 {
-    value_span span = SPAN_EMPTY;
-    span_described(&span, d, group, curve->column, &d->figure->y[curve->panel]);
-    return !span_empty(&span);
+    value_span span = EMPTY_SPAN;
+    span_add_described(&span, d, group, curve->column, &d->figure->y[curve->panel]);
+    return !span_is_empty(&span);
 }
 
 /* True if there is a standard error. Without replicates there is none, and no band for the key. */
 static bool has_error(const figure_drawing *d, size_t group, const figure_curve *curve)
 {
     const figure_axis any = {.scale = AXIS_LINEAR};
-    value_span span = SPAN_EMPTY;
-    span_described(&span, d, group, d->figure->table->columns[curve->column].standard_error, &any);
-    return !span_empty(&span);
+    value_span span = EMPTY_SPAN;
+    span_add_described(&span, d, group, d->figure->table->columns[curve->column].standard_error,
+                       &any);
+    return !span_is_empty(&span);
 }
 
 void drawing_bands(figure_drawing *d, size_t panel)
@@ -297,7 +301,7 @@ void drawing_bands(figure_drawing *d, size_t panel)
         for (size_t i = 0; i < d->n_groups; i++)
             if (curve->panel == panel && curve->band != 0 && has_number(d, i, curve) &&
                 has_error(d, i, curve))
-                plot_band(d, i, curve);
+                plot_error_band(d, i, curve);
 }
 
 void drawing_curves(figure_drawing *d, size_t panel)
@@ -310,7 +314,7 @@ void drawing_curves(figure_drawing *d, size_t panel)
 
 static void draw_as_described(figure_drawing *d)
 {
-    if (!drawing_data(d))
+    if (!drawing_build_data(d))
         return;
     if (d->figure->prepare != NULL)
         d->figure->prepare(d);
@@ -326,7 +330,7 @@ static void draw_as_described(figure_drawing *d)
 /* ---- groups ---------------------------------------------------------------------------------- */
 
 /* Collects the names of the groups, "bulk" and "track" first, then in order of rows. */
-static void find_groups(figure_drawing *d)
+static void collect_groups(figure_drawing *d)
 {
     static const char *const usual[] = {"bulk", "track"};
     const table_view *table = d->table;
@@ -342,8 +346,8 @@ static void find_groups(figure_drawing *d)
         }
 }
 
-wt_status drawing_make(figure_drawing *d, const figure_description *figure,
-                       const figure_tables *tables, const language *l, wt_error *err)
+wt_status drawing_build(figure_drawing *d, const figure_description *figure,
+                        const figure_tables *tables, const language *l, wt_error *err)
 {
     *d = (figure_drawing){.figure = figure,
                           .language = l,
@@ -353,12 +357,12 @@ wt_status drawing_make(figure_drawing *d, const figure_description *figure,
                           .err = err,
                           .width = 1,
                           .height = 1,
-                          .x = SPAN_EMPTY,
-                          .y = {SPAN_EMPTY, SPAN_EMPTY},
-                          .colour = SPAN_EMPTY};
-    d->n_columns = drawing_columns(figure, d->columns);
+                          .x = EMPTY_SPAN,
+                          .y = {EMPTY_SPAN, EMPTY_SPAN},
+                          .colour = EMPTY_SPAN};
+    d->n_columns = drawing_list_columns(figure, d->columns);
     if (figure->by_group)
-        find_groups(d);
+        collect_groups(d);
     else
         d->groups[d->n_groups++] = figure->data_title;
     if (figure->draw != NULL)

@@ -20,11 +20,11 @@
 enum { REPORT_NAME = 128 };
 
 struct report_folder {
-    char *place;  /* final path */
-    bool is_page; /* only the page is written */
-    char *made;   /* temporary folder */
-    int in_use;   /* descriptor that protects the temporary folder from removal; -1 before it exists
-                   */
+    char *target;    /* final path */
+    bool is_page;    /* only the page is written */
+    char *temporary; /* temporary folder */
+    int in_use; /* descriptor that protects the temporary folder from removal; -1 before it exists
+                 */
     char *plots;
 };
 
@@ -41,7 +41,7 @@ static wt_status io_error(wt_error *err, const char *what, const char *path)
 
 /* Returns the name of the i-th possible file of a report, with the folder "plots"; NULL past the
  * last one. */
-static const char *file_of_report(size_t i, char name[REPORT_NAME])
+static const char *report_file_name(size_t i, char name[REPORT_NAME])
 {
     static const char *const common[] = {"index.html", "plots/style.gp", "plots/output.gp"},
                              *const endings[] = {"tsv", "gp", "svg", "pdf", "png"};
@@ -56,26 +56,26 @@ static const char *file_of_report(size_t i, char name[REPORT_NAME])
     return name;
 }
 
-bool place_is_page(const char *place)
+bool path_is_page(const char *target)
 {
     static const char ending[] = ".html";
     struct stat info;
-    const size_t length = strlen(place);
-    return length >= sizeof ending && strcmp(place + length - (sizeof ending - 1), ending) == 0 &&
-           (stat(place, &info) != 0 || !S_ISDIR(info.st_mode));
+    const size_t length = strlen(target);
+    return length >= sizeof ending && strcmp(target + length - (sizeof ending - 1), ending) == 0 &&
+           (stat(target, &info) != 0 || !S_ISDIR(info.st_mode));
 }
 
-char *wt_report_page(const char *place)
+char *wt_report_page_path(const char *target)
 {
-    return place_is_page(place) ? strdup(place) : wt_path_join(place, "index.html");
+    return path_is_page(target) ? strdup(target) : wt_path_join(target, "index.html");
 }
 
 /* True if weartrack wrote the page of a report. */
-static bool has_mark(const char *place)
+static bool is_weartrack_report(const char *target)
 {
     enum { HEAD = 4096 };
     char head[HEAD + 1];
-    char *path = wt_report_page(place);
+    char *path = wt_report_page_path(target);
     FILE *file = path == NULL ? NULL : fopen(path, "rb");
     free(path);
     if (file == NULL)
@@ -90,21 +90,21 @@ static wt_status fail_not_replaceable(wt_error *err, const char *path, const cha
 {
     wt_status status = wt_fail(err, WT_E_IO, "will not be replaced: it is not a weartrack report");
     wt_error_file(err, path);
-    wt_error_expected(err, place_is_page(path) ? "a new name or an older report"
-                                               : "a new name, an empty folder or an older report");
+    wt_error_expected(err, path_is_page(path) ? "a new name or an older report"
+                                              : "a new name, an empty folder or an older report");
     wt_error_found(err, "%s", found);
     wt_error_advice(err, "give another name, or move away what is there");
     return status;
 }
 
 /* True for files of a file manager, and for temporary folders of a killed run. */
-static bool is_litter(const char *name)
+static bool is_ignored_file(const char *name)
 {
     return name[0] == '.' || strcmp(name, "Thumbs.db") == 0 || strcmp(name, "desktop.ini") == 0;
 }
 
 /* Rejects a folder that is no report and has other files. */
-static wt_status check_empty(const char *path, wt_error *err)
+static wt_status check_folder_is_empty(const char *path, wt_error *err)
 {
     wt_status status = WT_OK;
     char found[300];
@@ -113,7 +113,7 @@ static wt_status check_empty(const char *path, wt_error *err)
         return io_error(err, "cannot be read", path);
     for (const struct dirent *entry; status == WT_OK && (entry = readdir(folder)) != NULL;) {
         (void)snprintf(found, sizeof found, "other files in it: %s", entry->d_name);
-        if (!is_litter(entry->d_name))
+        if (!is_ignored_file(entry->d_name))
             status = fail_not_replaceable(err, path, found);
     }
     closedir(folder);
@@ -135,14 +135,14 @@ static wt_status check_replaceable(const char *path, wt_error *err)
     struct stat info;
     if (lstat(path, &info) != 0)
         return errno == ENOENT ? WT_OK : io_error(err, "cannot be looked at", path);
-    if (place_is_page(path))
-        return !S_ISREG(info.st_mode) || !has_mark(path)
+    if (path_is_page(path))
+        return !S_ISREG(info.st_mode) || !is_weartrack_report(path)
                    ? fail_not_replaceable(err, path, "another file of that name")
                    : wt_check_overwrite(path, err);
     if (!S_ISDIR(info.st_mode))
         return fail_not_replaceable(err, path, "a file of that name");
-    if (!has_mark(path))
-        return check_empty(path, err);
+    if (!is_weartrack_report(path))
+        return check_folder_is_empty(path, err);
     wt_status status = WT_OK;
     char name[REPORT_NAME];
     char *plots = wt_path_join(path, "plots");
@@ -152,7 +152,7 @@ static wt_status check_replaceable(const char *path, wt_error *err)
         status = fail_not_replaceable(err, path, "plots, which is no folder");
     free(plots);
     const char *own;
-    for (size_t i = 0; status == WT_OK && (own = file_of_report(i, name)) != NULL; i++) {
+    for (size_t i = 0; status == WT_OK && (own = report_file_name(i, name)) != NULL; i++) {
         char *file = wt_path_join(path, own);
         if (file == NULL)
             status = wt_fail(err, WT_E_MEMORY, "out of memory");
@@ -170,14 +170,14 @@ static void folder_free(report_folder *folder)
 {
     if (folder->in_use >= 0)
         close(folder->in_use);
-    free(folder->place);
-    free(folder->made);
+    free(folder->target);
+    free(folder->temporary);
     free(folder->plots);
     free(folder);
 }
 
 /* Resolves the path: removes slashes at the end and follows symbolic links. */
-static wt_status find_place(const char *path, char **place, wt_error *err)
+static wt_status resolve_report_path(const char *path, char **target, wt_error *err)
 {
     char *plain = strdup(path), *real = NULL;
     wt_status status = WT_OK;
@@ -195,29 +195,29 @@ static wt_status find_place(const char *path, char **place, wt_error *err)
     }
     real = realpath(plain, NULL);
     if (real != NULL) {
-        *place = real;
+        *target = real;
         free(plain);
     } else
-        *place = plain;
+        *target = plain;
     return WT_OK;
 }
 
 /* Creates the temporary folder inside of an existing target, else next to it: on the same file
  * system, so that files can be renamed. */
-static wt_status make_temporary(report_folder *folder, wt_error *err)
+static wt_status create_temporary_folder(report_folder *folder, wt_error *err)
 {
     struct stat info;
-    char *parent = !folder->is_page && stat(folder->place, &info) == 0
-                       ? strdup(folder->place)
-                       : wt_path_folder(folder->place);
+    char *parent = !folder->is_page && stat(folder->target, &info) == 0
+                       ? strdup(folder->target)
+                       : wt_path_folder(folder->target);
     if (parent == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
-    temporary_sweep(parent);
-    folder->made = temporary_folder(parent, &folder->in_use);
+    temporary_remove_abandoned(parent);
+    folder->temporary = temporary_folder_create(parent, &folder->in_use);
     free(parent);
-    if (folder->made != NULL)
+    if (folder->temporary != NULL)
         return WT_OK;
-    wt_status status = io_error(err, "cannot be made", folder->place);
+    wt_status status = io_error(err, "cannot be made", folder->target);
     wt_error_advice(err, "the folder it goes into must exist and be writable");
     return status;
 }
@@ -228,13 +228,13 @@ wt_status folder_open(const char *path, report_folder **out, wt_error *err)
     if (folder == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     folder->in_use = -1;
-    wt_status status = find_place(path, &folder->place, err);
-    folder->is_page = status == WT_OK && place_is_page(folder->place);
+    wt_status status = resolve_report_path(path, &folder->target, err);
+    folder->is_page = status == WT_OK && path_is_page(folder->target);
     if (status == WT_OK)
-        status = check_replaceable(folder->place, err);
+        status = check_replaceable(folder->target, err);
     if (status == WT_OK)
-        status = make_temporary(folder, err);
-    if (status == WT_OK && (folder->plots = wt_path_join(folder->made, "plots")) == NULL)
+        status = create_temporary_folder(folder, err);
+    if (status == WT_OK && (folder->plots = wt_path_join(folder->temporary, "plots")) == NULL)
         status = wt_fail(err, WT_E_MEMORY, "out of memory");
     if (status == WT_OK && mkdir(folder->plots, 0777) != 0)
         status = io_error(err, "cannot be made", folder->plots);
@@ -245,7 +245,7 @@ wt_status folder_open(const char *path, report_folder **out, wt_error *err)
     return status;
 }
 
-const char *folder_plots(const report_folder *folder)
+const char *folder_plots_path(const report_folder *folder)
 {
     return folder->plots;
 }
@@ -253,10 +253,10 @@ const char *folder_plots(const report_folder *folder)
 wt_status folder_write(const report_folder *folder, const char *name, const char *bytes,
                        size_t length, wt_error *err)
 {
-    char *path = wt_path_join(folder->made, name);
+    char *path = wt_path_join(folder->temporary, name);
     if (path == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
-    const wt_status status = file_write(path, bytes, length, err);
+    const wt_status status = write_temporary_file(path, bytes, length, err);
     free(path);
     return status;
 }
@@ -267,7 +267,7 @@ static wt_status move_file(const report_folder *folder, const char *name, wt_err
 {
     wt_status status = WT_OK;
     struct stat info;
-    char *from = wt_path_join(folder->made, name), *to = wt_path_join(folder->place, name);
+    char *from = wt_path_join(folder->temporary, name), *to = wt_path_join(folder->target, name);
     if (from == NULL || to == NULL)
         status = wt_fail(err, WT_E_MEMORY, "out of memory");
     else if (lstat(from, &info) != 0)
@@ -285,15 +285,15 @@ static wt_status move_file(const report_folder *folder, const char *name, wt_err
 static wt_status move_page(const report_folder *folder, wt_error *err)
 {
     struct stat info;
-    wt_status status = check_replaceable(folder->place, err); // again, as it may have changed
+    wt_status status = check_replaceable(folder->target, err); // again, as it may have changed
     if (status != WT_OK)
         return status;
-    char *page = wt_path_join(folder->made, "index.html");
+    char *page = wt_path_join(folder->temporary, "index.html");
     if (page == NULL)
         status = wt_fail(err, WT_E_MEMORY, "out of memory");
-    else if ((lstat(folder->place, &info) == 0 && chmod(page, info.st_mode & 0777) != 0) ||
-             rename(page, folder->place) != 0)
-        status = io_error(err, "cannot be written", folder->place);
+    else if ((lstat(folder->target, &info) == 0 && chmod(page, info.st_mode & 0777) != 0) ||
+             rename(page, folder->target) != 0)
+        status = io_error(err, "cannot be written", folder->target);
     free(page);
     return status;
 }
@@ -303,19 +303,19 @@ static wt_status move_page(const report_folder *folder, wt_error *err)
 static wt_status move_files(const report_folder *folder, wt_error *err)
 {
     char name[REPORT_NAME];
-    const int lock = open(folder->place, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    const int lock = open(folder->target, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (lock >= 0)
         (void)flock(lock, LOCK_EX);
-    wt_status status = check_replaceable(folder->place, err); // again, as it may have changed
-    char *plots = wt_path_join(folder->place, "plots");
+    wt_status status = check_replaceable(folder->target, err); // again, as it may have changed
+    char *plots = wt_path_join(folder->target, "plots");
     if (status == WT_OK && plots == NULL)
         status = wt_fail(err, WT_E_MEMORY, "out of memory");
     if (status == WT_OK)
-        status = move_file(folder, file_of_report(0, name), err);
+        status = move_file(folder, report_file_name(0, name), err);
     if (status == WT_OK && mkdir(plots, 0777) != 0 && errno != EEXIST)
         status = io_error(err, "cannot be made", plots);
-    for (size_t i = 1; status == WT_OK && file_of_report(i, name) != NULL; i++)
-        status = move_file(folder, file_of_report(i, name), err);
+    for (size_t i = 1; status == WT_OK && report_file_name(i, name) != NULL; i++)
+        status = move_file(folder, report_file_name(i, name), err);
     if (lock >= 0)
         close(lock);
     free(plots);
@@ -328,9 +328,9 @@ wt_status folder_commit(report_folder *folder, wt_error *err)
     wt_status status = WT_OK;
     if (folder->is_page)
         status = move_page(folder, err);
-    else if (lstat(folder->place, &info) != 0 && rename(folder->made, folder->place) == 0) {
-        free(folder->made);
-        folder->made = NULL;
+    else if (lstat(folder->target, &info) != 0 && rename(folder->temporary, folder->target) == 0) {
+        free(folder->temporary);
+        folder->temporary = NULL;
     } else
         status = move_files(folder, err);
     folder_discard(folder);
@@ -341,7 +341,7 @@ void folder_discard(report_folder *folder)
 {
     if (folder == NULL)
         return;
-    if (folder->made != NULL)
-        temporary_remove(folder->made);
+    if (folder->temporary != NULL)
+        temporary_remove(folder->temporary);
     folder_free(folder);
 }

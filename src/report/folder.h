@@ -11,14 +11,14 @@
 #define REPORT_MARK "<meta name=\"generator\" content=\"weartrack"
 
 /* True if the report at a path is one file, the page. */
-bool place_is_page(const char *place);
+bool path_is_page(const char *place);
 
 typedef struct report_folder report_folder;
 /* Creates a temporary folder with an empty folder "plots". A path that ends in .html receives only
  * the page. WT_E_IO if `path` is neither an older report nor an empty folder, WT_E_ARG if a file of
  * that report was read; nothing is changed then. */
 wt_status folder_open(const char *path, report_folder **folder, wt_error *err) WT_NODISCARD;
-const char *folder_plots(const report_folder *folder); /* "plots" in it; borrowed */
+const char *folder_plots_path(const report_folder *folder); /* "plots" in it; borrowed */
 /* Writes a file; `name` is relative to the folder. */
 wt_status folder_write(const report_folder *folder, const char *name, const char *bytes,
                        size_t length, wt_error *err) WT_NODISCARD;

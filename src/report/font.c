@@ -15,7 +15,7 @@ static const double match_time = 10;
 enum { FONT_LENGTH = 128 }; /* largest length of a name */
 
 /* Escapes a name as a pattern, where a size would follow a hyphen. */
-static void as_pattern(const char *font, char pattern[2 * FONT_LENGTH])
+static void escape_font_pattern(const char *font, char pattern[2 * FONT_LENGTH])
 {
     for (; *font != '\0'; *pattern++ = *font++)
         if (*font == '-')
@@ -24,7 +24,7 @@ static void as_pattern(const char *font, char pattern[2 * FONT_LENGTH])
 }
 
 /* True if the font is one of the names of a family, "Noto Sans,Noto Sans Light". */
-static bool is_family(const char *names, const char *font)
+static bool family_contains(const char *names, const char *font)
 {
     const size_t length = strlen(font);
     for (const char *name = names; name != NULL; name = strchr(name, ',')) {
@@ -35,23 +35,23 @@ static bool is_family(const char *names, const char *font)
     return false;
 }
 
-bool wt_report_has_font(const char *font, char *instead, size_t size)
+bool wt_report_font_is_available(const char *font, char *instead, size_t size)
 {
     char pattern[2 * FONT_LENGTH];
     if (font == NULL || strlen(font) >= FONT_LENGTH || size == 0)
         return true;
-    as_pattern(font, pattern);
+    escape_font_pattern(font, pattern);
     const char *const arguments[] = {"-f", "%{family}\\n", pattern, NULL};
     const program_call call = {.program = "fc-match",
                                .arguments = arguments,
                                .folder = "/",
                                .limit = match_time,
                                .file_size = GNUPLOT_PICTURE_LIMIT};
-    program_end end;
-    if (program_run(&call, &end, NULL) != WT_OK || end.how != PROGRAM_EXITED || end.code != 0 ||
-        end.words[0] == '\0' || is_family(end.words, font))
+    program_result end;
+    if (program_run(&call, &end, NULL) != WT_OK || end.outcome != PROGRAM_EXITED || end.code != 0 ||
+        end.words[0] == '\0' || family_contains(end.words, font))
         return true;
-    const size_t first = utf8_cut(end.words, strcspn(end.words, ","), size - 1);
+    const size_t first = utf8_truncated_length(end.words, strcspn(end.words, ","), size - 1);
     memcpy(instead, end.words, first);
     instead[first] = '\0';
     return false;

@@ -8,7 +8,7 @@
 #include <math.h>
 #include <string.h>
 
-static wt_status cannot_start(const char *program, int code, wt_error *err)
+static wt_status fail_start(const char *program, int code, wt_error *err)
 {
     wt_status status = wt_fail(err, WT_E_TOOL, "gnuplot cannot be started");
     wt_error_file(err, program);
@@ -19,18 +19,18 @@ static wt_status cannot_start(const char *program, int code, wt_error *err)
 }
 
 /* Reports a failed run. gnuplot repeats a command before the message, so the last line is shown. */
-static wt_status failed(const gnuplot_call *call, const program_end *end, wt_error *err)
+static wt_status fail_run(const gnuplot_call *call, const program_result *end, wt_error *err)
 {
     wt_status status = WT_E_TOOL;
-    if (end->how == PROGRAM_SIGNALLED)
+    if (end->outcome == PROGRAM_SIGNALLED)
         wt_fail(err, status, "gnuplot was ended by signal %d", end->code);
-    else if (*call->late)
+    else if (*call->timed_out)
         wt_fail(err, status, "gnuplot did not end within %g s", call->limit);
     else
         wt_fail(err, status, "gnuplot failed with exit status %d", end->code);
     wt_error_file(err, call->program);
     wt_error_found(err, "%s", end->words[0] != '\0' ? end->words : "no message");
-    wt_error_advice(err, *call->late
+    wt_error_advice(err, *call->timed_out
                              ? "check the plot style; `weartrack report --gnuplot-time` allows more"
                              : "check the plot style; gnuplot 5.4 or later is needed");
     return status;
@@ -48,13 +48,13 @@ wt_status gnuplot_run(const gnuplot_call *call, wt_error *err)
                               .file_size = call->size,
                               .go_on = call->go_on,
                               .user = call->user};
-    program_end end;
+    program_result end;
     const wt_status status = program_run(&run, &end, err);
     if (status != WT_OK)
         return status;
-    if (end.how == PROGRAM_NOT_STARTED)
-        return cannot_start(call->program, end.code, err);
-    if (end.how == PROGRAM_CANCELLED && !*call->late)
+    if (end.outcome == PROGRAM_NOT_STARTED)
+        return fail_start(call->program, end.code, err);
+    if (end.outcome == PROGRAM_CANCELLED && !*call->timed_out)
         return wt_fail(err, WT_E_CANCELLED, "the report was cancelled");
-    return end.how == PROGRAM_EXITED && end.code == 0 ? WT_OK : failed(call, &end, err);
+    return end.outcome == PROGRAM_EXITED && end.code == 0 ? WT_OK : fail_run(call, &end, err);
 }

@@ -15,7 +15,7 @@ typedef struct gnuplot_call {
     const char *const *arguments; /* ends with NULL */
     size_t size;                  /* largest size of a written file [byte] */
     double limit;                 /* time limit of one picture [s], for the message */
-    const bool *late;             /* go_on has ended it because of the time limit */
+    const bool *timed_out;        /* go_on has ended it because of the time limit */
     bool (*go_on)(void *user);    /* called repeatedly; false ends gnuplot */
     void *user;
 } gnuplot_call;

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static int by_english(const void *english, const void *sentence)
+static int compare_english(const void *english, const void *sentence)
 {
     return strcmp(english, ((const translation *)sentence)->english);
 }
@@ -16,7 +16,7 @@ const char *translate(const language *l, const char *english)
 {
     const translation *found = NULL;
     if (l != NULL && english != NULL)
-        found = bsearch(english, l->sentences, l->n, sizeof *l->sentences, by_english);
+        found = bsearch(english, l->sentences, l->n, sizeof *l->sentences, compare_english);
     return found != NULL ? found->words : english;
 }
 
@@ -25,7 +25,7 @@ const char *translate_count(const language *l, size_t n, const char *one, const 
     return translate(l, n == 1 ? one : more);
 }
 
-const char *say_group(const language *l, const char *name)
+const char *translate_group(const language *l, const char *name)
 {
     const bool usual = strcmp(name, "bulk") == 0 || strcmp(name, "track") == 0;
     return usual ? translate(l, name) : name;
@@ -36,7 +36,7 @@ const char *language_tag(const language *l)
     return l != NULL ? l->tag : "en";
 }
 
-void language_decimals(const language *l, char *number)
+void language_set_decimal_mark(const language *l, char *number)
 {
     for (char *s = number; l != NULL && *s != '\0'; s++)
         if (*s == '.' && s > number && isdigit((unsigned char)s[-1]) &&

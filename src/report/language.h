@@ -35,10 +35,10 @@ const char *
 translate_count(const language *l, size_t n, const char *one, const char *more);
 
 /* Returns the name of a group; bulk and track are translated. */
-const char *say_group(const language *l, const char *name);
+const char *translate_group(const language *l, const char *name);
 
 const char *language_tag(const language *l);
 /* Replaces decimal points in a text of one or several numbers with units. */
-void language_decimals(const language *l, char *number);
+void language_set_decimal_mark(const language *l, char *number);
 
 #endif

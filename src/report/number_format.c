@@ -14,14 +14,14 @@
 enum { MAX_DIGITS = 17, PLAIN_SIZE = MAX_DIGITS + 8 };
 
 /* Formats an integer as a power of ten: "×10⁻⁷". */
-static void power_of_ten(int exponent, char words[PLAIN_SIZE])
+static void format_power_of_ten(int exponent, char chars[PLAIN_SIZE])
 {
     static const char *const digit[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
     char plain[8];
     (void)snprintf(plain, sizeof plain, "%d", exponent);
-    (void)strcpy(words, "×10");
+    (void)strcpy(chars, "×10");
     for (const char *s = plain; *s != '\0'; s++)
-        (void)strcat(words, *s == '-' ? "⁻" : digit[*s - '0']);
+        (void)strcat(chars, *s == '-' ? "⁻" : digit[*s - '0']);
 }
 
 /* Rounds |value| to `count` significant digits; returns the exponent of the first one. */
@@ -42,21 +42,21 @@ static void trim_zeros(char *digits)
 }
 
 /* Inserts the decimal point after the digit of weight 10^0; for exponents from -3 to 17. */
-static void plain_number(const char *digits, int exponent, char words[PLAIN_SIZE])
+static void format_plain_number(const char *digits, int exponent, char chars[PLAIN_SIZE])
 {
     int count = (int)strlen(digits), n = 0;
     for (int i = exponent < 0 ? exponent : 0; i < count || i <= exponent; i++) {
         if (i == exponent + 1)
-            words[n++] = '.';
-        words[n++] = i < 0 || i >= count ? '0' : digits[i];
+            chars[n++] = '.';
+        chars[n++] = i < 0 || i >= count ? '0' : digits[i];
     }
-    words[n] = '\0';
+    chars[n] = '\0';
 }
 
-static number_text not_finite(const language *l, double value)
+static number_text format_not_finite(const language *l, double value)
 {
     number_text number;
-    (void)snprintf(number.words, sizeof number.words, "%s",
+    (void)snprintf(number.chars, sizeof number.chars, "%s",
                    isnan(value) ? translate(l, "not known")
                    : value < 0  ? "−∞"
                                 : "∞");
@@ -66,10 +66,10 @@ static number_text not_finite(const language *l, double value)
 number_text number_rounded(const language *l, double value, int significant, bool trimmed)
 {
     number_text number = {"0"};
-    char digits[MAX_DIGITS + 1], words[PLAIN_SIZE], power[PLAIN_SIZE] = "";
+    char digits[MAX_DIGITS + 1], chars[PLAIN_SIZE], power[PLAIN_SIZE] = "";
     int count = significant < 1 ? 1 : significant > MAX_DIGITS ? MAX_DIGITS : significant;
     if (!isfinite(value))
-        return not_finite(l, value);
+        return format_not_finite(l, value);
     if (value == 0)
         return number;
     int whole = decimal_digits(value, MAX_DIGITS, digits); // exponent before rounding
@@ -79,11 +79,11 @@ number_text number_rounded(const language *l, double value, int significant, boo
         exponent = decimal_digits(value, whole + 1, digits);
     if (trimmed)
         trim_zeros(digits);
-    plain_number(digits, plain ? exponent : 0, words);
+    format_plain_number(digits, plain ? exponent : 0, chars);
     if (!plain)
-        power_of_ten(exponent, power);
-    (void)snprintf(number.words, sizeof number.words, "%s%s%s", value < 0 ? "−" : "", words, power);
-    language_decimals(l, number.words);
+        format_power_of_ten(exponent, power);
+    (void)snprintf(number.chars, sizeof number.chars, "%s%s%s", value < 0 ? "−" : "", chars, power);
+    language_set_decimal_mark(l, number.chars);
     return number;
 }
 
@@ -93,12 +93,12 @@ number_text number_fixed(const language *l, double value, int decimals)
     number_text number = {"−"};
     int after = decimals < 0 ? 0 : decimals > MAX_DECIMALS ? MAX_DECIMALS : decimals;
     if (!isfinite(value))
-        return not_finite(l, value);
-    (void)clocale_print(number.words + MARK, sizeof number.words - MARK, "%.*f", after,
+        return format_not_finite(l, value);
+    (void)clocale_print(number.chars + MARK, sizeof number.chars - MARK, "%.*f", after,
                         fabs(value));
-    if (value >= 0 || strpbrk(number.words, "123456789") == NULL)
-        memmove(number.words, number.words + MARK, strlen(number.words + MARK) + 1);
-    language_decimals(l, number.words);
+    if (value >= 0 || strpbrk(number.chars, "123456789") == NULL)
+        memmove(number.chars, number.chars + MARK, strlen(number.chars + MARK) + 1);
+    language_set_decimal_mark(l, number.chars);
     return number;
 }
 
@@ -109,7 +109,7 @@ number_text number_literal(double value)
     if (isinf(value))
         return value < 0 ? (number_text){"-1e308"} : (number_text){"1e308"};
     number_text number;
-    char digits[MAX_DIGITS + 1], words[PLAIN_SIZE], power[8] = "";
+    char digits[MAX_DIGITS + 1], chars[PLAIN_SIZE], power[8] = "";
     int exponent = decimal_digits(value, 10, digits);
     trim_zeros(digits);
     bool plain = exponent >= -3 && exponent <= 5;
@@ -117,8 +117,8 @@ number_text number_literal(double value)
         (void)snprintf(power, sizeof power, "e%d", exponent);
     else if ((int)strlen(digits) <= exponent + 1) // gnuplot divides integers as integers: 1/3 = 0
         (void)strcpy(power, ".0");
-    plain_number(digits, plain ? exponent : 0, words);
-    (void)snprintf(number.words, sizeof number.words, "%s%s%s", value < 0 ? "-" : "", words, power);
+    format_plain_number(digits, plain ? exponent : 0, chars);
+    (void)snprintf(number.chars, sizeof number.chars, "%s%s%s", value < 0 ? "-" : "", chars, power);
     return number;
 }
 
@@ -127,5 +127,5 @@ double number_to_digits(double value, int significant)
     char text[MAX_DIGITS + 10];
     double rounded = value;
     const int length = clocale_print(text, sizeof text, "%.*e", significant - 1, value);
-    return isfinite(value) && number_read(text, (size_t)length, &rounded) ? rounded : value;
+    return isfinite(value) && parse_stored_number(text, (size_t)length, &rounded) ? rounded : value;
 }

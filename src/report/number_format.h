@@ -11,7 +11,7 @@
 /* A formatted number, returned by value for use within one expression: text_append_translated(text,
  * "%s", NUMBER(l, x, 3)). */
 typedef struct number_text {
-    char words[352]; /* at most 309 digits before the decimal mark */
+    char chars[352]; /* at most 309 digits before the decimal mark */
 } number_text;
 
 /* Rounds to `significant` digits (but never left of the decimal point): "12.3", "−0.0046", 1.2e-7
@@ -22,9 +22,9 @@ number_text number_fixed(const language *l, double value,
 number_text number_literal(double value);               /* for gnuplot, 10 digits */
 double number_to_digits(double value, int significant); /* rounds to significant digits */
 
-#define NUMBER(l, value, significant) number_rounded(l, value, significant, false).words
-#define SHORT_NUMBER(l, value, significant) number_rounded(l, value, significant, true).words
-#define FIXED(l, value, decimals) number_fixed(l, value, decimals).words
-#define LITERAL(value) number_literal(value).words
+#define NUMBER(l, value, significant) number_rounded(l, value, significant, false).chars
+#define SHORT_NUMBER(l, value, significant) number_rounded(l, value, significant, true).chars
+#define FIXED(l, value, decimals) number_fixed(l, value, decimals).chars
+#define LITERAL(value) number_literal(value).chars
 
 #endif

@@ -24,7 +24,7 @@ static void page_head(const page_writer *page, text_buffer *out, const char *tit
               "initial-scale=1\" />\n<meta name=\"color-scheme\" content=\"light dark\" "
               "/>\n<title>%s</title>\n<style>\n",
               title);
-    text_add(out, file_of_library("page.css"));
+    text_add(out, embedded_file_text("page.css"));
     if (page->font != NULL) // only letters, digits, blanks and hyphens
         text_format(out, ":root { --figure-font: \"%s\"; }\n", page->font);
     text_html(out,
@@ -36,7 +36,7 @@ static void page_head(const page_writer *page, text_buffer *out, const char *tit
 }
 
 /* Writes the folded rows from `row` on; returns the row after them. */
-static size_t folded_answers(page_writer *page, size_t row)
+static size_t write_folded_answers(page_writer *page, size_t row)
 {
     const table_view *table = &page->tables->answer;
     size_t end = row;
@@ -77,7 +77,7 @@ static void page_answer(page_writer *page)
                       caveat ? "answer caveat" : "answer", next);
             question = next;
         }
-        const size_t end = folded_answers(page, row);
+        const size_t end = write_folded_answers(page, row);
         if (end == row)
             text_html(&page->out, "<p>%s</p>\n", answer_text(table, row++, ANSWER_ANSWER));
         else
@@ -99,7 +99,7 @@ static void add_file(page_writer *page, const char *name, const char *ending,
  * data are only in the folder. */
 static const size_t data_limit = (size_t)128 << 10;
 
-static void add_source(page_writer *page, const drawn_figure *drawn)
+static void add_figure_source(page_writer *page, const drawn_figure *drawn)
 {
     const char *const name = drawn->drawing.figure->name;
     text_add(&page->out, " <span class=\"source\">");
@@ -123,8 +123,8 @@ static wt_status add_figure(page_writer *page, const drawn_figure *drawn, size_t
     const figure_description *figure = drawn->drawing.figure;
     text_html(&page->out, "<figure id=\"figure-%s\" class=\"%s\">\n<div class=\"card\">",
               figure->name, drawing_is_wide(&drawn->drawing) ? "wide" : "single");
-    if (!svg_inline(&page->out, text_string(&drawn->svg), drawn->svg.length, figure->name,
-                    translate(page->language, figure->title))) {
+    if (!svg_append_inline(&page->out, text_string(&drawn->svg), drawn->svg.length, figure->name,
+                           translate(page->language, figure->title))) {
         wt_status status =
             wt_fail(err, WT_E_TOOL, "the picture of figure %s is not SVG", figure->name);
         wt_error_advice(err, "a plot style must use `set terminal svg`");
@@ -134,7 +134,7 @@ static wt_status add_figure(page_writer *page, const drawn_figure *drawn, size_t
     text_append_translated(&page->out, "Figure %zu. ", number);
     text_html(&page->out, "%s.</strong> %s", translate(page->language, figure->title),
               text_string(&drawn->drawing.caption));
-    add_source(page, drawn);
+    add_figure_source(page, drawn);
     text_add(&page->out, "</figcaption>\n</figure>\n");
     return WT_OK;
 }
@@ -191,12 +191,12 @@ static wt_status page_figures(page_writer *page, wt_error *err)
         text_add(&page->out, "<p class=\"source\">");
         text_append_phrase(&page->out, "The scripts are of gnuplot, and load ");
         text_buffer output = {0};
-        text_add(&output, file_of_library("output.gnuplot"));
+        text_add(&output, embedded_file_text("output.gnuplot"));
         add_file(page, "style", "gp", page->style);
         text_append_phrase(&page->out, " and ");
         add_file(page, "output", "gp", &output);
         text_add(&page->out, ".</p>\n");
-        text_done(&output, &page->out);
+        text_free_part(&output, &page->out);
     }
     return status;
 }
@@ -205,7 +205,7 @@ static wt_status page_figures(page_writer *page, wt_error *err)
  * figure, or the first table. */
 static const char *page_title(const page_writer *page)
 {
-    const char *title = answer_words(&page->tables->answer, ANSWER_KEY_CASE_TITLE);
+    const char *title = answer_key_text(&page->tables->answer, ANSWER_KEY_CASE_TITLE);
     if (title != NULL && title[0] != '\0')
         return title;
     const table_view *const asked[] = {&page->tables->comparison, &page->tables->layer,

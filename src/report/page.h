@@ -45,8 +45,8 @@ void page_record(page_writer *page); /* case file, provenance */
 void page_heading(page_writer *page, const char *id, const char *words);
 /* Begins a folded part with an anchor, which is listed in the contents, too. On paper it is either
  * unfolded or only named. page_fold_end ends it. */
-typedef enum page_on_paper { PAGE_PRINTED, PAGE_UNPRINTED } page_on_paper;
-void page_fold(page_writer *page, const char *id, const char *words, page_on_paper on_paper);
+typedef enum page_print_mode { PAGE_PRINTED, PAGE_UNPRINTED } page_print_mode;
+void page_fold(page_writer *page, const char *id, const char *words, page_print_mode on_paper);
 void page_fold_end(page_writer *page);
 /* Writes an HTML table of some columns and rows; headings and units follow the schema. columns
  * NULL: all with a label; rows NULL: all. `caption` is plain text. */

@@ -8,45 +8,46 @@
 #include <math.h>
 
 /* Adds "0.59 to 0.69 MPa" in the unit of the value. */
-static void add_ends(text_buffer *text, const result_value *f, double low, double high, int digits)
+static void add_limits(text_buffer *text, const result_value *f, double low, double high,
+                       int digits)
 {
-    lab_unit lab = lab_unit_for(f->quantity, f->number.unit, f->number.value);
+    display_unit lab = select_display_unit(f->quantity, f->number.unit, f->number.value);
     text_append_translated(text, "%s to %s%s%s",
-                           NUMBER(text->language, lab_value(&lab, low), digits),
-                           NUMBER(text->language, lab_value(&lab, high), digits),
+                           NUMBER(text->language, to_display_value(&lab, low), digits),
+                           NUMBER(text->language, to_display_value(&lab, high), digits),
                            lab.label[0] != '\0' ? " " : "", lab.label);
 }
 
 /* Writes a row with the interval as statistical error, and the range over the model choices at the
  * end of the remark. */
-static void result_value_row(page_writer *page, const char *name, const result_value *f,
-                             text_buffer *remark)
+static void write_result_value_row(page_writer *page, const char *name, const result_value *f,
+                                   text_buffer *remark)
 {
     text_buffer interval = {.language = page->language};
     const wt_estimate estimate = {f->number.value, (f->high - f->low) / 4,
                                   f->number.numerical_error, f->number.unit};
     if (isfinite(f->low) && isfinite(f->high)) {
-        add_ends(&interval, f, f->low, f->high,
-                 result_value_digits(f->number.value, f->low, f->high));
+        add_limits(&interval, f, f->low, f->high,
+                   result_value_digits(f->number.value, f->low, f->high));
         text_append_phrase(&interval, " (95 % interval)");
     } else
         text_append_phrase(&interval, "not known");
     if (!isnan(f->range.low)) {
         text_add(remark, remark->length > 0 ? "; " : "");
-        add_ends(remark, f, f->range.low, f->range.high, 3);
+        add_limits(remark, f, f->range.low, f->range.high, 3);
         text_append_phrase(remark, " over all choices of the model");
     }
     page_estimate(page, name, &estimate, f->quantity, text_string(&interval), text_string(remark));
-    text_done(&interval, &page->out);
+    text_free_part(&interval, &page->out);
 }
 
-static void ratio_row(page_writer *page, const result_value_tables *found)
+static void write_ratio_row(page_writer *page, const result_value_tables *found)
 {
     const table_view *table = &found->comparison;
-    result_value f = result_value_of_ratio(found);
+    result_value f = result_value_ratio(found);
     if (!isfinite(f.number.value))
         return;
-    const char *unit = comparison_words(table, COMPARISON_KEY_UNIT_OF_ANALYSIS);
+    const char *unit = comparison_key_text(table, COMPARISON_KEY_UNIT_OF_ANALYSIS);
     text_buffer remark = {.language = page->language};
     text_append_translated(
         &remark, "geometric means; n = %s in the track, %s in the bulk",
@@ -55,21 +56,21 @@ static void ratio_row(page_writer *page, const result_value_tables *found)
     if (unit != NULL)
         text_append_translated(&remark, ", unit of analysis: %s", translate(page->language, unit));
     f.number.numerical_error = 0;
-    result_value_row(page, f.words, &f, &remark);
-    text_done(&remark, &page->out);
+    write_result_value_row(page, f.words, &f, &remark);
+    text_free_part(&remark, &page->out);
 }
 
-static void group_rows(page_writer *page, const result_value_tables *found)
+static void write_group_rows(page_writer *page, const result_value_tables *found)
 {
     const table_view *table = &found->groups;
     for (size_t row = 0; row < table->n_rows; row++) {
-        result_value f = result_value_of_group(found, row);
+        result_value f = result_value_group(found, row);
         if (!isfinite(f.number.value))
             continue;
         text_buffer name = {.language = page->language}, remark = {.language = page->language};
         text_format(
             &name, "%s, %s", translate(page->language, f.words),
-            say_group(page->language, modulus_groups_text(table, row, MODULUS_GROUPS_GROUP)));
+            translate_group(page->language, modulus_groups_text(table, row, MODULUS_GROUPS_GROUP)));
         const double n_spots = modulus_groups_get(table, row, MODULUS_GROUPS_N_SPOTS);
         text_append_translated(&remark,
                                "geometric mean; %.0f curves on %.0f %s, %.0f rejected; by %s",
@@ -78,13 +79,13 @@ static void group_rows(page_writer *page, const result_value_tables *found)
                                modulus_groups_get(table, row, MODULUS_GROUPS_N_REJECTED),
                                translate(page->language, f.includes));
         f.number.numerical_error = 0;
-        result_value_row(page, text_string(&name), &f, &remark);
-        text_done(&name, &page->out);
-        text_done(&remark, &page->out);
+        write_result_value_row(page, text_string(&name), &f, &remark);
+        text_free_part(&name, &page->out);
+        text_free_part(&remark, &page->out);
     }
 }
 
-enum { EVERY_KEY = SCHEMA_MOST };
+enum { EVERY_KEY = SCHEMA_FIELDS_MAX };
 
 /* Writes the main keys of a table; the remark belongs to the key `remarked` or to every key. */
 static void headline_rows(page_writer *page, const result_value_tables *found,
@@ -98,16 +99,16 @@ static void headline_rows(page_writer *page, const result_value_tables *found,
             continue;
         text_buffer words = {.language = page->language};
         text_append_phrase(&words, remarked == EVERY_KEY || remarked == i ? remark : "");
-        if (result_value_of_key(found, key, &f))
-            result_value_row(page, key->headline, &f, &words);
+        if (result_value_from_key(found, key, &f))
+            write_result_value_row(page, key->headline, &f, &words);
         else
             page_estimate(page, key->headline, &estimate, key->quantity, NULL, text_string(&words));
-        text_done(&words, &page->out);
+        text_free_part(&words, &page->out);
     }
 }
 
 /* Writes the numbers at the reference velocity. */
-static void reference_rows(page_writer *page, const result_value_tables *found)
+static void write_reference_rows(page_writer *page, const result_value_tables *found)
 {
     const table_view *table = &page->tables->friction;
     text_buffer remark = {.language = page->language};
@@ -115,10 +116,10 @@ static void reference_rows(page_writer *page, const result_value_tables *found)
                            VALUE(page->language, WT_Q_VELOCITY, NULL,
                                  friction_value(table, FRICTION_KEY_REFERENCE_VELOCITY).value));
     headline_rows(page, found, table, EVERY_KEY, text_string(&remark));
-    text_done(&remark, &page->out);
+    text_free_part(&remark, &page->out);
 }
 
-static void largest_row(page_writer *page)
+static void write_largest_friction_row(page_writer *page)
 {
     const table_view *table = &page->tables->friction;
     size_t best = table->n_rows;
@@ -143,11 +144,11 @@ static void largest_row(page_writer *page)
                                   friction_get(table, best, FRICTION_TOTAL_NUMERICAL_ERROR), "1"};
     page_estimate(page, "Friction coefficient, largest", &estimate, WT_Q_NONE, NULL,
                   text_string(&remark));
-    text_done(&remark, &page->out);
+    text_free_part(&remark, &page->out);
 }
 
 /* Writes the constants of the shift law, with the verdict on superposition. */
-static void law_rows(page_writer *page, const result_value_tables *found)
+static void write_law_rows(page_writer *page, const result_value_tables *found)
 {
     const table_view *table = &page->tables->shift_factors;
     if (table->table == NULL)
@@ -155,12 +156,12 @@ static void law_rows(page_writer *page, const result_value_tables *found)
     text_buffer remark = {.language = page->language};
     text_append_translated(&remark,
                            "correlated with C₂, see the table of constants; superposition: %s",
-                           shift_factors_words(table, SHIFT_FACTORS_KEY_SUPERPOSITION));
+                           shift_factors_key_text(table, SHIFT_FACTORS_KEY_SUPERPOSITION));
     headline_rows(page, found, table, SHIFT_FACTORS_KEY_WLF_C1, text_string(&remark));
-    text_done(&remark, &page->out);
+    text_free_part(&remark, &page->out);
 }
 
-static void transition_rows(page_writer *page, const result_value_tables *found)
+static void write_transition_rows(page_writer *page, const result_value_tables *found)
 {
     const table_view *table = &page->tables->glass_transition;
     if (table->table == NULL)
@@ -171,7 +172,7 @@ static void transition_rows(page_writer *page, const result_value_tables *found)
     text_append_translated(&remark, "at %s",
                            VALUE(page->language, WT_Q_ANGULAR_FREQUENCY, NULL, frequency.value));
     headline_rows(page, found, table, EVERY_KEY, text_string(&remark));
-    text_done(&remark, &page->out);
+    text_free_part(&remark, &page->out);
 }
 
 void page_numbers(page_writer *page)
@@ -183,18 +184,18 @@ void page_numbers(page_writer *page)
         return;
     result_value_tables found;
     if (result_values_bind(page->result, &found, NULL) != WT_OK)
-        return; /* figure_tables_make has reported this error */
+        return; /* figure_tables_bind has reported this error */
     page_heading(page, "numbers", "Numbers");
     page_estimates_begin(page,
                          "Main results. Statistical error: one standard error, or the "
                          "interval stated; numerical error: of the computation",
                          true);
-    ratio_row(page, &found);
-    group_rows(page, &found);
-    law_rows(page, &found);
-    transition_rows(page, &found);
-    reference_rows(page, &found);
-    largest_row(page);
+    write_ratio_row(page, &found);
+    write_group_rows(page, &found);
+    write_law_rows(page, &found);
+    write_transition_rows(page, &found);
+    write_reference_rows(page, &found);
+    write_largest_friction_row(page);
     headline_rows(page, &found, &t->layer, LAYER_KEY_BALANCE_THICKNESS,
                   "where formation and wear are equally fast");
     page_table_end(page);

@@ -13,19 +13,19 @@
 
 void page_heading(page_writer *page, const char *id, const char *words)
 {
-    const char *const said = translate(page->language, words);
-    text_html(&page->out, "<h2 id=\"%s\">%s</h2>\n", id, said);
-    text_html(&page->contents, "<li><a href=\"#%s\">%s</a></li>\n", id, said);
+    const char *const translated = translate(page->language, words);
+    text_html(&page->out, "<h2 id=\"%s\">%s</h2>\n", id, translated);
+    text_html(&page->contents, "<li><a href=\"#%s\">%s</a></li>\n", id, translated);
 }
 
-void page_fold(page_writer *page, const char *id, const char *words, page_on_paper on_paper)
+void page_fold(page_writer *page, const char *id, const char *words, page_print_mode on_paper)
 {
-    const char *const said = translate(page->language, words);
+    const char *const translated = translate(page->language, words);
     // The anchor is inside of the folded part, so that a browser that jumps there unfolds it.
     text_html(&page->out,
               "<details class=\"part %s\">\n<summary><h2>%s</h2></summary>\n<div id=\"%s\">\n",
-              on_paper == PAGE_PRINTED ? "printed" : "unprinted", said, id);
-    text_html(&page->contents, "<li><a href=\"#%s\">%s</a></li>\n", id, said);
+              on_paper == PAGE_PRINTED ? "printed" : "unprinted", translated, id);
+    text_html(&page->contents, "<li><a href=\"#%s\">%s</a></li>\n", id, translated);
 }
 
 void page_fold_end(page_writer *page)
@@ -34,20 +34,23 @@ void page_fold_end(page_writer *page)
 }
 
 /* Numbers of columns that do not fit on paper in the usual type, and in small type. */
-enum { MANY_COLUMNS = 8, MOST_COLUMNS = 16 /* in small type; beyond it each row is a block */ };
+enum {
+    MANY_COLUMNS = 8,
+    SMALL_TYPE_COLUMNS = 16 /* in small type; beyond it each row is a block */
+};
 
-static void begin_table(page_writer *page, const char *caption, size_t n_columns)
+static void begin_html_table(page_writer *page, const char *caption, size_t n_columns)
 {
-    const char *const said = translate(page->language, caption);
+    const char *const translated = translate(page->language, caption);
     // The wrapper scrolls if a table is wider than the page, also with the keyboard.
     text_html(&page->out,
               "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"%s\">\n"
               "<table class=\"%s\">\n<caption>%s</caption>\n<thead><tr>",
-              said,
-              n_columns > MOST_COLUMNS   ? "blocks"
-              : n_columns > MANY_COLUMNS ? "many"
-                                         : "few",
-              said);
+              translated,
+              n_columns > SMALL_TYPE_COLUMNS ? "blocks"
+              : n_columns > MANY_COLUMNS     ? "many"
+                                             : "few",
+              translated);
 }
 
 void page_table_end(page_writer *page)
@@ -69,11 +72,11 @@ typedef struct shown_column {
     const schema_field *column;
     bool text, whole;
     int digits;
-    lab_unit lab;
+    display_unit lab;
 } shown_column;
 
 /* Returns the table row of displayed row i. */
-static size_t row_at(const size_t *rows, size_t i)
+static size_t row_index(const size_t *rows, size_t i)
 {
     return rows != NULL ? rows[i] : i;
 }
@@ -86,7 +89,7 @@ static double typical_size(const table_view *table, unsigned column, const size_
     double *sizes = calloc(n_rows > 0 ? n_rows : 1, sizeof *sizes), median = 1; /* for zeros */
     size_t n = 0;
     for (size_t i = 0; sizes != NULL && i < n_rows; i++) {
-        double size = fabs(view_number(table, table->schema, row_at(rows, i), column));
+        double size = fabs(view_number(table, table->schema, row_index(rows, i), column));
         if (isfinite(size) && size > 0)
             sizes[n++] = size;
     }
@@ -128,16 +131,17 @@ static bool choose_column(shown_column *shown, const table_view *table, unsigned
         return false;
     bool any = column->missing != NULL;
     for (size_t i = 0; shown->text && i < n_rows; i++)
-        any = any || view_text(table, schema, row_at(rows, i), place)[0] != '\0';
+        any = any || view_text(table, schema, row_index(rows, i), place)[0] != '\0';
     if (shown->text)
         return any;
     if (column->digits == 0)
         shown->digits = is_error(schema, place) ? 2 : 3;
-    shown->lab =
-        lab_unit_for(column->quantity, schema_unit(column),
-                     typical_size(table, column->like != 0 ? column->like : place, rows, n_rows));
+    shown->lab = select_display_unit(
+        column->quantity, schema_unit(column),
+        typical_size(table, column->like != 0 ? column->like : place, rows, n_rows));
     for (size_t i = 0; i < n_rows; i++) {
-        double value = lab_value(&shown->lab, view_number(table, schema, row_at(rows, i), place));
+        double value =
+            to_display_value(&shown->lab, view_number(table, schema, row_index(rows, i), place));
         any = any || !isnan(value);
         shown->whole =
             shown->whole && (!isfinite(value) || (value == floor(value) && fabs(value) < 1e15));
@@ -146,7 +150,7 @@ static bool choose_column(shown_column *shown, const table_view *table, unsigned
 }
 
 /* Returns the column whose interval this one bounds, or itself. */
-static const schema_field *middle_column(const table_schema *schema, unsigned column)
+static const schema_field *estimate_column(const table_schema *schema, unsigned column)
 {
     for (size_t i = 0; i < schema->n_columns && column != 0; i++)
         if (schema->columns[i].low == column || schema->columns[i].high == column)
@@ -155,21 +159,21 @@ static const schema_field *middle_column(const table_schema *schema, unsigned co
 }
 
 /* Returns the digits that the interval of the row justifies, also for its bounds. */
-static int digits_at(const table_view *table, size_t row, const shown_column *shown)
+static int row_digits(const table_view *table, size_t row, const shown_column *shown)
 {
     const table_schema *schema = table->schema;
-    const schema_field *of = middle_column(schema, shown->place);
+    const schema_field *of = estimate_column(schema, shown->place);
     if (shown->column->digits != 0 || of->low == 0)
         return shown->digits;
     const unsigned columns[] = {(unsigned)(of - schema->columns), of->low, of->high};
     double ends[3]; /* value, then bounds */
     for (size_t i = 0; i < 3; i++)
-        ends[i] = lab_value(&shown->lab, view_number(table, schema, row, columns[i]));
+        ends[i] = to_display_value(&shown->lab, view_number(table, schema, row, columns[i]));
     return result_value_digits(ends[0], ends[1], ends[2]);
 }
 
 /* Begins a cell with the column heading as an attribute, as a row is a block on a small screen. */
-static void begin_cell(page_writer *page, const char *words, const char *unit, bool number)
+static void begin_labelled_cell(page_writer *page, const char *words, const char *unit, bool number)
 {
     text_add(&page->out, number ? "<td class=\"n\"" : "<td");
     text_html(&page->out, unit[0] != '\0' ? " data-label=\"%s (%s)\">" : " data-label=\"%s\">",
@@ -181,11 +185,12 @@ static const char *column_label(const shown_column *shown)
     return shown->column->label != NULL ? shown->column->label : shown->column->long_name;
 }
 
-static void number_cell(page_writer *page, const shown_column *shown, double value, int digits)
+static void write_number_cell(page_writer *page, const shown_column *shown, double value,
+                              int digits)
 {
     const schema_field *column = shown->column;
-    double lab = lab_value(&shown->lab, value);
-    begin_cell(page, column_label(shown), shown->lab.label, true);
+    double lab = to_display_value(&shown->lab, value);
+    begin_labelled_cell(page, column_label(shown), shown->lab.label, true);
     if (isnan(value))
         text_html(&page->out, "%s",
                   column->missing != NULL ? translate(page->language, column->missing) : "–");
@@ -199,12 +204,12 @@ static void number_cell(page_writer *page, const shown_column *shown, double val
 }
 
 /* Writes a cell; the first one of a row is its heading. */
-static void table_cell(page_writer *page, const table_view *table, size_t row,
-                       const shown_column *shown, bool first)
+static void write_table_cell(page_writer *page, const table_view *table, size_t row,
+                             const shown_column *shown, bool first)
 {
     if (!shown->text) {
-        number_cell(page, shown, view_number(table, table->schema, row, shown->place),
-                    digits_at(table, row, shown));
+        write_number_cell(page, shown, view_number(table, table->schema, row, shown->place),
+                          row_digits(table, row, shown));
         return;
     }
     const char *const words = view_text(table, table->schema, row, shown->place);
@@ -212,7 +217,7 @@ static void table_cell(page_writer *page, const table_view *table, size_t row,
         text_html(&page->out, "<th scope=\"row\">%s</th>", words);
         return;
     }
-    begin_cell(page, column_label(shown), "", false);
+    begin_labelled_cell(page, column_label(shown), "", false);
     text_html(&page->out, "%s</td>", words);
 }
 
@@ -220,8 +225,8 @@ void page_table(page_writer *page, const table_view *table, const char *caption,
                 const unsigned *columns, size_t n_columns, const size_t *rows, size_t n_rows)
 {
     const table_schema *schema = table->schema;
-    unsigned labelled[SCHEMA_MOST];
-    shown_column shown[SCHEMA_MOST];
+    unsigned labelled[SCHEMA_FIELDS_MAX];
+    shown_column shown[SCHEMA_FIELDS_MAX];
     size_t n = 0;
     for (unsigned i = 0; columns == NULL && i < schema->n_columns; i++)
         if (schema->columns[i].label != NULL)
@@ -229,15 +234,15 @@ void page_table(page_writer *page, const table_view *table, const char *caption,
     for (size_t i = 0; i < n_columns; i++)
         n += choose_column(&shown[n], table, columns != NULL ? columns[i] : labelled[i], rows,
                            n_rows);
-    begin_table(page, caption, n);
+    begin_html_table(page, caption, n);
     for (size_t c = 0; c < n; c++)
         heading_cell(page, column_label(&shown[c]), shown[c].lab.label, !shown[c].text);
     text_add(&page->out, "</tr></thead>\n<tbody>\n");
     for (size_t i = 0; i < n_rows; i++) {
-        size_t row = row_at(rows, i);
+        size_t row = row_index(rows, i);
         text_add(&page->out, "<tr>");
         for (size_t c = 0; c < n; c++)
-            table_cell(page, table, row, &shown[c], c == 0);
+            write_table_cell(page, table, row, &shown[c], c == 0);
         text_add(&page->out, "</tr>\n");
     }
     page_table_end(page);
@@ -257,7 +262,7 @@ static const char value_heading[] = "Value", statistical_heading[] = "Statistica
 
 void page_estimates_begin(page_writer *page, const char *caption, bool remarks)
 {
-    begin_table(page, caption, remarks ? 5 : 4);
+    begin_html_table(page, caption, remarks ? 5 : 4);
     heading_cell(page, "Quantity", "", false);
     heading_cell(page, value_heading, "", true);
     heading_cell(page, statistical_heading, "", true);
@@ -267,16 +272,16 @@ void page_estimates_begin(page_writer *page, const char *caption, bool remarks)
     text_add(&page->out, "</tr></thead>\n<tbody>\n");
 }
 
-static void add_unit(text_buffer *text, const char *label)
+static void add_unit_label(text_buffer *text, const char *label)
 {
     if (label[0] != '\0')
         text_html(text, " %s", label);
 }
 
 /* Adds a value with the decimals that the larger error justifies, at most six digits. */
-static void add_value(text_buffer *text, const wt_estimate *e, const lab_unit *lab)
+static void add_value_text(text_buffer *text, const wt_estimate *e, const display_unit *lab)
 {
-    double value = lab_value(lab, e->value), error = 0;
+    double value = to_display_value(lab, e->value), error = 0;
     if (isfinite(e->standard_error))
         error = fabs(e->standard_error) * lab->factor;
     if (isfinite(e->numerical_error))
@@ -287,11 +292,11 @@ static void add_value(text_buffer *text, const wt_estimate *e, const lab_unit *l
     else {
         int decimals = 1 - (int)floor(log10(error));
         decimals = decimals > 5 - leading ? 5 - leading : decimals;
-        text_add(text, FIXED(text->language, number_to_tens(value, decimals), decimals));
+        text_add(text, FIXED(text->language, round_to_power_of_ten(value, decimals), decimals));
     }
 }
 
-static void add_error(text_buffer *text, double error, const lab_unit *lab)
+static void add_error_text(text_buffer *text, double error, const display_unit *lab)
 {
     if (isnan(error))
         text_append_phrase(text, "error not known");
@@ -300,32 +305,32 @@ static void add_error(text_buffer *text, double error, const lab_unit *lab)
     else {
         const double size = fabs(error) * lab->factor;
         const int decimals = 1 - (int)floor(log10(size));
-        text_format(text, "± %s", NUMBER(text->language, number_to_tens(size, decimals), 2));
-        add_unit(text, strcmp(lab->label, "°C") == 0 ? "K" : lab->label);
+        text_format(text, "± %s", NUMBER(text->language, round_to_power_of_ten(size, decimals), 2));
+        add_unit_label(text, strcmp(lab->label, "°C") == 0 ? "K" : lab->label);
     }
 }
 
 void page_estimate(page_writer *page, const char *words, const wt_estimate *estimate,
                    wt_quantity quantity, const char *interval, const char *remark)
 {
-    lab_unit lab = lab_unit_for(quantity, estimate->unit, estimate->value);
+    display_unit lab = select_display_unit(quantity, estimate->unit, estimate->value);
     text_html(&page->out, "<tr><th scope=\"row\">%s</th>", translate(page->language, words));
-    begin_cell(page, value_heading, "", true);
-    add_value(&page->out, estimate, &lab);
+    begin_labelled_cell(page, value_heading, "", true);
+    add_value_text(&page->out, estimate, &lab);
     if (isfinite(estimate->value))
-        add_unit(&page->out, lab.label);
+        add_unit_label(&page->out, lab.label);
     text_add(&page->out, "</td>");
-    begin_cell(page, statistical_heading, "", true);
+    begin_labelled_cell(page, statistical_heading, "", true);
     if (interval != NULL)
         text_html(&page->out, "%s", interval);
     else
-        add_error(&page->out, estimate->standard_error, &lab);
+        add_error_text(&page->out, estimate->standard_error, &lab);
     text_add(&page->out, "</td>");
-    begin_cell(page, numerical_heading, "", true);
-    add_error(&page->out, estimate->numerical_error, &lab);
+    begin_labelled_cell(page, numerical_heading, "", true);
+    add_error_text(&page->out, estimate->numerical_error, &lab);
     text_add(&page->out, "</td>");
     if (remark != NULL) {
-        begin_cell(page, remark_heading, "", false);
+        begin_labelled_cell(page, remark_heading, "", false);
         text_html(&page->out, "%s</td>", remark);
     }
     text_add(&page->out, "</tr>\n");
@@ -345,7 +350,7 @@ static void key_label(const char *name, const schema_field *key, char *label, si
         label[0] = (char)(label[0] - 'a' + 'A');
 }
 
-static const schema_field *find_key(const table_view *table, const char *name)
+static const schema_field *find_schema_key(const table_view *table, const char *name)
 {
     char full[SCHEMA_NAME_SIZE];
     for (size_t i = 0; i < table->schema->n_keys; i++) {
@@ -357,11 +362,11 @@ static const schema_field *find_key(const table_view *table, const char *name)
 }
 
 /* Adds a plain key: a number is rounded, a count or a text is unchanged. */
-static void add_plain(page_writer *page, const schema_field *key, const char *text)
+static void add_plain_value(page_writer *page, const schema_field *key, const char *text)
 {
     double value;
     const bool rounded = key != NULL && key->kind == SCHEMA_PLAIN && strpbrk(text, ".e") != NULL &&
-                         number_read(text, strlen(text), &value);
+                         parse_stored_number(text, strlen(text), &value);
     text_html(&page->out, "%s", rounded ? SHORT_NUMBER(page->language, value, 3) : text);
 }
 
@@ -373,7 +378,7 @@ void page_keys(page_writer *page, const table_view *table, const char *caption)
     page_estimates_begin(page, caption, false);
     for (size_t i = 0; i < n; i++) {
         const char *name = wt_table_key_name(table->table, i);
-        const schema_field *key = find_key(table, name);
+        const schema_field *key = find_schema_key(table, name);
         char label[128];
         wt_estimate estimate;
         key_label(name, key, label, sizeof label);
@@ -384,7 +389,7 @@ void page_keys(page_writer *page, const table_view *table, const char *caption)
             text_html(&page->out,
                       "<tr><th scope=\"row\">%s</th><td data-label=\"%s\" colspan=\"3\">",
                       translate(page->language, label), translate(page->language, value_heading));
-            add_plain(page, key, wt_table_key(table->table, name));
+            add_plain_value(page, key, wt_table_key(table->table, name));
             text_add(&page->out, "</td></tr>\n");
         }
     }

@@ -37,7 +37,7 @@ static int nearest_decade(double velocity, double *distance)
 }
 
 /* Selects the first and the last row, and the row nearest to each whole decade of velocity. */
-static size_t decade_rows(const table_view *table, size_t rows[DECADES + 2])
+static size_t select_decade_rows(const table_view *table, size_t rows[DECADES + 2])
 {
     double nearest[DECADES], distance = 0;
     size_t n = 0;
@@ -59,13 +59,13 @@ static size_t decade_rows(const table_view *table, size_t rows[DECADES + 2])
     return n;
 }
 
-static void friction_table(page_writer *page)
+static void write_friction_table(page_writer *page)
 {
     const table_view *table = &page->tables->friction;
     if (table->n_rows == 0)
         return;
     size_t rows[DECADES + 2];
-    const size_t n = decade_rows(table, rows);
+    const size_t n = select_decade_rows(table, rows);
     page_table(page, table,
                n < table->n_rows
                    ? "Friction at the computed velocities next to whole decades (± stat.: one "
@@ -82,7 +82,7 @@ static const struct result_part {
     bool keys;               /* true: keys of the table; false: its rows */
     const unsigned *columns; /* NULL: all */
     size_t n_columns;
-    void (*own)(page_writer *page); /* writes the part instead of all rows */
+    void (*write)(page_writer *page); /* writes the part instead of all rows */
 } result_parts[] = {
 #define ROWS(table, words)                                                                         \
     {                                                                                              \
@@ -125,7 +125,7 @@ static const struct result_part {
     ROWS(moduli_at, "Moduli at temperatures"),
     ROWS(payne, "Softening with strain (Payne effect)"),
     KEYS(roughness, "Counter surface"),
-    {offsetof(figure_tables, friction), NULL, false, NULL, 0, friction_table},
+    {offsetof(figure_tables, friction), NULL, false, NULL, 0, write_friction_table},
     KEYS(friction, "Conditions of the friction"),
     ROWS(record, "Friction as measured, by the steps of the records"),
     ROWS(wear, "Wear as measured"),
@@ -164,16 +164,16 @@ static const struct result_part {
     ROWS(work_precision, "Error against run time"),
 };
 
-static const table_view *view_of(const page_writer *page, const struct result_part *part)
+static const table_view *result_part_view(const page_writer *page, const struct result_part *part)
 {
     return (const table_view *)(const void *)((const char *)page->tables + part->view);
 }
 
-static void put_part(page_writer *page, const struct result_part *part)
+static void write_part(page_writer *page, const struct result_part *part)
 {
-    const table_view *const view = view_of(page, part);
-    if (part->own != NULL)
-        part->own(page);
+    const table_view *const view = result_part_view(page, part);
+    if (part->write != NULL)
+        part->write(page);
     else if (part->keys)
         page_keys(page, view, part->caption);
     else
@@ -184,18 +184,18 @@ void page_results(page_writer *page)
 {
     bool any = false;
     for (size_t i = 0; i < COUNT_OF(result_parts) && !any; i++)
-        any = view_of(page, &result_parts[i])->table != NULL;
+        any = result_part_view(page, &result_parts[i])->table != NULL;
     if (!any)
         return;
     page_fold(page, "tables", "Tables", PAGE_PRINTED);
     for (size_t i = 0; i < COUNT_OF(result_parts); i++)
-        put_part(page, &result_parts[i]);
+        write_part(page, &result_parts[i]);
     page_fold_end(page);
 }
 
 /* ---- curves without a modulus, or with a doubtful one --------------------------------------- */
 
-static void rejected_of(page_writer *page, const table_view *table)
+static void write_rejected_curves(page_writer *page, const table_view *table)
 {
     enum { SHOWN = 200 };
     size_t rows[SHOWN], n = 0, others = 0, doubtful = 0;
@@ -217,7 +217,7 @@ static void rejected_of(page_writer *page, const table_view *table)
         text_html(&page->out, "<p>%s.</p>\n", text_string(&caption));
     else
         page_table(page, table, text_string(&caption), NULL, 0, rows, n);
-    text_done(&caption, &page->out);
+    text_free_part(&caption, &page->out);
 }
 
 void page_indentation(page_writer *page)
@@ -227,10 +227,10 @@ void page_indentation(page_writer *page)
         text_buffer caption = {.language = page->language};
         if (i == 0)
             page_fold(page, "indentation", "Indentation record", PAGE_UNPRINTED);
-        rejected_of(page, table);
+        write_rejected_curves(page, table);
         text_append_translated(&caption, "%s: how it was indented", table->suffix);
         page_keys(page, table, text_string(&caption));
-        text_done(&caption, &page->out);
+        text_free_part(&caption, &page->out);
     }
     if (page->tables->n_indentation > 0)
         page_fold_end(page);

@@ -3,7 +3,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "report/drawing.h"
 
-static void next_item(figure_drawing *d)
+static void begin_plot_item(figure_drawing *d)
 {
     text_add(&d->script, d->n_items++ == 0 ? "plot \\\n  " : ", \\\n  ");
 }
@@ -12,7 +12,7 @@ void plot_item(figure_drawing *d, int section, const char *format, ...)
 {
     if (section < 0)
         return;
-    next_item(d);
+    begin_plot_item(d);
     text_format(&d->script, "'%s.tsv' index %d using ", d->figure->name, section);
     va_list arguments;
     va_start(arguments, format);
@@ -20,9 +20,9 @@ void plot_item(figure_drawing *d, int section, const char *format, ...)
     va_end(arguments);
 }
 
-void plot_other(figure_drawing *d, const char *format, ...)
+void plot_expression(figure_drawing *d, const char *format, ...)
 {
-    next_item(d);
+    begin_plot_item(d);
     va_list arguments;
     va_start(arguments, format);
     text_vformat(&d->script, format, arguments);

@@ -71,8 +71,8 @@ typedef struct report {
     drawn_figure *figures; /* one for each figure of the library */
     picture *pictures;     /* in the order of drawing */
     size_t n_pictures, next;
-    double since; /* wall time when the last one began [s] */
-    bool late;    /* the time limit was exceeded */
+    double begin_time; /* wall time when the last one began [s] */
+    bool timed_out;    /* the time limit was exceeded */
     const wt_progress *progress;
 } report;
 
@@ -86,11 +86,11 @@ static bool notify_progress(const report *r, size_t step)
 }
 
 /* True if gnuplot has begun a picture: its file exists then. */
-static bool is_begun(const report *r, const picture *p)
+static bool is_picture_begun(const report *r, const picture *p)
 {
     char name[96];
     (void)snprintf(name, sizeof name, "%s.%s", figure_find(p->figure)->name, p->format);
-    char *path = wt_path_join(folder_plots(r->folder), name);
+    char *path = wt_path_join(folder_plots_path(r->folder), name);
     const bool there = path != NULL && access(path, F_OK) == 0;
     free(path);
     return there;
@@ -100,11 +100,11 @@ static bool is_begun(const report *r, const picture *p)
 static bool go_on(void *user)
 {
     report *r = user;
-    for (; r->next < r->n_pictures && is_begun(r, &r->pictures[r->next]); r->next++)
-        r->since = wt_time_wall();
-    r->late = wt_time_wall() - r->since > r->options.gnuplot_time;
+    for (; r->next < r->n_pictures && is_picture_begun(r, &r->pictures[r->next]); r->next++)
+        r->begin_time = wt_time_wall();
+    r->timed_out = wt_time_wall() - r->begin_time > r->options.gnuplot_time;
     const size_t drawn = r->next > 0 ? r->next - 1 : 0;
-    return !r->late && notify_progress(r, r->pictures[drawn].figure);
+    return !r->timed_out && notify_progress(r, r->pictures[drawn].figure);
 }
 
 /* Writes data and script of a figure; nothing if there is nothing to draw. */
@@ -113,7 +113,7 @@ static wt_status write_figure(report *r, size_t i, wt_error *err)
     figure_drawing *d = &r->figures[i].drawing;
     if (figure_tables_find(&r->tables, figure_find(i)->table)->n_rows == 0)
         return WT_OK;
-    const wt_status status = drawing_make(d, figure_find(i), &r->tables, r->language, err);
+    const wt_status status = drawing_build(d, figure_find(i), &r->tables, r->language, err);
     if (status != WT_OK)
         return status;
     if (d->script.failed || d->caption.failed)
@@ -125,7 +125,7 @@ static wt_status write_figure(report *r, size_t i, wt_error *err)
 /* Writes the files that all scripts load. */
 static wt_status write_style(const report *r, wt_error *err)
 {
-    const char *const output = file_of_library("output.gnuplot");
+    const char *const output = embedded_file_text("output.gnuplot");
     const wt_status status =
         folder_write(r->folder, "plots/style.gp", text_string(&r->style), r->style.length, err);
     return status == WT_OK ? folder_write(r->folder, "plots/output.gp", output, strlen(output), err)
@@ -136,10 +136,10 @@ static wt_status write_style(const report *r, wt_error *err)
 static void list_pictures(report *r)
 {
     const unsigned formats = r->options.figures | WT_FIGURE_SVG;
-    for (size_t k = 0; figure_format(k) != NULL; k++)
+    for (size_t k = 0; figure_format_name(k) != NULL; k++)
         for (size_t i = 0; i < wt_figure_count(); i++)
             if ((formats >> k & 1) != 0 && r->figures[i].script.length > 0)
-                r->pictures[r->n_pictures++] = (picture){i, figure_format(k)};
+                r->pictures[r->n_pictures++] = (picture){i, figure_format_name(k)};
 }
 
 /* Draws all pictures with one gnuplot, as starting it takes longer than a picture. */
@@ -162,13 +162,13 @@ static wt_status draw_pictures(report *r, wt_error *err)
             (void)snprintf(names[used], NAME, "%s.gp", figure_find(p->figure)->name);
             arguments[n++] = names[used++];
         }
-        r->since = wt_time_wall();
+        r->begin_time = wt_time_wall();
         const gnuplot_call call = {.program = r->options.gnuplot,
-                                   .folder = folder_plots(r->folder),
+                                   .folder = folder_plots_path(r->folder),
                                    .arguments = arguments,
                                    .size = GNUPLOT_PICTURE_LIMIT,
                                    .limit = r->options.gnuplot_time,
-                                   .late = &r->late,
+                                   .timed_out = &r->timed_out,
                                    .go_on = go_on,
                                    .user = r};
         status = gnuplot_run(&call, err);
@@ -179,7 +179,7 @@ static wt_status draw_pictures(report *r, wt_error *err)
     return status;
 }
 
-static wt_status draw_all(report *r, wt_error *err)
+static wt_status draw_all_figures(report *r, wt_error *err)
 {
     wt_status status = WT_OK;
     list_pictures(r);
@@ -191,11 +191,11 @@ static wt_status draw_all(report *r, wt_error *err)
         status = draw_pictures(r, err);
     for (size_t i = 0; i < wt_figure_count() && status == WT_OK; i++)
         if (r->figures[i].script.length > 0)
-            status = figure_take(r->folder, &r->options, &r->figures[i], err);
+            status = figure_collect(r->folder, &r->options, &r->figures[i], err);
     return status;
 }
 
-static wt_status make_page(const report *r, const wt_result *result, wt_error *err)
+static wt_status write_report_page(const report *r, const wt_result *result, wt_error *err)
 {
     page_writer page = {.result = result,
                         .tables = &r->tables,
@@ -213,10 +213,11 @@ static wt_status make_page(const report *r, const wt_result *result, wt_error *e
     return status;
 }
 
-static wt_status check_options(const char *place, const wt_report_options *options, wt_error *err)
+static wt_status check_report_options(const char *place, const wt_report_options *options,
+                                      wt_error *err)
 {
     wt_status status = param_check(wt_report_params(), options, err);
-    if (status != WT_OK || options->figures == 0 || !place_is_page(place))
+    if (status != WT_OK || options->figures == 0 || !path_is_page(place))
         return status;
     status = wt_fail(err, WT_E_ARG, "pictures for a paper need a folder");
     wt_error_file(err, place);
@@ -229,9 +230,9 @@ wt_status wt_report_check(const char *folder, const wt_report_options *options, 
     const wt_report_options chosen = options != NULL ? *options : wt_report_defaults();
     text_buffer style = {0};
     report_folder *made = NULL;
-    wt_status status = check_options(folder, &chosen, err);
+    wt_status status = check_report_options(folder, &chosen, err);
     if (status == WT_OK)
-        status = file_style(chosen.style, &style, err);
+        status = read_style(chosen.style, &style, err);
     if (status == WT_OK)
         status = folder_open(folder, &made, err);
     folder_discard(made);
@@ -265,25 +266,25 @@ wt_status wt_report_write(const wt_result *result, const char *folder,
                 .progress = progress,
                 .figures = calloc(n, sizeof *r.figures),
                 .pictures = calloc(FORMATS * n, sizeof *r.pictures)};
-    wt_status status = check_options(folder, &r.options, err);
+    wt_status status = check_report_options(folder, &r.options, err);
     if (status == WT_OK && (r.figures == NULL || r.pictures == NULL))
         status = wt_fail(err, WT_E_MEMORY, "out of memory");
     if (status == WT_OK)
         status = language_open(r.options.language, &r.language, err);
     if (status == WT_OK)
-        status = figure_tables_make(result, &r.tables, err);
+        status = figure_tables_bind(result, &r.tables, err);
     if (status == WT_OK)
-        status = file_style(r.options.style, &r.style, err);
+        status = read_style(r.options.style, &r.style, err);
     if (status == WT_OK)
         status = folder_open(folder, &r.folder, err);
     for (size_t i = 0; i < n && status == WT_OK; i++)
         status = write_figure(&r, i, err);
     if (status == WT_OK)
-        status = draw_all(&r, err);
+        status = draw_all_figures(&r, err);
     if (status == WT_OK && !notify_progress(&r, n))
         status = wt_fail(err, WT_E_CANCELLED, "the report was cancelled");
     if (status == WT_OK)
-        status = make_page(&r, result, err);
+        status = write_report_page(&r, result, err);
     if (status == WT_OK) {
         status = folder_commit(r.folder, err);
         r.folder = NULL;

@@ -8,7 +8,7 @@
 #include <errno.h>
 #include <string.h>
 
-const char *file_of_library(const char *name)
+const char *embedded_file_text(const char *name)
 {
     for (const embedded_text *file = report_embedded; file->name != NULL; file++)
         if (strcmp(file->name, name) == 0)
@@ -16,7 +16,7 @@ const char *file_of_library(const char *name)
     return NULL;
 }
 
-wt_status file_read(const char *path, size_t limit, text_buffer *text, wt_error *err)
+wt_status read_whole_file(const char *path, size_t limit, text_buffer *text, wt_error *err)
 {
     wt_status status = WT_OK;
     char chunk[8192];
@@ -41,7 +41,7 @@ wt_status file_read(const char *path, size_t limit, text_buffer *text, wt_error 
     return status;
 }
 
-wt_status file_write(const char *path, const char *bytes, size_t length, wt_error *err)
+wt_status write_temporary_file(const char *path, const char *bytes, size_t length, wt_error *err)
 {
     FILE *file = fopen(path, "wb");
     bool good = file != NULL && fwrite(bytes, 1, length, file) == length;
@@ -57,7 +57,7 @@ wt_status file_write(const char *path, const char *bytes, size_t length, wt_erro
     return status;
 }
 
-wt_status file_put(const char *path, const text_buffer *text, wt_error *err)
+wt_status write_user_file(const char *path, const text_buffer *text, wt_error *err)
 {
     wt_atomic_file *out = NULL;
     wt_status status = wt_outfile_open(path, &out, err);
@@ -82,11 +82,11 @@ static void add_style_names(text_buffer *names)
     }
 }
 
-wt_status style_find(const char *name, const char **text, wt_error *err)
+wt_status find_built_in_style(const char *name, const char **text, wt_error *err)
 {
     text_buffer file = {0}, names = {0};
     text_format(&file, "%s.gp", name);
-    *text = file_of_library(text_string(&file));
+    *text = embedded_file_text(text_string(&file));
     text_free(&file);
     if (*text != NULL)
         return WT_OK;
@@ -99,16 +99,16 @@ wt_status style_find(const char *name, const char **text, wt_error *err)
     return status;
 }
 
-wt_status file_style(const char *style, text_buffer *text, wt_error *err)
+wt_status read_style(const char *style, text_buffer *text, wt_error *err)
 {
     enum { STYLE_LIMIT = 1 << 20 };
     const char *name = style != NULL ? style : "paper", *built_in = NULL;
     size_t length = strlen(name);
     if (strchr(name, '/') != NULL || (length > 3 && strcmp(name + length - 3, ".gp") == 0)) {
         wt_status read = wt_protect_input(name, err);
-        return read != WT_OK ? read : file_read(name, STYLE_LIMIT, text, err);
+        return read != WT_OK ? read : read_whole_file(name, STYLE_LIMIT, text, err);
     }
-    wt_status status = style_find(name, &built_in, err);
+    wt_status status = find_built_in_style(name, &built_in, err);
     if (status != WT_OK)
         return status;
     text_add(text, built_in);

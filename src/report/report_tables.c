@@ -26,14 +26,14 @@ static wt_status bind_indentation(const wt_result *result, figure_tables *tables
     return WT_OK;
 }
 
-wt_status figure_tables_make(const wt_result *result, figure_tables *tables, wt_error *err)
+wt_status figure_tables_bind(const wt_result *result, figure_tables *tables, wt_error *err)
 {
     wt_status status = WT_OK;
     *tables = (figure_tables){.n_indentation = 0};
 #define BIND(table)                                                                                \
     if (status == WT_OK)                                                                           \
-        status = table_bind_of(result, &table##_schema, "", &tables->table, err);
-    BOUND_TABLES(BIND)
+        status = table_bind_result(result, &table##_schema, "", &tables->table, err);
+    FIGURE_TABLES(BIND)
     return status != WT_OK ? status : bind_indentation(result, tables, err);
 }
 
@@ -48,7 +48,7 @@ const table_view *figure_tables_find(const figure_tables *tables, const table_sc
 #define FIND(table)                                                                                \
     if (schema == &table##_schema)                                                                 \
         return &tables->table;
-    BOUND_TABLES(FIND)
+    FIGURE_TABLES(FIND)
     return NULL;
 }
 

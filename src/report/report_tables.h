@@ -8,7 +8,7 @@
 #include "core/table/registry.h"
 
 /* clang-format off */
-#define BOUND_TABLES(X)                                                                            \
+#define FIGURE_TABLES(X)                                                                            \
     X(answer) X(methods) X(inputs) X(notes) X(failures) X(cost) X(force_displacement) X(force_indentation) X(curves) X(overrides)    \
     X(modulus_groups) X(modulus_budget) X(modulus_depth) X(modulus_rate) X(comparison) X(track_layer) X(dma_comparison) X(materials) X(material_ratio) X(shared_shift_law) X(shift_factors)             \
     X(ramp) X(glass_transition) X(moduli_at) X(payne) X(payne_sweep) X(master_curve) X(prony) X(prony_reduced) X(relaxation_spectrum) X(material_draws) X(series_draws) X(roughness) X(friction)            \
@@ -17,8 +17,8 @@
 /* clang-format on */
 
 typedef struct figure_tables {
-#define BOUND_MEMBER(table) table_view table;
-    BOUND_TABLES(BOUND_MEMBER)
+#define FIGURE_TABLE_MEMBER(table) table_view table;
+    FIGURE_TABLES(FIGURE_TABLE_MEMBER)
     table_view
         *indentation; /* [n_indentation], one for each group, whose name is the suffix; owned */
     size_t n_indentation;
@@ -26,7 +26,7 @@ typedef struct figure_tables {
 
 /* Binds the tables. The views borrow from the result. Call figure_tables_clear also after a
  * failure. */
-wt_status figure_tables_make(const wt_result *result, figure_tables *tables,
+wt_status figure_tables_bind(const wt_result *result, figure_tables *tables,
                              wt_error *err) WT_NODISCARD;
 void figure_tables_clear(figure_tables *tables);
 /* Returns the view of a schema in the list above, NULL for any other. */

@@ -14,7 +14,7 @@ void text_free(text_buffer *text)
     *text = (text_buffer){0};
 }
 
-void text_done(text_buffer *part, text_buffer *whole)
+void text_free_part(text_buffer *part, text_buffer *whole)
 {
     whole->failed = whole->failed || part->failed;
     text_free(part);
@@ -25,7 +25,7 @@ const char *text_string(const text_buffer *text)
     return text->bytes != NULL ? text->bytes : "";
 }
 
-static bool make_room(text_buffer *text, size_t more)
+static bool reserve_bytes(text_buffer *text, size_t more)
 {
     if (text->failed)
         return false;
@@ -51,7 +51,7 @@ static bool make_room(text_buffer *text, size_t more)
 
 void text_bytes(text_buffer *text, const char *bytes, size_t length)
 {
-    if (!make_room(text, length))
+    if (!reserve_bytes(text, length))
         return;
     memcpy(text->bytes + text->length, bytes, length);
     text->length += length;
@@ -70,7 +70,7 @@ void text_vformat(text_buffer *text, const char *format, va_list arguments)
     int length = vsnprintf(NULL, 0, format, arguments);
     if (length < 0)
         text->failed = true;
-    else if (make_room(text, (size_t)length)) {
+    else if (reserve_bytes(text, (size_t)length)) {
         (void)vsnprintf(text->bytes + text->length, (size_t)length + 1, format, again);
         text->length += (size_t)length;
     }
@@ -85,7 +85,7 @@ void text_format(text_buffer *text, const char *format, ...)
     va_end(arguments);
 }
 
-void text_name(text_buffer *text, const char *name, size_t most)
+void text_file_name(text_buffer *text, const char *name, size_t most)
 {
     const size_t length = strlen(name);
     if (length > most) {
@@ -113,9 +113,9 @@ void text_append_translated(text_buffer *text, const char *english, ...)
 #define REPLACEMENT "\xef\xbf\xbd" /* U+FFFD */
 
 /* Returns the length of the character at s, 0 if it is not UTF-8 or not allowed in XML 1.0. */
-static size_t character_length(const char *s, size_t left)
+static size_t xml_character_length(const char *s, size_t left)
 {
-    size_t length = utf8_character(s, left);
+    size_t length = utf8_character_length(s, left);
     unsigned char first = (unsigned char)s[0];
     if (length == 1 && first < 0x20 && first != '\t' && first != '\n' && first != '\r')
         return 0;
@@ -126,7 +126,7 @@ static size_t character_length(const char *s, size_t left)
 
 /* Returns the entity of a character in markup, NULL for none. A literal carriage return would be
  * read as a line feed. */
-static const char *entity_of(char c)
+static const char *character_entity(char c)
 {
     static const char marks[] = "&<>\"'\r";
     static const char *const entities[] = {"&amp;", "&lt;", "&gt;", "&quot;", "&#39;", "&#13;"};
@@ -138,8 +138,8 @@ static void add_escaped(text_buffer *text, const char *string)
 {
     size_t left = strlen(string);
     for (const char *s = string; left > 0;) {
-        size_t length = character_length(s, left), step = length > 0 ? length : 1;
-        const char *entity = length == 0 ? REPLACEMENT : entity_of(*s);
+        size_t length = xml_character_length(s, left), step = length > 0 ? length : 1;
+        const char *entity = length == 0 ? REPLACEMENT : character_entity(*s);
         if (entity != NULL)
             text_add(text, entity);
         else
@@ -193,7 +193,7 @@ void text_quoted(text_buffer *text, const char *string)
     size_t left = strlen(string);
     text_add(text, quote);
     for (const char *s = string; left > 0;) {
-        const size_t length = character_length(s, left), step = length > 0 ? length : 1;
+        const size_t length = xml_character_length(s, left), step = length > 0 ? length : 1;
         const unsigned char c = (unsigned char)*s;
         if (c < 0x20 || c == 0x7f)
             text_add(text, " ");
@@ -213,13 +213,13 @@ void text_quoted(text_buffer *text, const char *string)
     text_add(text, quote);
 }
 
-void text_tic(text_buffer *text, const char *string)
+void text_tic_label(text_buffer *text, const char *string)
 {
     text_buffer format = {0};
     for (const char *s = string; *s != '\0'; s++)
         text_bytes(&format, *s == '%' ? "%%" : s, *s == '%' ? 2 : 1);
     text_quoted(text, text_string(&format));
-    text_done(&format, text);
+    text_free_part(&format, text);
 }
 
 void text_comment(text_buffer *text, const char *string)

@@ -20,7 +20,7 @@ typedef struct text_buffer {
 void text_free(text_buffer *text);                /* empty again */
 const char *text_string(const text_buffer *text); /* "" while empty; borrowed */
 /* Frees a part that was appended to `whole` and passes on its failure. */
-void text_done(text_buffer *part, text_buffer *whole);
+void text_free_part(text_buffer *part, text_buffer *whole);
 void text_bytes(text_buffer *text, const char *bytes, size_t length);
 void text_add(text_buffer *text, const char *string);
 void text_format(text_buffer *text, const char *format, ...) WT_PRINTF(2, 3);
@@ -28,7 +28,7 @@ void text_vformat(text_buffer *text, const char *format, va_list arguments) WT_P
 
 /* Appends a file name. If it is longer than `most` bytes, only its end, which distinguishes files,
  * after dots. */
-void text_name(text_buffer *text, const char *name, size_t most);
+void text_file_name(text_buffer *text, const char *name, size_t most);
 
 /* Append the translation of an English text. */
 void text_append_phrase(text_buffer *text, const char *english);
@@ -43,7 +43,7 @@ void text_data_link(text_buffer *text, const char *media, const char *bytes, siz
  * UTF-8 or not allowed in XML become U+FFFD. */
 void text_quoted(text_buffer *text, const char *string);
 /* Appends a gnuplot string for a tic label, which gnuplot reads as a format. */
-void text_tic(text_buffer *text, const char *string);
+void text_tic_label(text_buffer *text, const char *string);
 /* Appends a comment line for a gnuplot script, with "# " and line break. */
 void text_comment(text_buffer *text, const char *string);
 

@@ -9,14 +9,14 @@
 #include <string.h>
 
 /* Returns the length of `word` if s (n bytes) begins with it, else 0. */
-static size_t word_at(const char *s, size_t n, const char *word)
+static size_t prefix_length(const char *s, size_t n, const char *word)
 {
     size_t length = strlen(word);
     return n >= length && memcmp(s, word, length) == 0 ? length : 0;
 }
 
 /* Returns the length up to and including the next `end`, or n. */
-static size_t up_to(const char *s, size_t n, const char *end)
+static size_t length_through(const char *s, size_t n, const char *end)
 {
     const char *found = memmem(s, n, end, strlen(end));
     return found != NULL ? (size_t)(found - s) + strlen(end) : n;
@@ -35,14 +35,15 @@ static bool canvas_size(const char *svg, size_t length, double size[2])
         const char *number = s;
         while (s < end && *s != ' ' && *s != '"')
             s++;
-        if (!number_read(number, (size_t)(s - number), &size[i]) || !(size[i] > 0 && size[i] < 1e5))
+        if (!parse_stored_number(number, (size_t)(s - number), &size[i]) ||
+            !(size[i] > 0 && size[i] < 1e5))
             return false;
         s += s < end;
     }
     return true;
 }
 
-void svg_sized(text_buffer *out, const char *svg, size_t length, double unit)
+void svg_append_sized(text_buffer *out, const char *svg, size_t length, double unit)
 {
     double size[2];
     const char *begin = memmem(svg, length, "<svg", 4);
@@ -60,13 +61,13 @@ void svg_sized(text_buffer *out, const char *svg, size_t length, double unit)
  * page. All pictures then have equal type, and two of the usual width fit side by side. */
 static const double rem_per_unit = 14.0 / 15 / 16;
 
-bool svg_inline(text_buffer *page, const char *svg, size_t length, const char *name,
-                const char *label)
+bool svg_append_inline(text_buffer *page, const char *svg, size_t length, const char *name,
+                       const char *label)
 {
     static const char *const references[] = {" id='", " id=\"", "href='#", "href=\"#",
                                              "url(#", "url('#", "url(\"#"};
     /* Default attributes that gnuplot repeats in some thousand elements. */
-    static const char unsaid[] = " stroke-linecap=\"butt\" stroke-linejoin=\"miter\"";
+    static const char default_attributes[] = " stroke-linecap=\"butt\" stroke-linejoin=\"miter\"";
     const char *begin = memmem(svg, length, "<svg", 4);
     if (begin == NULL)
         return false;
@@ -78,17 +79,17 @@ bool svg_inline(text_buffer *page, const char *svg, size_t length, const char *n
     bool in_tag = true;
     for (const char *s = begin + 4; s < end;) {
         const size_t left = (size_t)(end - s);
-        if (word_at(s, left, "<title>")) {
-            s += up_to(s, left, "</title>");
-        } else if (word_at(s, left, "<desc>")) {
-            s += up_to(s, left, "</desc>");
-        } else if (in_tag && word_at(s, left, unsaid)) {
-            s += sizeof unsaid - 1;
+        if (prefix_length(s, left, "<title>")) {
+            s += length_through(s, left, "</title>");
+        } else if (prefix_length(s, left, "<desc>")) {
+            s += length_through(s, left, "</desc>");
+        } else if (in_tag && prefix_length(s, left, default_attributes)) {
+            s += sizeof default_attributes - 1;
         } else {
             size_t word = 0;
             in_tag = *s == '<' || (in_tag && *s != '>'); // text between tags is not changed
             for (size_t i = 0; in_tag && i < COUNT_OF(references) && word == 0; i++)
-                word = word_at(s, left, references[i]);
+                word = prefix_length(s, left, references[i]);
             text_bytes(page, s, word > 0 ? word : 1);
             if (word > 0)
                 text_format(page, "%s-", name);

@@ -10,10 +10,10 @@
  * have the prefix `name`, so that they are unique on the page. Titles of gnuplot, which would
  * appear as tool tips, are removed. `label` is the accessible name. Its size is limited so that its
  * type is not larger than that of the page. Returns false if there is no <svg>. */
-bool svg_inline(text_buffer *page, const char *svg, size_t length, const char *name,
-                const char *label);
+bool svg_append_inline(text_buffer *page, const char *svg, size_t length, const char *name,
+                       const char *label);
 
 /* Appends the picture with width and height; `unit` is the size of its unit [mm]. */
-void svg_sized(text_buffer *out, const char *svg, size_t length, double unit);
+void svg_append_sized(text_buffer *out, const char *svg, size_t length, double unit);
 
 #endif

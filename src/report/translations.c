@@ -26,22 +26,22 @@ static char *unquote(const char *line, const char *end, char *to)
     return to;
 }
 
-static bool begins(const char *line, const char *word)
+static bool starts_with(const char *line, const char *word)
 {
     return strncmp(line, word, strlen(word)) == 0;
 }
 
 /* Reads the pairs of texts of a PO file, consecutively into `bytes`, which is as large as the file.
  * Empty or fuzzy translations are skipped. */
-static void read_pairs(language *l, const char *po)
+static void read_translations(language *l, const char *po)
 {
     char *to = l->bytes;
     const char *word = NULL, *last = NULL; /* English text, and the translation being read */
     bool fuzzy = false, next_fuzzy = false;
     for (const char *line = po; *line != '\0';) {
         const char *end = strchrnul(line, '\n');
-        const bool id = begins(line, "msgid "), text = begins(line, "msgstr ");
-        if (begins(line, "#, fuzzy"))
+        const bool id = starts_with(line, "msgid "), text = starts_with(line, "msgstr ");
+        if (starts_with(line, "#, fuzzy"))
             next_fuzzy = true;
         if (id) {
             fuzzy = next_fuzzy;
@@ -66,12 +66,12 @@ static void read_pairs(language *l, const char *po)
     }
 }
 
-static int in_order(const void *a, const void *b)
+static int compare_translations(const void *a, const void *b)
 {
     return strcmp(((const translation *)a)->english, ((const translation *)b)->english);
 }
 
-static size_t count_pairs(const char *po)
+static size_t count_translations(const char *po)
 {
     size_t n = 1;
     for (const char *s = po; (s = strstr(s, "\nmsgid ")) != NULL; s++)
@@ -82,11 +82,11 @@ static size_t count_pairs(const char *po)
 /* ---- by name --------------------------------------------------------------------------------- */
 
 /* Finds the translations of a language, "de.po" for "de". */
-static const embedded_text *find_catalogue(const char *name)
+static const embedded_text *find_translations(const char *name)
 {
     const embedded_text *file = languages_embedded;
     while (file->name != NULL &&
-           (strlen(file->name) != strlen(name) + strlen(".po") || !begins(file->name, name)))
+           (strlen(file->name) != strlen(name) + strlen(".po") || !starts_with(file->name, name)))
         file++;
     return file->name != NULL ? file : NULL;
 }
@@ -95,7 +95,7 @@ wt_status language_check(const void *member, wt_error *err)
 {
     const char *const name = *(const char *const *)member;
     char names[64] = "";
-    if (name == NULL || strcmp(name, english) == 0 || find_catalogue(name) != NULL)
+    if (name == NULL || strcmp(name, english) == 0 || find_translations(name) != NULL)
         return WT_OK;
     for (const embedded_text *file = languages_embedded; file->name != NULL; file++)
         (void)snprintf(names + strlen(names), sizeof names - strlen(names), "%.*s, ",
@@ -115,11 +115,11 @@ wt_status language_open(const char *name, language **l, wt_error *err)
     const wt_status status = language_check(&name, err);
     if (status != WT_OK || name == NULL || strcmp(name, english) == 0)
         return status;
-    const embedded_text *const file = find_catalogue(name);
+    const embedded_text *const file = find_translations(name);
     language *const made = calloc(1, sizeof *made);
     if (made != NULL) {
         made->bytes = malloc(file->length + 1);
-        made->sentences = calloc(count_pairs(file->text), sizeof *made->sentences);
+        made->sentences = calloc(count_translations(file->text), sizeof *made->sentences);
     }
     if (made == NULL || made->bytes == NULL || made->sentences == NULL) {
         language_close(made);
@@ -127,8 +127,8 @@ wt_status language_open(const char *name, language **l, wt_error *err)
     }
     (void)snprintf(made->tag, sizeof made->tag, "%s", name);
     made->decimal_mark = decimal_comma;
-    read_pairs(made, file->text);
-    qsort(made->sentences, made->n, sizeof *made->sentences, in_order);
+    read_translations(made, file->text);
+    qsort(made->sentences, made->n, sizeof *made->sentences, compare_translations);
     *l = made;
     return WT_OK;
 }

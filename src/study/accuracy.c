@@ -29,7 +29,7 @@ static const wt_param rows[] = {
 PARAM_TABLE(wt_accuracy_job_params, wt_accuracy_job, rows, wt_accuracy_job_defaults, NO_PARTS)
 
 /* Shortest measured time [s]. A clock with a resolution of 1 us then has an error of 0.5 %. */
-#define LEAST_SECONDS 2e-4
+#define MIN_SECONDS 2e-4
 
 static wt_status time_solution(accuracy_solve *solve, void *problem, double value, double *seconds,
                                wt_error *err)
@@ -42,13 +42,13 @@ static wt_status time_solution(accuracy_solve *solve, void *problem, double valu
             return status;
         n++;
         *seconds = wt_time_cpu() - start;
-    } while (*seconds < LEAST_SECONDS);
+    } while (*seconds < MIN_SECONDS);
     *seconds /= (double)n;
     return WT_OK;
 }
 
 /* Longest total time [s]. A slow method is repeated less often. */
-#define MOST_SECONDS 0.2
+#define MAX_SECONDS 0.2
 
 wt_status accuracy_time(accuracy_solve *solve, void *problem, double value, size_t repeats,
                         accuracy_timing *t, wt_error *err)
@@ -56,7 +56,7 @@ wt_status accuracy_time(accuracy_solve *solve, void *problem, double value, size
     double *seconds = malloc(repeats * sizeof *seconds), sum = 0;
     wt_status status = seconds == NULL ? wt_fail(err, WT_E_MEMORY, "out of memory") : WT_OK;
     size_t n = 0;
-    while (status == WT_OK && n < repeats && sum < MOST_SECONDS) {
+    while (status == WT_OK && n < repeats && sum < MAX_SECONDS) {
         status = time_solution(solve, problem, value, &seconds[n], err);
         sum += seconds[n++];
     }
@@ -74,7 +74,7 @@ TABLE_ROW_OF(work_precision, WORK_PRECISION, accuracy_row)
 /* A reference in double precision is not more accurate than this. */
 static const double least_reference = DBL_EPSILON / 2;
 
-void accuracy_put(table_writer *t, accuracy_row row)
+void accuracy_add_row(table_writer *t, accuracy_row row)
 {
     row.reference_error = fmax(row.reference_error, least_reference);
     if (row.errors.true_error < row.reference_error)
@@ -91,9 +91,9 @@ static wt_status sweep_setting(const accuracy_part *part, void *problem, double 
             accuracy_timing time;
             status = accuracy_time(m->solve, problem, m->values[i], repeats, &time, err);
             if (status == WT_OK)
-                accuracy_put(t, (accuracy_row){part->name, m->name, m->setting, part->words,
-                                               m->values[i], reference_error, part->judge(problem),
-                                               time});
+                accuracy_add_row(t, (accuracy_row){part->name, m->name, m->setting, part->words,
+                                                   m->values[i], reference_error,
+                                                   part->errors_of_solution(problem), time});
         }
     return status;
 }
@@ -112,7 +112,7 @@ static wt_status run_part(const accuracy_part *part, size_t repeats, table_write
     return status;
 }
 
-static wt_status no_part(const char *name, wt_error *err)
+static wt_status report_unknown_part(const char *name, wt_error *err)
 {
     char names[512] = "";
     size_t n = 0;
@@ -142,11 +142,11 @@ void accuracy_add_parts(const wt_accuracy_job *job, const wt_job *work, table_wr
                 t->status = run_part(p, job->repeats, t, err);
         }
     if (t->status == WT_OK && !found)
-        t->status = no_part(job->part, err);
+        t->status = report_unknown_part(job->part, err);
 }
 
-wt_status wt_accuracy_make(const wt_accuracy_job *job, const wt_job *work, wt_table **table,
-                           wt_error *err)
+wt_status wt_accuracy_compute(const wt_accuracy_job *job, const wt_job *work, wt_table **table,
+                              wt_error *err)
 {
     if (job == NULL || work == NULL || table == NULL)
         return wt_fail(err, WT_E_ARG, "no accuracy job");

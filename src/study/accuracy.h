@@ -31,7 +31,7 @@ typedef struct accuracy_part {
     size_t size;              /* of the problem, which starts as zeros */
     /* Creates the problem and its reference. *reference_error: relative error of the reference. */
     wt_status (*begin)(void *problem, double *reference_error, wt_error *err);
-    accuracy_errors (*judge)(const void *problem); /* error of the last solution */
+    accuracy_errors (*errors_of_solution)(const void *problem); /* error of the last solution */
     void (*end)(void *problem);                    /* frees the problem, also after a failure of
                                                       begin */
     accuracy_method methods[ACCURACY_METHODS + 1]; /* ends with a NULL name */
@@ -56,7 +56,7 @@ typedef struct accuracy_row {
     accuracy_errors errors;
     accuracy_timing time;
 } accuracy_row;
-void accuracy_put(table_writer *t, accuracy_row row);
+void accuracy_add_row(table_writer *t, accuracy_row row);
 /* Adds the rows of all built-in parts, or of the requested part. The writer stores the status. */
 void accuracy_add_parts(const wt_accuracy_job *job, const wt_job *work, table_writer *t,
                         wt_error *err);

@@ -7,22 +7,22 @@
 
 #include <math.h>
 
-enum { PLACES = 32, MOST_ANGLES = 3000 }; /* of the problem */
+enum { FREQUENCIES = 32, MOST_ANGLES = 3000 }; /* of the problem */
 
 typedef struct angular_problem {
     wt_material *material;
-    double w[PLACES], truth[2][PLACES], found[2][PLACES], stated;
+    double w[FREQUENCIES], truth[2][FREQUENCIES], found[2][FREQUENCIES], stated;
     double scratch[3 * (MOST_ANGLES + 1)];
 } angular_problem;
 
-static wt_status begin_angular(void *problem, double *reference_error, wt_error *err)
+static wt_status begin_angular_problem(void *problem, double *reference_error, wt_error *err)
 {
     const double e0 = 5e6, glass = 1e9, tau = 1e-7, alpha = 0.5;
     const reference_material law = {
         .e0 = e0, .alpha = alpha, .n = 1, .e = {glass - e0}, .tau = {tau}};
     angular_problem *p = problem;
-    for (int i = 0; i < PLACES; i++) {
-        p->w[i] = 1e2 * pow(1e9, i / (PLACES - 1.0));
+    for (int i = 0; i < FREQUENCIES; i++) {
+        p->w[i] = 1e2 * pow(1e9, i / (FREQUENCIES - 1.0));
         reference_angle(&law, p->w[i], &p->truth[0][i], &p->truth[1][i]);
     }
     *reference_error = 1e-15; /* computed in long double, split where the integrand bends */
@@ -42,13 +42,13 @@ static wt_status solve_series(void *problem, double value, wt_error *err)
     angular_law *law = NULL;
     wt_status status = angular_new(p->material, 1 / value, &memory, &law, err);
     if (status == WT_OK)
-        status = angular_cover(law, p->w[0], p->w[PLACES - 1], err);
+        status = angular_extend(law, p->w[0], p->w[FREQUENCIES - 1], err);
     if (status == WT_OK) {
-        double x[PLACES];
-        for (int i = 0; i < PLACES; i++)
+        double x[FREQUENCIES];
+        for (int i = 0; i < FREQUENCIES; i++)
             x[i] = log(p->w[i]);
-        angular_eval(law, p->w, x, PLACES, p->found[0], p->found[1]);
-        p->stated = angular_error(law, x[0], x[PLACES - 1], &(size_t){0});
+        angular_eval(law, p->w, x, FREQUENCIES, p->found[0], p->found[1]);
+        p->stated = angular_error(law, x[0], x[FREQUENCIES - 1], &(size_t){0});
         angular_clear(law);
     }
     arena_free(&memory);
@@ -59,19 +59,19 @@ static wt_status solve_simpson(void *problem, double value, wt_error *err)
 {
     angular_problem *p = problem;
     (void)err;
-    for (int i = 0; i < PLACES; i++)
-        textbook_angular(p->material, p->w[i], (size_t)value, p->scratch, &p->found[0][i],
-                         &p->found[1][i]);
+    for (int i = 0; i < FREQUENCIES; i++)
+        textbook_angular_integrals(p->material, p->w[i], (size_t)value, p->scratch, &p->found[0][i],
+                                   &p->found[1][i]);
     p->stated = (double)NAN;
     return WT_OK;
 }
 
-static accuracy_errors judge_angular(const void *problem)
+static accuracy_errors angular_errors(const void *problem)
 {
     const angular_problem *p = problem;
     accuracy_errors e = {0, p->stated};
     for (int k = 0; k < 2; k++)
-        for (int i = 0; i < PLACES; i++)
+        for (int i = 0; i < FREQUENCIES; i++)
             e.true_error = fmax(e.true_error, accuracy_relative(p->found[k][i], p->truth[k][i]));
     return e;
 }
@@ -81,8 +81,8 @@ const accuracy_part accuracy_angular[] = {
      "Both angular integrals of a fractional Zener law at 32 places over 9 decades, with set-up; "
      "reference: tanh-sinh rules in long double",
      sizeof(angular_problem),
-     begin_angular,
-     judge_angular,
+     begin_angular_problem,
+     angular_errors,
      end_angular,
      {{"weartrack", "1 / tolerance", {1e2, 1e4, 1e6, 1e8, 1e10, 1e12}, solve_series},
       {"textbook", "intervals of the angle", {10, 30, 100, 300, 1000, 3000}, solve_simpson}}},

@@ -28,20 +28,20 @@ static long double cot_facets(const wt_tip *tip)
 
 /* Contact depth as published (Rico 2005). With int_0^a delta da in closed form, G = 2 (a delta -
  * integral). */
-static long double depth_of(const wt_tip *tip, long double a)
+static long double contact_depth(const wt_tip *tip, long double a)
 {
     const long double b = (long double)tip->transition_radius, r = (long double)tip->radius;
     return a <= b ? a * a / r
                   : a * (a - sqrtl(a * a - b * b)) / r + cot_facets(tip) * a * acosl(b / a);
 }
 
-static long double force_of(const wt_tip *tip, long double a)
+static long double force_at_radius(const wt_tip *tip, long double a)
 {
     const long double b = (long double)tip->transition_radius, r = (long double)tip->radius;
     if (a <= b)
         return 4 * a * a * a / (3 * r);
     const long double s = sqrtl(a * a - b * b);
-    return 2 * (a * depth_of(tip, a) - (a * a * a - s * s * s) / (3 * r) -
+    return 2 * (a * contact_depth(tip, a) - (a * a * a - s * s * s) / (3 * r) -
                 cot_facets(tip) * (a * a * acosl(b / a) - b * s) / 2);
 }
 
@@ -50,19 +50,19 @@ typedef struct depth_search {
     long double depth;
 } depth_search;
 
-static bool not_so_deep(const void *user, long double a)
+static bool is_shallower(const void *user, long double a)
 {
     const depth_search *s = user;
-    return depth_of(s->tip, a) < s->depth;
+    return contact_depth(s->tip, a) < s->depth;
 }
 
 static long double bisect_radius(const wt_tip *tip, double depth, int steps)
 {
     const depth_search s = {tip, (long double)depth};
     long double high = 1e-9L;
-    while (not_so_deep(&s, high))
+    while (is_shallower(&s, high))
         high *= 2;
-    return accuracy_bisect(not_so_deep, &s, 0, high, steps);
+    return accuracy_bisect(is_shallower, &s, 0, high, steps);
 }
 
 static wt_status begin_force(void *problem, double *reference_error, wt_error *err)
@@ -76,11 +76,12 @@ static wt_status begin_force(void *problem, double *reference_error, wt_error *e
     for (int i = 0; i < DEPTHS && status == WT_OK; i++) {
         p->depth[i] = 1e-10 * pow(1e4, i / (DEPTHS - 1.0));
         const long double a = bisect_radius(&p->tip, p->depth[i], STEPS);
-        const long double g = force_of(&p->tip, a);
+        const long double g = force_at_radius(&p->tip, a);
         p->truth[i] = (double)g;
         /* dG = 2 a ddelta: errors of the root and of the cancelling terms */
-        const long double left = fabsl(2 * a * (depth_of(&p->tip, a) - (long double)p->depth[i])) +
-                                 LDBL_EPSILON * 4 * a * (long double)p->depth[i];
+        const long double left =
+            fabsl(2 * a * (contact_depth(&p->tip, a) - (long double)p->depth[i])) +
+            LDBL_EPSILON * 4 * a * (long double)p->depth[i];
         *reference_error = fmax(*reference_error, (double)(left / g));
     }
     return status;
@@ -114,17 +115,18 @@ static wt_status solve_formula(void *problem, double value, wt_error *err)
     return WT_OK;
 }
 
-static wt_status solve_bisection(void *problem, double value, wt_error *err)
+static wt_status solve_force_bisection(void *problem, double value, wt_error *err)
 {
     force_problem *p = problem;
     (void)err;
     for (int i = 0; i < DEPTHS; i++)
-        p->force[i] = (double)force_of(&p->tip, bisect_radius(&p->tip, p->depth[i], (int)value));
+        p->force[i] =
+            (double)force_at_radius(&p->tip, bisect_radius(&p->tip, p->depth[i], (int)value));
     p->stated = (double)NAN;
     return WT_OK;
 }
 
-static accuracy_errors judge_force(const void *problem)
+static accuracy_errors force_errors(const void *problem)
 {
     const force_problem *p = problem;
     accuracy_errors e = {0, p->stated};
@@ -139,7 +141,7 @@ enum { CURVES = 4, MOST_SAMPLES = 4000 }; /* of the problem */
 
 /* Quantities of the problem [Pa, m, N/m]. */
 #define MODULUS 4e6
-#define CONTACT 1.2e-6
+#define CONTACT_POSITION 1.2e-6
 #define SPRING_CONSTANT 0.5
 #define RESIDUAL 3e-11 /* noise of the force [N] */
 
@@ -170,12 +172,12 @@ static void end_fit(void *problem)
     wt_contact_table_free(p->table);
 }
 
-static void make_curve(fit_problem *p, int n, int curve)
+static void simulate_curve(fit_problem *p, int n, int curve)
 {
     double slope;
     for (int i = 0; i < n; i++) {
         p->position[i] = 1.5e-6 * i / (n - 1);
-        wt_contact_function(&p->tip, p->position[i] - CONTACT, &p->g[i], &slope);
+        wt_contact_function(&p->tip, p->position[i] - CONTACT_POSITION, &p->g[i], &slope);
         p->force[i] = MODULUS / 0.75 * p->g[i] +
                       RESIDUAL * flow_draw_normal((uint64_t)curve, (uint64_t)i, FLOW_DRAW_NOISE);
         p->height[i] = p->position[i] + p->force[i] / SPRING_CONSTANT;
@@ -189,7 +191,7 @@ static wt_status solve_fit(void *problem, double value, wt_error *err)
     double sum = 0;
     for (int c = 0; c < CURVES && status == WT_OK; c++) {
         wt_indent_fit fit;
-        make_curve(p, (int)value, c);
+        simulate_curve(p, (int)value, c);
         status = wt_indent_fit_curve(p->table, NULL, p->height, p->force, NULL, (size_t)value,
                                      SPRING_CONSTANT, p->workspace, &fit, err);
         p->modulus[c] = fit.modulus.value;
@@ -207,7 +209,7 @@ static wt_status solve_scan(void *problem, double value, wt_error *err)
     (void)err;
     for (int c = 0; c < CURVES; c++) {
         double best = (double)INFINITY;
-        make_curve(p, n, c);
+        simulate_curve(p, n, c);
         for (int k = n / 2; k < n - 4; k++) {
             const double contact = p->height[k] - p->force[k] / SPRING_CONSTANT;
             double gg = 0, gf = 0, ff = 0;
@@ -231,7 +233,7 @@ static wt_status solve_scan(void *problem, double value, wt_error *err)
     return WT_OK;
 }
 
-static accuracy_errors judge_fit(const void *problem)
+static accuracy_errors fit_errors(const void *problem)
 {
     const fit_problem *p = problem;
     double sum = 0;
@@ -246,17 +248,20 @@ const accuracy_part accuracy_contact[] = {
      "depth and force against contact radius, solved in long double",
      sizeof(force_problem),
      begin_force,
-     judge_force,
+     force_errors,
      end_force,
      {{"weartrack", "table of quintics", {1}, solve_table},
       {"formula", "Newton's method", {1}, solve_formula},
-      {"textbook", "bisections of the contact radius", {5, 10, 20, 30, 40, 50}, solve_bisection}}},
+      {"textbook",
+       "bisections of the contact radius",
+       {5, 10, 20, 30, 40, 50},
+       solve_force_bisection}}},
     {"contact-fit",
      "Modulus of four simulated curves with noise, against the one they were made with; the true "
      "error is that of these four, its floor the noise",
      sizeof(fit_problem),
      begin_fit,
-     judge_fit,
+     fit_errors,
      end_fit,
      {{"weartrack", "samples of a curve", {250, 500, 1000, 2000, 4000}, solve_fit},
       {"textbook",

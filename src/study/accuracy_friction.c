@@ -30,7 +30,7 @@ static const reference_contact contact = {.material = {.e0 = 5e6,
                                           .hurst = 0.8,
                                           .c0 = 6e-16};
 
-static wt_status make_surface(friction_problem *p, wt_error *err)
+static wt_status create_roughness(friction_problem *p, wt_error *err)
 {
     const reference_contact *c = &p->contact;
     return wt_roughness_self_affine(c->q0, c->qr, c->q1, c->hurst, c->c0, &p->roughness, err);
@@ -50,7 +50,8 @@ static void set_reference(friction_problem *p, double *reference_error)
     *reference_error = accuracy_relative(reference_friction(&p->contact, CHECK), p->truth);
 }
 
-static wt_status make_prony(const reference_contact *c, wt_material **material, wt_error *err)
+static wt_status create_prony_material(const reference_contact *c, wt_material **material,
+                                       wt_error *err)
 {
     wt_prony prony = {0};
     wt_status status = wt_prony_alloc(&prony, c->material.n, err);
@@ -72,9 +73,9 @@ static wt_status begin_prony(void *problem, double *reference_error, wt_error *e
 {
     friction_problem *p = problem;
     p->contact = contact;
-    wt_status status = make_surface(p, err);
+    wt_status status = create_roughness(p, err);
     if (status == WT_OK)
-        status = make_prony(&p->contact, &p->material, err);
+        status = create_prony_material(&p->contact, &p->material, err);
     if (status == WT_OK)
         set_reference(p, reference_error);
     return status;
@@ -87,7 +88,7 @@ static wt_status begin_zener(void *problem, double *reference_error, wt_error *e
     p->contact = contact;
     p->contact.material =
         (reference_material){.e0 = e0, .alpha = alpha, .n = 1, .e = {glass - e0}, .tau = {tau}};
-    wt_status status = make_surface(p, err);
+    wt_status status = create_roughness(p, err);
     if (status == WT_OK)
         status = wt_material_fractional_zener(e0, glass, tau, alpha, p->contact.poisson_ratio,
                                               &p->material, err);
@@ -109,9 +110,9 @@ static wt_status begin_transverse(void *problem, double *reference_error, wt_err
     p->contact.material.axial_storage = factors.axial_storage;
     p->contact.material.axial_loss = factors.axial_loss;
     p->contact.material.poisson_ratio = p->contact.poisson_ratio;
-    wt_status status = make_surface(p, err);
+    wt_status status = create_roughness(p, err);
     if (status == WT_OK)
-        status = make_prony(&p->contact, &series, err);
+        status = create_prony_material(&p->contact, &series, err);
     if (status == WT_OK)
         status = wt_material_transverse(series, NULL, NULL, &factors, p->contact.poisson_ratio,
                                         &p->material, err);
@@ -138,11 +139,12 @@ static wt_status solve_kernel(friction_problem *p, double tolerance, wt_estimate
 }
 
 /* Creates a table of the Prony series at the knots. */
-static wt_status make_table(const reference_contact *c, wt_material **material, wt_error *err)
+static wt_status create_table_material(const reference_contact *c, wt_material **material,
+                                       wt_error *err)
 {
     double omega[KNOTS], storage[KNOTS], loss[KNOTS];
     wt_material *series = NULL;
-    wt_status status = make_prony(c, &series, err);
+    wt_status status = create_prony_material(c, &series, err);
     if (status != WT_OK)
         return status;
     for (int k = 0; k < KNOTS; k++)
@@ -155,14 +157,14 @@ static wt_status make_table(const reference_contact *c, wt_material **material, 
 }
 
 /* The reference is the kernel itself at its smallest tolerance. */
-static wt_status begin_table(void *problem, double *reference_error, wt_error *err)
+static wt_status begin_table_material(void *problem, double *reference_error, wt_error *err)
 {
     friction_problem *p = problem;
     wt_estimate tight = {0};
     p->contact = contact;
-    wt_status status = make_surface(p, err);
+    wt_status status = create_roughness(p, err);
     if (status == WT_OK)
-        status = make_table(&p->contact, &p->material, err);
+        status = create_table_material(&p->contact, &p->material, err);
     if (status == WT_OK)
         status = solve_kernel(p, 1e-13, &tight, err);
     p->truth = tight.value;
@@ -181,15 +183,15 @@ static wt_status solve_weartrack(void *problem, double value, wt_error *err)
 }
 
 /* The number of angles is a tenth of the number of wavenumbers. */
-static wt_status solve_textbook(void *problem, double value, wt_error *err)
+static wt_status solve_textbook_friction(void *problem, double value, wt_error *err)
 {
     enum { LEAST_ANGLES = 20 }; /* a usual number for a textbook rule */
     friction_problem *p = problem;
     const size_t n = (size_t)value, angles = n / 20 * 2;
     textbook_friction result = {0, 0, 0};
-    const wt_status status =
-        friction_textbook(p->material, p->roughness, p->contact.pressure, p->contact.velocity, n,
-                          angles > LEAST_ANGLES ? angles : LEAST_ANGLES, &result);
+    const wt_status status = textbook_friction_compute(
+        p->material, p->roughness, p->contact.pressure, p->contact.velocity, n,
+        angles > LEAST_ANGLES ? angles : LEAST_ANGLES, &result);
     p->found = result.hysteresis;
     p->stated = (double)NAN;
     return status == WT_OK ? status : wt_fail(err, status, "the textbook method failed");
@@ -201,11 +203,11 @@ static accuracy_errors friction_errors(const void *problem)
     return (accuracy_errors){accuracy_relative(p->found, p->truth), p->stated};
 }
 
-#define METHODS                                                                                    \
+#define FRICTION_METHODS                                                                           \
     {                                                                                              \
         {"weartrack", "1 / tolerance", {1e2, 1e4, 1e6, 1e8, 1e10, 1e12}, solve_weartrack},         \
         {                                                                                          \
-            "textbook", "wavenumbers", {30, 100, 300, 1000, 3000}, solve_textbook                  \
+            "textbook", "wavenumbers", {30, 100, 300, 1000, 3000}, solve_textbook_friction         \
         }                                                                                          \
     }
 
@@ -213,15 +215,16 @@ const accuracy_part accuracy_friction[] = {
     {"friction-prony",
      "Hysteresis friction at one velocity with set-up, Prony series of 6 terms; reference: long "
      "double, other rules",
-     sizeof(friction_problem), begin_prony, friction_errors, end_friction, METHODS},
+     sizeof(friction_problem), begin_prony, friction_errors, end_friction, FRICTION_METHODS},
     {"friction-zener", "The same for a fractional Zener law; reference: long double, other rules",
-     sizeof(friction_problem), begin_zener, friction_errors, end_friction, METHODS},
+     sizeof(friction_problem), begin_zener, friction_errors, end_friction, FRICTION_METHODS},
     {"friction-transverse",
      "The same for the series with directions: along the surface normal 1.5 E' and 2 E''; "
      "reference: long double, other rules",
-     sizeof(friction_problem), begin_transverse, friction_errors, end_friction, METHODS},
+     sizeof(friction_problem), begin_transverse, friction_errors, end_friction, FRICTION_METHODS},
     {"friction-table",
      "The same for a table of 107 knots; reference: the kernel at the tolerance 1e-13",
-     sizeof(friction_problem), begin_table, friction_errors, end_friction, METHODS},
+     sizeof(friction_problem), begin_table_material, friction_errors, end_friction,
+     FRICTION_METHODS},
     {.name = NULL},
 };

@@ -36,7 +36,7 @@ static void end_layer(void *problem)
     wt_energy_source_clear(&p->source);
 }
 
-static accuracy_errors judge_layer(const void *problem)
+static accuracy_errors layer_errors(const void *problem)
 {
     const layer_problem *p = problem;
     accuracy_errors e = {0, p->stated};
@@ -60,14 +60,14 @@ static long double formation_excess(const layer_problem *p, long double z)
     return power / ((long double)q->critical_energy * wear) - 1;
 }
 
-static bool still_forms(const void *problem, long double z)
+static bool is_growing(const void *problem, long double z)
 {
     return formation_excess(problem, z) > 0;
 }
 
 static long double bisect_thickness(const layer_problem *p, int steps)
 {
-    return accuracy_bisect(still_forms, p, 0, 1e-2L, steps);
+    return accuracy_bisect(is_growing, p, 0, 1e-2L, steps);
 }
 
 static wt_status begin_balance(void *problem, double *reference_error, wt_error *err)
@@ -90,15 +90,16 @@ static wt_status begin_balance(void *problem, double *reference_error, wt_error 
 static wt_status solve_balance(void *problem, double value, wt_error *err)
 {
     layer_problem *p = problem;
-    wt_layer_balance balance;
+    wt_layer_steady_state balance;
     (void)value;
-    const wt_status status = wt_layer_balance_compute(&p->source, &p->parameters, &balance, err);
+    const wt_status status =
+        wt_layer_steady_state_compute(&p->source, &p->parameters, &balance, err);
     p->found[0] = balance.thickness.value;
     p->stated = balance.thickness.numerical_error / balance.thickness.value;
     return status;
 }
 
-static wt_status solve_bisection(void *problem, double value, wt_error *err)
+static wt_status solve_balance_bisection(void *problem, double value, wt_error *err)
 {
     layer_problem *p = problem;
     (void)err;
@@ -126,13 +127,14 @@ static wt_status begin_history(void *problem, double *reference_error, wt_error 
     p->n = MOST_TIMES;
     for (size_t i = 0; i < p->n; i++) {
         p->time[i] = pow(1e4, (double)i / (double)(p->n - 1)) / (2 * q * formation);
-        p->truth[i] = wt_layer_exponential(l->start_thickness, 2 * q, formation, wear, p->time[i]);
+        p->truth[i] =
+            wt_layer_exponential_thickness(l->start_thickness, 2 * q, formation, wear, p->time[i]);
     }
     *reference_error = 1e-15; /* closed form: a few rounding errors */
     return WT_OK;
 }
 
-static wt_status solve_march(void *problem, double value, wt_error *err)
+static wt_status solve_history(void *problem, double value, wt_error *err)
 {
     layer_problem *p = problem;
     wt_layer_point points[MOST_TIMES];
@@ -181,17 +183,17 @@ const accuracy_part accuracy_layer[] = {
      "double",
      sizeof(layer_problem),
      begin_balance,
-     judge_layer,
+     layer_errors,
      end_layer,
      {{"weartrack", "safeguarded Newton", {1}, solve_balance},
-      {"textbook", "bisections", {10, 20, 30, 40, 50}, solve_bisection}}},
+      {"textbook", "bisections", {10, 20, 30, 40, 50}, solve_balance_bisection}}},
     {"layer-history",
      "Thickness at 64 times, one wavenumber; reference: closed form",
      sizeof(layer_problem),
      begin_history,
-     judge_layer,
+     layer_errors,
      end_layer,
-     {{"weartrack", "quadrature of the time", {1}, solve_march},
+     {{"weartrack", "quadrature of the time", {1}, solve_history},
       {"textbook", "Runge-Kutta steps between two times", {1, 4, 16, 64, 256}, solve_runge_kutta}}},
     {.name = NULL},
 };

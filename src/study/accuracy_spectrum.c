@@ -21,13 +21,13 @@ typedef struct shift_problem {
 } shift_problem;
 
 /* The relaxation times extend beyond all isotherms on both sides. */
-static void true_moduli(double omega, double *storage, double *loss)
+static void simulated_moduli(double omega, double *storage, double *loss)
 {
     *storage = 1e6;
     *loss = 0;
     for (int k = 0; k < TERMS; k++) {
         const double decade = 0.25 * k;
-        prony_add(9e4 * pow(10, 0.22 * decade), pow(10, 4 - decade), omega, storage, loss);
+        prony_add_term(9e4 * pow(10, 0.22 * decade), pow(10, 4 - decade), omega, storage, loss);
     }
 }
 
@@ -46,7 +46,7 @@ static wt_status begin_shift(void *problem, double *reference_error, wt_error *e
             const double omega = 0.1 * pow(10, 3.0 * j / (POINTS - 1));
             const uint64_t place = (uint64_t)(i * POINTS + j);
             double storage = 0, loss = 0;
-            true_moduli(omega * pow(10, p->truth[i]), &storage, &loss);
+            simulated_moduli(omega * pow(10, p->truth[i]), &storage, &loss);
             iso->angular_frequency[j] = omega;
             iso->storage_modulus[j] =
                 storage * (1 + NOISE * flow_draw_normal(1, place, FLOW_DRAW_NOISE));
@@ -63,8 +63,8 @@ static void end_shift(void *problem)
     wt_sweep_clear(&p->sweep);
 }
 
-static wt_status fit_spectrum(const shift_problem *p, double terms, wt_master *master,
-                              wt_error *err)
+static wt_status fit_master_curve(const shift_problem *p, double terms, wt_master *master,
+                                  wt_error *err)
 {
     wt_master_options options = wt_master_options_defaults();
     options.reference_temperature = p->sweep.isotherms[REFERENCE].temperature;
@@ -77,7 +77,7 @@ static wt_status solve_shift(void *problem, double value, wt_error *err)
 {
     shift_problem *p = problem;
     wt_master master = {0};
-    const wt_status status = fit_spectrum(p, value, &master, err);
+    const wt_status status = fit_master_curve(p, value, &master, err);
     double sum = 0;
     for (size_t i = 0; i < master.n_shifts && i < ISOTHERMS; i++) {
         p->log_a[i] = master.shifts[i].log_a.value;
@@ -102,7 +102,7 @@ static double interpolate_storage(const wt_isotherm *iso, double x)
 }
 
 /* Returns the best of a number of shifts by the mean square of log E' in the overlap. */
-static double pair_shift(const wt_isotherm *from, const wt_isotherm *to, int trials)
+static double neighbour_shift(const wt_isotherm *from, const wt_isotherm *to, int trials)
 {
     double best = 0, least = (double)INFINITY;
     for (int t = 0; t < trials; t++) {
@@ -131,14 +131,14 @@ static wt_status solve_pairs(void *problem, double value, wt_error *err)
     (void)err;
     p->log_a[REFERENCE] = 0;
     for (int i = REFERENCE - 1; i >= 0; i--)
-        p->log_a[i] = p->log_a[i + 1] + pair_shift(&iso[i], &iso[i + 1], (int)value);
+        p->log_a[i] = p->log_a[i + 1] + neighbour_shift(&iso[i], &iso[i + 1], (int)value);
     for (int i = REFERENCE + 1; i < ISOTHERMS; i++)
-        p->log_a[i] = p->log_a[i - 1] + pair_shift(&iso[i], &iso[i - 1], (int)value);
+        p->log_a[i] = p->log_a[i - 1] + neighbour_shift(&iso[i], &iso[i - 1], (int)value);
     p->stated = (double)NAN;
     return WT_OK;
 }
 
-static accuracy_errors judge_shift(const void *problem)
+static accuracy_errors shift_errors(const void *problem)
 {
     const shift_problem *p = problem;
     double sum = 0;
@@ -152,16 +152,16 @@ static accuracy_errors judge_shift(const void *problem)
 /* Test frequencies between the points, within the range of all isotherms. */
 enum { JUDGED = 200 };
 
-static double judged_frequency(const shift_problem *p, int i)
+static double test_frequency(const shift_problem *p, int i)
 {
     const double low = p->truth[ISOTHERMS - 1] - 1, high = p->truth[0] + 2;
     return pow(10, low + (high - low) * (i + 0.5) / JUDGED);
 }
 
-static double squares_of(double log_storage, double log_loss, double omega)
+static double squared_log_errors(double log_storage, double log_loss, double omega)
 {
     double storage = 0, loss = 0;
-    true_moduli(omega, &storage, &loss);
+    simulated_moduli(omega, &storage, &loss);
     return pow(log_storage - log(storage), 2) + pow(log_loss - log(loss), 2);
 }
 
@@ -170,12 +170,12 @@ static wt_status solve_spectrum(void *problem, double value, wt_error *err)
     shift_problem *p = problem;
     wt_master master = {0};
     double sum = 0, stated = 0;
-    const wt_status status = fit_spectrum(p, value, &master, err);
+    const wt_status status = fit_master_curve(p, value, &master, err);
     for (int i = 0; i < JUDGED && status == WT_OK; i++) {
         wt_interval storage, loss;
-        const double omega = judged_frequency(p, i);
+        const double omega = test_frequency(p, i);
         wt_master_moduli(&master, omega, &storage, &loss);
-        sum += squares_of(M_LN10 * storage.value, M_LN10 * loss.value, omega);
+        sum += squared_log_errors(M_LN10 * storage.value, M_LN10 * loss.value, omega);
         stated += pow(storage.standard_error, 2) + pow(loss.standard_error, 2);
     }
     p->error = sqrt(sum / (2 * JUDGED));
@@ -187,12 +187,12 @@ static wt_status solve_spectrum(void *problem, double value, wt_error *err)
 enum { MOST_TERMS = 64 }; /* more than the problem needs */
 
 /* Contribution of a term with a modulus of 1 to E' and E''. The first term does not relax. */
-static void term_at(double omega, size_t j, double first, double density, double part[2])
+static void prony_term(double omega, size_t j, double first, double density, double part[2])
 {
     part[0] = j == 0 ? 1 : 0;
     part[1] = 0;
     if (j > 0)
-        prony_add(1, pow(10, first + ((double)j - 1) / density), omega, &part[0], &part[1]);
+        prony_add_term(1, pow(10, first + ((double)j - 1) / density), omega, &part[0], &part[1]);
 }
 
 /* Terms at fixed times with a given density per decade, by linear least squares of the relative
@@ -214,7 +214,7 @@ static wt_status solve_collocation(void *problem, double value, wt_error *err)
             const double measured[2] = {iso->storage_modulus[k], iso->loss_modulus[k]};
             double row[2][MOST_TERMS];
             for (size_t j = 0; j < n; j++) {
-                term_at(iso->angular_frequency[k] * pow(10, p->truth[i]), j, first, value, part);
+                prony_term(iso->angular_frequency[k] * pow(10, p->truth[i]), j, first, value, part);
                 row[0][j] = part[0] / measured[0];
                 row[1][j] = part[1] / measured[1];
             }
@@ -228,22 +228,22 @@ static wt_status solve_collocation(void *problem, double value, wt_error *err)
     const bool solved = cholesky_solve(&a[0][0], MOST_TERMS, n, 0, x);
     double sum = 0;
     for (int i = 0; i < JUDGED; i++) {
-        const double omega = judged_frequency(p, i);
+        const double omega = test_frequency(p, i);
         double storage = 0, loss = 0;
         for (size_t j = 0; j < n; j++) {
-            term_at(omega, j, first, value, part);
+            prony_term(omega, j, first, value, part);
             storage += x[j] * part[0];
             loss += x[j] * part[1];
         }
         /* a modulus below zero counts with its full error */
-        sum += squares_of(log(fmax(storage, 1)), log(fmax(loss, 1)), omega);
+        sum += squared_log_errors(log(fmax(storage, 1)), log(fmax(loss, 1)), omega);
     }
     p->error = solved ? sqrt(sum / (2 * JUDGED)) : (double)NAN;
     p->stated = (double)NAN;
     return WT_OK;
 }
 
-static accuracy_errors judge_spectrum(const void *problem)
+static accuracy_errors spectrum_errors(const void *problem)
 {
     const shift_problem *p = problem;
     return (accuracy_errors){p->error, p->stated};
@@ -279,7 +279,7 @@ static wt_status solve_draws(void *problem, double value, wt_error *err)
     (void)err;
     for (size_t i = 0; i < n; i++)
         p->value[i] = flow_draw_positive((wt_estimate){1, SCATTER, 0, "1"}, 1, i, FLOW_DRAW_WEAR);
-    p->error = flow_spread(p->value, n, 1);
+    p->error = flow_standard_deviation(p->value, n, 1);
     p->stated = 1 / sqrt(2 * (value - 1));
     return WT_OK;
 }
@@ -294,7 +294,7 @@ static wt_status solve_propagation(void *problem, double value, wt_error *err)
     return WT_OK;
 }
 
-static accuracy_errors judge_draws(const void *problem)
+static accuracy_errors draws_errors(const void *problem)
 {
     const draw_problem *p = problem;
     return (accuracy_errors){accuracy_relative(p->error, p->truth), p->stated};
@@ -306,7 +306,7 @@ const accuracy_part accuracy_spectrum[] = {
      "were made with; the true error is the rms of this set, its floor the noise",
      sizeof(shift_problem),
      begin_shift,
-     judge_shift,
+     shift_errors,
      end_shift,
      {{"weartrack", "terms per decade of the spectrum", {2, 3, 4, 6, 10}, solve_shift},
       {"textbook", "trial shifts of each neighbour", {30, 100, 300, 1000}, solve_pairs}}},
@@ -316,7 +316,7 @@ const accuracy_part accuracy_spectrum[] = {
      "were made with, rms; the textbook knows the shifts",
      sizeof(shift_problem),
      begin_shift,
-     judge_spectrum,
+     spectrum_errors,
      end_shift,
      {{"weartrack", "terms per decade", {2, 3, 4, 6, 10}, solve_spectrum},
       {"textbook",
@@ -327,7 +327,7 @@ const accuracy_part accuracy_spectrum[] = {
      "Standard error of a logarithmic normal number by replicates, against its formula",
      sizeof(draw_problem),
      begin_draws,
-     judge_draws,
+     draws_errors,
      end_draws,
      {{"weartrack", "replicates", {16, 64, 256, 1024, 4096}, solve_draws},
       {"textbook", "standard errors to each side", {1}, solve_propagation}}},

@@ -7,23 +7,23 @@
 
 #include <math.h>
 
-const char *const setting_words[SETTING_NUMBERS] = {
-    [SETTING_HYSTERESIS] = "hysteresis part",
-    [SETTING_AREA_RATIO] = "real over nominal contact area",
-    [SETTING_FRICTION] = "friction coefficient",
-    [SETTING_THICKNESS] = "layer thickness",
-    [SETTING_WITH_LAYER] = "friction coefficient with layer"};
+const char *const case_quantity_names[CASE_QUANTITIES] = {
+    [CASE_QUANTITY_HYSTERESIS] = "hysteresis part",
+    [CASE_QUANTITY_AREA_RATIO] = "real over nominal contact area",
+    [CASE_QUANTITY_FRICTION] = "friction coefficient",
+    [CASE_QUANTITY_THICKNESS] = "layer thickness",
+    [CASE_QUANTITY_WITH_LAYER] = "friction coefficient with layer"};
 
-const char *const setting_sensitivities[SENSITIVITIES] = {
+const char *const sensitivity_names[SENSITIVITIES] = {
     "1 % of the modulus", "1 % of the power spectrum", "1 % of the pressure",
     "1 % of the largest wavenumber q1"};
 static const friction_key sensitivity_keys[SENSITIVITIES] = {
     FRICTION_KEY_BY_MODULUS, FRICTION_KEY_BY_DENSITY, FRICTION_KEY_BY_PRESSURE,
     FRICTION_KEY_BY_CUTOFF};
 
-wt_status setting_make(const wt_sliding *sliding, const wt_layer_job *layer,
-                       const wt_layer_observation *known, const wt_job *work, setting *s,
-                       wt_error *err)
+wt_status case_variant_create(const wt_sliding *sliding, const wt_layer_job *layer,
+                              const wt_layer_observation *known, const wt_job *work,
+                              case_variant *s, wt_error *err)
 {
     wt_roughness *law = NULL;
     wt_status status = flow_sliding_check(sliding, work, err);
@@ -31,16 +31,16 @@ wt_status setting_make(const wt_sliding *sliding, const wt_layer_job *layer,
         status = wt_surface_roughness(sliding->surface, 1, &law, err);
     if (status != WT_OK)
         return status;
-    *s = (setting){.sliding = *sliding,
-                   .velocity = flow_reference_velocity(sliding),
-                   .rubber = *sliding->rubber,
-                   .given = sliding->rubber,
-                   .surface = *sliding->surface,
-                   .has_softness = sliding->softness != NULL,
-                   .has_layer_rubber = sliding->layer_rubber != NULL,
-                   .has_layer = layer != NULL,
-                   .has_known = known != NULL,
-                   .vertical = sliding->rubber->fit.vertical};
+    *s = (case_variant){.sliding = *sliding,
+                        .velocity = flow_reference_velocity(sliding),
+                        .rubber = *sliding->rubber,
+                        .given = sliding->rubber,
+                        .surface = *sliding->surface,
+                        .has_softness = sliding->softness != NULL,
+                        .has_layer_rubber = sliding->layer_rubber != NULL,
+                        .has_layer = layer != NULL,
+                        .has_known = known != NULL,
+                        .vertical = sliding->rubber->fit.vertical};
     s->sliding.n_velocity = 1;
     s->sliding.sensitivities = false;
     s->sliding.reference_velocity = s->velocity;
@@ -58,35 +58,35 @@ wt_status setting_make(const wt_sliding *sliding, const wt_layer_job *layer,
     return WT_OK;
 }
 
-static wt_status compute_layer(const setting *s, const wt_job *work, wt_layer_observation *known,
-                               wt_error *err)
+static wt_status compute_layer(const case_variant *s, const wt_job *work,
+                               wt_layer_observation *known, wt_error *err)
 {
     static const double start = 0; /* only the steady-state thickness is requested */
     wt_layer_job job = s->layer;
     wt_layer_tables tables = {0};
     job.time = &start;
     job.n_time = 1;
-    const wt_status status = wt_layer_make(&s->sliding, &job, work, &tables, err);
+    const wt_status status = wt_layer_thickness_compute(&s->sliding, &job, work, &tables, err);
     if (status == WT_OK)
         known->thickness = tables.thickness;
     wt_layer_tables_clear(&tables);
     return status;
 }
 
-static wt_status compute_friction(setting *s, const wt_layer_observation *known, const wt_job *work,
-                                  wt_estimate *number, wt_error *err)
+static wt_status compute_friction(case_variant *s, const wt_layer_observation *known,
+                                  const wt_job *work, wt_estimate *number, wt_error *err)
 {
     wt_friction_tables tables = {0};
     table_view view;
-    wt_status status = wt_friction_make(&s->sliding, known, work, &tables, err);
+    wt_status status = wt_sliding_friction_compute(&s->sliding, known, work, &tables, err);
     if (status == WT_OK)
         status = table_bind(tables.friction, &friction_schema, "", &view, err);
     if (status == WT_OK) {
-        number[SETTING_HYSTERESIS] = friction_value(&view, FRICTION_KEY_HYSTERESIS);
-        number[SETTING_AREA_RATIO] = friction_value(&view, FRICTION_KEY_AREA_RATIO);
-        number[SETTING_FRICTION] = friction_value(&view, FRICTION_KEY_FRICTION);
-        number[SETTING_WITH_LAYER] = friction_value(&view, FRICTION_KEY_WITH_LAYER);
-        const char *statement = friction_words(&view, FRICTION_KEY_MATERIAL_STATEMENT);
+        number[CASE_QUANTITY_HYSTERESIS] = friction_value(&view, FRICTION_KEY_HYSTERESIS);
+        number[CASE_QUANTITY_AREA_RATIO] = friction_value(&view, FRICTION_KEY_AREA_RATIO);
+        number[CASE_QUANTITY_FRICTION] = friction_value(&view, FRICTION_KEY_FRICTION);
+        number[CASE_QUANTITY_WITH_LAYER] = friction_value(&view, FRICTION_KEY_WITH_LAYER);
+        const char *statement = friction_key_text(&view, FRICTION_KEY_MATERIAL_STATEMENT);
         snprintf(s->statement, sizeof s->statement, "%s", statement != NULL ? statement : "");
         for (size_t k = 0; k < SENSITIVITIES; k++)
             s->by[k] = friction_value(&view, sensitivity_keys[k]).value;
@@ -96,7 +96,8 @@ static wt_status compute_friction(setting *s, const wt_layer_observation *known,
     return status;
 }
 
-wt_status setting_compute(setting *s, const wt_job *work, wt_estimate *number, wt_error *err)
+wt_status case_variant_compute(case_variant *s, const wt_job *work, wt_estimate *number,
+                               wt_error *err)
 {
     wt_layer_observation known = s->known;
     s->sliding.rubber = s->given != NULL ? s->given : &s->rubber;
@@ -106,7 +107,7 @@ wt_status setting_compute(setting *s, const wt_job *work, wt_estimate *number, w
     s->sliding.velocity = &s->velocity;
     wt_status status = s->has_layer ? compute_layer(s, work, &known, err) : WT_OK;
     if (status == WT_OK && s->has_layer)
-        number[SETTING_THICKNESS] = known.thickness;
+        number[CASE_QUANTITY_THICKNESS] = known.thickness;
     if (isnan(known.thickness.standard_error))
         known.thickness.standard_error = 0; /* an unknown error is not drawn */
     /* a layer that grows without limit has no friction */

@@ -8,9 +8,9 @@
 
 /* Relative sensitivities of the hysteresis friction, d ln mu / d ln x. */
 enum { SENSITIVITIES = 4 };
-extern const char *const setting_sensitivities[SENSITIVITIES];
+extern const char *const sensitivity_names[SENSITIVITIES];
 
-typedef struct setting {
+typedef struct case_variant {
     wt_sliding sliding; /* refers to the velocity, rubber and surface below */
     double velocity;
     wt_rubber rubber;       /* borrowed, or a modified copy */
@@ -27,27 +27,27 @@ typedef struct setting {
      * frequencies outside its range (NaN if not requested). */
     char statement[512];
     double extrapolated_share;
-    double by[SENSITIVITIES]; /* set if sliding.sensitivities; see setting_sensitivities */
-} setting;
+    double by[SENSITIVITIES]; /* set if sliding.sensitivities; see sensitivity_names */
+} case_variant;
 
 /* Results at the reference velocity. */
-typedef enum setting_number {
-    SETTING_HYSTERESIS,
-    SETTING_AREA_RATIO,
-    SETTING_FRICTION,
-    SETTING_THICKNESS,
-    SETTING_WITH_LAYER,
-    SETTING_NUMBERS
-} setting_number;
-extern const char *const setting_words[SETTING_NUMBERS];
+typedef enum case_quantity {
+    CASE_QUANTITY_HYSTERESIS,
+    CASE_QUANTITY_AREA_RATIO,
+    CASE_QUANTITY_FRICTION,
+    CASE_QUANTITY_THICKNESS,
+    CASE_QUANTITY_WITH_LAYER,
+    CASE_QUANTITIES
+} case_quantity;
+extern const char *const case_quantity_names[CASE_QUANTITIES];
 
 /* Creates a variant of the case as used. A NULL `layer` means no thickness; a NULL `known` means no
  * friction with a layer. With both, the thickness is that of `layer`. */
-wt_status setting_make(const wt_sliding *sliding, const wt_layer_job *layer,
-                       const wt_layer_observation *known, const wt_job *work, setting *s,
-                       wt_error *err) WT_NODISCARD;
-/* Computes the results. number: [SETTING_NUMBERS]; results that do not apply stay unchanged. */
-wt_status setting_compute(setting *s, const wt_job *work, wt_estimate *number,
-                          wt_error *err) WT_NODISCARD;
+wt_status case_variant_create(const wt_sliding *sliding, const wt_layer_job *layer,
+                              const wt_layer_observation *known, const wt_job *work,
+                              case_variant *s, wt_error *err) WT_NODISCARD;
+/* Computes the results. number: [CASE_QUANTITIES]; results that do not apply stay unchanged. */
+wt_status case_variant_compute(case_variant *s, const wt_job *work, wt_estimate *number,
+                               wt_error *err) WT_NODISCARD;
 
 #endif

@@ -59,10 +59,11 @@ static const char *text_or(const char *text, const char *other)
     return text != NULL && text[0] != '\0' ? text : other;
 }
 
-static wt_status take_case(const wt_collected *from, collected_case *c, wt_error *err)
+static wt_status read_collected_case(const wt_collected_result *from, collected_case *c,
+                                     wt_error *err)
 {
     table_view answer;
-    wt_status status = table_bind_of(from->result, &answer_schema, "", &answer, err);
+    wt_status status = table_bind_result(from->result, &answer_schema, "", &answer, err);
     if (status == WT_OK)
         status = result_values_bind(from->result, &c->tables, err);
     if (status != WT_OK) {
@@ -72,25 +73,25 @@ static wt_status take_case(const wt_collected *from, collected_case *c, wt_error
     const wt_estimate ratio = comparison_value(&c->tables.comparison, COMPARISON_KEY_MODULUS_RATIO);
     c->result = from->result;
     c->file = from->file;
-    c->sample = text_or(answer_words(&answer, ANSWER_KEY_CASE_SAMPLE), wt_path_base(from->file));
-    c->condition = text_or(answer_words(&answer, ANSWER_KEY_CASE_CONDITION), "");
+    c->sample = text_or(answer_key_text(&answer, ANSWER_KEY_CASE_SAMPLE), wt_path_base(from->file));
+    c->condition = text_or(answer_key_text(&answer, ANSWER_KEY_CASE_CONDITION), "");
     c->ratio = (wt_log_ratio){
         log(ratio.value), ratio.standard_error / ratio.value,
         comparison_value(&c->tables.comparison, COMPARISON_KEY_MODULUS_RATIO_DF).value};
     return WT_OK;
 }
 
-static int by_sample(const void *a, const void *b)
+static int compare_by_sample(const void *a, const void *b)
 {
     const collected_case *p = a, *q = b;
     const int order = strcmp(p->sample, q->sample);
     return order != 0 ? order : strcmp(p->condition, q->condition);
 }
 
-static wt_status check_names(const collected_case *cases, size_t n, wt_error *err)
+static wt_status check_unique_names(const collected_case *cases, size_t n, wt_error *err)
 {
     for (size_t i = 1; i < n; i++)
-        if (by_sample(&cases[i - 1], &cases[i]) == 0) {
+        if (compare_by_sample(&cases[i - 1], &cases[i]) == 0) {
             wt_fail(err, WT_E_AMBIGUOUS, "two cases of sample \"%s\" and condition \"%s\"",
                     cases[i].sample, cases[i].condition);
             wt_error_file(err, cases[i].file);
@@ -104,7 +105,7 @@ static wt_status check_names(const collected_case *cases, size_t n, wt_error *er
 
 /* ---- tables ---------------------------------------------------------------------------------- */
 
-static wt_interval interval_of(const result_value *f)
+static wt_interval result_interval(const result_value *f)
 {
     return (wt_interval){f->number.value, f->number.standard_error, f->low, f->high};
 }
@@ -137,13 +138,12 @@ static wt_status list_cases(const collected_case *cases, size_t n, wt_table **ta
     table_writer w = table_begin(&collection_schema, err);
     for (size_t i = 0; i < n; i++) {
         const collected_case *c = &cases[i];
-        const result_value ratio = result_value_of_ratio(&c->tables),
-                           thickness = result_value_of_thickness(&c->tables),
-                           change =
-                               result_value_of_friction(&c->tables, FRICTION_KEY_RELATIVE_CHANGE);
-        TABLE_ADD(collection, &w, c->sample, c->condition, interval_of(&ratio),
-                  short_verdict(comparison_words(&c->tables.comparison, COMPARISON_KEY_DIFFERS)),
-                  interval_of(&thickness), interval_of(&change), c->file);
+        const result_value ratio = result_value_ratio(&c->tables),
+                           thickness = result_value_thickness(&c->tables),
+                           change = result_value_friction(&c->tables, FRICTION_KEY_RELATIVE_CHANGE);
+        TABLE_ADD(collection, &w, c->sample, c->condition, result_interval(&ratio),
+                  short_verdict(comparison_key_text(&c->tables.comparison, COMPARISON_KEY_DIFFERS)),
+                  result_interval(&thickness), result_interval(&change), c->file);
     }
     TABLE_SET(collection, &w, (double)n, (double)count_different(cases, n, false),
               (double)count_different(cases, n, true));
@@ -171,7 +171,7 @@ static double shared_error(const result_value_tables *tables, const char *group)
 }
 
 /* Interval of a rate: the scatter of the spots, widened by the shared errors. */
-static wt_interval modulus_at(const collected_case *c, const char *group, size_t row)
+static wt_interval rate_modulus(const collected_case *c, const char *group, size_t row)
 {
     const table_view *rates = &c->tables.rates;
     const double shared = NORMAL_95 * shared_error(&c->tables, group),
@@ -196,8 +196,9 @@ static wt_status list_moduli(const collected_case *cases, size_t n, wt_table **t
             if (strcmp(group, before) != 0)
                 table_block(&w);
             before = group;
-            TABLE_ADD(collected_modulus, &w, c->sample, c->condition, collected_place(c, group),
-                      modulus_rate_get(rates, row, MODULUS_RATE_RATE), modulus_at(c, group, row));
+            TABLE_ADD(collected_modulus, &w, c->sample, c->condition,
+                      collected_group_name(c, group),
+                      modulus_rate_get(rates, row, MODULUS_RATE_RATE), rate_modulus(c, group, row));
             n_rows++;
         }
     }
@@ -241,40 +242,41 @@ static wt_status list_friction(const collected_case *cases, size_t n, wt_table *
 }
 
 /* Reads the cases, sorted by sample. Results that are not cases go to the second array. */
-static wt_status take_all(const wt_collected *from, size_t n, collected_case *cases,
-                          size_t *n_cases, wt_collected *beside, wt_error *err)
+static wt_status read_cases(const wt_collected_result *from, size_t n, collected_case *cases,
+                            size_t *n_cases, wt_collected_result *paired, wt_error *err)
 {
     *n_cases = 0;
     for (size_t i = 0; i < n; i++) {
         if (wt_result_find(from[i].result, answer_schema.name) == NULL) {
-            beside[i - *n_cases] = from[i];
+            paired[i - *n_cases] = from[i];
             continue;
         }
-        const wt_status status = take_case(&from[i], &cases[*n_cases], err);
+        const wt_status status = read_collected_case(&from[i], &cases[*n_cases], err);
         if (status != WT_OK)
             return status;
         ++*n_cases;
     }
     if (*n_cases == 0)
         return wt_fail(err, WT_E_EMPTY, "there is no case");
-    qsort(cases, *n_cases, sizeof *cases, by_sample);
-    return check_names(cases, *n_cases, err);
+    qsort(cases, *n_cases, sizeof *cases, compare_by_sample);
+    return check_unique_names(cases, *n_cases, err);
 }
 
-wt_status wt_collect(const wt_collected *from, size_t n, const wt_collect_job *job,
-                     wt_collection_tables *tables, wt_error *err)
+wt_status wt_collection_compute(const wt_collected_result *from, size_t n,
+                                const wt_collect_job *job, wt_collection_tables *tables,
+                                wt_error *err)
 {
     *tables = (wt_collection_tables){0};
     if (n == 0)
         return wt_fail(err, WT_E_EMPTY, "there is no case");
     wt_status status = param_check(wt_collect_job_params(), job, err);
     collected_case *cases = calloc(n, sizeof *cases);
-    wt_collected *beside = calloc(n, sizeof *beside);
+    wt_collected_result *paired = calloc(n, sizeof *paired);
     size_t n_cases = 0;
-    if (status == WT_OK && (cases == NULL || beside == NULL))
+    if (status == WT_OK && (cases == NULL || paired == NULL))
         status = wt_fail(err, WT_E_MEMORY, "out of memory");
     if (status == WT_OK)
-        status = take_all(from, n, cases, &n_cases, beside, err);
+        status = read_cases(from, n, cases, &n_cases, paired, err);
     if (status == WT_OK)
         status = list_cases(cases, n_cases, &tables->collection, err);
     if (status == WT_OK)
@@ -282,14 +284,14 @@ wt_status wt_collect(const wt_collected *from, size_t n, const wt_collect_job *j
     if (status == WT_OK)
         status = list_friction(cases, n_cases, &tables->collected_friction, err);
     if (status == WT_OK)
-        status = collect_force(cases, n_cases, beside, n - n_cases, &tables->collected_force, err);
+        status = collect_force(cases, n_cases, paired, n - n_cases, &tables->collected_force, err);
     if (status == WT_OK)
         status = collect_pairs(cases, n_cases, job->margin, &tables->ratio_pairs, err);
     if (status == WT_OK)
         status = collect_constants(cases, n_cases, job->constant_margin, tables, err);
     if (status == WT_OK)
         status = collect_layer_constants(cases, n_cases, job->constant_margin, tables, err);
-    free(beside);
+    free(paired);
     free(cases);
     if (status != WT_OK)
         wt_collection_tables_clear(tables);

@@ -15,12 +15,12 @@ typedef struct collected_case {
 } collected_case;
 
 /* Returns the display name of a group: "bulk", or the condition of the track. */
-const char *collected_place(const collected_case *c, const char *group);
+const char *collected_group_name(const collected_case *c, const char *group);
 
 /* Creates the table "collected_force"; NULL if no case has a curve. The second array holds results
  * with groups that belong to no case. */
-wt_status collect_force(const collected_case *cases, size_t n, const wt_collected *beside,
-                        size_t n_beside, wt_table **table, wt_error *err) WT_NODISCARD;
+wt_status collect_force(const collected_case *cases, size_t n, const wt_collected_result *paired,
+                        size_t n_paired, wt_table **table, wt_error *err) WT_NODISCARD;
 
 /* Creates the table "ratio_pairs"; NULL if no two cases share a sample or a condition. */
 wt_status collect_pairs(const collected_case *cases, size_t n, double margin, wt_table **table,
@@ -28,61 +28,66 @@ wt_status collect_pairs(const collected_case *cases, size_t n, double margin, wt
 
 /* ---- shared constants ------------------------------------------------------------------------ */
 
-typedef enum shared_constant { SHARED_WEAR, SHARED_SHEAR, SHARED_RATE, SHARED_N } shared_constant;
+typedef enum shared_constant {
+    SHARED_WEAR,
+    SHARED_SHEAR,
+    SHARED_RATE,
+    N_SHARED_CONSTANTS
+} shared_constant;
 
 /* Categories of input files whose errors cases may share. */
-typedef enum shared_files {
+typedef enum input_category {
     SHARED_MATERIAL, /* the DMA, and scatter of the scans */
     SHARED_LAW,
     SHARED_ROUGHNESS,
     SHARED_SOFTENING,
     SHARED_SPECTRUM, /* of curves that are fitted with the spectrum */
-    SHARED_FILES_N
-} shared_files;
+    INPUT_CATEGORIES
+} input_category;
 
 /* Value of a constant in a case. `group`: group of the moduli, or NULL. */
 typedef struct case_value {
     shared_constant constant;
     const collected_case *of;
     const char *group;
-    wt_log_ratio log;                /* logarithm of the value with its error */
-    double by_files[SHARED_FILES_N]; /* components of its variance by category of input files */
-    const char *lacks;               /* errors that are missing in it, or NULL */
+    wt_log_ratio log;                  /* logarithm of the value with its error */
+    double by_files[INPUT_CATEGORIES]; /* components of its variance by category of input files */
+    const char *lacks;                 /* errors that are missing in it, or NULL */
 } case_value;
 
-typedef struct case_values {
+typedef struct case_value_list {
     case_value *of;
     size_t n;
     char left_out[1000]; /* excluded values with reasons; "" if none */
     size_t unnamed;      /* number of excluded values without space in the text */
-} case_values;
+} case_value_list;
 
 /* Names of the constants, and the name of a value such as "HC, mild, bulk". */
-extern const char *const shared_words[SHARED_N];
-void shared_name(const case_value *v, char *text, size_t size);
+extern const char *const shared_constant_names[N_SHARED_CONSTANTS];
+void shared_value_name(const case_value *v, char *text, size_t size);
 
 /* Reads all values of the cases, sorted by constant. The caller frees to->of with free(), also
  * after a failure. */
-wt_status shared_values_of(const collected_case *cases, size_t n, case_values *to,
-                           wt_error *err) WT_NODISCARD;
+wt_status shared_values_read(const collected_case *cases, size_t n, case_value_list *to,
+                             wt_error *err) WT_NODISCARD;
 
 /* Agreement of the input files of two cases, in ascending order of certainty. */
-typedef enum files_common {
-    FILES_APART,
-    FILES_OF_ONE_SIZE, /* equal sizes without digests */
-    FILES_OF_ONE_NAME, /* equal sizes and paths without digests */
-    FILES_COMMON
-} files_common;
-files_common files_in_common(const collected_case *a, const collected_case *b,
-                             const char *const *roles, size_t n_roles);
-/* Returns the category of an error source of a record; SHARED_FILES_N if there is none. */
-shared_files shared_files_of(const char *source);
+typedef enum file_match {
+    FILES_DIFFERENT,
+    FILES_SAME_SIZE, /* equal sizes without digests */
+    FILES_SAME_NAME, /* equal sizes and paths without digests */
+    FILES_IDENTICAL
+} file_match;
+file_match compare_input_files(const collected_case *a, const collected_case *b,
+                               const char *const *roles, size_t n_roles);
+/* Returns the category of an error source of a record; INPUT_CATEGORIES if there is none. */
+input_category input_category_of_source(const char *source);
 /* Returns the largest possible covariance of two values of one constant due to shared files. */
 double shared_covariance(const case_value *a, const case_value *b);
 
 /* True if two cases may share errors of material, surface and conditions. Numbers stated in a case
  * may be those of another case. */
-bool inputs_may_be_common(const collected_case *a, const collected_case *b);
+bool inputs_may_be_shared(const collected_case *a, const collected_case *b);
 
 /* Creates the tables "collected_constants" and "shared_pairs": critical energy and wear rate
  * together, from the observed layer of each case. NULL if no case, or no two cases, determine

@@ -11,7 +11,7 @@
 TABLE_ROW(collected_force, COLLECTED_FORCE, const char *sample, *condition, *place;
           double indentation, force;)
 
-const char *collected_place(const collected_case *c, const char *group)
+const char *collected_group_name(const collected_case *c, const char *group)
 {
     return strcmp(group, "bulk") == 0 ? group : c->condition[0] != '\0' ? c->condition : "track";
 }
@@ -19,7 +19,7 @@ const char *collected_place(const collected_case *c, const char *group)
 static wt_status bind_force(const wt_result *result, const char *file, table_view *force,
                             wt_error *err)
 {
-    const wt_status status = table_bind_of(result, &force_indentation_schema, "", force, err);
+    const wt_status status = table_bind_result(result, &force_indentation_schema, "", force, err);
     if (status != WT_OK)
         wt_error_file(err, file);
     return status;
@@ -28,15 +28,15 @@ static wt_status bind_force(const wt_result *result, const char *file, table_vie
 /* Groups that belong to no case, with the index of the group that is added. */
 typedef struct paired_force {
     const collected_case *cases;
-    const wt_collected *of;
+    const wt_collected_result *of;
     size_t n_cases, n, at;
 } paired_force;
 
-static bool has_group(const wt_collected *of, const char *group)
+static bool has_group(const wt_collected_result *of, const char *group)
 {
     table_view force;
     const bool bound =
-        table_bind_of(of->result, &force_indentation_schema, "", &force, NULL) == WT_OK;
+        table_bind_result(of->result, &force_indentation_schema, "", &force, NULL) == WT_OK;
     for (size_t row = 0; bound && row < force.n_rows; row++)
         if (strcmp(force_indentation_text(&force, row, FORCE_INDENTATION_GROUP), group) == 0)
             return true;
@@ -44,7 +44,7 @@ static bool has_group(const wt_collected *of, const char *group)
 }
 
 /* True if the name is used by another group. Without --group every indented sample is "bulk". */
-static bool is_taken(const paired_force *b, const char *group)
+static bool is_name_used(const paired_force *b, const char *group)
 {
     bool taken = strcmp(group, "bulk") == 0 || strcmp(group, "track") == 0;
     for (size_t i = 0; i < b->n_cases && !taken; i++)
@@ -54,20 +54,20 @@ static bool is_taken(const paired_force *b, const char *group)
     return taken;
 }
 
-static void name_place(const paired_force *beside, const collected_case *c, const char *group,
-                       char *place, size_t size)
+static void format_group_name(const paired_force *paired, const collected_case *c,
+                              const char *group, char *place, size_t size)
 {
-    if (beside == NULL)
-        (void)snprintf(place, size, "%s", collected_place(c, group));
-    else if (is_taken(beside, group))
-        (void)snprintf(place, size, "%s of %s", group, beside->of[beside->at].file);
+    if (paired == NULL)
+        (void)snprintf(place, size, "%s", collected_group_name(c, group));
+    else if (is_name_used(paired, group))
+        (void)snprintf(place, size, "%s of %s", group, paired->of[paired->at].file);
     else
         (void)snprintf(place, size, "%s", group);
 }
 
 /* Adds the curve of each group. A paired group is listed under each sample. */
-static void add_curves(table_writer *w, const collected_case *c, const table_view *force,
-                       const paired_force *beside)
+static void add_force_curves(table_writer *w, const collected_case *c, const table_view *force,
+                             const paired_force *paired)
 {
     const char *before = NULL;
     char place[400] = "";
@@ -75,42 +75,42 @@ static void add_curves(table_writer *w, const collected_case *c, const table_vie
         const char *group = force_indentation_text(force, row, FORCE_INDENTATION_GROUP);
         if (before == NULL || strcmp(group, before) != 0) {
             table_block(w);
-            name_place(beside, c, group, place, sizeof place);
+            format_group_name(paired, c, group, place, sizeof place);
         }
         before = group;
-        TABLE_ADD(collected_force, w, c->sample, beside == NULL ? c->condition : "", place,
+        TABLE_ADD(collected_force, w, c->sample, paired == NULL ? c->condition : "", place,
                   force_indentation_get(force, row, FORCE_INDENTATION_INDENTATION),
                   force_indentation_get(force, row, FORCE_INDENTATION_FORCE));
     }
 }
 
-static wt_status add_beside(table_writer *w, paired_force beside, const collected_case *c,
-                            wt_error *err)
+static wt_status add_paired_groups(table_writer *w, paired_force paired, const collected_case *c,
+                                   wt_error *err)
 {
-    for (beside.at = 0; beside.at < beside.n; beside.at++) {
-        const wt_collected *of = &beside.of[beside.at];
+    for (paired.at = 0; paired.at < paired.n; paired.at++) {
+        const wt_collected_result *of = &paired.of[paired.at];
         table_view force;
         const wt_status status = bind_force(of->result, of->file, &force, err);
         if (status != WT_OK)
             return status;
-        add_curves(w, c, &force, &beside);
+        add_force_curves(w, c, &force, &paired);
     }
     return WT_OK;
 }
 
-wt_status collect_force(const collected_case *cases, size_t n, const wt_collected *beside,
+wt_status collect_force(const collected_case *cases, size_t n, const wt_collected_result *paired,
                         size_t n_beside, wt_table **table, wt_error *err)
 {
-    const paired_force all = {cases, beside, n, n_beside, 0};
+    const paired_force all = {cases, paired, n, n_beside, 0};
     table_writer w = table_begin(&collected_force_schema, err);
     wt_status status = WT_OK;
     for (size_t i = 0; status == WT_OK && i < n; i++) {
         table_view force;
         status = bind_force(cases[i].result, cases[i].file, &force, err);
         if (status == WT_OK)
-            add_curves(&w, &cases[i], &force, NULL);
+            add_force_curves(&w, &cases[i], &force, NULL);
         if (status == WT_OK && (i + 1 == n || strcmp(cases[i].sample, cases[i + 1].sample) != 0))
-            status = add_beside(&w, all, &cases[i], err);
+            status = add_paired_groups(&w, all, &cases[i], err);
     }
     const wt_status ended = table_end(&w, table);
     if (status == WT_OK)

@@ -20,7 +20,7 @@
 TABLE_ROW(modulus_groups, MODULUS_GROUPS, const char *group; wt_group data;
           wt_group_summary summary; wt_interval modulus;)
 
-static wt_interval mean_of(const wt_group_summary *s)
+static wt_interval summary_interval(const wt_group_summary *s)
 {
     return (wt_interval){s->geometric_mean, (double)NAN, s->low, s->high};
 }
@@ -31,19 +31,19 @@ static void group_row(table_writer *t, const char *name, const wt_group *group)
     wt_group_summary s = {0, 0, 0, none, none, none, none, none, none, none, none};
     if (group->n > 0 && t->status == WT_OK)
         t->status = wt_group_summarise(group, &s, t->err);
-    TABLE_ADD(modulus_groups, t, name, *group, s, mean_of(&s));
+    TABLE_ADD(modulus_groups, t, name, *group, s, summary_interval(&s));
 }
 
 /* Returns the group name of an indentation table. */
-static const char *group_of(const wt_table *indentation)
+static const char *group_name(const wt_table *indentation)
 {
     const char *name = wt_table_name(indentation);
     const size_t prefix = strlen(indentation_schema.name);
     return strncmp(name, indentation_schema.name, prefix) == 0 ? name + prefix : name;
 }
 
-wt_status wt_modulus_groups(const wt_table *const *indentation, size_t n, wt_table **result,
-                            wt_error *err)
+wt_status wt_modulus_groups_table(const wt_table *const *indentation, size_t n, wt_table **result,
+                                  wt_error *err)
 {
     if (result == NULL || (n > 0 && indentation == NULL))
         return wt_fail(err, WT_E_ARG, "no indentation tables");
@@ -52,14 +52,14 @@ wt_status wt_modulus_groups(const wt_table *const *indentation, size_t n, wt_tab
         wt_group_data data = {0};
         if (t.status == WT_OK)
             t.status = wt_group_from_table(indentation[i], false, &data, err);
-        group_row(&t, group_of(indentation[i]), &data.group);
+        group_row(&t, group_name(indentation[i]), &data.group);
         wt_group_data_clear(&data);
     }
     return table_end(&t, result);
 }
 
-wt_status wt_modulus_budget(const wt_table *const *indentation, size_t n, wt_table **table,
-                            wt_error *err)
+wt_status wt_modulus_budget_table(const wt_table *const *indentation, size_t n, wt_table **table,
+                                  wt_error *err)
 {
     if (table == NULL || (n > 0 && indentation == NULL))
         return wt_fail(err, WT_E_ARG, "no indentation tables");
@@ -69,11 +69,11 @@ wt_status wt_modulus_budget(const wt_table *const *indentation, size_t n, wt_tab
     if (groups == NULL || names == NULL)
         status = wt_fail(err, WT_E_MEMORY, "out of memory");
     for (size_t i = 0; status == WT_OK && i < n; i++) {
-        names[i] = group_of(indentation[i]);
+        names[i] = group_name(indentation[i]);
         status = wt_group_from_table(indentation[i], false, &groups[i], err);
     }
     if (status == WT_OK)
-        status = modulus_budget_make(groups, names, n, table, err);
+        status = modulus_budget_create(groups, names, n, table, err);
     for (size_t i = 0; groups != NULL && i < n; i++)
         wt_group_data_clear(&groups[i]);
     free(groups);
@@ -82,7 +82,7 @@ wt_status wt_modulus_budget(const wt_table *const *indentation, size_t n, wt_tab
 }
 
 /* The groups are named bulk and track, whatever the names of their tables. */
-static wt_status make_groups(const compare_pair *p, wt_table **table, wt_error *err)
+static wt_status make_groups_table(const compare_pair *p, wt_table **table, wt_error *err)
 {
     table_writer t = table_begin(&modulus_groups_schema, err);
     for (int g = 0; g < 2; g++)
@@ -93,9 +93,10 @@ static wt_status make_groups(const compare_pair *p, wt_table **table, wt_error *
 
 /* ---- comparison by rate and with DMA --------------------------------------------------------- */
 
-static wt_status point_of(compare_pair *p, int g, size_t bin, rate_point *point, wt_error *err)
+static wt_status rate_point_mean(compare_pair *p, int g, size_t bin, rate_point *point,
+                                 wt_error *err)
 {
-    wt_group part = compare_part(p, g, bin, 0, false);
+    wt_group part = compare_select_curves(p, g, bin, 0, false);
     double log_rate = 0, log_frequency = 0;
     point->n = part.n;
     if (part.n == 0)
@@ -111,7 +112,7 @@ static wt_status point_of(compare_pair *p, int g, size_t bin, rate_point *point,
     return wt_group_summarise(&part, &point->summary, err);
 }
 
-static wt_status make_points(compare_pair *p, wt_error *err)
+static wt_status find_rate_points(compare_pair *p, wt_error *err)
 {
     wt_status status = WT_OK;
     for (int g = 0; status == WT_OK && g < 2; g++) {
@@ -119,7 +120,7 @@ static wt_status make_points(compare_pair *p, wt_error *err)
         if (p->point[g] == NULL)
             return wt_fail(err, WT_E_MEMORY, "out of memory");
         for (size_t b = 0; status == WT_OK && b < p->n_bins; b++)
-            status = point_of(p, g, b, &p->point[g][b], err);
+            status = rate_point_mean(p, g, b, &p->point[g][b], err);
     }
     return status;
 }
@@ -136,7 +137,7 @@ static void dma_row(table_writer *t, int g, const rate_point *point, const wt_ma
     const double none = (double)NAN, frequency = point->frequency;
     double loss = none;
     dma_comparison_row row = {
-        compare_group_name[g],   frequency, none, none, none, mean_of(&point->summary),
+        compare_group_name[g],   frequency, none, none, none, summary_interval(&point->summary),
         {none, none, none, NULL}};
     if (frequency > 0 && material != NULL) {
         material->law->modulus(material, &frequency, 1, &row.storage, &loss);
@@ -158,7 +159,7 @@ static wt_status make_rate_table(const compare_pair *p, wt_table **table, wt_err
         for (size_t b = 0; b < p->n_bins; b++)
             if (p->point[g][b].n > 0)
                 TABLE_ADD(modulus_rate, &t, compare_group_name[g], p->point[g][b],
-                          mean_of(&p->point[g][b].summary));
+                          summary_interval(&p->point[g][b].summary));
     }
     return table_end(&t, table);
 }
@@ -172,15 +173,15 @@ static wt_status dma_rows(table_writer *t, const compare_pair *p, int g, const w
     wt_material *material = NULL;
     wt_error why = WT_ERROR_INIT;
     wt_status status = WT_OK;
-    if (flow_rubber_reaches(rubber, temperature, &why))
-        status = wt_rubber_at(rubber, temperature, work->seed, WT_NO_REPLICATE, &material,
-                              statement, err);
+    if (flow_rubber_can_shift(rubber, temperature, &why))
+        status = wt_rubber_material(rubber, temperature, work->seed, WT_NO_REPLICATE, &material,
+                                    statement, err);
     else
         clocale_print(statement, 256, "none at %.2f °C: %s", temperature - WT_ZERO_CELSIUS,
                       why.message);
     for (size_t b = 0; status == WT_OK && b < p->n_bins; b++) {
         const rate_point *point = &p->point[g][b];
-        const condition at = {temperature, point->frequency};
+        const material_state at = {temperature, point->frequency};
         wt_estimate modulus = {0};
         double by_temperature = 0;
         if (point->n == 0)
@@ -223,7 +224,7 @@ static wt_status make_dma_table(const compare_pair *p, const wt_compare_job *job
     const bool no_draws = job->rubber->n_draws == 0, own = !isnan(job->track_temperature.value);
     TABLE_SET(dma_comparison, &t, given[0], own ? given[1] : job->track_temperature,
               "indentation modulus over |E*| of the DMA",
-              no_draws || lacks ? compare_missing_inputs(no_draws, lacks) : NULL, both);
+              no_draws || lacks ? compare_missing_errors(no_draws, lacks) : NULL, both);
     return table_end(&t, table);
 }
 
@@ -285,16 +286,16 @@ wt_status wt_compare_groups(const wt_compare_job *job, const wt_job *work,
     wt_compare_tables t = {0};
     wt_status status = param_check(wt_compare_job_params(), job, err);
     if (status == WT_OK)
-        status = compare_read(job, &p, err);
+        status = compare_read_groups(job, &p, err);
     if (status == WT_OK)
-        status = make_groups(&p, &t.modulus_groups, err);
+        status = make_groups_table(&p, &t.modulus_groups, err);
     if (status == WT_OK)
-        status = modulus_budget_make(p.data, compare_group_name, 2, &t.modulus_budget, err);
+        status = modulus_budget_create(p.data, compare_group_name, 2, &t.modulus_budget, err);
     if (status == WT_OK && p.present[0] && p.present[1] && !job->groups_only)
-        status = compare_make_table(&p, job, work, &t.comparison, err);
+        status = compare_tabulate(&p, job, work, &t.comparison, err);
     if (job->rates && p.n_bins > 0) {
         if (status == WT_OK)
-            status = make_points(&p, err);
+            status = find_rate_points(&p, err);
         if (status == WT_OK)
             status = make_rate_table(&p, &t.modulus_rate, err);
         if (status == WT_OK && job->rubber != NULL)

@@ -35,10 +35,11 @@ typedef struct compare_pair {
     long *spot, *rate_class;
 } compare_pair;
 
-wt_status compare_make_bins(compare_pair *p, wt_error *err) WT_NODISCARD;
+wt_status compare_assign_bins(compare_pair *p, wt_error *err) WT_NODISCARD;
 void compare_pair_clear(compare_pair *p);
 /* Copies the curves of a bin to scratch from `offset` on, with moduli or factors. */
-wt_group compare_part(const compare_pair *p, int g, size_t bin, size_t offset, bool factors);
+wt_group compare_select_curves(const compare_pair *p, int g, size_t bin, size_t offset,
+                               bool factors);
 
 /* Known contributions to ln(E_track / E_bulk) other than the difference of the rubber. */
 typedef struct comparison_inputs {
@@ -62,22 +63,22 @@ wt_status comparison_find_inputs(const compare_pair *p, const wt_compare_job *jo
                                  wt_error *err) WT_NODISCARD;
 
 /* Temperature [K] and angular frequency [rad/s] of a modulus. */
-typedef struct condition {
+typedef struct material_state {
     double temperature, frequency;
-} condition;
+} material_state;
 
 /* Returns ln |E*| at one condition, or of the second over the first, with its error by draws. The
  * error is NaN if the material states none. */
-wt_status compare_material(const wt_rubber *rubber, const condition *at, int n, const wt_job *work,
-                           wt_estimate *value, wt_error *err) WT_NODISCARD;
+wt_status compare_material(const wt_rubber *rubber, const material_state *at, int n,
+                           const wt_job *work, wt_estimate *value, wt_error *err) WT_NODISCARD;
 
 /* Returns the error of ln |E*| due to the error of the temperature: half the difference between its
  * limits. 0 if no error is stated; NaN if no shift law reaches a limit. */
-wt_status compare_temperature_error(const wt_rubber *rubber, condition at, double error,
+wt_status compare_temperature_error(const wt_rubber *rubber, material_state at, double error,
                                     const wt_job *work, double *relative,
                                     wt_error *err) WT_NODISCARD;
 
-static inline const char *compare_missing_inputs(bool material, bool temperature)
+static inline const char *compare_missing_errors(bool material, bool temperature)
 {
     return material && temperature ? "material, temperature"
            : material              ? "material"
@@ -106,9 +107,9 @@ typedef struct unstated_errors {
     double lower, higher;    /* limits of their effect on ln(ratio) */
     char settled_by[400];    /* how to decide */
 } unstated_errors;
-wt_status compare_find_unsaid(const compare_pair *p, const wt_compare_job *job, const wt_job *work,
-                              const compare_row *row, unstated_errors *unsaid,
-                              wt_error *err) WT_NODISCARD;
+wt_status compare_find_unstated_errors(const compare_pair *p, const wt_compare_job *job,
+                                       const wt_job *work, const compare_row *row,
+                                       unstated_errors *unstated, wt_error *err) WT_NODISCARD;
 /* Returns d ln |E*| / dT of the DMA [1/K] at the mean frequency of the bulk. 0 if unknown. */
 wt_status compare_temperature_slope(const compare_pair *p, const wt_compare_job *job,
                                     const wt_job *work, double *slope, wt_error *err) WT_NODISCARD;
@@ -122,19 +123,20 @@ typedef struct compare_verdict {
 
 /* Assesses the difference. `row` has all rates; `rates` has one row per rate. */
 compare_verdict compare_assess(const compare_pair *p, const wt_compare_job *job,
-                               const comparison_inputs *known, const unstated_errors *unsaid,
+                               const comparison_inputs *known, const unstated_errors *unstated,
                                const compare_row *row, const compare_row *rates, size_t n_rates);
 
 /* Reads both groups of a job with their rates. The caller clears `p`, also after a failure. */
-wt_status compare_read(const wt_compare_job *job, compare_pair *p, wt_error *err) WT_NODISCARD;
+wt_status compare_read_groups(const wt_compare_job *job, compare_pair *p,
+                              wt_error *err) WT_NODISCARD;
 
 /* Returns ln of the ratio as fitted over all rates. Its error includes scatter, calibration and
  * temperature, but not the lack of fit. Infinite degrees of freedom mean a normal error. NaN if the
  * comparison does not determine it. */
-wt_status compare_as_fitted(const wt_compare_job *job, const wt_job *work, wt_estimate *log_ratio,
-                            double *df, wt_error *err) WT_NODISCARD;
+wt_status compare_fitted_ratio(const wt_compare_job *job, const wt_job *work,
+                               wt_estimate *log_ratio, double *df, wt_error *err) WT_NODISCARD;
 
-wt_status compare_make_table(compare_pair *p, const wt_compare_job *job, const wt_job *work,
-                             wt_table **table, wt_error *err) WT_NODISCARD;
+wt_status compare_tabulate(compare_pair *p, const wt_compare_job *job, const wt_job *work,
+                           wt_table **table, wt_error *err) WT_NODISCARD;
 
 #endif

@@ -27,7 +27,7 @@ static wt_status add_draw(const wt_rubber *rubber, double temperature, const wt_
 {
     wt_material *material = NULL;
     const wt_status status =
-        wt_rubber_at(rubber, temperature, work->seed, replicate, &material, statement, err);
+        wt_rubber_material(rubber, temperature, work->seed, replicate, &material, statement, err);
     if (status != WT_OK)
         return status;
     for (size_t i = 0; i < n; i++) {
@@ -51,14 +51,14 @@ static wt_status add_draw(const wt_rubber *rubber, double temperature, const wt_
 static bool is_reached(const wt_rubber *rubber, double temperature)
 {
     wt_error why = WT_ERROR_INIT;
-    return temperature > 0 && flow_rubber_reaches(rubber, temperature, &why);
+    return temperature > 0 && flow_rubber_can_shift(rubber, temperature, &why);
 }
 
 /* Adds half of the difference between the limits of the temperature. Sets *lacks if no shift law
  * reaches a limit. */
-static wt_status add_temperature(const wt_rubber *rubber, wt_estimate at, const wt_job *work,
-                                 const dwell_mean *means, size_t n, dma_moduli *to, bool *lacks,
-                                 wt_error *err)
+static wt_status add_temperature_variance(const wt_rubber *rubber, wt_estimate at,
+                                          const wt_job *work, const dwell_mean *means, size_t n,
+                                          dma_moduli *to, bool *lacks, wt_error *err)
 {
     const double ends[2] = {at.value - at.standard_error, at.value + at.standard_error};
     if (!(at.standard_error > 0))
@@ -90,16 +90,16 @@ TABLE_KEYS(dwell_dma, DWELL_DMA, wt_estimate temperature, track_temperature;
            const char *lacks, *material_statement, *track_statement;)
 
 /* Interval of a ratio of two numbers with errors. */
-static wt_interval ratio_of(const wt_interval *of, double by, double by_variance)
+static wt_interval ratio_interval(const wt_interval *of, double by, double compare_variances)
 {
     const double value = of->value / by,
                  half = fabs(value) * hypot((of->high - of->value) / of->value,
-                                            NORMAL_95 * sqrt(by_variance) / by);
+                                            NORMAL_95 * sqrt(compare_variances) / by);
     return (wt_interval){value, (double)NAN, value - half, value + half};
 }
 
-static void put_row(table_writer *t, int g, const dwell_mean *m, const dma_moduli *dma, bool errors,
-                    bool outside)
+static void add_dwell_row(table_writer *t, int g, const dwell_mean *m, const dma_moduli *dma,
+                          bool errors, bool outside)
 {
     const double none = (double)NAN, unknown = errors ? 0 : none;
     const wt_interval no_ratio = {none, none, none, none};
@@ -111,16 +111,16 @@ static void put_row(table_writer *t, int g, const dwell_mean *m, const dma_modul
         row.dma_storage.standard_error = sqrt(dma->storage_variance) + unknown;
         row.dma_loss.value = dma->loss;
         row.dma_loss.standard_error = sqrt(dma->loss_variance) + unknown;
-        row.storage_ratio = ratio_of(&m->storage, dma->storage, dma->storage_variance);
-        row.loss_ratio = ratio_of(&m->loss, dma->loss, dma->loss_variance);
+        row.storage_ratio = ratio_interval(&m->storage, dma->storage, dma->storage_variance);
+        row.loss_ratio = ratio_interval(&m->loss, dma->loss, dma->loss_variance);
     }
     dwell_dma_add_row(t, &row);
 }
 
 /* Adds the rows of a group at its temperature. */
-static wt_status put_group(table_writer *t, int g, const wt_table *moduli, const wt_rubber *rubber,
-                           wt_estimate at, const wt_job *work, char statement[256], bool *lacks,
-                           wt_error *err)
+static wt_status add_dwell_rows(table_writer *t, int g, const wt_table *moduli,
+                                const wt_rubber *rubber, wt_estimate at, const wt_job *work,
+                                char statement[256], bool *lacks, wt_error *err)
 {
     const double temperature = at.value;
     dwell_mean *means = NULL;
@@ -131,7 +131,7 @@ static wt_status put_group(table_writer *t, int g, const wt_table *moduli, const
     dma_moduli *dma = calloc(n + 1, sizeof *dma);
     if (status == WT_OK && dma == NULL)
         status = wt_fail(err, WT_E_MEMORY, "out of memory for the moduli of the DMA");
-    const bool reaches = flow_rubber_reaches(rubber, temperature, &why);
+    const bool reaches = flow_rubber_can_shift(rubber, temperature, &why);
     if (!reaches)
         clocale_print(statement, 256, "none at %.2f °C: %s", temperature - WT_ZERO_CELSIUS,
                       why.message);
@@ -142,12 +142,12 @@ static wt_status put_group(table_writer *t, int g, const wt_table *moduli, const
         status = add_draw(rubber, temperature, work, i, means, n, dma, NULL, NULL, err);
     bool unknown = false;
     if (status == WT_OK && reaches)
-        status = add_temperature(rubber, at, work, means, n, dma, &unknown, err);
+        status = add_temperature_variance(rubber, at, work, means, n, dma, &unknown, err);
     *lacks = *lacks || unknown;
     for (size_t i = 0; status == WT_OK && i < n; i++)
-        put_row(t, g, &means[i], reaches ? &dma[i] : NULL, rubber->n_draws > 0 && !unknown,
-                means[i].angular_frequency < measured[0] ||
-                    means[i].angular_frequency > measured[1]);
+        add_dwell_row(t, g, &means[i], reaches ? &dma[i] : NULL, rubber->n_draws > 0 && !unknown,
+                      means[i].angular_frequency < measured[0] ||
+                          means[i].angular_frequency > measured[1]);
     free(means);
     free(dma);
     return status;
@@ -168,15 +168,15 @@ wt_status wt_compare_dwells(const wt_compare_job *job, const wt_job *work, wt_ta
     for (int g = 0; t.status == WT_OK && g < 2; g++)
         if (given[g] != NULL) {
             table_block(&t);
-            t.status = put_group(&t, g, given[g], job->rubber, compare_temperature(job, g), work,
-                                 statement[g], &lacks, err);
+            t.status = add_dwell_rows(&t, g, given[g], job->rubber, compare_temperature(job, g),
+                                      work, statement[g], &lacks, err);
         }
     const bool no_draws = job->rubber->n_draws == 0;
     wt_estimate track = compare_temperature(job, 1);
     if (job->track == NULL)
         track.value = (double)NAN;
     TABLE_SET(dwell_dma, &t, compare_temperature(job, 0), track,
-              no_draws || lacks ? compare_missing_inputs(no_draws, lacks) : NULL, statement[0],
+              no_draws || lacks ? compare_missing_errors(no_draws, lacks) : NULL, statement[0],
               statement[1]);
     return table_end(&t, table);
 }

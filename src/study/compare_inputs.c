@@ -13,7 +13,7 @@
  * to 9 %. */
 enum { DRAWS = 64 };
 
-static double square_of(double x)
+static double squared(double x)
 {
     return x * x;
 }
@@ -25,7 +25,7 @@ static void include_error(comparison_inputs *k, const char *sign, const char *wo
 }
 
 /* Adds a variance to that of the offset. An unknown error is named. */
-static void add_error(comparison_inputs *k, double error, const char *words)
+static void add_offset_error(comparison_inputs *k, double error, const char *words)
 {
     if (isnan(error)) {
         const size_t used = strlen(k->lacks);
@@ -38,37 +38,40 @@ static void add_error(comparison_inputs *k, double error, const char *words)
     include_error(k, ", ", words);
 }
 
-static bool are_two(const compare_pair *p, wt_cantilever_sharing levers)
+static bool has_two_cantilevers(const compare_pair *p, wt_cantilever_sharing levers)
 {
     const double bulk = p->data[0].spring_constant.value, track = p->data[1].spring_constant.value;
-    if (levers != WT_LEVERS_AUTO)
-        return levers == WT_LEVERS_TWO;
+    if (levers != WT_CANTILEVERS_AUTO)
+        return levers == WT_CANTILEVERS_SEPARATE;
     const char *const tip[2] = {p->data[0].tip, p->data[1].tip};
     if (tip[0] != NULL && tip[1] != NULL && strcmp(tip[0], tip[1]) != 0)
         return true;
-    if (p->data[0].several_tips || p->data[1].several_tips) /* even if both lists are equal */
+    if (p->data[0].has_several_tips ||
+        p->data[1].has_several_tips) /* even if both lists are equal */
         return true;
-    return p->data[0].several_levers || p->data[1].several_levers ||
+    return p->data[0].has_several_cantilevers || p->data[1].has_several_cantilevers ||
            fabs(track - bulk) > 1e-9 * fabs(bulk);
 }
 
 /* Relative error of one source and the gain of ln E; NaN if not stated. */
-typedef struct calibration {
+typedef struct calibration_error {
     double error, gain;
-} calibration;
+} calibration_error;
 
-static calibration calibration_of(const wt_group_data *d, const wt_compare_job *job,
-                                  wt_shared_law_source source)
+static calibration_error group_calibration(const wt_group_data *d, const wt_compare_job *job,
+                                           wt_systematic_source source)
 {
-    const double stated[WT_COMMON_SOURCES] = {
-        [WT_COMMON_SPRING_CONSTANT] = d->spring_constant.standard_error / d->spring_constant.value};
-    const double given[WT_COMMON_SOURCES] = {[WT_COMMON_SPRING_CONSTANT] = job->lever_error,
-                                             [WT_COMMON_SENSITIVITY] = job->sensitivity_error};
-    const double usual[WT_COMMON_SOURCES] = {[WT_COMMON_SPRING_CONSTANT] = 1,
-                                             [WT_COMMON_SENSITIVITY] = d->sensitivity_gain,
-                                             [WT_COMMON_HALF_ANGLE] = (double)NAN,
-                                             [WT_COMMON_RADIUS] = (double)NAN};
-    calibration c = {d->common_error[source], d->common_gain[source].value};
+    const double stated[WT_SYSTEMATIC_SOURCES] = {[WT_SYSTEMATIC_SPRING_CONSTANT] =
+                                                      d->spring_constant.standard_error /
+                                                      d->spring_constant.value};
+    const double given[WT_SYSTEMATIC_SOURCES] = {[WT_SYSTEMATIC_SPRING_CONSTANT] = job->lever_error,
+                                                 [WT_SYSTEMATIC_SENSITIVITY] =
+                                                     job->sensitivity_error};
+    const double usual[WT_SYSTEMATIC_SOURCES] = {[WT_SYSTEMATIC_SPRING_CONSTANT] = 1,
+                                                 [WT_SYSTEMATIC_SENSITIVITY] = d->sensitivity_gain,
+                                                 [WT_SYSTEMATIC_HALF_ANGLE] = (double)NAN,
+                                                 [WT_SYSTEMATIC_RADIUS] = (double)NAN};
+    calibration_error c = {d->common_error[source], d->common_gain[source].value};
     if (!(c.error > 0))
         c.error = stated[source] > 0 ? stated[source] : given[source];
     if (isnan(c.gain))
@@ -78,7 +81,8 @@ static calibration calibration_of(const wt_group_data *d, const wt_compare_job *
 
 static bool has_tip_error(const wt_group_data *d)
 {
-    return d->common_error[WT_COMMON_HALF_ANGLE] > 0 || d->common_error[WT_COMMON_RADIUS] > 0;
+    return d->common_error[WT_SYSTEMATIC_HALF_ANGLE] > 0 ||
+           d->common_error[WT_SYSTEMATIC_RADIUS] > 0;
 }
 
 static void cancel_error(comparison_inputs *k, const char *words)
@@ -89,55 +93,59 @@ static void cancel_error(comparison_inputs *k, const char *words)
 
 /* With one cantilever and tip their errors apply to both groups, and the difference of the gains
  * remains. The spring constant enters both moduli with the same power and cancels. */
-static void add_source(const compare_pair *p, const wt_compare_job *job,
-                       wt_shared_law_source source, bool separate, const char *words,
-                       comparison_inputs *k)
+static void add_calibration_error(const compare_pair *p, const wt_compare_job *job,
+                                  wt_systematic_source source, bool separate, const char *words,
+                                  comparison_inputs *k)
 {
-    const calibration bulk = calibration_of(&p->data[0], job, source),
-                      track = calibration_of(&p->data[1], job, source);
+    const calibration_error bulk = group_calibration(&p->data[0], job, source),
+                            track = group_calibration(&p->data[1], job, source);
     const double of_bulk = bulk.error > 0 ? bulk.gain * bulk.error : 0,
                  of_track = track.error > 0 ? track.gain * track.error : 0;
     if (separate) {
-        add_error(k, hypot(of_bulk, of_track), words);
+        add_offset_error(k, hypot(of_bulk, of_track), words);
         return;
     }
     const double error = fmax(bulk.error > 0 ? bulk.error : 0, track.error > 0 ? track.error : 0);
     if (!(error > 0))
         return;
     cancel_error(k, words);
-    if (source != WT_COMMON_SPRING_CONSTANT)
-        add_error(k, fabs(track.gain - bulk.gain) * error, words);
+    if (source != WT_SYSTEMATIC_SPRING_CONSTANT)
+        add_offset_error(k, fabs(track.gain - bulk.gain) * error, words);
 }
 
-static void add_calibration(const compare_pair *p, const wt_compare_job *job, comparison_inputs *k)
+static void add_calibration_errors(const compare_pair *p, const wt_compare_job *job,
+                                   comparison_inputs *k)
 {
     const wt_group_data *bulk = &p->data[0], *track = &p->data[1];
-    k->two_levers = are_two(p, job->levers);
+    k->two_levers = has_two_cantilevers(p, job->levers);
     /* a remounted cantilever was calibrated again */
     const double s[2] = {bulk->sensitivity.value, track->sensitivity.value};
-    const bool anew = bulk->several_sensitivities || track->several_sensitivities ||
+    const bool anew = bulk->has_several_sensitivities || track->has_several_sensitivities ||
                       (!isnan(s[0]) && !isnan(s[1]) && s[0] != s[1]);
-    add_source(p, job, WT_COMMON_SENSITIVITY, k->two_levers || anew, "deflection sensitivity", k);
-    add_source(p, job, WT_COMMON_SPRING_CONSTANT, k->two_levers, "spring constants", k);
+    add_calibration_error(p, job, WT_SYSTEMATIC_SENSITIVITY, k->two_levers || anew,
+                          "deflection sensitivity", k);
+    add_calibration_error(p, job, WT_SYSTEMATIC_SPRING_CONSTANT, k->two_levers, "spring constants",
+                          k);
     if (has_tip_error(bulk) || has_tip_error(track)) {
-        add_source(p, job, WT_COMMON_HALF_ANGLE, k->two_levers, "half-angle of the tip", k);
-        add_source(p, job, WT_COMMON_RADIUS, k->two_levers, "radius of the tip", k);
+        add_calibration_error(p, job, WT_SYSTEMATIC_HALF_ANGLE, k->two_levers,
+                              "half-angle of the tip", k);
+        add_calibration_error(p, job, WT_SYSTEMATIC_RADIUS, k->two_levers, "radius of the tip", k);
     } else if (job->tip_error > 0) {
         if (k->two_levers)
-            add_error(k, job->tip_error * M_SQRT2, "tips");
+            add_offset_error(k, job->tip_error * M_SQRT2, "tips");
         else
             cancel_error(k, "tip");
     }
     if (!k->two_levers)
         return;
     for (int g = 0; g < 2; g++)
-        if (!(calibration_of(&p->data[g], job, WT_COMMON_SPRING_CONSTANT).error > 0))
+        if (!(group_calibration(&p->data[g], job, WT_SYSTEMATIC_SPRING_CONSTANT).error > 0))
             k->lever_not_stated = true;
 }
 
 /* Adds errors that the curves show, but that the scatter does not. The piezo curvature and the tip
  * shape are shared by both groups. The spectra of bulk and track may differ. */
-static void add_shown(const compare_pair *p, comparison_inputs *k)
+static void add_curve_errors(const compare_pair *p, comparison_inputs *k)
 {
     double loss[2], bend[2], misfit[2];
     for (int g = 0; g < 2; g++) {
@@ -152,9 +160,9 @@ static void add_shown(const compare_pair *p, comparison_inputs *k)
                      k->two_levers ? hypot(misfit[0], misfit[1]) : fabs(misfit[1] - misfit[0]);
     k->shown = hypot(hypot(of_loss, of_bend), of_misfit);
     k->loss_not_known = isnan(of_loss);
-    add_error(k, of_loss, "loss of unknown spectrum");
-    add_error(k, of_bend, "bend of the baselines");
-    add_error(k, of_misfit, "misfit of the contact law");
+    add_offset_error(k, of_loss, "loss of unknown spectrum");
+    add_offset_error(k, of_bend, "bend of the baselines");
+    add_offset_error(k, of_misfit, "misfit of the contact law");
 }
 
 /* ---- temperature and rate -------------------------------------------------------------------- */
@@ -168,12 +176,13 @@ static double mean_frequency(const wt_group_data *d)
     return exp(sum / (double)d->group.n);
 }
 
-static wt_status log_modulus(const wt_rubber *rubber, condition at, uint64_t seed, size_t replicate,
-                             double *value, wt_error *err)
+static wt_status log_modulus(const wt_rubber *rubber, material_state at, uint64_t seed,
+                             size_t replicate, double *value, wt_error *err)
 {
     wt_material *material = NULL;
     double storage, loss;
-    wt_status status = wt_rubber_at(rubber, at.temperature, seed, replicate, &material, NULL, err);
+    wt_status status =
+        wt_rubber_material(rubber, at.temperature, seed, replicate, &material, NULL, err);
     if (status != WT_OK)
         return status;
     material->law->modulus(material, &at.frequency, 1, &storage, &loss);
@@ -182,7 +191,7 @@ static wt_status log_modulus(const wt_rubber *rubber, condition at, uint64_t see
     return WT_OK;
 }
 
-wt_status compare_material(const wt_rubber *rubber, const condition *at, int n_at,
+wt_status compare_material(const wt_rubber *rubber, const material_state *at, int n_at,
                            const wt_job *work, wt_estimate *value, wt_error *err)
 {
     double sum = 0;
@@ -200,7 +209,7 @@ wt_status compare_material(const wt_rubber *rubber, const condition *at, int n_a
         if (i == 0) {
             value->value = y;
         } else if (status == WT_OK && isfinite(y)) {
-            sum += square_of(y - value->value);
+            sum += squared(y - value->value);
             n++;
         }
     }
@@ -208,7 +217,7 @@ wt_status compare_material(const wt_rubber *rubber, const condition *at, int n_a
     return WT_OK;
 }
 
-wt_status compare_temperature_error(const wt_rubber *rubber, condition at, double error,
+wt_status compare_temperature_error(const wt_rubber *rubber, material_state at, double error,
                                     const wt_job *work, double *relative, wt_error *err)
 {
     wt_error why = WT_ERROR_INIT;
@@ -220,7 +229,7 @@ wt_status compare_temperature_error(const wt_rubber *rubber, condition at, doubl
         return WT_OK;
     for (int i = 0; status == WT_OK && i < 2; i++) {
         at.temperature = below + 2 * error * i;
-        if (!(at.temperature > 0) || !flow_rubber_reaches(rubber, at.temperature, &why)) {
+        if (!(at.temperature > 0) || !flow_rubber_can_shift(rubber, at.temperature, &why)) {
             *relative = (double)NAN;
             return WT_OK;
         }
@@ -230,10 +239,10 @@ wt_status compare_temperature_error(const wt_rubber *rubber, condition at, doubl
     return status;
 }
 
-static bool law_reaches(const wt_rubber *rubber, double temperature, comparison_inputs *k)
+static bool is_within_shift_law(const wt_rubber *rubber, double temperature, comparison_inputs *k)
 {
     wt_error why = WT_ERROR_INIT;
-    if (rubber == NULL || flow_rubber_reaches(rubber, temperature, &why))
+    if (rubber == NULL || flow_rubber_can_shift(rubber, temperature, &why))
         return true;
     clocale_print(k->out_of_reach, sizeof k->out_of_reach, "%.2f °C: %s",
                   temperature - WT_ZERO_CELSIUS, why.message);
@@ -245,43 +254,43 @@ static wt_status add_dma(const compare_pair *p, const wt_compare_job *job, const
                          bool by_temperature, double step_error, comparison_inputs *k,
                          wt_error *err)
 {
-    condition at[2];
+    material_state at[2];
     for (int g = 0; g < 2; g++) {
         at[g].temperature = k->temperature[by_temperature ? g : 0];
         at[g].frequency = mean_frequency(&p->data[k->rates_by_dma ? g : 0]);
     }
-    condition near[2] = {at[1], at[1]};
-    near[0].temperature -= 1;
-    near[1].temperature += 1;
-    const bool near_too = by_temperature && step_error > 0 && job->rubber != NULL;
-    if (!law_reaches(job->rubber, at[0].temperature, k) ||
-        !law_reaches(job->rubber, at[1].temperature, k) ||
-        (near_too && !law_reaches(job->rubber, near[0].temperature, k)))
+    material_state neighbours[2] = {at[1], at[1]};
+    neighbours[0].temperature -= 1;
+    neighbours[1].temperature += 1;
+    const bool needs_neighbours = by_temperature && step_error > 0 && job->rubber != NULL;
+    if (!is_within_shift_law(job->rubber, at[0].temperature, k) ||
+        !is_within_shift_law(job->rubber, at[1].temperature, k) ||
+        (needs_neighbours && !is_within_shift_law(job->rubber, neighbours[0].temperature, k)))
         return WT_OK;
     wt_estimate change = {0, (double)NAN, 0, "1"};
     wt_status status = WT_OK;
     if (job->rubber != NULL)
         status = compare_material(job->rubber, at, 2, work, &change, err);
     k->offset.value += p->by_factor ? 0 : change.value; /* the factors do not depend on it */
-    add_error(k, change.standard_error, "material");
-    if (status != WT_OK || !near_too)
+    add_offset_error(k, change.standard_error, "material");
+    if (status != WT_OK || !needs_neighbours)
         return status;
-    status = compare_material(job->rubber, near, 2, work, &change, err);
-    add_error(k, fabs(change.value / 2) * step_error, "temperatures");
+    status = compare_material(job->rubber, neighbours, 2, work, &change, err);
+    add_offset_error(k, fabs(change.value / 2) * step_error, "temperatures");
     return status;
 }
 
 wt_status compare_temperature_slope(const compare_pair *p, const wt_compare_job *job,
                                     const wt_job *work, double *slope, wt_error *err)
 {
-    condition at = {compare_temperature(job, 0).value, mean_frequency(&p->data[0])};
+    material_state at = {compare_temperature(job, 0).value, mean_frequency(&p->data[0])};
     wt_error why = WT_ERROR_INIT;
     double y[2] = {0, 0};
     wt_status status = WT_OK;
     *slope = 0;
     at.temperature -= 1;
-    if (!(at.frequency > 0) || !flow_rubber_reaches(job->rubber, at.temperature, &why) ||
-        !flow_rubber_reaches(job->rubber, at.temperature + 2, &why))
+    if (!(at.frequency > 0) || !flow_rubber_can_shift(job->rubber, at.temperature, &why) ||
+        !flow_rubber_can_shift(job->rubber, at.temperature + 2, &why))
         return WT_OK;
     for (int i = 0; status == WT_OK && i < 2; i++, at.temperature += 2)
         status = log_modulus(job->rubber, at, work->seed, WT_NO_REPLICATE, &y[i], err);
@@ -323,7 +332,8 @@ static wt_status add_conditions(const compare_pair *p, const wt_compare_job *job
         k->temperature_not_known = true;
     } else if (warmer && !isnan(slope.value)) {
         k->offset.value += slope.value * step;
-        add_error(k, hypot(slope.value * step_error, slope.standard_error * step), "temperatures");
+        add_offset_error(k, hypot(slope.value * step_error, slope.standard_error * step),
+                         "temperatures");
     } else if (warmer && !has_dma) {
         k->temperature_not_known = step != 0;
     }
@@ -339,7 +349,7 @@ wt_status comparison_find_inputs(const compare_pair *p, const wt_compare_job *jo
                                  wt_error *err)
 {
     *known = (comparison_inputs){.offset = {0, 0, 0, "1"}, .rates_by_dma = rates_by_dma};
-    add_calibration(p, job, known);
-    add_shown(p, known);
+    add_calibration_errors(p, job, known);
+    add_curve_errors(p, known);
     return add_conditions(p, job, work, known, err);
 }

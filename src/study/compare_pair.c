@@ -30,7 +30,7 @@ void compare_pair_clear(compare_pair *p)
 
 /* A bin starts at the lowest rate outside the previous bin. The border therefore never divides a
  * nominal rate. */
-wt_status compare_make_bins(compare_pair *p, wt_error *err)
+wt_status compare_assign_bins(compare_pair *p, wt_error *err)
 {
     size_t total = p->data[0].group.n + p->data[1].group.n, n = 0;
     double *rates = malloc((total + 1) * sizeof *rates);
@@ -74,7 +74,8 @@ wt_status compare_make_bins(compare_pair *p, wt_error *err)
     return WT_OK;
 }
 
-wt_group compare_part(const compare_pair *p, int g, size_t bin, size_t offset, bool factors)
+wt_group compare_select_curves(const compare_pair *p, int g, size_t bin, size_t offset,
+                               bool factors)
 {
     const wt_group_data *data = &p->data[g];
     const bool all = bin == COMPARE_ALL_BINS;
@@ -131,7 +132,7 @@ static bool compares_factors(const wt_compare_job *job, const compare_pair *p)
     return all;
 }
 
-wt_status compare_read(const wt_compare_job *job, compare_pair *p, wt_error *err)
+wt_status compare_read_groups(const wt_compare_job *job, compare_pair *p, wt_error *err)
 {
     const wt_table *given[2] = {job->bulk, job->track};
     wt_status status = WT_OK;
@@ -144,5 +145,5 @@ wt_status compare_read(const wt_compare_job *job, compare_pair *p, wt_error *err
     if (status == WT_OK)
         status = check_copies(p, err);
     p->by_factor = status == WT_OK && compares_factors(job, p);
-    return status == WT_OK ? compare_make_bins(p, err) : status;
+    return status == WT_OK ? compare_assign_bins(p, err) : status;
 }

@@ -14,7 +14,7 @@ typedef struct comparison_task {
     const wt_compare_job *job;
     const wt_job *work;
     comparison_inputs known;
-    unstated_errors unsaid;
+    unstated_errors unstated;
     compare_row *rows; /* [1 + n_rates] */
     size_t n_rates;
 } comparison_task;
@@ -24,8 +24,8 @@ static wt_status compare_bin(comparison_task *task, size_t bin, compare_row *r, 
 {
     compare_pair *p = task->p;
     const bool all = bin == COMPARE_ALL_BINS;
-    wt_group bulk = compare_part(p, 0, bin, 0, p->by_factor),
-             track = compare_part(p, 1, bin, bulk.n, p->by_factor);
+    wt_group bulk = compare_select_curves(p, 0, bin, 0, p->by_factor),
+             track = compare_select_curves(p, 1, bin, bulk.n, p->by_factor);
     if (task->known.rates_by_dma)
         bulk.rate = track.rate = NULL;
     *r = (compare_row){.low = all ? (double)NAN : p->low[bin],
@@ -35,8 +35,8 @@ static wt_status compare_bin(comparison_task *task, size_t bin, compare_row *r, 
     if (!all && (bulk.n == 0 || track.n == 0))
         return WT_OK;
     wt_error failure = WT_ERROR_INIT;
-    const wt_status status = wt_compare(&bulk, &track, &task->known.offset, &r->c, &failure);
-    r->valid = status == WT_OK && r->c.unsettled == WT_SETTLED;
+    const wt_status status = wt_compare_moduli(&bulk, &track, &task->known.offset, &r->c, &failure);
+    r->valid = status == WT_OK && r->c.unsettled == WT_UNDECIDED_NOT;
     if (all && status == WT_OK) {
         r->n[0] = r->c.curves_bulk;
         r->n[1] = r->c.curves_track;
@@ -48,7 +48,7 @@ static wt_status compare_bin(comparison_task *task, size_t bin, compare_row *r, 
     return status;
 }
 
-static wt_status holm_rows(compare_row *rows, size_t n, wt_error *err)
+static wt_status correct_p_values(compare_row *rows, size_t n, wt_error *err)
 {
     double *p = malloc((2 * n + 1) * sizeof *p);
     size_t m = 0;
@@ -57,7 +57,7 @@ static wt_status holm_rows(compare_row *rows, size_t n, wt_error *err)
     for (size_t i = 0; i < n; i++)
         if (rows[i].valid)
             p[m++] = rows[i].c.p;
-    wt_holm(p, m, p + n);
+    wt_holm_adjust(p, m, p + n);
     m = 0;
     for (size_t i = 0; i < n; i++)
         if (rows[i].valid)
@@ -67,7 +67,7 @@ static wt_status holm_rows(compare_row *rows, size_t n, wt_error *err)
 }
 
 /* Without a curve in one group, the row has only the counts. */
-static wt_status count_units(const comparison_task *task, compare_row *r, wt_error *err)
+static wt_status count_group_units(const comparison_task *task, compare_row *r, wt_error *err)
 {
     const double none = (double)NAN;
     wt_group_summary of[2] = {{0}};
@@ -84,7 +84,7 @@ static wt_status count_units(const comparison_task *task, compare_row *r, wt_err
                                       task->p->data[1].group.spot != NULL,
                            .n_bulk = of[0].n_spots,
                            .n_track = of[1].n_spots,
-                           .unsettled = WT_ONE_SPOT,
+                           .unsettled = WT_UNDECIDED_ONE_SPOT,
                            .log_ratio = unknown,
                            .rate_slope = unknown,
                            .interaction_p = none};
@@ -92,13 +92,13 @@ static wt_status count_units(const comparison_task *task, compare_row *r, wt_err
 }
 
 /* If the curves do not determine the dependence on the rate, the DMA may. */
-static wt_status compare_rows(comparison_task *task, wt_error *err)
+static wt_status compare_all_rows(comparison_task *task, wt_error *err)
 {
     compare_pair *p = task->p;
     wt_status status = comparison_find_inputs(p, task->job, task->work, false, &task->known, err);
     if (status == WT_OK)
         status = compare_bin(task, COMPARE_ALL_BINS, &task->rows[0], err);
-    if (status == WT_OK && task->rows[0].c.unsettled == WT_RATES_APART &&
+    if (status == WT_OK && task->rows[0].c.unsettled == WT_UNDECIDED_NO_COMMON_RATE &&
         (task->job->rubber != NULL || p->by_factor)) {
         status = comparison_find_inputs(p, task->job, task->work, true, &task->known, err);
         if (status == WT_OK)
@@ -106,18 +106,18 @@ static wt_status compare_rows(comparison_task *task, wt_error *err)
     }
     for (size_t b = 0; status == WT_OK && b < p->n_bins; b++)
         status = compare_bin(task, b, &task->rows[b + 1], err);
-    return status == WT_OK ? holm_rows(task->rows + 1, p->n_bins, err) : status;
+    return status == WT_OK ? correct_p_values(task->rows + 1, p->n_bins, err) : status;
 }
 
-wt_status compare_as_fitted(const wt_compare_job *job, const wt_job *work, wt_estimate *log_ratio,
-                            double *df, wt_error *err)
+wt_status compare_fitted_ratio(const wt_compare_job *job, const wt_job *work,
+                               wt_estimate *log_ratio, double *df, wt_error *err)
 {
     compare_pair p = {0};
     compare_row row = {.valid = false};
     comparison_task task = {.p = &p, .job = job, .work = work};
     *log_ratio = (wt_estimate){(double)NAN, (double)NAN, 0, "1"};
     *df = (double)INFINITY;
-    wt_status status = compare_read(job, &p, err);
+    wt_status status = compare_read_groups(job, &p, err);
     for (int g = 0; g < 2; g++)
         p.data[g].misfit_error = 0;
     if (status == WT_OK && p.data[0].group.n > 0 && p.data[1].group.n > 0) {
@@ -143,7 +143,8 @@ static void warn_copies(const comparison_task *task)
             wt_log_add(task->work->log, WT_WARNING, NULL, NULL,
                        "%zu curves of the %s are there twice and count once: %s and %s hold "
                        "the same",
-                       d->n_copies, compare_group_name[g], d->copy_of[0], d->copy_of[1]);
+                       d->n_copies, compare_group_name[g], d->duplicate_file[0],
+                       d->duplicate_file[1]);
     }
 }
 
@@ -167,9 +168,9 @@ static void warn_two_spots(const comparison_task *task)
 static void warn_one_spot(const comparison_task *task)
 {
     const wt_comparison *c = &task->rows[0].c;
-    if (c->unsettled != WT_SETTLED || (c->n_bulk > 1 && c->n_track > 1))
+    if (c->unsettled != WT_UNDECIDED_NOT || (c->n_bulk > 1 && c->n_track > 1))
         return;
-    if (c->scatter_given) {
+    if (c->scatter_is_stated) {
         wt_log_add(task->work->log, WT_WARNING, NULL, NULL,
                    "the interval of the ratio rests on spots that scatter by %.3g %%, as given: "
                    "one spot does not tell it; three spots in each group would",
@@ -198,7 +199,8 @@ static void warn_rates(const comparison_task *task)
         wt_log_add(task->work->log, WT_WARNING, NULL, NULL,
                    "curves at %s m/s are in one group only (bulk %zu, track %zu)%s",
                    format_range(r->low, r->high, 3).text, r->n[0], r->n[1],
-                   all->c.rates_by == WT_RATES_COMMON && all->c.unsettled != WT_RATES_APART
+                   all->c.rate_matching == WT_RATES_COMMON &&
+                           all->c.unsettled != WT_UNDECIDED_NO_COMMON_RATE
                        ? "; the comparison leaves them out"
                        : "");
     }
@@ -212,8 +214,8 @@ static void warn_rates(const comparison_task *task)
 TABLE_ROW_OF(comparison, COMPARISON, compare_row)
 
 /* Widens the interval by the effect of plausible other causes. */
-static void add_rows(table_writer *t, const compare_row *rows, size_t n, bool silent, bool interval,
-                     const unstated_errors *unsaid)
+static void add_comparison_rows(table_writer *t, const compare_row *rows, size_t n, bool silent,
+                                bool interval, const unstated_errors *unstated)
 {
     for (size_t i = 0; i < n; i++) {
         compare_row row = rows[i];
@@ -226,42 +228,42 @@ static void add_rows(table_writer *t, const compare_row *rows, size_t n, bool si
                 c->mann_whitney_smallest_p = c->effect_size = (double)NAN;
         if (isinf(c->df))
             c->df = (double)NAN; /* normal error */
-        c->ratio_low *= exp(-unsaid->lower);
-        c->ratio_high *= exp(unsaid->higher);
+        c->ratio_low *= exp(-unstated->lower);
+        c->ratio_high *= exp(unstated->higher);
         comparison_add_row(t, &row);
         comparison_put(t, COMPARISON_RATIO_LOW, c->ratio_low);
         comparison_put(t, COMPARISON_RATIO_HIGH, c->ratio_high);
     }
 }
 
-static const char *unit_words(const compare_pair *p, const wt_compare_job *job,
-                              const wt_comparison *c)
+static const char *unit_of_analysis_text(const compare_pair *p, const wt_compare_job *job,
+                                         const wt_comparison *c)
 {
     if (!c->by_spot)
         return "curve: no spots in the tables";
-    if (p->data[0].spots_given && p->data[1].spots_given)
+    if (p->data[0].spots_are_named && p->data[1].spots_are_named)
         return "spot";
     if (job->map_spots)
         return "spot: each place of a map counts as one";
     return "spot: each file counts as one where none were named";
 }
 
-static const char *rates_words(const comparison_task *task)
+static const char *rates_text(const comparison_task *task)
 {
     const wt_comparison *c = &task->rows[0].c;
     if (!task->p->by_rate)
         return "not known";
-    if (task->known.rates_by_dma || (task->p->by_factor && c->rates_by != WT_RATES_COMMON))
+    if (task->known.rates_by_dma || (task->p->by_factor && c->rate_matching != WT_RATES_COMMON))
         return "brought to one by the DMA";
     if (task->p->by_factor)
         return "those that both groups have, each brought to one by the DMA";
-    return c->rates_by == WT_RATES_WITHIN    ? "brought to one by the slope within the spots"
-           : c->rates_by == WT_RATES_BETWEEN ? "brought to one by the slope between the spots"
-                                             : "those that both groups have";
+    return c->rate_matching == WT_RATES_WITHIN    ? "brought to one by the slope within the spots"
+           : c->rate_matching == WT_RATES_BETWEEN ? "brought to one by the slope between the spots"
+                                                  : "those that both groups have";
 }
 
 /* Half the range of ln(ratio) over the rates. It becomes an error of the single ratio. */
-static double spread_of_rates(const compare_row *rates, size_t n)
+static double rate_ratio_half_range(const compare_row *rates, size_t n)
 {
     double low = (double)INFINITY, high = -(double)INFINITY;
     for (size_t i = 0; i < n; i++)
@@ -279,45 +281,46 @@ TABLE_KEYS(comparison, COMPARISON, const char *differs, *settled_by, *would_expl
 
 /* Sets the ratio and its error for friction: a Student's t error of the logarithm, unknown without
  * an interval. */
-static void find_ratio(const comparison_task *task, bool twisted, bool interval,
-                       comparison_keys *keys)
+static void set_ratio_keys(const comparison_task *task, bool twisted, bool interval,
+                           comparison_keys *keys)
 {
     const wt_comparison *c = &task->rows[0].c;
     double error = interval ? c->log_ratio.standard_error : (double)NAN;
     if (twisted)
-        error = hypot(error, spread_of_rates(task->rows + 1, task->p->n_bins));
+        error = hypot(error, rate_ratio_half_range(task->rows + 1, task->p->n_bins));
     /* uniform distribution over the effect of plausible causes */
-    error = hypot(error, hypot(task->unsaid.lower, task->unsaid.higher) / sqrt(3));
+    error = hypot(error, hypot(task->unstated.lower, task->unstated.higher) / sqrt(3));
     keys->ratio = (wt_estimate){c->ratio, c->ratio * error, 0, NULL};
     if (interval && isfinite(c->df))
         keys->ratio_df = c->df;
     /* share of spring constants, sensitivities, tips and temperatures in this variance */
-    const double known = c->known_share * pow(c->log_ratio.standard_error / error, 2);
+    const double known = c->offset_variance_share * pow(c->log_ratio.standard_error / error, 2);
     if (interval && known > 0)
         keys->calibration_share = known;
 }
 
-static wt_status write_table(const comparison_task *task, wt_table **table, wt_error *err)
+static wt_status write_comparison_table(const comparison_task *task, wt_table **table,
+                                        wt_error *err)
 {
     const compare_pair *p = task->p;
     const wt_comparison *c = &task->rows[0].c;
     const size_t n_rates = task->n_rates;
-    const compare_verdict v = compare_assess(p, task->job, &task->known, &task->unsaid,
+    const compare_verdict v = compare_assess(p, task->job, &task->known, &task->unstated,
                                              &task->rows[0], task->rows + 1, n_rates);
-    const bool interval = c->unsettled == WT_SETTLED && !task->known.lever_not_stated;
+    const bool interval = c->unsettled == WT_UNDECIDED_NOT && !task->known.lever_not_stated;
     table_writer t = table_begin(&comparison_schema, err);
-    add_rows(&t, task->rows, n_rates + 1, v.silent, interval, &task->unsaid);
-    const bool given = interval && c->scatter_given;
+    add_comparison_rows(&t, task->rows, n_rates + 1, v.silent, interval, &task->unstated);
+    const bool given = interval && c->scatter_is_stated;
     char includes[384];
     snprintf(includes, sizeof includes, "%s%s%s",
              given ? "scatter of spots as given" : "scatter of the units", task->known.includes,
-             task->unsaid.plausible[0] != '\0' ? " + what else may well make the ratio" : "");
+             task->unstated.plausible[0] != '\0' ? " + what else may well make the ratio" : "");
     const double none = (double)NAN;
     comparison_keys keys = {.differs = v.differs,
                             .settled_by = v.settled_by,
-                            .would_explain = v.silent ? NULL : task->unsaid.would_explain,
-                            .unit = unit_words(p, task->job, c),
-                            .rates = rates_words(task),
+                            .would_explain = v.silent ? NULL : task->unstated.would_explain,
+                            .unit = unit_of_analysis_text(p, task->job, c),
+                            .rates = rates_text(task),
                             .includes = interval && !v.silent ? includes : NULL,
                             .cantilevers = task->known.two_levers ? "two" : "one",
                             .cancels = v.silent ? NULL : task->known.cancels,
@@ -329,13 +332,13 @@ static wt_status write_table(const comparison_task *task, wt_table **table, wt_e
                             .calibration_share = none,
                             .spot_scatter = given ? task->job->spot_scatter : none};
     if (!v.silent)
-        find_ratio(task, v.twisted, interval, &keys);
+        set_ratio_keys(task, v.twisted, interval, &keys);
     comparison_set_keys(&t, &keys);
     return table_end(&t, table);
 }
 
-wt_status compare_make_table(compare_pair *p, const wt_compare_job *job, const wt_job *work,
-                             wt_table **table, wt_error *err)
+wt_status compare_tabulate(compare_pair *p, const wt_compare_job *job, const wt_job *work,
+                           wt_table **table, wt_error *err)
 {
     comparison_task task = {.p = p, .job = job, .work = work};
     const bool both = p->data[0].group.n > 0 && p->data[1].group.n > 0;
@@ -343,11 +346,12 @@ wt_status compare_make_table(compare_pair *p, const wt_compare_job *job, const w
     task.rows = calloc(task.n_rates + 1, sizeof *task.rows);
     if (task.rows == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
-    wt_status status = both ? compare_rows(&task, err) : count_units(&task, task.rows, err);
+    wt_status status =
+        both ? compare_all_rows(&task, err) : count_group_units(&task, task.rows, err);
     if (status == WT_OK && !both)
         status = comparison_find_inputs(p, job, work, false, &task.known, err);
     if (status == WT_OK && both)
-        status = compare_find_unsaid(p, job, work, &task.rows[0], &task.unsaid, err);
+        status = compare_find_unstated_errors(p, job, work, &task.rows[0], &task.unstated, err);
     if (status == WT_OK)
         warn_copies(&task);
     if (status == WT_OK && both) {
@@ -356,7 +360,7 @@ wt_status compare_make_table(compare_pair *p, const wt_compare_job *job, const w
         warn_rates(&task);
     }
     if (status == WT_OK)
-        status = write_table(&task, table, err);
+        status = write_comparison_table(&task, table, err);
     free(task.rows);
     return status;
 }

@@ -15,29 +15,29 @@ static const double scatter_assumed = 0.15;
 /* Significance level of the tests and of the intervals. */
 static const double level = 0.05;
 
-typedef struct verdict_text {
+typedef struct short_text {
     char text[48];
-} verdict_text;
+} short_text;
 
-static verdict_text format_percent(double share)
+static short_text format_percent(double share)
 {
-    verdict_text w;
+    short_text w;
     clocale_print(w.text, sizeof w.text, share < 0.0995 ? "%.2g %%" : "%.0f %%", 100 * share);
     return w;
 }
 
-static verdict_text format_rate(double rate)
+static short_text format_rate(double rate)
 {
-    verdict_text w;
+    short_text w;
     wt_format_si(rate, "m/s", 2, w.text, sizeof w.text);
     return w;
 }
 
-#define SAY(field, ...) clocale_print((field), sizeof(field), __VA_ARGS__)
+#define SET_TEXT(field, ...) clocale_print((field), sizeof(field), __VA_ARGS__)
 
 /* Advises a number of spots for the present scatter and the apparent difference, which is at least
  * the margin. */
-static void ask_for_spots(const wt_compare_job *job, const wt_comparison *c, compare_verdict *v)
+static void advise_spots(const wt_compare_job *job, const wt_comparison *c, compare_verdict *v)
 {
     const double least = log1p(job->margin);
     const double found = isnan(c->log_ratio.value) ? 0 : c->log_ratio.value;
@@ -45,7 +45,7 @@ static void ask_for_spots(const wt_compare_job *job, const wt_comparison *c, com
     const bool measured = c->scatter > 0;
     const bool given = !measured && job->spot_scatter > 0;
     const double scatter = measured ? c->scatter : given ? job->spot_scatter : scatter_assumed;
-    const size_t n = wt_spots_needed(difference, scatter);
+    const size_t n = wt_required_spots(difference, scatter);
     char number[64];
     if (n == 0)
         snprintf(number, sizeof number, "more than 1000 spots");
@@ -56,16 +56,17 @@ static void ask_for_spots(const wt_compare_job *job, const wt_comparison *c, com
         third = "a third spot in the bulk first, for two do not tell how much they scatter; ";
     else if (c->by_spot && c->n_track == 2 && c->n_bulk > 2)
         third = "a third spot in the track first, for two do not tell how much they scatter; ";
-    SAY(v->settled_by,
-        "%s%s in each group would show a difference of %s in four of five trials where spots "
-        "scatter by %s%s; more curves on a spot do not help",
-        third, number, format_percent(fabs(expm1(difference))).text, format_percent(scatter).text,
-        measured ? ", as they do here"
-        : given  ? ", as given"
-                 : " (assumed)");
+    SET_TEXT(v->settled_by,
+             "%s%s in each group would show a difference of %s in four of five trials where spots "
+             "scatter by %s%s; more curves on a spot do not help",
+             third, number, format_percent(fabs(expm1(difference))).text,
+             format_percent(scatter).text,
+             measured ? ", as they do here"
+             : given  ? ", as given"
+                      : " (assumed)");
 }
 
-static void name_rates(const compare_pair *p, int g, char *text, size_t size)
+static void format_group_rates(const compare_pair *p, int g, char *text, size_t size)
 {
     size_t first = p->n_bins, last = 0;
     for (size_t b = 0; b < p->n_bins; b++)
@@ -83,24 +84,24 @@ static void name_rates(const compare_pair *p, int g, char *text, size_t size)
                  format_rate(p->high[last]).text);
 }
 
-static void say_rates_apart(const compare_pair *p, bool twisted, compare_verdict *v)
+static void report_disjoint_rates(const compare_pair *p, bool twisted, compare_verdict *v)
 {
     char bulk[112], track[112];
-    name_rates(p, 0, bulk, sizeof bulk);
-    name_rates(p, 1, track, sizeof track);
-    SAY(v->differs,
-        "cannot say: bulk (%s) and track (%s) have no indentation rate in common, and %s", bulk,
-        track,
-        twisted ? "their moduli change with the rate in different ways"
-                : "nothing says how the modulus depends on the rate");
-    SAY(v->settled_by, "curves of both at one rate%s",
-        twisted ? "" : ", or at several rates on each spot, or a DMA of the rubber");
+    format_group_rates(p, 0, bulk, sizeof bulk);
+    format_group_rates(p, 1, track, sizeof track);
+    SET_TEXT(v->differs,
+             "cannot say: bulk (%s) and track (%s) have no indentation rate in common, and %s",
+             bulk, track,
+             twisted ? "their moduli change with the rate in different ways"
+                     : "nothing says how the modulus depends on the rate");
+    SET_TEXT(v->settled_by, "curves of both at one rate%s",
+             twisted ? "" : ", or at several rates on each spot, or a DMA of the rubber");
 }
 
 /* Returns a remedy for curves that were rejected for this reason. */
-static const char *better_curves(wt_curve_verdict rejected_for)
+static const char *curve_remedy(wt_curve_verdict main_rejection)
 {
-    switch (rejected_for) {
+    switch (main_rejection) {
     case WT_CURVE_POOR_FIT:
     case WT_CURVE_ADHESIVE:
     case WT_CURVE_AMBIGUOUS:
@@ -124,16 +125,16 @@ static const char *better_curves(wt_curve_verdict rejected_for)
 }
 
 /* Assesses groups without a usable curve; each group is assessed separately. */
-static bool judge_empty(const compare_pair *p, compare_verdict *v)
+static bool assess_empty_groups(const compare_pair *p, compare_verdict *v)
 {
     const bool empty[2] = {p->data[0].group.n == 0, p->data[1].group.n == 0};
     if (!empty[0] && !empty[1])
         return false;
     v->silent = true;
-    SAY(v->differs, "cannot say: ");
+    SET_TEXT(v->differs, "cannot say: ");
     for (int g = 0; g < 2; g++) {
         const wt_group_data *d = &p->data[g];
-        const size_t used = strlen(v->differs), told = strlen(v->settled_by);
+        const size_t used = strlen(v->differs), settled_length = strlen(v->settled_by);
         if (!empty[g])
             continue;
         const char *also = g > 0 && empty[0] ? "; " : "";
@@ -144,38 +145,40 @@ static bool judge_empty(const compare_pair *p, compare_verdict *v)
             clocale_print(v->differs + used, sizeof v->differs - used,
                           "%snone of the %zu curves of the %s has a modulus", also,
                           d->group.n_rejected, compare_group_name[g]);
-        const char *better = better_curves(d->rejected_for);
-        if (d->n_rejected_for > 0) {
+        const char *better = curve_remedy(d->main_rejection);
+        if (d->n_main_rejection > 0) {
             const size_t end = strlen(v->differs);
             clocale_print(v->differs + end, sizeof v->differs - end, " (%zu: %s)",
-                          d->n_rejected_for, wt_curve_verdict_text(d->rejected_for));
+                          d->n_main_rejection, wt_curve_verdict_text(d->main_rejection));
         }
         if (strstr(v->settled_by, better) == NULL)
-            clocale_print(v->settled_by + told, sizeof v->settled_by - told, "%s%s",
-                          told > 0 ? "; " : "", better);
+            clocale_print(v->settled_by + settled_length, sizeof v->settled_by - settled_length,
+                          "%s%s", settled_length > 0 ? "; " : "", better);
     }
     return true;
 }
 
 /* Assesses conditions that leave the ratio unknown. */
-static bool judge_conditions(const compare_pair *p, const comparison_inputs *k,
-                             const compare_row *row, compare_verdict *v)
+static bool assess_conditions(const compare_pair *p, const comparison_inputs *k,
+                              const compare_row *row, compare_verdict *v)
 {
     const wt_comparison *c = &row->c;
     v->silent = true;
     if (k->temperature_not_known) {
-        SAY(v->differs, "cannot say: bulk and track were indented at different temperatures, and "
-                        "nothing says how the modulus changes with temperature");
-        SAY(v->settled_by, "a DMA of the rubber, the slope of ln E against temperature "
-                           "(temperature-slope), or curves at one temperature");
+        SET_TEXT(v->differs,
+                 "cannot say: bulk and track were indented at different temperatures, and "
+                 "nothing says how the modulus changes with temperature");
+        SET_TEXT(v->settled_by, "a DMA of the rubber, the slope of ln E against temperature "
+                                "(temperature-slope), or curves at one temperature");
     } else if (k->out_of_reach[0] != '\0') {
-        SAY(v->differs, "cannot say: the DMA does not reach %s", k->out_of_reach);
-        SAY(v->settled_by, "DMA isotherms at that temperature, %s",
-            k->rates_by_dma ? "or curves of both at one rate"
-                            : "the slope of ln E against temperature (temperature-slope), or "
-                              "curves at one temperature");
-    } else if (c->unsettled == WT_RATES_APART || c->unsettled == WT_RATES_TWIST) {
-        say_rates_apart(p, c->unsettled == WT_RATES_TWIST, v);
+        SET_TEXT(v->differs, "cannot say: the DMA does not reach %s", k->out_of_reach);
+        SET_TEXT(v->settled_by, "DMA isotherms at that temperature, %s",
+                 k->rates_by_dma ? "or curves of both at one rate"
+                                 : "the slope of ln E against temperature (temperature-slope), or "
+                                   "curves at one temperature");
+    } else if (c->unsettled == WT_UNDECIDED_NO_COMMON_RATE ||
+               c->unsettled == WT_UNDECIDED_SLOPES_DIFFER) {
+        report_disjoint_rates(p, c->unsettled == WT_UNDECIDED_SLOPES_DIFFER, v);
     } else {
         v->silent = false;
     }
@@ -183,36 +186,40 @@ static bool judge_conditions(const compare_pair *p, const comparison_inputs *k,
 }
 
 /* Assesses missing information that leaves the ratio without an interval. */
-static bool judge_error(const compare_pair *p, const wt_compare_job *job,
-                        const comparison_inputs *k, const compare_row *row, compare_verdict *v)
+static bool assess_missing_error(const compare_pair *p, const wt_compare_job *job,
+                                 const comparison_inputs *k, const compare_row *row,
+                                 compare_verdict *v)
 {
     const wt_comparison *c = &row->c;
-    if (c->unsettled == WT_ONE_SPOT) {
+    if (c->unsettled == WT_UNDECIDED_ONE_SPOT) {
         const bool both = c->n_bulk < 2 && c->n_track < 2;
-        const bool file = (c->n_bulk < 2 && !p->data[0].spots_given && !job->map_spots) ||
-                          (c->n_track < 2 && !p->data[1].spots_given && !job->map_spots);
-        SAY(v->differs,
+        const bool file = (c->n_bulk < 2 && !p->data[0].spots_are_named && !job->map_spots) ||
+                          (c->n_track < 2 && !p->data[1].spots_are_named && !job->map_spots);
+        SET_TEXT(
+            v->differs,
             "cannot say: %s measured on one spot only%s, so it is not known how much the modulus "
             "changes from place to place",
             both            ? "bulk and track were each"
             : c->n_bulk < 2 ? "the bulk was"
                             : "the track was",
             file ? " (the curves of one file, none of them with a named spot)" : "");
-        ask_for_spots(job, c, v);
+        advise_spots(job, c, v);
         return true;
     }
     if (k->lever_not_stated) {
-        SAY(v->differs, "cannot say: bulk and track were indented with different cantilevers, and "
-                        "the error of a spring constant is not stated");
-        SAY(v->settled_by, "one cantilever for both, or the errors of the spring constants "
-                           "(spring-constant-error)");
+        SET_TEXT(v->differs,
+                 "cannot say: bulk and track were indented with different cantilevers, and "
+                 "the error of a spring constant is not stated");
+        SET_TEXT(v->settled_by, "one cantilever for both, or the errors of the spring constants "
+                                "(spring-constant-error)");
         return true;
     }
     return false;
 }
 
 /* Assesses a ratio that depends on the rate: each rate separately, with corrected p values. */
-static void judge_twist(const compare_row *rates, size_t n, double interaction, compare_verdict *v)
+static void assess_rate_dependence(const compare_row *rates, size_t n, double interaction,
+                                   compare_verdict *v)
 {
     bool softer = false, stiffer = false;
     for (size_t i = 0; i < n; i++) {
@@ -223,93 +230,102 @@ static void judge_twist(const compare_row *rates, size_t n, double interaction, 
     }
     v->twisted = true;
     if (!softer && !stiffer) {
-        SAY(v->differs,
-            "cannot say: the ratio depends on the rate (p %s), and at no single rate is a "
-            "difference shown",
-            number_chance(interaction).text);
-        SAY(v->settled_by, "more spots at each rate");
+        SET_TEXT(v->differs,
+                 "cannot say: the ratio depends on the rate (p %s), and at no single rate is a "
+                 "difference shown",
+                 format_probability(interaction).text);
+        SET_TEXT(v->settled_by, "more spots at each rate");
         return;
     }
-    SAY(v->differs,
-        "yes: the wear track is %s the bulk, by a ratio that depends on the rate (p %s)",
-        softer && stiffer ? "at some rates softer and at others stiffer than"
-        : softer          ? "softer than"
-                          : "stiffer than",
-        number_chance(interaction).text);
+    SET_TEXT(v->differs,
+             "yes: the wear track is %s the bulk, by a ratio that depends on the rate (p %s)",
+             softer && stiffer ? "at some rates softer and at others stiffer than"
+             : softer          ? "softer than"
+                               : "stiffer than",
+             format_probability(interaction).text);
 }
 
 /* An interval without a known error source does not show that the difference is small. */
-static void say_lacking(const wt_compare_job *job, const comparison_inputs *k, compare_verdict *v)
+static void report_incomplete_interval(const wt_compare_job *job, const comparison_inputs *k,
+                                       compare_verdict *v)
 {
-    SAY(v->differs,
+    SET_TEXT(
+        v->differs,
         "cannot say: the interval of the ratio has no room for a difference above %s, but it does "
         "not hold, for it is not known: %s",
         format_percent(job->margin).text, k->lacks);
     if (k->loss_not_known)
-        SAY(v->settled_by, "%s",
+        SET_TEXT(
+            v->settled_by, "%s",
             "curves whose samples have times, or a DMA of the rubber: either tells what the loss "
             "of the curves does to their moduli");
     else
-        SAY(v->settled_by, "the error or the effect of: %s", k->lacks);
+        SET_TEXT(v->settled_by, "the error or the effect of: %s", k->lacks);
 }
 
 /* Plausible other causes prevent a verdict. */
-static void say_unsaid(const unstated_errors *unsaid, const char *seems, compare_verdict *v)
+static void report_unstated_errors(const unstated_errors *unstated, const char *seems,
+                                   compare_verdict *v)
 {
-    SAY(v->differs, "cannot say: the wear track %s, but this may be as well: %s", seems,
-        unsaid->plausible);
-    SAY(v->settled_by, "%s", unsaid->settled_by);
+    SET_TEXT(v->differs, "cannot say: the wear track %s, but this may be as well: %s", seems,
+             unstated->plausible);
+    SET_TEXT(v->settled_by, "%s", unstated->settled_by);
 }
 
 compare_verdict compare_assess(const compare_pair *p, const wt_compare_job *job,
-                               const comparison_inputs *known, const unstated_errors *unsaid,
+                               const comparison_inputs *known, const unstated_errors *unstated,
                                const compare_row *row, const compare_row *rates, size_t n_rates)
 {
     const wt_comparison *c = &row->c;
     const double margin = log1p(job->margin);
     compare_verdict v = {0};
-    if (judge_empty(p, &v) || judge_conditions(p, known, row, &v) ||
-        judge_error(p, job, known, row, &v))
+    if (assess_empty_groups(p, &v) || assess_conditions(p, known, row, &v) ||
+        assess_missing_error(p, job, known, row, &v))
         return v;
     if (c->interaction_p < level) {
-        judge_twist(rates, n_rates, c->interaction_p, &v);
-        if (strncmp(v.differs, "yes", 3) == 0 && unsaid->plausible[0] != '\0')
-            say_unsaid(unsaid, "seems to differ, by a ratio that depends on the rate", &v);
+        assess_rate_dependence(rates, n_rates, c->interaction_p, &v);
+        if (strncmp(v.differs, "yes", 3) == 0 && unstated->plausible[0] != '\0')
+            report_unstated_errors(unstated, "seems to differ, by a ratio that depends on the rate",
+                                   &v);
         return v;
     }
     const double low = log(c->ratio_low), high = log(c->ratio_high);
     const bool within = low > -margin && high < margin;
     if (within && known->lacks[0] != '\0') {
-        say_lacking(job, known, &v);
-    } else if ((low > 0 || high < 0 || within) && unsaid->plausible[0] != '\0') {
-        say_unsaid(unsaid,
-                   high < 0  ? "seems softer"
-                   : low > 0 ? "seems stiffer"
-                             : "seems to differ by less than the margin",
-                   &v);
+        report_incomplete_interval(job, known, &v);
+    } else if ((low > 0 || high < 0 || within) && unstated->plausible[0] != '\0') {
+        report_unstated_errors(unstated,
+                               high < 0  ? "seems softer"
+                               : low > 0 ? "seems stiffer"
+                                         : "seems to differ by less than the margin",
+                               &v);
     } else if (low > 0 || high < 0) {
-        SAY(v.differs, "yes: the wear track is %s than the bulk%s", high < 0 ? "softer" : "stiffer",
-            within ? ", by less than the margin" : "");
+        SET_TEXT(v.differs, "yes: the wear track is %s than the bulk%s",
+                 high < 0 ? "softer" : "stiffer", within ? ", by less than the margin" : "");
     } else if (within) {
-        SAY(v.differs, "no: the wear track differs from the bulk by less than %s, the margin set",
-            format_percent(job->margin).text);
+        SET_TEXT(v.differs,
+                 "no: the wear track differs from the bulk by less than %s, the margin set",
+                 format_percent(job->margin).text);
     } else {
-        SAY(v.differs,
+        SET_TEXT(
+            v.differs,
             "cannot say: the interval of the ratio has room for no difference and for one above %s",
             format_percent(job->margin).text);
         const double known_error = known->offset.standard_error;
-        if (c->known_share > 0.5 && known->shown * known->shown > 0.5 * known_error * known_error)
-            SAY(v.settled_by, "%s",
+        if (c->offset_variance_share > 0.5 &&
+            known->shown * known->shown > 0.5 * known_error * known_error)
+            SET_TEXT(
+                v.settled_by, "%s",
                 "a DMA of the rubber, which tells the spectrum behind the loss, or curves with "
                 "straight baselines: what the curves lose and bend is most of the interval");
-        else if (c->known_share > 0.5)
-            SAY(v.settled_by, "%s",
-                known->two_levers
-                    ? "one cantilever for both groups: its errors cancel in the ratio"
-                    : "temperature and rate the same in both groups: their errors are most of "
-                      "the interval");
+        else if (c->offset_variance_share > 0.5)
+            SET_TEXT(v.settled_by, "%s",
+                     known->two_levers
+                         ? "one cantilever for both groups: its errors cancel in the ratio"
+                         : "temperature and rate the same in both groups: their errors are most of "
+                           "the interval");
         else
-            ask_for_spots(job, c, &v);
+            advise_spots(job, c, &v);
     }
     return v;
 }

@@ -17,7 +17,7 @@ static const double alarm = 0.0025;
  * %. */
 static const size_t most_trials = 100000;
 
-static void set_interval(coverage_share *s, double share, double n)
+static void set_share_interval(coverage_share *s, double share, double n)
 {
     const double z = NORMAL_95, centre = (share + z * z / (2 * n)) / (1 + z * z / n);
     const double half = z / (1 + z * z / n) * sqrt(share * (1 - share) / n + z * z / (4 * n * n));
@@ -26,7 +26,7 @@ static void set_interval(coverage_share *s, double share, double n)
 }
 
 /* Probability of at most `most` misses in n trials (binomial). */
-static double at_most(double most, double n)
+static double binomial_probability(double most, double n)
 {
     double sum = 0;
     for (double k = 0; k <= most; k++)
@@ -35,33 +35,33 @@ static double at_most(double most, double n)
     return fmin(sum, 1);
 }
 
-static const char *verdict_of(double share, double n, double low)
+static const char *share_verdict(double share, double n, double low)
 {
     /* fractional misses count for neither alarm, except for rounding errors */
     const double misses = n * (1 - share), most = ceil(misses - 1e-9), least = floor(misses + 1e-9);
-    if (share < promised_low && 1 - at_most(least - 1, n) < alarm)
+    if (share < promised_low && 1 - binomial_probability(least - 1, n) < alarm)
         return "too narrow";
-    if (share > promised_high && at_most(most, n) < alarm)
+    if (share > promised_high && binomial_probability(most, n) < alarm)
         return "too wide";
     return low >= least_held ? "holds" : "cannot say";
 }
 
-static coverage_share verdict_of_share(double share, size_t n)
+static coverage_share assess_share(double share, size_t n)
 {
     coverage_share s = {.trials = (double)NAN};
-    set_interval(&s, share, (double)n);
-    s.verdict = verdict_of(share, (double)n, s.low);
+    set_share_interval(&s, share, (double)n);
+    s.verdict = share_verdict(share, (double)n, s.low);
     return s;
 }
 
 coverage_share coverage_assess(double share, size_t n)
 {
-    coverage_share s = verdict_of_share(share, n);
+    coverage_share s = assess_share(share, n);
     if (strcmp(s.verdict, "cannot say") != 0)
         return s;
     /* to 10 %: the outcome of the trials is not known better */
     for (size_t more = n + 1; more < most_trials; more += more / 10 + 1)
-        if (strcmp(verdict_of_share(share, more).verdict, "cannot say") != 0) {
+        if (strcmp(assess_share(share, more).verdict, "cannot say") != 0) {
             s.trials = (double)more;
             break;
         }

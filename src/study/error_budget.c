@@ -17,54 +17,54 @@
 
 typedef struct source {
     const char *words, *remedy;
-    bool (*applies)(const setting *s);
-    bool (*stated)(const setting *s);
-    void (*hold)(setting *s); /* removes the error of the source */
+    bool (*applies)(const case_variant *s);
+    bool (*stated)(const case_variant *s);
+    void (*hold)(case_variant *s); /* removes the error of the source */
 } source;
 
-static bool applies_always(const setting *s)
+static bool is_always_applicable(const case_variant *s)
 {
     (void)s;
     return true;
 }
 
-static bool stated_rubber(const setting *s)
+static bool is_stated_rubber(const case_variant *s)
 {
     return s->rubber.n_draws > 0 || s->rubber.c1_error > 0 || s->rubber.c2_error > 0;
 }
 
-static void hold_rubber(setting *s)
+static void fix_rubber(case_variant *s)
 {
     s->given = NULL;
     s->rubber.n_draws = 0;
     s->rubber.c1_error = s->rubber.c2_error = 0;
 }
 
-#define OF_ESTIMATE(name, member)                                                                  \
-    static bool stated_##name(const setting *s)                                                    \
+#define ESTIMATE_SOURCE(name, member)                                                              \
+    static bool is_stated_##name(const case_variant *s)                                            \
     {                                                                                              \
         return s->member.standard_error > 0;                                                       \
     }                                                                                              \
-    static void hold_##name(setting *s)                                                            \
+    static void fix_##name(case_variant *s)                                                        \
     {                                                                                              \
         s->member.standard_error = 0;                                                              \
     }
-OF_ESTIMATE(pressure, sliding.pressure)
-OF_ESTIMATE(temperature, sliding.temperature)
-OF_ESTIMATE(shear, sliding.shear_stress)
-OF_ESTIMATE(wear, layer.specific_wear_rate)
-OF_ESTIMATE(energy, layer.critical_energy)
-OF_ESTIMATE(observed, layer.observed_thickness)
-OF_ESTIMATE(thickness, known.thickness)
-OF_ESTIMATE(slope, known.ratio_slope)
+ESTIMATE_SOURCE(pressure, sliding.pressure)
+ESTIMATE_SOURCE(temperature, sliding.temperature)
+ESTIMATE_SOURCE(shear, sliding.shear_stress)
+ESTIMATE_SOURCE(wear, layer.specific_wear_rate)
+ESTIMATE_SOURCE(energy, layer.critical_energy)
+ESTIMATE_SOURCE(observed, layer.observed_thickness)
+ESTIMATE_SOURCE(thickness, known.thickness)
+ESTIMATE_SOURCE(slope, known.ratio_slope)
 
 /* Stated error of the density, or scatter of a measured surface over sites, modes and law. */
-static bool stated_roughness(const setting *s)
+static bool is_stated_roughness(const case_variant *s)
 {
     return s->surface.c0.standard_error > 0 || s->surface.modes_error != NULL;
 }
 
-static void hold_roughness(setting *s)
+static void fix_roughness(case_variant *s)
 {
     s->surface.c0.standard_error = 0;
     s->surface.modes_error = s->surface.law_error = s->surface.place_parts = NULL;
@@ -72,96 +72,96 @@ static void hold_roughness(setting *s)
 }
 
 /* Scatter of the spots and calibration are components of one variance. */
-static bool stated_ratio(const setting *s)
+static bool is_stated_ratio(const case_variant *s)
 {
     return s->known.modulus_ratio.standard_error > 0 && s->known.calibration_share < 1;
 }
 
-static void hold_ratio(setting *s)
+static void fix_ratio(case_variant *s)
 {
     s->known.modulus_ratio.standard_error *= sqrt(s->known.calibration_share);
     s->known.calibration_share = 1;
 }
 
-static bool stated_layer_rubber(const setting *s)
+static bool is_stated_layer_rubber(const case_variant *s)
 {
     return s->layer_rubber.n_draws > 0;
 }
 
-static void hold_layer_rubber(setting *s)
+static void fix_layer_rubber(case_variant *s)
 {
     s->layer_rubber.n_draws = 0;
 }
 
-static bool stated_calibration(const setting *s)
+static bool is_stated_calibration(const case_variant *s)
 {
     return s->known.modulus_ratio.standard_error > 0;
 }
 
-static void hold_calibration(setting *s)
+static void fix_calibration(case_variant *s)
 {
     s->known.modulus_ratio.standard_error *= sqrt(1 - s->known.calibration_share);
     s->known.calibration_share = 0;
 }
 
-static bool has_softness(const setting *s)
+static bool has_softness(const case_variant *s)
 {
     return s->has_softness;
 }
 
-static bool stated_softness(const setting *s)
+static bool is_stated_softness(const case_variant *s)
 {
     return s->has_softness && strain_softening_has_errors(&s->softness);
 }
 
-static void hold_strain_softening(setting *s)
+static void fix_strain_softening(case_variant *s)
 {
     s->softness.storage_error = s->softness.loss_error = NULL;
 }
 
-static bool has_shear(const setting *s)
+static bool has_shear_stress(const case_variant *s)
 {
     return !isnan(s->sliding.shear_stress.value);
 }
 
-static bool has_layer(const setting *s)
+static bool has_layer(const case_variant *s)
 {
     return s->has_layer;
 }
 
-static bool has_energy(const setting *s)
+static bool has_critical_energy(const case_variant *s)
 {
     return s->has_layer && !isnan(s->layer.critical_energy.value);
 }
 
-static bool has_observed(const setting *s)
+static bool has_observed(const case_variant *s)
 {
     return s->has_layer && !isnan(s->layer.observed_thickness.value);
 }
 
-static bool has_thickness(const setting *s)
+static bool has_thickness(const case_variant *s)
 {
     return s->has_known && !s->has_layer;
 }
 
-static bool has_layer_rubber(const setting *s)
+static bool has_layer_rubber(const case_variant *s)
 {
     return s->has_known && s->has_layer_rubber;
 }
 
-static bool has_ratio(const setting *s)
+static bool has_ratio(const case_variant *s)
 {
     return s->has_known && !s->has_layer_rubber;
 }
 
 /* False if the ratio does not depend on the frequency. */
-static bool has_slope(const setting *s)
+static bool has_slope(const case_variant *s)
 {
-    return has_ratio(s) && (s->known.ratio_slope.value != 0 || stated_slope(s));
+    return has_ratio(s) && (s->known.ratio_slope.value != 0 || is_stated_slope(s));
 }
 
 /* False if there is no calibration error or if it cancels. */
-static bool has_calibration(const setting *s)
+static bool has_calibration(const case_variant *s)
 {
     return has_ratio(s) && s->known.calibration_share > 0;
 }
@@ -171,79 +171,81 @@ static const char calibration_remedy[] = "one cantilever for both groups, or spr
                                          "better";
 
 static const source sources[] = {
-    {"material", "a second DMA run; temperatures known better", applies_always, stated_rubber,
-     hold_rubber},
-    {"pressure", "the load and the nominal area known better", applies_always, stated_pressure,
-     hold_pressure},
-    {"temperature", "the temperature in sliding measured", applies_always, stated_temperature,
-     hold_temperature},
-    {"roughness", "more scans of the counter surface", applies_always, stated_roughness,
-     hold_roughness},
+    {"material", "a second DMA run; temperatures known better", is_always_applicable,
+     is_stated_rubber, fix_rubber},
+    {"pressure", "the load and the nominal area known better", is_always_applicable,
+     is_stated_pressure, fix_pressure},
+    {"temperature", "the temperature in sliding measured", is_always_applicable,
+     is_stated_temperature, fix_temperature},
+    {"roughness", "more scans of the counter surface", is_always_applicable, is_stated_roughness,
+     fix_roughness},
     {"softening with strain", "more strain sweeps at the temperature of the contact", has_softness,
-     stated_softness, hold_strain_softening},
-    {"shear stress", "more friction runs that give it", has_shear, stated_shear, hold_shear},
-    {"specific wear rate", "more or longer wear runs", has_layer, stated_wear, hold_wear},
-    {"critical energy", "more layers of known thickness", has_energy, stated_energy, hold_energy},
-    {"observed thickness", "the layer measured at more places", has_observed, stated_observed,
-     hold_observed},
-    {"layer thickness", "the layer measured at more places", has_thickness, stated_thickness,
-     hold_thickness},
-    {"modulus ratio", "more spots: four times as many halve it", has_ratio, stated_ratio,
-     hold_ratio},
+     is_stated_softness, fix_strain_softening},
+    {"shear stress", "more friction runs that give it", has_shear_stress, is_stated_shear,
+     fix_shear},
+    {"specific wear rate", "more or longer wear runs", has_layer, is_stated_wear, fix_wear},
+    {"critical energy", "more layers of known thickness", has_critical_energy, is_stated_energy,
+     fix_energy},
+    {"observed thickness", "the layer measured at more places", has_observed, is_stated_observed,
+     fix_observed},
+    {"layer thickness", "the layer measured at more places", has_thickness, is_stated_thickness,
+     fix_thickness},
+    {"modulus ratio", "more spots: four times as many halve it", has_ratio, is_stated_ratio,
+     fix_ratio},
     {"slope of the modulus ratio", "more spots indented at rates further apart", has_slope,
-     stated_slope, hold_slope},
+     is_stated_slope, fix_slope},
     {"material of the layer", "a second DMA run of the layer's rubber", has_layer_rubber,
-     stated_layer_rubber, hold_layer_rubber},
-    {"calibration", calibration_remedy, has_calibration, stated_calibration, hold_calibration},
+     is_stated_layer_rubber, fix_layer_rubber},
+    {"calibration", calibration_remedy, has_calibration, is_stated_calibration, fix_calibration},
 };
 enum { SOURCES = COUNT_OF(sources) };
 
 /* ---- computation ----------------------------------------------------------------------------- */
 
 typedef struct outcome {
-    wt_estimate number[SETTING_NUMBERS];
+    wt_estimate number[CASE_QUANTITIES];
     double seconds;
     bool computed;
 } outcome;
 
-typedef struct budget {
-    setting setting;
+typedef struct error_budget_run {
+    case_variant case_variant;
     wt_job work; /* options of one case variant */
     outcome values, all, of[SOURCES];
     bool sensitivities; /* true if requested */
     double by[SENSITIVITIES];
     char lacks[256];
-} budget;
+} error_budget_run;
 
 /* Computes one outcome. `s` receives the results of the computation. */
-static wt_status compute_outcome(const budget *b, setting *s, size_t replicates, outcome *o,
-                                 wt_error *err)
+static wt_status compute_budget_outcome(const error_budget_run *b, case_variant *s,
+                                        size_t replicates, outcome *o, wt_error *err)
 {
     wt_job work = b->work;
     work.replicates = replicates;
-    for (size_t k = 0; k < SETTING_NUMBERS; k++)
+    for (size_t k = 0; k < CASE_QUANTITIES; k++)
         o->number[k] = (wt_estimate){(double)NAN, (double)NAN, (double)NAN, NULL};
     const double start = cost_clock(work.cost);
-    const wt_status status = setting_compute(s, &work, o->number, err);
+    const wt_status status = case_variant_compute(s, &work, o->number, err);
     o->seconds = cost_clock(work.cost) - start;
     o->computed = status == WT_OK;
     return status;
 }
 
-static wt_status compute_all(budget *b, wt_error *err)
+static wt_status compute_budget(error_budget_run *b, wt_error *err)
 {
-    setting whole = b->setting;
+    case_variant whole = b->case_variant;
     whole.sliding.sensitivities = b->sensitivities;
-    wt_status status = compute_outcome(b, &whole, 0, &b->values, err);
+    wt_status status = compute_budget_outcome(b, &whole, 0, &b->values, err);
     memcpy(b->by, whole.by, sizeof b->by);
-    whole = b->setting;
+    whole = b->case_variant;
     if (status == WT_OK)
-        status = compute_outcome(b, &whole, b->work.replicates, &b->all, err);
+        status = compute_budget_outcome(b, &whole, b->work.replicates, &b->all, err);
     for (size_t i = 0; i < SOURCES && status == WT_OK; i++) {
-        setting alone = b->setting;
-        if (!sources[i].applies(&b->setting))
+        case_variant alone = b->case_variant;
+        if (!sources[i].applies(&b->case_variant))
             continue;
-        if (!sources[i].stated(&b->setting)) {
+        if (!sources[i].stated(&b->case_variant)) {
             const size_t length = strlen(b->lacks);
             snprintf(b->lacks + length, sizeof b->lacks - length, "%s%s", length > 0 ? ", " : "",
                      sources[i].words);
@@ -252,7 +254,7 @@ static wt_status compute_all(budget *b, wt_error *err)
         for (size_t k = 0; k < SOURCES; k++)
             if (k != i)
                 sources[k].hold(&alone);
-        status = compute_outcome(b, &alone, b->work.replicates, &b->of[i], err);
+        status = compute_budget_outcome(b, &alone, b->work.replicates, &b->of[i], err);
     }
     return status;
 }
@@ -262,12 +264,12 @@ static wt_status compute_all(budget *b, wt_error *err)
 static const struct {
     what_if_column column;
     error_budget_key key;
-} numbers[SETTING_NUMBERS] = {
-    [SETTING_HYSTERESIS] = {WHAT_IF_HYSTERESIS, ERROR_BUDGET_KEY_HYSTERESIS},
-    [SETTING_AREA_RATIO] = {WHAT_IF_AREA_RATIO, ERROR_BUDGET_KEY_AREA_RATIO},
-    [SETTING_FRICTION] = {WHAT_IF_FRICTION, ERROR_BUDGET_KEY_FRICTION},
-    [SETTING_THICKNESS] = {WHAT_IF_THICKNESS, ERROR_BUDGET_KEY_THICKNESS},
-    [SETTING_WITH_LAYER] = {WHAT_IF_WITH_LAYER, ERROR_BUDGET_KEY_WITH_LAYER}};
+} numbers[CASE_QUANTITIES] = {
+    [CASE_QUANTITY_HYSTERESIS] = {WHAT_IF_HYSTERESIS, ERROR_BUDGET_KEY_HYSTERESIS},
+    [CASE_QUANTITY_AREA_RATIO] = {WHAT_IF_AREA_RATIO, ERROR_BUDGET_KEY_AREA_RATIO},
+    [CASE_QUANTITY_FRICTION] = {WHAT_IF_FRICTION, ERROR_BUDGET_KEY_FRICTION},
+    [CASE_QUANTITY_THICKNESS] = {WHAT_IF_THICKNESS, ERROR_BUDGET_KEY_THICKNESS},
+    [CASE_QUANTITY_WITH_LAYER] = {WHAT_IF_WITH_LAYER, ERROR_BUDGET_KEY_WITH_LAYER}};
 
 typedef struct choice_range {
     const char *words;
@@ -276,7 +278,8 @@ typedef struct choice_range {
 
 /* Finds the range of one choice, whose rows are adjacent. The first row of the table is the case as
  * used. Returns the first row of the next choice. */
-static size_t range_of(const table_view *t, size_t row, what_if_column column, choice_range *range)
+static size_t find_choice_range(const table_view *t, size_t row, what_if_column column,
+                                choice_range *range)
 {
     double low = what_if_get(t, 0, column), high = low;
     range->words = what_if_text(t, row, WHAT_IF_CHOICE);
@@ -299,25 +302,26 @@ typedef struct row {
 
 TABLE_ROW(error_budget, ERROR_BUDGET, const char *number; row of;)
 
-static void put_row(const char *number, double value, row r, table_writer *t)
+static void add_budget_row(const char *number, double value, row r, table_writer *t)
 {
     r.error /= fabs(value); /* NaN for 0 over 0 */
     TABLE_ADD(error_budget, t, number, r);
 }
 
-static void put_number_row(const budget *b, setting_number k, row r, table_writer *t)
+static void add_number_row(const error_budget_run *b, case_quantity k, row r, table_writer *t)
 {
-    put_row(setting_words[k], b->values.number[k].value, r, t);
+    add_budget_row(case_quantity_names[k], b->values.number[k].value, r, t);
 }
 
 /* Dominant contributions to a number. */
-typedef struct verdict {
+typedef struct number_summary {
     const source *largest; /* NULL if none is known */
     double share, together, numerical;
     choice_range widest;
-} verdict;
+} number_summary;
 
-static void put_measured(const budget *b, setting_number k, verdict *v, table_writer *t)
+static void add_measured_rows(const error_budget_run *b, case_quantity k, number_summary *v,
+                              table_writer *t)
 {
     double sum = 0;
     for (size_t i = 0; i < SOURCES; i++) {
@@ -330,7 +334,7 @@ static void put_measured(const budget *b, setting_number k, verdict *v, table_wr
         if (!b->of[i].computed || !(error > 0))
             continue;
         const double part = error / sum, share = part * part;
-        put_number_row(
+        add_number_row(
             b, k,
             (row){sources[i].words, "measured", sources[i].remedy, error, share, b->of[i].seconds},
             t);
@@ -341,17 +345,17 @@ static void put_measured(const budget *b, setting_number k, verdict *v, table_wr
     }
 }
 
-static void put_model(const budget *b, setting_number k, const table_view *what_if, verdict *v,
-                      table_writer *t)
+static void add_model_rows(const error_budget_run *b, case_quantity k, const table_view *what_if,
+                           number_summary *v, table_writer *t)
 {
     for (size_t r = 1; r < what_if->n_rows;) {
         choice_range range;
-        r = range_of(what_if, r, numbers[k].column, &range);
+        r = find_choice_range(what_if, r, numbers[k].column, &range);
         if (!(range.half > 0))
             continue;
-        put_number_row(b, k,
+        add_number_row(b, k,
                        (row){range.words, "model", "a measurement that settles the choice",
-                             range.half, (double)NAN, cost_part(b->work.cost, range.words)},
+                             range.half, (double)NAN, cost_part_seconds(b->work.cost, range.words)},
                        t);
         if (range.half > v->widest.half)
             v->widest = range;
@@ -359,109 +363,114 @@ static void put_model(const budget *b, setting_number k, const table_view *what_
 }
 
 /* Adds inputs without a stated error, too: the row shows how accurate they must be. */
-static void put_sensitivities(const budget *b, table_writer *t)
+static void add_sensitivity_rows(const error_budget_run *b, table_writer *t)
 {
-    const double value = b->values.number[SETTING_HYSTERESIS].value;
+    const double value = b->values.number[CASE_QUANTITY_HYSTERESIS].value;
     for (size_t i = 0; i < SENSITIVITIES && b->sensitivities; i++)
         if (isfinite(b->by[i]))
-            put_number_row(b, SETTING_HYSTERESIS,
-                           (row){setting_sensitivities[i], "one per cent", "",
+            add_number_row(b, CASE_QUANTITY_HYSTERESIS,
+                           (row){sensitivity_names[i], "one per cent", "",
                                  0.01 * fabs(b->by[i] * value), (double)NAN, (double)NAN},
                            t);
 }
 
-static void put_advice(const budget *b, setting_number k, const verdict *v, table_writer *t)
+static void set_advice(const error_budget_run *b, case_quantity k, const number_summary *v,
+                       table_writer *t)
 {
     char text[640];
     const double value = fabs(b->values.number[k].value);
     const int decimals = v->widest.half < 0.1 * value ? 1 : 0;
     size_t n = 0;
-#define SAY(...) n += n < sizeof text ? (size_t)snprintf(text + n, sizeof text - n, __VA_ARGS__) : 0
+#define APPEND_TEXT(...)                                                                           \
+    n += n < sizeof text ? (size_t)snprintf(text + n, sizeof text - n, __VA_ARGS__) : 0
     if (v->largest == NULL)
-        SAY(b->work.replicates < 2 ? "Without replicates no error is drawn."
-                                   : "No error of what it is made from is measured or stated.");
+        APPEND_TEXT(b->work.replicates < 2
+                        ? "Without replicates no error is drawn."
+                        : "No error of what it is made from is measured or stated.");
     else
-        SAY("%.0f %% of its variance is the %s: %s.", 100 * v->share, v->largest->words,
-            v->largest->remedy);
+        APPEND_TEXT("%.0f %% of its variance is the %s: %s.", 100 * v->share, v->largest->words,
+                    v->largest->remedy);
     if (v->widest.half > 0 && !(v->widest.half <= v->together)) /* the total may be unknown */
-        SAY(" The choice of the %s moves it by %+.*f %% to %+.*f %%, %s: more of the same "
-            "measurements do not settle that.",
-            v->widest.words, decimals, 100 * (v->widest.low / value - 1), decimals,
-            100 * (v->widest.high / value - 1),
-            v->together > 0 ? "more than all measured errors" : "and no error is known beside it");
+        APPEND_TEXT(" The choice of the %s moves it by %+.*f %% to %+.*f %%, %s: more of the same "
+                    "measurements do not settle that.",
+                    v->widest.words, decimals, 100 * (v->widest.low / value - 1), decimals,
+                    100 * (v->widest.high / value - 1),
+                    v->together > 0 ? "more than all measured errors"
+                                    : "and no error is known beside it");
     const double floor = fmax(v->together, v->widest.half);
     if (isnan(v->numerical))
-        SAY(" What the arithmetic leaves open is not known.");
+        APPEND_TEXT(" What the arithmetic leaves open is not known.");
     else if (v->numerical < 1e-2 * floor)
-        SAY(" The arithmetic is good to %.1g: a tighter tolerance buys nothing.",
-            v->numerical / value);
+        APPEND_TEXT(" The arithmetic is good to %.1g: a tighter tolerance buys nothing.",
+                    v->numerical / value);
     else if (floor > 0)
-        SAY(" The arithmetic is good to %.1g only: a tighter tolerance helps.",
-            v->numerical / value);
-#undef SAY
+        APPEND_TEXT(" The arithmetic is good to %.1g only: a tighter tolerance helps.",
+                    v->numerical / value);
+#undef APPEND_TEXT
     error_budget_set_text(t, numbers[k].key, text);
 }
 
-static void put_number(const budget *b, setting_number k, const table_view *what_if,
-                       table_writer *t)
+static void add_number_rows(const error_budget_run *b, case_quantity k, const table_view *what_if,
+                            table_writer *t)
 {
     const wt_estimate *value = &b->values.number[k];
-    verdict v = {.together = b->all.number[k].standard_error, .numerical = value->numerical_error};
+    number_summary v = {.together = b->all.number[k].standard_error,
+                        .numerical = value->numerical_error};
     const double n = (double)b->work.replicates;
-    put_measured(b, k, &v, t);
+    add_measured_rows(b, k, &v, t);
     if (isfinite(v.together)) {
-        put_number_row(
+        add_number_row(
             b, k, (row){"all together", "together", "", v.together, (double)NAN, b->all.seconds},
             t);
-        put_number_row(b, k,
+        add_number_row(b, k,
                        (row){"number of replicates", "draws", "four times the replicates halve it",
                              v.together / sqrt(2 * (n - 1)), (double)NAN, b->all.seconds},
                        t);
     }
-    put_number_row(b, k,
+    add_number_row(b, k,
                    (row){"arithmetic", "numerical", "a tighter tolerance", v.numerical, (double)NAN,
                          b->values.seconds},
                    t);
-    put_model(b, k, what_if, &v, t);
-    if (k == SETTING_HYSTERESIS)
-        put_sensitivities(b, t);
-    put_advice(b, k, &v, t);
+    add_model_rows(b, k, what_if, &v, t);
+    if (k == CASE_QUANTITY_HYSTERESIS)
+        add_sensitivity_rows(b, t);
+    set_advice(b, k, &v, t);
 }
 
 /* Adds the modulus ratio itself. Its components are known without draws. The time is that of the
  * curves. */
-static void put_ratio(const budget *b, table_writer *t)
+static void add_ratio_rows(const error_budget_run *b, table_writer *t)
 {
     static const char number[] = "modulus ratio";
-    const wt_layer_observation *known = &b->setting.known;
+    const wt_layer_observation *known = &b->case_variant.known;
     const wt_estimate ratio = known->modulus_ratio;
     const bool measured = known->modulus_ratio_df > 0;
-    const cost_of_stages curves = cost_stages(b->work.cost, "indentation");
+    const stage_cost_sum curves = cost_sum_stages(b->work.cost, "indentation");
     const double spots = 1 - known->calibration_share, error = ratio.standard_error;
     const char *own = measured ? "scatter of the spots" : "stated error";
     const char *remedy = measured ? "more spots: four times as many halve it" : "a measurement";
     char text[400];
     if (!(error > 0))
         return;
-    put_row(number, ratio.value,
-            (row){own, "measured", remedy, sqrt(spots) * error, spots, curves.seconds}, t);
+    add_budget_row(number, ratio.value,
+                   (row){own, "measured", remedy, sqrt(spots) * error, spots, curves.seconds}, t);
     if (known->calibration_share > 0)
-        put_row(number, ratio.value,
-                (row){"calibration", "measured", calibration_remedy,
-                      sqrt(known->calibration_share) * error, known->calibration_share,
-                      curves.seconds},
-                t);
-    put_row(number, ratio.value,
-            (row){"all together", "together", "", error, (double)NAN, curves.seconds}, t);
+        add_budget_row(number, ratio.value,
+                       (row){"calibration", "measured", calibration_remedy,
+                             sqrt(known->calibration_share) * error, known->calibration_share,
+                             curves.seconds},
+                       t);
+    add_budget_row(number, ratio.value,
+                   (row){"all together", "together", "", error, (double)NAN, curves.seconds}, t);
     size_t n = (size_t)snprintf(text, sizeof text, "%.0f %% of its variance is the %s: %s.",
                                 100 * fmax(spots, known->calibration_share),
                                 spots >= known->calibration_share ? own : "calibration",
                                 spots >= known->calibration_share ? remedy : calibration_remedy);
     if (curves.error >= 0) {
-        put_row(number, ratio.value,
-                (row){"arithmetic", "numerical", "", M_SQRT2 * curves.error * ratio.value,
-                      (double)NAN, curves.seconds},
-                t);
+        add_budget_row(number, ratio.value,
+                       (row){"arithmetic", "numerical", "", M_SQRT2 * curves.error * ratio.value,
+                             (double)NAN, curves.seconds},
+                       t);
         clocale_print(text + n, sizeof text - n,
                       " The arithmetic of the fits is good to %.1g: it leaves nothing to be had.",
                       M_SQRT2 * curves.error);
@@ -469,31 +478,32 @@ static void put_ratio(const budget *b, table_writer *t)
     error_budget_set_text(t, ERROR_BUDGET_KEY_RATIO, text);
 }
 
-wt_status wt_error_budget_make(const wt_sliding *sliding, const wt_layer_job *layer,
-                               const wt_layer_observation *known, const wt_table *what_if,
-                               const wt_job *work, wt_table **table, wt_error *err)
+wt_status wt_error_budget_compute(const wt_sliding *sliding, const wt_layer_job *layer,
+                                  const wt_layer_observation *known, const wt_table *what_if,
+                                  const wt_job *work, wt_table **table, wt_error *err)
 {
     if (work == NULL || table == NULL)
         return wt_fail(err, WT_E_ARG, "no error budget to make");
-    budget b = {.work = *work, .sensitivities = sliding != NULL && sliding->sensitivities};
+    error_budget_run b = {.work = *work,
+                          .sensitivities = sliding != NULL && sliding->sensitivities};
     table_view moved = {0};
-    b.work.left_out = WT_EXTRAS;
+    b.work.left_out = WT_EXTRA_ALL;
     b.work.drawn = NULL; /* the stored draws are for another material */
     b.work.log = NULL;   /* warnings about these numbers exist already */
     b.work.progress = (wt_progress){0};
-    wt_status status = setting_make(sliding, layer, known, work, &b.setting, err);
+    wt_status status = case_variant_create(sliding, layer, known, work, &b.case_variant, err);
     if (status == WT_OK && what_if != NULL)
         status = table_bind(what_if, &what_if_schema, "", &moved, err);
     if (status == WT_OK)
-        status = compute_all(&b, err);
+        status = compute_budget(&b, err);
     if (status != WT_OK)
         return status;
     table_writer t = table_begin(&error_budget_schema, err);
-    for (size_t k = 0; k < SETTING_NUMBERS; k++)
+    for (size_t k = 0; k < CASE_QUANTITIES; k++)
         if (isfinite(b.values.number[k].value))
-            put_number(&b, (setting_number)k, &moved, &t);
-    if (b.setting.has_known)
-        put_ratio(&b, &t);
+            add_number_rows(&b, (case_quantity)k, &moved, &t);
+    if (b.case_variant.has_known)
+        add_ratio_rows(&b, &t);
     if (b.lacks[0] != '\0')
         error_budget_set_text(&t, ERROR_BUDGET_KEY_LACKS, b.lacks);
     status = table_end(&t, table);

@@ -47,7 +47,7 @@ static size_t list_texts(const table_view *t, work_precision_column column, cons
     return n;
 }
 
-static int style_of_method(const char *method)
+static int method_style(const char *method)
 {
     return strcmp(method, "weartrack") == 0 ? 1 : strcmp(method, "textbook") == 0 ? 2 : 3;
 }
@@ -60,7 +60,7 @@ static void draw_part(figure_drawing *d, const char *part)
     const char *methods[METHODS];
     int section[METHODS];
     const size_t n = list_texts(d->table, WORK_PRECISION_METHOD, part, methods, METHODS);
-    value_span time = SPAN_EMPTY, error = SPAN_EMPTY;
+    value_span time = EMPTY_SPAN, error = EMPTY_SPAN;
     for (size_t i = 0; i < n; i++) {
         const row_filter rows = {
             {WORK_PRECISION_PART, WORK_PRECISION_METHOD}, {part, methods[i]}, false};
@@ -71,13 +71,13 @@ static void draw_part(figure_drawing *d, const char *part)
         span_add_section(&error, d, section[i], 1, true);
         span_add_section(&error, d, section[i], 2, true);
     }
-    if (span_empty(&time) || span_empty(&error))
+    if (span_is_empty(&time) || span_is_empty(&error))
         return;
     axis_log(d, "x", "Processor time", &field[WORK_PRECISION_SECONDS], time);
     axis_log(d, "y", "Relative error", &field[WORK_PRECISION_TRUE_ERROR], error);
     plot_heading(d, translate(d->language, part));
     for (size_t i = 0; i < n; i++) {
-        const int style = style_of_method(methods[i]);
+        const int style = method_style(methods[i]);
         plot_item(d, section[i], "($1*x_unit):($4*y_unit) with lines ls 12");
         plot_item(d, section[i], "($1*x_unit):($2*y_unit) with linespoints ls %d", style);
         plot_item(d, section[i], "($1*x_unit):($3>0 ? $3*y_unit : NaN) with linespoints ls %d pt 6",
@@ -108,13 +108,13 @@ static void draw_work_precision(figure_drawing *d)
     }
     begin_legend(d, legend);
     for (size_t i = 0; i < n_methods; i++) {
-        plot_other(d, "NaN with linespoints ls %d", style_of_method(methods[i]));
+        plot_expression(d, "NaN with linespoints ls %d", method_style(methods[i]));
         plot_title(d, translate(d->language, methods[i]));
     }
-    plot_other(d, "NaN with linespoints ls 31 pt 6 title '%s'",
-               translate(d->language, "what it states"));
-    plot_other(d, "NaN with lines ls 12 title '%s'",
-               translate(d->language, "what the reference is good to"));
+    plot_expression(d, "NaN with linespoints ls 31 pt 6 title '%s'",
+                    translate(d->language, "what it states"));
+    plot_expression(d, "NaN with lines ls 12 title '%s'",
+                    translate(d->language, "what the reference is good to"));
     plot_end(d);
     text_add(&d->script, "unset multiplot\n");
 }
@@ -150,7 +150,7 @@ static size_t find_numbers(const table_view *t, number_panel panels[NUMBERS])
     return n;
 }
 
-static int style_of(const char *kind)
+static int kind_style(const char *kind)
 {
     return strcmp(kind, "measured") == 0 ? 1 : strcmp(kind, "model") == 0 ? 2 : 5;
 }
@@ -164,7 +164,7 @@ static void draw_bars(figure_drawing *d, const number_panel *p, size_t from, con
               "($1>%s ? %s*x_unit : NaN):(%zu-$0):(%s*x_unit):($1*x_unit):(%zu.7-$0-1):(%zu.3-$0) "
               "with boxxyerror ls %d",
               LITERAL(least_error), LITERAL(least_error), top, LITERAL(least_error), top, top,
-              style_of(kind));
+              kind_style(kind));
 }
 
 /* Draws a line at the largest error of a kind, which improvements of other kinds cannot reduce. */
@@ -178,22 +178,22 @@ static void draw_floor(figure_drawing *d, const number_panel *p, const char *kin
         text_format(&d->script,
                     "set arrow from %s*x_unit, graph 0 to %s*x_unit, graph 1 nohead ls %d dt 3 "
                     "back\n",
-                    LITERAL(largest), LITERAL(largest), style_of(kind));
+                    LITERAL(largest), LITERAL(largest), kind_style(kind));
 }
 
 /* Adds the label of a source with its computation time, if known. */
-static void put_source(figure_drawing *d, size_t row)
+static void add_source_tic(figure_drawing *d, size_t row)
 {
     const double seconds = error_budget_get(d->table, row, ERROR_BUDGET_SECONDS);
     char words[96], time[32] = "";
     if (seconds > 0) {
         wt_format_si(seconds, "s", 2, time, sizeof time);
-        language_decimals(d->language, time);
+        language_set_decimal_mark(d->language, time);
     }
     snprintf(words, sizeof words, "%s%s%s",
              translate(d->language, error_budget_text(d->table, row, ERROR_BUDGET_SOURCE)),
              time[0] != '\0' ? ", " : "", time);
-    text_tic(&d->script, words);
+    text_tic_label(&d->script, words);
 }
 
 static void draw_number(figure_drawing *d, const number_panel *p)
@@ -203,7 +203,7 @@ static void draw_number(figure_drawing *d, const number_panel *p)
     text_format(&d->script, "set yrange [-0.7:%zu.7]\nset ytics (", p->n - 1);
     for (size_t i = 0; i < p->n; i++) {
         text_add(&d->script, i > 0 ? ", " : "");
-        put_source(d, p->first + i);
+        add_source_tic(d, p->first + i);
         text_format(&d->script, " %zu", p->n - 1 - i);
     }
     text_add(&d->script, ") noenhanced scale 0\nunset arrow\n");
@@ -246,14 +246,16 @@ static void draw_error_budget(figure_drawing *d)
     if (n == 0)
         return;
     begin_legend(d, legend_height / d->height);
-    plot_other(d, "NaN with boxes ls 1 title '%s'", translate(d->language, "measured or stated"));
-    plot_other(d, "NaN with boxes ls 2 title '%s'", translate(d->language, "choice of the model"));
-    plot_other(d, "NaN with boxes ls 5 title '%s'",
-               translate(d->language, "together, draws, arithmetic"));
-    plot_other(d, "NaN with lines ls %d dt 3 title '%s'", style_of("together"),
-               translate(d->language, "floor of what is measured"));
-    plot_other(d, "NaN with lines ls %d dt 3 title '%s'", style_of("model"),
-               translate(d->language, "floor of the model"));
+    plot_expression(d, "NaN with boxes ls 1 title '%s'",
+                    translate(d->language, "measured or stated"));
+    plot_expression(d, "NaN with boxes ls 2 title '%s'",
+                    translate(d->language, "choice of the model"));
+    plot_expression(d, "NaN with boxes ls 5 title '%s'",
+                    translate(d->language, "together, draws, arithmetic"));
+    plot_expression(d, "NaN with lines ls %d dt 3 title '%s'", kind_style("together"),
+                    translate(d->language, "floor of what is measured"));
+    plot_expression(d, "NaN with lines ls %d dt 3 title '%s'", kind_style("model"),
+                    translate(d->language, "floor of the model"));
     plot_end(d);
     text_add(&d->script, "unset multiplot\n");
 }
@@ -273,7 +275,7 @@ static size_t name_stages(figure_drawing *d)
         snprintf(words, sizeof words, "%s", cost_text(t, row, COST_STAGE));
         for (char *c = words; (c = strchr(c, '_')) != NULL;)
             *c = ' ';
-        text_tic(&d->script, words);
+        text_tic_label(&d->script, words);
         text_format(&d->script, " -%zu", ++n);
     }
     text_format(&d->script, ") noenhanced scale 0\nset yrange [-%zu.7:-0.3]\n", n);
@@ -281,7 +283,7 @@ static size_t name_stages(figure_drawing *d)
 }
 
 /* Position of a stage: -k for the k-th stage that ran. Other stages have no line. */
-#define AT_STAGE "($2>0 ? -(k=k+1) : NaN)"
+#define STAGE_POSITION "($2>0 ? -(k=k+1) : NaN)"
 
 static void draw_cost(figure_drawing *d)
 {
@@ -289,12 +291,12 @@ static void draw_cost(figure_drawing *d)
                                        COST_ERROR_ESTIMATED};
     const table_view *t = d->table;
     const row_filter all = {{0, 0}, {NULL, NULL}, false};
-    value_span time = SPAN_EMPTY, error = SPAN_EMPTY;
+    value_span time = EMPTY_SPAN, error = EMPTY_SPAN;
     span_add_column(&time, t, COST_CPU_TIME, true);
     span_add_column(&error, t, COST_STANDARD_ERROR, true);
     span_add_column(&error, t, COST_ERROR_ESTIMATED, true);
     const int section =
-        span_empty(&time) ? NO_SECTION : drawing_section(d, t, "cost", &all, columns, 4, 2);
+        span_is_empty(&time) ? NO_SECTION : drawing_section(d, t, "cost", &all, columns, 4, 2);
     if (section == NO_SECTION)
         return;
     time.low = 0;
@@ -306,15 +308,16 @@ static void draw_cost(figure_drawing *d)
     axis_linear(d, "x", "Processor time", &t->schema->columns[COST_CPU_TIME], time);
     text_add(&d->script, "k=0\n");
     plot_item(d, section,
-              "(0):" AT_STAGE ":(0):($1*x_unit):(-k-0.35):(-k+0.35) "
+              "(0):" STAGE_POSITION ":(0):($1*x_unit):(-k-0.35):(-k+0.35) "
               "with boxxyerror ls 1");
     plot_end(d);
-    if (!span_empty(&error)) {
+    if (!span_is_empty(&error)) {
         text_add(&d->script, "set origin 0.62,0\nset size 0.38,1\nset lmargin 2\n"
                              "unset ytics\nset key outside top center horizontal\n");
         axis_log(d, "x", "Relative error", &t->schema->columns[COST_STANDARD_ERROR], error);
         text_add(&d->script, "k=0\nj=0\n");
-        plot_item(d, section, "($3>0 ? $3*x_unit : NaN):" AT_STAGE " with points ls 1 title '%s'",
+        plot_item(d, section,
+                  "($3>0 ? $3*x_unit : NaN):" STAGE_POSITION " with points ls 1 title '%s'",
                   translate(d->language, "standard error"));
         plot_item(d, section,
                   "($4>0 ? $4*x_unit : NaN):($2>0 ? -(j=j+1) : NaN)"
@@ -347,7 +350,7 @@ static void draw_coverage(figure_drawing *d)
     text_format(&d->script, "set yrange [-0.7:%zu.7]\nset ytics (", t->n_rows - 1);
     for (size_t i = 0; i < t->n_rows; i++) {
         text_add(&d->script, i > 0 ? ", " : "");
-        text_tic(&d->script, translate(d->language, coverage_text(t, i, COVERAGE_NUMBER)));
+        text_tic_label(&d->script, translate(d->language, coverage_text(t, i, COVERAGE_NUMBER)));
         text_format(&d->script, " %zu", t->n_rows - 1 - i);
     }
     text_add(&d->script, ") noenhanced scale 0\n"

@@ -12,16 +12,17 @@
 /* All groups may have a section in each panel. */
 enum { PANELS = 9 };
 
-typedef struct panels {
+typedef struct panel_names {
     const char *name[PANELS];
     size_t n;
     bool too_many;
-} panels;
+} panel_names;
 
 /* Collects the distinct texts of a column in the order of the table, which is sorted by sample. */
-static panels find_panels(const table_view *table, const char *(*text)(const table_view *, size_t))
+static panel_names find_collection_panels(const table_view *table,
+                                          const char *(*text)(const table_view *, size_t))
 {
-    panels found = {.n = 0};
+    panel_names found = {.n = 0};
     for (size_t row = 0; row < table->n_rows; row++) {
         const char *name = text(table, row);
         bool seen = false;
@@ -34,31 +35,31 @@ static panels find_panels(const table_view *table, const char *(*text)(const tab
     return found;
 }
 
-static const char *sample_of(const table_view *table, size_t row)
+static const char *row_sample(const table_view *table, size_t row)
 {
     return collected_modulus_text(table, row, COLLECTED_MODULUS_SAMPLE);
 }
 
-static const char *condition_of(const table_view *table, size_t row)
+static const char *row_condition(const table_view *table, size_t row)
 {
     return collected_friction_text(table, row, COLLECTED_FRICTION_CONDITION);
 }
 
 /* Common layout of all figures: adjacent panels with one scale. */
-typedef struct grid {
-    panels of;
+typedef struct panel_grid {
+    panel_names of;
     unsigned panel, group; /* columns of the table */
     unsigned data[4];
     size_t n_data;
     bool joined;   /* points with intervals, connected by lines */
     bool signed_x; /* linear x axis */
     int section[PANELS][DRAWING_GROUPS];
-} grid;
+} panel_grid;
 
 /* False if there is nothing to draw. */
-static bool find_sections(figure_drawing *d, grid *g)
+static bool find_panel_sections(figure_drawing *d, panel_grid *g)
 {
-    d->x = d->y[0] = SPAN_EMPTY;
+    d->x = d->y[0] = EMPTY_SPAN;
     for (size_t i = 0; i < g->of.n; i++)
         for (size_t k = 0; k < d->n_groups; k++) {
             const row_filter rows = {{g->panel, g->group}, {g->of.name[i], d->groups[k]}, false};
@@ -68,10 +69,10 @@ static bool find_sections(figure_drawing *d, grid *g)
             for (size_t c = 1; c < g->n_data; c++)
                 span_add_section(&d->y[0], d, g->section[i][k], c, g->joined);
         }
-    return d->status == WT_OK && !span_empty(&d->x) && !span_empty(&d->y[0]);
+    return d->status == WT_OK && !span_is_empty(&d->x) && !span_is_empty(&d->y[0]);
 }
 
-static void begin_grid(figure_drawing *d, const grid *g)
+static void begin_grid(figure_drawing *d, const panel_grid *g)
 {
     const size_t columns = g->of.n < 3 ? g->of.n : g->of.n == 4 ? 2 : 3;
     const size_t lines = (g->of.n + columns - 1) / columns;
@@ -86,7 +87,7 @@ static void begin_grid(figure_drawing *d, const grid *g)
 }
 
 /* Draws a panel. The legend of the first panel also lists groups that it does not contain. */
-static void draw_panel(figure_drawing *d, const grid *g, size_t i)
+static void draw_collection_panel(figure_drawing *d, const panel_grid *g, size_t i)
 {
     if (g->of.name[i][0] != '\0')
         plot_heading(d, g->of.name[i]);
@@ -96,15 +97,15 @@ static void draw_panel(figure_drawing *d, const grid *g, size_t i)
         if (section < 0 && i > 0)
             continue;
         if (section < 0)
-            plot_other(d, g->joined ? "NaN with yerrorlines ls %zu" : "NaN with lines ls %zu",
-                       k + 1);
+            plot_expression(d, g->joined ? "NaN with yerrorlines ls %zu" : "NaN with lines ls %zu",
+                            k + 1);
         else if (g->joined)
             plot_item(d, section,
                       "($1*x_unit):($2*y_unit):($3*y_unit):($4*y_unit) with yerrorlines ls %zu",
                       k + 1);
         else
             plot_item(d, section, "($1*x_unit):($2*y_unit) with %s ls %zu",
-                      drawing_rows(d, section) > 1 ? "lines" : "points", k + 1);
+                      drawing_row_count(d, section) > 1 ? "lines" : "points", k + 1);
         if (i == 0)
             plot_title(d, drawing_group_name(d, d->groups[k]));
         else
@@ -113,13 +114,13 @@ static void draw_panel(figure_drawing *d, const grid *g, size_t i)
     plot_end(d);
 }
 
-static void draw_grid(figure_drawing *d, grid *g)
+static void draw_grid(figure_drawing *d, panel_grid *g)
 {
-    if (!find_sections(d, g))
+    if (!find_panel_sections(d, g))
         return;
     begin_grid(d, g);
     for (size_t i = 0; i < g->of.n; i++)
-        draw_panel(d, g, i);
+        draw_collection_panel(d, g, i);
     text_add(&d->script, "unset multiplot\n");
     if (g->of.too_many)
         text_append_translated(&d->caption, " The first %d only.", PANELS);
@@ -127,39 +128,39 @@ static void draw_grid(figure_drawing *d, grid *g)
 
 static void draw_moduli(figure_drawing *d)
 {
-    grid g = {.of = find_panels(d->table, sample_of),
-              .panel = COLLECTED_MODULUS_SAMPLE,
-              .group = COLLECTED_MODULUS_PLACE,
-              .data = {COLLECTED_MODULUS_RATE, COLLECTED_MODULUS_MODULUS,
-                       COLLECTED_MODULUS_MODULUS_LOW, COLLECTED_MODULUS_MODULUS_HIGH},
-              .n_data = 4,
-              .joined = true};
+    panel_grid g = {.of = find_collection_panels(d->table, row_sample),
+                    .panel = COLLECTED_MODULUS_SAMPLE,
+                    .group = COLLECTED_MODULUS_PLACE,
+                    .data = {COLLECTED_MODULUS_RATE, COLLECTED_MODULUS_MODULUS,
+                             COLLECTED_MODULUS_MODULUS_LOW, COLLECTED_MODULUS_MODULUS_HIGH},
+                    .n_data = 4,
+                    .joined = true};
     draw_grid(d, &g);
 }
 
 static void draw_friction(figure_drawing *d)
 {
-    grid g = {.of = find_panels(d->table, condition_of),
-              .panel = COLLECTED_FRICTION_CONDITION,
-              .group = COLLECTED_FRICTION_SAMPLE,
-              .data = {COLLECTED_FRICTION_VELOCITY, COLLECTED_FRICTION_FRICTION},
-              .n_data = 2};
+    panel_grid g = {.of = find_collection_panels(d->table, row_condition),
+                    .panel = COLLECTED_FRICTION_CONDITION,
+                    .group = COLLECTED_FRICTION_SAMPLE,
+                    .data = {COLLECTED_FRICTION_VELOCITY, COLLECTED_FRICTION_FRICTION},
+                    .n_data = 2};
     draw_grid(d, &g);
 }
 
-static const char *sample_of_force(const table_view *table, size_t row)
+static const char *force_row_sample(const table_view *table, size_t row)
 {
     return collected_force_text(table, row, COLLECTED_FORCE_SAMPLE);
 }
 
 static void draw_force(figure_drawing *d)
 {
-    grid g = {.of = find_panels(d->table, sample_of_force),
-              .panel = COLLECTED_FORCE_SAMPLE,
-              .group = COLLECTED_FORCE_PLACE,
-              .data = {COLLECTED_FORCE_INDENTATION, COLLECTED_FORCE_FORCE},
-              .n_data = 2,
-              .signed_x = true};
+    panel_grid g = {.of = find_collection_panels(d->table, force_row_sample),
+                    .panel = COLLECTED_FORCE_SAMPLE,
+                    .group = COLLECTED_FORCE_PLACE,
+                    .data = {COLLECTED_FORCE_INDENTATION, COLLECTED_FORCE_FORCE},
+                    .n_data = 2,
+                    .signed_x = true};
     draw_grid(d, &g);
 }
 
@@ -211,9 +212,9 @@ static void name_members(figure_drawing *d, const constant_panel *panel)
             continue;
         text_add(&d->script, before);
         text_buffer name = {0};
-        text_name(&name, shared_members_text(d->table, row, SHARED_MEMBERS_MEMBER), NAME);
-        text_tic(&d->script, text_string(&name));
-        text_done(&name, &d->script);
+        text_file_name(&name, shared_members_text(d->table, row, SHARED_MEMBERS_MEMBER), NAME);
+        text_tic_label(&d->script, text_string(&name));
+        text_free_part(&name, &d->script);
         text_format(&d->script, " %.0f", shared_members_get(d->table, row, SHARED_MEMBERS_NUMBER));
         before = ", ";
     }
@@ -224,9 +225,9 @@ static void draw_constants(figure_drawing *d)
 {
     constant_panel shown[PANELS];
     bool too_many;
-    d->y[0] = SPAN_EMPTY;
+    d->y[0] = EMPTY_SPAN;
     const size_t n = find_constants(d, shown, &too_many);
-    if (d->status != WT_OK || span_empty(&d->y[0]))
+    if (d->status != WT_OK || span_is_empty(&d->y[0]))
         return;
     const size_t columns = n < 3 ? n : n == 4 ? 2 : 3, lines = (n + columns - 1) / columns;
     d->width = columns == 1 ? 1 : columns == 2 ? 1.6 : 2;
@@ -238,16 +239,16 @@ static void draw_constants(figure_drawing *d)
     drawing_axis(d, "y", &d->figure->y[0], NULL, d->y[0]);
     for (size_t i = 0; i < n; i++) {
         text_buffer of = {0};
-        text_name(&of, shown[i].of, HEADING);
+        text_file_name(&of, shown[i].of, HEADING);
         text_add(&d->script, "set title ");
         text_quoted(&d->script, translate(d->language, shown[i].constant));
         text_add(&d->script, ".\"\\n\".");
         text_quoted(&d->script, text_string(&of));
         text_add(&d->script, " noenhanced\n");
-        text_done(&of, &d->script);
-        text_format(&d->script, "set xrange [0.5:%zu.5]\n", drawing_rows(d, shown[i].section));
+        text_free_part(&of, &d->script);
+        text_format(&d->script, "set xrange [0.5:%zu.5]\n", drawing_row_count(d, shown[i].section));
         name_members(d, &shown[i]);
-        plot_other(d, "y_unit with lines ls 12");
+        plot_expression(d, "y_unit with lines ls 12");
         plot_item(d, shown[i].section,
                   "1:($2*y_unit):($3*y_unit):($4*y_unit) with yerrorbars ls 1");
         plot_end(d);
@@ -257,9 +258,9 @@ static void draw_constants(figure_drawing *d)
         text_append_translated(&d->caption, " The first %d only.", PANELS);
 }
 
-static void caption_friction(figure_drawing *d)
+static void caption_collected_friction(figure_drawing *d)
 {
-    const char *part = collected_friction_words(d->table, COLLECTED_FRICTION_KEY_PART);
+    const char *part = collected_friction_key_text(d->table, COLLECTED_FRICTION_KEY_PART);
     if (part != NULL && strcmp(part, "hysteresis") == 0)
         text_append_phrase(&d->caption, " Of hysteresis alone: not all cases have a shear stress.");
 }
@@ -289,7 +290,7 @@ const figure_description figures_collection[] = {
      .words = "Friction coefficient of every sample without the modified layer, a panel for each "
               "condition.",
      .draw = draw_friction,
-     .caption = caption_friction},
+     .caption = caption_collected_friction},
     {.name = "collected_force",
      .title = "Force against indentation, of bulk, wear tracks and what stands beside",
      .table = &collected_force_schema,

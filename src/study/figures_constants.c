@@ -16,14 +16,14 @@ enum { POINTS = 73, REGIONS = 36, PANELS = 3 };
 enum { STYLES = 6, DASHED = 30 };
 
 /* Row of a table of pairs. */
-typedef struct known_pair {
+typedef struct constant_estimates {
     double energy, energy_error, wear, wear_error, correlation;
     const char *by, *name;
     char room[128]; /* storage of the name */
-} known_pair;
+} constant_estimates;
 
 /* Returns the distinguishing end of the name of a method. */
-static const char *heading_of(const char *by)
+static const char *panel_heading(const char *by)
 {
     static const char *const ends[] = {"wear rate", "balance of rates", "transport of damage"};
     const size_t length = strlen(by);
@@ -33,39 +33,40 @@ static const char *heading_of(const char *by)
     return by;
 }
 
-static void read_identification(const table_view *t, size_t row, known_pair *p)
+static void read_identification(const table_view *t, size_t row, constant_estimates *p)
 {
-    *p = (known_pair){identification_get(t, row, IDENTIFICATION_ENERGY),
-                      identification_get(t, row, IDENTIFICATION_ENERGY_STANDARD_ERROR),
-                      identification_get(t, row, IDENTIFICATION_WEAR),
-                      identification_get(t, row, IDENTIFICATION_WEAR_STANDARD_ERROR),
-                      identification_get(t, row, IDENTIFICATION_CORRELATION),
-                      "",
-                      heading_of(identification_text(t, row, IDENTIFICATION_BY)),
-                      ""};
+    *p = (constant_estimates){identification_get(t, row, IDENTIFICATION_ENERGY),
+                              identification_get(t, row, IDENTIFICATION_ENERGY_STANDARD_ERROR),
+                              identification_get(t, row, IDENTIFICATION_WEAR),
+                              identification_get(t, row, IDENTIFICATION_WEAR_STANDARD_ERROR),
+                              identification_get(t, row, IDENTIFICATION_CORRELATION),
+                              "",
+                              panel_heading(identification_text(t, row, IDENTIFICATION_BY)),
+                              ""};
 }
 
-static void read_collected(const table_view *t, size_t row, known_pair *p)
+static void read_collected_constants(const table_view *t, size_t row, constant_estimates *p)
 {
     const char *condition = collected_constants_text(t, row, COLLECTED_CONSTANTS_CONDITION);
-    *p = (known_pair){collected_constants_get(t, row, COLLECTED_CONSTANTS_ENERGY),
-                      collected_constants_get(t, row, COLLECTED_CONSTANTS_ENERGY_STANDARD_ERROR),
-                      collected_constants_get(t, row, COLLECTED_CONSTANTS_WEAR),
-                      collected_constants_get(t, row, COLLECTED_CONSTANTS_WEAR_STANDARD_ERROR),
-                      collected_constants_get(t, row, COLLECTED_CONSTANTS_CORRELATION),
-                      collected_constants_text(t, row, COLLECTED_CONSTANTS_BY),
-                      NULL,
-                      ""};
+    *p = (constant_estimates){
+        collected_constants_get(t, row, COLLECTED_CONSTANTS_ENERGY),
+        collected_constants_get(t, row, COLLECTED_CONSTANTS_ENERGY_STANDARD_ERROR),
+        collected_constants_get(t, row, COLLECTED_CONSTANTS_WEAR),
+        collected_constants_get(t, row, COLLECTED_CONSTANTS_WEAR_STANDARD_ERROR),
+        collected_constants_get(t, row, COLLECTED_CONSTANTS_CORRELATION),
+        collected_constants_text(t, row, COLLECTED_CONSTANTS_BY),
+        NULL,
+        ""};
     snprintf(p->room, sizeof p->room, "%s%s%s",
              collected_constants_text(t, row, COLLECTED_CONSTANTS_SAMPLE),
              condition[0] != '\0' ? ", " : "", condition);
     p->name = p->room;
 }
 
-typedef void read_pair(const table_view *t, size_t row, known_pair *p);
+typedef void read_estimates(const table_view *t, size_t row, constant_estimates *p);
 
 /* Adds the points of the joint region. NO_SECTION if there is none. */
-static int add_region(figure_drawing *d, const known_pair *p)
+static int add_region(figure_drawing *d, const constant_estimates *p)
 {
     static const char *const columns[] = {"critical_energy", "specific_wear_rate", NULL},
                              *const units[] = {"J/m^3", "m^2/N", NULL};
@@ -80,7 +81,7 @@ static int add_region(figure_drawing *d, const known_pair *p)
         points[2 * i] = p->energy * exp(of_energy * cos(at));
         points[2 * i + 1] = p->wear * exp(of_wear * (p->correlation * cos(at) + across * sin(at)));
     }
-    return drawing_numbers(d, p->name, columns, units, points, POINTS);
+    return drawing_number_section(d, p->name, columns, units, points, POINTS);
 }
 
 typedef struct region {
@@ -94,11 +95,11 @@ typedef struct regions {
     size_t n, n_panels;
 } regions;
 
-static void find_regions(figure_drawing *d, read_pair *read, regions *r)
+static void find_regions(figure_drawing *d, read_estimates *read, regions *r)
 {
     *r = (regions){.n = 0};
     for (size_t row = 0; row < d->table->n_rows && d->status == WT_OK; row++) {
-        known_pair p;
+        constant_estimates p;
         size_t panel = 0;
         read(d->table, row, &p);
         while (panel < r->n_panels && strcmp(r->by[panel], p.by) != 0)
@@ -112,10 +113,11 @@ static void find_regions(figure_drawing *d, read_pair *read, regions *r)
     }
 }
 
-static void draw_panel(figure_drawing *d, read_pair *read, const regions *r, size_t panel)
+static void draw_region_panel(figure_drawing *d, read_estimates *read, const regions *r,
+                              size_t panel)
 {
     size_t shown = 0;
-    d->x = d->y[0] = SPAN_EMPTY;
+    d->x = d->y[0] = EMPTY_SPAN;
     for (size_t i = 0; i < r->n; i++)
         if (r->of[i].panel == panel) {
             span_add_section(&d->x, d, r->of[i].section, 0, true);
@@ -124,10 +126,10 @@ static void draw_panel(figure_drawing *d, read_pair *read, const regions *r, siz
     drawing_axis(d, "x", &d->figure->x, NULL, d->x);
     drawing_axis(d, "y", &d->figure->y[0], NULL, d->y[0]);
     if (r->n_panels > 1)
-        plot_heading(d, translate(d->language, heading_of(r->by[panel])));
+        plot_heading(d, translate(d->language, panel_heading(r->by[panel])));
     text_add(&d->script, panel == 1 ? "unset key\n" : "");
     for (size_t i = 0; i < r->n; i++) {
-        known_pair p;
+        constant_estimates p;
         if (r->of[i].panel != panel)
             continue;
         read(d->table, r->of[i].row, &p);
@@ -141,7 +143,7 @@ static void draw_panel(figure_drawing *d, read_pair *read, const regions *r, siz
 
 /* Draws a panel for each method, as their regions may be decades apart. The common legend is above
  * the first panel. */
-static void draw_regions(figure_drawing *d, read_pair *read)
+static void draw_regions(figure_drawing *d, read_estimates *read)
 {
     regions r;
     size_t names = 0;
@@ -157,7 +159,7 @@ static void draw_regions(figure_drawing *d, read_pair *read)
                     "set xtics rotate by -40\n",
                     3 + names, r.n_panels);
     for (size_t panel = 0; panel < r.n_panels; panel++)
-        draw_panel(d, read, &r, panel);
+        draw_region_panel(d, read, &r, panel);
     if (r.n_panels > 1)
         text_add(&d->script, "unset multiplot\n");
 }
@@ -175,7 +177,7 @@ static void draw_identification(figure_drawing *d)
 
 static void draw_collected(figure_drawing *d)
 {
-    draw_regions(d, read_collected);
+    draw_regions(d, read_collected_constants);
 }
 
 const figure_description figures_constants[] = {

@@ -25,7 +25,7 @@ typedef struct panel {
     size_t n;
 } panel;
 
-static int by_width(const void *a, const void *b)
+static int compare_widths(const void *a, const void *b)
 {
     const bar *p = a, *q = b;
     const double more = (p->high - p->low) - (q->high - q->low);
@@ -33,7 +33,7 @@ static int by_width(const void *a, const void *b)
 }
 
 /* Appends "2e5; 2e7 rad/m": the unit appears once. */
-static void add_tried(bar *b, const char *tried)
+static void append_tried(bar *b, const char *tried)
 {
     size_t length = strlen(b->tried);
     const char *unit = strrchr(tried, ' ');
@@ -58,9 +58,9 @@ static void fill_panel(panel *p, const table_view *table)
         bar *b = &p->bars[p->n - 1];
         b->low = fmin(b->low, value);
         b->high = fmax(b->high, value);
-        add_tried(b, what_if_text(table, row, WHAT_IF_TRIED));
+        append_tried(b, what_if_text(table, row, WHAT_IF_TRIED));
     }
-    qsort(p->bars, p->n, sizeof *p->bars, by_width);
+    qsort(p->bars, p->n, sizeof *p->bars, compare_widths);
     size_t still = 0;
     while (still < p->n && !(p->bars[still].high > p->bars[still].low))
         still++;
@@ -70,7 +70,7 @@ static void fill_panel(panel *p, const table_view *table)
 
 /* Finds the panels: friction, or its hysteresis part if friction is unknown, and the effects of the
  * layer. */
-static size_t find_panels(const figure_drawing *d, panel panels[PANELS])
+static size_t find_choice_panels(const figure_drawing *d, panel panels[PANELS])
 {
     const table_view *friction = &d->tables->friction, *layer = &d->tables->layer;
     const bool total = isfinite(what_if_get(d->table, 0, WHAT_IF_FRICTION));
@@ -96,30 +96,30 @@ static size_t find_panels(const figure_drawing *d, panel panels[PANELS])
 }
 
 /* Adds two lines of text at a position of the y axis. The second may be empty. */
-static void name_place(figure_drawing *d, size_t place, const char *first, const char *second)
+static void add_axis_name(figure_drawing *d, size_t place, const char *first, const char *second)
 {
     text_add(&d->script, place > 0 ? ", " : "");
-    text_tic(&d->script, first);
+    text_tic_label(&d->script, first);
     text_format(&d->script, " %zu.2, ", place);
-    text_tic(&d->script, second);
+    text_tic_label(&d->script, second);
     text_format(&d->script, " %s", LITERAL((double)place - 0.2));
 }
 
-static int add_section(figure_drawing *d, const panel *p, const char *title, double low,
-                       double high)
+static int add_bar_section(figure_drawing *d, const panel *p, const char *title, double low,
+                           double high)
 {
     static const char *const columns[] = {"used", "low", "high", NULL};
     const char *unit = schema_unit(&d->table->schema->columns[p->column]);
     const char *const units[] = {unit, unit, unit, NULL};
     const double values[] = {p->used.value, low, high};
-    return drawing_numbers(d, title, columns, units, values, 1);
+    return drawing_number_section(d, title, columns, units, values, 1);
 }
 
-static void draw_panel(figure_drawing *d, const panel *p)
+static void draw_choice_panel(figure_drawing *d, const panel *p)
 {
     const double two_sided = 1.959964 * p->used.standard_error;
     const bool chance = two_sided > 0 && isfinite(two_sided);
-    value_span span = SPAN_EMPTY;
+    value_span span = EMPTY_SPAN;
     span_add(&span, 0, false);
     span_add(&span, p->used.value, false);
     span_add(&span, p->used.value + (chance ? two_sided : 0), false);
@@ -131,31 +131,31 @@ static void draw_panel(figure_drawing *d, const panel *p)
     text_format(&d->script, "set yrange [-0.6:%zu.6]\nset ytics (", p->n - 1 + chance);
     for (size_t i = 0; i < p->n; i++) {
         bar named = p->bars[i];
-        language_decimals(d->language, named.tried);
-        name_place(d, i, translate(d->language, named.choice), named.tried);
+        language_set_decimal_mark(d->language, named.tried);
+        add_axis_name(d, i, translate(d->language, named.choice), named.tried);
     }
     if (chance)
-        name_place(d, p->n, translate(d->language, "errors that are known"),
-                   translate(d->language, "95 % interval"));
+        add_axis_name(d, p->n, translate(d->language, "errors that are known"),
+                      translate(d->language, "95 % interval"));
     text_format(&d->script,
                 ") noenhanced scale 0\nunset arrow\n"
                 "set arrow from %s*x_unit, graph 0 to %s*x_unit, graph 1 nohead ls 12 back\n",
                 LITERAL(p->used.value), LITERAL(p->used.value));
     for (size_t i = 0; i < p->n; i++)
-        plot_item(d, add_section(d, p, p->bars[i].choice, p->bars[i].low, p->bars[i].high),
+        plot_item(d, add_bar_section(d, p, p->bars[i].choice, p->bars[i].low, p->bars[i].high),
                   "($1*x_unit):(%zu):($2*x_unit):($3*x_unit):(%zu-0.26):(%zu+0.26) with "
                   "boxxyerror ls 1",
                   i, i, i);
     if (chance)
         plot_item(d,
-                  add_section(d, p, "errors that are known", p->used.value - two_sided,
-                              p->used.value + two_sided),
+                  add_bar_section(d, p, "errors that are known", p->used.value - two_sided,
+                                  p->used.value + two_sided),
                   "($1*x_unit):(%zu):($2*x_unit):($3*x_unit) with xerrorbars ls 13", p->n);
     plot_end(d);
 }
 
 /* Height relative to one panel of the style. */
-static double height_of(const panel *p)
+static double panel_height(const panel *p)
 {
     return 0.25 + 0.11 * (double)(p->n + 1);
 }
@@ -167,12 +167,12 @@ static void draw_what_if(figure_drawing *d)
         d->status = wt_fail(d->err, WT_E_MEMORY, "out of memory");
         return;
     }
-    const size_t n = find_panels(d, panels);
+    const size_t n = find_choice_panels(d, panels);
     double margin = 26, top = 0; /* the margin is in character cells, which are wider than an
                                     average letter */
     d->height = 0;
     for (size_t i = 0; i < n; i++) {
-        d->height += height_of(&panels[i]);
+        d->height += panel_height(&panels[i]);
         for (size_t k = 0; k < panels[i].n; k++)
             margin = fmax(margin, 2 + 0.83 * (double)strlen(panels[i].bars[k].tried));
     }
@@ -181,11 +181,11 @@ static void draw_what_if(figure_drawing *d)
         text_format(&d->script, "set lmargin %s\nunset key\nset border 1\nset multiplot\n",
                     LITERAL(margin));
     for (size_t i = 0; i < n; i++) {
-        const double height = height_of(&panels[i]) / d->height;
+        const double height = panel_height(&panels[i]) / d->height;
         top += height;
         text_format(&d->script, "set size 1,%s\nset origin 0,%s\n", LITERAL(height),
                     LITERAL(1 - top));
-        draw_panel(d, &panels[i]);
+        draw_choice_panel(d, &panels[i]);
     }
     if (n > 0)
         text_add(&d->script, "unset multiplot\n");

@@ -10,40 +10,40 @@
 #include <stdlib.h>
 #include <string.h>
 
-typedef struct named {
+typedef struct named_spot {
     const char *spot;
     double x, y; /* position, if it identifies a spot; else 0 */
     size_t item;
-} named;
+} named_spot;
 
-static int by_number(double a, double b)
+static int compare_numbers(double a, double b)
 {
     return (a > b) - (a < b);
 }
 
-static int by_spot(const named *x, const named *y)
+static int compare_spots(const named_spot *x, const named_spot *y)
 {
     const int order = strcmp(x->spot, y->spot);
     if (order != 0)
         return order;
-    return x->x != y->x ? by_number(x->x, y->x) : by_number(x->y, y->y);
+    return x->x != y->x ? compare_numbers(x->x, y->x) : compare_numbers(x->y, y->y);
 }
 
-static int by_name(const void *a, const void *b)
+static int compare_names(const void *a, const void *b)
 {
-    const named *x = a, *y = b;
-    int order = by_spot(x, y);
+    const named_spot *x = a, *y = b;
+    int order = compare_spots(x, y);
     return order != 0 ? order : (x->item > y->item) - (x->item < y->item);
 }
 
 /* Numbers the spots in the order of their first appearance. A sort finds equal spots, as each curve
  * may have its own. */
-static void number_spots(named *names, size_t n, long *spot)
+static void number_spots(named_spot *names, size_t n, long *spot)
 {
     long next = 0;
-    qsort(names, n, sizeof *names, by_name);
+    qsort(names, n, sizeof *names, compare_names);
     for (size_t i = 0, first = 0; i < n; i++) {
-        if (by_spot(&names[i], &names[first]) != 0)
+        if (compare_spots(&names[i], &names[first]) != 0)
             first = i;
         spot[names[i].item] = (long)names[first].item;
     }
@@ -56,7 +56,7 @@ static void number_spots(named *names, size_t n, long *spot)
 
 /* Digest of the measured values of a curve. 0 if only the modulus exists, which two curves may
  * share. */
-static uint64_t digest_of(const table_view *t, size_t row)
+static uint64_t curve_digest(const table_view *t, size_t row)
 {
     static const indentation_column columns[] = {
         INDENTATION_MODULUS,     INDENTATION_MODULUS_STANDARD_ERROR, INDENTATION_CONTACT_POINT,
@@ -76,7 +76,7 @@ static uint64_t digest_of(const table_view *t, size_t row)
     return known >= 3 ? digest : 0;
 }
 
-static int by_digest(const void *a, const void *b)
+static int compare_digests(const void *a, const void *b)
 {
     const wt_curve_digest *x = a, *y = b;
     if (x->digest != y->digest)
@@ -85,11 +85,11 @@ static int by_digest(const void *a, const void *b)
 }
 
 /* Removes copies of curves. `row_of`: row of each remaining curve. */
-static void drop_copies(const table_view *t, wt_group_data *d, size_t *row_of)
+static void remove_copies(const table_view *t, wt_group_data *d, size_t *row_of)
 {
     wt_curve_digest *const all = d->digest;
     const size_t n = d->n_digests;
-    qsort(all, n, sizeof *all, by_digest);
+    qsort(all, n, sizeof *all, compare_digests);
     size_t kept = 0;
     for (size_t i = 0, first = 0; i < n; i++) {
         const bool copy = i > 0 && all[i].digest != 0 && all[i].digest == all[first].digest;
@@ -99,8 +99,8 @@ static void drop_copies(const table_view *t, wt_group_data *d, size_t *row_of)
             continue;
         }
         if (d->n_copies++ == 0) {
-            d->copy_of[0] = indentation_text(t, row_of[all[first].item], INDENTATION_FILE);
-            d->copy_of[1] = indentation_text(t, row_of[all[i].item], INDENTATION_FILE);
+            d->duplicate_file[0] = indentation_text(t, row_of[all[first].item], INDENTATION_FILE);
+            d->duplicate_file[1] = indentation_text(t, row_of[all[i].item], INDENTATION_FILE);
         }
         row_of[all[i].item] = SIZE_MAX;
     }
@@ -110,12 +110,13 @@ static void drop_copies(const table_view *t, wt_group_data *d, size_t *row_of)
 /* ---- table ----------------------------------------------------------------------------------- */
 
 /* Finds the rows of curves with a modulus, accepted or doubtful, without copies. */
-static wt_status find_rows(const table_view *t, wt_group_data *d, size_t *row_of, wt_error *err)
+static wt_status find_accepted_rows(const table_view *t, wt_group_data *d, size_t *row_of,
+                                    wt_error *err)
 {
     size_t n = 0;
     for (size_t row = 0; row < t->n_rows; row++) {
         const double modulus = indentation_get(t, row, INDENTATION_MODULUS);
-        if (!wt_curve_usable_id(indentation_text(t, row, INDENTATION_VERDICT))) {
+        if (!wt_curve_verdict_id_is_usable(indentation_text(t, row, INDENTATION_VERDICT))) {
             d->group.n_rejected++;
             continue;
         }
@@ -125,11 +126,11 @@ static wt_status find_rows(const table_view *t, wt_group_data *d, size_t *row_of
             wt_error_found(err, "%g Pa", modulus);
             return WT_E_RANGE;
         }
-        d->digest[n] = (wt_curve_digest){digest_of(t, row), n};
+        d->digest[n] = (wt_curve_digest){curve_digest(t, row), n};
         row_of[n++] = row;
     }
     d->n_digests = n;
-    drop_copies(t, d, row_of);
+    remove_copies(t, d, row_of);
     for (size_t i = 0; i < n; i++)
         if (row_of[i] != SIZE_MAX)
             row_of[d->group.n++] = row_of[i];
@@ -145,28 +146,28 @@ static void count_rejected(const table_view *t, wt_group_data *d)
             counts[v] += strcmp(verdict, wt_curve_verdict_id((wt_curve_verdict)v)) == 0 ? 1 : 0;
     }
     for (int v = WT_CURVE_ACCEPTED; v <= WT_CURVE_UNREADABLE; v++)
-        if (!wt_curve_usable((wt_curve_verdict)v) && counts[v] > d->n_rejected_for) {
-            d->rejected_for = (wt_curve_verdict)v;
-            d->n_rejected_for = counts[v];
+        if (!wt_curve_verdict_is_usable((wt_curve_verdict)v) && counts[v] > d->n_main_rejection) {
+            d->main_rejection = (wt_curve_verdict)v;
+            d->n_main_rejection = counts[v];
         }
 }
 
 /* Determines if the spots were named, from the text of the table. A table without this text comes
  * from another program. */
-static void note_spots(const table_view *t, wt_group_data *d)
+static void find_spot_naming(const table_view *t, wt_group_data *d)
 {
-    const char *spots = indentation_words(t, INDENTATION_KEY_SPOTS);
-    d->spots_given =
+    const char *spots = indentation_key_text(t, INDENTATION_KEY_SPOTS);
+    d->spots_are_named =
         spots != NULL ? strncmp(spots, "named", 5) == 0 : indentation_has(t, INDENTATION_SPOT);
 }
 
-/* Returns the spot of an accepted curve. With `each_place` its position is part of the spot, unless
- * the user named the spots. */
-static named name_of(const table_view *t, size_t row, size_t item, bool each_place,
-                     const wt_group_data *d)
+/* Returns the spot of an accepted curve. With `spot_per_position` its position is part of the spot,
+ * unless the user named the spots. */
+static named_spot spot_name(const table_view *t, size_t row, size_t item, bool spot_per_position,
+                            const wt_group_data *d)
 {
-    named n = {indentation_text(t, row, INDENTATION_SPOT), 0, 0, item};
-    if (!each_place || d->spots_given)
+    named_spot n = {indentation_text(t, row, INDENTATION_SPOT), 0, 0, item};
+    if (!spot_per_position || d->spots_are_named)
         return n;
     n.x = indentation_get(t, row, INDENTATION_X);
     n.y = indentation_get(t, row, INDENTATION_Y);
@@ -178,26 +179,27 @@ static named name_of(const table_view *t, size_t row, size_t item, bool each_pla
 }
 
 /* Error that the curves show: 0 if it was not requested, NaN if it is unknown. */
-static double shown_error(const table_view *t, indentation_key key)
+static double shown_key_error(const table_view *t, indentation_key key)
 {
-    return indentation_words(t, key) == NULL ? 0 : indentation_value(t, key).value;
+    return indentation_key_text(t, key) == NULL ? 0 : indentation_value(t, key).value;
 }
 
 /* The cube root of a mean of squares is nearly normal (Wilson and Hilferty 1931). */
-static void read_misfits(const table_view *t, bool each_place, named *names, wt_group_data *d)
+static void read_misfits(const table_view *t, bool spot_per_position, named_spot *names,
+                         wt_group_data *d)
 {
     for (size_t row = 0; row < t->n_rows; row++) {
         const double lack = indentation_get(t, row, INDENTATION_LACK_OF_FIT);
         if (!isfinite(lack))
             continue;
-        names[d->n_fitted] = name_of(t, row, d->n_fitted, each_place, d);
+        names[d->n_fitted] = spot_name(t, row, d->n_fitted, spot_per_position, d);
         d->lack_of_fit[d->n_fitted++] = cbrt(lack);
     }
     number_spots(names, d->n_fitted, d->fitted_spot);
 }
 
 /* Reads adhesion, largest force and largest indentation of a curve. */
-static void read_signs(const table_view *t, size_t row, size_t i, wt_group_data *d)
+static void read_pull_and_depth(const table_view *t, size_t row, size_t i, wt_group_data *d)
 {
     d->pull[i] = fmax(indentation_get(t, row, INDENTATION_ADHESION_FORCE),
                       indentation_get(t, row, INDENTATION_PULL_OFF_FORCE));
@@ -206,38 +208,38 @@ static void read_signs(const table_view *t, size_t row, size_t i, wt_group_data 
 }
 
 /* Returns NaN if the key is missing. */
-static double plain_number(const table_view *t, indentation_key key)
+static double plain_key_number(const table_view *t, indentation_key key)
 {
     double value = (double)NAN;
-    const char *words = indentation_words(t, key);
+    const char *words = indentation_key_text(t, key);
     if (words != NULL && !wt_number_parse(words, strlen(words), '.', &value))
         value = (double)NAN;
     return value;
 }
 
 /* Reads quantities that all curves of the group share. */
-static void read_common(const table_view *t, wt_group_data *d)
+static void read_shared_inputs(const table_view *t, wt_group_data *d)
 {
     d->sensitivity = indentation_value(t, INDENTATION_KEY_SENSITIVITY);
-    d->tip = indentation_words(t, INDENTATION_KEY_TIP);
-    d->several_levers = indentation_words(t, INDENTATION_KEY_SPRING_CONSTANTS) != NULL;
-    d->several_sensitivities = indentation_words(t, INDENTATION_KEY_SENSITIVITIES) != NULL;
-    d->several_tips =
-        d->tip != NULL && strncmp(d->tip, INDENTATION_SEVERAL, strlen(INDENTATION_SEVERAL)) == 0;
-    for (int i = 0; i < WT_COMMON_SOURCES; i++) {
+    d->tip = indentation_key_text(t, INDENTATION_KEY_TIP);
+    d->has_several_cantilevers = indentation_key_text(t, INDENTATION_KEY_SPRING_CONSTANTS) != NULL;
+    d->has_several_sensitivities = indentation_key_text(t, INDENTATION_KEY_SENSITIVITIES) != NULL;
+    d->has_several_tips = d->tip != NULL && strncmp(d->tip, INDENTATION_SEVERAL_TIPS,
+                                                    strlen(INDENTATION_SEVERAL_TIPS)) == 0;
+    for (int i = 0; i < WT_SYSTEMATIC_SOURCES; i++) {
         const indentation_key error = (indentation_key)(INDENTATION_KEY_LEVER_ERROR + i),
                               gain = (indentation_key)(INDENTATION_KEY_LEVER_GAIN + i);
         d->common_error[i] = indentation_value(t, error).value;
         d->common_gain[i] = indentation_value(t, gain);
     }
-    d->loss_error = shown_error(t, INDENTATION_KEY_LOSS_ERROR);
-    d->bend_error = shown_error(t, INDENTATION_KEY_BEND_ERROR);
-    d->misfit_error = shown_error(t, INDENTATION_KEY_MISFIT_ERROR);
-    d->pooled_misfit = plain_number(t, INDENTATION_KEY_POOLED_MISFIT);
-    d->pooled_misfit_p = plain_number(t, INDENTATION_KEY_POOLED_MISFIT_CHANCE);
+    d->loss_error = shown_key_error(t, INDENTATION_KEY_LOSS_ERROR);
+    d->bend_error = shown_key_error(t, INDENTATION_KEY_BEND_ERROR);
+    d->misfit_error = shown_key_error(t, INDENTATION_KEY_MISFIT_ERROR);
+    d->pooled_misfit = plain_key_number(t, INDENTATION_KEY_POOLED_MISFIT);
+    d->pooled_misfit_p = plain_key_number(t, INDENTATION_KEY_POOLED_MISFIT_CHANCE);
 }
 
-wt_status wt_group_from_table(const wt_table *table, bool each_place, wt_group_data *data,
+wt_status wt_group_from_table(const wt_table *table, bool spot_per_position, wt_group_data *data,
                               wt_error *err)
 {
     if (table == NULL || data == NULL)
@@ -248,7 +250,7 @@ wt_status wt_group_from_table(const wt_table *table, bool each_place, wt_group_d
         return status;
     size_t allocated = t.n_rows > 0 ? t.n_rows : 1;
     wt_group_data d = {0};
-    named *names = malloc(allocated * sizeof *names);
+    named_spot *names = malloc(allocated * sizeof *names);
     size_t *row_of = malloc(allocated * sizeof *row_of);
     d.modulus = malloc(allocated * sizeof *d.modulus);
     d.spot = malloc(allocated * sizeof *d.spot);
@@ -267,30 +269,30 @@ wt_status wt_group_from_table(const wt_table *table, bool each_place, wt_group_d
         d.max_force == NULL || d.max_indentation == NULL)
         status = wt_fail(err, WT_E_MEMORY, "out of memory");
     else
-        status = find_rows(&t, &d, row_of, err);
+        status = find_accepted_rows(&t, &d, row_of, err);
     if (status == WT_OK) {
-        note_spots(&t, &d);
+        find_spot_naming(&t, &d);
         count_rejected(&t, &d);
     }
     double gain = 0;
     for (size_t i = 0; status == WT_OK && i < d.group.n; i++) {
         d.modulus[i] = indentation_get(&t, row_of[i], INDENTATION_MODULUS);
-        names[i] = name_of(&t, row_of[i], i, each_place, &d);
+        names[i] = spot_name(&t, row_of[i], i, spot_per_position, &d);
         d.indentation_rate[i] = indentation_get(&t, row_of[i], INDENTATION_RATE);
         d.equivalent_frequency[i] =
             indentation_get(&t, row_of[i], INDENTATION_EQUIVALENT_FREQUENCY);
         d.spectrum_factor[i] = indentation_get(&t, row_of[i], INDENTATION_SPECTRUM_FACTOR);
         gain += indentation_get(&t, row_of[i], INDENTATION_SENSITIVITY_GAIN);
-        read_signs(&t, row_of[i], i, &d);
+        read_pull_and_depth(&t, row_of[i], i, &d);
     }
     if (status == WT_OK) {
         number_spots(names, d.group.n, d.spot);
-        read_misfits(&t, each_place, names, &d);
+        read_misfits(&t, spot_per_position, names, &d);
         d.group.modulus = d.modulus;
         d.group.spot = indentation_has(&t, INDENTATION_SPOT) ? d.spot : NULL;
         d.spring_constant = indentation_value(&t, INDENTATION_KEY_SPRING_CONSTANT);
         d.sensitivity_gain = gain / (double)d.group.n;
-        read_common(&t, &d);
+        read_shared_inputs(&t, &d);
         *data = d;
         d = (wt_group_data){0};
     }

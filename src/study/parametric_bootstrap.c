@@ -13,7 +13,7 @@
 
 /* ---- isotherms ------------------------------------------------------------------------------- */
 
-static const wt_master_shift *shift_at(const wt_master *fit, double temperature, size_t *k)
+static const wt_master_shift *find_shift(const wt_master *fit, double temperature, size_t *k)
 {
     for (*k = 0; *k < fit->n_shifts; ++*k)
         if (!(fabs(fit->shifts[*k].temperature - temperature) > 0))
@@ -23,11 +23,12 @@ static const wt_master_shift *shift_at(const wt_master *fit, double temperature,
 
 /* log10 a_T of the simulated isotherm: by the shift law at a scattered temperature, because an oven
  * has this scatter. Without a law it is the fitted value, and a stated shift stays fixed. */
-static double true_shift(const wt_isotherm *measured, const wt_master *fit, size_t k, uint64_t seed)
+static double draw_true_shift(const wt_isotherm *measured, const wt_master *fit, size_t k,
+                              uint64_t seed)
 {
     const wt_master_shift *s = &fit->shifts[k];
     const double at = wt_shift_law_log_a(&fit->law, s->temperature);
-    if (measured->shift_given || fit->law.kind == WT_LAW_NONE || isnan(at))
+    if (measured->shift_is_stated || fit->law.kind == WT_LAW_NONE || isnan(at))
         return s->log_a.value;
     const double spread = isfinite(fit->temperature_spread) ? fit->temperature_spread : 0;
     const double step = spread * flow_draw_normal(seed, k, FLOW_DRAW_ISOTHERM);
@@ -35,8 +36,8 @@ static double true_shift(const wt_isotherm *measured, const wt_master *fit, size
     return isnan(moved) ? at : moved;
 }
 
-static wt_status add_isotherm(const wt_isotherm *measured, const wt_master *fit, size_t k,
-                              double shift, uint64_t seed, wt_sweep *sweep)
+static wt_status draw_isotherm(const wt_isotherm *measured, const wt_master *fit, size_t k,
+                               double shift, uint64_t seed, wt_sweep *sweep)
 {
     const wt_master_shift *s = &fit->shifts[k];
     wt_isotherm *iso = wt_sweep_add(sweep, measured->n, 0);
@@ -44,10 +45,10 @@ static wt_status add_isotherm(const wt_isotherm *measured, const wt_master *fit,
     if (iso == NULL)
         return WT_E_MEMORY;
     iso->temperature = measured->temperature;
-    iso->shift_given = measured->shift_given;
-    iso->given_log_a = measured->given_log_a;
-    iso->vertical_given = measured->vertical_given;
-    iso->given_log_b = measured->given_log_b;
+    iso->shift_is_stated = measured->shift_is_stated;
+    iso->stated_log_a = measured->stated_log_a;
+    iso->vertical_shift_is_stated = measured->vertical_shift_is_stated;
+    iso->stated_log_b = measured->stated_log_b;
     const double rest = sqrt(fmax(0, 1 - fit->correlation * fit->correlation));
     for (size_t j = 0; j < measured->n; j++) {
         double storage, loss;
@@ -74,18 +75,18 @@ wt_status bootstrap_sweep(const wt_sweep *measured, const wt_master *fit, uint64
                           wt_sweep *sweep, double *shift, wt_error *err)
 {
     double at_reference = (double)NAN;
-    wt_status status = flow_needs_oscillation(measured, "drawing isotherms anew", err);
+    wt_status status = flow_require_oscillation(measured, "drawing isotherms anew", err);
     size_t k = 0;
     sweep->deformation = measured->deformation;
     for (size_t i = 0; i < fit->n_shifts; i++)
         shift[i] = (double)NAN;
     for (size_t i = 0; i < measured->n_isotherms && status == WT_OK; i++) {
         const wt_isotherm *iso = &measured->isotherms[i];
-        const wt_master_shift *s = shift_at(fit, iso->temperature, &k);
+        const wt_master_shift *s = find_shift(fit, iso->temperature, &k);
         if (s == NULL)
             continue;
-        shift[k] = true_shift(iso, fit, k, seed);
-        status = add_isotherm(iso, fit, k, shift[k], seed, sweep);
+        shift[k] = draw_true_shift(iso, fit, k, seed);
+        status = draw_isotherm(iso, fit, k, shift[k], seed, sweep);
         if (!(s->log_a.standard_error > 0)) /* reference isotherm: 0 by definition */
             at_reference = shift[k];
     }
@@ -147,34 +148,35 @@ static const struct {
     size_t offset;
     flow_draw what;
 } inputs[] = {
-    {"pressure", offsetof(setting, sliding.pressure), FLOW_DRAW_PRESSURE},
-    {"temperature", offsetof(setting, sliding.temperature), FLOW_DRAW_TEMPERATURE},
-    {"shear stress", offsetof(setting, sliding.shear_stress), FLOW_DRAW_SHEAR_STRESS},
-    {"roughness", offsetof(setting, surface.c0), FLOW_DRAW_DENSITY},
-    {"specific wear rate", offsetof(setting, layer.specific_wear_rate), FLOW_DRAW_WEAR},
-    {"critical energy", offsetof(setting, layer.critical_energy), FLOW_DRAW_CRITICAL_ENERGY},
-    {"observed thickness", offsetof(setting, layer.observed_thickness), FLOW_DRAW_OBSERVED},
-    {"layer thickness", offsetof(setting, known.thickness), FLOW_DRAW_THICKNESS},
-    {"modulus ratio", offsetof(setting, known.modulus_ratio), FLOW_DRAW_RATIO},
-    {"slope of the modulus ratio", offsetof(setting, known.ratio_slope), FLOW_DRAW_RATIO_SLOPE},
+    {"pressure", offsetof(case_variant, sliding.pressure), FLOW_DRAW_PRESSURE},
+    {"temperature", offsetof(case_variant, sliding.temperature), FLOW_DRAW_TEMPERATURE},
+    {"shear stress", offsetof(case_variant, sliding.shear_stress), FLOW_DRAW_SHEAR_STRESS},
+    {"roughness", offsetof(case_variant, surface.c0), FLOW_DRAW_DENSITY},
+    {"specific wear rate", offsetof(case_variant, layer.specific_wear_rate), FLOW_DRAW_WEAR},
+    {"critical energy", offsetof(case_variant, layer.critical_energy), FLOW_DRAW_CRITICAL_ENERGY},
+    {"observed thickness", offsetof(case_variant, layer.observed_thickness), FLOW_DRAW_OBSERVED},
+    {"layer thickness", offsetof(case_variant, known.thickness), FLOW_DRAW_THICKNESS},
+    {"modulus ratio", offsetof(case_variant, known.modulus_ratio), FLOW_DRAW_RATIO},
+    {"slope of the modulus ratio", offsetof(case_variant, known.ratio_slope),
+     FLOW_DRAW_RATIO_SLOPE},
 };
 
 /* Returns input i if it has an error and applies, else NULL. */
-static wt_estimate *input_of(setting *s, size_t i)
+static wt_estimate *find_stated_input(case_variant *s, size_t i)
 {
     wt_estimate *e = (wt_estimate *)((char *)s + inputs[i].offset);
-    const bool of_layer =
-        inputs[i].offset >= offsetof(setting, layer) && inputs[i].offset < offsetof(setting, known);
-    const bool of_known = inputs[i].offset >= offsetof(setting, known);
+    const bool of_layer = inputs[i].offset >= offsetof(case_variant, layer) &&
+                          inputs[i].offset < offsetof(case_variant, known);
+    const bool of_known = inputs[i].offset >= offsetof(case_variant, known);
     const bool computed = inputs[i].what == FLOW_DRAW_THICKNESS && s->has_layer;
     const bool there = of_layer ? s->has_layer : of_known ? s->has_known && !computed : true;
     return there && e->standard_error > 0 && isfinite(e->value) ? e : NULL;
 }
 
-void bootstrap_inputs(setting *s, uint64_t seed)
+void bootstrap_inputs(case_variant *s, uint64_t seed)
 {
     for (size_t i = 0; i < COUNT_OF(inputs); i++) {
-        wt_estimate *e = input_of(s, i);
+        wt_estimate *e = find_stated_input(s, i);
         if (e == NULL)
             continue;
         const double value = e->value;
@@ -189,22 +191,22 @@ void bootstrap_inputs(setting *s, uint64_t seed)
     }
 }
 
-void bootstrap_fix_inputs(setting *s)
+void bootstrap_fix_inputs(case_variant *s)
 {
     for (size_t i = 0; i < COUNT_OF(inputs); i++) {
-        wt_estimate *e = input_of(s, i);
+        wt_estimate *e = find_stated_input(s, i);
         if (e != NULL)
             e->standard_error = 0;
     }
     s->softness.storage_error = s->softness.loss_error = NULL;
 }
 
-void bootstrap_describe(const setting *s, char *text, size_t size)
+void bootstrap_describe(const case_variant *s, char *text, size_t size)
 {
-    setting any = *s;
+    case_variant any = *s;
     size_t n = 0;
     text[0] = '\0';
     for (size_t i = 0; i < COUNT_OF(inputs) && n < size; i++)
-        if (input_of(&any, i) != NULL)
+        if (find_stated_input(&any, i) != NULL)
             n += (size_t)snprintf(text + n, size - n, "%s%s", n > 0 ? ", " : "", inputs[i].words);
 }

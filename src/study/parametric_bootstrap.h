@@ -28,10 +28,10 @@ void bootstrap_group(const scattered_group *group, uint64_t seed, unsigned numbe
 
 /* Simulates another measurement of every input with a stated error; the relative error is
  * preserved. */
-void bootstrap_inputs(setting *s, uint64_t seed);
+void bootstrap_inputs(case_variant *s, uint64_t seed);
 /* Fixes all inputs and the strain softening. */
-void bootstrap_fix_inputs(setting *s);
+void bootstrap_fix_inputs(case_variant *s);
 /* Lists these inputs in a text. */
-void bootstrap_describe(const setting *s, char *text, size_t size);
+void bootstrap_describe(const case_variant *s, char *text, size_t size);
 
 #endif

@@ -29,7 +29,7 @@ static complex_real surface_modulus(const reference_material *m, complex_real e)
            (csqrtl(b33) * csqrtl(shear + 2 * (b13 + csqrtl(b11) * csqrtl(b33))));
 }
 
-static complex_real modulus_at(const reference_material *m, real omega)
+static complex_real complex_modulus(const reference_material *m, real omega)
 {
     complex_real e = (real)m->e0;
     for (size_t k = 0; k < m->n; k++) {
@@ -58,7 +58,7 @@ static integrals integrate_segment(const reference_material *m, real w, real a, 
         /* measured from the nearer limit, so that a small u keeps its digits */
         const real from_end = half * expl(-fabsl(s)) / c;
         const real u = i < 0 ? a + from_end : i > 0 ? b - from_end : middle;
-        const complex_real e = modulus_at(m, w * sinl(u));
+        const complex_real e = complex_modulus(m, w * sinl(u));
         sum.j1 += weight * sinl(u) * cimagl(e);
         sum.j2 += weight * (creall(e) * creall(e) + cimagl(e) * cimagl(e));
     }
@@ -94,15 +94,15 @@ void reference_angle(const reference_material *material, double w, double *j1, d
 
 enum { MOST_ORDER = 24 }; /* as stated in the header */
 
-typedef struct rule {
+typedef struct gauss_rule {
     int n;
     real node[MOST_ORDER], weight[MOST_ORDER];
-} rule;
+} gauss_rule;
 
 /* Gauss-Legendre rule on [0, 1] by Newton's method. */
-static rule gauss_legendre(int n)
+static gauss_rule gauss_legendre(int n)
 {
-    rule r = {.n = n};
+    gauss_rule r = {.n = n};
     for (int i = 0; i < n; i++) {
         real x = cosl(pi() * (i + 0.75L) / (n + 0.5L)), slope = 1;
         for (int step = 0; step < 50; step++) {
@@ -121,15 +121,15 @@ static rule gauss_legendre(int n)
     return r;
 }
 
-typedef struct state {
+typedef struct friction_integral {
     const reference_contact *c;
-    rule rule;
+    gauss_rule gauss_rule;
     real stiffness; /* 1 / ((1 - nu^2) pressure) */
     real variance, hysteresis;
-} state;
+} friction_integral;
 
 /* Returns q^4 C times the angular integrals at q0 exp(t). */
-static integrals integrand_at(const state *s, real t)
+static integrals integrand_at(const friction_integral *s, real t)
 {
     const reference_contact *c = s->c;
     const real q = (real)c->q0 * expl(t), qr = (real)c->qr;
@@ -139,21 +139,21 @@ static integrals integrand_at(const state *s, real t)
     return (integrals){density * j.j1, density * j.j2};
 }
 
-static real variance_between(const state *s, real a, real b)
+static real variance_between(const friction_integral *s, real a, real b)
 {
     real sum = 0;
-    for (int i = 0; i < s->rule.n; i++)
-        sum += s->rule.weight[i] * integrand_at(s, a + (b - a) * s->rule.node[i]).j2;
+    for (int i = 0; i < s->gauss_rule.n; i++)
+        sum += s->gauss_rule.weight[i] * integrand_at(s, a + (b - a) * s->gauss_rule.node[i]).j2;
     return (b - a) * sum * s->stiffness * s->stiffness / 8;
 }
 
-static void add_panel(state *s, real a, real b)
+static void add_subinterval(friction_integral *s, real a, real b)
 {
     real sum = 0;
-    for (int i = 0; i < s->rule.n; i++) {
-        const real t = a + (b - a) * s->rule.node[i];
+    for (int i = 0; i < s->gauss_rule.n; i++) {
+        const real t = a + (b - a) * s->gauss_rule.node[i];
         const real g = s->variance + variance_between(s, a, t);
-        sum += s->rule.weight[i] * integrand_at(s, t).j1 * erfl(1 / (2 * sqrtl(g)));
+        sum += s->gauss_rule.weight[i] * integrand_at(s, t).j1 * erfl(1 / (2 * sqrtl(g)));
     }
     s->hysteresis += (b - a) * sum * s->stiffness / 2;
     s->variance += variance_between(s, a, b);
@@ -161,18 +161,19 @@ static void add_panel(state *s, real a, real b)
 
 /* Subintervals that grow by this factor from the start, where the area changes fastest, up to the
  * largest width. Two orders determine their accuracy. */
-#define GROWTH 3
-#define FIRST 1e-9L
-#define WIDEST 0.7L
+#define WIDTH_RATIO 3
+#define FIRST_WIDTH 1e-9L
+#define MAX_WIDTH 0.7L
 
-static void add_panels(state *s, real from, real to)
+static void add_subintervals(friction_integral *s, real from, real to)
 {
     real t = from;
     while (t < to) {
-        const real width =
-            from > 0 || t > 0 ? fminl(WIDEST, fmaxl((GROWTH - 1) * t, FIRST)) : FIRST;
+        const real width = from > 0 || t > 0
+                               ? fminl(MAX_WIDTH, fmaxl((WIDTH_RATIO - 1) * t, FIRST_WIDTH))
+                               : FIRST_WIDTH;
         const real next = t + 1.5L * width < to ? t + width : to;
-        add_panel(s, t, next);
+        add_subinterval(s, t, next);
         t = next;
     }
 }
@@ -180,11 +181,11 @@ static void add_panels(state *s, real from, real to)
 double reference_friction(const reference_contact *c, int order)
 {
     const real nu = (real)c->poisson_ratio, q0 = (real)c->q0;
-    state s = {.c = c,
-               .rule = gauss_legendre(order),
-               .stiffness = 1 / ((1 - nu * nu) * (real)c->pressure)};
+    friction_integral s = {.c = c,
+                           .gauss_rule = gauss_legendre(order),
+                           .stiffness = 1 / ((1 - nu * nu) * (real)c->pressure)};
     const real roll_off = logl((real)c->qr / q0);
-    add_panels(&s, 0, roll_off);
-    add_panels(&s, roll_off, logl((real)c->q1 / q0));
+    add_subintervals(&s, 0, roll_off);
+    add_subintervals(&s, roll_off, logl((real)c->q1 / q0));
     return (double)s.hysteresis;
 }

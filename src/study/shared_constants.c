@@ -24,22 +24,22 @@ TABLE_KEYS(shared_constants, SHARED_CONSTANTS, double tested, different, undecid
 TABLE_ROW(shared_members, SHARED_MEMBERS, const char *constant, *over, *of, *member;
           double number, value; const char *unit; wt_interval ratio;)
 
-typedef enum common_to { OF_SAMPLE, OF_CONDITION, OF_ALL, COMMONS } common_to;
+typedef enum sharing_level { OF_SAMPLE, OF_CONDITION, OF_ALL, COMMONS } sharing_level;
 static const char *const common_words[COMMONS] = {"sample", "condition", "all cases"};
 
 /* Unit of each constant, and the level at which the theory shares it. All constants are also tested
  * over all cases. */
 static const struct {
     const char *unit;
-    common_to of;
-} constants[SHARED_N] = {[SHARED_WEAR] = {"m^2/N", OF_CONDITION},
-                         [SHARED_SHEAR] = {"Pa", OF_ALL},
-                         [SHARED_RATE] = {"1", OF_SAMPLE}};
+    sharing_level of;
+} constants[N_SHARED_CONSTANTS] = {[SHARED_WEAR] = {"m^2/N", OF_CONDITION},
+                                   [SHARED_SHEAR] = {"Pa", OF_ALL},
+                                   [SHARED_RATE] = {"1", OF_SAMPLE}};
 
 /* Values that are tested for equality. */
 typedef struct shared_row {
     shared_constant constant;
-    common_to common;
+    sharing_level common;
     const char *of;
     const case_value **members; /* [n] */
     shared_deviation *deviation;
@@ -60,7 +60,7 @@ static const char one[] = "one", differs[] = "differs", open_[] = "cannot say";
 /* ---- selection ------------------------------------------------------------------------------- */
 
 /* Returns the name that the case of a value shares with others; NULL if it is not stated. */
-static const char *name_of(const case_value *v, common_to common)
+static const char *shared_by_name(const case_value *v, sharing_level common)
 {
     const char *name = common == OF_SAMPLE      ? v->of->sample
                        : common == OF_CONDITION ? v->of->condition
@@ -79,11 +79,11 @@ static void free_rows(shared_rows *list)
 
 /* Adds the row of all values that share the name of this one. Adds none unless this value is the
  * first of several. */
-static wt_status add_row(shared_rows *list, const case_values *values, size_t first,
-                         common_to common, wt_error *err)
+static wt_status add_shared_row(shared_rows *list, const case_value_list *values, size_t first,
+                                sharing_level common, wt_error *err)
 {
     const case_value *v = &values->of[first];
-    const char *name = name_of(v, common);
+    const char *name = shared_by_name(v, common);
     shared_row row = {.constant = v->constant, .common = common, .of = name};
     if (name == NULL)
         return WT_OK;
@@ -94,7 +94,7 @@ static wt_status add_row(shared_rows *list, const case_values *values, size_t fi
         list->rows = grown;
     for (size_t i = 0; row.members != NULL && i < values->n; i++) {
         const char *other =
-            values->of[i].constant == v->constant ? name_of(&values->of[i], common) : NULL;
+            values->of[i].constant == v->constant ? shared_by_name(&values->of[i], common) : NULL;
         if (other != NULL && strcmp(other, name) == 0)
             row.members[row.n++] = &values->of[i];
     }
@@ -112,20 +112,20 @@ static wt_status add_row(shared_rows *list, const case_values *values, size_t fi
 }
 
 /* Lists the rows of each constant at its own level, then over all cases. */
-static wt_status find_rows(shared_rows *list, const case_values *values, wt_error *err)
+static wt_status find_shared_rows(shared_rows *list, const case_value_list *values, wt_error *err)
 {
     wt_status status = WT_OK;
-    for (shared_constant c = 0; status == WT_OK && c < SHARED_N; c++)
+    for (shared_constant c = 0; status == WT_OK && c < N_SHARED_CONSTANTS; c++)
         for (int all = constants[c].of == OF_ALL; status == WT_OK && all < 2; all++)
             for (size_t i = 0; status == WT_OK && i < values->n; i++)
                 if (values->of[i].constant == c)
-                    status = add_row(list, values, i, all ? OF_ALL : constants[c].of, err);
+                    status = add_shared_row(list, values, i, all ? OF_ALL : constants[c].of, err);
     return status;
 }
 
 /* ---- fit and verdict ------------------------------------------------------------------------- */
 
-static wt_status fit_row(shared_row *row, wt_error *err)
+static wt_status fit_shared_row(shared_row *row, wt_error *err)
 {
     const size_t n = row->n;
     wt_log_ratio *of = malloc(n * sizeof *of);
@@ -146,7 +146,7 @@ static wt_status fit_row(shared_row *row, wt_error *err)
 }
 
 /* Returns the first value with an incomplete error, which prevents a verdict, or NULL. */
-static const case_value *partly_known(const shared_row *row)
+static const case_value *find_incomplete_value(const shared_row *row)
 {
     for (size_t i = 0; i < row->n; i++)
         if (row->members[i]->lacks != NULL && row->members[i]->lacks[0] != '\0')
@@ -155,7 +155,7 @@ static const case_value *partly_known(const shared_row *row)
 }
 
 /* True if all values are within the margin. */
-static bool is_within(const shared_row *row, double margin)
+static bool is_within_margin(const shared_row *row, double margin)
 {
     const double least = log1p(margin);
     bool within = true;
@@ -164,21 +164,21 @@ static bool is_within(const shared_row *row, double margin)
     return within;
 }
 
-static wt_status judge(shared_rows *list, wt_error *err)
+static wt_status assess_shared_rows(shared_rows *list, wt_error *err)
 {
     double *p = malloc((2 * list->n + 1) * sizeof *p);
     if (p == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     for (size_t i = 0; i < list->n; i++)
         p[i] = list->rows[i].found.p;
-    wt_holm(p, list->n, p + list->n);
+    wt_holm_adjust(p, list->n, p + list->n);
     for (size_t i = 0; i < list->n; i++) {
         shared_row *row = &list->rows[i];
         row->holm_p = p[list->n + i];
-        row->suffices = partly_known(row) != NULL      ? open_
-                        : row->holm_p < level          ? differs
-                        : is_within(row, list->margin) ? one
-                                                       : open_;
+        row->suffices = find_incomplete_value(row) != NULL    ? open_
+                        : row->holm_p < level                 ? differs
+                        : is_within_margin(row, list->margin) ? one
+                                                              : open_;
     }
     free(p);
     return WT_OK;
@@ -188,7 +188,7 @@ static wt_status judge(shared_rows *list, wt_error *err)
 
 /* Factor by which the errors of a row must shrink, with the same values, for a verdict: all within
  * the margin, or one that excludes 0. */
-static double required_shear_of(const shared_row *row, double margin)
+static double required_narrowing(const shared_row *row, double margin)
 {
     double within = 0, beside = (double)INFINITY;
     for (size_t i = 0; i < row->n; i++) {
@@ -200,30 +200,31 @@ static double required_shear_of(const shared_row *row, double margin)
     return fmin(within, beside);
 }
 
-static void ask_for_errors(const shared_rows *list, char *text, size_t size)
+static void advise_errors(const shared_rows *list, char *text, size_t size)
 {
     for (size_t i = 0; i < list->n; i++) {
-        const case_value *v = partly_known(&list->rows[i]);
+        const case_value *v = find_incomplete_value(&list->rows[i]);
         char name[256];
         if (v == NULL)
             continue;
-        shared_name(v, name, sizeof name);
+        shared_value_name(v, name, sizeof name);
         clocale_append(text, size,
                        "%sthe error of the %s of %s is not whole before that of %s is "
                        "known",
-                       text[0] != '\0' ? "; " : "", shared_words[v->constant], name, v->lacks);
+                       text[0] != '\0' ? "; " : "", shared_constant_names[v->constant], name,
+                       v->lacks);
         return;
     }
 }
 
-static void ask_for_more(const shared_rows *list, char *text, size_t size)
+static void advise_shared_row(const shared_rows *list, char *text, size_t size)
 {
     const shared_row *nearest = NULL;
     double least = (double)INFINITY;
     for (size_t i = 0; i < list->n; i++) {
         const shared_row *row = &list->rows[i];
-        const double needed = required_shear_of(row, list->margin);
-        if (row->suffices == open_ && partly_known(row) == NULL && needed < least) {
+        const double needed = required_narrowing(row, list->margin);
+        if (row->suffices == open_ && find_incomplete_value(row) == NULL && needed < least) {
             least = needed;
             nearest = row;
         }
@@ -233,19 +234,19 @@ static void ask_for_more(const shared_rows *list, char *text, size_t size)
             text, size,
             "errors smaller by a factor of about %.2g, of each case, would settle the nearest of "
             "them, the %s of %s%s%s",
-            fmax(1.1, least), shared_words[nearest->constant], common_words[nearest->common],
-            nearest->of[0] != '\0' ? " " : "", nearest->of);
-    ask_for_errors(list, text, size);
+            fmax(1.1, least), shared_constant_names[nearest->constant],
+            common_words[nearest->common], nearest->of[0] != '\0' ? " " : "", nearest->of);
+    advise_errors(list, text, size);
 }
 
-static void say_left_out(const case_values *values, char *text, size_t size)
+static void format_excluded_values(const case_value_list *values, char *text, size_t size)
 {
     clocale_print(text, size, "%s", values->left_out);
     if (values->unnamed > 0)
         clocale_append(text, size, "; and %zu more", values->unnamed);
 }
 
-static wt_status list_constants(const shared_rows *list, const case_values *values,
+static wt_status list_constants(const shared_rows *list, const case_value_list *values,
                                 wt_table **table, wt_error *err)
 {
     char left_out[sizeof values->left_out + 32] = ""; /* plus the number of further values */
@@ -258,13 +259,14 @@ static wt_status list_constants(const shared_rows *list, const case_values *valu
         const double value = exp(f->value);
         different += row->suffices == differs;
         undecided += row->suffices == open_;
-        TABLE_ADD(shared_constants, &w, shared_words[row->constant], common_words[row->common],
-                  row->of, (wt_interval){value, value * f->error, exp(f->low), exp(f->high)},
+        TABLE_ADD(shared_constants, &w, shared_constant_names[row->constant],
+                  common_words[row->common], row->of,
+                  (wt_interval){value, value * f->error, exp(f->low), exp(f->high)},
                   constants[row->constant].unit, (double)row->n, f->chi_squared, f->df, f->p,
                   row->holm_p, row->suffices);
     }
-    ask_for_more(list, settled_by, sizeof settled_by);
-    say_left_out(values, left_out, sizeof left_out);
+    advise_shared_row(list, settled_by, sizeof settled_by);
+    format_excluded_values(values, left_out, sizeof left_out);
     TABLE_SET(shared_constants, &w, (double)list->n, different, undecided,
               "what those of the cases include, and that an error by a DMA with its shift law, by "
               "strain sweeps or by scans of a surface that cases share may be one; not what else "
@@ -282,10 +284,10 @@ static wt_status list_members(const shared_rows *list, wt_table **table, wt_erro
         for (size_t k = 0; k < row->n; k++) {
             char name[256];
             const shared_deviation *d = &row->deviation[k];
-            shared_name(row->members[k], name, sizeof name);
-            TABLE_ADD(shared_members, &w, shared_words[row->constant], common_words[row->common],
-                      row->of, name, (double)(k + 1), exp(row->members[k]->log.value),
-                      constants[row->constant].unit,
+            shared_value_name(row->members[k], name, sizeof name);
+            TABLE_ADD(shared_members, &w, shared_constant_names[row->constant],
+                      common_words[row->common], row->of, name, (double)(k + 1),
+                      exp(row->members[k]->log.value), constants[row->constant].unit,
                       (wt_interval){exp(d->value), (double)NAN, exp(d->low), exp(d->high)});
         }
     }
@@ -295,15 +297,15 @@ static wt_status list_members(const shared_rows *list, wt_table **table, wt_erro
 wt_status collect_constants(const collected_case *cases, size_t n, double margin,
                             wt_collection_tables *tables, wt_error *err)
 {
-    case_values values;
+    case_value_list values;
     shared_rows list = {.margin = margin};
-    wt_status status = shared_values_of(cases, n, &values, err);
+    wt_status status = shared_values_read(cases, n, &values, err);
     if (status == WT_OK)
-        status = find_rows(&list, &values, err);
+        status = find_shared_rows(&list, &values, err);
     for (size_t i = 0; status == WT_OK && i < list.n; i++)
-        status = fit_row(&list.rows[i], err);
+        status = fit_shared_row(&list.rows[i], err);
     if (status == WT_OK)
-        status = judge(&list, err);
+        status = assess_shared_rows(&list, err);
     if (status == WT_OK && (list.n > 0 || (n > 1 && values.left_out[0] != '\0')))
         status = list_constants(&list, &values, &tables->shared_constants, err);
     if (status == WT_OK && list.n > 0)

@@ -8,16 +8,16 @@
 #include <math.h>
 #include <string.h>
 
-static files_common compare_files(const table_view *a, size_t i, const table_view *b, size_t k)
+static file_match compare_input_rows(const table_view *a, size_t i, const table_view *b, size_t k)
 {
     const char *of_a = inputs_text(a, i, INPUTS_SHA256), *of_b = inputs_text(b, k, INPUTS_SHA256);
     if (of_a[0] != '\0' && of_b[0] != '\0')
-        return strcmp(of_a, of_b) == 0 ? FILES_COMMON : FILES_APART;
+        return strcmp(of_a, of_b) == 0 ? FILES_IDENTICAL : FILES_DIFFERENT;
     if (inputs_get(a, i, INPUTS_BYTES) != inputs_get(b, k, INPUTS_BYTES))
-        return FILES_APART;
+        return FILES_DIFFERENT;
     return strcmp(inputs_text(a, i, INPUTS_PATH), inputs_text(b, k, INPUTS_PATH)) == 0
-               ? FILES_OF_ONE_NAME
-               : FILES_OF_ONE_SIZE;
+               ? FILES_SAME_NAME
+               : FILES_SAME_SIZE;
 }
 
 static bool has_role(const table_view *inputs, size_t row, const char *role)
@@ -25,34 +25,34 @@ static bool has_role(const table_view *inputs, size_t row, const char *role)
     return strcmp(inputs_text(inputs, row, INPUTS_ROLE), role) == 0;
 }
 
-static files_common compare_role(const table_view *a, const table_view *b, const char *role)
+static file_match compare_role(const table_view *a, const table_view *b, const char *role)
 {
-    files_common most = FILES_APART;
+    file_match most = FILES_DIFFERENT;
     for (size_t i = 0; i < a->n_rows; i++)
         for (size_t k = 0; k < b->n_rows && has_role(a, i, role); k++) {
-            const files_common found =
-                has_role(b, k, role) ? compare_files(a, i, b, k) : FILES_APART;
+            const file_match found =
+                has_role(b, k, role) ? compare_input_rows(a, i, b, k) : FILES_DIFFERENT;
             most = found > most ? found : most;
         }
     return most;
 }
 
-static bool inputs_of(const collected_case *c, table_view *inputs)
+static bool bind_inputs(const collected_case *c, table_view *inputs)
 {
-    return table_bind_of(c->result, &inputs_schema, "", inputs, NULL) == WT_OK &&
+    return table_bind_result(c->result, &inputs_schema, "", inputs, NULL) == WT_OK &&
            inputs->table != NULL;
 }
 
 /* A result without a list of files may share any. */
-files_common files_in_common(const collected_case *a, const collected_case *b,
-                             const char *const *roles, size_t n_roles)
+file_match compare_input_files(const collected_case *a, const collected_case *b,
+                               const char *const *roles, size_t n_roles)
 {
     table_view of_a, of_b;
-    files_common most = FILES_APART;
-    if (!inputs_of(a, &of_a) || !inputs_of(b, &of_b))
-        return FILES_OF_ONE_SIZE;
+    file_match most = FILES_DIFFERENT;
+    if (!bind_inputs(a, &of_a) || !bind_inputs(b, &of_b))
+        return FILES_SAME_SIZE;
     for (size_t i = 0; i < n_roles; i++) {
-        const files_common found = compare_role(&of_a, &of_b, roles[i]);
+        const file_match found = compare_role(&of_a, &of_b, roles[i]);
         most = found > most ? found : most;
     }
     return most;
@@ -63,17 +63,17 @@ files_common files_in_common(const collected_case *a, const collected_case *b,
 static const struct {
     const char *source;
     const char *roles[5];
-} sources[SHARED_FILES_N] = {
-    [SHARED_MATERIAL] = {VALIDATION_OF_MATERIAL, {"dma", "material", "topography", "roughness"}},
-    [SHARED_LAW] = {"shift law", {"dma", "material"}},
-    [SHARED_ROUGHNESS] = {"roughness", {"topography", "roughness"}},
-    [SHARED_SOFTENING] = {"softening with strain", {"softening", "dma"}},
-    [SHARED_SPECTRUM] = {NULL, {"dma", "material"}}};
+} sources[INPUT_CATEGORIES] = {[SHARED_MATERIAL] = {VALIDATION_MATERIAL_PREFIX,
+                                                    {"dma", "material", "topography", "roughness"}},
+                               [SHARED_LAW] = {"shift law", {"dma", "material"}},
+                               [SHARED_ROUGHNESS] = {"roughness", {"topography", "roughness"}},
+                               [SHARED_SOFTENING] = {"softening with strain", {"softening", "dma"}},
+                               [SHARED_SPECTRUM] = {NULL, {"dma", "material"}}};
 
-shared_files shared_files_of(const char *source)
+input_category input_category_of_source(const char *source)
 {
-    shared_files i = 0;
-    while (i < SHARED_FILES_N &&
+    input_category i = 0;
+    while (i < INPUT_CATEGORIES &&
            (sources[i].source == NULL ||
             strncmp(source, sources[i].source, strlen(sources[i].source)) != 0))
         i++;
@@ -83,22 +83,22 @@ shared_files shared_files_of(const char *source)
 double shared_covariance(const case_value *a, const case_value *b)
 {
     double sum = 0;
-    for (shared_files i = 0; i < SHARED_FILES_N; i++) {
+    for (input_category i = 0; i < INPUT_CATEGORIES; i++) {
         const double most = sqrt(a->by_files[i] * b->by_files[i]);
         size_t n = 0;
         while (n < COUNT_OF(sources[i].roles) && sources[i].roles[n] != NULL)
             n++;
-        if (most > 0 && files_in_common(a->of, b->of, sources[i].roles, n) != FILES_APART)
+        if (most > 0 && compare_input_files(a->of, b->of, sources[i].roles, n) != FILES_DIFFERENT)
             sum += most;
     }
     return sum;
 }
 
-static bool has_any(const collected_case *c, const char *const *roles, size_t n)
+static bool has_input_role(const collected_case *c, const char *const *roles, size_t n)
 {
     table_view inputs;
     bool any = false;
-    if (!inputs_of(c, &inputs))
+    if (!bind_inputs(c, &inputs))
         return false;
     for (size_t row = 0; row < inputs.n_rows; row++)
         for (size_t k = 0; k < n; k++)
@@ -106,10 +106,10 @@ static bool has_any(const collected_case *c, const char *const *roles, size_t n)
     return any;
 }
 
-bool inputs_may_be_common(const collected_case *a, const collected_case *b)
+bool inputs_may_be_shared(const collected_case *a, const collected_case *b)
 {
     static const char *const roles[] = {"dma", "material", "topography", "roughness", "softening"};
     const size_t n = COUNT_OF(roles);
-    return !has_any(a, roles, n) || !has_any(b, roles, n) ||
-           files_in_common(a, b, roles, n) != FILES_APART;
+    return !has_input_role(a, roles, n) || !has_input_role(b, roles, n) ||
+           compare_input_files(a, b, roles, n) != FILES_DIFFERENT;
 }

@@ -44,21 +44,21 @@ typedef struct reported_pairs {
     char left_out[1000];
 } reported_pairs;
 
-typedef enum common_to { OF_SAMPLE, OF_CONDITION, OF_ALL, COMMONS } common_to;
+typedef enum sharing_level { OF_SAMPLE, OF_CONDITION, OF_ALL, COMMONS } sharing_level;
 static const char *const common_words[COMMONS] = {"sample", "condition", "all cases"};
 static const char one[] = "one", differs[] = "differs", open_[] = "cannot say";
 
 /* Tests of a row. */
-enum { OF_ENERGY, OF_WEAR, OF_PAIR_, TESTS };
+enum { OF_ENERGY, OF_WEAR, OF_BOTH, TESTS };
 
 typedef struct pair_row {
     const char *by, *of;
-    common_to common;
+    sharing_level common;
     const reported_pair **members; /* [n] */
     size_t n;
     shared_pair found;
     double p[TESTS], holm_p[TESTS];
-    double off[OF_PAIR_]; /* largest deviation from the shared value, as a limit of its interval */
+    double off[OF_BOTH]; /* largest deviation from the shared value, as a limit of its interval */
     const char *says[TESTS];
 } pair_row;
 
@@ -69,7 +69,7 @@ typedef struct pair_rows {
 
 /* ---- pairs of the cases ---------------------------------------------------------------------- */
 
-static pair_covariance covariance_of(double energy, double wear, double correlation)
+static pair_covariance covariance_from_correlation(double energy, double wear, double correlation)
 {
     /* a number without scatter has no correlation */
     return (pair_covariance){energy * energy, wear * wear,
@@ -83,9 +83,9 @@ static wt_interval interval_at(const table_view *v, size_t row, unsigned first)
                          identification_get(v, row, first + 3)};
 }
 
-static reported_pair pair_at(const collected_case *c, const table_view *v, size_t row)
+static reported_pair read_reported_pair(const collected_case *c, const table_view *v, size_t row)
 {
-    const char *lacks = identification_words(v, IDENTIFICATION_KEY_LACKS);
+    const char *lacks = identification_key_text(v, IDENTIFICATION_KEY_LACKS);
     reported_pair t = {.of = c,
                        .by = identification_text(v, row, IDENTIFICATION_BY),
                        .lacks = lacks != NULL ? lacks : "",
@@ -100,10 +100,11 @@ static reported_pair pair_at(const collected_case *c, const table_view *v, size_
     snprintf(t.axes.loose, sizeof t.axes.loose, "%s",
              identification_text(v, row, IDENTIFICATION_LOOSE));
     t.pair = (constant_pair){
-        log(t.energy.value), log(t.wear.value), covariance_of(of_energy, of_wear, correlation),
-        covariance_of(identification_get(v, row, IDENTIFICATION_ENERGY_INPUTS),
-                      identification_get(v, row, IDENTIFICATION_WEAR_INPUTS),
-                      identification_get(v, row, IDENTIFICATION_CORRELATION_INPUTS))};
+        log(t.energy.value), log(t.wear.value),
+        covariance_from_correlation(of_energy, of_wear, correlation),
+        covariance_from_correlation(identification_get(v, row, IDENTIFICATION_ENERGY_INPUTS),
+                                    identification_get(v, row, IDENTIFICATION_WEAR_INPUTS),
+                                    identification_get(v, row, IDENTIFICATION_CORRELATION_INPUTS))};
     /* a correlation of 1 determines no pair, and results without these columns have no shared
      * component */
     t.fixed = of_energy > 0 && of_wear > 0 && fabs(correlation) < 1 - 1e-6 &&
@@ -111,16 +112,16 @@ static reported_pair pair_at(const collected_case *c, const table_view *v, size_
     return t;
 }
 
-static wt_status add_case(const collected_case *c, reported_pairs *to, wt_error *err)
+static wt_status add_case_pairs(const collected_case *c, reported_pairs *to, wt_error *err)
 {
     table_view v;
-    const wt_status status = table_bind_of(c->result, &identification_schema, "", &v, err);
+    const wt_status status = table_bind_result(c->result, &identification_schema, "", &v, err);
     if (status != WT_OK) {
         wt_error_file(err, c->file);
         return status;
     }
     for (size_t row = 0; row < v.n_rows; row++) {
-        const reported_pair t = pair_at(c, &v, row);
+        const reported_pair t = read_reported_pair(c, &v, row);
         reported_pair *grown = array_grow(to->of, to->n, sizeof *grown);
         if (grown == NULL)
             return wt_fail(err, WT_E_MEMORY, "out of memory");
@@ -136,11 +137,12 @@ static wt_status add_case(const collected_case *c, reported_pairs *to, wt_error 
     return WT_OK;
 }
 
-static wt_status list_told(const reported_pairs *told, wt_table **table, wt_error *err)
+static wt_status list_reported_pairs(const reported_pairs *reported, wt_table **table,
+                                     wt_error *err)
 {
     table_writer w = table_begin(&collected_constants_schema, err);
-    for (size_t i = 0; i < told->n; i++) {
-        const reported_pair *t = &told->of[i];
+    for (size_t i = 0; i < reported->n; i++) {
+        const reported_pair *t = &reported->of[i];
         TABLE_ADD(collected_constants, &w, t->of->sample, t->of->condition, t->by, t->energy,
                   t->wear, t->axes);
     }
@@ -149,7 +151,7 @@ static wt_status list_told(const reported_pairs *told, wt_table **table, wt_erro
 
 /* ---- selection ------------------------------------------------------------------------------- */
 
-static const char *name_of(const reported_pair *t, common_to common)
+static const char *pair_shared_by_name(const reported_pair *t, sharing_level common)
 {
     const char *name = common == OF_SAMPLE      ? t->of->sample
                        : common == OF_CONDITION ? t->of->condition
@@ -157,31 +159,31 @@ static const char *name_of(const reported_pair *t, common_to common)
     return common != OF_ALL && name[0] == '\0' ? NULL : name;
 }
 
-static bool same(const reported_pair *a, const reported_pair *b, common_to common)
+static bool is_same_group(const reported_pair *a, const reported_pair *b, sharing_level common)
 {
-    const char *of_a = name_of(a, common), *of_b = name_of(b, common);
+    const char *of_a = pair_shared_by_name(a, common), *of_b = pair_shared_by_name(b, common);
     return b->fixed && strcmp(a->by, b->by) == 0 && of_a != NULL && of_b != NULL &&
            strcmp(of_a, of_b) == 0;
 }
 
 /* Adds the row of which this pair is the first. Adds none if it is the only pair, or if all cases
  * share one name. */
-static wt_status add_row(const reported_pairs *told, size_t first, common_to common,
-                         pair_rows *rows, arena *memory, wt_error *err)
+static wt_status add_pair_row(const reported_pairs *reported, size_t first, sharing_level common,
+                              pair_rows *rows, arena *memory, wt_error *err)
 {
-    const reported_pair *t = &told->of[first];
-    pair_row row = {.by = t->by, .common = common, .of = name_of(t, common)};
+    const reported_pair *t = &reported->of[first];
+    pair_row row = {.by = t->by, .common = common, .of = pair_shared_by_name(t, common)};
     size_t others = 0;
-    row.members = arena_alloc(memory, told->n, sizeof *row.members);
+    row.members = arena_alloc(memory, reported->n, sizeof *row.members);
     pair_row *grown = array_grow(rows->of, rows->n, sizeof *grown);
     if (grown != NULL)
         rows->of = grown;
     if (row.members == NULL || grown == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
-    for (size_t i = 0; i < told->n; i++) {
-        if (same(t, &told->of[i], common))
-            row.members[row.n++] = &told->of[i];
-        others += same(t, &told->of[i], OF_ALL);
+    for (size_t i = 0; i < reported->n; i++) {
+        if (is_same_group(t, &reported->of[i], common))
+            row.members[row.n++] = &reported->of[i];
+        others += is_same_group(t, &reported->of[i], OF_ALL);
     }
     if (row.n > 1 && row.members[0] == t && (common == OF_ALL || row.n < others))
         grown[rows->n++] = row;
@@ -190,13 +192,14 @@ static wt_status add_row(const reported_pairs *told, size_t first, common_to com
 
 /* ---- fit and verdicts ------------------------------------------------------------------------ */
 
-static double part_of(pair_covariance c, int which)
+static double constant_variance(pair_covariance c, int which)
 {
     return which == OF_ENERGY ? c.energy : c.wear;
 }
 
 /* Fits one of the two constants. */
-static wt_status fit_one(pair_row *row, const bool *common, int which, arena *memory, wt_error *err)
+static wt_status fit_one_constant(pair_row *row, const bool *common, int which, arena *memory,
+                                  wt_error *err)
 {
     const size_t n = row->n;
     wt_log_ratio *of = arena_alloc(memory, n, sizeof *of);
@@ -208,11 +211,12 @@ static wt_status fit_one(pair_row *row, const bool *common, int which, arena *me
     for (size_t i = 0; i < n; i++) {
         const constant_pair *p = &row->members[i]->pair;
         of[i] = (wt_log_ratio){which == OF_ENERGY ? p->energy : p->wear,
-                               sqrt(part_of(p->whole, which)), (double)NAN};
+                               sqrt(constant_variance(p->whole, which)), (double)NAN};
         for (size_t k = 0; k < n; k++)
             if (common[i * n + k])
                 covariance[i * n + k] =
-                    sqrt(part_of(p->inputs, which) * part_of(row->members[k]->pair.inputs, which));
+                    sqrt(constant_variance(p->inputs, which) *
+                         constant_variance(row->members[k]->pair.inputs, which));
     }
     const wt_status status = shared_value_fit(of, covariance, n, &found, deviation, err);
     row->p[which] = found.p;
@@ -221,7 +225,7 @@ static wt_status fit_one(pair_row *row, const bool *common, int which, arena *me
     return status;
 }
 
-static wt_status fit_row(pair_row *row, arena *memory, wt_error *err)
+static wt_status fit_pair_row(pair_row *row, arena *memory, wt_error *err)
 {
     const size_t n = row->n;
     constant_pair *pairs = arena_alloc(memory, n, sizeof *pairs);
@@ -232,17 +236,17 @@ static wt_status fit_row(pair_row *row, arena *memory, wt_error *err)
         pairs[i] = row->members[i]->pair;
         for (size_t k = 0; k < n; k++)
             common[i * n + k] =
-                i != k && inputs_may_be_common(row->members[i]->of, row->members[k]->of);
+                i != k && inputs_may_be_shared(row->members[i]->of, row->members[k]->of);
     }
     wt_status status = shared_pair_fit(pairs, common, n, &row->found, err);
-    row->p[OF_PAIR_] = row->found.p;
-    for (int which = 0; status == WT_OK && which < OF_PAIR_; which++)
-        status = fit_one(row, common, which, memory, err);
+    row->p[OF_BOTH] = row->found.p;
+    for (int which = 0; status == WT_OK && which < OF_BOTH; which++)
+        status = fit_one_constant(row, common, which, memory, err);
     return status;
 }
 
 /* Returns the first pair with an incomplete error, which prevents a verdict, or NULL. */
-static const reported_pair *partly_known(const pair_row *row)
+static const reported_pair *find_incomplete_pair(const pair_row *row)
 {
     for (size_t i = 0; i < row->n; i++)
         if (row->members[i]->lacks[0] != '\0')
@@ -250,25 +254,25 @@ static const reported_pair *partly_known(const pair_row *row)
     return NULL;
 }
 
-static wt_status judge(pair_rows *rows, double margin, arena *memory, wt_error *err)
+static wt_status assess_pair_rows(pair_rows *rows, double margin, arena *memory, wt_error *err)
 {
     double *p = arena_numbers(memory, 2 * TESTS * rows->n + 1), *corrected = p + TESTS * rows->n;
     if (p == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     for (size_t i = 0; i < TESTS * rows->n; i++)
         p[i] = rows->of[i / TESTS].p[i % TESTS];
-    wt_holm(p, TESTS * rows->n, corrected);
+    wt_holm_adjust(p, TESTS * rows->n, corrected);
     for (size_t i = 0; i < rows->n; i++) {
         pair_row *row = &rows->of[i];
         bool within = true;
         for (int k = 0; k < TESTS; k++) {
-            within = within && (k == OF_PAIR_ || row->off[k] < log1p(margin));
-            const bool near = k == OF_PAIR_ ? within : row->off[k] < log1p(margin);
+            within = within && (k == OF_BOTH || row->off[k] < log1p(margin));
+            const bool near = k == OF_BOTH ? within : row->off[k] < log1p(margin);
             row->holm_p[k] = corrected[TESTS * i + (size_t)k];
-            row->says[k] = partly_known(row) != NULL ? open_
-                           : row->holm_p[k] < level  ? differs
-                           : near                    ? one
-                                                     : open_;
+            row->says[k] = find_incomplete_pair(row) != NULL ? open_
+                           : row->holm_p[k] < level          ? differs
+                           : near                            ? one
+                                                             : open_;
         }
     }
     return WT_OK;
@@ -285,18 +289,18 @@ static wt_interval shared_interval(double value, double variance)
 
 /* The pair is known well across its least-known combination. Only data that change this combination
  * determine both constants. */
-static void say_settled_by(const pair_rows *rows, char *text, size_t size)
+static void write_pair_advice(const pair_rows *rows, char *text, size_t size)
 {
     for (size_t i = 0; i < rows->n; i++) {
         const pair_row *row = &rows->of[i];
-        const reported_pair *lacks = partly_known(row);
-        const constant_axes axes = constant_axes_of(row->found.covariance);
+        const reported_pair *lacks = find_incomplete_pair(row);
+        const constant_axes axes = constant_axes_compute(row->found.covariance);
         if (lacks != NULL) {
             clocale_print(text, size, "the error of %s, %s is not whole before that of %s is known",
                           lacks->of->sample, lacks->of->condition, lacks->lacks);
             return;
         }
-        if (row->says[OF_PAIR_] == open_ && text[0] == '\0')
+        if (row->says[OF_BOTH] == open_ && text[0] == '\0')
             clocale_print(
                 text, size,
                 "what narrows %s, which is known least (to a factor of %.3g): a wear rate "
@@ -306,18 +310,18 @@ static void say_settled_by(const pair_rows *rows, char *text, size_t size)
 }
 
 /* Overall verdict over all cases and all methods: "differs" if any method differs. */
-static const char *say_all(const pair_rows *rows)
+static const char *overall_verdict(const pair_rows *rows)
 {
     const char *said = NULL;
     for (size_t i = 0; i < rows->n; i++) {
-        const char *const here = rows->of[i].says[OF_PAIR_];
+        const char *const here = rows->of[i].says[OF_BOTH];
         if (rows->of[i].common == OF_ALL && (said == NULL || here == differs || said == one))
             said = here;
     }
     return said;
 }
 
-static wt_status list_rows(const pair_rows *rows, const reported_pairs *told, double margin,
+static wt_status list_rows(const pair_rows *rows, const reported_pairs *reported, double margin,
                            wt_table **table, wt_error *err)
 {
     char settled_by[400] = "";
@@ -326,40 +330,41 @@ static wt_status list_rows(const pair_rows *rows, const reported_pairs *told, do
         const pair_row *r = &rows->of[i];
         const shared_pair *f = &r->found;
         TABLE_ADD(shared_pairs, &w, r->by, common_words[r->common], r->of, (double)r->n,
-                  r->says[OF_ENERGY], r->says[OF_WEAR], r->says[OF_PAIR_],
+                  r->says[OF_ENERGY], r->says[OF_WEAR], r->says[OF_BOTH],
                   shared_interval(f->energy, f->covariance.energy),
-                  shared_interval(f->wear, f->covariance.wear), constant_axes_of(f->covariance),
-                  f->chi_squared, 2 * ((double)r->n - 1), r->holm_p[OF_PAIR_]);
+                  shared_interval(f->wear, f->covariance.wear),
+                  constant_axes_compute(f->covariance), f->chi_squared, 2 * ((double)r->n - 1),
+                  r->holm_p[OF_BOTH]);
     }
-    say_settled_by(rows, settled_by, sizeof settled_by);
-    TABLE_SET(shared_pairs, &w, say_all(rows), (double)(TESTS * rows->n), told->left_out,
-              settled_by, margin);
+    write_pair_advice(rows, settled_by, sizeof settled_by);
+    TABLE_SET(shared_pairs, &w, overall_verdict(rows), (double)(TESTS * rows->n),
+              reported->left_out, settled_by, margin);
     return table_end(&w, table);
 }
 
 wt_status collect_layer_constants(const collected_case *cases, size_t n, double margin,
                                   wt_collection_tables *tables, wt_error *err)
 {
-    reported_pairs told = {.n = 0};
+    reported_pairs reported = {.n = 0};
     pair_rows rows = {NULL, 0};
     arena memory = {0};
     wt_status status = WT_OK;
     for (size_t i = 0; status == WT_OK && i < n; i++)
-        status = add_case(&cases[i], &told, err);
-    for (common_to c = 0; status == WT_OK && c < COMMONS; c++)
-        for (size_t i = 0; status == WT_OK && i < told.n; i++)
-            if (told.of[i].fixed && name_of(&told.of[i], c) != NULL)
-                status = add_row(&told, i, c, &rows, &memory, err);
+        status = add_case_pairs(&cases[i], &reported, err);
+    for (sharing_level c = 0; status == WT_OK && c < COMMONS; c++)
+        for (size_t i = 0; status == WT_OK && i < reported.n; i++)
+            if (reported.of[i].fixed && pair_shared_by_name(&reported.of[i], c) != NULL)
+                status = add_pair_row(&reported, i, c, &rows, &memory, err);
     for (size_t i = 0; status == WT_OK && i < rows.n; i++)
-        status = fit_row(&rows.of[i], &memory, err);
+        status = fit_pair_row(&rows.of[i], &memory, err);
     if (status == WT_OK)
-        status = judge(&rows, margin, &memory, err);
-    if (status == WT_OK && told.n > 0)
-        status = list_told(&told, &tables->collected_constants, err);
+        status = assess_pair_rows(&rows, margin, &memory, err);
+    if (status == WT_OK && reported.n > 0)
+        status = list_reported_pairs(&reported, &tables->collected_constants, err);
     if (status == WT_OK && rows.n > 0)
-        status = list_rows(&rows, &told, margin, &tables->shared_pairs, err);
+        status = list_rows(&rows, &reported, margin, &tables->shared_pairs, err);
     arena_free(&memory);
     free(rows.of);
-    free(told.of);
+    free(reported.of);
     return status;
 }

@@ -13,62 +13,64 @@
 #include <stdlib.h>
 #include <string.h>
 
-static wt_status bind(const collected_case *c, const table_schema *schema, const char *suffix,
-                      table_view *view, wt_error *err)
+static wt_status bind_case_table(const collected_case *c, const table_schema *schema,
+                                 const char *suffix, table_view *view, wt_error *err)
 {
-    const wt_status status = table_bind_of(c->result, schema, suffix, view, err);
+    const wt_status status = table_bind_result(c->result, schema, suffix, view, err);
     if (status != WT_OK)
         wt_error_file(err, c->file);
     return status;
 }
 
-const char *const shared_words[SHARED_N] = {[SHARED_WEAR] = "specific wear rate",
-                                            [SHARED_SHEAR] = "shear stress",
-                                            [SHARED_RATE] = "modulus over a decade of rate"};
+const char *const shared_constant_names[N_SHARED_CONSTANTS] = {[SHARED_WEAR] = "specific wear rate",
+                                                               [SHARED_SHEAR] = "shear stress",
+                                                               [SHARED_RATE] =
+                                                                   "modulus over a decade of rate"};
 
-void shared_name(const case_value *v, char *text, size_t size)
+void shared_value_name(const case_value *v, char *text, size_t size)
 {
     snprintf(text, size, "%s%s%s%s%s", v->of->sample, v->of->condition[0] != '\0' ? ", " : "",
              v->of->condition, v->group != NULL ? ", " : "", v->group != NULL ? v->group : "");
 }
 
-static void leave_out(case_values *from, const case_value *v, const char *why)
+static void exclude_value(case_value_list *from, const case_value *v, const char *why)
 {
     char name[256];
     const size_t used = strlen(from->left_out);
-    shared_name(v, name, sizeof name);
+    shared_value_name(v, name, sizeof name);
     const char *between = used > 0 ? "; " : "";
     const int length =
-        snprintf(NULL, 0, "%s%s of %s: %s", between, shared_words[v->constant], name, why);
+        snprintf(NULL, 0, "%s%s of %s: %s", between, shared_constant_names[v->constant], name, why);
     if (from->unnamed > 0 || used + (size_t)length >= sizeof from->left_out)
         from->unnamed++;
     else
         snprintf(from->left_out + used, sizeof from->left_out - used, "%s%s of %s: %s", between,
-                 shared_words[v->constant], name, why);
+                 shared_constant_names[v->constant], name, why);
 }
 
 /* True if the value uses the measurement of an earlier value. It is then excluded. */
-static bool counts_already(case_values *to, const case_value *value)
+static bool is_duplicate(case_value_list *to, const case_value *value)
 {
-    const char *const roles[SHARED_N] = {
+    const char *const roles[N_SHARED_CONSTANTS] = {
         [SHARED_WEAR] = "record", [SHARED_SHEAR] = "record", [SHARED_RATE] = value->group};
     for (size_t i = 0; i < to->n; i++) {
         const case_value *v = &to->of[i];
         const bool alike =
             v->constant == value->constant &&
             (value->group == NULL || (v->group != NULL && strcmp(v->group, value->group) == 0));
-        const files_common files =
-            alike ? files_in_common(v->of, value->of, &roles[value->constant], 1) : FILES_APART;
+        const file_match files =
+            alike ? compare_input_files(v->of, value->of, &roles[value->constant], 1)
+                  : FILES_DIFFERENT;
         char name[256], why[400];
-        if (files < FILES_OF_ONE_NAME)
+        if (files < FILES_SAME_NAME)
             continue;
-        shared_name(v, name, sizeof name);
+        shared_value_name(v, name, sizeof name);
         snprintf(why, sizeof why,
-                 files == FILES_COMMON ? "its files are those of %s, which count once"
-                                       : "its files have names and sizes of those of %s and no "
-                                         "digest tells them apart (--no-provenance)",
+                 files == FILES_IDENTICAL ? "its files are those of %s, which count once"
+                                          : "its files have names and sizes of those of %s and no "
+                                            "digest tells them apart (--no-provenance)",
                  name);
-        leave_out(to, value, why);
+        exclude_value(to, value, why);
         return true;
     }
     return false;
@@ -76,10 +78,10 @@ static bool counts_already(case_values *to, const case_value *value)
 
 /* Adds a value by its logarithm. A value that is not above 0, or whose interval includes 0, is
  * excluded. */
-static wt_status add_value(case_values *to, case_value value, wt_error *err)
+static wt_status add_case_value(case_value_list *to, case_value value, wt_error *err)
 {
     const char *why = NULL;
-    if (isnan(value.log.value) || counts_already(to, &value))
+    if (isnan(value.log.value) || is_duplicate(to, &value))
         return WT_OK;
     if (isinf(value.log.value))
         why = "it is not above zero";
@@ -88,7 +90,7 @@ static wt_status add_value(case_values *to, case_value value, wt_error *err)
     else if (!(value.log.standard_error > 0))
         why = "no error is stated";
     if (why != NULL) {
-        leave_out(to, &value, why);
+        exclude_value(to, &value, why);
         return WT_OK;
     }
     case_value *grown = array_grow(to->of, to->n, sizeof *grown);
@@ -100,37 +102,38 @@ static wt_status add_value(case_values *to, case_value value, wt_error *err)
 }
 
 /* Infinite if the value is not positive. */
-static double logarithm(double value)
+static double positive_log(double value)
 {
     return isnan(value) || value > 0 ? log(value) : (double)INFINITY;
 }
 
-static wt_status add_wear(const collected_case *c, case_values *to, wt_error *err)
+static wt_status add_case_wear(const collected_case *c, case_value_list *to, wt_error *err)
 {
     table_view wear;
-    const wt_status status = bind(c, &wear_schema, "", &wear, err);
+    const wt_status status = bind_case_table(c, &wear_schema, "", &wear, err);
     if (status != WT_OK)
         return status;
     const wt_estimate k = wear_value(&wear, WEAR_KEY_RATE);
     const double df = wear_value(&wear, WEAR_KEY_RATE_DF).value,
                  reach = k.standard_error * (isnan(df) ? NORMAL_95 : students_t_quantile(df)),
                  error = reach >= k.value ? (double)INFINITY : k.standard_error / k.value;
-    return add_value(
-        to, (case_value){.constant = SHARED_WEAR, .of = c, .log = {logarithm(k.value), error, df}},
+    return add_case_value(
+        to,
+        (case_value){.constant = SHARED_WEAR, .of = c, .log = {positive_log(k.value), error, df}},
         err);
 }
 
 /* Components of the variance of the shear stress by category of input files. */
-static wt_status find_parts(const collected_case *c, double variance, double parts[SHARED_FILES_N],
-                            wt_error *err)
+static wt_status find_shear_components(const collected_case *c, double variance,
+                                       double parts[INPUT_CATEGORIES], wt_error *err)
 {
     table_view sources;
-    const wt_status status = bind(c, &validation_sources_schema, "", &sources, err);
+    const wt_status status = bind_case_table(c, &validation_sources_schema, "", &sources, err);
     for (size_t row = 0; status == WT_OK && row < sources.n_rows; row++) {
         const double of = validation_sources_get(&sources, row, VALIDATION_SOURCES_NEEDED_SHARE);
-        const shared_files k =
-            shared_files_of(validation_sources_text(&sources, row, VALIDATION_SOURCES_SOURCE));
-        if (of > 0 && k < SHARED_FILES_N)
+        const input_category k = input_category_of_source(
+            validation_sources_text(&sources, row, VALIDATION_SOURCES_SOURCE));
+        if (of > 0 && k < INPUT_CATEGORIES)
             parts[k] += of * variance;
     }
     return status;
@@ -138,16 +141,16 @@ static wt_status find_parts(const collected_case *c, double variance, double par
 
 /* Names the missing errors of the required shear stress. The stated shear stress does not
  * contribute. */
-static const char *lacks_of(const collected_case *c)
+static const char *missing_errors(const collected_case *c)
 {
-    const char *lacks = friction_words(&c->tables.friction, FRICTION_KEY_ERROR_LACKS);
+    const char *lacks = friction_key_text(&c->tables.friction, FRICTION_KEY_ERROR_LACKS);
     return lacks != NULL && strcmp(lacks, "shear stress") != 0 ? lacks : NULL;
 }
 
-static wt_status add_shear(const collected_case *c, case_values *to, wt_error *err)
+static wt_status add_shear(const collected_case *c, case_value_list *to, wt_error *err)
 {
     table_view record;
-    wt_status status = bind(c, &validation_schema, "", &record, err);
+    wt_status status = bind_case_table(c, &validation_schema, "", &record, err);
     if (status != WT_OK)
         return status;
     const double value = validation_value(&record, VALIDATION_KEY_NEEDED).value,
@@ -156,10 +159,10 @@ static wt_status add_shear(const collected_case *c, case_values *to, wt_error *e
                  error = low <= 0 ? (double)INFINITY : log(high / low) / (2 * NORMAL_95);
     case_value v = {.constant = SHARED_SHEAR,
                     .of = c,
-                    .log = {logarithm(value), error, (double)NAN},
-                    .lacks = lacks_of(c)};
-    status = find_parts(c, error * error, v.by_files, err);
-    return status == WT_OK ? add_value(to, v, err) : status;
+                    .log = {positive_log(value), error, (double)NAN},
+                    .lacks = missing_errors(c)};
+    status = find_shear_components(c, error * error, v.by_files, err);
+    return status == WT_OK ? add_case_value(to, v, err) : status;
 }
 
 /* ---- modulus against rate -------------------------------------------------------------------- */
@@ -171,9 +174,9 @@ typedef struct spot_line {
 } spot_line;
 
 /* Range of the used curves: lg rate, and angular frequency of equal loading. */
-typedef struct rate_ends {
+typedef struct rate_range {
     double low, high, slow, fast;
-} rate_ends;
+} rate_range;
 
 /* Effect of an error of the exponent n of |E*| ~ omega^n on ln E of a fit with the DMA spectrum.
  * The fit takes the modulus at 1/(loading time) over the response to the whole loading. With force
@@ -205,12 +208,12 @@ static double exponent_error(const table_view *master, double frequency)
  * errors. At another temperature the frequencies are reduced, with an unknown shift. The largest
  * error is used then. */
 static wt_status find_spectrum_variance(const collected_case *c, const table_view *curves,
-                                        const rate_ends *ends, double *variance, wt_error *err)
+                                        const rate_range *ends, double *variance, wt_error *err)
 {
     table_view master;
     const double temperature =
         indentation_value(curves, INDENTATION_KEY_SPECTRUM_TEMPERATURE).value;
-    const wt_status status = bind(c, &master_curve_schema, "", &master, err);
+    const wt_status status = bind_case_table(c, &master_curve_schema, "", &master, err);
     *variance = 0;
     if (status != WT_OK || isnan(temperature) || master.n_rows == 0 || !(ends->high > ends->low))
         return status;
@@ -230,13 +233,13 @@ static wt_status find_spectrum_variance(const collected_case *c, const table_vie
     return WT_OK;
 }
 
-static const char *spot_of(const table_view *curves, size_t row)
+static const char *curve_spot(const table_view *curves, size_t row)
 {
     const char *spot = indentation_text(curves, row, INDENTATION_SPOT);
     return spot != NULL && spot[0] != '\0' ? spot : indentation_text(curves, row, INDENTATION_FILE);
 }
 
-static void widen_ends(rate_ends *ends, double rate, double frequency)
+static void extend_rates(rate_range *ends, double rate, double frequency)
 {
     if (!(rate > ends->low)) {
         ends->low = rate;
@@ -248,10 +251,10 @@ static void widen_ends(rate_ends *ends, double rate, double frequency)
     }
 }
 
-static wt_status add_curve(const table_view *curves, size_t row, spot_line **lines, size_t *n,
-                           rate_ends *ends, wt_error *err)
+static wt_status add_curve_to_spot(const table_view *curves, size_t row, spot_line **lines,
+                                   size_t *n, rate_range *ends, wt_error *err)
 {
-    const char *spot = spot_of(curves, row),
+    const char *spot = curve_spot(curves, row),
                *verdict = indentation_text(curves, row, INDENTATION_VERDICT);
     const double x = log10(indentation_get(curves, row, INDENTATION_RATE)),
                  y = log(indentation_get(curves, row, INDENTATION_MODULUS));
@@ -269,7 +272,7 @@ static wt_status add_curve(const table_view *curves, size_t row, spot_line **lin
         grown[(*n)++] = (spot_line){.spot = spot};
     }
     spot_line *l = &(*lines)[i];
-    widen_ends(ends, x, 1 / indentation_get(curves, row, INDENTATION_LOAD_TIME));
+    extend_rates(ends, x, 1 / indentation_get(curves, row, INDENTATION_LOAD_TIME));
     l->n += 1;
     l->x += x;
     l->y += y;
@@ -280,7 +283,7 @@ static wt_status add_curve(const table_view *curves, size_t row, spot_line **lin
 
 /* Mean slope over the spots, which are the units. Each slope is fitted by least squares. A spread
  * of rates below this standard deviation [decade] determines no slope. */
-static wt_log_ratio slope_of(const spot_line *lines, size_t n)
+static wt_log_ratio mean_spot_slope(const spot_line *lines, size_t n)
 {
     const double least = 0.05;
     double *slope = malloc((n + 1) * sizeof *slope);
@@ -293,50 +296,52 @@ static wt_log_ratio slope_of(const spot_line *lines, size_t n)
             slope[known++] = (l->xy / l->n - l->x / l->n * (l->y / l->n)) / square;
     }
     if (known > 1) {
-        const moments m = moments_of(slope, known);
+        const moments m = sample_moments(slope, known);
         of = (wt_log_ratio){m.mean, sqrt(m.variance / m.n), m.n - 1};
     }
     free(slope);
     return of;
 }
 
-static wt_status add_rates(const collected_case *c, const char *group, case_values *to,
+static wt_status add_rates(const collected_case *c, const char *group, case_value_list *to,
                            wt_error *err)
 {
     table_view curves;
     spot_line *lines = NULL;
-    rate_ends ends = {(double)NAN, (double)NAN, (double)NAN, (double)NAN};
+    rate_range ends = {(double)NAN, (double)NAN, (double)NAN, (double)NAN};
     size_t n = 0;
     double variance = 0;
-    wt_status status = bind(c, &indentation_schema, group, &curves, err);
+    wt_status status = bind_case_table(c, &indentation_schema, group, &curves, err);
     for (size_t row = 0; status == WT_OK && row < curves.n_rows; row++)
-        status = add_curve(&curves, row, &lines, &n, &ends, err);
+        status = add_curve_to_spot(&curves, row, &lines, &n, &ends, err);
     if (status == WT_OK)
         status = find_spectrum_variance(c, &curves, &ends, &variance, err);
     if (status == WT_OK) {
         case_value v = {
-            .constant = SHARED_RATE, .of = c, .group = group, .log = slope_of(lines, n)};
+            .constant = SHARED_RATE, .of = c, .group = group, .log = mean_spot_slope(lines, n)};
         v.by_files[SHARED_SPECTRUM] = isnan(variance) ? 0 : variance;
         if (isnan(variance))
             v.log.standard_error = (double)NAN;
         else if (variance > 0) {
-            const t_error all = t_error_with((t_error){v.log.standard_error, v.log.df}, variance);
+            const t_error all =
+                t_error_add_normal((t_error){v.log.standard_error, v.log.df}, variance);
             v.log.standard_error = all.error;
             v.log.df = all.df;
         }
-        status = add_value(to, v, err);
+        status = add_case_value(to, v, err);
     }
     free(lines);
     return status;
 }
 
-wt_status shared_values_of(const collected_case *cases, size_t n, case_values *to, wt_error *err)
+wt_status shared_values_read(const collected_case *cases, size_t n, case_value_list *to,
+                             wt_error *err)
 {
     static const char *const groups[] = {"bulk", "track"};
     wt_status status = WT_OK;
-    *to = (case_values){.n = 0};
+    *to = (case_value_list){.n = 0};
     for (size_t i = 0; status == WT_OK && i < n; i++)
-        status = add_wear(&cases[i], to, err);
+        status = add_case_wear(&cases[i], to, err);
     for (size_t i = 0; status == WT_OK && i < n; i++)
         status = add_shear(&cases[i], to, err);
     for (size_t i = 0; status == WT_OK && i < n; i++)

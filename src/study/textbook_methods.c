@@ -5,8 +5,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-void textbook_angular(const wt_material *material, double w, size_t n, double *scratch, double *j1,
-                      double *j2)
+void textbook_angular_integrals(const wt_material *material, double w, size_t n, double *scratch,
+                                double *j1, double *j2)
 {
     double *omega = scratch, *storage = scratch + n + 1, *loss = scratch + 2 * (n + 1);
     const double step = M_PI_2 / (double)n;
@@ -22,9 +22,9 @@ void textbook_angular(const wt_material *material, double w, size_t n, double *s
     }
 }
 
-wt_status friction_textbook(const wt_material *material, const wt_roughness *roughness,
-                            double pressure, double velocity, size_t n_q, size_t n_angle,
-                            textbook_friction *result)
+wt_status textbook_friction_compute(const wt_material *material, const wt_roughness *roughness,
+                                    double pressure, double velocity, size_t n_q, size_t n_angle,
+                                    textbook_friction *result)
 {
     if (n_q < 2 || n_angle < 2 || n_angle % 2)
         return WT_E_ARG;
@@ -45,7 +45,7 @@ wt_status friction_textbook(const wt_material *material, const wt_roughness *rou
         if (closed)
             material->law->angular(material, &w, 1, &j1, &j2);
         else
-            textbook_angular(material, w, n_angle, scratch, &j1, &j2);
+            textbook_angular_integrals(material, w, n_angle, scratch, &j1, &j2);
         const double g = q * q * q * q * c * stiffness * stiffness * j2 / 8;
         if (i > 0)
             r.stress_variance += step * (last_g + g) / 2;

@@ -13,14 +13,14 @@ typedef struct textbook_friction {
 
 /* Computes int_0^2pi cos(phi) E'' and int_0^2pi |E|^2 by Simpson's rule over a quarter turn of n
  * intervals (even). scratch: 3 (n + 1). */
-void textbook_angular(const wt_material *material, double w, size_t n, double *scratch, double *j1,
-                      double *j2);
+void textbook_angular_integrals(const wt_material *material, double w, size_t n, double *scratch,
+                                double *j1, double *j2);
 
 /* Computes friction with n_q >= 2 wavenumbers from q0 to q1 and, without a closed form, n_angle >=
  * 2 intervals (even) over a quarter turn. Velocity > 0 [m/s]. Returns WT_E_MEMORY, or WT_E_ARG for
  * too few points. */
-wt_status friction_textbook(const wt_material *material, const wt_roughness *roughness,
-                            double pressure, double velocity, size_t n_q, size_t n_angle,
-                            textbook_friction *result) WT_NODISCARD;
+wt_status textbook_friction_compute(const wt_material *material, const wt_roughness *roughness,
+                                    double pressure, double velocity, size_t n_q, size_t n_angle,
+                                    textbook_friction *result) WT_NODISCARD;
 
 #endif

@@ -18,43 +18,43 @@
 
 /* Curves of a group with depth information, and their common quantities. */
 typedef struct depth_group {
-    wt_depth_curve *curve; /* [n] */
+    wt_curve_residuals *curve; /* [n] */
     size_t n;
     bool there; /* the table has the columns */
     track_obstacle obstacle;
     wt_tip tip;
     wt_contact_table *contact;
     double poisson_ratio;
-    wt_curve_depth depth;
+    wt_modulus_profile depth;
 } depth_group;
 
-static void read_curve(const table_view *t, size_t row, double k, wt_depth_curve *to)
+static void read_depth_curve(const table_view *t, size_t row, double k, wt_curve_residuals *to)
 {
-    *to = (wt_depth_curve){.modulus = indentation_get(t, row, INDENTATION_MODULUS),
-                           .depth = indentation_get(t, row, INDENTATION_MAX_INDENTATION),
-                           .spring_constant = k,
-                           .baseline = indentation_get(t, row, INDENTATION_BASELINE_LENGTH),
-                           .window = indentation_get(t, row, INDENTATION_MISFIT_LENGTH),
-                           .curvature = indentation_get(t, row, INDENTATION_BASELINE_CURVATURE),
-                           .loss_error = indentation_get(t, row, INDENTATION_LOSS_ERROR)};
-    for (unsigned i = 0; i < WT_CURVE_WAVES; i++)
+    *to = (wt_curve_residuals){.modulus = indentation_get(t, row, INDENTATION_MODULUS),
+                               .depth = indentation_get(t, row, INDENTATION_MAX_INDENTATION),
+                               .spring_constant = k,
+                               .baseline = indentation_get(t, row, INDENTATION_BASELINE_LENGTH),
+                               .window = indentation_get(t, row, INDENTATION_MISFIT_LENGTH),
+                               .curvature = indentation_get(t, row, INDENTATION_BASELINE_CURVATURE),
+                               .loss_error = indentation_get(t, row, INDENTATION_LOSS_ERROR)};
+    for (unsigned i = 0; i < WT_MISFIT_TERMS; i++)
         to->misfit[i] =
             indentation_get(t, row, (indentation_column)(INDENTATION_MISFIT_WAVE_1 + i));
 }
 
 /* True if all quantities exist. A table may come from another program; its incomplete curves are
  * skipped. */
-static bool is_whole(const wt_depth_curve *c)
+static bool is_complete_curve(const wt_curve_residuals *c)
 {
     bool whole = c->modulus > 0 && c->depth > 0 && c->baseline > 0 && c->window > 0 &&
                  isfinite(c->curvature) && isfinite(c->modulus) && isfinite(c->depth) &&
                  isfinite(c->baseline) && isfinite(c->window);
-    for (size_t i = 0; i < WT_CURVE_WAVES; i++)
+    for (size_t i = 0; i < WT_MISFIT_TERMS; i++)
         whole = whole && isfinite(c->misfit[i]);
     return whole;
 }
 
-static wt_status read_curves(const table_view *t, double k, depth_group *g, wt_error *err)
+static wt_status read_depth_curves(const table_view *t, double k, depth_group *g, wt_error *err)
 {
     const char *last = NULL;
     long spots = 0;
@@ -62,10 +62,10 @@ static wt_status read_curves(const table_view *t, double k, depth_group *g, wt_e
     if (g->curve == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     for (size_t row = 0; row < t->n_rows; row++) {
-        wt_depth_curve *to = &g->curve[g->n];
+        wt_curve_residuals *to = &g->curve[g->n];
         const char *spot = indentation_text(t, row, INDENTATION_SPOT);
-        read_curve(t, row, k, to);
-        if (!is_whole(to))
+        read_depth_curve(t, row, k, to);
+        if (!is_complete_curve(to))
             continue;
         spots += last == NULL || strcmp(last, spot) != 0;
         last = spot;
@@ -82,7 +82,7 @@ static const double least_poisson_ratio = 0.45;
 
 /* Finds the reason why the curves cannot be used. tip: its description; NULL if it is not
  * understood. */
-static track_obstacle obstacle_of(const depth_group *g, const char *tip, double k)
+static track_obstacle find_obstacle(const depth_group *g, const char *tip, double k)
 {
     if (!g->there)
         return (track_obstacle){"the tables of bulk and track say nothing of depth",
@@ -105,27 +105,27 @@ static track_obstacle obstacle_of(const depth_group *g, const char *tip, double 
     return (track_obstacle){NULL, NULL};
 }
 
-static wt_status read_group(const wt_table *table, depth_group *g, wt_error *err)
+static wt_status read_depth_group(const wt_table *table, depth_group *g, wt_error *err)
 {
     table_view t;
     wt_status status = table_bind(table, &indentation_schema, "", &t, err);
     if (status != WT_OK)
         return status;
-    const char *tip = indentation_words(&t, INDENTATION_KEY_TIP),
-               *poisson = indentation_words(&t, INDENTATION_KEY_POISSON_RATIO);
+    const char *tip = indentation_key_text(&t, INDENTATION_KEY_TIP),
+               *poisson = indentation_key_text(&t, INDENTATION_KEY_POISSON_RATIO);
     const double k = indentation_value(&t, INDENTATION_KEY_SPRING_CONSTANT).value;
-    const bool known = tip != NULL && tip_of_any_description(tip, &g->tip);
+    const bool known = tip != NULL && tip_from_any_description(tip, &g->tip);
     g->there = indentation_has(&t, INDENTATION_MISFIT_WAVE_1);
-    g->poisson_ratio = number_of(poisson);
-    g->obstacle = obstacle_of(g, known ? tip : NULL, k);
-    if (g->obstacle.why != NULL)
+    g->poisson_ratio = parse_number_or_nan(poisson);
+    g->obstacle = find_obstacle(g, known ? tip : NULL, k);
+    if (g->obstacle.reason != NULL)
         return WT_OK;
-    status = read_curves(&t, k, g, err);
+    status = read_depth_curves(&t, k, g, err);
     if (status == WT_OK)
         status = indent_contact_table(&g->tip, &g->contact, err);
-    return status == WT_OK
-               ? wt_curve_depth_make(g->contact, g->poisson_ratio, g->curve, g->n, &g->depth, err)
-               : status;
+    return status == WT_OK ? wt_modulus_profile_fit(g->contact, g->poisson_ratio, g->curve, g->n,
+                                                    &g->depth, err)
+                           : status;
 }
 
 static void group_clear(depth_group *g)
@@ -136,12 +136,12 @@ static void group_clear(depth_group *g)
 
 /* Finds the thickness from another source: the stated one with a normal 95 % interval, else that of
  * the theory. */
-static wt_status find_other(const wt_compare_job *job, const wt_table *layer, track_other *to,
-                            wt_error *err)
+static wt_status find_other_thickness(const wt_compare_job *job, const wt_table *layer,
+                                      alternative_thickness *to, wt_error *err)
 {
     const double none = (double)NAN;
     result_value_tables tables = {0};
-    *to = (track_other){.thickness = {none, none, none, none}, .from = ""};
+    *to = (alternative_thickness){.thickness = {none, none, none, none}, .from = ""};
     if (job->expected_thickness.value > 0) {
         const wt_estimate *given = &job->expected_thickness;
         const double reach = NORMAL_95 * given->standard_error;
@@ -156,7 +156,7 @@ static wt_status find_other(const wt_compare_job *job, const wt_table *layer, tr
     const wt_status status = table_bind(layer, &layer_schema, "", &tables.layer, err);
     if (status != WT_OK)
         return status;
-    const result_value f = result_value_of_thickness(&tables);
+    const result_value f = result_value_thickness(&tables);
     to->from = isnan(layer_value(&tables.layer, LAYER_KEY_OBSERVED_THICKNESS).value)
                    ? "the balance of formation and wear"
                    : "the balance, whose critical energy is from an observed thickness";
@@ -178,11 +178,11 @@ static double finite_or_none(double value)
     return isfinite(value) && value > 0 ? value : (double)NAN;
 }
 
-static void set_keys(table_writer *t, const track_findings *f)
+static void set_track_layer_keys(table_writer *t, const track_layer_result *f)
 {
     const wt_layer_profile *p = &f->profile;
-    track_text words;
-    track_text_make(f, &words);
+    track_layer_sentences words;
+    track_layer_write_sentences(f, &words);
     const double thickness = p->thickness.value;
     track_layer_keys keys = {.allowed = words.allowed,
                              .agree = words.agree,
@@ -202,12 +202,12 @@ static void set_keys(table_writer *t, const track_findings *f)
                              .both_high = finite_or_none(f->agreement.high),
                              .over_low = finite_or_none(f->agreement.ratio_low),
                              .over_high = finite_or_none(f->agreement.ratio_high)};
-    if (p->says == WT_ALLOWS_BETWEEN) /* at depth 0 it is the modulus of the layer */
+    if (p->says == WT_LAYER_BOUND_BOTH) /* at depth 0 it is the modulus of the layer */
         keys.layer_ratio = wt_layer_modulus(p, f->ratio, thickness, 0);
     track_layer_set_keys(t, &keys);
 }
 
-static void measured_rows(table_writer *t, const char *name, const wt_curve_depth *d)
+static void add_measured_depth_rows(table_writer *t, const char *name, const wt_modulus_profile *d)
 {
     table_block(t);
     for (size_t i = 0; i < WT_DEPTHS && !isnan(d->change.value); i++)
@@ -216,8 +216,8 @@ static void measured_rows(table_writer *t, const char *name, const wt_curve_dept
 
 /* Adds the modulus against depth of a layer with the measured ratio, down to depths where it
  * approaches the bulk. */
-static void layer_rows(table_writer *t, const char *name, const track_findings *f, double bulk,
-                       double thickness)
+static void add_layer_rows(table_writer *t, const char *name, const track_layer_result *f,
+                           double bulk, double thickness)
 {
     enum { POINTS = 40 };                                     /* points of a smooth curve */
     const double shallow = 0.2, deep = 5, none = (double)NAN; /* multiples of the depth and of
@@ -237,40 +237,41 @@ static void layer_rows(table_writer *t, const char *name, const track_findings *
     }
 }
 
-static wt_status make_table(const depth_group group[2], const track_findings *f, wt_table **table,
-                            wt_error *err)
+static wt_status make_track_layer_table(const depth_group group[2], const track_layer_result *f,
+                                        wt_table **table, wt_error *err)
 {
     table_writer t = table_begin(&track_layer_schema, err);
-    set_keys(&t, f);
-    for (int g = 0; g < 2 && f->obstacle.why == NULL; g++)
-        measured_rows(&t, compare_group_name[g], &group[g].depth);
+    set_track_layer_keys(&t, f);
+    for (int g = 0; g < 2 && f->obstacle.reason == NULL; g++)
+        add_measured_depth_rows(&t, compare_group_name[g], &group[g].depth);
     if (f->profile.n_steps > 1) {
         const double bulk = group[1].depth.modulus[WT_DEPTHS - 1].value / f->ratio;
         const wt_layer_bound_kind says = f->profile.says;
-        if (says == WT_ALLOWS_BETWEEN)
-            layer_rows(&t, "layer of the curves", f, bulk, f->profile.thickness.value);
-        if (says == WT_ALLOWS_THICKER || says == WT_ALLOWS_THINNER)
-            layer_rows(&t, says == WT_ALLOWS_THICKER ? "thinnest layer" : "thickest layer", f, bulk,
-                       says == WT_ALLOWS_THICKER ? f->profile.thickness.low
-                                                 : f->profile.thickness.high);
-        layer_rows(&t, f->other.given ? "layer as given" : "layer of the theory", f, bulk,
-                   f->other.thickness.value);
+        if (says == WT_LAYER_BOUND_BOTH)
+            add_layer_rows(&t, "layer of the curves", f, bulk, f->profile.thickness.value);
+        if (says == WT_LAYER_BOUND_LOWER || says == WT_LAYER_BOUND_UPPER)
+            add_layer_rows(&t, says == WT_LAYER_BOUND_LOWER ? "thinnest layer" : "thickest layer",
+                           f, bulk,
+                           says == WT_LAYER_BOUND_LOWER ? f->profile.thickness.low
+                                                        : f->profile.thickness.high);
+        add_layer_rows(&t, f->other.given ? "layer as given" : "layer of the theory", f, bulk,
+                       f->other.thickness.value);
     }
     return table_end(&t, table);
 }
 
 /* Computes ln of the ratio with its error by the comparison, and the profile. */
 static wt_status find_profile(const depth_group group[2], const wt_compare_job *job,
-                              const wt_job *work, track_findings *f, wt_error *err)
+                              const wt_job *work, track_layer_result *f, wt_error *err)
 {
     const wt_contact_table *const contact[2] = {group[0].contact, group[1].contact};
-    const wt_depth_curve *const curve[2] = {group[0].curve, group[1].curve};
+    const wt_curve_residuals *const curve[2] = {group[0].curve, group[1].curve};
     const size_t n[2] = {group[0].n, group[1].n};
     wt_job quiet = *work; /* the comparison itself has issued its warnings */
     quiet.log = NULL;
     wt_estimate log_ratio;
     double df;
-    wt_status status = compare_as_fitted(job, &quiet, &log_ratio, &df, err);
+    wt_status status = compare_fitted_ratio(job, &quiet, &log_ratio, &df, err);
     if (status != WT_OK)
         return status;
     f->ratio = exp(log_ratio.value);
@@ -293,37 +294,37 @@ static wt_status find_profile(const depth_group group[2], const wt_compare_job *
         return WT_OK;
     }
     f->tip = &group[1].tip;
-    status = wt_layer_profile_make(contact, group[1].poisson_ratio, curve, n, log_ratio, df,
-                                   &f->profile, err);
+    status = wt_layer_profile_compute(contact, group[1].poisson_ratio, curve, n, log_ratio, df,
+                                      &f->profile, err);
     if (status == WT_OK)
         f->agreement = wt_layer_compare(&f->profile, f->other.thickness);
     return status;
 }
 
-wt_status wt_track_layer_make(const wt_compare_job *job, const wt_table *layer, const wt_job *work,
-                              wt_table **table, wt_error *err)
+wt_status wt_track_layer_compute(const wt_compare_job *job, const wt_table *layer,
+                                 const wt_job *work, wt_table **table, wt_error *err)
 {
     if (job == NULL || job->bulk == NULL || job->track == NULL || work == NULL || table == NULL)
         return wt_fail(err, WT_E_ARG, "no bulk, no track or no room for what is made of them");
     const double none = (double)NAN;
     const wt_table *const tables[2] = {job->bulk, job->track};
     depth_group group[2] = {{.n = 0}, {.n = 0}};
-    track_findings f = {.profile.thickness = {none, none, none, none},
-                        .profile.least = none,
-                        .agreement = {none, none, none, none, false, false},
-                        .ratio = none,
-                        .ratio_error = none};
-    wt_status status = find_other(job, layer, &f.other, err);
+    track_layer_result f = {.profile.thickness = {none, none, none, none},
+                            .profile.least = none,
+                            .agreement = {none, none, none, none, false, false},
+                            .ratio = none,
+                            .ratio_error = none};
+    wt_status status = find_other_thickness(job, layer, &f.other, err);
     for (int g = 0; status == WT_OK && g < 2; g++) {
-        status = read_group(tables[g], &group[g], err);
-        if (f.obstacle.why == NULL)
+        status = read_depth_group(tables[g], &group[g], err);
+        if (f.obstacle.reason == NULL)
             f.obstacle = group[g].obstacle;
     }
-    if (status == WT_OK && f.obstacle.why == NULL)
+    if (status == WT_OK && f.obstacle.reason == NULL)
         status = find_profile(group, job, work, &f, err);
     const bool silent = !group[0].there && !group[1].there && !(job->expected_thickness.value > 0);
     if (status == WT_OK && !silent)
-        status = make_table(group, &f, table, err);
+        status = make_track_layer_table(group, &f, table, err);
     group_clear(&group[0]);
     group_clear(&group[1]);
     return status;

@@ -8,30 +8,30 @@
 #include "weartrack/flow.h"
 
 /* Thickness from another source; the value is NaN if there is none. */
-typedef struct track_other {
+typedef struct alternative_thickness {
     wt_interval thickness;
     const char *from;  /* description of the source; "" if none */
     const char *lacks; /* missing component of its error, or NULL */
     bool given;        /* true if the user states it, false if it is that of the theory */
-} track_other;
+} alternative_thickness;
 
 /* The reason why the curves are not used, with a remedy. NULL if they are used. */
 typedef struct track_obstacle {
-    const char *why, *settled_by;
+    const char *reason, *settled_by;
 } track_obstacle;
 
-typedef struct track_findings {
+typedef struct track_layer_result {
     wt_layer_profile profile;
     wt_layer_agreement agreement;
-    track_other other;
+    alternative_thickness other;
     double ratio, ratio_error; /* ratio of the moduli; error of its logarithm; NaN if unknown */
     const wt_tip *tip;         /* of the track; NULL if unknown */
     track_obstacle obstacle;
-} track_findings;
+} track_layer_result;
 
-typedef struct track_text {
+typedef struct track_layer_sentences {
     char allowed[480], agree[480], settled_by[400];
-} track_text;
-void track_text_make(const track_findings *found, track_text *words);
+} track_layer_sentences;
+void track_layer_write_sentences(const track_layer_result *found, track_layer_sentences *words);
 
 #endif

@@ -10,134 +10,137 @@
 #include <math.h>
 #include <string.h>
 
-typedef struct length_text {
+typedef struct metres_text {
     char text[32];
-} length_text;
+} metres_text;
 
-static length_text metres(double value)
+static metres_text format_length(double value)
 {
-    length_text w;
+    metres_text w;
     wt_format_si(value, "m", 3, w.text, sizeof w.text);
     return w;
 }
 
-typedef struct range_words {
+typedef struct thickness_range_text {
     char text[80];
-} range_words;
+} thickness_range_text;
 
 /* Formats a range of thicknesses. A limit that is not positive or not finite is omitted. */
-static range_words between(double low, double high)
+static thickness_range_text format_thickness_range(double low, double high)
 {
-    range_words w;
+    thickness_range_text w;
     const bool from = low > 0 && isfinite(low), to = high > 0 && isfinite(high);
     clocale_print(w.text, sizeof w.text, "%s%s%s%s",
                   from && to ? ""
                   : from     ? "at least "
                   : to       ? "up to "
                              : "any",
-                  from ? metres(low).text : "", from && to ? " to " : "",
-                  to ? metres(high).text : "");
+                  from ? format_length(low).text : "", from && to ? " to " : "",
+                  to ? format_length(high).text : "");
     return w;
 }
 
 /* ---- remedies -------------------------------------------------------------------------------- */
 
-typedef struct wanted_contact {
+typedef struct required_contact {
     const wt_tip *tip;
     double radius;
-} wanted_contact;
+} required_contact;
 
 static bool is_too_shallow(double depth, void *user)
 {
-    const wanted_contact *w = user;
+    const required_contact *w = user;
     double g, slope;
     wt_contact_function(w->tip, depth, &g, &slope);
     return slope < 2 * w->radius;
 }
 
 /* Depth of this tip for a contact radius. Infinity if 1000 times the depth does not suffice. */
-static double depth_for(const wt_tip *tip, double depth, double radius)
+static double depth_at_radius(const wt_tip *tip, double depth, double radius)
 {
     enum { HALVES = 50 }; /* to 1e-12 of the depth */
     double low = 0, high = 1000 * depth;
-    wanted_contact w = {tip, radius};
+    required_contact w = {tip, radius};
     if (is_too_shallow(high, &w))
         return (double)INFINITY;
-    root_halve(is_too_shallow, &w, &low, &high, 0, HALVES);
+    root_bisect(is_too_shallow, &w, &low, &high, 0, HALVES);
     return high;
 }
 
 /* Advises another contact radius, as a depth of this tip or as a sphere. The sensitivity to a layer
  * depends on contact radius over thickness. */
-static void say_contact(const track_findings *f, double radius, char *text, size_t size)
+static void write_contact_advice(const track_layer_result *f, double radius, char *text,
+                                 size_t size)
 {
     const wt_layer_profile *p = &f->profile;
-    const double depth = f->tip != NULL ? depth_for(f->tip, p->depth, radius) : (double)INFINITY;
+    const double depth =
+        f->tip != NULL ? depth_at_radius(f->tip, p->depth, radius) : (double)INFINITY;
     char deep[96] = "";
     if (isfinite(depth))
         clocale_print(deep, sizeof deep, "indentations of %s with this tip, or ",
-                      metres(depth).text);
+                      format_length(depth).text);
     clocale_print(text, size,
                   "contacts with a radius of %s, which are %s%s with a sphere of %s, in bulk and "
                   "track: as many curves would then tell a layer of that thickness",
-                  metres(radius).text, deep, metres(p->depth).text,
-                  metres(radius * radius / p->depth).text);
+                  format_length(radius).text, deep, format_length(p->depth).text,
+                  format_length(radius * radius / p->depth).text);
 }
 
-static bool ratio_is_open(const track_findings *f)
+static bool is_ratio_inconclusive(const track_layer_result *f)
 {
     return !(fabs(log(f->ratio)) > 2 * f->ratio_error);
 }
 
-static bool has_no_error(const track_findings *f)
+static bool has_no_error(const track_layer_result *f)
 {
     return isnan(f->other.thickness.low) || isnan(f->other.thickness.high);
 }
 
 /* True if an unknown error may change the verdict. */
-static bool is_partial(const track_findings *f)
+static bool may_lack_error(const track_layer_result *f)
 {
     return f->other.lacks != NULL && (f->agreement.differ || f->agreement.agree);
 }
 
-static void say_settled(const track_findings *f, char *text, size_t size)
+static void write_remedy(const track_layer_result *f, char *text, size_t size)
 {
     const wt_layer_profile *p = &f->profile;
     const bool other = f->other.thickness.value > 0;
     text[0] = '\0';
-    const bool told = other && (f->agreement.agree || f->agreement.differ) && !is_partial(f);
+    const bool told = other && (f->agreement.agree || f->agreement.differ) && !may_lack_error(f);
     if (told)
         return;
-    if (f->obstacle.why != NULL)
+    if (f->obstacle.reason != NULL)
         clocale_print(text, size, "%s", f->obstacle.settled_by);
-    else if (p->says == WT_ALLOWS_UNKNOWN)
+    else if (p->says == WT_LAYER_BOUND_UNKNOWN)
         clocale_print(
             text, size,
             "12 curves without adhesion in the bulk and in the track, with one tip, lever "
             "and depth, better on three spots or more each");
-    else if (p->says == WT_ALLOWS_BEYOND)
+    else if (p->says == WT_LAYER_BOUND_OUTSIDE_LAW)
         clocale_print(text, size,
                       "a section across the track under a microscope: of such moduli the curves "
                       "do not tell a thickness");
     else if (other && has_no_error(f))
         clocale_print(text, size, "a standard error of the thickness by %s", f->other.from);
-    else if (ratio_is_open(f))
+    else if (is_ratio_inconclusive(f))
         clocale_print(text, size,
                       "more spots in bulk and track, until the ratio of their moduli is "
                       "told from 1");
-    else if (p->says == WT_ALLOWS_NONE)
+    else if (p->says == WT_LAYER_BOUND_EMPTY)
         clocale_print(text, size,
                       "curves at a second rate or with a second tip, in bulk and track: "
                       "what is not of the layer changes with them");
-    else if (other && is_partial(f))
+    else if (other && may_lack_error(f))
         clocale_print(text, size, "a stated error of %s", f->other.lacks);
-    else if (p->says == WT_ALLOWS_THICKER && other)
-        say_contact(f, p->contact_radius * f->other.thickness.value / p->thickness.low, text, size);
-    else if (p->says == WT_ALLOWS_THICKER)
+    else if (p->says == WT_LAYER_BOUND_LOWER && other)
+        write_contact_advice(f, p->contact_radius * f->other.thickness.value / p->thickness.low,
+                             text, size);
+    else if (p->says == WT_LAYER_BOUND_LOWER)
         clocale_print(text, size,
                       "deeper indentations in bulk and track, or a wider tip: the bound "
                       "goes with the contact radius");
-    else if (p->says == WT_ALLOWS_THINNER)
+    else if (p->says == WT_LAYER_BOUND_UPPER)
         clocale_print(text, size, "shallower indentations in bulk and track, or a sharper tip");
     else
         clocale_print(text, size, "more curves on more spots in bulk and track");
@@ -145,45 +148,46 @@ static void say_settled(const track_findings *f, char *text, size_t size)
 
 /* ---- allowed thickness ----------------------------------------------------------------------- */
 
-static void say_allowed(const track_findings *f, char *text, size_t size)
+static void write_allowed_thickness(const track_layer_result *f, char *text, size_t size)
 {
     const wt_layer_profile *p = &f->profile;
-    const length_text low = metres(p->thickness.low), high = metres(p->thickness.high),
-                      least = metres(p->least), depth = metres(p->depth);
-    if (f->obstacle.why != NULL)
-        clocale_print(text, size, "cannot say: %s", f->obstacle.why);
-    else if (p->says == WT_ALLOWS_BEYOND)
+    const metres_text low = format_length(p->thickness.low),
+                      high = format_length(p->thickness.high), least = format_length(p->least),
+                      depth = format_length(p->depth);
+    if (f->obstacle.reason != NULL)
+        clocale_print(text, size, "cannot say: %s", f->obstacle.reason);
+    else if (p->says == WT_LAYER_BOUND_OUTSIDE_LAW)
         clocale_print(text, size,
                       "cannot say: the law of a layer is known for moduli of %g to %g times that "
                       "of the bulk, the modulus of the track is %.3g of it",
-                      THIN_LAYER_LEAST_RATIO, THIN_LAYER_LARGEST_RATIO, f->ratio);
-    else if (p->says == WT_ALLOWS_UNKNOWN && p->n[0] >= WT_DEPTH_LEAST_CURVES &&
-             p->n[1] >= WT_DEPTH_LEAST_CURVES)
+                      THIN_LAYER_MIN_RATIO, THIN_LAYER_MAX_RATIO, f->ratio);
+    else if (p->says == WT_LAYER_BOUND_UNKNOWN && p->n[0] >= WT_DEPTH_MIN_CURVES &&
+             p->n[1] >= WT_DEPTH_MIN_CURVES)
         clocale_print(text, size,
                       "cannot say: no change with depth can be fitted to what the contact law "
                       "leaves of the curves of bulk and track");
-    else if (p->says == WT_ALLOWS_UNKNOWN)
+    else if (p->says == WT_LAYER_BOUND_UNKNOWN)
         clocale_print(text, size,
                       "cannot say: %zu curves of the bulk and %zu of the track tell of depth, %d "
                       "of each are needed, without adhesion or loss whose effect is not known",
-                      p->n[0], p->n[1], WT_DEPTH_LEAST_CURVES);
-    else if (p->says == WT_ALLOWS_ANY)
+                      p->n[0], p->n[1], WT_DEPTH_MIN_CURVES);
+    else if (p->says == WT_LAYER_BOUND_ANY)
         clocale_print(text, size, "every thickness that was tried, from %s on: %s", least.text,
-                      ratio_is_open(f)
+                      is_ratio_inconclusive(f)
                           ? "the moduli of track and bulk are not told apart"
                           : "the curves do not tell how the modulus changes with depth");
-    else if (p->says == WT_ALLOWS_THICKER)
+    else if (p->says == WT_LAYER_BOUND_LOWER)
         clocale_print(text, size,
                       "at least %s (95 %%): down to %s the modulus of the track changes no more "
                       "than that of the bulk, as it would if the bulk were nearer",
                       low.text, depth.text);
-    else if (p->says == WT_ALLOWS_THINNER)
+    else if (p->says == WT_LAYER_BOUND_UPPER)
         clocale_print(text, size,
                       "less than %s (95 %%): down to %s the modulus of the track changes more than "
                       "with a thicker layer; how thin the law of a layer, which ends at %s, does "
                       "not tell",
                       high.text, depth.text, least.text);
-    else if (p->says == WT_ALLOWS_NONE)
+    else if (p->says == WT_LAYER_BOUND_EMPTY)
         clocale_print(text, size,
                       "none: down to %s the modulus of the track changes as no layer on this bulk "
                       "would make it",
@@ -192,14 +196,14 @@ static void say_allowed(const track_findings *f, char *text, size_t size)
         clocale_print(text, size,
                       "%s (95 %% interval %s to %s): down to %s the modulus of the track goes "
                       "to that of the bulk as it would with such a layer",
-                      metres(p->thickness.value).text, low.text, high.text, depth.text);
+                      format_length(p->thickness.value).text, low.text, high.text, depth.text);
 }
 
 /* ---- agreement with another source ----------------------------------------------------------- */
 
-static void say_agree(const track_findings *f, char *text, size_t size)
+static void write_agreement(const track_layer_result *f, char *text, size_t size)
 {
-    const track_other *o = &f->other;
+    const alternative_thickness *o = &f->other;
     const wt_layer_profile *p = &f->profile;
     text[0] = '\0';
     if (o->from[0] == '\0')
@@ -208,23 +212,25 @@ static void say_agree(const track_findings *f, char *text, size_t size)
         clocale_print(text, size, "cannot say: %s gives no thickness above zero", o->from);
         return;
     }
-    const length_text here = metres(o->thickness.value);
-    const range_words both = between(f->agreement.low, f->agreement.high);
-    if (f->obstacle.why != NULL || p->says == WT_ALLOWS_UNKNOWN || p->says == WT_ALLOWS_BEYOND)
+    const metres_text here = format_length(o->thickness.value);
+    const thickness_range_text both = format_thickness_range(f->agreement.low, f->agreement.high);
+    if (f->obstacle.reason != NULL || p->says == WT_LAYER_BOUND_UNKNOWN ||
+        p->says == WT_LAYER_BOUND_OUTSIDE_LAW)
         clocale_print(text, size, "cannot say: the curves do not tell");
-    else if (p->says == WT_ALLOWS_NONE)
+    else if (p->says == WT_LAYER_BOUND_EMPTY)
         clocale_print(text, size, "cannot say: something else than a layer changes the curves");
     else if (has_no_error(f))
         clocale_print(text, size, "cannot say: the error of %s by %s is not known", here.text,
                       o->from);
-    else if (is_partial(f))
+    else if (may_lack_error(f))
         clocale_print(text, size,
                       "cannot say: the interval of %s by %s lacks the error of %s, and with it "
                       "the curves might %s it",
                       here.text, o->from, o->lacks, f->agreement.differ ? "allow" : "not allow");
     else if (f->agreement.differ)
         clocale_print(text, size, "no: %s by %s (95 %% interval: %s) is not what the curves allow",
-                      here.text, o->from, between(o->thickness.low, o->thickness.high).text);
+                      here.text, o->from,
+                      format_thickness_range(o->thickness.low, o->thickness.high).text);
     else if (f->agreement.agree)
         clocale_print(text, size, "yes, within a factor of %g: %s by %s; both together allow %s",
                       WT_LAYER_MARGIN, here.text, o->from, both.text);
@@ -236,9 +242,9 @@ static void say_agree(const track_findings *f, char *text, size_t size)
             here.text, o->from, WT_LAYER_MARGIN, both.text);
 }
 
-void track_text_make(const track_findings *found, track_text *words)
+void track_layer_write_sentences(const track_layer_result *found, track_layer_sentences *words)
 {
-    say_allowed(found, words->allowed, sizeof words->allowed);
-    say_agree(found, words->agree, sizeof words->agree);
-    say_settled(found, words->settled_by, sizeof words->settled_by);
+    write_allowed_thickness(found, words->allowed, sizeof words->allowed);
+    write_agreement(found, words->agree, sizeof words->agree);
+    write_remedy(found, words->settled_by, sizeof words->settled_by);
 }

@@ -33,7 +33,7 @@ static const double usual_rate_slope = 0.06;
 /* Multiple of a stated standard error on both sides. */
 static const double two_errors = 2;
 
-static double mean_of(const double *values, size_t n)
+static double finite_mean(const double *values, size_t n)
 {
     double sum = 0, known = 0;
     for (size_t i = 0; i < n; i++)
@@ -45,13 +45,14 @@ static double mean_of(const double *values, size_t n)
 }
 
 /* Mean curve of a group at its largest force. Without a spring constant the cantilever is rigid. */
-typedef struct pressed {
+typedef struct pressed_curve {
     double depth, force, bending;
-} pressed;
+} pressed_curve;
 
-static pressed pressed_of(const wt_group_data *d)
+static pressed_curve mean_pressed_curve(const wt_group_data *d)
 {
-    pressed p = {mean_of(d->max_indentation, d->group.n), mean_of(d->max_force, d->group.n), 0};
+    pressed_curve p = {finite_mean(d->max_indentation, d->group.n),
+                       finite_mean(d->max_force, d->group.n), 0};
     if (d->spring_constant.value > 0 && p.force > 0)
         p.bending = p.force / d->spring_constant.value;
     return p;
@@ -59,7 +60,7 @@ static pressed pressed_of(const wt_group_data *d)
 
 /* ---- causes ---------------------------------------------------------------------------------- */
 
-static void add_words(char *to, size_t size, const char *words)
+static void append_cause(char *to, size_t size, const char *words)
 {
     const size_t used = strlen(to);
     snprintf(to + used, size - used, "%s%s", used > 0 ? "; " : "", words);
@@ -71,7 +72,7 @@ typedef struct cause_effect {
 } cause_effect;
 
 /* Effect of a cause that increases the modulus of a group. */
-static cause_effect effect_in(int group, double effect)
+static cause_effect group_effect(int group, double effect)
 {
     return group == 1 ? (cause_effect){effect, 0} : (cause_effect){0, effect};
 }
@@ -80,13 +81,13 @@ static cause_effect effect_in(int group, double effect)
 static void add_cause(unstated_errors *u, bool plausible, cause_effect effect, const char *words,
                       const char *settled_by)
 {
-    add_words(u->would_explain, sizeof u->would_explain, words);
+    append_cause(u->would_explain, sizeof u->would_explain, words);
     if (!plausible)
         return;
     u->lower += effect.lower;
     u->higher += effect.higher;
-    add_words(u->plausible, sizeof u->plausible, words);
-    add_words(u->settled_by, sizeof u->settled_by, settled_by);
+    append_cause(u->plausible, sizeof u->plausible, words);
+    append_cause(u->settled_by, sizeof u->settled_by, settled_by);
 }
 
 static double contact_force(const wt_tip *tip, double depth)
@@ -98,8 +99,8 @@ static double contact_force(const wt_tip *tip, double depth)
 
 /* Finds the radius that increases the modulus by exp(effect), and its lack of fit. Infinity if ten
  * times the largest worn radius does not suffice. */
-static wt_status radius_for(const wt_tip *tip, const pressed *at, double effect, double *radius,
-                            double *misfit, wt_error *err)
+static wt_status required_radius(const wt_tip *tip, const pressed_curve *at, double effect,
+                                 double *radius, double *misfit, wt_error *err)
 {
     double low = tip->radius, high = 10 * worn_radius;
     wt_tip_wear fit = {0};
@@ -119,23 +120,23 @@ static wt_status radius_for(const wt_tip *tip, const pressed *at, double effect,
 
 /* p values of tip wear in each group, which only the lack of fit shows: relative to the other
  * group, and over all curves. */
-static wt_status misfit_chances(const compare_pair *p, double chance[2], wt_error *err)
+static wt_status misfit_p_values(const compare_pair *p, double chance[2], wt_error *err)
 {
     const wt_group_data *bulk = &p->data[0], *track = &p->data[1];
     const double *const values[2] = {bulk->lack_of_fit, track->lack_of_fit};
     const long *const spots[2] = {bulk->fitted_spot, track->fitted_spot};
     const size_t n[2] = {bulk->n_fitted, track->n_fitted};
-    wt_sign_comparison lack;
-    const wt_status status = wt_compare_signs(values, spots, n, &lack, err);
+    wt_mean_comparison lack;
+    const wt_status status = wt_compare_means(values, spots, n, &lack, err);
     for (int g = 0; status == WT_OK && g < 2; g++)
-        chance[g] = wt_combined_p_value(lack.larger_chance[g], p->data[g].pooled_misfit_p);
+        chance[g] = wt_combined_p_value(lack.larger_p[g], p->data[g].pooled_misfit_p);
     return status;
 }
 
 /* Returns the largest plausible tip radius. */
 static double largest_radius(const wt_group_data *d, const wt_compare_job *job, const wt_tip *tip)
 {
-    const double stated = d->common_error[WT_COMMON_RADIUS];
+    const double stated = d->common_error[WT_SYSTEMATIC_RADIUS];
     if (stated > 0)
         return tip->radius * (1 + two_errors * stated);
     return job->tip_error > 0 ? tip->radius : worn_radius;
@@ -146,30 +147,31 @@ static double largest_radius(const wt_group_data *d, const wt_compare_job *job, 
 static bool shows_wear(const wt_group_data *d, const wt_compare_job *job, double misfit,
                        double chance)
 {
-    const bool stated = d->common_error[WT_COMMON_RADIUS] > 0 || job->tip_error > 0;
+    const bool stated = d->common_error[WT_SYSTEMATIC_RADIUS] > 0 || job->tip_error > 0;
     if (stated)
         return chance < level;
     return isnan(d->pooled_misfit) ? chance < few_level : d->pooled_misfit > misfit / 2;
 }
 
 /* The tip is blunter in the group that seems stiffer, or else in the one with the lack of fit. */
-static wt_status add_tip(const compare_pair *p, const wt_compare_job *job, bool within,
-                         unstated_errors *u, wt_error *err)
+static wt_status add_tip_cause(const compare_pair *p, const wt_compare_job *job, bool within,
+                               unstated_errors *u, wt_error *err)
 {
     wt_tip tip;
     double chance[2], needed, least, misfit, ignored;
-    wt_status status = misfit_chances(p, chance, err);
+    wt_status status = misfit_p_values(p, chance, err);
     if (status != WT_OK)
         return status;
     const int worn = within ? chance[1] < chance[0] : u->log_ratio > 0;
     const wt_group_data *d = &p->data[worn];
-    const pressed at = pressed_of(d);
+    const pressed_curve at = mean_pressed_curve(d);
     if (d->tip == NULL || !(at.depth > 0) || !tip_from_description(d->tip, &tip) ||
         !(tip.radius < worn_radius))
         return WT_OK;
-    status = radius_for(&tip, &at, within ? u->least : fabs(u->log_ratio), &needed, &misfit, err);
+    status =
+        required_radius(&tip, &at, within ? u->least : fabs(u->log_ratio), &needed, &misfit, err);
     if (status == WT_OK)
-        status = radius_for(&tip, &at, u->least, &least, &ignored, err);
+        status = required_radius(&tip, &at, u->least, &least, &ignored, err);
     if (status != WT_OK || isinf(needed))
         return status;
     const double largest = largest_radius(d, job, &tip);
@@ -186,7 +188,7 @@ static wt_status add_tip(const compare_pair *p, const wt_compare_job *job, bool 
         "leave them",
         there, here, compare_group_name[worn], within ? ", which would hide the margin" : "",
         plausible ? "may be as far" : "are not as far");
-    add_cause(u, plausible, effect_in(worn, most.log_modulus), words,
+    add_cause(u, plausible, group_effect(worn, most.log_modulus), words,
               "the radius of the tip before and after, with its error (radius=20nm+-10%), or "
               "curves on the bulk again after the track");
     return status;
@@ -201,7 +203,7 @@ typedef struct pulled_depth {
 } pulled_depth;
 
 /* True if the force at a share of the whole depth does not exceed the adhesion. */
-static bool is_within_pull(double x, void *user)
+static bool is_below_pull(double x, void *user)
 {
     const pulled_depth *p = user;
     const double all = p->depth / (1 - x);
@@ -219,7 +221,7 @@ static double pull_effect(const wt_tip *tip, double depth, double force, double 
         return log1p(sqrt(share)) - log1p(-sqrt(share));
     /* the whole depth is the depth at compensation plus the apparent depth */
     pulled_depth of = {tip, depth, share};
-    root_halve(is_within_pull, &of, &low, &high, 0, BISECTIONS);
+    root_bisect(is_below_pull, &of, &low, &high, 0, BISECTIONS);
     const double all = depth / (1 - low);
     return log((contact_force(tip, all) - contact_force(tip, low * all)) /
                contact_force(tip, depth));
@@ -230,43 +232,44 @@ typedef struct required_adhesion {
     double depth, force, effect;
 } required_adhesion;
 
-static bool is_too_little(double pull, void *user)
+static bool is_pull_too_small(double pull, void *user)
 {
     const required_adhesion *p = user;
     return !(pull_effect(p->tip, p->depth, p->force, pull) > p->effect);
 }
 
-static double pull_for(const wt_tip *tip, double depth, double force, double effect)
+static double required_pull(const wt_tip *tip, double depth, double force, double effect)
 {
     double low = 0, high = force;
     if (!(pull_effect(tip, depth, force, high) > effect))
         return (double)INFINITY;
     required_adhesion of = {tip, depth, force, effect};
-    root_halve(is_too_little, &of, &low, &high, 0, BISECTIONS);
+    root_bisect(is_pull_too_small, &of, &low, &high, 0, BISECTIONS);
     return high;
 }
 
 /* Adds adhesion if it is larger in one group. */
-static wt_status add_pull(const compare_pair *p, bool within, unstated_errors *u, wt_error *err)
+static wt_status add_pull_cause(const compare_pair *p, bool within, unstated_errors *u,
+                                wt_error *err)
 {
     const double *const values[2] = {p->data[0].pull, p->data[1].pull};
     const long *const spots[2] = {p->data[0].group.spot, p->data[1].group.spot};
     const size_t n[2] = {p->data[0].group.n, p->data[1].group.n};
-    wt_sign_comparison pulls;
+    wt_mean_comparison pulls;
     wt_tip tip;
-    const wt_status status = wt_compare_signs(values, spots, n, &pulls, err);
+    const wt_status status = wt_compare_means(values, spots, n, &pulls, err);
     if (status != WT_OK)
         return status;
     const int more = pulls.mean[1] > pulls.mean[0];
     const wt_group_data *d = &p->data[more];
-    const pressed at = pressed_of(d);
+    const pressed_curve at = mean_pressed_curve(d);
     const double there = pulls.mean[more] - pulls.mean[!more];
-    if (!(pulls.larger_chance[more] < level) || !(at.depth > 0) || !(at.force > 0))
+    if (!(pulls.larger_p[more] < level) || !(at.depth > 0) || !(at.force > 0))
         return WT_OK;
     const wt_tip *const known = d->tip != NULL && tip_from_description(d->tip, &tip) ? &tip : NULL;
-    const double needed =
-                     pull_for(known, at.depth, at.force, within ? u->least : fabs(u->log_ratio)),
-                 least = pull_for(known, at.depth, at.force, u->least);
+    const double needed = required_pull(known, at.depth, at.force,
+                                        within ? u->least : fabs(u->log_ratio)),
+                 least = required_pull(known, at.depth, at.force, u->least);
     char words[200], is[32], would[32];
     if (isinf(needed))
         return WT_OK;
@@ -277,14 +280,14 @@ static wt_status add_pull(const compare_pair *p, bool within, unstated_errors *u
                   "measured)",
                   would, compare_group_name[more], within ? ", which would hide the margin" : "",
                   is);
-    add_cause(u, least <= there, effect_in(more, pull_effect(known, at.depth, at.force, there)),
+    add_cause(u, least <= there, group_effect(more, pull_effect(known, at.depth, at.force, there)),
               words, "curves without the pull, under liquid or after drying");
     return WT_OK;
 }
 
 /* d ln E/dT without a DMA. By time-temperature superposition it is the slope against ln rate times
  * that of ln aT. If that is small, it is the rubber elasticity, 1/T. */
-static double slope_of_rubbers(const compare_row *row)
+static double default_temperature_slope(const compare_row *row)
 {
     const wt_estimate *rate = &row->c.rate_slope;
     const bool known = rate->standard_error < usual_rate_slope;
@@ -294,14 +297,14 @@ static double slope_of_rubbers(const compare_row *row)
 }
 
 /* Adds the temperature if none is stated. */
-static wt_status add_temperature(const compare_pair *p, const wt_compare_job *job,
-                                 const wt_job *work, const compare_row *row, bool within,
-                                 unstated_errors *u, wt_error *err)
+static wt_status add_temperature_cause(const compare_pair *p, const wt_compare_job *job,
+                                       const wt_job *work, const compare_row *row, bool within,
+                                       unstated_errors *u, wt_error *err)
 {
     const bool stated = !isnan(job->temperature.value) || !isnan(job->track_temperature.value) ||
                         !isnan(job->temperature_slope.value);
     const bool by_dma = job->rubber != NULL;
-    double slope = slope_of_rubbers(row);
+    double slope = default_temperature_slope(row);
     if (stated || (!by_dma && p->by_factor)) /* the factors do not depend on the temperature */
         return WT_OK;
     wt_status status = WT_OK;
@@ -330,8 +333,9 @@ static wt_status add_temperature(const compare_pair *p, const wt_compare_job *jo
     return WT_OK;
 }
 
-wt_status compare_find_unsaid(const compare_pair *p, const wt_compare_job *job, const wt_job *work,
-                              const compare_row *row, unstated_errors *u, wt_error *err)
+wt_status compare_find_unstated_errors(const compare_pair *p, const wt_compare_job *job,
+                                       const wt_job *work, const compare_row *row,
+                                       unstated_errors *u, wt_error *err)
 {
     const wt_comparison *c = &row->c;
     *u = (unstated_errors){.log_ratio = c->log_ratio.value};
@@ -342,8 +346,8 @@ wt_status compare_find_unsaid(const compare_pair *p, const wt_compare_job *job, 
     /* Smallest effect that changes the verdict. A yes needs the nearest limit of the interval at 1;
      * a no needs a difference as large as the margin. */
     u->least = low > 0 ? low : high < 0 ? -high : log1p(job->margin);
-    wt_status status = add_tip(p, job, within, u, err);
+    wt_status status = add_tip_cause(p, job, within, u, err);
     if (status == WT_OK)
-        status = add_pull(p, within, u, err);
-    return status == WT_OK ? add_temperature(p, job, work, row, within, u, err) : status;
+        status = add_pull_cause(p, within, u, err);
+    return status == WT_OK ? add_temperature_cause(p, job, work, row, within, u, err) : status;
 }

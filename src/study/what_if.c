@@ -18,18 +18,18 @@
 enum { MOST_TRIED = 4, WORDS = 64 }; /* length of the longest list below; length of a text */
 
 /* A choice without a measurement. */
-typedef struct choice {
+typedef struct model_choice {
     const char *words; /* name in a sentence, after "if the" */
     const char *unit;  /* unit of its value; NULL if it is a text */
     const char *why;   /* reason of the range */
     const char *lacks; /* reason why it does not apply; NULL: not reported */
-    bool (*applies)(const setting *s);
-    double (*value)(const setting *s);                /* if it has a unit */
-    void (*name)(const setting *s, char text[WORDS]); /* otherwise */
-    void (*move)(const setting *used, double tried, setting *s);
+    bool (*applies)(const case_variant *s);
+    double (*value)(const case_variant *s);                /* if it has a unit */
+    void (*name)(const case_variant *s, char text[WORDS]); /* otherwise */
+    void (*move)(const case_variant *used, double tried, case_variant *s);
     double tried[MOST_TRIED]; /* [n] factors, values, or indices */
     size_t n;
-} choice;
+} model_choice;
 
 #define TRIED(...) {__VA_ARGS__}, COUNT_OF(((double[]){__VA_ARGS__}))
 
@@ -38,155 +38,156 @@ static double limit_value(double value, double low, double high)
     return fmax(fmin(value, high), low);
 }
 
-static bool applies_always(const setting *s)
+static bool always_applies(const case_variant *s)
 {
     (void)s;
     return true;
 }
 
 /* Range of wavenumbers of the measured densities. */
-static double first_known(const setting *s)
+static double first_known(const case_variant *s)
 {
     return s->surface.self_affine ? 0 : s->surface.spectrum.wavenumber[0];
 }
 
-static double last_known(const setting *s)
+static double last_known(const case_variant *s)
 {
     const wt_power_spectrum *p = &s->surface.spectrum;
     return s->surface.self_affine ? (double)INFINITY : p->wavenumber[p->n - 1];
 }
 
 /* Returns the roll-off of a self-affine law, else the other cut-off. */
-static double roll_off(const setting *s, double other)
+static double roll_off_or(const case_variant *s, double other)
 {
     return s->surface.self_affine ? s->surface.qr : other;
 }
 
-static double value_q1(const setting *s)
+static double value_q1(const case_variant *s)
 {
     return s->surface.q1;
 }
 
 /* [m] No surface has waves below the size of a molecule. */
-#define SHORTEST_WAVE 1e-9
+#define SHORTEST_WAVELENGTH 1e-9
 
-static void move_q1(const setting *used, double factor, setting *s)
+static void move_q1(const case_variant *used, double factor, case_variant *s)
 {
     const double q1 = used->surface.q1,
-                 lowest = fmin(fmax(2 * used->surface.q0, roll_off(used, 0)), q1),
-                 highest = fmax(fmin(2 * M_PI / SHORTEST_WAVE, last_known(used)), q1);
+                 lowest = fmin(fmax(2 * used->surface.q0, roll_off_or(used, 0)), q1),
+                 highest = fmax(fmin(2 * M_PI / SHORTEST_WAVELENGTH, last_known(used)), q1);
     s->surface.q1 = limit_value(factor * q1, lowest, highest);
 }
 
-static bool is_measured(const setting *s)
+static bool is_measured_surface(const case_variant *s)
 {
     return s->surface.reliable_to > 0;
 }
 
 /* Moves q1 to the end of the measured spectrum. A law beyond it would need another parameter. */
-static void move_measured_end(const setting *used, double where_steep, setting *s)
+static void move_measured_cutoff(const case_variant *used, double where_steep, case_variant *s)
 {
     const double end = where_steep > 0 ? used->surface.steep : used->surface.reliable_to;
     const bool known = end > 2 * used->surface.q0 && end < last_known(used);
     s->surface.q1 = known ? end : used->surface.q1;
 }
 
-static double value_q0(const setting *s)
+static double value_q0(const case_variant *s)
 {
     return s->surface.q0;
 }
 
 /* False for a law without a roll-off, which is tied to its q0. */
-static bool has_q0(const setting *s)
+static bool has_q0(const case_variant *s)
 {
     return !s->surface.self_affine || s->surface.qr > s->surface.q0;
 }
 
-static void move_q0(const setting *used, double factor, setting *s)
+static void move_q0(const case_variant *used, double factor, case_variant *s)
 {
     const double q0 = used->surface.q0,
-                 highest = fmax(fmin(used->surface.q1 / 2, roll_off(used, (double)INFINITY)), q0);
+                 highest =
+                     fmax(fmin(used->surface.q1 / 2, roll_off_or(used, (double)INFINITY)), q0);
     s->surface.q0 = limit_value(factor * q0, fmin(first_known(used), q0), highest);
 }
 
-static double value_gamma(const setting *s)
+static double value_gamma(const case_variant *s)
 {
     return s->sliding.gamma;
 }
 
 /* Scaraggi and Persson, J. Phys. Condens. Matter 27 (2015) 105102; Persson 2001. */
-static void move_gamma(const setting *used, double tried, setting *s)
+static void move_gamma(const case_variant *used, double tried, case_variant *s)
 {
     (void)used;
     s->sliding.gamma = tried;
 }
 
-static bool has_strain(const setting *s)
+static bool has_strain(const case_variant *s)
 {
     return s->has_softness;
 }
 
-static double value_strain(const setting *s)
+static double value_strain(const case_variant *s)
 {
     return s->sliding.strain_factor;
 }
 
-static void move_strain(const setting *used, double factor, setting *s)
+static void move_strain(const case_variant *used, double factor, case_variant *s)
 {
     s->sliding.strain_factor = limit_value(factor * used->sliding.strain_factor, 0.01, 100);
 }
 
-static bool has_flash(const setting *s)
+static bool has_flash(const case_variant *s)
 {
     return s->sliding.flash.on;
 }
 
-static void name_flash(const setting *s, char text[WORDS])
+static void name_flash(const case_variant *s, char text[WORDS])
 {
     snprintf(text, WORDS, "%s", s->sliding.flash.on ? "counted" : "not counted");
 }
 
-static void move_flash(const setting *used, double on, setting *s)
+static void move_flash(const case_variant *used, double on, case_variant *s)
 {
     (void)used;
     s->sliding.flash.on = on > 0;
 }
 
-static double value_conductivity(const setting *s)
+static double value_conductivity(const case_variant *s)
 {
     return s->sliding.flash.diffusivity * s->sliding.flash.heat_capacity;
 }
 
 /* Changes the diffusivity at constant heat capacity, which varies little between rubbers. */
-static void move_conductivity(const setting *used, double factor, setting *s)
+static void move_conductivity(const case_variant *used, double factor, case_variant *s)
 {
     s->sliding.flash.diffusivity = factor * used->sliding.flash.diffusivity;
 }
 
-static double value_contact_size(const setting *s)
+static double value_contact_size(const case_variant *s)
 {
     return s->sliding.flash.contact_size;
 }
 
-static void move_contact_size(const setting *used, double factor, setting *s)
+static void move_contact_size(const case_variant *used, double factor, case_variant *s)
 {
     s->sliding.flash.contact_size = factor * used->sliding.flash.contact_size;
 }
 
 /* False if the anisotropic constants replace it. */
-static bool has_poisson(const setting *s)
+static bool has_poisson(const case_variant *s)
 {
     const wt_rubber *r = &s->rubber;
     return !r->is_transverse || isnan(r->transverse.plane_poisson) ||
            isnan(r->transverse.axial_poisson);
 }
 
-static double value_poisson(const setting *s)
+static double value_poisson(const case_variant *s)
 {
     return s->rubber.poisson_ratio;
 }
 
-static void move_poisson(const setting *used, double tried, setting *s)
+static void move_poisson(const case_variant *used, double tried, case_variant *s)
 {
     (void)used;
     s->rubber.poisson_ratio = tried;
@@ -194,12 +195,12 @@ static void move_poisson(const setting *used, double tried, setting *s)
 }
 
 /* False for a stated thickness, which does not change. */
-static bool has_profile(const setting *s)
+static bool has_profile(const case_variant *s)
 {
     return s->has_layer && isnan(s->layer.observed_thickness.value);
 }
 
-static void name_profile(const setting *s, char text[WORDS])
+static void name_profile(const case_variant *s, char text[WORDS])
 {
     if (s->layer.profile == WT_PROFILE_PERSSON)
         snprintf(text, WORDS, "exponential");
@@ -208,19 +209,19 @@ static void name_profile(const setting *s, char text[WORDS])
 }
 
 /* A value below 0 means the exponential profile without local friction. */
-static void move_profile(const setting *used, double local_friction, setting *s)
+static void move_profile(const case_variant *used, double local_friction, case_variant *s)
 {
     (void)used;
     s->layer.profile = local_friction < 0 ? WT_PROFILE_PERSSON : WT_PROFILE_INCOMPRESSIBLE;
     s->layer.local_friction = fmax(local_friction, 0);
 }
 
-static bool has_vertical(const setting *s)
+static bool has_vertical(const case_variant *s)
 {
     return s->rubber.sweep.n_isotherms > 1;
 }
 
-static void name_vertical(const setting *s, char text[WORDS])
+static void name_vertical(const case_variant *s, char text[WORDS])
 {
     static const char *const names[] = {[WT_VERTICAL_NONE] = "none",
                                         [WT_VERTICAL_PHYSICAL] = "physical",
@@ -229,43 +230,43 @@ static void name_vertical(const setting *s, char text[WORDS])
     snprintf(text, WORDS, "%s", names[s->vertical]);
 }
 
-static void move_vertical(const setting *used, double tried, setting *s)
+static void move_vertical(const case_variant *used, double tried, case_variant *s)
 {
     (void)used;
     s->vertical = (wt_vertical_shift)tried;
 }
 
-static bool has_shear(const setting *s)
+static bool has_layer_shear(const case_variant *s)
 {
     return s->has_known && !isnan(s->sliding.shear_stress.value);
 }
 
-static void name_shear(const setting *s, char text[WORDS])
+static void name_shear(const case_variant *s, char text[WORDS])
 {
     snprintf(text, WORDS, "%s", s->known.bulk_shear ? "that of the bulk" : "scaled by the ratio");
 }
 
-static void move_shear(const setting *used, double other, setting *s)
+static void move_shear(const case_variant *used, double other, case_variant *s)
 {
     s->known.bulk_shear = used->known.bulk_shear != (other > 0);
 }
 
-static const choice choices[] = {
+static const model_choice choices[] = {
     {"largest wavenumber q1", "rad/m",
      "a decade down and up, as far as the counter surface is known: nothing measures which waves "
      "still reach the rubber",
-     "", applies_always, value_q1, NULL, move_q1, TRIED(0.1, 0.3, 3, 10)},
+     "", always_applies, value_q1, NULL, move_q1, TRIED(0.1, 0.3, 3, 10)},
     {"end of the measured spectrum", "rad/m",
      "where its reliable range ends, and where the rms slope reaches 1.3, by practice the last "
      "that rubber follows",
-     NULL, is_measured, value_q1, NULL, move_measured_end, TRIED(0, 1)},
+     NULL, is_measured_surface, value_q1, NULL, move_measured_cutoff, TRIED(0, 1)},
     {"smallest wavenumber q0", "rad/m",
      "half and twice, as far as the counter surface is known: the longest waves of a measured "
      "spectrum are its least certain",
      "the roughness has no roll-off", has_q0, value_q0, NULL, move_q0, TRIED(0.5, 2)},
     {"factor gamma of partial contact", "1",
      "1 is Persson's theory of 2001, 0.5 its later correction for partial contact", "",
-     applies_always, value_gamma, NULL, move_gamma, TRIED(0.5, 1)},
+     always_applies, value_gamma, NULL, move_gamma, TRIED(0.5, 1)},
     {"strain over slope", "1",
      "half and twice: the strain at a wavenumber is of the order of the rms slope up to there, no "
      "more is known",
@@ -295,8 +296,8 @@ static const choice choices[] = {
      TRIED(-1, 0, 1)},
     {"shear stress of the layer", NULL,
      "scaled by the modulus ratio or not: it is not measured on the layer",
-     "no layer with a modulus ratio, or no shear stress", has_shear, NULL, name_shear, move_shear,
-     TRIED(1)},
+     "no layer with a modulus ratio, or no shear stress", has_layer_shear, NULL, name_shear,
+     move_shear, TRIED(1)},
 };
 
 /* Formats "2e5" instead of "2e+05". */
@@ -311,7 +312,7 @@ static void short_number(double value, char text[WORDS])
     memmove(to, from, strlen(from) + 1);
 }
 
-static void name_choice(const choice *c, const setting *s, char text[WORDS])
+static void name_choice(const model_choice *c, const case_variant *s, char text[WORDS])
 {
     if (c->unit == NULL) {
         c->name(s, text);
@@ -325,10 +326,10 @@ static void name_choice(const choice *c, const setting *s, char text[WORDS])
 
 /* Result of one case variant. */
 typedef struct outcome {
-    const choice *choice; /* NULL: as used */
-    setting setting;
+    const model_choice *model_choice; /* NULL: as used */
+    case_variant case_variant;
     char used[WORDS], tried[WORDS];
-    double number[SETTING_NUMBERS];
+    double number[CASE_QUANTITIES];
     double error;   /* largest relative numerical error */
     double seconds; /* [s] NaN if not timed */
     char note[512];
@@ -336,19 +337,19 @@ typedef struct outcome {
 
 /* ---- all choices ----------------------------------------------------------------------------- */
 
-typedef struct what_if {
+typedef struct what_if_run {
     wt_job work; /* options of one case variant */
     outcome *outcomes;
     size_t n;
-} what_if;
+} what_if_run;
 
 static wt_status compute_outcome(outcome *o, const wt_job *work, wt_error *err)
 {
-    wt_estimate number[SETTING_NUMBERS];
-    for (size_t k = 0; k < SETTING_NUMBERS; k++)
+    wt_estimate number[CASE_QUANTITIES];
+    for (size_t k = 0; k < CASE_QUANTITIES; k++)
         number[k].value = (double)NAN;
-    const wt_status status = setting_compute(&o->setting, work, number, err);
-    for (size_t k = 0; k < SETTING_NUMBERS; k++) {
+    const wt_status status = case_variant_compute(&o->case_variant, work, number, err);
+    for (size_t k = 0; k < CASE_QUANTITIES; k++) {
         o->number[k] = status == WT_OK ? number[k].value : (double)NAN;
         if (fabs(o->number[k]) > 0) /* fmax skips NaN */
             o->error = fmax(o->error, number[k].numerical_error / fabs(o->number[k]));
@@ -356,19 +357,20 @@ static wt_status compute_outcome(outcome *o, const wt_job *work, wt_error *err)
     return status;
 }
 
-static wt_status compute_one(void *user, size_t i, unsigned worker)
+static wt_status compute_task(void *user, size_t i, unsigned worker)
 {
-    const what_if *w = user;
+    const what_if_run *w = user;
     outcome *o = &w->outcomes[1 + i];
     wt_error why = WT_ERROR_INIT;
     wt_rubber refitted = {0};
     wt_status status = WT_OK;
     const double start = cost_clock(w->work.cost);
     (void)worker;
-    if (o->choice->move == move_vertical) {
-        status = wt_rubber_refit(&o->setting.rubber, o->setting.vertical, &refitted, &why);
-        o->setting.rubber = refitted;
-        o->setting.given = NULL;
+    if (o->model_choice->move == move_vertical) {
+        status =
+            wt_rubber_refit(&o->case_variant.rubber, o->case_variant.vertical, &refitted, &why);
+        o->case_variant.rubber = refitted;
+        o->case_variant.given = NULL;
     }
     if (status == WT_OK)
         status = compute_outcome(o, &w->work, &why);
@@ -381,21 +383,21 @@ static wt_status compute_one(void *user, size_t i, unsigned worker)
     return WT_OK;
 }
 
-static outcome *add_outcome(what_if *w, const choice *c, const setting *s)
+static outcome *add_outcome(what_if_run *w, const model_choice *c, const case_variant *s)
 {
     outcome *o = &w->outcomes[w->n++];
-    *o = (outcome){.choice = c, .setting = *s};
-    for (size_t k = 0; k < SETTING_NUMBERS; k++)
+    *o = (outcome){.model_choice = c, .case_variant = *s};
+    for (size_t k = 0; k < CASE_QUANTITIES; k++)
         o->number[k] = (double)NAN;
     return o;
 }
 
 /* Adds the variants of a choice. A limit may exclude one side. */
-static void add_choice(what_if *w, const choice *c, const setting *used)
+static void add_choice(what_if_run *w, const model_choice *c, const case_variant *used)
 {
     char as_used[WORDS], tried[WORDS];
     name_choice(c, used, as_used);
-    setting moved = *used;
+    case_variant moved = *used;
     for (size_t i = 0; i < c->n; i++) {
         c->move(used, c->tried[i], &moved);
         name_choice(c, &moved, tried);
@@ -408,7 +410,7 @@ static void add_choice(what_if *w, const choice *c, const setting *used)
     }
 }
 
-static void add_choices(what_if *w, const setting *used)
+static void add_all_choices(what_if_run *w, const case_variant *used)
 {
     add_outcome(w, NULL, used);
     for (size_t i = 0; i < COUNT_OF(choices); i++)
@@ -416,7 +418,7 @@ static void add_choices(what_if *w, const setting *used)
             add_choice(w, &choices[i], used);
 }
 
-static outcome *new_outcomes(wt_error *err)
+static outcome *alloc_outcomes(wt_error *err)
 {
     outcome *const outcomes = malloc((1 + COUNT_OF(choices) * MOST_TRIED) * sizeof *outcomes);
     if (outcomes == NULL)
@@ -424,16 +426,17 @@ static outcome *new_outcomes(wt_error *err)
     return outcomes;
 }
 
-wt_status what_if_settings(const setting *used, setting **settings, size_t *n, wt_error *err)
+wt_status what_if_list_variants(const case_variant *used, case_variant **settings, size_t *n,
+                                wt_error *err)
 {
-    what_if w = {.outcomes = new_outcomes(err)};
+    what_if_run w = {.outcomes = alloc_outcomes(err)};
     if (w.outcomes == NULL)
         return WT_E_MEMORY;
-    add_choices(&w, used);
+    add_all_choices(&w, used);
     *n = w.n;
     *settings = malloc(w.n * sizeof **settings);
     for (size_t i = 0; *settings != NULL && i < w.n; i++)
-        (*settings)[i] = w.outcomes[i].setting;
+        (*settings)[i] = w.outcomes[i].case_variant;
     free(w.outcomes);
     return *settings != NULL ? WT_OK : wt_fail(err, WT_E_MEMORY, "out of memory");
 }
@@ -442,29 +445,30 @@ wt_status what_if_settings(const setting *used, setting **settings, size_t *n, w
 
 static const struct {
     what_if_column value, change;
-} numbers[SETTING_NUMBERS] = {
-    [SETTING_HYSTERESIS] = {WHAT_IF_HYSTERESIS, WHAT_IF_HYSTERESIS_CHANGE},
-    [SETTING_AREA_RATIO] = {WHAT_IF_AREA_RATIO, WHAT_IF_AREA_RATIO_CHANGE},
-    [SETTING_FRICTION] = {WHAT_IF_FRICTION, WHAT_IF_FRICTION_CHANGE},
-    [SETTING_THICKNESS] = {WHAT_IF_THICKNESS, WHAT_IF_THICKNESS_CHANGE},
-    [SETTING_WITH_LAYER] = {WHAT_IF_WITH_LAYER, WHAT_IF_WITH_LAYER_CHANGE}};
+} numbers[CASE_QUANTITIES] = {
+    [CASE_QUANTITY_HYSTERESIS] = {WHAT_IF_HYSTERESIS, WHAT_IF_HYSTERESIS_CHANGE},
+    [CASE_QUANTITY_AREA_RATIO] = {WHAT_IF_AREA_RATIO, WHAT_IF_AREA_RATIO_CHANGE},
+    [CASE_QUANTITY_FRICTION] = {WHAT_IF_FRICTION, WHAT_IF_FRICTION_CHANGE},
+    [CASE_QUANTITY_THICKNESS] = {WHAT_IF_THICKNESS, WHAT_IF_THICKNESS_CHANGE},
+    [CASE_QUANTITY_WITH_LAYER] = {WHAT_IF_WITH_LAYER, WHAT_IF_WITH_LAYER_CHANGE}};
 
-static void put_outcome(const what_if *w, const outcome *o, table_writer *t)
+static void add_outcome_row(const what_if_run *w, const outcome *o, table_writer *t)
 {
     table_row(t);
-    what_if_put_text(t, WHAT_IF_CHOICE, o->choice != NULL ? o->choice->words : "as used");
+    what_if_put_text(t, WHAT_IF_CHOICE,
+                     o->model_choice != NULL ? o->model_choice->words : "as used");
     what_if_put_text(t, WHAT_IF_USED, o->used);
     what_if_put_text(t, WHAT_IF_TRIED, o->tried);
-    for (size_t k = 0; k < SETTING_NUMBERS; k++) {
+    for (size_t k = 0; k < CASE_QUANTITIES; k++) {
         const double used = w->outcomes[0].number[k];
         what_if_put(t, numbers[k].value, o->number[k]);
         what_if_put(t, numbers[k].change, used != 0 ? o->number[k] / used - 1 : (double)NAN);
     }
-    what_if_put_text(t, WHAT_IF_WHY, o->choice != NULL ? o->choice->why : "");
+    what_if_put_text(t, WHAT_IF_WHY, o->model_choice != NULL ? o->model_choice->why : "");
     what_if_put_text(t, WHAT_IF_NOTE, o->note);
 }
 
-static void set_left_out(const setting *used, table_writer *t)
+static void set_excluded_choices(const case_variant *used, table_writer *t)
 {
     char words[512] = "";
     size_t length = 0;
@@ -477,27 +481,27 @@ static void set_left_out(const setting *used, table_writer *t)
 }
 
 /* Sets the share of the hysteresis from waves beyond the reliable range of a measured surface. */
-static void set_share_beyond(const what_if *w, table_writer *t)
+static void set_share_beyond(const what_if_run *w, table_writer *t)
 {
-    const wt_surface *const s = &w->outcomes[0].setting.surface;
+    const wt_surface *const s = &w->outcomes[0].case_variant.surface;
     for (size_t i = 1; i < w->n; i++) {
         const outcome *const o = &w->outcomes[i];
-        if (s->q1 > s->reliable_to && o->choice->move == move_measured_end &&
-            o->setting.surface.q1 <= s->reliable_to)
+        if (s->q1 > s->reliable_to && o->model_choice->move == move_measured_cutoff &&
+            o->case_variant.surface.q1 <= s->reliable_to)
             what_if_set_value(t, WHAT_IF_KEY_SHARE_BEYOND,
-                              1 - o->number[SETTING_HYSTERESIS] /
-                                      w->outcomes[0].number[SETTING_HYSTERESIS],
+                              1 - o->number[CASE_QUANTITY_HYSTERESIS] /
+                                      w->outcomes[0].number[CASE_QUANTITY_HYSTERESIS],
                               (double)NAN, (double)NAN);
     }
 }
 
-static wt_status make_table(const what_if *w, wt_table **table, wt_error *err)
+static wt_status make_what_if_table(const what_if_run *w, wt_table **table, wt_error *err)
 {
-    const setting *used = &w->outcomes[0].setting;
+    const case_variant *used = &w->outcomes[0].case_variant;
     table_writer t = table_begin(&what_if_schema, err);
     for (size_t i = 0; i < w->n; i++)
-        put_outcome(w, &w->outcomes[i], &t);
-    set_left_out(used, &t);
+        add_outcome_row(w, &w->outcomes[i], &t);
+    set_excluded_choices(used, &t);
     if (used->statement[0] != '\0')
         what_if_set_text(&t, WHAT_IF_KEY_MATERIAL_STATEMENT, used->statement);
     if (!isnan(used->extrapolated_share))
@@ -508,7 +512,7 @@ static wt_status make_table(const what_if *w, wt_table **table, wt_error *err)
 }
 
 /* Reports the time of each choice, for the error budget, and of the stage. */
-static void say_cost(const what_if *w, const wt_job *work)
+static void report_choice_cost(const what_if_run *w, const wt_job *work)
 {
     cost_summary cost = {.items = (double)w->n, .tolerance_asked = work->tolerance};
     for (size_t i = 0; i < w->n; i++)
@@ -516,7 +520,7 @@ static void say_cost(const what_if *w, const wt_job *work)
     for (size_t i = 0; i < COUNT_OF(choices); i++) {
         double seconds = 0;
         for (size_t k = 1; k < w->n; k++)
-            seconds += w->outcomes[k].choice == &choices[i] ? w->outcomes[k].seconds : 0;
+            seconds += w->outcomes[k].model_choice == &choices[i] ? w->outcomes[k].seconds : 0;
         cost_set_part(work->cost, choices[i].words, seconds);
     }
     cost_report(work, cost);
@@ -524,59 +528,59 @@ static void say_cost(const what_if *w, const wt_job *work)
 
 /* Extends the series of the material over the wavenumbers of all variants before they are computed
  * in parallel. */
-static wt_status cover_all(const what_if *w, const setting *used, wt_error *err)
+static wt_status cover_wavenumbers(const what_if_run *w, const case_variant *used, wt_error *err)
 {
     wt_sliding sliding = used->sliding;
     wt_surface surface = used->surface;
-    drawn_values ignored;
+    shared_material ignored;
     for (size_t i = 0; i < w->n; i++) {
-        surface.q0 = fmin(surface.q0, w->outcomes[i].setting.surface.q0);
-        surface.q1 = fmax(surface.q1, w->outcomes[i].setting.surface.q1);
+        surface.q0 = fmin(surface.q0, w->outcomes[i].case_variant.surface.q0);
+        surface.q1 = fmax(surface.q1, w->outcomes[i].case_variant.surface.q1);
     }
     sliding.surface = &surface;
     const double velocity = used->velocity, worn = used->has_layer && !isnan(used->layer.velocity)
                                                        ? used->layer.velocity
                                                        : velocity;
-    return drawn_values_get(w->work.drawn, &sliding, w->work.tolerance, fmin(velocity, worn),
-                            fmax(velocity, worn), &ignored, err);
+    return material_cache_get_stated(w->work.drawn, &sliding, w->work.tolerance,
+                                     fmin(velocity, worn), fmax(velocity, worn), &ignored, err);
 }
 
-wt_status wt_what_if_make(const wt_sliding *sliding, const wt_layer_job *layer,
-                          const wt_layer_observation *known, const wt_job *work, wt_table **table,
-                          wt_error *err)
+wt_status wt_model_sensitivity_compute(const wt_sliding *sliding, const wt_layer_job *layer,
+                                       const wt_layer_observation *known, const wt_job *work,
+                                       wt_table **table, wt_error *err)
 {
     if (work == NULL || table == NULL)
         return wt_fail(err, WT_E_ARG, "no what-if job");
-    setting used;
-    wt_status status = setting_make(sliding, layer, known, work, &used, err);
+    case_variant used;
+    wt_status status = case_variant_create(sliding, layer, known, work, &used, err);
     if (status != WT_OK)
         return status;
-    what_if w = {.work = *work};
+    what_if_run w = {.work = *work};
     w.work.threads = 1; /* the variants use the threads */
     w.work.replicates = 0;
     w.work.log = NULL; /* warnings about the case as used exist already */
     w.work.progress = (wt_progress){0};
-    w.outcomes = new_outcomes(err);
+    w.outcomes = alloc_outcomes(err);
     if (w.outcomes == NULL)
         return WT_E_MEMORY;
-    add_choices(&w, &used);
-    w.work.left_out = WT_EXTRAS & ~(unsigned)WT_EXTRA_SHARE;
-    status = cover_all(&w, &used, err);
+    add_all_choices(&w, &used);
+    w.work.left_out = WT_EXTRA_ALL & ~(unsigned)WT_EXTRA_EXTRAPOLATED_SHARE;
+    status = cover_wavenumbers(&w, &used, err);
     if (status == WT_OK)
         status = compute_outcome(&w.outcomes[0], &w.work, err);
-    w.work.left_out = WT_EXTRAS;
+    w.work.left_out = WT_EXTRA_ALL;
     if (status == WT_OK) {
         material_cache_pin(w.work.drawn, true);
         status =
-            wt_parallel_for(w.n - 1, work->threads, compute_one, &w, &work->progress, "what if");
+            wt_parallel_for(w.n - 1, work->threads, compute_task, &w, &work->progress, "what if");
         material_cache_pin(w.work.drawn, false);
         if (status != WT_OK)
             wt_fail(err, status, "the choices of the model could not be tried");
     }
     if (status == WT_OK)
-        status = make_table(&w, table, err);
+        status = make_what_if_table(&w, table, err);
     if (status == WT_OK)
-        say_cost(&w, work);
+        report_choice_cost(&w, work);
     free(w.outcomes);
     return status;
 }

@@ -6,10 +6,10 @@
 #include <math.h>
 
 /* Appends the contribution of unresolved waves if the spectrum was extrapolated to them. */
-static void tell_beyond(text_builder *t, const answer_context *story)
+static void append_extrapolation(text_builder *t, const answer_context *context)
 {
-    const table_view *const what_if = &story->found.what_if;
-    const double end = power_spectrum_value(&story->power_spectrum, POWER_SPECTRUM_KEY_TO).value;
+    const table_view *const what_if = &context->found.what_if;
+    const double end = power_spectrum_value(&context->power_spectrum, POWER_SPECTRUM_KEY_TO).value;
     const double share = what_if->table != NULL
                              ? what_if_value(what_if, WHAT_IF_KEY_SHARE_BEYOND).value
                              : (double)NAN;
@@ -22,16 +22,16 @@ static void tell_beyond(text_builder *t, const answer_context *story)
             format_share(share).text, format_with_unit(2 * M_PI / end, "m").text);
 }
 
-void answer_surface(const answer_context *story)
+void answer_surface(const answer_context *context)
 {
-    const table_view *const spectrum = &story->power_spectrum;
+    const table_view *const spectrum = &context->power_spectrum;
     if (spectrum->table == NULL)
         return;
     const double first = power_spectrum_get(spectrum, 0, POWER_SPECTRUM_WAVENUMBER),
                  last =
                      power_spectrum_get(spectrum, spectrum->n_rows - 1, POWER_SPECTRUM_WAVENUMBER);
     const double places = power_spectrum_value(spectrum, POWER_SPECTRUM_KEY_PLACES_ERROR).value;
-    const size_t n = story->surfaces.n_rows;
+    const size_t n = context->surfaces.n_rows;
     char text[900];
     text_builder t = {text, sizeof text, 0};
     text_append(
@@ -42,10 +42,10 @@ void answer_surface(const answer_context *story)
         format_known_estimate(power_spectrum_value(spectrum, POWER_SPECTRUM_KEY_RMS_HEIGHT)).text,
         format_known_estimate(power_spectrum_value(spectrum, POWER_SPECTRUM_KEY_RMS_SLOPE)).text,
         format_with_unit(2 * M_PI / first, "m").text, format_with_unit(2 * M_PI / last, "m").text);
-    tell_beyond(&t, story);
+    append_extrapolation(&t, context);
     text_append(&t, " The errors of friction and contact area hold the scatter of its spectrum%s.",
                 places > 0    ? " and from place to place"
                 : places == 0 ? "; its places differ by no more than that"
                               : ", but not what another place of the surface would give");
-    answer_add_sentence(story, "What is the counter surface like?", "surface", "%s", text);
+    answer_add_sentence(context, "What is the counter surface like?", "surface", "%s", text);
 }

@@ -11,11 +11,11 @@
 
 /* Rms slope of the usual cutoff: Lorenz, Persson et al., J. Phys.: Condens. Matter 23 (2011)
  * 175003 and later. */
-const double surface_steep = 1.3;
+const double surface_steep_slope = 1.3;
 /* Rubber cannot follow waves shorter than 1 nm. */
 static const double shortest_wave = 1e-9;
 /* Limit of the search for a slope along the law: the size of an atom [m]. */
-static const double atom = 1e-10;
+static const double atom_size = 1e-10;
 /* Knots per decade of the law. It is a straight line except for the step from the last bin. */
 enum { LAW_PER_DECADE = 10 };
 
@@ -25,14 +25,14 @@ void surface_knots_clear(surface_knots *knots)
     *knots = (surface_knots){.n = 0};
 }
 
-static double between(const wt_spectrum_bin *a, const wt_spectrum_bin *b, double q)
+static double interpolate_density(const wt_spectrum_bin *a, const wt_spectrum_bin *b, double q)
 {
     const double t = log(q / a->wavenumber) / log(b->wavenumber / a->wavenumber);
     return exp((1 - t) * log(a->density) + t * log(b->density));
 }
 
 /* Builds the knots: the bins up to `end`, interpolated there, and the law beyond the last bin. */
-static wt_status make_knots(const surface_whole *w, double end, surface_knots *to, wt_error *err)
+static wt_status build_knots(const surface_result *w, double end, surface_knots *to, wt_error *err)
 {
     const wt_surface_spectrum *s = &w->spectrum;
     const double last = s->bins[s->n - 1].wavenumber;
@@ -47,7 +47,7 @@ static wt_status make_knots(const surface_whole *w, double end, surface_knots *t
         to->density[to->n++] = s->bins[k].density;
     }
     if (end < last && to->n > 0 && to->wavenumber[to->n - 1] < end) {
-        to->density[to->n] = between(&s->bins[to->n - 1], &s->bins[to->n], end);
+        to->density[to->n] = interpolate_density(&s->bins[to->n - 1], &s->bins[to->n], end);
         to->wavenumber[to->n++] = end;
         to->cut = true;
     }
@@ -60,7 +60,8 @@ static wt_status make_knots(const surface_whole *w, double end, surface_knots *t
     return WT_OK;
 }
 
-static wt_status roughness_of(const surface_knots *k, size_t n, wt_roughness **to, wt_error *err)
+static wt_status knots_to_roughness(const surface_knots *k, size_t n, wt_roughness **to,
+                                    wt_error *err)
 {
     if (n < 2) {
         wt_fail(err, WT_E_RANGE, "the spectrum ends before its second bin");
@@ -72,8 +73,8 @@ static wt_status roughness_of(const surface_knots *k, size_t n, wt_roughness **t
 
 /* Finds the wavenumber at which the rms slope reaches `slope`, in the measured range or along
  * the law. NaN if it is not reached. */
-static wt_status find_slope(const surface_whole *w, double slope, double *end, bool *by_law,
-                            wt_error *err)
+static wt_status find_slope_end(const surface_result *w, double slope, double *end, bool *by_law,
+                                wt_error *err)
 {
     const double last = w->spectrum.bins[w->spectrum.n - 1].wavenumber;
     wt_status status = WT_OK;
@@ -82,11 +83,11 @@ static wt_status find_slope(const surface_whole *w, double slope, double *end, b
          beyond++) {
         surface_knots k = {.n = 0};
         wt_roughness *r = NULL;
-        status = make_knots(w, beyond == 1 ? 2 * M_PI / atom : last, &k, err);
+        status = build_knots(w, beyond == 1 ? 2 * M_PI / atom_size : last, &k, err);
         if (status == WT_OK)
-            status = roughness_of(&k, k.n, &r, err);
+            status = knots_to_roughness(&k, k.n, &r, err);
         if (status == WT_OK)
-            *end = wt_roughness_slope_end(r, slope);
+            *end = wt_roughness_slope_wavenumber(r, slope);
         *by_law = beyond == 1;
         wt_roughness_free(r);
         surface_knots_clear(&k);
@@ -96,14 +97,15 @@ static wt_status find_slope(const surface_whole *w, double slope, double *end, b
 
 /* ---- roughness parameters -------------------------------------------------------------------- */
 
-typedef double number_of(const wt_roughness *roughness);
+typedef double roughness_statistic(const wt_roughness *roughness);
 
-static wt_status find_number(const surface_knots *k, number_of *number, double *to, wt_error *err)
+static wt_status compute_statistic(const surface_knots *k, roughness_statistic *statistic,
+                                   double *to, wt_error *err)
 {
     wt_roughness *r = NULL;
-    const wt_status status = roughness_of(k, k->n, &r, err);
+    const wt_status status = knots_to_roughness(k, k->n, &r, err);
     if (status == WT_OK)
-        *to = number(r);
+        *to = statistic(r);
     wt_roughness_free(r);
     return status;
 }
@@ -111,7 +113,7 @@ static wt_status find_number(const surface_knots *k, number_of *number, double *
 enum { NO_SIZE = INT_MAX };
 
 /* Returns the standard error of ln C at a knot due to its scatter. */
-static double own_error(const surface_whole *w, size_t i)
+static double knot_error(const surface_result *w, size_t i)
 {
     return i < w->knots.n_measured ? sqrt(surface_log_variance(w->spectrum.bins[i].freedom))
                                    : surface_law_error(w, w->knots.wavenumber[i]);
@@ -119,40 +121,41 @@ static double own_error(const surface_whole *w, size_t i)
 
 /* Computes the parameter with the knots [from, to) raised by their error, or by the place error
  * of one scan size. */
-static wt_status move_knots(surface_whole *w, size_t from, size_t to, size_t size,
-                            number_of *number, double *moved, wt_error *err)
+static wt_status perturbed_statistic(surface_result *w, size_t from, size_t to, size_t size,
+                                     roughness_statistic *statistic, double *perturbed,
+                                     wt_error *err)
 {
     surface_knots *k = &w->knots;
-    double *was = malloc((to - from + 1) * sizeof *was);
-    if (was == NULL)
+    double *unperturbed = malloc((to - from + 1) * sizeof *unperturbed);
+    if (unperturbed == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     for (size_t i = from; i < to; i++) {
-        was[i - from] = k->density[i];
-        k->density[i] *=
-            exp(size == NO_SIZE ? own_error(w, i) : surface_knot_size(&w->spectrum, i, size));
+        unperturbed[i - from] = k->density[i];
+        k->density[i] *= exp(size == NO_SIZE ? knot_error(w, i)
+                                             : surface_knot_size_error(&w->spectrum, i, size));
     }
-    const wt_status status = find_number(k, number, moved, err);
+    const wt_status status = compute_statistic(k, statistic, perturbed, err);
     for (size_t i = from; i < to; i++)
-        k->density[i] = was[i - from];
-    free(was);
+        k->density[i] = unperturbed[i - from];
+    free(unperturbed);
     return status;
 }
 
 /* Adds the variance of the parameter from place to place. The parameter is the root of an
  * integral over C. With several scan sizes each contributes separately. */
-static wt_status add_places(surface_whole *w, number_of *number, double value, double *square,
-                            wt_error *err)
+static wt_status add_place_variance(surface_result *w, roughness_statistic *statistic, double value,
+                                    double *square, wt_error *err)
 {
     const size_t n = w->spectrum.n_sizes;
-    double moved = 0;
+    double perturbed = 0;
     wt_status status = WT_OK;
     if (!(w->spectrum.place_error > 0))
         return WT_OK;
     const double place = value * w->spectrum.place_error / 2;
     *square += n > 1 ? 0 : place * place;
     for (size_t size = 0; status == WT_OK && n > 1 && size < n; size++) {
-        status = move_knots(w, 0, w->knots.n, size, number, &moved, err);
-        *square += (moved - value) * (moved - value);
+        status = perturbed_statistic(w, 0, w->knots.n, size, statistic, &perturbed, err);
+        *square += (perturbed - value) * (perturbed - value);
     }
     return status;
 }
@@ -160,24 +163,26 @@ static wt_status add_places(surface_whole *w, number_of *number, double value, d
 /* Computes a parameter with its standard error. Each bin is raised by its scatter, with the
  * correlation of neighbours. The whole law is raised by the error of its constants, and all
  * knots by the place error. */
-static wt_status find_estimate(surface_whole *w, number_of *number, wt_estimate *to, wt_error *err)
+static wt_status estimate_statistic(surface_result *w, roughness_statistic *statistic,
+                                    wt_estimate *to, wt_error *err)
 {
     const surface_knots *k = &w->knots;
-    double value = 0, moved = 0, before = 0;
-    wt_status status = find_number(k, number, &value, err);
+    double value = 0, perturbed = 0, before = 0;
+    wt_status status = compute_statistic(k, statistic, &value, err);
     double square = 0;
     if (status == WT_OK)
-        status = add_places(w, number, value, &square, err);
+        status = add_place_variance(w, statistic, value, &square, err);
     for (size_t i = 0; status == WT_OK && i < k->n_measured; i++) {
-        status = move_knots(w, i, i + 1, NO_SIZE, number, &moved, err);
-        square += (moved - value) * (moved - value);
+        status = perturbed_statistic(w, i, i + 1, NO_SIZE, statistic, &perturbed, err);
+        square += (perturbed - value) * (perturbed - value);
         if (i > 0 && i < w->spectrum.n) /* an interpolated end has the error of its bin */
-            square += 2 * surface_tie_to_next(&w->spectrum, i - 1) * before * (moved - value);
-        before = moved - value;
+            square += 2 * surface_next_bin_correlation(&w->spectrum, i - 1) * before *
+                      (perturbed - value);
+        before = perturbed - value;
     }
     if (status == WT_OK && k->n > k->n_measured) {
-        status = move_knots(w, k->n_measured, k->n, NO_SIZE, number, &moved, err);
-        square += (moved - value) * (moved - value);
+        status = perturbed_statistic(w, k->n_measured, k->n, NO_SIZE, statistic, &perturbed, err);
+        square += (perturbed - value) * (perturbed - value);
     }
     *to = (wt_estimate){value, sqrt(square), 0, NULL};
     return status;
@@ -185,15 +190,15 @@ static wt_status find_estimate(surface_whole *w, number_of *number, wt_estimate 
 
 /* ---- end of the spectrum --------------------------------------------------------------------- */
 
-static wt_status find_end(const wt_topography_job *job, const surface_whole *w, double *end,
-                          wt_error *err)
+static wt_status find_spectrum_end(const wt_topography_job *job, const surface_result *w,
+                                   double *end, wt_error *err)
 {
     const double last = w->spectrum.bins[w->spectrum.n - 1].wavenumber;
     bool by_law = false;
     wt_status status = WT_OK;
     *end = isnan(job->end) ? last : job->end;
     if (!isnan(job->end_slope))
-        status = find_slope(w, job->end_slope, end, &by_law, err);
+        status = find_slope_end(w, job->end_slope, end, &by_law, err);
     if (status == WT_OK && isnan(*end)) {
         status = range_error("end-slope", job->end_slope, "a slope that the surface reaches", err);
         wt_error_advice(err, "give --end, or leave both out: the spectrum then ends with what is "
@@ -205,36 +210,36 @@ static wt_status find_end(const wt_topography_job *job, const surface_whole *w, 
     return status;
 }
 
-static void say_beyond(const wt_job *work, const surface_whole *w, double end)
+static void warn_extrapolation(const wt_job *work, const surface_result *w, double end)
 {
-    char words[32];
-    wt_format_si(2 * M_PI / end, "m", 3, words, sizeof words);
+    char wavelength[32];
+    wt_format_si(2 * M_PI / end, "m", 3, wavelength, sizeof wavelength);
     if (w->knots.n > w->knots.n_measured)
         wt_log_add(work->log, WT_WARNING, NULL, NULL,
                    "beyond the reliable range the spectrum goes on by its self-affine law, "
                    "to waves of %s: %.0f %% of the squared slope come from there, and "
                    "errors hold the scatter of its constants, not that the surface may leave "
                    "it",
-                   words, 100 * w->extrapolated_share);
+                   wavelength, 100 * w->extrapolated_share);
     if (end > 2 * M_PI / shortest_wave)
         wt_log_add(work->log, WT_WARNING, NULL, NULL,
                    "the spectrum ends at waves of %s, shorter than 1 nm: that is no roughness",
-                   words);
+                   wavelength);
 }
 
-wt_status surface_end_find(const wt_topography_job *job, const wt_job *work, surface_whole *w,
+wt_status surface_find_end(const wt_topography_job *job, const wt_job *work, surface_result *w,
                            wt_error *err)
 {
     double end = 0;
-    wt_status status = find_slope(w, surface_steep, &w->steep, &w->steep_by_law, err);
+    wt_status status = find_slope_end(w, surface_steep_slope, &w->steep, &w->steep_by_law, err);
     if (status == WT_OK)
-        status = find_end(job, w, &end, err);
+        status = find_spectrum_end(job, w, &end, err);
     if (status == WT_OK)
-        status = make_knots(w, end, &w->knots, err);
+        status = build_knots(w, end, &w->knots, err);
     if (status == WT_OK)
-        status = find_estimate(w, wt_roughness_rms_height, &w->rms_height, err);
+        status = estimate_statistic(w, wt_roughness_rms_height, &w->rms_height, err);
     if (status == WT_OK)
-        status = find_estimate(w, wt_roughness_rms_slope, &w->rms_slope, err);
+        status = estimate_statistic(w, wt_roughness_rms_slope, &w->rms_slope, err);
     if (status != WT_OK)
         return status;
     w->extrapolated_share = 0;
@@ -242,10 +247,10 @@ wt_status surface_end_find(const wt_topography_job *job, const wt_job *work, sur
         surface_knots measured = w->knots;
         double slope = 0;
         measured.n = measured.n_measured;
-        status = find_number(&measured, wt_roughness_rms_slope, &slope, err);
+        status = compute_statistic(&measured, wt_roughness_rms_slope, &slope, err);
         w->extrapolated_share = 1 - pow(slope / w->rms_slope.value, 2);
     }
     if (status == WT_OK)
-        say_beyond(work, w, end);
+        warn_extrapolation(work, w, end);
     return status;
 }

@@ -10,7 +10,7 @@
 /* ---- heights --------------------------------------------------------------------------------- */
 
 /* Maximum number of drawn scans, and panels in a row. */
-enum { MOST_SCANS = 6, SIDE_BY_SIDE = 2 };
+enum { MOST_SCANS = 6, PANELS_PER_ROW = 2 };
 
 /* One scan; its rows in the table are consecutive. */
 typedef struct drawn_scan {
@@ -20,25 +20,25 @@ typedef struct drawn_scan {
     double step_x, step_y; /* step of a map [m] */
 } drawn_scan;
 
-static const char *base_name(const char *path)
+static const char *file_base_name(const char *path)
 {
     const char *slash = strrchr(path, '/');
     return slash != NULL ? slash + 1 : path;
 }
 
-static const char *name_of(const figure_drawing *d, double scan)
+static const char *scan_file_name(const figure_drawing *d, double scan)
 {
     const table_view *surfaces = &d->tables->surfaces;
     const bool known = surfaces->table != NULL && scan >= 1 &&
                        scan < (double)surfaces->n_rows + 1; /* false for NaN */
-    return known ? base_name(surfaces_text(surfaces, (size_t)scan - 1, SURFACES_FILE)) : "";
+    return known ? file_base_name(surfaces_text(surfaces, (size_t)scan - 1, SURFACES_FILE)) : "";
 }
 
 /* Loads rows [row, end) as data of the figure. */
-typedef void take_rows(figure_drawing *d, size_t row, size_t end, drawn_scan *to);
+typedef void load_scan_rows(figure_drawing *d, size_t row, size_t end, drawn_scan *to);
 
 /* Loads the scans of a table, up to MOST_SCANS. The column `scan` has the number of the scan. */
-static size_t take_scans(figure_drawing *d, unsigned scan, take_rows *take,
+static size_t load_scans(figure_drawing *d, unsigned scan, load_scan_rows *load,
                          drawn_scan scans[MOST_SCANS])
 {
     const table_view *t = d->table;
@@ -49,12 +49,12 @@ static size_t take_scans(figure_drawing *d, unsigned scan, take_rows *take,
             end++;
         if (end == row) /* the scan number is NaN */
             end++;
-        scans[n] = (drawn_scan){.name = name_of(d, number),
+        scans[n] = (drawn_scan){.name = scan_file_name(d, number),
                                 .section = NO_SECTION,
-                                .x = SPAN_EMPTY,
-                                .y = SPAN_EMPTY,
-                                .height = SPAN_EMPTY};
-        take(d, row, end, &scans[n]);
+                                .x = EMPTY_SPAN,
+                                .y = EMPTY_SPAN,
+                                .height = EMPTY_SPAN};
+        load(d, row, end, &scans[n]);
         undrawn += scans[n].section < 0;
         n += scans[n].section >= 0 ? 1 : 0;
     }
@@ -67,10 +67,10 @@ static size_t take_scans(figure_drawing *d, unsigned scan, take_rows *take,
     return d->status == WT_OK ? n : 0;
 }
 
-static void begin_panels(figure_drawing *d, size_t n, double height)
+static void begin_scan_panels(figure_drawing *d, size_t n, double height)
 {
-    const size_t beside = n < SIDE_BY_SIDE ? n : SIDE_BY_SIDE,
-                 below = (n + SIDE_BY_SIDE - 1) / SIDE_BY_SIDE;
+    const size_t beside = n < PANELS_PER_ROW ? n : PANELS_PER_ROW,
+                 below = (n + PANELS_PER_ROW - 1) / PANELS_PER_ROW;
     d->width = 0.95 * (double)beside;
     d->height = fmax(1, height * (double)below);
     text_format(&d->script, "set border 15\nset multiplot layout %zu,%zu\n", below, beside);
@@ -94,7 +94,7 @@ static void draw_scale_bar(figure_drawing *d, double width)
 
 /* Returns the points in a row of the map that begins at `row`, or 0 if the rows up to `end` are
  * no grid. */
-static size_t width_of_map(const table_view *t, size_t row, size_t end)
+static size_t map_width(const table_view *t, size_t row, size_t end)
 {
     size_t nx = 1;
     while (row + nx < end &&
@@ -110,7 +110,7 @@ static size_t width_of_map(const table_view *t, size_t row, size_t end)
 }
 
 /* Rounds a height to a thousandth of the largest one. A colour scale does not show more. */
-static double for_colour(double height, double largest)
+static double round_height(double height, double largest)
 {
     const double step = largest > 0 ? pow(10, floor(log10(largest)) - 3) : 1;
     return rint(height / step) * step; /* DATA_DIGITS of the data removes further decimals */
@@ -118,10 +118,10 @@ static double for_colour(double height, double largest)
 
 /* Loads a map as a matrix of heights, one row for each row of the map. It needs a third of the
  * space of three numbers for each point. */
-static void take_map(figure_drawing *d, size_t row, size_t end, drawn_scan *to)
+static void load_map(figure_drawing *d, size_t row, size_t end, drawn_scan *to)
 {
     const table_view *t = d->table;
-    const size_t nx = width_of_map(t, row, end);
+    const size_t nx = map_width(t, row, end);
     if (nx == 0)
         return;
     for (size_t i = row; i < end; i++) {
@@ -137,7 +137,7 @@ static void take_map(figure_drawing *d, size_t row, size_t end, drawn_scan *to)
         d->status = wt_fail(d->err, WT_E_MEMORY, "out of memory");
     const double largest = fmax(fabs(to->height.low), fabs(to->height.high));
     for (size_t i = row; i < end && d->status == WT_OK; i++)
-        heights[i - row] = for_colour(height_map_get(t, i, HEIGHT_MAP_HEIGHT), largest);
+        heights[i - row] = round_height(height_map_get(t, i, HEIGHT_MAP_HEIGHT), largest);
     for (size_t i = 0; i < nx && d->status == WT_OK; i++) {
         (void)snprintf(words[i], NAME, "h%zu", i + 1);
         names[i] = words[i];
@@ -146,15 +146,15 @@ static void take_map(figure_drawing *d, size_t row, size_t end, drawn_scan *to)
     to->step_x = (to->x.high - to->x.low) / (double)(nx > 1 ? nx - 1 : 1);
     to->step_y =
         (to->y.high - to->y.low) / (double)((end - row) / nx > 1 ? (end - row) / nx - 1 : 1);
-    if (d->status == WT_OK && !span_empty(&to->height))
-        to->section = drawing_numbers(d, to->name, names, units, heights, (end - row) / nx);
+    if (d->status == WT_OK && !span_is_empty(&to->height))
+        to->section = drawing_number_section(d, to->name, names, units, heights, (end - row) / nx);
     free(heights);
     free(words);
     free(names);
     free(units);
 }
 
-static void draw_map(figure_drawing *d, const drawn_scan *s)
+static void draw_height_map(figure_drawing *d, const drawn_scan *s)
 {
     const schema_field *field = height_map_schema.columns;
     axis_linear(d, "x", "x", &field[HEIGHT_MAP_X], s->x);
@@ -169,27 +169,28 @@ static void draw_map(figure_drawing *d, const drawn_scan *s)
                 LITERAL(s->step_x), LITERAL(s->step_y));
     draw_scale_bar(d, s->x.high - s->x.low);
     plot_heading(d, s->name);
-    plot_other(d,
-               "'%s.tsv' index %d matrix using (($1*step_x+%s)*x_unit):(($2*step_y+%s)*y_unit):"
-               "($3*cb_unit) with image notitle",
-               d->figure->name, s->section, LITERAL(s->x.low), LITERAL(s->y.low));
+    plot_expression(
+        d,
+        "'%s.tsv' index %d matrix using (($1*step_x+%s)*x_unit):(($2*step_y+%s)*y_unit):"
+        "($3*cb_unit) with image notitle",
+        d->figure->name, s->section, LITERAL(s->x.low), LITERAL(s->y.low));
     plot_end(d);
 }
 
-static void draw_maps(figure_drawing *d)
+static void draw_height_maps(figure_drawing *d)
 {
     drawn_scan scans[MOST_SCANS];
-    const size_t n = take_scans(d, HEIGHT_MAP_SCAN, take_map, scans);
+    const size_t n = load_scans(d, HEIGHT_MAP_SCAN, load_map, scans);
     if (n == 0)
         return;
-    begin_panels(d, n, 1);
+    begin_scan_panels(d, n, 1);
     text_add(&d->script, "set size ratio -1\nset bmargin 2.2\nunset key\n");
     for (size_t i = 0; i < n; i++)
-        draw_map(d, &scans[i]);
+        draw_height_map(d, &scans[i]);
     text_add(&d->script, "unset multiplot\n");
 }
 
-static void take_profile(figure_drawing *d, size_t row, size_t end, drawn_scan *to)
+static void load_profile(figure_drawing *d, size_t row, size_t end, drawn_scan *to)
 {
     static const char *const names[] = {"x", "height", NULL}, *const metres[] = {"m", "m"};
     double *values = malloc((end - row) * 2 * sizeof *values), *value = values;
@@ -203,8 +204,8 @@ static void take_profile(figure_drawing *d, size_t row, size_t end, drawn_scan *
         span_add(&to->x, value[-2], false);
         span_add(&to->height, value[-1], false);
     }
-    if (!span_empty(&to->height))
-        to->section = drawing_numbers(d, to->name, names, metres, values, end - row);
+    if (!span_is_empty(&to->height))
+        to->section = drawing_number_section(d, to->name, names, metres, values, end - row);
     free(values);
 }
 
@@ -212,10 +213,10 @@ static void draw_profiles(figure_drawing *d)
 {
     const schema_field *field = height_profile_schema.columns;
     drawn_scan scans[MOST_SCANS];
-    const size_t n = take_scans(d, HEIGHT_PROFILE_SCAN, take_profile, scans);
+    const size_t n = load_scans(d, HEIGHT_PROFILE_SCAN, load_profile, scans);
     if (n == 0)
         return;
-    begin_panels(d, n, 0.75);
+    begin_scan_panels(d, n, 0.75);
     text_add(&d->script, "unset key\n");
     for (size_t i = 0; i < n; i++) {
         axis_linear(d, "x", "x", &field[HEIGHT_PROFILE_X], scans[i].x);
@@ -270,7 +271,7 @@ const figure_description figures_surface[] = {
          "Heights of the scans of a surface less their form, every so many points, each on its "
          "own scale of length and colour; white: missing. Its data are heights to a thousandth of "
          "the largest one, a row for a row of the map.",
-     .draw = draw_maps},
+     .draw = draw_height_maps},
     {.name = "height_profile",
      .title = "Profiles of a measured surface",
      .table = &height_profile_schema,

@@ -15,8 +15,8 @@ typedef struct surface_view {
 void surface_view_clear(surface_view *view);
 /* Thins the heights so that the maps of n_scans scans fit into one figure. The caller clears
  * `to`. */
-wt_status surface_view_make(const wt_height_map *map, wt_surface_form form, size_t n_scans,
-                            surface_view *to, wt_error *err) WT_NODISCARD;
+wt_status surface_view_create(const wt_height_map *map, wt_surface_form form, size_t n_scans,
+                              surface_view *to, wt_error *err) WT_NODISCARD;
 
 /* One height map or profile. The heights are freed after its spectrum is computed. */
 typedef struct surface_scan {
@@ -43,7 +43,7 @@ typedef struct surface_knots {
 void surface_knots_clear(surface_knots *knots);
 
 /* The combined spectrum of all scans with its results. */
-typedef struct surface_whole {
+typedef struct surface_result {
     wt_surface_spectrum spectrum;
     size_t n_maps, n_profiles;
     wt_surface_spectrum
@@ -53,41 +53,42 @@ typedef struct surface_whole {
     wt_self_affine law;
     wt_surface_anisotropy directions, fourth; /* orders 2 and 4 */
     surface_knots knots;
-    double steep; /* wavenumber at which the rms slope reaches surface_steep [rad/m]; NaN: none */
+    double steep; /* wavenumber at which the rms slope reaches surface_steep_slope [rad/m]; NaN:
+                     none */
     bool steep_by_law;
     wt_estimate rms_height, rms_slope; /* roughness of the knots */
     double extrapolated_share;         /* extrapolated share of the squared slope */
-} surface_whole;
+} surface_result;
 /* Combines the spectra of the scans. */
-wt_status surface_join_scans(const surface_scan *scans, size_t n, surface_whole *to,
+wt_status surface_join_scans(const surface_scan *scans, size_t n, surface_result *to,
                              wt_error *err) WT_NODISCARD;
 /* Returns the spectrum that contains directions: that of the height maps, if there are any. */
-const wt_surface_spectrum *surface_of_maps(const surface_whole *whole);
+const wt_surface_spectrum *surface_directional_spectrum(const surface_result *whole);
 /* Describes the contribution of profiles to height maps, or "" without either. */
-void surface_print_profiles(const surface_whole *w, char *to, size_t size);
-bool surface_profiles_disagree(const surface_whole *w);
+void surface_describe_profiles(const surface_result *w, char *to, size_t size);
+bool surface_profiles_disagree(const surface_result *w);
 /* Sets the knots up to the end that the job requests, and the roughness parameters. */
-wt_status surface_end_find(const wt_topography_job *job, const wt_job *work, surface_whole *whole,
+wt_status surface_find_end(const wt_topography_job *job, const wt_job *work, surface_result *whole,
                            wt_error *err) WT_NODISCARD;
 /* Returns the correlation of the scatter of a bin with that of the next. A window correlates
  * modes of neighbouring bins. */
-double surface_tie_to_next(const wt_surface_spectrum *s, size_t bin);
+double surface_next_bin_correlation(const wt_surface_spectrum *s, size_t bin);
 /* Returns the standard error of ln C of the law, without the place error that the whole spectrum
  * shares. */
-double surface_law_error(const surface_whole *w, double wavenumber);
+double surface_law_error(const surface_result *w, double wavenumber);
 /* Standard error of ln C of a knot due to the places of one scan size, or of all sizes. The law
  * has the error of the last bin. NaN if unknown or with one size. */
-double surface_knot_size(const wt_surface_spectrum *s, size_t knot, size_t size);
-double surface_knot_places(const wt_surface_spectrum *s, size_t knot);
+double surface_knot_size_error(const wt_surface_spectrum *s, size_t knot, size_t size);
+double surface_knot_place_error(const wt_surface_spectrum *s, size_t knot);
 /* Returns true if the anisotropy is significant. */
-bool surface_anisotropic(const wt_surface_anisotropy *directions);
+bool surface_is_anisotropic(const wt_surface_anisotropy *directions);
 /* Rms slope of the usual cutoff, above which rubber does not follow a surface. */
-extern const double surface_steep;
+extern const double surface_steep_slope;
 
 /* Builds the tables. params: parameters of the job, for the texts of its choices. The caller
  * clears `tables`. */
 wt_status surface_tables_make(const wt_params *params, const wt_topography_job *job,
-                              const surface_scan *scans, size_t n, const surface_whole *whole,
+                              const surface_scan *scans, size_t n, const surface_result *whole,
                               wt_topography_tables *tables, wt_error *err) WT_NODISCARD;
 
 #endif

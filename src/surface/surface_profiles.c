@@ -17,20 +17,20 @@ static wt_status invert_profiles(const wt_surface_spectrum *const *profiles, siz
                                  wt_surface_spectrum *to, wt_error *err)
 {
     wt_surface_spectrum one = {.n = 0};
-    wt_status status = wt_surface_join(profiles, n, &one, err);
+    wt_status status = wt_surface_combine(profiles, n, &one, err);
     if (status == WT_OK)
         status = wt_surface_invert(&one, to, err);
     wt_surface_spectrum_clear(&one);
     return status;
 }
 
-static double log_density(const wt_spectrum_bin *b)
+static double bin_log_density(const wt_spectrum_bin *b)
 {
     return log(b->density) - surface_log_bias(b->freedom);
 }
 
 /* Returns the variance of ln C due to the mode scatter, as it enters a mean of several bins. */
-static double log_variance(const wt_spectrum_bin *b)
+static double bin_log_variance(const wt_spectrum_bin *b)
 {
     return surface_log_variance(b->shared_freedom);
 }
@@ -46,33 +46,35 @@ static const wt_spectrum_bin *reliable_bin(const wt_surface_spectrum *s, int ind
 /* Returns the place error of ln C of one kind of scan. If it is unknown, the place scatter of
  * the other kind is used, otherwise NaN. The difference between the kinds is the question, not
  * scatter. */
-static double places_of(const wt_surface_spectrum *s, const wt_surface_spectrum *others)
+static double place_standard_error(const wt_surface_spectrum *s, const wt_surface_spectrum *others)
 {
     return isnan(s->place_error) ? others->place_reach : s->place_error;
 }
 
 /* Returns the ratio of C from profiles to C from maps, averaged over shared bins; NaN without
  * any. */
-static wt_interval find_ratio(const wt_surface_spectrum *profiles, const wt_surface_spectrum *maps)
+static wt_interval profile_map_ratio(const wt_surface_spectrum *profiles,
+                                     const wt_surface_spectrum *maps)
 {
     double sum = 0, weights = 0;
     for (size_t k = 0; k < maps->n; k++) {
         const wt_spectrum_bin *map = &maps->bins[k], *profile = reliable_bin(profiles, map->index);
         if (profile == NULL)
             continue;
-        const double weight = 1 / (log_variance(map) + log_variance(profile));
-        sum += weight * (log_density(profile) - log_density(map));
+        const double weight = 1 / (bin_log_variance(map) + bin_log_variance(profile));
+        sum += weight * (bin_log_density(profile) - bin_log_density(map));
         weights += weight;
     }
     if (!(weights > 0))
         return (wt_interval){(double)NAN, (double)NAN, (double)NAN, (double)NAN};
-    const double places = hypot(places_of(maps, profiles), places_of(profiles, maps)),
+    const double places = hypot(place_standard_error(maps, profiles),
+                                place_standard_error(profiles, maps)),
                  error = hypot(1 / sqrt(weights), places), ratio = exp(sum / weights);
     return (wt_interval){ratio, ratio * error, ratio * exp(-NORMAL_95 * error),
                          ratio * exp(NORMAL_95 * error)};
 }
 
-wt_status surface_join_scans(const surface_scan *scans, size_t n, surface_whole *to, wt_error *err)
+wt_status surface_join_scans(const surface_scan *scans, size_t n, surface_result *to, wt_error *err)
 {
     const wt_surface_spectrum **of = malloc(2 * (n + 1) * sizeof *of);
     if (of == NULL)
@@ -91,18 +93,18 @@ wt_status surface_join_scans(const surface_scan *scans, size_t n, surface_whole 
     if (status == WT_OK && both) {
         wt_error none =
             WT_ERROR_INIT; /* without reliable maps the profiles are the whole spectrum */
-        status = wt_surface_join(of, to->n_maps, &to->maps, &none);
+        status = wt_surface_combine(of, to->n_maps, &to->maps, &none);
         status = status == WT_E_MEMORY ? wt_fail(err, status, "no memory for a spectrum") : WT_OK;
     }
     if (both)
         of[to->n_maps] = &inverted;
     if (status == WT_OK && to->n_maps > 0)
-        status = wt_surface_join(of, to->n_maps + (both ? 1 : 0), &to->spectrum, err);
+        status = wt_surface_combine(of, to->n_maps + (both ? 1 : 0), &to->spectrum, err);
     else if (status == WT_OK)
         to->spectrum = inverted;
     to->profiles_ratio = (wt_interval){(double)NAN, (double)NAN, (double)NAN, (double)NAN};
     if (status == WT_OK && both) {
-        to->profiles_ratio = find_ratio(&inverted, &to->maps);
+        to->profiles_ratio = profile_map_ratio(&inverted, &to->maps);
         to->profiles_from = inverted.bins[0].wavenumber;
         to->profiles_to = inverted.bins[inverted.n - 1].wavenumber;
     }
@@ -112,12 +114,13 @@ wt_status surface_join_scans(const surface_scan *scans, size_t n, surface_whole 
     return status;
 }
 
-const wt_surface_spectrum *surface_of_maps(const surface_whole *whole)
+const wt_surface_spectrum *surface_directional_spectrum(const surface_result *whole)
 {
     return whole->maps.n > 0 ? &whole->maps : &whole->spectrum;
 }
 
-static void add_words(char *to, size_t size, const char *before, double q_long, double q_short)
+static void append_wave_range(char *to, size_t size, const char *before, double q_long,
+                              double q_short)
 {
     char from[32], till[32];
     const size_t used = strlen(to);
@@ -126,12 +129,12 @@ static void add_words(char *to, size_t size, const char *before, double q_long, 
     clocale_print(to + used, size - used, "%s%s to %s", before, from, till);
 }
 
-bool surface_profiles_disagree(const surface_whole *w)
+bool surface_profiles_disagree(const surface_result *w)
 {
     return w->profiles_ratio.low > 1 || w->profiles_ratio.high < 1;
 }
 
-void surface_print_profiles(const surface_whole *w, char *to, size_t size)
+void surface_describe_profiles(const surface_result *w, char *to, size_t size)
 {
     const wt_surface_spectrum *const all = &w->spectrum, *const maps = &w->maps;
     to[0] = '\0';
@@ -141,11 +144,13 @@ void surface_print_profiles(const surface_whole *w, char *to, size_t size)
     const wt_interval *const r = &w->profiles_ratio;
     const char *before = "they alone tell waves of ";
     if (all->bins[0].index < first->index) {
-        add_words(to, size, before, w->profiles_from, fmin(first->wavenumber, w->profiles_to));
+        append_wave_range(to, size, before, w->profiles_from,
+                          fmin(first->wavenumber, w->profiles_to));
         before = " and of ";
     }
     if (all->bins[all->n - 1].index > last->index)
-        add_words(to, size, before, fmax(last->wavenumber, w->profiles_from), w->profiles_to);
+        append_wave_range(to, size, before, fmax(last->wavenumber, w->profiles_from),
+                          w->profiles_to);
     const size_t used = strlen(to);
     if (isnan(r->value))
         clocale_print(to + used, size - used, "%sthey share no waves with the height maps",

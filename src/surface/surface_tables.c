@@ -12,11 +12,11 @@
 #include <string.h>
 
 /* Significance level of an anisotropy. */
-static const double least_chance = 0.01;
+static const double misfit_p_threshold = 0.01;
 
-bool surface_anisotropic(const wt_surface_anisotropy *directions)
+bool surface_is_anisotropic(const wt_surface_anisotropy *directions)
 {
-    return directions->chance < least_chance;
+    return directions->chance < misfit_p_threshold;
 }
 
 TABLE_ROW(power_spectrum, POWER_SPECTRUM, double wavenumber; wt_interval density;
@@ -37,53 +37,53 @@ TABLE_ROW_OF(surfaces, SURFACES, surface_scan)
 TABLE_KEYS(surfaces, SURFACES, const char *form, *window;)
 TABLE_ROW(scan_spectra, SCAN_SPECTRA, wt_spectrum_bin bin; double scatter;)
 
-static wt_estimate number(double value, double standard_error)
+static wt_estimate plain_estimate(double value, double standard_error)
 {
     return (wt_estimate){value, standard_error, 0, NULL};
 }
 
-static wt_estimate of_interval(wt_interval i, bool known)
+static wt_estimate interval_estimate(wt_interval i, bool known)
 {
-    return known ? number(i.value, i.standard_error) : number((double)NAN, 0);
+    return known ? plain_estimate(i.value, i.standard_error) : plain_estimate((double)NAN, 0);
 }
 
-static size_t bin_of(const wt_surface_spectrum *s, size_t knot)
+static size_t knot_bin(const wt_surface_spectrum *s, size_t knot)
 {
     return knot < s->n ? knot : s->n - 1;
 }
 
 /* Returns the place error of a single scan; NaN if unknown or with one size. */
-static double one_place(const wt_surface_spectrum *s)
+static double single_place_error(const wt_surface_spectrum *s)
 {
     return s->place_error > 0 && s->n_sizes > 1 ? s->place_reach : (double)NAN;
 }
 
-double surface_knot_size(const wt_surface_spectrum *s, size_t knot, size_t size)
+double surface_knot_size_error(const wt_surface_spectrum *s, size_t knot, size_t size)
 {
-    return s->n_sizes > 1 ? one_place(s) * surface_places_of(s, bin_of(s, knot), size)
+    return s->n_sizes > 1 ? single_place_error(s) * surface_place_weight(s, knot_bin(s, knot), size)
                           : (double)NAN;
 }
 
-double surface_knot_places(const wt_surface_spectrum *s, size_t knot)
+double surface_knot_place_error(const wt_surface_spectrum *s, size_t knot)
 {
-    return one_place(s) * surface_places_part(s, bin_of(s, knot));
+    return single_place_error(s) * surface_total_place_weight(s, knot_bin(s, knot));
 }
 
 /* A bin is correlated equally with the next and the previous bin. */
-double surface_tie_to_next(const wt_surface_spectrum *s, size_t bin)
+double surface_next_bin_correlation(const wt_surface_spectrum *s, size_t bin)
 {
     const wt_spectrum_bin *const a = &s->bins[bin], *const b = a + 1;
-    const double most = POWER_SPECTRUM_MOST_TIE;
+    const double most = POWER_SPECTRUM_MAX_CORRELATION;
     const double beside_a = fmax(0, a->freedom / a->shared_freedom - 1),
                  beside_b = fmax(0, b->freedom / b->shared_freedom - 1);
     return b->index == a->index + 1 ? fmin(most, 0.5 * sqrt(beside_a * beside_b)) : 0;
 }
 
-double surface_law_error(const surface_whole *w, double wavenumber)
+double surface_law_error(const surface_result *w, double wavenumber)
 {
     const double alone = wt_self_affine_log_error(&w->law, wavenumber, false),
                  all = wt_self_affine_log_error(&w->law, wavenumber, true),
-                 last = surface_knot_places(&w->spectrum, w->spectrum.n),
+                 last = surface_knot_place_error(&w->spectrum, w->spectrum.n),
                  places = isnan(last) ? w->spectrum.place_error : last,
                  common = places > 0 ? places : 0;
     return sqrt(fmax(alone * alone, all * all - common * common));
@@ -91,13 +91,13 @@ double surface_law_error(const surface_whole *w, double wavenumber)
 
 /* ---- power spectrum -------------------------------------------------------------------------- */
 
-static wt_interval of_law(const wt_self_affine *law, double q)
+static wt_interval law_interval(const wt_self_affine *law, double q)
 {
     const double c = wt_self_affine_density(law, q), error = wt_self_affine_log_error(law, q, true);
     return (wt_interval){c, c * error, c * exp(-NORMAL_95 * error), c * exp(NORMAL_95 * error)};
 }
 
-static void add_rows(table_writer *t, const surface_whole *w)
+static void add_spectrum_rows(table_writer *t, const surface_result *w)
 {
     const double nan = (double)NAN;
     const surface_knots *k = &w->knots;
@@ -108,10 +108,11 @@ static void add_rows(table_writer *t, const surface_whole *w)
         const wt_interval none = {c, nan, nan, nan};
         TABLE_ADD(power_spectrum, t, q,
                   bin   ? wt_surface_density(&w->spectrum, i)
-                  : law ? of_law(&w->law, q)
+                  : law ? law_interval(&w->law, q)
                         : none,
                   bin ? sqrt(surface_log_variance(w->spectrum.bins[i].freedom)) : nan,
-                  bin && i + 1 < w->spectrum.n ? surface_tie_to_next(&w->spectrum, i) : nan,
+                  bin && i + 1 < w->spectrum.n ? surface_next_bin_correlation(&w->spectrum, i)
+                                               : nan,
                   law ? surface_law_error(w, q) : nan, wt_self_affine_density(&w->law, q),
                   bin ? (double)w->spectrum.bins[i].n : nan,
                   bin ? (double)w->spectrum.bins[i].scans : nan,
@@ -121,7 +122,7 @@ static void add_rows(table_writer *t, const surface_whole *w)
     }
 }
 
-static void print_law(const surface_whole *w, char *to, size_t size)
+static void print_law(const surface_result *w, char *to, size_t size)
 {
     const wt_self_affine *l = &w->law;
     if (!l->found)
@@ -135,12 +136,12 @@ static void print_law(const surface_whole *w, char *to, size_t size)
             l->misfit, l->n, l->misfit > 2 ? ": the law describes the spectrum badly" : "");
 }
 
-static void print_directions(const surface_whole *w, char *to, size_t size)
+static void print_directions(const surface_result *w, char *to, size_t size)
 {
     const wt_surface_anisotropy *a = &w->directions;
     if (isnan(a->amplitude))
         clocale_print(to, size, "cannot say: profiles tell none; a height map would");
-    else if (surface_anisotropic(a))
+    else if (surface_is_anisotropic(a))
         clocale_print(to, size,
                       "differ: C changes by %.2g of its mean, most at %.0f deg from x (chance of "
                       "as much by scatter: %.1g)",
@@ -153,7 +154,7 @@ static void print_directions(const surface_whole *w, char *to, size_t size)
 
 /* Formats the option that gives the law to friction, from the first bin to the end of the
  * spectrum. */
-static void print_option(const surface_whole *w, char *to, size_t size)
+static void print_roughness_option(const surface_result *w, char *to, size_t size)
 {
     const surface_knots *k = &w->knots;
     to[0] = '\0';
@@ -167,12 +168,12 @@ static void print_option(const surface_whole *w, char *to, size_t size)
 
 /* Returns the significant orders for friction. The angles of the texture refer to the velocity,
  * here along x, from 0 to a turn divided by the order. */
-static wt_anisotropy anisotropy_of(const surface_whole *w)
+static wt_anisotropy significant_anisotropy(const surface_result *w)
 {
     const wt_surface_anisotropy *const found[] = {&w->directions, &w->fourth};
     wt_anisotropy a = {{0}, {0}};
     for (size_t k = 0; k < sizeof found / sizeof *found; k++) {
-        if (!surface_anisotropic(found[k]))
+        if (!surface_is_anisotropic(found[k]))
             continue;
         a.amplitude[k] = found[k]->amplitude;
         a.angle[k] = found[k]->direction < 0 ? found[k]->direction + M_PI / (double)(k + 1)
@@ -183,11 +184,11 @@ static wt_anisotropy anisotropy_of(const surface_whole *w)
 
 /* Formats the options of anisotropy for sliding along x. The result is "none" if no order is
  * significant, or if two orders cannot represent the anisotropy. */
-static void print_anisotropy(const surface_whole *w, char *to, size_t size)
+static void print_anisotropy(const surface_result *w, char *to, size_t size)
 {
     static const char *const names[][2] = {{"anisotropy", "texture-angle"},
                                            {"anisotropy-fourth", "texture-angle-fourth"}};
-    const wt_anisotropy a = anisotropy_of(w);
+    const wt_anisotropy a = significant_anisotropy(w);
     size_t used = 0;
     clocale_print(to, size, "none");
     if (wt_anisotropy_check(&a, NULL) != WT_OK)
@@ -200,7 +201,7 @@ static void print_anisotropy(const surface_whole *w, char *to, size_t size)
         }
 }
 
-static wt_status make_angular(const surface_whole *w, wt_table **table, wt_error *err)
+static wt_status build_angular_table(const surface_result *w, wt_table **table, wt_error *err)
 {
     const wt_surface_anisotropy *two = &w->directions, *four = &w->fourth;
     table_writer t = table_begin(&angular_spectrum_schema, err);
@@ -210,7 +211,8 @@ static wt_status make_angular(const surface_whole *w, wt_table **table, wt_error
         const size_t sector = (i + WT_SURFACE_SECTORS / 2) % WT_SURFACE_SECTORS;
         const double phi = ((double)i / WT_SURFACE_SECTORS - 0.5) * M_PI;
         double modes = 0;
-        const wt_interval ratio = wt_surface_sector(surface_of_maps(w), sector, &modes);
+        const wt_interval ratio =
+            wt_surface_sector(surface_directional_spectrum(w), sector, &modes);
         TABLE_ADD(angular_spectrum, &t, phi, ratio,
                   1 + two->amplitude * cos(2 * (phi - two->direction)) +
                       four->amplitude * cos(4 * (phi - four->direction)),
@@ -220,7 +222,7 @@ static wt_status make_angular(const surface_whole *w, wt_table **table, wt_error
     return table_end(&t, table);
 }
 
-static const char *included(const surface_whole *w, bool places)
+static const char *included_errors(const surface_result *w, bool places)
 {
     if (w->knots.n > w->knots.n_measured)
         return places
@@ -229,56 +231,59 @@ static const char *included(const surface_whole *w, bool places)
     return places ? "modes of each bin, scatter from place to place" : "modes of each bin";
 }
 
-static wt_status make_spectrum(const surface_whole *w, size_t n_scans, wt_table **table,
-                               wt_error *err)
+static wt_status build_spectrum_table(const surface_result *w, size_t n_scans, wt_table **table,
+                                      wt_error *err)
 {
     char law[256], directions[256], profiles[400], option[256], anisotropy[256];
     const wt_surface_spectrum *s = &w->spectrum;
     const bool places = !isnan(s->place_scatter);
     const double nan = (double)NAN;
     table_writer t = table_begin(&power_spectrum_schema, err);
-    add_rows(&t, w);
+    add_spectrum_rows(&t, w);
     print_law(w, law, sizeof law);
     print_directions(w, directions, sizeof directions);
-    surface_print_profiles(w, profiles, sizeof profiles);
-    print_option(w, option, sizeof option);
+    surface_describe_profiles(w, profiles, sizeof profiles);
+    print_roughness_option(w, option, sizeof option);
     print_anisotropy(w, anisotropy, sizeof anisotropy);
-    TABLE_SET(
-        power_spectrum, &t, .rms_height = w->rms_height, .rms_slope = w->rms_slope,
-        .hurst = of_interval(w->law.hurst, w->law.found),
-        .c0 = of_interval(w->law.c0, w->law.found),
-        .roll_off = of_interval(w->law.roll_off, w->law.rolls_off && w->law.found), .law = law,
-        .reliable_from = number(s->bins[0].wavenumber, 0),
-        .reliable_to = number(s->bins[s->n - 1].wavenumber, 0), .ends_by = s->ends_by,
-        .steep = number(w->steep, 0),
-        .steep_by = isnan(w->steep)   ? "not reached"
-                    : w->steep_by_law ? "law"
-                                      : "measured",
-        .extrapolated_share =
-            number(w->knots.n > w->knots.n_measured ? w->extrapolated_share : nan, 0),
-        .place_scatter = number(s->place_scatter, 0), .place_error = number(s->place_error, 0),
-        .anisotropy = number(w->directions.amplitude, w->directions.amplitude_error),
-        .anisotropy_direction = number(w->directions.direction, w->directions.direction_error),
-        .anisotropy_fourth = number(w->fourth.amplitude, w->fourth.amplitude_error),
-        .anisotropy_fourth_direction = number(w->fourth.direction, w->fourth.direction_error),
-        .directions = directions, .profiles = profiles, .includes = included(w, places),
-        .lacks = places ? "calibration of the scanner, noise of the instrument"
-                        : "places of the surface, calibration of the scanner, noise of the "
-                          "instrument",
-        .option = option, .anisotropy_option = anisotropy,
-        .convention = "h_rms^2 = 2 pi int q C dq; of contact.engineering: (2 pi)^2 C",
-        .n_scans = n_scans);
+    TABLE_SET(power_spectrum, &t, .rms_height = w->rms_height, .rms_slope = w->rms_slope,
+              .hurst = interval_estimate(w->law.hurst, w->law.found),
+              .c0 = interval_estimate(w->law.c0, w->law.found),
+              .roll_off = interval_estimate(w->law.roll_off, w->law.rolls_off && w->law.found),
+              .law = law, .reliable_from = plain_estimate(s->bins[0].wavenumber, 0),
+              .reliable_to = plain_estimate(s->bins[s->n - 1].wavenumber, 0), .ends_by = s->ends_by,
+              .steep = plain_estimate(w->steep, 0),
+              .steep_by = isnan(w->steep)   ? "not reached"
+                          : w->steep_by_law ? "law"
+                                            : "measured",
+              .extrapolated_share =
+                  plain_estimate(w->knots.n > w->knots.n_measured ? w->extrapolated_share : nan, 0),
+              .place_scatter = plain_estimate(s->place_scatter, 0),
+              .place_error = plain_estimate(s->place_error, 0),
+              .anisotropy = plain_estimate(w->directions.amplitude, w->directions.amplitude_error),
+              .anisotropy_direction =
+                  plain_estimate(w->directions.direction, w->directions.direction_error),
+              .anisotropy_fourth = plain_estimate(w->fourth.amplitude, w->fourth.amplitude_error),
+              .anisotropy_fourth_direction =
+                  plain_estimate(w->fourth.direction, w->fourth.direction_error),
+              .directions = directions, .profiles = profiles,
+              .includes = included_errors(w, places),
+              .lacks = places ? "calibration of the scanner, noise of the instrument"
+                              : "places of the surface, calibration of the scanner, noise of the "
+                                "instrument",
+              .option = option, .anisotropy_option = anisotropy,
+              .convention = "h_rms^2 = 2 pi int q C dq; of contact.engineering: (2 pi)^2 C",
+              .n_scans = n_scans);
     return table_end(&t, table);
 }
 
 /* ---- place errors by scan size --------------------------------------------------------------- */
 
-static wt_status make_place_errors(const surface_whole *w, wt_table **table, wt_error *err)
+static wt_status build_place_error_table(const surface_result *w, wt_table **table, wt_error *err)
 {
     table_writer t = table_begin(&place_errors_schema, err);
     for (size_t size = 0; size < w->spectrum.n_sizes; size++)
         for (size_t i = 0; i < w->knots.n; i++) {
-            const double error = surface_knot_size(&w->spectrum, i, size);
+            const double error = surface_knot_size_error(&w->spectrum, i, size);
             if (error > 0)
                 TABLE_ADD(place_errors, &t, size + 1, i + 1, w->knots.wavenumber[i], error);
         }
@@ -287,12 +292,13 @@ static wt_status make_place_errors(const surface_whole *w, wt_table **table, wt_
 
 /* ---- scans ----------------------------------------------------------------------------------- */
 
-static wt_status make_surfaces(const wt_params *params, const wt_topography_job *job,
-                               const surface_scan *scans, size_t n, wt_table **table, wt_error *err)
+static wt_status build_surface_table(const wt_params *params, const wt_topography_job *job,
+                                     const surface_scan *scans, size_t n, wt_table **table,
+                                     wt_error *err)
 {
-    char form[PARAM_WORD], window[PARAM_WORD];
-    param_word(params, "form", job->options.form, form, sizeof form);
-    param_word(params, "window", job->options.window, window, sizeof window);
+    char form[PARAM_CHOICE_NAME_SIZE], window[PARAM_CHOICE_NAME_SIZE];
+    param_choice_name(params, "form", job->options.form, form, sizeof form);
+    param_choice_name(params, "window", job->options.window, window, sizeof window);
     table_writer t = table_begin(&surfaces_schema, err);
     for (size_t i = 0; i < n; i++)
         surfaces_add_row(&t, &scans[i]);
@@ -300,7 +306,8 @@ static wt_status make_surfaces(const wt_params *params, const wt_topography_job 
     return table_end(&t, table);
 }
 
-static wt_status make_scans(const surface_scan *scans, size_t n, wt_table **table, wt_error *err)
+static wt_status build_scan_table(const surface_scan *scans, size_t n, wt_table **table,
+                                  wt_error *err)
 {
     table_writer t = table_begin(&scan_spectra_schema, err);
     for (size_t i = 0; i < n; i++) {
@@ -331,22 +338,22 @@ void wt_topography_tables_clear(wt_topography_tables *tables)
 }
 
 wt_status surface_tables_make(const wt_params *params, const wt_topography_job *job,
-                              const surface_scan *scans, size_t n, const surface_whole *whole,
+                              const surface_scan *scans, size_t n, const surface_result *whole,
                               wt_topography_tables *tables, wt_error *err)
 {
     wt_topography_tables made = {.power_spectrum = NULL};
     bool maps = false;
     for (size_t i = 0; i < n; i++)
         maps = maps || scans[i].map.ny > 1;
-    wt_status status = make_spectrum(whole, n, &made.power_spectrum, err);
-    if (status == WT_OK && surface_knot_places(&whole->spectrum, 0) > 0)
-        status = make_place_errors(whole, &made.place_errors, err);
+    wt_status status = build_spectrum_table(whole, n, &made.power_spectrum, err);
+    if (status == WT_OK && surface_knot_place_error(&whole->spectrum, 0) > 0)
+        status = build_place_error_table(whole, &made.place_errors, err);
     if (status == WT_OK && !isnan(whole->directions.amplitude))
-        status = make_angular(whole, &made.angular_spectrum, err);
+        status = build_angular_table(whole, &made.angular_spectrum, err);
     if (status == WT_OK)
-        status = make_surfaces(params, job, scans, n, &made.surfaces, err);
+        status = build_surface_table(params, job, scans, n, &made.surfaces, err);
     if (status == WT_OK && job->scans)
-        status = make_scans(scans, n, &made.scan_spectra, err);
+        status = build_scan_table(scans, n, &made.scan_spectra, err);
     if (status == WT_OK && job->heights)
         status = surface_view_profiles(scans, n, &made.height_profile, err);
     if (status == WT_OK && job->heights && maps)

@@ -20,27 +20,28 @@ void surface_view_clear(surface_view *view)
 }
 
 /* Returns the step that leaves at most `most` of n points. */
-static size_t every(size_t n, size_t most)
+static size_t thinning_step(size_t n, size_t most)
 {
     return (n - 1) / most + 1;
 }
 
-static size_t left(size_t n, size_t step)
+static size_t thinned_count(size_t n, size_t step)
 {
     return (n - 1) / step + 1;
 }
 
-static wt_status thin(const wt_height_map *map, size_t most, surface_view *to, wt_error *err)
+static wt_status thin_heights(const wt_height_map *map, size_t most, surface_view *to,
+                              wt_error *err)
 {
     const bool profile = map->ny == 1;
-    const size_t step = every(map->nx > map->ny ? map->nx : map->ny, most),
-                 along = every(map->nx, MOST_LINE);
+    const size_t step = thinning_step(map->nx > map->ny ? map->nx : map->ny, most),
+                 along = thinning_step(map->nx, MOST_LINE);
     const double *const row = map->z + map->ny / 2 * map->nx;
-    *to = (surface_view){.nx = profile ? 0 : left(map->nx, step),
-                         .ny = profile ? 0 : left(map->ny, step),
+    *to = (surface_view){.nx = profile ? 0 : thinned_count(map->nx, step),
+                         .ny = profile ? 0 : thinned_count(map->ny, step),
                          .dx = map->dx * (double)step,
                          .dy = map->dy * (double)step,
-                         .n_line = left(map->nx, along),
+                         .n_line = thinned_count(map->nx, along),
                          .line_step = map->dx * (double)along};
     to->z = malloc((to->nx * to->ny + 1) * sizeof *to->z);
     to->line = malloc(to->n_line * sizeof *to->line);
@@ -56,19 +57,20 @@ static wt_status thin(const wt_height_map *map, size_t most, surface_view *to, w
     return WT_OK;
 }
 
-wt_status surface_view_make(const wt_height_map *map, wt_surface_form form, size_t n_scans,
-                            surface_view *to, wt_error *err)
+wt_status surface_view_create(const wt_height_map *map, wt_surface_form form, size_t n_scans,
+                              surface_view *to, wt_error *err)
 {
-    const size_t beside = (size_t)ceil(sqrt((double)n_scans));
+    const size_t maps_per_row = (size_t)ceil(sqrt((double)n_scans));
     double coefficients[FORM_TERMS];
     double *z = malloc(map->nx * map->ny * sizeof *z);
     if (z == NULL)
         return wt_fail(err, WT_E_MEMORY, "no memory for %zu x %zu heights", map->nx, map->ny);
     memcpy(z, map->z, map->nx * map->ny * sizeof *z);
     const wt_height_map less = {z, map->nx, map->ny, map->dx, map->dy};
-    wt_status status = surface_form_remove(z, map->nx, map->ny, (unsigned)form, coefficients, err);
+    wt_status status = surface_remove_form(z, map->nx, map->ny, (unsigned)form, coefficients, err);
     if (status == WT_OK)
-        status = thin(&less, beside < MOST_SIDE ? MOST_SIDE / beside : 1, to, err);
+        status =
+            thin_heights(&less, maps_per_row < MOST_SIDE ? MOST_SIDE / maps_per_row : 1, to, err);
     free(z);
     return status;
 }

@@ -6,7 +6,7 @@
 
 /* Maximum correlation of each number in a chain with the next one, if it correlates with no
  * other. */
-#define POWER_SPECTRUM_MOST_TIE 0.5
+#define POWER_SPECTRUM_MAX_CORRELATION 0.5
 
 /* Wavenumber and density have the column names that the reader of spectra expects. */
 #define POWER_SPECTRUM_COLUMNS(X)                                                                  \

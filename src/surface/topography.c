@@ -12,7 +12,7 @@
 /* A smaller anisotropy changes friction by less than the scatter of a spectrum. Heuristic. */
 static const double least_anisotropy = 0.1;
 /* Share of filled heights that causes a warning. Heuristic: above it C may deviate by as much. */
-static const double some_missing = 0.01;
+static const double missing_share_limit = 0.01;
 
 wt_topography_job wt_topography_job_defaults(void)
 {
@@ -63,11 +63,11 @@ static wt_status measure_scan(const wt_topography_job *job, const wt_job *work, 
     wt_status status = flow_heights_read(file, job->image, true, "topography", work, &image, err);
     if (status != WT_OK)
         return status;
-    *to = (surface_scan){.name = file->name, .map = wt_height_map_of(&image)};
+    *to = (surface_scan){.name = file->name, .map = wt_image_height_map(&image)};
     snprintf(to->image, sizeof to->image, "%s", image.name);
     status = wt_surface_analyse(&to->map, &job->options, &to->heights, &to->spectrum, err);
     if (status == WT_OK && job->heights) {
-        status = surface_view_make(&to->map, job->options.form, n_files, &to->view, err);
+        status = surface_view_create(&to->map, job->options.form, n_files, &to->view, err);
         if (status != WT_OK)
             wt_surface_spectrum_clear(&to->spectrum);
     }
@@ -78,8 +78,8 @@ static wt_status measure_scan(const wt_topography_job *job, const wt_job *work, 
     if (status != WT_OK)
         return status;
     to->missing_share = (double)to->heights.missing / (double)to->heights.n;
-    to->directions = wt_surface_directions(&to->spectrum, 2);
-    if (to->missing_share > some_missing)
+    to->directions = wt_surface_anisotropy_fit(&to->spectrum, 2);
+    if (to->missing_share > missing_share_limit)
         wt_log_add(work->log, WT_WARNING, file->name, NULL,
                    "%.2g %% of the heights are missing; they are filled smoothly, so that "
                    "short waves are too low there",
@@ -102,7 +102,7 @@ static wt_status measure_scans(const wt_topography_job *job, const wt_job *work,
             status = WT_OK;
         } else {
             n_failed++;
-            status = wt_job_failed(work, files->file[i].name, status, &failure, err);
+            status = wt_job_add_failure(work, files->file[i].name, status, &failure, err);
         }
     }
     if (status == WT_OK && *n == 0) {
@@ -114,13 +114,13 @@ static wt_status measure_scans(const wt_topography_job *job, const wt_job *work,
 
 /* ---- combined spectrum ----------------------------------------------------------------------- */
 
-static void say_profiles(const surface_whole *w, const wt_job *work)
+static void warn_profiles(const surface_result *w, const wt_job *work)
 {
     if (w->n_profiles > 0 && isnan(w->directions.amplitude))
         wt_log_add(work->log, WT_WARNING, NULL, NULL,
                    "the spectrum of profiles is told for a surface that is the same in all "
                    "directions; a height map would tell");
-    else if (w->n_profiles > 0 && surface_anisotropic(&w->directions))
+    else if (w->n_profiles > 0 && surface_is_anisotropic(&w->directions))
         wt_log_add(work->log, WT_WARNING, NULL, NULL,
                    "what the profiles tell is told for a surface that is the same in all "
                    "directions, which by the height maps it is not");
@@ -133,14 +133,14 @@ static void say_profiles(const surface_whole *w, const wt_job *work)
                    format_range(w->profiles_ratio.low, w->profiles_ratio.high, 2).text);
 }
 
-static void say_whole(const surface_whole *w, size_t n, const wt_job *work)
+static void warn_surface(const surface_result *w, size_t n, const wt_job *work)
 {
-    say_profiles(w, work);
+    warn_profiles(w, work);
     if (n == 1)
         wt_log_add(work->log, WT_WARNING, NULL, NULL,
                    "one scan: how much places of the surface differ is not known, and no "
                    "error holds it; scan several places");
-    if (w->directions.amplitude > least_anisotropy && surface_anisotropic(&w->directions))
+    if (w->directions.amplitude > least_anisotropy && surface_is_anisotropic(&w->directions))
         wt_log_add(work->log, WT_WARNING, NULL, NULL,
                    "the surface is not the same in all directions: the density changes by "
                    "%.0f %% about its mean, which is told; friction depends on the direction "
@@ -148,13 +148,13 @@ static void say_whole(const surface_whole *w, size_t n, const wt_job *work)
                    100 * w->directions.amplitude);
 }
 
-wt_status wt_topography_make(const wt_topography_job *job, const wt_job *work,
-                             wt_topography_tables *tables, wt_error *err)
+wt_status wt_topography_compute(const wt_topography_job *job, const wt_job *work,
+                                wt_topography_tables *tables, wt_error *err)
 {
     if (job == NULL || work == NULL || tables == NULL)
         return wt_fail(err, WT_E_ARG, "no job of a surface");
     flow_files files = {NULL, 0, NULL};
-    surface_whole whole = {.steep = (double)NAN};
+    surface_result whole = {.steep = (double)NAN};
     surface_scan *scans = NULL;
     size_t n = 0;
     wt_status status = param_check(wt_topography_job_params(), job, err);
@@ -171,10 +171,10 @@ wt_status wt_topography_make(const wt_topography_job *job, const wt_job *work,
     if (status == WT_OK)
         status = wt_self_affine_fit(&whole.spectrum, &whole.law, err);
     if (status == WT_OK) {
-        whole.directions = wt_surface_directions(surface_of_maps(&whole), 2);
-        whole.fourth = wt_surface_directions(surface_of_maps(&whole), 4);
-        say_whole(&whole, n, work);
-        status = surface_end_find(job, work, &whole, err);
+        whole.directions = wt_surface_anisotropy_fit(surface_directional_spectrum(&whole), 2);
+        whole.fourth = wt_surface_anisotropy_fit(surface_directional_spectrum(&whole), 4);
+        warn_surface(&whole, n, work);
+        status = surface_find_end(job, work, &whole, err);
     }
     if (status == WT_OK)
         status =

@@ -58,7 +58,7 @@ static void read_weartrack(void *data)
     wt_error err = WT_ERROR_INIT;
     const wt_format_info *info = NULL;
     wt_input *input = open_file(f);
-    bench_check(wt_detect(f->formats, input, NULL, WT_KIND_SWEEP, &info, &err), &err);
+    bench_check(wt_format_detect(f->formats, input, NULL, WT_KIND_SWEEP, &info, &err), &err);
     read_as(f, input, info->id);
     f->ours = info->id;
     wt_input_close(input);

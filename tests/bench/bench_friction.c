@@ -114,8 +114,8 @@ static void friction_plain(void *data)
     friction_case *c = data;
     for (int i = 0; i < VELOCITIES; i += EVERY) {
         textbook_friction point;
-        bench_check(friction_textbook(c->material, c->roughness, pressure, c->velocity[i], NODES,
-                                      ANGLES, &point),
+        bench_check(textbook_friction_compute(c->material, c->roughness, pressure, c->velocity[i],
+                                              NODES, ANGLES, &point),
                     NULL);
         c->textbook[i] = point.hysteresis;
     }

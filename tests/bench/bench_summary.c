@@ -32,7 +32,7 @@ static void add_table(wt_result *result, const char *name, size_t n_rows)
     for (size_t row = 0; row < n_rows; row++) {
         bench_check(wt_table_add_row(t, &err), &err);
         for (size_t i = 0; i < COLUMNS; i++)
-            wt_table_put(t, i, (double)(row * COLUMNS + i));
+            wt_table_set_number(t, i, (double)(row * COLUMNS + i));
     }
     bench_check(wt_result_add(result, t, &err), &err);
 }
@@ -66,7 +66,7 @@ static void read_weartrack(void *data)
     kept_result *const kept = data;
     wt_error err = WT_ERROR_INIT;
     wt_result *read = NULL;
-    bench_check(wt_store_read_headlines(kept->path, &read, &err), &err);
+    bench_check(wt_store_read_main_values(kept->path, &read, &err), &err);
     take(kept, read);
 }
 

@@ -282,7 +282,7 @@ static void put_limit(const wt_param *param)
 {
     const param_limits *l = &param->limits;
     const double most =
-        param->kind == PARAM_COUNT ? (double)INFINITY : quantity_most(param->quantity);
+        param->kind == PARAM_COUNT ? (double)INFINITY : quantity_plausible_maximum(param->quantity);
     const bool with_low = l->with_low || l->low < -most, with_high = l->with_high || l->high > most;
     const double low = fmax(l->low, -most), high = fmin(l->high, most);
     char text[TEXT];
@@ -445,12 +445,12 @@ static void put_results(void)
     size_t n = 0;
     for (size_t i = 0; i < table_n_schemas; i++)
         for (size_t g = 0; g < 2; g++) {
-            flow_things things = 0;
+            flow_resource_set things = 0;
             bool is_new = true;
             schema_name(table_schemas[i]->name, groups[g], called[n]);
             for (size_t k = 0; k < n; k++)
                 is_new = is_new && strcmp(called[k], called[n]) != 0;
-            if (is_new && flow_resources_of_table(called[n], &things) && things != 0) {
+            if (is_new && flow_table_resources(called[n], &things) && things != 0) {
                 names[n] = called[n];
                 n++;
             }

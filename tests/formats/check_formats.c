@@ -432,7 +432,7 @@ static void check_facts(reading *r, const wt_formats *formats, wt_input *input)
     wt_table *facts = NULL;
     wt_error err = WT_ERROR_INIT;
     size_t columns = 0;
-    if (wt_describe(formats, input, &r->options, NULL, &facts, &err) != WT_OK) {
+    if (wt_input_describe(formats, input, &r->options, NULL, &facts, &err) != WT_OK) {
         fail(r, "no facts: %s", err.message);
         return;
     }
@@ -457,7 +457,7 @@ static void check(reading *r, const wt_formats *formats, const char *fixtures)
         fail(r, "%s", err.message);
         return;
     }
-    if (wt_detect(formats, input, NULL, 0, &info, &err) != WT_OK)
+    if (wt_format_detect(formats, input, NULL, 0, &info, &err) != WT_OK)
         fail(r, "not recognised: %s, %s", err.message, err.found);
     else if (strlen(info->id) != id_length || strncmp(info->id, r->file, id_length) != 0)
         fail(r, "recognised as %s", info->id);

@@ -87,7 +87,7 @@ int main(int argc, char *argv[])
     if (status == WT_OK)
         status = wt_input_open_memory(text, length, "curve.txt", &input, &err);
     if (status == WT_OK)
-        status = wt_detect(formats, input, NULL, 0, &info, &err);
+        status = wt_format_detect(formats, input, NULL, 0, &info, &err);
     if (status == WT_OK && strcmp(info->id, "jpk-text") != 0)
         status = wt_fail(&err, WT_E_FORMAT, "recognised as %s", info->id);
     if (status == WT_OK)

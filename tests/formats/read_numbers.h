@@ -59,7 +59,7 @@ static inline wt_status read_sweep(const wt_formats *formats, wt_input *input, w
                                    numbers *all)
 {
     wt_read_options options = wt_read_defaults();
-    options.any_temperature = true;
+    options.allow_missing_temperature = true;
     wt_sweep sweep = {.n_isotherms = 0};
     const wt_status status = wt_sweep_read(formats, input, &options, log, &sweep, NULL);
     for (size_t i = 0; i < sweep.n_isotherms; i++) {

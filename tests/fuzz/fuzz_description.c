@@ -35,7 +35,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         if (text_scan(&reader, input, description->kinds, &options, NULL, &file, &err) == WT_OK) {
             wt_sweep sweep = {.n_isotherms = 0};
             if ((description->kinds & WT_KIND_SWEEP) != 0)
-                (void)text_sweep(&file, &options, NULL, &sweep, &err);
+                (void)text_build_sweep(&file, &options, NULL, &sweep, &err);
             wt_sweep_clear(&sweep);
             text_file_free(&file);
         }

@@ -30,7 +30,7 @@ static void make_sound(void)
         wt_table_add_text_column(t, "file", "name", NULL) != WT_OK ||
         wt_table_add_column(t, "modulus", "Pa", "modulus", NULL) != WT_OK ||
         wt_table_set_key(t, "tip", "sphere", NULL) != WT_OK || wt_table_add_row(t, NULL) != WT_OK ||
-        wt_table_put_text(t, 0, "a", NULL) != WT_OK || wt_result_add(result, t, NULL) != WT_OK ||
+        wt_table_set_text(t, 0, "a", NULL) != WT_OK || wt_result_add(result, t, NULL) != WT_OK ||
         wt_store_write(path, result, true, NULL) != WT_OK)
         abort();
     (void)close(fd);
@@ -94,7 +94,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         status = wt_store_read_memory(data, size, "bytes", &result, &err);
     } else {
         result = wt_result_new();
-        status = store_take((const char *)data, size, result, &err);
+        status = store_decode((const char *)data, size, result, &err);
     }
     char digest[STORE_DIGEST_SIZE];
     if (status != WT_OK && status != WT_END && err.message[0] == '\0')

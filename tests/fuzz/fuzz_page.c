@@ -34,7 +34,7 @@ static void draw(const wt_result *result, const figure_tables *tables)
         abort();
     for (size_t i = 0; i < n; i++)
         if (figure_tables_find(tables, figure_find(i)->table)->n_rows > 0 &&
-            drawing_make(&figures[i].drawing, figure_find(i), tables, NULL, &err) != WT_OK &&
+            drawing_build(&figures[i].drawing, figure_find(i), tables, NULL, &err) != WT_OK &&
             err.message[0] == '\0')
             abort();
     page_writer page = {.result = result,
@@ -57,7 +57,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     if (size == 0)
         return 0;
     wt_result *const result = read_result(data, size);
-    if (figure_tables_make(result, &tables, &err) == WT_OK)
+    if (figure_tables_bind(result, &tables, &err) == WT_OK)
         draw(result, &tables);
     figure_tables_clear(&tables);
     wt_result_free(result);

@@ -29,13 +29,13 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     if (wt_unit_to_si(text, quantity, &factor, &offset, &err) == WT_OK)
         check(isfinite(factor) && factor > 0 && isfinite(offset));
     if (wt_quantity_parse(text, quantity, &value, &err) == WT_OK)
-        check(quantity_is_possible(quantity, value));
+        check(quantity_is_plausible(quantity, value));
     if (wt_estimate_parse(text, quantity, &estimate, &err) == WT_OK)
-        check(quantity_is_possible(quantity, estimate.value) && estimate.standard_error >= 0 &&
+        check(quantity_is_plausible(quantity, estimate.value) && estimate.standard_error >= 0 &&
               isfinite(estimate.standard_error));
     if (wt_list_parse(text, quantity, &list, &n, &err) == WT_OK)
         for (size_t i = 0; i < n; i++)
-            check(quantity_is_possible(quantity, list[i]) && (i == 0 || list[i] > list[i - 1]));
+            check(quantity_is_plausible(quantity, list[i]) && (i == 0 || list[i] > list[i - 1]));
     free(list);
     free(text);
     return 0;

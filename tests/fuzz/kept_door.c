@@ -238,7 +238,7 @@ static const answered *find_answer(const void *reading)
     return NULL;
 }
 
-static void *copy_of(const void *bytes, size_t size)
+static void *duplicate_file(const void *bytes, size_t size)
 {
     void *const copy = malloc(size + 1);
     if (copy == NULL)
@@ -260,9 +260,9 @@ static const answered *keep_answer(const void *reading, bool read_it)
     }
     *one = (answered){reading,
                       between->with,
-                      copy_of(between->bytes, between->door.size),
+                      duplicate_file(between->bytes, between->door.size),
                       between->door.size,
-                      copy_of(between->answer, between->length),
+                      duplicate_file(between->answer, between->length),
                       between->length,
                       between->said};
     return one;
@@ -293,8 +293,8 @@ wt_status sandbox_start(const sandbox_call *door, const sandbox_limits *limits,
     sandbox_stream *const flow = calloc(1, sizeof *flow);
     if (flow == NULL)
         abort();
-    *flow = (sandbox_stream){door->what, copy_of(answer->answer, answer->length), answer->length, 0,
-                             answer->said};
+    *flow = (sandbox_stream){door->what, duplicate_file(answer->answer, answer->length),
+                             answer->length, 0, answer->said};
     *begun = flow;
     return WT_OK;
 }

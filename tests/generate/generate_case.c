@@ -89,12 +89,12 @@ static int write_truth(const wt_rubber *rubber, const char *folder, const char *
     if (status != WT_OK)
         goto done;
     wt_sliding sliding = flow_run_sliding(&run);
-    status = wt_layer_make(&sliding, &c->layer, &job, &layer, &err);
+    status = wt_layer_thickness_compute(&sliding, &c->layer, &job, &layer, &err);
     if (status != WT_OK)
         goto done;
     wt_layer_observation known = {.thickness = layer.thickness,
                                   .modulus_ratio = {ratio, 0, 0, "1"}};
-    status = wt_friction_make(&sliding, &known, &job, &friction, &err);
+    status = wt_sliding_friction_compute(&sliding, &known, &job, &friction, &err);
     out = status != WT_OK || path == NULL ? NULL : fopen(path, "w");
     if (out == NULL)
         goto done;

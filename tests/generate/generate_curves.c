@@ -118,7 +118,7 @@ int generate_curves(const wt_rubber *rubber, const char *folder, uint64_t varian
     wt_material *material = NULL;
     buffers *b = calloc(1, sizeof *b);
     if (b == NULL ||
-        wt_rubber_at(rubber, TRUTH_TEMPERATURE, 0, SIZE_MAX, &material, NULL, NULL) != WT_OK)
+        wt_rubber_material(rubber, TRUTH_TEMPERATURE, 0, SIZE_MAX, &material, NULL, NULL) != WT_OK)
         goto done;
     for (int g = 0; g < 2; g++) {
         for (int spot = 0; spot < SPOTS; spot++) {

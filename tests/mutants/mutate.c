@@ -229,10 +229,10 @@ static bool print_change(const char *file, const source *s, const function *f, c
 /* A place evenly of those of the function, then one of its changes. */
 static const place *draw_place(const place *places, size_t n, uint64_t *state)
 {
-    size_t n_places = 0, chosen, i = 0;
+    size_t n_name_slots = 0, chosen, i = 0;
     for (size_t k = 0; k < n; k++)
-        n_places += k == 0 || places[k].first != places[k - 1].first;
-    chosen = random_below(state, n_places);
+        n_name_slots += k == 0 || places[k].first != places[k - 1].first;
+    chosen = random_below(state, n_name_slots);
     for (; i + 1 < n; i++)
         if (i + 1 < n && places[i + 1].first != places[i].first && chosen-- == 0)
             break;

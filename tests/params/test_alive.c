@@ -608,7 +608,7 @@ static char *run_case(const char *xml, size_t *length)
     FILE *out = open_memstream(&bytes, length);
     assert_non_null(out);
     if (case_from_bytes(xml, strlen(xml), CASE "alive.xml", &c, &err) != WT_OK ||
-        wt_run(c, &options, NULL, &result, &n_failed, &err) != WT_OK)
+        wt_run_case(c, &options, NULL, &result, &n_failed, &err) != WT_OK)
         fail_msg("%s: %s: %s", xml, err.place, err.message);
     for (size_t i = 0; i < wt_result_n_tables(result); i++)
         if (strcmp(wt_table_name(wt_result_table(result, i)), "inputs") != 0)

@@ -255,8 +255,8 @@ static wt_status call_layer_parameters(const void *structure, wt_error *err)
 {
     double wavenumber = 1e6, power = 1e5;
     const wt_energy_source source = {.n = 1, .wavenumber = &wavenumber, .power = &power};
-    wt_layer_balance balance;
-    return wt_layer_balance_compute(&source, structure, &balance, err);
+    wt_layer_steady_state balance;
+    return wt_layer_steady_state_compute(&source, structure, &balance, err);
 }
 
 static wt_status call_job(const void *structure, wt_error *err)
@@ -270,7 +270,7 @@ static wt_status call_job(const void *structure, wt_error *err)
 static wt_status call_master(const void *structure, wt_error *err)
 {
     const wt_job job = wt_job_defaults();
-    return wt_master_make(structure, &job, NULL, NULL, err);
+    return wt_master_compute(structure, &job, NULL, NULL, err);
 }
 
 static wt_status call_compare(const void *structure, wt_error *err)
@@ -289,8 +289,8 @@ static wt_status call_compare(const void *structure, wt_error *err)
 static wt_status call_materials(const void *structure, wt_error *err)
 {
     static const wt_rubber nothing;
-    static const wt_compared two[] = {{.name = "a", .rubber = &nothing},
-                                      {.name = "b", .rubber = &nothing}};
+    static const wt_compared_material two[] = {{.name = "a", .rubber = &nothing},
+                                               {.name = "b", .rubber = &nothing}};
     const wt_job work = wt_job_defaults();
     wt_materials_tables tables = {0};
     wt_materials_job job = *(const wt_materials_job *)structure;
@@ -325,7 +325,7 @@ static wt_status call_sliding(const void *structure, wt_error *err)
     const wt_job job = wt_job_defaults();
     const wt_sliding s = sliding_on_nothing(*(const wt_sliding *)structure);
     wt_friction_tables tables = {0};
-    return wt_friction_make(&s, NULL, &job, &tables, err);
+    return wt_sliding_friction_compute(&s, NULL, &job, &tables, err);
 }
 
 static wt_status call_layer_known(const void *structure, wt_error *err)
@@ -333,7 +333,7 @@ static wt_status call_layer_known(const void *structure, wt_error *err)
     const wt_job job = wt_job_defaults();
     const wt_sliding s = good_sliding();
     wt_friction_tables tables = {0};
-    return wt_friction_make(&s, structure, &job, &tables, err);
+    return wt_sliding_friction_compute(&s, structure, &job, &tables, err);
 }
 
 static wt_status call_layer(const void *structure, wt_error *err)
@@ -341,7 +341,7 @@ static wt_status call_layer(const void *structure, wt_error *err)
     const wt_job job = wt_job_defaults();
     const wt_sliding s = good_sliding();
     wt_layer_tables tables = {0};
-    return wt_layer_make(&s, structure, &job, &tables, err);
+    return wt_layer_thickness_compute(&s, structure, &job, &tables, err);
 }
 
 static wt_status call_run(const void *structure, wt_error *err)
@@ -350,7 +350,7 @@ static wt_status call_run(const void *structure, wt_error *err)
     wt_case *c = NULL;
     wt_result *result = NULL;
     assert_int_equal(case_from_bytes(xml, strlen(xml), "x.xml", &c, NULL), WT_OK);
-    const wt_status status = wt_run(c, structure, NULL, &result, NULL, err);
+    const wt_status status = wt_run_case(c, structure, NULL, &result, NULL, err);
     wt_result_free(result);
     wt_case_free(c);
     return status;
@@ -378,16 +378,17 @@ static const struct {
 /* Whether a call refuses the structure for this parameter. */
 static bool is_refused_call(size_t k, const wt_param *p, double value)
 {
-    alignas(max_align_t) unsigned char structure[PARAM_LARGEST] = {0};
+    alignas(max_align_t) unsigned char structure[PARAM_STRUCTURE_SIZE_MAX] = {0};
     const wt_params *params = calls[k].params();
     uint64_t given = 0;
     wt_error err = WT_ERROR_INIT;
     params->defaults(structure);
-    for (size_t i = 0; i < params->n_own; i++) {
-        const char *text = good_text(params->own[i].name, p->name);
+    for (size_t i = 0; i < params->n_records; i++) {
+        const char *text = good_text(params->records[i].name, p->name);
         if (text != NULL)
             assert_int_equal(
-                wt_params_set(params, params->own[i].name, structure, text, &given, NULL), WT_OK);
+                wt_params_set(params, params->records[i].name, structure, text, &given, NULL),
+                WT_OK);
     }
     const double *list = &value;
     const size_t one = 1;
@@ -456,7 +457,7 @@ static void try_value(const wt_param *p, const char *text, bool refused, double 
                              case_sections[s].name, refused ? "taken" : "refused");
     for (size_t k = 0; k < sizeof calls / sizeof calls[0] && in_c >= 0; k++) {
         const wt_params *params = calls[k].params();
-        if (p >= params->own && p < params->own + params->n_own &&
+        if (p >= params->records && p < params->records + params->n_records &&
             is_refused_call(k, p, value) != in_c)
             complain("%s = %g of a call from C is %s", p->name, value, in_c ? "taken" : "refused");
     }
@@ -484,8 +485,8 @@ static void try_param(const wt_param *p)
         try_number(p, l->high + (whole ? 1 : 1e-6 * fabs(l->high)), true);
     } else if (!whole) { /* what there can be of the quantity */
         if (strcmp(p->name, "q0") != 0 && strcmp(p->name, "qr") != 0) /* below q1 */
-            try_number(p, quantity_most(p->quantity), false);
-        try_number(p, 1.000001 * quantity_most(p->quantity), true);
+            try_number(p, quantity_plausible_maximum(p->quantity), false);
+        try_number(p, 1.000001 * quantity_plausible_maximum(p->quantity), true);
         try_number(p, 1e300, true);
     }
     try_value(p, "nan", true, (double)NAN, whole ? -1 : p->unset == NULL || p->kind == PARAM_LIST);
@@ -502,9 +503,9 @@ static void test_numbers(void **state)
     const wt_param *tried[512];
     size_t n = 0;
     for (size_t k = 0; k < sizeof calls / sizeof calls[0]; k++)
-        for (size_t i = 0; i < calls[k].params()->n_own; i++)
-            if (is_number(&calls[k].params()->own[i]))
-                tried[n++] = &calls[k].params()->own[i];
+        for (size_t i = 0; i < calls[k].params()->n_records; i++)
+            if (is_number(&calls[k].params()->records[i]))
+                tried[n++] = &calls[k].params()->records[i];
     for (size_t s = 0; s < N_CASE_SECTIONS; s++)
         for (size_t t = 0; t < SECTION_TABLES && case_sections[s].params[t] != NULL; t++)
             for (size_t i = 0; i < wt_params_count(case_sections[s].params[t]()); i++) {

@@ -49,7 +49,7 @@ static void test_words(void **state)
     for (size_t t = 0; t < N_TABLES; t++) {
         const wt_params *params = tables[t]();
         const size_t n = wt_params_count(params);
-        assert_in_range(n, 1, PARAM_MOST);
+        assert_in_range(n, 1, PARAM_COUNT_MAX);
         for (size_t i = 0; i < n; i++) {
             const wt_param *p = wt_params_get(params, i);
             const bool is_option = (p->flags & PARAM_NO_OPTION) == 0;
@@ -78,7 +78,7 @@ static void test_defaults(void **state)
     for (size_t t = 0; t < N_TABLES; t++) {
         const wt_params *params = tables[t]();
         for (size_t i = 0; i < wt_params_count(params); i++) {
-            alignas(max_align_t) unsigned char structure[PARAM_LARGEST] = {0};
+            alignas(max_align_t) unsigned char structure[PARAM_STRUCTURE_SIZE_MAX] = {0};
             const wt_param *p = wt_params_get(params, i);
             char set[256];
             uint64_t given = 0;
@@ -103,7 +103,7 @@ static void test_defaults(void **state)
 static void test_one_name_one_meaning(void **state)
 {
     (void)state;
-    const wt_param *all[N_TABLES * PARAM_MOST];
+    const wt_param *all[N_TABLES * PARAM_COUNT_MAX];
     size_t n = 0;
     for (size_t t = 0; t < N_TABLES; t++)
         for (size_t i = 0; i < wt_params_count(tables[t]()); i++) {

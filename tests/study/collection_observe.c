@@ -133,7 +133,7 @@ static int place_of(const char *const *names, int n, const stream *found, const 
 }
 
 /* Of a compound two severities, or of a severity two compounds. */
-static int read_pairs(const collection_scene *s, const stream *found, trial *t)
+static int read_translations(const collection_scene *s, const stream *found, trial *t)
 {
     const int n = stream_rows(found, place_pair.table);
     for (int row = 0; row < n; row++) {
@@ -207,7 +207,7 @@ static void read_collected(const collection_scene *s, const study_prepared *p,
         trial_broke(t, "other moduli than were collected");
     else if (read_friction(truth, found, t) != 0)
         trial_broke(t, "other frictions than were collected");
-    else if (read_pairs(s, found, t) != 0)
+    else if (read_translations(s, found, t) != 0)
         trial_broke(t, "other pairs of cases than there are");
     else if (read_shared(p, truth, found, t) != 0)
         trial_broke(t, "other constants than the cases have in common");

@@ -225,7 +225,7 @@ study_truth study_draw(const collection_scene *s, const study_prepared *p, rando
                           .shear_stress = t.shear_stress,
                           .poisson = poisson,
                           .velocities = STUDY_VELOCITIES,
-                          .layer_at = REFERENCE,
+                          .layer_compute_energy = REFERENCE,
                           .wear_rate = t.wear_rate[k],
                           .critical_energy = t.critical_energy[c]};
             memcpy(of.velocity, study_velocity, sizeof of.velocity);

@@ -132,7 +132,7 @@ contact_truth contact_solve(const contact *c, const rubber_state *state, int ste
         truth.hysteresis[i] = power_below(waves, n, 0) / (c->pressure * v);
         truth.friction[i] = truth.hysteresis[i] + (c->layer_ratio > 0 ? c->layer_ratio : 1) *
                                                       c->shear_stress * truth.area[i] / c->pressure;
-        if (i == c->layer_at)
+        if (i == c->layer_compute_energy)
             truth.thickness = thickness(c, v, waves, n);
     }
     free(waves);

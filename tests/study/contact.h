@@ -13,7 +13,7 @@ typedef struct contact {
     double pressure, shear_stress, poisson, temperature;
     int velocities;
     double velocity[VELOCITIES_MAX];
-    int layer_at; /* which of the velocities wears the layer */
+    int layer_compute_energy; /* which of the velocities wears the layer */
     double wear_rate, critical_energy;
     double layer_ratio, layer_thickness; /* modulus of a layer over that of the rubber, which
                                             scales the shear stress, too; 0: none */

@@ -342,7 +342,7 @@ static void observe_contact(const dma_scene *s, const contact_truth *truth, cons
     line wear = {.words = {"layer"}, .n = 1};
     say_contact(&wear, c);
     say_isotherms(&wear, s, sweep);
-    say_number(&wear, "--velocity", c->velocity[c->layer_at], "m/s");
+    say_number(&wear, "--velocity", c->velocity[c->layer_compute_energy], "m/s");
     say_uncertain(&wear, "--specific-wear-rate", c->wear_rate, "m^2/N", c->error);
     say_uncertain(&wear, "--critical-energy", c->critical_energy, "J/m^3", c->error);
     if (run(&wear, layer, t))

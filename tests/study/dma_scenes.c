@@ -17,7 +17,7 @@ static const contact contact_d1 = {.q0 = 1e3,
                                    .temperature = 20,
                                    .velocities = 3,
                                    .velocity = {1e-3, 0.03, 1},
-                                   .layer_at = 1,
+                                   .layer_compute_energy = 1,
                                    .wear_rate = 1e-12,
                                    .critical_energy = 2e10};
 
@@ -32,7 +32,7 @@ static const contact contact_d6 = {.q0 = 1e3,
                                    .temperature = 30,
                                    .velocities = 3,
                                    .velocity = {1e-3, 0.03, 1},
-                                   .layer_at = 1,
+                                   .layer_compute_energy = 1,
                                    .wear_rate = 1e-12,
                                    .critical_energy = 1e10};
 
@@ -64,7 +64,7 @@ static const contact contact_warm = {.q0 = 2e3,
                                      .temperature = 45,
                                      .velocities = 2,
                                      .velocity = {0.01, 0.3},
-                                     .layer_at = 0,
+                                     .layer_compute_energy = 0,
                                      .wear_rate = 5e-13,
                                      .critical_energy = 1e10};
 

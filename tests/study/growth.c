@@ -64,7 +64,7 @@ static double friction_with(const contact *bare, const rubber_state *state, doub
     c.layer_thickness = thickness;
     c.layer_ratio = thickness > 0 ? ratio : 0;
     c.velocities = 1;
-    c.layer_at = -1;
+    c.layer_compute_energy = -1;
     return contact_solve(&c, state, INTERVALS).friction[0];
 }
 
@@ -109,7 +109,7 @@ bool growth_solve(const contact *c, const rubber_state *state, double ratio, boo
 {
     contact one = *c;
     one.velocities = 1;
-    one.layer_at = 0;
+    one.layer_compute_energy = 0;
     const contact_truth bare = contact_solve(&one, state, INTERVALS);
     growing g = {
         .c = c, .balance = bare.thickness, .wear = c->wear_rate * c->pressure * c->velocity[0]};

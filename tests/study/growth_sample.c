@@ -7,7 +7,7 @@
 
 enum { SAMPLES = 8, LAPS = 600 };
 enum { WITHIN = 16 }; /* places of which a sample is the mean, as an instrument averages */
-static const double velocity = 0.3, stated_ratio = 0.6;
+static const double velocity = 0.3, is_stated_ratio = 0.6;
 
 static const contact stated = {.q0 = 2e3,
                                .qr = 4e3,
@@ -39,8 +39,8 @@ bool growth_make(const growth_scene *s, random_source *random, growth_made *m)
     m->truth.shear_stress = random_about(stated.shear_stress, s->of_inputs, random);
     m->truth.wear_rate = random_about(stated.wear_rate, s->of_layer, random);
     m->truth.critical_energy = random_about(stated.critical_energy, s->of_layer, random);
-    const double ratio = random_about(stated_ratio, s->of_ratio, random);
-    if (!growth_solve(&stated, &state, stated_ratio, s->transport, &expected) ||
+    const double ratio = random_about(is_stated_ratio, s->of_ratio, random);
+    if (!growth_solve(&stated, &state, is_stated_ratio, s->transport, &expected) ||
         !growth_solve(&m->truth, &state, ratio, s->transport, &m->growth))
         return false;
     m->length = (s->lengths > 0 ? s->lengths : 4) * expected.settled;
@@ -73,7 +73,7 @@ bool growth_write_case(const growth_scene *s, const growth_made *m, const char *
             "<critical-energy>%gJ/m^3 +- %g%%</critical-energy><incubation>%s</incubation>"
             "<modulus-ratio>%g +- %g%%</modulus-ratio></layer>",
             stated.wear_rate, 100 * s->of_layer, stated.critical_energy, 100 * s->of_layer,
-            s->transport ? "yes" : "no", stated_ratio, 100 * s->of_ratio);
+            s->transport ? "yes" : "no", is_stated_ratio, 100 * s->of_ratio);
     if (s->weighed > 0)
         write_weighed(s, m, out);
     fprintf(out, "</case>\n");

@@ -57,8 +57,8 @@ static void *labour(void *argument)
     const int draws = w->options->draws;
     for (int k; (k = atomic_fetch_add(&w->next, 1)) < w->n_jobs * draws;) {
         job *j = &w->jobs[k / draws];
-        model_variant_make(j->family, j->scene, j->prepared, &w->options->stage, k % draws,
-                           &j->draws[k % draws]);
+        model_variant_fit(j->family, j->scene, j->prepared, &w->options->stage, k % draws,
+                          &j->draws[k % draws]);
     }
     return NULL;
 }

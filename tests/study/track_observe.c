@@ -229,7 +229,7 @@ static bool run_compare(const track_scene *s, const char *const *files, const ch
         say(&w, "--sensitivity-error", sensitivity);
     char scatter[32];
     snprintf(scatter, sizeof scatter, "%g", s->spot_scatter[0]);
-    if (s->scatter_given)
+    if (s->scatter_is_stated)
         say(&w, "--between-spot-sd", scatter);
     if (s->warmth == WARMER_UNSAID) {
         const char *rubber = trial_file(t, "rubber.tsv");

@@ -23,7 +23,7 @@ typedef struct track_scene {
     double ratio_slope;             /* the ratio depends on the rate; 0.6 um/s has `ratio` */
     int spots[2];                   /* bulk, track */
     double spot_scatter[2];         /* standard deviation of ln E */
-    bool scatter_given;             /* that of the bulk, to the command */
+    bool scatter_is_stated;         /* that of the bulk, to the command */
     bool heavy_tails;               /* spots and curves scatter as Student's t with 3 degrees */
     double rate_slope, rates[2][2]; /* um/s */
     bool one_rate_a_spot;           /* spots of odd number have the first rate alone, the others

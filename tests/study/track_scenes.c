@@ -111,7 +111,7 @@ const track_scene track_scenes[] = {
          COMMON_RATES, .maps = true, SILENT),
     PAIR("T13.given", "one map in each zone, the scatter of spots given", SEEN, NOT_YES,
          SPOTS(1, 1, .06, .06), .rate_slope = .06, COMMON_RATES, .maps = true,
-         .scatter_given = true, STATED, NOT_GIVEN),
+         .scatter_is_stated = true, STATED, NOT_GIVEN),
     PAIR("T13.many", "4 + 4 maps", SEEN, NOT_YES, FOUR, COMMON_RATES, .maps = true, STATED,
          NOT_GIVEN),
     PAIR("T14", "2 + 2 spots, those of the track given twice", PERHAPS, NOT_YES,

@@ -8,8 +8,8 @@
 #include <time.h>
 #include <unistd.h>
 
-void model_variant_make(const family *f, int scene, const void *prepared, const stage *st,
-                        int number, draw *to)
+void model_variant_fit(const family *f, int scene, const void *prepared, const stage *st,
+                       int number, draw *to)
 {
     const char *name = f->facts(scene)->name;
     trial t = {.stage = st, .scene = name, .number = number, .draw = to};

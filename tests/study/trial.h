@@ -51,8 +51,8 @@ typedef struct family {
     void (*observe)(int scene, const void *prepared, random_source *random, trial *t);
 } family;
 
-void model_variant_make(const family *f, int scene, const void *prepared, const stage *st,
-                        int number, draw *to);
+void model_variant_fit(const family *f, int scene, const void *prepared, const stage *st,
+                       int number, draw *to);
 
 /* The path of a file of this trial, which goes with it. */
 const char *trial_file(trial *t, const char *name);

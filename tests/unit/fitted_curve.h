@@ -50,7 +50,7 @@ static inline wt_indent_fit fit_with(const curve_truth *t, const wt_indent_optio
 static inline wt_indent_options every_curve(void)
 {
     wt_indent_options options = wt_indent_defaults();
-    options.least_chance = 0;
+    options.misfit_p_threshold = 0;
     return options;
 }
 

@@ -13,7 +13,7 @@ static inline wt_table *layer_of(const wt_layer_job *job)
 {
     wt_layer_tables tables = {0};
     wt_error err = WT_ERROR_INIT;
-    if (wt_layer_make(&sliding, job, &work, &tables, &err) != WT_OK)
+    if (wt_layer_thickness_compute(&sliding, job, &work, &tables, &err) != WT_OK)
         fail_msg("layer: %s %s", err.message, err.found);
     return tables.layer;
 }

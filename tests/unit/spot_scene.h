@@ -123,7 +123,7 @@ static inline wt_table *make(const wt_spot_job *job)
     wt_error err = WT_ERROR_INIT;
     wt_spot_tables tables = {0};
     common.formats = formats;
-    if (wt_spot_make(job, before, &common, &tables, &err) != WT_OK)
+    if (wt_spot_compute(job, before, &common, &tables, &err) != WT_OK)
         fail_msg("%s %s", err.message, err.found);
     assert_null(tables.spot_map);
     return tables.spot;

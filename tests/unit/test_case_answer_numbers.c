@@ -81,9 +81,9 @@ static void test_other_rubber(void **state)
 {
     (void)state;
     const double factor = ANSWER_DMA_FACTOR;
-    assert_false(is_other_rubber(1 / factor, factor));
-    assert_true(is_other_rubber(1, nextafter(factor, 10)));
-    assert_true(is_other_rubber(nextafter(1 / factor, 0), 1));
+    assert_false(is_different_rubber(1 / factor, factor));
+    assert_true(is_different_rubber(1, nextafter(factor, 10)));
+    assert_true(is_different_rubber(nextafter(1 / factor, 0), 1));
 }
 
 static void test_rejected(void **state)

@@ -24,7 +24,7 @@ static void run_case(const char *path, void (*change)(wt_case *c))
         fail_msg("%s", err.message);
     if (change != NULL)
         change(bundled);
-    if (wt_run(bundled, &options, NULL, &result, &failed, &err) != WT_OK)
+    if (wt_run_case(bundled, &options, NULL, &result, &failed, &err) != WT_OK)
         fail_msg("%s", err.message);
 }
 

@@ -88,7 +88,7 @@ static void run(double ratio, double scatter, const char *body)
     wt_result_free(result);
     result = NULL;
     if (wt_case_read(path, &c, &err) != WT_OK ||
-        wt_run(c, &options, NULL, &result, &n_failed, &err) != WT_OK)
+        wt_run_case(c, &options, NULL, &result, &n_failed, &err) != WT_OK)
         fail_msg("%s: %s %s", err.place, err.message, err.found);
     wt_case_free(c);
     assert_int_equal(n_failed, 0);
@@ -393,7 +393,7 @@ static double change_in(const wt_table *what_if, size_t row)
 }
 
 /* From the tables, `scale` times. */
-static told of_tables(const char *table, const char *name, row_number *in, double scale)
+static told table_memory(const char *table, const char *name, row_number *in, double scale)
 {
     const wt_table *what_if = wt_result_find(result, "what_if");
     const wt_estimate e = key_estimate(wt_result_find(result, table), name);
@@ -538,7 +538,7 @@ static void check_signs(const char *sentence)
     assert_true((strstr(layer, "stiffer") != NULL) == (ratio.low > 1));
     assert_true((strstr(sentence, "softer") != NULL) == (ratio.high < 1));
     assert_true((strstr(sentence, "stiffer") != NULL) == (ratio.low > 1));
-    const told t = of_tables("friction", "relative_change_at_reference", change_in, 1);
+    const told t = table_memory("friction", "relative_change_at_reference", change_in, 1);
     const bool less = t.high < 0 && t.model_high<0, more = t.low> 0 && t.model_low > 0;
     const char *words = less   ? "less friction with the layer"
                         : more ? "more friction with the layer"
@@ -556,14 +556,15 @@ static void check_told_alike(void)
                       open[] = "friction: ", known[] = "friction with the layer: ";
     char sentence[4096];
     wt_table *headlines = NULL;
-    assert_true(wt_result_sentence(result, sentence, sizeof sentence) < sizeof sentence);
-    assert_int_equal(wt_result_headlines(result, &headlines, NULL), WT_OK);
+    assert_true(wt_result_summary_line(result, sentence, sizeof sentence) < sizeof sentence);
+    assert_int_equal(wt_result_main_values(result, &headlines, NULL), WT_OK);
     const told ratio = of_ratio(),
-               thickness = of_tables("layer", "balance_thickness", thickness_in, 1),
-               total = of_tables("friction", "friction_at_reference", total_in, 1),
-               hysteresis = of_tables("friction", "hysteresis_at_reference", hysteresis_in, 1),
-               with = of_tables("friction", "friction_with_layer_at_reference", with_layer_in, 1),
-               percent = of_tables("friction", change, change_in, 100);
+               thickness = table_memory("layer", "balance_thickness", thickness_in, 1),
+               total = table_memory("friction", "friction_at_reference", total_in, 1),
+               hysteresis = table_memory("friction", "hysteresis_at_reference", hysteresis_in, 1),
+               with =
+                   table_memory("friction", "friction_with_layer_at_reference", with_layer_in, 1),
+               percent = table_memory("friction", change, change_in, 100);
     check_told(sentence, "E_track/E_bulk = ", ratio, false);
     check_told(short_line("Layer (measured): "), "E_track/E_bulk = ", ratio, false);
     check_told(after("layer", ""), "E_track/E_bulk = ", ratio, false);
@@ -580,7 +581,7 @@ static void check_told_alike(void)
     check_told(sentence, "with layer ", with, false);
     check_told(after("friction", "With the layer "), "mu = ", with, false);
     check_row(headlines, "friction_with_layer_at_reference", with, 1);
-    const told area = of_tables("friction", "area_ratio_at_reference", area_in, 1);
+    const told area = table_memory("friction", "area_ratio_at_reference", area_in, 1);
     check_told(sentence, "contact area of the nominal one ", area, false);
     check_told(after("friction", "Without a layer, "), "contact area of the nominal one ", area,
                false);
@@ -608,7 +609,7 @@ static void run_bundled(void)
     wt_result_free(result);
     result = NULL;
     if (wt_case_read(WT_SOURCE_DIR "/fixtures/case/case.xml", &c, &err) != WT_OK ||
-        wt_run(c, &options, NULL, &result, NULL, &err) != WT_OK)
+        wt_run_case(c, &options, NULL, &result, NULL, &err) != WT_OK)
         fail_msg("%s: %s %s", err.place, err.message, err.found);
     wt_case_free(c);
 }

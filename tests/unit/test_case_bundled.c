@@ -21,7 +21,7 @@ static int run_case(void **state)
     wt_case *c = NULL;
     wt_error err = WT_ERROR_INIT;
     if (wt_case_read(CASE "/case.xml", &c, &err) != WT_OK ||
-        wt_run(c, NULL, NULL, &result, &n_failed, &err) != WT_OK) {
+        wt_run_case(c, NULL, NULL, &result, &n_failed, &err) != WT_OK) {
         print_error("%s: %s: %s\n", err.file, err.place, err.message);
         wt_case_free(c);
         return -1;
@@ -235,7 +235,7 @@ static bool answer_holds(double wear, size_t spots, double track_temperature, co
     c->layer.specific_wear_rate.value *= wear;
     c->bulk.n = c->track.n = spots;
     c->compare.track_temperature.value = track_temperature;
-    assert_int_equal(wt_run(c, NULL, NULL, &other, &failed, NULL), WT_OK);
+    assert_int_equal(wt_run_case(c, NULL, NULL, &other, &failed, NULL), WT_OK);
     const wt_table *answer = wt_result_find(other, "answer");
     assert_non_null(answer);
     for (size_t i = 0; i < wt_table_n_rows(answer); i++)

@@ -51,7 +51,7 @@ static wt_result *run(unsigned threads, bool timed)
     options.tolerance = 1e-6;
     options.replicates = REPLICATES;
     options.no_provenance = !timed;
-    if (wt_run(the_case, &options, NULL, &result, &n_failed, &err) != WT_OK || n_failed > 0)
+    if (wt_run_case(the_case, &options, NULL, &result, &n_failed, &err) != WT_OK || n_failed > 0)
         fail_msg("%s", err.message);
     return result;
 }
@@ -87,7 +87,7 @@ static double size_of(const char *name)
 static void check_stages(const wt_table *cost)
 {
     flow_plan plan;
-    flow_plan_make(the_case, &plan);
+    flow_plan_create(the_case, &plan);
     assert_int_equal(wt_table_n_rows(cost), FLOW_N_STAGES);
     for (size_t i = 0; i < FLOW_N_STAGES; i++) {
         const size_t row = row_of(cost, flow_stages[i].id);
@@ -235,17 +235,18 @@ static void test_any_number_of_threads(void **state)
 
 static size_t fits; /* of the angular integrals of a material */
 
-wt_status __real_angular_panels_new(const wt_material *material, const gauss_rule *rule, double low,
-                                    double high, double goal, angular_panels *panels,
-                                    wt_error *err);
-wt_status __wrap_angular_panels_new(const wt_material *material, const gauss_rule *rule, double low,
-                                    double high, double goal, angular_panels *panels,
-                                    wt_error *err);
-wt_status __wrap_angular_panels_new(const wt_material *material, const gauss_rule *rule, double low,
-                                    double high, double goal, angular_panels *panels, wt_error *err)
+wt_status __real_angular_subintervals_new(const wt_material *material, const gauss_rule *rule,
+                                          double low, double high, double goal,
+                                          angular_subintervals *panels, wt_error *err);
+wt_status __wrap_angular_subintervals_new(const wt_material *material, const gauss_rule *rule,
+                                          double low, double high, double goal,
+                                          angular_subintervals *panels, wt_error *err);
+wt_status __wrap_angular_subintervals_new(const wt_material *material, const gauss_rule *rule,
+                                          double low, double high, double goal,
+                                          angular_subintervals *panels, wt_error *err)
 {
     fits++;
-    return __real_angular_panels_new(material, rule, low, high, goal, panels, err);
+    return __real_angular_subintervals_new(material, rule, low, high, goal, panels, err);
 }
 
 /* Layer, friction and friction with the layer of a material without a closed form. */
@@ -328,7 +329,7 @@ static void test_shared_or_not(void **state)
     assert_true(wt_table_estimate(layer, "balance_thickness", &thickness));
     thickness.numerical_error = 0;
     const wt_layer_observation known = {.thickness = thickness, .modulus_ratio = {0.6, 0, 0, "1"}};
-    assert_int_equal(wt_friction_make(&sliding, &known, &work, &alone, NULL), WT_OK);
+    assert_int_equal(wt_sliding_friction_compute(&sliding, &known, &work, &alone, NULL), WT_OK);
     for (size_t i = 0; i < COUNT_OF(velocity); i++) {
         static const char *const columns[] = {"friction", "friction_standard_error",
                                               "friction_with_layer_standard_error"};
@@ -349,7 +350,7 @@ static void log_storage(spectrum *s, const double *value, double *log_e, size_t 
     for (size_t k = 0; k < n; k++) {
         double modulus[MODULI], slope[MODULI];
         spectrum_terms(s, value, s->term);
-        spectrum_at(s, s->term, log(1e-2) + (double)k, modulus, slope, NULL);
+        spectrum_moduli(s, s->term, log(1e-2) + (double)k, modulus, slope, NULL);
         log_e[k] = modulus[STORAGE];
     }
 }
@@ -370,7 +371,7 @@ static void test_further_steps(void **state)
     reading.formats = formats;
     job.sets = the_case->dma.sets;
     job.n_sets = the_case->dma.n;
-    assert_int_equal(wt_master_make(&job, &reading, NULL, &fitted, &err), WT_OK);
+    assert_int_equal(wt_master_compute(&job, &reading, NULL, &fitted, &err), WT_OK);
     job.fit.vertical = WT_VERTICAL_PHYSICAL;
     assert_int_equal(wt_master_fit(&fitted.sweep, &job.fit, NULL, &m, &err), WT_OK);
     spectrum *s = &m.posterior->frame;
@@ -405,7 +406,7 @@ static wt_table *make_friction(wt_cost *cost)
     work.tolerance = 1e-6;
     work.replicates = 0;
     work.cost = cost;
-    assert_int_equal(wt_friction_make(&sliding, NULL, &work, &tables, NULL), WT_OK);
+    assert_int_equal(wt_sliding_friction_compute(&sliding, NULL, &work, &tables, NULL), WT_OK);
     return tables.friction;
 }
 
@@ -415,9 +416,9 @@ static void test_nodes(void **state)
     (void)state;
     wt_cost *cost = wt_cost_new(false, 1);
     wt_table *table = NULL;
-    wt_cost_stage(cost, "friction");
+    wt_cost_begin_stage(cost, "friction");
     wt_table_free(make_friction(cost));
-    wt_cost_stage(cost, "nothing");
+    wt_cost_begin_stage(cost, "nothing");
     assert_int_equal(wt_cost_table(cost, &table, NULL), WT_OK);
     assert_int_equal(wt_table_n_rows(table), 2);
     assert_near(of(table, "friction", "items"), 4, 0); /* and the one of the answer */
@@ -431,8 +432,8 @@ static void test_nodes(void **state)
     wt_friction_point point[4];
     const double velocity[] = {0.01, 0.1, 1, 0.1};
     options.tolerance = 1e-6;
-    assert_int_equal(wt_rubber_at(&rubber, (double)NAN, 1, WT_NO_REPLICATE, &material, NULL, NULL),
-                     WT_OK);
+    assert_int_equal(
+        wt_rubber_material(&rubber, (double)NAN, 1, WT_NO_REPLICATE, &material, NULL, NULL), WT_OK);
     assert_int_equal(wt_surface_roughness(&surface, 1, &road, NULL), WT_OK);
     assert_int_equal(wt_friction_workspace_new(material, road, &options, &workspace, NULL), WT_OK);
     assert_int_equal(wt_friction_compute(workspace, 0.4e6, velocity, 4, point, NULL), WT_OK);
@@ -454,7 +455,7 @@ static void test_not_asked(void **state)
     wt_cost *cost = wt_cost_new(true, 1);
     looks = 0;
     wt_table *plain = make_friction(NULL);
-    wt_cost_stage(NULL, "friction");
+    wt_cost_begin_stage(NULL, "friction");
     assert_int_equal(looks, 0);
     wt_table *counted = make_friction(cost);
     for (size_t c = 0; c < wt_table_n_columns(plain); c++)

@@ -38,7 +38,7 @@ static wt_estimate friction(const char *key)
 {
     wt_friction_tables tables = {0};
     wt_error err = WT_ERROR_INIT;
-    if (wt_friction_make(&sliding, &layer, &work, &tables, &err) != WT_OK)
+    if (wt_sliding_friction_compute(&sliding, &layer, &work, &tables, &err) != WT_OK)
         fail_msg("%s %s", err.message, err.found);
     wt_estimate e = key_estimate(tables.friction, key);
     wt_friction_tables_clear(&tables);
@@ -49,7 +49,7 @@ static wt_estimate thickness(const char *key)
 {
     wt_layer_tables tables = {0};
     wt_error err = WT_ERROR_INIT;
-    if (wt_layer_make(&sliding, &layer_job, &work, &tables, &err) != WT_OK)
+    if (wt_layer_thickness_compute(&sliding, &layer_job, &work, &tables, &err) != WT_OK)
         fail_msg("%s %s", err.message, err.found);
     wt_estimate e = key_estimate(tables.layer, key);
     wt_layer_tables_clear(&tables);

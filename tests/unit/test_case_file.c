@@ -62,11 +62,11 @@ static void test_full(void **state)
     if (read_text(full, &c, &err) != WT_OK)
         fail_msg("%s: %s; %s", err.place, err.message, err.found);
     assert_string_equal(wt_case_title(c), "Tread, severe track");
-    assert_string_equal(wt_case_report(c)->style, "screen");
-    assert_int_equal(wt_case_report(c)->figures, WT_FIGURE_PDF | WT_FIGURE_PNG);
-    assert_near(wt_case_report(c)->width, 0.085, 1e-14);
-    assert_string_equal(wt_case_report(c)->font, "Arial");
-    assert_string_equal(wt_case_report(c)->language, "nl");
+    assert_string_equal(wt_case_report_options(c)->style, "screen");
+    assert_int_equal(wt_case_report_options(c)->figures, WT_FIGURE_PDF | WT_FIGURE_PNG);
+    assert_near(wt_case_report_options(c)->width, 0.085, 1e-14);
+    assert_string_equal(wt_case_report_options(c)->font, "Arial");
+    assert_string_equal(wt_case_report_options(c)->language, "nl");
     assert_near(c->indent.tip.half_angle, 35 * M_PI / 180, 1e-14);
     assert_near(c->indent.options.poisson_ratio, 0.49, 0);
     assert_near(c->indent.options.fit_depth, 70e-9, 1e-14);

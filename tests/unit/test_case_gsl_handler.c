@@ -67,23 +67,23 @@ enum { CURVES = 40 };
 /* Residuals that are all the same have no scatter. */
 static bool pool_of_one(void)
 {
-    static double misfit[CURVES][WT_CURVE_WAVES];
-    return isnan(wt_curve_pool_make((const double(*)[WT_CURVE_WAVES])misfit, CURVES).chance);
+    static double misfit[CURVES][WT_MISFIT_TERMS];
+    return isnan(wt_pooled_misfit_compute((const double(*)[WT_MISFIT_TERMS])misfit, CURVES).chance);
 }
 
 static bool depth_of_one(void)
 {
-    static wt_depth_curve curve[CURVES];
+    static wt_curve_residuals curve[CURVES];
     wt_contact_table *table = table_of();
-    wt_curve_depth depth;
+    wt_modulus_profile depth;
     for (int i = 0; i < CURVES; i++)
-        curve[i] = (wt_depth_curve){.modulus = 1e6,
-                                    .depth = 1e-7,
-                                    .spring_constant = 1,
-                                    .baseline = 1e-6,
-                                    .window = 1e-7,
-                                    .spot = i};
-    const bool done = wt_curve_depth_make(table, 0.5, curve, CURVES, &depth, NULL) == WT_OK;
+        curve[i] = (wt_curve_residuals){.modulus = 1e6,
+                                        .depth = 1e-7,
+                                        .spring_constant = 1,
+                                        .baseline = 1e-6,
+                                        .window = 1e-7,
+                                        .spot = i};
+    const bool done = wt_modulus_profile_fit(table, 0.5, curve, CURVES, &depth, NULL) == WT_OK;
     wt_contact_table_free(table);
     return done && isnan(depth.chance);
 }

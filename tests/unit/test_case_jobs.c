@@ -222,7 +222,7 @@ static void check_spots(const wt_file_set *sets, size_t n, const char *key, size
     wt_table *table = fit(sets, n, 1, false), *groups = NULL;
     const wt_table *const listed[] = {table};
     assert_int_equal(strncmp(wt_table_key(table, "spots"), key, strlen(key)), 0);
-    assert_int_equal(wt_modulus_groups(listed, 1, &groups, NULL), WT_OK);
+    assert_int_equal(wt_modulus_groups_table(listed, 1, &groups, NULL), WT_OK);
     assert_near(number_cell(groups, 0, "n_spots"), (double)expected, 0);
     assert_string_equal(text_cell(groups, 0, "group"), "bulk");
     wt_table_free(groups);
@@ -321,7 +321,7 @@ static wt_rubber measured_rubber(wt_master_tables *tables)
     job.sets = &set;
     job.n_sets = 1;
     job.fit.reference_temperature = 293.15;
-    if (wt_master_make(&job, &common, tables, &rubber, &err) != WT_OK)
+    if (wt_master_compute(&job, &common, tables, &rubber, &err) != WT_OK)
         fail_msg("%s: %s", err.file, err.message);
     return rubber;
 }
@@ -351,7 +351,8 @@ static void test_rubber_at_reference(void **state)
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         wt_material *material = NULL;
         assert_int_equal(
-            wt_rubber_at(&rubber, cases[i].at, 1, WT_NO_REPLICATE, &material, NULL, NULL), WT_OK);
+            wt_rubber_material(&rubber, cases[i].at, 1, WT_NO_REPLICATE, &material, NULL, NULL),
+            WT_OK);
         material->law->modulus(material, &omega, 1, &storage, &loss);
         assert_near(storage, 2e6 / pow(10, cases[i].log_b), 1e-9);
         wt_material_free(material);
@@ -371,8 +372,8 @@ static void test_rubber_at(void **state)
     size_t n = 0;
     bool here = false;
     assert_non_null(in);
-    assert_int_equal(wt_rubber_at(&rubber, 333.15, 1, WT_NO_REPLICATE, &material, statement, NULL),
-                     WT_OK);
+    assert_int_equal(
+        wt_rubber_material(&rubber, 333.15, 1, WT_NO_REPLICATE, &material, statement, NULL), WT_OK);
     assert_string_equal(statement, "");
     while (fgets(line, sizeof line, in) != NULL) {
         double t, omega, f, torque, storage, loss, e1, e2;
@@ -392,7 +393,7 @@ static void test_rubber_at(void **state)
     /* the same from the tables */
     const wt_rubber_tables stored = {.prony = tables.prony, .shift_factors = tables.shift_factors};
     assert_int_equal(wt_rubber_from_tables(&stored, 0.5, &read_back, NULL), WT_OK);
-    assert_int_equal(wt_rubber_at(&read_back, 333.15, 1, WT_NO_REPLICATE, &again, NULL, NULL),
+    assert_int_equal(wt_rubber_material(&read_back, 333.15, 1, WT_NO_REPLICATE, &again, NULL, NULL),
                      WT_OK);
     const double omega = 2.385;
     double a[2], b[2];
@@ -405,19 +406,20 @@ static void test_rubber_at(void **state)
     wt_material_free(material);
 
     /* outside the isotherms it says so; below the pole there is nothing */
-    assert_int_equal(wt_rubber_at(&rubber, 383.15, 1, WT_NO_REPLICATE, &material, statement, NULL),
-                     WT_OK);
+    assert_int_equal(
+        wt_rubber_material(&rubber, 383.15, 1, WT_NO_REPLICATE, &material, statement, NULL), WT_OK);
     assert_non_null(strstr(statement, "outside the isotherms"));
     assert_non_null(strstr(statement, "vertical shift held"));
     wt_material_free(material);
-    assert_int_equal(wt_rubber_at(&rubber, 170, 1, WT_NO_REPLICATE, &material, NULL, NULL),
+    assert_int_equal(wt_rubber_material(&rubber, 170, 1, WT_NO_REPLICATE, &material, NULL, NULL),
                      WT_E_RANGE);
 
     /* replicates differ, and repeat */
     double e[3], loss;
     const size_t index[3] = {0, 1, 0};
     for (int i = 0; i < 3; i++) {
-        assert_int_equal(wt_rubber_at(&rubber, 333.15, 1, index[i], &material, NULL, NULL), WT_OK);
+        assert_int_equal(wt_rubber_material(&rubber, 333.15, 1, index[i], &material, NULL, NULL),
+                         WT_OK);
         material->law->modulus(material, &omega, 1, &e[i], &loss);
         wt_material_free(material);
     }
@@ -426,10 +428,10 @@ static void test_rubber_at(void **state)
 
     /* without a law only the reference is known */
     rubber.law.kind = WT_LAW_NONE;
-    assert_int_equal(wt_rubber_at(&rubber, 293.65, 1, WT_NO_REPLICATE, &material, NULL, NULL),
+    assert_int_equal(wt_rubber_material(&rubber, 293.65, 1, WT_NO_REPLICATE, &material, NULL, NULL),
                      WT_OK);
     wt_material_free(material);
-    assert_int_equal(wt_rubber_at(&rubber, 298.15, 1, WT_NO_REPLICATE, &material, NULL, NULL),
+    assert_int_equal(wt_rubber_material(&rubber, 298.15, 1, WT_NO_REPLICATE, &material, NULL, NULL),
                      WT_E_MISSING);
     wt_rubber_clear(&read_back);
     wt_rubber_clear(&rubber);
@@ -541,7 +543,7 @@ static void test_calibration(void **state)
     job.specific_wear_rate.value = 1e-12;
     wt_layer_tables tables = {0};
     wt_estimate energy;
-    assert_int_equal(wt_layer_make(&sliding, &job, &common, &tables, NULL), WT_OK);
+    assert_int_equal(wt_layer_thickness_compute(&sliding, &job, &common, &tables, NULL), WT_OK);
     assert_near(tables.thickness.value, 2.385e-6, 1e-8);
     assert_true(wt_table_estimate(tables.layer, "critical_energy", &energy));
     assert_string_equal(wt_table_key(tables.layer, "standard_error_includes"),
@@ -553,17 +555,19 @@ static void test_calibration(void **state)
     job.critical_energy.value = given;
     job.observed_thickness.value = (double)NAN;
     job.duty = 0.02; /* part-time contact slows the clock and leaves the balance */
-    assert_int_equal(wt_layer_make(&sliding, &job, &common, &tables, NULL), WT_OK);
+    assert_int_equal(wt_layer_thickness_compute(&sliding, &job, &common, &tables, NULL), WT_OK);
     assert_near(tables.thickness.value, 2.385e-6, 1e-8);
     wt_layer_tables_clear(&tables);
 
     job.observed_thickness.value = 1e-6;
-    assert_int_equal(wt_layer_make(&sliding, &job, &common, &tables, NULL), WT_E_ARG);
+    assert_int_equal(wt_layer_thickness_compute(&sliding, &job, &common, &tables, NULL), WT_E_ARG);
     job.critical_energy.value = job.observed_thickness.value = (double)NAN;
-    assert_int_equal(wt_layer_make(&sliding, &job, &common, &tables, NULL), WT_E_MISSING);
+    assert_int_equal(wt_layer_thickness_compute(&sliding, &job, &common, &tables, NULL),
+                     WT_E_MISSING);
     job.critical_energy.value = given;
     job.specific_wear_rate.value = (double)NAN;
-    assert_int_equal(wt_layer_make(&sliding, &job, &common, &tables, NULL), WT_E_MISSING);
+    assert_int_equal(wt_layer_thickness_compute(&sliding, &job, &common, &tables, NULL),
+                     WT_E_MISSING);
 }
 
 /* ---- draws ----------------------------------------------------------------------------------- */
@@ -591,12 +595,12 @@ static void test_layer_numbers(void **state)
     sliding.n_velocity = 1;
     job.critical_energy.value = 2e10;
     job.specific_wear_rate.value = 1e-12;
-    assert_int_equal(wt_layer_make(&sliding, &job, &common, &tables, NULL), WT_OK);
+    assert_int_equal(wt_layer_thickness_compute(&sliding, &job, &common, &tables, NULL), WT_OK);
     assert_true(wt_table_estimate(tables.layer, "wear_sensitivity", &sensitivity));
     assert_true(wt_table_estimate(tables.layer, "time_to_90_percent", &settled));
 
     job.specific_wear_rate.value *= 1.0001;
-    assert_int_equal(wt_layer_make(&sliding, &job, &common, &other, NULL), WT_OK);
+    assert_int_equal(wt_layer_thickness_compute(&sliding, &job, &common, &other, NULL), WT_OK);
     assert_near(log(other.thickness.value / tables.thickness.value) / log(1.0001),
                 sensitivity.value, 1e-3);
     wt_layer_tables_clear(&other);
@@ -604,7 +608,7 @@ static void test_layer_numbers(void **state)
     job.specific_wear_rate.value = 1e-12;
     job.time = &settled.value;
     job.n_time = 1;
-    assert_int_equal(wt_layer_make(&sliding, &job, &common, &other, NULL), WT_OK);
+    assert_int_equal(wt_layer_thickness_compute(&sliding, &job, &common, &other, NULL), WT_OK);
     assert_near(number_cell(other.layer, 0, "thickness"), 0.9 * tables.thickness.value, 1e-9);
     /* the times at which the thickness is told do not matter */
     assert_true(wt_table_estimate(other.layer, "time_to_90_percent", &again));
@@ -629,12 +633,12 @@ static void test_draws(void **state)
     }
     assert_near_abs(sum / N, 0, 4 / sqrt(N));
     assert_near_abs(product / N, 0, 4 / sqrt(N));
-    assert_near_abs(flow_spread(x, N, 1), 1, 4 / sqrt(2.0 * N));
+    assert_near_abs(flow_standard_deviation(x, N, 1), 1, 4 / sqrt(2.0 * N));
     assert_near(flow_draw_normal(7, WT_NO_REPLICATE, FLOW_DRAW_WEAR), 0, 0);
     assert_true(fabs(flow_draw_normal(8, 0, FLOW_DRAW_WEAR) - x[0]) > 0); /* the seed counts */
     const double odd[] = {1, (double)NAN, 3, (double)NAN};
-    assert_near(flow_spread(odd, 4, 1), sqrt(2), 1e-15);
-    assert_near(flow_spread(odd, 2, 1), (double)NAN, 0);
+    assert_near(flow_standard_deviation(odd, 4, 1), sqrt(2), 1e-15);
+    assert_near(flow_standard_deviation(odd, 2, 1), (double)NAN, 0);
     free(x);
 }
 

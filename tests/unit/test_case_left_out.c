@@ -169,7 +169,7 @@ void __wrap_samples_decode(sample_type type, bool big_endian, const unsigned cha
     __real_samples_decode(type, big_endian, bytes, n, multiplier, offset, values);
 }
 
-COUNTED(wt_status, wt_indent_force_curve, CURVES,
+COUNTED(wt_status, wt_indent_fit_force_curve, CURVES,
         (const wt_contact_table *contact, const wt_indent_options *options,
          const wt_force_curve *curve, wt_indent_workspace *workspace, wt_indent_fit *fit,
          wt_error *err),
@@ -182,9 +182,9 @@ COUNTED(wt_status, wt_master_draw, DRAWS,
         (const wt_master *master, uint64_t seed, size_t draw, wt_prony *prony, wt_shift_law *law,
          double *log_b, wt_error *err),
         (master, seed, draw, prony, law, log_b, err))
-COUNTED(wt_status, wt_curve_depth_make, DEPTHS,
-        (const wt_contact_table *contact, double poisson_ratio, const wt_depth_curve *curves,
-         size_t n, wt_curve_depth *depth, wt_error *err),
+COUNTED(wt_status, wt_modulus_profile_fit, DEPTHS,
+        (const wt_contact_table *contact, double poisson_ratio, const wt_curve_residuals *curves,
+         size_t n, wt_modulus_profile *depth, wt_error *err),
         (contact, poisson_ratio, curves, n, depth, err))
 COUNTED(wt_status, wt_friction_workspace_new, WORKSPACES,
         (const wt_material *material, const wt_roughness *roughness,
@@ -194,15 +194,15 @@ COUNTED(wt_status, wt_friction_profile, PROFILES,
         (wt_friction_workspace * workspace, double pressure, double velocity,
          const double *wavenumber, size_t n, wt_friction_node *nodes, wt_error *err),
         (workspace, pressure, velocity, wavenumber, n, nodes, err))
-COUNTED(wt_status, wt_energy_source_friction, SOURCES_OF,
+COUNTED(wt_status, wt_energy_source_from_friction, SOURCES_OF,
         (wt_friction_workspace * workspace, double pressure, double velocity,
          wt_energy_source *source, wt_error *err),
         (workspace, pressure, velocity, source, err))
 COUNTED(double, wt_energy_density, DENSITIES, (const wt_energy_source *source, double depth),
         (source, depth))
-COUNTED(wt_status, wt_layer_balance_compute, BALANCES,
+COUNTED(wt_status, wt_layer_steady_state_compute, BALANCES,
         (const wt_energy_source *source, const wt_layer_parameters *parameters,
-         wt_layer_balance *balance, wt_error *err),
+         wt_layer_steady_state *balance, wt_error *err),
         (source, parameters, balance, err))
 COUNTED(wt_status, wt_layer_history, HISTORIES,
         (const wt_energy_source *source, const wt_layer_parameters *parameters, const double *time,
@@ -212,7 +212,7 @@ COUNTED(wt_status, layer_damage_time, TIMES,
         (const layer_rates *rates, bool with_wear, wt_estimate depth, wt_estimate *time,
          wt_error *err),
         (rates, with_wear, depth, time, err))
-COUNTED(double, root_reach, REACHES,
+COUNTED(double, root_displacement, REACHES,
         (root_fn function, void *user, double root, double error, double reach, double least),
         (function, user, root, error, reach, least))
 COUNTED(wt_status, superposition_test, VERDICTS,
@@ -234,7 +234,7 @@ COUNTED(wt_status, wt_master_zener, LAWS,
 COUNTED(wt_status, wt_peak_find, PEAKS,
         (const double *x, const double *y, size_t n, size_t points, wt_peak *peak, wt_error *err),
         (x, y, n, points, peak, err))
-COUNTED(wt_status, wt_value_between, BETWEEN,
+COUNTED(wt_status, wt_smooth_interpolate, BETWEEN,
         (const double *x, const double *y, size_t n, double at, wt_interval *value, wt_error *err),
         (x, y, n, at, value, err))
 COUNTED(wt_status, wt_payne_fit, SOFTENED,
@@ -243,33 +243,36 @@ COUNTED(wt_status, wt_payne_fit, SOFTENED,
         (strain, storage, loss, n, payne, err))
 COUNTED(wt_status, wt_surface_table, SURFACES,
         (const wt_surface *surface, wt_table **table, wt_error *err), (surface, table, err))
-void __real_wt_digest(const void *bytes, size_t length, char hex[65]);
-void __wrap_wt_digest(const void *bytes, size_t length, char hex[65]);
-void __wrap_wt_digest(const void *bytes, size_t length, char hex[65])
+void __real_wt_sha256(const void *bytes, size_t length, char hex[65]);
+void __wrap_wt_sha256(const void *bytes, size_t length, char hex[65]);
+void __wrap_wt_sha256(const void *bytes, size_t length, char hex[65])
 {
     count[DIGESTS]++;
-    __real_wt_digest(bytes, length, hex);
+    __real_wt_sha256(bytes, length, hex);
 }
-wt_status __real_digest_pieces(digest_source *source, void *user, size_t length, char hex[65],
+wt_status __real_digest_stream(digest_source *source, void *user, size_t length, char hex[65],
                                uint64_t *fingerprint, wt_error *err);
-wt_status __wrap_digest_pieces(digest_source *source, void *user, size_t length, char hex[65],
+wt_status __wrap_digest_stream(digest_source *source, void *user, size_t length, char hex[65],
                                uint64_t *fingerprint, wt_error *err);
-wt_status __wrap_digest_pieces(digest_source *source, void *user, size_t length, char hex[65],
+wt_status __wrap_digest_stream(digest_source *source, void *user, size_t length, char hex[65],
                                uint64_t *fingerprint, wt_error *err)
 {
     count[DIGESTS] += hex != NULL;
-    return __real_digest_pieces(source, user, length, hex, fingerprint, err);
+    return __real_digest_stream(source, user, length, hex, fingerprint, err);
 }
 
 void __real_friction_evaluate(const wt_friction_workspace *ws, friction_scratch *scratch,
-                              const panel_plan *plan, friction_effort effort, friction_load at,
-                              bool with_outside, friction_record *record, friction_pass *pass);
+                              const subinterval_plan *plan, friction_effort effort,
+                              friction_load at, bool with_outside, friction_record *record,
+                              friction_pass *pass);
 void __wrap_friction_evaluate(const wt_friction_workspace *ws, friction_scratch *scratch,
-                              const panel_plan *plan, friction_effort effort, friction_load at,
-                              bool with_outside, friction_record *record, friction_pass *pass);
+                              const subinterval_plan *plan, friction_effort effort,
+                              friction_load at, bool with_outside, friction_record *record,
+                              friction_pass *pass);
 void __wrap_friction_evaluate(const wt_friction_workspace *ws, friction_scratch *scratch,
-                              const panel_plan *plan, friction_effort effort, friction_load at,
-                              bool with_outside, friction_record *record, friction_pass *pass)
+                              const subinterval_plan *plan, friction_effort effort,
+                              friction_load at, bool with_outside, friction_record *record,
+                              friction_pass *pass)
 {
     count[PASSES]++;
     count[SHARES] += with_outside;
@@ -333,11 +336,11 @@ static ran run(const char *asks, size_t replicates, bool provenance)
     options.replicates = replicates;
     options.trials = TRIALS;
     options.no_provenance = !provenance;
-    flow_plan_make(r.c, &r.plan);
+    flow_plan_create(r.c, &r.plan);
     n_seen = 0;
     for (int i = 0; i < N_WORK; i++)
         count[i] = 0;
-    if (wt_run(r.c, &options, NULL, &r.result, &n_failed, &err) != WT_OK || n_failed > 0)
+    if (wt_run_case(r.c, &options, NULL, &r.result, &n_failed, &err) != WT_OK || n_failed > 0)
         fail_msg("%s: %s %s", asks, err.message, err.found);
     return r;
 }
@@ -534,15 +537,15 @@ static void check_asked(const char *element, const char *name, size_t replicates
 /* What is in every result. */
 static bool is_of_run(const char *table)
 {
-    flow_things things;
-    return flow_resources_of_table(table, &things) && things == 0;
+    flow_resource_set things;
+    return flow_table_resources(table, &things) && things == 0;
 }
 
 static void check_tables(size_t replicates)
 {
     for (unsigned t = FLOW_FIRST_TABLE; t < FLOW_FIRST_INNER; t++)
-        if (flow_thing_rows[t].schema != NULL)
-            check_asked("result", flow_thing_rows[t].words, replicates);
+        if (flow_resource_rows[t].schema != NULL)
+            check_asked("result", flow_resource_rows[t].words, replicates);
     check_asked("result", "modulus_depth", replicates);
     check_asked("result", "force_indentation", replicates);
     check_asked("result", "cost", replicates);
@@ -565,8 +568,8 @@ static void test_figures(void **state)
     (void)state;
     for (size_t i = 0; i < wt_figure_count(); i++) {
         const wt_figure_info figure = wt_figure_get(i);
-        flow_things things;
-        if (flow_resources_of_figure(figure.name, &things) && !is_of_run(figure.table))
+        flow_resource_set things;
+        if (flow_figure_resources(figure.name, &things) && !is_of_run(figure.table))
             check_asked("figure", figure.name, 0);
     }
 }

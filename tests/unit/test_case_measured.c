@@ -41,7 +41,7 @@ static wt_result *run_case(const char *xml, size_t *n_failed)
     assert_int_equal(write(file, xml, strlen(xml)), (ssize_t)strlen(xml));
     close(file);
     if (wt_case_read(path, &c, &err) != WT_OK ||
-        wt_run(c, &options, NULL, &result, n_failed, &err) != WT_OK)
+        wt_run_case(c, &options, NULL, &result, n_failed, &err) != WT_OK)
         fail_msg("%s: %s: %s", err.file, err.place, err.message);
     wt_case_free(c);
     unlink(path);

@@ -213,7 +213,7 @@ static void test_reasons(void **state)
 static void test_table_of_stages(void **state)
 {
     (void)state;
-    flow_things given = FLOW_SOURCES;
+    flow_resource_set given = FLOW_SOURCES;
     for (size_t i = 0; i < FLOW_N_STAGES; i++) {
         const unsigned levels = flow_stage_levels(i);
         assert_int_equal(flow_stage_needs(i, levels) & ~given, 0);
@@ -225,7 +225,7 @@ static void test_table_of_stages(void **state)
         assert_true(flow_stages[i].gives != 0);
         given |= flow_stages[i].gives;
     }
-    assert_true(given == FLOW_BIT(FLOW_N_THINGS) - 1);
+    assert_true(given == FLOW_BIT(FLOW_N_RESOURCES) - 1);
 }
 
 /* Sources say what is missing without them; a table is called as its schema says, and can be asked
@@ -233,17 +233,17 @@ static void test_table_of_stages(void **state)
 static void test_table_of_things(void **state)
 {
     (void)state;
-    for (unsigned i = 0; i < FLOW_N_THINGS; i++) {
-        const flow_resource_row *thing = &flow_thing_rows[i];
+    for (unsigned i = 0; i < FLOW_N_RESOURCES; i++) {
+        const flow_resource_row *thing = &flow_resource_rows[i];
         char name[SCHEMA_NAME_SIZE];
-        flow_things things = 0;
+        flow_resource_set things = 0;
         assert_non_null(thing->words);
         assert_int_equal(thing->missing != NULL, i < FLOW_FIRST_TABLE);
         if (thing->schema == NULL)
             continue;
         schema_name(thing->schema->name, thing->suffix, name);
         assert_string_equal(thing->words, name);
-        assert_true(flow_resources_of_table(name, &things) && things == FLOW_BIT(i));
+        assert_true(flow_table_resources(name, &things) && things == FLOW_BIT(i));
     }
 }
 

@@ -44,7 +44,7 @@ static ran run_text(const char *text, unsigned threads)
     close(file);
     if (wt_case_read(path, &c, &err) != WT_OK)
         fail_msg("%s: %s %s", err.place, err.message, err.found);
-    if (wt_run(c, &options, NULL, &r.result, &r.n_failed, &err) != WT_OK)
+    if (wt_run_case(c, &options, NULL, &r.result, &r.n_failed, &err) != WT_OK)
         fail_msg("%s: %s %s", err.place, err.message, err.found);
     wt_case_free(c);
     unlink(path);
@@ -214,10 +214,10 @@ static void test_missing_curves(void **state)
                  "Not answered: a stage that comparison needs failed (indentation_bulk): no force "
                  "curve could be read for \"bulk\"");
     wt_table *headlines = NULL;
-    assert_int_equal(wt_result_headlines(r.result, &headlines, NULL), WT_OK);
+    assert_int_equal(wt_result_main_values(r.result, &headlines, NULL), WT_OK);
     /* what was asked for is not there: no verdict, and a status that says so */
     assert_string_equal(text_cell(headlines, 0, "key"), "status");
-    assert_near(number_cell(headlines, 0, "value"), WT_ANSWERED_NOTHING, 0);
+    assert_near(number_cell(headlines, 0, "value"), WT_RESULT_EMPTY, 0);
     assert_string_equal(wt_table_key(failures, "status"), "1");
     for (size_t i = 0; i < wt_table_n_rows(headlines); i++)
         assert_string_not_equal(text_cell(headlines, i, "key"), "verdict");

@@ -107,8 +107,8 @@ static void make(int way)
     job.specific_wear_rate = stated(1e-13, "m^2/N", all);
     work.threads = 1;
     work.replicates = 8;
-    if (wt_friction_make(&sliding, &known, &work, &friction[way], &err) != WT_OK ||
-        wt_layer_make(&sliding, &job, &work, &layer[way], &err) != WT_OK)
+    if (wt_sliding_friction_compute(&sliding, &known, &work, &friction[way], &err) != WT_OK ||
+        wt_layer_thickness_compute(&sliding, &job, &work, &layer[way], &err) != WT_OK)
         fail_msg("%s %s", err.message, err.found);
 }
 
@@ -255,7 +255,7 @@ static void measure_bare(void)
     master.sets = &sweep;
     master.n_sets = 1;
     master.fit.vertical = WT_VERTICAL_NONE;
-    fixture_check(wt_master_make(&master, &work, &mastered, NULL, NULL));
+    fixture_check(wt_master_compute(&master, &work, &mastered, NULL, NULL));
     indent.sets = &map;
     indent.n_sets = 1;
     indent.spring_constant = (wt_estimate){0.3, 0, 0, "N/m"};
@@ -338,7 +338,7 @@ static void test_no_replicates(void **state)
     sliding.velocity = &velocity;
     sliding.n_velocity = 1;
     work.replicates = 0;
-    assert_int_equal(wt_friction_make(&sliding, NULL, &work, &tables, NULL), WT_OK);
+    assert_int_equal(wt_sliding_friction_compute(&sliding, NULL, &work, &tables, NULL), WT_OK);
     assert_true(isnan(cell(tables.friction, 0, "hysteresis_standard_error")));
     assert_string_equal(wt_table_key(tables.friction, "standard_error_excludes"),
                         "material with its shift law, pressure, temperature, roughness");

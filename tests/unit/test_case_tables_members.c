@@ -49,7 +49,7 @@ static size_t fields_of(const binding *b, const schema_field **fields)
 
 static bool is_words(schema_form form)
 {
-    return form == FORM_WORDS || form == FORM_LETTERS;
+    return form == FORM_TEXT || form == FORM_CHARACTERS;
 }
 
 /* The columns of what a number of several parts shows, 0 for those that it has not. */
@@ -67,7 +67,7 @@ static void check_binding(const binding *b)
     const schema_field *declared = NULL;
     const size_t n = fields_of(b, &declared);
     size_t shows = 0;
-    unsigned times[SCHEMA_MOST] = {0};
+    unsigned times[SCHEMA_FIELDS_MAX] = {0};
     for (size_t i = 0; i < n; i++) {
         const schema_field *f = &b->shown[i];
         unsigned parts[4];

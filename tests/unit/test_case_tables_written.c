@@ -116,16 +116,16 @@ static wt_status see_and_free(void *user, wt_table *table, wt_error *err)
 static void run_errors(wt_case *c, wt_run_options options)
 {
     wt_result *result = NULL;
-    assert_int_equal(wt_case_request(c, "error_budget work_precision", NULL), WT_OK);
-    assert_int_equal(wt_run(c, &options, NULL, &result, NULL, NULL), WT_OK);
+    assert_int_equal(wt_case_request_tables(c, "error_budget work_precision", NULL), WT_OK);
+    assert_int_equal(wt_run_case(c, &options, NULL, &result, NULL, NULL), WT_OK);
     if (wt_result_find(result, "error_budget") != NULL)
         see(wt_result_find(result, "error_budget"));
     if (wt_result_find(result, "work_precision") != NULL)
         see(wt_result_find(result, "work_precision"));
     wt_result_free(result);
     options.trials = 2;
-    assert_int_equal(wt_case_request(c, "coverage", NULL), WT_OK);
-    assert_int_equal(wt_run(c, &options, NULL, &result, NULL, NULL), WT_OK);
+    assert_int_equal(wt_case_request_tables(c, "coverage", NULL), WT_OK);
+    assert_int_equal(wt_run_case(c, &options, NULL, &result, NULL, NULL), WT_OK);
     if (wt_result_find(result, "coverage") != NULL)
         see(wt_result_find(result, "coverage"));
     wt_result_free(result);
@@ -154,7 +154,7 @@ static void run_case_of(const char *path, bool errors, double tolerance, const c
     wt_log_add(log, WT_WARNING, "file", "line 1", "a warning");
     wt_error err = WT_ERROR_INIT;
     if (case_from_bytes(changed, strlen(changed), path, &c, &err) != WT_OK ||
-        wt_run(c, &options, log, &result, NULL, &err) != WT_OK)
+        wt_run_case(c, &options, log, &result, NULL, &err) != WT_OK)
         fail_msg("%s: %s", err.place, err.message);
     assert_int_equal(wt_plan(c, &plan, NULL), WT_OK);
     see(plan);
@@ -186,7 +186,7 @@ static void test_directions(void **state)
     for (int i = 0; i < 2; i++) {
         wt_table *table = NULL;
         rubber.poisson_ratio = i == 0 ? 0.49 : 0.5;
-        assert_int_equal(wt_transverse_isotropy_make(&sliding, &work, &table, NULL), WT_OK);
+        assert_int_equal(wt_transverse_isotropy_compute(&sliding, &work, &table, NULL), WT_OK);
         see(table);
         wt_table_free(table);
     }
@@ -199,7 +199,7 @@ static void test_accuracy(void **state)
     const wt_job common = wt_job_defaults();
     wt_table *table = NULL;
     job.part = "layer-history";
-    assert_int_equal(wt_accuracy_make(&job, &common, &table, NULL), WT_OK);
+    assert_int_equal(wt_accuracy_compute(&job, &common, &table, NULL), WT_OK);
     see(table);
     wt_table_free(table);
 }
@@ -249,7 +249,7 @@ static void test_cases(void **state)
  * at each temperature. */
 static void write_melt(char *path, double odd)
 {
-    const wt_shift_law law = {.kind = WT_LAW_JOINED,
+    const wt_shift_law law = {.kind = WT_LAW_WLF_ARRHENIUS,
                               .wlf = {293.15, 9, 110},
                               .activation_energy = 1.2e5,
                               .joint = 253.15};
@@ -293,7 +293,7 @@ static void test_joined_law(void **state)
     job.sets = &set;
     job.n_sets = 1;
     job.fit.reference_temperature = 293.15;
-    if (wt_master_make(&job, &common, &tables, NULL, &err) != WT_OK)
+    if (wt_master_compute(&job, &common, &tables, NULL, &err) != WT_OK)
         fail_msg("%s %s", err.message, err.found);
     assert_string_equal(wt_table_key(tables.shift_factors, "law"), "joined");
     see(tables.shift_factors);
@@ -302,8 +302,8 @@ static void test_joined_law(void **state)
     see(tables.relaxation_spectrum);
     see(tables.material_draws);
     wt_master_tables_clear(&tables);
-    job.fit.shift_by = WT_BY_STORAGE;
-    assert_int_equal(wt_master_make(&job, &common, &tables, NULL, NULL), WT_OK);
+    job.fit.shift_by = WT_SHIFT_STORAGE;
+    assert_int_equal(wt_master_compute(&job, &common, &tables, NULL, NULL), WT_OK);
     see(tables.shift_factors);
     wt_master_tables_clear(&tables);
     unlink(path);
@@ -324,7 +324,7 @@ static void step_jobs(void **state)
         common.formats = formats;
         job.sets = &set;
         job.n_sets = 1;
-        assert_int_equal(wt_master_make(&job, &common, &tables, NULL, NULL), WT_OK);
+        assert_int_equal(wt_master_compute(&job, &common, &tables, NULL, NULL), WT_OK);
         assert_string_equal(wt_table_key(tables.shift_factors, "shifted_by"),
                             i == 0 ? "relaxation modulus" : "creep compliance");
         see(tables.master_curve);
@@ -350,7 +350,7 @@ static void test_no_superposition(void **state)
         job.sets = &set;
         job.n_sets = 1;
         job.fit.reference_temperature = 303.15;
-        assert_int_equal(wt_master_make(&job, &common, &tables, NULL, NULL), WT_OK);
+        assert_int_equal(wt_master_compute(&job, &common, &tables, NULL, NULL), WT_OK);
         assert_true((wt_table_key(tables.shift_factors, "route") != NULL) == (i == 1));
         assert_true((wt_table_key(tables.shift_factors, "valid_from") != NULL) == (i == 0));
         assert_true(strncmp(wt_table_key(tables.shift_factors, "superposition"),
@@ -370,7 +370,7 @@ static void test_collection(void **state)
     wt_run_options options = wt_run_defaults();
     options.replicates = 3;
     assert_int_equal(wt_case_read(WT_SOURCE_DIR "/fixtures/case/case.xml", &read, NULL), WT_OK);
-    assert_int_equal(wt_run(read, &options, NULL, &fixture_case, NULL, NULL), WT_OK);
+    assert_int_equal(wt_run_case(read, &options, NULL, &fixture_case, NULL, NULL), WT_OK);
     wt_case_free(read);
     fixture_of_case("layer", "identification");
     fixture_collect(&tables);
@@ -388,8 +388,8 @@ static void test_collection(void **state)
     job.constant_margin = 1e-9; /* which nothing meets */
     wt_result *labelled = fixture_labelled("HC", "mild", 0.6, 0.02);
     see(wt_result_find(labelled, "answer"));
-    const wt_collected cases[] = {{labelled, "a.h5"}, {fixture_case, "b.h5"}};
-    assert_int_equal(wt_collect(cases, 2, &job, &tables, NULL), WT_OK);
+    const wt_collected_result cases[] = {{labelled, "a.h5"}, {fixture_case, "b.h5"}};
+    assert_int_equal(wt_collection_compute(cases, 2, &job, &tables, NULL), WT_OK);
     assert_null(tables.ratio_pairs);
     see(tables.shared_constants);
     wt_collection_tables_clear(&tables);
@@ -413,11 +413,11 @@ static void test_common_law(void **state)
     job.n_sets = 1;
     for (size_t i = 0; i < 2; i++) {
         set.read.sample = names[i];
-        assert_int_equal(wt_master_make(&job, &common, &made[i], NULL, NULL), WT_OK);
+        assert_int_equal(wt_master_compute(&job, &common, &made[i], NULL, NULL), WT_OK);
     }
     job.leave_out = warm;
     job.n_leave_out = 1;
-    assert_int_equal(wt_master_make(&job, &common, &few, NULL, NULL), WT_OK);
+    assert_int_equal(wt_master_compute(&job, &common, &few, NULL, NULL), WT_OK);
     const wt_master *const fits[2][3] = {{made[0].fit, made[1].fit, NULL},
                                          {few.fit, few.fit, NULL}};
     for (size_t i = 0; i < 2; i++) {
@@ -426,9 +426,9 @@ static void test_common_law(void **state)
         law.names = names;
         law.fits = fits[i];
         law.n = 3;
-        law.common = i == 0 ? WT_COMMON_MOVED : WT_COMMON_SAME;
+        law.common = i == 0 ? WT_SHARED_LAW_SHIFTED : WT_SHARED_LAW_SAME;
         law.margin = i == 0 ? 0.1 : 1e-9;
-        assert_int_equal(wt_shared_shift_law_make(&law, &table, NULL), WT_OK);
+        assert_int_equal(wt_shared_shift_law_compute(&law, &table, NULL), WT_OK);
         assert_string_equal(wt_table_key(table, "law"), i == 0 ? "WLF" : "Arrhenius");
         assert_true(strncmp(wt_table_key(table, "agree"), i == 0 ? "no: " : "cannot say: ", 4) ==
                     0);
@@ -455,12 +455,12 @@ static void test_materials(void **state)
     common.formats = formats;
     job.sets = &set;
     job.n_sets = 1;
-    if (wt_master_make(&job, &common, &fitted, &made[0], &err) != WT_OK)
+    if (wt_master_compute(&job, &common, &fitted, &made[0], &err) != WT_OK)
         fail_msg("%s %s", err.message, err.found);
     see(fitted.prony_reduced);
     wt_master_tables_clear(&fitted);
-    assert_int_equal(wt_master_make(&job, &common, &fitted, &made[1], NULL), WT_OK);
-    const wt_compared two[] = {
+    assert_int_equal(wt_master_compute(&job, &common, &fitted, &made[1], NULL), WT_OK);
+    const wt_compared_material two[] = {
         {.name = "as it is", .rubber = &made[0], .shift_factors = fitted.shift_factors},
         {.name = "less widely", .rubber = &made[1], .shift_factors = fitted.shift_factors}};
     wt_materials_job compared = wt_materials_job_defaults();
@@ -504,14 +504,15 @@ static void test_layer_by_curves(void **state)
     wt_compare_job job = wt_compare_job_defaults();
     const wt_job common = wt_job_defaults();
     assert_int_equal(wt_case_read(CASE "case.xml", &read, NULL), WT_OK);
-    assert_int_equal(wt_case_request(read, "track_layer indentation/bulk indentation/track", NULL),
-                     WT_OK);
-    assert_int_equal(wt_run(read, NULL, NULL, &result, NULL, NULL), WT_OK);
+    assert_int_equal(
+        wt_case_request_tables(read, "track_layer indentation/bulk indentation/track", NULL),
+        WT_OK);
+    assert_int_equal(wt_run_case(read, NULL, NULL, &result, NULL, NULL), WT_OK);
     wt_table *const track = fixture_copy(wt_result_find(result, "indentation/track"), &layered);
     job.bulk = wt_result_find(result, "indentation/bulk");
     job.track = track;
     job.expected_thickness = (wt_estimate){3e-7, 2e-8, 0, "m"};
-    assert_int_equal(wt_track_layer_make(&job, NULL, &common, &table, NULL), WT_OK);
+    assert_int_equal(wt_track_layer_compute(&job, NULL, &common, &table, NULL), WT_OK);
     see(table);
     wt_table_free(table);
     wt_table_free(track);
@@ -603,7 +604,7 @@ static void test_spring_constants(void **state)
     see(tables.indentation);
     wt_table *budget = NULL;
     const wt_table *const listed[] = {tables.indentation};
-    assert_int_equal(wt_modulus_budget(listed, 1, &budget, NULL), WT_OK);
+    assert_int_equal(wt_modulus_budget_table(listed, 1, &budget, NULL), WT_OK);
     see(budget);
     wt_table_free(budget);
     wt_indent_tables_clear(&tables);
@@ -628,7 +629,7 @@ static void convert(const char *path, unsigned kind)
 static wt_status take_curve(void *user, const wt_force_curve *curve, wt_error *err)
 {
     curve->segments[0].setpoint = 1e-9; /* the files of the case say none */
-    return wt_map_put(user, curve, err);
+    return wt_map_add_curve(user, curve, err);
 }
 
 /* Curves of which a map is made. */
@@ -641,9 +642,9 @@ static void convert_map(const char *path)
     wt_map_writer *map = NULL;
     wt_result *const result = wt_result_new();
     common.formats = formats;
-    if (wt_map_begin(made, &map, &err) != WT_OK ||
+    if (wt_map_open(made, &map, &err) != WT_OK ||
         wt_convert_file(&job, path, &common, NULL, take_curve, map, &err) != WT_OK ||
-        wt_map_end(map, result, true, &err) != WT_OK)
+        wt_map_commit(map, result, true, &err) != WT_OK)
         fail_msg("%s: %s", path, err.message);
     for (size_t i = 0; i < wt_result_n_tables(result); i++)
         see(wt_result_table(result, i));
@@ -722,7 +723,7 @@ static void test_ramps(void **state)
         job.n_sets = 1;
         job.temperature = at;
         job.n_temperatures = COUNT_OF(at);
-        if (wt_ramp_make(&job, &common, &tables, &err) != WT_OK)
+        if (wt_ramp_compute(&job, &common, &tables, &err) != WT_OK)
             fail_msg("%s %s", err.message, err.found);
         see(tables.ramp);
         see(tables.glass_transition);
@@ -750,8 +751,7 @@ static void see_both_edges(void)
     job.critical_energy.value = 2e10;
     job.specific_wear_rate = (wt_estimate){1e-12, 1e-14, 0, "m^2/N"};
     for (int with_edges = 0; with_edges < 2; with_edges++) {
-        assert_int_equal(wt_layer_regime_map_make(&sliding, &job, NULL, &work, &table, &err),
-                         WT_OK);
+        assert_int_equal(wt_regime_map_compute(&sliding, &job, NULL, &work, &table, &err), WT_OK);
         if (with_edges)
             see(table);
         double most = 0;
@@ -787,17 +787,17 @@ static void test_layer_models(void **state)
     job.closure = WT_CLOSURE_ACTIVATED;
     job.barrier.value = 1.4 * 1.602e-19;
     job.activation.volume = 1e-27;
-    assert_int_equal(wt_layer_make(&sliding, &job, &work, &tables, &err), WT_OK);
+    assert_int_equal(wt_layer_thickness_compute(&sliding, &job, &work, &tables, &err), WT_OK);
     see(tables.layer);
     wt_layer_tables_clear(&tables);
     job.closure = WT_CLOSURE_ENERGY;
     job.critical_energy = (wt_estimate){2e10, 1e9, 0, "J/m^3"};
     work.replicates = 2;
-    assert_int_equal(wt_layer_bands_make(&sliding, &job, &work, &table[0], &err), WT_OK);
-    assert_int_equal(wt_running_in_make(&sliding, &job, &known, &work, &table[1], &err), WT_OK);
-    assert_int_equal(wt_layer_balances_make(&sliding, &job, &known, &work, &table[2], &err), WT_OK);
-    assert_int_equal(wt_layer_regime_map_make(&sliding, &job, &known, &work, &table[3], &err),
+    assert_int_equal(wt_layer_bands_compute(&sliding, &job, &work, &table[0], &err), WT_OK);
+    assert_int_equal(wt_running_in_compute(&sliding, &job, &known, &work, &table[1], &err), WT_OK);
+    assert_int_equal(wt_layer_steady_states_compute(&sliding, &job, &known, &work, &table[2], &err),
                      WT_OK);
+    assert_int_equal(wt_regime_map_compute(&sliding, &job, &known, &work, &table[3], &err), WT_OK);
     for (size_t i = 0; i < 4; i++) {
         see(table[i]);
         wt_table_free(table[i]);
@@ -809,7 +809,8 @@ static void test_layer_models(void **state)
     sheared.thickness = (wt_estimate){1e-6, 0, 0, "m"};
     sheared.shear = &shear;
     wt_friction_tables friction = {0};
-    assert_int_equal(wt_friction_make(&sliding, &sheared, &work, &friction, &err), WT_OK);
+    assert_int_equal(wt_sliding_friction_compute(&sliding, &sheared, &work, &friction, &err),
+                     WT_OK);
     see(friction.friction);
     wt_friction_tables_clear(&friction);
 }
@@ -830,7 +831,7 @@ static void test_no_hysteresis(void **state)
     rubber.prony.relaxation_time = tau;
     rubber.prony.modulus = term;
     sliding.softness = &s;
-    if (wt_softening_make(&sliding, &work, &table, &err) != WT_OK)
+    if (wt_softened_friction_compute(&sliding, &work, &table, &err) != WT_OK)
         fail_msg("%s %s", err.message, err.found);
     assert_true(wt_table_number(table, 0, (size_t)wt_table_find(table, "hysteresis")) <= 0);
     for (size_t row = 0; row < 2; row++) {
@@ -873,7 +874,7 @@ static void test_flash(void **state)
     sliding.flash.contact_size = 5e-3;
     sliding.flash.macroscopic = 0.1;
     sliding.reference_velocity = 1e-3;
-    if (wt_flash_make(&sliding, &work, &table, &err) != WT_OK)
+    if (wt_flash_temperature_compute(&sliding, &work, &table, &err) != WT_OK)
         fail_msg("%s %s", err.message, err.found);
     assert_non_null(strstr(wt_table_key(table, "branches"), "stays hot at "));
     assert_non_null(strstr(wt_table_key(table, "law_range"), "above the isotherms"));
@@ -884,7 +885,7 @@ static void test_flash(void **state)
     sliding.flash.contact_size = 1;
     sliding.flash.macroscopic = 0.01;
     velocity[1] = 100;
-    if (wt_flash_make(&sliding, &work, &table, &err) != WT_OK)
+    if (wt_flash_temperature_compute(&sliding, &work, &table, &err) != WT_OK)
         fail_msg("%s %s", err.message, err.found);
     assert_non_null(strstr(wt_table_key(table, "unsettled"), "no temperature below 300 degC"));
     see(table);
@@ -892,7 +893,7 @@ static void test_flash(void **state)
     static const double temperature = 293.15;
     sliding.temperatures = &temperature;
     sliding.n_temperatures = 1;
-    if (wt_friction_map_make(&sliding, NULL, &work, &table, &err) != WT_OK)
+    if (wt_friction_map_compute(&sliding, NULL, &work, &table, &err) != WT_OK)
         fail_msg("%s %s", err.message, err.found);
     assert_non_null(
         strstr(wt_table_key(table, "material_statement"), "no flash temperature is found"));
@@ -913,7 +914,7 @@ static void test_strain_sweeps(void **state)
     common.formats = formats;
     job.sets = &set;
     job.n_sets = 1;
-    if (wt_payne_make(&job, &common, &tables, &err) != WT_OK)
+    if (wt_payne_compute(&job, &common, &tables, &err) != WT_OK)
         fail_msg("%s %s", err.message, err.found);
     assert_int_equal(wt_table_n_rows(tables.payne), 3);
     see(tables.payne);
@@ -922,7 +923,7 @@ static void test_strain_sweeps(void **state)
     wt_file_set named = set;
     named.read.sample_by = WT_SAMPLE_BY_FILE;
     job.sets = &named;
-    assert_int_equal(wt_payne_make(&job, &common, &tables, NULL), WT_OK);
+    assert_int_equal(wt_payne_compute(&job, &common, &tables, NULL), WT_OK);
     see(tables.payne);
     see(tables.payne_sweep);
     wt_payne_tables_clear(&tables);
@@ -965,7 +966,7 @@ static void test_calibration(void **state)
     wt_error err = WT_ERROR_INIT;
     job.sets = &set;
     job.n_sets = 1;
-    if (wt_sensitivity_make(&job, &common, &tables, &err) != WT_OK)
+    if (wt_sensitivity_compute(&job, &common, &tables, &err) != WT_OK)
         fail_msg("%s %s", err.message, err.found);
     see(tables.sensitivity);
     see(tables.sensitivity_curves);
@@ -1019,7 +1020,7 @@ static void test_thermal(void **state)
         wt_table *table = NULL;
         wt_error err = WT_ERROR_INIT;
         job.sets = &set;
-        if (wt_thermal_make(&job, &common, &table, &err) != WT_OK)
+        if (wt_thermal_compute(&job, &common, &table, &err) != WT_OK)
             fail_msg("%s %s", err.message, err.found);
         assert_int_equal(wt_table_n_rows(table), n);
         see(table);
@@ -1074,7 +1075,7 @@ static void test_record(void **state)
             job.density = (wt_estimate){1150, 0, 0, "kg/m^3"};
             job.modulus.value = 20e6;
         }
-        if (wt_record_make(&job, &common, &tables, &err) != WT_OK)
+        if (wt_record_compute(&job, &common, &tables, &err) != WT_OK)
             fail_msg("%s %s", err.message, err.found);
         see(tables.record);
         see(tables.record_cycles);
@@ -1129,7 +1130,7 @@ static void test_dwell(void **state)
     job.sets = &set;
     job.n_sets = 1;
     job.tip = (wt_tip){.shape = WT_TIP_PARABOLOID, .radius = 5e-6};
-    if (wt_dwell_make(&job, &common, &tables, &err) != WT_OK)
+    if (wt_dwell_compute(&job, &common, &tables, &err) != WT_OK)
         fail_msg("%s %s", err.message, err.found);
     see(tables.dwell);
     see(tables.dwell_points);
@@ -1143,7 +1144,7 @@ static void test_dwell(void **state)
     wt_table *table = NULL;
     master.sets = &measured;
     master.n_sets = 1;
-    if (wt_master_make(&master, &common, &fitted, &made, &err) != WT_OK)
+    if (wt_master_compute(&master, &common, &fitted, &made, &err) != WT_OK)
         fail_msg("%s %s", err.message, err.found);
     compared.bulk = compared.track = tables.dwell_moduli;
     compared.rubber = &made;
@@ -1170,12 +1171,12 @@ static void test_files(void **state)
     wt_input *input = NULL;
     wt_table *table = NULL;
     assert_int_equal(wt_input_open(FORMATS "tidy/two-runs.csv", &input, NULL), WT_OK);
-    assert_int_equal(wt_describe(formats, input, NULL, NULL, &table, NULL), WT_OK);
+    assert_int_equal(wt_input_describe(formats, input, NULL, NULL, &table, NULL), WT_OK);
     see(table);
     wt_table_free(table);
-    assert_int_equal(
-        wt_description_check(WT_SOURCE_DIR "/formats/tidy.xml", input, NULL, NULL, &table, NULL),
-        WT_OK);
+    assert_int_equal(wt_format_description_check(WT_SOURCE_DIR "/formats/tidy.xml", input, NULL,
+                                                 NULL, &table, NULL),
+                     WT_OK);
     see(table);
     wt_table_free(table);
     wt_input_close(input);
@@ -1214,7 +1215,7 @@ static void test_spot(void **state)
     job.depth = 60e-9;
     job.after = paths[1];
     job.map = true;
-    if (wt_spot_make(&job, paths[0], &common, &tables, &err) != WT_OK)
+    if (wt_spot_compute(&job, paths[0], &common, &tables, &err) != WT_OK)
         fail_msg("%s %s", err.message, err.found);
     see(tables.spot);
     see(tables.spot_map);
@@ -1237,7 +1238,7 @@ static void see_surfaces(const char *const *files, size_t n)
     job.n_sets = 1;
     job.scans = job.heights = true;
     job.end_slope = n > 1 ? 1.3 : (double)NAN;
-    if (wt_topography_make(&job, &common, &tables, &err) != WT_OK)
+    if (wt_topography_compute(&job, &common, &tables, &err) != WT_OK)
         fail_msg("%s %s", err.message, err.found);
     see(tables.power_spectrum);
     if (tables.place_errors != NULL)
@@ -1320,9 +1321,9 @@ static void see_validation(const char *path, double shear, double wear, bool wit
         (wt_estimate){shear > 0 ? shear : (double)NAN, 0.1 * fmax(shear, 0), 0, "Pa"};
     layer.specific_wear_rate = (wt_estimate){1e-12, 1e-13, 0, "m^2/N"};
     layer.critical_energy.value = 2e10;
-    if (wt_record_make(&records, &common, &measured, &err) != WT_OK ||
-        wt_what_if_make(&sliding, &layer, with_layer ? &known : NULL, &common, &what_if, &err) !=
-            WT_OK)
+    if (wt_record_compute(&records, &common, &measured, &err) != WT_OK ||
+        wt_model_sensitivity_compute(&sliding, &layer, with_layer ? &known : NULL, &common,
+                                     &what_if, &err) != WT_OK)
         fail_msg("%s %s", err.message, err.found);
     job.sliding = &sliding;
     job.layer = &layer;
@@ -1330,7 +1331,7 @@ static void see_validation(const char *path, double shear, double wear, bool wit
     job.record = measured.record;
     job.wear = measured.wear;
     job.what_if = what_if;
-    if (wt_validation_make(&job, &common, &tables, &err) != WT_OK)
+    if (wt_validation_compute(&job, &common, &tables, &err) != WT_OK)
         fail_msg("%s %s", err.message, err.found);
     see(tables.validation);
     see(tables.sources);
@@ -1351,8 +1352,9 @@ static void see_running_in(const char *path)
     wt_error err = WT_ERROR_INIT;
     few.replicates = 20;
     if (wt_case_read(path, &read, &err) != WT_OK ||
-        wt_case_request(read, "validation_running_in validation_course wear", &err) != WT_OK ||
-        wt_run(read, &few, NULL, &result, &failed, &err) != WT_OK)
+        wt_case_request_tables(read, "validation_running_in validation_course wear", &err) !=
+            WT_OK ||
+        wt_run_case(read, &few, NULL, &result, &failed, &err) != WT_OK)
         fail_msg("%s %s", err.message, err.found);
     see(wt_result_find(result, "validation_running_in"));
     see(wt_result_find(result, "validation_course"));
@@ -1389,7 +1391,7 @@ static void test_identification(void **state)
     job.observed_thickness = (wt_estimate){2e-6, 3e-7, 0, "m"};
     job.specific_wear_rate = (wt_estimate){1e-12, 1e-13, 0, "m^2/N"};
     job.running_in_time = (wt_estimate){500, 50, 0, "s"};
-    if (wt_identify_make(&sliding, &job, &work, &table, &err) != WT_OK)
+    if (wt_identification_compute(&sliding, &job, &work, &table, &err) != WT_OK)
         fail_msg("%s %s", err.message, err.found);
     see(table);
     assert_int_equal(wt_table_n_rows(table), 4);

@@ -68,10 +68,10 @@ static void deflection_and_force(void **state)
     const double stored[] = {2, 100e-9, 30e-9};
     for (unsigned given = 0; given < 4; given++) {
         wt_cantilever used = file;
-        used.spring_constant_given = (given & 1) != 0;
-        used.sensitivity_given = (given & 2) != 0;
-        used.spring_constant = used.spring_constant_given ? 0.7 : 0.3;
-        used.sensitivity = used.sensitivity_given ? 80e-9 : 50e-9;
+        used.spring_constant_is_overridden = (given & 1) != 0;
+        used.sensitivity_is_overridden = (given & 2) != 0;
+        used.spring_constant = used.spring_constant_is_overridden ? 0.7 : 0.3;
+        used.sensitivity = used.sensitivity_is_overridden ? 80e-9 : 50e-9;
         const double made[] = {2, 2 * used.sensitivity,
                                2 * used.sensitivity * used.spring_constant};
         for (size_t from = 0; from < 3; from++)
@@ -88,8 +88,8 @@ static void deflection_and_force(void **state)
                 (double)NAN, 0);
     used = (wt_cantilever){.spring_constant = 0.5,
                            .sensitivity = 1e-7,
-                           .spring_constant_given = true,
-                           .sensitivity_given = true};
+                           .spring_constant_is_overridden = true,
+                           .sensitivity_is_overridden = true};
     assert_near(deflection_factor(WT_Q_FORCE, WT_Q_FORCE, &none, &used), 1, 0);
     assert_near(deflection_factor(WT_Q_DEFLECTION, WT_Q_FORCE, &none, &used), 0.5, 0);
     assert_near(deflection_factor(WT_Q_DEFLECTION_VOLTAGE, WT_Q_FORCE, &none, &used), 5e-8, 1e-15);
@@ -166,7 +166,7 @@ static void one_sample(void **state)
         ramp->sample = strdup(samples[i]);
         strains->sample = strdup(samples[i]);
     }
-    assert_int_equal(wt_sweep_keep_sample(&sweep, "B"), WT_OK);
+    assert_int_equal(wt_sweep_select_sample(&sweep, "B"), WT_OK);
     assert_int_equal(sweep.n_isotherms, 2);
     assert_int_equal(sweep.n_ramps, 2);
     assert_int_equal(sweep.n_strain_sweeps, 2);
@@ -175,7 +175,7 @@ static void one_sample(void **state)
         assert_true(sweep.ramps[i].angular_frequency == 2 + 2 * i);
         assert_true(sweep.strain_sweeps[i].angular_frequency == 11 + 2 * i);
     }
-    assert_int_equal(wt_sweep_keep_sample(&sweep, "C"), WT_E_NOT_FOUND);
+    assert_int_equal(wt_sweep_select_sample(&sweep, "C"), WT_E_NOT_FOUND);
     wt_sweep_clear(&sweep);
 }
 
@@ -220,9 +220,9 @@ static void table_columns(void **state)
         assert_int_equal(wt_table_add_row(t, &err), WT_OK);
         assert_near(wt_table_number(t, (size_t)i, 0), (double)NAN, 0);
         assert_string_equal(wt_table_text(t, (size_t)i, 1), "");
-        wt_table_put(t, 0, i);
-        assert_int_equal(wt_table_put_text(t, 1, "first", &err), WT_OK);
-        assert_int_equal(wt_table_put_text(t, 1, i % 2 == 0 ? "second" : NULL, &err), WT_OK);
+        wt_table_set_number(t, 0, i);
+        assert_int_equal(wt_table_set_text(t, 1, "first", &err), WT_OK);
+        assert_int_equal(wt_table_set_text(t, 1, i % 2 == 0 ? "second" : NULL, &err), WT_OK);
     }
     assert_int_equal(wt_table_add_column(t, "late", "m", "", &err), WT_E_ARG);
     assert_int_equal(wt_table_n_rows(t), 100);
@@ -274,7 +274,7 @@ static void table_keys(void **state)
 static void add_measured(wt_sweep *sweep, double temperature, double storage, const char *source)
 {
     static const double w[] = {10, 1, 1, 0.1, 1};
-    wt_isotherm *t = wt_sweep_add(sweep, 5, WT_WITH_STRAIN);
+    wt_isotherm *t = wt_sweep_add(sweep, 5, WT_SWEEP_HAS_STRAIN);
     assert_non_null(t);
     t->temperature = temperature;
     snprintf(t->source, sizeof t->source, "%s", source);
@@ -297,7 +297,7 @@ static void sweep_copies(void **state)
     add_measured(&sweep, 300, nextafter(5, 6), "c.csv");
     add_measured(&sweep, 320, 9, "a.csv");
     wt_sweep_sort(&sweep);
-    wt_sweep_drop_copies(&sweep, log);
+    wt_sweep_remove_duplicates(&sweep, log);
     assert_int_equal(sweep.n_isotherms, 3);
     assert_string_equal(sweep.isotherms[0].source, "a.csv");
     assert_string_equal(sweep.isotherms[1].source, "c.csv");
@@ -343,7 +343,7 @@ static void ramps(void **state)
     }
     assert_null(wt_sweep_add_ramp(&sweep, SIZE_MAX / 4, 0));
     wt_sweep_sort(&sweep);
-    wt_sweep_drop_copies(&sweep, log);
+    wt_sweep_remove_duplicates(&sweep, log);
     assert_int_equal(sweep.n_ramps, 2);
     assert_string_equal(sweep.ramps[0].source, "1.txt");
     assert_near(sweep.ramps[1].angular_frequency, 10, 0);
@@ -379,7 +379,7 @@ static void strain_sweeps(void **state)
     }
     assert_null(wt_sweep_add_strain_sweep(&sweep, SIZE_MAX / 4));
     wt_sweep_sort(&sweep);
-    wt_sweep_drop_copies(&sweep, log);
+    wt_sweep_remove_duplicates(&sweep, log);
     assert_int_equal(sweep.n_strain_sweeps, 3);
     assert_string_equal(sweep.strain_sweeps[0].source, "2.txt");
     assert_string_equal(sweep.strain_sweeps[1].source, "1.txt");

@@ -64,10 +64,10 @@ static wt_table *make_table(const char *name)
 static void add_row(wt_table *t, const char *file, double a, double b, double c)
 {
     assert_int_equal(wt_table_add_row(t, NULL), WT_OK);
-    assert_int_equal(wt_table_put_text(t, 0, file, NULL), WT_OK);
-    wt_table_put(t, 1, a);
-    wt_table_put(t, 2, b);
-    wt_table_put(t, 3, c);
+    assert_int_equal(wt_table_set_text(t, 0, file, NULL), WT_OK);
+    wt_table_set_number(t, 1, a);
+    wt_table_set_number(t, 2, b);
+    wt_table_set_number(t, 3, c);
 }
 
 static void cells(void **state)

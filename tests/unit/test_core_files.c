@@ -263,12 +263,12 @@ static void leftovers(void **state)
     write_file(name, "held");
     path_of(name, path);
     const int held = open(path, O_RDONLY | O_CLOEXEC);
-    temporary_hold(held);
+    temporary_lock(held);
     assert_int_equal(count_files(), 2 + 4 + 1 + 1);
-    temporary_sweep(folder);
+    temporary_remove_abandoned(folder);
     assert_int_equal(count_files(), 4 + 1 + 1);
     (void)close(held);
-    temporary_sweep(folder);
+    temporary_remove_abandoned(folder);
     assert_int_equal(count_files(), 4 + 1);
     assert_int_equal(unlink(inner), 0);
     for (size_t i = 0; i < 4; i++) {
@@ -394,14 +394,14 @@ static void digests(void **state)
 {
     (void)state;
     char hex[65];
-    wt_digest("abc", 3, hex);
+    wt_sha256("abc", 3, hex);
     assert_string_equal(hex, "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
-    wt_digest("", 0, hex);
+    wt_sha256("", 0, hex);
     assert_string_equal(hex, "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
     char *const million = malloc(1000000);
     assert_non_null(million);
     memset(million, 'a', 1000000);
-    wt_digest(million, 1000000, hex);
+    wt_sha256(million, 1000000, hex);
     assert_string_equal(hex, "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0");
     free(million);
 }
@@ -419,7 +419,7 @@ static uint64_t fingerprint_of(void *bytes, size_t length, bool beside)
     uint64_t fingerprint = 0;
     char hex[65];
     assert_int_equal(
-        digest_pieces(piece_of, bytes, length, beside ? hex : NULL, &fingerprint, NULL), WT_OK);
+        digest_stream(piece_of, bytes, length, beside ? hex : NULL, &fingerprint, NULL), WT_OK);
     return fingerprint;
 }
 
@@ -434,8 +434,8 @@ static void digests_of_pieces(void **state)
         bytes[i] = (char)(i * i >> 3);
     for (size_t n = 0; n <= MOST; n = n < 80 ? n + 1 : 2 * n - 7) {
         uint64_t ignored = 0;
-        wt_digest(bytes, n, whole);
-        assert_int_equal(digest_pieces(piece_of, bytes, n, hex, &ignored, NULL), WT_OK);
+        wt_sha256(bytes, n, whole);
+        assert_int_equal(digest_stream(piece_of, bytes, n, hex, &ignored, NULL), WT_OK);
         assert_string_equal(hex, whole);
         for (int beside = 0; beside < 2; beside++) {
             const uint64_t fingerprint = fingerprint_of(bytes, n, beside);

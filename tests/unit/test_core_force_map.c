@@ -71,13 +71,13 @@ static int write_map(void **state)
     wt_force_curve curve = {.n_segments = 0};
     wt_result *const result = wt_result_new();
     (void)state;
-    assert_int_equal(wt_map_begin(path, &writer, NULL), WT_OK);
+    assert_int_equal(wt_map_open(path, &writer, NULL), WT_OK);
     for (size_t c = 0; c < CURVES; c++) {
         make_curve(c, &curve);
-        assert_int_equal(wt_map_put(writer, &curve, NULL), WT_OK);
+        assert_int_equal(wt_map_add_curve(writer, &curve, NULL), WT_OK);
     }
     assert_int_equal(access(path, F_OK), -1); /* before it is complete */
-    assert_int_equal(wt_map_end(writer, result, false, NULL), WT_OK);
+    assert_int_equal(wt_map_commit(writer, result, false, NULL), WT_OK);
     wt_force_curve_clear(&curve);
     wt_result_free(result);
     return 0;
@@ -231,7 +231,7 @@ static void counts(void **state)
         assert_int_equal(wt_store_read(path, &result, NULL), WT_OK);
         /* behind the reader's back: its last row */
         wt_table *const table = (wt_table *)(uintptr_t)wt_result_find(result, cases[i].table);
-        wt_table_put(table, (size_t)wt_table_find(table, cases[i].column), cases[i].value);
+        wt_table_set_number(table, (size_t)wt_table_find(table, cases[i].column), cases[i].value);
         wt_status status = map_open(&from, result, &map, &err);
         assert_int_equal(status, WT_E_CORRUPT);
         assert_true(err.message[0] != '\0');
@@ -258,7 +258,7 @@ static void cut_off(void **state)
     const hdf5_bytes from = {.file = fd, .size = (size_t)size - 16 - le64toh(abstract) - 8};
     assert_int_equal(wt_store_read(path, &result, NULL), WT_OK);
     assert_int_equal(map_open(&from, result, &map, &err), WT_OK);
-    for (; (got = map_next(map, &curve, &segments, &n, &err)) != WT_END; n_bad++) {
+    for (; (got = map_next_curve(map, &curve, &segments, &n, &err)) != WT_END; n_bad++) {
         assert_int_equal(got, WT_E_CORRUPT);
         assert_int_equal(curve.index, 3 * n_bad);
         assert_non_null(strstr(err.message, "damaged or cut off"));
@@ -274,8 +274,8 @@ static void no_disk(void **state)
     wt_map_writer *writer = NULL;
     wt_error err = WT_ERROR_INIT;
     (void)state;
-    assert_int_equal(wt_map_begin("/dev/full", &writer, &err), WT_E_IO);
-    assert_int_equal(wt_map_begin("no/such/folder.h5", &writer, &err), WT_E_IO);
+    assert_int_equal(wt_map_open("/dev/full", &writer, &err), WT_E_IO);
+    assert_int_equal(wt_map_open("no/such/folder.h5", &writer, &err), WT_E_IO);
     assert_null(writer);
 }
 
@@ -292,16 +292,16 @@ static void a_full_disk(void **state)
     assert_int_equal(getrlimit(RLIMIT_FSIZE, &usual), 0);
     little = (struct rlimit){1 << 18, usual.rlim_max};
     (void)signal(SIGXFSZ, SIG_IGN);
-    assert_int_equal(wt_map_begin(small, &writer, NULL), WT_OK);
+    assert_int_equal(wt_map_open(small, &writer, NULL), WT_OK);
     assert_int_equal(setrlimit(RLIMIT_FSIZE, &little), 0);
     for (size_t c = 0; status == WT_OK && c < 100 * (size_t)CURVES; c++) {
         make_curve(c % CURVES, &curve);
-        status = wt_map_put(writer, &curve, NULL);
+        status = wt_map_add_curve(writer, &curve, NULL);
     }
     assert_int_equal(setrlimit(RLIMIT_FSIZE, &usual), 0);
     assert_int_equal(status, WT_E_IO);
-    assert_int_equal(wt_map_put(writer, &curve, NULL), WT_E_IO);
-    assert_int_equal(wt_map_end(writer, result, false, NULL), WT_E_IO);
+    assert_int_equal(wt_map_add_curve(writer, &curve, NULL), WT_E_IO);
+    assert_int_equal(wt_map_commit(writer, result, false, NULL), WT_E_IO);
     assert_int_equal(access(small, F_OK), -1);
     wt_force_curve_clear(&curve);
     wt_result_free(result);

@@ -39,7 +39,8 @@ static int clean(void **state)
 }
 
 /* Reads with it; the error is that of a failure. */
-static wt_status pass(hdf5_reading *reading, sandbox_limits limits, char **answer, wt_error *err)
+static wt_status pass(hdf5_read_function *reading, sandbox_limits limits, char **answer,
+                      wt_error *err)
 {
     size_t length = 0;
     *err = (wt_error)WT_ERROR_INIT;
@@ -54,7 +55,7 @@ static wt_status pass(hdf5_reading *reading, sandbox_limits limits, char **answe
     return status;
 }
 
-static void refused(hdf5_reading *reading, sandbox_limits limits, wt_status expected,
+static void refused(hdf5_read_function *reading, sandbox_limits limits, wt_status expected,
                     const char *words)
 {
     wt_error err;

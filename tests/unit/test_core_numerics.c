@@ -25,17 +25,17 @@ static void test_halves(void **state)
     (void)state;
     int calls = 0;
     double low = 1, high = 2;
-    root_halve(below_root_two, &calls, &low, &high, 0, 10);
+    root_bisect(below_root_two, &calls, &low, &high, 0, 10);
     assert_int_equal(calls, 10);
     assert_true(high - low == ldexp(1, -10));
     assert_true(low < M_SQRT2 && high > M_SQRT2);
-    root_halve(below_root_two, &calls, &low, &high, 1e-6, 1000);
+    root_bisect(below_root_two, &calls, &low, &high, 1e-6, 1000);
     assert_true(high - low <= 2e-6 && high - low > 0.4e-6);
-    root_halve(below_root_two, &calls, &low, &high, 0, 1000); /* ends by itself */
+    root_bisect(below_root_two, &calls, &low, &high, 0, 1000); /* ends by itself */
     assert_true(low * low < 2 && high == nextafter(low, 2));
     low = -1;
     high = 1;
-    root_halve(below_step, NULL, &low, &high, 0, 1000);
+    root_bisect(below_step, NULL, &low, &high, 0, 1000);
     assert_true(high == 0.3 && low == nextafter(0.3, 0));
 }
 

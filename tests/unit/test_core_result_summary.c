@@ -44,8 +44,8 @@ static void add_table(wt_result *result, const char *name, size_t n_rows)
         WT_OK);
     for (size_t i = 0; i < n_rows; i++) {
         assert_int_equal(wt_table_add_row(t, NULL), WT_OK);
-        assert_int_equal(wt_table_put_text(t, 0, "curve", NULL), WT_OK);
-        wt_table_put(t, 1, 1e6 + (double)i);
+        assert_int_equal(wt_table_set_text(t, 0, "curve", NULL), WT_OK);
+        wt_table_set_number(t, 1, 1e6 + (double)i);
     }
     assert_int_equal(wt_result_add(result, t, NULL), WT_OK);
 }
@@ -181,9 +181,9 @@ static void by_both_ways(void **state)
     (void)state;
     const size_t size = write_result();
     wt_result *by[2] = {NULL, NULL};
-    assert_int_equal(wt_store_read_headlines(path, &by[0], NULL), WT_OK);
+    assert_int_equal(wt_store_read_main_values(path, &by[0], NULL), WT_OK);
     assert_int_equal(truncate(path, (off_t)size - 1), 0);
-    assert_int_equal(wt_store_read_headlines(path, &by[1], NULL), WT_OK);
+    assert_int_equal(wt_store_read_main_values(path, &by[1], NULL), WT_OK);
     assert_int_equal(wt_result_n_tables(by[0]), wt_result_n_tables(by[1]));
     for (size_t i = 0; i < wt_result_n_tables(by[0]); i++) {
         const wt_table *const a = wt_result_table(by[0], i), *const b = wt_result_table(by[1], i);
@@ -209,7 +209,7 @@ static void other_tables(void **state)
     const size_t size = write_result();
     change_byte(size - END - SET);
     assert_int_equal(try_abstract(&err), WT_END);
-    assert_int_equal(wt_store_read_headlines(path, &read, &err), WT_OK);
+    assert_int_equal(wt_store_read_main_values(path, &read, &err), WT_OK);
     assert_int_equal(wt_table_n_rows(wt_result_find(read, "shift_factors")), 500); /* by HDF5 */
     wt_result_free(read);
     char now[STORE_DIGEST_SIZE], again[STORE_DIGEST_SIZE];
@@ -333,10 +333,10 @@ static void made_files(void **state)
     put_file(begin, sizeof begin, sizeof begin);
     /* Of what is no HDF5 file nothing is read, whatever its end. */
     wt_result *read = NULL;
-    assert_int_equal(wt_store_read_headlines(path, &read, &err), WT_E_FORMAT);
+    assert_int_equal(wt_store_read_main_values(path, &read, &err), WT_E_FORMAT);
     assert_string_equal(err.file, path);
-    assert_int_equal(wt_store_read_headlines("/dev/null", &read, &err), WT_E_IO);
-    assert_int_equal(wt_store_read_headlines("/no/such.h5", &read, &err), WT_E_NOT_FOUND);
+    assert_int_equal(wt_store_read_main_values("/dev/null", &read, &err), WT_E_IO);
+    assert_int_equal(wt_store_read_main_values("/no/such.h5", &read, &err), WT_E_NOT_FOUND);
     assert_null(read);
 }
 

@@ -126,12 +126,12 @@ static long makes_a_folder(void)
 
 static long cuts_its_file(void)
 {
-    return ftruncate(DOOR_FILE, 0);
+    return ftruncate(SANDBOX_FILE_FD, 0);
 }
 
 static long writes_into_it(void)
 {
-    return pwrite(DOOR_FILE, "evil", 4, 0);
+    return pwrite(SANDBOX_FILE_FD, "evil", 4, 0);
 }
 
 static long asks_for_a_socket(void)
@@ -257,7 +257,8 @@ static wt_status looks(const sandbox_call *door, FILE *answer, wt_error *err)
     (void)err;
     const int got = open("/etc/passwd", O_RDONLY), number = errno;
     (void)fprintf(answer, "%d %d %d %d %d.", got < 0, number == EACCES, access(victim, F_OK) < 0,
-                  stat(victim, &there) < 0, fstat(DOOR_FILE, &there) == 0 && there.st_size == 4);
+                  stat(victim, &there) < 0,
+                  fstat(SANDBOX_FILE_FD, &there) == 0 && there.st_size == 4);
     return WT_OK;
 }
 

@@ -51,9 +51,9 @@ static void add_table(wt_result *result, const char *name, size_t n_rows)
         if (i % 7 == 0)
             assert_int_equal(wt_table_new_block(t, NULL), WT_OK);
         assert_int_equal(wt_table_add_row(t, NULL), WT_OK);
-        assert_int_equal(wt_table_put_text(t, 0, text, NULL), WT_OK);
-        wt_table_put(t, 1, i % 4 == 0 ? (double)NAN : 1e6 / (double)(i + 3));
-        wt_table_put(t, 2, i % 4 == 1 ? -(double)INFINITY : -0.0);
+        assert_int_equal(wt_table_set_text(t, 0, text, NULL), WT_OK);
+        wt_table_set_number(t, 1, i % 4 == 0 ? (double)NAN : 1e6 / (double)(i + 3));
+        wt_table_set_number(t, 2, i % 4 == 1 ? -(double)INFINITY : -0.0);
     }
     assert_int_equal(wt_result_add(result, t, NULL), WT_OK);
 }
@@ -70,7 +70,7 @@ static wt_result *make_result(void)
     assert_int_equal(wt_provenance_set_command(p, 3, argv), WT_OK);
     wt_provenance_input input = {
         .path = "a case.xml", .role = "case", .format = "weartrack-case 1", .bytes = 54321};
-    wt_digest("abc", 3, input.sha256);
+    wt_sha256("abc", 3, input.sha256);
     assert_int_equal(wt_provenance_add_input(p, &input), WT_OK);
     assert_int_equal(wt_result_set_case(result, case_text, sizeof case_text - 1, NULL), WT_OK);
     return result;
@@ -202,7 +202,7 @@ static void headlines(void **state)
     unsigned char *const bytes = read_bytes(path, &size);
     const size_t end = end_of_hdf5(bytes, size);
     write_bytes(path, bytes, end);
-    assert_int_equal(wt_store_read_headlines(path, &read, &err), WT_OK);
+    assert_int_equal(wt_store_read_main_values(path, &read, &err), WT_OK);
     assert_int_equal(wt_result_n_tables(read), 1);
     char *const all = text_of(wt_result_find(result, "answer"));
     char *const alone = text_of(wt_result_find(read, "answer"));
@@ -216,7 +216,7 @@ static void headlines(void **state)
          (at = memmem(at, end - (size_t)(at - bytes), text, strlen(text))) != NULL;)
         *at = 'C';
     write_bytes(path, bytes, end);
-    assert_int_equal(wt_store_read_headlines(path, &read, &err), WT_E_CORRUPT);
+    assert_int_equal(wt_store_read_main_values(path, &read, &err), WT_E_CORRUPT);
     assert_non_null(strstr(err.message, "digest"));
     wt_result_free(result);
     free(bytes);
@@ -464,7 +464,7 @@ static void odd_block(void **state)
     assert_true(t != NULL && result != NULL);
     assert_int_equal(wt_table_add_column(t, "x", "1", "", NULL), WT_OK);
     assert_int_equal(wt_table_add_row(t, NULL), WT_OK);
-    wt_table_put(t, 0, 1);
+    wt_table_set_number(t, 0, 1);
     assert_int_equal(wt_result_add(result, t, NULL), WT_OK);
     assert_int_equal(wt_store_write(path, result, false, NULL), WT_OK);
     const hid_t file = H5Fopen(path, H5F_ACC_RDWR, H5P_DEFAULT),

@@ -33,9 +33,9 @@ static wt_table *make_table(void)
         if (i == 2)
             assert_int_equal(wt_table_new_block(t, NULL), WT_OK);
         assert_int_equal(wt_table_add_row(t, NULL), WT_OK);
-        assert_int_equal(wt_table_put_text(t, 0, rows[i].text, NULL), WT_OK);
-        wt_table_put(t, 1, rows[i].a);
-        wt_table_put(t, 2, rows[i].b);
+        assert_int_equal(wt_table_set_text(t, 0, rows[i].text, NULL), WT_OK);
+        wt_table_set_number(t, 1, rows[i].a);
+        wt_table_set_number(t, 2, rows[i].b);
     }
     return t;
 }
@@ -121,7 +121,7 @@ static void exact_text(void **state)
     for (int i = 0; i < 2; i++) {
         assert_int_equal(wt_table_new_block(t, NULL), WT_OK);
         assert_int_equal(wt_table_add_row(t, NULL), WT_OK);
-        wt_table_put(t, 0, 0.001 * (i + 1));
+        wt_table_set_number(t, 0, 0.001 * (i + 1));
     }
     assert_int_equal(wt_table_set_estimate(t, "pressure", (wt_estimate){4e5, 0, 0, "Pa"}, NULL),
                      WT_OK);

@@ -256,8 +256,8 @@ static void test_bound(void **state)
     assert_near(prony_value(&v, PRONY_KEY_EQUILIBRIUM_MODULUS).value, 1e6, 0);
     assert_near(prony_value(&v, PRONY_KEY_FREQUENCY_MIN).value, (double)NAN, 0);
     assert_string_equal(prony_value(&v, PRONY_KEY_FREQUENCY_MIN).unit, "rad/s");
-    assert_string_equal(prony_words(&v, PRONY_KEY_DEFORMATION), "shear");
-    assert_null(prony_words(&v, PRONY_KEY_RMS_STORAGE));
+    assert_string_equal(prony_key_text(&v, PRONY_KEY_DEFORMATION), "shear");
+    assert_null(prony_key_text(&v, PRONY_KEY_RMS_STORAGE));
     wt_table_free(table);
 }
 
@@ -305,13 +305,13 @@ static void test_optional(void **state)
     assert_int_equal(wt_table_add_column(table, "modulus", "Pa", "", NULL), WT_OK);
     assert_int_equal(wt_table_add_row(table, NULL), WT_OK);
     assert_int_equal(wt_result_add(result, table, NULL), WT_OK);
-    assert_int_equal(table_bind_of(result, &indentation_schema, "bulk", &v, NULL), WT_OK);
+    assert_int_equal(table_bind_result(result, &indentation_schema, "bulk", &v, NULL), WT_OK);
     assert_ptr_equal(v.table, table);
     assert_true(indentation_has(&v, INDENTATION_VERDICT));
     assert_false(indentation_has(&v, INDENTATION_SPOT));
     assert_string_equal(indentation_text(&v, 0, INDENTATION_SPOT), "");
     assert_near(indentation_get(&v, 0, INDENTATION_NOISE), (double)NAN, 0);
-    assert_int_equal(table_bind_of(result, &indentation_schema, "track", &v, NULL), WT_OK);
+    assert_int_equal(table_bind_result(result, &indentation_schema, "track", &v, NULL), WT_OK);
     assert_null(v.table);
     assert_int_equal(v.n_rows, 0);
     assert_near(indentation_value(&v, INDENTATION_KEY_SPRING_CONSTANT).value, (double)NAN, 0);

@@ -69,7 +69,7 @@ static void texts_are_cut_at_a_character(void **state)
             for (size_t p = 0; p < 2; p++) {
                 const size_t n = strlen(parts[p]);
                 assert_true(n < sizes[p] && n + 5 > sizes[p] - 3);
-                assert_int_equal(utf8_check(parts[p], n), n);
+                assert_int_equal(utf8_valid_length(parts[p], n), n);
                 assert_string_equal(parts[p] + n - 3, "...");
                 assert_memory_equal(parts[p], text, n - 3);
             }
@@ -113,7 +113,7 @@ static void utf8(void **state)
                  {"ab\xE2\x88", 2}, /* cut */
                  {"\x80", 0}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
-        assert_int_equal(utf8_check(cases[i].text, strlen(cases[i].text)), cases[i].good);
+        assert_int_equal(utf8_valid_length(cases[i].text, strlen(cases[i].text)), cases[i].good);
 }
 
 static void parse_log(void **state)
@@ -357,13 +357,13 @@ static void nearest_names(void **state)
                  {"", "abc", 3},        {"ca", "abc", 3}};
     for (size_t i = 0; i < sizeof pairs / sizeof *pairs; i++) {
         const char *const a = pairs[i].a, *const b = pairs[i].b;
-        assert_int_equal(nearest_distance(a, strlen(a), b, strlen(b)), pairs[i].distance);
-        assert_int_equal(nearest_distance(b, strlen(b), a, strlen(a)), pairs[i].distance);
+        assert_int_equal(spelling_distance(a, strlen(a), b, strlen(b)), pairs[i].distance);
+        assert_int_equal(spelling_distance(b, strlen(b), a, strlen(a)), pairs[i].distance);
     }
     char lengthy[64];
     memset(lengthy, 'a', sizeof lengthy);
-    assert_int_equal(nearest_distance(lengthy, 63, lengthy, 63), 0);
-    assert_true(nearest_distance(lengthy, 64, lengthy, 64) == SIZE_MAX);
+    assert_int_equal(spelling_distance(lengthy, 63, lengthy, 63), 0);
+    assert_true(spelling_distance(lengthy, 64, lengthy, 64) == SIZE_MAX);
 
     static const char *const names[] = {"indent", "dwell", "master", "ramp", "run"};
     static const struct {
@@ -372,7 +372,7 @@ static void nearest_names(void **state)
                  {"ran", "run"},       {"ram", "ramp"},     {"plot", NULL}, {"x", NULL},
                  {"", NULL},           {"rm", NULL}};
     for (size_t i = 0; i < sizeof words / sizeof *words; i++) {
-        spell_suggestion near = nearest_to(words[i].word, strlen(words[i].word));
+        spell_suggestion near = spell_suggestion_begin(words[i].word, strlen(words[i].word));
         for (size_t k = 0; k < sizeof names / sizeof *names; k++)
             spell_suggestion_try(&near, names[k], strlen(names[k]));
         if (words[i].name == NULL)

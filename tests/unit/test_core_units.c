@@ -175,7 +175,7 @@ static void known_as_udunits_says(void **state)
 {
     (void)state;
     size_t n = 0;
-    const known_unit *const known = known_units(&n);
+    const builtin_unit *const known = builtin_units(&n);
     assert_true(n > 0);
     for (size_t q = 0; q < (size_t)WT_Q_COUNT; q++) {
         for (size_t i = 0; i < n; i++)
@@ -242,11 +242,11 @@ static void largest_of_each(void **state)
             if (strcmp(rows[i].unit, wt_quantity_unit(quantity)) == 0)
                 most = rows[i].most;
         most = quantity == WT_Q_TEMPERATURE ? 2000 : most;
-        assert_true(quantity_is_possible(quantity, most));
-        assert_true(quantity_is_possible(quantity, -most));
-        assert_false(quantity_is_possible(quantity, 1.01 * most));
-        assert_false(quantity_is_possible(quantity, -1.01 * most));
-        assert_false(quantity_is_possible(quantity, (double)NAN));
+        assert_true(quantity_is_plausible(quantity, most));
+        assert_true(quantity_is_plausible(quantity, -most));
+        assert_false(quantity_is_plausible(quantity, 1.01 * most));
+        assert_false(quantity_is_plausible(quantity, -1.01 * most));
+        assert_false(quantity_is_plausible(quantity, (double)NAN));
     }
 }
 
@@ -360,11 +360,11 @@ static void several_threads(void **state)
 static void chances_in_words(void **state)
 {
     (void)state;
-    assert_string_equal(number_chance(0.0214).text, "0.021");
-    assert_string_equal(number_chance(0.001).text, "0.001");
-    assert_string_equal(number_chance(1.3e-5).text, "below 0.001");
-    assert_string_equal(number_chance(0).text, "below 0.001");
-    assert_string_equal(number_chance((double)NAN).text, "not known");
+    assert_string_equal(format_probability(0.0214).text, "0.021");
+    assert_string_equal(format_probability(0.001).text, "0.001");
+    assert_string_equal(format_probability(1.3e-5).text, "below 0.001");
+    assert_string_equal(format_probability(0).text, "below 0.001");
+    assert_string_equal(format_probability((double)NAN).text, "not known");
 }
 
 /* ---- without the database -------------------------------------------------------------------- */

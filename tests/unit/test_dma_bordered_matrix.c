@@ -32,7 +32,7 @@ static void make_whole(struct whole *w, size_t n)
 }
 
 /* A positive matrix of this form: rows that each touch the border and one block. */
-static void fill(bordered *b, struct whole *w, uint64_t seed)
+static void fill(bordered_matrix *b, struct whole *w, uint64_t seed)
 {
     uint64_t state = seed;
     const size_t m = b->m;
@@ -60,12 +60,12 @@ static void fill(bordered *b, struct whole *w, uint64_t seed)
         for (size_t u = 0; u < m; u++)
             gsl_matrix_set(b->side, r, u, gsl_matrix_get(w->matrix, m + r, u));
         for (size_t c = 0; c <= r % BLOCK_SIDE; c++)
-            b->own[BLOCK_OWN * (r / BLOCK_SIDE) + r % BLOCK_SIDE + c] =
+            b->diagonal[BLOCK_DIAGONAL * (r / BLOCK_SIDE) + r % BLOCK_SIDE + c] =
                 gsl_matrix_get(w->matrix, m + r, m + r - r % BLOCK_SIDE + c);
     }
 }
 
-static void check_inverse(const bordered *inverse, const gsl_matrix *of)
+static void check_inverse(const bordered_matrix *inverse, const gsl_matrix *of)
 {
     const size_t m = inverse->m;
     for (size_t u = 0; u < m; u++)
@@ -76,8 +76,9 @@ static void check_inverse(const bordered *inverse, const gsl_matrix *of)
             assert_near_abs(gsl_matrix_get(inverse->side, r, u), gsl_matrix_get(of, m + r, u),
                             1e-10);
         for (size_t c = 0; c <= r % BLOCK_SIDE; c++)
-            assert_near_abs(inverse->own[BLOCK_OWN * (r / BLOCK_SIDE) + r % BLOCK_SIDE + c],
-                            gsl_matrix_get(of, m + r, m + r - r % BLOCK_SIDE + c), 1e-10);
+            assert_near_abs(
+                inverse->diagonal[BLOCK_DIAGONAL * (r / BLOCK_SIDE) + r % BLOCK_SIDE + c],
+                gsl_matrix_get(of, m + r, m + r - r % BLOCK_SIDE + c), 1e-10);
     }
 }
 
@@ -91,9 +92,9 @@ static void test_as_whole(void **state)
         double x[ALL], y[ALL], log_det = 0.0;
         uint64_t random = 5;
         make_whole(&w, n);
-        bordered b = bordered_new(&w.memory, MOST_BORDER, BLOCKS),
-                 factor = bordered_new(&w.memory, MOST_BORDER, BLOCKS),
-                 inverse = bordered_new(&w.memory, MOST_BORDER, BLOCKS);
+        bordered_matrix b = bordered_new(&w.memory, MOST_BORDER, BLOCKS),
+                        factor = bordered_new(&w.memory, MOST_BORDER, BLOCKS),
+                        inverse = bordered_new(&w.memory, MOST_BORDER, BLOCKS);
         gsl_matrix *scratch = arena_matrix(&w.memory, MOST_BORDER, MOST_BORDER);
         assert_false(w.memory.failed);
         b.m = m;
@@ -135,12 +136,12 @@ static void test_not_positive(void **state)
     for (int where = 0; where < 3; where++) {
         struct whole w = {0};
         make_whole(&w, MOST_BORDER + BLOCK_SIDE * BLOCKS);
-        bordered b = bordered_new(&w.memory, MOST_BORDER, BLOCKS);
+        bordered_matrix b = bordered_new(&w.memory, MOST_BORDER, BLOCKS);
         fill(&b, &w, 3);
         if (where == 0)
-            b.own[BLOCK_OWN * 2] = -1.0;
+            b.diagonal[BLOCK_DIAGONAL * 2] = -1.0;
         if (where == 1)
-            b.own[BLOCK_OWN * 2 + 2] = 0.0;
+            b.diagonal[BLOCK_DIAGONAL * 2 + 2] = 0.0;
         if (where == 2)
             gsl_matrix_set(b.border, 7, 7, 0.0);
         assert_false(bordered_factor(&b));

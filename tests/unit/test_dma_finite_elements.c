@@ -417,7 +417,7 @@ static int make(void **state)
     work.formats = formats;
     job.sets = &set;
     job.n_sets = 1;
-    assert_int_equal(wt_master_make(&job, &work, &tables, NULL, NULL), WT_OK);
+    assert_int_equal(wt_master_compute(&job, &work, &tables, NULL, NULL), WT_OK);
     wt_formats_free(formats);
     return 0;
 }
@@ -465,7 +465,7 @@ static void write(wt_fem_program program, const wt_fem_export_options *o, char *
 static void check(wt_fem_program program, const wt_fem_export_options *o, const wt_shift_law *law)
 {
     static const double stress[] = {1, 1e6, 1e9}, second[] = {1, 1, 1e3};
-    const double zero = o->temperature == WT_SOLID_CELSIUS ? WT_ZERO_CELSIUS : 0;
+    const double zero = o->temperature == WT_FEM_CELSIUS ? WT_ZERO_CELSIUS : 0;
     const wt_table *p = tables.prony_reduced;
     const bool shear = strcmp(wt_table_key(p, "deformation"), "shear") == 0;
     const double to_young = shear ? 2 * (1 + o->poisson_ratio) : 1;
@@ -476,7 +476,7 @@ static void check(wt_fem_program program, const wt_fem_export_options *o, const 
     readers[program](text, &s);
     free(text);
     assert_int_equal(s.n, wt_table_n_rows(p));
-    assert_int_equal(s.shifts, law->kind != WT_LAW_NONE && o->domain == WT_SOLID_TIME);
+    assert_int_equal(s.shifts, law->kind != WT_LAW_NONE && o->domain == WT_FEM_TIME);
     size_t tried = 0;
     for (size_t row = 0; row <= isotherms; row++) {
         if (!s.shifts && row < isotherms)
@@ -506,15 +506,15 @@ static wt_shift_law fitted_law(void)
 
 static void check_all(const wt_shift_law *law)
 {
-    for (int program = WT_SOLID_ABAQUS; program <= WT_SOLID_TABLE; program++)
+    for (int program = WT_FEM_ABAQUS; program <= WT_FEM_TABLE; program++)
         for (int units = 0; units < 3; units++)
             for (int kelvin = 0; kelvin < 2; kelvin++)
                 for (int i = 0; i < 2; i++) {
                     wt_fem_export_options o = wt_fem_export_options_defaults();
-                    o.units = (wt_solid_units)units;
-                    o.temperature = (wt_solid_temperature)kelvin;
+                    o.units = (wt_fem_units)units;
+                    o.temperature = (wt_fem_temperature)kelvin;
                     o.poisson_ratio = i == 0 ? 0.45 : 0.5;
-                    if (program != WT_SOLID_CODE_ASTER || i == 0)
+                    if (program != WT_FEM_CODE_ASTER || i == 0)
                         check((wt_fem_program)program, &o, law);
                 }
 }
@@ -544,9 +544,9 @@ static void of_frequency(void **state)
     const wt_shift_law law = fitted_law();
     for (int i = 0; i < 2; i++) {
         wt_fem_export_options o = wt_fem_export_options_defaults();
-        o.domain = WT_SOLID_FREQUENCY;
+        o.domain = WT_FEM_FREQUENCY;
         o.poisson_ratio = i == 0 ? 0.45 : 0.5;
-        check(WT_SOLID_ABAQUS, &o, &law);
+        check(WT_FEM_ABAQUS, &o, &law);
     }
 }
 
@@ -569,16 +569,16 @@ static void what_else_a_material_has(void **state)
     o.poisson_ratio = 0.45;
     for (int units = 0; units < 3; units++) {
         solid s = {0};
-        o.units = (wt_solid_units)units;
-        write(WT_SOLID_ABAQUS, &o, &text);
+        o.units = (wt_fem_units)units;
+        write(WT_FEM_ABAQUS, &o, &text);
         holds_text(text, "*MATERIAL, NAME=TREAD_7\n");
         read_abaqus(text, &s);
         assert_near(s.density, 1120 * factor[units], 1e-10);
         assert_near(s.expansion, 2.1e-4, 1e-10);
         free(text);
     }
-    o.units = WT_SOLID_MM_T_S;
-    write(WT_SOLID_ANSYS, &o, &text);
+    o.units = WT_FEM_MM_T_S;
+    write(WT_FEM_ANSYS, &o, &text);
     holds_text(text, "\nTREAD_7=1 ");
     holds_text(text, "\nMP,DENS,TREAD_7,1.12e-09\nMP,ALPX,TREAD_7,0.00021\n");
     holds_text(text, "\nMPDATA,EX,TREAD_7,1,");
@@ -586,11 +586,11 @@ static void what_else_a_material_has(void **state)
     holds_text(text, "\nTB,SHIFT,TREAD_7,1,3,WLF\n");
     assert_null(strstr(text, "RUBBER"));
     free(text);
-    write(WT_SOLID_CODE_ASTER, &o, &text);
+    write(WT_FEM_CODE_ASTER, &o, &text);
     holds_text(text, "\nTREAD_7 = DEFI_MATERIAU(\n    ELAS=_F(E=");
     holds_text(text, ", RHO=1.12e-09, ALPHA=0.00021),\n");
     free(text);
-    write(WT_SOLID_TABLE, &o, &text);
+    write(WT_FEM_TABLE, &o, &text);
     holds_text(text, "# density 1.12e-09\n# thermal_expansion 0.00021\n");
     free(text);
 }
@@ -608,7 +608,7 @@ static void the_fast_end_is_told(void **state)
         all += number_cell(p, i, "modulus");
     }
     char *text = NULL;
-    write(WT_SOLID_ABAQUS, &o, &text);
+    write(WT_FEM_ABAQUS, &o, &text);
     const char *words = strstr(text, "highest frequency measured the storage modulus is ");
     assert_non_null(words);
     assert_int_equal(
@@ -626,10 +626,10 @@ static void in_another_locale(void **state)
     const wt_shift_law law = fitted_law();
     const wt_fem_export_options o = wt_fem_export_options_defaults();
     char *text = NULL, *same = NULL;
-    write(WT_SOLID_ABAQUS, &o, &text);
+    write(WT_FEM_ABAQUS, &o, &text);
     if (setlocale(LC_NUMERIC, "de_DE.UTF-8") == NULL)
         (void)setlocale(LC_NUMERIC, "fr_FR.UTF-8");
-    write(WT_SOLID_ABAQUS, &o, &same);
+    write(WT_FEM_ABAQUS, &o, &same);
     (void)setlocale(LC_NUMERIC, "C");
     assert_string_equal(text, same);
     free(text);
@@ -661,7 +661,7 @@ static void check_joined(double from_reference, bool below)
     wt_table *shifts = tables.shift_factors;
     const double reference = key(tables.prony_reduced, "reference_temperature");
     const wt_estimate joint = {reference + from_reference, 0, 0, "K"};
-    const wt_shift_law law = {.kind = WT_LAW_JOINED,
+    const wt_shift_law law = {.kind = WT_LAW_WLF_ARRHENIUS,
                               .wlf = {reference, key(shifts, "wlf_c1"), key(shifts, "wlf_c2")},
                               .activation_energy = 120e3,
                               .joint = joint.value};
@@ -669,9 +669,9 @@ static void check_joined(double from_reference, bool below)
     char *text = NULL, side[8];
     solid s = {0};
     double at, offset, c1, c2;
-    o.temperature = WT_SOLID_KELVIN;
+    o.temperature = WT_FEM_KELVIN;
     assert_int_equal(wt_table_set_estimate(shifts, "joint", joint, NULL), WT_OK);
-    write(WT_SOLID_ABAQUS, &o, &text);
+    write(WT_FEM_ABAQUS, &o, &text);
     const char *words = strstr(text, "** Only ");
     assert_non_null(words);
     assert_int_equal(
@@ -710,38 +710,38 @@ static void refused(void **state)
     wt_fem_program program;
     wt_error err = WT_ERROR_INIT;
     FILE *out = fopen("/dev/null", "w");
-    assert_int_equal(wt_fem_export(out, WT_SOLID_CODE_ASTER, tables.prony_reduced,
-                                   tables.shift_factors, &o, &err),
-                     WT_E_RANGE);
+    assert_int_equal(
+        wt_fem_export(out, WT_FEM_CODE_ASTER, tables.prony_reduced, tables.shift_factors, &o, &err),
+        WT_E_RANGE);
     assert_string_equal(err.place, "poisson-ratio");
     static const char *const names[] = {"",    "7a",  "a b",
                                         "a-b", "a,b", "a23456789012345678901234567890123"};
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
         o.name = names[i];
-        assert_int_equal(wt_fem_export_check(WT_SOLID_ANSYS, &o, &err), WT_E_ARG);
+        assert_int_equal(wt_fem_export_check(WT_FEM_ANSYS, &o, &err), WT_E_ARG);
         assert_string_equal(err.place, "export-name");
     }
     o.name = "NR_CB_50x";
-    assert_int_equal(wt_fem_export_check(WT_SOLID_ANSYS, &o, NULL), WT_OK);
+    assert_int_equal(wt_fem_export_check(WT_FEM_ANSYS, &o, NULL), WT_OK);
     o.poisson_ratio = 0.49;
-    assert_int_equal(wt_fem_export_check(WT_SOLID_CODE_ASTER, &o, NULL), WT_E_ARG);
+    assert_int_equal(wt_fem_export_check(WT_FEM_CODE_ASTER, &o, NULL), WT_E_ARG);
     o.name = "NR_CB_50";
-    assert_int_equal(wt_fem_export_check(WT_SOLID_CODE_ASTER, &o, NULL), WT_OK);
+    assert_int_equal(wt_fem_export_check(WT_FEM_CODE_ASTER, &o, NULL), WT_OK);
     o.poisson_ratio = 0.6;
-    assert_int_equal(wt_fem_export(out, WT_SOLID_ABAQUS, tables.prony_reduced, NULL, &o, NULL),
+    assert_int_equal(wt_fem_export(out, WT_FEM_ABAQUS, tables.prony_reduced, NULL, &o, NULL),
                      WT_E_RANGE);
-    assert_int_equal(wt_fem_export(out, WT_SOLID_ABAQUS, NULL, NULL, NULL, NULL), WT_E_MISSING);
-    assert_int_equal(wt_fem_export(NULL, WT_SOLID_ABAQUS, tables.prony_reduced, NULL, NULL, NULL),
+    assert_int_equal(wt_fem_export(out, WT_FEM_ABAQUS, NULL, NULL, NULL, NULL), WT_E_MISSING);
+    assert_int_equal(wt_fem_export(NULL, WT_FEM_ABAQUS, tables.prony_reduced, NULL, NULL, NULL),
                      WT_E_ARG);
     fclose(out);
     out = fopen("/dev/full", "w");
     assert_int_equal(setvbuf(out, NULL, _IONBF, 0), 0);
     assert_int_equal(
-        wt_fem_export(out, WT_SOLID_ABAQUS, tables.prony_reduced, tables.shift_factors, NULL, NULL),
+        wt_fem_export(out, WT_FEM_ABAQUS, tables.prony_reduced, tables.shift_factors, NULL, NULL),
         WT_E_IO);
     fclose(out);
     assert_true(wt_fem_program_find("ansys:x", 5, &program));
-    assert_int_equal(program, WT_SOLID_ANSYS);
+    assert_int_equal(program, WT_FEM_ANSYS);
     assert_false(wt_fem_program_find("ansys", 4, &program));
     assert_false(wt_fem_program_find("nastran", 7, &program));
 }

@@ -65,8 +65,8 @@ static void check(const wt_table *t, size_t row, const char *name, double truth,
 static void compare(double ratio, double sample_error, wt_materials_tables *tables)
 {
     wt_rubber r[2] = {drawn(1, 3), drawn(ratio, 9)};
-    const wt_compared two[] = {{.name = "first", .rubber = &r[0]},
-                               {.name = "second", .rubber = &r[1]}};
+    const wt_compared_material two[] = {{.name = "first", .rubber = &r[0]},
+                                        {.name = "second", .rubber = &r[1]}};
     wt_materials_job job = wt_materials_job_defaults();
     wt_error err = WT_ERROR_INIT;
     job.materials = two;

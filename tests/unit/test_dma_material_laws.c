@@ -64,13 +64,13 @@ static void closed_form_against_quadrature(void **state)
     const wt_prony prony = series(3e6, 3, modulus, tau);
     wt_material *m = NULL;
     const gauss_rule *rule = NULL;
-    angular_panels panels;
+    angular_subintervals panels;
     assert_int_equal(wt_material_prony(&prony, 0.5, &m, NULL), WT_OK);
-    assert_int_equal(rule_of(PANEL_NODES, &rule, NULL), WT_OK);
-    assert_int_equal(angular_panels_new(m, rule, 1e-3, 1e12, 1e-16, &panels, NULL), WT_OK);
+    assert_int_equal(gauss_rule_get(SUBINTERVAL_NODES, &rule, NULL), WT_OK);
+    assert_int_equal(angular_subintervals_new(m, rule, 1e-3, 1e12, 1e-16, &panels, NULL), WT_OK);
     for (double w = 1e-3; w < 1e12; w *= 17) {
         double j1, j2, closed_j1[2], closed_j2[2];
-        angular_panels_integrate(&panels, w, &j1, &j2);
+        angular_subintervals_integrate(&panels, w, &j1, &j2);
         m->law->angular(m, (double[]){w, 1e160}, 2, closed_j1, closed_j2); /* capped */
         assert_near(j1, closed_j1[0], 1e-13);
         assert_near(j2, closed_j2[0], 1e-13);
@@ -78,7 +78,7 @@ static void closed_form_against_quadrature(void **state)
         assert_near(j1, closed_j1[0], 0);
         assert_near(j2, closed_j2[0], 0);
     }
-    angular_panels_clear(&panels);
+    angular_subintervals_clear(&panels);
     wt_material_free(m);
 }
 
@@ -93,10 +93,10 @@ static void frequencies_below_a_limit(void **state)
     enum { ANGLES = 20000 };
     wt_material *m = NULL;
     const gauss_rule *rule = NULL;
-    angular_panels panels;
+    angular_subintervals panels;
     assert_int_equal(wt_material_prony(&prony, 0.5, &m, NULL), WT_OK);
-    assert_int_equal(rule_of(PANEL_NODES, &rule, NULL), WT_OK);
-    assert_int_equal(angular_panels_new(m, rule, limit, limit, 1e-10, &panels, NULL), WT_OK);
+    assert_int_equal(gauss_rule_get(SUBINTERVAL_NODES, &rule, NULL), WT_OK);
+    assert_int_equal(angular_subintervals_new(m, rule, limit, limit, 1e-10, &panels, NULL), WT_OK);
     for (double w = 1.001 * limit; w < 1e6; w *= 1.7) {
         double sum1 = 0, sum2 = 0, j1, j2;
         const double first = acos(limit / w), step = (M_PI / 2 - first) / ANGLES;
@@ -107,11 +107,11 @@ static void frequencies_below_a_limit(void **state)
             sum1 += 4 * step * cosine * loss;
             sum2 += 4 * step * (storage * storage + loss * loss);
         }
-        angular_panels_integrate(&panels, w, &j1, &j2);
+        angular_subintervals_integrate(&panels, w, &j1, &j2);
         assert_near(j1, sum1, 1e-7);
         assert_near(j2, sum2, 1e-7);
     }
-    angular_panels_clear(&panels);
+    angular_subintervals_clear(&panels);
     wt_material_free(m);
 }
 

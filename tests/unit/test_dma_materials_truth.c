@@ -1,6 +1,6 @@
 /* Materials side by side: isotherms of two rubbers whose spectra, laws and scales are known, so
- * that every ratio is. How often the interval holds it: `unit_dma_materials_truth N` draws N pairs and
- * prints the shares. SPDX-License-Identifier: GPL-3.0-or-later */
+ * that every ratio is. How often the interval holds it: `unit_dma_materials_truth N` draws N pairs
+ * and prints the shares. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "all_formats.h"
 #include "truth.h"
 
@@ -64,7 +64,7 @@ static void fit_rubber(const rubber_truth *r, size_t n, double noise, double spr
     common.formats = formats;
     job.sets = &set;
     job.n_sets = 1;
-    if (wt_master_make(&job, &common, tables, rubber, &err) != WT_OK)
+    if (wt_master_compute(&job, &common, tables, rubber, &err) != WT_OK)
         fail_msg("%s: %s %s", err.place, err.message, err.found);
     unlink(path);
 }
@@ -72,7 +72,7 @@ static void fit_rubber(const rubber_truth *r, size_t n, double noise, double spr
 typedef struct made_pair {
     wt_master_tables tables[2];
     wt_rubber rubber[2];
-    wt_compared compared[2];
+    wt_compared_material compared[2];
     wt_materials_tables made;
 } made_pair;
 
@@ -93,7 +93,7 @@ static void pair_fit(const rubber_truth *first, const rubber_truth *second, doub
     *p = (made_pair){.made = {.materials = NULL}};
     for (int k = 0; k < 2; k++) {
         fit_rubber(truth[k], ISOTHERMS, noise, spread, &seed, &p->tables[k], &p->rubber[k]);
-        p->compared[k] = (wt_compared){
+        p->compared[k] = (wt_compared_material){
             .name = names[k], .rubber = &p->rubber[k], .shift_factors = p->tables[k].shift_factors};
     }
 }

@@ -179,7 +179,7 @@ static void values_hold_the_truth(void **unused)
         const bool factor = draw % 2 == 0;
         const size_t n = measure(draw, factor, x, y, &state, &r);
         const double at = r->reference - 20 + 90 * (double)draw / DRAWS;
-        assert_int_equal(wt_value_between(x, y, n, at, &got, NULL), WT_OK);
+        assert_int_equal(wt_smooth_interpolate(x, y, n, at, &got, NULL), WT_OK);
         assert_true(got.low < got.value && got.value < got.high);
         const double truth = value(r, at, factor);
         held += got.low <= truth && truth <= got.high;
@@ -222,9 +222,9 @@ static void no_peak(void **unused)
     }
     print_message("peaks of scatter: %zu of 100\n", false_ones);
     assert_true(false_ones <= 10);
-    assert_int_equal(wt_value_between(x, y, 60, 59.5, &got, NULL), WT_OK);
+    assert_int_equal(wt_smooth_interpolate(x, y, 60, 59.5, &got, NULL), WT_OK);
     assert_true(isnan(got.value) && isnan(got.low));
-    assert_int_equal(wt_value_between(x, y, 4, 2, &got, NULL), WT_OK);
+    assert_int_equal(wt_smooth_interpolate(x, y, 4, 2, &got, NULL), WT_OK);
     assert_true(isnan(got.value));
 }
 
@@ -326,10 +326,10 @@ static void slopes(void **state)
     assert_int_equal(gaussian_process_new(x, y, POINTS, true, &s, NULL), WT_OK);
     for (double at = -2; at <= 8; at += 1.25) {
         const double slope = 0.8 * at - 1;
-        assert_near_abs(gaussian_process_mean(&s, at, SMOOTH_VALUE), 0.4 * at * at - at + 7, 1e-5);
-        assert_near_abs(gaussian_process_mean(&s, at, SMOOTH_SLOPE), slope, 1e-5);
-        assert_true(smooth_below(&s, at, SMOOTH_SLOPE, slope + 1e-4) > 0.999);
-        assert_true(smooth_below(&s, at, SMOOTH_SLOPE, slope - 1e-4) < 0.001);
+        assert_near_abs(gaussian_process_mean(&s, at, GP_VALUE), 0.4 * at * at - at + 7, 1e-5);
+        assert_near_abs(gaussian_process_mean(&s, at, GP_SLOPE), slope, 1e-5);
+        assert_true(gaussian_process_probability_below(&s, at, GP_SLOPE, slope + 1e-4) > 0.999);
+        assert_true(gaussian_process_probability_below(&s, at, GP_SLOPE, slope - 1e-4) < 0.001);
     }
     gaussian_process_free(&s);
 }

@@ -40,7 +40,7 @@ static void add_others(const char *ramp, const char *strain)
 static void test_found(void **state)
 {
     (void)state;
-    wt_samples samples = {0, NULL};
+    wt_sample_names samples = {0, NULL};
     static const char *const names[] = {"", "NR 2", "NR 10", "SBR"};
     add("NR 10", 300, "a");
     add(NULL, 310, "a");
@@ -52,7 +52,7 @@ static void test_found(void **state)
     assert_int_equal(samples.n, 4);
     for (size_t i = 0; i < 4; i++)
         assert_string_equal(samples.name[i], names[i]);
-    wt_samples_clear(&samples);
+    wt_sample_names_clear(&samples);
     assert_int_equal(samples.n, 0);
 }
 
@@ -64,14 +64,14 @@ static void test_taken(void **state)
     add("SBR", 300, "a");
     add(NULL, 310, "a");
     add_others("NR", "CR");
-    assert_int_equal(flow_sample_take(&sweep, NULL, &err), WT_OK);
-    assert_int_equal(flow_sample_take(&sweep, "all", &err), WT_OK);
+    assert_int_equal(flow_select_sample(&sweep, NULL, &err), WT_OK);
+    assert_int_equal(flow_select_sample(&sweep, "all", &err), WT_OK);
     assert_int_equal(sweep.n_isotherms, 3);
-    assert_int_equal(flow_sample_take(&sweep, "EPDM", &err), WT_E_NOT_FOUND);
+    assert_int_equal(flow_select_sample(&sweep, "EPDM", &err), WT_E_NOT_FOUND);
     assert_string_equal(err.message, "no sweep is of the sample \"EPDM\"");
     assert_string_equal(err.found, "(without a name), NR, SBR, CR");
     assert_int_equal(sweep.n_isotherms, 3);
-    assert_int_equal(flow_sample_take(&sweep, "NR", &err), WT_OK);
+    assert_int_equal(flow_select_sample(&sweep, "NR", &err), WT_OK);
     assert_int_equal(sweep.n_isotherms, 1);
     assert_int_equal(sweep.n_ramps, 1);
     assert_int_equal(sweep.n_strain_sweeps, 0);
@@ -84,7 +84,7 @@ static void test_of_others(void **state)
     (void)state;
     add("NR", 300, "a");
     add_others("SBR", "CR");
-    assert_int_equal(flow_sample_take(&sweep, "CR", NULL), WT_OK);
+    assert_int_equal(flow_select_sample(&sweep, "CR", NULL), WT_OK);
     assert_int_equal(sweep.n_strain_sweeps, 1);
     assert_int_equal(sweep.n_isotherms + sweep.n_ramps, 0);
 }
@@ -95,19 +95,19 @@ static void test_one(void **state)
     wt_error err = WT_ERROR_INIT;
     wt_file_set set = {.read = wt_read_defaults()};
     add("NR", 300, "a");
-    assert_int_equal(flow_one_sample(&sweep, &set, 1, NULL, &err), WT_OK);
+    assert_int_equal(flow_require_one_sample(&sweep, &set, 1, NULL, &err), WT_OK);
     for (int i = 0; i < 40; i++) {
         char name[24];
         snprintf(name, sizeof name, "compound %02d", i);
         add(name, 300, "a");
     }
-    assert_int_equal(flow_one_sample(&sweep, &set, 1, NULL, &err), WT_E_AMBIGUOUS);
+    assert_int_equal(flow_require_one_sample(&sweep, &set, 1, NULL, &err), WT_E_AMBIGUOUS);
     assert_string_equal(err.expected, "those of one");
     assert_int_equal(strncmp(err.found, "NR, compound 00, compound 01", 28), 0);
     assert_string_equal(err.found + sizeof err.found - 4, "..."); /* cut, and says so */
     set.read.sample = "NR";                                       /* was chosen */
-    assert_int_equal(flow_one_sample(&sweep, &set, 1, NULL, &err), WT_OK);
-    assert_int_equal(flow_one_sample(&sweep, NULL, 0, NULL, &err), WT_E_AMBIGUOUS);
+    assert_int_equal(flow_require_one_sample(&sweep, &set, 1, NULL, &err), WT_OK);
+    assert_int_equal(flow_require_one_sample(&sweep, NULL, 0, NULL, &err), WT_E_AMBIGUOUS);
 }
 
 /* Two files of one temperature, to half a kelvin, may be two materials: said once. */
@@ -136,7 +136,7 @@ static void test_files(void **state)
         add(cases[i].sample, 293.15 + cases[i].apart, "three.csv");
         if (!cases[i].said)
             sweep.n_isotherms--;
-        assert_int_equal(flow_one_sample(&sweep, &set, 1, log, NULL), WT_OK);
+        assert_int_equal(flow_require_one_sample(&sweep, &set, 1, log, NULL), WT_OK);
         sweep.n_isotherms += !cases[i].said;
         assert_int_equal(wt_log_count(log), cases[i].said);
         if (cases[i].said) {

@@ -25,7 +25,7 @@ static int fit(void **state)
     job.n_sets = 1;
     for (size_t i = 0; i < 2; i++) {
         set.read.sample = names[i];
-        if (wt_master_make(&job, &work, &fitted[i], NULL, NULL) != WT_OK)
+        if (wt_master_compute(&job, &work, &fitted[i], NULL, NULL) != WT_OK)
             return -1;
     }
     return 0;
@@ -45,12 +45,12 @@ static double wlf(double a, double b, double reference, double temperature)
     return -a * (temperature - reference) / (b + temperature - reference);
 }
 
-static double own_law(size_t sample, double temperature)
+static double material_law(size_t sample, double temperature)
 {
     return wlf(c1[sample], c2[sample], 293.15, temperature);
 }
 
-static wt_table *make(wt_common how, const wt_master *const *fits, size_t n, double margin)
+static wt_table *make(wt_shared_law_mode how, const wt_master *const *fits, size_t n, double margin)
 {
     wt_shared_shift_law_job job = wt_shared_shift_law_job_defaults();
     wt_table *table = NULL;
@@ -60,7 +60,7 @@ static wt_table *make(wt_common how, const wt_master *const *fits, size_t n, dou
     job.fits = fits;
     job.n = n;
     job.margin = margin;
-    if (wt_shared_shift_law_make(&job, &table, &err) != WT_OK)
+    if (wt_shared_shift_law_compute(&job, &table, &err) != WT_OK)
         fail_msg("%s", err.message);
     return table;
 }
@@ -102,7 +102,7 @@ static void check_rows(const wt_table *t, bool moved)
         for (size_t i = first + 1; i < end; i++) {
             const double from = cell(t, i - 1, "temperature"), to = cell(t, i, "temperature");
             assert_near_abs(cell(t, i, "difference") - cell(t, i - 1, "difference"),
-                            own_law(s, to) - own_law(s, from) -
+                            material_law(s, to) - material_law(s, from) -
                                 (cell(t, i, "law_log_a") - cell(t, i - 1, "law_log_a")),
                             0.03);
         }
@@ -115,7 +115,7 @@ static void test_same(void **state)
 {
     (void)state;
     const wt_master *const fits[] = {fitted[0].fit, fitted[1].fit, NULL};
-    wt_table *t = make(WT_COMMON_SAME, fits, 3, 0.05);
+    wt_table *t = make(WT_SHARED_LAW_SAME, fits, 3, 0.05);
     char words[160];
     assert_int_equal(wt_table_n_rows(t), 13); /* one for the sample without a fit */
     check_rows(t, false);
@@ -145,7 +145,7 @@ static void test_same(void **state)
     assert_true(key_estimate(t, "temperature_spread").value > 0);
     wt_table_free(t);
     /* a margin that is wider than the difference */
-    t = make(WT_COMMON_SAME, fits, 2, 9);
+    t = make(WT_SHARED_LAW_SAME, fits, 2, 9);
     snprintf(words, sizeof words, "yes: the laws of the samples are one within 9 decade");
     assert_int_equal(strncmp(wt_table_key(t, "agree"), words, strlen(words)), 0);
     assert_non_null(strstr(wt_table_key(t, "agree"), "they differ by more than their errors"));
@@ -158,7 +158,7 @@ static void test_twice(void **state)
 {
     (void)state;
     const wt_master *const fits[] = {fitted[0].fit, fitted[0].fit};
-    wt_table *t = make(WT_COMMON_SAME, fits, 2, 0.5);
+    wt_table *t = make(WT_SHARED_LAW_SAME, fits, 2, 0.5);
     const wt_estimate a = key_estimate(t, "wlf_c1"), b = key_estimate(t, "wlf_c2"),
                       own = key_estimate(fitted[0].shift_factors, "wlf_c1");
     assert_near_abs(a.value, c1[0], 4 * a.standard_error);
@@ -176,7 +176,7 @@ static void test_moved(void **state)
 {
     (void)state;
     const wt_master *const fits[] = {fitted[0].fit, fitted[1].fit};
-    wt_table *t = make(WT_COMMON_MOVED, fits, 2, 0.1);
+    wt_table *t = make(WT_SHARED_LAW_SHIFTED, fits, 2, 0.1);
     char words[320];
     check_rows(t, true);
     const double moved = cell(t, 6, "moved"), error = cell(t, 6, "moved_standard_error"),

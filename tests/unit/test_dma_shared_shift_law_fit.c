@@ -48,8 +48,8 @@ static void draw_sample(const truth *t, size_t k, uint64_t *seed, wt_sweep *swee
     wt_sweep_sort(sweep);
 }
 
-static wt_status find(const truth *t, wt_common how, uint64_t seed, wt_shared_shift_law *law,
-                      wt_error *err)
+static wt_status find(const truth *t, wt_shared_law_mode how, uint64_t seed,
+                      wt_shared_shift_law *law, wt_error *err)
 {
     wt_master fit[SAMPLES] = {{0}};
     const wt_master *of[SAMPLES];
@@ -78,7 +78,7 @@ static double held(wt_interval x, double truth_)
     return x.low <= truth_ && truth_ <= x.high ? 1 : 0;
 }
 
-static shares count(const truth *t, wt_common how)
+static shares count(const truth *t, wt_shared_law_mode how)
 {
     shares s = {0};
     for (uint64_t i = 0; i < DRAWS; i++) {
@@ -121,7 +121,7 @@ static void assert_covers(double share)
 static void test_same(void **state)
 {
     (void)state;
-    const shares s = count(&same, WT_COMMON_SAME);
+    const shares s = count(&same, WT_SHARED_LAW_SAME);
     assert_near(s.n, DRAWS, 0);
     if (!SHARES_COUNT)
         return;
@@ -135,7 +135,7 @@ static void test_same(void **state)
 static void test_moved(void **state)
 {
     (void)state;
-    const shares s = count(&moved, WT_COMMON_MOVED);
+    const shares s = count(&moved, WT_SHARED_LAW_SHIFTED);
     assert_near(s.n, DRAWS, 0);
     if (!SHARES_COUNT)
         return;
@@ -152,7 +152,7 @@ static void test_other(void **state)
     (void)state;
     wt_shared_shift_law law = {0};
     wt_error err = WT_ERROR_INIT;
-    assert_int_equal(find(&other, WT_COMMON_SAME, 5, &law, &err), WT_OK);
+    assert_int_equal(find(&other, WT_SHARED_LAW_SAME, 5, &law, &err), WT_OK);
     assert_true(law.p < 1e-3);
     wt_shared_shift_law_clear(&law);
 }
@@ -161,7 +161,7 @@ static void test_other(void **state)
 static void test_rough(void **state)
 {
     (void)state;
-    const shares s = count(&rough, WT_COMMON_SAME);
+    const shares s = count(&rough, WT_SHARED_LAW_SAME);
     if (!SHARES_COUNT)
         return;
     assert_true(s.n > 0.9 * DRAWS);
@@ -177,9 +177,9 @@ static void test_too_few(void **state)
     const wt_master *none[2] = {NULL, NULL};
     wt_shared_shift_law law = {0};
     wt_error err = WT_ERROR_INIT;
-    assert_int_equal(wt_shared_shift_law_fit(none, 2, WT_COMMON_SAME, reference, &law, &err),
+    assert_int_equal(wt_shared_shift_law_fit(none, 2, WT_SHARED_LAW_SAME, reference, &law, &err),
                      WT_E_RANGE);
-    assert_int_equal(wt_shared_shift_law_fit(none, 2, WT_COMMON_NONE, reference, &law, &err),
+    assert_int_equal(wt_shared_shift_law_fit(none, 2, WT_SHARED_LAW_NONE, reference, &law, &err),
                      WT_E_ARG);
     assert_null(law.members);
 }

@@ -599,7 +599,7 @@ static void storage_alone_finds_a_spectrum_of_lines(void **state)
         wt_sweep sweep = {0};
         lines_at_six_temperatures(&sweep, 13, scatter[i]);
         wt_master_options by_storage = at_reference(293.15, WT_VERTICAL_NONE);
-        by_storage.shift_by = WT_BY_STORAGE;
+        by_storage.shift_by = WT_SHIFT_STORAGE;
         wt_master m = fit_good(&sweep, &by_storage, NULL);
         assert_near_abs(m.shifts[0].log_a.value, 8.18 * 30.0 / 80.0, 0.05);
         wt_master_clear(&m);
@@ -642,10 +642,10 @@ static size_t points_of(size_t near)
         t->storage_modulus[k] = 1e6 * pow(t->angular_frequency[k], 0.2);
         t->loss_modulus[k] = 3e5 * pow(t->angular_frequency[k], 0.2);
     }
-    if (shift_set_new(&sweep, WT_BY_MODULI, NULL, &memory, &set, &err) != WT_OK)
+    if (shift_set_new(&sweep, WT_SHIFT_MODULI, NULL, &memory, &set, &err) != WT_OK)
         fail_msg("%s", err.message);
     const size_t n = set.curves[0].n;
-    assert_int_equal(set.curves[0].n_together, n < t->n ? t->n : 0);
+    assert_int_equal(set.curves[0].n_merged, n < t->n ? t->n : 0);
     arena_free(&memory);
     wt_sweep_clear(&sweep);
     return n;

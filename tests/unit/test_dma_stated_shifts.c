@@ -8,7 +8,7 @@
 
 static const double noise = 0.005;
 
-static wt_master_options options(wt_shift_by by)
+static wt_master_options options(wt_shift_quantity by)
 {
     wt_master_options o = wt_master_options_defaults();
     o.reference_temperature = 293.15;
@@ -43,7 +43,7 @@ static void cut_by_temperature_and_frequency(void **unused)
     dma_usual(&sweep, true, 0, 1); /* -20 to 80 degC; 0.1 to 100 rad/s in 16 points */
     heat(&sweep, 2 * M_PI, 100, &state);
     heat(&sweep, 20 * M_PI * 1.001, 100, &state);
-    assert_int_equal(flow_sweep_cut(texts, 3, &sweep, NULL, NULL), WT_OK);
+    assert_int_equal(flow_sweep_exclude(texts, 3, &sweep, NULL, NULL), WT_OK);
     assert_int_equal(sweep.n_isotherms, 8);
     assert_near_abs(sweep.isotherms[0].temperature, 273.15, 1e-9);
     for (size_t i = 0; i < sweep.n_isotherms; i++) {
@@ -72,8 +72,8 @@ static void words_that_cut_nothing(void **unused)
         wt_sweep sweep = {0};
         wt_error err = WT_ERROR_INIT;
         dma_usual(&sweep, true, 0, 1);
-        assert_int_not_equal(flow_sweep_cut(&bad[i], 1, &sweep, NULL, &err), WT_OK);
-        assert_int_not_equal(flow_cuts_check(&bad[i], 1, &err), WT_OK);
+        assert_int_not_equal(flow_sweep_exclude(&bad[i], 1, &sweep, NULL, &err), WT_OK);
+        assert_int_not_equal(flow_exclusions_check(&bad[i], 1, &err), WT_OK);
         assert_int_equal(sweep.n_isotherms, 11);
         wt_sweep_clear(&sweep);
     }
@@ -84,7 +84,7 @@ static void one_frequency_by_a_law(void **unused)
 {
     enum { DRAWS = 12, PLACES = 9 };
     const wt_shift_law law = {.kind = WT_LAW_WLF, .wlf = dma_rubber.wlf};
-    const wt_master_options o = options(WT_BY_MODULI);
+    const wt_master_options o = options(WT_SHIFT_MODULI);
     size_t held = 0;
     (void)unused;
     for (uint64_t draw = 1; draw <= DRAWS; draw++) {
@@ -119,14 +119,14 @@ static void some_given_others_fitted(void **unused)
 {
     wt_sweep sweep = {0};
     wt_master m = {0};
-    const wt_master_options o = options(WT_BY_MODULI);
+    const wt_master_options o = options(WT_SHIFT_MODULI);
     size_t given = 0;
     (void)unused;
     dma_usual(&sweep, true, noise, 7);
     for (size_t i = 0; i < sweep.n_isotherms; i += 2) {
         wt_isotherm *t = &sweep.isotherms[i];
-        t->shift_given = true; /* to another reference: differences count */
-        t->given_log_a = 3 + wt_wlf_log_shift(&dma_rubber.wlf, t->temperature);
+        t->shift_is_stated = true; /* to another reference: differences count */
+        t->stated_log_a = 3 + wt_wlf_log_shift(&dma_rubber.wlf, t->temperature);
     }
     assert_int_equal(wt_master_fit(&sweep, &o, NULL, &m, NULL), WT_OK);
     for (size_t i = 0; i < m.n_shifts; i++) {
@@ -160,18 +160,18 @@ static void runs_at_one_temperature_keep_their_shifts(void **unused)
         assert_int_equal(wt_table_add_column(table, "log_a", "1", "", NULL), WT_OK);
         for (size_t i = 0; i < 4; i++) {
             assert_int_equal(wt_table_add_row(table, NULL), WT_OK);
-            wt_table_put(table, 0, temperature[i]);
-            wt_table_put(table, 1, log_a[i]);
+            wt_table_set_number(table, 0, temperature[i]);
+            wt_table_set_number(table, 1, log_a[i]);
         }
         for (size_t i = run == 0 ? 0 : 1; i < 3; i++) /* the second time one run only */
             assert_non_null(
                 dma_add(&sweep, &dma_rubber, temperature[i], 0.1, 100, 8, true, noise, &state));
         const wt_status status =
-            flow_shifts_give(&none, table, WT_VERTICAL_TIED, &sweep, log, &err);
+            flow_set_stated_shifts(&none, table, WT_VERTICAL_TIED, &sweep, log, &err);
         assert_int_equal(status, run == 0 ? WT_OK : WT_E_AMBIGUOUS);
         for (size_t i = 0; run == 0 && i < 3; i++) {
-            assert_true(sweep.isotherms[i].shift_given);
-            assert_near_abs(sweep.isotherms[i].given_log_a, log_a[i], 0);
+            assert_true(sweep.isotherms[i].shift_is_stated);
+            assert_near_abs(sweep.isotherms[i].stated_log_a, log_a[i], 0);
         }
         for (size_t i = 0; i < wt_log_count(log); i++)
             said += strstr(wt_log_get(log, i).text, "1 of the 4 given shifts are of no") != 0;
@@ -187,7 +187,7 @@ static void closed_form_of_the_standard(void **unused)
 {
     wt_sweep sweep = {0};
     wt_master m = {0};
-    wt_master_options o = options(WT_BY_MODULI);
+    wt_master_options o = options(WT_SHIFT_MODULI);
     (void)unused;
     dma_usual(&sweep, false, 0, 1);
     o.vertical = WT_VERTICAL_NONE;
@@ -204,24 +204,25 @@ static void closed_form_of_the_standard(void **unused)
 static void one_quantity_alone(void **unused)
 {
     enum { DRAWS = 24 };
-    static const wt_shift_by by[] = {WT_BY_STORAGE, WT_BY_LOSS, WT_BY_LOSS_FACTOR};
+    static const wt_shift_quantity by[] = {WT_SHIFT_STORAGE, WT_SHIFT_LOSS, WT_SHIFT_LOSS_FACTOR};
     (void)unused;
     for (size_t b = 0; b < 3; b++) {
-        const wt_master_options o = options(WT_BY_MODULI);
+        const wt_master_options o = options(WT_SHIFT_MODULI);
         const wt_master_options alone = options(by[b]);
         size_t held = 0, n = 0;
         for (uint64_t draw = 1; draw <= DRAWS; draw++) {
             wt_sweep sweep = {0};
             wt_master m = {0};
             dma_usual(&sweep, true, noise, draw);
-            for (size_t i = 0; by[b] != WT_BY_LOSS_FACTOR && i < sweep.n_isotherms; i++)
+            for (size_t i = 0; by[b] != WT_SHIFT_LOSS_FACTOR && i < sweep.n_isotherms; i++)
                 for (size_t k = 0; k < sweep.isotherms[i].n; k++) /* as if not measured */
-                    (by[b] == WT_BY_STORAGE ? sweep.isotherms[i].loss_modulus
-                                            : sweep.isotherms[i].storage_modulus)[k] = (double)NAN;
-            const wt_master_options *use = by[b] == WT_BY_LOSS_FACTOR ? &alone : &o;
+                    (by[b] == WT_SHIFT_STORAGE ? sweep.isotherms[i].loss_modulus
+                                               : sweep.isotherms[i].storage_modulus)[k] =
+                        (double)NAN;
+            const wt_master_options *use = by[b] == WT_SHIFT_LOSS_FACTOR ? &alone : &o;
             assert_int_equal(wt_master_fit(&sweep, use, NULL, &m, NULL), WT_OK);
-            assert_int_equal(wt_master_shifted_by(&m), by[b]);
-            assert_int_equal(m.superposition, WT_SUPERPOSITION_CANNOT_SAY);
+            assert_int_equal(wt_master_shift_quantity(&m), by[b]);
+            assert_int_equal(m.superposition, WT_SUPERPOSITION_INCONCLUSIVE);
             for (size_t i = 0; i < m.n_shifts; i++) {
                 const double truth = wt_wlf_log_shift(&dma_rubber.wlf, m.shifts[i].temperature);
                 const wt_interval a = m.shifts[i].log_a;
@@ -230,13 +231,13 @@ static void one_quantity_alone(void **unused)
                 n++;
                 held += a.low <= truth && truth <= a.high;
             }
-            const bool level = by[b] == WT_BY_STORAGE, factor = by[b] == WT_BY_LOSS_FACTOR;
+            const bool level = by[b] == WT_SHIFT_STORAGE, factor = by[b] == WT_SHIFT_LOSS_FACTOR;
             const double measured = wt_master_loss_factor(&m, m.n / 2);
             const wt_interval ratio = m.fitted_loss_factor[m.n / 2];
             assert_int_equal(m.prony.n > 0, level);
             assert_int_equal(isfinite(m.fitted_storage[m.n / 2].value) != 0, level);
             assert_int_equal(isfinite(m.fitted_loss[m.n / 2].value) != 0, !factor);
-            assert_int_equal(isfinite(ratio.value) != 0, by[b] != WT_BY_LOSS);
+            assert_int_equal(isfinite(ratio.value) != 0, by[b] != WT_SHIFT_LOSS);
             assert_int_equal(isfinite(measured) != 0, factor);
             assert_int_equal(isfinite(m.log_storage[0]) != 0, level);
             assert_int_equal(isfinite(m.shifts[0].log_b.value) != 0, !factor);
@@ -256,7 +257,7 @@ static void one_modulus_and_free_shifts(void **unused)
     wt_sweep sweep = {0};
     wt_master m = {0};
     wt_error err = WT_ERROR_INIT;
-    wt_master_options o = options(WT_BY_STORAGE);
+    wt_master_options o = options(WT_SHIFT_STORAGE);
     (void)unused;
     dma_usual(&sweep, true, noise, 1);
     o.vertical = WT_VERTICAL_FREE;
@@ -280,17 +281,17 @@ static void glass_transition_as_reference(void **unused)
             peak = t;
         }
     }
-    for (size_t by = WT_BY_MODULI; by <= WT_BY_LOSS_FACTOR; by++) {
+    for (size_t by = WT_SHIFT_MODULI; by <= WT_SHIFT_LOSS_FACTOR; by++) {
         wt_sweep sweep = {0};
         wt_master m = {0};
         wt_error err = WT_ERROR_INIT;
-        wt_master_options o = options((wt_shift_by)by);
+        wt_master_options o = options((wt_shift_quantity)by);
         o.reference_at = WT_REFERENCE_TAN_DELTA_PEAK;
         o.reference_temperature = (double)NAN;
         dma_usual(&sweep, true, noise, 3);
         const wt_status status = wt_master_fit(&sweep, &o, NULL, &m, &err);
-        assert_int_equal(status, by == WT_BY_LOSS ? WT_E_RANGE : WT_OK);
-        if (by == WT_BY_LOSS) {
+        assert_int_equal(status, by == WT_SHIFT_LOSS ? WT_E_RANGE : WT_OK);
+        if (by == WT_SHIFT_LOSS) {
             assert_non_null(strstr(err.message, "no peak that was measured"));
         } else {
             print_message("%.2f, truth %.2f K\n", m.reference_temperature, peak);
@@ -308,7 +309,7 @@ static void no_glass_transition_far_from_the_isotherms(void **unused)
     wt_sweep sweep = {0};
     wt_master m = {0};
     wt_error err = WT_ERROR_INIT;
-    wt_master_options o = options(WT_BY_MODULI);
+    wt_master_options o = options(WT_SHIFT_MODULI);
     uint64_t state = 3;
     (void)unused;
     o.reference_at = WT_REFERENCE_TAN_DELTA_PEAK;

@@ -29,7 +29,7 @@ static spectrum make_spectrum(wt_loading loading, size_t n_terms, double fastest
 static double value_at(const spectrum *s, const double *term, double t)
 {
     double value, slope;
-    spectrum_step_at(s, term, -log(t), &value, &slope, NULL);
+    spectrum_step_response(s, term, -log(t), &value, &slope, NULL);
     return s->loading == WT_CREEP ? exp(-value) : exp(value);
 }
 
@@ -103,18 +103,18 @@ static void derivatives_are_those_of_the_values(void **state)
         spectrum s = make_spectrum(loading, TERMS, 1e-7, 0.7);
         for (double x = -9.0; x < 18.0; x += 1.7) {
             double value, slope, above, below, unused, sum = 0.0;
-            spectrum_step_at(&s, term, x + 1e-5, &above, &unused, NULL);
-            spectrum_step_at(&s, term, x - 1e-5, &below, &unused, NULL);
-            spectrum_step_at(&s, term, x, &value, &slope, gradient);
+            spectrum_step_response(&s, term, x + 1e-5, &above, &unused, NULL);
+            spectrum_step_response(&s, term, x - 1e-5, &below, &unused, NULL);
+            spectrum_step_response(&s, term, x, &value, &slope, gradient);
             assert_near_abs(slope, (above - below) / 2e-5, 1e-8);
             for (size_t j = 0; j <= TERMS; j++) {
                 const double h = 1e-5;
                 sum += gradient[j];
                 memcpy(moved, term, sizeof moved);
                 moved[j] = term[j] * exp(h);
-                spectrum_step_at(&s, moved, x, &above, &unused, NULL);
+                spectrum_step_response(&s, moved, x, &above, &unused, NULL);
                 moved[j] = term[j] * exp(-h);
-                spectrum_step_at(&s, moved, x, &below, &unused, NULL);
+                spectrum_step_response(&s, moved, x, &below, &unused, NULL);
                 assert_near_abs(gradient[j], (above - below) / (2.0 * h), 1e-8);
             }
             assert_near(sum, 1.0, 1e-9); /* twice the moduli is half the compliance */
@@ -261,7 +261,7 @@ static void steps_have_their_limits(void **state)
     wt_master_clear(&m);
     wt_log_free(log);
     options.liquid = false;
-    options.shift_by = WT_BY_LOSS;
+    options.shift_by = WT_SHIFT_LOSS;
     assert_int_equal(wt_master_fit(&sweep, &options, NULL, &m, &err), WT_E_MISSING);
     wt_sweep_clear(&sweep);
 }

@@ -25,7 +25,7 @@ static wt_table *friction_of(const wt_rubber *rubber, wt_estimate pressure)
     sliding.n_velocity = 2;
     work.threads = 1;
     work.replicates = 8;
-    if (wt_friction_make(&sliding, NULL, &work, &tables, &err) != WT_OK)
+    if (wt_sliding_friction_compute(&sliding, NULL, &work, &tables, &err) != WT_OK)
         fail_msg("%s %s", err.message, err.found);
     return tables.friction;
 }
@@ -49,7 +49,7 @@ static wt_rubber of_isotherms(void)
     job.n_sets = 1;
     job.fit.reference_temperature =
         key_estimate(wt_result_find(fixture_produced(), "prony"), "reference_temperature").value;
-    if (wt_master_make(&job, &work, NULL, &rubber, &err) != WT_OK)
+    if (wt_master_compute(&job, &work, NULL, &rubber, &err) != WT_OK)
         fail_msg("%s %s", err.message, err.found);
     wt_formats_free(formats);
     return rubber;
@@ -167,7 +167,7 @@ static void negative_equilibrium(wt_table *copy, size_t row)
         fixture_put(copy, "equilibrium_modulus", -1);
 }
 
-static void no_law(wt_table *copy, size_t row)
+static void no_law_reason(wt_table *copy, size_t row)
 {
     if (row == 0)
         fixture_put(copy, "wlf_c2", (double)NAN);
@@ -212,7 +212,7 @@ static void test_refused(void **state)
         {{"series_draws", .edit = endless_modulus}, WT_E_RANGE, "row 4 of series_draws"},
         {{"series_draws", .edit = no_time}, WT_E_RANGE, "row 4 of series_draws"},
         {{"material_draws", .edit = negative_equilibrium}, WT_E_RANGE, "row 1 of material_draws"},
-        {{"material_draws", .edit = no_law}, WT_E_RANGE, "row 1 of material_draws"},
+        {{"material_draws", .edit = no_law_reason}, WT_E_RANGE, "row 1 of material_draws"},
         {{"material_draws", .edit = no_vertical}, WT_E_RANGE, "row 2 of material_draws"},
         {{"material_draws", .edit = other_temperature}, WT_E_RANGE, "row 2 of material_draws"},
         {{"material_draws", .finish = other_reference}, WT_E_RANGE, "material_draws"},

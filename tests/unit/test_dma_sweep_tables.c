@@ -87,7 +87,7 @@ static void check_sentence(wt_table *transition)
     assert_int_equal(wt_table_set_estimate(transition, "loss_modulus_peak_temperature", loss, NULL),
                      WT_OK);
     assert_int_equal(wt_result_add(result, transition, NULL), WT_OK);
-    assert_true(wt_result_sentence(result, words, sizeof words) < sizeof words);
+    assert_true(wt_result_summary_line(result, words, sizeof words) < sizeof words);
     const char *first = strstr(words, "7.3 \xc2\xb0"
                                       "C (peak of tan delta, error not known)"),
                *second = strstr(words, "-2.71 \xc2\xb0"
@@ -119,7 +119,7 @@ static void test_ramps(void **state)
     job.n_sets = 1;
     job.temperature = at;
     job.n_temperatures = 3;
-    if (wt_ramp_make(&job, &work, &tables, &err) != WT_OK)
+    if (wt_ramp_compute(&job, &work, &tables, &err) != WT_OK)
         fail_msg("%s %s", err.message, err.found);
     remove_files();
     const wt_table *ramp = tables.ramp, *peaks = tables.glass_transition,
@@ -241,7 +241,7 @@ static void test_strain(void **state)
     work.formats = formats;
     job.sets = &set;
     job.n_sets = 1;
-    if (wt_payne_make(&job, &work, &tables, &err) != WT_OK)
+    if (wt_payne_compute(&job, &work, &tables, &err) != WT_OK)
         fail_msg("%s %s", err.message, err.found);
     remove_files();
     const wt_table *p = tables.payne, *s = tables.payne_sweep;
@@ -321,7 +321,7 @@ static void test_left_out(void **state)
     work.formats = formats;
     job.sets = &set;
     job.n_sets = 1;
-    if (wt_payne_make(&job, &work, &tables, &err) != WT_OK)
+    if (wt_payne_compute(&job, &work, &tables, &err) != WT_OK)
         fail_msg("%s %s", err.message, err.found);
     remove_files();
     for (size_t i = 0; i < FILES; i++) {

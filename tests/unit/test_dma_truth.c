@@ -73,7 +73,7 @@ static int make(void **state)
     job.n_sets = 1;
     job.fit.reference_temperature = REFERENCE;
     job.poisson_ratio = 0.45;
-    if (wt_master_make(&job, &common, &tables, &rubber, &err) == WT_OK)
+    if (wt_master_compute(&job, &common, &tables, &rubber, &err) == WT_OK)
         return 0;
     print_error("%s: %s %s\n", err.place, err.message, err.found);
     return -1;
@@ -407,8 +407,9 @@ static void test_at(void **state)
     for (int i = 0; i < 4; i++) {
         double a = pow(10, -6.5 * steps[i] / (110 + steps[i])), scale = pow(10, -b[i]);
         wt_material *m = NULL;
-        assert_int_equal(wt_rubber_at(&r, REFERENCE + steps[i], 1, WT_NO_REPLICATE, &m, NULL, NULL),
-                         WT_OK);
+        assert_int_equal(
+            wt_rubber_material(&r, REFERENCE + steps[i], 1, WT_NO_REPLICATE, &m, NULL, NULL),
+            WT_OK);
         assert_near(m->frequency_min, 0.01 / a, 1e-9);
         assert_near(m->frequency_max, 1e7 / a, 1e-9);
         for (double omega = 1; omega < 1e6; omega *= 31) {
@@ -436,7 +437,7 @@ static void test_shift_error(void **state)
         double expected = sqrt(by_c1 * by_c1 + by_c2 * by_c2 + 2 * r.c_correlation * by_c1 * by_c2);
         for (size_t i = 0; i < N; i++) {
             wt_material *m = NULL;
-            assert_int_equal(wt_rubber_at(&r, REFERENCE + s, 3, i, &m, NULL, NULL), WT_OK);
+            assert_int_equal(wt_rubber_material(&r, REFERENCE + s, 3, i, &m, NULL, NULL), WT_OK);
             shift[i] = log10(1e7 / m->frequency_max);
             mean += shift[i] / N;
             wt_material_free(m);

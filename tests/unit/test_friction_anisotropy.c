@@ -377,12 +377,14 @@ static void caution_of_weights(void **state)
                         askew = {.amplitude = {0.5, 0.3}, .angle = {0.7, 0.2}};
     double shift = 0;
     /* (1 + a + 2 a r) / (1 + a - 2 a r), r = 3/4 of E'' that goes with the frequency squared */
-    assert_near(weight_along(&across).caution, (1 + 2.5 * 0.8) / (1 - 0.5 * 0.8), 1e-12);
-    assert_near(weight_along(&along).caution, 1, 1e-12);
-    const angular_weight to_the_side = weight_aside(&askew, &shift), ahead = weight_along(&askew);
-    assert_near(ahead.caution, worst_terms(ahead.power[0]), 1e-6);
-    assert_near(to_the_side.caution, worst_terms(to_the_side.power[0]), 1e-6);
-    assert_true(ahead.caution > 1.1 && to_the_side.caution > 1.1);
+    assert_near(weight_longitudinal(&across).cancellation, (1 + 2.5 * 0.8) / (1 - 0.5 * 0.8),
+                1e-12);
+    assert_near(weight_longitudinal(&along).cancellation, 1, 1e-12);
+    const angular_weight to_the_side = weight_lateral(&askew, &shift),
+                         ahead = weight_longitudinal(&askew);
+    assert_near(ahead.cancellation, worst_terms(ahead.power[0]), 1e-6);
+    assert_near(to_the_side.cancellation, worst_terms(to_the_side.power[0]), 1e-6);
+    assert_true(ahead.cancellation > 1.1 && to_the_side.cancellation > 1.1);
 }
 
 int main(void)

@@ -143,7 +143,7 @@ static void check_area(rig *r)
 {
     const wt_area_law kind = area_law_named(case_word(&r->c, false, "area_law"));
     const area_law *law;
-    assert_int_equal(area_law_of(kind, &law, NULL), WT_OK);
+    assert_int_equal(area_law_get(kind, &law, NULL), WT_OK);
     const double g = area_law_variance(law, given(r, "variance", 0));
     if (case_find(&r->c, true, "corrected") != NULL)
         check_near(r, "G", g, expected(r, "corrected"), 5e-13);
@@ -179,7 +179,7 @@ static void test_area_limits(void **state)
     const area_law *law[4];
     double most_apart = 0;
     for (size_t k = 0; k < 4; k++)
-        assert_int_equal(area_law_of((wt_area_law)k, &law[k], NULL), WT_OK);
+        assert_int_equal(area_law_get((wt_area_law)k, &law[k], NULL), WT_OK);
     assert_null(law[WT_AREA_PERSSON]);
     for (double x = -3; x < 16; x += 0.01) {
         const double g0 = pow(10, x), plain = contact_area(g0);
@@ -391,7 +391,7 @@ static void test_flash_unsettled(void **state)
     assert_int_equal(wt_friction_profile(ws, r->pressure, r->velocity, &q1, 1, &node, &err),
                      WT_E_CONVERGENCE);
     assert_non_null(strstr(err.message, "flash temperature"));
-    assert_int_equal(wt_energy_source_friction(ws, r->pressure, r->velocity, &source, &err),
+    assert_int_equal(wt_energy_source_from_friction(ws, r->pressure, r->velocity, &source, &err),
                      WT_E_CONVERGENCE);
     wt_friction_workspace_free(ws);
     r->options.shift.kind = WT_LAW_NONE;
@@ -411,7 +411,8 @@ static void test_flash_energy(void **state)
     rig *r = rig_named("flash_A_v0.1");
     wt_energy_source source = {0};
     wt_friction_workspace *ws = prepare(r, 1e-9);
-    assert_int_equal(wt_energy_source_friction(ws, r->pressure, r->velocity, &source, NULL), WT_OK);
+    assert_int_equal(wt_energy_source_from_friction(ws, r->pressure, r->velocity, &source, NULL),
+                     WT_OK);
     double power = 0;
     for (size_t i = 0; i < source.n; i++)
         power += source.power[i];

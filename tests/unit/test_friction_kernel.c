@@ -219,11 +219,11 @@ static void areas_of_many(void **state)
 {
     (void)state;
     enum { MANY = 700 };
-    double variance[MANY + CONTACT_ROOM], area[MANY + CONTACT_ROOM];
+    double variance[MANY + CONTACT_PADDING], area[MANY + CONTACT_PADDING];
     for (size_t n = MANY; n > 0; n = 2 * n / 3) {
         for (size_t i = 0; i < n; i++)
             variance[i] = i == 0 ? 0 : pow(10, -3 + 15 * (double)i / (double)n);
-        for (size_t i = n; i < n + CONTACT_ROOM; i++)
+        for (size_t i = n; i < n + CONTACT_PADDING; i++)
             variance[i] = (double)NAN;
         contact_areas(variance, n, area);
         for (size_t i = 0; i < n; i++)

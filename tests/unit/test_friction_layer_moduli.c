@@ -78,11 +78,11 @@ static double kramers_kronig(const wt_ratio_slope *slope, double omega)
 {
     const double step = 1e-3, reach = 60;
     double own, other, phase, sum = 0;
-    wt_ratio_slope_at(slope, omega, &own, &phase);
+    wt_ratio_slope_eval(slope, omega, &own, &phase);
     for (double y = step / 2; y < reach; y += step) {
         for (int side = -1; side <= 1; side += 2) {
             const double at = omega * exp(side * y);
-            wt_ratio_slope_at(slope, at, &other, &phase);
+            wt_ratio_slope_eval(slope, at, &other, &phase);
             /* w w' / (w'^2 - w^2) is 1 / (2 sinh(y)), of either sign */
             sum += step * (other - own) / (2 * sinh(side * y));
         }
@@ -99,15 +99,15 @@ static void phase_is_causal(void **state)
         for (double x = -4; x <= 11; x += 0.73) {
             double log_ratio, phase;
             const double omega = pow(10, x);
-            wt_ratio_slope_at(&slopes[k], omega, &log_ratio, &phase);
+            wt_ratio_slope_eval(&slopes[k], omega, &log_ratio, &phase);
             assert_near_abs(phase, kramers_kronig(&slopes[k], omega), 2e-6);
         }
     double log_ratio, phase;
     const wt_ratio_slope wide = {0.1, 1, 1e-30, 1e30, NOT_SAID};
-    wt_ratio_slope_at(&wide, 7, &log_ratio, &phase);
+    wt_ratio_slope_eval(&wide, 7, &log_ratio, &phase);
     assert_near(log_ratio, 0.1 * log(7), 1e-15);
     assert_near(phase, 0.1 * M_PI_2, 1e-14);
-    wt_ratio_slope_at(&slopes[0], 1e9, &log_ratio, &phase);
+    wt_ratio_slope_eval(&slopes[0], 1e9, &log_ratio, &phase);
     assert_near(log_ratio, 0.11 * log(3e4 / 30), 1e-15); /* held */
 }
 
@@ -119,7 +119,7 @@ static double complex felt(const wt_material *bulk, const wt_layer_state *layer,
 {
     double storage, loss, log_ratio, phase;
     bulk->law->modulus(bulk, &omega, 1, &storage, &loss);
-    wt_ratio_slope_at(&layer->slope, omega, &log_ratio, &phase);
+    wt_ratio_slope_eval(&layer->slope, omega, &log_ratio, &phase);
     const double complex below = storage + unit * loss;
     const double complex n = 1 / (layer->modulus_ratio * cexp(log_ratio + unit * phase));
     const double complex c = (1 - n) / (1 + n);
@@ -137,7 +137,7 @@ static void integrals_are_sums(void **state)
         const wt_layer_state layer = {.thickness = 1e-6,
                                       .modulus_ratio = stiff ? 2.5 : 0.4,
                                       .slope = {0.08, 1e3, 20, 3e5, NOT_SAID}};
-        const layer_moduli m = layer_moduli_of(bulk, layer, 1e-10);
+        const layer_moduli m = layer_moduli_create(bulk, layer, 1e-10);
         for (size_t i = 0; i < 4; i++) {
             const double omega = 0.05 * waves[i];
             double j1, j2, loss, error = 0, sum1 = 0, sum2 = 0, sum3 = 0;
@@ -316,14 +316,14 @@ static void layer_has_its_law(void **state)
     bare.shift = layer_law;
     o.shift = bulk_law;
     o.layer.own = layer;
-    o.layer.own_law = layer_law;
+    o.layer.material_law = layer_law;
     find(layer, &bare, alone);
     find(bulk, &o, own);
     assert_alike(own, alone, 1e-5);
     for (size_t i = 0; i < N; i++)
         assert_near_abs(own[i].side.value, alone[i].side.value,
                         own[i].side.numerical_error + alone[i].side.numerical_error);
-    o.layer.own_law.kind = WT_LAW_NONE;
+    o.layer.material_law.kind = WT_LAW_NONE;
     find(bulk, &o, other);
     assert_true(own[1].temperature.value > 300);
     assert_true(fabs(other[1].hysteresis.value / own[1].hysteresis.value - 1) > 1e-2);

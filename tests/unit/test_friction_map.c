@@ -35,7 +35,7 @@ static wt_table *make_map(void)
 {
     wt_table *table = NULL;
     wt_error err = WT_ERROR_INIT;
-    if (wt_friction_map_make(&sliding, layer, &work, &table, &err) != WT_OK)
+    if (wt_friction_map_compute(&sliding, layer, &work, &table, &err) != WT_OK)
         fail_msg("%s %s", err.message, err.found);
     return table;
 }
@@ -47,7 +47,7 @@ static wt_table *make_friction(double temperature, double pressure)
     wt_friction_tables tables = {0};
     there.temperature.value = temperature;
     there.pressure.value = pressure;
-    assert_int_equal(wt_friction_make(&there, layer, &work, &tables, NULL), WT_OK);
+    assert_int_equal(wt_sliding_friction_compute(&there, layer, &work, &tables, NULL), WT_OK);
     return tables.friction;
 }
 
@@ -144,17 +144,17 @@ static void map_that_cannot_be(void **state)
     wt_table *map = NULL;
     wt_error err = WT_ERROR_INIT;
     set_up();
-    assert_int_equal(wt_friction_map_make(&sliding, NULL, &work, &map, &err), WT_E_ARG);
+    assert_int_equal(wt_friction_map_compute(&sliding, NULL, &work, &map, &err), WT_E_ARG);
     static const double cold[] = {150, 293.15};
     sliding.temperatures = cold;
     sliding.n_temperatures = 2;
-    assert_int_equal(wt_friction_map_make(&sliding, NULL, &work, &map, &err), WT_E_RANGE);
+    assert_int_equal(wt_friction_map_compute(&sliding, NULL, &work, &map, &err), WT_E_RANGE);
     assert_non_null(strstr(err.found, "-123.15"));
     rubber.law.kind = WT_LAW_NONE;
-    assert_int_equal(wt_friction_map_make(&sliding, NULL, &work, &map, &err), WT_E_MISSING);
+    assert_int_equal(wt_friction_map_compute(&sliding, NULL, &work, &map, &err), WT_E_MISSING);
     sliding.anisotropy.amplitude[0] = 0.9;
     sliding.anisotropy.amplitude[1] = -0.9;
-    assert_int_equal(wt_friction_map_make(&sliding, NULL, &work, &map, &err), WT_E_RANGE);
+    assert_int_equal(wt_friction_map_compute(&sliding, NULL, &work, &map, &err), WT_E_RANGE);
     assert_non_null(strstr(err.message, "negative"));
     assert_null(map);
 }
@@ -168,7 +168,7 @@ static void decades_add_up(void **state)
     enum { DECADES = 4 };
     set_up();
     wt_table *table = NULL, *friction = make_friction((double)NAN, 0.4e6);
-    assert_int_equal(wt_friction_decades_make(&sliding, NULL, &work, &table, NULL), WT_OK);
+    assert_int_equal(wt_friction_by_scale_compute(&sliding, NULL, &work, &table, NULL), WT_OK);
     assert_int_equal(wt_table_n_rows(table), 3 * DECADES);
     static const size_t shown[] = {0, VELOCITIES / 2, VELOCITIES - 1};
     for (size_t v = 0; v < 3; v++) {
@@ -206,8 +206,8 @@ static void decades_have_the_cracks(void **state)
         .thickness = {0, 0, 0, "m"}, .modulus_ratio = {1, 0, 0, "1"}, .shear = &shear};
     sliding.shear_stress.value = 5e6;
     wt_table *table = NULL, *plain = NULL, *friction = make_friction((double)NAN, 0.4e6);
-    assert_int_equal(wt_friction_decades_make(&sliding, &cracked, &work, &table, NULL), WT_OK);
-    assert_int_equal(wt_friction_decades_make(&sliding, NULL, &work, &plain, NULL), WT_OK);
+    assert_int_equal(wt_friction_by_scale_compute(&sliding, &cracked, &work, &table, NULL), WT_OK);
+    assert_int_equal(wt_friction_by_scale_compute(&sliding, NULL, &work, &plain, NULL), WT_OK);
     const size_t last = wt_table_n_rows(table) - 1;
     const double area = number_cell(table, last, "area_ratio"), pressure = sliding.pressure.value;
     const double cracks = 2 / (1e-5 * sqrt(M_PI * area)) * area / pressure;
@@ -234,12 +234,12 @@ static void decades_end_at_decades(void **state)
     surface.q0 = surface.qr = 1e3;
     surface.q1 = 1e6;
     sliding.n_velocity = 1;
-    assert_int_equal(wt_friction_decades_make(&sliding, NULL, &work, &table, NULL), WT_OK);
+    assert_int_equal(wt_friction_by_scale_compute(&sliding, NULL, &work, &table, NULL), WT_OK);
     assert_int_equal(wt_table_n_rows(table), 3);
     wt_table_free(table);
     table = NULL;
     surface.q1 = 3e3;
-    assert_int_equal(wt_friction_decades_make(&sliding, NULL, &work, &table, NULL), WT_OK);
+    assert_int_equal(wt_friction_by_scale_compute(&sliding, NULL, &work, &table, NULL), WT_OK);
     assert_int_equal(wt_table_n_rows(table), 1);
     assert_near(number_cell(table, 0, "share"), 1, 1e-14);
     wt_table_free(table);
@@ -252,7 +252,7 @@ static void sides(void **state)
     (void)state;
     wt_table *table = NULL, *plain;
     set_up();
-    assert_int_equal(wt_anisotropy_make(&sliding, &work, &table, NULL), WT_E_ARG);
+    assert_int_equal(wt_anisotropic_friction_compute(&sliding, &work, &table, NULL), WT_E_ARG);
     plain = make_friction((double)NAN, 0.4e6);
     assert_null(wt_table_key(plain, "anisotropy"));
     sliding.anisotropy.amplitude[0] = 0.6;
@@ -260,7 +260,7 @@ static void sides(void **state)
     wt_table *friction = make_friction((double)NAN, 0.4e6);
     assert_string_equal(wt_table_key(friction, "anisotropy"), "0.6 cos 2(phi - 30 deg)");
     assert_non_null(strstr(wt_table_key(friction, "standard_error_excludes"), "anisotropy"));
-    assert_int_equal(wt_anisotropy_make(&sliding, &work, &table, NULL), WT_OK);
+    assert_int_equal(wt_anisotropic_friction_compute(&sliding, &work, &table, NULL), WT_OK);
     assert_int_equal(wt_table_n_rows(table), VELOCITIES);
     for (size_t i = 0; i < VELOCITIES; i++) {
         assert_near(number_cell(table, i, "hysteresis"), number_cell(friction, i, "hysteresis"), 0);

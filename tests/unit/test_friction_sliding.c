@@ -67,7 +67,7 @@ static wt_table *friction(const wt_layer_observation *layer)
 {
     wt_friction_tables t = {0};
     wt_error err = WT_ERROR_INIT;
-    if (wt_friction_make(&sliding, layer, &work, &t, &err) != WT_OK)
+    if (wt_sliding_friction_compute(&sliding, layer, &work, &t, &err) != WT_OK)
         fail_msg("%s %s", err.message, err.found);
     wt_table *table = t.friction;
     t.friction = NULL;
@@ -273,7 +273,7 @@ static wt_table *layer_of(const wt_layer_job *job)
 {
     wt_layer_tables t = {0};
     wt_error err = WT_ERROR_INIT;
-    if (wt_layer_make(&sliding, job, &work, &t, &err) != WT_OK)
+    if (wt_layer_thickness_compute(&sliding, job, &work, &t, &err) != WT_OK)
         fail_msg("%s %s", err.message, err.found);
     wt_table *table = t.layer;
     t.layer = NULL;

@@ -30,7 +30,7 @@ static int make_sweeps(void **state)
     common.formats = formats;
     job.sets = &set;
     job.n_sets = 1;
-    if (wt_payne_make(&job, &common, &tables, &err) != WT_OK)
+    if (wt_payne_compute(&job, &common, &tables, &err) != WT_OK)
         print_error("%s\n", err.message);
     payne_sweep = tables.payne_sweep;
     tables.payne_sweep = NULL;
@@ -224,7 +224,7 @@ static void test_shares(void **state)
     sliding_set_up(velocity, N_VELOCITIES);
     sliding.softness = &s;
     sliding.strain_factor = 0.5;
-    assert_int_equal(wt_softening_make(&sliding, &work, &table, NULL), WT_OK);
+    assert_int_equal(wt_softened_friction_compute(&sliding, &work, &table, NULL), WT_OK);
     assert_int_equal(wt_table_n_rows(table), N_VELOCITIES);
     double low = surface.qr, high = surface.q1;
     for (int i = 0; i < 200; i++) {
@@ -238,7 +238,7 @@ static void test_shares(void **state)
     }
     const double whole = surface.q1;
     surface.q1 = high;
-    assert_int_equal(wt_softening_make(&sliding, &work, &cut, NULL), WT_OK);
+    assert_int_equal(wt_softened_friction_compute(&sliding, &work, &cut, NULL), WT_OK);
     surface.q1 = whole;
     for (size_t i = 0; i < N_VELOCITIES; i++) {
         const double all = number_cell(table, i, "hysteresis"),
@@ -264,11 +264,11 @@ static void test_same(void **state)
     wt_friction_tables with = {0}, without = {0};
     wt_table *table = NULL;
     sliding_set_up(velocity, N_VELOCITIES);
-    assert_int_equal(wt_friction_make(&sliding, NULL, &work, &without, NULL), WT_OK);
-    assert_int_equal(wt_softening_make(&sliding, &work, &table, NULL), WT_E_ARG);
+    assert_int_equal(wt_sliding_friction_compute(&sliding, NULL, &work, &without, NULL), WT_OK);
+    assert_int_equal(wt_softened_friction_compute(&sliding, &work, &table, NULL), WT_E_ARG);
     sliding.softness = &s;
-    assert_int_equal(wt_friction_make(&sliding, NULL, &work, &with, NULL), WT_OK);
-    assert_int_equal(wt_softening_make(&sliding, &work, &table, NULL), WT_OK);
+    assert_int_equal(wt_sliding_friction_compute(&sliding, NULL, &work, &with, NULL), WT_OK);
+    assert_int_equal(wt_softened_friction_compute(&sliding, &work, &table, NULL), WT_OK);
     static const char *const columns[] = {"hysteresis", "area_ratio"}, *const others[] = {
                                                                            "hysteresis_without",
                                                                            "area_ratio_without"};
@@ -303,7 +303,7 @@ static void test_drawn(void **state)
     moved[0].table.storage = other[0];
     moved[1].table.loss = other[1];
     sliding.softness = &s;
-    assert_int_equal(wt_friction_make(&sliding, NULL, &work, &t, NULL), WT_OK);
+    assert_int_equal(wt_sliding_friction_compute(&sliding, NULL, &work, &t, NULL), WT_OK);
     const double value = number_cell(t.friction, 0, "hysteresis"),
                  error = number_cell(t.friction, 0, "hysteresis_standard_error");
     const char *includes = NULL, *lacks = NULL;
@@ -314,7 +314,7 @@ static void test_drawn(void **state)
     work.replicates = 0;
     for (size_t i = 0; i < 2; i++) {
         sliding.softness = &moved[i];
-        assert_int_equal(wt_friction_make(&sliding, NULL, &work, &t, NULL), WT_OK);
+        assert_int_equal(wt_sliding_friction_compute(&sliding, NULL, &work, &t, NULL), WT_OK);
         change[i] = number_cell(t.friction, 0, "hysteresis") - value;
         lacks = wt_table_key(t.friction, "standard_error_excludes");
         assert_non_null(lacks);
@@ -378,7 +378,8 @@ static void test_covered(void **state)
             work.replicates = 64;
             work.tolerance = 1e-4;
             sliding.softness = &s;
-            assert_int_equal(wt_friction_make(&sliding, NULL, &work, &found, NULL), WT_OK);
+            assert_int_equal(wt_sliding_friction_compute(&sliding, NULL, &work, &found, NULL),
+                             WT_OK);
             const double value = number_cell(found.friction, 0, "hysteresis"),
                          error = number_cell(found.friction, 0, "hysteresis_standard_error");
             wt_friction_tables_clear(&found);
@@ -387,7 +388,8 @@ static void test_covered(void **state)
                 .temperature = (double)NAN};
             work.replicates = 0;
             sliding.softness = &other;
-            assert_int_equal(wt_friction_make(&sliding, NULL, &work, &found, NULL), WT_OK);
+            assert_int_equal(wt_sliding_friction_compute(&sliding, NULL, &work, &found, NULL),
+                             WT_OK);
             held += fabs(number_cell(found.friction, 0, "hysteresis") - value) <= 1.96 * error;
             wt_friction_tables_clear(&found);
             wt_strain_softening_clear(&s);
@@ -435,7 +437,7 @@ static wt_result *run(const char *softening, const char *files)
     size_t n_failed = 0;
     options.replicates = 0;
     if (wt_case_read(path, &c, &err) != WT_OK ||
-        wt_run(c, &options, NULL, &result, &n_failed, &err) != WT_OK)
+        wt_run_case(c, &options, NULL, &result, &n_failed, &err) != WT_OK)
         print_error("%s: %s %s\n", err.place, err.message, err.found);
     wt_case_free(c);
     remove(path);
@@ -498,7 +500,7 @@ static void test_given(void **state)
         for (size_t row = 0; row < 2; row++) {
             assert_int_equal(wt_table_add_row(t, NULL), WT_OK);
             for (size_t c = 0; c < n; c++)
-                wt_table_put(t, c, values[row][of[c]]);
+                wt_table_set_number(t, c, values[row][of[c]]);
         }
         const wt_status status =
             wt_strain_softening_from_table(t, wt_strain_softening_choice_defaults(), &s, &err);

@@ -28,9 +28,11 @@ static void kernel_against_textbook(void **state)
         assert_int_equal(wt_friction_compute(ws, pressure, &velocity, 1, &point, NULL), WT_OK);
         textbook_friction coarse = {0}, fine = {0};
         assert_int_equal(
-            friction_textbook(material, roughness, pressure, velocity, 31, 100, &coarse), WT_OK);
+            textbook_friction_compute(material, roughness, pressure, velocity, 31, 100, &coarse),
+            WT_OK);
         assert_int_equal(
-            friction_textbook(material, roughness, pressure, velocity, 4001, 400, &fine), WT_OK);
+            textbook_friction_compute(material, roughness, pressure, velocity, 4001, 400, &fine),
+            WT_OK);
         assert_near(fine.stress_variance, point.stress_variance.value, 1e-3);
         assert_near(fine.hysteresis, point.hysteresis.value, 1e-3);
         /* and it takes more nodes to get there */
@@ -42,7 +44,7 @@ static void kernel_against_textbook(void **state)
     }
     assert_int_equal(n, 3);
     textbook_friction nothing;
-    assert_int_equal(friction_textbook(NULL, NULL, 1, 1, 1, 2, &nothing), WT_E_ARG);
+    assert_int_equal(textbook_friction_compute(NULL, NULL, 1, 1, 1, 2, &nothing), WT_E_ARG);
     free(c);
     fclose(in);
 }

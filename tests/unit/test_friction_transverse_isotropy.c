@@ -18,7 +18,7 @@ static int run_case(void **state)
     size_t n_failed = 0;
     options.replicates = 0;
     if (wt_case_read(WT_SOURCE_DIR "/fixtures/transverse/case.xml", &c, &err) != WT_OK ||
-        wt_run(c, &options, NULL, &result, &n_failed, &err) != WT_OK)
+        wt_run_case(c, &options, NULL, &result, &n_failed, &err) != WT_OK)
         print_error("%s: %s %s\n", err.place, err.message, err.found);
     wt_case_free(c);
     return result == NULL || n_failed > 0 ? -1 : 0;
@@ -75,15 +75,15 @@ static void test_ends(void **state)
     wt_table *directed = NULL;
     sliding_set_up(velocity, 3);
     work.replicates = 0;
-    assert_int_equal(wt_transverse_isotropy_make(&sliding, &work, &directed, NULL), WT_E_ARG);
-    assert_int_equal(wt_friction_make(&sliding, NULL, &work, &plain, NULL), WT_OK);
+    assert_int_equal(wt_transverse_isotropy_compute(&sliding, &work, &directed, NULL), WT_E_ARG);
+    assert_int_equal(wt_sliding_friction_compute(&sliding, NULL, &work, &plain, NULL), WT_OK);
     rubber.is_transverse = true;
     rubber.transverse = wt_transverse_defaults();
     rubber.transverse.axial_loss = 1.5;
     rubber.poisson_ratio = 0.49;
-    assert_int_equal(wt_transverse_isotropy_make(&sliding, &work, &directed, NULL), WT_OK);
+    assert_int_equal(wt_transverse_isotropy_compute(&sliding, &work, &directed, NULL), WT_OK);
     wt_friction_tables_clear(&plain);
-    assert_int_equal(wt_friction_make(&sliding, NULL, &work, &plain, NULL), WT_OK);
+    assert_int_equal(wt_sliding_friction_compute(&sliding, NULL, &work, &plain, NULL), WT_OK);
     for (size_t i = 0; i < 3; i++)
         assert_near(at(directed, "both", i, "hysteresis"),
                     number_cell(plain.friction, i, "hysteresis"), 1e-9);

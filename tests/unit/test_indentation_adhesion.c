@@ -27,14 +27,14 @@ static adhesive_contact balance(const adhesion *law, double k, double position)
 {
     double bare;
     adhesion_balance(law, k, adhesion_release(law, k), &position, 1, &bare);
-    return adhesion_at(law, bare);
+    return adhesion_contact_value(law, bare);
 }
 
 static void check_release(const adhesion *law, double k, const char *at, const char *end)
 {
     if (at == NULL || (end != NULL && at > end))
         return;
-    const adhesive_contact c = adhesion_at(law, adhesion_release(law, k));
+    const adhesive_contact c = adhesion_contact_value(law, adhesion_release(law, k));
     assert_near(c.force, number_in(at, "F_N", end), 1e-10);
     if (isinf(k) || k == 0.0)
         return;
@@ -85,7 +85,7 @@ static void derivatives(void **state)
     wt_contact_table *table = table_of(&tip);
     const adhesion law = {table, 6e6, 0.02};
     for (double bare = 8e-9; bare < 200e-9; bare *= 1.3) {
-        const adhesive_contact c = adhesion_at(&law, bare);
+        const adhesive_contact c = adhesion_contact_value(&law, bare);
         const double e = 1e-4;
         adhesion more = law, less = law;
         more.reduced *= 1 + e;
@@ -117,7 +117,7 @@ static void textbook(void **state)
     const adhesion sharp = {of_cone, 1e7, 0.01};
     assert_true(isnan(adhesion_tabor(&sharp)));
     const double c = 1 / tan(0.4);
-    assert_near(-adhesion_at(&sharp, adhesion_release(&sharp, 0.0)).force,
+    assert_near(-adhesion_contact_value(&sharp, adhesion_release(&sharp, 0.0)).force,
                 54 * 0.01 * 0.01 / (M_PI * 1e7 * c * c * c), 1e-9);
     wt_contact_table_free(of_cone);
     wt_contact_table_free(table);
@@ -132,11 +132,11 @@ static void sphere(void **state)
     const wt_tip hertz = {.shape = WT_TIP_PARABOLOID, .radius = 5e-6};
     wt_contact_table *table = table_of(&round), *of_hertz = table_of(&hertz);
     const adhesion weak = {table, 1e7, 1e-6}, same = {of_hertz, 1e7, 1e-6};
-    assert_near(adhesion_at(&weak, adhesion_release(&weak, 0.1)).force,
-                adhesion_at(&same, adhesion_release(&same, 0.1)).force, 1e-4);
+    assert_near(adhesion_contact_value(&weak, adhesion_release(&weak, 0.1)).force,
+                adhesion_contact_value(&same, adhesion_release(&same, 0.1)).force, 1e-4);
     const adhesion law = {table, 1e4, 0.005};
     for (double bare = 2e-7; bare < 1e-5; bare *= 1.1) {
-        const adhesive_contact c = adhesion_at(&law, bare);
+        const adhesive_contact c = adhesion_contact_value(&law, bare);
         const double a = c.radius;
         double g, slope;
         wt_contact_function(&round, c.depth + sqrt(2 * M_PI * law.work * a / law.reduced), &g,
@@ -144,14 +144,14 @@ static void sphere(void **state)
         assert_near(slope, 2 * a, 1e-11);
         assert_near(c.force, law.reduced * g - sqrt(8 * M_PI * law.reduced * law.work * a * a * a),
                     1e-11);
-        const adhesive_contact more = adhesion_at(&law, bare * (1 + 1e-5));
-        const adhesive_contact less = adhesion_at(&law, bare * (1 - 1e-5));
+        const adhesive_contact more = adhesion_contact_value(&law, bare * (1 + 1e-5));
+        const adhesive_contact less = adhesion_contact_value(&law, bare * (1 - 1e-5));
         assert_near(c.stiffness, (more.force - less.force) / (more.depth - less.depth), 1e-6);
     }
-    const adhesive_contact end = adhesion_at(&law, adhesion_release(&law, 0.0));
+    const adhesive_contact end = adhesion_contact_value(&law, adhesion_release(&law, 0.0));
     assert_true(end.radius > 2.5e-6 && end.radius < 5e-6);
     for (double other = 2e-7; other < 1e-5; other *= 1.01)
-        assert_true(adhesion_at(&law, other).force >= end.force);
+        assert_true(adhesion_contact_value(&law, other).force >= end.force);
     assert_near(adhesion_work(table, law.reduced, 0.0, -end.force), law.work, 1e-9);
     assert_near(balance(&law, (double)INFINITY, 4e-6).depth, 4e-6, 1e-12);
     wt_contact_table_free(of_hertz);
@@ -178,7 +178,7 @@ static void curve_in_balance(void **state)
             const double k = lever[c % 3];
             const adhesion law = {table, 5e6, work[c / 3]};
             const double release = adhesion_release(&law, k);
-            const adhesive_contact end = adhesion_at(&law, release);
+            const adhesive_contact end = adhesion_contact_value(&law, release);
             const double held = release > 0 ? end.depth + end.force / k : 0.0;
             const double reach = 1e-6 + fabs(held);
             for (size_t i = 0; i < N; i++)
@@ -186,7 +186,7 @@ static void curve_in_balance(void **state)
                     held - 0.1 * reach + 1.2 * reach * ((double)i + 3.0 * sin(7.0 * (double)i)) / N;
             adhesion_balance(&law, k, release, position, N, bare);
             for (size_t i = 0; i < N; i++) {
-                const adhesive_contact at = adhesion_at(&law, bare[i]);
+                const adhesive_contact at = adhesion_contact_value(&law, bare[i]);
                 if (position[i] <= held)
                     assert_true(!(bare[i] > release) && !(bare[i] < release));
                 else

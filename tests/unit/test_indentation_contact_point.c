@@ -12,7 +12,7 @@ static wt_indent_fit fit_of(const curve_truth *t, bool estimators)
     wt_contact_table *table = NULL;
     wt_indent_options options = wt_indent_defaults();
     wt_indent_fit fit;
-    options.least_chance = 0;
+    options.misfit_p_threshold = 0;
     options.contact_estimators = estimators;
     assert_int_equal(wt_contact_table_new(&t->tip, 1e-11, 1e-4, &table, NULL), WT_OK);
     assert_int_equal(wt_indent_fit_curve(table, &options, data.height, data.force, data.time, t->n,

@@ -345,7 +345,8 @@ static void points_for_plots(void **state)
     curve_make(&t, 0, &data);
     wt_indent_fit fit = fit_default(&t);
     static double delta[CURVE_MAX], force[CURVE_MAX];
-    size_t n = wt_indent_curve(&fit, data.height, data.force, t.n, t.spring_constant, delta, force);
+    size_t n =
+        wt_indent_plot_points(&fit, data.height, data.force, t.n, t.spring_constant, delta, force);
     assert_int_equal(n, t.n - fit.contact_index);
     for (size_t i = 0; i < n; i++) {
         double g, slope;
@@ -392,18 +393,18 @@ static void force_curve_as_read(void **state)
         curve.cantilever =
             (wt_cantilever){.spring_constant = t.spring_constant, .sensitivity = 50e-9};
         add_segment(&curve, WT_SEGMENT_APPROACH, channels[i].quantity, channels[i].factor, &t);
-        assert_int_equal(wt_indent_force_curve(table, &options, &curve, workspace, &fit, &err),
+        assert_int_equal(wt_indent_fit_force_curve(table, &options, &curve, workspace, &fit, &err),
                          WT_OK);
         assert_accepted(&fit);
         assert_near(fit.modulus.value, expected.modulus.value, 1e-8);
         assert_near(fit.load_time, expected.load_time, 1e-8); /* from the duration */
     }
     curve.cantilever.sensitivity = (double)NAN;
-    assert_int_equal(wt_indent_force_curve(table, &options, &curve, workspace, &fit, &err),
+    assert_int_equal(wt_indent_fit_force_curve(table, &options, &curve, workspace, &fit, &err),
                      WT_E_MISSING);
     assert_non_null(strstr(err.advice, "--sensitivity"));
     curve.cantilever.spring_constant = (double)NAN;
-    assert_int_equal(wt_indent_force_curve(table, &options, &curve, workspace, &fit, &err),
+    assert_int_equal(wt_indent_fit_force_curve(table, &options, &curve, workspace, &fit, &err),
                      WT_E_MISSING);
     assert_non_null(strstr(err.advice, "--spring-constant"));
 
@@ -411,12 +412,14 @@ static void force_curve_as_read(void **state)
     wt_force_curve_reset(&curve);
     curve.cantilever.spring_constant = t.spring_constant;
     add_segment(&curve, WT_SEGMENT_RETRACT, WT_Q_FORCE, 1.0, &t);
-    assert_int_equal(wt_indent_force_curve(table, &options, &curve, workspace, &fit, &err), WT_OK);
+    assert_int_equal(wt_indent_fit_force_curve(table, &options, &curve, workspace, &fit, &err),
+                     WT_OK);
     assert_int_equal(fit.verdict, WT_CURVE_NO_APPROACH);
     assert_non_null(strstr(fit.reason, "retract"));
     assert_true(isnan(fit.modulus.value));
     add_segment(&curve, WT_SEGMENT_APPROACH, WT_Q_FORCE, 1.0, &t);
-    assert_int_equal(wt_indent_force_curve(table, &options, &curve, workspace, &fit, &err), WT_OK);
+    assert_int_equal(wt_indent_fit_force_curve(table, &options, &curve, workspace, &fit, &err),
+                     WT_OK);
     assert_accepted(&fit);
     assert_non_null(strstr(fit.reason, "retract comes first"));
     assert_near(fit.modulus.value, expected.modulus.value, 1e-8);

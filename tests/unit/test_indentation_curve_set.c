@@ -82,8 +82,8 @@ static void set_up(fixture *f, double noise, double correlation, const wt_prony 
     f->set = wt_curve_set_new();
     assert_true(workspace != NULL && f->set != NULL);
     assert_int_equal(indent_contact_table(&job.tip, &f->contact, NULL), WT_OK);
-    assert_int_equal(wt_indent_force_curve(f->contact, &options, &curve, workspace, &f->fit, NULL),
-                     WT_OK);
+    assert_int_equal(
+        wt_indent_fit_force_curve(f->contact, &options, &curve, workspace, &f->fit, NULL), WT_OK);
     if (f->fit.verdict != WT_CURVE_ACCEPTED)
         fail_msg("%s", f->fit.reason);
     if (known != NULL)
@@ -108,12 +108,13 @@ static void release(fixture *f)
 static void check_level(double level, const wt_prony *known, double loss, double within)
 {
     fixture f;
-    curve_again again;
+    simulated_fit again;
     set_up(&f, 1e-13, 0, known, loss);
     assert_int_equal(curve_set_has_spectrum(f.set), known != NULL);
     assert_true(loss > 0 ? f.fit.loss_power > 0 : !(f.fit.loss_power > 0));
-    assert_int_equal(
-        curve_set_try(f.set, 0, level, known, known, f.contact, 1, f.scratch, &again, NULL), WT_OK);
+    assert_int_equal(curve_set_simulate_fit(f.set, 0, level, known, known, f.contact, 1, f.scratch,
+                                            &again, NULL),
+                     WT_OK);
     assert_true(again.accepted);
     if (!(fabs(again.log_level.value) < within))
         fail_msg("%g is found as %g, %g off", level, again.level, again.log_level.value);
@@ -142,12 +143,12 @@ static void intervals(void **state)
         if (k == 1)
             assert_true(f.fit.correlation_length > 2);
         for (uint64_t i = 0; i < DRAWS; i++) {
-            curve_again again;
+            simulated_fit again;
             const wt_prony *known = k == 2 ? &spectrum : NULL;
             const double level = known != NULL ? 1.2 : 6e6;
-            assert_int_equal(
-                curve_set_try(f.set, 0, level, known, known, f.contact, i, f.scratch, &again, NULL),
-                WT_OK);
+            assert_int_equal(curve_set_simulate_fit(f.set, 0, level, known, known, f.contact, i,
+                                                    f.scratch, &again, NULL),
+                             WT_OK);
             n += again.accepted;
             if (!again.accepted)
                 continue;

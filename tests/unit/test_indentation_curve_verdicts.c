@@ -21,7 +21,7 @@ static wt_indent_fit expect(const curve_truth *t, wt_curve_verdict verdict, cons
     if (fit.verdict != verdict || strstr(fit.reason, words) == NULL)
         fail_msg("%s: %s (expected %s with \"%s\")", wt_curve_verdict_id(fit.verdict), fit.reason,
                  wt_curve_verdict_id(verdict), words);
-    assert_true(fit.modulus.value > 0 || !wt_curve_usable(verdict));
+    assert_true(fit.modulus.value > 0 || !wt_curve_verdict_is_usable(verdict));
     assert_true(isnan(fit.modulus.value) || isnan(fit.misfit_error) ||
                 fit.modulus.standard_error >= fit.misfit_error);
     assert_true(!isnan(fit.misfit_error) || verdict != WT_CURVE_ACCEPTED);
@@ -146,7 +146,7 @@ static void disturbed_baseline(void **state)
         double x = (data.height[i] - t.height0) / t.travel;
         data.force[i] += 400e-9 * x * exp(-8.0 * x);
     }
-    assert_false(wt_curve_usable(fit_with(&t, NULL).verdict));
+    assert_false(wt_curve_verdict_is_usable(fit_with(&t, NULL).verdict));
 
     /* A sine is fitted. A ripple too short for one of light, of 2 %, is carried by the error
      * instead. */
@@ -248,7 +248,7 @@ static void not_this_tip(void **state)
     wt_indent_fit fit = expect(&t, WT_CURVE_POOR_FIT, "misfit: E +- ");
     assert_true(fit.lack_of_fit > 100 && fit.lack_of_fit_p < 1e-6);
     wt_indent_options options = wt_indent_defaults();
-    options.least_chance = 0.0;
+    options.misfit_p_threshold = 0.0;
     fit = fit_with(&t, &options);
     assert_int_not_equal(fit.verdict, WT_CURVE_POOR_FIT);
 }
@@ -267,7 +267,7 @@ static void several_contact_points(void **state)
     for (uint64_t seed = 1; seed <= 30; seed++) {
         curve_make(&t, seed, &data);
         wt_indent_options options = wt_indent_defaults();
-        options.least_chance = 0.0;
+        options.misfit_p_threshold = 0.0;
         wt_indent_fit fit = fit_with(&t, &options);
         if (!isnan(fit.second_minimum_ratio)) {
             second++;
@@ -342,13 +342,13 @@ static void nonsense_has_a_verdict_too(void **state)
                 data.force[k] = k % 2 == 0 ? (double)NAN : -DBL_MAX;
         }
         wt_indent_options options = wt_indent_defaults();
-        options.least_chance = 0.0;
+        options.misfit_p_threshold = 0.0;
         options.fit_tilt = i % 2 == 1;
         options.fit_depth = i % 6 == 0 ? 1e-8 : 0.0;
         options.plain_least_squares = i % 8 == 0;
         wt_indent_fit fit = fit_with(&t, &options);
         assert_true(fit.reason[0] != '\0');
-        assert_true(!wt_curve_usable(fit.verdict) ||
+        assert_true(!wt_curve_verdict_is_usable(fit.verdict) ||
                     (isfinite(fit.modulus.value) && fit.modulus.value > 0.0));
     }
 }
@@ -513,7 +513,7 @@ static void curves_together(void **state)
 {
     (void)state;
     for (int wrong = 0; wrong < 2; wrong++) {
-        double misfit[30][WT_CURVE_WAVES];
+        double misfit[30][WT_MISFIT_TERMS];
         curve_truth t = curve_standard();
         t.noise = 1e-9;
         for (size_t i = 0; i < 30; i++) {
@@ -523,12 +523,14 @@ static void curves_together(void **state)
             stated.tip.transition_radius =
                 wt_tip_tangent_transition(stated.tip.radius, t.tip.half_angle);
             const wt_indent_fit fit = fit_with(&stated, NULL);
-            for (size_t j = 0; j < WT_CURVE_WAVES; j++)
+            for (size_t j = 0; j < WT_MISFIT_TERMS; j++)
                 misfit[i][j] = fit.misfit[j];
         }
-        const wt_curve_pool pool = wt_curve_pool_make((const double(*)[WT_CURVE_WAVES])misfit, 30);
+        const wt_pooled_misfit pool =
+            wt_pooled_misfit_compute((const double(*)[WT_MISFIT_TERMS])misfit, 30);
         assert_true(wrong ? pool.chance < 1e-3 : pool.chance > 0.01);
-        assert_true(isnan(wt_curve_pool_make((const double(*)[WT_CURVE_WAVES])misfit, 11).chance));
+        assert_true(
+            isnan(wt_pooled_misfit_compute((const double(*)[WT_MISFIT_TERMS])misfit, 11).chance));
     }
 }
 
@@ -555,7 +557,7 @@ static void adhesive_contact_is_fitted(void **state)
             continue;
         double bare;
         adhesion_balance(&law, t.spring_constant, release, &z, 1, &bare);
-        data.force[i] += adhesion_at(&law, bare).force - curve_contact_force(&t, z);
+        data.force[i] += adhesion_contact_value(&law, bare).force - curve_contact_force(&t, z);
     }
     wt_contact_table_free(table);
     const wt_indent_fit fit = expect(&t, WT_CURVE_ACCEPTED, "with adhesion of");

@@ -142,7 +142,7 @@ static wt_status make(const char *path, wt_tip tip, wt_dwell_tables *tables, wt_
     job.sets = &set;
     job.n_sets = 1;
     job.tip = tip;
-    return wt_dwell_make(&job, &work, tables, err);
+    return wt_dwell_compute(&job, &work, tables, err);
 }
 
 static const char *words(const wt_table *t, size_t row, const char *column)
@@ -454,7 +454,7 @@ static void test_free_of_the_neck(void **state)
                                 .modulus = 1e6};
     arena memory = {0};
     dwell_nodes nodes;
-    assert_string_equal(dwell_nodes_make(&h, 1e-3, &memory, &nodes), "");
+    assert_string_equal(dwell_nodes_create(&h, 1e-3, &memory, &nodes), "");
     assert_true(nodes.n > nodes.first_free);
     for (size_t i = nodes.first_free; i < nodes.n; i++) {
         assert_true(nodes.position[i] < -4e-6);

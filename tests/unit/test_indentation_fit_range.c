@@ -218,7 +218,7 @@ static void too_little_is_refused(void **state)
         const wt_indent_fit fit = fit_with(&t, &options);
         assert_int_equal(fit.verdict, WT_CURVE_TOO_SHORT);
         assert_non_null(strstr(fit.reason, "samples in contact in the range of the fit, 8 needed"));
-        assert_false(wt_curve_usable(fit.verdict));
+        assert_false(wt_curve_verdict_is_usable(fit.verdict));
     }
 }
 

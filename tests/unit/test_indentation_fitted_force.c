@@ -64,7 +64,7 @@ static void write_adhesive(const scene *of, const char *path)
         double bare = 0, force = of->noise * curve_normal(&seed);
         if (z > 0) {
             adhesion_balance(&law, of->spring, release, &z, 1, &bare);
-            force += adhesion_at(&law, bare).force;
+            force += adhesion_contact_value(&law, bare).force;
         }
         (void)fprintf(out, "approach\t%.12g\t%.12g\n", i * step, force);
     }

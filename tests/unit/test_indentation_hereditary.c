@@ -113,9 +113,9 @@ static void spring_and_dashpot(void **state)
         assert_int_equal(law.n, all ? 4 : 2);
         for (int i = 1; i <= 1000; i++) {
             const double next = 1e-6 * i * i;
-            hereditary_step(&law, 1e-3);
-            force[all] = hereditary_force(&law, hereditary_fade(&law, law.memory[0]), f, next);
-            hereditary_add(&law, law.memory[0], next - f);
+            hereditary_set_step(&law, 1e-3);
+            force[all] = hereditary_force(&law, hereditary_decay(&law, law.memory[0]), f, next);
+            hereditary_add_change(&law, law.memory[0], next - f);
             f = next;
         }
         hereditary_clear(&law);

@@ -82,7 +82,7 @@ static void factor_of_all_rates(void **state)
     (void)state;
     wt_indent_options options = wt_indent_defaults();
     double worst = 0;
-    options.least_chance = 0;
+    options.misfit_p_threshold = 0;
     for (double duration = 0.02; duration < 30; duration *= 6) {
         const curve_truth t = lossy_curve();
         make_lossy(&t, 0.6, duration);
@@ -138,7 +138,7 @@ static void times(void **state)
 {
     (void)state;
     wt_indent_options options = wt_indent_defaults();
-    options.least_chance = 0;
+    options.misfit_p_threshold = 0;
     options.spectrum = &spectrum;
     curve_truth t = lossy_curve();
     t.direction = -1;
@@ -210,7 +210,8 @@ static wt_indent_fit fit_lossy(double tan_delta, double kappa, way how)
     for (int i = 0; i < SAMPLES && how == WITHOUT_TIMES; i++)
         measured[0][i] += 0.04 * tan_delta * k * (top - depth) * curve_normal(&seed);
     wt_indent_options options = wt_indent_defaults();
-    options.least_chance = how == WITHOUT_TIMES ? options.least_chance : 0; /* no noise else */
+    options.misfit_p_threshold =
+        how == WITHOUT_TIMES ? options.misfit_p_threshold : 0; /* no noise else */
     options.plain_least_squares = how == PLAIN;
     const curve_branch in = {height[0], measured[0], how != WITHOUT_TIMES ? times : NULL, SAMPLES},
                        out = {height[1], measured[1], NULL, SAMPLES};
@@ -260,7 +261,8 @@ static void no_word_beyond_what_was_tried(void **state)
     (void)state;
     const wt_indent_fit some = fit_lossy(0.3, 1, WITHOUT_TIMES),
                         much = fit_lossy(1.3, 1, WITHOUT_TIMES);
-    assert_true(wt_curve_usable(some.verdict) && wt_curve_usable(much.verdict));
+    assert_true(wt_curve_verdict_is_usable(some.verdict) &&
+                wt_curve_verdict_is_usable(much.verdict));
     assert_non_null(strstr(some.reason, "|E*| at 1/(loading time) within 20 %"));
     assert_non_null(strstr(much.reason, "how near |E*| is not known"));
     assert_true(some.loss < 0.85 && much.loss > 0.85);

@@ -203,7 +203,7 @@ static void adhesion_tried_in_vain(void **state)
             add(&curve, WT_SEGMENT_APPROACH, &t, 0);
             add(&curve, WT_SEGMENT_RETRACT, &t, pulled ? 0.2 * top : 0);
             assert_int_equal(
-                wt_indent_force_curve(table, &options, &curve, workspace, &fit[pulled], NULL),
+                wt_indent_fit_force_curve(table, &options, &curve, workspace, &fit[pulled], NULL),
                 WT_OK);
         }
         assert_true(fit[0].interference_amplitude > 0 && isnan(fit[1].work_of_adhesion.value));

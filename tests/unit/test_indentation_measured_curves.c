@@ -52,8 +52,9 @@ static double modulus_of(const wt_contact_table *table, const char *file, size_t
         wt_indent_fit fit;
         if (curve.index != number)
             continue;
-        assert_int_equal(wt_indent_force_curve(table, NULL, &curve, workspace, &fit, &err), WT_OK);
-        if (wt_curve_usable(fit.verdict))
+        assert_int_equal(wt_indent_fit_force_curve(table, NULL, &curve, workspace, &fit, &err),
+                         WT_OK);
+        if (wt_curve_verdict_is_usable(fit.verdict))
             modulus = fit.modulus.value;
     }
     wt_force_close(source);

@@ -169,8 +169,8 @@ static void keep_answer(const char *file, const wt_force_curve *curve)
 {
     wt_error err = WT_ERROR_INIT;
     assert_true(n_answers < sizeof answers / sizeof answers[0]);
-    if (wt_indent_force_curve(table, &answer_options, curve, workspace, &answers[n_answers],
-                              &err) != WT_OK)
+    if (wt_indent_fit_force_curve(table, &answer_options, curve, workspace, &answers[n_answers],
+                                  &err) != WT_OK)
         fail_msg("%s: %s", file, err.message);
     assert_true(answers[n_answers].reason[0] != '\0');
     n_answers++;

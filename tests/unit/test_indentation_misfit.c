@@ -32,11 +32,11 @@ static wt_indent_fit fit_tip(const curve_truth *t, const wt_tip *stated, const w
             wt_contact_table_new(way == 0 ? &down : moved, 1e-11, 1e-4, &table[1 + way], NULL),
             WT_OK);
     }
-    workspace->tip_move[0] = (tip_move){table[1], table[2], 1.0};
+    workspace->tip_variation[0] = (tip_variation){table[1], table[2], 1.0};
     if (wt_indent_fit_curve(table[0], NULL, data.height, data.force, data.time, t->n,
                             t->spring_constant, workspace, &fit, &err) != WT_OK)
         fail_msg("%s", err.message);
-    workspace->tip_move[0] = (tip_move){NULL, NULL, 0.0};
+    workspace->tip_variation[0] = (tip_variation){NULL, NULL, 0.0};
     for (int i = 0; i < 3; i++)
         wt_contact_table_free(table[i]);
     return fit;
@@ -99,7 +99,7 @@ static void stated_error_of_the_tip(void **state)
     const wt_indent_fit alone = fit_tip(&t, &stated, NULL), told = fit_tip(&t, &stated, &moved);
     const double off = fabs(told.modulus.value - t.modulus);
     assert_near(told.modulus.value, alone.modulus.value, 1e-12);
-    assert_true(wt_curve_usable(told.verdict));
+    assert_true(wt_curve_verdict_is_usable(told.verdict));
     assert_true(told.modulus.standard_error > alone.modulus.standard_error);
     assert_true(off < 1.96 * told.modulus.standard_error);
     assert_true(off > 0.2 * told.modulus.standard_error);

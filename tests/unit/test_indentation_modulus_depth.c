@@ -27,9 +27,9 @@ static void quick_form(void **state)
         char tip[16];
         if (sscanf(line, "%lf %15s %lf %lf %lf %lf %lf %lf %lf", &ratio, tip, x, x + 1, x + 2,
                    x + 3, x + 4, x + 5, x + 6) != 9 ||
-            !thin_layer_holds(ratio, x[6]))
+            !thin_layer_is_valid(ratio, x[6]))
             continue;
-        assert_near(thin_layer_apparent(ratio, x[6]), x[4], 0.02);
+        assert_near(thin_layer_apparent_modulus(ratio, x[6]), x[4], 0.02);
         rows++;
     }
     fclose(file);
@@ -64,7 +64,7 @@ static double apparent(const scene *s, const wt_tip *tip, double depth)
 {
     double g, slope;
     wt_contact_function(tip, depth, &g, &slope);
-    return s->ratio > 0 ? thin_layer_apparent(s->ratio, slope / 2 / s->thickness) : 1;
+    return s->ratio > 0 ? thin_layer_apparent_modulus(s->ratio, slope / 2 / s->thickness) : 1;
 }
 
 static double force_at(const scene *s, const curve_truth *t, const wt_tip *tip, double z)
@@ -81,13 +81,13 @@ static double force_at(const scene *s, const curve_truth *t, const wt_tip *tip, 
     return z > 0 ? t->spring_constant * (z - low) : 0;
 }
 
-static wt_curve_depth depth_of(const scene *s, size_t n, long spots)
+static wt_modulus_profile depth_of(const scene *s, size_t n, long spots)
 {
     static double clean[CURVE_MAX];
     const curve_truth t = truth_of(s);
     wt_contact_table *table = NULL;
-    wt_depth_curve curve[CURVES];
-    wt_curve_depth depth;
+    wt_curve_residuals curve[CURVES];
+    wt_modulus_profile depth;
     wt_tip tip = t.tip;
     uint64_t seed = 7;
     tip.radius *= s->radius_factor;
@@ -106,24 +106,24 @@ static wt_curve_depth depth_of(const scene *s, size_t n, long spots)
         assert_int_equal(wt_indent_fit_curve(table, NULL, data.height, data.force, NULL, t.n,
                                              t.spring_constant, workspace, &fit, NULL),
                          WT_OK);
-        assert_true(wt_curve_usable(fit.verdict) || fit.verdict == WT_CURVE_POOR_FIT);
-        curve[c] = (wt_depth_curve){.modulus = fit.modulus.value,
-                                    .depth = fit.max_indentation,
-                                    .spring_constant = t.spring_constant,
-                                    .baseline = fit.baseline_length,
-                                    .window = fit.misfit_length,
-                                    .curvature = fit.baseline_curvature,
-                                    .loss_error = s->loss_error,
-                                    .spot = (long)c % spots};
+        assert_true(wt_curve_verdict_is_usable(fit.verdict) || fit.verdict == WT_CURVE_POOR_FIT);
+        curve[c] = (wt_curve_residuals){.modulus = fit.modulus.value,
+                                        .depth = fit.max_indentation,
+                                        .spring_constant = t.spring_constant,
+                                        .baseline = fit.baseline_length,
+                                        .window = fit.misfit_length,
+                                        .curvature = fit.baseline_curvature,
+                                        .loss_error = s->loss_error,
+                                        .spot = (long)c % spots};
         memcpy(curve[c].misfit, fit.misfit, sizeof fit.misfit);
     }
-    assert_int_equal(wt_curve_depth_make(table, 0.5, curve, n, &depth, NULL), WT_OK);
+    assert_int_equal(wt_modulus_profile_fit(table, 0.5, curve, n, &depth, NULL), WT_OK);
     wt_contact_table_free(table);
     return depth;
 }
 
 /* The error is that of the basis, too: a line or a bent one in the contact radius. */
-static void assert_moduli(const scene *s, const wt_curve_depth *d, double rtol)
+static void assert_moduli(const scene *s, const wt_modulus_profile *d, double rtol)
 {
     const curve_truth t = truth_of(s);
     for (size_t i = 0; i < WT_DEPTHS; i++)
@@ -134,7 +134,7 @@ static void no_change(void **state)
 {
     (void)state;
     const scene s = {.radius_factor = 1, .noise = 100e-12};
-    const wt_curve_depth d = depth_of(&s, CURVES, CURVES), of_spots = depth_of(&s, CURVES, 5);
+    const wt_modulus_profile d = depth_of(&s, CURVES, CURVES), of_spots = depth_of(&s, CURVES, 5);
     assert_int_equal(d.verdict, WT_DEPTH_SAME);
     assert_true(d.change.low < 1 && d.change.high > 1 && d.change.high < 1.05);
     assert_moduli(&s, &d, 0.01);
@@ -152,7 +152,7 @@ static void layers(void **state)
                                    {2.5, 60e-9, 1, 100e-12, 0, 0},
                                    {0.7, 30e-9, 1, 100e-12, 0, 0}};
     for (size_t i = 0; i < sizeof scenes / sizeof scenes[0]; i++) {
-        const wt_curve_depth d = depth_of(&scenes[i], CURVES, CURVES);
+        const wt_modulus_profile d = depth_of(&scenes[i], CURVES, CURVES);
         assert_int_equal(d.verdict, WT_DEPTH_CHANGES);
         assert_int_equal(d.change.value > 1, scenes[i].ratio < 1);
         assert_moduli(&scenes[i], &d, 0.06);
@@ -172,7 +172,7 @@ static void wrong_tip(void **state)
 {
     (void)state;
     const scene s = {.radius_factor = 2, .noise = 400e-12};
-    const wt_curve_depth d = depth_of(&s, CURVES, CURVES);
+    const wt_modulus_profile d = depth_of(&s, CURVES, CURVES);
     assert_int_equal(d.verdict, WT_DEPTH_CHANGES);
     assert_true(d.change.value < 0.95);
 }
@@ -182,10 +182,10 @@ static void too_little(void **state)
     (void)state;
     const scene few = {.radius_factor = 1, .noise = 100e-12},
                 noisy = {.radius_factor = 1, .noise = 3e-9};
-    const wt_curve_depth d = depth_of(&few, 11, 11), loud = depth_of(&noisy, 12, 12);
-    assert_int_equal(d.verdict, WT_DEPTH_CANNOT_SAY);
+    const wt_modulus_profile d = depth_of(&few, 11, 11), loud = depth_of(&noisy, 12, 12);
+    assert_int_equal(d.verdict, WT_DEPTH_INCONCLUSIVE);
     assert_true(isnan(d.change.value) && isnan(d.thickness.value));
-    assert_int_equal(loud.verdict, WT_DEPTH_CANNOT_SAY);
+    assert_int_equal(loud.verdict, WT_DEPTH_INCONCLUSIVE);
     assert_true(loud.change.high > 1.1 || loud.change.low < 0.9);
 }
 
@@ -195,12 +195,12 @@ static void little_change(void **state)
     (void)state;
     for (double thickness = 500e-9; thickness < 5e-6; thickness *= 1.3) {
         const scene s = {0.4, thickness, 1, 30e-12, 0, 0};
-        const wt_curve_depth d = depth_of(&s, CURVES, CURVES);
+        const wt_modulus_profile d = depth_of(&s, CURVES, CURVES);
         assert_true(d.verdict == WT_DEPTH_SAME || d.change.low > 1 || d.change.high < 1);
     }
 }
 
-static void assert_held(const scene *s, const wt_curve_depth *d)
+static void assert_held(const scene *s, const wt_modulus_profile *d)
 {
     for (size_t i = 0; i < WT_DEPTHS; i++)
         assert_true(d->modulus[i].low < 5e6 && d->modulus[i].high > 5e6);
@@ -214,11 +214,11 @@ static void bent_baselines(void **state)
     (void)state;
     for (double bow = 150e-12; bow < 700e-12; bow *= 1.7) {
         const scene s = {.radius_factor = 1, .noise = 100e-12, .bow = bow};
-        const wt_curve_depth d = depth_of(&s, CURVES, CURVES);
+        const wt_modulus_profile d = depth_of(&s, CURVES, CURVES);
         assert_held(&s, &d);
         assert_true(d.bend_share > 0.5 && d.modulus[4].value < 5e6 * 0.99);
         assert_true(d.modulus[4].high < 5e6 * 1.12);
-        assert_true(d.verdict == WT_DEPTH_SAME || d.verdict == WT_DEPTH_CANNOT_SAY);
+        assert_true(d.verdict == WT_DEPTH_SAME || d.verdict == WT_DEPTH_INCONCLUSIVE);
     }
 }
 
@@ -229,16 +229,17 @@ static void loss(void **state)
     const scene clean = {.radius_factor = 1, .noise = 100e-12},
                 lossy = {.radius_factor = 1, .noise = 100e-12, .loss_error = 0.04},
                 unknown = {.radius_factor = 1, .noise = 100e-12, .loss_error = (double)NAN};
-    const wt_curve_depth a = depth_of(&clean, CURVES, CURVES), b = depth_of(&lossy, CURVES, CURVES),
-                         c = depth_of(&unknown, CURVES, CURVES);
+    const wt_modulus_profile a = depth_of(&clean, CURVES, CURVES),
+                             b = depth_of(&lossy, CURVES, CURVES),
+                             c = depth_of(&unknown, CURVES, CURVES);
     assert_near(b.modulus[4].value, a.modulus[4].value, 1e-12);
     assert_near(b.modulus[4].standard_error, 0.04 * 5e6, 0.1);
     assert_true(b.modulus[0].standard_error > 1.5 * b.modulus[4].standard_error);
     assert_int_equal(a.verdict, WT_DEPTH_SAME);
-    assert_int_equal(b.verdict, WT_DEPTH_CANNOT_SAY);
+    assert_int_equal(b.verdict, WT_DEPTH_INCONCLUSIVE);
     assert_true(b.loss_share > 0.9 && a.loss_share < 1e-9);
-    assert_int_equal(c.verdict, WT_DEPTH_CANNOT_SAY);
-    assert_true(isnan(c.change.value) && c.n == 0 && c.n_lossy == CURVES);
+    assert_int_equal(c.verdict, WT_DEPTH_INCONCLUSIVE);
+    assert_true(isnan(c.change.value) && c.n == 0 && c.n_excluded_by_loss == CURVES);
 }
 
 /* What the memory leaves open of the modulus of a layer and of the ground is what it leaves open of
@@ -251,8 +252,8 @@ static void loss_of_layers(void **state)
     for (size_t i = 0; i < sizeof scenes / sizeof scenes[0]; i++) {
         scene lossy = scenes[i];
         lossy.loss_error = 0.03;
-        const wt_curve_depth d[2] = {depth_of(&scenes[i], CURVES, CURVES),
-                                     depth_of(&lossy, CURVES, CURVES)};
+        const wt_modulus_profile d[2] = {depth_of(&scenes[i], CURVES, CURVES),
+                                         depth_of(&lossy, CURVES, CURVES)};
         if (isnan(d[0].thickness.value) || isnan(d[1].thickness.value))
             continue;
         const size_t last = WT_DEPTHS - 1;
@@ -286,9 +287,9 @@ static void words_of_a_change(void **state)
         {{1.1, 0.2, 0.8, 1.5}, "the curves do not tell (factor 1.100", "softer or stiffer than"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
-        wt_curve_depth d = {.verdict = WT_DEPTH_CHANGES,
-                            .change = cases[i].change,
-                            .thickness = {(double)NAN, 0, 0, 0}};
+        wt_modulus_profile d = {.verdict = WT_DEPTH_CHANGES,
+                                .change = cases[i].change,
+                                .thickness = {(double)NAN, 0, 0, 0}};
         wt_indent_tables tables = {0};
         for (size_t j = 0; j < WT_DEPTHS; j++)
             d.depth[j] = 10e-9 * (double)(j + 1);
@@ -307,24 +308,25 @@ static void words_of_no_answer(void **state)
     static const struct {
         wt_depth_verdict verdict;
         double bend_share, loss_share;
-        size_t n_lossy;
+        size_t n_excluded_by_loss;
         const char *words;
     } cases[] = {
-        {WT_DEPTH_CANNOT_SAY, 0, 0, 0, "more curves would tell"},
-        {WT_DEPTH_CANNOT_SAY, 0.6, 0, 0, "a straight piezo, or one that has settled, would tell"},
-        {WT_DEPTH_CANNOT_SAY, 0, 0.6, 0, "the DMA of the rubber would tell"},
-        {WT_DEPTH_CANNOT_SAY, 0, 0, 40, "cannot say: 40 of 70 curves lose work"},
-        {WT_DEPTH_OTHERWISE, 0, 0, 0, "another tip or rate would tell"},
-        {WT_DEPTH_OTHERWISE, 0.1, 0, 0, "a straight piezo, or one that has settled, would tell"},
-        {WT_DEPTH_OTHERWISE, 0, 0.1, 0, "the DMA of the rubber would tell"},
+        {WT_DEPTH_INCONCLUSIVE, 0, 0, 0, "more curves would tell"},
+        {WT_DEPTH_INCONCLUSIVE, 0.6, 0, 0, "a straight piezo, or one that has settled, would tell"},
+        {WT_DEPTH_INCONCLUSIVE, 0, 0.6, 0, "the DMA of the rubber would tell"},
+        {WT_DEPTH_INCONCLUSIVE, 0, 0, 40, "cannot say: 40 of 70 curves lose work"},
+        {WT_DEPTH_OTHER_RESIDUAL, 0, 0, 0, "another tip or rate would tell"},
+        {WT_DEPTH_OTHER_RESIDUAL, 0.1, 0, 0,
+         "a straight piezo, or one that has settled, would tell"},
+        {WT_DEPTH_OTHER_RESIDUAL, 0, 0.1, 0, "the DMA of the rubber would tell"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
-        const wt_curve_depth d = {.n = 30,
-                                  .n_lossy = cases[i].n_lossy,
-                                  .verdict = cases[i].verdict,
-                                  .change = {1, 0.1, 0.8, 1.2},
-                                  .bend_share = cases[i].bend_share,
-                                  .loss_share = cases[i].loss_share};
+        const wt_modulus_profile d = {.n = 30,
+                                      .n_excluded_by_loss = cases[i].n_excluded_by_loss,
+                                      .verdict = cases[i].verdict,
+                                      .change = {1, 0.1, 0.8, 1.2},
+                                      .bend_share = cases[i].bend_share,
+                                      .loss_share = cases[i].loss_share};
         wt_indent_tables tables = {0};
         assert_int_equal(flow_depth_table_add(&tables, "bulk", &d, NULL), WT_OK);
         const char *words = wt_table_key(tables.modulus_depth, "changes_bulk");

@@ -54,7 +54,7 @@ static void spans(void **state)
             draw((unsigned)n, n);
             memcpy(sorted, of, n * sizeof *sorted);
             qsort(sorted, n, sizeof *sorted, by_size);
-            const curve_span all = curve_span_of(of, n);
+            const curve_span all = curve_find_span(of, n);
             assert_true(!(all.low < sorted[0]) && !(all.low > sorted[0]));
             assert_true(!(all.high < sorted[n - 1]) && !(all.high > sorted[n - 1]));
         }

@@ -64,7 +64,7 @@ static wt_status make(const wt_sensitivity_job *options, const char *const *path
     work.formats = formats;
     job.sets = &set;
     job.n_sets = 1;
-    return wt_sensitivity_make(&job, &work, tables, err);
+    return wt_sensitivity_compute(&job, &work, tables, err);
 }
 
 static wt_sensitivity_tables made(const char *const *paths, size_t n)
@@ -96,20 +96,20 @@ static const char *words(const wt_table *table, size_t row, const char *column)
 enum { MOST_ROWS = 2 * MOST_CURVES * MOST_FILES };
 
 /* Of the curves that a row is of: their numbers, and their files. */
-typedef struct of_curves {
+typedef struct curve_role {
     double value[MOST_ROWS];
     const char *file[MOST_ROWS];
     size_t n;
-} of_curves;
+} curve_role;
 
 static bool is_used(const wt_table *curves, size_t row)
 {
     return strcmp(words(curves, row, "verdict"), "used") == 0;
 }
 
-static of_curves take(const wt_table *curves, const char *direction, const char *column)
+static curve_role take(const wt_table *curves, const char *direction, const char *column)
 {
-    of_curves all = {.n = 0};
+    curve_role all = {.n = 0};
     for (size_t i = 0; i < wt_table_n_rows(curves); i++) {
         double value =
             isnan(number_cell(curves, i, column)) ? (double)NAN : number_cell(curves, i, column);
@@ -136,9 +136,9 @@ typedef struct mean {
 } mean;
 
 /* Of the means of three files or more, else of the curves. */
-static mean mean_of(of_curves all)
+static mean mean_of(curve_role all)
 {
-    of_curves files = {.n = 0};
+    curve_role files = {.n = 0};
     size_t each[MOST_ROWS] = {0};
     for (size_t i = 0; i < all.n; i++) {
         if (files.n == 0 || strcmp(files.file[files.n - 1], all.file[i]) != 0)
@@ -148,7 +148,7 @@ static mean mean_of(of_curves all)
     }
     for (size_t i = 0; i < files.n; i++)
         files.value[i] /= (double)each[i];
-    const of_curves *of = files.n >= 3 ? &files : &all;
+    const curve_role *of = files.n >= 3 ? &files : &all;
     mean m = {.n = of->n};
     double squares = 0;
     for (size_t i = 0; i < m.n; i++)
@@ -156,7 +156,7 @@ static mean mean_of(of_curves all)
     for (size_t i = 0; i < m.n; i++)
         squares += (of->value[i] - m.value) * (of->value[i] - m.value);
     m.error = sqrt(squares / (double)(m.n - 1) / (double)m.n);
-    m.half = m.n > 1 ? wt_student((double)m.n - 1) * m.error : (double)NAN;
+    m.half = m.n > 1 ? wt_student_quantile((double)m.n - 1) * m.error : (double)NAN;
     return m;
 }
 
@@ -176,7 +176,7 @@ static void check_interval(const wt_table *t, size_t row, const char *name, mean
 /* The mean of retract over approach of the curves that have both; NaN if none has. */
 static double ways_ratio(const wt_table *curves, const char *column)
 {
-    of_curves all = {.n = 0};
+    curve_role all = {.n = 0};
     for (size_t i = 1; i < wt_table_n_rows(curves); i++) {
         const double ratio = number_cell(curves, i, column) / number_cell(curves, i - 1, column);
         if (strcmp(words(curves, i, "direction"), "retract") != 0 || !is_used(curves, i) ||
@@ -285,8 +285,8 @@ static void test_volts(void **state)
                 1e-5);
     assert_near(strtod(wt_table_key(t.sensitivity, "compare_option") + 20, NULL),
                 s.standard_error / s.value, 0.06);
-    of_curves difference = take(t.sensitivity_curves, "retract", "sensitivity");
-    const of_curves in = take(t.sensitivity_curves, "approach", "sensitivity");
+    curve_role difference = take(t.sensitivity_curves, "retract", "sensitivity");
+    const curve_role in = take(t.sensitivity_curves, "approach", "sensitivity");
     for (size_t i = 0; i < difference.n; i++)
         difference.value[i] /= in.value[i];
     assert_near(key(t.sensitivity, "retract_over_approach").value, mean_of(difference).value, 1e-9);
@@ -525,8 +525,8 @@ static void test_soft(void **state)
     assert_near(number_cell(t.sensitivity, 2, "surface_share"),
                 2.4 * number_cell(t.sensitivity, 2, "slope_change_high"), 0.005);
     wt_sensitivity_tables_clear(&t);
-    job.most_bend = 0.5;
-    job.ways = WT_WAYS_RETRACT;
+    job.max_slope_change = 0.5;
+    job.ways = WT_DIRECTION_RETRACT;
     assert_int_equal(make(&job, path, 1, &t, NULL), WT_OK);
     assert_string_equal(wt_table_key(t.sensitivity, "verdict"), "straight");
     assert_string_equal(wt_table_key(t.sensitivity, "direction"), "retract");

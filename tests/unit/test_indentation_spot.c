@@ -119,12 +119,12 @@ static void test_images_of_the_lever(void **state)
         wt_spot_job job = job_of(DEPTH);
         wt_spot_tables tables = {0};
         wt_error err = WT_ERROR_INIT;
-        assert_int_equal(wt_spot_make(&job, before, &common, &tables, &err),
+        assert_int_equal(wt_spot_compute(&job, before, &common, &tables, &err),
                          is_height ? WT_OK : WT_E_NOT_FOUND);
         assert_true(is_height || strstr(err.message, "no image of heights") != NULL);
         wt_spot_tables_clear(&tables);
         job.image = "Retrace";
-        assert_int_equal(wt_spot_make(&job, before, &common, &tables, &err), WT_OK);
+        assert_int_equal(wt_spot_compute(&job, before, &common, &tables, &err), WT_OK);
         assert_string_equal(wt_table_key(tables.spot, "image"), names[i]);
         wt_spot_tables_clear(&tables);
     }
@@ -157,7 +157,7 @@ static void test_cannot_say(void **state)
     wt_spot_tables none = {0};
     common.formats = formats;
     job.image = "backward";
-    assert_int_equal(wt_spot_make(&job, before, &common, &none, NULL), WT_E_NOT_FOUND);
+    assert_int_equal(wt_spot_compute(&job, before, &common, &none, NULL), WT_E_NOT_FOUND);
     assert_null(none.spot);
 }
 
@@ -214,7 +214,7 @@ static void test_columns(void **state)
         assert_near_abs(value, truth[i], 4 * error);
         assert_true(error < 0.1 * truth[i]);
         assert_near(value - cell(t, 0, name[1]), reach, 1e-9);
-        assert_near(reach / error, wt_student(cell(t, 0, "places") - 1), 1e-9);
+        assert_near(reach / error, wt_student_quantile(cell(t, 0, "places") - 1), 1e-9);
     }
     /* places side by side of twice the contact radius, some of them next to the dent or outside */
     const double most = floor(WIDTH / (4 * CONTACT)) * floor(WIDTH / (4 * CONTACT));
@@ -339,7 +339,7 @@ static void test_map(void **state)
     s.dent = 10e-9;
     const view v = {N, WIDTH, 2.5 * STEP, -1.25 * STEP, 0};
     write_image(after, &s, &v, &seed);
-    assert_int_equal(wt_spot_make(&job, before, &common, &tables, NULL), WT_OK);
+    assert_int_equal(wt_spot_compute(&job, before, &common, &tables, NULL), WT_OK);
     const wt_table *t = tables.spot_map;
     double deepest = 0, at = 1;
     const size_t n = wt_table_n_rows(t);
@@ -396,7 +396,7 @@ static void test_no_imprint(void **state)
     common.formats = formats;
     wt_error err = WT_ERROR_INIT;
     wt_spot_tables none = {0};
-    assert_int_equal(wt_spot_make(&job, before, &common, &none, &err), WT_E_RANGE);
+    assert_int_equal(wt_spot_compute(&job, before, &common, &none, &err), WT_E_RANGE);
     assert_non_null(strstr(err.found, "8.000 \xC2\xB5m") != NULL ? err.found : NULL);
 }
 

@@ -26,7 +26,7 @@ static wt_status make(const wt_thermal_job *options, const char *path, double se
     work.log = log;
     job.sets = &set;
     job.n_sets = 1;
-    return wt_thermal_make(&job, &work, table, err);
+    return wt_thermal_compute(&job, &work, table, err);
 }
 
 static wt_table *made(const wt_thermal_job *job, const char *path, double sensitivity)
@@ -176,7 +176,7 @@ static void test_several(void **state)
         job.n_sets = 1;
         job.sensitivity_error = 0.03;
         job.temperature = (wt_estimate){300, 0.5, 0, "K"};
-        assert_int_equal(wt_thermal_make(&job, &work, &t, NULL), WT_OK);
+        assert_int_equal(wt_thermal_compute(&job, &work, &t, NULL), WT_OK);
         assert_int_equal(wt_table_n_rows(t), n);
         for (size_t i = 0; i < n; i++) {
             const double square = 0.5 * M_PI * f0[i] / q[i] * peak[i] * peak[i],
@@ -310,7 +310,7 @@ static void test_departing(void **state)
     work.formats = formats;
     job.sets = &set;
     job.n_sets = 1;
-    assert_int_equal(wt_thermal_make(&job, &work, &t, NULL), WT_OK);
+    assert_int_equal(wt_thermal_compute(&job, &work, &t, NULL), WT_OK);
     assert_int_equal(wt_table_n_rows(t), N);
     assert_true(cell(t, "misfit_p") < 1e-3);
     assert_string_equal(wt_table_key(t, "n_spectra"), "3");

@@ -170,8 +170,8 @@ static void test_sader(void **state)
                       q = {55.5, 0.555, 0, "1"};
     const wt_estimate k = wt_sader_spring_constant(length, width, f, q, air),
                       other = wt_sader_spring_constant(length, wider, f, q, air);
-    const double by_width = other.value / k.value - 1;
-    assert_near(k.standard_error / k.value, sqrt(2e-4 + by_width * by_width), 0.01);
+    const double compare_widths = other.value / k.value - 1;
+    assert_near(k.standard_error / k.value, sqrt(2e-4 + compare_widths * compare_widths), 0.01);
     /* air and water of the tables */
     assert_near(wt_medium_properties(WT_MEDIUM_AIR, 298.15).density, 1.184, 0.002);
     assert_near(wt_medium_properties(WT_MEDIUM_AIR, 298.15).viscosity, 1.845e-5, 0.01);

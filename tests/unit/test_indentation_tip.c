@@ -172,7 +172,8 @@ static void within_declared_limits(void **state)
     for (size_t i = 0; i < TIP_N_DIMENSIONS; i++) {
         const wt_param *p = &tip_dimensions[i];
         const bool count = p->kind == PARAM_COUNT;
-        const double least = p->limits.low, most = fmin(p->limits.high, quantity_most(p->quantity));
+        const double least = p->limits.low,
+                     most = fmin(p->limits.high, quantity_plausible_maximum(p->quantity));
         const double outside[2] = {count ? least - 1 : nextafter(least, -1),
                                    count ? most + 1 : nextafter(most, 1e300)};
         for (int end = 0; end < 2; end++) {

@@ -180,7 +180,7 @@ static void test_budget(void **state)
     (void)state;
     wt_table *budget = NULL;
     const wt_table *const listed[] = {tables.indentation};
-    assert_int_equal(wt_modulus_budget(listed, 1, &budget, NULL), WT_OK);
+    assert_int_equal(wt_modulus_budget_table(listed, 1, &budget, NULL), WT_OK);
     const struct {
         const char *source;
         double error, gain;

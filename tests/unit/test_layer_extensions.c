@@ -86,11 +86,11 @@ static rig rig_of(const numeric_case *c)
     return r;
 }
 
-static wt_layer_balance balance_of(const rig *r)
+static wt_layer_steady_state balance_of(const rig *r)
 {
-    wt_layer_balance b;
+    wt_layer_steady_state b;
     wt_error err = WT_ERROR_INIT;
-    if (wt_layer_balance_compute(&r->source, &r->p, &b, &err) != WT_OK)
+    if (wt_layer_steady_state_compute(&r->source, &r->p, &b, &err) != WT_OK)
         fail_msg("%s: balance: %s", r->c->name, err.message);
     return b;
 }
@@ -100,7 +100,7 @@ static double deepest(const wt_layer_section *s)
     return s->n > 0 ? s->band[0].lower.value : 0;
 }
 
-static wt_layer_section section_of(const wt_layer_stage *stages, size_t n, double time)
+static wt_layer_section section_of(const wt_layer_load *stages, size_t n, double time)
 {
     wt_layer_section s;
     wt_error err = WT_ERROR_INIT;
@@ -156,7 +156,7 @@ static bool check_time(const rig *r, const case_line *line)
         return true;
     }
     near_thickness(r, line->key, point.thickness.value, line->value[1]);
-    const wt_layer_stage stage = {&at.source, at.p, 1};
+    const wt_layer_load stage = {&at.source, at.p, 1};
     const wt_layer_section s = section_of(&stage, 1, line->value[0]);
     near_thickness(r, "section", deepest(&s), line->value[1]);
     return true;
@@ -179,7 +179,7 @@ static bool check_bands(const rig *r, const case_line *line, const wt_layer_even
 {
     static const char *const kinds[] = {"band_onset", "surface_onset", "surface_reached",
                                         "bands_merge"};
-    const wt_layer_stage stage = {&r->source, r->p, 1};
+    const wt_layer_load stage = {&r->source, r->p, 1};
     if (strcmp(line->key, "bands") == 0) {
         const wt_layer_section s = section_of(&stage, 1, line->value[0]);
         check_edges(r, &s, line->value + 1, line->n - 1);
@@ -206,7 +206,7 @@ enum { STAGES = 4 };
 typedef struct chain {
     size_t n;
     rig rig[STAGES];
-    wt_layer_stage stage[STAGES];
+    wt_layer_load stage[STAGES];
 } chain;
 
 static void chain_make(chain *h, const numeric_case *c, bool ageing)
@@ -223,7 +223,7 @@ static void chain_make(chain *h, const numeric_case *c, bool ageing)
         r->p.specific_wear_rate = l->value[3];
         r->p.activation.temperature = l->value[2];
         r->p.activation.ageing = ageing;
-        h->stage[h->n++] = (wt_layer_stage){&r->source, r->p, l->value[4]};
+        h->stage[h->n++] = (wt_layer_load){&r->source, r->p, l->value[4]};
     }
     for (size_t i = 0; i < h->n; i++)
         h->stage[i].source = &h->rig[i].source;
@@ -291,7 +291,7 @@ static void check_severity(const rig *r, const case_line *line)
     const double *v = line->value, m = r->p.severity_exponent;
     rig at = *r;
     set_load(&at, r->p.pressure, v[0], mu_at(r->c, v[0]), (double)NAN);
-    const wt_layer_balance b = balance_of(&at);
+    const wt_layer_steady_state b = balance_of(&at);
     assert_near(b.surface_power, v[1], r->digits);
     assert_near(b.wear_rate / (r->p.pressure * v[0]), v[2], r->digits);
     assert_near(b.ratio, v[3], r->digits);
@@ -317,11 +317,11 @@ static bool check_shelf(const rig *r, const case_line *line)
     const wt_activation a = {
         .barrier = v[1] * ELECTRONVOLT, .temperature = v[0], .attempt = attempt};
     /* the exponent is rounded to 1e-14 of the rate */
-    assert_near(wt_activation_background(&a), v[3], r->digits + 2e-14);
-    assert_near(log(wt_activation_background(&a)), v[2], r->digits);
-    assert_near(wt_activation_least_barrier(v[0], attempt, 1e-9) / ELECTRONVOLT, v[4], r->digits);
-    assert_near(wt_activation_most_temperature(a.barrier, attempt, 1e-9), v[5], r->digits);
-    assert_int_equal(wt_activation_background(&a) > 1e-9, v[6]);
+    assert_near(wt_activation_unloaded_rate(&a), v[3], r->digits + 2e-14);
+    assert_near(log(wt_activation_unloaded_rate(&a)), v[2], r->digits);
+    assert_near(wt_activation_min_barrier(v[0], attempt, 1e-9) / ELECTRONVOLT, v[4], r->digits);
+    assert_near(wt_activation_max_temperature(a.barrier, attempt, 1e-9), v[5], r->digits);
+    assert_int_equal(wt_activation_unloaded_rate(&a) > 1e-9, v[6]);
     return true;
 }
 
@@ -340,7 +340,8 @@ static bool check_running_in(const rig *r, const case_line *line)
         wt_error err = WT_ERROR_INIT;
         at.p.incubation = !ode;
         assert_int_equal(
-            wt_layer_time(&at.source, &at.p, (wt_estimate){.value = v[0]}, &time, &err), WT_OK);
+            wt_layer_growth_time(&at.source, &at.p, (wt_estimate){.value = v[0]}, &time, &err),
+            WT_OK);
         assert_near(time.value, v[1], r->digits);
         return true;
     }
@@ -377,9 +378,9 @@ static bool check_second_maximum(const case_line *line)
                               .n = 2,
                               .wavenumber = (double[]){1, line->value[0]},
                               .power = (double[]){1, ratio}};
-        const energy_course here = energy_course_at(&s, q_min, depth, 0, 0);
-        const energy_course above = energy_course_at(&s, q_min, depth - step, 0, 0);
-        const energy_course below = energy_course_at(&s, q_min, depth + step, 0, 0);
+        const energy_expansion here = energy_expand(&s, q_min, depth, 0, 0);
+        const energy_expansion above = energy_expand(&s, q_min, depth - step, 0, 0);
+        const energy_expansion below = energy_expand(&s, q_min, depth + step, 0, 0);
         assert_near_abs(here.slope, 0, 1e-10 * here.value);
         assert_near_abs(exp(above.log_scale) * above.slope - exp(below.log_scale) * below.slope, 0,
                         1e-4 * line->value[0] * line->value[0] * step * exp(here.log_scale) *
@@ -408,17 +409,18 @@ static bool check_number(const rig *r, const case_line *line)
     else if (strcmp(line->key, "sensitivity") == 0)
         assert_near(-balance_of(r).wear_rate * balance_of(r).relaxation_time.value, *v, r->digits);
     else if (strcmp(line->key, "background") == 0)
-        assert_near(wt_activation_background(a), *v, r->digits);
+        assert_near(wt_activation_unloaded_rate(a), *v, r->digits);
     else if (strcmp(line->key, "log_background") == 0)
-        assert_near(log(wt_activation_background(a)), *v, r->digits);
+        assert_near(log(wt_activation_unloaded_rate(a)), *v, r->digits);
     else if (strcmp(line->key, "shelf_time") == 0)
-        assert_near(r->p.damage / wt_activation_background(a), *v, r->digits);
+        assert_near(r->p.damage / wt_activation_unloaded_rate(a), *v, r->digits);
     else if (strcmp(line->key, "shelf_life_ok") == 0)
-        assert_int_equal(a->barrier > wt_activation_least_barrier(a->temperature, a->attempt, 1e-9),
+        assert_int_equal(a->barrier > wt_activation_min_barrier(a->temperature, a->attempt, 1e-9),
                          *v);
     else if (strcmp(line->key, "surface_rate") == 0) {
-        assert_int_equal(layer_rates_make(&r->source, &r->p, &rates, &err), WT_OK);
-        assert_near(exp(rates_log_density(&rates, 0)) + wt_activation_background(a), *v, r->digits);
+        assert_int_equal(layer_rates_compute(&r->source, &r->p, &rates, &err), WT_OK);
+        assert_near(exp(rates_log_density(&rates, 0)) + wt_activation_unloaded_rate(a), *v,
+                    r->digits);
         layer_rates_clear(&rates);
     } else if (strcmp(line->key, "ratio_of_least_power") == 0) {
         at.p.severity_power = 0; /* constant k, to which it falls */
@@ -431,12 +433,12 @@ static bool check_number(const rig *r, const case_line *line)
         at.p.specific_wear_rate = line->key[0] == 'u' ? 0 : r->p.specific_wear_rate;
         assert_near(balance_of(&at).incubation_time.value, *v, r->digits);
     } else if (strcmp(line->key, "formation_at") == 0) {
-        assert_int_equal(layer_rates_make(&r->source, &r->p, &rates, &err), WT_OK);
-        assert_near(layer_formation(&rates, v[0]), v[1], r->digits);
+        assert_int_equal(layer_rates_compute(&r->source, &r->p, &rates, &err), WT_OK);
+        assert_near(layer_formation_rate(&rates, v[0]), v[1], r->digits);
         layer_rates_clear(&rates);
     } else if (strcmp(line->key, "balance_of_ratio") == 0) {
         at.p.specific_wear_rate = v[1] / (r->p.pressure * r->p.velocity);
-        const wt_layer_balance b = balance_of(&at);
+        const wt_layer_steady_state b = balance_of(&at);
         /* R - 1 of 1e-6 has ten digits itself */
         assert_near_abs(b.ratio, v[0], 1e-14 * v[0]);
         assert_near_abs(b.thickness.value, v[2], b.thickness.numerical_error);
@@ -542,12 +544,12 @@ static void restart_changes_nothing(void **state)
             p.critical_energy = 2e8 * time;
             p.damage = k < 2 ? 1 : 1e-11 * time;
             p.specific_wear_rate = 1e-8 / (time * p.pressure * p.velocity);
-            const wt_layer_stage whole = {&source, p, time};
+            const wt_layer_load whole = {&source, p, time};
             const wt_layer_section one = section_of(&whole, 1, time);
             for (double share = 1e-9; share < 1; share = share < 0.1 ? 100 * share : 0.37 + share) {
-                const wt_layer_stage cut[] = {{&source, p, share * time},
-                                              {&source, p, 0.3 * (1 - share) * time},
-                                              {&source, p, 1}};
+                const wt_layer_load cut[] = {{&source, p, share * time},
+                                             {&source, p, 0.3 * (1 - share) * time},
+                                             {&source, p, 1}};
                 const wt_layer_section other = section_of(cut, 3, time);
                 assert_int_equal(one.n, other.n);
                 for (size_t i = 0; i < one.n; i++) {
@@ -576,8 +578,8 @@ static void rest_ages_only(void **state)
     p.activation.barrier = 1.0 * ELECTRONVOLT;
     p.activation.volume = 1e-27;
     p.activation.temperature = 298.15;
-    const double life = 1 / wt_activation_background(&p.activation);
-    wt_layer_stage stage = {&source, p, 1};
+    const double life = 1 / wt_activation_unloaded_rate(&p.activation);
+    wt_layer_load stage = {&source, p, 1};
     assert_int_equal(section_of(&stage, 1, 10 * life).n, 0);
     stage.parameters.activation.ageing = true;
     assert_int_equal(section_of(&stage, 1, 0.999 * life).n, 0);
@@ -591,7 +593,7 @@ static void rest_ages_only(void **state)
                                 .profile = WT_PROFILE_PERSSON};
     const double times[] = {0.5 * life, 2 * life};
     wt_layer_point points[2];
-    wt_layer_balance balance;
+    wt_layer_steady_state balance;
     wt_error err = WT_ERROR_INIT;
     p.velocity = 5e-3;
     p.specific_wear_rate = 1e-12;
@@ -600,7 +602,7 @@ static void rest_ages_only(void **state)
     p.activation.volume = 1e-30;
     assert_int_equal(wt_layer_history(&working, &p, times, 2, points, &err), WT_OK);
     assert_true(points[0].thickness.value == 0 && isinf(points[1].thickness.value));
-    assert_int_equal(wt_layer_balance_compute(&working, &p, &balance, &err), WT_OK);
+    assert_int_equal(wt_layer_steady_state_compute(&working, &p, &balance, &err), WT_OK);
     assert_true(balance.incubation_time.value <= life * (1 + 1e-12));
     /* and there is no balance, of whatever wear */
     assert_true(isinf(balance.thickness.value) && balance.thickness.numerical_error == 0);
@@ -610,12 +612,12 @@ static void rest_ages_only(void **state)
     assert_true(isnan(balance.removal_time.value));
     /* also where wear is done with the energy long before the age, or there is no energy */
     p.specific_wear_rate = 1e-6;
-    assert_int_equal(wt_layer_balance_compute(&working, &p, &balance, &err), WT_OK);
+    assert_int_equal(wt_layer_steady_state_compute(&working, &p, &balance, &err), WT_OK);
     assert_near(balance.incubation_time.value, life, 1e-9);
-    assert_int_equal(wt_layer_balance_compute(&source, &p, &balance, &err), WT_OK);
+    assert_int_equal(wt_layer_steady_state_compute(&source, &p, &balance, &err), WT_OK);
     assert_near(balance.incubation_time.value, life, 1e-12);
     p.incubation = false;
-    assert_int_equal(wt_layer_balance_compute(&working, &p, &balance, &err), WT_E_ARG);
+    assert_int_equal(wt_layer_steady_state_compute(&working, &p, &balance, &err), WT_E_ARG);
     assert_int_equal(wt_layer_history(&working, &p, times, 2, points, &err), WT_E_ARG);
     assert_string_equal(err.place, "ageing");
 }
@@ -629,18 +631,18 @@ static void severity_off_changes_nothing(void **state)
                                .power = (double[]){400},
                                .profile = WT_PROFILE_PERSSON};
     wt_layer_parameters p = wt_layer_defaults();
-    wt_layer_balance plain, other;
+    wt_layer_steady_state plain, other;
     wt_error err = WT_ERROR_INIT;
     p.critical_energy = 2e10;
     p.specific_wear_rate = 1e-12;
     p.pressure = 4e5;
     p.velocity = 5e-3;
-    assert_int_equal(wt_layer_balance_compute(&source, &p, &plain, &err), WT_OK);
+    assert_int_equal(wt_layer_steady_state_compute(&source, &p, &plain, &err), WT_OK);
     p.severity_exponent = 3;
-    assert_int_equal(wt_layer_balance_compute(&source, &p, &other, &err), WT_OK);
+    assert_int_equal(wt_layer_steady_state_compute(&source, &p, &other, &err), WT_OK);
     assert_memory_equal(&plain.thickness.value, &other.thickness.value, sizeof(double));
     p.severity_power = 400; /* k is twice as large */
-    assert_int_equal(wt_layer_balance_compute(&source, &p, &other, &err), WT_OK);
+    assert_int_equal(wt_layer_steady_state_compute(&source, &p, &other, &err), WT_OK);
     assert_near(other.wear_rate, 2 * plain.wear_rate, 1e-15);
 }
 
@@ -657,7 +659,7 @@ static void errors_of_the_power(void **state)
                                    .profile = WT_PROFILE_PERSSON,
                                    .numerical_error = error};
         wt_layer_parameters p = wt_layer_defaults();
-        wt_layer_balance b[2];
+        wt_layer_steady_state b[2];
         wt_layer_point point[2];
         wt_error err = WT_ERROR_INIT;
         const double start = k < 2 ? 0 : 5e-6;
@@ -681,7 +683,7 @@ static void errors_of_the_power(void **state)
         }
         for (int i = 0; i < 2; i++) {
             source.power = power[i];
-            assert_int_equal(wt_layer_balance_compute(&source, &p, &b[i], &err), WT_OK);
+            assert_int_equal(wt_layer_steady_state_compute(&source, &p, &b[i], &err), WT_OK);
         }
         const double moved = fabs(b[1].ratio / b[0].ratio - 1);
         assert_int_equal(b[0].ratio > 1, k < 2);
@@ -720,10 +722,10 @@ static void events_in_parts(void **state)
     p.specific_wear_rate = 2e-14;
     assert_int_equal(wt_layer_events(&source, &p, whole, MOST, &n_whole, &err), WT_OK);
     assert_true(n_whole >= 2 && n_whole <= MOST);
-    const wt_layer_stage stages[] = {{&source, p, 0.4 * whole[0].time},
-                                     {&source, p, whole[1].time - 0.7 * whole[0].time},
-                                     {&source, p, 0}};
-    assert_int_equal(wt_layer_stage_events(stages, 3, parts, MOST, &n_parts, &err), WT_OK);
+    const wt_layer_load stages[] = {{&source, p, 0.4 * whole[0].time},
+                                    {&source, p, whole[1].time - 0.7 * whole[0].time},
+                                    {&source, p, 0}};
+    assert_int_equal(wt_layer_load_events(stages, 3, parts, MOST, &n_parts, &err), WT_OK);
     assert_int_equal(n_parts, n_whole);
     for (size_t i = 0; i < n_whole; i++) {
         assert_int_equal(parts[i].kind, whole[i].kind);
@@ -749,9 +751,9 @@ static void worn_off_and_back(void **state)
     mild.specific_wear_rate = 1e-12;
     severe = mild;
     severe.specific_wear_rate = 1e-10;
-    const wt_layer_stage stages[] = {
+    const wt_layer_load stages[] = {
         {&source, mild, 1000}, {&source, severe, 100}, {&source, mild, 0}};
-    assert_int_equal(wt_layer_stage_events(stages, 3, event, MOST, &n, &err), WT_OK);
+    assert_int_equal(wt_layer_load_events(stages, 3, event, MOST, &n, &err), WT_OK);
     assert_int_equal(n, 3);
     assert_int_equal(event[0].kind, WT_LAYER_SURFACE_ONSET);
     assert_int_equal(event[1].kind, WT_LAYER_WORN_OFF);
@@ -763,7 +765,7 @@ static void worn_off_and_back(void **state)
         assert_int_equal(before.n, i % 2);
         assert_int_equal(after.n, 1 - i % 2);
     }
-    const wt_layer_stage always = {&source, severe, 0};
+    const wt_layer_load always = {&source, severe, 0};
     assert_int_equal(wt_layer_first_event(&always, 1, &none, &err), WT_OK);
     assert_true(isnan(none.time));
     assert_int_equal(wt_layer_first_event(NULL, 0, &none, &err), WT_E_ARG);
@@ -779,22 +781,22 @@ static void refuses(void **state)
     wt_energy_source other = source;
     other.profile = WT_PROFILE_INCOMPRESSIBLE;
     wt_layer_parameters p = wt_layer_defaults();
-    wt_layer_balance b;
+    wt_layer_steady_state b;
     wt_error err = WT_ERROR_INIT;
     const double time = 1;
     wt_layer_section s;
     p.pressure = 4e5;
     p.velocity = 5e-3;
     p.critical_energy = (double)NAN;
-    assert_int_equal(wt_layer_balance_compute(&source, &p, &b, &err), WT_E_RANGE);
+    assert_int_equal(wt_layer_steady_state_compute(&source, &p, &b, &err), WT_E_RANGE);
     p.closure = WT_CLOSURE_ACTIVATED;
-    assert_int_equal(wt_layer_balance_compute(&source, &p, &b, &err), WT_E_MISSING);
+    assert_int_equal(wt_layer_steady_state_compute(&source, &p, &b, &err), WT_E_MISSING);
     p.closure = WT_CLOSURE_ENERGY;
     p.critical_energy = 2e10;
-    const wt_layer_stage mixed[] = {{&source, p, 1}, {&other, p, 1}};
+    const wt_layer_load mixed[] = {{&source, p, 1}, {&other, p, 1}};
     assert_int_equal(wt_layer_sections(mixed, 2, &time, 1, &s, &err), WT_E_ARG);
     assert_non_null(strstr(err.message, "profile"));
-    const wt_layer_stage endless[] = {{&source, p, (double)INFINITY}};
+    const wt_layer_load endless[] = {{&source, p, (double)INFINITY}};
     assert_int_equal(wt_layer_sections(endless, 1, &time, 1, &s, &err), WT_E_RANGE);
     assert_int_equal(wt_layer_sections(NULL, 0, &time, 1, &s, &err), WT_E_ARG);
 }

@@ -72,7 +72,7 @@ static wt_friction_workspace *workspace_of(const rig *r, double thickness, wt_er
     options.tolerance = 1e-12;
     options.layer =
         (wt_layer_state){.thickness = thickness, .modulus_ratio = r->ratio, .own = r->own};
-    options.without_share = true;
+    options.skip_extrapolated_share = true;
     if (wt_friction_workspace_new(r->material, r->roughness, &options, &w, err) != WT_OK)
         return NULL;
     return w;
@@ -86,8 +86,8 @@ static wt_status energy(double thickness, void *user, wt_energy_source *source,
     wt_friction_workspace *w = workspace_of(r, thickness, err);
     if (w == NULL)
         return err->status;
-    const wt_status status =
-        wt_energy_source_friction(w, r->parameters.pressure, r->parameters.velocity, source, err);
+    const wt_status status = wt_energy_source_from_friction(w, r->parameters.pressure,
+                                                            r->parameters.velocity, source, err);
     wt_friction_workspace_free(w);
     source->profile = r->profile;
     *parameters = r->parameters;
@@ -141,10 +141,10 @@ static void check_one_way(rig *r, double time, double thickness)
 {
     wt_energy_source source = source_at(r, 0);
     wt_layer_point point;
-    wt_layer_balance balance;
+    wt_layer_steady_state balance;
     wt_error err = WT_ERROR_INIT;
     assert_int_equal(wt_layer_history(&source, &r->parameters, &time, 1, &point, &err), WT_OK);
-    assert_int_equal(wt_layer_balance_compute(&source, &r->parameters, &balance, &err), WT_OK);
+    assert_int_equal(wt_layer_steady_state_compute(&source, &r->parameters, &balance, &err), WT_OK);
     assert_near(isfinite(time) && time > 0 ? point.thickness.value : balance.thickness.value,
                 thickness, r->digits);
     wt_energy_source_clear(&source);
@@ -154,9 +154,9 @@ static void check_one_way(rig *r, double time, double thickness)
 static double mapped(rig *r, double thickness)
 {
     wt_energy_source source = source_at(r, thickness);
-    wt_layer_balance balance;
+    wt_layer_steady_state balance;
     wt_error err = WT_ERROR_INIT;
-    assert_int_equal(wt_layer_balance_compute(&source, &r->parameters, &balance, &err), WT_OK);
+    assert_int_equal(wt_layer_steady_state_compute(&source, &r->parameters, &balance, &err), WT_OK);
     wt_energy_source_clear(&source);
     return balance.thickness.value;
 }
@@ -199,10 +199,11 @@ static void check_friction(const rig *r, const double *v)
 static void check_case(const numeric_case *c)
 {
     rig r = rig_of(c);
-    wt_layer_loop loop;
+    wt_layer_feedback loop;
     wt_error err = WT_ERROR_INIT;
-    assert_int_equal(wt_layer_loop_find(energy, &r, 1e-9, 2e-3,
-                                        (size_t)case_number(c, false, "grid", 160), &loop, &err),
+    assert_int_equal(wt_layer_feedback_solve(energy, &r, 1e-9, 2e-3,
+                                             (size_t)case_number(c, false, "grid", 160), &loop,
+                                             &err),
                      WT_OK);
     size_t roots = loop.n_roots > 0 && loop.root[0].thickness == 0, folds = 0;
     assert_int_equal(roots, loop.ratio <= 1);
@@ -231,7 +232,8 @@ static void check_case(const numeric_case *c)
             assert_int_equal(loop.fold[folds++].maximum, v[2]);
         } else if (strcmp(line->key, "acts_back") == 0) {
             wt_layer_point point;
-            assert_int_equal(wt_layer_loop_history(energy, &r, &loop, v, 1, &point, &err), WT_OK);
+            assert_int_equal(wt_layer_feedback_history(energy, &r, &loop, v, 1, &point, &err),
+                             WT_OK);
             assert_near(point.thickness.value, v[1], r.digits);
             check_one_way(&r, v[0], v[2]);
         } else if (strcmp(line->key, "friction") == 0) {
@@ -270,16 +272,16 @@ static void soft_as_the_bulk(void **state)
     r.parameters.pressure = 4e5;
     r.parameters.velocity = 0.05;
     r.profile = WT_PROFILE_PERSSON;
-    wt_layer_loop loop;
+    wt_layer_feedback loop;
     wt_error err = WT_ERROR_INIT;
-    assert_int_equal(wt_layer_loop_find(energy, &r, 1e-8, 1e-4, 20, &loop, &err), WT_OK);
+    assert_int_equal(wt_layer_feedback_solve(energy, &r, 1e-8, 1e-4, 20, &loop, &err), WT_OK);
     assert_int_equal(loop.n_roots, 1);
     assert_int_equal(loop.n_folds, 0);
     assert_near_abs(loop.root[0].map_slope, 0, 1e-6);
     check_one_way(&r, 0, loop.root[0].thickness);
     wt_layer_point point;
     const double time = 30;
-    assert_int_equal(wt_layer_loop_history(energy, &r, &loop, &time, 1, &point, &err), WT_OK);
+    assert_int_equal(wt_layer_feedback_history(energy, &r, &loop, &time, 1, &point, &err), WT_OK);
     check_one_way(&r, time, point.thickness.value);
     rig_free(&r);
 }

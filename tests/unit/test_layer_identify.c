@@ -75,7 +75,7 @@ static const example examples[] = {
 };
 enum { EXAMPLES = sizeof examples / sizeof *examples };
 
-static wt_layer_identified found(const example *e, int way, double thickness)
+static wt_identified_constants found(const example *e, int way, double thickness)
 {
     double q[3], power[3];
     const double surface = e->mu * e->pressure * e->velocity;
@@ -85,7 +85,7 @@ static wt_layer_identified found(const example *e, int way, double thickness)
                                .wavenumber = q,
                                .power = power};
     wt_layer_parameters p = wt_layer_defaults();
-    wt_layer_identified out = {0};
+    wt_identified_constants out = {0};
     wt_error err = WT_ERROR_INIT;
     for (size_t i = 0; i < e->n; i++) {
         q[i] = e->q[i];
@@ -117,7 +117,7 @@ static void test_known(void **state)
     for (int i = 0; i < EXAMPLES; i++)
         for (int way = 0; way < WAYS; way++) {
             const example *const e = &examples[i];
-            const wt_layer_identified is = found(e, way, e->thickness);
+            const wt_identified_constants is = found(e, way, e->thickness);
             check(is.critical_energy, e->ways[way].energy, 2e-10);
             check(1e9 * is.specific_wear_rate, e->ways[way].wear, 2e-10);
             check(is.ratio, e->ratio, 1e-11);
@@ -131,8 +131,8 @@ static void test_sensitivity(void **state)
     for (int i = 0; i < EXAMPLES; i++)
         for (int way = 0; way < WAYS; way++) {
             const example *const e = &examples[i];
-            const wt_layer_identified up = found(e, way, e->thickness * exp(step)),
-                                      down = found(e, way, e->thickness * exp(-step));
+            const wt_identified_constants up = found(e, way, e->thickness * exp(step)),
+                                          down = found(e, way, e->thickness * exp(-step));
             const double energy = log(up.critical_energy / down.critical_energy) / (2 * step),
                          wear = log(up.specific_wear_rate / down.specific_wear_rate) / (2 * step);
             assert_true(fabs(energy - e->ways[way].energy_by_thickness) < 1e-5);
@@ -147,10 +147,10 @@ static void test_forward(void **state)
     const example *const e = &examples[1];
     for (int way = BY_RATES; way < WAYS; way++) {
         double q[3], power[3];
-        const wt_layer_identified is = found(e, way, e->thickness);
+        const wt_identified_constants is = found(e, way, e->thickness);
         wt_energy_source source = {.n = e->n, .wavenumber = q, .power = power};
         wt_layer_parameters p = wt_layer_defaults();
-        wt_layer_balance balance;
+        wt_layer_steady_state balance;
         wt_estimate time;
         for (size_t i = 0; i < e->n; i++) {
             q[i] = e->q[i];
@@ -162,10 +162,10 @@ static void test_forward(void **state)
         p.incubation = way == BY_TRANSPORT;
         p.critical_energy = is.critical_energy;
         p.specific_wear_rate = is.specific_wear_rate;
-        assert_int_equal(wt_layer_balance_compute(&source, &p, &balance, NULL), WT_OK);
+        assert_int_equal(wt_layer_steady_state_compute(&source, &p, &balance, NULL), WT_OK);
         check(balance.thickness.value, e->thickness, 1e-10);
         const wt_estimate most = {e->of_thickness * e->thickness, 0, 0, "m"};
-        assert_int_equal(wt_layer_time(&source, &p, most, &time, NULL), WT_OK);
+        assert_int_equal(wt_layer_growth_time(&source, &p, most, &time, NULL), WT_OK);
         check(time.value, e->time, 1e-8);
     }
 }
@@ -176,7 +176,7 @@ static void test_refusals(void **state)
     double q[] = {1e6}, power[] = {400};
     wt_energy_source source = {.n = 1, .wavenumber = q, .power = power};
     wt_layer_parameters p = wt_layer_defaults();
-    wt_layer_identified out;
+    wt_identified_constants out;
     wt_error err = WT_ERROR_INIT;
     p.pressure = 4e5;
     p.velocity = 5e-3;

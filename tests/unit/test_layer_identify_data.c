@@ -39,13 +39,13 @@ typedef enum kind { BALANCE, TRANSPORT, WEAR, KINDS } kind;
 static const char *const kind_words[KINDS] = {"balance", "transport", "wear"};
 
 /* ln U_c and ln k with the inputs times exp(step). */
-static wt_layer_identified identified(const numeric_case *c, kind by, const double step[INPUTS])
+static wt_identified_constants identified(const numeric_case *c, kind by, const double step[INPUTS])
 {
     double power[8];
     const case_line *q = case_find(c, false, "wavenumber"), *share = case_find(c, false, "share");
     const double mu = number(c, "mu") * exp(step[MU]);
     wt_layer_parameters p = wt_layer_defaults();
-    wt_layer_identified out = {0};
+    wt_identified_constants out = {0};
     wt_error err = WT_ERROR_INIT;
     assert_true(q->n <= 8 && q->n == share->n);
     p.pressure = number(c, "pressure") * exp(step[PRESSURE]);
@@ -83,9 +83,9 @@ static void slopes_of(const numeric_case *c, kind by, size_t input, double *ener
     for (size_t i = 0; i < 4; i++) {
         double step[INPUTS] = {0};
         step[input] = (4.0 - (double)i) * h;
-        const wt_layer_identified up = identified(c, by, step);
+        const wt_identified_constants up = identified(c, by, step);
         step[input] = -step[input];
-        const wt_layer_identified down = identified(c, by, step);
+        const wt_identified_constants down = identified(c, by, step);
         *energy += weight[i] / h * log(up.critical_energy / down.critical_energy);
         *wear += weight[i] / h * log(up.specific_wear_rate / down.specific_wear_rate);
     }
@@ -106,7 +106,7 @@ static void check_data(const numeric_case *c)
     const double none[INPUTS] = {0};
     const double *const error = case_find(c, false, "errors")->value;
     for (kind by = 0; by < KINDS; by++) {
-        const wt_layer_identified is = identified(c, by, none);
+        const wt_identified_constants is = identified(c, by, none);
         const double *const expected = line_of(c, by, "")->value;
         assert_near(is.critical_energy, expected[0], DIGITS);
         assert_near(1e9 * is.specific_wear_rate, expected[1], DIGITS);
@@ -152,7 +152,8 @@ static wt_ball_contact settle(const rig *r, double load, double factor, bool by_
     for (int i = 0; i < 60; i++) {
         double absolute, storage, loss;
         moduli_at(r, factor * r->velocity / ball.contact_radius, &absolute, &storage, &loss);
-        ball = wt_ball_contact_of(load, r->radius, by_storage ? storage : absolute, r->scene.s.nu);
+        ball = wt_ball_contact_compute(load, r->radius, by_storage ? storage : absolute,
+                                       r->scene.s.nu);
     }
     return ball;
 }
@@ -233,10 +234,10 @@ static void check_load(rig *r, const double *v)
     for (int i = 0; i < 60; i++) {
         force = wt_ball_load(v[0], r->radius, absolute, r->scene.s.nu);
         const double a =
-            wt_ball_contact_of(force, r->radius, absolute, r->scene.s.nu).contact_radius;
+            wt_ball_contact_compute(force, r->radius, absolute, r->scene.s.nu).contact_radius;
         moduli_at(r, r->velocity / a, &absolute, &storage, &loss);
     }
-    const wt_ball_contact ball = wt_ball_contact_of(force, r->radius, absolute, r->scene.s.nu);
+    const wt_ball_contact ball = wt_ball_contact_compute(force, r->radius, absolute, r->scene.s.nu);
     assert_near(ball.contact_radius, v[2], DIGITS_OF_LOADS);
     assert_near(force, v[3], DIGITS_OF_LOADS);
     assert_near(absolute, v[4], DIGITS_OF_LOADS);

@@ -39,7 +39,7 @@ static void energies_add_up(void **state)
     wt_error err = WT_ERROR_INIT;
     sliding.velocity = &velocity[VELOCITIES / 2];
     sliding.n_velocity = 1;
-    assert_int_equal(wt_friction_make(&sliding, NULL, &work, &friction, &err), WT_OK);
+    assert_int_equal(wt_sliding_friction_compute(&sliding, NULL, &work, &friction, &err), WT_OK);
     assert_near(key_number(shear, "shear_power"),
                 5e6 * number_cell(friction.friction, 0, "area_ratio") * velocity[VELOCITIES / 2],
                 1e-9);
@@ -102,7 +102,7 @@ static void bands_are_the_layer(void **state)
         wt_error err = WT_ERROR_INIT;
         job.profile = k ? WT_PROFILE_INCOMPRESSIBLE : WT_PROFILE_PERSSON;
         wt_table *layer = layer_of(&job);
-        assert_int_equal(wt_layer_bands_make(&sliding, &job, &work, &bands, &err), WT_OK);
+        assert_int_equal(wt_layer_bands_compute(&sliding, &job, &work, &bands, &err), WT_OK);
         size_t modified = 0;
         for (size_t row = 0, at = 0; row < wt_table_n_rows(bands); row++) {
             if (number_cell(bands, row, "band") > 1)
@@ -132,10 +132,10 @@ static void loads_in_parts(void **state)
     wt_error err = WT_ERROR_INIT;
     job.time = times;
     job.n_time = 4;
-    assert_int_equal(wt_layer_bands_make(&sliding, &job, &work, &whole, &err), WT_OK);
+    assert_int_equal(wt_layer_bands_compute(&sliding, &job, &work, &whole, &err), WT_OK);
     job.loads = parts;
     job.n_loads = 3;
-    if (wt_layer_bands_make(&sliding, &job, &work, &cut, &err) != WT_OK)
+    if (wt_layer_bands_compute(&sliding, &job, &work, &cut, &err) != WT_OK)
         fail_msg("%s %s", err.message, err.place);
     assert_int_equal(wt_table_n_rows(whole), wt_table_n_rows(cut));
     for (size_t row = 0; row < wt_table_n_rows(whole); row++)
@@ -164,7 +164,7 @@ static void loads_are_told(void **state)
     static const double times[] = {10, 1000};
     job.time = times;
     job.n_time = 2;
-    assert_int_equal(wt_layer_bands_make(&sliding, &job, &work, &bands, &err), WT_OK);
+    assert_int_equal(wt_layer_bands_compute(&sliding, &job, &work, &bands, &err), WT_OK);
     const char *text = wt_table_key(bands, "loads");
     assert_non_null(text);
     for (size_t i = 0; text != NULL && i < LOADS; i++) {
@@ -192,14 +192,14 @@ static void running_in_joins_both(void **state)
     wt_error err = WT_ERROR_INIT;
     wt_layer_observation known = {.modulus_ratio = {0.5, 0, 0, "1"}};
     wt_table *layer = layer_of(&job);
-    assert_int_equal(wt_running_in_make(&sliding, &job, &known, &work, &running, &err), WT_OK);
+    assert_int_equal(wt_running_in_compute(&sliding, &job, &known, &work, &running, &err), WT_OK);
     const size_t n = wt_table_n_rows(running);
     for (size_t row = 0; row < n; row++)
         assert_near(number_cell(running, row, "thickness"), number_cell(layer, row, "thickness"),
                     1e-12);
     wt_friction_tables friction = {0};
     known.thickness = (wt_estimate){key_number(layer, "balance_thickness"), 0, 0, "m"};
-    assert_int_equal(wt_friction_make(&sliding, &known, &work, &friction, &err), WT_OK);
+    assert_int_equal(wt_sliding_friction_compute(&sliding, &known, &work, &friction, &err), WT_OK);
     assert_near(key_number(running, "bare_friction"),
                 key_number(friction.friction, "friction_at_reference"), 1e-9);
     assert_near(key_number(running, "balance_friction"),
@@ -208,12 +208,13 @@ static void running_in_joins_both(void **state)
     assert_true(key_number(running, "settled") > 0);
     /* with a layer that acts back it ends at the balance of that, also where wear follows it */
     for (int k = 0; k < 2; k++) {
-        job.acts_back = true;
+        job.has_feedback = true;
         job.severity_power = k ? 1e4 : 0;
         wt_table_free(running);
-        assert_int_equal(wt_running_in_make(&sliding, &job, &known, &work, &running, &err), WT_OK);
-        assert_int_equal(wt_layer_balances_make(&sliding, &job, &known, &work, &balances, &err),
+        assert_int_equal(wt_running_in_compute(&sliding, &job, &known, &work, &running, &err),
                          WT_OK);
+        assert_int_equal(
+            wt_layer_steady_states_compute(&sliding, &job, &known, &work, &balances, &err), WT_OK);
         assert_near(number_cell(running, n - 1, "thickness"), number_cell(balances, 0, "thickness"),
                     1e-8);
         assert_true(
@@ -238,14 +239,15 @@ static void one_shear_stress(void **state)
     wt_error err = WT_ERROR_INIT;
     wt_layer_observation known = {.thickness = {key_number(layer, "balance_thickness"), 0, 0, "m"},
                                   .modulus_ratio = {0.5, 0, 0, "1"}};
-    assert_int_equal(wt_running_in_make(&sliding, &job, &known, &work, &running, &err), WT_OK);
+    assert_int_equal(wt_running_in_compute(&sliding, &job, &known, &work, &running, &err), WT_OK);
     static const char *const of_running[] = {"bare_friction", "balance_friction"},
                              *const of_friction[] = {"friction_at_reference",
                                                      "friction_with_layer_at_reference"};
     for (int with = 0; with < 2; with++) {
         wt_friction_tables friction = {0};
         known.shear = with ? &job.shear : NULL;
-        assert_int_equal(wt_friction_make(&sliding, &known, &work, &friction, &err), WT_OK);
+        assert_int_equal(wt_sliding_friction_compute(&sliding, &known, &work, &friction, &err),
+                         WT_OK);
         for (int i = 0; i < 2; i++) {
             const double apart =
                 key_number(friction.friction, of_friction[i]) / key_number(running, of_running[i]) -
@@ -270,12 +272,12 @@ static void shearing_the_layer(void **state)
     wt_table *balances = NULL, *running = NULL;
     double thickness[2];
     wt_layer_job job = job_of();
-    job.acts_back = true;
+    job.has_feedback = true;
     job.energy = WT_LAYER_SHEAR;
     for (int k = 0; k < 2; k++) {
         job.shear.exponent = k;
-        assert_int_equal(wt_layer_balances_make(&sliding, &job, &known, &work, &balances, &err),
-                         WT_OK);
+        assert_int_equal(
+            wt_layer_steady_states_compute(&sliding, &job, &known, &work, &balances, &err), WT_OK);
         thickness[k] = number_cell(balances, 0, "thickness");
         wt_table_free(balances);
     }
@@ -286,11 +288,12 @@ static void shearing_the_layer(void **state)
         job.specific_wear_rate.value =
             key_number(layer, "critical_specific_wear_rate") / (k ? 1.001 : 1.1);
         wt_table_free(layer);
-        assert_int_equal(wt_layer_balances_make(&sliding, &job, &known, &work, &balances, &err),
-                         WT_OK);
+        assert_int_equal(
+            wt_layer_steady_states_compute(&sliding, &job, &known, &work, &balances, &err), WT_OK);
         assert_int_equal(number_cell(balances, 0, "thickness") > 0, k);
         assert_true(number_cell(balances, 0, "thickness") < 1e-8);
-        assert_int_equal(wt_running_in_make(&sliding, &job, &known, &work, &running, &err), WT_OK);
+        assert_int_equal(wt_running_in_compute(&sliding, &job, &known, &work, &running, &err),
+                         WT_OK);
         assert_near(key_number(running, "balance_thickness"), number_cell(balances, 0, "thickness"),
                     1e-9);
         wt_table_free(balances);
@@ -309,15 +312,15 @@ static void threshold_of_a_stiff_layer(void **state)
     wt_error err = WT_ERROR_INIT;
     wt_table *balances = NULL;
     wt_layer_job job = job_of();
-    job.acts_back = true;
+    job.has_feedback = true;
     job.energy = WT_LAYER_SHEAR;
     wt_table *layer = layer_of(&job);
     job.specific_wear_rate.value = key_number(layer, "critical_specific_wear_rate") / 0.58;
     wt_table_free(layer);
     for (int k = 0; k < 2; k++) {
         job.shear.reach = k ? 1e-11 : 0;
-        assert_int_equal(wt_layer_balances_make(&sliding, &job, &known, &work, &balances, &err),
-                         WT_OK);
+        assert_int_equal(
+            wt_layer_steady_states_compute(&sliding, &job, &known, &work, &balances, &err), WT_OK);
         static const char *const stable[] = {"stable", "unstable", "stable"};
         const size_t kind = (size_t)wt_table_find(balances, "kind"),
                      at = (size_t)wt_table_find(balances, "stable");
@@ -343,8 +346,7 @@ static void existence_ends_where_it_says(void **state)
     wt_table *existence = NULL;
     wt_error err = WT_ERROR_INIT;
     job.severity_power = 1e4;
-    assert_int_equal(wt_layer_regime_map_make(&sliding, &job, &known, &work, &existence, &err),
-                     WT_OK);
+    assert_int_equal(wt_regime_map_compute(&sliding, &job, &known, &work, &existence, &err), WT_OK);
     const double edge = key_number(existence, "to_velocity");
     assert_true(isnan(key_number(existence, "from_velocity")));
     assert_true(edge > velocity[0] && edge < velocity[VELOCITIES - 1]);
@@ -356,7 +358,7 @@ static void existence_ends_where_it_says(void **state)
     static const double other_way[] = {10, 1, 1e-2, 0.1, 1e-3};
     wt_table *again = NULL;
     sliding.velocity = other_way;
-    assert_int_equal(wt_layer_regime_map_make(&sliding, &job, &known, &work, &again, &err), WT_OK);
+    assert_int_equal(wt_regime_map_compute(&sliding, &job, &known, &work, &again, &err), WT_OK);
     assert_near(key_number(again, "to_velocity"), edge, 1e-9);
     wt_table_free(again);
     sliding.velocity = &edge;
@@ -385,8 +387,7 @@ static void existence_of_two_ranges(void **state)
     wt_layer_job job = job_of();
     wt_table *existence = NULL;
     wt_error err = WT_ERROR_INIT;
-    assert_int_equal(wt_layer_regime_map_make(&sliding, &job, &known, &work, &existence, &err),
-                     WT_OK);
+    assert_int_equal(wt_regime_map_compute(&sliding, &job, &known, &work, &existence, &err), WT_OK);
     /* R goes with 1/k: a wear rate between the two peaks of R and the valley */
     size_t first = 0, valley = 0, last = 0;
     double ratio[LIST];
@@ -404,7 +405,7 @@ static void existence_of_two_ranges(void **state)
     job.specific_wear_rate.value = wear;
     for (int whole = 0; whole < 2; whole++) {
         sliding.n_velocity = whole ? LIST : last + 1;
-        assert_int_equal(wt_layer_regime_map_make(&sliding, &job, &known, &work, &existence, &err),
+        assert_int_equal(wt_regime_map_compute(&sliding, &job, &known, &work, &existence, &err),
                          WT_OK);
         const double from = key_number(existence, "from_velocity"),
                      to = key_number(existence, "to_velocity"),
@@ -426,16 +427,17 @@ static void refuses(void **state)
     wt_table *table = NULL;
     wt_error err = WT_ERROR_INIT;
     const wt_layer_observation unknown = {.modulus_ratio = {(double)NAN, 0, 0, "1"}};
-    assert_int_equal(wt_running_in_make(&sliding, &job, &unknown, &work, &table, &err),
+    assert_int_equal(wt_running_in_compute(&sliding, &job, &unknown, &work, &table, &err),
                      WT_E_MISSING);
     const wt_layer_observation given = {.modulus_ratio = {0.5, 0, 0, "1"}};
-    job.acts_back = true;
+    job.has_feedback = true;
     job.start_thickness = 1e-6;
-    assert_int_equal(wt_running_in_make(&sliding, &job, &given, &work, &table, &err), WT_E_ARG);
+    assert_int_equal(wt_running_in_compute(&sliding, &job, &given, &work, &table, &err), WT_E_ARG);
     job = job_of();
     job.energy = WT_LAYER_SHEAR;
     sliding.shear_stress.value = (double)NAN;
-    assert_int_equal(wt_layer_make(&sliding, &job, &work, &tables, &err), WT_E_MISSING);
+    assert_int_equal(wt_layer_thickness_compute(&sliding, &job, &work, &tables, &err),
+                     WT_E_MISSING);
     job = job_of();
     job.severity_power = -1;
     assert_int_equal(wt_layer_job_check(&job, &err), WT_E_RANGE);

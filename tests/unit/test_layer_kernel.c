@@ -73,11 +73,11 @@ static void rig_free(rig *r)
     wt_energy_source_clear(&r->source);
 }
 
-static wt_layer_balance balance_of(const rig *r)
+static wt_layer_steady_state balance_of(const rig *r)
 {
-    wt_layer_balance b;
+    wt_layer_steady_state b;
     wt_error err = WT_ERROR_INIT;
-    if (wt_layer_balance_compute(&r->source, &r->parameters, &b, &err) != WT_OK)
+    if (wt_layer_steady_state_compute(&r->source, &r->parameters, &b, &err) != WT_OK)
         fail_msg("balance: %s", err.message);
     return b;
 }
@@ -113,7 +113,7 @@ static void check_thickness(const char *name, const char *what, wt_estimate actu
 
 static void check_balance(const numeric_case *c, const rig *r, const case_line *line)
 {
-    const wt_layer_balance b = balance_of(r);
+    const wt_layer_steady_state b = balance_of(r);
     const double expected = line->value[0];
     rig worn = *r;
     worn.parameters.incubation = true;
@@ -186,7 +186,7 @@ static bool check_history(const numeric_case *c, rig *r, const case_line *line)
 static void check_exponential(const case_line *line)
 {
     const double *v = line->value;
-    const double delta = wt_layer_exponential(v[0], v[1], v[2], v[3], v[4]);
+    const double delta = wt_layer_exponential_thickness(v[0], v[1], v[2], v[3], v[4]);
     assert_near(delta, v[5], 1e-12);
 }
 
@@ -274,7 +274,7 @@ static void step_in_severity(void **state)
     rig r = rig_mild();
     const double end = point_at(&r, 1000).thickness.value;
     assert_near(end, case_number(c, true, "end_of_stage_1", 0), 1e-12);
-    const wt_layer_stage stage = {&r.source, r.parameters, 1000};
+    const wt_layer_load stage = {&r.source, r.parameters, 1000};
     const double time = 1000;
     wt_layer_section section;
     assert_int_equal(wt_layer_sections(&stage, 1, &time, 1, &section, NULL), WT_OK);
@@ -399,13 +399,14 @@ static void time_to_a_thickness(void **state)
     (void)state;
     const double share = 0.9;
     rig one = rig_mild(), several = rig_several();
-    const wt_layer_balance b = balance_of(&one);
+    const wt_layer_steady_state b = balance_of(&one);
     const double settle = 1 / (2e6 * b.wear_rate), power = pow(b.ratio, share - 1);
     for (int incubation = 0; incubation < 2; incubation++) {
         one.parameters.incubation = several.parameters.incubation = incubation;
         wt_estimate goal = b.thickness, time;
         goal.value *= share;
-        assert_int_equal(wt_layer_time(&one.source, &one.parameters, goal, &time, NULL), WT_OK);
+        assert_int_equal(wt_layer_growth_time(&one.source, &one.parameters, goal, &time, NULL),
+                         WT_OK);
         const double exact =
             incubation ? -settle * log1p(-power) : settle * (log1p(-1 / b.ratio) - log1p(-power));
         assert_near(time.value, exact, 1e-12);
@@ -415,16 +416,19 @@ static void time_to_a_thickness(void **state)
             several.source.profile = profile ? WT_PROFILE_INCOMPRESSIBLE : WT_PROFILE_PERSSON;
             goal = balance_of(&several).thickness;
             goal.value *= share;
-            assert_int_equal(wt_layer_time(&several.source, &several.parameters, goal, &time, NULL),
-                             WT_OK);
+            assert_int_equal(
+                wt_layer_growth_time(&several.source, &several.parameters, goal, &time, NULL),
+                WT_OK);
             assert_near(point_at(&several, time.value).thickness.value, goal.value, 1e-9);
             goal.numerical_error = 0.01 * goal.value; /* what is not known of it is carried on */
-            assert_int_equal(wt_layer_time(&several.source, &several.parameters, goal, &time, NULL),
-                             WT_OK);
+            assert_int_equal(
+                wt_layer_growth_time(&several.source, &several.parameters, goal, &time, NULL),
+                WT_OK);
             assert_true(time.numerical_error > 0.01 * time.value);
         }
         goal.value = 2 * b.thickness.value;
-        assert_int_equal(wt_layer_time(&one.source, &one.parameters, goal, &time, NULL), WT_OK);
+        assert_int_equal(wt_layer_growth_time(&one.source, &one.parameters, goal, &time, NULL),
+                         WT_OK);
         assert_true(isnan(time.value));
     }
     rig_free(&one);
@@ -509,7 +513,7 @@ static void monotone_and_same_end(void **state)
 {
     (void)state;
     rig r = rig_several();
-    const wt_layer_balance b = balance_of(&r);
+    const wt_layer_steady_state b = balance_of(&r);
     enum { TIMES = 120 };
     double time[TIMES];
     wt_layer_point up[TIMES], down[TIMES], damage[TIMES];
@@ -543,7 +547,7 @@ static void what_moves_the_balance(void **state)
 {
     (void)state;
     rig r = rig_several();
-    const wt_layer_balance b = balance_of(&r);
+    const wt_layer_steady_state b = balance_of(&r);
     /* severity at a fixed k: only the clock */
     rig severe = rig_several();
     for (size_t i = 0; i < 3; i++)
@@ -595,7 +599,7 @@ static void regimes(void **state)
                  {0, WT_LAYER_THICK}};
     for (size_t i = 0; i < 4; i++) {
         r.parameters.specific_wear_rate = table[i].k;
-        const wt_layer_balance b = balance_of(&r);
+        const wt_layer_steady_state b = balance_of(&r);
         assert_int_equal(b.regime, table[i].regime);
         assert_int_equal(b.thickness.value > 0, table[i].regime != WT_LAYER_NONE);
         assert_int_equal(isnan(b.removal_time.value), table[i].regime != WT_LAYER_NONE);
@@ -643,7 +647,7 @@ static void nothing_happens(void **state)
             r.parameters.incubation = true;
         if (bits & 64)
             r.source.profile = WT_PROFILE_INCOMPRESSIBLE;
-        const wt_layer_balance b = balance_of(&r);
+        const wt_layer_steady_state b = balance_of(&r);
         assert_true(whole(b.surface_power) && whole(b.formation_rate_zero) && whole(b.wear_rate));
         assert_true(whole(b.ratio) && whole(b.critical_specific_wear_rate));
         assert_true(whole(b.thickness.value) && whole(b.thickness.numerical_error));
@@ -660,8 +664,8 @@ static void nothing_happens(void **state)
         assert_near(p[0].thickness.value, r.parameters.start_thickness, 0);
         rig_free(&r);
     }
-    assert_true(isnan(wt_layer_exponential(-1, 1, 1, 1, 1)));
-    assert_true(isnan(wt_layer_exponential(0, 1, (double)NAN, 1, 1)));
+    assert_true(isnan(wt_layer_exponential_thickness(-1, 1, 1, 1, 1)));
+    assert_true(isnan(wt_layer_exponential_thickness(0, 1, (double)NAN, 1, 1)));
 }
 
 static void same_value(wt_estimate full, wt_estimate alone)
@@ -683,16 +687,16 @@ static void numbers_alone(void **state)
         p->incubation = true;
         p->specific_wear_rate = (way & 2) != 0 ? 1e-12 : 1e-9; /* with and without a layer */
         p->start_thickness = (way & 4) != 0 ? 1e-6 : 0;
-        const wt_layer_balance full = balance_of(&r);
+        const wt_layer_steady_state full = balance_of(&r);
         wt_layer_point points[2][TIMES];
         wt_estimate time[2], goal = {0.9 * full.thickness.value, 0, 0, "m"};
         double at[TIMES];
         for (size_t i = 0; i < TIMES; i++)
             at[i] = 1e-2 * pow(10, 0.3 * (double)i);
         assert_int_equal(wt_layer_history(&r.source, p, at, TIMES, points[0], NULL), WT_OK);
-        assert_int_equal(wt_layer_time(&r.source, p, goal, &time[0], NULL), WT_OK);
-        p->without_errors = true;
-        const wt_layer_balance alone = balance_of(&r);
+        assert_int_equal(wt_layer_growth_time(&r.source, p, goal, &time[0], NULL), WT_OK);
+        p->skip_numerical_errors = true;
+        const wt_layer_steady_state alone = balance_of(&r);
         same_value(full.thickness, alone.thickness);
         same_value(full.incubation_time, alone.incubation_time);
         if (isfinite(full.relaxation_time.value))
@@ -700,12 +704,12 @@ static void numbers_alone(void **state)
         assert_int_equal(wt_layer_history(&r.source, p, at, TIMES, points[1], NULL), WT_OK);
         for (size_t i = 1; i < TIMES; i++)
             same_value(points[0][i].thickness, points[1][i].thickness);
-        assert_int_equal(wt_layer_time(&r.source, p, goal, &time[1], NULL), WT_OK);
+        assert_int_equal(wt_layer_growth_time(&r.source, p, goal, &time[1], NULL), WT_OK);
         if (!isnan(time[0].value))
             same_value(time[0], time[1]);
-        p->without_errors = false;
+        p->skip_numerical_errors = false;
         p->balance_only = true;
-        const wt_layer_balance only = balance_of(&r);
+        const wt_layer_steady_state only = balance_of(&r);
         assert_memory_equal(&full.thickness, &only.thickness, sizeof full.thickness);
         assert_true(isnan(only.incubation_time.value));
         rig_free(&r);
@@ -738,9 +742,9 @@ static void bad_input(void **state)
         for (size_t k = 0; k < 4; k++) {
             const double good = *table[i].value;
             *table[i].value = table[i].bad[k];
-            wt_layer_balance b;
+            wt_layer_steady_state b;
             wt_error err = WT_ERROR_INIT;
-            assert_int_equal(wt_layer_balance_compute(&r.source, p, &b, &err), WT_E_RANGE);
+            assert_int_equal(wt_layer_steady_state_compute(&r.source, p, &b, &err), WT_E_RANGE);
             assert_true(strstr(err.message, table[i].name) != NULL ||
                         strcmp(err.place, table[i].name) == 0);
             assert_true(err.expected[0] != '\0' && err.found[0] != '\0');
@@ -777,8 +781,8 @@ static void fastest_formation(void **state)
     for (size_t i = 0; i < 3; i++)
         power[i] *= 1e300;
     p.critical_energy = 1;
-    wt_layer_balance b;
-    assert_int_equal(wt_layer_balance_compute(&source, &p, &b, NULL), WT_E_RANGE);
+    wt_layer_steady_state b;
+    assert_int_equal(wt_layer_steady_state_compute(&source, &p, &b, NULL), WT_E_RANGE);
 }
 
 /* A band whose deepest place is known no better than its logarithms say. */

@@ -261,9 +261,9 @@ static void same_constants(void **state)
     const walk w = walk_through(REFERENCE "tribolayer.json");
     wt_activation a = {.barrier = 1e-60, .volume = 1e-27, .temperature = 1, .area_ratio = 1};
     a.attempt = WT_ATTEMPT_HBAR;
-    assert_near(wt_activation_background(&a), w.boltzmann / w.reduced, 1e-15);
+    assert_near(wt_activation_unloaded_rate(&a), w.boltzmann / w.reduced, 1e-15);
     a.attempt = WT_ATTEMPT_H;
-    assert_near(wt_activation_background(&a), w.boltzmann / w.planck, 1e-15);
+    assert_near(wt_activation_unloaded_rate(&a), w.boltzmann / w.planck, 1e-15);
 }
 
 int main(void)

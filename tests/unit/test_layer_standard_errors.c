@@ -28,7 +28,7 @@ static wt_table *bands_of(const wt_layer_job *job)
 {
     wt_table *table = NULL;
     wt_error err = WT_ERROR_INIT;
-    if (wt_layer_bands_make(&sliding, job, &work, &table, &err) != WT_OK)
+    if (wt_layer_bands_compute(&sliding, job, &work, &table, &err) != WT_OK)
         fail_msg("bands: %s %s", err.message, err.found);
     return table;
 }
@@ -37,7 +37,7 @@ static wt_table *running_of(const wt_layer_job *job, const wt_layer_observation 
 {
     wt_table *table = NULL;
     wt_error err = WT_ERROR_INIT;
-    if (wt_running_in_make(&sliding, job, known, &work, &table, &err) != WT_OK)
+    if (wt_running_in_compute(&sliding, job, known, &work, &table, &err) != WT_OK)
         fail_msg("running-in: %s %s", err.message, err.found);
     return table;
 }
@@ -46,7 +46,7 @@ static wt_table *balances_of(const wt_layer_job *job, const wt_layer_observation
 {
     wt_table *table = NULL;
     wt_error err = WT_ERROR_INIT;
-    if (wt_layer_balances_make(&sliding, job, known, &work, &table, &err) != WT_OK)
+    if (wt_layer_steady_states_compute(&sliding, job, known, &work, &table, &err) != WT_OK)
         fail_msg("balances: %s %s", err.message, err.found);
     return table;
 }
@@ -55,7 +55,7 @@ static wt_table *regime_map_of(const wt_layer_job *job, const wt_layer_observati
 {
     wt_table *table = NULL;
     wt_error err = WT_ERROR_INIT;
-    if (wt_layer_regime_map_make(&sliding, job, known, &work, &table, &err) != WT_OK)
+    if (wt_regime_map_compute(&sliding, job, known, &work, &table, &err) != WT_OK)
         fail_msg("existence: %s %s", err.message, err.found);
     return table;
 }
@@ -126,7 +126,7 @@ static void one_error_of_the_friction(void **state)
     known.thickness = (wt_estimate){key_number(running, "balance_thickness"), 0, 0, "m"};
     wt_friction_tables friction = {0};
     wt_error err = WT_ERROR_INIT;
-    assert_int_equal(wt_friction_make(&sliding, &known, &work, &friction, &err), WT_OK);
+    assert_int_equal(wt_sliding_friction_compute(&sliding, &known, &work, &friction, &err), WT_OK);
     assert_near(key_error(running, "bare_friction"),
                 key_error(friction.friction, "friction_at_reference"), AS_CLOSE);
     /* the pressure moves the thickness, which is given there, by next to nothing of the friction */
@@ -231,7 +231,7 @@ static void balances_that_may_be_others(void **state)
     for (int near = 0; near < 2; near++) {
         set_up(32);
         wt_layer_job job = job_of(0, 0);
-        job.acts_back = true;
+        job.has_feedback = true;
         job.energy = WT_LAYER_SHEAR;
         wt_table *layer = layer_of(&job);
         const double most = key_number(layer, "critical_specific_wear_rate");

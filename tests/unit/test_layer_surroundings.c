@@ -109,7 +109,7 @@ static void check_ramp(const numeric_case *c, const case_line *line)
 
 static wt_log_ratio mean_of(const case_line *group)
 {
-    const moments m = moments_of(group->value, group->n);
+    const moments m = sample_moments(group->value, group->n);
     return (wt_log_ratio){m.mean, sqrt(m.variance / m.n), m.n - 1};
 }
 
@@ -145,12 +145,12 @@ static void check_ball(const numeric_case *c, const case_line *line, wt_ball_con
     if (is(line, "ball")) {
         const double load = wt_ball_load(v[0], radius, modulus, nu);
         assert_near(load, v[3], DIGITS);
-        *ball = wt_ball_contact_of(load, radius, modulus, nu);
+        *ball = wt_ball_contact_compute(load, radius, modulus, nu);
         assert_near(ball->contact_radius, v[2], DIGITS);
         assert_near(ball->pressure, v[0], DIGITS);
         assert_near(1.5 * ball->pressure, v[1], DIGITS);
     } else if (is(line, "contact")) {
-        *ball = wt_ball_contact_of(number(c, "load"), radius, modulus, nu);
+        *ball = wt_ball_contact_compute(number(c, "load"), radius, modulus, nu);
         assert_near(ball->contact_radius, v[0], DIGITS);
         assert_near(ball->pressure, v[1], DIGITS);
         assert_near(1.5 * ball->pressure, v[2], DIGITS);

@@ -204,9 +204,9 @@ static wt_status master(FILE **out, wt_error *err)
     common.formats = formats;
     common.threads = 1;
     if (status == WT_OK)
-        status = wt_master_make(&j, &common, &tables, &rubber, err);
+        status = wt_master_compute(&j, &common, &tables, &rubber, err);
     if (status == WT_OK)
-        status = wt_rubber_at(&rubber, 300, 1, 0, &material, NULL, err);
+        status = wt_rubber_material(&rubber, 300, 1, 0, &material, NULL, err);
     write_table(*out, tables.shift_factors);
     write_table(*out, tables.master_curve);
     write_table(*out, tables.prony);
@@ -244,7 +244,7 @@ static wt_status run_case(FILE **out, wt_error *err)
     if (status == WT_OK)
         status = wt_plan(c, &plan, err);
     if (status == WT_OK)
-        status = wt_run(c, &options, NULL, &result, &n_failed, err);
+        status = wt_run_case(c, &options, NULL, &result, &n_failed, err);
     write_table(*out, plan);
     for (size_t i = 0; status == WT_OK && i < wt_result_n_tables(result); i++)
         write_table(*out, wt_result_table(result, i));
@@ -300,8 +300,8 @@ static wt_status make_result(wt_result **result, wt_error *err)
     for (int i = 0; status == WT_OK && i < 5; i++) {
         status = wt_table_add_row(t, err);
         if (status == WT_OK) {
-            wt_table_put(t, 0, 1e-6 * pow(2, i));
-            wt_table_put(t, 1, 1e9 / (i + 1));
+            wt_table_set_number(t, 0, 1e-6 * pow(2, i));
+            wt_table_set_number(t, 1, 1e9 / (i + 1));
         }
     }
     wt_estimate velocity = {0.3, 0.01, 0, "m/s"};
@@ -339,7 +339,7 @@ static wt_status pass_store(FILE **out, wt_error *err)
     size_t size = 0;
     FILE *const answer = __real_open_memstream(&passed, &size);
     const hid_t file = H5Fopen(store, H5F_ACC_RDONLY, H5P_DEFAULT);
-    const wt_status status = store_pass(file, (size_t)1 << 20, answer, err);
+    const wt_status status = store_extract(file, (size_t)1 << 20, answer, err);
     counting = false;
     (void)H5Fclose(file);
     (void)fclose(answer);

@@ -99,7 +99,7 @@ static void cut_anywhere(void **state)
         wt_status status = open_bytes(&part, &input, &archive, NULL);
         assert_int_equal(status, complete > 0 ? WT_OK : WT_E_CORRUPT);
         if (complete > 0) {
-            assert_string_equal(archive->odd, "the end of the archive is missing");
+            assert_string_equal(archive->defect, "the end of the archive is missing");
             assert_int_equal(archive->n, complete);
             assert_entry(archive, "one", "first text");
         }
@@ -209,9 +209,9 @@ static void number_of_entries(void **state)
         assert_int_equal(open_bytes(&b, &input, &archive, NULL), WT_OK);
         assert_int_equal(archive->n, 2);
         if (numbers[i] == 2)
-            assert_null(archive->odd);
+            assert_null(archive->defect);
         else
-            assert_string_equal(archive->odd, "the directory of the archive is damaged");
+            assert_string_equal(archive->defect, "the directory of the archive is damaged");
         assert_entry(archive, "one", "first text");
         assert_entry(archive, "two", "second text");
         archive_close(archive);
@@ -246,7 +246,7 @@ static void more_than_the_number_holds(void **state)
                      WT_OK);
     assert_int_equal(archive_open(input, &archive, NULL), WT_OK);
     assert_int_equal(archive->n, MORE);
-    assert_null(archive->odd);
+    assert_null(archive->defect);
     assert_entry(archive, "000002", "first text");
     assert_entry(archive, "065538", "first text");
     archive_close(archive);
@@ -279,7 +279,7 @@ static void a_large_entry(void **state)
     }
     put_end(&b, 2, (uint32_t)b.n - directory, directory);
     assert_int_equal(open_bytes(&b, &input, &archive, NULL), WT_OK);
-    assert_null(archive->odd);
+    assert_null(archive->defect);
     assert_int_equal(archive->n, 2);
     assert_entry(archive, "one", "first text");
     assert_true(archive_find(archive, "big", &i));
@@ -299,7 +299,7 @@ static void bytes_behind_the_end(void **state)
     put_two(&b, 2);
     b.n = 1024; /* zeros */
     assert_int_equal(open_bytes(&b, &input, &archive, NULL), WT_OK);
-    assert_null(archive->odd);
+    assert_null(archive->defect);
     assert_int_equal(archive->n, 2);
     assert_entry(archive, "two", "second text");
     archive_close(archive);

@@ -48,7 +48,7 @@ static void curves(void **state)
     write_archive(files, 5);
     const wt_format_info *info = NULL;
     open_input(&r, path);
-    assert_int_equal(wt_detect(formats, r.input, NULL, 0, &info, &r.err), WT_OK);
+    assert_int_equal(wt_format_detect(formats, r.input, NULL, 0, &info, &r.err), WT_OK);
     assert_string_equal(info->id, "archive");
     /* With the answer of detection, that of text, and none. */
     static const char *const given[] = {"archive", "table-force", NULL};
@@ -74,7 +74,7 @@ static void curves(void **state)
     }
     assert_true(told > 0);
     wt_table *facts = NULL;
-    assert_int_equal(wt_describe(formats, r.input, NULL, NULL, &facts, &r.err), WT_OK);
+    assert_int_equal(wt_input_describe(formats, r.input, NULL, NULL, &facts, &r.err), WT_OK);
     wt_table_free(facts);
     close_all(&r);
 }

@@ -173,7 +173,7 @@ static void names(void **state)
         {"\xc2\xb5m", "um"},
         {"\xce\xbcm", "um"},
     };
-    char name[NAME_LONGEST];
+    char name[COLUMN_NAME_SIZE];
     (void)state;
     for (size_t i = 0; i < sizeof same / sizeof *same; i++) {
         name_normalise((text_span){same[i][0], strlen(same[i][0])}, name);
@@ -182,7 +182,7 @@ static void names(void **state)
     char lengthy[500];
     memset(lengthy, 'x', sizeof lengthy);
     name_normalise((text_span){lengthy, sizeof lengthy}, name);
-    assert_int_equal(strlen(name), NAME_LONGEST - 1);
+    assert_int_equal(strlen(name), COLUMN_NAME_SIZE - 1);
 }
 
 static void units_in_names(void **state)
@@ -206,7 +206,7 @@ static void units_in_names(void **state)
     (void)state;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         text_span name = {cases[i].name, strlen(cases[i].name)}, unit = {NULL, 0};
-        const bool has = name_unit(&name, &unit);
+        const bool has = split_name_unit(&name, &unit);
         assert_int_equal(has, cases[i].bare != NULL);
         if (!has)
             continue;
@@ -298,15 +298,15 @@ static void known_before_they_are_read(void **state)
         assert_string_equal(reader->info.version, whole->version);
         assert_int_equal(reader->info.kinds, whole->kinds);
         assert_int_equal(reader->info.verified, whole->verified);
-        assert_int_equal(description_need(reader->description, DESCRIPTION_DETECT, &detect, &err),
+        assert_int_equal(description_load(reader->description, DESCRIPTION_DETECT, &detect, &err),
                          WT_OK);
         assert_int_equal(detect->n_probes, whole->n_probes);
         assert_int_equal(detect->encoding, whole->encoding);
         assert_int_equal(detect->n_names, 0);
-        assert_int_equal(description_need(reader->description, DESCRIPTION_WHOLE, &again, &err),
+        assert_int_equal(description_load(reader->description, DESCRIPTION_WHOLE, &again, &err),
                          WT_OK);
         assert_int_equal(again->n_names, whole->n_names);
-        assert_int_equal(description_need(reader->description, DESCRIPTION_WHOLE, &detect, &err),
+        assert_int_equal(description_load(reader->description, DESCRIPTION_WHOLE, &detect, &err),
                          WT_OK);
         assert_ptr_equal(detect, again); /* read once */
         description_free(whole);
@@ -332,7 +332,7 @@ static void checked_with_a_sample(void **state)
     write_file("mine.xml", xml, path);
     assert_int_equal(wt_input_open_memory(sample, sizeof sample - 1, "sample", &input, &err),
                      WT_OK);
-    assert_int_equal(wt_description_check(path, input, NULL, log, &report, &err), WT_OK);
+    assert_int_equal(wt_format_description_check(path, input, NULL, log, &report, &err), WT_OK);
     assert_int_equal(wt_table_n_rows(report), 3);
     assert_string_equal(wt_table_text(report, 0, 0), "f");
     assert_string_equal(wt_table_text(report, 0, 1), "frequency");
@@ -343,13 +343,14 @@ static void checked_with_a_sample(void **state)
     wt_input_close(input);
     /* Without a sample only the description is checked. */
     report = NULL;
-    assert_int_equal(wt_description_check(path, NULL, NULL, log, &report, &err), WT_OK);
+    assert_int_equal(wt_format_description_check(path, NULL, NULL, log, &report, &err), WT_OK);
     assert_int_equal(wt_table_n_rows(report), 0);
     wt_table_free(report);
     /* A sample that it does not fit. */
     report = NULL;
     assert_int_equal(wt_input_open_memory("a\tb\n1\t2\n", 8, "other", &input, &err), WT_OK);
-    assert_int_equal(wt_description_check(path, input, NULL, log, &report, &err), WT_E_EMPTY);
+    assert_int_equal(wt_format_description_check(path, input, NULL, log, &report, &err),
+                     WT_E_EMPTY);
     assert_null(report);
     wt_input_close(input);
     unlink(path);
@@ -391,7 +392,7 @@ static void example_of_the_manual(void **state)
     fclose(page);
     write_file("nanoprobe.xml", xml, path);
     assert_int_equal(wt_input_open_memory(sample, samples, "sample", &input, &err), WT_OK);
-    wt_status status = wt_description_check(path, input, NULL, log, &report, &err);
+    wt_status status = wt_format_description_check(path, input, NULL, log, &report, &err);
     if (status != WT_OK)
         print_message("%s: %s; %s; %s\n", err.place, err.message, err.expected, err.found);
     assert_int_equal(status, WT_OK);

@@ -60,7 +60,7 @@ static void file_beside(void **state)
         wt_input_close(input);
         for (size_t at = 0; beside != NULL && at < n; at += 777777) {
             const size_t some = n - at < sizeof part ? n - at : sizeof part;
-            assert_int_equal(wt_input_at(beside, at, part, some, NULL), WT_OK);
+            assert_int_equal(wt_input_copy(beside, at, part, some, NULL), WT_OK);
             assert_memory_equal(part, bytes + at, some);
         }
         wt_input_close(beside);
@@ -176,7 +176,7 @@ static wt_status detect_text(const char *text, size_t n, unsigned kinds, const c
     const wt_format_info *info = NULL;
     assert_int_equal(wt_formats_new(NULL, &formats, NULL, NULL), WT_OK);
     assert_int_equal(wt_input_open_memory(text, n, "test", &input, NULL), WT_OK);
-    wt_status status = wt_detect(formats, input, NULL, kinds, &info, err);
+    wt_status status = wt_format_detect(formats, input, NULL, kinds, &info, err);
     *id = status == WT_OK && strcmp(info->id, "nid") == 0 ? "nid" : NULL;
     wt_input_close(input);
     wt_formats_free(formats);
@@ -278,7 +278,7 @@ static void more_is_shown(void **state)
     const wt_format_info *info = NULL;
     assert_int_equal(wt_formats_new(NULL, &formats, NULL, NULL), WT_OK);
     assert_int_equal(wt_input_open("-", &input, NULL), WT_OK);
-    assert_int_equal(wt_detect(formats, input, NULL, 0, &info, NULL), WT_OK);
+    assert_int_equal(wt_format_detect(formats, input, NULL, 0, &info, NULL), WT_OK);
     assert_string_equal(info->id, "nid");
     wt_input_close(input);
     wt_formats_free(formats);
@@ -312,7 +312,7 @@ static void ties_name_both(void **state)
     formats = NULL;
     assert_int_equal(wt_formats_new(folder, &formats, NULL, &err), WT_OK);
     assert_int_equal(wt_input_open_memory(sample, sizeof sample - 1, "test", &input, NULL), WT_OK);
-    assert_int_equal(wt_detect(formats, input, NULL, 0, &info, &err), WT_E_AMBIGUOUS);
+    assert_int_equal(wt_format_detect(formats, input, NULL, 0, &info, &err), WT_E_AMBIGUOUS);
     assert_non_null(strstr(err.found, "afm-workshop"));
     assert_non_null(strstr(err.found, "the-copy"));
     assert_non_null(strstr(err.advice, "--format the-copy"));
@@ -349,13 +349,14 @@ static void a_signature_comes_first(void **state)
     assert_int_equal(wt_formats_new(folder, &formats, NULL, &err), WT_OK);
     assert_non_null(wt_formats_find(formats, "greedy"));
     assert_int_equal(wt_input_open_memory(sample, sizeof sample - 4, "test", &input, NULL), WT_OK);
-    assert_int_equal(wt_detect(formats, input, NULL, 0, &info, NULL), WT_OK);
+    assert_int_equal(wt_format_detect(formats, input, NULL, 0, &info, NULL), WT_OK);
     assert_ptr_equal(info, wt_formats_find(formats, "greedy")); /* no data: no signature */
     wt_input_close(input);
     assert_int_equal(wt_input_open_memory(sample, sizeof sample - 1, "test", &input, NULL), WT_OK);
-    assert_int_equal(wt_detect(formats, input, NULL, 0, &info, NULL), WT_OK);
+    assert_int_equal(wt_format_detect(formats, input, NULL, 0, &info, NULL), WT_OK);
     assert_ptr_equal(info, wt_formats_find(formats, "nid"));
-    assert_int_equal(wt_detect(formats, input, NULL, WT_KIND_SPECTRUM, &info, &err), WT_E_EMPTY);
+    assert_int_equal(wt_format_detect(formats, input, NULL, WT_KIND_SPECTRUM, &info, &err),
+                     WT_E_EMPTY);
     assert_non_null(strstr(err.found, "nid"));
     wt_input_close(input);
     assert_null(wt_formats_find(formats, "no-such-format"));

@@ -152,7 +152,7 @@ static void as_the_file_says(void **state)
     assert_int_equal(wt_log_count(m.base.log), 0);
     /* What comes first counts. */
     add(&m, WT_Q_HEIGHT, 2, 0, three);
-    force_offer(&m.facts, WT_Q_HEIGHT);
+    force_add_offer(&m.facts, WT_Q_HEIGHT);
     assert_int_equal(m.facts.n_offers, 5);
     assert_string_equal(force_find_signal(&m.facts, WT_Q_HEIGHT)->name, "two");
     assert_int_equal(m.facts.n_signals, 4);
@@ -203,8 +203,8 @@ static void as_asked_for(void **state)
     assert_int_equal(read_curve(&m, &curve, NULL), WT_OK);
     assert_int_equal(curve.segments[0].n_channels, 1);
     assert_column(&curve, WT_Q_FORCE, 1.5e-9, 2e-9);
-    assert_true(force_wants_segment(&m.base, WT_SEGMENT_RETRACT));
-    assert_false(force_wants_segment(&m.base, WT_SEGMENT_APPROACH));
+    assert_true(force_is_segment_requested(&m.base, WT_SEGMENT_RETRACT));
+    assert_false(force_is_segment_requested(&m.base, WT_SEGMENT_APPROACH));
     /* Nothing to read is no segment, but its calibration counts. */
     m.facts.n_points = 0;
     assert_int_equal(read_curve(&m, &curve, NULL), WT_OK);
@@ -237,8 +237,8 @@ static void given_to_a_chain(void **state)
             assert_column(&curve, WT_Q_DEFLECTION, 5e-9, 1e-9);
             assert_column(&curve, WT_Q_FORCE, k * 5e-9, k * 1e-9);
         }
-        assert_int_equal(curve.cantilever.spring_constant_given, given & 1);
-        assert_int_equal(curve.cantilever.sensitivity_given, given >> 1);
+        assert_int_equal(curve.cantilever.spring_constant_is_overridden, given & 1);
+        assert_int_equal(curve.cantilever.sensitivity_is_overridden, given >> 1);
         assert_near(curve.cantilever.spring_constant, k, 0);
         assert_near(curve.segments[0].setpoint, 0.5 * curve.cantilever.sensitivity * k, 1e-14);
         done(&m, &curve);
@@ -269,7 +269,7 @@ static void given_to_columns(void **state)
     assert_column(&curve, WT_Q_FORCE, 0.3e-9, 0);
     assert_column(&curve, WT_Q_DEFLECTION, 1e-9, 0);
     assert_null(wt_segment_channel(&curve.segments[0], WT_Q_DEFLECTION_VOLTAGE));
-    assert_false(curve.cantilever.sensitivity_given);
+    assert_false(curve.cantilever.sensitivity_is_overridden);
     assert_true(isnan(curve.cantilever.sensitivity));
     assert_true(logged(&m, "its sensitivity, so the given one cannot replace it in a column of "
                            "deflection"));
@@ -320,7 +320,7 @@ static void contradictions(void **state)
         made_up m = make(known);
         wt_force_curve curve = {0};
         m.facts.kind = WT_SEGMENT_APPROACH;
-        force_offer(&m.facts, WT_Q_MEASURED_HEIGHT);
+        force_add_offer(&m.facts, WT_Q_MEASURED_HEIGHT);
         add(&m, WT_Q_HEIGHT, -1e-6, 5, one);
         add(&m, WT_Q_MEASURED_HEIGHT, far == 1 ? -1.5e-6 : -1.01e-6, 0, two);
         assert_int_equal(read_curve(&m, &curve, NULL), WT_OK);
@@ -440,15 +440,15 @@ static void places(void **state)
     wt_force_curve curve = {0};
     (void)state;
     for (size_t i = 0; i < 6; i++) {
-        assert_true(force_place(3, 2, true, i, &curve));
+        assert_true(force_set_grid_position(3, 2, true, i, &curve));
         assert_int_equal(curve.grid_x, i < 3 ? i : 5 - i);
         assert_int_equal(curve.grid_y, i / 3);
-        assert_true(force_place(3, 2, false, i, &curve));
+        assert_true(force_set_grid_position(3, 2, false, i, &curve));
         assert_int_equal(curve.grid_x, i % 3);
     }
     curve.grid_x = -1;
-    assert_false(force_place(3, 2, true, 6, &curve));
-    assert_false(force_place(0, 0, true, 0, &curve));
+    assert_false(force_set_grid_position(3, 2, true, 6, &curve));
+    assert_false(force_set_grid_position(0, 0, true, 0, &curve));
     assert_int_equal(curve.grid_x, -1);
 }
 
@@ -460,15 +460,15 @@ static void described(void **state)
     (void)state;
     add(&m, WT_Q_DEFLECTION_VOLTAGE, 1, 0, one);
     add(&m, WT_Q_HEIGHT, 1, 0, two);
-    assert_int_equal(force_read_as(&m.facts, o, one), WT_Q_DEFLECTION_VOLTAGE);
-    assert_int_equal(force_read_as(&m.facts, o, two), WT_Q_HEIGHT);
-    assert_int_equal(force_read_as(&m.facts, o, three), WT_Q_NONE);
+    assert_int_equal(force_channel_quantity(&m.facts, o, one), WT_Q_DEFLECTION_VOLTAGE);
+    assert_int_equal(force_channel_quantity(&m.facts, o, two), WT_Q_HEIGHT);
+    assert_int_equal(force_channel_quantity(&m.facts, o, three), WT_Q_NONE);
     table_writer list = table_begin(&facts_schema, NULL);
     force_describe_calibration(&m.facts, o, "here", "there", &list);
     o->sensitivity = 1e-7;
-    assert_int_equal(force_read_as(&m.facts, o, one), WT_Q_DEFLECTION);
+    assert_int_equal(force_channel_quantity(&m.facts, o, one), WT_Q_DEFLECTION);
     o->spring_constant = 2;
-    assert_int_equal(force_read_as(&m.facts, o, one), WT_Q_FORCE);
+    assert_int_equal(force_channel_quantity(&m.facts, o, one), WT_Q_FORCE);
     force_describe_calibration(&m.facts, o, "here", "there", &list);
     static const char *const rows[][4] = {
         {"spring constant", "unknown", "N/m", "here"},

@@ -34,7 +34,7 @@ static const char *warning_of(double *values, size_t columns, size_t rows, const
     const wt_read_options options = wt_read_defaults();
     (void)snprintf(image.unit, sizeof image.unit, "%s", unit);
     (void)snprintf(image.x_unit, sizeof image.x_unit, "m");
-    assert_int_equal(images_given(&image, 1, &options, "file", log, NULL), WT_OK);
+    assert_int_equal(images_apply_options(&image, 1, &options, "file", log, NULL), WT_OK);
     assert_true(wt_log_count(log) < 2);
     said[0] = '\0';
     if (wt_log_count(log) == 1) {

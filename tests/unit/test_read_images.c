@@ -314,7 +314,7 @@ static void test_list(void **state)
     }
     wt_image *images = NULL;
     size_t n = 7;
-    assert_int_equal(images_end(&list, WT_OK, "file", NULL, &images, &n, &err), WT_OK);
+    assert_int_equal(images_finish(&list, WT_OK, "file", NULL, &images, &n, &err), WT_OK);
     assert_int_equal(n, 3);
     assert_int_equal(list.n, 0);
     assert_null(list.images);
@@ -324,11 +324,11 @@ static void test_list(void **state)
     }
     clear_images(images, n);
     images = NULL;
-    assert_int_equal(images_end(&list, WT_OK, "file", NULL, &images, &n, &err), WT_E_EMPTY);
+    assert_int_equal(images_finish(&list, WT_OK, "file", NULL, &images, &n, &err), WT_E_EMPTY);
     assert_string_equal(err.message, "the file holds no image");
     const wt_image head = {.n_columns = 2, .n_rows = 2};
     assert_int_equal(images_add(&list, &head, &values, &err), WT_OK);
-    assert_int_equal(images_end(&list, WT_E_CORRUPT, "file", NULL, &images, &n, &err),
+    assert_int_equal(images_finish(&list, WT_E_CORRUPT, "file", NULL, &images, &n, &err),
                      WT_E_CORRUPT);
     assert_int_equal(list.n, 0);
     assert_null(images);
@@ -360,25 +360,25 @@ static void test_given(void **state)
     wt_log *log = wt_log_new();
     given.pixel_size = 2e-6;
     given.height_unit = "nm";
-    assert_int_equal(images_given(&image, 1, &given, "file", log, NULL), WT_OK);
+    assert_int_equal(images_apply_options(&image, 1, &given, "file", log, NULL), WT_OK);
     assert_int_equal(wt_log_count(log), 0);
     assert_near(image.width, 4e-6, 1e-12);
     assert_near(image.height, 2e-6, 1e-12);
     assert_near(values[5], 6e-9, 1e-12);
     assert_string_equal(image.unit, "m");
     given.pixel_size = 3e-6;
-    assert_int_equal(images_given(&image, 1, &given, "file", log, NULL), WT_OK);
+    assert_int_equal(images_apply_options(&image, 1, &given, "file", log, NULL), WT_OK);
     assert_near(values[5], 6e-9, 1e-12); /* a length already */
     assert_near(image.width, 6e-6, 1e-12);
     assert_int_equal(wt_log_count(log), 1);
     assert_non_null(strstr(wt_log_get(log, 0).text, "another size"));
     snprintf(image.unit, sizeof image.unit, "V");
-    assert_int_equal(images_given(&image, 1, &given, "file", log, NULL), WT_OK);
+    assert_int_equal(images_apply_options(&image, 1, &given, "file", log, NULL), WT_OK);
     assert_int_equal(wt_log_count(log), 2);
     assert_non_null(strstr(wt_log_get(log, 1).text, "in V"));
     given.height_unit = "apples";
     snprintf(image.unit, sizeof image.unit, "V");
-    assert_int_equal(images_given(&image, 1, &given, "file", log, NULL), WT_E_UNIT);
+    assert_int_equal(images_apply_options(&image, 1, &given, "file", log, NULL), WT_E_UNIT);
     wt_log_free(log);
 }
 
@@ -414,9 +414,9 @@ static void test_missing(void **state)
         assert_int_equal(images_add(&list, &head, &values, NULL), WT_OK);
         for (size_t k = 0; k < head.n_columns * head.n_rows; k++)
             values[k] = k < cases[i].missing ? (k == 0 ? (double)NAN : (double)INFINITY) : 1;
-        assert_int_equal(images_end(&list, WT_OK, "file", log, &images, &n, NULL), WT_OK);
+        assert_int_equal(images_finish(&list, WT_OK, "file", log, &images, &n, NULL), WT_OK);
         const wt_read_options nothing = wt_read_defaults();
-        assert_int_equal(images_given(images, n, &nothing, "file", log, NULL), WT_OK);
+        assert_int_equal(images_apply_options(images, n, &nothing, "file", log, NULL), WT_OK);
         const bool unknown = cases[i].words != NULL && strstr(cases[i].words, "size") != NULL;
         const size_t said = (cases[i].missing > 0) + (size_t)unknown;
         assert_int_equal(wt_log_count(log), said);

@@ -91,7 +91,8 @@ static void assert_curve(const wt_force_curve *c, const sample *s, const jpk_wri
     assert_near(c->y, s->curve.y, 0);
     assert_near(c->cantilever.spring_constant, f->spring_constant, 0);
     assert_near(c->cantilever.sensitivity, f->sensitivity, 0);
-    assert_false(c->cantilever.spring_constant_given || c->cantilever.sensitivity_given);
+    assert_false(c->cantilever.spring_constant_is_overridden ||
+                 c->cantilever.sensitivity_is_overridden);
     assert_int_equal(c->n_segments, 4);
     double single = f->encoding == JPK_WRITE_FLOAT ? 6e-8 : 0;
     for (size_t k = 0; k < 4; k++) {
@@ -243,8 +244,8 @@ static void user_calibration(void **state)
                             factor * jpk_writer_force_step(&f) + 1e-22);
         assert_near(r.curve.cantilever.spring_constant, k, 0);
         assert_near(r.curve.cantilever.sensitivity, s, 0);
-        assert_int_equal(r.curve.cantilever.spring_constant_given, !isnan(given[i][0]));
-        assert_int_equal(r.curve.cantilever.sensitivity_given, !isnan(given[i][1]));
+        assert_int_equal(r.curve.cantilever.spring_constant_is_overridden, !isnan(given[i][0]));
+        assert_int_equal(r.curve.cantilever.sensitivity_is_overridden, !isnan(given[i][1]));
         assert_near(r.curve.segments[0].setpoint, factor * f.setpoint, 1e-14);
         close_all(&r);
     }
@@ -396,7 +397,7 @@ static void described(void **state)
     reading r = {.log = NULL};
     assert_int_equal(jpk_write(&f), 0);
     assert_int_equal(wt_input_open(path, &r.input, NULL), WT_OK);
-    assert_int_equal(wt_describe(formats, r.input, NULL, NULL, &facts, &r.err), WT_OK);
+    assert_int_equal(wt_input_describe(formats, r.input, NULL, NULL, &facts, &r.err), WT_OK);
     for (size_t i = 0; i < sizeof expected / sizeof *expected; i++) {
         const char *value = NULL;
         for (size_t row = 0; row < wt_table_n_rows(facts); row++)
@@ -419,7 +420,7 @@ static void lost_segments(void **state)
         f.n_planned = 0;
         f.columns = f.rows = 0;
         f.miscounted = &curves[f.n_curves - 1];
-        size_t n_said = 0;
+        size_t n_declared = 0;
         reading r;
         assert_int_equal(jpk_write(&f), 0);
         assert_int_equal(open_force(&r, path, NULL), WT_OK);
@@ -432,9 +433,9 @@ static void lost_segments(void **state)
             assert_int_equal(e.severity, WT_WARNING);
             assert_int_equal(e.count, 1);
             assert_non_null(strstr(e.text, "the curve has 4 "));
-            n_said++;
+            n_declared++;
         }
-        assert_int_equal(n_said, 1);
+        assert_int_equal(n_declared, 1);
         close_all(&r);
     }
 }
@@ -445,7 +446,7 @@ static void lost_position(void **state)
     (void)state;
     for (int lost = 0; lost < 2; lost++) {
         jpk_writer_file f = make_file();
-        size_t n_said = 0;
+        size_t n_declared = 0;
         reading r;
         curves[1].y = lost != 0 ? (double)NAN : curves[1].y;
         assert_int_equal(jpk_write(&f), 0);
@@ -453,8 +454,8 @@ static void lost_position(void **state)
         for (size_t i = 0; i < f.n_curves; i++)
             assert_int_equal(wt_force_next(r.source, &r.curve, &r.err), WT_OK);
         for (size_t i = 0; i < wt_log_count(r.log); i++)
-            n_said += strstr(wt_log_get(r.log, i).text, "says no position") != NULL;
-        assert_int_equal(n_said, lost);
+            n_declared += strstr(wt_log_get(r.log, i).text, "says no position") != NULL;
+        assert_int_equal(n_declared, lost);
         close_all(&r);
     }
 }

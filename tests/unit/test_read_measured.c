@@ -199,7 +199,7 @@ static void check_file(const known_file *k)
     wt_force_curve curve = {.n_segments = 0};
     char text[1024];
     size_t n = 0;
-    wt_status status = wt_detect(formats, input, NULL, 0, &info, &err);
+    wt_status status = wt_format_detect(formats, input, NULL, 0, &info, &err);
     if ((status == WT_OK) != (k->format != NULL) ||
         (status == WT_OK && strcmp(info->id, k->format) != 0))
         fail_msg("%s is recognised as %s: %s", k->name, status == WT_OK ? info->id : "nothing",

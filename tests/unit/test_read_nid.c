@@ -171,7 +171,8 @@ static void user_calibration(void **state)
             assert_near(force->values[j], bending[0][j] * to_volts[i % 3] * used_s * used_k, 1e-14);
         }
         assert_near(r.curve.cantilever.spring_constant, used_k, 0);
-        assert_int_equal(r.curve.cantilever.spring_constant_given, !isnan(o.spring_constant));
+        assert_int_equal(r.curve.cantilever.spring_constant_is_overridden,
+                         !isnan(o.spring_constant));
         close_all(&r);
     }
 }
@@ -299,7 +300,7 @@ static void described(void **state)
     o.spring_constant = 0.5;
     assert_int_equal(nid_write(&f), 0);
     assert_int_equal(wt_input_open(path, &r.input, NULL), WT_OK);
-    assert_int_equal(wt_describe(formats, r.input, &o, NULL, &facts, &r.err), WT_OK);
+    assert_int_equal(wt_input_describe(formats, r.input, &o, NULL, &facts, &r.err), WT_OK);
     for (size_t i = 0; i < sizeof expected / sizeof *expected; i++) {
         size_t row = 0;
         while (row < wt_table_n_rows(facts) &&

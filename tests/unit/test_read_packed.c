@@ -23,7 +23,7 @@ static wt_status read_sweep(const char *sheet, wt_sweep *sweep, wt_log *log, wt_
     options.sheet = sheet;
     wt_status status = wt_input_open(path, &input, err);
     assert_int_equal(status, WT_OK);
-    status = wt_detect(formats, input, &options, WT_KIND_SWEEP, &info, err);
+    status = wt_format_detect(formats, input, &options, WT_KIND_SWEEP, &info, err);
     if (status == WT_OK) {
         options.format = info->id;
         status = wt_sweep_read(formats, input, &options, log, sweep, err);
@@ -70,13 +70,13 @@ static void checks(const char *sheet, double storage)
     wt_error err = WT_ERROR_INIT;
     options.sheet = sheet;
     assert_int_equal(wt_input_open(path, &input, NULL), WT_OK);
-    assert_int_equal(wt_detect(formats, input, &options, WT_KIND_SWEEP, &info, NULL), WT_OK);
+    assert_int_equal(wt_format_detect(formats, input, &options, WT_KIND_SWEEP, &info, NULL), WT_OK);
     FILE *out = fdopen(fd, "w");
     assert_non_null(out);
     assert_true(fputs(wt_formats_xml(formats, info->id), out) >= 0 && fclose(out) == 0);
     wt_input_close(input);
     assert_int_equal(wt_input_open(path, &input, NULL), WT_OK);
-    if (wt_description_check(xml, input, &options, NULL, &report, &err) != WT_OK)
+    if (wt_format_description_check(xml, input, &options, NULL, &report, &err) != WT_OK)
         fail_msg("%s (%s, %s)", err.message, err.found, err.advice);
     bool found = false;
     for (size_t i = 0; i < wt_table_n_rows(report); i++)

@@ -512,7 +512,7 @@ static wt_status detect_text(const char *text, size_t n, unsigned kinds, const c
     wt_input *input = NULL;
     const wt_format_info *info = NULL;
     assert_int_equal(wt_input_open_memory(text, n, "made-up", &input, err), WT_OK);
-    wt_status status = wt_detect(formats, input, NULL, kinds, &info, err);
+    wt_status status = wt_format_detect(formats, input, NULL, kinds, &info, err);
     *id = status == WT_OK ? info->id : "";
     wt_input_close(input);
     return status;
@@ -571,7 +571,7 @@ static void own_stream(void **state)
         assert_int_equal(wt_table_add_row(t, &err), WT_OK);
         const double row[] = {kelvin[i / 3], omega[i % 3], 1e6 / (double)(i + 3), 1e5};
         for (size_t c = 0; c < 4; c++)
-            wt_table_put(t, c, row[c]);
+            wt_table_set_number(t, c, row[c]);
     }
     FILE *out = open_memstream(&text, &n);
     assert_non_null(out);

@@ -46,7 +46,7 @@ static void test_many_cells(void **state)
                 for (size_t i = 0; i < cells.n; i++) {
                     char expected[24];
                     snprintf(expected, sizeof expected, "c%zu", i);
-                    assert_true(cell_is(cells.cells[i], expected));
+                    assert_true(cell_equals(cells.cells[i], expected));
                 }
             }
             free(cells.cells);
@@ -127,7 +127,7 @@ static void test_values(void **state)
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         double value = 7;
         const text_span cell = {cases[i].text, strlen(cases[i].text)};
-        if (cell_read(cell, cases[i].decimal, &d, &value) != cases[i].kind)
+        if (cell_parse(cell, cases[i].decimal, &d, &value) != cases[i].kind)
             fail_msg("%s is of another kind", cases[i].text);
         assert_near(value, cases[i].value, 0);
     }
@@ -140,12 +140,12 @@ static void test_marks(void **state)
     text_cells cells = {0};
     size_t commas = 10, points = 20;
     assert_true(cells_split(&cells, (text_span){line, strlen(line)}, SEPARATOR_SEMICOLON, &plain));
-    cells_count_marks(&cells, &commas, &points);
+    cells_count_decimal_marks(&cells, &commas, &points);
     assert_int_equal(commas, 12);
     assert_int_equal(points, 22);
-    assert_false(cells_blank(&cells));
+    assert_false(cells_are_blank(&cells));
     assert_true(cells_split(&cells, (text_span){" ; ", 3}, SEPARATOR_SEMICOLON, &plain));
-    assert_true(cells_blank(&cells));
+    assert_true(cells_are_blank(&cells));
     char copy[8];
     text_copy(copy, sizeof copy, (text_span){"abcdef\xc2\xb0g", 9});
     assert_string_equal(copy, "abcdef"); /* half of a character is none */
@@ -216,9 +216,9 @@ static wt_table *wide_table(size_t n)
             char text[24];
             snprintf(text, sizeof text, "t%zu-%zu", r, c);
             if (c % 3 == 2)
-                assert_int_equal(wt_table_put_text(t, c, text, NULL), WT_OK);
+                assert_int_equal(wt_table_set_text(t, c, text, NULL), WT_OK);
             else
-                wt_table_put(t, c, wide_value(r, c));
+                wt_table_set_number(t, c, wide_value(r, c));
         }
     }
     return t;

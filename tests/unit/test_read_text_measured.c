@@ -41,7 +41,7 @@ static void check_id(wt_input *input, unsigned kind, const char *id)
 {
     const wt_format_info *info = NULL;
     wt_error err = WT_ERROR_INIT;
-    if (wt_detect(formats, input, NULL, kind, &info, &err) != WT_OK)
+    if (wt_format_detect(formats, input, NULL, kind, &info, &err) != WT_OK)
         show(&err);
     assert_non_null(info);
     assert_string_equal(info->id, id);

@@ -484,8 +484,8 @@ static void compare_scalars(const measured_file *file, char *const cells[FIELDS]
     open_measured(file, &image);
     const size_t nx = image.n_columns, stored = (size_t)atoi(cells[21]);
     const bool profile = image.n_rows == 1;
-    const wt_height_map map = wt_height_map_of(&image);
-    surface_heights_find(&map, &h);
+    const wt_height_map map = wt_image_height_map(&image);
+    surface_height_statistics(&map, &h);
     assert_int_equal(nx, atoi(cells[2]));
     assert_int_equal(image.n_rows, atoi(cells[3]));
     assert_int_equal(h.missing, atoi(cells[9]));
@@ -591,7 +591,7 @@ static void transform_measured(const measured_file *file, wt_surface_spectrum *t
     wt_image image;
     double form[FORM_TERMS];
     open_measured(file, &image);
-    wt_height_map map = wt_height_map_of(&image);
+    wt_height_map map = wt_image_height_map(&image);
     const size_t nx = image.n_columns, ny = image.n_rows;
     const double dx = file->dx > 0 ? file->dx : map.dx, dy = file->dx > 0 ? file->dy : map.dy;
     double *z = malloc(nx * ny * sizeof *z);
@@ -599,7 +599,7 @@ static void transform_measured(const measured_file *file, wt_surface_spectrum *t
     for (size_t j = 0; j < ny; j++)
         for (size_t i = 0; i < nx; i++)
             z[j * nx + i] = stored_point(&image, file, j, i);
-    assert_int_equal(surface_form_remove(z, nx, ny, 1, form, NULL), WT_OK);
+    assert_int_equal(surface_remove_form(z, nx, ny, 1, form, NULL), WT_OK);
     for (size_t i = 0; i < nx * ny; i++)
         z[i] = isfinite(z[i]) ? z[i] : 0;
     map = (wt_height_map){z, nx, ny, dx, dy};

@@ -9,21 +9,21 @@
 #include <string.h>
 
 enum { N = 6 };
-static double place[N], value[N], own[N], common[N * N];
+static double log_velocity[N], value[N], measurement_variance[N], prediction_covariance[N * N];
 
 static agreement_data data_of(size_t n)
 {
-    return (agreement_data){n, place, value, own, common, 0};
+    return (agreement_data){n, log_velocity, value, measurement_variance, prediction_covariance, 0};
 }
 
 static void set_up(double level, double slope, double error, double shared)
 {
     for (size_t i = 0; i < N; i++) {
-        place[i] = -3 + 0.6 * (double)i;
-        value[i] = level + slope * place[i];
-        own[i] = error * error;
+        log_velocity[i] = -3 + 0.6 * (double)i;
+        value[i] = level + slope * log_velocity[i];
+        measurement_variance[i] = error * error;
         for (size_t k = 0; k < N; k++)
-            common[i * N + k] = shared * shared;
+            prediction_covariance[i * N + k] = shared * shared;
     }
 }
 
@@ -43,7 +43,7 @@ static void test_line(void **state)
     agreement a = fitted(N, 0);
     assert_int_equal(a.terms, 3);
     for (size_t i = 0; i < N; i++) {
-        assert_true(fabs(a.smooth[i] - value[i]) < 1e-12);
+        assert_true(fabs(a.fitted_value[i] - value[i]) < 1e-12);
         assert_true(a.error[i] > 0.07 && a.error[i] < hypot(0.07, 0.01));
     }
     assert_true(a.scatter < 1e-18);
@@ -77,7 +77,7 @@ static void test_scatter(void **state)
     agreement_clear(&a);
     /* scatter that the prediction explains is none */
     for (size_t i = 0; i < N; i++)
-        common[i * N + i] += 0.01;
+        prediction_covariance[i * N + i] += 0.01;
     a = fitted(N, 1);
     assert_true(a.scatter < 1e-18);
     agreement_clear(&a);
@@ -90,7 +90,7 @@ static agreement_verdict judged(double level, double slope, double error)
     agreement_assess(&a, 0.2);
     const agreement_verdict verdict = a.verdict;
     if (verdict == AGREEMENT_NO && slope < 0)
-        assert_int_equal(a.where, 0);
+        assert_int_equal(a.deciding_step, 0);
     agreement_clear(&a);
     return verdict;
 }
@@ -99,10 +99,10 @@ static void test_verdicts(void **state)
 {
     (void)state;
     assert_int_equal(judged(0, 0, 0.01), AGREEMENT_YES);
-    assert_int_equal(judged(0.19, 0, 0.01), AGREEMENT_OPEN);
-    assert_int_equal(judged(0.21, 0, 0.01), AGREEMENT_OPEN);
+    assert_int_equal(judged(0.19, 0, 0.01), AGREEMENT_INCONCLUSIVE);
+    assert_int_equal(judged(0.21, 0, 0.01), AGREEMENT_INCONCLUSIVE);
     assert_int_equal(judged(-0.3, 0, 0.01), AGREEMENT_NO);
-    assert_int_equal(judged(0, 0, 0.5), AGREEMENT_OPEN);
+    assert_int_equal(judged(0, 0, 0.5), AGREEMENT_INCONCLUSIVE);
     assert_int_equal(judged(0, -0.2, 0.001), AGREEMENT_NO); /* 0.6 at the slowest */
 }
 
@@ -116,8 +116,8 @@ static void test_one_velocity(void **state)
     assert_int_equal(a.terms, 1);
     assert_true(isinf(a.df[0]));
     assert_true(fabs(a.error[0] - hypot(0.02, 0.05)) < 1e-12);
-    agreement_ends(&a, 0, false, ends);
-    agreement_ends(&a, 0, true, at_once);
+    agreement_interval(&a, 0, false, ends);
+    agreement_interval(&a, 0, true, at_once);
     assert_true(fabs(ends[1] - at_once[1]) < 1e-6);
     assert_true(fabs(ends[1] - ends[0] - 2 * agreement_quantile((double)INFINITY) * a.error[0]) <
                 1e-12);
@@ -132,7 +132,7 @@ static void test_likelihood(void **state)
     set_up(0.1, 0.2, 0.03, 0.04);
     agreement_data data = data_of(2);
     static double two[4];
-    data.common = two;
+    data.prediction_covariance = two;
     two[0] = two[3] = 0.04 * 0.04;
     two[1] = two[2] = 0.5 * 0.04 * 0.04;
     data.allowed = 0.01;

@@ -25,7 +25,7 @@ static wt_status make(const wt_record_job *options, const char *const *paths, si
     work.log = log;
     job.sets = &set;
     job.n_sets = 1;
-    return wt_record_make(&job, &work, tables, err);
+    return wt_record_compute(&job, &work, tables, err);
 }
 
 static wt_record_tables made(const wt_record_job *job, const char *path, wt_log *log)
@@ -171,7 +171,7 @@ static void test_wear(void **state)
     assert_near(h, 0.05e-6 * 79, 0.07);
     const double cap = 3e-3 * 3e-3 * acos(1 - h / 3e-3) - (3e-3 - h) * sqrt(h * (6e-3 - h));
     assert_near(number_cell(t.wear, 2, "volume"), cap * round, 1e-9);
-    const wt_ball_contact ball = wt_ball_contact_of(5, 3e-3, 20e6, 0.5);
+    const wt_ball_contact ball = wt_ball_contact_compute(5, 3e-3, 20e6, 0.5);
     assert_near(number_cell(t.wear, 0, "pressure"), ball.pressure, 1e-12);
     assert_near(number_cell(t.wear, 0, "duty"), 3 * ball.contact_radius / (8 * 12e-3), 1e-12);
     wt_record_tables_clear(&t);

@@ -91,7 +91,8 @@ static void check_reference(const char *file, const char *quantity, wt_cycle_kin
     const bool raw = kind == WT_CYCLE_SAMPLE && strncmp(file, "trib", 4) == 0;
     (void)snprintf(path, sizeof path, FRICTION "%s", file);
     wt_record record = read_record(path);
-    assert_int_equal(wt_cycles_make(&record, kind, (double)NAN, (double)NAN, &cycles, NULL), WT_OK);
+    assert_int_equal(wt_cycles_compute(&record, kind, (double)NAN, (double)NAN, &cycles, NULL),
+                     WT_OK);
     double *y = malloc(cycles.n * sizeof *y);
     assert_non_null(y);
     for (size_t i = 0; i < cycles.n; i++)
@@ -151,7 +152,7 @@ static void test_of_a_measured_disc(void **state)
     wt_running_in end;
     wt_record record = read_record(FRICTION "trib-c1.csv");
     assert_int_equal(
-        wt_cycles_make(&record, WT_CYCLE_AUTO, (double)NAN, (double)NAN, &cycles, NULL), WT_OK);
+        wt_cycles_compute(&record, WT_CYCLE_AUTO, (double)NAN, (double)NAN, &cycles, NULL), WT_OK);
     assert_int_equal(cycles.kind, WT_CYCLE_LAP);
     assert_near(cycles.cycle[1000].normal_force, 3, 1e-4);
     assert_true(cycles.samples >= 7 && cycles.samples <= 8);
@@ -210,12 +211,12 @@ static void test_of_the_mean_of_a_law(void **state)
     (void)state;
     enum { N = 37 };
     for (size_t i = 0; i < SCATTER_LAWS; i += 7) {
-        const scatter_law law = scatter_law_of(SCATTER_OF_MEAN, i, N);
+        const scatter_law law = scatter_law_at(SCATTER_FOR_MEAN, i, N);
         double sum = 0;
         for (int a = 0; a < N; a++)
             for (int b = 0; b < N; b++)
                 sum += law.share * pow(law.memory, abs(a - b)) + (a == b ? 1 - law.share : 0);
-        assert_near(scatter_of_mean(law, N), sum / N / N, 1e-10);
+        assert_near(scatter_mean_variance(law, N), sum / N / N, 1e-10);
     }
 }
 
@@ -305,7 +306,7 @@ static void test_of_few_points(void **state)
     assert_int_equal(wt_steady_mean(same, 50, &s, NULL), WT_OK);
     assert_true(isnan(s.mean.standard_error));
     assert_int_equal(wt_running_in_find(y, 3, &r, NULL), WT_OK);
-    assert_true(!r.seen && isnan(r.end.value) && r.steady_from == 0);
+    assert_true(!r.seen && isnan(r.end.value) && r.steady_start == 0);
     assert_int_equal(wt_running_in_find(same, 50, &r, NULL), WT_OK);
     assert_false(r.seen);
 }
@@ -326,7 +327,7 @@ static void test_of_the_end_of_a_running_in(void **state)
     for (int i = 0; i < N; i++)
         y[i] = 1 + 0.002 * normal(&seed);
     assert_int_equal(wt_running_in_find(y, N, &r, NULL), WT_OK);
-    assert_true(!r.seen && r.steady_from == 0);
+    assert_true(!r.seen && r.steady_start == 0);
     for (int i = 0; i < N; i++)
         y[i] = i < 100 ? 1.5 : 1;
     assert_int_equal(wt_running_in_find(y, N, &r, NULL), WT_OK);
@@ -400,8 +401,8 @@ static void test_of_strokes(void **state)
                 position[i] = -5e-3 * cos(phase);
         }
         wt_cycles c;
-        assert_int_equal(wt_cycles_make(&record, WT_CYCLE_AUTO, (double)NAN, (double)NAN, &c, NULL),
-                         WT_OK);
+        assert_int_equal(
+            wt_cycles_compute(&record, WT_CYCLE_AUTO, (double)NAN, (double)NAN, &c, NULL), WT_OK);
         assert_int_equal(c.kind, WT_CYCLE_STROKE);
         assert_true(c.n >= 37 && c.n <= 40 && c.has_zero);
         for (size_t i = 0; i < c.n; i++) {
@@ -426,7 +427,7 @@ static void test_of_laps(void **state)
             mu[i] = 0.5 + 0.2 * sin(2 * M_PI * lap);
         }
         wt_cycles c;
-        assert_int_equal(wt_cycles_make(&record, WT_CYCLE_AUTO, 0.02, (double)NAN, &c, NULL),
+        assert_int_equal(wt_cycles_compute(&record, WT_CYCLE_AUTO, 0.02, (double)NAN, &c, NULL),
                          WT_OK);
         assert_int_equal(c.kind, WT_CYCLE_LAP);
         assert_int_equal(c.n, (size_t)floor(0.4 + (SAMPLES - 1) / 37.3) - 1);
@@ -434,11 +435,11 @@ static void test_of_laps(void **state)
             assert_near(c.cycle[i].coefficient, 0.5, 0.01);
         wt_cycles_clear(&c);
         wt_error err = WT_ERROR_INIT;
-        assert_int_equal(wt_cycles_make(&record, WT_CYCLE_STROKE, 0.02, (double)NAN, &c, &err),
+        assert_int_equal(wt_cycles_compute(&record, WT_CYCLE_STROKE, 0.02, (double)NAN, &c, &err),
                          WT_E_MISSING);
         if (by_distance)
             assert_int_equal(
-                wt_cycles_make(&record, WT_CYCLE_LAP, (double)NAN, (double)NAN, &c, &err),
+                wt_cycles_compute(&record, WT_CYCLE_LAP, (double)NAN, (double)NAN, &c, &err),
                 WT_E_MISSING);
     }
 }
@@ -457,7 +458,7 @@ static void test_of_short_spans(void **state)
         t += i < DENSE ? 1e-3 : 2e-3;
     }
     wt_cycles c;
-    assert_int_equal(wt_cycles_make(&record, WT_CYCLE_TIME, (double)NAN, (double)NAN, &c, NULL),
+    assert_int_equal(wt_cycles_compute(&record, WT_CYCLE_TIME, (double)NAN, (double)NAN, &c, NULL),
                      WT_OK);
     assert_int_equal(c.cycle[0].n, 2);
     assert_int_equal(c.cycle[c.n - 1].n, 1);
@@ -481,7 +482,7 @@ static void test_of_spans_of_time(void **state)
         steps[i] = t > 60;
     }
     wt_cycles c;
-    assert_int_equal(wt_cycles_make(&record, WT_CYCLE_AUTO, (double)NAN, (double)NAN, &c, NULL),
+    assert_int_equal(wt_cycles_compute(&record, WT_CYCLE_AUTO, (double)NAN, (double)NAN, &c, NULL),
                      WT_OK);
     assert_int_equal(c.kind, WT_CYCLE_TIME);
     assert_int_equal(slow, 40);
@@ -551,7 +552,7 @@ static void test_of_a_pause(void **state)
         }
         record.n = n;
         record_pauses pauses;
-        assert_int_equal(record_leave_out_pauses(&record, &pauses, NULL), WT_OK);
+        assert_int_equal(record_remove_pauses(&record, &pauses, NULL), WT_OK);
         assert_int_equal(pauses.n, 1);
         /* whole laps do not tell where in one it was */
         const bool coarse = c->by == WT_RECORD_LAPS && c->display > 0;
@@ -597,7 +598,7 @@ static void test_of_no_pause(void **state)
                                     : way;
         }
         record_pauses pauses;
-        assert_int_equal(record_leave_out_pauses(&record, &pauses, NULL), WT_OK);
+        assert_int_equal(record_remove_pauses(&record, &pauses, NULL), WT_OK);
         assert_int_equal(pauses.n, 0);
         assert_int_equal(record.n, SAMPLES);
         assert_int_equal(pauses.alike > 0, k == 4);
@@ -615,24 +616,25 @@ static void test_of_a_force_without_a_load(void **state)
         with(&record, WT_RECORD_TIME)[i] = i;
         with(&record, WT_RECORD_FRICTION_FORCE)[i] = -3;
     }
-    assert_int_equal(wt_cycles_make(&record, WT_CYCLE_AUTO, (double)NAN, (double)NAN, &c, &err),
+    assert_int_equal(wt_cycles_compute(&record, WT_CYCLE_AUTO, (double)NAN, (double)NAN, &c, &err),
                      WT_E_MISSING);
     assert_non_null(strstr(err.advice, "--load"));
-    assert_int_equal(wt_cycles_make(&record, WT_CYCLE_AUTO, (double)NAN, 6, &c, &err), WT_OK);
+    assert_int_equal(wt_cycles_compute(&record, WT_CYCLE_AUTO, (double)NAN, 6, &c, &err), WT_OK);
     assert_near(c.cycle[0].coefficient, 0.5, 1e-15); /* on the positive side */
     wt_cycles_clear(&c);
     /* both told: they are compared */
     for (int i = 0; i < SAMPLES; i++)
         with(&record, WT_RECORD_COEFFICIENT)[i] = i == 7 ? 0.53 : 0.5;
-    assert_int_equal(wt_cycles_make(&record, WT_CYCLE_SAMPLE, (double)NAN, 6, &c, &err), WT_OK);
+    assert_int_equal(wt_cycles_compute(&record, WT_CYCLE_SAMPLE, (double)NAN, 6, &c, &err), WT_OK);
     assert_near(c.difference, 0.03, 1e-12);
     wt_cycles_clear(&c);
     record.n = 1; /* a cycle */
-    assert_int_equal(wt_cycles_make(&record, WT_CYCLE_SAMPLE, (double)NAN, 6, &c, &err), WT_OK);
+    assert_int_equal(wt_cycles_compute(&record, WT_CYCLE_SAMPLE, (double)NAN, 6, &c, &err), WT_OK);
     assert_int_equal(c.n, 1);
     wt_cycles_clear(&c);
     record.n = 0;
-    assert_int_equal(wt_cycles_make(&record, WT_CYCLE_SAMPLE, (double)NAN, 6, &c, &err), WT_E_ARG);
+    assert_int_equal(wt_cycles_compute(&record, WT_CYCLE_SAMPLE, (double)NAN, 6, &c, &err),
+                     WT_E_ARG);
 }
 
 /* ---- wear ------------------------------------------------------------------------------------ */
@@ -752,7 +754,7 @@ static void test_of_a_ball(void **state)
 {
     (void)state;
     const double radius = 3e-3, modulus = 20e6, nu = 0.49, load = 2;
-    const wt_ball_contact c = wt_ball_contact_of(load, radius, modulus, nu);
+    const wt_ball_contact c = wt_ball_contact_compute(load, radius, modulus, nu);
     const double depth = c.contact_radius * c.contact_radius / radius;
     assert_near(4.0 / 3 * modulus / (1 - nu * nu) * sqrt(radius) * pow(depth, 1.5), load, 1e-12);
     assert_near(c.pressure, load / (M_PI * c.contact_radius * c.contact_radius), 1e-12);

@@ -14,11 +14,11 @@
 
 #include "cells.h"
 
-enum { TIMES = 8, DRAWS = 40, MOST = 3, STRIDE = GROWTH_NUMBERS + TIMES };
+enum { TIMES = 8, DRAWS = 40, MOST = 3, STRIDE = GROWTH_QUANTITIES + TIMES };
 static double grown[(1 + DRAWS) * STRIDE], courses[(1 + DRAWS) * TIMES];
 static growth layer[MOST];
-static recorded record = {.at = {.velocity = 0.3}, .running_in = (double)NAN, .note = ""};
-static double values[MOST][(1 + DRAWS) * RUN_NUMBERS];
+static recorded_run record = {.at = {.velocity = 0.3}, .running_in = (double)NAN, .note = ""};
+static double values[MOST][(1 + DRAWS) * RUN_QUANTITIES];
 static run_fit run[MOST];
 static run_set all;
 
@@ -33,7 +33,7 @@ static void begin(void)
                             .stride = STRIDE,
                             .log_step = 1,
                             .value = grown,
-                            .course = courses};
+                            .running_in_curve = courses};
     all = (run_set){.runs = run, .margin = 1, .seed = 1, .has_shear = true};
 }
 
@@ -54,11 +54,11 @@ static run_fit *add(double at, bool low, bool high)
                                     .ratio_error = 0.05};
     for (size_t k = 0; k <= DRAWS; k++) {
         const double off = k > 0 ? 0.02 * truth_normal(&seed) : 0;
-        for (size_t m = 0; m < RUN_NUMBERS; m++)
-            value[k * RUN_NUMBERS + m] = at + off;
-        value[k * RUN_NUMBERS + RUN_RATIO] = 1 + off;
-        value[k * RUN_NUMBERS + RUN_MORE] = 0.1 * (0.5 + off);
-        value[k * RUN_NUMBERS + RUN_LESS] = 0.1 * (1 - off);
+        for (size_t m = 0; m < RUN_QUANTITIES; m++)
+            value[k * RUN_QUANTITIES + m] = at + off;
+        value[k * RUN_QUANTITIES + RUN_RATIO] = 1 + off;
+        value[k * RUN_QUANTITIES + RUN_ABOVE_LOWER] = 0.1 * (0.5 + off);
+        value[k * RUN_QUANTITIES + RUN_BELOW_UPPER] = 0.1 * (1 - off);
     }
     all.n++;
     return r;
@@ -66,10 +66,11 @@ static run_fit *add(double at, bool low, bool high)
 
 static run_verdict judged(void)
 {
-    for (size_t k = 0; k < RUN_NUMBERS; k++)
-        assert_int_equal(run_level_make(run, all.n, (run_number)k, &all.level[k], NULL), WT_OK);
+    for (size_t k = 0; k < RUN_QUANTITIES; k++)
+        assert_int_equal(run_level_compute(run, all.n, (run_quantity)k, &all.level[k], NULL),
+                         WT_OK);
     const run_verdict said = run_set_assess(&all);
-    for (size_t k = 0; k < RUN_NUMBERS; k++)
+    for (size_t k = 0; k < RUN_QUANTITIES; k++)
         run_level_clear(&all.level[k]);
     return said;
 }
@@ -163,7 +164,7 @@ static void test_steady_by_itself(void **state)
     (void)add(0, true, false);
     check_not(judged().verdict, "friction is steady");
     for (int early = 0; early < 2; early++) {
-        const recorded steady = {.n = 2, .running_in = early ? 0 : 295, .note = ""};
+        const recorded_run steady = {.n = 2, .running_in = early ? 0 : 295, .note = ""};
         begin();
         add(0, early, !early)->rec = &steady;
         const run_verdict said = judged();
@@ -198,7 +199,7 @@ static void test_share_of_variance(void **state)
     layer[0].line[0] = FLOW_DRAW_WEAR;
     layer[0].n_lines = 1;
     for (size_t k = 1; k <= DRAWS; k++)
-        wide->value[k * RUN_NUMBERS + RUN_TIME_RATIO] =
+        wide->value[k * RUN_QUANTITIES + RUN_TIME_RATIO] =
             0.8 * flow_draw_normal(all.seed, k - 1, FLOW_DRAW_WEAR);
     const run_verdict said = judged();
     check(said.verdict, "cannot say: a change as the layer makes it is over after 1 times");
@@ -209,7 +210,7 @@ static void test_share_of_variance(void **state)
     *untold = *wide;
     untold->value = values[1];
     *wide = (run_fit){.rec = &record, .growth = &layer[1], .value = values[2]};
-    for (size_t k = 0; k < (1 + DRAWS) * RUN_NUMBERS; k++) {
+    for (size_t k = 0; k < (1 + DRAWS) * RUN_QUANTITIES; k++) {
         values[1][k] = values[0][k];
         values[2][k] = (double)NAN;
     }
@@ -224,7 +225,7 @@ static void test_change_untold(void **state)
     (void)state;
     begin();
     run_fit *const r = add(2, true, false);
-    r->value[RUN_RATIO] = r->value[RUN_MORE] = r->value[RUN_LESS] = (double)NAN;
+    r->value[RUN_RATIO] = r->value[RUN_ABOVE_LOWER] = r->value[RUN_BELOW_UPPER] = (double)NAN;
     const run_verdict said = judged();
     check(said.verdict, "does not: ");
     check(said.verdict, "how much friction changes is not told");
@@ -249,7 +250,7 @@ static void test_short_change(void **state)
         end[i] = (i > 0 ? end[i - 1] : 0) + (i < LONG ? 50 : 0.5);
         friction[i] = 0.5 + (i == 0 ? 0.02 : 0) + 1e-4 * truth_normal(&seed);
     }
-    const recorded fast = {
+    const recorded_run fast = {
         .at = {.velocity = 0.3}, .n = CYCLES, .end = end, .friction = friction, .note = ""};
     run_fit r = {.rec = &fast, .growth = &layer[0]};
     assert_int_equal(run_fit_compute(&r, 1, NULL), WT_OK);
@@ -263,7 +264,7 @@ static void test_short_change(void **state)
 
 enum { LAPS = 120 };
 static double lap_end[LAPS], lapped[MOST][LAPS];
-static recorded scattered[MOST];
+static recorded_run scattered[MOST];
 
 /* Records of the course that is predicted, in `factor` [MOST] times its time, whose scatter is as
  * large as the change and partly slow. */
@@ -275,7 +276,7 @@ static void add_records(const double *factor, double scatter, uint64_t seed)
     for (size_t r = 0; r < MOST; r++) {
         layer[r].log_first = 0;
         layer[r].log_step = log(10.0) / 2;
-        const course c = growth_course(&layer[r], 0);
+        const running_in_curve c = growth_curve(&layer[r], 0);
         double slow = truth_normal(&seed);
         for (size_t i = 0; i < LAPS; i++) {
             slow = 0.9 * slow + sqrt(1 - 0.81) * truth_normal(&seed);
@@ -283,12 +284,12 @@ static void add_records(const double *factor, double scatter, uint64_t seed)
             lapped[r][i] = 0.5 + running_in_curve_at(&c, log((lap_end[i] - 2) / factor[r])) +
                            scatter * (0.5 * slow + truth_normal(&seed));
         }
-        scattered[r] = (recorded){.at = {.velocity = 0.3},
-                                  .n = LAPS,
-                                  .end = lap_end,
-                                  .friction = lapped[r],
-                                  .running_in = (double)NAN,
-                                  .note = ""};
+        scattered[r] = (recorded_run){.at = {.velocity = 0.3},
+                                      .n = LAPS,
+                                      .end = lap_end,
+                                      .friction = lapped[r],
+                                      .running_in = (double)NAN,
+                                      .note = ""};
         run[r] = (run_fit){.rec = &scattered[r], .growth = &layer[r]};
         assert_int_equal(run_fit_compute(&run[r], 1, NULL), WT_OK);
     }
@@ -310,7 +311,7 @@ static void test_not_alone(void **state)
     add_records((double[]){1, 1, 1}, 0.06, 190);
     assert_true(run_fit_is_closed(&run[0]) && run[0].fit.high < 0);
     assert_true(!run_fit_is_closed(&run[1]) && !run_fit_is_closed(&run[2]));
-    assert_int_equal(run_set_levels(&all, NULL), WT_OK);
+    assert_int_equal(run_set_compute_levels(&all, NULL), WT_OK);
     const wt_interval time = run_level_interval(&all.level[RUN_TIME_RATIO]);
     assert_true(time.low < 0 && time.high > 0);
     assert_true(time.high - time.low < run[0].fit.high - run[0].fit.low);
@@ -323,7 +324,7 @@ static void test_not_together(void **state)
     (void)state;
     add_records((double[]){1, 1, 1}, 0.1, 20);
     assert_true(run_fit_is_closed(&run[0]));
-    assert_int_equal(run_set_levels(&all, NULL), WT_OK);
+    assert_int_equal(run_set_compute_levels(&all, NULL), WT_OK);
     assert_true(isnan(run_level_interval(&all.level[RUN_TIME_RATIO]).value));
     assert_true(isnan(run_level_interval(&all.level[RUN_ENERGY]).value));
     check(run_set_assess(&all).verdict,
@@ -338,7 +339,7 @@ static void test_together(void **state)
     add_records((double[]){1, 1, 1}, 0.1, 6);
     for (size_t r = 0; r < MOST; r++)
         assert_false(run[r].fit.seen);
-    assert_int_equal(run_set_levels(&all, NULL), WT_OK);
+    assert_int_equal(run_set_compute_levels(&all, NULL), WT_OK);
     const wt_interval time = run_level_interval(&all.level[RUN_TIME_RATIO]);
     assert_true(time.low < 0 && time.high > 0);
     check(run_set_assess(&all).verdict, "which not every record tells");
@@ -352,11 +353,11 @@ static void test_differ(void **state)
     add_records((double[]){1, 1, 30}, 0.002, 3);
     assert_true(run_fit_is_closed(&run[0]) && run_fit_is_closed(&run[1]));
     assert_true(isnan(run[2].fit.high));
-    assert_int_equal(run_set_levels(&all, NULL), WT_OK);
+    assert_int_equal(run_set_compute_levels(&all, NULL), WT_OK);
     assert_true(isnan(run_level_interval(&all.level[RUN_TIME_RATIO]).value));
     run_set_clear(&all);
     all.n = 2;
-    assert_int_equal(run_set_levels(&all, NULL), WT_OK);
+    assert_int_equal(run_set_compute_levels(&all, NULL), WT_OK);
     assert_true(fabs(run_level_interval(&all.level[RUN_TIME_RATIO]).value) < 0.1);
     all.n = MOST;
     records_end();
@@ -364,7 +365,8 @@ static void test_differ(void **state)
 
 /* ---- the bundled case ------------------------------------------------------------------------ */
 
-static const char case_path[] = "test_flow_running_in.xml", csv_path[] = "test_record_running_in.csv";
+static const char case_path[] = "test_flow_running_in.xml",
+                  csv_path[] = "test_record_running_in.csv";
 static wt_result *result;
 static const wt_table *runs;
 
@@ -449,8 +451,8 @@ static void run_case(size_t draws)
     wt_error err = WT_ERROR_INIT;
     few.replicates = draws;
     if (wt_case_read(case_path, &read, &err) != WT_OK ||
-        wt_case_request(read, "validation_running_in wear", &err) != WT_OK ||
-        wt_run(read, &few, NULL, &result, &failed, &err) != WT_OK)
+        wt_case_request_tables(read, "validation_running_in wear", &err) != WT_OK ||
+        wt_run_case(read, &few, NULL, &result, &failed, &err) != WT_OK)
         fail_msg("%s %s", err.message, err.found);
     wt_case_free(read);
     runs = wt_result_find(result, "validation_running_in");

@@ -13,12 +13,12 @@ static const double first = 1e-3, last = 1e3, fraction = 0.05;
 static double values[TIMES];
 
 /* From `height` to 0 by exp(-t). */
-static course exponential(double height)
+static running_in_curve exponential(double height)
 {
     const double step = log(last / first) / (TIMES - 1);
     for (int i = 0; i < TIMES; i++)
         values[i] = height * exp(-first * exp(step * i));
-    return (course){TIMES, log(first), step, values};
+    return (running_in_curve){TIMES, log(first), step, values};
 }
 
 /* Cycles of a unit of `each` times the course's own, of white scatter beside a slow one. */
@@ -26,12 +26,12 @@ typedef struct scene {
     double factor, ratio, each, white, slow;
 } scene;
 
-static running_in_series series_of(const scene *s, const course *c, uint64_t *seed)
+static running_in_series series_of(const scene *s, const running_in_curve *c, uint64_t *seed)
 {
     const double memory = exp(-1 / 8.0);
     running_in_series made;
     double slow = truth_normal(seed);
-    assert_int_equal(running_in_series_new(CYCLES, &made, NULL), WT_OK);
+    assert_int_equal(running_in_series_alloc(CYCLES, &made, NULL), WT_OK);
     for (size_t i = 0; i < CYCLES; i++)
         made.end[i] = s->each * (double)(i + 1);
     for (size_t i = 0; i < CYCLES; i++) {
@@ -48,11 +48,11 @@ static running_in_series series_of(const scene *s, const course *c, uint64_t *se
 
 static running_in_curve_fit fitted(const scene *s, double height, uint64_t *seed)
 {
-    const course c = exponential(height);
+    const running_in_curve c = exponential(height);
     running_in_series made = series_of(s, &c, seed);
     running_in_curve_fit fit;
-    assert_int_equal(running_in_curve_fit_make(&(running_in_curve_pair){&made, &c}, 1, fraction,
-                                               0.1, &fit, NULL),
+    assert_int_equal(running_in_curve_fit_compute(&(running_in_curve_pair){&made, &c}, 1, fraction,
+                                                  0.1, &fit, NULL),
                      WT_OK);
     running_in_series_clear(&made);
     return fit;
@@ -62,12 +62,12 @@ static running_in_curve_fit fitted(const scene *s, double height, uint64_t *seed
 static void test_course(void **state)
 {
     (void)state;
-    const course c = exponential(-0.2);
-    assert_near(running_in_curve_settled(&c, fraction), log(1 / fraction), 5e-3);
+    const running_in_curve c = exponential(-0.2);
+    assert_near(running_in_curve_settling_time(&c, fraction), log(1 / fraction), 5e-3);
     assert_near(running_in_curve_height(&c), 0.2, 1e-3);
     assert_near(running_in_curve_at(&c, 0), -0.2 * exp(-1), 1e-3);
     assert_true(running_in_curve_at(&c, log(2 * last)) == 0);
-    assert_true(isnan(running_in_curve_settled(&c, 0)));
+    assert_true(isnan(running_in_curve_settling_time(&c, 0)));
 }
 
 /* Without scatter that counts the factor and the ratio are those that were put in. */
@@ -91,9 +91,9 @@ static void test_another_course(void **state)
     (void)state;
     const scene s = {2, 1, 0.1, 1e-5, 0};
     uint64_t seed = 5;
-    const course c = exponential(0.2);
+    const running_in_curve c = exponential(0.2);
     running_in_series made = series_of(&s, &c, &seed);
-    course slower = c;
+    running_in_curve slower = c;
     slower.log_first += log(2);
     const scatter_law law = {0.5, 0.2};
     const running_in_optimum place = running_in_optimum_find(&made, &slower, law, 0.1, 0.5),
@@ -111,7 +111,7 @@ static void test_first_cycle(void **state)
     (void)state;
     const scene s = {1, 1, 10, 1e-7, 0};
     uint64_t seed = 6;
-    const course c = exponential(0.2);
+    const running_in_curve c = exponential(0.2);
     running_in_series made = series_of(&s, &c, &seed);
     const running_in_optimum held =
         running_in_optimum_find(&made, &c, (scatter_law){0.5, 0.2}, 0, 0);
@@ -158,19 +158,19 @@ static void test_coverage(void **state)
 static void test_refused(void **state)
 {
     (void)state;
-    const course c = exponential(0.2), none = exponential(0);
+    const running_in_curve c = exponential(0.2), none = exponential(0);
     running_in_series made;
     running_in_curve_fit fit;
-    assert_int_equal(running_in_series_new(COURSE_FEWEST - 1, &made, NULL), WT_OK);
-    assert_int_equal(running_in_curve_fit_make(&(running_in_curve_pair){&made, &c}, 1, fraction,
-                                               0.1, &fit, NULL),
+    assert_int_equal(running_in_series_alloc(RUNNING_IN_CURVE_MIN_MEANS - 1, &made, NULL), WT_OK);
+    assert_int_equal(running_in_curve_fit_compute(&(running_in_curve_pair){&made, &c}, 1, fraction,
+                                                  0.1, &fit, NULL),
                      WT_E_RANGE);
     running_in_series_clear(&made);
     uint64_t seed = 1;
     const scene s = {1, 1, 0.05, 0.01, 0};
     made = series_of(&s, &none, &seed);
-    assert_int_equal(running_in_curve_fit_make(&(running_in_curve_pair){&made, &none}, 1, fraction,
-                                               0.1, &fit, NULL),
+    assert_int_equal(running_in_curve_fit_compute(&(running_in_curve_pair){&made, &none}, 1,
+                                                  fraction, 0.1, &fit, NULL),
                      WT_E_RANGE);
     running_in_series_clear(&made);
 }

@@ -58,7 +58,7 @@ static void make_record(double shear, double q1, double power, double error, boo
     sliding.shear_stress = (wt_estimate){fmax(shear, 0), 0, 0, "Pa"};
     surface.q1 = q1;
     work.replicates = 0;
-    assert_int_equal(wt_friction_make(&sliding, &known, &work, &f, NULL), WT_OK);
+    assert_int_equal(wt_sliding_friction_compute(&sliding, &known, &work, &f, NULL), WT_OK);
     sliding.shear_stress = kept;
     surface.q1 = used;
     work.replicates = draws;
@@ -99,7 +99,7 @@ static wt_validation_tables made(const wt_validation_job *job)
 {
     wt_validation_tables t = {0};
     wt_error err = WT_ERROR_INIT;
-    if (wt_validation_make(job, &work, &t, &err) != WT_OK)
+    if (wt_validation_compute(job, &work, &t, &err) != WT_OK)
         fail_msg("%s %s", err.message, err.found);
     return t;
 }
@@ -376,7 +376,8 @@ static void test_choices(void **state)
     make_record(5e6, 0.1 * surface.q1, 0, 0.003, false);
     const size_t draws = work.replicates;
     work.replicates = 0;
-    assert_int_equal(wt_what_if_make(&sliding, NULL, NULL, &work, &what_if, NULL), WT_OK);
+    assert_int_equal(wt_model_sensitivity_compute(&sliding, NULL, NULL, &work, &what_if, NULL),
+                     WT_OK);
     work.replicates = draws;
     wt_validation_job job = job_of(false);
     job.what_if = what_if;
@@ -496,9 +497,9 @@ static void test_temperatures(void **state)
     wt_validation_tables t = made(&job);
     wt_friction_tables cold = {0}, hot = {0};
     work.replicates = 0;
-    assert_int_equal(wt_friction_make(&sliding, NULL, &work, &cold, NULL), WT_OK);
+    assert_int_equal(wt_sliding_friction_compute(&sliding, NULL, &work, &cold, NULL), WT_OK);
     sliding.temperature.value = 333.15;
-    assert_int_equal(wt_friction_make(&sliding, NULL, &work, &hot, NULL), WT_OK);
+    assert_int_equal(wt_sliding_friction_compute(&sliding, NULL, &work, &hot, NULL), WT_OK);
     size_t n_hot = 0;
     for (size_t row = 0; row < STEPS; row++) {
         const bool is_hot = number_cell(t.validation, row, "temperature") == 333.15;
@@ -539,16 +540,16 @@ static void test_refusals(void **state)
     set_up();
     make_record(5e6, surface.q1, 0, (double)NAN, false);
     wt_validation_job job = job_of(false);
-    assert_int_equal(wt_validation_make(&job, &work, &t, &err), WT_E_EMPTY);
+    assert_int_equal(wt_validation_compute(&job, &work, &t, &err), WT_E_EMPTY);
     make_record(5e6, surface.q1, 0, 0.003, false);
     job = job_of(false);
     job.margin = 7;
-    assert_int_equal(wt_validation_make(&job, &work, &t, &err), WT_E_RANGE);
+    assert_int_equal(wt_validation_compute(&job, &work, &t, &err), WT_E_RANGE);
     job = job_of(false);
     job.plausible_low = 2e7; /* above the other end */
-    assert_int_equal(wt_validation_make(&job, &work, &t, &err), WT_E_RANGE);
+    assert_int_equal(wt_validation_compute(&job, &work, &t, &err), WT_E_RANGE);
     job.record = NULL;
-    assert_int_equal(wt_validation_make(&job, &work, &t, &err), WT_E_ARG);
+    assert_int_equal(wt_validation_compute(&job, &work, &t, &err), WT_E_ARG);
     assert_null(t.validation);
 }
 

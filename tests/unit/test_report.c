@@ -418,7 +418,7 @@ static void forget_numbers(wt_table *table, size_t row)
     (void)row;
     for (size_t c = 0; c < wt_table_n_columns(table); c++)
         if (wt_table_column_kind(table, c) == WT_COLUMN_NUMBER)
-            wt_table_put(table, c, (double)NAN);
+            wt_table_set_number(table, c, (double)NAN);
 }
 
 static void test_missing_tables(void **state)

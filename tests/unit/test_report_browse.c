@@ -53,8 +53,8 @@ static char *data_of(const wt_result *result)
 {
     figure_tables tables;
     text_buffer text = {0};
-    assert_int_equal(figure_tables_make(result, &tables, NULL), WT_OK);
-    assert_int_equal(browse_data(&tables, &text, NULL), WT_OK);
+    assert_int_equal(figure_tables_bind(result, &tables, NULL), WT_OK);
+    assert_int_equal(append_browse_data(&tables, &text, NULL), WT_OK);
     assert_false(text.failed);
     figure_tables_clear(&tables);
     return text.bytes;

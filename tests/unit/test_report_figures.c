@@ -30,7 +30,7 @@ static void test_data_have_the_described_columns(void **state)
     for (size_t i = 0; i < wt_figure_count(); i++) {
         const figure_description *figure = figure_find(i);
         unsigned columns[FIGURE_COLUMNS];
-        const size_t n = drawing_columns(figure, columns);
+        const size_t n = drawing_list_columns(figure, columns);
         wt_table *sections[MOST];
         const size_t n_sections = read_sections("out", figure->name, sections);
         size_t found = 0;
@@ -42,7 +42,7 @@ static void test_data_have_the_described_columns(void **state)
     }
 }
 
-/* A figure's table is one of those that a report binds (BOUND_TABLES). */
+/* A figure's table is one of those that a report binds (FIGURE_TABLES). */
 static void test_tables_are_bound(void **state)
 {
     (void)state;
@@ -61,7 +61,7 @@ static void test_descriptions_fit_their_tables(void **state)
     for (size_t i = 0; i < wt_figure_count(); i++) {
         const figure_description *figure = figure_find(i);
         unsigned columns[FIGURE_COLUMNS];
-        const size_t n = drawing_columns(figure, columns);
+        const size_t n = drawing_list_columns(figure, columns);
         assert_true(n < FIGURE_COLUMNS);
         for (size_t k = 0; k < n; k++) {
             assert_true(columns[k] < figure->table->n_columns);
@@ -674,9 +674,9 @@ static void repeat_curves(wt_table *curves)
         fixture_check(wt_table_add_row(curves, NULL));
         for (size_t c = 0; c < columns; c++)
             if (wt_table_column_kind(curves, c) == WT_COLUMN_NUMBER)
-                wt_table_put(curves, c, wt_table_number(curves, i % n, c));
+                wt_table_set_number(curves, c, wt_table_number(curves, i % n, c));
             else
-                fixture_check(wt_table_put_text(curves, c, wt_table_text(curves, i % n, c), NULL));
+                fixture_check(wt_table_set_text(curves, c, wt_table_text(curves, i % n, c), NULL));
     }
 }
 

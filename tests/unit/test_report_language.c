@@ -33,7 +33,7 @@ static void keep(texts *t, const char *text)
     assert_non_null(t->text[t->n++]);
 }
 
-static int in_order(const void *a, const void *b)
+static int compare_translations(const void *a, const void *b)
 {
     return strcmp(*(char *const *)a, *(char *const *)b);
 }
@@ -41,7 +41,7 @@ static int in_order(const void *a, const void *b)
 static void sort(texts *t)
 {
     size_t n = 0;
-    qsort(t->text, t->n, sizeof *t->text, in_order);
+    qsort(t->text, t->n, sizeof *t->text, compare_translations);
     for (size_t i = 0; i < t->n; i++)
         if (n > 0 && strcmp(t->text[n - 1], t->text[i]) == 0)
             free(t->text[i]);
@@ -52,7 +52,7 @@ static void sort(texts *t)
 
 static bool has(const texts *t, const char *text)
 {
-    return bsearch(&text, t->text, t->n, sizeof *t->text, in_order) != NULL;
+    return bsearch(&text, t->text, t->n, sizeof *t->text, compare_translations) != NULL;
 }
 
 static void clear(texts *t)
@@ -104,7 +104,7 @@ static void keep_tables(texts *t)
 {
     const table_schema *const schemas[] = {
 #define SCHEMA_OF(table) &(table##_schema),
-        BOUND_TABLES(SCHEMA_OF) & indentation_schema};
+        FIGURE_TABLES(SCHEMA_OF) & indentation_schema};
     for (size_t i = 0; i < sizeof schemas / sizeof *schemas; i++) {
         for (size_t k = 0; k < schemas[i]->n_columns; k++)
             keep_field(t, &schemas[i]->columns[k]);
@@ -142,7 +142,7 @@ static const char *const sayers[] = {"translate",
                                      "COLUMNS",
                                      "page_whole_table",
                                      "headline_rows",
-                                     "empty_finding"};
+                                     "empty_result_value"};
 
 static bool is_name(char c)
 {

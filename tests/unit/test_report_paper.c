@@ -17,7 +17,7 @@ static double number_behind(const char *text, const char *words)
     return strtod(found + strlen(words), NULL);
 }
 
-static unsigned long word_at(const char *bytes)
+static unsigned long prefix_length(const char *bytes)
 {
     unsigned long word = 0;
     for (int i = 0; i < 4; i++)
@@ -50,12 +50,12 @@ static void png_size(const char *bytes, size_t length, double size[2])
     assert_true(length > 100);
     assert_memory_equal(bytes + 1, "PNG", 3);
     assert_memory_equal(bytes + 33, "\0\0\0\x09pHYs", 8);
-    const double dots = (double)word_at(bytes + 41);
+    const double dots = (double)prefix_length(bytes + 41);
     assert_near(dots, 600 / 0.0254, 1e-4);
-    assert_int_equal(word_at(bytes + 45), word_at(bytes + 41));
+    assert_int_equal(prefix_length(bytes + 45), prefix_length(bytes + 41));
     assert_int_equal(bytes[49], 1);
-    size[0] = 1e3 * (double)word_at(bytes + 16) / dots;
-    size[1] = 1e3 * (double)word_at(bytes + 20) / dots;
+    size[0] = 1e3 * (double)prefix_length(bytes + 16) / dots;
+    size[1] = 1e3 * (double)prefix_length(bytes + 20) / dots;
 }
 
 /* All type is of one size, but for what stands higher or lower. */
@@ -167,14 +167,14 @@ static void test_a_font_that_is_not_there(void **state)
     assert_int_equal(chmod("fc-match", 0700), 0);
     char *const here = realpath(".", NULL);
     assert_int_equal(setenv("PATH", here, 1), 0);
-    assert_true(wt_report_has_font(NULL, instead, sizeof instead));
-    assert_true(wt_report_has_font("dejavu sans", instead, sizeof instead));
-    assert_true(wt_report_has_font("Sans Book", instead, sizeof instead));
-    assert_false(wt_report_has_font("Sans", instead, sizeof instead));
+    assert_true(wt_report_font_is_available(NULL, instead, sizeof instead));
+    assert_true(wt_report_font_is_available("dejavu sans", instead, sizeof instead));
+    assert_true(wt_report_font_is_available("Sans Book", instead, sizeof instead));
+    assert_false(wt_report_font_is_available("Sans", instead, sizeof instead));
     assert_string_equal(instead, "DejaVu Sa");
-    assert_false(wt_report_has_font("7-", instead, sizeof instead));
+    assert_false(wt_report_font_is_available("7-", instead, sizeof instead));
     assert_int_equal(unlink("fc-match"), 0);
-    assert_true(wt_report_has_font("Sans", instead, sizeof instead)); /* none to ask */
+    assert_true(wt_report_font_is_available("Sans", instead, sizeof instead)); /* none to ask */
     assert_int_equal(setenv("PATH", path, 1), 0);
     free(here);
     free(path);

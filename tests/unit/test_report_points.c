@@ -669,9 +669,9 @@ static void repeat(wt_table *copy)
         fixture_check(wt_table_add_row(copy, NULL));
         for (size_t c = 0; c < wt_table_n_columns(copy); c++)
             if (wt_table_column_kind(copy, c) == WT_COLUMN_TEXT)
-                fixture_check(wt_table_put_text(copy, c, wt_table_text(copy, k % n, c), NULL));
+                fixture_check(wt_table_set_text(copy, c, wt_table_text(copy, k % n, c), NULL));
             else
-                wt_table_put(copy, c, wt_table_number(copy, k % n, c));
+                wt_table_set_number(copy, c, wt_table_number(copy, k % n, c));
     }
 }
 
@@ -734,8 +734,8 @@ static void test_every(void **state)
         fixture_check(wt_table_add_column(d.sections[0], "x", "1", "", NULL));
         for (size_t k = 0; k < every[i][0]; k++)
             fixture_check(wt_table_add_row(d.sections[0], NULL));
-        assert_int_equal(drawing_every(&d, 0, 10), every[i][1]);
-        assert_int_equal(drawing_every(&d, NO_SECTION, 10), 1);
+        assert_int_equal(drawing_stride(&d, 0, 10), every[i][1]);
+        assert_int_equal(drawing_stride(&d, NO_SECTION, 10), 1);
         wt_table_free(d.sections[0]);
     }
 }

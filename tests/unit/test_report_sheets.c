@@ -70,8 +70,8 @@ static void test_order(void **state)
     wt_result *result = curves_by_hand(MANY);
     figure_tables tables;
     curve_list list;
-    assert_int_equal(figure_tables_make(result, &tables, NULL), WT_OK);
-    assert_int_equal(curve_list_make(&tables, &list, NULL), WT_OK);
+    assert_int_equal(figure_tables_bind(result, &tables, NULL), WT_OK);
+    assert_int_equal(curve_list_init(&tables, &list, NULL), WT_OK);
     assert_int_equal(list.n_rows, MANY);
     assert_int_equal(list.n, MANY - 1);
     assert_int_equal(list.of_kind[CURVE_REFUSED], 10);
@@ -89,7 +89,7 @@ static char *script_of(const figure_tables *tables, const listed_curve *curve)
 {
     const figure_description described = {.name = "x", .table = &curves_schema};
     figure_drawing d = {.figure = &described, .tables = tables, .table = &tables->curves};
-    curve_panel(&d, curve);
+    draw_curve_panel(&d, curve);
     assert_int_equal(d.status, WT_OK);
     char *script = strdup(text_string(&d.script));
     drawing_clear(&d);
@@ -102,8 +102,8 @@ static void test_words(void **state)
     wt_result *result = curves_by_hand(MANY);
     figure_tables tables;
     curve_list list;
-    assert_int_equal(figure_tables_make(result, &tables, NULL), WT_OK);
-    assert_int_equal(curve_list_make(&tables, &list, NULL), WT_OK);
+    assert_int_equal(figure_tables_bind(result, &tables, NULL), WT_OK);
+    assert_int_equal(curve_list_init(&tables, &list, NULL), WT_OK);
     char *refused = script_of(&tables, &list.curves[1]);
     assert_non_null(strstr(refused, "set label 1 \"a'file with \\\\ and \xc2\xb5.txt:3\""));
     assert_non_null(strstr(refused, "set label 2 'poor_fit'"));
@@ -144,7 +144,7 @@ static void test_sheets(void **state)
     wt_result *result = curves_by_hand(MANY);
     wt_error err = WT_ERROR_INIT;
     for (int again = 0; again < 2; again++) /* its own file it may replace */
-        if (wt_sheets_write(result, "sheets.pdf", NULL, NULL, &err) != WT_OK)
+        if (wt_curve_sheets_write(result, "sheets.pdf", NULL, NULL, &err) != WT_OK)
             fail_msg("%s", err.message);
     size_t length = 0, pages = 0;
     char *pdf = bytes_of("sheets.pdf", &length);
@@ -178,16 +178,18 @@ static void test_refusals(void **state)
     (void)state;
     wt_result *none = wt_result_new(), *one = curves_by_hand(1), *result = curves_by_hand(MANY);
     wt_error err = WT_ERROR_INIT;
-    assert_int_equal(wt_sheets_write(none, "none.pdf", NULL, NULL, &err), WT_E_EMPTY);
+    assert_int_equal(wt_curve_sheets_write(none, "none.pdf", NULL, NULL, &err), WT_E_EMPTY);
     assert_non_null(strstr(err.advice, "--curves all"));
-    assert_int_equal(wt_sheets_write(one, "none.pdf", NULL, NULL, &err), WT_E_EMPTY);
+    assert_int_equal(wt_curve_sheets_write(one, "none.pdf", NULL, NULL, &err), WT_E_EMPTY);
     const wt_progress progress = {stop, NULL};
-    assert_int_equal(wt_sheets_write(result, "none.pdf", NULL, &progress, &err), WT_E_CANCELLED);
+    assert_int_equal(wt_curve_sheets_write(result, "none.pdf", NULL, &progress, &err),
+                     WT_E_CANCELLED);
     wt_report_options options = wt_report_defaults();
     options.gnuplot = "no-such-gnuplot";
-    assert_int_equal(wt_sheets_write(result, "none.pdf", &options, NULL, &err), WT_E_TOOL);
+    assert_int_equal(wt_curve_sheets_write(result, "none.pdf", &options, NULL, &err), WT_E_TOOL);
     options = wt_report_defaults();
-    assert_int_equal(wt_sheets_write(result, "no-folder/x.pdf", &options, NULL, &err), WT_E_IO);
+    assert_int_equal(wt_curve_sheets_write(result, "no-folder/x.pdf", &options, NULL, &err),
+                     WT_E_IO);
     assert_int_not_equal(access("none.pdf", F_OK), 0);
     wt_result_free(none);
     wt_result_free(one);

@@ -66,9 +66,9 @@ static void test_numbers_do_not_follow_the_locale(void **state)
     const number_text number = number_rounded(NULL, 12.345, 3, false),
                       fixed = number_fixed(NULL, -7.26, 1), literal = number_literal(1.5e-9);
     (void)setlocale(LC_NUMERIC, "C");
-    assert_string_equal(number.words, "12.3");
-    assert_string_equal(fixed.words, "−7.3");
-    assert_string_equal(literal.words, "1.5e-9");
+    assert_string_equal(number.chars, "12.3");
+    assert_string_equal(fixed.chars, "−7.3");
+    assert_string_equal(literal.chars, "1.5e-9");
     if (!comma)
         skip();
 }
@@ -98,7 +98,7 @@ static void test_escaping(void **state)
     text_quoted(&text, "'it's `rm`\nset \"@x\" $1 #\xff\xc3\xef\xbf\xbe\\");
     assert_text(&text, "\"'it's \\140rm\\140 set \\\"\\100x\\\" $1 #"
                        "\xef\xbf\xbd\xef\xbf\xbd\xef\xbf\xbd\xef\xbf\xbd\xef\xbf\xbd\\\\\"");
-    text_tic(&text, "100 %s'%");
+    text_tic_label(&text, "100 %s'%");
     assert_text(&text, "\"100 %%s'%%\"");
     text_comment(&text, "a\nb `c` \\");
     assert_text(&text, "# a b  c   \n");
@@ -136,10 +136,10 @@ static void test_lab_units(void **state)
         {WT_Q_LENGTH, "m", 0, "nm", 0},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        lab_unit lab = lab_unit_for(cases[i].quantity, cases[i].unit, cases[i].value);
+        display_unit lab = select_display_unit(cases[i].quantity, cases[i].unit, cases[i].value);
         if (cases[i].quantity != WT_Q_SPECTRAL_DENSITY)
             assert_string_equal(lab.label, cases[i].label);
-        assert_near_abs(lab_value(&lab, cases[i].value), cases[i].shown,
+        assert_near_abs(to_display_value(&lab, cases[i].value), cases[i].shown,
                         1e-12 * fabs(cases[i].shown) + 1e-12);
     }
 }
@@ -152,12 +152,12 @@ static void test_svg_is_made_fit_for_a_page(void **state)
         "<desc>Produced</desc><g id=\"a\"><title>x</title><use xlink:href='#a' "
         "clip-path='url(#c)'/><text> id='a' url(#c)</text></g></svg>";
     text_buffer text = {0};
-    assert_true(svg_inline(&text, svg, sizeof svg - 1, "mu", "a < b"));
+    assert_true(svg_append_inline(&text, svg, sizeof svg - 1, "mu", "a < b"));
     assert_text(&text, "<svg role=\"img\" aria-label=\"a &lt; b\" "
                        "style=\"max-width:35.0rem\" viewBox=\"0 0 600 1\">\n"
                        "<g id=\"mu-a\"><use xlink:href='#mu-a' clip-path='url(#mu-c)'/>"
                        "<text> id='a' url(#c)</text></g></svg>");
-    assert_false(svg_inline(&text, "%PDF-1.4", 8, "mu", ""));
+    assert_false(svg_append_inline(&text, "%PDF-1.4", 8, "mu", ""));
     text_free(&text);
 }
 
@@ -230,12 +230,12 @@ static void test_logarithmic_tics_are_at_whole_decades(void **state)
     assert_non_null(strstr(text_string(&d.script), "x_offset = -273.15"));
     text_free(&d.script);
     // Numbers that no axis can show do not make one.
-    value_span span = SPAN_EMPTY;
+    value_span span = EMPTY_SPAN;
     span_add(&span, 1e300, true);
     span_add(&span, 1e-300, true);
     span_add(&span, (double)NAN, false);
     span_add(&span, -1, true);
-    assert_true(span_empty(&span));
+    assert_true(span_is_empty(&span));
     span_add(&span, 1e-99, true);
     span_add(&span, 1e99, true);
     axis_log(&d, "x", "q", &number, span);

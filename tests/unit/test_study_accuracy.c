@@ -18,7 +18,7 @@ static wt_table *sweep(const char *part)
     work = wt_job_defaults();
     job.part = part;
     job.repeats = 1;
-    if (wt_accuracy_make(&job, &work, &table, &err) != WT_OK)
+    if (wt_accuracy_compute(&job, &work, &table, &err) != WT_OK)
         fail_msg("%s %s", err.message, err.found);
     return table;
 }
@@ -117,7 +117,7 @@ static void test_no_such_part(void **state)
     wt_error err = WT_ERROR_INIT;
     work = wt_job_defaults();
     job.part = "luck";
-    assert_int_equal(wt_accuracy_make(&job, &work, &table, &err), WT_E_NOT_FOUND);
+    assert_int_equal(wt_accuracy_compute(&job, &work, &table, &err), WT_E_NOT_FOUND);
     assert_non_null(strstr(err.expected, "friction-prony"));
     assert_null(table);
 }
@@ -138,7 +138,7 @@ static double relative(const wt_table *table, const char *number, const char *so
 static double alone(const wt_sliding *of)
 {
     wt_friction_tables tables = {0};
-    assert_int_equal(wt_friction_make(of, NULL, &work, &tables, NULL), WT_OK);
+    assert_int_equal(wt_sliding_friction_compute(of, NULL, &work, &tables, NULL), WT_OK);
     const wt_estimate e = key_estimate(tables.friction, "friction_at_reference");
     wt_friction_tables_clear(&tables);
     return e.standard_error / e.value;
@@ -193,8 +193,9 @@ static void test_one_source_at_a_time(void **state)
     static const char number[] = "friction coefficient";
     sliding_set_up_uncertain();
     wt_table *what_if = NULL, *table = NULL;
-    assert_int_equal(wt_what_if_make(&sliding, NULL, NULL, &work, &what_if, NULL), WT_OK);
-    assert_int_equal(wt_error_budget_make(&sliding, NULL, NULL, what_if, &work, &table, NULL),
+    assert_int_equal(wt_model_sensitivity_compute(&sliding, NULL, NULL, &work, &what_if, NULL),
+                     WT_OK);
+    assert_int_equal(wt_error_budget_compute(&sliding, NULL, NULL, what_if, &work, &table, NULL),
                      WT_OK);
     wt_sliding pressure = sliding, shear = sliding;
     pressure.shear_stress.standard_error = 0;
@@ -251,12 +252,13 @@ static void test_measured_surface(void **state)
     pressure.surface = &without;
     roughness.pressure.standard_error = 0;
     sliding.sensitivities = true;
-    assert_int_equal(wt_error_budget_make(&sliding, NULL, NULL, NULL, &work, &table, NULL), WT_OK);
+    assert_int_equal(wt_error_budget_compute(&sliding, NULL, NULL, NULL, &work, &table, NULL),
+                     WT_OK);
     assert_near(relative(table, number, "pressure"), alone(&pressure), 1e-12);
     assert_near(relative(table, number, "roughness"), alone(&roughness), 1e-12);
     assert_null(strstr(wt_table_key(table, "excluded_errors"), "roughness"));
     wt_friction_tables f = {0};
-    assert_int_equal(wt_friction_make(&sliding, NULL, &work, &f, NULL), WT_OK);
+    assert_int_equal(wt_sliding_friction_compute(&sliding, NULL, &work, &f, NULL), WT_OK);
     size_t n = 0;
     for (size_t i = 0; i < wt_table_n_rows(table); i++)
         if (strcmp(text_cell(table, i, "kind"), "one per cent") == 0) {
@@ -278,13 +280,15 @@ static void test_seconds(void **state)
     (void)state;
     sliding_set_up_uncertain();
     wt_table *what_if = NULL, *plain = NULL, *timed = NULL;
-    assert_int_equal(wt_what_if_make(&sliding, NULL, NULL, &work, &what_if, NULL), WT_OK);
-    assert_int_equal(wt_error_budget_make(&sliding, NULL, NULL, what_if, &work, &plain, NULL),
+    assert_int_equal(wt_model_sensitivity_compute(&sliding, NULL, NULL, &work, &what_if, NULL),
+                     WT_OK);
+    assert_int_equal(wt_error_budget_compute(&sliding, NULL, NULL, what_if, &work, &plain, NULL),
                      WT_OK);
     wt_table_free(what_if);
     work.cost = wt_cost_new(true, 1);
-    assert_int_equal(wt_what_if_make(&sliding, NULL, NULL, &work, &what_if, NULL), WT_OK);
-    assert_int_equal(wt_error_budget_make(&sliding, NULL, NULL, what_if, &work, &timed, NULL),
+    assert_int_equal(wt_model_sensitivity_compute(&sliding, NULL, NULL, &work, &what_if, NULL),
+                     WT_OK);
+    assert_int_equal(wt_error_budget_compute(&sliding, NULL, NULL, what_if, &work, &timed, NULL),
                      WT_OK);
     assert_int_equal(wt_table_n_rows(timed), wt_table_n_rows(plain));
     size_t model = 0;
@@ -309,15 +313,17 @@ static void test_nothing_stated(void **state)
     sliding_set_up_uncertain();
     wt_table *table = NULL;
     sliding.pressure.standard_error = sliding.shear_stress.standard_error = 0;
-    assert_int_equal(wt_error_budget_make(&sliding, NULL, NULL, NULL, &work, &table, NULL), WT_OK);
+    assert_int_equal(wt_error_budget_compute(&sliding, NULL, NULL, NULL, &work, &table, NULL),
+                     WT_OK);
     for (size_t i = 0; i < wt_table_n_rows(table); i++)
         assert_string_equal(text_cell(table, i, "kind"), "numerical");
     assert_non_null(strstr(wt_table_key(table, "friction_advice"), "No error"));
     wt_table_free(table);
     /* the choices of the model are said all the same */
     wt_table *what_if = NULL;
-    assert_int_equal(wt_what_if_make(&sliding, NULL, NULL, &work, &what_if, NULL), WT_OK);
-    assert_int_equal(wt_error_budget_make(&sliding, NULL, NULL, what_if, &work, &table, NULL),
+    assert_int_equal(wt_model_sensitivity_compute(&sliding, NULL, NULL, &work, &what_if, NULL),
+                     WT_OK);
+    assert_int_equal(wt_error_budget_compute(&sliding, NULL, NULL, what_if, &work, &table, NULL),
                      WT_OK);
     assert_non_null(strstr(wt_table_key(table, "friction_advice"), "no error is known beside it"));
     wt_table_free(what_if);
@@ -332,7 +338,7 @@ static void test_exact_ratio(void **state)
                                         .modulus_ratio = {0.6, 0, 0, "1"}};
     sliding_set_up_uncertain();
     wt_table *table = NULL;
-    assert_int_equal(wt_error_budget_make(&sliding, NULL, &known, NULL, &work, &table, NULL),
+    assert_int_equal(wt_error_budget_compute(&sliding, NULL, &known, NULL, &work, &table, NULL),
                      WT_OK);
     assert_true(relative(table, "friction coefficient with layer", "pressure") > 0);
     assert_non_null(strstr(wt_table_key(table, "excluded_errors"), "modulus ratio"));
@@ -354,7 +360,7 @@ static void test_calibration(void **state)
                                         .calibration_share = 0.36};
     sliding_set_up_uncertain();
     wt_table *table = NULL;
-    assert_int_equal(wt_error_budget_make(&sliding, NULL, &known, NULL, &work, &table, NULL),
+    assert_int_equal(wt_error_budget_compute(&sliding, NULL, &known, NULL, &work, &table, NULL),
                      WT_OK);
     const double spots = relative(table, number, "modulus ratio"),
                  calibration = relative(table, number, "calibration");
@@ -390,11 +396,11 @@ static void test_slope(void **state)
     wt_table *exact = NULL, *table = NULL;
     sliding_set_up_uncertain();
     work.replicates = 16;
-    assert_int_equal(wt_error_budget_make(&sliding, NULL, &known, NULL, &work, &exact, NULL),
+    assert_int_equal(wt_error_budget_compute(&sliding, NULL, &known, NULL, &work, &exact, NULL),
                      WT_OK);
     assert_non_null(strstr(wt_table_key(exact, "excluded_errors"), slope));
     known.ratio_slope.standard_error = 0.05;
-    assert_int_equal(wt_error_budget_make(&sliding, NULL, &known, NULL, &work, &table, NULL),
+    assert_int_equal(wt_error_budget_compute(&sliding, NULL, &known, NULL, &work, &table, NULL),
                      WT_OK);
     assert_true(relative(table, number, slope) > 0.001);
     assert_near(relative(table, number, "pressure"), relative(exact, number, "pressure"), 1e-12);
@@ -412,7 +418,7 @@ static wt_table *cover(size_t trials, unsigned threads)
     wt_table *table = NULL;
     wt_error err = WT_ERROR_INIT;
     work.threads = threads;
-    if (wt_coverage_make(&job, &work, &table, &err) != WT_OK)
+    if (wt_coverage_compute(&job, &work, &table, &err) != WT_OK)
         fail_msg("%s %s", err.message, err.found);
     return table;
 }
@@ -523,11 +529,11 @@ static void test_isotherms_again(void **state)
         wt_isotherm *iso = wt_sweep_add(&sweep, POINTS, 0);
         assert_non_null(iso);
         iso->temperature = 283.15 + 5 * i;
-        iso->shift_given = true;
-        iso->given_log_a = 1 - 0.5 * i;
+        iso->shift_is_stated = true;
+        iso->stated_log_a = 1 - 0.5 * i;
         for (int j = 0; j < POINTS; j++) {
             const double omega = pow(10, -1 + 3.0 * j / (POINTS - 1)),
-                         reduced = omega * pow(10, iso->given_log_a),
+                         reduced = omega * pow(10, iso->stated_log_a),
                          noise = 0.002 * flow_draw_normal(3, (size_t)(i * POINTS + j), 0);
             iso->angular_frequency[j] = omega;
             iso->storage_modulus[j] = 1e6 * (1 + pow(reduced, 0.3)) * exp(noise);
@@ -536,7 +542,7 @@ static void test_isotherms_again(void **state)
     }
     wt_sweep_sort(&sweep);
     options.vertical = WT_VERTICAL_NONE;
-    options.shift_by = WT_BY_STORAGE;
+    options.shift_by = WT_SHIFT_STORAGE;
     if (wt_master_fit(&sweep, &options, NULL, &fit, &err) != WT_OK)
         fail_msg("%s %s", err.message, err.found);
     assert_int_equal(fit.n_shifts, ISOTHERMS);
@@ -545,9 +551,10 @@ static void test_isotherms_again(void **state)
     for (int i = 0; i < ISOTHERMS; i++) {
         const wt_isotherm *was = &sweep.isotherms[i], *is = &again.isotherms[i];
         double square = 0;
-        assert_true(is->shift_given);
-        assert_near(is->given_log_a, was->given_log_a, 0);
-        assert_near(shift[i] - shift[0], was->given_log_a - sweep.isotherms[0].given_log_a, 1e-12);
+        assert_true(is->shift_is_stated);
+        assert_near(is->stated_log_a, was->stated_log_a, 0);
+        assert_near(shift[i] - shift[0], was->stated_log_a - sweep.isotherms[0].stated_log_a,
+                    1e-12);
         for (int j = 0; j < POINTS; j++) {
             assert_true(isnan(is->loss_modulus[j]));
             square += pow(log(is->storage_modulus[j] / was->storage_modulus[j]), 2);

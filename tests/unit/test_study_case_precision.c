@@ -11,7 +11,7 @@ static wt_table *sweep(size_t repeats)
     const wt_accuracy_job job = {.repeats = repeats};
     wt_table *table = NULL;
     wt_error err = WT_ERROR_INIT;
-    if (wt_case_precision_make(&sliding, NULL, NULL, &job, &work, &table, &err) != WT_OK)
+    if (wt_case_precision_compute(&sliding, NULL, NULL, &job, &work, &table, &err) != WT_OK)
         fail_msg("%s %s", err.message, err.found);
     return table;
 }
@@ -30,7 +30,7 @@ static wt_estimate friction_at(double tolerance, size_t replicates, uint64_t see
     as.tolerance = tolerance;
     as.replicates = replicates;
     as.seed = seed;
-    assert_int_equal(wt_friction_make(&sliding, NULL, &as, &tables, NULL), WT_OK);
+    assert_int_equal(wt_sliding_friction_compute(&sliding, NULL, &as, &tables, NULL), WT_OK);
     assert_true(wt_table_estimate(tables.friction, "friction_at_reference", &e));
     wt_friction_tables_clear(&tables);
     return e;
@@ -155,10 +155,10 @@ static void test_isotherms(void **state)
     options.precision.part = "layer-history";
     options.precision.repeats = 1;
     assert_int_equal(wt_case_read(WT_SOURCE_DIR "/fixtures/case/case.xml", &c, NULL), WT_OK);
-    assert_int_equal(wt_case_request(c, "work_precision cost", NULL), WT_E_NOT_FOUND);
-    assert_int_equal(wt_case_request(c, "", NULL), WT_E_NOT_FOUND);
-    assert_int_equal(wt_case_request(c, "what_if work_precision", NULL), WT_OK);
-    assert_int_equal(wt_run(c, &options, NULL, &result, &failed, NULL), WT_OK);
+    assert_int_equal(wt_case_request_tables(c, "work_precision cost", NULL), WT_E_NOT_FOUND);
+    assert_int_equal(wt_case_request_tables(c, "", NULL), WT_E_NOT_FOUND);
+    assert_int_equal(wt_case_request_tables(c, "what_if work_precision", NULL), WT_OK);
+    assert_int_equal(wt_run_case(c, &options, NULL, &result, &failed, NULL), WT_OK);
     assert_int_equal(failed, 0);
     assert_non_null(wt_result_find(result, "what_if"));
     const wt_table *table = wt_result_find(result, "work_precision");

@@ -100,8 +100,8 @@ static wt_collection_tables collected(const told *first, const told *second)
     wt_collection_tables tables = {0};
     wt_error err = WT_ERROR_INIT;
     wt_result *results[] = {result_of(first), result_of(second)};
-    const wt_collected cases[] = {{results[0], "first.h5"}, {results[1], "second.h5"}};
-    if (wt_collect(cases, 2, &job, &tables, &err) != WT_OK)
+    const wt_collected_result cases[] = {{results[0], "first.h5"}, {results[1], "second.h5"}};
+    if (wt_collection_compute(cases, 2, &job, &tables, &err) != WT_OK)
         fail_msg("%s; %s", err.message, err.found);
     wt_result_free(results[0]);
     wt_result_free(results[1]);
@@ -308,8 +308,8 @@ static wt_collection_tables rates_of(double wide, double reference)
     add_curves("track", wide, both);
     if (!isnan(wide))
         add_master(wide, reference, both);
-    const wt_collected cases[] = {{both, "first.h5"}};
-    if (wt_collect(cases, 1, &job, &tables, &err) != WT_OK)
+    const wt_collected_result cases[] = {{both, "first.h5"}};
+    if (wt_collection_compute(cases, 1, &job, &tables, &err) != WT_OK)
         fail_msg("%s; %s", err.message, err.found);
     wt_result_free(both);
     return tables;
@@ -385,9 +385,9 @@ static wt_collection_tables pairs(double u_c, double k, double correlation, doub
     wt_error err = WT_ERROR_INIT;
     wt_result *results[] = {pair_of("mild", 1e10, 1e-12, correlation, lacks),
                             pair_of("severe", u_c, k, correlation, lacks)};
-    const wt_collected cases[] = {{results[0], "first.h5"}, {results[1], "second.h5"}};
+    const wt_collected_result cases[] = {{results[0], "first.h5"}, {results[1], "second.h5"}};
     job.constant_margin = margin;
-    if (wt_collect(cases, 2, &job, &tables, &err) != WT_OK)
+    if (wt_collection_compute(cases, 2, &job, &tables, &err) != WT_OK)
         fail_msg("%s; %s", err.message, err.found);
     wt_result_free(results[0]);
     wt_result_free(results[1]);
@@ -412,7 +412,7 @@ static void tells(wt_collection_tables *t, const char *expected)
     wt_result *result = wt_result_new();
     add(result, t->shared_pairs);
     t->shared_pairs = NULL;
-    assert_true(wt_result_sentence(result, sentence, sizeof sentence) < sizeof sentence);
+    assert_true(wt_result_summary_line(result, sentence, sizeof sentence) < sizeof sentence);
     assert_string_equal(sentence, expected);
     wt_result_free(result);
 }

@@ -73,14 +73,14 @@ static wt_table *indentation(const char *group, double mean)
         bool good = i < SPOTS * RATES;
         snprintf(spot, sizeof spot, "s%d", s % n_names);
         assert_int_equal(wt_table_add_row(t, NULL), WT_OK);
-        assert_int_equal(wt_table_put_text(t, SPOT, spot, NULL), WT_OK);
+        assert_int_equal(wt_table_set_text(t, SPOT, spot, NULL), WT_OK);
         const char *said = good ? wt_curve_verdict_id(verdict_of_all) : "saturated";
-        assert_int_equal(wt_table_put_text(t, VERDICT, said, NULL), WT_OK);
+        assert_int_equal(wt_table_set_text(t, VERDICT, said, NULL), WT_OK);
         if (!good)
             break;
-        wt_table_put(t, MODULUS, modulus(mean, r, s));
-        wt_table_put(t, RATE, rate[r] * shift[s]);
-        wt_table_put(t, FREQUENCY, frequency[r] * shift[(s + 1) % SPOTS]);
+        wt_table_set_number(t, MODULUS, modulus(mean, r, s));
+        wt_table_set_number(t, RATE, rate[r] * shift[s]);
+        wt_table_set_number(t, FREQUENCY, frequency[r] * shift[(s + 1) % SPOTS]);
     }
     assert_int_equal(wt_table_set_key(t, "spots", "named", NULL), WT_OK);
     return t;
@@ -571,7 +571,7 @@ static void test_common(void **state)
     assert_string_equal(wt_table_key(tables.comparison, "cancels"), "radius of the tip");
     assert_near(key_estimate(tables.comparison, "modulus_ratio").standard_error,
                 RATIO * hypot(scatter, 0.2 * 0.2), 1e-9);
-    job.levers = WT_LEVERS_TWO;
+    job.levers = WT_CANTILEVERS_SEPARATE;
     job.lever_error = 0.04;
     assert_non_null(includes_of(job));
     assert_null(wt_table_key(tables.comparison, "cancels"));
@@ -627,7 +627,7 @@ static void test_stated_levers(void **state)
     set_lever(bulk_table, 0.5, 0.05);
     set_lever(track_table, 2, 0.06);
     wt_compare_job job = at_one_temperature();
-    job.levers = WT_LEVERS_TWO;
+    job.levers = WT_CANTILEVERS_SEPARATE;
     job.lever_error = 0.3;
     assert_non_null(strstr(includes_of(job), "spring constants"));
     assert_near(key_estimate(tables.comparison, "modulus_ratio").standard_error,
@@ -672,7 +672,7 @@ static void test_shown(void **state)
     assert_non_null(strstr(includes, "loss of unknown spectrum, bend of the baselines"));
     assert_near(key_estimate(tables.comparison, "modulus_ratio").standard_error,
                 RATIO * hypot(scatter, hypot(0.05, 0.07)), 1e-9);
-    job.levers = WT_LEVERS_TWO;
+    job.levers = WT_CANTILEVERS_SEPARATE;
     job.lever_error = 0.01;
     assert_non_null(includes_of(job));
     assert_near(key_estimate(tables.comparison, "modulus_ratio").standard_error,
@@ -763,7 +763,7 @@ static void test_temperature_error(void **state)
         char sentence[1024];
         wt_result *result = wt_result_new();
         assert_int_equal(wt_result_add(result, dma, &err), WT_OK);
-        wt_result_sentence(result, sentence, sizeof sentence);
+        wt_result_summary_line(result, sentence, sizeof sentence);
         wt_result_free(result);
         assert_non_null(strstr(sentence, "without the error of the DMA"));
         const condition at = {303.15, sqrt(frequency[0] * frequency[1])};

@@ -19,7 +19,7 @@ static wt_group_data make_group(void)
         spot[i] = i / 2;
         modulus[i] = 3e6 * exp(of_spot[i / 2] + (i % 2 == 0 ? 0.02 : -0.02));
     }
-    for (int i = 0; i < WT_COMMON_SOURCES; i++) {
+    for (int i = 0; i < WT_SYSTEMATIC_SOURCES; i++) {
         d.common_error[i] = (double)NAN;
         d.common_gain[i] = (wt_estimate){(double)NAN, (double)NAN, 0, "1"};
     }
@@ -64,12 +64,12 @@ static void test_every_source(void **state)
     static const char *const words[] = {"spring constant", "deflection sensitivity",
                                         "half-angle of the tip", "radius of the tip"};
     const double scatter = spot_variance(), none = (double)NAN;
-    for (unsigned which = 1; which < 1u << WT_COMMON_SOURCES; which++) {
+    for (unsigned which = 1; which < 1u << WT_SYSTEMATIC_SOURCES; which++) {
         wt_group_data d = make_group();
         wt_table *t = NULL;
         double variance = scatter;
         size_t row = 0;
-        for (int i = 0; i < WT_COMMON_SOURCES; i++)
+        for (int i = 0; i < WT_SYSTEMATIC_SOURCES; i++)
             if (which & 1u << i) {
                 d.common_error[i] = error[i];
                 d.common_gain[i] = (wt_estimate){gain[i], 0.01 * (i + 1), 0, "1"};
@@ -79,8 +79,8 @@ static void test_every_source(void **state)
         d.bend_error = which % 5 == 0 ? -0.06 : 0;
         variance += squared(d.loss_error) + squared(d.bend_error);
         const double all = sqrt(variance);
-        assert_int_equal(modulus_budget_make(&d, names, 1, &t, NULL), WT_OK);
-        for (int i = 0; i < WT_COMMON_SOURCES; i++)
+        assert_int_equal(modulus_budget_create(&d, names, 1, &t, NULL), WT_OK);
+        for (int i = 0; i < WT_SYSTEMATIC_SOURCES; i++)
             if (which & 1u << i) {
                 assert_near(cell(t, row, "gain_standard_error"), 0.01 * (i + 1), 1e-12);
                 check_row(t, row++, words[i], "shared", error[i], gain[i], fabs(error[i] * gain[i]),
@@ -101,7 +101,7 @@ static void test_every_source(void **state)
         assert_int_equal(wt_table_n_rows(t), row + 1);
 
         const wt_estimate e = key_estimate(t, "modulus_track");
-        const double df = key_estimate(t, "df_track").value, reach = wt_student(df) * all;
+        const double df = key_estimate(t, "df_track").value, reach = wt_student_quantile(df) * all;
         assert_near(e.value, 3e6, 1e-9);
         assert_near(e.standard_error, 3e6 * all, 1e-9);
         assert_near(key_estimate(t, "low_track").value, 3e6 * exp(-reach), 1e-6);
@@ -126,7 +126,7 @@ static void test_words(void **state)
     d.common_gain[3] = (wt_estimate){-0.5, 0, 0, "1"};
     d.common_gain[1] = (wt_estimate){1.3, 0, 0, "1"};
     const double scatter = spot_variance(), all = scatter + squared(0.05) + squared(0.1);
-    assert_int_equal(modulus_budget_make(&d, names, 1, &t, NULL), WT_OK);
+    assert_int_equal(modulus_budget_create(&d, names, 1, &t, NULL), WT_OK);
     const char *says = wt_table_key(t, "says_bulk");
     snprintf(words, sizeof words,
              "standard error %.2g %%, of its square %.2g %% by the radius of the tip, %.2g %% by "
@@ -139,7 +139,7 @@ static void test_words(void **state)
     wt_table_free(t);
     /* one spot tells nothing, the shared parts do */
     d.group.n = 2;
-    assert_int_equal(modulus_budget_make(&d, names, 1, &t, NULL), WT_OK);
+    assert_int_equal(modulus_budget_create(&d, names, 1, &t, NULL), WT_OK);
     says = wt_table_key(t, "says_bulk");
     if (strstr(says, "one spot tells nothing of how the sample scatters; what its curves share "
                      "makes 5 % (spring constant), 10 % (radius of the tip)") == NULL)
@@ -150,13 +150,13 @@ static void test_words(void **state)
     /* of a source without a known effect neither is the sum */
     d.group.n = CURVES;
     d.common_gain[3].value = (double)NAN;
-    assert_int_equal(modulus_budget_make(&d, names, 1, &t, NULL), WT_OK);
+    assert_int_equal(modulus_budget_create(&d, names, 1, &t, NULL), WT_OK);
     assert_non_null(strstr(wt_table_key(t, "says_bulk"), "no curve could be fitted anew"));
     assert_null(wt_table_key(t, "low_bulk"));
     wt_table_free(t);
     /* nothing stated is no budget */
     d.common_error[0] = d.common_error[3] = 0;
-    assert_int_equal(modulus_budget_make(&d, names, 1, &t, NULL), WT_OK);
+    assert_int_equal(modulus_budget_create(&d, names, 1, &t, NULL), WT_OK);
     assert_null(t);
 }
 

@@ -187,14 +187,14 @@ static void test_axes(void **state)
     const pair_covariance of = {loose * c * c + tight * s * s, loose * s * s + tight * c * c,
                                 (loose - tight) * s * c},
                           turned = {of.wear, of.energy, of.both};
-    constant_axes a = constant_axes_of(of);
+    constant_axes a = constant_axes_compute(of);
     assert_string_equal(a.loose, "U_c k^-0.50");
     assert_near(a.loose_error, 0.3, 1e-12);
     assert_near(a.tight_error, 0.02, 1e-9);
     assert_near(a.correlation, of.both / sqrt(of.energy * of.wear), 1e-12);
-    a = constant_axes_of(turned);
+    a = constant_axes_compute(turned);
     assert_string_equal(a.loose, "k U_c^-0.50");
-    a = constant_axes_of((pair_covariance){(double)NAN, 1, 0});
+    a = constant_axes_compute((pair_covariance){(double)NAN, 1, 0});
     assert_string_equal(a.loose, "");
     assert_true(isnan(a.correlation) && isnan(a.loose_error) && isnan(a.tight_error));
 }

@@ -40,7 +40,7 @@ static wt_table *track_layer(const fixture_change *of_track, double other, doubl
     job.bulk = wt_result_find(fixture_case, "indentation/bulk");
     job.track = track;
     job.expected_thickness = (wt_estimate){other, error, 0, "m"};
-    if (wt_track_layer_make(&job, NULL, &work, &made, &err) != WT_OK)
+    if (wt_track_layer_compute(&job, NULL, &work, &made, &err) != WT_OK)
         fail_msg("%s %s", err.message, err.found);
     wt_table_free(track);
     return made;
@@ -136,7 +136,7 @@ static void test_silence(void **state)
     wt_table *none = NULL;
     job.bulk = bulk;
     job.track = track;
-    assert_int_equal(wt_track_layer_make(&job, NULL, &work, &none, NULL), WT_OK);
+    assert_int_equal(wt_track_layer_compute(&job, NULL, &work, &none, NULL), WT_OK);
     assert_null(none);
     wt_table_free(bulk);
     wt_table_free(track);
@@ -162,7 +162,7 @@ static void test_below_the_law(void **state)
     (void)state;
     const double end = 100e-9, error = 0.1;
     wt_layer_profile p = {
-        .says = WT_ALLOWS_THINNER, .n_steps = WT_LAYER_STEPS, .below = true, .least = end};
+        .says = WT_LAYER_BOUND_UPPER, .n_steps = WT_LAYER_STEPS, .below = true, .least = end};
     for (size_t i = 0; i < p.n_steps; i++) {
         p.log_thickness[i] = log(end) + 4 - 4 * (double)i / (double)(p.n_steps - 1);
         p.deviate[i] = 3 + (p.log_thickness[i] - log(end)) / error;
@@ -186,7 +186,7 @@ static void test_agreement(void **state)
 {
     (void)state;
     const double error = 0.1, at = log(1e-6);
-    wt_layer_profile p = {.says = WT_ALLOWS_BETWEEN, .n_steps = WT_LAYER_STEPS};
+    wt_layer_profile p = {.says = WT_LAYER_BOUND_BOTH, .n_steps = WT_LAYER_STEPS};
     for (size_t i = 0; i < p.n_steps; i++) {
         p.log_thickness[i] = at + 2 - 4 * (double)i / (double)(p.n_steps - 1);
         p.deviate[i] = (p.log_thickness[i] - at) / error;
@@ -222,8 +222,9 @@ static int set_up(void **state)
     (void)state;
     wt_case *read = NULL;
     fixture_check(wt_case_read(WT_SOURCE_DIR "/fixtures/case/case.xml", &read, NULL));
-    fixture_check(wt_case_request(read, "track_layer indentation/bulk indentation/track", NULL));
-    fixture_check(wt_run(read, NULL, NULL, &fixture_case, NULL, NULL));
+    fixture_check(
+        wt_case_request_tables(read, "track_layer indentation/bulk indentation/track", NULL));
+    fixture_check(wt_run_case(read, NULL, NULL, &fixture_case, NULL, NULL));
     wt_case_free(read);
     return 0;
 }

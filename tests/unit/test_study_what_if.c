@@ -26,8 +26,8 @@ static wt_table *what_if(bool with_layer, bool with_known)
 {
     wt_table *table = NULL;
     wt_error err = WT_ERROR_INIT;
-    if (wt_what_if_make(&sliding, with_layer ? &layer : NULL, with_known ? &known : NULL, &work,
-                        &table, &err) != WT_OK)
+    if (wt_model_sensitivity_compute(&sliding, with_layer ? &layer : NULL,
+                                     with_known ? &known : NULL, &work, &table, &err) != WT_OK)
         fail_msg("%s %s", err.message, err.found);
     return table;
 }
@@ -64,9 +64,9 @@ static void check_row(const wt_table *table, const char *choice, const char *tri
     wt_layer_tables l = {0};
     wt_friction_tables f = {0};
     wt_layer_observation on_top = known;
-    assert_int_equal(wt_layer_make(&sliding, &layer, &work, &l, NULL), WT_OK);
+    assert_int_equal(wt_layer_thickness_compute(&sliding, &layer, &work, &l, NULL), WT_OK);
     on_top.thickness = l.thickness;
-    assert_int_equal(wt_friction_make(&sliding, &on_top, &work, &f, NULL), WT_OK);
+    assert_int_equal(wt_sliding_friction_compute(&sliding, &on_top, &work, &f, NULL), WT_OK);
     check_cell(table, row, "thickness", l.thickness.value);
     check_cell(table, row, "hysteresis", key_estimate(f.friction, "hysteresis_at_reference").value);
     check_cell(table, row, "area_ratio", key_estimate(f.friction, "area_ratio_at_reference").value);
@@ -220,18 +220,18 @@ static void test_range(void **state)
         low = fmin(low, value);
         high = fmax(high, value);
     }
-    assert_int_equal(wt_friction_make(&sliding, NULL, &work, &f, NULL), WT_OK);
+    assert_int_equal(wt_sliding_friction_compute(&sliding, NULL, &work, &f, NULL), WT_OK);
     assert_non_null(result);
     assert_int_equal(wt_result_add(result, f.friction, NULL), WT_OK);
     assert_int_equal(wt_result_add(result, table, NULL), WT_OK);
     assert_int_equal(result_values_bind(result, &found, NULL), WT_OK);
-    const result_value hysteresis = result_value_of_friction(&found, FRICTION_KEY_HYSTERESIS);
+    const result_value hysteresis = result_value_friction(&found, FRICTION_KEY_HYSTERESIS);
     assert_near(hysteresis.range.low, low, 0);
     assert_near(hysteresis.range.high, high, 0);
     assert_string_equal(hysteresis.range.low_tried, low_tried);
     assert_string_equal(hysteresis.range.high_tried, high_tried);
     assert_string_equal(hysteresis.range.widest, "largest wavenumber q1");
-    assert_true(isnan(result_value_of_thickness(&found).number.value)); /* no table of the layer */
+    assert_true(isnan(result_value_thickness(&found).number.value)); /* no table of the layer */
     wt_result_free(result);
 }
 
@@ -251,7 +251,8 @@ static void test_what_cannot_be_computed(void **state)
     assert_non_null(strstr(text_cell(table, row, "note"), "variance G stays finite"));
     surface.c0.value = 1e290; /* not even as used: an error, no table of blanks */
     wt_table *none = NULL;
-    assert_int_equal(wt_what_if_make(&sliding, NULL, NULL, &work, &none, NULL), WT_E_RANGE);
+    assert_int_equal(wt_model_sensitivity_compute(&sliding, NULL, NULL, &work, &none, NULL),
+                     WT_E_RANGE);
     assert_null(none);
     wt_table_free(table);
 }

@@ -50,7 +50,7 @@ static void make(making *m, const char *const *files, size_t n)
     m->job.sets = &set;
     m->job.n_sets = 1;
     m->err = (wt_error)WT_ERROR_INIT;
-    m->status = wt_topography_make(&m->job, &work, &m->tables, &m->err);
+    m->status = wt_topography_compute(&m->job, &work, &m->tables, &m->err);
 }
 
 static void clear(making *m)
@@ -762,13 +762,13 @@ static void test_bad_places(void **state)
         const long column = wt_table_find(m.tables.place_errors, bad[i].column);
         assert_true(column >= 0);
         const double was = wt_table_number(m.tables.place_errors, last, (size_t)column);
-        wt_table_put(m.tables.place_errors, (size_t)column, bad[i].value);
+        wt_table_set_number(m.tables.place_errors, (size_t)column, bad[i].value);
         FILE *out = fopen(path, "w");
         assert_non_null(out);
         assert_int_equal(wt_stream_write(out, m.tables.power_spectrum, NULL, NULL), WT_OK);
         assert_int_equal(wt_stream_write(out, m.tables.place_errors, NULL, NULL), WT_OK);
         assert_int_equal(fclose(out), 0);
-        wt_table_put(m.tables.place_errors, (size_t)column, was);
+        wt_table_set_number(m.tables.place_errors, (size_t)column, was);
         const bool good = i + 1 == COUNT_OF(bad);
         assert_int_equal(wt_surface_open(path, NULL, &work, &surface, &err),
                          good ? WT_OK : WT_E_RANGE);
@@ -838,7 +838,7 @@ static friction_of_case run_case(const char *roughness)
             roughness);
     assert_int_equal(fclose(out), 0);
     if (wt_case_read(path, &c, &err) != WT_OK ||
-        wt_run(c, NULL, NULL, &result, &n_failed, &err) != WT_OK)
+        wt_run_case(c, NULL, NULL, &result, &n_failed, &err) != WT_OK)
         fail_msg("%s %s: %s", roughness, err.place, err.message);
     const wt_table *t = wt_result_find(result, "roughness"),
                    *answer = wt_result_find(result, "answer");

@@ -47,7 +47,7 @@ static int free_all(void **state)
     return 0;
 }
 
-static double *copy_of(const double *z)
+static double *duplicate_file(const double *z)
 {
     double *c = malloc(sizeof(double) * SIDE * SIDE);
     memcpy(c, z, sizeof(double) * SIDE * SIDE);
@@ -57,7 +57,7 @@ static double *copy_of(const double *z)
 /* Surface A with the form that is to be found again. */
 static double *tilted(void)
 {
-    double *z = copy_of(a);
+    double *z = duplicate_file(a);
     for (size_t j = 0; j < SIDE; j++)
         for (size_t i = 0; i < SIDE; i++) {
             const double x = (2 * (double)i + 1 - SIDE) / SIDE,
@@ -130,12 +130,12 @@ static void test_heights(void **state)
             z[j * MORE + i] = p[j % SIDE * SIDE + i % SIDE];
     wt_surface_heights h, wide, tall, round;
     const double step = length / SIDE;
-    surface_heights_find(&(wt_height_map){p, SIDE, SIDE, step, step}, &h);
-    surface_heights_find(&(wt_height_map){z, MORE, SIDE, step, step}, &wide);
-    surface_heights_find(&(wt_height_map){z, MORE, MORE, step, step}, &round);
+    surface_height_statistics(&(wt_height_map){p, SIDE, SIDE, step, step}, &h);
+    surface_height_statistics(&(wt_height_map){z, MORE, SIDE, step, step}, &wide);
+    surface_height_statistics(&(wt_height_map){z, MORE, MORE, step, step}, &round);
     for (size_t j = 0; j < MORE; j++)
         memcpy(z + j * SIDE, p + j % SIDE * SIDE, SIDE * sizeof *z);
-    surface_heights_find(&(wt_height_map){z, SIDE, MORE, step, step}, &tall);
+    surface_height_statistics(&(wt_height_map){z, SIDE, MORE, step, step}, &tall);
     assert_near(h.rms, 2.95185095003904e-06, 1e-12);
     assert_near(h.mean_deviation, 2.358673054648525e-06, 1e-12);
     assert_near(h.peak_to_valley, 2.411885845894341e-05, 1e-12);
@@ -179,7 +179,7 @@ static void test_forms_and_windows(void **state)
         double *z = tilted(), form[FORM_TERMS];
         wt_surface_spectrum s = {.n = 0};
         const wt_height_map map = map_of(z);
-        assert_int_equal(surface_form_remove(z, SIDE, SIDE, cases[c].degree, form, NULL), WT_OK);
+        assert_int_equal(surface_remove_form(z, SIDE, SIDE, cases[c].degree, form, NULL), WT_OK);
         for (size_t t = 0; t < FORM_TERMS; t++)
             assert_near_abs(form[t], cases[c].form[t], 1e-17);
         assert_near(rms_of(z), cases[c].form[FORM_TERMS], 1e-11);
@@ -202,14 +202,14 @@ static void test_missing(void **state)
                 n++;
             }
     assert_int_equal(n, 3324);
-    assert_int_equal(surface_form_remove(z, SIDE, SIDE, 2, form, NULL), WT_OK);
+    assert_int_equal(surface_remove_form(z, SIDE, SIDE, 2, form, NULL), WT_OK);
     for (size_t t = 0; t < FORM_TERMS; t++)
         assert_near(form[t], form_missing[t], 1e-10);
-    double *with_holes = copy_of(z);
+    double *with_holes = duplicate_file(z);
     for (size_t k = 0; k < (size_t)SIDE * SIDE; k++)
         square += isfinite(z[k]) ? z[k] * z[k] : 0;
     assert_near(sqrt(square / (SIDE * SIDE - 3324)), 2.8953880842509926e-06, 1e-11);
-    assert_int_equal(surface_fill(z, SIDE, SIDE, NULL), WT_OK);
+    assert_int_equal(surface_fill_missing(z, SIDE, SIDE, NULL), WT_OK);
     assert_near(rms_of(z), 2.8909863553779885e-06, 1e-10);
     for (size_t k = 0; k < (size_t)SIDE * SIDE; k++) {
         const size_t i = k % SIDE, j = k / SIDE;
@@ -250,7 +250,7 @@ static void test_lines(void **state)
     for (size_t i = 0; i < COUNT_OF(lines_p); i++)
         assert_near(line_density(&map, WT_WINDOW_NONE, (size_t)lines_p[i][0]), lines_p[i][2],
                     1e-10);
-    assert_int_equal(surface_form_remove(z, SIDE, SIDE, 2, form, NULL), WT_OK);
+    assert_int_equal(surface_remove_form(z, SIDE, SIDE, 2, form, NULL), WT_OK);
     map = map_of(z);
     for (size_t i = 0; i < COUNT_OF(lines_a_map); i++)
         assert_near(line_density(&map, WT_WINDOW_HANN, lines_a_map[i].k), lines_a_map[i].c1, 1e-9);
@@ -268,16 +268,18 @@ static void test_inversion(void **state)
                  {20000, 3.0656787255548583e-21, 3.0656783812061418e-21},
                  {100000, 1.1971026996837781e-23, 1.1970679399686158e-23}};
     for (size_t i = 0; i < COUNT_OF(cases); i++) {
-        assert_near(surface_invert(q, c1, 5, false, cases[i].q, rule), cases[i].zero, 1e-13);
-        assert_near(surface_invert(q, c1, 5, true, cases[i].q, rule), cases[i].slope, 1e-13);
+        assert_near(surface_invert_profile(q, c1, 5, false, cases[i].q, rule), cases[i].zero,
+                    1e-13);
+        assert_near(surface_invert_profile(q, c1, 5, true, cases[i].q, rule), cases[i].slope,
+                    1e-13);
     }
-    assert_true(isnan(surface_invert(q, c1, 5, true, 999, rule)));
+    assert_true(isnan(surface_invert_profile(q, c1, 5, true, 999, rule)));
     /* A power law goes on for ever: C = C1/q Gamma(1 + H) / (sqrt(pi) Gamma(1/2 + H)). */
     const double h = 0.8, two[] = {1e3, 2e3}, power[] = {1, pow(2, -1 - 2 * h)};
-    assert_near(surface_invert(two, power, 2, true, 1e3, rule),
+    assert_near(surface_invert_profile(two, power, 2, true, 1e3, rule),
                 1e-3 * tgamma(1 + h) / (sqrt(M_PI) * tgamma(0.5 + h)), 1e-12);
     const double flat[] = {1, pow(2, -0.9)};
-    assert_true(isnan(surface_invert(two, flat, 2, true, 1e3, rule)));
+    assert_true(isnan(surface_invert_profile(two, flat, 2, true, 1e3, rule)));
     gsl_integration_glfixed_table_free(rule);
 }
 
@@ -322,9 +324,9 @@ static void test_stitch(void **state)
     wt_surface_spectrum s[2] = {{.n = 0}}, joined = {.n = 0};
     const double lengths[] = {length, 32e-6}, *heights[] = {a, b};
     for (size_t i = 0; i < 2; i++) {
-        double *z = copy_of(heights[i]), form[FORM_TERMS];
+        double *z = duplicate_file(heights[i]), form[FORM_TERMS];
         const double step = 2 * M_PI / lengths[i];
-        assert_int_equal(surface_form_remove(z, SIDE, SIDE, 1, form, NULL), WT_OK);
+        assert_int_equal(surface_remove_form(z, SIDE, SIDE, 1, form, NULL), WT_OK);
         const wt_height_map map = {z, SIDE, SIDE, lengths[i] / SIDE, lengths[i] / SIDE};
         const surface_bins bins = {1e4, 2 * step, 85 * step};
         assert_int_equal(surface_transform(&map, WT_WINDOW_HANN, false, &bins, &s[i], NULL), WT_OK);
@@ -337,7 +339,7 @@ static void test_stitch(void **state)
         free(z);
     }
     const wt_surface_spectrum *const both[] = {&s[0], &s[1]};
-    assert_int_equal(wt_surface_join(both, 2, &joined, NULL), WT_OK);
+    assert_int_equal(wt_surface_combine(both, 2, &joined, NULL), WT_OK);
     assert_int_equal(joined.n, COUNT_OF(stitched));
     for (size_t k = 0; k < joined.n; k++) {
         double of[2] = {0, 0}, freedom[2] = {0, 0}, lacks = 0;
@@ -422,8 +424,8 @@ static void test_slope_end(void **state)
         assert_int_equal(
             wt_roughness_self_affine(500, 2000, 1e11, cases[i].hurst, cases[i].c0, &r, NULL),
             WT_OK);
-        assert_near(wt_roughness_slope_end(r, 1.3), cases[i].q1, 1e-11);
-        assert_true(isnan(wt_roughness_slope_end(r, 1e9)));
+        assert_near(wt_roughness_slope_wavenumber(r, 1.3), cases[i].q1, 1e-11);
+        assert_true(isnan(wt_roughness_slope_wavenumber(r, 1e9)));
         wt_roughness_free(r);
     }
 }
@@ -451,7 +453,7 @@ static void test_scatter(void **state)
             within += c.low < is && is < c.high ? 1 : 0;
             all++;
         }
-        assert_true(wt_surface_directions(&s, 2).chance > 1e-3);
+        assert_true(wt_surface_anisotropy_fit(&s, 2).chance > 1e-3);
         wt_surface_spectrum_clear(&s);
         free(z);
     }
@@ -509,7 +511,7 @@ static void test_directions(void **state)
     wt_surface_spectrum s = {.n = 0};
     wt_surface_heights h;
     assert_int_equal(wt_surface_analyse(&map, &options, &h, &s, NULL), WT_OK);
-    const wt_surface_anisotropy found = wt_surface_directions(&s, 2);
+    const wt_surface_anisotropy found = wt_surface_anisotropy_fit(&s, 2);
     assert_near_abs(found.amplitude, 0.3, 0.08);
     assert_near_abs(found.direction, 0, 0.15);
     assert_true(found.chance < 1e-4);
@@ -574,7 +576,7 @@ static void check_grooved(wt_surface_window window)
         options.form = WT_FORM_MEAN; /* another ends the waves of a period at the edges */
         assert_int_equal(wt_surface_analyse(&map, &options, &h, &s, NULL), WT_OK);
         for (size_t k = 0; k < 2; k++) {
-            const wt_surface_anisotropy found = wt_surface_directions(&s, k == 0 ? 2 : 4);
+            const wt_surface_anisotropy found = wt_surface_anisotropy_fit(&s, k == 0 ? 2 : 4);
             assert_true(found.chance < 0.01);
             sum[k] += found.amplitude / SURFACES;
             amplitudes += fabs(found.amplitude - grooves[k]) < 1.96 * found.amplitude_error ? 1 : 0;
@@ -628,11 +630,11 @@ static void test_places(void **state)
         all[i] = &s[i];
         free(z);
     }
-    assert_int_equal(wt_surface_join(all, 1, &joined, NULL), WT_OK);
+    assert_int_equal(wt_surface_combine(all, 1, &joined, NULL), WT_OK);
     assert_true(isnan(joined.place_scatter));
     const wt_interval alone = wt_surface_density(&joined, joined.n - 1);
     wt_surface_spectrum_clear(&joined);
-    assert_int_equal(wt_surface_join(all, PLACES, &joined, NULL), WT_OK);
+    assert_int_equal(wt_surface_combine(all, PLACES, &joined, NULL), WT_OK);
     assert_near(joined.place_scatter, 0.54, 0.15); /* of the logarithms of the factors */
     /* Student's t of four degrees of freedom; the modes are little beside such a scatter */
     assert_near(joined.place_reach, joined.place_scatter * 2.7764 / 1.95996, 0.02);
@@ -670,7 +672,7 @@ static size_t places_held(size_t n, double scatter, size_t draws)
             s[i] = (wt_surface_spectrum){.n = 1, .bins = &bin[i], .from = 9e4, .to = 1.1e5};
             all[i] = &s[i];
         }
-        assert_int_equal(wt_surface_join(all, n, &joined, NULL), WT_OK);
+        assert_int_equal(wt_surface_combine(all, n, &joined, NULL), WT_OK);
         const wt_interval density = wt_surface_density(&joined, 0);
         held += density.low <= 1 && 1 <= density.high;
         wt_surface_spectrum_clear(&joined);
@@ -699,7 +701,7 @@ static void test_refused(void **state)
     const wt_surface_options options = wt_surface_options_defaults();
     wt_surface_spectrum s = {.n = 0};
     wt_surface_heights h;
-    double *z = copy_of(p);
+    double *z = duplicate_file(p);
     wt_height_map map = map_of(z);
     for (size_t i = 0; i < SIDE * SIDE / 4; i++)
         z[i] = (double)NAN;

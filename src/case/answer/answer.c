@@ -12,121 +12,124 @@
 #include <math.h>
 #include <string.h>
 
-static const char in_short[] = "In short";
-static const char is_there[] = "Is there a modified layer?";
-static const char how_different[] = "How different is it?";
-static const char how_thick[] = "How thick is it?";
-static const char what_friction[] = "What does it do to friction?";
-static const char not_asked[] = "What was not asked?";
+static const char title_summary[] = "In short";
+static const char question_layer[] = "Is there a modified layer?";
+static const char question_difference[] = "How different is it?";
+static const char question_thickness[] = "How thick is it?";
+static const char question_friction[] = "What does it do to friction?";
+static const char title_not_requested[] = "What was not asked?";
 
 /* Returns the message of a stage that failed completely or failed at a higher level. */
-static const char *why_failed(const answer_context *story, const char *stage)
+static const char *stage_failure_message(const answer_context *context, const char *stage)
 {
     const size_t length = strlen(stage);
-    for (size_t i = 0; i < story->failures.n_rows; i++) {
-        const char *name = failures_text(&story->failures, i, FAILURES_FILE);
+    for (size_t i = 0; i < context->failures.n_rows; i++) {
+        const char *name = failures_text(&context->failures, i, FAILURES_FILE);
         if (strncmp(name, "stage ", 6) == 0 && strncmp(name + 6, stage, length) == 0 &&
             (name[6 + length] == '\0' || name[6 + length] == ' '))
-            return failures_text(&story->failures, i, FAILURES_MESSAGE);
+            return failures_text(&context->failures, i, FAILURES_MESSAGE);
     }
     return "the stage failed";
 }
 
 /* Returns the stage that keeps `stage` from running. It is the first failed stage among those whose
  * outputs `stage` needs; blocked stages are followed to their own cause. */
-static flow_stage_id root_of(const flow_plan *plan, flow_stage_id stage, unsigned level)
+static flow_stage_id find_failed_stage(const flow_plan *plan, flow_stage_id stage, unsigned level)
 {
-    const flow_things takes = flow_needs(plan, stage, level) | flow_stages[stage].any;
+    const flow_resource_set takes = flow_plan_needs(plan, stage, level) | flow_stages[stage].any;
     for (size_t i = 0; i < FLOW_N_STAGES && i < (size_t)stage; i++) {
-        if ((flow_stages[i].gives & takes) == 0)
+        if ((flow_stages[i].outputs & takes) == 0)
             continue;
         if (plan->outcome[i] == FLOW_FAILED)
             return (flow_stage_id)i;
         if (plan->outcome[i] == FLOW_BLOCKED)
-            return root_of(plan, (flow_stage_id)i, 0);
+            return find_failed_stage(plan, (flow_stage_id)i, 0);
     }
     return stage;
 }
 
 /* Adds a sentence with the reason why a requested result is missing. */
-static void say_why_not(const answer_context *story, flow_stage_id stage, flow_outcome outcome,
-                        const char *question, const char *kind)
+static void add_reason(const answer_context *context, flow_stage_id stage, flow_outcome outcome,
+                       const char *question, const char *kind)
 {
-    const flow_plan *plan = story->plan;
+    const flow_plan *plan = context->plan;
     if (outcome == FLOW_FAILED)
-        answer_add_sentence(story, question, kind, "Not answered: %s.",
-                            why_failed(story, flow_stages[stage].id));
+        answer_add_sentence(context, question, kind, "Not answered: %s.",
+                            stage_failure_message(context, flow_stages[stage].id));
     else if (outcome == FLOW_BLOCKED) {
-        const flow_stage_id root = root_of(plan, stage, plan->level[stage]);
-        answer_add_sentence(
-            story, question, kind, "Not answered: a stage that %s needs failed (%s): %s.",
-            flow_stages[stage].id, flow_stages[root].id, why_failed(story, flow_stages[root].id));
+        const flow_stage_id root = find_failed_stage(plan, stage, plan->level[stage]);
+        answer_add_sentence(context, question, kind,
+                            "Not answered: a stage that %s needs failed (%s): %s.",
+                            flow_stages[stage].id, flow_stages[root].id,
+                            stage_failure_message(context, flow_stages[root].id));
     } else if (outcome == FLOW_UNMEASURED)
-        answer_add_sentence(story, question, kind, "Not measured: %s.", plan->why_unmeasured);
+        answer_add_sentence(context, question, kind, "Not measured: %s.", plan->unmeasured_reason);
 }
 
-static void say_missing(const answer_context *story, flow_stage_id stage, const char *question,
-                        const char *kind)
+static void add_unanswered(const answer_context *context, flow_stage_id stage, const char *question,
+                           const char *kind)
 {
-    say_why_not(story, stage, story->plan->outcome[stage], question, kind);
+    add_reason(context, stage, context->plan->outcome[stage], question, kind);
 }
 
 /* Adds what the case does not request, or has no data for, after all other sections. */
-static void say_not_asked(const answer_context *story)
+static void add_not_requested(const answer_context *context)
 {
     static const struct {
         flow_stage_id stage;
         const char *question, *kind;
-    } asked[] = {{FLOW_STAGE_COMPARISON, is_there, "layer"},
-                 {FLOW_STAGE_LAYER, how_thick, "thickness"},
-                 {FLOW_STAGE_FRICTION, what_friction, "friction"}};
-    static const char left_out[] = "left out because ";
-    const flow_plan *plan = story->plan;
-    for (size_t i = 0; i < COUNT_OF(asked); i++) {
-        const char *because = plan->because[asked[i].stage];
-        if (plan->outcome[asked[i].stage] == FLOW_LEFT_OUT &&
-            strncmp(because, left_out, strlen(left_out)) == 0)
-            answer_add_sentence(story, not_asked, asked[i].kind, "%s Not asked: %s.",
-                                asked[i].question, because + strlen(left_out));
+    } questions[] = {{FLOW_STAGE_COMPARISON, question_layer, "layer"},
+                     {FLOW_STAGE_LAYER, question_thickness, "thickness"},
+                     {FLOW_STAGE_FRICTION, question_friction, "friction"}};
+    static const char excluded_prefix[] = "left out because ";
+    const flow_plan *plan = context->plan;
+    for (size_t i = 0; i < COUNT_OF(questions); i++) {
+        const char *because = plan->because[questions[i].stage];
+        if (plan->outcome[questions[i].stage] == FLOW_LEFT_OUT &&
+            strncmp(because, excluded_prefix, strlen(excluded_prefix)) == 0)
+            answer_add_sentence(context, title_not_requested, questions[i].kind,
+                                "%s Not asked: %s.", questions[i].question,
+                                because + strlen(excluded_prefix));
     }
     if (plan->outcome[FLOW_STAGE_FRICTION] == FLOW_DONE &&
-        plan->fuller[FLOW_STAGE_FRICTION] == FLOW_LEFT_OUT &&
+        plan->full_outcome[FLOW_STAGE_FRICTION] == FLOW_LEFT_OUT &&
         plan->without[FLOW_STAGE_FRICTION][0] != '\0')
-        answer_add_sentence(story, not_asked, "friction",
+        answer_add_sentence(context, title_not_requested, "friction",
                             "What the layer does to friction. Not asked: %s.",
                             plan->without[FLOW_STAGE_FRICTION]);
 }
 
 /* ---- summary --------------------------------------------------------------------------------- */
 
-static void say_short(const answer_context *story, const char *what, const char *text)
+static void add_summary(const answer_context *context, const char *what, const char *text)
 {
-    answer_add_sentence(story, in_short, "short", "%s: %s.", what, text);
+    answer_add_sentence(context, title_summary, "short", "%s: %s.", what, text);
 }
 
 /* Adds the summary line of a requested result that is missing. */
-static void short_of_missing(const answer_context *story, const char *what, flow_stage_id stage)
+static void add_missing_summary(const answer_context *context, const char *what,
+                                flow_stage_id stage)
 {
-    const flow_outcome outcome = story->plan->outcome[stage];
+    const flow_outcome outcome = context->plan->outcome[stage];
     if (outcome == FLOW_FAILED)
-        answer_add_sentence(story, in_short, "short", "%s: not answered: %s.", what,
-                            why_failed(story, flow_stages[stage].id));
+        answer_add_sentence(context, title_summary, "short", "%s: not answered: %s.", what,
+                            stage_failure_message(context, flow_stages[stage].id));
     else if (outcome == FLOW_BLOCKED)
-        answer_add_sentence(story, in_short, "short", "%s: not answered, for what it needs failed.",
-                            what);
+        answer_add_sentence(context, title_summary, "short",
+                            "%s: not answered, for what it needs failed.", what);
     else if (outcome == FLOW_UNMEASURED)
-        answer_add_sentence(story, in_short, "short", "%s: not measured: %s.", what,
-                            story->plan->why_unmeasured);
+        answer_add_sentence(context, title_summary, "short", "%s: not measured: %s.", what,
+                            context->plan->unmeasured_reason);
 }
 
-static void short_of_friction(const answer_context *story, text_builder *t)
+static void append_friction_summary(const answer_context *context, text_builder *t)
 {
-    const result_value_tables *found = &story->found;
-    const result_value total = result_value_of_friction(found, FRICTION_KEY_FRICTION),
-                       hysteresis = result_value_of_friction(found, FRICTION_KEY_HYSTERESIS),
-                       with_layer = result_value_of_friction(found, FRICTION_KEY_WITH_LAYER);
+    const result_value_tables *found = &context->found;
+    const result_value total = result_value_friction(found, FRICTION_KEY_FRICTION),
+                       hysteresis = result_value_friction(found, FRICTION_KEY_HYSTERESIS),
+                       with_layer = result_value_friction(found, FRICTION_KEY_WITH_LAYER);
     if (!isnan(with_layer.number.value)) {
-        append_change(t, found, true);
+        append_friction_change(t, found, true);
         text_append(t, "; mu = %s without it and %s with it", format_plain_number(&total).text,
                     format_plain_number(&with_layer).text);
     } else if (!isnan(total.number.value))
@@ -136,66 +139,67 @@ static void short_of_friction(const answer_context *story, text_builder *t)
     text_append(t, ", at %s", format_with_unit(total.velocity, "m/s").text);
 }
 
-static void answer_in_short(const answer_context *story)
+static void answer_summary(const answer_context *context)
 {
     char text[1000];
     text_builder t = {text, sizeof text, 0};
-    const char *thickness = strncmp(format_origin(&story->found), "put in", 6) == 0
+    const char *thickness = strncmp(format_thickness_origin(&context->found), "put in", 6) == 0
                                 ? "Thickness"
                                 : "Thickness (predicted)";
-    if (story->found.comparison.table != NULL) {
-        append_ratio(&t, &story->found);
-        say_short(story, "Layer (measured)", text);
+    if (context->found.comparison.table != NULL) {
+        append_modulus_ratio(&t, &context->found);
+        add_summary(context, "Layer (measured)", text);
     } else
-        short_of_missing(story, "Layer (measured)", FLOW_STAGE_COMPARISON);
+        add_missing_summary(context, "Layer (measured)", FLOW_STAGE_COMPARISON);
     t.used = 0;
-    if (story->found.layer.table != NULL) {
-        append_thickness(&t, &story->found);
-        if (story->layer_feedback.table != NULL) {
+    if (context->found.layer.table != NULL) {
+        append_thickness(&t, &context->found);
+        if (context->layer_feedback.table != NULL) {
             text_append(&t, "; ");
-            append_balance(&t, &story->layer_feedback);
+            append_balance(&t, &context->layer_feedback);
         }
-        say_short(story, thickness, text);
+        add_summary(context, thickness, text);
     } else
-        short_of_missing(story, thickness, FLOW_STAGE_LAYER);
+        add_missing_summary(context, thickness, FLOW_STAGE_LAYER);
     t.used = 0;
-    if (story->found.friction.table != NULL) {
-        short_of_friction(story, &t);
-        say_short(story, "Friction (predicted)", text);
+    if (context->found.friction.table != NULL) {
+        append_friction_summary(context, &t);
+        add_summary(context, "Friction (predicted)", text);
     } else
-        short_of_missing(story, "Friction (predicted)", FLOW_STAGE_FRICTION);
+        add_missing_summary(context, "Friction (predicted)", FLOW_STAGE_FRICTION);
 }
 
 /* ---- layer, difference ----------------------------------------------------------------------- */
 
 /* The first row of the table comparison holds the comparison over all rates. */
-static double over_all(const answer_context *story, comparison_column column)
+static double comparison_overall(const answer_context *context, comparison_column column)
 {
-    return comparison_get(&story->found.comparison, 0, column);
+    return comparison_get(&context->found.comparison, 0, column);
 }
 
-static bool said(const answer_context *story, const char *verdict)
+static bool has_verdict(const answer_context *context, const char *verdict)
 {
-    const char *differs = comparison_words(&story->found.comparison, COMPARISON_KEY_DIFFERS);
+    const char *differs = comparison_key_text(&context->found.comparison, COMPARISON_KEY_DIFFERS);
     return differs != NULL && strncmp(differs, verdict, strlen(verdict)) == 0;
 }
 
 /* "4 spots in the bulk and 5 in the track; p 0.01 by Welch, 0.03 by Mann and Whitney ..." */
-static void list_evidence(const answer_context *story, char *text, size_t size)
+static void format_evidence(const answer_context *context, char *text, size_t size)
 {
-    const char *unit = comparison_words(&story->found.comparison, COMPARISON_KEY_UNIT_OF_ANALYSIS);
-    const double smallest = over_all(story, COMPARISON_MANN_WHITNEY_SMALLEST_P);
+    const char *unit =
+        comparison_key_text(&context->found.comparison, COMPARISON_KEY_UNIT_OF_ANALYSIS);
+    const double smallest = comparison_overall(context, COMPARISON_MANN_WHITNEY_SMALLEST_P);
     const double scatter =
-        comparison_value(&story->found.comparison, COMPARISON_KEY_SPOT_SCATTER).value;
-    const double n[] = {over_all(story, COMPARISON_SPOTS_BULK),
-                        over_all(story, COMPARISON_SPOTS_TRACK)};
+        comparison_value(&context->found.comparison, COMPARISON_KEY_SPOT_SCATTER).value;
+    const double n[] = {comparison_overall(context, COMPARISON_SPOTS_BULK),
+                        comparison_overall(context, COMPARISON_SPOTS_TRACK)};
     char least[96] = "";
     if (scatter > 0) {
         clocale_print(text, size,
                       "%.0f spot%s in the bulk and %.0f in the track, which scatter by %.3g %% as "
                       "given; p %s",
                       n[0], n[0] > 1 ? "s" : "", n[1], 100 * scatter,
-                      number_chance(over_all(story, COMPARISON_WELCH_P)).text);
+                      format_probability(comparison_overall(context, COMPARISON_WELCH_P)).text);
         return;
     }
     if (smallest > 0.05)
@@ -204,40 +208,41 @@ static void list_evidence(const answer_context *story, char *text, size_t size)
                   "%.0f %s in the bulk and %.0f in the track; p %s by Welch, %s by "
                   "Mann and Whitney%s",
                   n[0], strncmp(unit, "curve", 5) == 0 ? "curves" : "spots", n[1],
-                  number_chance(over_all(story, COMPARISON_WELCH_P)).text,
-                  number_chance(over_all(story, COMPARISON_MANN_WHITNEY_P)).text, least);
+                  format_probability(comparison_overall(context, COMPARISON_WELCH_P)).text,
+                  format_probability(comparison_overall(context, COMPARISON_MANN_WHITNEY_P)).text,
+                  least);
 }
 
-static void answer_layer(const answer_context *story)
+static void answer_layer(const answer_context *context)
 {
-    if (story->found.comparison.table == NULL) {
-        say_missing(story, FLOW_STAGE_COMPARISON, is_there, "layer");
+    if (context->found.comparison.table == NULL) {
+        add_unanswered(context, FLOW_STAGE_COMPARISON, question_layer, "layer");
         return;
     }
-    const result_value ratio = result_value_of_ratio(&story->found);
+    const result_value ratio = result_value_ratio(&context->found);
     char evidence[480] = "";
     if (!isnan(ratio.low)) {
         char found[320];
-        list_evidence(story, found, sizeof found);
+        format_evidence(context, found, sizeof found);
         clocale_print(evidence, sizeof evidence, " E_track/E_bulk = %s, %s (%s).",
                       format_plain_number(&ratio).text, format_interval(&ratio).text, found);
     }
-    answer_add_sentence(story, is_there, "layer", "%c%s.%s%s%s%s",
+    answer_add_sentence(context, question_layer, "layer", "%c%s.%s%s%s%s",
                         toupper((unsigned char)ratio.verdict[0]), ratio.verdict + 1, evidence,
                         ratio.remedy != NULL ? " What would settle it: " : "",
                         ratio.remedy != NULL ? ratio.remedy : "", ratio.remedy != NULL ? "." : "");
 }
 
-static void say_group(const answer_context *story, const char *name, const char *words)
+static void add_group_modulus(const answer_context *context, const char *name, const char *words)
 {
-    const table_view *groups = &story->found.groups;
+    const table_view *groups = &context->found.groups;
     size_t row = 0;
     while (row < groups->n_rows &&
            strcmp(modulus_groups_text(groups, row, MODULUS_GROUPS_GROUP), name) != 0)
         row++;
     if (row == groups->n_rows)
         return;
-    const result_value modulus = result_value_of_group(&story->found, row);
+    const result_value modulus = result_value_group(&context->found, row);
     const double n_spots = modulus_groups_get(groups, row, MODULUS_GROUPS_N_SPOTS);
     char interval[480] = "no interval from fewer than two spots";
     if (!isnan(modulus.low))
@@ -246,15 +251,15 @@ static void say_group(const answer_context *story, const char *name, const char 
     if (!(modulus_groups_get(groups, row, MODULUS_GROUPS_N) > 0)) {
         const double rejected = modulus_groups_get(groups, row, MODULUS_GROUPS_N_REJECTED);
         if (rejected == 1)
-            answer_add_sentence(story, how_different, "difference",
+            answer_add_sentence(context, question_difference, "difference",
                                 "%s: the only curve has no modulus.", words);
         else
-            answer_add_sentence(story, how_different, "difference",
+            answer_add_sentence(context, question_difference, "difference",
                                 "%s: none of the %.0f curves has a modulus.", words, rejected);
         return;
     }
     answer_add_sentence(
-        story, how_different, "difference",
+        context, question_difference, "difference",
         "%s: E = %s%s (geometric mean, %s) from %.0f curves on %.0f spot%s, %.0f rejected.", words,
         format_plain_number(&modulus).text, format_frequency(&modulus).text, interval,
         modulus_groups_get(groups, row, MODULUS_GROUPS_N), n_spots, n_spots > 1 ? "s" : "",
@@ -262,59 +267,60 @@ static void say_group(const answer_context *story, const char *name, const char 
 }
 
 /* Adds the verdict on the change of the modulus with depth. */
-static void say_depth(answer_context *story, const char *name, const char *words)
+static void add_depth_verdict(answer_context *context, const char *name, const char *words)
 {
-    table_view depth = story->modulus_depth;
+    table_view depth = context->modulus_depth;
     depth.suffix = name;
-    const char *changes = modulus_depth_words(&depth, MODULUS_DEPTH_KEY_CHANGES);
-    const char *reading = modulus_depth_words(&depth, MODULUS_DEPTH_KEY_READING);
+    const char *changes = modulus_depth_key_text(&depth, MODULUS_DEPTH_KEY_CHANGES);
+    const char *reading = modulus_depth_key_text(&depth, MODULUS_DEPTH_KEY_READING);
     if (changes == NULL)
         return;
-    answer_add_sentence(story, how_different, "difference",
+    answer_add_sentence(context, question_difference, "difference",
                         "Does the modulus of the %s change with depth? "
                         "%c%s.",
                         words, toupper((unsigned char)changes[0]), changes + 1);
     if (reading != NULL)
-        answer_caveat(story, CAVEAT_VERDICT, "%c%s.", toupper((unsigned char)reading[0]),
-                      reading + 1);
+        answer_add_caveat(context, CAVEAT_VERDICT, "%c%s.", toupper((unsigned char)reading[0]),
+                          reading + 1);
 }
 
-static void say_rates(const answer_context *story)
+static void add_rate_ratios(const answer_context *context)
 {
     double low = (double)NAN, high = (double)NAN, largest_p = (double)NAN;
     size_t n = 0;
-    for (size_t i = 1; i < story->found.comparison.n_rows; i++) {
-        double ratio = comparison_get(&story->found.comparison, i, COMPARISON_RATIO);
+    for (size_t i = 1; i < context->found.comparison.n_rows; i++) {
+        double ratio = comparison_get(&context->found.comparison, i, COMPARISON_RATIO);
         if (isnan(ratio))
             continue;
         n++;
         low = fmin(low, ratio);
         high = fmax(high, ratio);
-        largest_p = fmax(largest_p, comparison_get(&story->found.comparison, i, COMPARISON_HOLM_P));
+        largest_p =
+            fmax(largest_p, comparison_get(&context->found.comparison, i, COMPARISON_HOLM_P));
     }
     if (n >= 2)
-        answer_add_sentence(story, how_different, "difference",
+        answer_add_sentence(context, question_difference, "difference",
                             "Rate by rate (%zu indentation rates) the ratio is %s; the "
                             "largest p after Holm's correction is %s.",
-                            n, format_range(low, high, 3).text, number_chance(largest_p).text);
+                            n, format_range(low, high, 3).text, format_probability(largest_p).text);
 }
 
-static void say_dma(const answer_context *story)
+static void add_dma_ratio(const answer_context *context)
 {
     double low, high;
-    if (!ratio_to_dma(&story->dma_comparison, &low, &high))
+    if (!find_dma_ratio(&context->dma_comparison, &low, &high))
         return;
-    const bool alarm = is_other_rubber(low, high);
+    const bool alarm = is_different_rubber(low, high);
     const number_text first = format_with_unit(low, "1"), last = format_with_unit(high, "1");
     const bool one = strcmp(first.text, last.text) == 0;
     char lever[128] = "";
-    wt_estimate k = indentation_value(&story->indentation[0], INDENTATION_KEY_SPRING_CONSTANT);
+    wt_estimate k = indentation_value(&context->indentation[0], INDENTATION_KEY_SPRING_CONSTANT);
     if (k.standard_error > 0)
         clocale_print(lever, sizeof lever,
                       ", of which the spring constant leaves %.2g %% uncertain",
                       100 * k.standard_error / k.value);
     answer_add_sentence(
-        story, how_different, "difference",
+        context, question_difference, "difference",
         "%sAt equal frequency the indentation modulus of the bulk is %s%s%s times |E*| of "
         "the DMA%s.%s",
         alarm ? "Alarm: indentation and DMA do not describe one rubber. " : "", first.text,
@@ -324,16 +330,16 @@ static void say_dma(const answer_context *story)
               : "");
 }
 
-static void answer_difference(answer_context *story)
+static void answer_difference(answer_context *context)
 {
-    if (story->found.comparison.table == NULL) {
-        say_missing(story, FLOW_STAGE_COMPARISON, how_different, "difference");
-    } else if (isnan(over_all(story, COMPARISON_RATIO))) {
-        answer_add_sentence(story, how_different, "difference",
+    if (context->found.comparison.table == NULL) {
+        add_unanswered(context, FLOW_STAGE_COMPARISON, question_difference, "difference");
+    } else if (isnan(comparison_overall(context, COMPARISON_RATIO))) {
+        answer_add_sentence(context, question_difference, "difference",
                             "The ratio of the moduli cannot be told, for the reason above.");
     } else {
-        const result_value ratio = result_value_of_ratio(&story->found);
-        const double effect = over_all(story, COMPARISON_EFFECT_SIZE);
+        const result_value ratio = result_value_ratio(&context->found);
+        const double effect = comparison_overall(context, COMPARISON_EFFECT_SIZE);
         char size[96] = "";
         if (isnan(ratio.low))
             snprintf(size, sizeof size, "; an interval cannot be told, for the reason above");
@@ -341,59 +347,61 @@ static void answer_difference(answer_context *story)
             clocale_print(size, sizeof size, "; effect size (Hedges' g of ln E) %.2g", effect);
         char rates[256] = "";
         text_builder t = {rates, sizeof rates, 0};
-        append_rates(&t, &story->found);
+        append_rate_correction(&t, &context->found);
         answer_add_sentence(
-            story, how_different, "difference",
+            context, question_difference, "difference",
             "The modulus of the wear track is %s times that of the bulk (%+.0f %%)%s%s%s.",
             format_plain_number(&ratio).text, 100 * (ratio.number.value - 1),
             format_frequency(&ratio).text, rates, size);
     }
-    say_group(story, "bulk", "Bulk");
-    say_group(story, "track", "Wear track");
-    say_depth(story, "bulk", "bulk");
-    say_depth(story, "track", "wear track");
-    say_rates(story);
-    say_dma(story);
+    add_group_modulus(context, "bulk", "Bulk");
+    add_group_modulus(context, "track", "Wear track");
+    add_depth_verdict(context, "bulk", "bulk");
+    add_depth_verdict(context, "track", "wear track");
+    add_rate_ratios(context);
+    add_dma_ratio(context);
 }
 
 /* ---- thickness ------------------------------------------------------------------------------- */
 
-static void say_times(const answer_context *story)
+static void add_formation_times(const answer_context *context)
 {
-    wt_estimate incubation = layer_value(&story->found.layer, LAYER_KEY_INCUBATION_TIME);
-    wt_estimate settled = layer_value(&story->found.layer, LAYER_KEY_TIME_TO_90_PERCENT);
+    wt_estimate incubation = layer_value(&context->found.layer, LAYER_KEY_INCUBATION_TIME);
+    wt_estimate settled = layer_value(&context->found.layer, LAYER_KEY_TIME_TO_90_PERCENT);
     if (isnan(incubation.value))
         return;
     char then[192] = "";
     if (!isnan(settled.value))
         clocale_print(then, sizeof then, " and reaches 90 %% of the balance after %s",
                       format_known_estimate(settled).text);
-    answer_add_sentence(story, how_thick, "thickness",
+    answer_add_sentence(context, question_thickness, "thickness",
                         "It begins to form after %s%s, time under load.",
                         format_known_estimate(incubation).text, then);
 }
 
 /* Indentation and the layer model may disagree. In this case the answer has a caveat. */
-static void say_disagreement(answer_context *story, bool modelled)
+static void add_layer_disagreement(answer_context *context, bool modelled)
 {
-    if (story->found.comparison.table == NULL)
+    if (context->found.comparison.table == NULL)
         return;
-    if (said(story, "yes") && !modelled)
-        answer_caveat(story, CAVEAT_THICKNESS,
-                      "That there is no layer does not agree with the indentation, which shows a "
-                      "modified track: the specific wear rate, the critical energy or the model "
-                      "does not fit it.");
-    if (!said(story, "yes") && modelled)
-        answer_caveat(story, CAVEAT_THICKNESS,
-                      "The indentation %s this layer: it is what the model makes of the specific "
-                      "wear rate and the critical energy given.",
-                      said(story, "no") ? "does not show" : "cannot say whether there is");
+    if (has_verdict(context, "yes") && !modelled)
+        answer_add_caveat(
+            context, CAVEAT_THICKNESS,
+            "That there is no layer does not agree with the indentation, which shows a "
+            "modified track: the specific wear rate, the critical energy or the model "
+            "does not fit it.");
+    if (!has_verdict(context, "yes") && modelled)
+        answer_add_caveat(
+            context, CAVEAT_THICKNESS,
+            "The indentation %s this layer: it is what the model makes of the specific "
+            "wear rate and the critical energy given.",
+            has_verdict(context, "no") ? "does not show" : "cannot say whether there is");
 }
 
 /* The text includes the model choices that cause the limits of the range. */
-static result_value_text format_thickness(const answer_context *story)
+static result_value_text format_thickness(const answer_context *context)
 {
-    const result_value thickness = result_value_of_thickness(&story->found);
+    const result_value thickness = result_value_thickness(&context->found);
     const result_value_text choices = format_choices(&thickness);
     const bool none = !(thickness.number.value > 0);
     result_value_text words = {""};
@@ -407,23 +415,23 @@ static result_value_text format_thickness(const answer_context *story)
     return words;
 }
 
-static void answer_thickness(answer_context *story)
+static void answer_thickness(answer_context *context)
 {
-    const table_view *layer = &story->found.layer;
+    const table_view *layer = &context->found.layer;
     if (layer->table == NULL) {
-        say_missing(story, FLOW_STAGE_LAYER, how_thick, "thickness");
+        add_unanswered(context, FLOW_STAGE_LAYER, question_thickness, "thickness");
         return;
     }
-    const result_value thickness = result_value_of_thickness(&story->found);
+    const result_value thickness = result_value_thickness(&context->found);
     const number_text ratio =
         format_known_estimate(layer_value(layer, LAYER_KEY_FORMATION_WEAR_RATIO));
     const number_text velocity = format_with_unit(thickness.velocity, "m/s"),
                       pressure = format_with_unit(thickness.pressure, "Pa");
-    const result_value_text words = format_thickness(story);
-    const bool none = strcmp(layer_words(layer, LAYER_KEY_REGIME), "none") == 0;
+    const result_value_text words = format_thickness(context);
+    const bool none = strcmp(layer_key_text(layer, LAYER_KEY_REGIME), "none") == 0;
     if (none)
         answer_add_sentence(
-            story, how_thick, "thickness",
+            context, question_thickness, "thickness",
             "There is none at %s and %s%s: wear removes the rubber faster than it is modified "
             "(formation over wear R = %s, not above 1). The specific wear rate would have to be "
             "below %s.",
@@ -431,61 +439,62 @@ static void answer_thickness(answer_context *story)
             format_with_unit(layer_value(layer, LAYER_KEY_CRITICAL_WEAR_RATE).value, "m^2/N").text);
     else if (isinf(thickness.number.value))
         answer_add_sentence(
-            story, how_thick, "thickness", "%s; the table layer gives its thickness in time.",
-            layer_ages(&story->found)
+            context, question_thickness, "thickness",
+            "%s; the table layer gives its thickness in time.",
+            layer_is_ageing(&context->found)
                 ? "It has no balance: the rubber ages, and in time all of it is modified"
                 : "Without wear it grows without end, ever more slowly");
     else
         answer_add_sentence(
-            story, how_thick, "thickness",
+            context, question_thickness, "thickness",
             "%s. That is where formation balances wear, at %s and %s; %s. Formation over "
             "wear R = %s. With 1 %% more wear it is %.2g %% thinner.",
-            words.text, velocity.text, pressure.text, format_origin(&story->found), ratio.text,
-            -layer_value(layer, LAYER_KEY_WEAR_SENSITIVITY).value);
-    answer_wear_of_layer(story, how_thick);
+            words.text, velocity.text, pressure.text, format_thickness_origin(&context->found),
+            ratio.text, -layer_value(layer, LAYER_KEY_WEAR_SENSITIVITY).value);
+    answer_layer_wear_rate(context, question_thickness);
     if (!none)
-        say_times(story);
+        add_formation_times(context);
     if (thickness.range.widest != NULL)
-        answer_add_sentence(story, how_thick, "thickness",
+        answer_add_sentence(context, question_thickness, "thickness",
                             "What would settle it most: a measurement that settles the %s.",
                             thickness.range.widest);
-    say_disagreement(story, !none);
+    add_layer_disagreement(context, !none);
 }
 
 /* ---- friction -------------------------------------------------------------------------------- */
 
-static void say_friction(const answer_context *story)
+static void add_bulk_friction(const answer_context *context)
 {
-    const result_value_tables *found = &story->found;
-    const result_value total = result_value_of_friction(found, FRICTION_KEY_FRICTION),
-                       hysteresis = result_value_of_friction(found, FRICTION_KEY_HYSTERESIS),
-                       area = result_value_of_friction(found, FRICTION_KEY_AREA_RATIO);
+    const result_value_tables *found = &context->found;
+    const result_value total = result_value_friction(found, FRICTION_KEY_FRICTION),
+                       hysteresis = result_value_friction(found, FRICTION_KEY_HYSTERESIS),
+                       area = result_value_friction(found, FRICTION_KEY_AREA_RATIO);
     const number_text velocity = format_with_unit(total.velocity, "m/s");
     if (isnan(total.number.value))
         answer_add_sentence(
-            story, what_friction, "friction",
+            context, question_friction, "friction",
             "Without a layer, at %s, the hysteresis part is %s, with a real contact of the "
             "nominal area of %s; the total is not known because no shear stress is given.",
             velocity.text, format_result_value(&hysteresis).text, format_result_value(&area).text);
     else
         answer_add_sentence(
-            story, what_friction, "friction",
+            context, question_friction, "friction",
             "Without a layer, at %s, mu = %s: hysteresis %s, shearing of the real contact "
             "%.3g; contact area of the nominal one %s.",
             velocity.text, format_result_value(&total).text, format_result_value(&hysteresis).text,
             total.number.value - hysteresis.number.value, format_result_value(&area).text);
 }
 
-static void say_change(const answer_context *story)
+static void add_friction_change(const answer_context *context)
 {
-    const result_value_tables *found = &story->found;
+    const result_value_tables *found = &context->found;
     const table_view *friction = &found->friction;
-    const result_value with_layer = result_value_of_friction(found, FRICTION_KEY_WITH_LAYER),
-                       change = result_value_of_friction(found, FRICTION_KEY_RELATIVE_CHANGE);
+    const result_value with_layer = result_value_friction(found, FRICTION_KEY_WITH_LAYER),
+                       change = result_value_friction(found, FRICTION_KEY_RELATIVE_CHANGE);
     const size_t n = friction->n_rows;
     char text[1000];
     text_builder t = {text, sizeof text, 0};
-    append_change(&t, found, true);
+    append_friction_change(&t, found, true);
     if (n > 1)
         text_append(&t, ". From %s to %s the change is %+.0f %% to %+.0f %%",
                     format_with_unit(friction_get(friction, 0, FRICTION_VELOCITY), "m/s").text,
@@ -493,106 +502,106 @@ static void say_change(const answer_context *story)
                     100 * friction_value(friction, FRICTION_KEY_RELATIVE_CHANGE_LOW).value,
                     100 * friction_value(friction, FRICTION_KEY_RELATIVE_CHANGE_HIGH).value);
     const wt_estimate ratio = friction_value(friction, FRICTION_KEY_LAYER_MODULUS_RATIO);
-    const bool own = isnan(ratio.value) && friction_words(friction, FRICTION_KEY_LAYER_MODULI);
+    const bool own = isnan(ratio.value) && friction_key_text(friction, FRICTION_KEY_LAYER_MODULI);
     answer_add_sentence(
-        story, what_friction, "friction",
+        context, question_friction, "friction",
         "With the layer (%s thick, %s%s), at %s, mu "
         "= %s.",
         format_value(friction_value(friction, FRICTION_KEY_LAYER_THICKNESS)).text,
         own ? "of a material of its own" : "modulus ratio ", own ? "" : format_value(ratio).text,
         format_with_unit(with_layer.velocity, "m/s").text, format_result_value(&with_layer).text);
-    answer_add_sentence(story, what_friction, "friction", "%c%s.", toupper((unsigned char)text[0]),
-                        text + 1);
+    answer_add_sentence(context, question_friction, "friction", "%c%s.",
+                        toupper((unsigned char)text[0]), text + 1);
     if (change.range.widest != NULL)
-        answer_add_sentence(story, what_friction, "friction",
+        answer_add_sentence(context, question_friction, "friction",
                             "What would settle it most: a measurement that settles the %s.",
                             change.range.widest);
 }
 
-static void answer_friction(const answer_context *story)
+static void answer_friction(const answer_context *context)
 {
-    const result_value_tables *found = &story->found;
+    const result_value_tables *found = &context->found;
     if (found->friction.table == NULL) {
-        say_missing(story, FLOW_STAGE_FRICTION, what_friction, "friction");
+        add_unanswered(context, FLOW_STAGE_FRICTION, question_friction, "friction");
         return;
     }
-    say_friction(story);
-    if (friction_words(&found->friction, FRICTION_KEY_LAYER_THICKNESS) == NULL)
-        say_why_not(story, FLOW_STAGE_FRICTION, story->plan->fuller[FLOW_STAGE_FRICTION],
-                    what_friction, "friction");
-    else if (isnan(result_value_of_friction(found, FRICTION_KEY_WITH_LAYER).number.value))
+    add_bulk_friction(context);
+    if (friction_key_text(&found->friction, FRICTION_KEY_LAYER_THICKNESS) == NULL)
+        add_reason(context, FLOW_STAGE_FRICTION, context->plan->full_outcome[FLOW_STAGE_FRICTION],
+                   question_friction, "friction");
+    else if (isnan(result_value_friction(found, FRICTION_KEY_WITH_LAYER).number.value))
         return;
     else if (!(friction_value(&found->friction, FRICTION_KEY_LAYER_THICKNESS).value > 0))
-        answer_add_sentence(story, what_friction, "friction",
+        answer_add_sentence(context, question_friction, "friction",
                             "Where wear leaves no layer, that is the friction: nothing changes.");
     else
-        say_change(story);
+        add_friction_change(context);
 }
 
 /* ---- the answer ------------------------------------------------------------------------------ */
 
-static wt_status bind_tables(const wt_result *result, answer_context *story, wt_error *err)
+static wt_status bind_answer_tables(const wt_result *result, answer_context *context, wt_error *err)
 {
     const struct {
         const table_schema *schema;
         const char *suffix;
         table_view *view;
     } tables[] = {
-        {&indentation_schema, "bulk", &story->indentation[0]},
-        {&indentation_schema, "track", &story->indentation[1]},
-        {&modulus_depth_schema, "", &story->modulus_depth},
-        {&dma_comparison_schema, "", &story->dma_comparison},
-        {&shift_factors_schema, "", &story->shift_factors},
-        {&prony_schema, "", &story->prony},
-        {&roughness_schema, "", &story->roughness},
-        {&power_spectrum_schema, "", &story->power_spectrum},
-        {&surfaces_schema, "", &story->surfaces},
-        {&record_schema, "", &story->record},
-        {&wear_schema, "", &story->wear},
-        {&validation_schema, "", &story->validation},
-        {&validation_sources_schema, "", &story->validation_sources},
-        {&validation_running_in_schema, "", &story->validation_running_in},
-        {&layer_bands_schema, "", &story->layer_bands},
-        {&layer_feedback_schema, "", &story->layer_feedback},
-        {&layer_regime_map_schema, "", &story->existence},
-        {&running_in_schema, "", &story->running_in},
-        {&track_layer_schema, "", &story->track_layer},
-        {&identification_schema, "", &story->identification},
+        {&indentation_schema, "bulk", &context->indentation[0]},
+        {&indentation_schema, "track", &context->indentation[1]},
+        {&modulus_depth_schema, "", &context->modulus_depth},
+        {&dma_comparison_schema, "", &context->dma_comparison},
+        {&shift_factors_schema, "", &context->shift_factors},
+        {&prony_schema, "", &context->prony},
+        {&roughness_schema, "", &context->roughness},
+        {&power_spectrum_schema, "", &context->power_spectrum},
+        {&surfaces_schema, "", &context->surfaces},
+        {&record_schema, "", &context->record},
+        {&wear_schema, "", &context->wear},
+        {&validation_schema, "", &context->validation},
+        {&validation_sources_schema, "", &context->validation_sources},
+        {&validation_running_in_schema, "", &context->validation_running_in},
+        {&layer_bands_schema, "", &context->layer_bands},
+        {&layer_feedback_schema, "", &context->layer_feedback},
+        {&layer_regime_map_schema, "", &context->existence},
+        {&running_in_schema, "", &context->running_in},
+        {&track_layer_schema, "", &context->track_layer},
+        {&identification_schema, "", &context->identification},
     };
-    wt_status status = result_values_bind(result, &story->found, err);
+    wt_status status = result_values_bind(result, &context->found, err);
     for (size_t i = 0; status == WT_OK && i < COUNT_OF(tables); i++)
-        status = table_bind_of(result, tables[i].schema, tables[i].suffix, tables[i].view, err);
+        status = table_bind_result(result, tables[i].schema, tables[i].suffix, tables[i].view, err);
     return status;
 }
 
 wt_status flow_answer(const wt_case *c, const flow_plan *plan, const wt_result *result,
                       const wt_log *log, const wt_table *failures, wt_table **table, wt_error *err)
 {
-    answer_context story = {.c = c, .plan = plan, .log = log};
-    wt_status status = bind_tables(result, &story, err);
+    answer_context context = {.c = c, .plan = plan, .log = log};
+    wt_status status = bind_answer_tables(result, &context, err);
     if (status == WT_OK)
-        status = table_bind(failures, &failures_schema, "", &story.failures, err);
+        status = table_bind(failures, &failures_schema, "", &context.failures, err);
     if (status != WT_OK)
         return status;
     table_writer answer = table_begin(&answer_schema, err);
-    story.answer = &answer;
-    answer_in_short(&story);
-    answer_rubber(&story);
-    answer_layer(&story);
-    answer_difference(&story);
-    answer_thickness(&story);
-    answer_track_layer(&story);
-    answer_layer_models(&story);
-    answer_identification(&story);
-    answer_friction(&story);
-    answer_running_in(&story);
-    answer_validation(&story);
-    answer_surface(&story);
-    answer_record(&story);
-    answer_caveats(&story);
-    answer_put_caveats(&story);
-    say_not_asked(&story);
-    answer_context_clear(&story);
+    context.answer = &answer;
+    answer_summary(&context);
+    answer_rubber(&context);
+    answer_layer(&context);
+    answer_difference(&context);
+    answer_thickness(&context);
+    answer_track_layer(&context);
+    answer_layer_models(&context);
+    answer_identification(&context);
+    answer_friction(&context);
+    answer_running_in(&context);
+    answer_validation(&context);
+    answer_surface(&context);
+    answer_record(&context);
+    answer_caveats(&context);
+    answer_write_caveats(&context);
+    add_not_requested(&context);
+    answer_context_clear(&context);
     if (wt_case_title(c)[0] != '\0')
         answer_set_text(&answer, ANSWER_KEY_CASE_TITLE, wt_case_title(c));
     if (c->sample[0] != '\0')
@@ -601,8 +610,8 @@ wt_status flow_answer(const wt_case *c, const flow_plan *plan, const wt_result *
         answer_set_text(&answer, ANSWER_KEY_CASE_CONDITION, c->condition);
     wt_table *made = NULL;
     status = table_end(&answer, &made);
-    if (status == WT_OK && story.status != WT_OK)
-        status = wt_fail(err, story.status, "out of memory");
+    if (status == WT_OK && context.status != WT_OK)
+        status = wt_fail(err, context.status, "out of memory");
     if (status == WT_OK)
         *table = made;
     else

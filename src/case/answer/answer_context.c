@@ -10,16 +10,16 @@
 /* Length of a sentence in bytes; longer sentences are truncated. */
 enum { LONGEST = 1200 };
 
-static void put(const answer_context *story, const char *question, const char *kind,
-                const char *text)
+static void add_answer_row(const answer_context *context, const char *question, const char *kind,
+                           const char *text)
 {
-    table_row(story->answer);
-    answer_put_text(story->answer, ANSWER_QUESTION, question);
-    answer_put_text(story->answer, ANSWER_ANSWER, text);
-    answer_put_text(story->answer, ANSWER_KIND, kind);
+    table_row(context->answer);
+    answer_put_text(context->answer, ANSWER_QUESTION, question);
+    answer_put_text(context->answer, ANSWER_ANSWER, text);
+    answer_put_text(context->answer, ANSWER_KIND, kind);
 }
 
-void answer_add_sentence(const answer_context *story, const char *question, const char *kind,
+void answer_add_sentence(const answer_context *context, const char *question, const char *kind,
                          const char *format, ...)
 {
     char text[LONGEST];
@@ -27,40 +27,41 @@ void answer_add_sentence(const answer_context *story, const char *question, cons
     va_start(list, format);
     clocale_vprint(text, sizeof text, format, list);
     va_end(list);
-    put(story, question, kind, text);
+    add_answer_row(context, question, kind, text);
 }
 
-void answer_caveat(answer_context *story, caveat_of of, const char *format, ...)
+void answer_add_caveat(answer_context *context, caveat_topic topic, const char *format, ...)
 {
     char text[LONGEST];
     va_list list;
     va_start(list, format);
     clocale_vprint(text, sizeof text, format, list);
     va_end(list);
-    caveat *grown = array_grow(story->caveats, story->n_caveats, sizeof *grown);
+    caveat *grown = array_grow(context->caveats, context->n_caveats, sizeof *grown);
     char *copy = grown != NULL ? strdup(text) : NULL;
     if (grown != NULL)
-        story->caveats = grown;
+        context->caveats = grown;
     if (copy == NULL) {
-        story->status = WT_E_MEMORY;
+        context->status = WT_E_MEMORY;
         return;
     }
-    grown[story->n_caveats++] = (caveat){of, copy};
+    grown[context->n_caveats++] = (caveat){topic, copy};
 }
 
-void answer_put_caveats(answer_context *story)
+void answer_write_caveats(answer_context *context)
 {
-    size_t told = 0;
-    for (int of = 0; of < CAVEATS_OF; of++)
-        for (size_t i = 0; i < story->n_caveats; i++)
-            if (story->caveats[i].of == (caveat_of)of)
-                put(story, "What must be kept in mind?",
-                    told++ < CAVEATS_OPEN ? "caveat" : "folded", story->caveats[i].text);
+    size_t n_written = 0;
+    for (int topic = 0; topic < CAVEAT_TOPICS; topic++)
+        for (size_t i = 0; i < context->n_caveats; i++)
+            if (context->caveats[i].topic == (caveat_topic)topic)
+                add_answer_row(context, "What must be kept in mind?",
+                               n_written++ < CAVEATS_SHOWN ? "caveat" : "folded",
+                               context->caveats[i].text);
 }
 
-void answer_context_clear(answer_context *story)
+void answer_context_clear(answer_context *context)
 {
-    for (size_t i = 0; i < story->n_caveats; i++)
-        free(story->caveats[i].text);
-    free(story->caveats);
+    for (size_t i = 0; i < context->n_caveats; i++)
+        free(context->caveats[i].text);
+    free(context->caveats);
 }

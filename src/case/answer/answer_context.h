@@ -7,7 +7,7 @@
 #include "case/plan/plan.h"
 
 /* Subject of a caveat, in the order in which caveats are written. */
-typedef enum caveat_of {
+typedef enum caveat_topic {
     CAVEAT_WHOLE, /* failed files or stages */
     CAVEAT_DATA,  /* doubtful or inconsistent data */
     CAVEAT_VERDICT,
@@ -15,13 +15,13 @@ typedef enum caveat_of {
     CAVEAT_FRICTION,
     CAVEAT_MODULI,
     CAVEAT_CONDITIONS, /* assumed conditions */
-    CAVEATS_OF
-} caveat_of;
+    CAVEAT_TOPICS
+} caveat_topic;
 
-enum { CAVEATS_OPEN = 5 }; /* number of caveats that are shown; the page folds the others */
+enum { CAVEATS_SHOWN = 5 }; /* number of caveats that are shown; the page folds the others */
 
 typedef struct caveat {
-    caveat_of of;
+    caveat_topic topic;
     char *text;
 } caveat;
 
@@ -44,30 +44,31 @@ typedef struct answer_context {
 } answer_context;
 
 /* Adds a row to the answer. The sentence is a printf format. */
-void answer_add_sentence(const answer_context *story, const char *question, const char *kind,
+void answer_add_sentence(const answer_context *context, const char *question, const char *kind,
                          const char *format, ...) WT_PRINTF(4, 5);
-/* Stores a caveat until answer_put_caveats writes all of them in order. */
-void answer_caveat(answer_context *story, caveat_of of, const char *format, ...) WT_PRINTF(3, 4);
-/* Writes the caveats. The first CAVEATS_OPEN rows have the kind "caveat", the others "folded". */
-void answer_put_caveats(answer_context *story);
+/* Stores a caveat until answer_write_caveats writes all of them in order. */
+void answer_add_caveat(answer_context *context, caveat_topic topic, const char *format, ...)
+    WT_PRINTF(3, 4);
+/* Writes the caveats. The first CAVEATS_SHOWN rows have the kind "caveat", the others "folded". */
+void answer_write_caveats(answer_context *context);
 /* Describes the rubber, only if no later stage uses it: then the rubber is a result, not a step. */
-void answer_rubber(const answer_context *story);
+void answer_rubber(const answer_context *context);
 /* States the thickness of the layer that the curves allow, and compares it with the theory. */
-void answer_track_layer(const answer_context *story);
+void answer_track_layer(const answer_context *context);
 /* Names the source of the specific wear rate of the layer, if a record measured one. */
-void answer_wear_of_layer(const answer_context *story, const char *question);
+void answer_layer_wear_rate(const answer_context *context, const char *question);
 /* Describes the layer under a sequence of loads, its feedback and its regime map; answer_running_in
  * describes its friction during running-in. */
-void answer_layer_models(const answer_context *story);
-void answer_running_in(const answer_context *story);
+void answer_layer_models(const answer_context *context);
+void answer_running_in(const answer_context *context);
 /* Describes a measured counter surface. */
-void answer_surface(const answer_context *story);
+void answer_surface(const answer_context *context);
 /* States the critical energy and the wear rate identified from observations of the layer. */
-void answer_identification(const answer_context *story);
+void answer_identification(const answer_context *context);
 /* States the measured friction and wear. */
-void answer_record(const answer_context *story);
+void answer_record(const answer_context *context);
 /* States whether the theory explains the measured friction. */
-void answer_validation(const answer_context *story);
-void answer_context_clear(answer_context *story);
+void answer_validation(const answer_context *context);
+void answer_context_clear(answer_context *context);
 
 #endif

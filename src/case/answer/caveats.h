@@ -5,6 +5,6 @@
 #include "case/answer/answer_context.h"
 
 /* Stores all caveats of the run in the context. */
-void answer_caveats(answer_context *story);
+void answer_caveats(answer_context *context);
 
 #endif

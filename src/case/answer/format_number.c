@@ -26,7 +26,7 @@ void text_append(text_builder *t, const char *format, ...)
 /* Specific wear rate [mm^3/(N m)] of 1 m^2/N. */
 #define MM3_PER_N_M 1e9
 
-static void print_plain(double value, int digits, number_text *words)
+static void format_digits(double value, int digits, number_text *words)
 {
     clocale_print(words->text, sizeof words->text, "%#.*g", digits, value);
     const size_t length = strlen(words->text);
@@ -34,7 +34,7 @@ static void print_plain(double value, int digits, number_text *words)
         words->text[length - 1] = '\0';
 }
 
-static number_text format_with_parts(double value, const char *unit, int digits)
+static number_text format_with_digits(double value, const char *unit, int digits)
 {
     number_text words = {""};
     if (isnan(value))
@@ -42,9 +42,9 @@ static number_text format_with_parts(double value, const char *unit, int digits)
     else if (isinf(value))
         snprintf(words.text, sizeof words.text, "without limit");
     else if (strcmp(unit, "1") == 0)
-        print_plain(value, digits, &words);
+        format_digits(value, digits, &words);
     else if (strcmp(unit, "m^2/N") == 0 && value != 0) {
-        print_plain(MM3_PER_N_M * value, digits, &words);
+        format_digits(MM3_PER_N_M * value, digits, &words);
         clocale_append(words.text, sizeof words.text, " mm^3/(N m)");
     } else if (value == 0) /* An exact zero has no significant digits. */
         snprintf(words.text, sizeof words.text, "0 %s", unit);
@@ -55,7 +55,7 @@ static number_text format_with_parts(double value, const char *unit, int digits)
 
 number_text format_with_unit(double value, const char *unit)
 {
-    return format_with_parts(value, unit, 3);
+    return format_with_digits(value, unit, 3);
 }
 
 number_text format_pair(double low, double high, int digits)
@@ -102,8 +102,8 @@ number_text format_estimate(wt_estimate e)
         const int decimals = needed < 0 ? 0 : needed < most ? needed : most;
         clocale_print(words.text, sizeof words.text,
                       needed <= most ? "%.*f \xc2\xb1 %.*f%.40s" : "%.*f \xc2\xb1 %.*g%.40s",
-                      decimals, number_to_tens(e.value * scale, needed),
-                      needed <= most ? decimals : 2, number_to_tens(error, needed),
+                      decimals, round_to_power_of_ten(e.value * scale, needed),
+                      needed <= most ? decimals : 2, round_to_power_of_ten(error, needed),
                       suffix == NULL ? "" : suffix);
     }
     return words;
@@ -112,13 +112,13 @@ number_text format_estimate(wt_estimate e)
 number_text format_estimate_interval(wt_estimate e, double low, double high)
 {
     const int digits = result_value_digits(e.value, low, high);
-    number_text words = format_with_parts(e.value, e.unit, digits);
+    number_text words = format_with_digits(e.value, e.unit, digits);
     text_builder t = {words.text, sizeof words.text, strlen(words.text)};
     if (isfinite(e.value) && isnan(high))
         text_append(&t, " (error not known)");
     else if (isfinite(e.value) && high > e.value)
-        text_append(&t, " (95 %%: %s to %s)", format_with_parts(low, e.unit, digits).text,
-                    format_with_parts(high, e.unit, digits).text);
+        text_append(&t, " (95 %%: %s to %s)", format_with_digits(low, e.unit, digits).text,
+                    format_with_digits(high, e.unit, digits).text);
     return words;
 }
 
@@ -128,7 +128,7 @@ number_text format_known_estimate(wt_estimate e)
     return format_estimate_interval(e, e.value - half, e.value + half);
 }
 
-number_text format_positive(wt_estimate e)
+number_text format_positive_estimate(wt_estimate e)
 {
     const double factor = exp(NORMAL_95 * e.standard_error / e.value);
     return format_estimate_interval(e, e.value / factor, e.value * factor);
@@ -147,15 +147,15 @@ number_text format_celsius(double kelvin)
 /* ---- result values --------------------------------------------------------------------------- */
 
 /* A relative change is printed in percent. */
-static bool is_change(const result_value *f)
+static bool is_relative_change(const result_value *f)
 {
     return f->neutral == 0;
 }
 
-static number_text number_of_finding(const result_value *f, double value, int digits)
+static number_text format_result_number(const result_value *f, double value, int digits)
 {
-    if (!is_change(f) || !isfinite(value))
-        return format_with_parts(value, f->number.unit, digits);
+    if (!is_relative_change(f) || !isfinite(value))
+        return format_with_digits(value, f->number.unit, digits);
     const double half = 100 * (f->high - f->low) /
                         2; /* enough decimals to distinguish the limits of a narrow interval */
     const int decimals = half > 0 && half < 1 ? (int)fmin(3, ceil(-log10(half))) : 0;
@@ -166,8 +166,8 @@ static number_text number_of_finding(const result_value *f, double value, int di
 
 number_text format_plain_number(const result_value *f)
 {
-    return number_of_finding(f, f->number.value,
-                             result_value_digits(f->number.value, f->low, f->high));
+    return format_result_number(f, f->number.value,
+                                result_value_digits(f->number.value, f->low, f->high));
 }
 
 result_value_text format_interval(const result_value *f)
@@ -178,8 +178,8 @@ result_value_text format_interval(const result_value *f)
         snprintf(words.text, sizeof words.text, "error not known");
     else
         clocale_print(words.text, sizeof words.text, "95 %% interval %s to %s",
-                      number_of_finding(f, f->low, digits).text,
-                      number_of_finding(f, f->high, digits).text);
+                      format_result_number(f, f->low, digits).text,
+                      format_result_number(f, f->high, digits).text);
     return words;
 }
 
@@ -188,8 +188,8 @@ result_value_text format_model_range(const result_value *f)
     result_value_text words = {""};
     if (!isnan(f->range.low))
         clocale_print(words.text, sizeof words.text, "%s to %s over all choices of the model",
-                      number_of_finding(f, f->range.low, 3).text,
-                      number_of_finding(f, f->range.high, 3).text);
+                      format_result_number(f, f->range.low, 3).text,
+                      format_result_number(f, f->range.high, 3).text);
     return words;
 }
 
@@ -201,12 +201,12 @@ result_value_text format_choices(const result_value *f)
     const struct {
         double value;
         const char *choice, *tried;
-    } ends[2] = {{r->low, r->low_choice, r->low_tried}, {r->high, r->high_choice, r->high_tried}};
+    } limits[2] = {{r->low, r->low_choice, r->low_tried}, {r->high, r->high_choice, r->high_tried}};
     for (int i = 0; i < 2 && !isnan(r->low); i++) {
         text_append(&t, "%s%s", i > 0 ? " to " : "over all choices of the model ",
-                    number_of_finding(f, ends[i].value, 3).text);
-        if (ends[i].choice[0] != '\0')
-            text_append(&t, " (%s: %s)", ends[i].choice, ends[i].tried);
+                    format_result_number(f, limits[i].value, 3).text);
+        if (limits[i].choice[0] != '\0')
+            text_append(&t, " (%s: %s)", limits[i].choice, limits[i].tried);
         else
             text_append(&t, " (as used)");
     }
@@ -234,10 +234,10 @@ number_text format_frequency(const result_value *f)
     return words;
 }
 
-const char *format_origin(const result_value_tables *tables)
+const char *format_thickness_origin(const result_value_tables *tables)
 {
-    const char *from = layer_words(&tables->layer, LAYER_KEY_CRITICAL_ENERGY_FROM);
-    if (layer_words(&tables->layer, LAYER_KEY_CLOSURE) != NULL)
+    const char *from = layer_key_text(&tables->layer, LAYER_KEY_CRITICAL_ENERGY_FROM);
+    if (layer_key_text(&tables->layer, LAYER_KEY_CLOSURE) != NULL)
         return "predicted from a given barrier";
     return from != NULL && strncmp(from, "calibrated", 10) == 0
                ? "put in, not predicted: U_c is calibrated to it"
@@ -246,35 +246,35 @@ const char *format_origin(const result_value_tables *tables)
 
 /* The correction concerns the rates of both groups, if the moduli of all rates have a different
  * ratio. */
-void append_rates(text_builder *t, const result_value_tables *tables)
+void append_rate_correction(text_builder *t, const result_value_tables *tables)
 {
-    const char *rates = comparison_words(&tables->comparison, COMPARISON_KEY_RATES);
-    const double of_all = result_value_ratio_of_all(tables);
+    const char *rates = comparison_key_text(&tables->comparison, COMPARISON_KEY_RATES);
+    const double of_all = result_value_ratio_all_rates(tables);
     if (!isnan(of_all) && rates != NULL)
         text_append(t, ", for the rates are %s; the moduli of all rates have the ratio %s", rates,
                     format_with_unit(of_all, "1").text);
 }
 
-void append_ratio(text_builder *t, const result_value_tables *tables)
+void append_modulus_ratio(text_builder *t, const result_value_tables *tables)
 {
-    const result_value ratio = result_value_of_ratio(tables);
+    const result_value ratio = result_value_ratio(tables);
     text_append(t, "%s", ratio.verdict != NULL ? ratio.verdict : "");
     if (isnan(ratio.low))
         return;
     text_append(t, "; E_track/E_bulk = %s%s", format_result_value(&ratio).text,
                 format_frequency(&ratio).text);
-    append_rates(t, tables);
+    append_rate_correction(t, tables);
 }
 
 /* The ratio of one spot has no error. The text states that the interval lacks this contribution. */
-static const char *without_ratio(const result_value *f)
+static const char *missing_ratio_text(const result_value *f)
 {
     const bool lacks = f->lacks != NULL && strstr(f->lacks, "modulus ratio") != NULL;
     return lacks && !isnan(f->low) ? ", without the error of the modulus ratio, which is not known"
                                    : "";
 }
 
-bool layer_ages(const result_value_tables *tables)
+bool layer_is_ageing(const result_value_tables *tables)
 {
     return isinf(layer_value(&tables->layer, LAYER_KEY_BALANCE_THICKNESS).value) &&
            layer_value(&tables->layer, LAYER_KEY_WEAR_RATE).value > 0;
@@ -282,26 +282,26 @@ bool layer_ages(const result_value_tables *tables)
 
 void append_thickness(text_builder *t, const result_value_tables *tables)
 {
-    const result_value thickness = result_value_of_thickness(tables);
+    const result_value thickness = result_value_thickness(tables);
     const result_value_text range = format_model_range(&thickness);
     const char *open = range.text[0] != '\0' ? " (" : "", *close = *open != '\0' ? ")" : "";
     if (isinf(thickness.number.value))
         text_append(t, "%s",
-                    layer_ages(tables) ? "the rubber ages: in time all of it is modified"
-                                       : "without wear the layer grows without end");
+                    layer_is_ageing(tables) ? "the rubber ages: in time all of it is modified"
+                                            : "without wear the layer grows without end");
     else if (!(thickness.number.value > 0))
         text_append(t, "no layer where formation balances wear%s%s%s, %s", open, range.text, close,
-                    format_origin(tables));
+                    format_thickness_origin(tables));
     else
         text_append(t, "layer of %s where formation balances wear, %s%s",
-                    format_result_value(&thickness).text, format_origin(tables),
-                    without_ratio(&thickness));
+                    format_result_value(&thickness).text, format_thickness_origin(tables),
+                    missing_ratio_text(&thickness));
 }
 
-void append_change(text_builder *t, const result_value_tables *tables, bool with_choices)
+void append_friction_change(text_builder *t, const result_value_tables *tables, bool with_choices)
 {
-    const result_value change = result_value_of_friction(tables, FRICTION_KEY_RELATIVE_CHANGE);
-    const finding_sign sign = result_value_sign(&change);
+    const result_value change = result_value_friction(tables, FRICTION_KEY_RELATIVE_CHANGE);
+    const sign_verdict sign = result_value_sign(&change);
     const result_value_text range =
         with_choices ? format_choices(&change) : format_model_range(&change);
     const char *and = range.text[0] != '\0' ? "; " : "";
@@ -310,16 +310,16 @@ void append_change(text_builder *t, const result_value_tables *tables, bool with
         return;
     }
     text_append(t, "%s: %s (%s%s)%s%s",
-                sign == FINDING_OPEN   ? "open whether the layer lowers or raises friction"
-                : sign == FINDING_LESS ? "less friction with the layer"
+                sign == SIGN_UNDECIDED ? "open whether the layer lowers or raises friction"
+                : sign == SIGN_BELOW   ? "less friction with the layer"
                                        : "more friction with the layer",
                 format_plain_number(&change).text, format_interval(&change).text,
-                without_ratio(&change), and, range.text);
+                missing_ratio_text(&change), and, range.text);
 }
 
 /* ---- values of several sentences ------------------------------------------------------------- */
 
-double largest_share(const table_view *friction)
+double largest_extrapolated_share(const table_view *friction)
 {
     double share = 0;
     for (size_t i = 0; i < friction->n_rows; i++)
@@ -334,7 +334,7 @@ number_text format_share(double share)
     return words;
 }
 
-bool ratio_to_dma(const table_view *dma, double *low, double *high)
+bool find_dma_ratio(const table_view *dma, double *low, double *high)
 {
     *low = *high = (double)NAN;
     for (size_t i = 0; i < dma->n_rows; i++) {
@@ -347,12 +347,12 @@ bool ratio_to_dma(const table_view *dma, double *low, double *high)
     return !isnan(*low);
 }
 
-bool is_other_rubber(double low, double high)
+bool is_different_rubber(double low, double high)
 {
     return low < 1 / ANSWER_DMA_FACTOR || high > ANSWER_DMA_FACTOR;
 }
 
-size_t n_extrapolated(const table_view *dma)
+size_t count_extrapolated(const table_view *dma)
 {
     size_t n = 0;
     for (size_t i = 0; i < dma->n_rows; i++)
@@ -360,7 +360,7 @@ size_t n_extrapolated(const table_view *dma)
     return n;
 }
 
-bool append_other_spectrum(text_builder *t, const table_view *indentation, const char *group)
+bool append_spectrum_mismatch(text_builder *t, const table_view *indentation, const char *group)
 {
     size_t tried = 0, others = 0;
     if (isnan(indentation_value(indentation, INDENTATION_KEY_SPECTRUM_TEMPERATURE).value))

@@ -9,7 +9,7 @@
  * explained by strain and equivalent frequency. */
 #define ANSWER_DMA_FACTOR 3.0
 /* Smallest share of the friction that is worth a remark. */
-#define ANSWER_ODD_SHARE 0.01
+#define ANSWER_SHARE_MIN 0.01
 
 /* Text in a buffer of fixed size; longer text is truncated. */
 typedef struct text_builder {
@@ -30,7 +30,7 @@ number_text format_estimate(wt_estimate estimate); /* with ± the standard error
 /* Example: "1.20 s (95 %: 0.90 s to 1.50 s)". The interval follows from a normal error. */
 number_text format_known_estimate(wt_estimate estimate);
 /* Variant for a positive number with a log-normal error. */
-number_text format_positive(wt_estimate estimate);
+number_text format_positive_estimate(wt_estimate estimate);
 /* Variant for given limits; NaN means that they are unknown. */
 number_text format_estimate_interval(wt_estimate estimate, double low, double high);
 number_text format_celsius(double kelvin);
@@ -61,19 +61,19 @@ number_text format_frequency(const result_value *f);
 /* The functions append_* write the main results, for the line on standard error and the summary of
  * the answer.
  * Example: "yes: the wear track is softer than the bulk; E_track/E_bulk = 0.666 (...) at ...". */
-void append_ratio(text_builder *t, const result_value_tables *tables);
+void append_modulus_ratio(text_builder *t, const result_value_tables *tables);
 /* Example: ", for the rates are ...; the moduli of all rates have the ratio 0.175", if the ratios
  * differ. */
-void append_rates(text_builder *t, const result_value_tables *tables);
+void append_rate_correction(text_builder *t, const result_value_tables *tables);
 /* True if there is no steady-state thickness because the rubber ages without load, not because wear
  * is absent. */
-bool layer_ages(const result_value_tables *tables);
+bool layer_is_ageing(const result_value_tables *tables);
 /* Example: "layer of 3.16 um (...) where formation balances wear, predicted from a given U_c". */
 void append_thickness(text_builder *t, const result_value_tables *tables);
 /* Appends the effect of the feedback on a layer that acts back on its energy. */
 void append_balance(text_builder *t, const table_view *balances);
 /* Example: "open whether the layer lowers or raises friction: -18 % (...)". */
-void append_change(text_builder *t, const result_value_tables *tables, bool with_choices);
+void append_friction_change(text_builder *t, const result_value_tables *tables, bool with_choices);
 /* Examples: "friction as measured 0.80 +- 0.01, after a running-in of 20 cycles" and "specific wear
  * rate ...". The tables have at least one row. */
 void append_record(text_builder *t, const table_view *record);
@@ -94,21 +94,21 @@ void append_required_wear(text_builder *t, const table_view *running_in);
  * appended if the stress is unknown. */
 void append_required_shear(text_builder *t, const table_view *validation);
 /* Example: "predicted from a given U_c". */
-const char *format_origin(const result_value_tables *tables);
+const char *format_thickness_origin(const result_value_tables *tables);
 
 /* ---- values of several sentences ------------------------------------------------------------- */
 
 /* Largest share of the hysteresis friction from frequencies outside the measured range. */
-double largest_share(const table_view *friction);
+double largest_extrapolated_share(const table_view *friction);
 number_text format_share(double share);
 /* Finds the smallest and largest ratio of the moduli of indentation and DMA of the bulk. False
  * without a ratio. The track is not compared: its layer may differ. */
-bool ratio_to_dma(const table_view *dma, double *low, double *high);
-bool is_other_rubber(double low, double high);
-size_t n_extrapolated(const table_view *dma);
+bool find_dma_ratio(const table_view *dma, double *low, double *high);
+bool is_different_rubber(double low, double high);
+size_t count_extrapolated(const table_view *dma);
 /* Example: "3 of 48 curves of the bulk are not of the spectrum of the DMA: ...". False without
  * output if all tested curves agree, or none was tested. */
-bool append_other_spectrum(text_builder *t, const table_view *indentation, const char *group);
+bool append_spectrum_mismatch(text_builder *t, const table_view *indentation, const char *group);
 /* Writes the reasons of the rejected curves, such as "3 poor fit, 1 saturated", and returns the
  * number of these curves. */
 size_t format_rejected_curves(const table_view *indentation, char *text, size_t size);

@@ -15,33 +15,33 @@ typedef struct method {
     const char *name;
     const table_schema *table;
     bool (*used)(const table_view *table); /* NULL if the method is always used */
-    void (*say)(text_builder *t, const table_view *table);
+    void (*describe)(text_builder *t, const table_view *table);
     const char *reference, *doi; /* as printed in journals; "" without a reference */
 } method;
 
 /* ---- indentation ----------------------------------------------------------------------------- */
 
-static bool tip_is(const table_view *table, const char *words)
+static bool tip_contains(const table_view *table, const char *words)
 {
-    const char *tip = indentation_words(table, INDENTATION_KEY_TIP);
+    const char *tip = indentation_key_text(table, INDENTATION_KEY_TIP);
     return tip != NULL && strstr(tip, words) != NULL;
 }
 
 static bool is_blunted(const table_view *table)
 {
-    return tip_is(table, "blunted pyramid");
+    return tip_contains(table, "blunted pyramid");
 }
 
-static bool is_other_tip(const table_view *table)
+static bool is_general_tip(const table_view *table)
 {
     return !is_blunted(table);
 }
 
-static void say_indentation(text_builder *t, const table_view *table)
+static void describe_indentation(text_builder *t, const table_view *table)
 {
-    const char *tip = indentation_words(table, INDENTATION_KEY_TIP),
-               *ratio = indentation_words(table, INDENTATION_KEY_POISSON_RATIO),
-               *accepted = indentation_words(table, INDENTATION_KEY_N_ACCEPTED);
+    const char *tip = indentation_key_text(table, INDENTATION_KEY_TIP),
+               *ratio = indentation_key_text(table, INDENTATION_KEY_POISSON_RATIO),
+               *accepted = indentation_key_text(table, INDENTATION_KEY_N_ACCEPTED);
     text_append(
         t,
         "Young's modulus of each of %zu force curve%s%s%s%s was fitted together with the line of "
@@ -53,7 +53,7 @@ static void say_indentation(text_builder *t, const table_view *table)
                 ratio != NULL ? ratio : "");
 }
 
-static void say_thermal(text_builder *t, const table_view *table)
+static void describe_thermal(text_builder *t, const table_view *table)
 {
     const wt_estimate constant = thermal_value(table, THERMAL_KEY_SPRING_CONSTANT);
     text_append(t,
@@ -64,9 +64,9 @@ static void say_thermal(text_builder *t, const table_view *table)
 
 /* ---- comparison ------------------------------------------------------------------------------ */
 
-static void say_welch(text_builder *t, const table_view *table)
+static void describe_welch(text_builder *t, const table_view *table)
 {
-    const char *unit = comparison_words(table, COMPARISON_KEY_UNIT_OF_ANALYSIS);
+    const char *unit = comparison_key_text(table, COMPARISON_KEY_UNIT_OF_ANALYSIS);
     const wt_estimate ratio = comparison_value(table, COMPARISON_KEY_MODULUS_RATIO);
     text_append(
         t, "Wear track and bulk were compared by Welch's t test of the logarithm of the modulus");
@@ -77,24 +77,24 @@ static void say_welch(text_builder *t, const table_view *table)
     text_append(t, ".");
 }
 
-static void say_mann_whitney(text_builder *t, const table_view *table)
+static void describe_mann_whitney(text_builder *t, const table_view *table)
 {
     (void)table;
     text_append(t, "The test of Mann and Whitney was done beside it.");
 }
 
-static bool has_rates(const table_view *table)
+static bool has_several_rates(const table_view *table)
 {
     return table->n_rows > 2;
 }
 
-static void say_holm(text_builder *t, const table_view *table)
+static void describe_holm(text_builder *t, const table_view *table)
 {
     text_append(t, "The p-values of %zu indentation rates were corrected by the method of Holm.",
                 table->n_rows - 1);
 }
 
-static void say_hedges(text_builder *t, const table_view *table)
+static void describe_hedges(text_builder *t, const table_view *table)
 {
     (void)table;
     text_append(t, "The effect size is Hedges' g.");
@@ -102,11 +102,11 @@ static void say_hedges(text_builder *t, const table_view *table)
 
 /* ---- material -------------------------------------------------------------------------------- */
 
-static void say_shifting(text_builder *t, const table_view *table)
+static void describe_shifting(text_builder *t, const table_view *table)
 {
     const double reference =
         shift_factors_value(table, SHIFT_FACTORS_KEY_REFERENCE_TEMPERATURE).value;
-    const char *by = shift_factors_words(table, SHIFT_FACTORS_KEY_SHIFTED_BY);
+    const char *by = shift_factors_key_text(table, SHIFT_FACTORS_KEY_SHIFTED_BY);
     if (table->n_rows == 1)
         text_append(
             t,
@@ -120,15 +120,15 @@ static void say_shifting(text_builder *t, const table_view *table)
             "of them, with its smoothness and their noise by restricted maximum likelihood "
             "(superposition %s).",
             table->n_rows, format_celsius(reference).text, by != NULL ? " by the " : "",
-            by != NULL ? by : "", shift_factors_words(table, SHIFT_FACTORS_KEY_SUPERPOSITION));
+            by != NULL ? by : "", shift_factors_key_text(table, SHIFT_FACTORS_KEY_SUPERPOSITION));
 }
 
-static bool has_wlf(const table_view *table)
+static bool has_wlf_constants(const table_view *table)
 {
     return isfinite(shift_factors_value(table, SHIFT_FACTORS_KEY_WLF_C1).value);
 }
 
-static void say_wlf(text_builder *t, const table_view *table)
+static void describe_wlf(text_builder *t, const table_view *table)
 {
     const wt_estimate c1 = shift_factors_value(table, SHIFT_FACTORS_KEY_WLF_C1),
                       c2 = shift_factors_value(table, SHIFT_FACTORS_KEY_WLF_C2);
@@ -138,24 +138,24 @@ static void say_wlf(text_builder *t, const table_view *table)
                 format_estimate(c1).text, format_estimate(c2).text);
 }
 
-static bool has_energy(const table_view *table)
+static bool has_activation_energy(const table_view *table)
 {
     return isfinite(shift_factors_value(table, SHIFT_FACTORS_KEY_ACTIVATION_ENERGY).value);
 }
 
-static void say_arrhenius(text_builder *t, const table_view *table)
+static void describe_arrhenius(text_builder *t, const table_view *table)
 {
     const wt_estimate energy = shift_factors_value(table, SHIFT_FACTORS_KEY_ACTIVATION_ENERGY);
     text_append(t, "The shift factors follow Arrhenius' law%s with an activation energy of %s.",
-                has_wlf(table) ? " in the cold" : "", format_estimate(energy).text);
+                has_wlf_constants(table) ? " in the cold" : "", format_estimate(energy).text);
 }
 
-static bool has_zener(const table_view *table)
+static bool has_zener_comparison(const table_view *table)
 {
-    return prony_reduced_words(table, PRONY_REDUCED_KEY_BETTER) != NULL;
+    return prony_reduced_key_text(table, PRONY_REDUCED_KEY_BETTER) != NULL;
 }
 
-static void say_zener(text_builder *t, const table_view *table)
+static void describe_zener(text_builder *t, const table_view *table)
 {
     text_append(t,
                 "A Prony series of %zu term%s and a fractional Zener law were compared by Akaike's "
@@ -163,7 +163,7 @@ static void say_zener(text_builder *t, const table_view *table)
                 table->n_rows, table->n_rows == 1 ? "" : "s");
 }
 
-static void say_payne(text_builder *t, const table_view *table)
+static void describe_payne(text_builder *t, const table_view *table)
 {
     text_append(
         t, "The softening with strain in %zu strain sweep%s was described by the law of Kraus.",
@@ -172,15 +172,15 @@ static void say_payne(text_builder *t, const table_view *table)
 
 /* ---- sliding --------------------------------------------------------------------------------- */
 
-static void say_spectrum(text_builder *t, const table_view *table)
+static void describe_power_spectrum(text_builder *t, const table_view *table)
 {
-    const char *scans = power_spectrum_words(table, POWER_SPECTRUM_KEY_N_SCANS);
+    const char *scans = power_spectrum_key_text(table, POWER_SPECTRUM_KEY_N_SCANS);
     const bool one = scans != NULL && strcmp(scans, "1") == 0;
     text_append(t, "The power spectrum of the counter surface was computed from %s scan%s.",
                 scans != NULL ? scans : "its", one ? "" : "s");
 }
 
-static void say_friction(text_builder *t, const table_view *table)
+static void describe_friction(text_builder *t, const table_view *table)
 {
     const wt_estimate pressure = friction_value(table, FRICTION_KEY_PRESSURE),
                       temperature = friction_value(table, FRICTION_KEY_TEMPERATURE),
@@ -193,37 +193,37 @@ static void say_friction(text_builder *t, const table_view *table)
     if (isfinite(shear.value))
         text_append(t, ", with a shear stress of %s in the real contact",
                     format_estimate(shear).text);
-    const char *draws = friction_words(table, FRICTION_KEY_REPLICATES);
+    const char *draws = friction_key_text(table, FRICTION_KEY_REPLICATES);
     if (draws != NULL && strcmp(draws, "0") != 0)
         text_append(t, "; intervals by %s draws of what has an error", draws);
     text_append(t, ".");
 }
 
-static double gamma_of(const table_view *table)
+static double partial_contact_gamma(const table_view *table)
 {
-    const char *words = friction_words(table, FRICTION_KEY_GAMMA);
+    const char *words = friction_key_text(table, FRICTION_KEY_GAMMA);
     double gamma = 1;
-    return words != NULL && number_read(words, strlen(words), &gamma) ? gamma : 1;
+    return words != NULL && parse_stored_number(words, strlen(words), &gamma) ? gamma : 1;
 }
 
 static bool has_gamma(const table_view *table)
 {
-    return gamma_of(table) != 1;
+    return partial_contact_gamma(table) != 1;
 }
 
-static void say_gamma(text_builder *t, const table_view *table)
+static void describe_gamma(text_builder *t, const table_view *table)
 {
     text_append(t, "The energy of partial contact was lowered by the factor gamma = %g.",
-                gamma_of(table));
+                partial_contact_gamma(table));
 }
 
-static void say_softening(text_builder *t, const table_view *table)
+static void describe_softening(text_builder *t, const table_view *table)
 {
     text_append(t, "The moduli soften with the strain at each length scale (%s).",
-                softening_words(table, SOFTENING_KEY_SOURCE));
+                softening_key_text(table, SOFTENING_KEY_SOURCE));
 }
 
-static void say_flash(text_builder *t, const table_view *table)
+static void describe_flash(text_builder *t, const table_view *table)
 {
     const wt_estimate around = flash_value(table, FLASH_KEY_SURROUNDINGS);
     text_append(t,
@@ -231,10 +231,10 @@ static void say_flash(text_builder *t, const table_view *table)
                 format_celsius(around.value).text);
 }
 
-static void say_layer(text_builder *t, const table_view *table)
+static void describe_layer(text_builder *t, const table_view *table)
 {
     const wt_estimate critical = layer_value(table, LAYER_KEY_CRITICAL_ENERGY);
-    const char *const closure = layer_words(table, LAYER_KEY_CLOSURE);
+    const char *const closure = layer_key_text(table, LAYER_KEY_CLOSURE);
     if (closure != NULL) {
         text_append(
             t, "The thickness of the modified layer follows from its formation by this law: %s.",
@@ -244,22 +244,23 @@ static void say_layer(text_builder *t, const table_view *table)
     text_append(t,
                 "The thickness of the modified layer follows from the energy dissipated below the "
                 "surface over a critical energy of %s (%s).",
-                format_estimate(critical).text, layer_words(table, LAYER_KEY_CRITICAL_ENERGY_FROM));
+                format_estimate(critical).text,
+                layer_key_text(table, LAYER_KEY_CRITICAL_ENERGY_FROM));
 }
 
-static void say_archard(text_builder *t, const table_view *table)
+static void describe_archard(text_builder *t, const table_view *table)
 {
     const wt_estimate rate = layer_value(table, LAYER_KEY_WEAR_RATE);
     text_append(t, "It wears by Archard's law with a specific wear rate of %s.",
                 format_estimate(rate).text);
 }
 
-static bool tells_depth(const table_view *table)
+static bool has_depth_bound(const table_view *table)
 {
     return isfinite(track_layer_value(table, TRACK_LAYER_KEY_LEAST).value);
 }
 
-static void say_track_layer(text_builder *t, const table_view *table)
+static void describe_track_layer(text_builder *t, const table_view *table)
 {
     const wt_estimate depth = track_layer_value(table, TRACK_LAYER_KEY_DEPTH),
                       least = track_layer_value(table, TRACK_LAYER_KEY_LEAST);
@@ -276,49 +277,49 @@ static void say_track_layer(text_builder *t, const table_view *table)
 /* ---- the list -------------------------------------------------------------------------------- */
 
 static const method methods[] = {
-    {"spring constant by thermal noise", &thermal_schema, NULL, say_thermal,
+    {"spring constant by thermal noise", &thermal_schema, NULL, describe_thermal,
      "H.-J. Butt and M. Jaschke, Nanotechnology 6 (1995) 1", "10.1088/0957-4484/6/1/001"},
-    {"contact law of a blunted pyramid", &indentation_schema, is_blunted, say_indentation,
+    {"contact law of a blunted pyramid", &indentation_schema, is_blunted, describe_indentation,
      "F. Rico et al., Phys. Rev. E 72 (2005) 021914", "10.1103/PhysRevE.72.021914"},
-    {"contact law of the tip", &indentation_schema, is_other_tip, say_indentation,
+    {"contact law of the tip", &indentation_schema, is_general_tip, describe_indentation,
      "I. N. Sneddon, Int. J. Eng. Sci. 3 (1965) 47", "10.1016/0020-7225(65)90019-4"},
-    {"Welch's t test", &comparison_schema, NULL, say_welch, "B. L. Welch, Biometrika 34 (1947) 28",
-     "10.1093/biomet/34.1-2.28"},
-    {"test of Mann and Whitney", &comparison_schema, NULL, say_mann_whitney,
+    {"Welch's t test", &comparison_schema, NULL, describe_welch,
+     "B. L. Welch, Biometrika 34 (1947) 28", "10.1093/biomet/34.1-2.28"},
+    {"test of Mann and Whitney", &comparison_schema, NULL, describe_mann_whitney,
      "H. B. Mann and D. R. Whitney, Ann. Math. Stat. 18 (1947) 50", "10.1214/aoms/1177730491"},
-    {"Holm's correction", &comparison_schema, has_rates, say_holm,
+    {"Holm's correction", &comparison_schema, has_several_rates, describe_holm,
      "S. Holm, Scand. J. Stat. 6 (1979) 65", ""},
-    {"Hedges' g", &comparison_schema, NULL, say_hedges, "L. V. Hedges, J. Educ. Stat. 6 (1981) 107",
-     "10.3102/10769986006002107"},
-    {"one relaxation spectrum", &shift_factors_schema, NULL, say_shifting,
+    {"Hedges' g", &comparison_schema, NULL, describe_hedges,
+     "L. V. Hedges, J. Educ. Stat. 6 (1981) 107", "10.3102/10769986006002107"},
+    {"one relaxation spectrum", &shift_factors_schema, NULL, describe_shifting,
      "S. N. Wood and M. Fasiolo, Biometrics 73 (2017) 1071", "10.1111/biom.12666"},
-    {"law of Williams, Landel and Ferry", &shift_factors_schema, has_wlf, say_wlf,
+    {"law of Williams, Landel and Ferry", &shift_factors_schema, has_wlf_constants, describe_wlf,
      "M. L. Williams, R. F. Landel and J. D. Ferry, J. Am. Chem. Soc. 77 (1955) 3701",
      "10.1021/ja01619a008"},
-    {"Arrhenius' law", &shift_factors_schema, has_energy, say_arrhenius, "", ""},
-    {"corrected criterion of Akaike", &prony_reduced_schema, has_zener, say_zener,
+    {"Arrhenius' law", &shift_factors_schema, has_activation_energy, describe_arrhenius, "", ""},
+    {"corrected criterion of Akaike", &prony_reduced_schema, has_zener_comparison, describe_zener,
      "C. M. Hurvich and C.-L. Tsai, Biometrika 76 (1989) 297", "10.1093/biomet/76.2.297"},
-    {"law of Kraus", &payne_schema, NULL, say_payne,
+    {"law of Kraus", &payne_schema, NULL, describe_payne,
      "G. Kraus, J. Appl. Polym. Sci., Appl. Polym. Symp. 39 (1984) 75, as in Rutherford et al., "
      "Polymers 15 (2023) 1675",
      "10.3390/polym15071675"},
-    {"power spectrum of height maps", &power_spectrum_schema, NULL, say_spectrum,
+    {"power spectrum of height maps", &power_spectrum_schema, NULL, describe_power_spectrum,
      "T. D. B. Jacobs, T. Junge and L. Pastewka, Surf. Topogr.: Metrol. Prop. 5 (2017) 013001",
      "10.1088/2051-672X/aa51f8"},
-    {"Persson's theory of contact and friction", &friction_schema, NULL, say_friction,
+    {"Persson's theory of contact and friction", &friction_schema, NULL, describe_friction,
      "B. N. J. Persson, J. Chem. Phys. 115 (2001) 3840", "10.1063/1.1388626"},
-    {"factor gamma of partial contact", &friction_schema, has_gamma, say_gamma,
+    {"factor gamma of partial contact", &friction_schema, has_gamma, describe_gamma,
      "M. Scaraggi and B. N. J. Persson, J. Phys.: Condens. Matter 27 (2015) 105102",
      "10.1088/0953-8984/27/10/105102"},
-    {"softening with strain in friction", &softening_schema, NULL, say_softening,
+    {"softening with strain in friction", &softening_schema, NULL, describe_softening,
      "B. Lorenz et al., J. Chem. Phys. 142 (2015) 194701", "10.1063/1.4919221"},
-    {"flash temperature", &flash_schema, NULL, say_flash,
+    {"flash temperature", &flash_schema, NULL, describe_flash,
      "B. N. J. Persson, J. Phys.: Condens. Matter 18 (2006) 7789", "10.1088/0953-8984/18/32/025"},
-    {"formation of the modified layer", &layer_schema, NULL, say_layer,
+    {"formation of the modified layer", &layer_schema, NULL, describe_layer,
      "M. Mokhtari, thesis, University of Twente (2015)", "10.3990/1.9789036540018"},
-    {"layer on a half-space", &track_layer_schema, tells_depth, say_track_layer,
+    {"layer on a half-space", &track_layer_schema, has_depth_bound, describe_track_layer,
      "D. M. Burmister, J. Appl. Phys. 16 (1945) 89", "10.1063/1.1707558"},
-    {"Archard's law of wear", &layer_schema, NULL, say_archard,
+    {"Archard's law of wear", &layer_schema, NULL, describe_archard,
      "J. F. Archard, J. Appl. Phys. 24 (1953) 981", "10.1063/1.1721448"},
 };
 
@@ -326,7 +327,7 @@ TABLE_ROW(methods, METHODS, const char *method, *text, *reference, *doi;)
 
 /* Returns the suffix of a table name that belongs to the schema, such as a group or sample; ""
  * without a suffix, NULL for another table. */
-static const char *suffix_of(const table_schema *schema, const wt_table *table)
+static const char *schema_suffix(const table_schema *schema, const wt_table *table)
 {
     const char *const name = wt_table_name(table);
     const size_t length = strlen(schema->name);
@@ -338,7 +339,7 @@ static const char *suffix_of(const table_schema *schema, const wt_table *table)
 }
 
 /* Two groups may have the same tip: a sentence is listed once. */
-static bool is_said(const wt_table *table, const char *text)
+static bool has_sentence(const wt_table *table, const char *text)
 {
     for (size_t row = 0; table != NULL && row < wt_table_n_rows(table); row++)
         if (strcmp(wt_table_text(table, row, METHODS_TEXT), text) == 0)
@@ -351,7 +352,7 @@ static void add_method(table_writer *writer, const method *m, const wt_result *r
     char text[1024];
     for (size_t i = 0; i < wt_result_n_tables(result); i++) {
         const wt_table *const table = wt_result_table(result, i);
-        const char *const suffix = suffix_of(m->table, table);
+        const char *const suffix = schema_suffix(m->table, table);
         table_view view;
         text_builder sentence = {text, sizeof text, 0};
         if (suffix == NULL || table_bind(table, m->table, suffix, &view, NULL) != WT_OK ||
@@ -360,8 +361,8 @@ static void add_method(table_writer *writer, const method *m, const wt_result *r
         text[0] = '\0';
         if (suffix[0] != '\0')
             text_append(&sentence, "%s: ", suffix);
-        m->say(&sentence, &view);
-        if (!is_said(writer->table, text))
+        m->describe(&sentence, &view);
+        if (!has_sentence(writer->table, text))
             TABLE_ADD(methods, writer, m->name, text, m->reference, m->doi);
     }
 }

@@ -9,21 +9,21 @@
 #include <math.h>
 #include <string.h>
 
-typedef struct sentence {
-    text_builder told;
+typedef struct summary_sentence {
+    text_builder line;
     const wt_result *result;
     result_value_tables found;
-} sentence;
+} summary_sentence;
 
-#define say(s, ...) text_append(&(s)->told, __VA_ARGS__)
+#define append(s, ...) text_append(&(s)->line, __VA_ARGS__)
 
-static void next(sentence *s)
+static void begin_clause(summary_sentence *s)
 {
-    say(s, "%s", s->told.used > 0 ? "; " : "");
+    append(s, "%s", s->line.used > 0 ? "; " : "");
 }
 
 /* Appends the text without its parts in brackets. */
-static void say_hidden(sentence *s, const char *text)
+static void append_hidden_errors(summary_sentence *s, const char *text)
 {
     char all[512];
     size_t n = 0;
@@ -34,172 +34,175 @@ static void say_hidden(sentence *s, const char *text)
         depth -= *text == ')';
     }
     all[n] = '\0';
-    say(s, "; what no curve shows is not in that: %s", all);
+    append(s, "; what no curve shows is not in that: %s", all);
 }
 
-static void say_groups(sentence *s, const table_view *v)
+static void summarize_groups(summary_sentence *s, const table_view *v)
 {
     const char *hidden = NULL;
     for (size_t i = 0; i < v->n_rows; i++) {
-        const result_value modulus = result_value_of_group(&s->found, i);
+        const result_value modulus = result_value_group(&s->found, i);
         const double n = modulus_groups_get(v, i, MODULUS_GROUPS_N);
         const char *group = modulus_groups_text(v, i, MODULUS_GROUPS_GROUP);
-        next(s);
-        say(s, "%s: %.0f of %.0f curves accepted", group, n,
-            n + modulus_groups_get(v, i, MODULUS_GROUPS_N_REJECTED));
+        begin_clause(s);
+        append(s, "%s: %.0f of %.0f curves accepted", group, n,
+               n + modulus_groups_get(v, i, MODULUS_GROUPS_N_REJECTED));
         table_view curves;
         char reasons[512];
         const bool known =
-            table_bind_of(s->result, &indentation_schema, group, &curves, NULL) == WT_OK;
+            table_bind_result(s->result, &indentation_schema, group, &curves, NULL) == WT_OK;
         if (known && format_rejected_curves(&curves, reasons, sizeof reasons) > 0)
-            say(s, " (rejected: %s)", reasons);
+            append(s, " (rejected: %s)", reasons);
         if (isnan(modulus.number.value))
             continue;
         if (known && hidden == NULL)
-            hidden = indentation_words(&curves, INDENTATION_KEY_NOT_SHOWN);
-        say(s, ", E = %s%s", format_plain_number(&modulus).text, format_frequency(&modulus).text);
+            hidden = indentation_key_text(&curves, INDENTATION_KEY_NOT_SHOWN);
+        append(s, ", E = %s%s", format_plain_number(&modulus).text,
+               format_frequency(&modulus).text);
         if (!isnan(modulus.low))
-            say(s, " (%s, from %.0f spots)", format_interval(&modulus).text,
-                modulus_groups_get(v, i, MODULUS_GROUPS_N_SPOTS));
+            append(s, " (%s, from %.0f spots)", format_interval(&modulus).text,
+                   modulus_groups_get(v, i, MODULUS_GROUPS_N_SPOTS));
     }
     if (hidden != NULL)
-        say_hidden(s, hidden);
+        append_hidden_errors(s, hidden);
 }
 
-static void say_ratio(sentence *s, const table_view *v)
+static void summarize_ratio(summary_sentence *s, const table_view *v)
 {
     if (v->n_rows == 0)
         return;
-    next(s);
-    append_ratio(&s->told, &s->found);
+    begin_clause(s);
+    append_modulus_ratio(&s->line, &s->found);
 }
 
-static void say_materials(sentence *s, const table_view *v)
+static void summarize_materials(summary_sentence *s, const table_view *v)
 {
     if (v->table == NULL)
         return;
-    const char *settled = material_ratio_words(v, MATERIAL_RATIO_KEY_SETTLED_BY);
-    next(s);
-    say(s, "%s", material_ratio_words(v, MATERIAL_RATIO_KEY_DIFFERS));
+    const char *settled = material_ratio_key_text(v, MATERIAL_RATIO_KEY_SETTLED_BY);
+    begin_clause(s);
+    append(s, "%s", material_ratio_key_text(v, MATERIAL_RATIO_KEY_DIFFERS));
     if (settled != NULL)
-        say(s, "; what would settle it: %s", settled);
+        append(s, "; what would settle it: %s", settled);
 }
 
-static void say_common_law(sentence *s, const table_view *v)
+static void summarize_shared_law(summary_sentence *s, const table_view *v)
 {
     if (v->table == NULL)
         return;
-    const char *settled = shared_shift_law_words(v, SHARED_SHIFT_LAW_KEY_SETTLED_BY);
-    const char *without = shared_shift_law_words(v, SHARED_SHIFT_LAW_KEY_LEFT_OUT);
+    const char *settled = shared_shift_law_key_text(v, SHARED_SHIFT_LAW_KEY_SETTLED_BY);
+    const char *without = shared_shift_law_key_text(v, SHARED_SHIFT_LAW_KEY_LEFT_OUT);
     const wt_estimate c1 = shared_shift_law_value(v, SHARED_SHIFT_LAW_KEY_WLF_C1);
-    next(s);
-    say(s, "one law: %s", shared_shift_law_words(v, SHARED_SHIFT_LAW_KEY_AGREE));
+    begin_clause(s);
+    append(s, "one law: %s", shared_shift_law_key_text(v, SHARED_SHIFT_LAW_KEY_AGREE));
     if (settled != NULL)
-        say(s, "; what would settle it: %s", settled);
+        append(s, "; what would settle it: %s", settled);
     if (without != NULL)
-        say(s, "; left out: %s", without);
+        append(s, "; left out: %s", without);
     if (!isnan(c1.value))
-        say(s, "; WLF C1 = %s, C2 = %s, reference temperature %s", format_estimate(c1).text,
-            format_estimate(shared_shift_law_value(v, SHARED_SHIFT_LAW_KEY_WLF_C2)).text,
-            shared_shift_law_words(v, SHARED_SHIFT_LAW_KEY_MOVED));
+        append(s, "; WLF C1 = %s, C2 = %s, reference temperature %s", format_estimate(c1).text,
+               format_estimate(shared_shift_law_value(v, SHARED_SHIFT_LAW_KEY_WLF_C2)).text,
+               shared_shift_law_key_text(v, SHARED_SHIFT_LAW_KEY_MOVED));
 }
 
-static void say_material(sentence *s, const table_view *v)
+static void summarize_material(summary_sentence *s, const table_view *v)
 {
     if (v->table == NULL)
         return;
     const wt_estimate c1 = shift_factors_value(v, SHIFT_FACTORS_KEY_WLF_C1);
-    const char *const sample = shift_factors_words(v, SHIFT_FACTORS_KEY_SAMPLE);
-    next(s);
+    const char *const sample = shift_factors_key_text(v, SHIFT_FACTORS_KEY_SAMPLE);
+    begin_clause(s);
     if (sample != NULL)
-        say(s, "%s: ", sample);
-    say(s, "%zu isotherm%s at the reference temperature %s", v->n_rows, v->n_rows == 1 ? "" : "s",
+        append(s, "%s: ", sample);
+    append(
+        s, "%zu isotherm%s at the reference temperature %s", v->n_rows, v->n_rows == 1 ? "" : "s",
         format_celsius(shift_factors_value(v, SHIFT_FACTORS_KEY_REFERENCE_TEMPERATURE).value).text);
     if (!isnan(c1.value))
-        say(s, ", WLF C1 = %s, C2 = %s", format_estimate(c1).text,
-            format_estimate(shift_factors_value(v, SHIFT_FACTORS_KEY_WLF_C2)).text);
-    const char *verdict = shift_factors_words(v, SHIFT_FACTORS_KEY_SUPERPOSITION);
+        append(s, ", WLF C1 = %s, C2 = %s", format_estimate(c1).text,
+               format_estimate(shift_factors_value(v, SHIFT_FACTORS_KEY_WLF_C2)).text);
+    const char *verdict = shift_factors_key_text(v, SHIFT_FACTORS_KEY_SUPERPOSITION);
     /* A failed or inconclusive superposition is explained by a warning. */
     const bool warned = v->n_rows > 1 && strncmp(verdict, "holds", 5) != 0;
-    say(s, ", superposition: %.*s", (int)(warned ? strcspn(verdict, ":") : strlen(verdict)),
-        verdict);
+    append(s, ", superposition: %.*s", (int)(warned ? strcspn(verdict, ":") : strlen(verdict)),
+           verdict);
 }
 
 /* The number of decimals follows from the error. */
-static void say_peak(sentence *s, wt_estimate at, const char *of)
+static void append_peak(summary_sentence *s, wt_estimate at, const char *of)
 {
     const double error = at.standard_error;
     if (!(error > 0) || !isfinite(error)) {
-        say(s, " %s (peak of %s, error not known)", format_celsius(at.value).text, of);
+        append(s, " %s (peak of %s, error not known)", format_celsius(at.value).text, of);
         return;
     }
     const int decimals = (int)fmax(0, fmin(4, 1 - floor(log10(error))));
-    say(s, " %.*f °C ± %.*f K (peak of %s)", decimals, at.value - WT_ZERO_CELSIUS, decimals, error,
-        of);
+    append(s, " %.*f °C ± %.*f K (peak of %s)", decimals, at.value - WT_ZERO_CELSIUS, decimals,
+           error, of);
 }
 
-static void say_transition(sentence *s, const table_view *v)
+static void summarize_transition(summary_sentence *s, const table_view *v)
 {
     if (v->table == NULL)
         return;
     const wt_estimate factor = glass_transition_value(v, GLASS_TRANSITION_KEY_FACTOR_PEAK),
                       loss = glass_transition_value(v, GLASS_TRANSITION_KEY_LOSS_PEAK);
-    next(s);
+    begin_clause(s);
     if (isnan(factor.value) && isnan(loss.value)) {
-        say(s, "no glass transition in the range measured");
+        append(s, "no glass transition in the range measured");
         return;
     }
-    say(s, "glass transition at %s:",
-        format_value(glass_transition_value(v, GLASS_TRANSITION_KEY_ANGULAR_FREQUENCY)).text);
+    append(s, "glass transition at %s:",
+           format_value(glass_transition_value(v, GLASS_TRANSITION_KEY_ANGULAR_FREQUENCY)).text);
     if (!isnan(factor.value))
-        say_peak(s, factor, "tan delta");
+        append_peak(s, factor, "tan delta");
     if (!isnan(loss.value)) {
-        say(s, "%s", isnan(factor.value) ? "" : ",");
-        say_peak(s, loss, "the loss modulus");
+        append(s, "%s", isnan(factor.value) ? "" : ",");
+        append_peak(s, loss, "the loss modulus");
     }
     const wt_estimate energy =
         glass_transition_value(v, isnan(factor.value) ? GLASS_TRANSITION_KEY_LOSS_ENERGY
                                                       : GLASS_TRANSITION_KEY_FACTOR_ENERGY);
     if (!isnan(energy.value))
-        say(s, "; activation energy %.3g ± %.2g kJ/mol", energy.value / 1000,
-            energy.standard_error / 1000);
+        append(s, "; activation energy %.3g ± %.2g kJ/mol", energy.value / 1000,
+               energy.standard_error / 1000);
 }
 
-static void say_payne(sentence *s, const table_view *v)
+static void summarize_payne(summary_sentence *s, const table_view *v)
 {
     enum { MOST = 3 }; /* limit for the length of the line */
     for (size_t i = 0; i < v->n_rows && i < MOST; i++) {
         const double tenth = payne_get(v, i, PAYNE_STRAIN_TENTH);
-        next(s);
-        say(s, "at %s the storage modulus goes from %s to %s, between strains of %.2g and %.2g %%",
-            format_with_unit(payne_get(v, i, PAYNE_ANGULAR_FREQUENCY), "rad/s").text,
-            format_with_unit(payne_get(v, i, PAYNE_STORAGE_START), "Pa").text,
-            format_with_unit(payne_get(v, i, PAYNE_STORAGE_END), "Pa").text,
-            100 * payne_get(v, i, PAYNE_STRAIN_MIN), 100 * payne_get(v, i, PAYNE_STRAIN_MAX));
+        begin_clause(s);
+        append(s,
+               "at %s the storage modulus goes from %s to %s, between strains of %.2g and %.2g %%",
+               format_with_unit(payne_get(v, i, PAYNE_ANGULAR_FREQUENCY), "rad/s").text,
+               format_with_unit(payne_get(v, i, PAYNE_STORAGE_START), "Pa").text,
+               format_with_unit(payne_get(v, i, PAYNE_STORAGE_END), "Pa").text,
+               100 * payne_get(v, i, PAYNE_STRAIN_MIN), 100 * payne_get(v, i, PAYNE_STRAIN_MAX));
         if (!isnan(tenth))
-            say(s, "; a tenth is lost at %.2g %%", 100 * tenth);
+            append(s, "; a tenth is lost at %.2g %%", 100 * tenth);
     }
     if (v->n_rows > MOST)
-        say(s, "; %zu more strain sweeps", v->n_rows - MOST);
+        append(s, "; %zu more strain sweeps", v->n_rows - MOST);
 }
 
-static void say_record(sentence *s, const table_view *v)
+static void summarize_record(summary_sentence *s, const table_view *v)
 {
     if (v->n_rows == 0)
         return;
-    next(s);
-    append_record(&s->told, v);
+    begin_clause(s);
+    append_record(&s->line, v);
 }
 
-static void say_wear(sentence *s, const table_view *v)
+static void summarize_wear(summary_sentence *s, const table_view *v)
 {
     if (v->n_rows == 0)
         return;
-    next(s);
-    append_wear(&s->told, v);
+    begin_clause(s);
+    append_wear(&s->line, v);
 }
 
-static void say_dwell(sentence *s, const table_view *v)
+static void summarize_dwell(summary_sentence *s, const table_view *v)
 {
     if (v->table == NULL)
         return;
@@ -207,39 +210,40 @@ static void say_dwell(sentence *s, const table_view *v)
     size_t n = 0;
     for (size_t i = 0; i < v->n_rows; i++)
         n += isnan(dwell_get(v, i, DWELL_STORAGE)) ? 0 : 1;
-    next(s);
+    begin_clause(s);
     if (n > 0 && n < v->n_rows)
-        say(s, "%zu of ", n);
-    say(s, "%zu dwell%s", v->n_rows, v->n_rows == 1 ? "" : "s");
+        append(s, "%zu of ", n);
+    append(s, "%zu dwell%s", v->n_rows, v->n_rows == 1 ? "" : "s");
     if (isnan(at.value))
-        say(s, ", no moduli of %s", v->n_rows == 1 ? "it" : "them");
+        append(s, ", no moduli of %s", v->n_rows == 1 ? "it" : "them");
     else
-        say(s, ": at %s E' = %s, E'' = %s", format_with_unit(at.value, "rad/s").text,
-            format_estimate(dwell_value(v, DWELL_KEY_STORAGE)).text,
-            format_estimate(dwell_value(v, DWELL_KEY_LOSS)).text);
+        append(s, ": at %s E' = %s, E'' = %s", format_with_unit(at.value, "rad/s").text,
+               format_estimate(dwell_value(v, DWELL_KEY_STORAGE)).text,
+               format_estimate(dwell_value(v, DWELL_KEY_LOSS)).text);
     for (size_t i = 0; i < v->n_rows && n > 0; i++)
         if (!isnan(dwell_get(v, i, DWELL_STORAGE)) && *dwell_text(v, i, DWELL_NOTE) != '\0') {
-            say(s, " (%s)", dwell_text(v, i, DWELL_NOTE));
+            append(s, " (%s)", dwell_text(v, i, DWELL_NOTE));
             break;
         }
 }
 
-static void say_dwell_ratio(sentence *s, const char *modulus, double ratio, double low, double high)
+static void append_dwell_ratio(summary_sentence *s, const char *modulus, double ratio, double low,
+                               double high)
 {
-    say(s, " %s %s times that of the DMA", modulus, format_with_unit(ratio, "1").text);
+    append(s, " %s %s times that of the DMA", modulus, format_with_unit(ratio, "1").text);
     if (isnan(low))
-        say(s, " (error not known)");
+        append(s, " (error not known)");
     else
-        say(s, " (95 %% interval %s to %s)", format_with_unit(low, "1").text,
-            format_with_unit(high, "1").text);
+        append(s, " (95 %% interval %s to %s)", format_with_unit(low, "1").text,
+               format_with_unit(high, "1").text);
 }
 
 /* For each group the line has the middle row of those inside the frequency range of the DMA. */
-static void say_dwell_dma(sentence *s, const table_view *v)
+static void summarize_dwell_dma(summary_sentence *s, const table_view *v)
 {
     if (v->table == NULL)
         return;
-    const char *lacks = dwell_dma_words(v, DWELL_DMA_KEY_ERROR_LACKS);
+    const char *lacks = dwell_dma_key_text(v, DWELL_DMA_KEY_ERROR_LACKS);
     for (size_t from = 0, to; from < v->n_rows; from = to) {
         const char *group = dwell_dma_text(v, from, DWELL_DMA_GROUP);
         size_t first = SIZE_MAX, last = 0;
@@ -250,58 +254,58 @@ static void say_dwell_dma(sentence *s, const table_view *v)
                 first = first == SIZE_MAX ? to : first;
                 last = to;
             }
-        next(s);
+        begin_clause(s);
         if (first == SIZE_MAX) {
-            say(s, "%s: no dwell tells a frequency at which the DMA was measured", group);
+            append(s, "%s: no dwell tells a frequency at which the DMA was measured", group);
             continue;
         }
         const size_t row = (first + last) / 2;
-        say(s, "%s: at %s", group,
-            format_with_unit(dwell_dma_get(v, row, DWELL_DMA_ANGULAR_FREQUENCY), "rad/s").text);
-        say_dwell_ratio(s, "E'", dwell_dma_get(v, row, DWELL_DMA_STORAGE_RATIO),
-                        dwell_dma_get(v, row, DWELL_DMA_STORAGE_RATIO_LOW),
-                        dwell_dma_get(v, row, DWELL_DMA_STORAGE_RATIO_HIGH));
-        say(s, ",");
-        say_dwell_ratio(s, "E''", dwell_dma_get(v, row, DWELL_DMA_LOSS_RATIO),
-                        dwell_dma_get(v, row, DWELL_DMA_LOSS_RATIO_LOW),
-                        dwell_dma_get(v, row, DWELL_DMA_LOSS_RATIO_HIGH));
+        append(s, "%s: at %s", group,
+               format_with_unit(dwell_dma_get(v, row, DWELL_DMA_ANGULAR_FREQUENCY), "rad/s").text);
+        append_dwell_ratio(s, "E'", dwell_dma_get(v, row, DWELL_DMA_STORAGE_RATIO),
+                           dwell_dma_get(v, row, DWELL_DMA_STORAGE_RATIO_LOW),
+                           dwell_dma_get(v, row, DWELL_DMA_STORAGE_RATIO_HIGH));
+        append(s, ",");
+        append_dwell_ratio(s, "E''", dwell_dma_get(v, row, DWELL_DMA_LOSS_RATIO),
+                           dwell_dma_get(v, row, DWELL_DMA_LOSS_RATIO_LOW),
+                           dwell_dma_get(v, row, DWELL_DMA_LOSS_RATIO_HIGH));
         if (lacks != NULL)
-            say(s, ", without the error of the %s",
-                strcmp(lacks, "temperature") == 0 ? "temperature of the DMA" : "DMA");
+            append(s, ", without the error of the %s",
+                   strcmp(lacks, "temperature") == 0 ? "temperature of the DMA" : "DMA");
     }
 }
 
-static void say_sensitivity(sentence *s, const table_view *v)
+static void summarize_sensitivity(summary_sentence *s, const table_view *v)
 {
     if (v->table == NULL)
         return;
     const wt_estimate value = sensitivity_value(v, SENSITIVITY_KEY_SENSITIVITY),
                       factor = sensitivity_value(v, SENSITIVITY_KEY_FACTOR);
-    const char *direction = sensitivity_words(v, SENSITIVITY_KEY_DIRECTION),
-               *option = sensitivity_words(v, SENSITIVITY_KEY_INDENT),
-               *compare = sensitivity_words(v, SENSITIVITY_KEY_COMPARE),
-               *verdict = sensitivity_words(v, SENSITIVITY_KEY_VERDICT);
-    next(s);
+    const char *direction = sensitivity_key_text(v, SENSITIVITY_KEY_DIRECTION),
+               *option = sensitivity_key_text(v, SENSITIVITY_KEY_INDENT),
+               *compare = sensitivity_key_text(v, SENSITIVITY_KEY_COMPARE),
+               *verdict = sensitivity_key_text(v, SENSITIVITY_KEY_VERDICT);
+    begin_clause(s);
     if (!isnan(value.value))
-        say(s, "deflection sensitivity %s", format_estimate(value).text);
+        append(s, "deflection sensitivity %s", format_estimate(value).text);
     else if (isnan(factor.value))
-        say(s, "no deflection sensitivity");
+        append(s, "no deflection sensitivity");
     if (!isnan(factor.value))
-        say(s, "%s%s of that of the file", isnan(value.value) ? "deflection sensitivity " : ", ",
-            format_estimate(factor).text);
+        append(s, "%s%s of that of the file", isnan(value.value) ? "deflection sensitivity " : ", ",
+               format_estimate(factor).text);
     for (size_t i = 0; i < v->n_rows; i++)
         if (strcmp(sensitivity_text(v, i, SENSITIVITY_DIRECTION), direction) == 0) {
             const double n = sensitivity_get(v, i, SENSITIVITY_N);
-            say(s, " (%.0f curve%s, %s)", n, n > 1 ? "s" : "",
-                strcmp(direction, "both") == 0 ? "approach and retract" : direction);
+            append(s, " (%.0f curve%s, %s)", n, n > 1 ? "s" : "",
+                   strcmp(direction, "both") == 0 ? "approach and retract" : direction);
         }
-    say(s, "; %s", verdict);
+    append(s, "; %s", verdict);
     if (option != NULL)
-        say(s, "; %s %s%s%s", strcmp(verdict, "straight") == 0 ? "use" : "if it is hard, use",
-            option, compare != NULL ? ", and in compare " : "", compare != NULL ? compare : "");
+        append(s, "; %s %s%s%s", strcmp(verdict, "straight") == 0 ? "use" : "if it is hard, use",
+               option, compare != NULL ? ", and in compare " : "", compare != NULL ? compare : "");
 }
 
-static void say_thermal(sentence *s, const table_view *v)
+static void summarize_thermal(summary_sentence *s, const table_view *v)
 {
     if (v->table == NULL)
         return;
@@ -309,145 +313,145 @@ static void say_thermal(sentence *s, const table_view *v)
     size_t n = 0;
     for (size_t i = 0; i < v->n_rows; i++)
         n += isnan(thermal_get(v, i, THERMAL_SPRING_CONSTANT)) ? 0 : 1;
-    next(s);
+    begin_clause(s);
     if (isnan(k.value)) {
-        say(s, "no spring constant: %s", v->n_rows > 0 ? thermal_text(v, 0, THERMAL_NOTE) : "");
+        append(s, "no spring constant: %s", v->n_rows > 0 ? thermal_text(v, 0, THERMAL_NOTE) : "");
         return;
     }
-    say(s, "spring constant %s", format_estimate(k).text);
+    append(s, "spring constant %s", format_estimate(k).text);
     if (v->n_rows == 1)
-        say(s, " (resonance %s, quality factor %s)",
-            format_with_unit(thermal_get(v, 0, THERMAL_RESONANCE), "Hz").text,
-            format_with_unit(thermal_get(v, 0, THERMAL_QUALITY), "1").text);
+        append(s, " (resonance %s, quality factor %s)",
+               format_with_unit(thermal_get(v, 0, THERMAL_RESONANCE), "Hz").text,
+               format_with_unit(thermal_get(v, 0, THERMAL_QUALITY), "1").text);
     else
-        say(s, " (mean of %zu spectra)", n);
+        append(s, " (mean of %zu spectra)", n);
     if (v->n_rows == 1 && !isnan(thermal_get(v, 0, THERMAL_RATIO)))
-        say(s, ", %s of that of the file",
-            format_with_unit(thermal_get(v, 0, THERMAL_RATIO), "1").text);
-    const char *includes = thermal_words(v, THERMAL_KEY_INCLUDES),
-               *indent = thermal_words(v, THERMAL_KEY_INDENT),
-               *compare = thermal_words(v, THERMAL_KEY_COMPARE);
+        append(s, ", %s of that of the file",
+               format_with_unit(thermal_get(v, 0, THERMAL_RATIO), "1").text);
+    const char *includes = thermal_key_text(v, THERMAL_KEY_INCLUDES),
+               *indent = thermal_key_text(v, THERMAL_KEY_INDENT),
+               *compare = thermal_key_text(v, THERMAL_KEY_COMPARE);
     if (k.standard_error >= 0)
-        say(s, "; its error is that of %s", includes);
+        append(s, "; its error is that of %s", includes);
     if (v->n_rows == 1 && !isnan(thermal_get(v, 0, THERMAL_SADER)))
-        say(s, "; by Sader's method %s",
-            format_with_unit(thermal_get(v, 0, THERMAL_SADER), "N/m").text);
+        append(s, "; by Sader's method %s",
+               format_with_unit(thermal_get(v, 0, THERMAL_SADER), "N/m").text);
     if (indent == NULL)
-        say(s, "; not to be used: %s", thermal_words(v, THERMAL_KEY_CONTRADICTION));
+        append(s, "; not to be used: %s", thermal_key_text(v, THERMAL_KEY_CONTRADICTION));
     else
-        say(s, "; use %s%s%s", indent, compare != NULL ? ", and in compare " : "",
-            compare != NULL ? compare : "");
+        append(s, "; use %s%s%s", indent, compare != NULL ? ", and in compare " : "",
+               compare != NULL ? compare : "");
 }
 
-static void say_friction(sentence *s, const table_view *v)
+static void summarize_friction(summary_sentence *s, const table_view *v)
 {
     if (v->table == NULL)
         return;
-    const result_value hysteresis = result_value_of_friction(&s->found, FRICTION_KEY_HYSTERESIS),
-                       area = result_value_of_friction(&s->found, FRICTION_KEY_AREA_RATIO),
-                       total = result_value_of_friction(&s->found, FRICTION_KEY_FRICTION),
-                       with_layer = result_value_of_friction(&s->found, FRICTION_KEY_WITH_LAYER);
-    next(s);
-    say(s, "at %s ", format_with_unit(hysteresis.velocity, "m/s").text);
+    const result_value hysteresis = result_value_friction(&s->found, FRICTION_KEY_HYSTERESIS),
+                       area = result_value_friction(&s->found, FRICTION_KEY_AREA_RATIO),
+                       total = result_value_friction(&s->found, FRICTION_KEY_FRICTION),
+                       with_layer = result_value_friction(&s->found, FRICTION_KEY_WITH_LAYER);
+    begin_clause(s);
+    append(s, "at %s ", format_with_unit(hysteresis.velocity, "m/s").text);
     if (!isnan(total.number.value))
-        say(s, "mu = %s, ", format_result_value(&total).text);
+        append(s, "mu = %s, ", format_result_value(&total).text);
     if (!isnan(with_layer.number.value)) {
-        say(s, "with layer %s, ", format_result_value(&with_layer).text);
-        append_change(&s->told, &s->found, false);
-        say(s, ", ");
+        append(s, "with layer %s, ", format_result_value(&with_layer).text);
+        append_friction_change(&s->line, &s->found, false);
+        append(s, ", ");
     } else if (friction_value(v, FRICTION_KEY_LAYER_THICKNESS).value > 0) {
-        say(s, "friction with the layer not known without a shear stress, ");
+        append(s, "friction with the layer not known without a shear stress, ");
     }
-    say(s, "hysteresis %s, contact area of the nominal one %s",
-        format_result_value(&hysteresis).text, format_result_value(&area).text);
+    append(s, "hysteresis %s, contact area of the nominal one %s",
+           format_result_value(&hysteresis).text, format_result_value(&area).text);
 }
 
-static void say_identification(sentence *s, const table_view *v)
+static void summarize_identification(summary_sentence *s, const table_view *v)
 {
     if (v->table == NULL)
         return;
-    next(s);
-    append_identification(&s->told, v);
+    begin_clause(s);
+    append_identification(&s->line, v);
 }
 
-static void say_shared_pairs(sentence *s, const table_view *v)
+static void summarize_shared_pairs(summary_sentence *s, const table_view *v)
 {
     if (v->table == NULL)
         return;
-    next(s);
-    append_shared_pairs(&s->told, v);
+    begin_clause(s);
+    append_shared_pairs(&s->line, v);
 }
 
-static void say_validation(sentence *s, const table_view *v)
+static void summarize_validation(summary_sentence *s, const table_view *v)
 {
     if (v->table == NULL)
         return;
-    next(s);
-    append_verdict(&s->told, v);
+    begin_clause(s);
+    append_verdict(&s->line, v);
     if (!isnan(validation_value(v, VALIDATION_KEY_NEEDED).value)) {
-        next(s);
-        append_required_shear(&s->told, v);
+        begin_clause(s);
+        append_required_shear(&s->line, v);
     }
 }
 
-static void say_validation_running_in(sentence *s, const table_view *v)
+static void summarize_validation_running_in(summary_sentence *s, const table_view *v)
 {
     if (v->table == NULL)
         return;
-    next(s);
-    append_running_in_verdict(&s->told, v);
+    begin_clause(s);
+    append_running_in_verdict(&s->line, v);
     if (!isnan(validation_running_in_value(v, VALIDATION_RUNNING_IN_KEY_WEAR).value)) {
-        next(s);
-        append_required_wear(&s->told, v);
+        begin_clause(s);
+        append_required_wear(&s->line, v);
     }
 }
 
-static void say_layer(sentence *s, const table_view *v)
+static void summarize_layer(summary_sentence *s, const table_view *v)
 {
     if (v->table == NULL)
         return;
-    next(s);
-    append_thickness(&s->told, &s->found);
-    const result_value thickness = result_value_of_thickness(&s->found);
+    begin_clause(s);
+    append_thickness(&s->line, &s->found);
+    const result_value thickness = result_value_thickness(&s->found);
     if (thickness.number.value > 0 && isfinite(thickness.number.value))
-        say(s, ", 90 %% of it after %s",
-            format_known_estimate(layer_value(v, LAYER_KEY_TIME_TO_90_PERCENT)).text);
+        append(s, ", 90 %% of it after %s",
+               format_known_estimate(layer_value(v, LAYER_KEY_TIME_TO_90_PERCENT)).text);
 }
 
-static void say_balance(sentence *s, const table_view *v)
+static void summarize_balance(summary_sentence *s, const table_view *v)
 {
     if (v->table == NULL)
         return;
-    next(s);
-    append_balance(&s->told, v);
+    begin_clause(s);
+    append_balance(&s->line, v);
 }
 
-size_t wt_result_sentence(const wt_result *result, char *buffer, size_t size)
+size_t wt_result_summary_line(const wt_result *result, char *buffer, size_t size)
 {
     static const struct {
         const table_schema *schema;
-        void (*of)(sentence *s, const table_view *view);
-    } parts[] = {{&dwell_schema, say_dwell},
-                 {&dwell_dma_schema, say_dwell_dma},
-                 {&sensitivity_schema, say_sensitivity},
-                 {&thermal_schema, say_thermal},
-                 {&modulus_groups_schema, say_groups},
-                 {&comparison_schema, say_ratio},
-                 {&material_ratio_schema, say_materials},
-                 {&shared_shift_law_schema, say_common_law},
-                 {&shift_factors_schema, say_material},
-                 {&glass_transition_schema, say_transition},
-                 {&payne_schema, say_payne},
-                 {&record_schema, say_record},
-                 {&wear_schema, say_wear},
-                 {&friction_schema, say_friction},
-                 {&layer_schema, say_layer},
-                 {&layer_feedback_schema, say_balance},
-                 {&identification_schema, say_identification},
-                 {&shared_pairs_schema, say_shared_pairs},
-                 {&validation_schema, say_validation},
-                 {&validation_running_in_schema, say_validation_running_in}};
-    sentence s = {.told = {buffer, size, 0}, .result = result};
+        void (*of)(summary_sentence *s, const table_view *view);
+    } parts[] = {{&dwell_schema, summarize_dwell},
+                 {&dwell_dma_schema, summarize_dwell_dma},
+                 {&sensitivity_schema, summarize_sensitivity},
+                 {&thermal_schema, summarize_thermal},
+                 {&modulus_groups_schema, summarize_groups},
+                 {&comparison_schema, summarize_ratio},
+                 {&material_ratio_schema, summarize_materials},
+                 {&shared_shift_law_schema, summarize_shared_law},
+                 {&shift_factors_schema, summarize_material},
+                 {&glass_transition_schema, summarize_transition},
+                 {&payne_schema, summarize_payne},
+                 {&record_schema, summarize_record},
+                 {&wear_schema, summarize_wear},
+                 {&friction_schema, summarize_friction},
+                 {&layer_schema, summarize_layer},
+                 {&layer_feedback_schema, summarize_balance},
+                 {&identification_schema, summarize_identification},
+                 {&shared_pairs_schema, summarize_shared_pairs},
+                 {&validation_schema, summarize_validation},
+                 {&validation_running_in_schema, summarize_validation_running_in}};
+    summary_sentence s = {.line = {buffer, size, 0}, .result = result};
     const locale_t previous = clocale_enter();
     if (size > 0)
         buffer[0] = '\0';
@@ -456,7 +460,7 @@ size_t wt_result_sentence(const wt_result *result, char *buffer, size_t size)
     }
     for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) {
         table_view view;
-        if (table_bind_of(result, parts[i].schema, "", &view, NULL) == WT_OK)
+        if (table_bind_result(result, parts[i].schema, "", &view, NULL) == WT_OK)
             parts[i].of(&s, &view);
     }
     for (size_t i = 0; i < wt_result_n_tables(result); i++) { /* tables of several samples */
@@ -465,8 +469,8 @@ size_t wt_result_sentence(const wt_result *result, char *buffer, size_t size)
         table_view view;
         if (strncmp(wt_table_name(table), prefix, strlen(prefix)) == 0 &&
             table_bind(table, &shift_factors_schema, "", &view, NULL) == WT_OK)
-            say_material(&s, &view);
+            summarize_material(&s, &view);
     }
     clocale_leave(previous);
-    return s.told.used;
+    return s.line.used;
 }

@@ -9,140 +9,143 @@
 
 /* ---- sources and requested resources --------------------------------------------------------- */
 
-static flow_things sources_of(const wt_case *c)
+static flow_resource_set case_sources(const wt_case *c)
 {
-#define SOURCE_BIT(id, words, missing, there) ((there) ? FLOW_BIT(FLOW_##id) : 0) |
-    return SOURCES(SOURCE_BIT) 0;
+#define SOURCE_FLAG(id, words, missing, there) ((there) ? FLOW_BIT(FLOW_##id) : 0) |
+    return SOURCES(SOURCE_FLAG) 0;
 }
 
 /* A call with its own request ignores this switch of the case. */
-static bool is_switched_off(const wt_case *c)
+static bool is_validation_off(const wt_case *c)
 {
-    return !c->called && !c->validation.wanted;
+    return !c->is_explicit_request && !c->validation.wanted;
 }
 
 /* A case with a record and a list of requested results also gets the comparison with the record. */
-static flow_things held_records(const wt_case *c)
+static flow_resource_set record_validations(const wt_case *c)
 {
-    const bool held = c->has_asked && !c->called && c->validation.wanted && c->record.n > 0;
-    return held ? (FLOW_VALIDATIONS | FLOW_BIT(FLOW_WEAR)) & ~c->asked : 0;
+    const bool held =
+        c->has_requests && !c->is_explicit_request && c->validation.wanted && c->record.n > 0;
+    return held ? (FLOW_VALIDATIONS | FLOW_BIT(FLOW_WEAR)) & ~c->requested : 0;
 }
 
-static flow_things wanted_by(const wt_case *c)
+static flow_resource_set wanted_resources(const wt_case *c)
 {
-    flow_things wanted = c->has_asked ? c->asked : FLOW_TABLES & ~FLOW_BY_NAME;
+    flow_resource_set wanted = c->has_requests ? c->requested : FLOW_TABLES & ~FLOW_ONLY_REQUESTED;
     if (c->has_compare && !c->compare_groups)
         wanted &= ~(FLOW_BIT(FLOW_COMPARISON) | FLOW_BIT(FLOW_TRACK_LAYER));
     if (c->has_compare && !c->compare_rates)
         wanted &= ~FLOW_BIT(FLOW_MODULUS_RATE);
     if (c->has_compare && !c->compare_dma)
         wanted &= ~FLOW_BIT(FLOW_DMA_COMPARISON);
-    if (is_switched_off(c))
+    if (is_validation_off(c))
         wanted &= ~FLOW_VALIDATIONS;
-    return wanted | held_records(c);
+    return wanted | record_validations(c);
 }
 
-flow_things flow_needs(const flow_plan *plan, size_t stage, unsigned level)
+flow_resource_set flow_plan_needs(const flow_plan *plan, size_t stage, unsigned level)
 {
-    const flow_things needs = flow_stage_needs(stage, level),
-                      softening = FLOW_BIT(FLOW_GIVEN_SOFTENING) | FLOW_BIT(FLOW_ASKED_SOFTENING);
+    const flow_resource_set needs = flow_stage_needs(stage, level),
+                            softening =
+                                FLOW_BIT(FLOW_GIVEN_SOFTENING) | FLOW_BIT(FLOW_REQUESTED_SOFTENING);
     const bool slides = (needs & FLOW_BIT(FLOW_CONDITIONS)) != 0,
                wears = (needs & FLOW_BIT(FLOW_LAYER_PARAMETERS)) != 0;
     return needs | (slides && (plan->sources & softening) != 0 ? FLOW_BIT(FLOW_SOFTENING) : 0) |
            (wears && (plan->sources & FLOW_BIT(FLOW_MEASURED_WEAR)) != 0 ? FLOW_BIT(FLOW_WEAR) : 0);
 }
 
-bool flow_can(const flow_plan *plan, size_t stage, unsigned level, flow_things there)
+bool flow_stage_can_run(const flow_plan *plan, size_t stage, unsigned level,
+                        flow_resource_set there)
 {
-    const flow_things any = flow_stages[stage].any;
-    return (flow_needs(plan, stage, level) & ~there) == 0 && (any == 0 || (any & there) != 0);
+    const flow_resource_set any = flow_stages[stage].any;
+    return (flow_plan_needs(plan, stage, level) & ~there) == 0 && (any == 0 || (any & there) != 0);
 }
 
 /* ---- choice of stages ------------------------------------------------------------------------ */
 
 /* Finds the stages whose needs can be met, and their highest level. One pass suffices because the
  * table is in order of dependence. */
-static void find_able(flow_plan *plan, bool able[FLOW_N_STAGES])
+static void find_possible_stages(flow_plan *plan, bool able[FLOW_N_STAGES])
 {
-    flow_things reachable = plan->sources;
+    flow_resource_set reachable = plan->sources;
     for (size_t i = 0; i < FLOW_N_STAGES; i++) {
-        able[i] = flow_can(plan, i, 0, reachable);
+        able[i] = flow_stage_can_run(plan, i, 0, reachable);
         if (!able[i])
             continue;
         while (plan->level[i] < flow_stage_levels(i) &&
-               flow_can(plan, i, plan->level[i] + 1, reachable))
+               flow_stage_can_run(plan, i, plan->level[i] + 1, reachable))
             plan->level[i]++;
-        reachable |= flow_stages[i].gives;
+        reachable |= flow_stages[i].outputs;
     }
 }
 
 /* Returns the needs and the alternative inputs of a stage; some of them may be unavailable. */
-static flow_things resources_used(const flow_plan *plan, size_t stage)
+static flow_resource_set resources_used(const flow_plan *plan, size_t stage)
 {
-    return flow_needs(plan, stage, plan->level[stage]) | flow_stages[stage].any;
+    return flow_plan_needs(plan, stage, plan->level[stage]) | flow_stages[stage].any;
 }
 
 /* Returns true if stage `a` is preferred to stage `b` for a common output. The stage that takes
  * more into account is preferred. A stage with the same inputs and further outputs that are not
  * required is not preferred. */
-static bool is_better(const flow_plan *plan, size_t a, size_t b)
+static bool is_preferred(const flow_plan *plan, size_t a, size_t b)
 {
     const flow_stage *s = &flow_stages[a], *t = &flow_stages[b];
-    const flow_things of_a = resources_used(plan, a), of_b = resources_used(plan, b);
-    const int more = flow_resources_count(of_a) - flow_resources_count(of_b);
-    const int idle = flow_resources_count(s->gives & ~plan->required) -
-                     flow_resources_count(t->gives & ~plan->required);
+    const flow_resource_set of_a = resources_used(plan, a), of_b = resources_used(plan, b);
+    const int additions = flow_resources_count(of_a) - flow_resources_count(of_b);
+    const int idle = flow_resources_count(s->outputs & ~plan->required) -
+                     flow_resources_count(t->outputs & ~plan->required);
     const bool same_way = (of_a & ~of_b) == 0 || (of_b & ~of_a) == 0;
-    if (idle != 0 && (same_way || more == 0))
+    if (idle != 0 && (same_way || additions == 0))
         return idle < 0;
-    return more > 0;
+    return additions > 0;
 }
 
 /* Chooses the best stage with the output `resource`, and then the stages that it needs. */
-static void choose_stage(flow_plan *plan, const bool able[FLOW_N_STAGES], flow_resource thing,
+static void choose_stage(flow_plan *plan, const bool able[FLOW_N_STAGES], flow_resource resource,
                          const char *because)
 {
     size_t best = FLOW_N_STAGES;
     for (size_t i = 0; i < FLOW_N_STAGES; i++) {
-        if (!able[i] || !(flow_stages[i].gives & FLOW_BIT(thing)))
+        if (!able[i] || !(flow_stages[i].outputs & FLOW_BIT(resource)))
             continue;
         if (plan->chosen[i])
             return;
-        if (best == FLOW_N_STAGES || is_better(plan, i, best))
+        if (best == FLOW_N_STAGES || is_preferred(plan, i, best))
             best = i;
     }
     if (best == FLOW_N_STAGES)
         return;
     plan->chosen[best] = true;
     snprintf(plan->because[best], sizeof plan->because[best], "runs because %s", because);
-    for (unsigned t = FLOW_FIRST_TABLE; t < FLOW_N_THINGS; t++) {
+    for (unsigned t = FLOW_FIRST_TABLE; t < FLOW_N_RESOURCES; t++) {
         if (!(resources_used(plan, best) & FLOW_BIT(t)))
             continue;
         char reason[128];
         plan->required |= FLOW_BIT(t);
         snprintf(reason, sizeof reason, "%s needs its %s", flow_stages[best].id,
-                 flow_thing_rows[t].words);
+                 flow_resource_rows[t].words);
         choose_stage(plan, able, (flow_resource)t, reason);
     }
 }
 
-static flow_things missing_of_stage(const flow_plan *plan, size_t stage);
+static flow_resource_set stage_missing_sources(const flow_plan *plan, size_t stage);
 
 /* Returns the missing sources of the first need that cannot be met, one for each alternative to
  * meet it; 0 if all needs can be met. */
-static flow_things missing_sources(const flow_plan *plan, flow_things needs)
+static flow_resource_set missing_sources(const flow_plan *plan, flow_resource_set needs)
 {
-    for (unsigned t = 0; t < FLOW_N_THINGS; t++) {
+    for (unsigned t = 0; t < FLOW_N_RESOURCES; t++) {
         if (!(needs & FLOW_BIT(t)) || (plan->sources & FLOW_BIT(t)))
             continue;
         if (t < FLOW_FIRST_TABLE)
             return FLOW_BIT(t);
-        flow_things missing = 0;
+        flow_resource_set missing = 0;
         bool possible = false;
         for (size_t i = 0; i < FLOW_N_STAGES && !possible; i++) {
-            if (!(flow_stages[i].gives & FLOW_BIT(t)))
+            if (!(flow_stages[i].outputs & FLOW_BIT(t)))
                 continue;
-            flow_things here = missing_of_stage(plan, i);
+            flow_resource_set here = stage_missing_sources(plan, i);
             possible = here == 0;
             missing |= here;
         }
@@ -152,55 +155,56 @@ static flow_things missing_sources(const flow_plan *plan, flow_things needs)
     return 0;
 }
 
-static flow_things missing_of_stage(const flow_plan *plan, size_t stage)
+static flow_resource_set stage_missing_sources(const flow_plan *plan, size_t stage)
 {
-    const flow_things any = flow_stages[stage].any;
-    flow_things missing = missing_sources(plan, flow_needs(plan, stage, 0));
-    for (unsigned t = 0; missing == 0 && t < FLOW_N_THINGS; t++)
+    const flow_resource_set any = flow_stages[stage].any;
+    flow_resource_set missing = missing_sources(plan, flow_plan_needs(plan, stage, 0));
+    for (unsigned t = 0; missing == 0 && t < FLOW_N_RESOURCES; t++)
         if ((any & FLOW_BIT(t)) != 0 && missing_sources(plan, FLOW_BIT(t)) == 0)
             return 0;
-    for (unsigned t = 0; t < FLOW_N_THINGS; t++)
+    for (unsigned t = 0; t < FLOW_N_RESOURCES; t++)
         if ((any & FLOW_BIT(t)) != 0)
             missing |= missing_sources(plan, FLOW_BIT(t));
     return missing;
 }
 
 /* Example: "the case has no bulk curves (...) and no modulus ratio (...)". */
-static void list_missing(flow_things missing, char *text, size_t size)
+static void format_missing(flow_resource_set missing, char *text, size_t size)
 {
     size_t used = (size_t)snprintf(text, size, "the case has ");
     for (unsigned t = 0; t < FLOW_FIRST_TABLE && used < size; t++, missing >>= 1)
         if (missing & 1)
-            used += (size_t)snprintf(text + used, size - used, "%s%s", flow_thing_rows[t].missing,
-                                     missing > 1 ? " and " : "");
+            used += (size_t)snprintf(text + used, size - used, "%s%s",
+                                     flow_resource_rows[t].missing, missing > 1 ? " and " : "");
 }
 
 /* Adds the reason why a stage runs below its highest level. */
-static void say_without(flow_plan *plan, size_t i)
+static void add_limitation(flow_plan *plan, size_t i)
 {
     const unsigned level = plan->level[i];
     if (level == flow_stage_levels(i))
         return;
-    const flow_optional_input *more = &flow_stages[i].more[level];
+    const flow_optional_input *additions = &flow_stages[i].additions[level];
     const size_t used = strlen(plan->because[i]);
-    list_missing(missing_sources(plan, more->things), plan->without[i], sizeof plan->without[i]);
+    format_missing(missing_sources(plan, additions->resources), plan->without[i],
+                   sizeof plan->without[i]);
     snprintf(plan->because[i] + used, sizeof plan->because[i] - used, "; without %s, for %s",
-             more->words, plan->without[i]);
+             additions->words, plan->without[i]);
 }
 
-static void say_why_not(flow_plan *plan, size_t i, bool able)
+static void set_exclusion_reason(flow_plan *plan, size_t i, bool able)
 {
     char *because = plan->because[i];
     const size_t size = sizeof plan->because[i];
     if (!able) {
         char missing[256];
-        list_missing(missing_of_stage(plan, i), missing, sizeof missing);
+        format_missing(stage_missing_sources(plan, i), missing, sizeof missing);
         snprintf(because, size, "left out because %s", missing);
         return;
     }
-    flow_things useful = flow_stages[i].gives & plan->required;
+    flow_resource_set useful = flow_stages[i].outputs & plan->required;
     for (size_t k = 0; useful != 0 && k < FLOW_N_STAGES; k++) {
-        if (plan->chosen[k] && (useful & ~flow_stages[k].gives) == 0) {
+        if (plan->chosen[k] && (useful & ~flow_stages[k].outputs) == 0) {
             snprintf(because, size, "left out because %s gives its results and more",
                      flow_stages[k].id);
             return;
@@ -209,30 +213,31 @@ static void say_why_not(flow_plan *plan, size_t i, bool able)
     snprintf(because, size, "left out because nothing that is asked for needs it");
 }
 
-void flow_plan_make(const wt_case *c, flow_plan *plan)
+void flow_plan_create(const wt_case *c, flow_plan *plan)
 {
     bool able[FLOW_N_STAGES] = {false};
-    *plan = (flow_plan){.sources = sources_of(c), .wanted = wanted_by(c)};
+    *plan = (flow_plan){.sources = case_sources(c), .wanted = wanted_resources(c)};
     plan->required = plan->wanted;
-    find_able(plan, able);
+    find_possible_stages(plan, able);
     for (unsigned t = FLOW_FIRST_TABLE; t < FLOW_FIRST_INNER; t++) {
         if (!(plan->wanted & FLOW_BIT(t)))
             continue;
         char reason[128];
-        if (held_records(c) & FLOW_BIT(t))
+        if (record_validations(c) & FLOW_BIT(t))
             snprintf(reason, sizeof reason, "the case has a record, which is held against it");
         else
-            snprintf(reason, sizeof reason, "%s is asked for", flow_thing_rows[t].words);
+            snprintf(reason, sizeof reason, "%s is asked for", flow_resource_rows[t].words);
         choose_stage(plan, able, (flow_resource)t, reason);
     }
     for (size_t i = 0; i < FLOW_N_STAGES; i++)
         if (plan->chosen[i])
-            say_without(plan, i);
-        else if (able[i] && is_switched_off(c) && (flow_stages[i].gives & FLOW_VALIDATIONS) != 0)
+            add_limitation(plan, i);
+        else if (able[i] && is_validation_off(c) &&
+                 (flow_stages[i].outputs & FLOW_VALIDATIONS) != 0)
             snprintf(plan->because[i], sizeof plan->because[i],
                      "left out because the case switches it off (<validate> in <record>)");
         else
-            say_why_not(plan, i, able[i]);
+            set_exclusion_reason(plan, i, able[i]);
 }
 
 wt_status wt_plan(const wt_case *c, wt_table **result, wt_error *err)
@@ -240,20 +245,20 @@ wt_status wt_plan(const wt_case *c, wt_table **result, wt_error *err)
     if (c == NULL || result == NULL)
         return wt_fail(err, WT_E_ARG, "no case");
     flow_plan plan;
-    flow_plan_make(c, &plan);
+    flow_plan_create(c, &plan);
     table_writer t = table_begin(&plan_schema, err);
     for (size_t i = 0; i < FLOW_N_STAGES; i++) {
-        char title[160], needs[256], gives[256];
+        char title[160], needs[256], outputs[256];
         flow_stage_title(i, plan.level[i], title, sizeof title);
         flow_resources_list(resources_used(&plan, i), needs, sizeof needs);
-        flow_resources_list(flow_stages[i].gives, gives, sizeof gives);
+        flow_resources_list(flow_stages[i].outputs, outputs, sizeof outputs);
         table_row(&t);
         plan_put_text(&t, PLAN_STAGE, flow_stages[i].id);
         plan_put_text(&t, PLAN_TITLE, title);
         plan_put(&t, PLAN_RUNS, plan.chosen[i]);
         plan_put_text(&t, PLAN_REASON, plan.because[i]);
         plan_put_text(&t, PLAN_NEEDS, needs);
-        plan_put_text(&t, PLAN_PRODUCES, gives);
+        plan_put_text(&t, PLAN_PRODUCES, outputs);
     }
     return table_end(&t, result);
 }

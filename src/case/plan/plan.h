@@ -16,9 +16,9 @@ typedef enum flow_outcome {
 } flow_outcome;
 
 typedef struct flow_plan {
-    flow_things sources;  /* what the case contains */
-    flow_things wanted;   /* what the user requests */
-    flow_things required; /* `wanted` and the needs of the chosen stages */
+    flow_resource_set sources;  /* what the case contains */
+    flow_resource_set wanted;   /* what the user requests */
+    flow_resource_set required; /* `wanted` and the needs of the chosen stages */
     bool chosen[FLOW_N_STAGES];
     unsigned level[FLOW_N_STAGES]; /* highest level whose inputs the case contains */
     char because[FLOW_N_STAGES][320];
@@ -27,18 +27,19 @@ typedef struct flow_plan {
     flow_outcome outcome[FLOW_N_STAGES];
     /* level of a stage that ran; below `level` if the higher one failed */
     unsigned done[FLOW_N_STAGES];
-    flow_outcome fuller[FLOW_N_STAGES];
-    flow_things unmeasured; /* outputs that a stage did not find in its files, and all that depends
-                               on them */
-    char why_unmeasured[256]; /* reason: "the records tell nothing of ...; give ..." */
+    flow_outcome full_outcome[FLOW_N_STAGES];
+    flow_resource_set unmeasured; /* outputs that a stage did not find in its files, and all that
+                               depends on them */
+    char unmeasured_reason[256];  /* reason: "the records tell nothing of ...; give ..." */
 } flow_plan;
 
 /* Returns the inputs that a stage needs in this plan. If the rubber softens with strain, every
  * sliding stage also needs the softening. If the wear of the layer is measured, every layer stage
  * also needs the wear. */
-flow_things flow_needs(const flow_plan *plan, size_t stage, unsigned level);
+flow_resource_set flow_plan_needs(const flow_plan *plan, size_t stage, unsigned level);
 /* Returns true if a stage can run with the available resources. */
-bool flow_can(const flow_plan *plan, size_t stage, unsigned level, flow_things there);
-void flow_plan_make(const wt_case *c, flow_plan *plan);
+bool flow_stage_can_run(const flow_plan *plan, size_t stage, unsigned level,
+                        flow_resource_set there);
+void flow_plan_create(const wt_case *c, flow_plan *plan);
 
 #endif

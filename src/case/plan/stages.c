@@ -3,9 +3,9 @@
 
 #include <stdio.h>
 
-#define B(thing) FLOW_BIT(FLOW_##thing)
+#define B(resource) FLOW_BIT(FLOW_##resource)
 
-static const flow_optional_input mores[FLOW_N_EXTRAS][FLOW_MOST_MORE] = {
+static const flow_optional_input optional_inputs[FLOW_N_ADDITIONS][FLOW_ADDITIONS_MAX] = {
     [FLOW_BY_SPECTRUM] = {{B(RUBBER), ", by the spectrum of the material",
                            "the spectrum of the material"}},
     [FLOW_AT_ONE_RATE] = {{B(RUBBER), ", at one rate and temperature by the material",
@@ -21,23 +21,23 @@ static const flow_optional_input mores[FLOW_N_EXTRAS][FLOW_MOST_MORE] = {
                              "the modulus ratio of the layer"}},
 };
 
-#define STAGE_ROW(id, name, title, needs, any, more, gives, step)                                  \
-    [FLOW_STAGE_##id] = {#name, title, needs, any, mores[more], gives},
+#define STAGE_ROW(id, name, title, needs, any, additions, outputs, step)                           \
+    [FLOW_STAGE_##id] = {#name, title, needs, any, optional_inputs[additions], outputs},
 const flow_stage flow_stages[FLOW_N_STAGES] = {STAGES(STAGE_ROW)};
 
 unsigned flow_stage_levels(size_t stage)
 {
     unsigned n = 0;
-    while (n < FLOW_MOST_MORE && flow_stages[stage].more[n].things != 0)
+    while (n < FLOW_ADDITIONS_MAX && flow_stages[stage].additions[n].resources != 0)
         n++;
     return n;
 }
 
-flow_things flow_stage_needs(size_t stage, unsigned level)
+flow_resource_set flow_stage_needs(size_t stage, unsigned level)
 {
-    flow_things needs = flow_stages[stage].needs;
+    flow_resource_set needs = flow_stages[stage].needs;
     for (unsigned i = 0; i < level; i++)
-        needs |= flow_stages[stage].more[i].things;
+        needs |= flow_stages[stage].additions[i].resources;
     return needs;
 }
 
@@ -46,5 +46,5 @@ void flow_stage_title(size_t stage, unsigned level, char *text, size_t size)
     const flow_stage *s = &flow_stages[stage];
     size_t used = (size_t)snprintf(text, size, "%s", s->title);
     for (unsigned i = 0; i < level && used < size; i++)
-        used += (size_t)snprintf(text + used, size - used, "%s", s->more[i].title);
+        used += (size_t)snprintf(text + used, size - used, "%s", s->additions[i].title);
 }

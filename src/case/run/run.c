@@ -28,7 +28,7 @@ PARAM_TABLE(wt_run_params, wt_run_options, rows, wt_run_defaults, NO_PARTS)
 /* State of a run. */
 typedef struct run_execution {
     flow_run run;
-    flow_things have;
+    flow_resource_set available;
     wt_status failure; /* status of the last stage that failed */
     wt_formats *formats;
     wt_log *own_log;
@@ -41,26 +41,26 @@ typedef struct run_execution {
 
 /* ---- one stage ------------------------------------------------------------------------------- */
 
-#define STEP(id, name, title, needs, any, more, gives, step) step,
-static wt_status (*const steps[FLOW_N_STAGES])(flow_run *, wt_error *) = {STAGES(STEP)};
+#define STAGE_FUNCTION(id, name, title, needs, any, additions, outputs, step) step,
+static wt_status (*const steps[FLOW_N_STAGES])(flow_run *, wt_error *) = {STAGES(STAGE_FUNCTION)};
 
 /* Returns true if a stage that was not chosen must replace a more complete one that did not
  * succeed. */
-static bool stands_in(const run_execution *d, size_t i)
+static bool must_substitute(const run_execution *d, size_t i)
 {
     const flow_plan *plan = &d->run.plan;
-    flow_things lacking = flow_stages[i].gives & plan->required & ~d->have;
-    if (plan->chosen[i] || lacking == 0 || !flow_can(plan, i, 0, d->have))
+    flow_resource_set lacking = flow_stages[i].outputs & plan->required & ~d->available;
+    if (plan->chosen[i] || lacking == 0 || !flow_stage_can_run(plan, i, 0, d->available))
         return false;
     for (size_t k = 0; k < i; k++)
         if ((plan->outcome[k] == FLOW_FAILED || plan->outcome[k] == FLOW_BLOCKED) &&
-            (flow_stages[k].gives & lacking) != 0)
+            (flow_stages[k].outputs & lacking) != 0)
             return true;
     return false;
 }
 
-static wt_status report_progress(const run_execution *d, size_t stage, const char *what,
-                                 wt_error *err)
+static wt_status report_stage_progress(const run_execution *d, size_t stage, const char *what,
+                                       wt_error *err)
 {
     const wt_progress *progress = &d->run.job.progress;
     size_t number = 0, n = 0;
@@ -74,7 +74,7 @@ static wt_status report_progress(const run_execution *d, size_t stage, const cha
 }
 
 /* Stages that fail for the same reason have one row in the table of failures. */
-static bool is_listed(const run_execution *d, const wt_error *failure)
+static bool is_failure_listed(const run_execution *d, const wt_error *failure)
 {
     char message[2048];
     wt_error_format(failure, message, sizeof message);
@@ -85,7 +85,7 @@ static bool is_listed(const run_execution *d, const wt_error *failure)
 }
 
 /* A lower level does not help if the data are missing. */
-static bool is_tried_again(const run_execution *d, unsigned level)
+static bool may_retry(const run_execution *d, unsigned level)
 {
     return level > 0 && d->failure != WT_E_EMPTY;
 }
@@ -97,7 +97,7 @@ static wt_status run_stage(run_execution *d, size_t i, unsigned level, const cha
     flow_plan *plan = &d->run.plan;
     char title[160], stage[96], text[384];
     flow_stage_title(i, level, title, sizeof title);
-    wt_status status = report_progress(d, i, title, err);
+    wt_status status = report_stage_progress(d, i, title, err);
     if (status != WT_OK)
         return status;
     cost_begin(d->cost, flow_stages[i].id, because);
@@ -106,7 +106,7 @@ static wt_status run_stage(run_execution *d, size_t i, unsigned level, const cha
     cost_end(d->cost);
     if (status == WT_OK) {
         plan->outcome[i] = FLOW_DONE;
-        d->have |= flow_stages[i].gives & ~plan->unmeasured;
+        d->available |= flow_stages[i].outputs & ~plan->unmeasured;
         return WT_OK;
     }
     if (!flow_may_continue(&d->run.job, status)) {
@@ -116,74 +116,76 @@ static wt_status run_stage(run_execution *d, size_t i, unsigned level, const cha
     }
     plan->outcome[i] = FLOW_FAILED;
     d->failure = status;
-    flow_case_advice(&failure);
-    const bool again = is_tried_again(d, level);
+    flow_add_case_advice(&failure);
+    const bool again = may_retry(d, level);
     snprintf(stage, sizeof stage, "stage %s%s%s", flow_stages[i].id, again ? " with " : "",
-             again ? flow_stages[i].more[level - 1].words : "");
+             again ? flow_stages[i].additions[level - 1].words : "");
     snprintf(text, sizeof text, "%s, and failed", because);
-    cost_explain(d->cost, text);
-    return is_listed(d, &failure) ? WT_OK : flow_add_failure(&d->run.job, stage, &failure, err);
+    cost_set_reason(d->cost, text);
+    return is_failure_listed(d, &failure) ? WT_OK
+                                          : flow_add_failure(&d->run.job, stage, &failure, err);
 }
 
 /* Returns true if a missing input of the stage is not in the files. */
-static bool is_unmeasured(const run_execution *d, size_t i, unsigned level)
+static bool lacks_measured_data(const run_execution *d, size_t i, unsigned level)
 {
     const flow_plan *plan = &d->run.plan;
-    return (flow_needs(plan, i, level) & ~d->have & plan->unmeasured) != 0;
+    return (flow_plan_needs(plan, i, level) & ~d->available & plan->unmeasured) != 0;
 }
 
 /* Runs a stage at the highest possible level. If it fails, the next lower level is tried. */
-static wt_status run_fullest(run_execution *d, size_t i, const char *because, wt_error *err)
+static wt_status run_fullest_level(run_execution *d, size_t i, const char *because, wt_error *err)
 {
     flow_plan *plan = &d->run.plan;
     unsigned level = plan->level[i];
     char text[384];
-    while (level > 0 && !flow_can(plan, i, level, d->have))
+    while (level > 0 && !flow_stage_can_run(plan, i, level, d->available))
         level--;
     if (level < plan->level[i]) {
-        const bool unmeasured = is_unmeasured(d, i, level + 1);
-        plan->fuller[i] = unmeasured ? FLOW_UNMEASURED : FLOW_BLOCKED;
+        const bool unmeasured = lacks_measured_data(d, i, level + 1);
+        plan->full_outcome[i] = unmeasured ? FLOW_UNMEASURED : FLOW_BLOCKED;
         snprintf(text, sizeof text, "%s; without %s, %s%s", because,
-                 flow_stages[i].more[level].words,
+                 flow_stages[i].additions[level].words,
                  unmeasured ? "for " : "which a stage before did not give",
-                 unmeasured ? plan->why_unmeasured : "");
+                 unmeasured ? plan->unmeasured_reason : "");
     } else
         snprintf(text, sizeof text, "%s", because);
     wt_status status = run_stage(d, i, level, text, err);
-    while (status == WT_OK && plan->outcome[i] == FLOW_FAILED && is_tried_again(d, level)) {
-        plan->fuller[i] = FLOW_FAILED;
+    while (status == WT_OK && plan->outcome[i] == FLOW_FAILED && may_retry(d, level)) {
+        plan->full_outcome[i] = FLOW_FAILED;
         level--;
         snprintf(text, sizeof text, "runs because it did not succeed with %s",
-                 flow_stages[i].more[level].words);
+                 flow_stages[i].additions[level].words);
         status = run_stage(d, i, level, text, err);
     }
     return status;
 }
 
-static wt_status consider_stage(run_execution *d, size_t i, wt_error *err)
+static wt_status process_stage(run_execution *d, size_t i, wt_error *err)
 {
     flow_plan *plan = &d->run.plan;
     char missing[160], because[320];
-    if (stands_in(d, i))
-        return run_fullest(d, i, "runs because the stage that gives more did not succeed", err);
+    if (must_substitute(d, i))
+        return run_fullest_level(d, i, "runs because the stage that gives more did not succeed",
+                                 err);
     if (!plan->chosen[i]) {
-        cost_leave_out(d->cost, flow_stages[i].id, plan->because[i]);
+        cost_skip_stage(d->cost, flow_stages[i].id, plan->because[i]);
         return WT_OK;
     }
-    if (flow_can(plan, i, 0, d->have))
-        return run_fullest(d, i, plan->because[i], err);
-    if (is_unmeasured(d, i, 0)) {
+    if (flow_stage_can_run(plan, i, 0, d->available))
+        return run_fullest_level(d, i, plan->because[i], err);
+    if (lacks_measured_data(d, i, 0)) {
         plan->outcome[i] = FLOW_UNMEASURED;
-        plan->unmeasured |= flow_stages[i].gives & ~d->have;
-        snprintf(because, sizeof because, "left out because %s", plan->why_unmeasured);
+        plan->unmeasured |= flow_stages[i].outputs & ~d->available;
+        snprintf(because, sizeof because, "left out because %s", plan->unmeasured_reason);
     } else {
         plan->outcome[i] = FLOW_BLOCKED;
-        const flow_things needs = flow_needs(plan, i, 0) | flow_stages[i].any;
-        flow_resources_list(needs & ~d->have, missing, sizeof missing);
+        const flow_resource_set needs = flow_plan_needs(plan, i, 0) | flow_stages[i].any;
+        flow_resources_list(needs & ~d->available, missing, sizeof missing);
         snprintf(because, sizeof because, "left out because a stage before failed to give its %s",
                  missing);
     }
-    cost_leave_out(d->cost, flow_stages[i].id, because);
+    cost_skip_stage(d->cost, flow_stages[i].id, because);
     return WT_OK;
 }
 
@@ -204,11 +206,12 @@ static wt_status publish_table(run_execution *d, wt_table **table, wt_error *err
 static wt_status publish_stages(run_execution *d, wt_error *err)
 {
     flow_run *r = &d->run;
-    const flow_things curves = FLOW_BIT(FLOW_CURVE_BULK) | FLOW_BIT(FLOW_CURVE_TRACK);
-    const flow_things fits = FLOW_BIT(FLOW_INDENTATION_BULK) | FLOW_BIT(FLOW_INDENTATION_TRACK);
+    const flow_resource_set curves = FLOW_BIT(FLOW_CURVE_BULK) | FLOW_BIT(FLOW_CURVE_TRACK);
+    const flow_resource_set fits =
+        FLOW_BIT(FLOW_INDENTATION_BULK) | FLOW_BIT(FLOW_INDENTATION_TRACK);
     const struct {
         const table_schema *schema;
-        flow_things things;
+        flow_resource_set resources;
         wt_table **table;
     } of_both[] = {{&overrides_schema, fits, &r->curves.choices},
                    {&curves_schema, fits, &r->curves.curves},
@@ -219,17 +222,18 @@ static wt_status publish_stages(run_execution *d, wt_error *err)
     wt_status status = WT_OK;
     for (size_t i = 0; i < table_n_schemas; i++) {
         for (unsigned k = FLOW_FIRST_TABLE; status == WT_OK && k < FLOW_FIRST_INNER; k++)
-            if (flow_thing_rows[k].schema == table_schemas[i] && (r->plan.required & FLOW_BIT(k)))
+            if (flow_resource_rows[k].schema == table_schemas[i] &&
+                (r->plan.required & FLOW_BIT(k)))
                 status = publish_table(d, &r->table[k], err);
         for (size_t k = 0; status == WT_OK && k < COUNT_OF(of_both); k++)
-            if (of_both[k].schema == table_schemas[i] && (r->plan.required & of_both[k].things))
+            if (of_both[k].schema == table_schemas[i] && (r->plan.required & of_both[k].resources))
                 status = publish_table(d, of_both[k].table, err);
     }
     return status;
 }
 
 /* Two names for the same bytes count twice in a statistic. */
-static void warn_of_copies(const run_execution *d)
+static void warn_duplicate_inputs(const run_execution *d)
 {
     const wt_provenance *p = wt_result_provenance_const(d->result);
     size_t n = wt_provenance_n_inputs(p);
@@ -250,17 +254,17 @@ static wt_status finish_result(run_execution *d, wt_error *err)
     wt_table *answer = NULL, *inputs = NULL, *methods = NULL, *notes = NULL, *cost = NULL;
     wt_table **const last[] = {&answer, &inputs, &methods, &notes, &d->failures, &cost};
     const wt_provenance *provenance = wt_result_provenance_const(d->result);
-    warn_of_copies(d);
+    warn_duplicate_inputs(d);
     wt_status status = publish_stages(d, err);
     if (status == WT_OK && wt_table_n_rows(d->failures) > 0)
-        status = wt_failures_answered(
-            d->failures,
-            wt_result_n_tables(d->result) > 0 ? WT_ANSWERED_PARTLY : WT_ANSWERED_NOTHING, err);
+        status = wt_failures_set_status(
+            d->failures, wt_result_n_tables(d->result) > 0 ? WT_RESULT_PARTIAL : WT_RESULT_EMPTY,
+            err);
     if (status == WT_OK)
         status = flow_answer(d->run.c, &d->run.plan, d->result, d->run.job.log, d->failures,
                              &answer, err);
     if (status == WT_OK)
-        wt_result_remarks(d->result, d->run.job.log);
+        wt_result_log_remarks(d->result, d->run.job.log);
     if (status == WT_OK)
         status = wt_provenance_table(provenance, "inputs", &inputs, err);
     if (status == WT_OK)
@@ -281,53 +285,55 @@ static wt_status finish_result(run_execution *d, wt_error *err)
 /* ---- the run --------------------------------------------------------------------------------- */
 
 /* Returns true if a stage uses Monte Carlo draws of the material. */
-static bool draws_material(const flow_plan *plan, size_t replicates)
+static bool needs_material_draws(const flow_plan *plan, size_t replicates)
 {
-    const flow_things compared = FLOW_BIT(FLOW_COMPARISON) | FLOW_BIT(FLOW_DMA_COMPARISON);
-    const flow_things replicated =
+    const flow_resource_set compared = FLOW_BIT(FLOW_COMPARISON) | FLOW_BIT(FLOW_DMA_COMPARISON);
+    const flow_resource_set replicated =
         FLOW_BIT(FLOW_LAYER) | FLOW_BIT(FLOW_FRICTION) | FLOW_BIT(FLOW_ERROR_BUDGET);
-    const flow_things drawn = compared | (replicates >= 2 ? replicated : 0);
+    const flow_resource_set drawn = compared | (replicates >= 2 ? replicated : 0);
     for (size_t i = 0; i < FLOW_N_STAGES; i++)
-        if (plan->chosen[i] && (flow_needs(plan, i, plan->level[i]) & FLOW_BIT(FLOW_RUBBER)) != 0 &&
-            (flow_stages[i].gives & drawn) != 0)
+        if (plan->chosen[i] &&
+            (flow_plan_needs(plan, i, plan->level[i]) & FLOW_BIT(FLOW_RUBBER)) != 0 &&
+            (flow_stages[i].outputs & drawn) != 0)
             return true;
     return false;
 }
 
 /* Returns true if several stages read the DMA files. */
-static bool shares_dma(const flow_plan *plan)
+static bool is_dma_shared(const flow_plan *plan)
 {
     size_t n = 0;
     for (size_t i = 0; i < FLOW_N_STAGES; i++)
-        n += plan->chosen[i] && (flow_needs(plan, i, 0) & FLOW_BIT(FLOW_DMA_FILES)) != 0;
+        n += plan->chosen[i] && (flow_plan_needs(plan, i, 0) & FLOW_BIT(FLOW_DMA_FILES)) != 0;
     return n > 1;
 }
 
 /* Returns the optional outputs that no required table needs. */
-static unsigned find_left_out(const flow_plan *plan, const wt_run_options *options)
+static unsigned find_excluded_outputs(const flow_plan *plan, const wt_run_options *options)
 {
     static const struct {
         unsigned extra;
-        flow_things shown_in;
-    } extras[] = {{WT_EXTRA_SHARE, FLOW_BIT(FLOW_FRICTION)},
+        flow_resource_set shown_in;
+    } extras[] = {{WT_EXTRA_EXTRAPOLATED_SHARE, FLOW_BIT(FLOW_FRICTION)},
                   {WT_EXTRA_MODULUS_DEPTH, FLOW_BIT(FLOW_DEPTH_BULK) | FLOW_BIT(FLOW_DEPTH_TRACK)},
                   {WT_EXTRA_DEPTH_CURVES, FLOW_BIT(FLOW_TRACK_LAYER)},
                   {WT_EXTRA_DRAWS, FLOW_BIT(FLOW_MATERIAL_DRAWS) | FLOW_BIT(FLOW_SERIES_DRAWS)},
                   {WT_EXTRA_SPECTRUM, FLOW_BIT(FLOW_RELAXATION_SPECTRUM)},
-                  {WT_EXTRA_REDUCED, FLOW_BIT(FLOW_PRONY_REDUCED)},
-                  {WT_EXTRA_COMMON, FLOW_BIT(FLOW_MODULUS_BUDGET) | FLOW_BIT(FLOW_COMPARISON) |
-                                        FLOW_BIT(FLOW_MODULUS_RATIO)},
+                  {WT_EXTRA_REDUCED_SERIES, FLOW_BIT(FLOW_PRONY_REDUCED)},
+                  {WT_EXTRA_SYSTEMATIC_ERRORS, FLOW_BIT(FLOW_MODULUS_BUDGET) |
+                                                   FLOW_BIT(FLOW_COMPARISON) |
+                                                   FLOW_BIT(FLOW_MODULUS_RATIO)},
                   {WT_EXTRA_TRANSITION, FLOW_BIT(FLOW_GLASS_TRANSITION)}};
     unsigned left_out = options->no_provenance ? WT_EXTRA_DIGESTS : 0;
     for (size_t i = 0; i < COUNT_OF(extras); i++)
         if ((plan->required & extras[i].shown_in) == 0)
             left_out |= extras[i].extra;
-    if (draws_material(plan, options->replicates))
+    if (needs_material_draws(plan, options->replicates))
         left_out &= ~(unsigned)WT_EXTRA_DRAWS;
     return left_out;
 }
 
-static wt_status add_case(run_execution *d, wt_error *err)
+static wt_status add_case_input(run_execution *d, wt_error *err)
 {
     const wt_case *c = d->run.c;
     wt_provenance_input input = {.path = wt_path_base(c->path),
@@ -335,14 +341,14 @@ static wt_status add_case(run_execution *d, wt_error *err)
                                  .format = "weartrack-case 1",
                                  .bytes = c->xml_length};
     if (!d->run.no_provenance)
-        wt_digest(c->xml, c->xml_length, input.sha256);
+        wt_sha256(c->xml, c->xml_length, input.sha256);
     if (wt_provenance_add_input(d->run.job.provenance, &input) != WT_OK)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     return wt_result_set_case(d->result, c->xml, c->xml_length, err);
 }
 
-static wt_status prepare_run(run_execution *d, const wt_run_options *options, wt_log *log,
-                             wt_error *err)
+static wt_status prepare_execution(run_execution *d, const wt_run_options *options, wt_log *log,
+                                   wt_error *err)
 {
     if (log == NULL)
         log = d->own_log = wt_log_new();
@@ -372,11 +378,11 @@ static wt_status prepare_run(run_execution *d, const wt_run_options *options, wt
         .cost = d->cost,
         .drawn = d->drawn,
     };
-    return status == WT_OK ? add_case(d, err) : status;
+    return status == WT_OK ? add_case_input(d, err) : status;
 }
 
-wt_status wt_run(const wt_case *c, const wt_run_options *options, wt_log *log, wt_result **result,
-                 size_t *n_failed, wt_error *err)
+wt_status wt_run_case(const wt_case *c, const wt_run_options *options, wt_log *log,
+                      wt_result **result, size_t *n_failed, wt_error *err)
 {
     if (c == NULL || result == NULL)
         return wt_fail(err, WT_E_ARG, "no case");
@@ -386,16 +392,16 @@ wt_status wt_run(const wt_case *c, const wt_run_options *options, wt_log *log, w
         options = &defaults;
     wt_status status = param_check(wt_run_params(), options, err);
     if (status == WT_OK)
-        status = prepare_run(&d, options, log, err);
+        status = prepare_execution(&d, options, log, err);
     if (status == WT_OK) {
-        flow_plan_make(c, &d.run.plan);
-        d.run.job.dma = shares_dma(&d.run.plan) ? &d.dma : NULL;
-        d.run.job.case_advice = flow_case_advice;
-        d.run.job.left_out = find_left_out(&d.run.plan, options);
-        d.have = d.run.plan.sources;
+        flow_plan_create(c, &d.run.plan);
+        d.run.job.dma = is_dma_shared(&d.run.plan) ? &d.dma : NULL;
+        d.run.job.case_advice = flow_add_case_advice;
+        d.run.job.left_out = find_excluded_outputs(&d.run.plan, options);
+        d.available = d.run.plan.sources;
     }
     for (size_t i = 0; status == WT_OK && i < FLOW_N_STAGES; i++)
-        status = consider_stage(&d, i, err);
+        status = process_stage(&d, i, err);
     const size_t failed = status == WT_OK ? wt_table_n_rows(d.failures) : 0;
     if (status == WT_OK)
         status = finish_result(&d, err);

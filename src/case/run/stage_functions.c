@@ -10,11 +10,11 @@
 
 void flow_run_clear(flow_run *run)
 {
-    for (size_t i = 0; i < FLOW_N_THINGS; i++)
+    for (size_t i = 0; i < FLOW_N_RESOURCES; i++)
         wt_table_free(run->table[i]);
     wt_indent_tables_clear(&run->curves);
     for (int g = 0; g < 2; g++)
-        wt_curve_set_free(run->kept[g]);
+        wt_curve_set_free(run->curve_sets[g]);
     wt_rubber_clear(&run->rubber);
     wt_rubber_clear(&run->layer_rubber);
     wt_surface_clear(&run->surface);
@@ -22,15 +22,15 @@ void flow_run_clear(flow_run *run)
     *run = (flow_run){0};
 }
 
-void flow_run_store_table(flow_run *run, flow_resource thing, wt_table **table)
+void flow_run_store_table(flow_run *run, flow_resource resource, wt_table **table)
 {
-    wt_table_free(run->table[thing]);
-    run->table[thing] = *table;
+    wt_table_free(run->table[resource]);
+    run->table[resource] = *table;
     *table = NULL;
 }
 
 /* Reports the number of rows as the cost of a stage whose job reports none. */
-static void say_items(const flow_run *run, const wt_table *table)
+static void report_row_count(const flow_run *run, const wt_table *table)
 {
     cost_report(&run->job, (cost_summary){.items = (double)wt_table_n_rows(table)});
 }
@@ -38,7 +38,7 @@ static void say_items(const flow_run *run, const wt_table *table)
 /* ---- indentation ----------------------------------------------------------------------------- */
 
 /* Returns the temperature at which a group was indented. */
-static wt_estimate indented_at(const wt_case *c, int g)
+static wt_estimate indentation_temperature_of_group(const wt_case *c, int g)
 {
     const wt_compare_job *job = &c->compare;
     return g > 0 && !isnan(job->track_temperature.value) ? job->track_temperature
@@ -63,10 +63,10 @@ static wt_status indent_group(flow_run *run, int g, wt_error *err)
         (run->plan.required & (FLOW_BIT(FLOW_MODULUS_RATE) | FLOW_BIT(FLOW_DMA_COMPARISON))) != 0;
     job.median_curve = (run->plan.wanted & FLOW_BIT(curve[g])) != 0;
     job.rubber = run->level > 0 ? &run->rubber : NULL;
-    job.temperature = indented_at(run->c, g);
+    job.temperature = indentation_temperature_of_group(run->c, g);
     if ((run->plan.required & FLOW_BIT(FLOW_COVERAGE)) != 0) {
-        wt_curve_set_free(run->kept[g]);
-        job.keep = run->kept[g] = wt_curve_set_new();
+        wt_curve_set_free(run->curve_sets[g]);
+        job.keep = run->curve_sets[g] = wt_curve_set_new();
         if (job.keep == NULL)
             return wt_fail(err, WT_E_MEMORY, "out of memory for the curves");
     }
@@ -88,7 +88,7 @@ wt_status flow_step_track(flow_run *run, wt_error *err)
 
 /* ---- comparison ------------------------------------------------------------------------------ */
 
-static wt_status compare_groups(flow_run *run, bool groups_only, wt_error *err)
+static wt_status compare_case_groups(flow_run *run, bool groups_only, wt_error *err)
 {
     wt_compare_tables tables = {0};
     wt_compare_job job = run->c->compare;
@@ -99,7 +99,7 @@ static wt_status compare_groups(flow_run *run, bool groups_only, wt_error *err)
     job.rubber = run->level > 0 ? &run->rubber : NULL;
     wt_status status = wt_compare_groups(&job, &run->job, &tables, err);
     if (status == WT_OK)
-        say_items(run, tables.modulus_groups);
+        report_row_count(run, tables.modulus_groups);
     flow_run_store_table(run, FLOW_MODULUS_GROUPS, &tables.modulus_groups);
     flow_run_store_table(run, FLOW_MODULUS_BUDGET, &tables.modulus_budget);
     flow_run_store_table(run, FLOW_COMPARISON, &tables.comparison);
@@ -111,7 +111,7 @@ static wt_status compare_groups(flow_run *run, bool groups_only, wt_error *err)
 wt_status flow_step_compare(flow_run *run, wt_error *err)
 {
     table_view comparison;
-    wt_status status = compare_groups(run, false, err);
+    wt_status status = compare_case_groups(run, false, err);
     if (status == WT_OK)
         status = table_bind(run->table[FLOW_COMPARISON], &comparison_schema, "", &comparison, err);
     if (status != WT_OK)
@@ -129,7 +129,7 @@ wt_status flow_step_compare(flow_run *run, wt_error *err)
 /* The stage runs with the groups that are available. */
 wt_status flow_step_groups(flow_run *run, wt_error *err)
 {
-    return compare_groups(run, true, err);
+    return compare_case_groups(run, true, err);
 }
 
 wt_status flow_step_dma_comparison(flow_run *run, wt_error *err)
@@ -149,7 +149,7 @@ wt_status flow_step_dma_comparison(flow_run *run, wt_error *err)
             wt_fail(err, WT_E_MISSING,
                     "the curves tell no indentation rate, so no frequency corresponds to them");
     if (status == WT_OK) {
-        say_items(run, tables.dma_comparison);
+        report_row_count(run, tables.dma_comparison);
         flow_run_store_table(run, FLOW_DMA_COMPARISON, &tables.dma_comparison);
     }
     wt_compare_tables_clear(&tables);
@@ -174,7 +174,7 @@ static wt_status read_master(const wt_case *c, const wt_job *work, wt_master_tab
     wt_master_job job = c->master;
     job.sets = c->dma.sets;
     job.n_sets = c->dma.n;
-    const wt_status status = wt_master_make(&job, work, tables, rubber, err);
+    const wt_status status = wt_master_compute(&job, work, tables, rubber, err);
     return status == WT_OK && c->rubber.moduli == WT_MODULI_POINTS
                ? wt_rubber_tabulate(rubber, tables->master_curve, &c->rubber, err)
                : status;
@@ -203,14 +203,14 @@ wt_status flow_step_layer_material(flow_run *run, wt_error *err)
     wt_master_tables tables = {0};
     wt_job work = run->job;
     work.dma = NULL; /* its sweeps are those of the bulk */
-    work.left_out |= WT_EXTRA_REDUCED | WT_EXTRA_SPECTRUM;
+    work.left_out |= WT_EXTRA_REDUCED_SERIES | WT_EXTRA_SPECTRUM;
     const wt_status status = own->has_material
-                                 ? flow_run_given_rubber(own, &work, &run->layer_rubber, err)
+                                 ? flow_run_stated_rubber(own, &work, &run->layer_rubber, err)
                                  : read_master(own, &work, &tables, &run->layer_rubber, err);
     wt_master_tables_clear(&tables);
     run->has_layer_rubber = status == WT_OK;
     if (status == WT_OK)
-        wt_rubber_cost(&run->layer_rubber, &run->job);
+        wt_rubber_add_cost(&run->layer_rubber, &run->job);
     return status;
 }
 
@@ -236,7 +236,7 @@ wt_status flow_step_ramp(flow_run *run, wt_error *err)
         if (again == NULL)
             return wt_fail(err, WT_E_MEMORY, "out of memory");
     }
-    const wt_status status = wt_ramp_make(&job, &work, &tables, err);
+    const wt_status status = wt_ramp_compute(&job, &work, &tables, err);
     wt_table_free(again);
     flow_run_store_table(run, FLOW_RAMP, &tables.ramp);
     flow_run_store_table(run, FLOW_GLASS_TRANSITION, &tables.glass_transition);
@@ -250,7 +250,7 @@ wt_status flow_step_payne(flow_run *run, wt_error *err)
     wt_payne_job job = wt_payne_job_defaults();
     job.sets = run->c->dma.sets;
     job.n_sets = run->c->dma.n;
-    const wt_status status = wt_payne_make(&job, &run->job, &tables, err);
+    const wt_status status = wt_payne_compute(&job, &run->job, &tables, err);
     flow_run_store_table(run, FLOW_PAYNE, &tables.payne);
     flow_run_store_table(run, FLOW_PAYNE_SWEEP, &tables.payne_sweep);
     return status;
@@ -258,12 +258,12 @@ wt_status flow_step_payne(flow_run *run, wt_error *err)
 
 /* ---- records --------------------------------------------------------------------------------- */
 
-static wt_status make_record(flow_run *run, wt_record_job job, wt_error *err)
+static wt_status run_record_job(flow_run *run, wt_record_job job, wt_error *err)
 {
     wt_record_tables tables = {0};
     job.sets = run->c->record.sets;
     job.n_sets = run->c->record.n;
-    const wt_status status = wt_record_make(&job, &run->job, &tables, err);
+    const wt_status status = wt_record_compute(&job, &run->job, &tables, err);
     flow_run_store_table(run, FLOW_RECORD, &tables.record);
     flow_run_store_table(run, FLOW_RECORD_CYCLES, &tables.record_cycles);
     flow_run_store_table(run, FLOW_WEAR, &tables.wear);
@@ -271,52 +271,54 @@ static wt_status make_record(flow_run *run, wt_record_job job, wt_error *err)
 }
 
 /* Returns true if the case lists a result that requires the wear. */
-static bool wear_must_be(const flow_run *run)
+static bool is_wear_required(const flow_run *run)
 {
-    flow_things resting = FLOW_BIT(FLOW_WEAR);
+    flow_resource_set resting = FLOW_BIT(FLOW_WEAR);
     for (size_t i = 0; i < FLOW_N_STAGES; i++)
-        if (run->plan.chosen[i] && (flow_needs(&run->plan, i, 0) & FLOW_BIT(FLOW_WEAR)) != 0)
-            resting |= flow_stages[i].gives;
-    return run->c->has_asked && !run->c->called && (run->c->asked & resting) != 0;
+        if (run->plan.chosen[i] && (flow_plan_needs(&run->plan, i, 0) & FLOW_BIT(FLOW_WEAR)) != 0)
+            resting |= flow_stages[i].outputs;
+    return run->c->has_requests && !run->c->is_explicit_request &&
+           (run->c->requested & resting) != 0;
 }
 
 /* Records without wear still have friction. What depends on the wear is excluded. */
-static wt_status leave_wear_out(flow_run *run, const char *lacks, wt_error *err)
+static wt_status exclude_wear(flow_run *run, const char *lacks, wt_error *err)
 {
     static const char advice[] = "give <profile>, <track-area> or <mass-loss> in <record>, or "
                                  "<specific-wear-rate> in <layer>";
-    if (wear_must_be(run)) {
+    if (is_wear_required(run)) {
         wt_fail(err, WT_E_MISSING, "%s", lacks);
         wt_error_advice(err, "%s", advice);
         return WT_E_MISSING;
     }
     run->plan.unmeasured |= FLOW_BIT(FLOW_WEAR);
-    snprintf(run->plan.why_unmeasured, sizeof run->plan.why_unmeasured, "%s; %s", lacks, advice);
+    snprintf(run->plan.unmeasured_reason, sizeof run->plan.unmeasured_reason, "%s; %s", lacks,
+             advice);
     wt_log_add(run->job.log, WT_WARNING, NULL, NULL, "the layer is left out, for %s",
-               run->plan.why_unmeasured);
+               run->plan.unmeasured_reason);
     return WT_OK;
 }
 
 wt_status flow_step_wear(flow_run *run, wt_error *err)
 {
-    const wt_status status = make_record(run, run->c->records, err);
+    const wt_status status = run_record_job(run, run->c->records, err);
     wt_estimate measured;
     if (status != WT_OK)
         return status;
     if (run->table[FLOW_WEAR] == NULL)
-        return leave_wear_out(run, "the records tell nothing of the wear", err);
+        return exclude_wear(run, "the records tell nothing of the wear", err);
     if (!isnan(run->layer.specific_wear_rate.value) || !run->c->has_layer)
         return WT_OK;
     if (!wt_table_estimate(run->table[FLOW_WEAR], "specific_wear_rate", &measured) ||
         isnan(measured.value))
-        return leave_wear_out(run, "the records tell no wear rate, as the table wear says", err);
+        return exclude_wear(run, "the records tell no wear rate, as the table wear says", err);
     run->layer.specific_wear_rate = measured;
     return WT_OK;
 }
 
 wt_status flow_step_record(flow_run *run, wt_error *err)
 {
-    return make_record(run, wear_left_out(run->c->records), err);
+    return run_record_job(run, wear_without_inputs(run->c->records), err);
 }
 
 /* ---- friction and layer ---------------------------------------------------------------------- */
@@ -337,7 +339,7 @@ wt_status flow_step_layer(flow_run *run, wt_error *err)
 {
     wt_sliding sliding = flow_run_sliding(run);
     wt_layer_tables tables = {0};
-    wt_status status = wt_layer_make(&sliding, &run->layer, &run->job, &tables, err);
+    wt_status status = wt_layer_thickness_compute(&sliding, &run->layer, &run->job, &tables, err);
     if (status != WT_OK)
         return status;
     run->thickness = tables.thickness;
@@ -352,23 +354,24 @@ wt_status flow_step_track_layer(flow_run *run, wt_error *err)
     job.track = run->table[FLOW_INDENTATION_TRACK];
     job.rubber = (run->plan.done[FLOW_STAGE_COMPARISON] > 0) ? &run->rubber : NULL;
     const wt_status status =
-        wt_track_layer_make(&job, run->level > 0 ? run->table[FLOW_LAYER] : NULL, &run->job,
-                            &run->table[FLOW_TRACK_LAYER], err);
+        wt_track_layer_compute(&job, run->level > 0 ? run->table[FLOW_LAYER] : NULL, &run->job,
+                               &run->table[FLOW_TRACK_LAYER], err);
     if (status == WT_OK && run->table[FLOW_TRACK_LAYER] != NULL)
-        say_items(run, run->table[FLOW_TRACK_LAYER]);
+        report_row_count(run, run->table[FLOW_TRACK_LAYER]);
     return status;
 }
 
 wt_status flow_step_energy_density(flow_run *run, wt_error *err)
 {
     const wt_sliding sliding = flow_run_sliding(run);
-    return wt_energy_density_table(&sliding, &run->layer, &run->job,
-                                   &run->table[FLOW_ENERGY_DENSITY], err);
+    return wt_energy_density_compute(&sliding, &run->layer, &run->job,
+                                     &run->table[FLOW_ENERGY_DENSITY], err);
 }
 
 /* A layer with its own material has no modulus ratio, and a measured ratio does not replace the
  * material. */
-static wt_status known_by_material(const flow_run *run, wt_layer_observation *known, wt_error *err)
+static wt_status layer_without_ratio(const flow_run *run, wt_layer_observation *known,
+                                     wt_error *err)
 {
     known->modulus_ratio = wt_layer_observation_defaults().modulus_ratio;
     known->modulus_ratio_df = known->calibration_share = 0;
@@ -377,7 +380,8 @@ static wt_status known_by_material(const flow_run *run, wt_layer_observation *kn
                : wt_fail(err, WT_E_MISSING, "the material of the layer is not known");
 }
 
-wt_status flow_run_known_layer(const flow_run *run, wt_layer_observation *known, wt_error *err)
+wt_status flow_run_layer_observation(const flow_run *run, wt_layer_observation *known,
+                                     wt_error *err)
 {
     *known = run->c->known;
     known->shear = &run->layer.shear;
@@ -386,12 +390,12 @@ wt_status flow_run_known_layer(const flow_run *run, wt_layer_observation *known,
     known->modulus_ratio_df = run->modulus_ratio_df;
     known->calibration_share = run->calibration_share;
     if (run->c->layer_material != NULL)
-        return known_by_material(run, known, err);
+        return layer_without_ratio(run, known, err);
     if (!isnan(known->modulus_ratio.value) && known->by_rate) {
         if (isnan(known->ratio_temperature))
             known->ratio_temperature = run->c->compare.temperature.value;
-        return wt_layer_observation_by_rate(run->table[FLOW_COMPARISON],
-                                            run->table[FLOW_MODULUS_RATE], known, err);
+        return wt_layer_observation_from_rates(run->table[FLOW_COMPARISON],
+                                               run->table[FLOW_MODULUS_RATE], known, err);
     }
     if (!isnan(known->modulus_ratio.value))
         return WT_OK;
@@ -404,7 +408,7 @@ wt_status flow_run_known_layer(const flow_run *run, wt_layer_observation *known,
 wt_status flow_step_contact_area(flow_run *run, wt_error *err)
 {
     const wt_sliding sliding = flow_run_sliding(run);
-    return wt_contact_area_table(&sliding, &run->job, &run->table[FLOW_CONTACT_AREA], err);
+    return wt_contact_area_compute(&sliding, &run->job, &run->table[FLOW_CONTACT_AREA], err);
 }
 
 wt_status flow_step_friction(flow_run *run, wt_error *err)
@@ -412,10 +416,10 @@ wt_status flow_step_friction(flow_run *run, wt_error *err)
     wt_sliding sliding = flow_run_sliding(run);
     wt_friction_tables tables = {0};
     wt_layer_observation layer;
-    wt_status status = run->level > 0 ? flow_run_known_layer(run, &layer, err) : WT_OK;
+    wt_status status = run->level > 0 ? flow_run_layer_observation(run, &layer, err) : WT_OK;
     if (status == WT_OK)
-        status =
-            wt_friction_make(&sliding, run->level > 0 ? &layer : NULL, &run->job, &tables, err);
+        status = wt_sliding_friction_compute(&sliding, run->level > 0 ? &layer : NULL, &run->job,
+                                             &tables, err);
     if (status == WT_OK)
         flow_run_store_table(run, FLOW_FRICTION, &tables.friction);
     return status;
@@ -424,44 +428,47 @@ wt_status flow_step_friction(flow_run *run, wt_error *err)
 wt_status flow_step_directions(flow_run *run, wt_error *err)
 {
     const wt_sliding sliding = flow_run_sliding(run);
-    return wt_transverse_isotropy_make(&sliding, &run->job, &run->table[FLOW_TRANSVERSE_ISOTROPY],
-                                       err);
+    return wt_transverse_isotropy_compute(&sliding, &run->job,
+                                          &run->table[FLOW_TRANSVERSE_ISOTROPY], err);
 }
 
 wt_status flow_step_softening_effect(flow_run *run, wt_error *err)
 {
     const wt_sliding sliding = flow_run_sliding(run);
-    return wt_softening_make(&sliding, &run->job, &run->table[FLOW_SOFTENING_EFFECT], err);
+    return wt_softened_friction_compute(&sliding, &run->job, &run->table[FLOW_SOFTENING_EFFECT],
+                                        err);
 }
 
 wt_status flow_step_anisotropy(flow_run *run, wt_error *err)
 {
     const wt_sliding sliding = flow_run_sliding(run);
-    return wt_anisotropy_make(&sliding, &run->job, &run->table[FLOW_ANISOTROPY], err);
+    return wt_anisotropic_friction_compute(&sliding, &run->job, &run->table[FLOW_ANISOTROPY], err);
 }
 
 wt_status flow_step_friction_map(flow_run *run, wt_error *err)
 {
     const wt_sliding sliding = flow_run_sliding(run);
     wt_layer_observation layer;
-    const bool layered = run->c->has_layer && flow_run_known_layer(run, &layer, NULL) == WT_OK;
-    return wt_friction_map_make(&sliding, layered ? &layer : NULL, &run->job,
-                                &run->table[FLOW_FRICTION_MAP], err);
+    const bool layered =
+        run->c->has_layer && flow_run_layer_observation(run, &layer, NULL) == WT_OK;
+    return wt_friction_map_compute(&sliding, layered ? &layer : NULL, &run->job,
+                                   &run->table[FLOW_FRICTION_MAP], err);
 }
 
 wt_status flow_step_friction_decades(flow_run *run, wt_error *err)
 {
     const wt_sliding sliding = flow_run_sliding(run);
     wt_layer_observation layer;
-    const bool layered = run->c->has_layer && flow_run_known_layer(run, &layer, NULL) == WT_OK;
-    return wt_friction_decades_make(&sliding, layered ? &layer : NULL, &run->job,
-                                    &run->table[FLOW_FRICTION_DECADES], err);
+    const bool layered =
+        run->c->has_layer && flow_run_layer_observation(run, &layer, NULL) == WT_OK;
+    return wt_friction_by_scale_compute(&sliding, layered ? &layer : NULL, &run->job,
+                                        &run->table[FLOW_FRICTION_DECADES], err);
 }
 
 wt_status flow_step_flash_effect(flow_run *run, wt_error *err)
 {
     const wt_sliding sliding = flow_run_sliding(run);
-    return wt_flash_make(&sliding, &run->job, &run->table[FLOW_FLASH_EFFECT], err);
+    return wt_flash_temperature_compute(&sliding, &run->job, &run->table[FLOW_FLASH_EFFECT], err);
 }
 
 /* ---- what if, error budget, coverage, error against run time ----------------------------------
@@ -469,66 +476,66 @@ wt_status flow_step_flash_effect(flow_run *run, wt_error *err)
 
 /* Optional inputs of a stage beyond friction: the layer at level 1, then its observations at level
  * 2. */
-typedef struct layer_parts {
+typedef struct layer_inputs {
     const wt_layer_job *layer;         /* NULL at level 0 */
     const wt_layer_observation *known; /* NULL below level 2 */
     wt_layer_observation storage;
-} layer_parts;
+} layer_inputs;
 
-static wt_status take_layer(const flow_run *run, layer_parts *parts, wt_error *err)
+static wt_status load_layer_inputs(const flow_run *run, layer_inputs *parts, wt_error *err)
 {
-    *parts = (layer_parts){.layer = run->level > 0 ? &run->layer : NULL};
+    *parts = (layer_inputs){.layer = run->level > 0 ? &run->layer : NULL};
     if (run->level < 2)
         return WT_OK;
     parts->known = &parts->storage;
-    return flow_run_known_layer(run, &parts->storage, err);
+    return flow_run_layer_observation(run, &parts->storage, err);
 }
 
 wt_status flow_step_what_if(flow_run *run, wt_error *err)
 {
     const wt_sliding sliding = flow_run_sliding(run);
-    layer_parts parts;
-    const wt_status status = take_layer(run, &parts, err);
-    return status == WT_OK ? wt_what_if_make(&sliding, parts.layer, parts.known, &run->job,
-                                             &run->table[FLOW_WHAT_IF], err)
+    layer_inputs parts;
+    const wt_status status = load_layer_inputs(run, &parts, err);
+    return status == WT_OK ? wt_model_sensitivity_compute(&sliding, parts.layer, parts.known,
+                                                          &run->job, &run->table[FLOW_WHAT_IF], err)
                            : status;
 }
 
 wt_status flow_step_budget(flow_run *run, wt_error *err)
 {
     const wt_sliding sliding = flow_run_sliding(run);
-    layer_parts parts;
-    const wt_status status = take_layer(run, &parts, err);
-    return status == WT_OK
-               ? wt_error_budget_make(&sliding, parts.layer, parts.known, run->table[FLOW_WHAT_IF],
-                                      &run->job, &run->table[FLOW_ERROR_BUDGET], err)
-               : status;
+    layer_inputs parts;
+    const wt_status status = load_layer_inputs(run, &parts, err);
+    return status == WT_OK ? wt_error_budget_compute(&sliding, parts.layer, parts.known,
+                                                     run->table[FLOW_WHAT_IF], &run->job,
+                                                     &run->table[FLOW_ERROR_BUDGET], err)
+                           : status;
 }
 
 wt_status flow_step_coverage(flow_run *run, wt_error *err)
 {
     const wt_sliding sliding = flow_run_sliding(run);
-    layer_parts parts;
-    const wt_status status = take_layer(run, &parts, err);
+    layer_inputs parts;
+    const wt_status status = load_layer_inputs(run, &parts, err);
     const wt_coverage_job job = {.sliding = &sliding,
                                  .layer = parts.layer,
                                  .known = parts.known,
                                  .bulk = run->table[FLOW_INDENTATION_BULK],
                                  .track = run->table[FLOW_INDENTATION_TRACK],
-                                 .curves = {run->kept[0], run->kept[1]},
+                                 .curves = {run->curve_sets[0], run->curve_sets[1]},
                                  .ratio_of_groups = !run->plan.chosen[FLOW_STAGE_GIVEN_RATIO],
                                  .trials = run->trials};
-    return status == WT_OK ? wt_coverage_make(&job, &run->job, &run->table[FLOW_COVERAGE], err)
+    return status == WT_OK ? wt_coverage_compute(&job, &run->job, &run->table[FLOW_COVERAGE], err)
                            : status;
 }
 
 wt_status flow_step_precision(flow_run *run, wt_error *err)
 {
     const wt_sliding sliding = flow_run_sliding(run);
-    layer_parts parts;
-    const wt_status status = take_layer(run, &parts, err);
+    layer_inputs parts;
+    const wt_status status = load_layer_inputs(run, &parts, err);
     return status == WT_OK
-               ? wt_case_precision_make(&sliding, parts.layer, parts.known, &run->precision,
-                                        &run->job, &run->table[FLOW_WORK_PRECISION], err)
+               ? wt_case_precision_compute(&sliding, parts.layer, parts.known, &run->precision,
+                                           &run->job, &run->table[FLOW_WORK_PRECISION], err)
                : status;
 }

@@ -9,10 +9,10 @@ typedef struct flow_run {
     const wt_case *c;
     wt_job job;
     flow_plan plan;
-    unsigned level;                 /* of the current stage */
-    wt_table *table[FLOW_N_THINGS]; /* tables of the resources that are tables of their own */
-    wt_indent_tables curves;        /* only the curve tables */
-    wt_curve_set *kept[2];          /* curves of bulk and track for the coverage stage */
+    unsigned level;                    /* of the current stage */
+    wt_table *table[FLOW_N_RESOURCES]; /* tables of the resources that are tables of their own */
+    wt_indent_tables curves;           /* only the curve tables */
+    wt_curve_set *curve_sets[2];       /* curves of bulk and track for the coverage stage */
     wt_rubber rubber, layer_rubber;
     bool has_layer_rubber;
     wt_surface surface;
@@ -28,24 +28,24 @@ typedef struct flow_run {
 
 void flow_run_clear(flow_run *run);
 /* Creates the stated rubber of a case or of its layer material. */
-wt_status flow_run_given_rubber(const wt_case *c, const wt_job *work, wt_rubber *rubber,
-                                wt_error *err) WT_NODISCARD;
+wt_status flow_run_stated_rubber(const wt_case *c, const wt_job *work, wt_rubber *rubber,
+                                 wt_error *err) WT_NODISCARD;
 /* Sets the transverse isotropy of the rubber as the case states it. */
 void flow_run_set_direction(flow_run *run);
 
 /* Return the sliding contact of a run and the observation of its layer. WT_E_MISSING without a
  * modulus ratio, for example after an inconclusive comparison. */
 wt_sliding flow_run_sliding(const flow_run *run);
-wt_status flow_run_known_layer(const flow_run *run, wt_layer_observation *known,
-                               wt_error *err) WT_NODISCARD;
+wt_status flow_run_layer_observation(const flow_run *run, wt_layer_observation *known,
+                                     wt_error *err) WT_NODISCARD;
 
 /* Moves a table into the run. A table from an earlier attempt is freed. */
-void flow_run_store_table(flow_run *run, flow_resource thing, wt_table **table);
+void flow_run_store_table(flow_run *run, flow_resource resource, wt_table **table);
 
 /* Extends advice that names an option by the spelling in a case file. */
-void flow_case_advice(wt_error *failure);
+void flow_add_case_advice(wt_error *failure);
 
-#define STEP_PROTOTYPE(id, name, title, needs, any, more, gives, step)                             \
+#define STEP_PROTOTYPE(id, name, title, needs, any, additions, outputs, step)                      \
     wt_status step(flow_run *run, wt_error *err);
 STAGES(STEP_PROTOTYPE)
 

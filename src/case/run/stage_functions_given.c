@@ -13,7 +13,7 @@
 
 /* Fills `file` with the only file of the role. It borrows *path, which the caller frees with
  * free(). */
-static wt_status given_file(const case_files *files, flow_file *file, char **path, wt_error *err)
+static wt_status stated_file(const case_files *files, flow_file *file, char **path, wt_error *err)
 {
     const wt_file_set *set = &files->sets[0];
     *path = wt_path_join(set->folder, set->patterns[0]);
@@ -23,7 +23,7 @@ static wt_status given_file(const case_files *files, flow_file *file, char **pat
 
 /* ---- material -------------------------------------------------------------------------------- */
 
-static wt_status given_series(const wt_case *c, wt_rubber *rubber, wt_error *err)
+static wt_status stated_series(const wt_case *c, wt_rubber *rubber, wt_error *err)
 {
     const wt_status status = wt_prony_alloc(&rubber->prony, c->prony.n, err);
     if (status != WT_OK)
@@ -39,26 +39,26 @@ static wt_status given_series(const wt_case *c, wt_rubber *rubber, wt_error *err
     return WT_OK;
 }
 
-static wt_status given_points(const wt_case *c, const wt_job *work, wt_rubber *rubber,
-                              wt_error *err)
+static wt_status stated_points(const wt_case *c, const wt_job *work, wt_rubber *rubber,
+                               wt_error *err)
 {
     char *path = NULL;
     flow_file file;
-    wt_status status = given_file(&c->points, &file, &path, err);
+    wt_status status = stated_file(&c->points, &file, &path, err);
     if (status == WT_OK)
         status = flow_rubber_read(&file, &c->rubber, c->master.poisson_ratio, work, rubber, err);
     free(path);
     return status;
 }
 
-wt_status flow_run_given_rubber(const wt_case *c, const wt_job *work, wt_rubber *rubber,
-                                wt_error *err)
+wt_status flow_run_stated_rubber(const wt_case *c, const wt_job *work, wt_rubber *rubber,
+                                 wt_error *err)
 {
     const double reference = c->master.fit.reference_temperature;
-    wt_status status = c->kind == WT_RUBBER_TABLE ? given_points(c, work, rubber, err)
+    wt_status status = c->kind == WT_RUBBER_TABLE ? stated_points(c, work, rubber, err)
                        : c->kind == WT_RUBBER_ZENER
                            ? flow_rubber_zener(&c->zener, c->master.poisson_ratio, rubber, err)
-                           : given_series(c, rubber, err);
+                           : stated_series(c, rubber, err);
     if (status != WT_OK)
         return status;
     if (!isnan(reference))
@@ -78,17 +78,17 @@ void flow_run_set_direction(flow_run *run)
 
 wt_status flow_step_given_material(flow_run *run, wt_error *err)
 {
-    const wt_status status = flow_run_given_rubber(run->c, &run->job, &run->rubber, err);
+    const wt_status status = flow_run_stated_rubber(run->c, &run->job, &run->rubber, err);
     flow_run_set_direction(run);
     if (status == WT_OK)
-        wt_rubber_cost(&run->rubber, &run->job);
+        wt_rubber_add_cost(&run->rubber, &run->job);
     return status;
 }
 
 /* ---- counter surface ------------------------------------------------------------------------- */
 
-static wt_status take_measured(const wt_topography_job *job, const wt_job *work,
-                               wt_surface *surface, wt_topography_tables *tables, wt_error *err)
+static wt_status measure_surface(const wt_topography_job *job, const wt_job *work,
+                                 wt_surface *surface, wt_topography_tables *tables, wt_error *err)
 {
     wt_surface measured = {0};
     wt_status status = flow_surface_measure(job, work, &measured, tables, err);
@@ -101,8 +101,8 @@ static wt_status take_measured(const wt_topography_job *job, const wt_job *work,
     return status;
 }
 
-static wt_status given_surface(const wt_case *c, const wt_job *work, wt_surface *surface,
-                               wt_error *err)
+static wt_status stated_surface(const wt_case *c, const wt_job *work, wt_surface *surface,
+                                wt_error *err)
 {
     if (c->has_self_affine) {
         *surface = c->surface;
@@ -110,10 +110,10 @@ static wt_status given_surface(const wt_case *c, const wt_job *work, wt_surface 
     }
     wt_surface opened = {0};
     if (c->height_maps.n > 0)
-        return take_measured(&c->topography, work, surface, NULL, err);
+        return measure_surface(&c->topography, work, surface, NULL, err);
     char *path = NULL;
     flow_file file;
-    wt_status status = given_file(&c->spectrum, &file, &path, err);
+    wt_status status = stated_file(&c->spectrum, &file, &path, err);
     if (status == WT_OK)
         status = flow_surface_read(&file, work, &opened, err);
     if (status == WT_OK) {
@@ -133,9 +133,9 @@ static wt_status given_surface(const wt_case *c, const wt_job *work, wt_surface 
 
 wt_status flow_step_roughness(flow_run *run, wt_error *err)
 {
-    wt_status status = given_surface(run->c, &run->job, &run->surface, err);
+    wt_status status = stated_surface(run->c, &run->job, &run->surface, err);
     if (status == WT_OK)
-        flow_surface_cost(&run->surface, &run->job);
+        flow_surface_report_cost(&run->surface, &run->job);
     if (status == WT_OK && (run->plan.required & FLOW_BIT(FLOW_ROUGHNESS)) != 0)
         status = wt_surface_table(&run->surface, &run->table[FLOW_ROUGHNESS], err);
     return status;
@@ -143,11 +143,11 @@ wt_status flow_step_roughness(flow_run *run, wt_error *err)
 
 wt_status flow_step_topography(flow_run *run, wt_error *err)
 {
-    const flow_things heights = FLOW_BIT(FLOW_HEIGHT_MAP) | FLOW_BIT(FLOW_HEIGHT_PROFILE);
+    const flow_resource_set heights = FLOW_BIT(FLOW_HEIGHT_MAP) | FLOW_BIT(FLOW_HEIGHT_PROFILE);
     wt_topography_tables made = {.power_spectrum = NULL};
     wt_topography_job job = run->c->topography;
     job.heights = (run->plan.required & heights) != 0;
-    wt_status status = take_measured(&job, &run->job, &run->surface, &made, err);
+    wt_status status = measure_surface(&job, &run->job, &run->surface, &made, err);
     if (status == WT_OK && (run->plan.required & FLOW_BIT(FLOW_ROUGHNESS)) != 0)
         status = wt_surface_table(&run->surface, &run->table[FLOW_ROUGHNESS], err);
     run->table[FLOW_POWER_SPECTRUM] = made.power_spectrum;
@@ -165,7 +165,7 @@ wt_status flow_step_given_softening(flow_run *run, wt_error *err)
 {
     char *path = NULL;
     flow_file file;
-    wt_status status = given_file(&run->c->softening, &file, &path, err);
+    wt_status status = stated_file(&run->c->softening, &file, &path, err);
     if (status == WT_OK)
         status = wt_strain_softening_read(path, file.name, wt_strain_softening_choice_defaults(),
                                           &run->job, &run->softness, err);

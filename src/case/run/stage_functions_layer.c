@@ -7,17 +7,17 @@
 wt_status flow_step_layer_bands(flow_run *run, wt_error *err)
 {
     const wt_sliding sliding = flow_run_sliding(run);
-    return wt_layer_bands_make(&sliding, &run->layer, &run->job, &run->table[FLOW_LAYER_BANDS],
-                               err);
+    return wt_layer_bands_compute(&sliding, &run->layer, &run->job, &run->table[FLOW_LAYER_BANDS],
+                                  err);
 }
 
 wt_status flow_step_running_in(flow_run *run, wt_error *err)
 {
     const wt_sliding sliding = flow_run_sliding(run);
     wt_layer_observation known;
-    const wt_status status = flow_run_known_layer(run, &known, err);
-    return status == WT_OK ? wt_running_in_make(&sliding, &run->layer, &known, &run->job,
-                                                &run->table[FLOW_RUNNING_IN], err)
+    const wt_status status = flow_run_layer_observation(run, &known, err);
+    return status == WT_OK ? wt_running_in_compute(&sliding, &run->layer, &known, &run->job,
+                                                   &run->table[FLOW_RUNNING_IN], err)
                            : status;
 }
 
@@ -25,20 +25,21 @@ wt_status flow_step_layer_feedback(flow_run *run, wt_error *err)
 {
     const wt_sliding sliding = flow_run_sliding(run);
     wt_layer_observation known;
-    const wt_status status = flow_run_known_layer(run, &known, err);
-    return status == WT_OK ? wt_layer_balances_make(&sliding, &run->layer, &known, &run->job,
-                                                    &run->table[FLOW_LAYER_FEEDBACK], err)
-                           : status;
+    const wt_status status = flow_run_layer_observation(run, &known, err);
+    return status == WT_OK
+               ? wt_layer_steady_states_compute(&sliding, &run->layer, &known, &run->job,
+                                                &run->table[FLOW_LAYER_FEEDBACK], err)
+               : status;
 }
 
 wt_status flow_step_existence(flow_run *run, wt_error *err)
 {
     const wt_sliding sliding = flow_run_sliding(run);
     wt_layer_observation known;
-    const wt_status status = run->level > 0 ? flow_run_known_layer(run, &known, err) : WT_OK;
+    const wt_status status = run->level > 0 ? flow_run_layer_observation(run, &known, err) : WT_OK;
     return status == WT_OK
-               ? wt_layer_regime_map_make(&sliding, &run->layer, run->level > 0 ? &known : NULL,
-                                          &run->job, &run->table[FLOW_LAYER_REGIME_MAP], err)
+               ? wt_regime_map_compute(&sliding, &run->layer, run->level > 0 ? &known : NULL,
+                                       &run->job, &run->table[FLOW_LAYER_REGIME_MAP], err)
                : status;
 }
 
@@ -51,5 +52,6 @@ wt_status flow_step_identification(flow_run *run, wt_error *err)
     if (run->level > 0 && isnan(job.specific_wear_rate.value) &&
         wt_table_estimate(run->table[FLOW_WEAR], "specific_wear_rate", &measured))
         job.specific_wear_rate = measured;
-    return wt_identify_make(&sliding, &job, &run->job, &run->table[FLOW_IDENTIFICATION], err);
+    return wt_identification_compute(&sliding, &job, &run->job, &run->table[FLOW_IDENTIFICATION],
+                                     err);
 }

@@ -9,7 +9,7 @@ wt_status flow_step_validation(flow_run *run, wt_error *err)
     wt_layer_observation layer;
     wt_validation_tables tables = {0};
     wt_validation_job job = run->c->validation;
-    wt_status status = run->level > 0 ? flow_run_known_layer(run, &layer, err) : WT_OK;
+    wt_status status = run->level > 0 ? flow_run_layer_observation(run, &layer, err) : WT_OK;
     job.sliding = &sliding;
     job.layer =
         run->c->has_layer && !isnan(run->layer.specific_wear_rate.value) ? &run->layer : NULL;
@@ -18,7 +18,7 @@ wt_status flow_step_validation(flow_run *run, wt_error *err)
     job.wear = run->table[FLOW_WEAR];
     job.what_if = run->table[FLOW_WHAT_IF];
     if (status == WT_OK)
-        status = wt_validation_make(&job, &run->job, &tables, err);
+        status = wt_validation_compute(&job, &run->job, &tables, err);
     flow_run_store_table(run, FLOW_VALIDATION, &tables.validation);
     flow_run_store_table(run, FLOW_VALIDATION_CHOICES, &tables.choices);
     flow_run_store_table(run, FLOW_VALIDATION_SOURCES, &tables.sources);
@@ -31,7 +31,7 @@ wt_status flow_step_validation_running_in(flow_run *run, wt_error *err)
     wt_layer_observation layer;
     wt_running_in_tables tables = {0};
     wt_validation_job job = run->c->validation;
-    wt_status status = flow_run_known_layer(run, &layer, err);
+    wt_status status = flow_run_layer_observation(run, &layer, err);
     job.sliding = &sliding;
     job.layer = &run->layer;
     job.known = &layer;
@@ -39,8 +39,8 @@ wt_status flow_step_validation_running_in(flow_run *run, wt_error *err)
     job.cycles = run->table[FLOW_RECORD_CYCLES];
     job.wear = run->table[FLOW_WEAR];
     if (status == WT_OK)
-        status = wt_validation_running_in_make(&job, &run->job, &tables, err);
+        status = wt_running_in_validation_compute(&job, &run->job, &tables, err);
     flow_run_store_table(run, FLOW_VALIDATION_RUNNING_IN, &tables.running_in);
-    flow_run_store_table(run, FLOW_VALIDATION_COURSE, &tables.course);
+    flow_run_store_table(run, FLOW_VALIDATION_COURSE, &tables.running_in_curve);
     return status;
 }

@@ -12,29 +12,30 @@
 #include <string.h>
 
 /* State of the comparison, with the first difference found. */
-typedef struct comparison {
+typedef struct currency_check {
     const wt_case *c;
     const wt_result *result;
-    const wt_provenance *made_of;
-    char *why;
+    const wt_provenance *inputs;
+    char *reason;
     size_t size;
     bool differs;
-} comparison;
+} currency_check;
 
-__attribute__((format(printf, 2, 3))) static void differs(comparison *k, const char *format, ...)
+__attribute__((format(printf, 2, 3))) static void differs(currency_check *k, const char *format,
+                                                          ...)
 {
     va_list args;
     if (k->differs)
         return;
     va_start(args, format);
-    vsnprintf(k->why, k->size, format, args);
+    vsnprintf(k->reason, k->size, format, args);
     va_end(args);
     k->differs = true;
 }
 
 /* Returns the length of the next word of a command. Options without influence on the result are
  * skipped with their values. */
-static size_t next_word(const char **at)
+static size_t next_relevant_word(const char **at)
 {
     static const struct {
         const char *name;
@@ -61,7 +62,7 @@ static size_t next_word(const char **at)
 static bool is_same_command(const char *a, const char *b)
 {
     for (;;) {
-        const size_t n = next_word(&a), m = next_word(&b);
+        const size_t n = next_relevant_word(&a), m = next_relevant_word(&b);
         if (n != m || strncmp(a, b, n) != 0)
             return false;
         if (n == 0)
@@ -80,14 +81,15 @@ static const wt_provenance_input *find_input(const wt_provenance *p, const char 
 }
 
 /* A file that cannot be read counts as changed; the run reports the cause. */
-static void compare_file(comparison *k, const flow_file *file, const wt_provenance_input *before)
+static void compare_file(currency_check *k, const flow_file *file,
+                         const wt_provenance_input *before)
 {
     wt_provenance *const now = wt_provenance_new();
     const wt_job work = {.provenance = now};
     wt_input *input = NULL;
     wt_status status = now != NULL ? wt_input_open(file->path, &input, NULL) : WT_E_MEMORY;
     if (status == WT_OK)
-        status = wt_job_input(&work, (wt_provenance_input){.path = file->name}, input, NULL);
+        status = wt_job_add_input(&work, (wt_provenance_input){.path = file->name}, input, NULL);
     if (status != WT_OK || strcmp(wt_provenance_get_input(now, 0)->sha256, before->sha256) != 0)
         differs(k, "%s has changed", file->name);
     wt_input_close(input);
@@ -96,7 +98,8 @@ static void compare_file(comparison *k, const flow_file *file, const wt_provenan
 
 /* Compares the files of one role. Either no file was read, because nothing needed them, or all were
  * read and none is new. `seen` counts the files that were read. */
-static wt_status compare_files(comparison *k, const case_files *role, size_t *seen, wt_error *err)
+static wt_status compare_role(currency_check *k, const case_files *role, size_t *seen,
+                              wt_error *err)
 {
     wt_log *log = wt_log_new();
     wt_table *failures = wt_failures_new();
@@ -107,9 +110,9 @@ static wt_status compare_files(comparison *k, const case_files *role, size_t *se
                            : wt_fail(err, WT_E_MEMORY, "out of memory");
     size_t n_before = *seen;
     for (size_t i = 0; status == WT_OK && i < files.n; i++)
-        *seen += find_input(k->made_of, files.file[i].name) != NULL;
+        *seen += find_input(k->inputs, files.file[i].name) != NULL;
     for (size_t i = 0; status == WT_OK && *seen > n_before && !k->differs && i < files.n; i++) {
-        const wt_provenance_input *const before = find_input(k->made_of, files.file[i].name);
+        const wt_provenance_input *const before = find_input(k->inputs, files.file[i].name);
         if (before == NULL)
             differs(k, "%s is new", files.file[i].name);
         else
@@ -123,19 +126,19 @@ static wt_status compare_files(comparison *k, const case_files *role, size_t *se
     return status;
 }
 
-static wt_status compare_inputs(comparison *k, wt_error *err)
+static wt_status compare_inputs(currency_check *k, wt_error *err)
 {
     size_t seen = 1; /* the case file */
     wt_status status = WT_OK;
     for (const case_files *role = k->c->roles; status == WT_OK && !k->differs && role != NULL;
          role = role->next)
-        status = compare_files(k, role, &seen, err);
-    if (seen < wt_provenance_n_inputs(k->made_of))
+        status = compare_role(k, role, &seen, err);
+    if (seen < wt_provenance_n_inputs(k->inputs))
         differs(k, "a file that it was made of is gone");
     return status;
 }
 
-static void compare_case(comparison *k)
+static void compare_case(currency_check *k)
 {
     size_t length = 0;
     const char *const before = wt_result_case(k->result, &length);
@@ -144,19 +147,19 @@ static void compare_case(comparison *k)
 }
 
 wt_status wt_run_is_current(const wt_case *c, const wt_result *result, const char *command,
-                            bool *current, char *why, size_t size, wt_error *err)
+                            bool *current, char *reason, size_t size, wt_error *err)
 {
-    comparison k = {.c = c,
-                    .result = result,
-                    .made_of = wt_result_provenance_const(result),
-                    .why = why,
-                    .size = size};
+    currency_check k = {.c = c,
+                        .result = result,
+                        .inputs = wt_result_provenance_const(result),
+                        .reason = reason,
+                        .size = size};
     const wt_table *const failures = wt_result_find(result, "failures");
-    if (wt_provenance_command(k.made_of)[0] == '\0')
+    if (wt_provenance_command(k.inputs)[0] == '\0')
         differs(&k, "it does not say what it was made of (--no-provenance)");
-    if (strcmp(wt_provenance_version(k.made_of), wt_version()) != 0)
+    if (strcmp(wt_provenance_version(k.inputs), wt_version()) != 0)
         differs(&k, "it was made by another version of weartrack");
-    if (!is_same_command(wt_provenance_command(k.made_of), command))
+    if (!is_same_command(wt_provenance_command(k.inputs), command))
         differs(&k, "it was made by another command");
     if (failures != NULL && wt_table_n_rows(failures) > 0)
         differs(&k, "it is answered in part only");

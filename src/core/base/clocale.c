@@ -9,14 +9,14 @@
 static pthread_once_t once = PTHREAD_ONCE_INIT;
 static locale_t c_locale = (locale_t)0;
 
-static void make_c_locale(void)
+static void create_c_locale(void)
 {
     c_locale = newlocale(LC_ALL_MASK, "C", (locale_t)0);
 }
 
 locale_t clocale_enter(void)
 {
-    (void)pthread_once(&once, make_c_locale);
+    (void)pthread_once(&once, create_c_locale);
     /* uselocale((locale_t)0) changes nothing, which is right if the C locale could not be
      * created. */
     return uselocale(c_locale);

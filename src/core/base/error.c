@@ -18,22 +18,22 @@ const char *wt_status_text(wt_status status)
 }
 
 /* Replaces the end of a truncated text by "...", at a character boundary. */
-static void mark_cut(char *buffer, size_t size)
+static void mark_truncation(char *buffer, size_t size)
 {
-    const size_t cut = utf8_cut(buffer, strlen(buffer), size - 4);
+    const size_t cut = utf8_truncated_length(buffer, strlen(buffer), size - 4);
     memcpy(buffer + cut, "...", 4);
 }
 
-static void set_text(char *buffer, size_t size, const char *format, va_list arguments)
+static void format_error_text(char *buffer, size_t size, const char *format, va_list arguments)
     WT_PRINTF(3, 0);
-static void set_text(char *buffer, size_t size, const char *format, va_list arguments)
+static void format_error_text(char *buffer, size_t size, const char *format, va_list arguments)
 {
     const int needed = clocale_vprint(buffer, size, format, arguments);
     if (needed < 0)
         buffer[0] = '\0';
     else if ((size_t)needed >= size)
-        mark_cut(buffer, size);
-    utf8_tidy(buffer);
+        mark_truncation(buffer, size);
+    utf8_sanitize(buffer);
 }
 
 wt_status wt_fail(wt_error *err, wt_status status, const char *format, ...)
@@ -43,7 +43,7 @@ wt_status wt_fail(wt_error *err, wt_status status, const char *format, ...)
         char message[sizeof err->message];
         va_list arguments;
         va_start(arguments, format);
-        set_text(message, sizeof message, format, arguments);
+        format_error_text(message, sizeof message, format, arguments);
         va_end(arguments);
         *err = (wt_error)WT_ERROR_INIT;
         err->status = status;
@@ -59,32 +59,32 @@ void wt_error_file(wt_error *err, const char *file)
     err->file[sizeof err->file - 1] = '\0';
     strncpy(err->file, file, sizeof err->file - 1);
     if (strlen(file) >= sizeof err->file)
-        mark_cut(err->file, sizeof err->file);
+        mark_truncation(err->file, sizeof err->file);
 }
 
-#define DEFINE_PART(part)                                                                          \
+#define DEFINE_ERROR_SETTER(part)                                                                  \
     void wt_error_##part(wt_error *err, const char *format, ...)                                   \
     {                                                                                              \
         if (err != NULL) {                                                                         \
             char text[sizeof err->part];                                                           \
             va_list arguments;                                                                     \
             va_start(arguments, format);                                                           \
-            set_text(text, sizeof text, format, arguments);                                        \
+            format_error_text(text, sizeof text, format, arguments);                               \
             va_end(arguments);                                                                     \
             memcpy(err->part, text, sizeof text);                                                  \
         }                                                                                          \
     }
-DEFINE_PART(place)
-DEFINE_PART(expected)
-DEFINE_PART(found)
-DEFINE_PART(advice)
-#undef DEFINE_PART
+DEFINE_ERROR_SETTER(place)
+DEFINE_ERROR_SETTER(expected)
+DEFINE_ERROR_SETTER(found)
+DEFINE_ERROR_SETTER(advice)
+#undef DEFINE_ERROR_SETTER
 
 size_t wt_error_format(const wt_error *err, char *buffer, size_t size)
 {
     char file[sizeof err->file];
     memcpy(file, err->file, sizeof file);
-    utf8_tidy(file);
+    utf8_sanitize(file);
     const char *const message =
         err->message[0] != '\0' ? err->message : wt_status_text(err->status);
     const struct {
@@ -112,7 +112,7 @@ size_t wt_error_format(const wt_error *err, char *buffer, size_t size)
     if (size > 0) {
         buffer[needed < size ? needed : size - 1] = '\0';
         if (needed >= size && size >= 4)
-            mark_cut(buffer, size);
+            mark_truncation(buffer, size);
     }
     return needed;
 }

@@ -7,34 +7,35 @@
 #include <string.h>
 
 /* Range of the SI prefixes of a unit, as powers of 1000. */
-typedef struct prefixes {
+typedef struct prefix_range {
     const char *unit;
     const char *text;
     int low, high;
-} prefixes;
+} prefix_range;
 
 /* Finds the prefixes of the first factor of the unit, unless it is raised to a power. */
-static prefixes prefixes_of(const char *unit)
+static prefix_range find_prefix_range(const char *unit)
 {
-    static const prefixes known[] = {{"Pa", "Pa", -8, 8}, {"Hz", "Hz", -8, 8}, {"N", "N", -8, 8},
-                                     {"m", "m", -8, 1},   {"V", "V", -8, 8},   {"J", "J", -8, 8},
-                                     {"W", "W", -8, 8},   {"s", "s", -8, 0},   {"byte", "B", 0, 8}};
+    static const prefix_range known[] = {
+        {"Pa", "Pa", -8, 8}, {"Hz", "Hz", -8, 8}, {"N", "N", -8, 8},
+        {"m", "m", -8, 1},   {"V", "V", -8, 8},   {"J", "J", -8, 8},
+        {"W", "W", -8, 8},   {"s", "s", -8, 0},   {"byte", "B", 0, 8}};
     for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
         const size_t n = strlen(known[i].unit);
         if (strncmp(unit, known[i].unit, n) == 0 && (unit[n] == '\0' || strchr("/ .", unit[n])))
             return known[i];
     }
-    return (prefixes){"", "", 0, 0};
+    return (prefix_range){"", "", 0, 0};
 }
 
-static int floor_third(int exponent)
+static int floor_divide_by_three(int exponent)
 {
     return exponent >= 0 ? exponent / 3 : -((2 - exponent) / 3);
 }
 
 /* Formats the significant digits of value / 10^shift: plain for short numbers, otherwise with an
  * exponent. */
-static void put_number(double value, int digits, int shift, char *buffer, size_t size)
+static void format_scaled_number(double value, int digits, int shift, char *buffer, size_t size)
 {
     char scientific[48], shifted[64];
     (void)snprintf(scientific, sizeof scientific, "%.*e", digits - 1, value);
@@ -56,7 +57,7 @@ size_t wt_format_si(double value, const char *unit, int digits, char *buffer, si
                                         "k", "M", "G", "T", "P", "E", "Z",        "Y"};
     char number[64];
     int step = 0;
-    prefixes prefix = prefixes_of(unit);
+    prefix_range prefix = find_prefix_range(unit);
     const bool celsius = strcmp(unit, "degC") == 0 || strcmp(unit, "\xC2\xB0"
                                                                    "C") == 0;
     if (celsius) {
@@ -73,10 +74,10 @@ size_t wt_format_si(double value, const char *unit, int digits, char *buffer, si
             /* The exponent is that after rounding: 999.96 kPa is 1.00 MPa. */
             char scientific[48];
             (void)snprintf(scientific, sizeof scientific, "%.*e", digits - 1, value);
-            step = floor_third(atoi(strchr(scientific, 'e') + 1));
+            step = floor_divide_by_three(atoi(strchr(scientific, 'e') + 1));
             step = step < prefix.low ? prefix.low : step > prefix.high ? prefix.high : step;
         }
-        put_number(value, digits, 3 * step, number, sizeof number);
+        format_scaled_number(value, digits, 3 * step, number, sizeof number);
     }
     const bool bare = unit[0] == '\0' || strcmp(unit, "1") == 0;
     const int needed =

@@ -5,12 +5,12 @@
 
 #include "core/base/utf8.h"
 
-void json_put_text(FILE *out, const char *text)
+void json_write_text(FILE *out, const char *text)
 {
     (void)putc('"', out);
     for (size_t left = strlen(text), n; left > 0; text += n, left -= n) {
         const unsigned char c = (unsigned char)*text;
-        n = utf8_character(text, left);
+        n = utf8_character_length(text, left);
         if (n == 0) {
             (void)fputs("\\ufffd", out);
             n = 1;

@@ -5,6 +5,6 @@
 #include <stdio.h>
 
 /* Writes a text in quotes with the JSON escapes. A byte that is not UTF-8 becomes U+FFFD. */
-void json_put_text(FILE *out, const char *text);
+void json_write_text(FILE *out, const char *text);
 
 #endif

@@ -23,7 +23,7 @@ struct wt_log {
     size_t lost;
 };
 
-static int by_entry(const void *a, const void *b)
+static int compare_log_entries(const void *a, const void *b)
 {
     const log_entry *const p = a, *const q = b;
     if (p->severity != q->severity)
@@ -42,7 +42,7 @@ static void entry_free(log_entry *e)
     free(e);
 }
 
-static void keep_entry(void *node)
+static void free_no_entry(void *node)
 {
     (void)node; /* the array owns the entries */
 }
@@ -61,7 +61,7 @@ void wt_log_free(wt_log *log)
 {
     if (log == NULL)
         return;
-    tdestroy(log->tree, keep_entry);
+    tdestroy(log->tree, free_no_entry);
     for (size_t i = 0; i < log->n; i++)
         entry_free(log->entries[i]);
     free(log->entries);
@@ -69,8 +69,8 @@ void wt_log_free(wt_log *log)
 }
 
 /* Adds a copy of a text, or increments the count of an equal entry. */
-static bool add(wt_log *log, wt_severity severity, const char *file, const char *place,
-                const char *text)
+static bool add_log_entry(wt_log *log, wt_severity severity, const char *file, const char *place,
+                          const char *text)
 {
     log_entry *new_entry = calloc(1, sizeof *new_entry);
     if (new_entry == NULL)
@@ -86,7 +86,7 @@ static bool add(wt_log *log, wt_severity severity, const char *file, const char 
     if (entries != NULL)
         log->entries = entries;
     log_entry *const *const found =
-        entries != NULL ? tsearch(new_entry, &log->tree, by_entry) : NULL;
+        entries != NULL ? tsearch(new_entry, &log->tree, compare_log_entries) : NULL;
     if (found != NULL && *found == new_entry) {
         log->entries[log->n++] = new_entry;
         return true;
@@ -113,8 +113,8 @@ void wt_log_add(wt_log *log, wt_severity severity, const char *file, const char 
         log->lost++;
         return;
     }
-    utf8_tidy(text);
-    if (!add(log, severity, file, place, text))
+    utf8_sanitize(text);
+    if (!add_log_entry(log, severity, file, place, text))
         log->lost++;
     free(text);
 }

@@ -13,7 +13,7 @@
 /* Limit for the length of a number. Instruments write far fewer digits. */
 enum { NUMBER_MAX = 512 };
 
-static bool is_blank(char c)
+static bool is_white_space(char c)
 {
     return c == ' ' || (c >= '\t' && c <= '\r');
 }
@@ -26,7 +26,7 @@ static size_t skip_digits(const char *text, size_t length, size_t i)
 }
 
 /* strtod alone would also accept hexadecimal digits, "nan" and "infinity". */
-size_t number_prefix(const char *text, size_t length, char decimal)
+size_t number_prefix_length(const char *text, size_t length, char decimal)
 {
     size_t i = 0;
     if (i < length && (text[i] == '+' || text[i] == '-'))
@@ -56,13 +56,14 @@ size_t number_prefix(const char *text, size_t length, char decimal)
 bool wt_number_parse(const char *text, size_t length, char decimal, double *value)
 {
     char copy[NUMBER_MAX];
-    while (length > 0 && is_blank(text[0])) {
+    while (length > 0 && is_white_space(text[0])) {
         text++;
         length--;
     }
-    while (length > 0 && is_blank(text[length - 1]))
+    while (length > 0 && is_white_space(text[length - 1]))
         length--;
-    if (length == 0 || length >= sizeof copy || number_prefix(text, length, decimal) != length)
+    if (length == 0 || length >= sizeof copy ||
+        number_prefix_length(text, length, decimal) != length)
         return false;
     memcpy(copy, text, length);
     copy[length] = '\0';
@@ -78,13 +79,13 @@ bool wt_number_parse(const char *text, size_t length, char decimal, double *valu
     return true;
 }
 
-double number_of(const char *text)
+double parse_number_or_nan(const char *text)
 {
     double value = (double)NAN;
     return text != NULL && wt_number_parse(text, strlen(text), '.', &value) ? value : (double)NAN;
 }
 
-bool number_read(const char *text, size_t length, double *value)
+bool parse_stored_number(const char *text, size_t length, double *value)
 {
     static const struct {
         const char *text;
@@ -119,13 +120,13 @@ static size_t shorten_exponent(char *text, size_t length)
     return (size_t)(to - text);
 }
 
-double number_to_tens(double value, int decimals)
+double round_to_power_of_ten(double value, int decimals)
 {
     const double tens = pow(10, decimals < 0 ? -decimals : 0);
     return decimals < 0 ? tens * round(value / tens) : value;
 }
 
-probability_text number_chance(double chance)
+probability_text format_probability(double chance)
 {
     probability_text words;
     clocale_print(words.text, sizeof words.text,
@@ -137,7 +138,7 @@ probability_text number_chance(double chance)
 }
 
 /* Formats an integer of up to 15 digits, as %.15g writes it. */
-static size_t format_whole(double value, char *buffer)
+static size_t format_integer(double value, char *buffer)
 {
     char digits[16];
     size_t n = 0, length = 0;
@@ -157,7 +158,7 @@ static size_t format_whole(double value, char *buffer)
 
 /* printf and strtod take ten times as long. They handle only the few per cent of the values that
  * extended precision cannot decide. */
-enum { EXACT_TENS = 27, MOST_TENS = 2 * EXACT_TENS, MOST_DIGITS = 17 };
+enum { EXACT_POWER_MAX = 27, POWER_MAX = 2 * EXACT_POWER_MAX, DIGITS_MAX = 17 };
 
 /* Decimal number; its first digit has the weight 10^exponent. */
 typedef struct decimal {
@@ -165,18 +166,22 @@ typedef struct decimal {
     int digits, exponent;
 } decimal;
 
-typedef enum reads_back { NOT_CERTAIN, ANOTHER, SAME } reads_back;
+typedef enum round_trip_verdict {
+    ROUND_TRIP_UNCERTAIN,
+    ROUND_TRIP_FAILS,
+    ROUND_TRIP_HOLDS
+} round_trip_verdict;
 
 #if LDBL_MANT_DIG >= 64
 /* Computes x 10^power. Each product is correct to half a unit in the last place, because these
  * powers of ten are exact. */
-static long double times_tens(long double x, int power)
+static long double scale_by_power_of_ten(long double x, int power)
 {
-    static const long double tens[EXACT_TENS + 1] = {
+    static const long double tens[EXACT_POWER_MAX + 1] = {
         1e0L,  1e1L,  1e2L,  1e3L,  1e4L,  1e5L,  1e6L,  1e7L,  1e8L,  1e9L,
         1e10L, 1e11L, 1e12L, 1e13L, 1e14L, 1e15L, 1e16L, 1e17L, 1e18L, 1e19L,
         1e20L, 1e21L, 1e22L, 1e23L, 1e24L, 1e25L, 1e26L, 1e27L};
-    const int size = abs(power), first = size < EXACT_TENS ? size : EXACT_TENS;
+    const int size = abs(power), first = size < EXACT_POWER_MAX ? size : EXACT_POWER_MAX;
     if (power >= 0)
         return x * tens[first] * tens[size - first];
     return x / tens[first] / tens[size - first];
@@ -184,46 +189,46 @@ static long double times_tens(long double x, int power)
 
 /* Rounds a positive value to `digits` digits, and states whether this text reads back as the
  * value. */
-static reads_back round_to(double value, int digits, decimal *to)
+static round_trip_verdict round_to_digits(double value, int digits, decimal *to)
 {
     int e;
     const bool power_of_two =
         !(frexp(value, &e) > 0.5); /* The spacing below a power of two is smaller. */
     int exponent = (int)floor((e - 1) * 0.30102999566398120), scale = digits - 1 - exponent;
-    if (power_of_two || abs(scale) >= MOST_TENS)
-        return NOT_CERTAIN;
-    const long double most = times_tens(1.0L, digits);
-    long double x = times_tens((long double)value, scale);
+    if (power_of_two || abs(scale) >= POWER_MAX)
+        return ROUND_TRIP_UNCERTAIN;
+    const long double most = scale_by_power_of_ten(1.0L, digits);
+    long double x = scale_by_power_of_ten((long double)value, scale);
     if (x >= most) {
         exponent++;
-        x = times_tens((long double)value, --scale);
+        x = scale_by_power_of_ten((long double)value, --scale);
     }
     long double whole = rintl(x);
     if (0.5L - fabsl(x - whole) < 2 * LDBL_EPSILON * x)
-        return NOT_CERTAIN;
+        return ROUND_TRIP_UNCERTAIN;
     const long double half = ldexpl(1.0L, e - DBL_MANT_DIG - 1),
-                      off = fabsl(times_tens(whole, -scale) - (long double)value);
+                      off = fabsl(scale_by_power_of_ten(whole, -scale) - (long double)value);
     if (fabsl(off - half) < half / 64) /* rounding errors are below half / 512 */
-        return NOT_CERTAIN;
+        return ROUND_TRIP_UNCERTAIN;
     if (whole >= most) {
         exponent++;
-        whole = times_tens(1.0L, digits - 1);
+        whole = scale_by_power_of_ten(1.0L, digits - 1);
     }
     *to = (decimal){(uint64_t)whole, digits, exponent};
-    return off < half ? SAME : ANOTHER;
+    return off < half ? ROUND_TRIP_HOLDS : ROUND_TRIP_FAILS;
 }
 #else
-static reads_back round_to(double value, int digits, decimal *to)
+static round_trip_verdict round_to_digits(double value, int digits, decimal *to)
 {
     (void)value, (void)digits, (void)to;
-    return NOT_CERTAIN;
+    return ROUND_TRIP_UNCERTAIN;
 }
 #endif
 
 /* Formats like %.*g, with the shortest exponent. */
 static size_t format_decimal(decimal d, bool negative, char *buffer)
 {
-    char digit[MOST_DIGITS];
+    char digit[DIGITS_MAX];
     for (int i = d.digits; i-- > 0; d.whole /= 10)
         digit[i] = (char)('0' + d.whole % 10);
     int n = d.digits;
@@ -255,11 +260,11 @@ static size_t format_decimal(decimal d, bool negative, char *buffer)
 static size_t format_extended(double value, char *buffer)
 {
     decimal d;
-    for (int digits = 15; digits <= MOST_DIGITS; digits++) {
-        const reads_back back = round_to(fabs(value), digits, &d);
-        if (back == NOT_CERTAIN)
+    for (int digits = 15; digits <= DIGITS_MAX; digits++) {
+        const round_trip_verdict back = round_to_digits(fabs(value), digits, &d);
+        if (back == ROUND_TRIP_UNCERTAIN)
             return 0;
-        if (back == SAME)
+        if (back == ROUND_TRIP_HOLDS)
             return format_decimal(d, value < 0.0, buffer);
     }
     return 0;
@@ -275,7 +280,7 @@ size_t wt_number_format(double value, char *buffer)
         return length;
     }
     if (fabs(value) < 1e15 && !(fabs(value - trunc(value)) > 0))
-        return format_whole(value, buffer);
+        return format_integer(value, buffer);
     /* A normal double represents any decimal number of 15 digits. So 15 digits without trailing
      * zeros are the shortest text if they read back. Subnormal numbers have fewer digits. */
     const bool subnormal = fpclassify(value) == FP_SUBNORMAL;

@@ -7,18 +7,18 @@
 
 /* Returns the length of the longest number at the start of `text`, 0 if there is none. An "e"
  * without a digit after it belongs to the following text ("5eV"). */
-size_t number_prefix(const char *text, size_t length, char decimal);
+size_t number_prefix_length(const char *text, size_t length, char decimal);
 /* Parses a text that is one finite number with a decimal point; NaN for NULL or another text. */
-double number_of(const char *text);
+double parse_number_or_nan(const char *text);
 /* Parses the output of wt_number_format, which includes "nan", "inf" and "-inf". */
-bool number_read(const char *text, size_t length, double *value);
+bool parse_stored_number(const char *text, size_t length, double *value);
 /* Rounds a value to 10^-decimals if `decimals` is negative. Otherwise the value is returned
  * unchanged, because printf rounds it. */
-double number_to_tens(double value, int decimals);
+double round_to_power_of_ten(double value, int decimals);
 /* Text of a probability, such as "0.02"; small values are "below 0.001". */
 typedef struct probability_text {
     char text[16];
 } probability_text;
-probability_text number_chance(double chance);
+probability_text format_probability(double chance);
 
 #endif

@@ -14,23 +14,23 @@
 
 size_t wt_params_count(const wt_params *params)
 {
-    size_t n = params->n_own;
+    size_t n = params->n_records;
     for (size_t i = 0; i < PARAM_PARTS && params->part[i].params != NULL; i++)
         n += wt_params_count(params->part[i].params());
     return n;
 }
 
 /* Returns record i and adds the offset of the structure that it belongs to. */
-static const wt_param *param_at(const wt_params *params, size_t i, size_t *offset)
+static const wt_param *find_param_record(const wt_params *params, size_t i, size_t *offset)
 {
-    if (i < params->n_own)
-        return &params->own[i];
-    i -= params->n_own;
+    if (i < params->n_records)
+        return &params->records[i];
+    i -= params->n_records;
     for (size_t k = 0; k < PARAM_PARTS && params->part[k].params != NULL; k++) {
         const size_t n = wt_params_count(params->part[k].params());
         if (i < n) {
             *offset += params->part[k].offset;
-            return param_at(params->part[k].params(), i, offset);
+            return find_param_record(params->part[k].params(), i, offset);
         }
         i -= n;
     }
@@ -40,7 +40,7 @@ static const wt_param *param_at(const wt_params *params, size_t i, size_t *offse
 const wt_param *wt_params_get(const wt_params *params, size_t i)
 {
     size_t offset = 0;
-    return param_at(params, i, &offset);
+    return find_param_record(params, i, &offset);
 }
 
 /* True if this is the name of the parameter, or its name in an earlier version. */
@@ -51,7 +51,7 @@ static bool is_named(const wt_param *param, const char *name)
 }
 
 /* Its number in the table; that of all if there is none. */
-static size_t param_number(const wt_params *params, const char *name)
+static size_t param_index(const wt_params *params, const char *name)
 {
     const size_t n = wt_params_count(params);
     size_t i = 0;
@@ -63,21 +63,21 @@ static size_t param_number(const wt_params *params, const char *name)
 /* ---- members --------------------------------------------------------------------------------- */
 
 /* Member of a structure with its parameter record. */
-typedef struct slot {
+typedef struct bound_member {
     const wt_param *param;
     void *member;
     size_t *count; /* number of elements of a list */
-} slot;
+} bound_member;
 
-static slot slot_of(const wt_params *params, size_t i, void *structure)
+static bound_member bind_member(const wt_params *params, size_t i, void *structure)
 {
     size_t offset = 0;
-    const wt_param *param = param_at(params, i, &offset);
+    const wt_param *param = find_param_record(params, i, &offset);
     char *base = (char *)structure + offset;
-    return (slot){param, base + param->offset, (void *)(base + param->count_offset)};
+    return (bound_member){param, base + param->offset, (void *)(base + param->count_offset)};
 }
 
-static unsigned long long whole_number(const slot *s)
+static unsigned long long read_unsigned_member(const bound_member *s)
 {
     unsigned narrow = 0;
     unsigned long long wide = 0;
@@ -88,7 +88,7 @@ static unsigned long long whole_number(const slot *s)
     return wide + narrow;
 }
 
-static void put_whole(const slot *s, unsigned long long value)
+static void write_unsigned_member(const bound_member *s, unsigned long long value)
 {
     const unsigned narrow = (unsigned)value;
     if (s->param->size == sizeof value)
@@ -100,16 +100,16 @@ static void put_whole(const slot *s, unsigned long long value)
 /* ---- limits ---------------------------------------------------------------------------------- */
 
 /* False for NaN. */
-static bool is_within(const wt_param *param, double value)
+static bool is_within_limits(const wt_param *param, double value)
 {
     const param_limits *l = &param->limits;
     return (l->with_low ? value >= l->low : value > l->low) &&
            (l->with_high ? value <= l->high : value < l->high) &&
-           quantity_is_possible(param->quantity, value);
+           quantity_is_plausible(param->quantity, value);
 }
 
 /* Example: "above 0 Pa, up to 1 Pa". */
-static void limits_text(const wt_param *param, char *buffer, size_t size)
+static void format_limits(const wt_param *param, char *buffer, size_t size)
 {
     const param_limits *l = &param->limits;
     const char *unit = wt_quantity_unit(param->quantity);
@@ -129,13 +129,14 @@ static void limits_text(const wt_param *param, char *buffer, size_t size)
                       l->high, gap, unit);
 }
 
-static wt_status out_of_range(const wt_param *param, double value, const char *found, wt_error *err)
+static wt_status range_failure(const wt_param *param, double value, const char *found,
+                               wt_error *err)
 {
     char text[128];
     const param_limits *l = &param->limits;
     if (value > l->low && value < l->high && isfinite(value))
-        return quantity_impossible(param->quantity, found, err);
-    limits_text(param, text, sizeof text);
+        return quantity_implausible_error(param->quantity, found, err);
+    format_limits(param, text, sizeof text);
     wt_fail(err, WT_E_RANGE, "out of range");
     wt_error_expected(err, "%s", text);
     wt_error_found(err, "%s", found);
@@ -145,30 +146,32 @@ static wt_status out_of_range(const wt_param *param, double value, const char *f
 /* ---- parsing --------------------------------------------------------------------------------- */
 
 /* Checks a value that was parsed. The error message contains the text as it was written. */
-static wt_status fail_range(const wt_param *param, double value, const char *text, wt_error *err)
+static wt_status check_read_value(const wt_param *param, double value, const char *text,
+                                  wt_error *err)
 {
-    if (is_within(param, value))
+    if (is_within_limits(param, value))
         return WT_OK;
-    return out_of_range(param, value, text, err);
+    return range_failure(param, value, text, err);
 }
 
-static wt_status read_estimate(const wt_param *param, const char *text, wt_estimate *estimate,
-                               wt_error *err)
+static wt_status parse_estimate_value(const wt_param *param, const char *text,
+                                      wt_estimate *estimate, wt_error *err)
 {
     wt_estimate read = {0};
     wt_status status = wt_estimate_parse(text, param->quantity, &read, err);
     if (status == WT_OK)
-        status = fail_range(param, read.value, text, err);
+        status = check_read_value(param, read.value, text, err);
     if (status == WT_OK)
         *estimate = read;
     return status;
 }
 
 /* A stated error that is not used is rejected, because it would be ignored silently. */
-static wt_status read_number(const wt_param *param, const char *text, double *value, wt_error *err)
+static wt_status parse_number_value(const wt_param *param, const char *text, double *value,
+                                    wt_error *err)
 {
     wt_estimate read = {0};
-    wt_status status = read_estimate(param, text, &read, err);
+    wt_status status = parse_estimate_value(param, text, &read, err);
     if (status == WT_OK && read.standard_error > 0) {
         status = wt_fail(err, WT_E_ARG, "an error stated here would not be used");
         wt_error_found(err, "%s", text);
@@ -179,13 +182,13 @@ static wt_status read_number(const wt_param *param, const char *text, double *va
     return status;
 }
 
-static wt_status read_list(const slot *s, const char *text, wt_error *err)
+static wt_status parse_list_member(const bound_member *s, const char *text, wt_error *err)
 {
     double *values = NULL;
     size_t n = 0;
     wt_status status = wt_list_parse(text, s->param->quantity, &values, &n, err);
     for (size_t i = 0; status == WT_OK && i < n; i++)
-        status = fail_range(s->param, values[i], text, err);
+        status = check_read_value(s->param, values[i], text, err);
     if (status != WT_OK) {
         free(values);
         return status;
@@ -195,7 +198,7 @@ static wt_status read_list(const slot *s, const char *text, wt_error *err)
     return WT_OK;
 }
 
-static wt_status read_count(const slot *s, const char *text, wt_error *err)
+static wt_status parse_count_member(const bound_member *s, const char *text, wt_error *err)
 {
     const unsigned long long most = s->param->size == sizeof most ? UINT64_MAX : UINT32_MAX;
     unsigned long long value = 0;
@@ -207,13 +210,13 @@ static wt_status read_count(const slot *s, const char *text, wt_error *err)
     }
     if (!good)
         return wt_fail(err, WT_E_ARG, "'%s' is not a whole number, or too large", text);
-    wt_status status = fail_range(s->param, (double)value, text, err);
+    wt_status status = check_read_value(s->param, (double)value, text, err);
     if (status == WT_OK)
-        put_whole(s, value);
+        write_unsigned_member(s, value);
     return status;
 }
 
-static size_t n_choices(const wt_param *param)
+static size_t count_choices(const wt_param *param)
 {
     size_t n = 1;
     for (const char *p = param->value; *p != '\0'; p++)
@@ -224,16 +227,17 @@ static size_t n_choices(const wt_param *param)
 /* True if the text resembles the name of a spreadsheet format. */
 static bool is_spreadsheet(const char *text, size_t length)
 {
-    spell_suggestion near = nearest_to(text, length);
+    spell_suggestion near = spell_suggestion_begin(text, length);
     spell_suggestion_try(&near, "excel", sizeof "excel" - 1);
     spell_suggestion_try(&near, "xlsx", sizeof "xlsx" - 1);
     return near.name != NULL;
 }
 
-static wt_status read_choice(const slot *s, const char *choices, const char *text, wt_error *err)
+static wt_status parse_choice_member(const bound_member *s, const char *choices, const char *text,
+                                     wt_error *err)
 {
     const size_t length = strlen(text);
-    spell_suggestion near = nearest_to(text, length);
+    spell_suggestion near = spell_suggestion_begin(text, length);
     unsigned i = 0;
     for (const char *p = choices;; i++) {
         const size_t word = strcspn(p, "|");
@@ -250,12 +254,12 @@ static wt_status read_choice(const slot *s, const char *choices, const char *tex
         }
         p += word + 1;
     }
-    put_whole(s, i);
+    write_unsigned_member(s, i);
     return WT_OK;
 }
 
 /* If the placeholder of the value is "NAME=UNIT", both sides of the "=" are required. */
-static bool is_item(const wt_param *param, const char *text)
+static bool is_valid_item(const wt_param *param, const char *text)
 {
     const char *equals = strchr(text, '=');
     return *text != '\0' && (param->value == NULL || strchr(param->value, '=') == NULL ||
@@ -264,7 +268,7 @@ static bool is_item(const wt_param *param, const char *text)
 
 /* Appends the items of a text. Pairs are separated by ';'; a file name is not split, because it may
  * contain any character. */
-static wt_status read_texts(const slot *s, const char *text, wt_error *err)
+static wt_status append_text_items(const bound_member *s, const char *text, wt_error *err)
 {
     const char *const **list = s->member;
     const char *part = strchr(s->param->value, '=') != NULL ? ";" : "";
@@ -272,7 +276,7 @@ static wt_status read_texts(const slot *s, const char *text, wt_error *err)
         const char *end = begin + strcspn(begin, part);
         begin += strspn(begin, *part != '\0' ? " \t\r\n" : "");
         char *item = strndup(begin, begin < end ? (size_t)(end - begin) : 0);
-        if (item != NULL && !is_item(s->param, item)) {
+        if (item != NULL && !is_valid_item(s->param, item)) {
             wt_fail(err, WT_E_ARG, "'%s' is not %s", item, s->param->value);
             free(item);
             return WT_E_ARG;
@@ -292,7 +296,7 @@ static wt_status read_texts(const slot *s, const char *text, wt_error *err)
     }
 }
 
-static void clear_list(const slot *s)
+static void clear_list(const bound_member *s)
 {
     if (s->param->kind == PARAM_LIST) {
         const double **values = s->member;
@@ -307,24 +311,24 @@ static void clear_list(const slot *s)
     }
 }
 
-static wt_status read_member(const slot *s, const char *text, wt_error *err)
+static wt_status parse_member(const bound_member *s, const char *text, wt_error *err)
 {
     switch (s->param->kind) {
     case PARAM_NUMBER:
-        return read_number(s->param, text, s->member, err);
+        return parse_number_value(s->param, text, s->member, err);
     case PARAM_ESTIMATE:
-        return read_estimate(s->param, text, s->member, err);
+        return parse_estimate_value(s->param, text, s->member, err);
     case PARAM_LIST:
-        return read_list(s, text, err);
+        return parse_list_member(s, text, err);
     case PARAM_COUNT:
-        return read_count(s, text, err);
+        return parse_count_member(s, text, err);
     case PARAM_CHOICE:
-        return read_choice(s, s->param->value, text, err);
+        return parse_choice_member(s, s->param->value, text, err);
     case PARAM_TEXT:
         *(const char **)s->member = text;
         return WT_OK;
     case PARAM_TEXTS:
-        return read_texts(s, text, err);
+        return append_text_items(s, text, err);
     case PARAM_OTHER:
         return s->param->read(text, s->member, err);
     case PARAM_FLAG:
@@ -340,10 +344,10 @@ static wt_status read_member(const slot *s, const char *text, wt_error *err)
 wt_status wt_params_set(const wt_params *params, const char *name, void *structure,
                         const char *text, uint64_t *given, wt_error *err)
 {
-    const size_t i = param_number(params, name);
+    const size_t i = param_index(params, name);
     if (i == wt_params_count(params))
         return wt_fail(err, WT_E_NOT_FOUND, "there is no parameter '%s'", name);
-    const slot s = slot_of(params, i, structure);
+    const bound_member s = bind_member(params, i, structure);
     const uint64_t bit = UINT64_C(1) << i;
     if (*text == '\0')
         return wt_fail(err, WT_E_ARG, "the value is empty");
@@ -355,20 +359,20 @@ wt_status wt_params_set(const wt_params *params, const char *name, void *structu
     if (s.param->kind == PARAM_LIST && (*given & bit) != 0)
         clear_list(&s);
     *given |= bit;
-    wt_status status = read_member(&s, text, err);
+    wt_status status = parse_member(&s, text, err);
     return status == WT_OK && s.param->check != NULL ? s.param->check(s.member, err) : status;
 }
 
 void param_copy(const wt_params *params, const void *from, uint64_t given, void *to)
 {
-    for (size_t i = 0; i < params->n_own; i++) {
-        const wt_param *const p = &params->own[i];
+    for (size_t i = 0; i < params->n_records; i++) {
+        const wt_param *const p = &params->records[i];
         if ((given & UINT64_C(1) << i) != 0)
             memcpy((char *)to + p->offset, (const char *)from + p->offset, p->size);
     }
 }
 
-const char *param_missing(const wt_params *params, uint64_t given)
+const char *param_find_missing(const wt_params *params, uint64_t given)
 {
     const size_t n = wt_params_count(params);
     for (size_t i = 0; i < n; i++) {
@@ -383,7 +387,7 @@ void wt_params_clear(const wt_params *params, void *structure, uint64_t *given)
 {
     const size_t n = wt_params_count(params);
     for (size_t i = 0; i < n; i++) {
-        const slot s = slot_of(params, i, structure);
+        const bound_member s = bind_member(params, i, structure);
         if ((*given & UINT64_C(1) << i) != 0)
             clear_list(&s);
     }
@@ -393,7 +397,7 @@ void wt_params_clear(const wt_params *params, void *structure, uint64_t *given)
 /* ---- checking and formatting ----------------------------------------------------------------- */
 
 /* True if the member has no value: NaN, NULL or an empty list. */
-static bool is_unset(const slot *s)
+static bool is_unset(const bound_member *s)
 {
     switch (s->param->kind) {
     case PARAM_NUMBER:
@@ -410,13 +414,14 @@ static bool is_unset(const slot *s)
     }
 }
 
-static wt_status check_values(const wt_param *p, const double *values, size_t n, wt_error *err)
+static wt_status check_values_in_range(const wt_param *p, const double *values, size_t n,
+                                       wt_error *err)
 {
     for (size_t i = 0; i < n; i++)
-        if (!is_within(p, values[i])) {
+        if (!is_within_limits(p, values[i])) {
             char found[32];
             clocale_print(found, sizeof found, "%g", values[i]);
-            return out_of_range(p, values[i], found, err);
+            return range_failure(p, values[i], found, err);
         }
     return WT_OK;
 }
@@ -431,13 +436,13 @@ wt_status range_error(const char *name, double value, const char *expected, wt_e
 
 wt_status param_check_number(const wt_param *param, double value, wt_error *err)
 {
-    wt_status status = check_values(param, &value, 1, err);
+    wt_status status = check_values_in_range(param, &value, 1, err);
     if (status != WT_OK)
         wt_error_place(err, "%s", param->name);
     return status;
 }
 
-static wt_status check_member(const slot *s, wt_error *err)
+static wt_status check_member_value(const bound_member *s, wt_error *err)
 {
     const wt_param *p = s->param;
     wt_status status = WT_OK;
@@ -449,17 +454,18 @@ static wt_status check_member(const slot *s, wt_error *err)
     switch (p->kind) {
     case PARAM_NUMBER:
     case PARAM_ESTIMATE: /* the value is the first member of the estimate */
-        status = check_values(p, s->member, 1, err);
+        status = check_values_in_range(p, s->member, 1, err);
         break;
     case PARAM_LIST:
-        status = check_values(p, *(const double **)s->member, *s->count, err);
+        status = check_values_in_range(p, *(const double **)s->member, *s->count, err);
         break;
     case PARAM_COUNT:
-        status = check_values(p, &(double){(double)whole_number(s)}, 1, err);
+        status = check_values_in_range(p, &(double){(double)read_unsigned_member(s)}, 1, err);
         break;
     case PARAM_CHOICE:
-        if (whole_number(s) >= n_choices(p))
-            status = wt_fail(err, WT_E_RANGE, "%llu is none of %s", whole_number(s), p->value);
+        if (read_unsigned_member(s) >= count_choices(p))
+            status =
+                wt_fail(err, WT_E_RANGE, "%llu is none of %s", read_unsigned_member(s), p->value);
         break;
     default:
         break;
@@ -471,8 +477,8 @@ wt_status param_check(const wt_params *params, const void *structure, wt_error *
 {
     const size_t n = wt_params_count(params);
     for (size_t i = 0; i < n; i++) {
-        const slot s = slot_of(params, i, (void *)(uintptr_t)structure);
-        wt_status status = check_member(&s, err);
+        const bound_member s = bind_member(params, i, (void *)(uintptr_t)structure);
+        wt_status status = check_member_value(&s, err);
         if (status != WT_OK) {
             wt_error_place(err, "%s", s.param->name);
             return status;
@@ -481,7 +487,7 @@ wt_status param_check(const wt_params *params, const void *structure, wt_error *
     return WT_OK;
 }
 
-static int print_number(const wt_param *param, double value, char *buffer, size_t size)
+static int format_default_number(const wt_param *param, double value, char *buffer, size_t size)
 {
     if (param->quantity == WT_Q_TEMPERATURE)
         return (int)wt_format_si(value, "degC", 3, buffer, size);
@@ -490,7 +496,7 @@ static int print_number(const wt_param *param, double value, char *buffer, size_
     return clocale_print(buffer, size, "%g%s%s", value, bare ? "" : " ", bare ? "" : unit);
 }
 
-static int print_choice(const wt_param *param, unsigned long long value, char *buffer, size_t size)
+static int format_choice(const wt_param *param, unsigned long long value, char *buffer, size_t size)
 {
     const char *word = param->value;
     for (unsigned long long i = value; i > 0; i--)
@@ -498,17 +504,17 @@ static int print_choice(const wt_param *param, unsigned long long value, char *b
     return snprintf(buffer, size, "%.*s", (int)strcspn(word, "|"), word);
 }
 
-void param_word(const wt_params *params, const char *name, unsigned value, char *buffer,
-                size_t size)
+void param_choice_name(const wt_params *params, const char *name, unsigned value, char *buffer,
+                       size_t size)
 {
-    const size_t i = param_number(params, name);
+    const size_t i = param_index(params, name);
     const wt_param *p = i < wt_params_count(params) ? wt_params_get(params, i) : NULL;
     buffer[0] = '\0';
-    if (p != NULL && p->kind == PARAM_CHOICE && value < n_choices(p))
-        (void)print_choice(p, value, buffer, size);
+    if (p != NULL && p->kind == PARAM_CHOICE && value < count_choices(p))
+        (void)format_choice(p, value, buffer, size);
 }
 
-static int print_member(const slot *s, char *buffer, size_t size)
+static int format_member(const bound_member *s, char *buffer, size_t size)
 {
     const wt_param *p = s->param;
     if (is_unset(s))
@@ -516,13 +522,13 @@ static int print_member(const slot *s, char *buffer, size_t size)
     switch (p->kind) {
     case PARAM_NUMBER:
     case PARAM_ESTIMATE:
-        return print_number(p, *(const double *)s->member, buffer, size);
+        return format_default_number(p, *(const double *)s->member, buffer, size);
     case PARAM_COUNT:
-        return snprintf(buffer, size, "%llu", whole_number(s));
+        return snprintf(buffer, size, "%llu", read_unsigned_member(s));
     case PARAM_FLAG:
         return snprintf(buffer, size, "%s", *(const bool *)s->member ? "yes" : "no");
     case PARAM_CHOICE:
-        return print_choice(p, whole_number(s), buffer, size);
+        return format_choice(p, read_unsigned_member(s), buffer, size);
     case PARAM_TEXT:
         return snprintf(buffer, size, "%s", *(const char **)s->member);
     default:
@@ -532,10 +538,10 @@ static int print_member(const slot *s, char *buffer, size_t size)
 
 size_t wt_params_default(const wt_params *params, size_t i, char *buffer, size_t size)
 {
-    alignas(max_align_t) unsigned char structure[PARAM_LARGEST] = {0};
+    alignas(max_align_t) unsigned char structure[PARAM_STRUCTURE_SIZE_MAX] = {0};
     params->defaults(structure);
-    const slot s = slot_of(params, i, structure);
+    const bound_member s = bind_member(params, i, structure);
     buffer[0] = '\0';
-    const int n = (s.param->flags & PARAM_REQUIRED) != 0 ? 0 : print_member(&s, buffer, size);
+    const int n = (s.param->flags & PARAM_REQUIRED) != 0 ? 0 : format_member(&s, buffer, size);
     return n > 0 ? (size_t)n : 0;
 }

@@ -75,11 +75,15 @@ typedef struct param_part {
     const wt_params *(*params)(void);
     size_t offset;
 } param_part;
-enum { PARAM_PARTS = 3, PARAM_MOST = 64 /* bits of `given` */, PARAM_LARGEST = 1024 };
+enum {
+    PARAM_PARTS = 3,
+    PARAM_COUNT_MAX = 64 /* bits of `given` */,
+    PARAM_STRUCTURE_SIZE_MAX = 1024
+};
 
 struct wt_params {
-    const wt_param *own;
-    size_t n_own;
+    const wt_param *records;
+    size_t n_records;
     void (*defaults)(void *structure);
     param_part part[PARAM_PARTS];
 };
@@ -135,7 +139,8 @@ struct wt_params {
 #define PARAM_TABLE(name, type, rows, function, ...)                                               \
     static void name##_fill(void *structure)                                                       \
     {                                                                                              \
-        _Static_assert(sizeof(type) <= PARAM_LARGEST, "room for the default of any structure");    \
+        _Static_assert(sizeof(type) <= PARAM_STRUCTURE_SIZE_MAX,                                   \
+                       "room for the default of any structure");                                   \
         *(type *)structure = function();                                                           \
     }                                                                                              \
     const wt_params *name(void)                                                                    \
@@ -158,13 +163,13 @@ wt_status param_check_number(const wt_param *param, double value, wt_error *err)
 /* Creates the error WT_E_RANGE for a number that is not a parameter. */
 wt_status range_error(const char *name, double value, const char *expected, wt_error *err);
 /* Writes the name of a choice to the buffer, "" if there is none. */
-enum { PARAM_WORD = 32 };
-void param_word(const wt_params *params, const char *name, unsigned value, char *buffer,
-                size_t size);
+enum { PARAM_CHOICE_NAME_SIZE = 32 };
+void param_choice_name(const wt_params *params, const char *name, unsigned value, char *buffer,
+                       size_t size);
 /* Copies the stated members between two structures, without nested structures. Lists and texts must
  * not be among them, because they have one owner. */
 void param_copy(const wt_params *params, const void *from, uint64_t given, void *to);
 /* Returns the name of the first required parameter that is not stated; NULL if there is none. */
-const char *param_missing(const wt_params *params, uint64_t given);
+const char *param_find_missing(const wt_params *params, uint64_t given);
 
 #endif

@@ -28,7 +28,7 @@ static void input_free(wt_provenance_input *input, const wt_provenance_input *be
         free((char *)input->format);
 }
 
-static const char *text_of(const char *text, const char *before)
+static const char *share_text(const char *text, const char *before)
 {
     const char *const given = text != NULL ? text : "";
     return before != NULL && strcmp(given, before) == 0 ? before : strdup(given);
@@ -46,7 +46,7 @@ void wt_provenance_free(wt_provenance *p)
     free(p);
 }
 
-static bool is_plain(const char *word)
+static bool is_shell_safe(const char *word)
 {
     return word[0] != '\0' && word[strspn(word, "abcdefghijklmnopqrstuvwxyz"
                                                 "ABCDEFGHIJKLMNOPQRSTUVWXYZ"
@@ -56,7 +56,7 @@ static bool is_plain(const char *word)
 /* Writes a word with shell quoting and returns the end of the text. */
 static char *quote_for_shell(char *to, const char *word)
 {
-    if (is_plain(word))
+    if (is_shell_safe(word))
         return stpcpy(to, word);
     *to++ = '\'';
     for (; *word != '\0'; word++) {
@@ -118,8 +118,8 @@ wt_status wt_provenance_add_input(wt_provenance *p, const wt_provenance_input *i
     wt_provenance_input copy = *input;
     const wt_provenance_input *const before = p->n > 0 ? &inputs[p->n - 1] : NULL;
     copy.path = strdup(input->path != NULL ? input->path : "");
-    copy.role = text_of(input->role, before != NULL ? before->role : NULL);
-    copy.format = text_of(input->format, before != NULL ? before->format : NULL);
+    copy.role = share_text(input->role, before != NULL ? before->role : NULL);
+    copy.format = share_text(input->format, before != NULL ? before->format : NULL);
     if (copy.path == NULL || copy.role == NULL || copy.format == NULL) {
         input_free(&copy, before);
         return WT_E_MEMORY;

@@ -16,9 +16,9 @@
 const char *quantity_example(wt_quantity quantity);
 /* Returns the largest plausible magnitude of a quantity. It is far above real values and far below
  * the overflow of a calculation. */
-double quantity_most(wt_quantity quantity);
-bool quantity_is_possible(wt_quantity quantity, double value); /* false for NaN */
+double quantity_plausible_maximum(wt_quantity quantity);
+bool quantity_is_plausible(wt_quantity quantity, double value); /* false for NaN */
 /* Creates the error WT_E_RANGE for a value that is not plausible. */
-wt_status quantity_impossible(wt_quantity quantity, const char *found, wt_error *err);
+wt_status quantity_implausible_error(wt_quantity quantity, const char *found, wt_error *err);
 
 #endif

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static bool is_blank(char c)
+static bool is_blank_or_line_end(char c)
 {
     return c == ' ' || c == '\t' || c == '\n' || c == '\r';
 }
@@ -14,9 +14,9 @@ static bool is_blank(char c)
 /* Copies [begin, end) without surrounding blanks; NULL when out of memory. */
 static char *copy_trimmed(const char *begin, const char *end)
 {
-    while (begin < end && is_blank(*begin))
+    while (begin < end && is_blank_or_line_end(*begin))
         begin++;
-    while (end > begin && is_blank(end[-1]))
+    while (end > begin && is_blank_or_line_end(end[-1]))
         end--;
     return strndup(begin, (size_t)(end - begin));
 }
@@ -29,14 +29,14 @@ static const char *find_plus_minus(const char *text)
 }
 
 /* Returns the length of the text before a "%" or "percent" at its end; 0 without one. */
-static size_t before_percent(const char *text)
+static size_t length_before_percent(const char *text)
 {
     static const char *const marks[] = {"%", "percent"};
     const size_t n = strlen(text);
     for (size_t i = 0; i < sizeof marks / sizeof marks[0]; i++) {
         const size_t mark = strlen(marks[i]);
         size_t left = n > mark && strcmp(text + n - mark, marks[i]) == 0 ? n - mark : 0;
-        while (left > 0 && is_blank(text[left - 1]))
+        while (left > 0 && is_blank_or_line_end(text[left - 1]))
             left--;
         if (left > 0)
             return left;
@@ -45,10 +45,10 @@ static size_t before_percent(const char *text)
 }
 
 /* Parses a stated error: a percentage of the value, or a quantity of the same dimension. */
-static wt_status parse_error_part(const char *text, wt_quantity quantity, double value,
-                                  double *error, wt_error *err)
+static wt_status parse_stated_error(const char *text, wt_quantity quantity, double value,
+                                    double *error, wt_error *err)
 {
-    const size_t before = before_percent(text);
+    const size_t before = length_before_percent(text);
     if (before > 0) {
         double percent = (double)NAN;
         if (!wt_number_parse(text, before, '.', &percent) || percent < 0) {
@@ -108,10 +108,11 @@ wt_status wt_estimate_parse(const char *text, wt_quantity quantity, wt_estimate 
     wt_status status = head == NULL || (sign != NULL && tail == NULL)
                            ? wt_fail(err, WT_E_MEMORY, "out of memory")
                            : wt_quantity_parse(head, quantity, &parsed.value, err);
-    if (status == WT_OK && tail != NULL && before_percent(head) > 0 && before_percent(tail) > 0)
+    if (status == WT_OK && tail != NULL && length_before_percent(head) > 0 &&
+        length_before_percent(tail) > 0)
         status = fail_two_percents(text, err);
     if (status == WT_OK && tail != NULL)
-        status = parse_error_part(tail, quantity, parsed.value, &parsed.standard_error, err);
+        status = parse_stated_error(tail, quantity, parsed.value, &parsed.standard_error, err);
     if (status == WT_OK)
         *estimate = parsed;
     free(head);
@@ -123,12 +124,12 @@ wt_status wt_estimate_parse(const char *text, wt_quantity quantity, wt_estimate 
 
 #define MAX_LIST 100000
 
-typedef struct values {
+typedef struct value_list {
     double *v;
     size_t n;
-} values;
+} value_list;
 
-static wt_status list_error(const char *text, const char *what, wt_error *err)
+static wt_status fail_list(const char *text, const char *what, wt_error *err)
 {
     wt_fail(err, WT_E_RANGE, "%s", what);
     wt_error_expected(err, "one value, values parted by commas, or FIRST:LAST UNIT:log|lin:COUNT");
@@ -137,7 +138,7 @@ static wt_status list_error(const char *text, const char *what, wt_error *err)
     return WT_E_RANGE;
 }
 
-static wt_status parse_items(char *const *item, size_t n, wt_quantity quantity, values *out,
+static wt_status parse_items(char *const *item, size_t n, wt_quantity quantity, value_list *out,
                              wt_error *err)
 {
     out->v = malloc(n * sizeof *out->v);
@@ -151,8 +152,8 @@ static wt_status parse_items(char *const *item, size_t n, wt_quantity quantity, 
 }
 
 /* Parses FIRST:LAST UNIT:log|lin:COUNT; `part` contains the four parts. */
-static wt_status parse_range(const char *text, char *const *part, wt_quantity quantity, values *out,
-                             wt_error *err)
+static wt_status parse_range(const char *text, char *const *part, wt_quantity quantity,
+                             value_list *out, wt_error *err)
 {
     const char *unit = part[1];
     unit += strspn(unit, "0123456789.");
@@ -164,7 +165,7 @@ static wt_status parse_range(const char *text, char *const *part, wt_quantity qu
                       ? snprintf(first_text, sizeof first_text, "%s%s", part[0], unit)
                       : snprintf(first_text, sizeof first_text, "%s", part[0]);
     if (written < 0 || (size_t)written >= sizeof first_text)
-        return list_error(text, "the first value is too long", err);
+        return fail_list(text, "the first value is too long", err);
     double first = (double)NAN, last = (double)NAN, count = (double)NAN;
     wt_status status = wt_quantity_parse(first_text, quantity, &first, err);
     if (status == WT_OK)
@@ -173,12 +174,12 @@ static wt_status parse_range(const char *text, char *const *part, wt_quantity qu
         return status;
     bool logarithmic = strcmp(part[2], "log") == 0;
     if (!logarithmic && strcmp(part[2], "lin") != 0)
-        return list_error(text, "the spacing is neither log nor lin", err);
+        return fail_list(text, "the spacing is neither log nor lin", err);
     if (!wt_number_parse(part[3], strlen(part[3]), '.', &count) || count < 2 || count > MAX_LIST ||
         floor(count) < count)
-        return list_error(text, "the count is not a whole number from 2 to 100000", err);
+        return fail_list(text, "the count is not a whole number from 2 to 100000", err);
     if (!(last > first) || (logarithmic && !(first > 0)))
-        return list_error(text, "the values do not rise (and are positive for log)", err);
+        return fail_list(text, "the values do not rise (and are positive for log)", err);
     out->n = (size_t)count;
     out->v = malloc(out->n * sizeof *out->v);
     if (out->v == NULL)
@@ -220,13 +221,13 @@ wt_status wt_list_parse(const char *text, wt_quantity quantity, double **result,
     if (text == NULL || result == NULL || n == NULL)
         return wt_fail(err, WT_E_ARG, "no text to parse");
     wt_status status = WT_OK;
-    values list = {NULL, 0};
+    value_list list = {NULL, 0};
     const bool range = strchr(text, ':') != NULL;
     size_t n_parts = 1;
     for (const char *p = text; *p != '\0'; p++)
         n_parts += *p == (range ? ':' : ',');
     if (n_parts > (range ? 4 : MAX_LIST))
-        return list_error(text, range ? "too many parts" : "the list is too long", err);
+        return fail_list(text, range ? "too many parts" : "the list is too long", err);
     char **parts = split_at_mark(text, range ? ':' : ',', n_parts);
     if (parts == NULL)
         status = wt_fail(err, WT_E_MEMORY, "out of memory");
@@ -235,10 +236,10 @@ wt_status wt_list_parse(const char *text, wt_quantity quantity, double **result,
     else if (n_parts == 4)
         status = parse_range(text, parts, quantity, &list, err);
     else
-        status = list_error(text, "a range has four parts", err);
+        status = fail_list(text, "a range has four parts", err);
     for (size_t i = 1; status == WT_OK && i < list.n; i++)
         if (!(list.v[i] > list.v[i - 1]))
-            status = list_error(text, "the values do not rise", err);
+            status = fail_list(text, "the values do not rise", err);
     if (status == WT_OK) {
         *result = list.v;
         *n = list.n;

@@ -6,11 +6,11 @@
 #include <string.h>
 
 /* Limits that agree to this number of digits are printed as equal. */
-enum { MOST_DIGITS = 9 };
+enum { DIGITS_MAX = 9 };
 
 int range_digits(double low, double high, int least)
 {
-    for (int digits = least; digits <= MOST_DIGITS; digits++) {
+    for (int digits = least; digits <= DIGITS_MAX; digits++) {
         char first[32], second[32];
         clocale_print(first, sizeof first, "%.*g", digits, low);
         clocale_print(second, sizeof second, "%.*g", digits, high);

@@ -7,23 +7,23 @@
 
 enum { LONGEST = 63 };
 
-static size_t least(size_t a, size_t b)
+static size_t smaller_size(size_t a, size_t b)
 {
     return a < b ? a : b;
 }
 
 /* Converts an ASCII capital to lower case. */
-static char small(char c)
+static char lower_case(char c)
 {
     return c >= 'A' && c <= 'Z' ? (char)(c - 'A' + 'a') : c;
 }
 
-static bool alike(char a, char b)
+static bool equal_ignoring_case(char a, char b)
 {
-    return small(a) == small(b);
+    return lower_case(a) == lower_case(b);
 }
 
-size_t nearest_distance(const char *a, size_t n_a, const char *b, size_t n_b)
+size_t spelling_distance(const char *a, size_t n_a, const char *b, size_t n_b)
 {
     size_t rows[3][LONGEST + 1];
     if (n_a > LONGEST || n_b > LONGEST)
@@ -34,10 +34,11 @@ size_t nearest_distance(const char *a, size_t n_a, const char *b, size_t n_b)
     for (size_t i = 1; i <= n_a; i++) {
         row[0] = i;
         for (size_t k = 1; k <= n_b; k++) {
-            const size_t other = alike(a[i - 1], b[k - 1]) ? 0 : 1;
-            row[k] = least(least(last[k], row[k - 1]) + 1, last[k - 1] + other);
-            if (i > 1 && k > 1 && alike(a[i - 1], b[k - 2]) && alike(a[i - 2], b[k - 1]))
-                row[k] = least(row[k], before[k - 2] + 1);
+            const size_t other = equal_ignoring_case(a[i - 1], b[k - 1]) ? 0 : 1;
+            row[k] = smaller_size(smaller_size(last[k], row[k - 1]) + 1, last[k - 1] + other);
+            if (i > 1 && k > 1 && equal_ignoring_case(a[i - 1], b[k - 2]) &&
+                equal_ignoring_case(a[i - 2], b[k - 1]))
+                row[k] = smaller_size(row[k], before[k - 2] + 1);
         }
         size_t *const next = before;
         before = last;
@@ -47,14 +48,14 @@ size_t nearest_distance(const char *a, size_t n_a, const char *b, size_t n_b)
     return last[n_b];
 }
 
-spell_suggestion nearest_to(const char *word, size_t length)
+spell_suggestion spell_suggestion_begin(const char *word, size_t length)
 {
     return (spell_suggestion){.word = word, .length = length, .distance = (length + 2) / 3 + 1};
 }
 
 void spell_suggestion_try(spell_suggestion *nearest, const char *name, size_t length)
 {
-    const size_t distance = nearest_distance(nearest->word, nearest->length, name, length);
+    const size_t distance = spelling_distance(nearest->word, nearest->length, name, length);
     if (distance > nearest->distance || distance >= nearest->length)
         return;
     const bool tie = distance == nearest->distance;

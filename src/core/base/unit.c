@@ -22,38 +22,38 @@ enum { UNIT_MAX = 128 };
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
 static ut_system *units = NULL;
 
-/* Resource error of UDUNITS since enter_units, as errno: memory, or a file of its database; 0
+/* Resource error of UDUNITS since enter_udunits, as errno: memory, or a file of its database; 0
  * without one. After such an error UDUNITS may report a known unit as unknown, or use an incomplete
  * database. Its results are then discarded. */
-static int lacking;
+static int missing_resource;
 
-static int note_message(const char *format, va_list list)
+static int record_udunits_error(const char *format, va_list list)
 {
     (void)format;
     (void)list;
     if (errno == EMFILE || errno == ENFILE || errno == ENOENT || errno == EACCES)
-        lacking = errno;
+        missing_resource = errno;
     else if (errno == ENOMEM || ut_get_status() == UT_OS)
-        lacking = ENOMEM;
+        missing_resource = ENOMEM;
     return 0;
 }
 
-typedef struct visit {
+typedef struct udunits_scope {
     locale_t locale;
     ut_error_message_handler handler;
-} visit;
+} udunits_scope;
 
-static visit enter_units(void)
+static udunits_scope enter_udunits(void)
 {
-    lacking = 0;
+    missing_resource = 0;
     errno = 0;
-    return (visit){clocale_enter(), ut_set_error_message_handler(note_message)};
+    return (udunits_scope){clocale_enter(), ut_set_error_message_handler(record_udunits_error)};
 }
 
-static void leave_units(visit before)
+static void leave_udunits(udunits_scope before)
 {
     if (errno == ENOMEM)
-        lacking = ENOMEM;
+        missing_resource = ENOMEM;
     (void)ut_set_error_message_handler(before.handler);
     clocale_leave(before.locale);
 }
@@ -66,9 +66,9 @@ static void add_spelling(const char *spelling, const char *name)
     ut_free(unit);
 }
 
-static void make_units(void)
+static void load_unit_system(void)
 {
-    const visit before = enter_units();
+    const udunits_scope before = enter_udunits();
     units = ut_read_xml(NULL);
     if (units != NULL) {
         add_spelling("deg", "degree");
@@ -79,8 +79,8 @@ static void make_units(void)
         (void)ut_map_name_to_unit("byte", UT_ASCII, byte);
         ut_free(byte);
     }
-    leave_units(before);
-    if (lacking != 0) {
+    leave_udunits(before);
+    if (missing_resource != 0) {
         ut_free_system(units);
         units = NULL;
     }
@@ -88,14 +88,14 @@ static void make_units(void)
 
 /* Base of a unit: the product of base units that it is a multiple of. UDUNITS treats the radian as
  * a base unit. */
-typedef struct base_of {
+typedef struct base_unit_visit {
     const ut_unit *product;
     bool offset;
-} base_of;
+} base_unit_visit;
 
 static ut_status visit_basic(const ut_unit *unit, void *user)
 {
-    ((base_of *)user)->product = unit;
+    ((base_unit_visit *)user)->product = unit;
     return UT_SUCCESS;
 }
 
@@ -105,7 +105,7 @@ static ut_status visit_product(const ut_unit *unit, int count, const ut_unit *co
     (void)count;
     (void)basic;
     (void)powers;
-    ((base_of *)user)->product = unit;
+    ((base_unit_visit *)user)->product = unit;
     return UT_SUCCESS;
 }
 
@@ -141,7 +141,7 @@ static ut_status visit_galilean(const ut_unit *unit, double scale, const ut_unit
     (void)unit;
     (void)scale;
     if (fpclassify(offset) != FP_ZERO)
-        ((base_of *)user)->offset = true;
+        ((base_unit_visit *)user)->offset = true;
     return ut_accept_visitor(underlying, &visitor, user);
 }
 
@@ -149,7 +149,7 @@ static ut_status visit_galilean(const ut_unit *unit, double scale, const ut_unit
  * would also convert between Hz and rad/s, and between a unit and its reciprocal. */
 static bool convert_by_database(const char *unit, const char *si, double *factor, double *offset)
 {
-    base_of base = {NULL, false};
+    base_unit_visit base = {NULL, false};
     ut_unit *from = ut_parse(units, unit, UT_UTF8), *to = ut_parse(units, si, UT_UTF8);
     const bool alike = from != NULL && to != NULL &&
                        ut_accept_visitor(from, &visitor, &base) == UT_SUCCESS &&
@@ -169,21 +169,21 @@ static bool convert_by_database(const char *unit, const char *si, double *factor
     return good;
 }
 
-static wt_status ask_database(const char *unit, const char *si, bool *good, double *factor,
-                              double *offset, wt_error *err)
+static wt_status query_udunits(const char *unit, const char *si, bool *good, double *factor,
+                               double *offset, wt_error *err)
 {
     (void)pthread_mutex_lock(&lock);
     if (units == NULL)
-        make_units();
+        load_unit_system();
     if (units == NULL) {
-        const int number = lacking != 0 ? lacking : -1;
+        const int number = missing_resource != 0 ? missing_resource : -1;
         (void)pthread_mutex_unlock(&lock);
         return resource_error_fail(number, err);
     }
-    const visit before = enter_units();
+    const udunits_scope before = enter_udunits();
     *good = convert_by_database(unit, si, factor, offset);
-    leave_units(before);
-    const bool failed = lacking == ENOMEM;
+    leave_udunits(before);
+    const bool failed = missing_resource == ENOMEM;
     (void)pthread_mutex_unlock(&lock);
     return failed ? resource_error_fail(ENOMEM, err) : WT_OK;
 }
@@ -191,9 +191,9 @@ static wt_status ask_database(const char *unit, const char *si, bool *good, doub
 static wt_status convert_unit(const char *unit, const char *si, bool *good, double *factor,
                               double *offset, wt_error *err)
 {
-    if (!known_unit_is(unit))
-        return ask_database(unit, si, good, factor, offset, err);
-    *good = known_unit_find(unit, si, factor, offset);
+    if (!builtin_unit_exists(unit))
+        return query_udunits(unit, si, good, factor, offset, err);
+    *good = builtin_unit_find(unit, si, factor, offset);
     return WT_OK;
 }
 
@@ -214,7 +214,7 @@ static bool strip_root_hertz(char *unit)
 }
 
 /* Skips the blanks around a text. */
-static const char *without_blanks(const char *text, size_t *length)
+static const char *skip_outer_blanks(const char *text, size_t *length)
 {
     static const char blanks[] = " \t\r\n\v\f";
     while (*length > 0 && strchr(blanks, text[*length - 1]) != NULL)
@@ -226,15 +226,15 @@ static const char *without_blanks(const char *text, size_t *length)
 
 /* Copies a unit without surrounding blanks and one pair of square brackets. False if it is too long
  * or not UTF-8. */
-static bool trim(const char *unit, char copy[UNIT_MAX])
+static bool copy_trimmed_unit(const char *unit, char copy[UNIT_MAX])
 {
     size_t length = strlen(unit);
-    unit = without_blanks(unit, &length);
+    unit = skip_outer_blanks(unit, &length);
     if (length >= 2 && unit[0] == '[' && unit[length - 1] == ']') {
         length -= 2;
-        unit = without_blanks(unit + 1, &length);
+        unit = skip_outer_blanks(unit + 1, &length);
     }
-    if (length >= UNIT_MAX || utf8_check(unit, length) != length)
+    if (length >= UNIT_MAX || utf8_valid_length(unit, length) != length)
         return false;
     for (size_t i = 0; i < length; i++)
         if ((unsigned char)unit[i] < 0x20 &&
@@ -246,7 +246,7 @@ static bool trim(const char *unit, char copy[UNIT_MAX])
 }
 
 /* Example: "a pressure", "an angular frequency". */
-static void quantity_words(wt_quantity quantity, char *buffer, size_t size)
+static void format_quantity_name(wt_quantity quantity, char *buffer, size_t size)
 {
     const char *const id = quantity == WT_Q_NONE ? "number" : wt_quantity_id(quantity);
     (void)snprintf(buffer, size, "%s %s", strchr("aeiou", id[0]) != NULL ? "an" : "a", id);
@@ -257,8 +257,8 @@ static void quantity_words(wt_quantity quantity, char *buffer, size_t size)
 }
 
 /* Sets *angular if the conversion fails only because of the radian. */
-static wt_status convert(const char text[UNIT_MAX], wt_quantity quantity, bool *good, bool *angular,
-                         double *factor, double *offset, wt_error *err)
+static wt_status convert_quantity_unit(const char text[UNIT_MAX], wt_quantity quantity, bool *good,
+                                       bool *angular, double *factor, double *offset, wt_error *err)
 {
     const char *si = wt_quantity_unit(quantity), *instead = NULL;
     char unit[UNIT_MAX];
@@ -287,8 +287,8 @@ wt_status wt_unit_to_si(const char *unit, wt_quantity quantity, double *factor, 
     const char *const si = wt_quantity_unit(quantity);
     const bool dimensionless = strcmp(si, "1") == 0;
     char text[UNIT_MAX] = "", words[64];
-    quantity_words(quantity, words, sizeof words);
-    if (!trim(unit, text)) {
+    format_quantity_name(quantity, words, sizeof words);
+    if (!copy_trimmed_unit(unit, text)) {
         (void)wt_fail(err, WT_E_UNIT, "the unit is too long or not UTF-8 text");
         wt_error_expected(err, "a unit of %s, such as %s", words, si);
         wt_error_found(err, "\"%s\"", unit);
@@ -306,7 +306,7 @@ wt_status wt_unit_to_si(const char *unit, wt_quantity quantity, double *factor, 
     }
     double f = 0.0, o = 0.0;
     bool good = false, angular = false;
-    const wt_status status = convert(text, quantity, &good, &angular, &f, &o, err);
+    const wt_status status = convert_quantity_unit(text, quantity, &good, &angular, &f, &o, err);
     if (status != WT_OK)
         return status;
 
@@ -331,8 +331,8 @@ wt_status wt_unit_to_si(const char *unit, wt_quantity quantity, double *factor, 
 
 /* A user who types hertz counts cycles; the value is converted to an angular frequency if needed.
  * The unit 1/s may be either. Columns are different: their unit alone decides. */
-static wt_status to_si_of_frequency(const char *unit, wt_quantity quantity, double *factor,
-                                    double *offset, wt_error *err)
+static wt_status convert_frequency_unit(const char *unit, wt_quantity quantity, double *factor,
+                                        double *offset, wt_error *err)
 {
     const bool angular = quantity == WT_Q_ANGULAR_FREQUENCY;
     const bool cycles = strcasestr(unit, "Hz") != NULL || strcasestr(unit, "hertz") != NULL;
@@ -347,7 +347,7 @@ static wt_status to_si_of_frequency(const char *unit, wt_quantity quantity, doub
 
 /* Returns advice for a temperature unit written in words, NULL if there is none. In UDUNITS "C" is
  * coulomb and "F" is farad. */
-static const char *find_degrees(const char *unit, wt_quantity quantity)
+static const char *find_temperature_advice(const char *unit, wt_quantity quantity)
 {
     static const struct {
         const char *written, *advice;
@@ -373,7 +373,7 @@ wt_status wt_quantity_parse(const char *text, wt_quantity quantity, double *valu
         bare ? NULL : "write the number with a decimal point, the unit behind it";
     const char *reason = NULL;
     const char *start = text + strspn(text, " \t");
-    const size_t n = number_prefix(start, strlen(start), '.');
+    const size_t n = number_prefix_length(start, strlen(start), '.');
     const char *const unit = start + n + strspn(start + n, " \t");
     if (n == 0 || !wt_number_parse(start, n, '.', &number)) {
         status = wt_fail(err, WT_E_ARG, bare ? "not a number" : "not a quantity");
@@ -384,21 +384,21 @@ wt_status wt_quantity_parse(const char *text, wt_quantity quantity, double *valu
         status = wt_fail(err, WT_E_ARG, "not one number with its unit");
         reason = advice;
     } else {
-        status = to_si_of_frequency(unit, quantity, &factor, &offset, err);
-        reason = status == WT_E_UNIT ? find_degrees(unit, quantity) : NULL;
+        status = convert_frequency_unit(unit, quantity, &factor, &offset, err);
+        reason = status == WT_E_UNIT ? find_temperature_advice(unit, quantity) : NULL;
         result = number * factor + offset;
         if (status == WT_OK && !isfinite(result))
             status = wt_fail(err, WT_E_RANGE, "the value is too large");
         else if (status == WT_OK && quantity == WT_Q_TEMPERATURE && result < 0.0)
             status = wt_fail(err, WT_E_RANGE, "the temperature is below absolute zero");
-        else if (status == WT_OK && !quantity_is_possible(quantity, result))
-            return quantity_impossible(quantity, text, err);
+        else if (status == WT_OK && !quantity_is_plausible(quantity, result))
+            return quantity_implausible_error(quantity, text, err);
     }
     if (status == WT_OK) {
         *value = result;
     } else if (status != WT_E_INTERNAL && status != WT_E_MEMORY) {
         char words[64];
-        quantity_words(quantity, words, sizeof words);
+        format_quantity_name(quantity, words, sizeof words);
         wt_error_expected(err, "%s%s, such as %s", words, bare ? "" : " with its unit",
                           quantity_example(quantity));
         wt_error_found(err, "\"%s\"", text);

@@ -7,7 +7,7 @@
 
 #include <string.h>
 
-static const known_unit known[] = {
+static const builtin_unit builtin_table[] = {
     {"mm", "m", 1e-3, 0},
     {"um", "m", 1e-6, 0},
     {"\xC2\xB5m", "m", 1e-6, 0},
@@ -59,30 +59,30 @@ static const known_unit known[] = {
     {"mm^3/(N m)", "m^2/N", 1e-9, 0},
 };
 
-const known_unit *known_units(size_t *n)
+const builtin_unit *builtin_units(size_t *n)
 {
-    *n = COUNT_OF(known);
-    return known;
+    *n = COUNT_OF(builtin_table);
+    return builtin_table;
 }
 
-bool known_unit_is(const char *text)
+bool builtin_unit_exists(const char *text)
 {
     for (size_t i = 0; i < (size_t)WT_Q_COUNT; i++)
         if (strcmp(text, wt_quantity_unit((wt_quantity)i)) == 0)
             return true;
-    for (size_t i = 0; i < COUNT_OF(known); i++)
-        if (strcmp(text, known[i].text) == 0)
+    for (size_t i = 0; i < COUNT_OF(builtin_table); i++)
+        if (strcmp(text, builtin_table[i].text) == 0)
             return true;
     return false;
 }
 
-bool known_unit_find(const char *text, const char *si, double *factor, double *offset)
+bool builtin_unit_find(const char *text, const char *si, double *factor, double *offset)
 {
-    static const known_unit itself = {.factor = 1.0};
-    const known_unit *found = strcmp(text, si) == 0 ? &itself : NULL;
-    for (size_t i = 0; found == NULL && i < COUNT_OF(known); i++)
-        if (strcmp(text, known[i].text) == 0 && strcmp(si, known[i].si) == 0)
-            found = &known[i];
+    static const builtin_unit itself = {.factor = 1.0};
+    const builtin_unit *found = strcmp(text, si) == 0 ? &itself : NULL;
+    for (size_t i = 0; found == NULL && i < COUNT_OF(builtin_table); i++)
+        if (strcmp(text, builtin_table[i].text) == 0 && strcmp(si, builtin_table[i].si) == 0)
+            found = &builtin_table[i];
     if (found == NULL)
         return false;
     *factor = found->factor;

@@ -9,15 +9,15 @@
 /* Reading the database of UDUNITS takes as long as fitting several force curves, and most runs need
  * nothing of it but these. unit_core_units holds each of them against UDUNITS for every quantity,
  * bit by bit. */
-typedef struct known_unit {
+typedef struct builtin_unit {
     const char *text, *si;
     double factor, offset;
-} known_unit;
+} builtin_unit;
 
-const known_unit *known_units(size_t *n);
+const builtin_unit *builtin_units(size_t *n);
 /* If false, the unit must be converted by UDUNITS. */
-bool known_unit_is(const char *text);
+bool builtin_unit_exists(const char *text);
 /* Finds the conversion of a built-in unit. False if it is not a multiple of `si`. */
-bool known_unit_find(const char *text, const char *si, double *factor, double *offset);
+bool builtin_unit_find(const char *text, const char *si, double *factor, double *offset);
 
 #endif

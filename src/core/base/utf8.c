@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-size_t utf8_character(const char *text, size_t length)
+size_t utf8_character_length(const char *text, size_t length)
 {
     const unsigned char *s = (const unsigned char *)text;
     size_t n;
@@ -38,11 +38,12 @@ size_t utf8_character(const char *text, size_t length)
     return n;
 }
 
-size_t utf8_check(const char *text, size_t length)
+size_t utf8_valid_length(const char *text, size_t length)
 {
     size_t i = 0;
     while (i < length) {
-        const size_t n = (unsigned char)text[i] < 0x80 ? 1 : utf8_character(text + i, length - i);
+        const size_t n =
+            (unsigned char)text[i] < 0x80 ? 1 : utf8_character_length(text + i, length - i);
         if (n == 0)
             return i;
         i += n;
@@ -50,11 +51,11 @@ size_t utf8_check(const char *text, size_t length)
     return length;
 }
 
-size_t utf8_cut(const char *text, size_t length, size_t limit)
+size_t utf8_truncated_length(const char *text, size_t length, size_t limit)
 {
     size_t i = 0;
     while (i < length) {
-        size_t n = utf8_character(text + i, length - i);
+        size_t n = utf8_character_length(text + i, length - i);
         if (n == 0)
             n = 1;
         if (i + n > limit)
@@ -66,17 +67,17 @@ size_t utf8_cut(const char *text, size_t length, size_t limit)
 
 void utf8_copy(char *to, size_t size, const char *text)
 {
-    const size_t n = utf8_cut(text, strlen(text), size - 1);
+    const size_t n = utf8_truncated_length(text, strlen(text), size - 1);
     memcpy(to, text, n);
     to[n] = '\0';
 }
 
-void utf8_tidy(char *text)
+void utf8_sanitize(char *text)
 {
     const size_t length = strlen(text);
     size_t i = 0;
     while (i < length) {
-        const size_t n = utf8_character(text + i, length - i);
+        const size_t n = utf8_character_length(text + i, length - i);
         if (n == 0)
             text[i] = '?';
         else if (n == 1 && ((unsigned char)text[i] < 0x20 || text[i] == 0x7F))

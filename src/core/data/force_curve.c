@@ -49,7 +49,7 @@ void wt_force_curve_reset(wt_force_curve *curve)
 }
 
 /* A segment beyond n_segments keeps its arrays. The next curve only resizes them. */
-static bool fit_channels(wt_segment *segment, size_t n_points, size_t n_channels)
+static bool resize_channels(wt_segment *segment, size_t n_points, size_t n_channels)
 {
     if (n_points > SIZE_MAX / sizeof(double) || n_channels > SIZE_MAX / sizeof(wt_channel))
         return false;
@@ -89,7 +89,7 @@ wt_segment *wt_force_curve_add_segment(wt_force_curve *curve, wt_segment_kind ki
         curve->capacity = capacity;
     }
     wt_segment *const segment = &curve->segments[curve->n_segments];
-    if (!fit_channels(segment, n_points, n_channels))
+    if (!resize_channels(segment, n_points, n_channels))
         return NULL;
     segment->kind = kind;
     segment->index = curve->n_segments;
@@ -119,7 +119,7 @@ const wt_segment *wt_force_curve_segment(const wt_force_curve *curve, wt_segment
 
 /* Returns the factor by which a stated calibration value replaces that of the file; 1 without a
  * replacement. */
-static double replaced_value(bool given, double own, double value)
+static double replacement_ratio(bool given, double own, double value)
 {
     return given && own > 0 ? value / own : 1;
 }
@@ -128,8 +128,9 @@ double deflection_factor(wt_quantity from, wt_quantity to, const wt_cantilever *
                          const wt_cantilever *used)
 {
     const double s = used->sensitivity, k = used->spring_constant;
-    const double new_s = replaced_value(used->sensitivity_given, file->sensitivity, s);
-    const double new_k = replaced_value(used->spring_constant_given, file->spring_constant, k);
+    const double new_s = replacement_ratio(used->sensitivity_is_overridden, file->sensitivity, s);
+    const double new_k =
+        replacement_ratio(used->spring_constant_is_overridden, file->spring_constant, k);
     const bool volts = to == WT_Q_DEFLECTION_VOLTAGE, metres = to == WT_Q_DEFLECTION;
     switch (from) {
     case WT_Q_DEFLECTION_VOLTAGE:

@@ -13,7 +13,7 @@ void wt_image_clear(wt_image *image)
     *image = (wt_image){0};
 }
 
-wt_height_map wt_height_map_of(const wt_image *image)
+wt_height_map wt_image_height_map(const wt_image *image)
 {
     return (wt_height_map){image->values, image->n_columns, image->n_rows,
                            image->width / (double)(image->n_columns - 1),

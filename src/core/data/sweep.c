@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-sweep_points points_of_isotherm(const wt_isotherm *t)
+sweep_points isotherm_points(const wt_isotherm *t)
 {
     return (sweep_points){
         {t->angular_frequency, t->storage_modulus, t->loss_modulus, t->strain, t->loss_factor},
@@ -18,7 +18,7 @@ sweep_points points_of_isotherm(const wt_isotherm *t)
         t->sample};
 }
 
-sweep_points points_of_ramp(const wt_ramp *t)
+sweep_points ramp_points(const wt_ramp *t)
 {
     return (sweep_points){
         {t->temperature, t->storage_modulus, t->loss_modulus, t->strain, t->loss_factor},
@@ -26,12 +26,12 @@ sweep_points points_of_ramp(const wt_ramp *t)
         t->sample};
 }
 
-sweep_points points_of_strain_sweep(const wt_strain_sweep *t)
+sweep_points strain_sweep_points(const wt_strain_sweep *t)
 {
     return (sweep_points){{t->strain, t->storage_modulus, t->loss_modulus}, t->n, t->sample};
 }
 
-static void points_free(sweep_points p)
+static void free_points(sweep_points p)
 {
     for (size_t j = 0; j < SWEEP_ARRAYS; j++)
         free(p.array[j]);
@@ -40,20 +40,20 @@ static void points_free(sweep_points p)
 
 /* Allocates the moduli, the swept variable and the optional arrays `with`, uninitialised. False
  * when out of memory. */
-static bool points_make(sweep_points *p, size_t n, unsigned with)
+static bool allocate_points(sweep_points *p, size_t n, unsigned with)
 {
-    const bool has[SWEEP_ARRAYS] = {[SWEEP_FIRST] = true,
+    const bool has[SWEEP_ARRAYS] = {[SWEEP_VARIABLE] = true,
                                     [SWEEP_STORAGE] = true,
                                     [SWEEP_LOSS] = true,
-                                    [SWEEP_STRAIN] = (with & WT_WITH_STRAIN) != 0,
-                                    [SWEEP_LOSS_FACTOR] = (with & WT_WITH_LOSS_FACTOR) != 0};
+                                    [SWEEP_STRAIN] = (with & WT_SWEEP_HAS_STRAIN) != 0,
+                                    [SWEEP_LOSS_FACTOR] = (with & WT_SWEEP_HAS_LOSS_FACTOR) != 0};
     *p = (sweep_points){.n = n};
     if (n > SIZE_MAX / sizeof(double))
         return false;
     for (size_t j = 0; j < SWEEP_ARRAYS; j++) {
         p->array[j] = has[j] ? malloc((n > 0 ? n : 1) * sizeof(double)) : NULL;
         if (has[j] && p->array[j] == NULL) {
-            points_free(*p);
+            free_points(*p);
             return false;
         }
     }
@@ -65,13 +65,13 @@ void wt_sweep_clear(wt_sweep *sweep)
     if (sweep == NULL)
         return;
     for (size_t i = 0; i < sweep->n_isotherms; i++)
-        points_free(points_of_isotherm(&sweep->isotherms[i]));
+        free_points(isotherm_points(&sweep->isotherms[i]));
     free(sweep->isotherms);
     for (size_t i = 0; i < sweep->n_ramps; i++)
-        points_free(points_of_ramp(&sweep->ramps[i]));
+        free_points(ramp_points(&sweep->ramps[i]));
     free(sweep->ramps);
     for (size_t i = 0; i < sweep->n_strain_sweeps; i++)
-        points_free(points_of_strain_sweep(&sweep->strain_sweeps[i]));
+        free_points(strain_sweep_points(&sweep->strain_sweeps[i]));
     free(sweep->strain_sweeps);
     *sweep = (wt_sweep){0};
 }
@@ -82,12 +82,12 @@ wt_isotherm *wt_sweep_add(wt_sweep *sweep, size_t n, unsigned with)
     wt_isotherm *const all = reallocarray(sweep->isotherms, sweep->n_isotherms + 1, sizeof *all);
     if (all != NULL)
         sweep->isotherms = all;
-    if (all == NULL || !points_make(&p, n, with))
+    if (all == NULL || !allocate_points(&p, n, with))
         return NULL;
     all[sweep->n_isotherms] = (wt_isotherm){.temperature = (double)NAN,
                                             .temperature_spread = (double)NAN,
                                             .n = n,
-                                            .angular_frequency = p.array[SWEEP_FIRST],
+                                            .angular_frequency = p.array[SWEEP_VARIABLE],
                                             .storage_modulus = p.array[SWEEP_STORAGE],
                                             .loss_modulus = p.array[SWEEP_LOSS],
                                             .strain = p.array[SWEEP_STRAIN],
@@ -101,11 +101,11 @@ wt_ramp *wt_sweep_add_ramp(wt_sweep *sweep, size_t n, unsigned with)
     wt_ramp *const all = reallocarray(sweep->ramps, sweep->n_ramps + 1, sizeof *all);
     if (all != NULL)
         sweep->ramps = all;
-    if (all == NULL || !points_make(&p, n, with))
+    if (all == NULL || !allocate_points(&p, n, with))
         return NULL;
     all[sweep->n_ramps] = (wt_ramp){.angular_frequency = (double)NAN,
                                     .n = n,
-                                    .temperature = p.array[SWEEP_FIRST],
+                                    .temperature = p.array[SWEEP_VARIABLE],
                                     .storage_modulus = p.array[SWEEP_STORAGE],
                                     .loss_modulus = p.array[SWEEP_LOSS],
                                     .strain = p.array[SWEEP_STRAIN],
@@ -120,12 +120,12 @@ wt_strain_sweep *wt_sweep_add_strain_sweep(wt_sweep *sweep, size_t n)
         reallocarray(sweep->strain_sweeps, sweep->n_strain_sweeps + 1, sizeof *all);
     if (all != NULL)
         sweep->strain_sweeps = all;
-    if (all == NULL || !points_make(&p, n, 0))
+    if (all == NULL || !allocate_points(&p, n, 0))
         return NULL;
     all[sweep->n_strain_sweeps] = (wt_strain_sweep){.angular_frequency = (double)NAN,
                                                     .temperature = (double)NAN,
                                                     .n = n,
-                                                    .strain = p.array[SWEEP_FIRST],
+                                                    .strain = p.array[SWEEP_VARIABLE],
                                                     .storage_modulus = p.array[SWEEP_STORAGE],
                                                     .loss_modulus = p.array[SWEEP_LOSS]};
     return &all[sweep->n_strain_sweeps++];
@@ -133,33 +133,33 @@ wt_strain_sweep *wt_sweep_add_strain_sweep(wt_sweep *sweep, size_t n)
 
 /* ---- sorting --------------------------------------------------------------------------------- */
 
-static int by_number(double a, double b) /* NaN last */
+static int compare_numbers_nan_last(double a, double b) /* NaN last */
 {
     return isnan(a) || isnan(b) ? isnan(a) - isnan(b) : (a > b) - (a < b);
 }
 
 /* Compares by temperature, then by source; numbers in the name of the source are compared as
  * numbers. */
-static int by_temperature(const void *a, const void *b)
+static int compare_isotherm_order(const void *a, const void *b)
 {
     const wt_isotherm *const p = a, *const q = b;
-    const int order = by_number(p->temperature, q->temperature);
+    const int order = compare_numbers_nan_last(p->temperature, q->temperature);
     return order != 0 ? order : strverscmp(p->source, q->source);
 }
 
-static int compare_ramps(const void *a, const void *b)
+static int compare_ramp_order(const void *a, const void *b)
 {
     const wt_ramp *const p = a, *const q = b;
-    const int order = by_number(p->angular_frequency, q->angular_frequency);
+    const int order = compare_numbers_nan_last(p->angular_frequency, q->angular_frequency);
     return order != 0 ? order : strverscmp(p->source, q->source);
 }
 
 static int compare_strain_sweeps(const void *a, const void *b)
 {
     const wt_strain_sweep *const p = a, *const q = b;
-    int order = by_number(p->temperature, q->temperature);
+    int order = compare_numbers_nan_last(p->temperature, q->temperature);
     if (order == 0)
-        order = by_number(p->angular_frequency, q->angular_frequency);
+        order = compare_numbers_nan_last(p->angular_frequency, q->angular_frequency);
     return order != 0 ? order : strverscmp(p->source, q->source);
 }
 
@@ -211,15 +211,16 @@ static void sort_points(sweep_points points)
 void wt_sweep_sort(wt_sweep *sweep)
 {
     for (size_t i = 0; i < sweep->n_isotherms; i++)
-        sort_points(points_of_isotherm(&sweep->isotherms[i]));
+        sort_points(isotherm_points(&sweep->isotherms[i]));
     for (size_t i = 0; i < sweep->n_ramps; i++)
-        sort_points(points_of_ramp(&sweep->ramps[i]));
+        sort_points(ramp_points(&sweep->ramps[i]));
     for (size_t i = 0; i < sweep->n_strain_sweeps; i++)
-        sort_points(points_of_strain_sweep(&sweep->strain_sweeps[i]));
+        sort_points(strain_sweep_points(&sweep->strain_sweeps[i]));
     if (sweep->n_isotherms > 1)
-        qsort(sweep->isotherms, sweep->n_isotherms, sizeof *sweep->isotherms, by_temperature);
+        qsort(sweep->isotherms, sweep->n_isotherms, sizeof *sweep->isotherms,
+              compare_isotherm_order);
     if (sweep->n_ramps > 1)
-        qsort(sweep->ramps, sweep->n_ramps, sizeof *sweep->ramps, compare_ramps);
+        qsort(sweep->ramps, sweep->n_ramps, sizeof *sweep->ramps, compare_ramp_order);
     if (sweep->n_strain_sweeps > 1)
         qsort(sweep->strain_sweeps, sweep->n_strain_sweeps, sizeof *sweep->strain_sweeps,
               compare_strain_sweeps);
@@ -227,13 +228,13 @@ void wt_sweep_sort(wt_sweep *sweep)
 
 /* ---- duplicates ------------------------------------------------------------------------------ */
 
-static bool same_sample(const char *a, const char *b)
+static bool is_same_sample(const char *a, const char *b)
 {
     return strcmp(a != NULL ? a : "", b != NULL ? b : "") == 0;
 }
 
 /* Compares the bytes of two arrays; two missing arrays are equal. */
-static bool same_numbers(const double *a, const double *b, size_t n)
+static bool are_equal_numbers(const double *a, const double *b, size_t n)
 {
     if (a == NULL || b == NULL)
         return a == b;
@@ -241,33 +242,33 @@ static bool same_numbers(const double *a, const double *b, size_t n)
 }
 
 /* The strain is ignored, because it is no result of an isotherm or a temperature sweep. */
-static bool is_copy(sweep_points a, sweep_points b)
+static bool is_duplicate(sweep_points a, sweep_points b)
 {
-    bool same = a.n == b.n && same_sample(a.sample, b.sample);
+    bool same = a.n == b.n && is_same_sample(a.sample, b.sample);
     for (size_t j = 0; same && j < SWEEP_ARRAYS; j++)
-        same = j == SWEEP_STRAIN || same_numbers(a.array[j], b.array[j], a.n);
+        same = j == SWEEP_STRAIN || are_equal_numbers(a.array[j], b.array[j], a.n);
     return same;
 }
 
-static bool same_point(const wt_isotherm *t, size_t i, size_t k)
+static bool is_same_point(const wt_isotherm *t, size_t i, size_t k)
 {
-    return same_numbers(t->angular_frequency + i, t->angular_frequency + k, 1) &&
-           same_numbers(t->storage_modulus + i, t->storage_modulus + k, 1) &&
-           same_numbers(t->loss_modulus + i, t->loss_modulus + k, 1) &&
-           (t->loss_factor == NULL || same_numbers(t->loss_factor + i, t->loss_factor + k, 1));
+    return are_equal_numbers(t->angular_frequency + i, t->angular_frequency + k, 1) &&
+           are_equal_numbers(t->storage_modulus + i, t->storage_modulus + k, 1) &&
+           are_equal_numbers(t->loss_modulus + i, t->loss_modulus + k, 1) &&
+           (t->loss_factor == NULL || are_equal_numbers(t->loss_factor + i, t->loss_factor + k, 1));
 }
 
 /* Points of equal frequency are adjacent after sorting. */
-static size_t drop_points(wt_isotherm *t)
+static size_t remove_repeated_points(wt_isotherm *t)
 {
-    const sweep_points p = points_of_isotherm(t);
+    const sweep_points p = isotherm_points(t);
     size_t kept = 0;
     for (size_t i = 0; i < t->n; i++) {
         size_t before = kept;
-        while (before > 0 && !same_point(t, before - 1, i) &&
-               same_numbers(t->angular_frequency + before - 1, t->angular_frequency + i, 1))
+        while (before > 0 && !is_same_point(t, before - 1, i) &&
+               are_equal_numbers(t->angular_frequency + before - 1, t->angular_frequency + i, 1))
             before--;
-        if (before > 0 && same_point(t, before - 1, i))
+        if (before > 0 && is_same_point(t, before - 1, i))
             continue;
         swap_points(&p, kept++, i);
     }
@@ -276,9 +277,9 @@ static size_t drop_points(wt_isotherm *t)
     return dropped;
 }
 
-static void drop_copies_of_points(wt_isotherm *t, wt_log *log)
+static void remove_duplicate_points(wt_isotherm *t, wt_log *log)
 {
-    const size_t dropped = drop_points(t);
+    const size_t dropped = remove_repeated_points(t);
     if (dropped > 0)
         wt_log_add(log, WT_WARNING, t->source, NULL,
                    "%zu points of the isotherm at %.1f degC stand there twice; the copies are "
@@ -287,45 +288,46 @@ static void drop_copies_of_points(wt_isotherm *t, wt_log *log)
 }
 
 /* Ramps of equal frequency are adjacent after sorting. */
-static void drop_copies_of_ramps(wt_sweep *sweep, wt_log *log)
+static void remove_duplicate_ramps(wt_sweep *sweep, wt_log *log)
 {
     size_t kept = 0;
     for (size_t i = 0; i < sweep->n_ramps; i++) {
         wt_ramp *const t = &sweep->ramps[i];
         const wt_ramp *const b = kept > 0 ? &sweep->ramps[kept - 1] : NULL;
         if (b == NULL || b->angular_frequency != t->angular_frequency ||
-            !is_copy(points_of_ramp(b), points_of_ramp(t))) {
+            !is_duplicate(ramp_points(b), ramp_points(t))) {
             sweep->ramps[kept++] = *t;
             continue;
         }
         wt_log_add(log, WT_WARNING, t->source, NULL,
                    "this temperature sweep is a copy of that of %s and left out", b->source);
-        points_free(points_of_ramp(t));
+        free_points(ramp_points(t));
     }
     sweep->n_ramps = kept;
 }
 
 /* Strain sweeps of equal temperature and frequency are adjacent after sorting. */
-static void drop_copies_of_strain_sweeps(wt_sweep *sweep, wt_log *log)
+static void remove_duplicate_strain_sweeps(wt_sweep *sweep, wt_log *log)
 {
     size_t kept = 0;
     for (size_t i = 0; i < sweep->n_strain_sweeps; i++) {
         wt_strain_sweep *const t = &sweep->strain_sweeps[i];
         const wt_strain_sweep *const b = kept > 0 ? &sweep->strain_sweeps[kept - 1] : NULL;
         if (b == NULL || b->angular_frequency != t->angular_frequency ||
-            !is_copy(points_of_strain_sweep(b), points_of_strain_sweep(t))) {
+            !is_duplicate(strain_sweep_points(b), strain_sweep_points(t))) {
             sweep->strain_sweeps[kept++] = *t;
             continue;
         }
         wt_log_add(log, WT_WARNING, t->source, NULL,
                    "this strain sweep is a copy of that of %s and left out", b->source);
-        points_free(points_of_strain_sweep(t));
+        free_points(strain_sweep_points(t));
     }
     sweep->n_strain_sweeps = kept;
 }
 
 /* A duplicate at another temperature may be a typing error of the user. */
-static void first_copy(const wt_isotherm *t, const wt_isotherm *original, char *text, size_t size)
+static void format_first_copy(const wt_isotherm *t, const wt_isotherm *original, char *text,
+                              size_t size)
 {
     if (t->temperature == original->temperature)
         snprintf(text, size, "%s is %s", t->source, original->source);
@@ -336,28 +338,28 @@ static void first_copy(const wt_isotherm *t, const wt_isotherm *original, char *
 }
 
 /* Every pair of isotherms is compared, because there are few of them. */
-void wt_sweep_drop_copies(wt_sweep *sweep, wt_log *log)
+void wt_sweep_remove_duplicates(wt_sweep *sweep, wt_log *log)
 {
     size_t kept = 0, n = 0;
     char first[2 * sizeof sweep->isotherms->source + 64] = "";
     for (size_t i = 0; i < sweep->n_isotherms; i++) {
         wt_isotherm *const t = &sweep->isotherms[i];
         size_t original = 0;
-        drop_copies_of_points(t, log);
+        remove_duplicate_points(t, log);
         while (original < kept &&
-               !is_copy(points_of_isotherm(&sweep->isotherms[original]), points_of_isotherm(t)))
+               !is_duplicate(isotherm_points(&sweep->isotherms[original]), isotherm_points(t)))
             original++;
         if (original == kept) {
             sweep->isotherms[kept++] = *t;
             continue;
         }
         if (n++ == 0)
-            first_copy(t, &sweep->isotherms[original], first, sizeof first);
-        points_free(points_of_isotherm(t));
+            format_first_copy(t, &sweep->isotherms[original], first, sizeof first);
+        free_points(isotherm_points(t));
     }
     sweep->n_isotherms = kept;
-    drop_copies_of_ramps(sweep, log);
-    drop_copies_of_strain_sweeps(sweep, log);
+    remove_duplicate_ramps(sweep, log);
+    remove_duplicate_strain_sweeps(sweep, log);
     if (n > 0)
         wt_log_add(log, WT_WARNING, NULL, NULL, "%zu %s and left out; the first: %s", n,
                    n > 1 ? "isotherms are copies of others" : "isotherm is a copy of another",
@@ -366,28 +368,28 @@ void wt_sweep_drop_copies(wt_sweep *sweep, wt_log *log)
 
 /* ---- samples --------------------------------------------------------------------------------- */
 
-wt_status wt_sweep_keep_sample(wt_sweep *sweep, const char *name)
+wt_status wt_sweep_select_sample(wt_sweep *sweep, const char *name)
 {
     size_t kept = 0;
     for (size_t i = 0; i < sweep->n_isotherms; i++)
-        if (same_sample(sweep->isotherms[i].sample, name))
+        if (is_same_sample(sweep->isotherms[i].sample, name))
             sweep->isotherms[kept++] = sweep->isotherms[i];
         else
-            points_free(points_of_isotherm(&sweep->isotherms[i]));
+            free_points(isotherm_points(&sweep->isotherms[i]));
     sweep->n_isotherms = kept;
     kept = 0;
     for (size_t i = 0; i < sweep->n_ramps; i++)
-        if (same_sample(sweep->ramps[i].sample, name))
+        if (is_same_sample(sweep->ramps[i].sample, name))
             sweep->ramps[kept++] = sweep->ramps[i];
         else
-            points_free(points_of_ramp(&sweep->ramps[i]));
+            free_points(ramp_points(&sweep->ramps[i]));
     sweep->n_ramps = kept;
     kept = 0;
     for (size_t i = 0; i < sweep->n_strain_sweeps; i++)
-        if (same_sample(sweep->strain_sweeps[i].sample, name))
+        if (is_same_sample(sweep->strain_sweeps[i].sample, name))
             sweep->strain_sweeps[kept++] = sweep->strain_sweeps[i];
         else
-            points_free(points_of_strain_sweep(&sweep->strain_sweeps[i]));
+            free_points(strain_sweep_points(&sweep->strain_sweeps[i]));
     sweep->n_strain_sweeps = kept;
     return sweep->n_isotherms + sweep->n_ramps + kept > 0 ? WT_OK : WT_E_NOT_FOUND;
 }

@@ -7,7 +7,7 @@
 
 /* Index of an array: the swept variable is first. A missing array is NULL. */
 enum {
-    SWEEP_FIRST,
+    SWEEP_VARIABLE,
     SWEEP_STORAGE,
     SWEEP_LOSS,
     SWEEP_STRAIN, /* also NULL in a strain sweep */
@@ -20,8 +20,8 @@ typedef struct sweep_points {
     char *sample; /* NULL without a name */
 } sweep_points;
 
-sweep_points points_of_isotherm(const wt_isotherm *t);
-sweep_points points_of_ramp(const wt_ramp *t);
-sweep_points points_of_strain_sweep(const wt_strain_sweep *t);
+sweep_points isotherm_points(const wt_isotherm *t);
+sweep_points ramp_points(const wt_ramp *t);
+sweep_points strain_sweep_points(const wt_strain_sweep *t);
 
 #endif

@@ -11,7 +11,7 @@
 /* Rows of one step, and the side of a tile. */
 enum { TILE_ROWS = 4, TILE = 4 };
 /* Number of rows that stay in the first-level cache during the loop over all tiles. */
-enum { TILE_NEAR = 32 };
+enum { TILE_CACHED_ROWS = 32 };
 
 /* Two matrices with the same number of rows, from a column onwards. */
 typedef struct tile_rows {
@@ -22,7 +22,7 @@ typedef struct tile_rows {
 
 /* Computes into[TILE * TILE] += (or -=) sum of i[row * width_i + i] j[row * width_j + j] over the
  * rows. */
-WIDE_PART void tile_whole(double *into, size_t tda, tile_rows of, bool minus)
+WIDE_INLINE void tile_add_full(double *into, size_t tda, tile_rows of, bool minus)
 {
     wide s0, s1, s2, s3;
     simd_load(&s0, into);
@@ -55,7 +55,8 @@ WIDE_PART void tile_whole(double *into, size_t tda, tile_rows of, bool minus)
 }
 
 /* Variant for n * m elements at the edge, where no whole tile fits. */
-WIDE_PART void tile_edge(double *into, size_t n, size_t m, size_t tda, tile_rows of, bool minus)
+WIDE_INLINE void tile_add_partial(double *into, size_t n, size_t m, size_t tda, tile_rows of,
+                                  bool minus)
 {
     for (size_t k = 0; k < of.n; k += TILE_ROWS) {
         for (size_t i = 0; i < n; i++) {
@@ -73,12 +74,13 @@ WIDE_PART void tile_edge(double *into, size_t n, size_t m, size_t tda, tile_rows
 }
 
 /* Adds a whole or a partial tile; n rows and m columns of the result remain. */
-WIDE_PART void tile_add(double *into, size_t n, size_t m, size_t tda, tile_rows of, bool minus)
+WIDE_INLINE void tile_add_product(double *into, size_t n, size_t m, size_t tda, tile_rows of,
+                                  bool minus)
 {
     if (n >= TILE && m >= TILE)
-        tile_whole(into, tda, of, minus);
+        tile_add_full(into, tda, of, minus);
     else
-        tile_edge(into, n < TILE ? n : TILE, m < TILE ? m : TILE, tda, of, minus);
+        tile_add_partial(into, n < TILE ? n : TILE, m < TILE ? m : TILE, tda, of, minus);
 }
 
 #endif

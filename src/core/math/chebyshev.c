@@ -15,19 +15,19 @@ WIDE_REGISTERS
 void chebyshev_fit(const double *restrict value, size_t degree, const double *restrict fit,
                    double *restrict coefficient)
 {
-    const size_t step = LONG_DEGREE / degree;
-    double sum[FIT_ROOM] = {0};
+    const size_t step = CHEBYSHEV_DEGREE_MAX / degree;
+    double sum[CHEBYSHEV_FIT_STRIDE] = {0};
     for (size_t k = 0; k <= degree; k++)
-        for (size_t j = 0; j < FIT_ROOM; j++)
-            sum[j] += value[k * step] * fit[k * FIT_ROOM + j];
-    memcpy(coefficient, sum, (LONG_DEGREE + 1) * sizeof *coefficient);
+        for (size_t j = 0; j < CHEBYSHEV_FIT_STRIDE; j++)
+            sum[j] += value[k * step] * fit[k * CHEBYSHEV_FIT_STRIDE + j];
+    memcpy(coefficient, sum, (CHEBYSHEV_DEGREE_MAX + 1) * sizeof *coefficient);
 }
 
 /* Estimates the truncation error of the series, relative to the smallest value. */
 double chebyshev_tail(const double *coefficient, const double *value, size_t degree)
 {
     double least = (double)INFINITY, most = 0;
-    for (size_t k = 0; k <= LONG_DEGREE; k += LONG_DEGREE / degree) {
+    for (size_t k = 0; k <= CHEBYSHEV_DEGREE_MAX; k += CHEBYSHEV_DEGREE_MAX / degree) {
         least = fmin(least, value[k]);
         most = fmax(most, value[k]);
     }
@@ -39,26 +39,27 @@ double chebyshev_tail(const double *coefficient, const double *value, size_t deg
 /* Truncates the series to the terms that the allowed error needs, and converts T_n(z) to powers of
  * z. The powers are summed twice as fast; their rounding error is about the sum of their
  * magnitudes. Returns the error due to rounding and truncation. */
-double chebyshev_powers(double *coefficient, size_t *degree, double allowed)
+double chebyshev_to_monomials(double *coefficient, size_t *degree, double allowed)
 {
-    double t[LONG_DEGREE + 1] = {0}, last[LONG_DEGREE + 1] = {1}, now[LONG_DEGREE + 1] = {0, 1};
+    double t[CHEBYSHEV_DEGREE_MAX + 1] = {0}, last[CHEBYSHEV_DEGREE_MAX + 1] = {1},
+                                    now[CHEBYSHEV_DEGREE_MAX + 1] = {0, 1};
     double cut = 0, sum = 0;
     size_t kept = *degree;
     while (kept > 2 && cut + fabs(coefficient[kept]) <= allowed)
         cut += fabs(coefficient[kept--]);
     t[0] = coefficient[0];
     for (size_t n = 1; n <= kept; n++) {
-        double next[LONG_DEGREE + 1] = {0};
+        double next[CHEBYSHEV_DEGREE_MAX + 1] = {0};
         for (size_t k = 0; k <= n; k++) {
             t[k] += coefficient[n] * now[k];
             next[k] -= last[k];
         }
-        for (size_t k = 0; k <= n && k < LONG_DEGREE; k++)
+        for (size_t k = 0; k <= n && k < CHEBYSHEV_DEGREE_MAX; k++)
             next[k + 1] += 2 * now[k];
         memcpy(last, now, sizeof last);
         memcpy(now, next, sizeof now);
     }
-    for (size_t k = 0; k <= LONG_DEGREE; k++) {
+    for (size_t k = 0; k <= CHEBYSHEV_DEGREE_MAX; k++) {
         coefficient[k] = t[k];
         sum += fabs(t[k]);
     }

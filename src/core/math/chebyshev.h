@@ -7,7 +7,7 @@
 #include <stddef.h>
 
 /* The highest degree, and the length of an array of coefficients in whole vector registers. */
-enum { LONG_DEGREE = 16, FIT_ROOM = 20 };
+enum { CHEBYSHEV_DEGREE_MAX = 16, CHEBYSHEV_FIT_STRIDE = 20 };
 
 /* Computes the coefficients from values at cos(pi k / degree). `value` has the points of the
  * highest degree. `fit` is the matrix for this degree. */
@@ -18,6 +18,6 @@ double chebyshev_tail(const double *coefficient, const double *value, size_t deg
 /* Truncates the series to the terms that the allowed error needs, and converts T_n(z) to powers of
  * z. The powers are summed twice as fast; their rounding error is about the sum of their
  * magnitudes. Returns the error due to rounding and truncation. */
-double chebyshev_powers(double *coefficient, size_t *degree, double allowed);
+double chebyshev_to_monomials(double *coefficient, size_t *degree, double allowed);
 
 #endif

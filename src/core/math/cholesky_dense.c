@@ -11,8 +11,8 @@
 enum { BLOCK = 4 };
 
 WIDE_REGISTERS
-static void add_block(double *restrict into, size_t n, const double *factor, size_t stride,
-                      const double *row, size_t tda)
+static void add_block_product(double *restrict into, size_t n, const double *factor, size_t stride,
+                              const double *row, size_t tda)
 {
     const double *r0 = row, *r1 = r0 + tda, *r2 = r1 + tda, *r3 = r2 + tda;
     const double c0 = factor[0], c1 = factor[stride], c2 = factor[2 * stride],
@@ -22,20 +22,20 @@ static void add_block(double *restrict into, size_t n, const double *factor, siz
 }
 
 WIDE_REGISTERS
-static void add_row(double *restrict into, size_t n, double factor, const double *row)
+static void add_scaled_row(double *restrict into, size_t n, double factor, const double *row)
 {
     for (size_t j = 0; j < n; j++)
         into[j] += factor * row[j];
 }
 
-void dense_add(double *into, size_t n, const double *factor, size_t stride, const double *row,
-               size_t tda, size_t rows)
+void dense_add_rows(double *into, size_t n, const double *factor, size_t stride, const double *row,
+                    size_t tda, size_t rows)
 {
     size_t k = 0;
     for (; k + BLOCK <= rows; k += BLOCK)
-        add_block(into, n, factor + k * stride, stride, row + k * tda, tda);
+        add_block_product(into, n, factor + k * stride, stride, row + k * tda, tda);
     for (; k < rows; k++)
-        add_row(into, n, factor[k * stride], row + k * tda);
+        add_scaled_row(into, n, factor[k * stride], row + k * tda);
 }
 
 /* Rows of the result that are finished before the following rows are updated. */
@@ -50,7 +50,7 @@ static bool factor_rows(gsl_matrix *m, size_t from, size_t to, double *column)
         double *row = gsl_matrix_ptr(m, k, k);
         for (size_t p = from; p < k; p++)
             column[p - from] = -gsl_matrix_get(m, p, k);
-        dense_add(row, n - k, column, 1, gsl_matrix_ptr(m, from, k), m->tda, k - from);
+        dense_add_rows(row, n - k, column, 1, gsl_matrix_ptr(m, from, k), m->tda, k - from);
         if (!(row[0] > 0.0))
             return false;
         const double scale = 1.0 / sqrt(row[0]);
@@ -63,16 +63,16 @@ static bool factor_rows(gsl_matrix *m, size_t from, size_t to, double *column)
 /* Subtracts the contribution of the rows before `from` from rows from..to of the upper triangle.
  * Both are multiples of TILE, or the end. */
 WIDE_REGISTERS
-static void take_out(gsl_matrix *m, size_t from, size_t to)
+static void subtract_previous_rows(gsl_matrix *m, size_t from, size_t to)
 {
     const size_t n = m->size1, tda = m->tda;
-    for (size_t k = 0; k < from; k += TILE_NEAR) {
-        const size_t rows = k + TILE_NEAR < from ? TILE_NEAR : from - k;
+    for (size_t k = 0; k < from; k += TILE_CACHED_ROWS) {
+        const size_t rows = k + TILE_CACHED_ROWS < from ? TILE_CACHED_ROWS : from - k;
         const double *row = m->data + k * tda;
         for (size_t j = from; j < n; j += TILE)
             for (size_t i = from; i < to && i <= j; i += TILE)
-                tile_add(m->data + i * tda + j, to - i, n - j, tda,
-                         (tile_rows){row + i, row + j, tda, tda, rows}, true);
+                tile_add_product(m->data + i * tda + j, to - i, n - j, tda,
+                                 (tile_rows){row + i, row + j, tda, tda, rows}, true);
     }
 }
 
@@ -82,7 +82,7 @@ bool dense_factor(gsl_matrix *m)
     double column[BLOCK];
     for (size_t from = 0; from < n; from += PANEL) {
         const size_t to = from + PANEL < n ? from + PANEL : n;
-        take_out(m, from, to);
+        subtract_previous_rows(m, from, to);
         for (size_t k = from; k < to; k += BLOCK) {
             const size_t end = k + BLOCK < to ? k + BLOCK : to;
             if (!factor_rows(m, k, end, column))
@@ -90,8 +90,8 @@ bool dense_factor(gsl_matrix *m)
             for (size_t i = end; i < to; i++) {
                 for (size_t p = k; p < end; p++)
                     column[p - k] = -gsl_matrix_get(m, p, i);
-                dense_add(gsl_matrix_ptr(m, i, i), n - i, column, 1, gsl_matrix_ptr(m, k, i),
-                          m->tda, end - k);
+                dense_add_rows(gsl_matrix_ptr(m, i, i), n - i, column, 1, gsl_matrix_ptr(m, k, i),
+                               m->tda, end - k);
             }
         }
     }
@@ -115,24 +115,24 @@ void dense_forward(const gsl_matrix *factor, double *x)
             for (size_t j = k + 1; j < to; j++)
                 x[j] -= x[k] * row[j];
         }
-        dense_add(x + to, n - to, less, 1, factor->data + from * tda + to, tda, to - from);
+        dense_add_rows(x + to, n - to, less, 1, factor->data + from * tda + to, tda, to - from);
     }
 }
 
 /* Adds the contribution of the finished rows before `from` to rows from..to of the inverse of a
  * factor. */
 WIDE_REGISTERS
-static void add_before(const gsl_matrix *factor, gsl_matrix *inverse, size_t from, size_t to)
+static void add_previous_rows(const gsl_matrix *factor, gsl_matrix *inverse, size_t from, size_t to)
 {
     const size_t tda = inverse->tda;
     for (size_t j = 0; j < from; j += TILE) /* columns; row j is zero before column j */
-        for (size_t k = j; k < from; k += TILE_NEAR) {
-            const size_t rows = k + TILE_NEAR < from ? TILE_NEAR : from - k;
+        for (size_t k = j; k < from; k += TILE_CACHED_ROWS) {
+            const size_t rows = k + TILE_CACHED_ROWS < from ? TILE_CACHED_ROWS : from - k;
             for (size_t i = from; i < to; i += TILE)
-                tile_add(inverse->data + i * tda + j, to - i, from - j, tda,
-                         (tile_rows){factor->data + k * factor->tda + i,
-                                     inverse->data + k * tda + j, factor->tda, tda, rows},
-                         false);
+                tile_add_product(inverse->data + i * tda + j, to - i, from - j, tda,
+                                 (tile_rows){factor->data + k * factor->tda + i,
+                                             inverse->data + k * tda + j, factor->tda, tda, rows},
+                                 false);
         }
 }
 
@@ -143,15 +143,15 @@ static void invert_factor(const gsl_matrix *factor, gsl_matrix *inverse)
     gsl_matrix_set_zero(inverse);
     for (size_t from = 0; from < n; from += PANEL) {
         const size_t to = from + PANEL < n ? from + PANEL : n;
-        add_before(factor, inverse, from, to);
+        add_previous_rows(factor, inverse, from, to);
         for (size_t k = from; k < to; k++) {
             double *row = gsl_matrix_ptr(inverse, k, 0);
             const double *by = gsl_matrix_const_ptr(factor, k, 0);
             const double scale = 1.0 / by[k];
             for (size_t j = from; j < k; j += BLOCK) { /* a row ends at its diagonal */
                 const size_t rows = j + BLOCK < k ? BLOCK : k - j;
-                dense_add(row, j + rows, by + j, 1, gsl_matrix_const_ptr(inverse, j, 0),
-                          inverse->tda, rows);
+                dense_add_rows(row, j + rows, by + j, 1, gsl_matrix_const_ptr(inverse, j, 0),
+                               inverse->tda, rows);
             }
             for (size_t j = 0; j < k; j++)
                 row[j] *= -scale;
@@ -162,28 +162,28 @@ static void invert_factor(const gsl_matrix *factor, gsl_matrix *inverse)
 
 /* Computes the upper triangle of the transpose of a lower triangle times the lower triangle. */
 WIDE_REGISTERS
-static void multiply(const gsl_matrix *lower, gsl_matrix *product)
+static void multiply_transpose(const gsl_matrix *lower, gsl_matrix *product)
 {
     const size_t n = lower->size1, whole = n / BLOCK * BLOCK, tda = lower->tda;
     gsl_matrix_set_zero(product);
     for (size_t j = 0; j < n; j += TILE)
-        for (size_t k = j; k < whole; k += TILE_NEAR) {
-            const size_t rows = k + TILE_NEAR < whole ? TILE_NEAR : whole - k;
+        for (size_t k = j; k < whole; k += TILE_CACHED_ROWS) {
+            const size_t rows = k + TILE_CACHED_ROWS < whole ? TILE_CACHED_ROWS : whole - k;
             const double *row = lower->data + k * tda;
             for (size_t i = 0; i <= j; i += TILE)
-                tile_add(product->data + i * product->tda + j, n - i, n - j, product->tda,
-                         (tile_rows){row + i, row + j, tda, tda, rows}, false);
+                tile_add_product(product->data + i * product->tda + j, n - i, n - j, product->tda,
+                                 (tile_rows){row + i, row + j, tda, tda, rows}, false);
         }
     for (size_t i = 0; whole < n && i < n; i++)
-        dense_add(gsl_matrix_ptr(product, i, i), n - i, gsl_matrix_const_ptr(lower, whole, i), tda,
-                  gsl_matrix_const_ptr(lower, whole, i), tda, n - whole);
+        dense_add_rows(gsl_matrix_ptr(product, i, i), n - i, gsl_matrix_const_ptr(lower, whole, i),
+                       tda, gsl_matrix_const_ptr(lower, whole, i), tda, n - whole);
 }
 
 void dense_inverse(const gsl_matrix *factor, gsl_matrix *scratch, gsl_matrix *inverse)
 {
     const size_t n = factor->size1;
     invert_factor(factor, scratch);
-    multiply(scratch, inverse);
+    multiply_transpose(scratch, inverse);
     for (size_t i = 0; i < n; i++)
         for (size_t j = 0; j < i; j++)
             gsl_matrix_set(inverse, i, j, gsl_matrix_get(inverse, j, i));

@@ -7,8 +7,8 @@
 #include <stdbool.h>
 
 /* Computes into[n] += sum of `rows` rows of length n, row k times factor[k * stride]. */
-void dense_add(double *into, size_t n, const double *factor, size_t stride, const double *row,
-               size_t tda, size_t rows);
+void dense_add_rows(double *into, size_t n, const double *factor, size_t stride, const double *row,
+                    size_t tda, size_t rows);
 /* Computes in place the Cholesky factor in the lower triangle and its transpose in the upper one.
  * False if the matrix is not positive definite. */
 bool dense_factor(gsl_matrix *m);

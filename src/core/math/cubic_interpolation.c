@@ -10,7 +10,7 @@ struct curve {
     gsl_spline *spline;
 };
 
-curve *curve_new(const double *x, const double *y, size_t n)
+curve *akima_curve_new(const double *x, const double *y, size_t n)
 {
     curve *c = calloc(1, sizeof *c);
     gsl_quiet();
@@ -18,18 +18,18 @@ curve *curve_new(const double *x, const double *y, size_t n)
         return NULL;
     c->spline = gsl_spline_alloc(gsl_interp_akima, n);
     if (c->spline == NULL || gsl_spline_init(c->spline, x, y, n) != 0) {
-        curve_free(c);
+        akima_curve_free(c);
         return NULL;
     }
     return c;
 }
 
-double curve_at(const curve *c, double x)
+double akima_curve_value(const curve *c, double x)
 {
     return gsl_spline_eval(c->spline, x, NULL);
 }
 
-void curve_free(curve *c)
+void akima_curve_free(curve *c)
 {
     if (c != NULL)
         gsl_spline_free(c->spline);

@@ -7,13 +7,13 @@
 #include <stddef.h>
 
 /* Smallest number of points. Akima's curve does not oscillate next to a step. */
-enum { CURVE_LEAST_POINTS = 5 };
+enum { AKIMA_POINTS_MIN = 5 };
 typedef struct curve curve;
 
 /* Creates a curve through n points with increasing x; NULL when out of memory. */
-curve *curve_new(const double *x, const double *y, size_t n);
+curve *akima_curve_new(const double *x, const double *y, size_t n);
 /* Returns the value at x, which is between the first and the last point. */
-double curve_at(const curve *c, double x);
-void curve_free(curve *c);
+double akima_curve_value(const curve *c, double x);
+void akima_curve_free(curve *c);
 
 #endif

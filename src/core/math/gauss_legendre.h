@@ -8,35 +8,35 @@
 
 /* Rule on [-1, 1]. */
 typedef struct gauss_rule {
-    size_t n, room;  /* row_stride: n rounded up to a multiple of 4 */
-    double *node;    /* [n], increasing */
-    double *weight;  /* [n] */
-    double *running; /* [n * row_stride], row i: int from -1 to node[j] of the i-th Lagrange
-                        polynomial */
-    double *top;     /* [n * RULE_TOP_ROOM], column k: weights of the Legendre coefficient
-                        n - RULE_TOP + k */
+    size_t n, row_stride; /* row_stride: n rounded up to a multiple of 4 */
+    double *node;         /* [n], increasing */
+    double *weight;       /* [n] */
+    double *running;      /* [n * row_stride], row i: int from -1 to node[j] of the i-th Lagrange
+                             polynomial */
+    double *top; /* [n * LEGENDRE_TOP_STRIDE], column k: weights of the Legendre coefficient
+                    n - LEGENDRE_TOP + k */
     double numbers[];
 } gauss_rule;
 
 /* Largest number of nodes; number of Legendre coefficients for the error estimate (three pairs),
  * and this number in whole registers. */
-enum { RULE_MOST = 20, RULE_TOP = 6, RULE_TOP_ROOM = 8 };
+enum { GAUSS_NODES_MAX = 20, LEGENDRE_TOP = 6, LEGENDRE_TOP_STRIDE = 8 };
 /* Returns the rule with n nodes. n must be one of the sizes that GSL tabulates to full precision, 2
  * to 20. A rule is created at the first request of any thread and shared by all. */
-wt_status rule_of(size_t n, const gauss_rule **rule, wt_error *err) WT_NODISCARD;
+wt_status gauss_rule_get(size_t n, const gauss_rule **rule, wt_error *err) WT_NODISCARD;
 
 /* Adds the integrals of f from -1 to each node to running[row_stride]. Returns the integral to 1.
  */
-double rule_running(const gauss_rule *rule, const double *f, double *running);
+double gauss_rule_integrate(const gauss_rule *rule, const double *f, double *running);
 /* Last Legendre coefficients of an integrand. */
-typedef struct rule_top {
-    double coefficient[RULE_TOP_ROOM];
-} rule_top;
+typedef struct legendre_top {
+    double coefficient[LEGENDRE_TOP_STRIDE];
+} legendre_top;
 /* Computes the coefficients of two integrands. */
-void rule_tops(const gauss_rule *rule, const double *f, const double *g, rule_top *of_f,
-               rule_top *of_g);
+void gauss_rule_top_coefficients(const gauss_rule *rule, const double *f, const double *g,
+                                 legendre_top *of_f, legendre_top *of_g);
 /* Estimates the error of sum_i weight[i] f[i] as an integral from -1 to 1, from the decay of the
  * Legendre coefficients. The rule is exact up to twice the degree of the last coefficient. */
-double rule_error(const gauss_rule *rule, const rule_top *top);
+double gauss_rule_error(const gauss_rule *rule, const legendre_top *top);
 
 #endif

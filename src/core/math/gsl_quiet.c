@@ -5,7 +5,7 @@
 #include <gsl/gsl_errno.h>
 #include <pthread.h>
 
-static void switch_off(void)
+static void disable_gsl_handler(void)
 {
     gsl_set_error_handler_off();
 }
@@ -13,5 +13,5 @@ static void switch_off(void)
 void gsl_quiet(void)
 {
     static pthread_once_t once = PTHREAD_ONCE_INIT;
-    pthread_once(&once, switch_off);
+    pthread_once(&once, disable_gsl_handler);
 }

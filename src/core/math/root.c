@@ -10,7 +10,8 @@
 #include <gsl/gsl_roots.h>
 #include <math.h>
 
-void root_halve(root_below below, void *user, double *low, double *high, double close, int most)
+void root_bisect(root_predicate below, void *user, double *low, double *high, double close,
+                 int most)
 {
     for (int i = 0; i<most && * high - *low> close * fmax(fabs(*low), fabs(*high)); i++) {
         const double middle = 0.5 * (*low + *high);
@@ -34,7 +35,8 @@ double root_maximum(root_fn f, void *user, double low, double high, int sections
     return 0.5 * (low + high);
 }
 
-double root_reach(root_fn f, void *user, double root, double error, double reach, double least)
+double root_displacement(root_fn f, void *user, double root, double error, double reach,
+                         double least)
 {
     for (int i = 0; i < 1100; i++) {
         const bool above = f(root + reach, user) < -error;
@@ -47,15 +49,15 @@ double root_reach(root_fn f, void *user, double root, double error, double reach
 }
 
 /* Function with known values at both limits of the bracket. */
-typedef struct between_ends {
+typedef struct bracketed_function {
     root_fn f;
     void *user;
     double low, high, at_low, at_high;
-} between_ends;
+} bracketed_function;
 
-static double value_between(double x, void *user)
+static double bracketed_value(double x, void *user)
 {
-    const between_ends *e = user;
+    const bracketed_function *e = user;
     return x <= e->low ? e->at_low : x >= e->high ? e->at_high : e->f(x, e->user);
 }
 
@@ -64,7 +66,7 @@ wt_status root_find(root_fn f, void *user, double low, double high, double close
 {
     const double at_low = f(low, user);
     const double at_high = f(high, user);
-    between_ends ends = {f, user, low, high, at_low, at_high};
+    bracketed_function bracket = {f, user, low, high, at_low, at_high};
     if (at_low == 0 || at_high == 0) {
         *root = at_low == 0 ? low : high;
         return WT_OK;
@@ -74,7 +76,7 @@ wt_status root_find(root_fn f, void *user, double low, double high, double close
     gsl_root_fsolver *solver = gsl_root_fsolver_alloc(gsl_root_fsolver_brent);
     if (solver == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory for a root");
-    gsl_function function = {.function = value_between, .params = &ends};
+    gsl_function function = {.function = bracketed_value, .params = &bracket};
     const int limit = 300;
     int code = gsl_root_fsolver_set(solver, &function, low, high);
     for (int i = 0; code == GSL_SUCCESS; i++) {

@@ -16,11 +16,12 @@ wt_status root_find(root_fn f, void *user, double low, double high, double close
                     wt_error *err) WT_NODISCARD;
 
 /* Condition that holds below a position and not above it. */
-typedef bool (*root_below)(double x, void *user);
+typedef bool (*root_predicate)(double x, void *user);
 /* Bisects the interval that contains this position. It stops when the width is below `close` times
  * the larger limit, after `most` steps, or at neighbouring numbers. It is meant for functions with
  * jumps or without a value on one side. For smooth functions root_find is faster. */
-void root_halve(root_below below, void *user, double *low, double *high, double close, int most);
+void root_bisect(root_predicate below, void *user, double *low, double *high, double close,
+                 int most);
 
 /* Returns the position of the single maximum between low and high after `sections` golden sections.
  * Each leaves 0.618 of the range (J. Kiefer, Proc. Am. Math. Soc. 4 (1953) 502). */
@@ -28,6 +29,7 @@ double root_maximum(root_fn f, void *user, double low, double high, int sections
 
 /* Returns the displacement of the root when f, which decreases there, changes by `error`. The
  * search starts at the distance `reach`, with steps of at least `least`. */
-double root_reach(root_fn f, void *user, double root, double error, double reach, double least);
+double root_displacement(root_fn f, void *user, double root, double error, double reach,
+                         double least);
 
 #endif

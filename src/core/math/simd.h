@@ -16,7 +16,7 @@
 #endif
 
 /* For an inline part of such code. A call would use the narrow registers. */
-#define WIDE_PART __attribute__((always_inline)) static inline
+#define WIDE_INLINE __attribute__((always_inline)) static inline
 
 /* Four numbers, processed in pairs if the registers are narrow. Use the type for local variables
  * only, because the calling convention depends on the machine. */
@@ -35,13 +35,13 @@ static inline void simd_store(double *to, const wide *from)
 }
 
 /* Replaces each element by the larger or the smaller one of both. The elements must not be NaN. */
-static inline void wide_raise(wide *low, const wide *x)
+static inline void wide_maximum(wide *low, const wide *x)
 {
     const wide_bits above = *x > *low;
     *low = (wide)((above & (wide_bits)*x) | (~above & (wide_bits)*low));
 }
 
-static inline void wide_lower(wide *high, const wide *x)
+static inline void wide_minimum(wide *high, const wide *x)
 {
     const wide_bits below = *x < *high;
     *high = (wide)((below & (wide_bits)*x) | (~below & (wide_bits)*high));

@@ -13,7 +13,7 @@
 /* Level of all intervals. */
 static const double confidence = 0.95;
 
-moments moments_of(const double *x, size_t n)
+moments sample_moments(const double *x, size_t n)
 {
     moments m = {(double)n, 0.0, 0.0};
     for (size_t i = 0; i < n; i++)
@@ -36,13 +36,13 @@ double students_t_quantile(double df)
     return isinf(df) ? gsl_cdf_ugaussian_Pinv(p) : gsl_cdf_tdist_Pinv(p, df);
 }
 
-double wt_student(double freedom)
+double wt_student_quantile(double freedom)
 {
     return students_t_quantile(freedom);
 }
 
 /* From the side of the tail, which keeps its digits. */
-double students_t_of_normal(double z, double df)
+double students_t_from_normal(double z, double df)
 {
     return copysign(gsl_cdf_tdist_Qinv(gsl_cdf_ugaussian_Q(fabs(z)), df), z);
 }
@@ -58,7 +58,7 @@ t_error t_error_sum(const t_error *parts, size_t n)
     return (t_error){sqrt(v), square > 0 ? v * v / square : (double)INFINITY};
 }
 
-t_error t_error_with(t_error part, double known)
+t_error t_error_add_normal(t_error part, double known)
 {
     const t_error parts[] = {part, {sqrt(known), (double)INFINITY}};
     return t_error_sum(parts, COUNT_OF(parts));

@@ -14,14 +14,14 @@ typedef struct t_error {
     double error, df;
 } t_error;
 
-moments moments_of(const double *x, size_t n);
-double students_t_of_normal(double z,
-                            double df); /* value of Student's t with the same tail probability */
-double normal_quantile(double part);    /* value with the probability `part` below it */
-double students_t_quantile(double df);  /* quantile 0.975 of Student's t */
+moments sample_moments(const double *x, size_t n);
+double students_t_from_normal(double z,
+                              double df); /* value of Student's t with the same tail probability */
+double normal_quantile(double part);      /* value with the probability `part` below it */
+double students_t_quantile(double df);    /* quantile 0.975 of Student's t */
 /* Adds independent errors by the Welch-Satterthwaite equation. */
 t_error t_error_sum(const t_error *parts, size_t n);
 /* Adds a normal variance without uncertainty. */
-t_error t_error_with(t_error part, double known);
+t_error t_error_add_normal(t_error part, double known);
 
 #endif

@@ -19,7 +19,7 @@ static inline double power_of_two(double shifted)
 }
 
 /* Splits e^x = 2^k (1 + *rest) with |*rest| < 0.42; returns 2^k. */
-static inline double split_power(double x, double *rest)
+static inline double split_exponential(double x, double *rest)
 {
     const double shift = 0x1.8p52; /* large enough that its last bit is the unit */
     /* The product of k and the first part of ln 2 is exact. */
@@ -48,21 +48,21 @@ static inline double split_power(double x, double *rest)
 }
 
 WIDE_REGISTERS
-void exponential(const double *restrict x, size_t n, double *restrict power)
+void vector_exp(const double *restrict x, size_t n, double *restrict power)
 {
     for (size_t i = 0; i < n; i++) {
         double rest;
-        const double scale = split_power(x[i], &rest);
+        const double scale = split_exponential(x[i], &rest);
         power[i] = scale + scale * rest;
     }
 }
 
 WIDE_REGISTERS
-void exponential_less_one(const double *restrict x, size_t n, double *restrict power)
+void vector_expm1(const double *restrict x, size_t n, double *restrict power)
 {
     for (size_t i = 0; i < n; i++) {
         double rest;
-        const double scale = split_power(x[i], &rest);
+        const double scale = split_exponential(x[i], &rest);
         power[i] = (scale - 1) + scale * rest;
     }
 }

@@ -7,7 +7,7 @@
 
 /* Compute e^x[i] and e^x[i] - 1 for x[i] from -infinity to 700, with a relative error of at most 2
  * DBL_EPSILON. Results below 1e-307 are 0. */
-void exponential(const double *restrict x, size_t n, double *restrict power);
-void exponential_less_one(const double *restrict x, size_t n, double *restrict power);
+void vector_exp(const double *restrict x, size_t n, double *restrict power);
+void vector_expm1(const double *restrict x, size_t n, double *restrict power);
 
 #endif

@@ -19,7 +19,7 @@ static bool is_formula(const char *text)
 }
 
 /* Writes a cell with quotes as in RFC 4180, also between tabs. `mark` precedes the text. */
-static void put_cell(FILE *out, const char *mark, const char *text, char separator)
+static void write_cell(FILE *out, const char *mark, const char *text, char separator)
 {
     const char special[] = {separator, '"', '\n', '\r', '\0'};
     if (strpbrk(text, special) == NULL) {
@@ -35,7 +35,7 @@ static void put_cell(FILE *out, const char *mark, const char *text, char separat
     (void)putc('"', out);
 }
 
-static const char *number_text(double value, char buffer[32])
+static const char *format_cell_number(double value, char buffer[32])
 {
     buffer[0] = '\0';
     if (!isnan(value))
@@ -43,7 +43,7 @@ static const char *number_text(double value, char buffer[32])
     return buffer;
 }
 
-static void put_header(FILE *out, const wt_table *table, bool blocks, char separator)
+static void write_separated_header(FILE *out, const wt_table *table, bool blocks, char separator)
 {
     if (blocks)
         (void)fprintf(out, "block%c", separator);
@@ -55,7 +55,7 @@ static void put_header(FILE *out, const wt_table *table, bool blocks, char separ
                        wt_table_column_name(table, i), unit);
         if (i > 0)
             (void)putc(separator, out);
-        put_cell(out, "", name, separator);
+        write_cell(out, "", name, separator);
     }
     (void)putc('\n', out);
 }
@@ -67,11 +67,11 @@ static bool has_blocks(const wt_table *table)
     return n > 0 && wt_table_block(table, n - 1) > 0;
 }
 
-static void put_separated(FILE *out, const wt_table *table, char separator, bool formulas)
+static void write_separated(FILE *out, const wt_table *table, char separator, bool formulas)
 {
     char number[32];
     const bool blocks = has_blocks(table);
-    put_header(out, table, blocks, separator);
+    write_separated_header(out, table, blocks, separator);
     for (size_t row = 0; row < wt_table_n_rows(table); row++) {
         if (blocks)
             (void)fprintf(out, "%zu%c", wt_table_block(table, row), separator);
@@ -79,10 +79,10 @@ static void put_separated(FILE *out, const wt_table *table, char separator, bool
             if (i > 0)
                 (void)putc(separator, out);
             if (wt_table_column_kind(table, i) == WT_COLUMN_TEXT)
-                put_cell(out, !formulas && is_formula(wt_table_text(table, row, i)) ? "'" : "",
-                         wt_table_text(table, row, i), separator);
+                write_cell(out, !formulas && is_formula(wt_table_text(table, row, i)) ? "'" : "",
+                           wt_table_text(table, row, i), separator);
             else
-                (void)fputs(number_text(wt_table_number(table, row, i), number), out);
+                (void)fputs(format_cell_number(wt_table_number(table, row, i), number), out);
         }
         (void)putc('\n', out);
     }
@@ -91,66 +91,66 @@ static void put_separated(FILE *out, const wt_table *table, char separator, bool
 /* ---- JSON ------------------------------------------------------------------------------------ */
 
 /* JSON has no infinite numbers: they are strings. */
-static void put_number(FILE *out, double value)
+static void write_json_number(FILE *out, double value)
 {
     char number[32];
     if (isnan(value))
         (void)fputs("null", out);
     else
-        (void)fprintf(out, isinf(value) ? "\"%s\"" : "%s", number_text(value, number));
+        (void)fprintf(out, isinf(value) ? "\"%s\"" : "%s", format_cell_number(value, number));
 }
 
-static void put_named(FILE *out, const char *before, const char *name, const char *text)
+static void write_json_member(FILE *out, const char *before, const char *name, const char *text)
 {
     (void)fprintf(out, "%s\"%s\": ", before, name);
-    json_put_text(out, text);
+    json_write_text(out, text);
 }
 
-static void put_keys(FILE *out, const wt_table *table)
+static void write_json_keys(FILE *out, const wt_table *table)
 {
     (void)fputs(",\n \"keys\": {", out);
     for (size_t i = 0; i < wt_table_n_keys(table); i++) {
         const char *name = wt_table_key_name(table, i);
         wt_estimate e;
         (void)fputs(i > 0 ? ",\n  " : "\n  ", out);
-        json_put_text(out, name);
+        json_write_text(out, name);
         (void)fputs(": ", out);
         if (!wt_table_estimate(table, name, &e)) {
-            json_put_text(out, wt_table_key(table, name));
+            json_write_text(out, wt_table_key(table, name));
             continue;
         }
         (void)fputs("{\"value\": ", out);
-        put_number(out, e.value);
+        write_json_number(out, e.value);
         (void)fputs(", \"standard_error\": ", out);
-        put_number(out, e.standard_error);
+        write_json_number(out, e.standard_error);
         (void)fputs(", \"numerical_error\": ", out);
-        put_number(out, e.numerical_error);
-        put_named(out, ", ", "unit", e.unit);
+        write_json_number(out, e.numerical_error);
+        write_json_member(out, ", ", "unit", e.unit);
         (void)putc('}', out);
     }
     (void)putc('}', out);
 }
 
-static void put_columns(FILE *out, const wt_table *table)
+static void write_json_columns(FILE *out, const wt_table *table)
 {
     (void)fputs(",\n \"columns\": [", out);
     for (size_t i = 0; i < wt_table_n_columns(table); i++) {
-        put_named(out, i > 0 ? ",\n  {" : "\n  {", "name", wt_table_column_name(table, i));
+        write_json_member(out, i > 0 ? ",\n  {" : "\n  {", "name", wt_table_column_name(table, i));
         if (wt_table_column_kind(table, i) == WT_COLUMN_NUMBER)
-            put_named(out, ", ", "unit", wt_table_column_unit(table, i));
-        put_named(out, ", ", "long_name", wt_table_column_long_name(table, i));
+            write_json_member(out, ", ", "unit", wt_table_column_unit(table, i));
+        write_json_member(out, ", ", "long_name", wt_table_column_long_name(table, i));
         (void)putc('}', out);
     }
     (void)putc(']', out);
 }
 
-static void put_json(FILE *out, const wt_table *table)
+static void write_json(FILE *out, const wt_table *table)
 {
     const bool blocks = has_blocks(table);
-    put_named(out, "{", "table", wt_table_name(table));
-    put_named(out, ",\n ", "title", wt_table_title(table));
-    put_keys(out, table);
-    put_columns(out, table);
+    write_json_member(out, "{", "table", wt_table_name(table));
+    write_json_member(out, ",\n ", "title", wt_table_title(table));
+    write_json_keys(out, table);
+    write_json_columns(out, table);
     (void)fputs(",\n \"rows\": [", out);
     for (size_t row = 0; row < wt_table_n_rows(table); row++) {
         (void)fputs(row > 0 ? ",\n  {" : "\n  {", out);
@@ -159,9 +159,9 @@ static void put_json(FILE *out, const wt_table *table)
         for (size_t i = 0; i < wt_table_n_columns(table); i++) {
             (void)fprintf(out, "%s\"%s\": ", i > 0 ? ", " : "", wt_table_column_name(table, i));
             if (wt_table_column_kind(table, i) == WT_COLUMN_TEXT)
-                json_put_text(out, wt_table_text(table, row, i));
+                json_write_text(out, wt_table_text(table, row, i));
             else
-                put_number(out, wt_table_number(table, row, i));
+                write_json_number(out, wt_table_number(table, row, i));
         }
         (void)putc('}', out);
     }
@@ -176,8 +176,8 @@ wt_status wt_table_export(FILE *out, const wt_table *table, wt_export_form form,
     if (form == WT_EXPORT_SQLITE)
         return export_sqlite(out, table, has_blocks(table), err);
     if (form == WT_EXPORT_JSON)
-        put_json(out, table);
+        write_json(out, table);
     else
-        put_separated(out, table, form == WT_EXPORT_CSV ? ',' : '\t', formulas);
+        write_separated(out, table, form == WT_EXPORT_CSV ? ',' : '\t', formulas);
     return ferror(out) ? wt_fail(err, WT_E_IO, "cannot write: %s", strerror(errno)) : WT_OK;
 }

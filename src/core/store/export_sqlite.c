@@ -20,7 +20,7 @@
  * table of this program has these names, but a table of another program may. */
 #define COLUMNS_TABLE "weartrack_columns"
 #define KEYS_TABLE "weartrack_keys"
-#define OF_SQLITE "sqlite_" /* prefix that SQLite reserves */
+#define SQLITE_RESERVED_PREFIX "sqlite_" /* prefix that SQLite reserves */
 #define BLOCK_COLUMN "block"
 
 typedef struct database {
@@ -31,35 +31,35 @@ typedef struct database {
     wt_error *err;
 } database;
 
-static wt_status failed(const database *d, int code)
+static wt_status fail_sqlite(const database *d, int code)
 {
     return code == SQLITE_NOMEM
                ? wt_fail(d->err, WT_E_MEMORY, "out of memory")
                : wt_fail(d->err, WT_E_INTERNAL, "SQLite: %s", sqlite3_errmsg(d->db));
 }
 
-static wt_status run(const database *d, const char *words)
+static wt_status execute_sql(const database *d, const char *words)
 {
     const int code = sqlite3_exec(d->db, words, NULL, NULL, NULL);
-    return code == SQLITE_OK ? WT_OK : failed(d, code);
+    return code == SQLITE_OK ? WT_OK : fail_sqlite(d, code);
 }
 
-static wt_status prepare(const database *d, const char *words, sqlite3_stmt **statement)
+static wt_status prepare_statement(const database *d, const char *words, sqlite3_stmt **statement)
 {
     const int code =
         words == NULL ? SQLITE_NOMEM : sqlite3_prepare_v2(d->db, words, -1, statement, NULL);
-    return code == SQLITE_OK ? WT_OK : failed(d, code);
+    return code == SQLITE_OK ? WT_OK : fail_sqlite(d, code);
 }
 
 /* Replaces each byte that is not UTF-8 by U+FFFD, because a text column must be UTF-8. The caller
  * frees the copy. */
-static char *whole_text(const char *text)
+static char *replace_invalid_utf8(const char *text)
 {
     static const char replacement[] = "\xef\xbf\xbd";
     char *const whole = malloc((sizeof replacement - 1) * strlen(text) + 1);
     char *to = whole;
     for (size_t left = strlen(text), n; whole != NULL && left > 0; text += n, left -= n) {
-        n = utf8_character(text, left);
+        n = utf8_character_length(text, left);
         to = n > 0 ? mempcpy(to, text, n) : mempcpy(to, replacement, sizeof replacement - 1);
         n += n == 0;
     }
@@ -73,8 +73,8 @@ static char *whole_text(const char *text)
 static void bind_text(sqlite3_stmt *row, int place, const char *text)
 {
     const size_t length = text != NULL ? strlen(text) : 0;
-    if (length > 0 && utf8_check(text, length) < length)
-        (void)sqlite3_bind_text(row, place, whole_text(text), -1, free);
+    if (length > 0 && utf8_valid_length(text, length) < length)
+        (void)sqlite3_bind_text(row, place, replace_invalid_utf8(text), -1, free);
     else if (length > 0)
         (void)sqlite3_bind_text(row, place, text, -1, SQLITE_TRANSIENT);
     else
@@ -89,22 +89,22 @@ static void bind_number(sqlite3_stmt *row, int place, double value)
         (void)sqlite3_bind_double(row, place, value);
 }
 
-static wt_status put_row(const database *d, sqlite3_stmt *row)
+static wt_status insert_row(const database *d, sqlite3_stmt *row)
 {
     const int code = sqlite3_step(row);
     const int ready = sqlite3_reset(row);
-    return code == SQLITE_DONE && ready == SQLITE_OK ? WT_OK : failed(d, code);
+    return code == SQLITE_DONE && ready == SQLITE_OK ? WT_OK : fail_sqlite(d, code);
 }
 
 /* ---- names ----------------------------------------------------------------------------------- */
 
 /* Rejects names that have another meaning in the database, and tables with too many columns. */
-static wt_status check_table(const database *d)
+static wt_status check_database_table(const database *d)
 {
     const char *const name = d->table->name;
     const int most = sqlite3_limit(d->db, SQLITE_LIMIT_COLUMN, -1);
     if (strcasecmp(name, COLUMNS_TABLE) == 0 || strcasecmp(name, KEYS_TABLE) == 0 ||
-        strncasecmp(name, OF_SQLITE, strlen(OF_SQLITE)) == 0)
+        strncasecmp(name, SQLITE_RESERVED_PREFIX, strlen(SQLITE_RESERVED_PREFIX)) == 0)
         (void)wt_fail(d->err, WT_E_UNSUPPORTED,
                       "a table \"%s\" cannot be in a database: the name has another meaning there",
                       name);
@@ -118,7 +118,7 @@ static wt_status check_table(const database *d)
     return WT_E_UNSUPPORTED;
 }
 
-static bool is_taken(const database *d, size_t n, const char *name)
+static bool is_name_used(const database *d, size_t n, const char *name)
 {
     bool taken = d->blocks && strcasecmp(name, BLOCK_COLUMN) == 0;
     for (size_t i = 0; i < n && !taken; i++)
@@ -127,14 +127,14 @@ static bool is_taken(const database *d, size_t n, const char *name)
 }
 
 /* SQLite ignores case, so that modulus_A equals modulus_a: the later name gets a number. */
-static wt_status name_columns(database *d)
+static wt_status choose_column_names(database *d)
 {
     const size_t n = d->table->n_columns;
     d->names = calloc(n + 1, sizeof *d->names);
     bool good = d->names != NULL;
     for (size_t i = 0; good && i < n; i++) {
         char *name = strdup(d->table->columns[i].name);
-        for (size_t number = 2; name != NULL && is_taken(d, i, name); number++) {
+        for (size_t number = 2; name != NULL && is_name_used(d, i, name); number++) {
             free(name);
             if (asprintf(&name, "%s_%zu", d->table->columns[i].name, number) < 0)
                 name = NULL;
@@ -149,7 +149,7 @@ static wt_status name_columns(database *d)
 
 /* Returns a CREATE TABLE statement, or an INSERT statement with a parameter for each column. The
  * caller frees it; NULL when out of memory. */
-static char *table_words(const database *d, bool create)
+static char *format_table_statement(const database *d, bool create)
 {
     sqlite3_str *const s = sqlite3_str_new(d->db);
     sqlite3_str_appendf(s, create ? "CREATE TABLE \"%w\"(" : "INSERT INTO \"%w\" VALUES(",
@@ -169,15 +169,15 @@ static char *table_words(const database *d, bool create)
     return sqlite3_str_finish(s);
 }
 
-static wt_status put_rows(const database *d)
+static wt_status insert_table_rows(const database *d)
 {
     sqlite3_stmt *row = NULL;
-    char *words = table_words(d, true);
-    wt_status status = words != NULL ? run(d, words) : failed(d, SQLITE_NOMEM);
+    char *words = format_table_statement(d, true);
+    wt_status status = words != NULL ? execute_sql(d, words) : fail_sqlite(d, SQLITE_NOMEM);
     sqlite3_free(words);
-    words = status == WT_OK ? table_words(d, false) : NULL;
+    words = status == WT_OK ? format_table_statement(d, false) : NULL;
     if (status == WT_OK)
-        status = prepare(d, words, &row);
+        status = prepare_statement(d, words, &row);
     sqlite3_free(words);
     for (size_t i = 0; status == WT_OK && i < d->table->n_rows; i++) {
         int place = 1;
@@ -188,41 +188,43 @@ static wt_status put_rows(const database *d)
                 bind_text(row, place, wt_table_text(d->table, i, column));
             else
                 bind_number(row, place, wt_table_number(d->table, i, column));
-        status = put_row(d, row);
+        status = insert_row(d, row);
     }
     (void)sqlite3_finalize(row);
     return status;
 }
 
-static wt_status put_columns(const database *d)
+static wt_status insert_column_rows(const database *d)
 {
     sqlite3_stmt *row = NULL;
-    wt_status status = run(d, "CREATE TABLE " COLUMNS_TABLE
-                              "(\"table\" TEXT, \"column\" TEXT, unit TEXT, words TEXT)");
+    wt_status status = execute_sql(d, "CREATE TABLE " COLUMNS_TABLE
+                                      "(\"table\" TEXT, \"column\" TEXT, unit TEXT, words TEXT)");
     if (status == WT_OK)
-        status = prepare(d, "INSERT INTO " COLUMNS_TABLE " VALUES(?, ?, ?, ?)", &row);
+        status = prepare_statement(d, "INSERT INTO " COLUMNS_TABLE " VALUES(?, ?, ?, ?)", &row);
     for (size_t i = 0; status == WT_OK && i < d->table->n_columns; i++) {
         const table_column *const column = &d->table->columns[i];
         bind_text(row, 1, d->table->name);
         bind_text(row, 2, d->names[i]);
         bind_text(row, 3, column->kind == WT_COLUMN_TEXT ? NULL : column->unit);
         bind_text(row, 4, column->long_name);
-        status = put_row(d, row);
+        status = insert_row(d, row);
     }
     (void)sqlite3_finalize(row);
     return status;
 }
 
-static wt_status put_keys(const database *d)
+static wt_status insert_key_rows(const database *d)
 {
     sqlite3_stmt *row = NULL;
     if (d->table->n_keys == 0)
         return WT_OK;
-    wt_status status = run(d, "CREATE TABLE " KEYS_TABLE
-                              "(\"table\" TEXT, \"key\" TEXT, value REAL, standard_error REAL, "
-                              "numerical_error REAL, unit TEXT, words TEXT)");
+    wt_status status =
+        execute_sql(d, "CREATE TABLE " KEYS_TABLE
+                       "(\"table\" TEXT, \"key\" TEXT, value REAL, standard_error REAL, "
+                       "numerical_error REAL, unit TEXT, words TEXT)");
     if (status == WT_OK)
-        status = prepare(d, "INSERT INTO " KEYS_TABLE " VALUES(?, ?, ?, ?, ?, ?, ?)", &row);
+        status =
+            prepare_statement(d, "INSERT INTO " KEYS_TABLE " VALUES(?, ?, ?, ?, ?, ?, ?)", &row);
     for (size_t i = 0; status == WT_OK && i < d->table->n_keys; i++) {
         const table_key *const key = &d->table->keys[i];
         const double numbers[] = {key->parsed.value, key->parsed.standard_error,
@@ -233,28 +235,28 @@ static wt_status put_keys(const database *d)
             bind_number(row, 3 + k, key->is_estimate ? numbers[k] : (double)NAN);
         bind_text(row, 6, key->is_estimate ? key->unit : NULL);
         bind_text(row, 7, key->is_estimate ? NULL : key->text);
-        status = put_row(d, row);
+        status = insert_row(d, row);
     }
     (void)sqlite3_finalize(row);
     return status;
 }
 
 /* A later run identifies the file by this number and may then overwrite it. */
-static wt_status put_mark(const database *d)
+static wt_status set_application_id(const database *d)
 {
     char words[64];
     uint32_t id;
-    memcpy(&id, DATABASE_ID, sizeof id);
+    memcpy(&id, SQLITE_APPLICATION_ID, sizeof id);
     (void)snprintf(words, sizeof words, "PRAGMA application_id = %" PRIu32, be32toh(id));
-    return run(d, words);
+    return execute_sql(d, words);
 }
 
-static wt_status write_bytes(const database *d, FILE *out)
+static wt_status write_database(const database *d, FILE *out)
 {
     sqlite3_int64 size = 0;
     unsigned char *const bytes = sqlite3_serialize(d->db, "main", &size, 0);
     if (bytes == NULL)
-        return failed(d, SQLITE_NOMEM);
+        return fail_sqlite(d, SQLITE_NOMEM);
     const bool written = fwrite(bytes, 1, (size_t)size, out) == (size_t)size;
     const int number = errno;
     sqlite3_free(bytes);
@@ -266,23 +268,23 @@ wt_status export_sqlite(FILE *out, const wt_table *table, bool blocks, wt_error 
     database d = {.table = table, .blocks = blocks, .err = err};
     const int opened = sqlite3_open_v2(
         ":memory:", &d.db, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE | SQLITE_OPEN_MEMORY, NULL);
-    wt_status status = opened == SQLITE_OK ? check_table(&d) : failed(&d, opened);
+    wt_status status = opened == SQLITE_OK ? check_database_table(&d) : fail_sqlite(&d, opened);
     if (status == WT_OK)
-        status = name_columns(&d);
+        status = choose_column_names(&d);
     if (status == WT_OK)
-        status = run(&d, "BEGIN");
+        status = execute_sql(&d, "BEGIN");
     if (status == WT_OK)
-        status = put_mark(&d);
+        status = set_application_id(&d);
     if (status == WT_OK)
-        status = put_rows(&d);
+        status = insert_table_rows(&d);
     if (status == WT_OK)
-        status = put_columns(&d);
+        status = insert_column_rows(&d);
     if (status == WT_OK)
-        status = put_keys(&d);
+        status = insert_key_rows(&d);
     if (status == WT_OK)
-        status = run(&d, "COMMIT");
+        status = execute_sql(&d, "COMMIT");
     if (status == WT_OK)
-        status = write_bytes(&d, out);
+        status = write_database(&d, out);
     (void)sqlite3_close(d.db);
     wt_strings_free(d.names, d.names != NULL ? table->n_columns : 0);
     return status;

@@ -14,7 +14,7 @@ enum { MAP_BLOCK = 1 << 12 };
 /* CRC-32 of the samples of a curve: values of 8 bytes in little-endian order, by segment and by
  * channel. A channel without a number in a segment is skipped. */
 uint32_t map_checksum(uint32_t before, const double *values, size_t n);
-bool map_channel_counts(const double *values, size_t n);
+bool map_channel_has_samples(const double *values, size_t n);
 
 typedef struct map_reader map_reader;
 
@@ -42,7 +42,7 @@ size_t map_channels(const map_reader *reader, const map_channel **channels);
  * the reader until the next call. WT_E_CORRUPT for a curve with a wrong checksum; the next call
  * continues after it. If the stream ends early, each remaining curve has the error of the
  * stream. */
-wt_status map_next(map_reader *reader, wt_force_curve *curve, const map_segment **segments,
-                   size_t *n, wt_error *err) WT_NODISCARD;
+wt_status map_next_curve(map_reader *reader, wt_force_curve *curve, const map_segment **segments,
+                         size_t *n, wt_error *err) WT_NODISCARD;
 
 #endif

@@ -45,7 +45,7 @@ uint32_t map_checksum(uint32_t before, const double *values, size_t n)
     return (uint32_t)sum;
 }
 
-bool map_channel_counts(const double *values, size_t n)
+bool map_channel_has_samples(const double *values, size_t n)
 {
     for (size_t i = 0; i < n; i++)
         if (!isnan(values[i]))
@@ -72,7 +72,7 @@ static bool append_block(hid_t dataset, size_t n_blocks, const double *block, si
     return good;
 }
 
-static hid_t make_dataset(const wt_map_writer *w, wt_quantity quantity)
+static hid_t create_sample_dataset(const wt_map_writer *w, wt_quantity quantity)
 {
     static const hsize_t none = 0, endless = H5S_UNLIMITED, chunk = MAP_BLOCK;
     hid_t dataset = -1;
@@ -89,14 +89,16 @@ static hid_t make_dataset(const wt_map_writer *w, wt_quantity quantity)
     hdf5_close(creation);
     hdf5_close(access);
     if (dataset >= 0 &&
-        store_put_text(w->file, dataset, STORE_UNITS_ATTRIBUTE, wt_quantity_unit(quantity)) &&
-        store_put_text(w->file, dataset, STORE_LONG_NAME_ATTRIBUTE, wt_quantity_id(quantity)))
+        store_write_text_attribute(w->file, dataset, STORE_UNITS_ATTRIBUTE,
+                                   wt_quantity_unit(quantity)) &&
+        store_write_text_attribute(w->file, dataset, STORE_LONG_NAME_ATTRIBUTE,
+                                   wt_quantity_id(quantity)))
         return dataset;
     hdf5_close(dataset);
     return -1;
 }
 
-static void empty_block(double *block)
+static void fill_block_with_nan(double *block)
 {
     for (size_t i = 0; i < MAP_BLOCK; i++)
         block[i] = (double)NAN;
@@ -105,7 +107,7 @@ static void empty_block(double *block)
 TABLE_ROW(map_channels, MAP_CHANNELS, const char *quantity, *name, *unit;)
 
 /* A channel that appears late is filled with NaN up to the current block. */
-static wt_status add_channel(wt_map_writer *w, const wt_channel *as)
+static wt_status add_map_channel(wt_map_writer *w, const wt_channel *as)
 {
     hdf5_scope scope;
     channel *const c = &w->channels[w->n_channels];
@@ -113,16 +115,16 @@ static wt_status add_channel(wt_map_writer *w, const wt_channel *as)
     if (c->block == NULL)
         return wt_fail(w->err, WT_E_MEMORY, "out of memory");
     w->n_channels++;
-    empty_block(c->block);
+    fill_block_with_nan(c->block);
     hdf5_enter(&scope);
-    c->dataset = make_dataset(w, c->quantity);
+    c->dataset = create_sample_dataset(w, c->quantity);
     bool good = c->dataset >= 0;
     for (size_t i = 0; good && i < w->n_blocks; i++)
         good = append_block(c->dataset, i, c->block, MAP_BLOCK);
     hdf5_leave(&scope);
     w->names.err = w->err;
     TABLE_ADD(map_channels, &w->names, wt_quantity_id(c->quantity), as->name, as->unit);
-    return good ? w->names.status : store_failed(w->file, w->err);
+    return good ? w->names.status : store_write_error(w->file, w->err);
 }
 
 static wt_status write_block(wt_map_writer *w)
@@ -134,23 +136,23 @@ static wt_status write_block(wt_map_writer *w)
     hdf5_enter(&scope);
     for (size_t i = 0; good && i < w->n_channels; i++) {
         good = append_block(w->channels[i].dataset, w->n_blocks, w->channels[i].block, w->n);
-        empty_block(w->channels[i].block);
+        fill_block_with_nan(w->channels[i].block);
     }
     hdf5_leave(&scope);
     w->n_blocks += w->n == MAP_BLOCK;
     w->n = 0;
-    return good && w->file->to.failed == 0 ? WT_OK : store_failed(w->file, w->err);
+    return good && w->file->to.failed == 0 ? WT_OK : store_write_error(w->file, w->err);
 }
 
 /* ---- curves ---------------------------------------------------------------------------------- */
 
-static const wt_channel *channel_of(const wt_segment *segment, wt_quantity quantity)
+static const wt_channel *measured_channel(const wt_segment *segment, wt_quantity quantity)
 {
     const wt_channel *const c = wt_segment_channel(segment, quantity);
-    return c != NULL && map_channel_counts(c->values, segment->n_points) ? c : NULL;
+    return c != NULL && map_channel_has_samples(c->values, segment->n_points) ? c : NULL;
 }
 
-static wt_status put_samples(wt_map_writer *w, const wt_segment *segment)
+static wt_status buffer_samples(wt_map_writer *w, const wt_segment *segment)
 {
     wt_status status = WT_OK;
     const wt_channel *of[WT_Q_COUNT];
@@ -174,7 +176,7 @@ TABLE_ROW(map_curves, MAP_CURVES, wt_force_curve curve; double grid_x, grid_y, c
 
 TABLE_ROW(map_segments, MAP_SEGMENTS, const char *kind; wt_segment of;)
 
-static wt_status put_segment(wt_map_writer *w, const wt_segment *segment, uint32_t *sum)
+static wt_status add_map_segment(wt_map_writer *w, const wt_segment *segment, uint32_t *sum)
 {
     wt_status status = WT_OK;
     for (size_t c = 0; status == WT_OK && c < segment->n_channels; c++) {
@@ -182,34 +184,34 @@ static wt_status put_segment(wt_map_writer *w, const wt_segment *segment, uint32
         while (k < w->n_channels && w->channels[k].quantity != segment->channels[c].quantity)
             k++;
         if (k == w->n_channels)
-            status = add_channel(w, &segment->channels[c]);
+            status = add_map_channel(w, &segment->channels[c]);
     }
     for (size_t k = 0; k < w->n_channels; k++) {
-        const wt_channel *const c = channel_of(segment, w->channels[k].quantity);
+        const wt_channel *const c = measured_channel(segment, w->channels[k].quantity);
         if (c != NULL)
             *sum = map_checksum(*sum, c->values, segment->n_points);
     }
     TABLE_ADD(map_segments, &w->segments, wt_segment_kind_name(segment->kind), *segment);
-    return status == WT_OK ? put_samples(w, segment) : status;
+    return status == WT_OK ? buffer_samples(w, segment) : status;
 }
 
 /* A failed curve may have left samples, and those of the next curve would be assigned to it. */
-static wt_status failed_before(const wt_map_writer *w, wt_error *err)
+static wt_status fail_after_error(const wt_map_writer *w, wt_error *err)
 {
     wt_fail(err, w->failed, "a curve before this one could not be written");
     wt_error_advice(err, "discard the map and begin again");
     return w->failed;
 }
 
-wt_status wt_map_put(wt_map_writer *w, const wt_force_curve *curve, wt_error *err)
+wt_status wt_map_add_curve(wt_map_writer *w, const wt_force_curve *curve, wt_error *err)
 {
     uint32_t sum = 0;
     wt_status status = WT_OK;
     if (w->failed != WT_OK)
-        return failed_before(w, err);
+        return fail_after_error(w, err);
     w->err = w->curves.err = w->segments.err = err;
     for (size_t s = 0; status == WT_OK && s < curve->n_segments; s++)
-        status = put_segment(w, &curve->segments[s], &sum);
+        status = add_map_segment(w, &curve->segments[s], &sum);
     if (status != WT_OK)
         return w->failed = status;
     TABLE_ADD(map_curves, &w->curves, *curve, (double)curve->grid_x, (double)curve->grid_y,
@@ -220,7 +222,7 @@ wt_status wt_map_put(wt_map_writer *w, const wt_force_curve *curve, wt_error *er
 
 /* ---- the file -------------------------------------------------------------------------------- */
 
-wt_status wt_map_begin(const char *path, wt_map_writer **writer, wt_error *err)
+wt_status wt_map_open(const char *path, wt_map_writer **writer, wt_error *err)
 {
     hdf5_scope scope;
     wt_map_writer *const w = calloc(1, sizeof *w);
@@ -239,10 +241,11 @@ wt_status wt_map_begin(const char *path, wt_map_writer **writer, wt_error *err)
         status = store_begin(path, &w->file, err);
     if (status == WT_OK) {
         hdf5_enter(&scope);
-        if (store_put_text(w->file, w->file->file, STORE_MAP_ATTRIBUTE, MAP_SAMPLES_GROUP))
-            w->group = store_make_group(w->file, MAP_SAMPLES_GROUP);
+        if (store_write_text_attribute(w->file, w->file->file, STORE_MAP_ATTRIBUTE,
+                                       MAP_SAMPLES_GROUP))
+            w->group = store_create_group(w->file, MAP_SAMPLES_GROUP);
         hdf5_leave(&scope);
-        status = w->group >= 0 ? WT_OK : store_failed(w->file, err);
+        status = w->group >= 0 ? WT_OK : store_write_error(w->file, err);
     }
     if (status == WT_OK)
         *writer = w;
@@ -263,7 +266,7 @@ static bool close_arrays(wt_map_writer *w, bool complete)
         names[i] = wt_quantity_id(w->channels[i].quantity);
     }
     const bool good =
-        !complete || store_put_words(w->group, STORE_COLUMNS_ATTRIBUTE, names, w->n_channels);
+        !complete || store_write_text_list(w->group, STORE_COLUMNS_ATTRIBUTE, names, w->n_channels);
     hdf5_close(w->group);
     hdf5_leave(&scope);
     w->n_channels = 0;
@@ -283,13 +286,13 @@ void wt_map_discard(wt_map_writer *w)
     free(w);
 }
 
-wt_status wt_map_end(wt_map_writer *w, wt_result *result, bool with_provenance, wt_error *err)
+wt_status wt_map_commit(wt_map_writer *w, wt_result *result, bool with_provenance, wt_error *err)
 {
     table_writer *const tables[] = {&w->curves, &w->segments, &w->names};
     w->err = err;
-    wt_status status = w->failed != WT_OK ? failed_before(w, err) : write_block(w);
+    wt_status status = w->failed != WT_OK ? fail_after_error(w, err) : write_block(w);
     if (status == WT_OK && !close_arrays(w, true))
-        status = store_failed(w->file, err);
+        status = store_write_error(w->file, err);
     for (size_t i = 0; status == WT_OK && i < sizeof tables / sizeof *tables; i++) {
         wt_table *table = NULL;
         tables[i]->err = err;

@@ -14,16 +14,16 @@
 /* State of an open file in HDF5. */
 typedef struct open_file {
     H5FD_t base; /* required by HDF5 */
-    hdf5_bytes *is;
+    hdf5_bytes *source;
     haddr_t eoa, eof; /* end of the allocated space, end of the file */
 } open_file;
 
 /* Private data of the driver in an access list. */
 typedef struct driver_info {
-    hdf5_bytes *is;
+    hdf5_bytes *source;
 } driver_info;
 
-bool hdf5_bytes_at(const hdf5_bytes *bytes, size_t from, void *to, size_t n)
+bool hdf5_bytes_read(const hdf5_bytes *bytes, size_t from, void *to, size_t n)
 {
     size_t got = 0;
     if (bytes->bytes != NULL && from < bytes->size) {
@@ -45,7 +45,7 @@ bool hdf5_bytes_at(const hdf5_bytes *bytes, size_t from, void *to, size_t n)
     return true;
 }
 
-static H5FD_t *file_open(const char *name, unsigned flags, hid_t access, haddr_t most)
+static H5FD_t *driver_open(const char *name, unsigned flags, hid_t access, haddr_t most)
 {
     const driver_info *const info = H5Pget_driver_info(access);
     open_file *const f = info != NULL ? calloc(1, sizeof *f) : NULL;
@@ -54,18 +54,18 @@ static H5FD_t *file_open(const char *name, unsigned flags, hid_t access, haddr_t
     (void)most;
     if (f == NULL)
         return NULL;
-    f->is = info->is;
-    f->eof = info->is->size;
+    f->source = info->source;
+    f->eof = info->source->size;
     return &f->base;
 }
 
-static herr_t file_close(H5FD_t *file)
+static herr_t driver_close(H5FD_t *file)
 {
     free(file);
     return 0;
 }
 
-static herr_t file_query(const H5FD_t *file, unsigned long *flags)
+static herr_t driver_query(const H5FD_t *file, unsigned long *flags)
 {
     (void)file;
     *flags = H5FD_FEAT_AGGREGATE_METADATA | H5FD_FEAT_ACCUMULATE_METADATA | H5FD_FEAT_DATA_SIEVE |
@@ -92,39 +92,40 @@ static haddr_t get_eof(const H5FD_t *file, H5FD_mem_t type)
     return ((const open_file *)(const void *)file)->eof;
 }
 
-static herr_t file_read(H5FD_t *file, H5FD_mem_t type, hid_t transfer, haddr_t from, size_t n,
-                        void *to)
+static herr_t driver_read(H5FD_t *file, H5FD_mem_t type, hid_t transfer, haddr_t from, size_t n,
+                          void *to)
 {
     (void)type;
     (void)transfer;
-    return hdf5_bytes_at(((open_file *)(void *)file)->is, from, to, n) ? 0 : -1;
+    return hdf5_bytes_read(((open_file *)(void *)file)->source, from, to, n) ? 0 : -1;
 }
 
-static herr_t file_write(H5FD_t *file, H5FD_mem_t type, hid_t transfer, haddr_t at, size_t n,
-                         const void *from)
+static herr_t driver_write(H5FD_t *file, H5FD_mem_t type, hid_t transfer, haddr_t at, size_t n,
+                           const void *from)
 {
     open_file *const f = (open_file *)(void *)file;
     size_t put = 0;
     (void)type;
     (void)transfer;
-    while (f->is->failed == 0 && put < n) {
+    while (f->source->failed == 0 && put < n) {
         const ssize_t more =
-            pwrite(f->is->file, (const unsigned char *)from + put, n - put, (off_t)(at + put));
+            pwrite(f->source->file, (const unsigned char *)from + put, n - put, (off_t)(at + put));
         if (more < 0 && errno != EINTR)
-            f->is->failed = errno;
+            f->source->failed = errno;
         put += more > 0 ? (size_t)more : 0;
     }
     f->eof = at + n > f->eof ? at + n : f->eof;
     return 0;
 }
 
-static herr_t file_truncate(H5FD_t *file, hid_t transfer, hbool_t closing)
+static herr_t driver_truncate(H5FD_t *file, hid_t transfer, hbool_t closing)
 {
     open_file *const f = (open_file *)(void *)file;
     (void)transfer;
     (void)closing;
-    if (f->is->failed == 0 && f->eof != f->eoa && ftruncate(f->is->file, (off_t)f->eoa) != 0)
-        f->is->failed = errno;
+    if (f->source->failed == 0 && f->eof != f->eoa &&
+        ftruncate(f->source->file, (off_t)f->eoa) != 0)
+        f->source->failed = errno;
     f->eof = f->eoa;
     return 0;
 }
@@ -138,18 +139,18 @@ static const H5FD_class_t driver = {
     .maxaddr = INT64_MAX,
     .fc_degree = H5F_CLOSE_STRONG,
     .fapl_size = sizeof(driver_info),
-    .open = file_open,
-    .close = file_close,
-    .query = file_query,
+    .open = driver_open,
+    .close = driver_close,
+    .query = driver_query,
     .get_eoa = get_eoa,
     .set_eoa = set_eoa,
     .get_eof = get_eof,
-    .read = file_read,
-    .write = file_write,
-    .truncate = file_truncate,
+    .read = driver_read,
+    .write = driver_write,
+    .truncate = driver_truncate,
     .fl_map = H5FD_FLMAP_DICHOTOMY};
 
-bool hdf5_bytes_access(hid_t access, hdf5_bytes *bytes)
+bool hdf5_bytes_set_driver(hid_t access, hdf5_bytes *bytes)
 {
     /* Called within hdf5_scope.h. The library frees the driver at the end of the program. */
     static hid_t registered = -1;

@@ -15,8 +15,8 @@ typedef struct hdf5_bytes {
 } hdf5_bytes;
 
 /* Sets an access list to use these bytes for any file name. The bytes must outlive the file. */
-bool hdf5_bytes_access(hid_t access, hdf5_bytes *bytes);
+bool hdf5_bytes_set_driver(hid_t access, hdf5_bytes *bytes);
 /* Copies n bytes from the position `from`; bytes after the end are zero. False if reading fails. */
-bool hdf5_bytes_at(const hdf5_bytes *bytes, size_t from, void *to, size_t n);
+bool hdf5_bytes_read(const hdf5_bytes *bytes, size_t from, void *to, size_t n);
 
 #endif

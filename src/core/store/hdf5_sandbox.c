@@ -12,7 +12,7 @@ static bool has_signature(const hdf5_bytes *file)
     static const unsigned char signature[8] = {0x89, 'H', 'D', 'F', '\r', '\n', 0x1A, '\n'};
     unsigned char found[sizeof signature];
     for (size_t at = 0; at + sizeof signature <= file->size; at = at > 0 ? 2 * at : 512) {
-        if (hdf5_bytes_at(file, at, found, sizeof found) &&
+        if (hdf5_bytes_read(file, at, found, sizeof found) &&
             memcmp(found, signature, sizeof signature) == 0)
             return true;
     }
@@ -20,25 +20,25 @@ static bool has_signature(const hdf5_bytes *file)
 }
 
 /* The process has one thread and reads one file. */
-static hid_t open_bytes(hdf5_bytes *file)
+static hid_t open_hdf5_bytes(hdf5_bytes *file)
 {
     const hid_t access = H5Pcreate(H5P_FILE_ACCESS);
     if (access < 0 || H5Pset_fclose_degree(access, H5F_CLOSE_STRONG) < 0 ||
-        !hdf5_bytes_access(access, file))
+        !hdf5_bytes_set_driver(access, file))
         return -1;
     return H5Fopen("weartrack.h5", H5F_ACC_RDONLY, access);
 }
 
-static wt_status read_file(const sandbox_call *door, FILE *answer, wt_error *err)
+static wt_status read_hdf5_file(const sandbox_call *request, FILE *answer, wt_error *err)
 {
     static hdf5_bytes from; /* the process ends with the file open */
-    hdf5_reading *const *reading = door->with;
-    from = (hdf5_bytes){.bytes = door->bytes, .file = DOOR_FILE, .size = door->size};
+    hdf5_read_function *const *reading = request->with;
+    from = (hdf5_bytes){.bytes = request->bytes, .file = SANDBOX_FILE_FD, .size = request->size};
     if (!has_signature(&from))
         return wt_fail(err, WT_E_FORMAT, "not an HDF5 file, or its first bytes are damaged");
-    const hid_t file = open_bytes(&from);
+    const hid_t file = open_hdf5_bytes(&from);
     if (file >= 0)
-        return (*reading)(file, door->size, answer, err);
+        return (*reading)(file, request->size, answer, err);
     wt_fail(err, WT_E_CORRUPT, "the HDF5 file is damaged or cut off");
     wt_error_advice(err, "make the file again");
     return WT_E_CORRUPT;
@@ -56,11 +56,11 @@ static void leave_hdf5(void *scope)
     hdf5_leave(scope);
 }
 
-static sandbox_call hdf5_sandbox_call(const hdf5_bytes *from, hdf5_reading *const *reading,
+static sandbox_call hdf5_sandbox_call(const hdf5_bytes *from, hdf5_read_function *const *reading,
                                       hdf5_scope *scope)
 {
     return (sandbox_call){.what = "HDF5",
-                          .reading = read_file,
+                          .reading = read_hdf5_file,
                           .bytes = from->bytes,
                           .size = from->size,
                           .with = reading,
@@ -71,17 +71,18 @@ static sandbox_call hdf5_sandbox_call(const hdf5_bytes *from, hdf5_reading *cons
 }
 
 wt_status hdf5_sandbox_read(const hdf5_bytes *from, const sandbox_limits *limits,
-                            hdf5_reading *reading, char **answer, size_t *length, wt_error *err)
+                            hdf5_read_function *reading, char **answer, size_t *length,
+                            wt_error *err)
 {
     hdf5_scope scope;
-    const sandbox_call door = hdf5_sandbox_call(from, &reading, &scope);
-    return sandbox_read(&door, limits, answer, length, err);
+    const sandbox_call request = hdf5_sandbox_call(from, &reading, &scope);
+    return sandbox_read(&request, limits, answer, length, err);
 }
 
 wt_status hdf5_sandbox_start(const hdf5_bytes *from, const sandbox_limits *limits,
-                             hdf5_reading *reading, sandbox_stream **flow, wt_error *err)
+                             hdf5_read_function *reading, sandbox_stream **stream, wt_error *err)
 {
     hdf5_scope scope;
-    const sandbox_call door = hdf5_sandbox_call(from, &reading, &scope);
-    return sandbox_start(&door, limits, flow, err);
+    const sandbox_call request = hdf5_sandbox_call(from, &reading, &scope);
+    return sandbox_start(&request, limits, stream, err);
 }

@@ -13,16 +13,16 @@
 
 /* Function that runs in the sandbox. It reads the required data of the file of `size` bytes and
  * prints them. It may use memory and HDF5 only. */
-typedef wt_status hdf5_reading(hid_t file, size_t size, FILE *answer, wt_error *err);
+typedef wt_status hdf5_read_function(hid_t file, size_t size, FILE *answer, wt_error *err);
 
 /* Returns the output of `reading`, like sandbox_read. */
 wt_status hdf5_sandbox_read(const hdf5_bytes *from, const sandbox_limits *limits,
-                            hdf5_reading *reading, char **answer, size_t *length,
+                            hdf5_read_function *reading, char **answer, size_t *length,
                             wt_error *err) WT_NODISCARD;
 /* Variant that returns the output as a stream (core/system/sandbox.h). The bytes or the descriptor
  * may be closed after the call. */
 wt_status hdf5_sandbox_start(const hdf5_bytes *from, const sandbox_limits *limits,
-                             hdf5_reading *reading, sandbox_stream **flow,
+                             hdf5_read_function *reading, sandbox_stream **stream,
                              wt_error *err) WT_NODISCARD;
 
 #endif

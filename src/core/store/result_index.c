@@ -17,15 +17,15 @@
 
 /* The last bytes of the file: the length of the abstract before them, and a mark. A new layout gets
  * a new mark. */
-typedef struct abstract_end {
+typedef struct abstract_trailer {
     uint64_t length; /* little-endian */
     char mark[8];
-} abstract_end;
+} abstract_trailer;
 static const char mark[8] = {'W', 'T', 'A', 'B', 'S', 'T', '2', '\n'};
 
 /* ---- writing --------------------------------------------------------------------------------- */
 
-static wt_status put_table(FILE *out, const wt_table *table, char *digest, wt_error *err)
+static wt_status write_table_abstract(FILE *out, const wt_table *table, char *digest, wt_error *err)
 {
     /* Most tables have headlines in their keys only, and some of these tables are long. */
     wt_table part = *table;
@@ -47,7 +47,7 @@ wt_status store_abstract_write(FILE *out, const wt_result *result, wt_error *err
     for (size_t i = 0; status == WT_OK && i < n; i++) {
         const wt_table *const table = wt_result_table(result, i);
         if (store_has_headlines(table->name))
-            status = put_table(out, table, digests[tail.n_tables++], err);
+            status = write_table_abstract(out, table, digests[tail.n_tables++], err);
     }
     if (status == WT_OK) {
         (void)fwrite(digests, sizeof *digests, tail.n_tables, out);
@@ -56,7 +56,7 @@ wt_status store_abstract_write(FILE *out, const wt_result *result, wt_error *err
         store_headlines_digest(of);
         (void)fwrite(of, sizeof of, 1, out);
         const long to = ftell(out);
-        abstract_end end = {.length = htole64((uint64_t)(to - from))};
+        abstract_trailer end = {.length = htole64((uint64_t)(to - from))};
         memcpy(end.mark, mark, sizeof mark);
         if (from < 0 || to < from || fwrite(&end, sizeof end, 1, out) != 1 || fflush(out) != 0)
             status = wt_fail(err, WT_E_IO, "cannot write the file: %s", strerror(errno));
@@ -67,7 +67,7 @@ wt_status store_abstract_write(FILE *out, const wt_result *result, wt_error *err
 
 /* ---- reading --------------------------------------------------------------------------------- */
 
-static bool read_at(int file, size_t at, void *to, size_t n)
+static bool read_exactly(int file, size_t at, void *to, size_t n)
 {
     for (size_t got = 0; got < n;) {
         const ssize_t more = pread(file, (char *)to + got, n - got, (off_t)(at + got));
@@ -81,10 +81,10 @@ static bool read_at(int file, size_t at, void *to, size_t n)
 /* Larger abstracts are ignored. A malicious abstract needs at most some twenty times this memory: a
  * text of two bytes needs a pointer and an allocation. The abstract of a whole case has about 40
  * kB. */
-#define ABSTRACT_MOST ((size_t)2 << 20)
+#define ABSTRACT_SIZE_MAX ((size_t)2 << 20)
 
 /* True if the abstract has the current set of tables with headlines. */
-static bool is_of_headlines(const char *bytes, size_t length)
+static bool is_current_abstract(const char *bytes, size_t length)
 {
     char of[STORE_DIGEST_SIZE];
     store_headlines_digest(of);
@@ -93,19 +93,19 @@ static bool is_of_headlines(const char *bytes, size_t length)
 
 /* Returns the bytes of the abstract, which the caller frees. NULL without a usable abstract or
  * without memory. */
-static char *take_abstract(int file, size_t size, size_t *length)
+static char *read_abstract_bytes(int file, size_t size, size_t *length)
 {
-    abstract_end end;
+    abstract_trailer end;
     if (size < sizeof end)
         return NULL;
     const size_t before = size - sizeof end;
-    if (!read_at(file, before, &end, sizeof end) || memcmp(end.mark, mark, sizeof mark) != 0)
+    if (!read_exactly(file, before, &end, sizeof end) || memcmp(end.mark, mark, sizeof mark) != 0)
         return NULL;
     *length = (size_t)le64toh(end.length);
-    const bool whole = *length > 0 && *length <= before && *length <= ABSTRACT_MOST;
+    const bool whole = *length > 0 && *length <= before && *length <= ABSTRACT_SIZE_MAX;
     char *const bytes = whole ? malloc(*length) : NULL;
-    if (bytes != NULL && read_at(file, before - *length, bytes, *length) &&
-        is_of_headlines(bytes, *length)) {
+    if (bytes != NULL && read_exactly(file, before - *length, bytes, *length) &&
+        is_current_abstract(bytes, *length)) {
         *length -= STORE_DIGEST_SIZE;
         return bytes;
     }
@@ -117,11 +117,11 @@ wt_status store_abstract_read(int file, size_t size, const char *name, wt_result
                               wt_error *err)
 {
     size_t length = 0;
-    char *const bytes = take_abstract(file, size, &length);
+    char *const bytes = read_abstract_bytes(file, size, &length);
     if (bytes == NULL)
         return WT_END;
     wt_result *const read = wt_result_new();
-    const wt_status status = read != NULL ? store_take(bytes, length, read, err)
+    const wt_status status = read != NULL ? store_decode(bytes, length, read, err)
                                           : wt_fail(err, WT_E_MEMORY, "out of memory");
     free(bytes);
     if (status == WT_OK) {
@@ -133,7 +133,7 @@ wt_status store_abstract_read(int file, size_t size, const char *name, wt_result
     return status;
 }
 
-wt_status wt_store_read_headlines(const char *path, wt_result **result, wt_error *err)
+wt_status wt_store_read_main_values(const char *path, wt_result **result, wt_error *err)
 {
     static const unsigned char signature[8] = {0x89, 'H', 'D', 'F', '\r', '\n', 0x1a, '\n'};
     unsigned char begin[sizeof signature];
@@ -149,7 +149,7 @@ wt_status wt_store_read_headlines(const char *path, wt_result **result, wt_error
         status = store_abstract_read(file, (size_t)info.st_size, path, result, err);
     if (status == WT_END) {
         const hdf5_bytes from = {.file = file, .size = (size_t)info.st_size};
-        status = store_read_bytes(&from, store_pass_headlines, path, result, err);
+        status = store_read_bytes(&from, store_extract_headlines, path, result, err);
     }
     if (file >= 0)
         (void)close(file);

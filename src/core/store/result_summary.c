@@ -11,7 +11,7 @@
 /* ---- headlines of one result ----------------------------------------------------------------- */
 
 /* Adds a row to the table "keys". `words` is the text of a key, or the description of a number. */
-static void put_key(table_writer *t, const char *name, wt_estimate e, const char *words)
+static void add_headline(table_writer *t, const char *name, wt_estimate e, const char *words)
 {
     table_row(t);
     keys_put_text(t, KEYS_KEY, name);
@@ -22,49 +22,50 @@ static void put_key(table_writer *t, const char *name, wt_estimate e, const char
     keys_put_text(t, KEYS_WORDS, words);
 }
 
-static void put_number(table_writer *t, const char *stem, const char *suffix, double value,
-                       const char *unit)
+static void add_number_headline(table_writer *t, const char *stem, const char *suffix, double value,
+                                const char *unit)
 {
     char name[2 * SCHEMA_NAME_SIZE];
     (void)snprintf(name, sizeof name, "%s%s", stem, suffix);
-    put_key(t, name, (wt_estimate){value, (double)NAN, (double)NAN, unit}, NULL);
+    add_headline(t, name, (wt_estimate){value, (double)NAN, (double)NAN, unit}, NULL);
 }
 
-static void put_text(table_writer *t, const char *name, const char *words)
+static void add_text_headline(table_writer *t, const char *name, const char *words)
 {
-    put_key(t, name, (wt_estimate){(double)NAN, (double)NAN, (double)NAN, NULL}, words);
+    add_headline(t, name, (wt_estimate){(double)NAN, (double)NAN, (double)NAN, NULL}, words);
 }
 
 /* Only the first word of a verdict is a headline. The numbers after the colon have their own
  * columns. */
-static void put_word(table_writer *t, const char *name, const char *verdict)
+static void add_verdict_headline(table_writer *t, const char *name, const char *verdict)
 {
     char word[256];
     const char *colon = strstr(verdict, ": ");
     (void)snprintf(word, sizeof word, "%.*s",
                    colon != NULL ? (int)(colon - verdict) : (int)strlen(verdict), verdict);
-    put_text(t, name, word);
+    add_text_headline(t, name, word);
 }
 
-static void put_ends(table_writer *t, const char *stem, const char *suffixes[2], double low,
-                     double high, const char *unit)
+static void add_bounds(table_writer *t, const char *stem, const char *suffixes[2], double low,
+                       double high, const char *unit)
 {
     if (isnan(low) && isnan(high))
         return;
-    put_number(t, stem, suffixes[0], low, unit);
-    put_number(t, stem, suffixes[1], high, unit);
+    add_number_headline(t, stem, suffixes[0], low, unit);
+    add_number_headline(t, stem, suffixes[1], high, unit);
 }
 
 /* Adds the limits of the interval and of the range over model choices. */
-static void put_finding(table_writer *t, const char *name, const result_value *f)
+static void add_value_bounds(table_writer *t, const char *name, const result_value *f)
 {
     static const char *interval[2] = {"_low", "_high"}, *range[2] = {"_model_low", "_model_high"};
-    put_ends(t, name, interval, f->low, f->high, f->number.unit);
-    put_ends(t, name, range, f->range.low, f->range.high, f->number.unit);
+    add_bounds(t, name, interval, f->low, f->high, f->number.unit);
+    add_bounds(t, name, range, f->range.low, f->range.high, f->number.unit);
 }
 
 /* Adds the keys that the schema declares as headlines. */
-static void put_keys(table_writer *t, const result_value_tables *found, const table_view *view)
+static void add_key_headlines(table_writer *t, const result_value_tables *found,
+                              const table_view *view)
 {
     const table_schema *schema = view->schema;
     for (unsigned i = 0; view->table != NULL && i < schema->n_keys; i++) {
@@ -74,44 +75,46 @@ static void put_keys(table_writer *t, const result_value_tables *found, const ta
             strcmp(key->name, "verdict") == 0) /* the column has the verdict of the comparison */
             continue;
         if (key->kind == SCHEMA_TEXT)
-            put_word(t, key->name, view_key_text(view, schema, i));
+            add_verdict_headline(t, key->name, view_key_text(view, schema, i));
         else
-            put_key(t, key->name, view_key(view, schema, i), key->headline);
-        if (result_value_of_key(found, key, &f))
-            put_finding(t, key->name, &f);
+            add_headline(t, key->name, view_key(view, schema, i), key->headline);
+        if (result_value_from_key(found, key, &f))
+            add_value_bounds(t, key->name, &f);
     }
 }
 
-static void put_groups(table_writer *t, const result_value_tables *found)
+static void add_group_headlines(table_writer *t, const result_value_tables *found)
 {
     const table_view *groups = &found->groups;
     for (size_t row = 0; row < groups->n_rows; row++) {
         char stem[SCHEMA_NAME_SIZE];
-        const result_value f = result_value_of_group(found, row);
+        const result_value f = result_value_group(found, row);
         const char *group = modulus_groups_text(groups, row, MODULUS_GROUPS_GROUP);
         (void)snprintf(stem, sizeof stem, "%s_%s", f.name, group);
-        put_number(t, stem, "", f.number.value, f.number.unit);
-        put_finding(t, stem, &f);
-        put_number(t, "accepted_", group, modulus_groups_get(groups, row, MODULUS_GROUPS_N), "1");
-        put_number(t, "rejected_", group,
-                   modulus_groups_get(groups, row, MODULUS_GROUPS_N_REJECTED), "1");
+        add_number_headline(t, stem, "", f.number.value, f.number.unit);
+        add_value_bounds(t, stem, &f);
+        add_number_headline(t, "accepted_", group,
+                            modulus_groups_get(groups, row, MODULUS_GROUPS_N), "1");
+        add_number_headline(t, "rejected_", group,
+                            modulus_groups_get(groups, row, MODULUS_GROUPS_N_REJECTED), "1");
     }
 }
 
-static void put_ratio(table_writer *t, const result_value_tables *found)
+static void add_ratio_headlines(table_writer *t, const result_value_tables *found)
 {
-    const result_value f = result_value_of_ratio(found);
+    const result_value f = result_value_ratio(found);
     if (found->comparison.n_rows == 0)
         return;
     if (f.verdict != NULL)
-        put_word(t, "verdict", f.verdict);
-    put_number(t, f.name, "", f.number.value, f.number.unit);
-    put_finding(t, f.name, &f);
-    put_number(t, "welch_p", "", comparison_get(&found->comparison, 0, COMPARISON_WELCH_P), "1");
+        add_verdict_headline(t, "verdict", f.verdict);
+    add_number_headline(t, f.name, "", f.number.value, f.number.unit);
+    add_value_bounds(t, f.name, &f);
+    add_number_headline(t, "welch_p", "", comparison_get(&found->comparison, 0, COMPARISON_WELCH_P),
+                        "1");
 }
 
 /* Parses a key that is a number without an error. */
-static double plain_key(const char *words)
+static double parse_plain_key(const char *words)
 {
     double value = (double)NAN;
     return words != NULL && wt_number_parse(words, strlen(words), '.', &value) ? value
@@ -119,23 +122,23 @@ static double plain_key(const char *words)
 }
 
 /* Returns how completely the result answers the request. */
-static wt_answered answered_by(const table_view *failures, const table_view *notes)
+static wt_result_status result_completeness(const table_view *failures, const table_view *notes)
 {
     bool lost = failures->n_rows > 0;
     for (size_t row = 0; row < notes->n_rows; row++)
         lost = lost || strcmp(notes_text(notes, row, NOTES_SEVERITY), "loss") == 0;
-    if (plain_key(failures_words(failures, FAILURES_KEY_STATUS)) == WT_ANSWERED_NOTHING)
-        return WT_ANSWERED_NOTHING;
-    return lost ? WT_ANSWERED_PARTLY : WT_ANSWERED_WHOLE;
+    if (parse_plain_key(failures_key_text(failures, FAILURES_KEY_STATUS)) == WT_RESULT_EMPTY)
+        return WT_RESULT_EMPTY;
+    return lost ? WT_RESULT_PARTIAL : WT_RESULT_COMPLETE;
 }
 
 /* Adds the misfit of the common spectrum, on which the verdict on superposition is based. */
-static void put_misfit(table_writer *t, const table_view *shifts)
+static void add_misfit_headlines(table_writer *t, const table_view *shifts)
 {
-    static const char *ends[2] = {"_low", "_high"};
-    put_ends(t, "superposition_misfit", ends,
-             plain_key(shift_factors_words(shifts, SHIFT_FACTORS_KEY_MISFIT_LOW)),
-             plain_key(shift_factors_words(shifts, SHIFT_FACTORS_KEY_MISFIT_HIGH)), "1");
+    static const char *bound_suffixes[2] = {"_low", "_high"};
+    add_bounds(t, "superposition_misfit", bound_suffixes,
+               parse_plain_key(shift_factors_key_text(shifts, SHIFT_FACTORS_KEY_MISFIT_LOW)),
+               parse_plain_key(shift_factors_key_text(shifts, SHIFT_FACTORS_KEY_MISFIT_HIGH)), "1");
 }
 
 /* Further tables with headlines. Those from WITH_KEYS on have headlines in their keys. */
@@ -166,56 +169,58 @@ bool store_has_headlines(const char *table)
     for (size_t i = 0; i < N_TABLES; i++)
         if (strcmp(sources[i]->name, table) == 0)
             return true;
-    return result_values_are_of(table);
+    return result_values_use_table(table);
 }
 
 bool store_has_headline_rows(const char *table)
 {
-    return result_values_are_of(table) || strcmp(table, notes_schema.name) == 0 ||
+    return result_values_use_table(table) || strcmp(table, notes_schema.name) == 0 ||
            strcmp(table, failures_schema.name) == 0;
 }
 
 /* Extends the digest by a table name, and by whether its rows or only its keys are used. */
-static void add_name(const char *table, char hex[STORE_DIGEST_SIZE])
+static void add_name_digest(const char *table, char hex[STORE_DIGEST_SIZE])
 {
     char words[STORE_DIGEST_SIZE + SCHEMA_NAME_SIZE];
     const int n = snprintf(words, sizeof words, "%s%c%s", hex,
                            store_has_headline_rows(table) ? 'r' : 'k', table);
-    wt_digest(words, (size_t)n < sizeof words ? (size_t)n : sizeof words - 1, hex);
+    wt_sha256(words, (size_t)n < sizeof words ? (size_t)n : sizeof words - 1, hex);
 }
 
 void store_headlines_digest(char hex[STORE_DIGEST_SIZE])
 {
     hex[0] = '\0';
     for (size_t i = 0; result_values_table(i) != NULL; i++)
-        add_name(result_values_table(i), hex);
+        add_name_digest(result_values_table(i), hex);
     for (size_t i = 0; i < N_TABLES; i++)
-        add_name(sources[i]->name, hex);
+        add_name_digest(sources[i]->name, hex);
 }
 
-wt_status wt_result_headlines(const wt_result *result, wt_table **headlines, wt_error *err)
+wt_status wt_result_main_values(const wt_result *result, wt_table **headlines, wt_error *err)
 {
     result_value_tables found;
     table_view views[N_TABLES];
     wt_status status = result_values_bind(result, &found, err);
     for (size_t i = 0; status == WT_OK && i < N_TABLES; i++)
-        status = table_bind_of(result, sources[i], "", &views[i], err);
+        status = table_bind_result(result, sources[i], "", &views[i], err);
     if (status != WT_OK)
         return status;
     double n_remarks = 0;
     for (size_t row = 0; row < views[NOTES].n_rows; row++)
         n_remarks += strcmp(notes_text(&views[NOTES], row, NOTES_SEVERITY), "note") != 0;
     table_writer t = table_begin(&keys_schema, err);
-    put_number(&t, "status", "", answered_by(&views[FAILURES], &views[NOTES]), "1");
-    if (views[ANSWER].table != NULL && answer_words(&views[ANSWER], ANSWER_KEY_CASE_TITLE) != NULL)
-        put_text(&t, "case_title", answer_words(&views[ANSWER], ANSWER_KEY_CASE_TITLE));
-    put_ratio(&t, &found);
-    put_groups(&t, &found);
+    add_number_headline(&t, "status", "", result_completeness(&views[FAILURES], &views[NOTES]),
+                        "1");
+    if (views[ANSWER].table != NULL &&
+        answer_key_text(&views[ANSWER], ANSWER_KEY_CASE_TITLE) != NULL)
+        add_text_headline(&t, "case_title", answer_key_text(&views[ANSWER], ANSWER_KEY_CASE_TITLE));
+    add_ratio_headlines(&t, &found);
+    add_group_headlines(&t, &found);
     for (size_t i = WITH_KEYS; i < N_TABLES; i++)
-        put_keys(&t, &found, &views[i]);
-    put_misfit(&t, &views[WITH_KEYS]);
-    put_number(&t, "remarks", "", n_remarks, "1");
-    put_number(&t, "failures", "", (double)views[FAILURES].n_rows, "1");
+        add_key_headlines(&t, &found, &views[i]);
+    add_misfit_headlines(&t, &views[WITH_KEYS]);
+    add_number_headline(&t, "remarks", "", n_remarks, "1");
+    add_number_headline(&t, "failures", "", (double)views[FAILURES].n_rows, "1");
     return table_end(&t, headlines);
 }
 
@@ -237,7 +242,7 @@ typedef struct columns {
 } columns;
 
 /* Merges the headlines of a result into the list. A new one is inserted after its predecessor. */
-static wt_status merge_headlines(columns *list, const table_view *headlines, wt_error *err)
+static wt_status merge_headline_columns(columns *list, const table_view *headlines, wt_error *err)
 {
     size_t place = 0;
     for (size_t row = 0; row < headlines->n_rows; row++) {
@@ -267,7 +272,7 @@ static wt_status merge_headlines(columns *list, const table_view *headlines, wt_
     return WT_OK;
 }
 
-static wt_status add_columns(wt_table *table, const columns *list, wt_error *err)
+static wt_status add_summary_columns(wt_table *table, const columns *list, wt_error *err)
 {
     wt_status status = wt_table_add_text_column(table, "file", "file of the result", err);
     for (size_t i = 0; status == WT_OK && i < list->n; i++) {
@@ -284,12 +289,12 @@ static wt_status add_columns(wt_table *table, const columns *list, wt_error *err
     return status;
 }
 
-static wt_status add_row(wt_table *table, const columns *list, const char *file,
-                         const table_view *headlines, wt_error *err)
+static wt_status add_summary_row(wt_table *table, const columns *list, const char *file,
+                                 const table_view *headlines, wt_error *err)
 {
     wt_status status = wt_table_add_row(table, err);
     if (status == WT_OK)
-        status = wt_table_put_text(table, 0, file, err);
+        status = wt_table_set_text(table, 0, file, err);
     for (size_t i = 0, place = 1, next = 0; status == WT_OK && i < list->n; i++) {
         const column *c = &list->column[i];
         size_t row = next; /* most results have the same order */
@@ -300,21 +305,21 @@ static wt_status add_row(wt_table *table, const columns *list, const char *file,
         const bool found = row < headlines->n_rows;
         next = found ? row + 1 : next;
         if (found && c->unit[0] == '\0')
-            status = wt_table_put_text(table, place, keys_text(headlines, row, KEYS_WORDS), err);
+            status = wt_table_set_text(table, place, keys_text(headlines, row, KEYS_WORDS), err);
         else if (found)
-            wt_table_put(table, place, keys_get(headlines, row, KEYS_VALUE));
+            wt_table_set_number(table, place, keys_get(headlines, row, KEYS_VALUE));
         place++;
         for (int e = 0; e < 2; e++)
             if (c->has_error[e] && found)
-                wt_table_put(table, place++, keys_get(headlines, row, error_of[e]));
+                wt_table_set_number(table, place++, keys_get(headlines, row, error_of[e]));
             else
                 place += c->has_error[e];
     }
     return status;
 }
 
-wt_status wt_summary(const char *const *files, const wt_table *const *headlines, size_t n,
-                     wt_table **summary, wt_error *err)
+wt_status wt_summary_table(const char *const *files, const wt_table *const *headlines, size_t n,
+                           wt_table **summary, wt_error *err)
 {
     columns list = {NULL, 0};
     wt_status status = WT_OK;
@@ -325,12 +330,12 @@ wt_status wt_summary(const char *const *files, const wt_table *const *headlines,
     for (size_t i = 0; status == WT_OK && i < n; i++) {
         status = table_bind(headlines[i], &keys_schema, "", &views[i], err);
         if (status == WT_OK)
-            status = merge_headlines(&list, &views[i], err);
+            status = merge_headline_columns(&list, &views[i], err);
     }
     if (status == WT_OK)
-        status = add_columns(table, &list, err);
+        status = add_summary_columns(table, &list, err);
     for (size_t i = 0; status == WT_OK && i < n; i++)
-        status = add_row(table, &list, files[i], &views[i], err);
+        status = add_summary_row(table, &list, files[i], &views[i], err);
     free(list.column);
     free(views);
     if (status == WT_OK)

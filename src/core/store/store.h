@@ -37,9 +37,10 @@ typedef struct store_tail {
 } store_tail;
 void store_tail_write(FILE *out,
                       const store_tail *tail); /* writes 8 bytes for each member, little-endian */
-wt_status store_pass(hid_t file, size_t size, FILE *out, wt_error *err); /* an hdf5_reading */
+wt_status store_extract(hid_t file, size_t size, FILE *out,
+                        wt_error *err); /* an hdf5_read_function */
 /* Variant for the tables with headlines. */
-wt_status store_pass_headlines(hid_t file, size_t size, FILE *out, wt_error *err);
+wt_status store_extract_headlines(hid_t file, size_t size, FILE *out, wt_error *err);
 bool store_has_headlines(const char *table);
 bool store_has_headline_rows(
     const char *table); /* False if only the keys of the table have headlines */
@@ -51,19 +52,20 @@ wt_status store_abstract_write(FILE *out, const wt_result *result, wt_error *err
 wt_status store_abstract_read(int file, size_t size, const char *name, wt_result **result,
                               wt_error *err) WT_NODISCARD;
 /* Prints the samples of a map in blocks of all channels (core/store/force_map.h). Also an
- * hdf5_reading. */
-wt_status store_pass_samples(hid_t file, size_t size, FILE *out, wt_error *err);
-/* Reads a result from memory or from a descriptor, with store_pass or store_pass_headlines. */
-wt_status store_read_bytes(const hdf5_bytes *from, hdf5_reading *pass, const char *name,
+ * hdf5_read_function. */
+wt_status store_extract_samples(hid_t file, size_t size, FILE *out, wt_error *err);
+/* Reads a result from memory or from a descriptor, with store_extract or store_extract_headlines.
+ */
+wt_status store_read_bytes(const hdf5_bytes *from, hdf5_read_function *pass, const char *name,
                            wt_result **result, wt_error *err);
 struct stat;
 /* Opens a regular file. On failure *file is -1 or open; the caller closes it. */
 wt_status store_open_regular(const char *path, int *file, struct stat *info,
                              wt_error *err) WT_NODISCARD;
 /* Creates the error WT_E_CORRUPT for a damaged file of this program, with advice. */
-wt_status store_corrupt(wt_error *err, const char *place, const char *message);
+wt_status store_corrupt_error(wt_error *err, const char *place, const char *message);
 /* Decodes the data from the sandbox into a result. All bytes are validated. */
-wt_status store_take(const char *bytes, size_t length, wt_result *result, wt_error *err);
+wt_status store_decode(const char *bytes, size_t length, wt_result *result, wt_error *err);
 
 /* Converts a table of wt_provenance_table back to the inputs of a provenance. */
 wt_status store_inputs_read(const wt_table *table, wt_provenance *provenance, wt_error *err);

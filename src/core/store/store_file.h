@@ -22,12 +22,13 @@ wt_status store_end(store_file *file, const wt_result *result, bool with_provena
                     wt_error *err) WT_NODISCARD;
 void store_discard(store_file *file); /* removes the incomplete file */
 /* Creates the error of HDF5 or of the disk. */
-wt_status store_failed(const store_file *file, wt_error *err);
+wt_status store_write_error(const store_file *file, wt_error *err);
 
 /* The following functions must be called within hdf5_enter and hdf5_leave. */
-hid_t store_make_group(const store_file *file,
-                       const char *path); /* creates missing parent groups */
-bool store_put_text(const store_file *file, hid_t object, const char *name, const char *text);
-bool store_put_words(hid_t object, const char *name, const char *const *words, size_t n);
+hid_t store_create_group(const store_file *file,
+                         const char *path); /* creates missing parent groups */
+bool store_write_text_attribute(const store_file *file, hid_t object, const char *name,
+                                const char *text);
+bool store_write_text_list(hid_t object, const char *name, const char *const *words, size_t n);
 
 #endif

@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-typedef struct reader {
+typedef struct hdf5_reader {
     hid_t file;
     hsize_t file_size; /* upper limit for every array and text in the file */
     const char *table; /* for messages; NULL outside of tables */
@@ -17,9 +17,9 @@ typedef struct reader {
     wt_status
         status; /* status of the first failure, after which the functions below return false */
     wt_error *err;
-} reader;
+} hdf5_reader;
 
-static bool corrupt(reader *r, const char *name, const char *message)
+static bool fail_corrupt_object(hdf5_reader *r, const char *name, const char *message)
 {
     r->status = wt_fail(r->err, WT_E_CORRUPT, "%s", message);
     const bool both = r->table != NULL && name[0] != '\0';
@@ -28,14 +28,14 @@ static bool corrupt(reader *r, const char *name, const char *message)
     return false;
 }
 
-static bool no_memory(reader *r)
+static bool fail_out_of_memory(hdf5_reader *r)
 {
     r->status = wt_fail(r->err, WT_E_MEMORY, "out of memory");
     return false;
 }
 
 /* An invalid name is an error of the file, not of an argument. */
-static bool is_taken(reader *r, wt_status status)
+static bool is_accepted(hdf5_reader *r, wt_status status)
 {
     r->status = status == WT_E_ARG ? WT_E_CORRUPT : status;
     if (status == WT_E_ARG && r->err != NULL)
@@ -44,7 +44,7 @@ static bool is_taken(reader *r, wt_status status)
 }
 
 /* Copies n texts, each with up to `width` bytes of `packed`. An empty text becomes NULL. */
-static bool unpack(const char *packed, size_t width, size_t n, char **texts)
+static bool unpack_texts(const char *packed, size_t width, size_t n, char **texts)
 {
     for (size_t i = 0; i < n; i++) {
         const char *const text = packed + i * width;
@@ -59,8 +59,8 @@ static bool unpack(const char *packed, size_t width, size_t n, char **texts)
 }
 
 /* Reads n texts of an attribute or a data set into new copies. */
-static bool read_texts(reader *r, hid_t source, bool is_attribute, const char *name, size_t n,
-                       char **texts)
+static bool read_fixed_texts(hdf5_reader *r, hid_t source, bool is_attribute, const char *name,
+                             size_t n, char **texts)
 {
     bool good = false;
     char *packed = NULL;
@@ -68,21 +68,21 @@ static bool read_texts(reader *r, hid_t source, bool is_attribute, const char *n
     const size_t width = type >= 0 ? H5Tget_size(type) : 0;
     if (width == 0 || H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) != 0 ||
         n > r->file_size / width)
-        good = corrupt(r, name, "not text of fixed length");
+        good = fail_corrupt_object(r, name, "not text of fixed length");
     else if ((packed = malloc(n > 0 ? n * width : 1)) == NULL)
-        good = no_memory(r);
+        good = fail_out_of_memory(r);
     else if ((is_attribute ? H5Aread(source, type, packed)
                            : H5Dread(source, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, packed)) < 0)
-        good = corrupt(r, name, "text cannot be read");
+        good = fail_corrupt_object(r, name, "text cannot be read");
     else
-        good = unpack(packed, width, n, texts) || no_memory(r);
+        good = unpack_texts(packed, width, n, texts) || fail_out_of_memory(r);
     free(packed);
     hdf5_close(type);
     return good;
 }
 
 /* Opens an attribute and returns its number of elements. */
-static hid_t open_attribute(hid_t object, const char *name, size_t *n)
+static hid_t open_sized_attribute(hid_t object, const char *name, size_t *n)
 {
     const hid_t attribute = H5Aopen(object, name, H5P_DEFAULT);
     const hid_t space = attribute >= 0 ? H5Aget_space(attribute) : -1;
@@ -96,34 +96,34 @@ static hid_t open_attribute(hid_t object, const char *name, size_t *n)
 }
 
 /* Returns the only text of an attribute, which the caller frees; NULL on failure. */
-static char *read_text(reader *r, hid_t object, const char *name)
+static char *read_text_attribute(hdf5_reader *r, hid_t object, const char *name)
 {
     size_t n = 0;
     char *found = NULL;
-    const hid_t attribute = open_attribute(object, name, &n);
+    const hid_t attribute = open_sized_attribute(object, name, &n);
     const bool good = attribute < 0 || n != 1
-                          ? corrupt(r, name, "attribute missing or not one text")
-                          : read_texts(r, attribute, true, name, 1, &found);
+                          ? fail_corrupt_object(r, name, "attribute missing or not one text")
+                          : read_fixed_texts(r, attribute, true, name, 1, &found);
     hdf5_close(attribute);
     if (good && found == NULL && (found = strdup("")) == NULL)
-        (void)no_memory(r);
+        (void)fail_out_of_memory(r);
     return found;
 }
 
 /* Reads a list of names. An empty list is not stored in the file. */
-static bool read_words(reader *r, hid_t object, const char *name, size_t max, char ***words,
-                       size_t *n_words)
+static bool read_name_list(hdf5_reader *r, hid_t object, const char *name, size_t max,
+                           char ***words, size_t *n_words)
 {
     size_t n = 0;
     if (H5Aexists(object, name) == 0)
         return true;
-    const hid_t attribute = open_attribute(object, name, &n);
+    const hid_t attribute = open_sized_attribute(object, name, &n);
     char **const found = attribute >= 0 && n <= max ? calloc(n + 1, sizeof *found) : NULL;
-    bool good = attribute < 0 || n > max ? corrupt(r, name, "not a list of names")
-                : found == NULL          ? no_memory(r)
-                                         : read_texts(r, attribute, true, name, n, found);
+    bool good = attribute < 0 || n > max ? fail_corrupt_object(r, name, "not a list of names")
+                : found == NULL          ? fail_out_of_memory(r)
+                                         : read_fixed_texts(r, attribute, true, name, n, found);
     for (size_t i = 0; good && i < n; i++)
-        good = found[i] != NULL || corrupt(r, name, "an empty name");
+        good = found[i] != NULL || fail_corrupt_object(r, name, "an empty name");
     hdf5_close(attribute);
     if (good) {
         *words = found;
@@ -136,28 +136,29 @@ static bool read_words(reader *r, hid_t object, const char *name, size_t max, ch
 
 /* Reads an attribute with one number. If `is_text` is not NULL, it is set for an attribute of
  * another type. */
-static bool read_number(reader *r, hid_t object, const char *name, double *value, bool *is_text)
+static bool read_number_attribute(hdf5_reader *r, hid_t object, const char *name, double *value,
+                                  bool *is_text)
 {
     size_t n = 0;
-    const hid_t attribute = open_attribute(object, name, &n);
+    const hid_t attribute = open_sized_attribute(object, name, &n);
     const hid_t type = attribute >= 0 ? H5Aget_type(attribute) : -1;
     const bool is_number = type >= 0 && H5Tget_class(type) == H5T_FLOAT;
     bool good = true;
     if (type < 0 || n != 1)
-        good = corrupt(r, name, "attribute missing or not one value");
+        good = fail_corrupt_object(r, name, "attribute missing or not one value");
     else if (!is_number && is_text != NULL)
         *is_text = true;
     else if (!is_number)
-        good = corrupt(r, name, "an error of a value is not a number");
+        good = fail_corrupt_object(r, name, "an error of a value is not a number");
     else if (H5Aread(attribute, H5T_NATIVE_DOUBLE, value) < 0)
-        good = corrupt(r, name, "attribute cannot be read");
+        good = fail_corrupt_object(r, name, "attribute cannot be read");
     hdf5_close(type);
     hdf5_close(attribute);
     return good;
 }
 
 /* True if `name` in `group` is a link within this file. */
-static bool is_inside(hid_t group, const char *name)
+static bool is_internal_link(hid_t group, const char *name)
 {
     H5L_info_t info;
     return H5Lexists(group, name, H5P_DEFAULT) > 0 &&
@@ -165,17 +166,17 @@ static bool is_inside(hid_t group, const char *name)
 }
 
 /* Opens a group step by step; -1 if a step is missing or leads out of the file. */
-static hid_t open_group(reader *r, const char *path)
+static hid_t open_group(hdf5_reader *r, const char *path)
 {
     char *const steps = strdup(path);
     if (steps == NULL)
-        (void)no_memory(r);
+        (void)fail_out_of_memory(r);
     hid_t group = steps != NULL ? H5Gopen2(r->file, "/", H5P_DEFAULT) : -1;
     for (char *step = steps; group >= 0 && step != NULL;) {
         char *const slash = strchr(step, '/');
         if (slash != NULL)
             *slash = '\0';
-        const hid_t inner = is_inside(group, step) ? H5Gopen2(group, step, H5P_DEFAULT) : -1;
+        const hid_t inner = is_internal_link(group, step) ? H5Gopen2(group, step, H5P_DEFAULT) : -1;
         (void)H5Gclose(group);
         group = inner;
         step = slash != NULL ? slash + 1 : NULL;
@@ -186,11 +187,11 @@ static hid_t open_group(reader *r, const char *path)
 
 /* Opens a data set whose values are all stored in this file: contiguous, or for a map in chunks of
  * MAP_BLOCK. */
-static hid_t open_laid_out(const reader *r, hid_t group, const char *name, int rank,
-                           H5D_layout_t layout, hsize_t *n)
+static hid_t open_stored_dataset(const hdf5_reader *r, hid_t group, const char *name, int rank,
+                                 H5D_layout_t layout, hsize_t *n)
 {
     bool good = false;
-    if (!is_inside(group, name))
+    if (!is_internal_link(group, name))
         return -1;
     const hid_t dataset = H5Dopen2(group, name, H5P_DEFAULT);
     if (dataset < 0)
@@ -222,43 +223,45 @@ static hid_t open_laid_out(const reader *r, hid_t group, const char *name, int r
     return -1;
 }
 
-static hid_t open_dataset(const reader *r, hid_t group, const char *name, int rank, hsize_t *n)
+static hid_t open_dataset(const hdf5_reader *r, hid_t group, const char *name, int rank, hsize_t *n)
 {
-    return open_laid_out(r, group, name, rank, H5D_CONTIGUOUS, n);
+    return open_stored_dataset(r, group, name, rank, H5D_CONTIGUOUS, n);
 }
 
-static bool read_estimate(reader *r, hid_t group, const char *key, double value, wt_table *table)
+static bool read_estimate_key(hdf5_reader *r, hid_t group, const char *key, double value,
+                              wt_table *table)
 {
     char *names[KEY_PARTS] = {NULL};
     char *unit = NULL;
     wt_estimate e = {.value = value};
-    bool good = table_key_part_names(key, names) || no_memory(r);
-    good = good && read_number(r, group, names[KEY_STANDARD_ERROR], &e.standard_error, NULL) &&
-           read_number(r, group, names[KEY_NUMERICAL_ERROR], &e.numerical_error, NULL) &&
-           (unit = read_text(r, group, names[KEY_UNITS])) != NULL;
+    bool good = table_key_part_names(key, names) || fail_out_of_memory(r);
+    good = good &&
+           read_number_attribute(r, group, names[KEY_STANDARD_ERROR], &e.standard_error, NULL) &&
+           read_number_attribute(r, group, names[KEY_NUMERICAL_ERROR], &e.numerical_error, NULL) &&
+           (unit = read_text_attribute(r, group, names[KEY_UNITS])) != NULL;
     e.unit = unit;
-    good = good && is_taken(r, wt_table_set_estimate(table, key, e, r->err));
+    good = good && is_accepted(r, wt_table_set_estimate(table, key, e, r->err));
     for (size_t i = 0; i < KEY_PARTS; i++)
         free(names[i]);
     free(unit);
     return good;
 }
 
-static bool read_keys(reader *r, hid_t group, wt_table *table)
+static bool read_table_keys(hdf5_reader *r, hid_t group, wt_table *table)
 {
     char **keys = NULL;
     size_t n = 0;
-    bool good = read_words(r, group, STORE_KEYS_ATTRIBUTE, TABLE_KEYS_MAX, &keys, &n);
+    bool good = read_name_list(r, group, STORE_KEYS_ATTRIBUTE, TABLE_KEYS_MAX, &keys, &n);
     for (size_t i = 0; good && i < n; i++) {
         double value;
         bool is_text = false;
-        good = read_number(r, group, keys[i], &value, &is_text);
+        good = read_number_attribute(r, group, keys[i], &value, &is_text);
         if (good && is_text) {
-            char *const text = read_text(r, group, keys[i]);
-            good = text != NULL && is_taken(r, wt_table_set_key(table, keys[i], text, r->err));
+            char *const text = read_text_attribute(r, group, keys[i]);
+            good = text != NULL && is_accepted(r, wt_table_set_key(table, keys[i], text, r->err));
             free(text);
         } else if (good) {
-            good = read_estimate(r, group, keys[i], value, table);
+            good = read_estimate_key(r, group, keys[i], value, table);
         }
     }
     wt_strings_free(keys, n);
@@ -267,25 +270,27 @@ static bool read_keys(reader *r, hid_t group, wt_table *table)
 
 /* Opens the data set of a column and adds the column without rows. The type of the data set decides
  * between numbers and text. */
-static bool read_column(reader *r, hid_t group, const char *name, hsize_t n_rows, wt_table *table,
-                        hid_t *opened)
+static bool read_column(hdf5_reader *r, hid_t group, const char *name, hsize_t n_rows,
+                        wt_table *table, hid_t *opened)
 {
     hsize_t n = 0;
     const hid_t dataset = open_dataset(r, group, name, 1, &n);
     *opened = dataset;
     if (dataset < 0 || n != n_rows)
-        return corrupt(r, name, "column missing, of another length or not stored in one piece");
+        return fail_corrupt_object(r, name,
+                                   "column missing, of another length or not stored in one piece");
     const hid_t type = H5Dget_type(dataset);
     const H5T_class_t class = H5Tget_class(type);
-    char *const units = read_text(r, dataset, STORE_UNITS_ATTRIBUTE);
-    char *const words = units != NULL ? read_text(r, dataset, STORE_LONG_NAME_ATTRIBUTE) : NULL;
+    char *const units = read_text_attribute(r, dataset, STORE_UNITS_ATTRIBUTE);
+    char *const words =
+        units != NULL ? read_text_attribute(r, dataset, STORE_LONG_NAME_ATTRIBUTE) : NULL;
     bool good = words != NULL;
     if (good && class == H5T_FLOAT)
-        good = is_taken(r, wt_table_add_column(table, name, units, words, r->err));
+        good = is_accepted(r, wt_table_add_column(table, name, units, words, r->err));
     else if (good && class == H5T_STRING)
-        good = is_taken(r, wt_table_add_text_column(table, name, words, r->err));
+        good = is_accepted(r, wt_table_add_text_column(table, name, words, r->err));
     else if (good)
-        good = corrupt(r, name, "a column that is neither numbers nor text");
+        good = fail_corrupt_object(r, name, "a column that is neither numbers nor text");
     free(units);
     free(words);
     hdf5_close(type);
@@ -293,54 +298,54 @@ static bool read_column(reader *r, hid_t group, const char *name, hsize_t n_rows
 }
 
 /* Adds the rows and their blocks. */
-static bool read_blocks(reader *r, hid_t dataset, hsize_t n, wt_table *table)
+static bool read_row_blocks(hdf5_reader *r, hid_t dataset, hsize_t n, wt_table *table)
 {
     uint64_t *const blocks = calloc((size_t)n + 1, sizeof *blocks);
-    bool good = blocks != NULL || no_memory(r);
+    bool good = blocks != NULL || fail_out_of_memory(r);
     if (good && n > 0 &&
         H5Dread(dataset, H5T_NATIVE_UINT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, blocks) < 0)
-        good = corrupt(r, STORE_BLOCK_DATASET, "blocks cannot be read");
+        good = fail_corrupt_object(r, STORE_BLOCK_DATASET, "blocks cannot be read");
     for (size_t row = 0; good && row < n; row++) {
         const uint64_t before = row > 0 ? blocks[row - 1] : 0;
         if (blocks[row] != before && blocks[row] != before + (row > 0))
-            good = corrupt(r, STORE_BLOCK_DATASET, "blocks are not numbered in order");
+            good = fail_corrupt_object(r, STORE_BLOCK_DATASET, "blocks are not numbered in order");
         else if (blocks[row] != before)
-            good = is_taken(r, wt_table_new_block(table, r->err));
-        good = good && is_taken(r, wt_table_add_row(table, r->err));
+            good = is_accepted(r, wt_table_new_block(table, r->err));
+        good = good && is_accepted(r, wt_table_add_row(table, r->err));
     }
     free(blocks);
     return good;
 }
 
-static bool read_cells(reader *r, hid_t dataset, table_column *column, size_t n)
+static bool read_column_cells(hdf5_reader *r, hid_t dataset, table_column *column, size_t n)
 {
     bool good = true;
     if (column->kind == WT_COLUMN_TEXT)
-        good = read_texts(r, dataset, false, column->name, n, column->texts);
+        good = read_fixed_texts(r, dataset, false, column->name, n, column->texts);
     else if (H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, column->numbers) <
              0)
-        good = corrupt(r, column->name, "column cannot be read");
+        good = fail_corrupt_object(r, column->name, "column cannot be read");
     return good;
 }
 
 /* Reads the columns, then their rows. */
-static bool read_columns(reader *r, hid_t group, wt_table *table)
+static bool read_table_columns(hdf5_reader *r, hid_t group, wt_table *table)
 {
     hsize_t n_rows = 0;
     char **columns = NULL;
     size_t n = 0, n_opened = 0;
     const hid_t blocks = open_dataset(r, group, STORE_BLOCK_DATASET, 1, &n_rows);
     if (blocks < 0)
-        return corrupt(r, STORE_BLOCK_DATASET, "blocks missing");
-    bool good = read_words(r, group, STORE_COLUMNS_ATTRIBUTE, TABLE_COLUMNS_MAX, &columns, &n);
+        return fail_corrupt_object(r, STORE_BLOCK_DATASET, "blocks missing");
+    bool good = read_name_list(r, group, STORE_COLUMNS_ATTRIBUTE, TABLE_COLUMNS_MAX, &columns, &n);
     hid_t *const opened = good ? calloc(n + 1, sizeof *opened) : NULL;
     if (good && opened == NULL)
-        good = no_memory(r);
+        good = fail_out_of_memory(r);
     for (; good && n_opened < n; n_opened++)
         good = read_column(r, group, columns[n_opened], n_rows, table, &opened[n_opened]);
-    good = good && read_blocks(r, blocks, n_rows, table);
+    good = good && read_row_blocks(r, blocks, n_rows, table);
     for (size_t i = 0; good && n_rows > 0 && i < n; i++)
-        good = read_cells(r, opened[i], &table->columns[i], (size_t)n_rows);
+        good = read_column_cells(r, opened[i], &table->columns[i], (size_t)n_rows);
     for (size_t i = 0; i < n_opened; i++)
         hdf5_close(opened[i]);
     free(opened);
@@ -350,17 +355,18 @@ static bool read_columns(reader *r, hid_t group, wt_table *table)
 }
 
 /* Returns a new table; NULL on failure. */
-static wt_table *read_table(reader *r, const char *name)
+static wt_table *read_stored_table(hdf5_reader *r, const char *name)
 {
     wt_table *table = NULL;
     r->table = name;
     const hid_t group = table_name_is_valid(name) ? open_group(r, name) : -1;
-    char *const title = group >= 0 ? read_text(r, group, STORE_TITLE_ATTRIBUTE) : NULL;
+    char *const title = group >= 0 ? read_text_attribute(r, group, STORE_TITLE_ATTRIBUTE) : NULL;
     if (group < 0 && r->status == WT_OK)
-        (void)corrupt(r, "", "table missing or misnamed");
+        (void)fail_corrupt_object(r, "", "table missing or misnamed");
     else if (title != NULL && (table = wt_table_new(name, title)) == NULL)
-        (void)no_memory(r);
-    if (table != NULL && !(read_keys(r, group, table) && read_columns(r, group, table))) {
+        (void)fail_out_of_memory(r);
+    if (table != NULL &&
+        !(read_table_keys(r, group, table) && read_table_columns(r, group, table))) {
         wt_table_free(table);
         table = NULL;
     }
@@ -370,15 +376,15 @@ static wt_table *read_table(reader *r, const char *name)
     return table;
 }
 
-static bool pass_table(reader *r, const char *name)
+static bool write_stored_table(hdf5_reader *r, const char *name)
 {
-    wt_table *const table = read_table(r, name);
-    const bool good = table != NULL && is_taken(r, table_bytes_write(r->out, table, r->err));
+    wt_table *const table = read_stored_table(r, name);
+    const bool good = table != NULL && is_accepted(r, table_bytes_write(r->out, table, r->err));
     wt_table_free(table);
     return good;
 }
 
-static bool pass_case(reader *r, uint64_t *passed)
+static bool write_case_text(hdf5_reader *r, uint64_t *passed)
 {
     hsize_t n = 0;
     bool good = false;
@@ -392,11 +398,11 @@ static bool pass_case(reader *r, uint64_t *passed)
     /* not longer than the file: open_dataset checks it */
     const size_t length = is_text ? H5Tget_size(type) : 0;
     if (!is_text)
-        good = corrupt(r, STORE_CASE_DATASET, "not one text of fixed length");
+        good = fail_corrupt_object(r, STORE_CASE_DATASET, "not one text of fixed length");
     else if ((text = malloc(length)) == NULL)
-        good = no_memory(r);
+        good = fail_out_of_memory(r);
     else if (H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text) < 0)
-        good = corrupt(r, STORE_CASE_DATASET, "cannot be read");
+        good = fail_corrupt_object(r, STORE_CASE_DATASET, "cannot be read");
     else
         good = true;
     if (good)
@@ -407,11 +413,11 @@ static bool pass_case(reader *r, uint64_t *passed)
     return good;
 }
 
-static bool check_format(reader *r)
+static bool check_store_format(hdf5_reader *r)
 {
     int format = 0;
     size_t n = 0;
-    const hid_t attribute = open_attribute(r->file, STORE_FORMAT_ATTRIBUTE, &n);
+    const hid_t attribute = open_sized_attribute(r->file, STORE_FORMAT_ATTRIBUTE, &n);
     const hid_t type = attribute >= 0 ? H5Aget_type(attribute) : -1;
     if (type < 0 || n != 1 || H5Tget_class(type) != H5T_INTEGER ||
         H5Aread(attribute, H5T_NATIVE_INT, &format) < 0) {
@@ -431,28 +437,30 @@ static bool check_format(reader *r)
 }
 
 /* Attributes and names that describe the whole file. */
-typedef struct store_words {
+typedef struct store_index {
     char **tables, **digests;
     size_t n_tables, n_digests;
     char *version, *command; /* or NULL */
-} store_words;
+} store_index;
 
-static bool read_store_words(reader *r, store_words *w)
+static bool read_store_index(hdf5_reader *r, store_index *w)
 {
-    bool good = check_format(r) && read_words(r, r->file, STORE_TABLES_ATTRIBUTE, RESULT_TABLES_MAX,
-                                              &w->tables, &w->n_tables);
+    bool good =
+        check_store_format(r) && read_name_list(r, r->file, STORE_TABLES_ATTRIBUTE,
+                                                RESULT_TABLES_MAX, &w->tables, &w->n_tables);
     if (good && H5Aexists(r->file, STORE_COMMAND_ATTRIBUTE) != 0)
-        good = (w->command = read_text(r, r->file, STORE_COMMAND_ATTRIBUTE)) != NULL &&
-               (w->version = read_text(r, r->file, STORE_VERSION_ATTRIBUTE)) != NULL;
-    good = good && read_words(r, r->file, STORE_DIGESTS_ATTRIBUTE, RESULT_TABLES_MAX + 2,
-                              &w->digests, &w->n_digests);
+        good = (w->command = read_text_attribute(r, r->file, STORE_COMMAND_ATTRIBUTE)) != NULL &&
+               (w->version = read_text_attribute(r, r->file, STORE_VERSION_ATTRIBUTE)) != NULL;
+    good = good && read_name_list(r, r->file, STORE_DIGESTS_ATTRIBUTE, RESULT_TABLES_MAX + 2,
+                                  &w->digests, &w->n_digests);
     const size_t n = w->n_tables + (w->command != NULL) +
                      (H5Lexists(r->file, STORE_CASE_DATASET, H5P_DEFAULT) > 0);
-    return good && (w->n_digests == n ||
-                    corrupt(r, STORE_DIGESTS_ATTRIBUTE, "not as many digests as there are tables"));
+    return good &&
+           (w->n_digests == n || fail_corrupt_object(r, STORE_DIGESTS_ATTRIBUTE,
+                                                     "not as many digests as there are tables"));
 }
 
-static void pass_digest(const reader *r, const char *digest)
+static void write_table_digest(const hdf5_reader *r, const char *digest)
 {
     char padded[STORE_DIGEST_SIZE] = "";
     (void)snprintf(padded, sizeof padded, "%s", digest);
@@ -460,24 +468,24 @@ static void pass_digest(const reader *r, const char *digest)
 }
 
 /* Writes all tables, or those that `wanted` selects. A selection has no origin and no case. */
-static wt_status pass_store(reader *r, bool (*wanted)(const char *name))
+static wt_status write_store(hdf5_reader *r, bool (*wanted)(const char *name))
 {
-    store_words w = {.tables = NULL};
+    store_index w = {.tables = NULL};
     store_tail tail = {.n_tables = 0};
-    bool good = read_store_words(r, &w);
+    bool good = read_store_index(r, &w);
     for (size_t i = 0; good && i < w.n_tables; i++)
         if (wanted == NULL || wanted(w.tables[i])) {
-            good = pass_table(r, w.tables[i]);
+            good = write_stored_table(r, w.tables[i]);
             tail.n_tables++;
         }
     tail.has_origin = wanted == NULL && w.command != NULL;
-    good = good && (!tail.has_origin || pass_table(r, STORE_INPUTS_TABLE)) &&
-           (wanted != NULL || pass_case(r, &tail.case_length));
+    good = good && (!tail.has_origin || write_stored_table(r, STORE_INPUTS_TABLE)) &&
+           (wanted != NULL || write_case_text(r, &tail.case_length));
     if (good && tail.has_origin)
         tail.origin_length = (uint64_t)fprintf(r->out, "%s\n%s", w.version, w.command);
     for (size_t i = 0; good && i < w.n_digests; i++)
         if (wanted == NULL || (i < w.n_tables && wanted(w.tables[i])))
-            pass_digest(r, w.digests[i]);
+            write_table_digest(r, w.digests[i]);
     if (good)
         store_tail_write(r->out, &tail);
     wt_strings_free(w.tables, w.n_tables);
@@ -487,21 +495,21 @@ static wt_status pass_store(reader *r, bool (*wanted)(const char *name))
     return r->status;
 }
 
-wt_status store_pass(hid_t file, size_t size, FILE *out, wt_error *err)
+wt_status store_extract(hid_t file, size_t size, FILE *out, wt_error *err)
 {
-    reader r = {.file = file, .file_size = size, .out = out, .err = err};
-    return pass_store(&r, NULL);
+    hdf5_reader r = {.file = file, .file_size = size, .out = out, .err = err};
+    return write_store(&r, NULL);
 }
 
-wt_status store_pass_headlines(hid_t file, size_t size, FILE *out, wt_error *err)
+wt_status store_extract_headlines(hid_t file, size_t size, FILE *out, wt_error *err)
 {
-    reader r = {.file = file, .file_size = size, .out = out, .err = err};
-    return pass_store(&r, store_has_headlines);
+    hdf5_reader r = {.file = file, .file_size = size, .out = out, .err = err};
+    return write_store(&r, store_has_headlines);
 }
 
 /* Writes the samples [from, from + n) of an array. */
-static bool pass_block(reader *r, hid_t dataset, const char *name, hsize_t from, hsize_t n,
-                       double *block)
+static bool write_sample_block(hdf5_reader *r, hid_t dataset, const char *name, hsize_t from,
+                               hsize_t n, double *block)
 {
     const hid_t in_memory = H5Screate_simple(1, &n, NULL);
     const hid_t in_file = H5Dget_space(dataset);
@@ -512,32 +520,35 @@ static bool pass_block(reader *r, hid_t dataset, const char *name, hsize_t from,
     hdf5_close(in_memory);
     hdf5_close(in_file);
     return good ? fwrite(block, sizeof *block, (size_t)n, r->out) == n
-                : corrupt(r, name, "samples cannot be read");
+                : fail_corrupt_object(r, name, "samples cannot be read");
 }
 
-wt_status store_pass_samples(hid_t file, size_t size, FILE *out, wt_error *err)
+wt_status store_extract_samples(hid_t file, size_t size, FILE *out, wt_error *err)
 {
     static double block[MAP_BLOCK];
-    reader r = {
+    hdf5_reader r = {
         .file = file, .file_size = size, .table = MAP_SAMPLES_GROUP, .out = out, .err = err};
     char **names = NULL;
     size_t n = 0;
     hid_t arrays[WT_Q_COUNT];
     hsize_t n_samples = 0;
     const hid_t group = open_group(&r, MAP_SAMPLES_GROUP);
-    bool good = group >= 0 ? read_words(&r, group, STORE_COLUMNS_ATTRIBUTE, WT_Q_COUNT, &names, &n)
-                           : corrupt(&r, "", "the samples are missing");
+    bool good = group >= 0
+                    ? read_name_list(&r, group, STORE_COLUMNS_ATTRIBUTE, WT_Q_COUNT, &names, &n)
+                    : fail_corrupt_object(&r, "", "the samples are missing");
     for (size_t i = 0; good && i < n; i++) {
         hsize_t again = 0;
-        arrays[i] = open_laid_out(&r, group, names[i], 1, H5D_CHUNKED, &again);
+        arrays[i] = open_stored_dataset(&r, group, names[i], 1, H5D_CHUNKED, &again);
         n_samples = i == 0 ? again : n_samples;
         if (arrays[i] < 0 || again != n_samples)
-            good = corrupt(&r, names[i], "array missing, of another length or not stored as it is");
+            good = fail_corrupt_object(&r, names[i],
+                                       "array missing, of another length or not stored as it is");
     }
     for (hsize_t at = 0; good && at < n_samples; at += MAP_BLOCK)
         for (size_t i = 0; good && i < n; i++)
-            good = pass_block(&r, arrays[i], names[i], at,
-                              n_samples - at < MAP_BLOCK ? n_samples - at : MAP_BLOCK, block);
+            good =
+                write_sample_block(&r, arrays[i], names[i], at,
+                                   n_samples - at < MAP_BLOCK ? n_samples - at : MAP_BLOCK, block);
     wt_strings_free(names, n);
     return r.status; /* the process ends with the file open */
 }

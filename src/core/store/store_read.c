@@ -14,7 +14,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-wt_status store_corrupt(wt_error *err, const char *place, const char *message)
+wt_status store_corrupt_error(wt_error *err, const char *place, const char *message)
 {
     (void)wt_fail(err, WT_E_CORRUPT, "%s", message);
     wt_error_place(err, "%s", place);
@@ -22,7 +22,7 @@ wt_status store_corrupt(wt_error *err, const char *place, const char *message)
     return WT_E_CORRUPT;
 }
 
-static wt_status take_origin(const char *text, size_t length, wt_provenance *provenance)
+static wt_status decode_origin(const char *text, size_t length, wt_provenance *provenance)
 {
     char *const origin = strndup(text, length);
     const wt_status status = origin != NULL ? provenance_restore(provenance, origin) : WT_E_MEMORY;
@@ -34,10 +34,10 @@ static wt_status check_digest(const char *bytes, const char *end, const char *ex
                               const char *place, wt_error *err)
 {
     char digest[STORE_DIGEST_SIZE];
-    wt_digest(bytes, (size_t)(end - bytes), digest);
+    wt_sha256(bytes, (size_t)(end - bytes), digest);
     return memcmp(digest, expected, sizeof digest) == 0
                ? WT_OK
-               : store_corrupt(err, place, "the content does not agree with its digest");
+               : store_corrupt_error(err, place, "the content does not agree with its digest");
 }
 
 /* Parts of the data from the sandbox. */
@@ -46,7 +46,7 @@ typedef struct store_parts {
     store_tail tail;
 } store_parts;
 
-static bool part_answer(const char *bytes, size_t length, store_parts *p)
+static bool split_store_bytes(const char *bytes, size_t length, store_parts *p)
 {
     store_tail *const t = &p->tail;
     if (length < sizeof *t)
@@ -71,7 +71,7 @@ static bool part_answer(const char *bytes, size_t length, store_parts *p)
 }
 
 /* Decodes the tables. The table of inputs goes to the provenance. */
-static wt_status take_tables(const store_parts *p, wt_result *result, wt_error *err)
+static wt_status decode_tables(const store_parts *p, wt_result *result, wt_error *err)
 {
     const char *at = p->tables, *digest = p->digests;
     wt_status status = WT_OK;
@@ -95,28 +95,28 @@ static wt_status take_tables(const store_parts *p, wt_result *result, wt_error *
         wt_table_free(table);
     }
     if (status == WT_E_ARG)
-        status = store_corrupt(err, STORE_TABLES_ATTRIBUTE, "not names of tables");
+        status = store_corrupt_error(err, STORE_TABLES_ATTRIBUTE, "not names of tables");
     if (status == WT_OK && at != p->case_file)
-        status = store_corrupt(err, "", "the content is more than it says");
+        status = store_corrupt_error(err, "", "the content is more than it says");
     if (status == WT_OK && p->tail.case_length > 0)
         status = check_digest(p->case_file, p->origin, digest, STORE_CASE_DATASET, err);
     return status;
 }
 
-wt_status store_take(const char *bytes, size_t length, wt_result *result, wt_error *err)
+wt_status store_decode(const char *bytes, size_t length, wt_result *result, wt_error *err)
 {
     store_parts p;
-    if (!part_answer(bytes, length, &p))
-        return store_corrupt(err, "", "the content is not whole");
-    wt_status status = take_tables(&p, result, err);
+    if (!split_store_bytes(bytes, length, &p))
+        return store_corrupt_error(err, "", "the content is not whole");
+    wt_status status = decode_tables(&p, result, err);
     if (status == WT_OK && p.tail.has_origin)
-        status = take_origin(p.origin, p.tail.origin_length, wt_result_provenance(result));
+        status = decode_origin(p.origin, p.tail.origin_length, wt_result_provenance(result));
     if (status == WT_OK)
         status = wt_result_set_case(result, p.case_file, p.tail.case_length, err);
     return status == WT_E_MEMORY ? wt_fail(err, WT_E_MEMORY, "out of memory") : status;
 }
 
-wt_status store_read_bytes(const hdf5_bytes *from, hdf5_reading *pass, const char *name,
+wt_status store_read_bytes(const hdf5_bytes *from, hdf5_read_function *pass, const char *name,
                            wt_result **result, wt_error *err)
 {
     const sandbox_limits limits = sandbox_limits_for(from->size);
@@ -127,7 +127,7 @@ wt_status store_read_bytes(const hdf5_bytes *from, hdf5_reading *pass, const cha
     if (status == WT_OK)
         status = hdf5_sandbox_read(from, &limits, pass, &answer, &n, err);
     if (status == WT_OK)
-        status = store_take(answer, n, read, err);
+        status = store_decode(answer, n, read, err);
     free(answer);
     if (status == WT_OK) {
         *result = read;
@@ -143,7 +143,7 @@ wt_status wt_store_read_memory(const void *bytes, size_t length, const char *nam
 {
     /* A file without bytes must not be mistaken for a descriptor. */
     const hdf5_bytes from = {.bytes = length > 0 ? bytes : (const void *)"", .size = length};
-    return store_read_bytes(&from, store_pass, name, result, err);
+    return store_read_bytes(&from, store_extract, name, result, err);
 }
 
 /* Opening a pipe without O_NONBLOCK would wait for a writer. */
@@ -172,7 +172,7 @@ wt_status wt_store_read(const char *path, wt_result **result, wt_error *err)
     wt_status status = store_open_regular(path, &file, &info, err);
     if (status == WT_OK) {
         const hdf5_bytes from = {.file = file, .size = (size_t)info.st_size};
-        status = store_read_bytes(&from, store_pass, path, result, err);
+        status = store_read_bytes(&from, store_extract, path, result, err);
     }
     if (file >= 0)
         (void)close(file);

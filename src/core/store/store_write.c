@@ -9,10 +9,10 @@
 #include <sys/stat.h>
 #include <time.h>
 
-typedef store_file writer;
+typedef store_file store_writer;
 
-static bool put_attribute(hid_t object, const char *name, hid_t file_type, hid_t memory_type,
-                          hid_t space, const void *value)
+static bool write_attribute(hid_t object, const char *name, hid_t file_type, hid_t memory_type,
+                            hid_t space, const void *value)
 {
     const hid_t attribute = H5Acreate2(object, name, file_type, space, H5P_DEFAULT, H5P_DEFAULT);
     if (attribute < 0)
@@ -23,7 +23,7 @@ static bool put_attribute(hid_t object, const char *name, hid_t file_type, hid_t
 
 /* Creates a type for UTF-8 text of fixed length, padded with zeros. HDF5 1.10 crashes on damaged
  * text of variable length. */
-static hid_t text_type(size_t length)
+static hid_t create_text_type(size_t length)
 {
     const hid_t type = H5Tcopy(H5T_C_S1);
     if (type < 0 || H5Tset_size(type, length > 0 ? length : 1) < 0 ||
@@ -34,10 +34,11 @@ static hid_t text_type(size_t length)
     return type;
 }
 
-bool store_put_text(const store_file *w, hid_t object, const char *name, const char *text)
+bool store_write_text_attribute(const store_file *w, hid_t object, const char *name,
+                                const char *text)
 {
-    const hid_t type = text_type(strlen(text));
-    const bool good = type >= 0 && put_attribute(object, name, type, type, w->scalar, text);
+    const hid_t type = create_text_type(strlen(text));
+    const bool good = type >= 0 && write_attribute(object, name, type, type, w->scalar, text);
     return type >= 0 && H5Tclose(type) >= 0 && good;
 }
 
@@ -56,23 +57,24 @@ static char *pack_texts(const char *const *texts, size_t n, size_t *width)
     return packed;
 }
 
-static bool put_number(const writer *w, hid_t object, const char *name, double value)
+static bool write_number_attribute(const store_writer *w, hid_t object, const char *name,
+                                   double value)
 {
-    return put_attribute(object, name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, w->scalar, &value);
+    return write_attribute(object, name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, w->scalar, &value);
 }
 
 /* Writes a list of names. An empty list is not written. */
-bool store_put_words(hid_t object, const char *name, const char *const *words, size_t n)
+bool store_write_text_list(hid_t object, const char *name, const char *const *words, size_t n)
 {
     const hsize_t size = n;
     size_t width = 0;
     if (n == 0)
         return true;
     char *const packed = pack_texts(words, n, &width);
-    const hid_t type = text_type(width);
+    const hid_t type = create_text_type(width);
     const hid_t space = H5Screate_simple(1, &size, NULL);
     const bool good = packed != NULL && type >= 0 && space >= 0 &&
-                      put_attribute(object, name, type, type, space, packed);
+                      write_attribute(object, name, type, type, space, packed);
     free(packed);
     if (type >= 0)
         (void)H5Tclose(type);
@@ -81,9 +83,9 @@ bool store_put_words(hid_t object, const char *name, const char *const *words, s
     return good;
 }
 
-static bool put_dataset(const writer *w, hid_t group, const char *name, hid_t file_type,
-                        hid_t memory_type, const void *values, size_t n, const char *units,
-                        const char *long_name)
+static bool write_dataset(const store_writer *w, hid_t group, const char *name, hid_t file_type,
+                          hid_t memory_type, const void *values, size_t n, const char *units,
+                          const char *long_name)
 {
     const hsize_t size = n;
     const hid_t space = H5Screate_simple(1, &size, NULL);
@@ -92,15 +94,15 @@ static bool put_dataset(const writer *w, hid_t group, const char *name, hid_t fi
     bool good = dataset >= 0;
     if (good && n > 0)
         good = H5Dwrite(dataset, memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) >= 0;
-    good = good && store_put_text(w, dataset, STORE_UNITS_ATTRIBUTE, units) &&
-           store_put_text(w, dataset, STORE_LONG_NAME_ATTRIBUTE, long_name);
+    good = good && store_write_text_attribute(w, dataset, STORE_UNITS_ATTRIBUTE, units) &&
+           store_write_text_attribute(w, dataset, STORE_LONG_NAME_ATTRIBUTE, long_name);
     if (dataset >= 0)
         good = H5Dclose(dataset) >= 0 && good;
     return space >= 0 && H5Sclose(space) >= 0 && good;
 }
 
 /* Opens a group by its path and creates missing groups. */
-hid_t store_make_group(const store_file *w, const char *path)
+hid_t store_create_group(const store_file *w, const char *path)
 {
     char *const partial = strdup(path);
     hid_t group = -1;
@@ -123,7 +125,7 @@ hid_t store_make_group(const store_file *w, const char *path)
     return group;
 }
 
-static bool put_keys(const writer *w, hid_t group, const wt_table *table)
+static bool write_keys(const store_writer *w, hid_t group, const wt_table *table)
 {
     const char **const words = calloc(table->n_keys + 1, sizeof *words);
     bool good = words != NULL;
@@ -131,24 +133,26 @@ static bool put_keys(const writer *w, hid_t group, const wt_table *table)
         const table_key *const key = &table->keys[i];
         words[i] = key->name;
         if (!key->is_estimate) {
-            good = store_put_text(w, group, key->name, key->text);
+            good = store_write_text_attribute(w, group, key->name, key->text);
             continue;
         }
         char *names[KEY_PARTS] = {NULL};
         good = table_key_part_names(key->name, names) &&
-               put_number(w, group, key->name, key->parsed.value) &&
-               put_number(w, group, names[KEY_STANDARD_ERROR], key->parsed.standard_error) &&
-               put_number(w, group, names[KEY_NUMERICAL_ERROR], key->parsed.numerical_error) &&
-               store_put_text(w, group, names[KEY_UNITS], key->unit);
+               write_number_attribute(w, group, key->name, key->parsed.value) &&
+               write_number_attribute(w, group, names[KEY_STANDARD_ERROR],
+                                      key->parsed.standard_error) &&
+               write_number_attribute(w, group, names[KEY_NUMERICAL_ERROR],
+                                      key->parsed.numerical_error) &&
+               store_write_text_attribute(w, group, names[KEY_UNITS], key->unit);
         for (size_t k = 0; k < KEY_PARTS; k++)
             free(names[k]);
     }
-    good = good && store_put_words(group, STORE_KEYS_ATTRIBUTE, words, table->n_keys);
+    good = good && store_write_text_list(group, STORE_KEYS_ATTRIBUTE, words, table->n_keys);
     free(words);
     return good;
 }
 
-static bool put_columns(const writer *w, hid_t group, const wt_table *table)
+static bool write_columns(const store_writer *w, hid_t group, const wt_table *table)
 {
     const size_t n = table->n_rows > table->n_columns ? table->n_rows : table->n_columns;
     const char **const words = calloc(n + 1, sizeof *words);
@@ -156,60 +160,62 @@ static bool put_columns(const writer *w, hid_t group, const wt_table *table)
     bool good = words != NULL && blocks != NULL;
     for (size_t i = 0; good && i < table->n_columns; i++)
         words[i] = table->columns[i].name;
-    good = good && store_put_words(group, STORE_COLUMNS_ATTRIBUTE, words, table->n_columns);
+    good = good && store_write_text_list(group, STORE_COLUMNS_ATTRIBUTE, words, table->n_columns);
     for (size_t i = 0; good && i < table->n_columns; i++) {
         const table_column *const column = &table->columns[i];
         if (column->kind == WT_COLUMN_NUMBER) {
-            good = put_dataset(w, group, column->name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE,
-                               column->numbers, table->n_rows, column->unit, column->long_name);
+            good = write_dataset(w, group, column->name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE,
+                                 column->numbers, table->n_rows, column->unit, column->long_name);
             continue;
         }
         for (size_t row = 0; row < table->n_rows; row++)
             words[row] = wt_table_text(table, row, i);
         size_t width = 0;
         char *const packed = pack_texts(words, table->n_rows, &width);
-        const hid_t type = text_type(width);
+        const hid_t type = create_text_type(width);
         good = packed != NULL && type >= 0 &&
-               put_dataset(w, group, column->name, type, type, packed, table->n_rows, "",
-                           column->long_name);
+               write_dataset(w, group, column->name, type, type, packed, table->n_rows, "",
+                             column->long_name);
         free(packed);
         if (type >= 0)
             (void)H5Tclose(type);
     }
     for (size_t row = 0; good && row < table->n_rows; row++)
         blocks[row] = wt_table_block(table, row);
-    good = good && put_dataset(w, group, STORE_BLOCK_DATASET, H5T_STD_U64LE, H5T_NATIVE_UINT64,
-                               blocks, table->n_rows, "1", "number of the block of a row");
+    good = good && write_dataset(w, group, STORE_BLOCK_DATASET, H5T_STD_U64LE, H5T_NATIVE_UINT64,
+                                 blocks, table->n_rows, "1", "number of the block of a row");
     free(words);
     free(blocks);
     return good;
 }
 
-static bool put_table(const writer *w, const wt_table *table)
+static bool write_table(const store_writer *w, const wt_table *table)
 {
-    const hid_t group = store_make_group(w, table->name);
+    const hid_t group = store_create_group(w, table->name);
     if (group < 0)
         return false;
-    const bool good = store_put_text(w, group, STORE_TITLE_ATTRIBUTE, table->title) &&
-                      put_keys(w, group, table) && put_columns(w, group, table);
+    const bool good = store_write_text_attribute(w, group, STORE_TITLE_ATTRIBUTE, table->title) &&
+                      write_keys(w, group, table) && write_columns(w, group, table);
     return H5Gclose(group) >= 0 && good;
 }
 
 /* Stores the case file as one string of its length, so that it need not be UTF-8. */
-static bool put_case(const writer *w, const char *text, size_t length)
+static bool write_case_dataset(const store_writer *w, const char *text, size_t length)
 {
-    const hid_t type = text_type(length);
+    const hid_t type = create_text_type(length);
     const hid_t dataset = H5Dcreate2(w->file, STORE_CASE_DATASET, type, w->scalar, H5P_DEFAULT,
                                      w->dataset_creation, H5P_DEFAULT);
-    bool good = dataset >= 0 && H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text) >= 0 &&
-                store_put_text(w, dataset, STORE_UNITS_ATTRIBUTE, "") &&
-                store_put_text(w, dataset, STORE_LONG_NAME_ATTRIBUTE, "the case file, whole");
+    bool good =
+        dataset >= 0 && H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text) >= 0 &&
+        store_write_text_attribute(w, dataset, STORE_UNITS_ATTRIBUTE, "") &&
+        store_write_text_attribute(w, dataset, STORE_LONG_NAME_ATTRIBUTE, "the case file, whole");
     if (dataset >= 0)
         good = H5Dclose(dataset) >= 0 && good;
     return type >= 0 && H5Tclose(type) >= 0 && good;
 }
 
-static bool put_origin(const writer *w, const wt_provenance *provenance, const wt_table *inputs)
+static bool write_origin(const store_writer *w, const wt_provenance *provenance,
+                         const wt_table *inputs)
 {
     char created[32];
     const time_t now = time(NULL);
@@ -217,15 +223,17 @@ static bool put_origin(const writer *w, const wt_provenance *provenance, const w
     if (gmtime_r(&now, &utc) == NULL ||
         strftime(created, sizeof created, "%Y-%m-%dT%H:%M:%SZ", &utc) == 0)
         return false;
-    return store_put_text(w, w->file, STORE_VERSION_ATTRIBUTE, wt_version()) &&
-           store_put_text(w, w->file, STORE_COMMAND_ATTRIBUTE, wt_provenance_command(provenance)) &&
-           store_put_text(w, w->file, STORE_CREATED_ATTRIBUTE, created) && put_table(w, inputs);
+    return store_write_text_attribute(w, w->file, STORE_VERSION_ATTRIBUTE, wt_version()) &&
+           store_write_text_attribute(w, w->file, STORE_COMMAND_ATTRIBUTE,
+                                      wt_provenance_command(provenance)) &&
+           store_write_text_attribute(w, w->file, STORE_CREATED_ATTRIBUTE, created) &&
+           write_table(w, inputs);
 }
 
 /* Computes the digests of all tables, the inputs and the case file. The array has space for all of
  * them. */
-static wt_status make_digests(const wt_result *result, const wt_table *inputs,
-                              char (*digests)[STORE_DIGEST_SIZE], size_t *n, wt_error *err)
+static wt_status compute_digests(const wt_result *result, const wt_table *inputs,
+                                 char (*digests)[STORE_DIGEST_SIZE], size_t *n, wt_error *err)
 {
     size_t case_length = 0;
     const char *const case_file = wt_result_case(result, &case_length);
@@ -235,12 +243,13 @@ static wt_status make_digests(const wt_result *result, const wt_table *inputs,
     if (status == WT_OK && inputs != NULL)
         status = table_bytes_digest(inputs, digests[(*n)++], err);
     if (status == WT_OK && case_file != NULL)
-        wt_digest(case_file, case_length, digests[(*n)++]);
+        wt_sha256(case_file, case_length, digests[(*n)++]);
     return status;
 }
 
-static bool put_result(const writer *w, const wt_result *result, const wt_table *inputs,
-                       char (*digests)[STORE_DIGEST_SIZE], size_t n_digests)
+static bool write_result_objects(const store_writer *w, const wt_result *result,
+                                 const wt_table *inputs, char (*digests)[STORE_DIGEST_SIZE],
+                                 size_t n_digests)
 {
     const int format =
         wt_result_find(result, map_curves_schema.name) != NULL ? STORE_FORMAT_MAP : STORE_FORMAT;
@@ -248,37 +257,37 @@ static bool put_result(const writer *w, const wt_result *result, const wt_table 
     size_t case_length = 0;
     const char *const case_file = wt_result_case(result, &case_length);
     const char **const words = calloc(n_digests + 1, sizeof *words);
-    bool good = words != NULL && put_attribute(w->file, STORE_FORMAT_ATTRIBUTE, H5T_STD_I32LE,
-                                               H5T_NATIVE_INT, w->scalar, &format);
+    bool good = words != NULL && write_attribute(w->file, STORE_FORMAT_ATTRIBUTE, H5T_STD_I32LE,
+                                                 H5T_NATIVE_INT, w->scalar, &format);
     for (size_t i = 0; good && i < n; i++)
         words[i] = wt_table_name(wt_result_table(result, i));
-    good = good && store_put_words(w->file, STORE_TABLES_ATTRIBUTE, words, n);
+    good = good && store_write_text_list(w->file, STORE_TABLES_ATTRIBUTE, words, n);
     for (size_t i = 0; good && i < n_digests; i++)
         words[i] = digests[i];
-    good = good && store_put_words(w->file, STORE_DIGESTS_ATTRIBUTE, words, n_digests);
+    good = good && store_write_text_list(w->file, STORE_DIGESTS_ATTRIBUTE, words, n_digests);
     if (inputs != NULL)
-        good = good && put_origin(w, wt_result_provenance_const(result), inputs);
+        good = good && write_origin(w, wt_result_provenance_const(result), inputs);
     for (size_t i = 0; good && i < n; i++)
-        good = put_table(w, wt_result_table(result, i));
+        good = write_table(w, wt_result_table(result, i));
     if (case_file != NULL)
-        good = good && put_case(w, case_file, case_length);
+        good = good && write_case_dataset(w, case_file, case_length);
     free(words);
     return good;
 }
 
 /* Object headers have no times, so that the bytes depend on the content only. */
-static bool set_creation(hid_t list)
+static bool set_creation_options(hid_t list)
 {
     return list >= 0 && H5Pset_obj_track_times(list, false) >= 0;
 }
 
-static bool set_group_creation(hid_t list)
+static bool set_group_creation_options(hid_t list)
 {
-    return set_creation(list) && H5Pset_attr_phase_change(list, UINT16_MAX, 0) >= 0 &&
+    return set_creation_options(list) && H5Pset_attr_phase_change(list, UINT16_MAX, 0) >= 0 &&
            H5Pset_link_phase_change(list, UINT16_MAX, 0) >= 0;
 }
 
-static void free_file(store_file *w)
+static void free_store_file(store_file *w)
 {
     hdf5_scope scope;
     hdf5_enter(&scope);
@@ -291,7 +300,7 @@ static void free_file(store_file *w)
     free(w);
 }
 
-static bool create(store_file *w)
+static bool create_store_file(store_file *w)
 {
     const hid_t access = H5Pcreate(H5P_FILE_ACCESS);
     const hid_t creation = H5Pcreate(H5P_FILE_CREATE);
@@ -299,9 +308,9 @@ static bool create(store_file *w)
     w->group_creation = H5Pcreate(H5P_GROUP_CREATE);
     w->dataset_creation = H5Pcreate(H5P_DATASET_CREATE);
     /* The layout of HDF5 1.8 has checksums of its own structures, and all versions can read it. */
-    if (w->scalar >= 0 && set_group_creation(w->group_creation) &&
-        set_creation(w->dataset_creation) && set_group_creation(creation) &&
-        hdf5_bytes_access(access, &w->to) &&
+    if (w->scalar >= 0 && set_group_creation_options(w->group_creation) &&
+        set_creation_options(w->dataset_creation) && set_group_creation_options(creation) &&
+        hdf5_bytes_set_driver(access, &w->to) &&
         H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_V18) >= 0 &&
         H5Pset_fclose_degree(access, H5F_CLOSE_STRONG) >= 0)
         w->file = H5Fcreate("weartrack.h5", H5F_ACC_TRUNC, creation, access);
@@ -310,7 +319,7 @@ static bool create(store_file *w)
     return w->file >= 0;
 }
 
-wt_status store_failed(const store_file *w, wt_error *err)
+wt_status store_write_error(const store_file *w, wt_error *err)
 {
     const wt_status status =
         w->to.failed != 0
@@ -337,13 +346,13 @@ wt_status store_begin(const char *path, store_file **file, wt_error *err)
     }
     if (status == WT_OK) {
         hdf5_enter(&scope);
-        const bool good = create(w);
+        const bool good = create_store_file(w);
         hdf5_leave(&scope);
-        status = good ? WT_OK : store_failed(w, err);
+        status = good ? WT_OK : store_write_error(w, err);
     }
     if (status != WT_OK) {
         wt_error_file(err, path);
-        free_file(w);
+        free_store_file(w);
         return status;
     }
     *file = w;
@@ -361,15 +370,15 @@ wt_status store_end(store_file *w, const wt_result *result, bool with_provenance
         status = wt_provenance_table(wt_result_provenance_const(result), STORE_INPUTS_TABLE,
                                      &inputs, err);
     if (status == WT_OK)
-        status = make_digests(result, inputs, digests, &n_digests, err);
+        status = compute_digests(result, inputs, digests, &n_digests, err);
     if (status == WT_OK) {
         hdf5_scope scope;
         hdf5_enter(&scope);
-        bool good = put_result(w, result, inputs, digests, n_digests);
+        bool good = write_result_objects(w, result, inputs, digests, n_digests);
         good = H5Fclose(w->file) >= 0 && good && w->to.failed == 0;
         w->file = -1;
         hdf5_leave(&scope);
-        status = good ? WT_OK : store_failed(w, err);
+        status = good ? WT_OK : store_write_error(w, err);
     }
     if (status == WT_OK)
         status = store_abstract_write(wt_outfile_stream(w->out), result, err);
@@ -381,14 +390,14 @@ wt_status store_end(store_file *w, const wt_result *result, bool with_provenance
         wt_error_file(err, w->path);
     wt_table_free(inputs);
     free(digests);
-    free_file(w);
+    free_store_file(w);
     return status;
 }
 
 void store_discard(store_file *w)
 {
     if (w != NULL)
-        free_file(w);
+        free_store_file(w);
 }
 
 wt_status wt_store_write(const char *path, const wt_result *result, bool with_provenance,

@@ -20,7 +20,7 @@ struct wt_atomic_file {
     FILE *stream;
 };
 
-static void outfile_free(wt_atomic_file *file)
+static void atomic_file_free(wt_atomic_file *file)
 {
     if (file == NULL)
         return;
@@ -32,9 +32,9 @@ static void outfile_free(wt_atomic_file *file)
 enum { ATTEMPTS = 16, LINKS = 40 }; /* attempts to find a free name; symbolic links in a chain */
 
 /* The umask decides the mode, as for any new file. */
-static int create_beside(const char *folder, char **name)
+static int create_named(const char *folder, char **name)
 {
-    temporary_sweep(folder);
+    temporary_remove_abandoned(folder);
     for (int attempt = 0; attempt < ATTEMPTS; attempt++) {
         char *const path = temporary_name(folder);
         if (path == NULL)
@@ -84,7 +84,7 @@ static void sync_folder(const char *path)
 
 /* Gives an unnamed file its final name, or a temporary one in the same folder if the final name
  * exists. */
-static bool name_unnamed(wt_atomic_file *file)
+static bool link_unnamed(wt_atomic_file *file)
 {
     const char *const from = file->temporary;
     if (linkat(AT_FDCWD, from, AT_FDCWD, file->final, AT_SYMLINK_FOLLOW) == 0) {
@@ -98,7 +98,7 @@ static bool name_unnamed(wt_atomic_file *file)
     bool named = false;
     errno = ENOMEM;
     if (folder != NULL)
-        temporary_sweep(folder);
+        temporary_remove_abandoned(folder);
     for (int attempt = 0; folder != NULL && attempt < ATTEMPTS && !named; attempt++) {
         char *const path = temporary_name(folder);
         if (path == NULL)
@@ -130,7 +130,7 @@ static void remove_temporary(const wt_atomic_file *file)
 }
 
 /* Resolves symbolic links. The target need not exist. */
-static char *behind_links(const char *path)
+static char *resolve_links(const char *path)
 {
     char target[PATH_MAX];
     char *name = strdup(path);
@@ -148,8 +148,8 @@ static char *behind_links(const char *path)
 }
 
 /* `info` describes the file that is replaced, NULL if there is none. */
-static wt_status open_stream(wt_atomic_file *new_file, const char *folder, const struct stat *info,
-                             wt_error *err)
+static wt_status open_output_stream(wt_atomic_file *new_file, const char *folder,
+                                    const struct stat *info, wt_error *err)
 {
     int descriptor = -1;
     if (new_file->direct) {
@@ -160,10 +160,10 @@ static wt_status open_stream(wt_atomic_file *new_file, const char *folder, const
         descriptor = create_unnamed(folder, &new_file->temporary);
         new_file->unnamed = descriptor >= 0;
         if (descriptor < 0)
-            descriptor = create_beside(folder, &new_file->temporary);
+            descriptor = create_named(folder, &new_file->temporary);
     }
     if (descriptor >= 0 && !new_file->direct)
-        temporary_hold(descriptor);
+        temporary_lock(descriptor);
     /* The mode is set before the file has any contents. */
     const bool moded =
         info == NULL || new_file->direct || fchmod(descriptor, info->st_mode & 0777) == 0;
@@ -188,7 +188,7 @@ wt_status wt_outfile_open(const char *path, wt_atomic_file **file, wt_error *err
     const bool exists = stat(path, &info) == 0;
     if (new_file != NULL) {
         new_file->direct = exists && !S_ISREG(info.st_mode);
-        new_file->final = new_file->direct ? strdup(path) : behind_links(path);
+        new_file->final = new_file->direct ? strdup(path) : resolve_links(path);
         folder = new_file->final != NULL ? wt_path_folder(new_file->final) : NULL;
     }
     wt_status status =
@@ -198,12 +198,12 @@ wt_status wt_outfile_open(const char *path, wt_atomic_file **file, wt_error *err
         wt_error_expected(err, "the name of a file");
     }
     if (status == WT_OK)
-        status = open_stream(new_file, folder, exists ? &info : NULL, err);
+        status = open_output_stream(new_file, folder, exists ? &info : NULL, err);
     if (status == WT_OK) {
         *file = new_file;
     } else {
         wt_error_file(err, path);
-        outfile_free(new_file);
+        atomic_file_free(new_file);
     }
     free(folder);
     return status;
@@ -224,7 +224,7 @@ wt_status wt_outfile_commit(wt_atomic_file *file, wt_error *err)
     } else if (!file->direct && fsync(fileno(file->stream)) != 0) {
         what = "cannot write the file to the disk";
         reason = errno;
-    } else if (file->unnamed && !name_unnamed(file)) {
+    } else if (file->unnamed && !link_unnamed(file)) {
         what = "cannot give the file its name";
         reason = errno;
     }
@@ -246,7 +246,7 @@ wt_status wt_outfile_commit(wt_atomic_file *file, wt_error *err)
         status = wt_fail(err, WT_E_IO, "%s: %s", what, strerror(reason));
         wt_error_file(err, file->final);
     }
-    outfile_free(file);
+    atomic_file_free(file);
     return status;
 }
 
@@ -256,5 +256,5 @@ void wt_outfile_discard(wt_atomic_file *file)
         return;
     (void)fclose(file->stream);
     remove_temporary(file);
-    outfile_free(file);
+    atomic_file_free(file);
 }

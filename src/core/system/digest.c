@@ -39,7 +39,7 @@ void digest_md5(const void *bytes, size_t length, char hex[33])
     write_hex(digest, sizeof digest, hex);
 }
 
-void wt_digest(const void *bytes, size_t length, char hex[65])
+void wt_sha256(const void *bytes, size_t length, char hex[65])
 {
     SHA256_CTX context;
     SHA256_Init(&context);
@@ -62,7 +62,7 @@ static void mix_bytes(uint64_t chain[CHAINS], const unsigned char *bytes, size_t
     }
 }
 
-wt_status digest_pieces(digest_source *source, void *user, size_t length, char hex[65],
+wt_status digest_stream(digest_source *source, void *user, size_t length, char hex[65],
                         uint64_t *fingerprint, wt_error *err)
 {
     unsigned char piece[1 << 16];

@@ -7,13 +7,13 @@
 #define STORE_FORMAT_ATTRIBUTE "weartrack_format"
 /* First attribute of a file with a force map, which identifies the file without HDF5. */
 #define STORE_MAP_ATTRIBUTE "weartrack_force_map"
-#define STORE_START ((size_t)4096) /* number of bytes that contain one of the attributes */
+#define STORE_HEADER_SIZE ((size_t)4096) /* number of bytes that contain one of the attributes */
 /* Comment after the end of a PDF, which PDF readers ignore. */
-#define PDF_MARK "%weartrack sheets\n"
+#define PDF_SIGNATURE "%weartrack sheets\n"
 /* An SQLite database begins with this text and a zero byte. The application ID of this program is
  * stored in big-endian order at a fixed offset (SQLite file format, section 1.3). */
-#define DATABASE_START "SQLite format 3"
-#define DATABASE_ID "wtrk"
-enum { DATABASE_ID_AT = 68, DATABASE_ID_SIZE = 4 };
+#define SQLITE_SIGNATURE "SQLite format 3"
+#define SQLITE_APPLICATION_ID "wtrk"
+enum { SQLITE_APPLICATION_ID_OFFSET = 68, SQLITE_APPLICATION_ID_SIZE = 4 };
 
 #endif

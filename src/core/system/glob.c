@@ -9,14 +9,14 @@
 #include <string.h>
 #include <sys/stat.h>
 
-typedef struct list {
+typedef struct path_list {
     char **paths;
     size_t n;
     size_t n_folders; /* number of subfolders, which are not searched */
-} list;
+} path_list;
 
 /* Transfers `path` to the list and frees it on failure. */
-static bool list_take(list *l, char *path)
+static bool path_list_add(path_list *l, char *path)
 {
     char **const paths = path != NULL ? array_grow(l->paths, l->n, sizeof *paths) : NULL;
     if (paths == NULL) {
@@ -28,14 +28,14 @@ static bool list_take(list *l, char *path)
     return true;
 }
 
-static int by_bytes(const void *a, const void *b)
+static int compare_path_bytes(const void *a, const void *b)
 {
     char *const *const p = a, *const *const q = b;
     return strcmp(*p, *q);
 }
 
 /* Adds a file, or the regular files of a folder without hidden ones. */
-static wt_status add_path(list *l, const char *path, wt_error *err)
+static wt_status add_path(path_list *l, const char *path, wt_error *err)
 {
     struct stat info;
     if (stat(path, &info) != 0) {
@@ -44,7 +44,7 @@ static wt_status add_path(list *l, const char *path, wt_error *err)
         return status;
     }
     if (!S_ISDIR(info.st_mode))
-        return list_take(l, strdup(path)) ? WT_OK : wt_fail(err, WT_E_MEMORY, "out of memory");
+        return path_list_add(l, strdup(path)) ? WT_OK : wt_fail(err, WT_E_MEMORY, "out of memory");
     DIR *const folder = opendir(path);
     if (folder == NULL) {
         const wt_status status =
@@ -64,7 +64,7 @@ static wt_status add_path(list *l, const char *path, wt_error *err)
             status = wt_fail(err, WT_E_MEMORY, "out of memory");
         else if (!known || !S_ISREG(info.st_mode))
             free(inner);
-        else if (!list_take(l, inner))
+        else if (!path_list_add(l, inner))
             status = wt_fail(err, WT_E_MEMORY, "out of memory");
     }
     (void)closedir(folder);
@@ -72,7 +72,7 @@ static wt_status add_path(list *l, const char *path, wt_error *err)
 }
 
 /* Quotes every character with a special meaning for glob. */
-static char *quote_for_glob(const char *text)
+static char *escape_glob_characters(const char *text)
 {
     char *const quoted = malloc(2 * strlen(text) + 1);
     if (quoted == NULL)
@@ -90,10 +90,10 @@ static char *quote_for_glob(const char *text)
 wt_status wt_glob(const char *folder, const char *pattern, char ***paths, size_t *n, wt_error *err)
 {
     wt_status status = WT_OK;
-    list l = {NULL, 0, 0};
+    path_list l = {NULL, 0, 0};
     glob_t found = {0};
     struct stat info;
-    char *quoted = quote_for_glob(folder != NULL ? folder : "");
+    char *quoted = escape_glob_characters(folder != NULL ? folder : "");
     char *full = quoted != NULL ? wt_path_join(quoted, pattern) : NULL;
     char *literal = wt_path_join(folder, pattern);
     if (full == NULL || literal == NULL) {
@@ -123,10 +123,10 @@ wt_status wt_glob(const char *folder, const char *pattern, char ***paths, size_t
     }
     if (status == WT_OK) {
         /* The order is by bytes, because that of glob depends on the locale. */
-        qsort(l.paths, l.n, sizeof *l.paths, by_bytes);
+        qsort(l.paths, l.n, sizeof *l.paths, compare_path_bytes);
         *paths = l.paths;
         *n = l.n;
-        l = (list){NULL, 0, 0};
+        l = (path_list){NULL, 0, 0};
     }
     wt_strings_free(l.paths, l.n);
     globfree(&found);

@@ -28,7 +28,7 @@ void wt_protect_begin(void)
 }
 
 /* The caller holds the lock. */
-static wt_status remember_file(const struct stat *info)
+static wt_status protect_file(const struct stat *info)
 {
     if (guard.n == guard.capacity) {
         const size_t capacity = guard.capacity > 0 ? 2 * guard.capacity : 64;
@@ -42,7 +42,7 @@ static wt_status remember_file(const struct stat *info)
     return WT_OK;
 }
 
-static bool is_read(const struct stat *info)
+static bool is_protected_file(const struct stat *info)
 {
     for (size_t i = guard.n; i-- > 0;)
         if (guard.files[i].device == info->st_dev && guard.files[i].number == info->st_ino)
@@ -59,18 +59,18 @@ wt_status wt_protect_input(const char *path, wt_error *err)
         return WT_OK;
     (void)pthread_mutex_lock(&guard.lock);
     if (guard.started)
-        status = remember_file(&info);
+        status = protect_file(&info);
     (void)pthread_mutex_unlock(&guard.lock);
     return status == WT_OK ? WT_OK : wt_fail(err, status, "out of memory");
 }
 
-static bool block_holds(const unsigned char *block, size_t n, const char *mark)
+static bool contains_text(const unsigned char *block, size_t n, const char *mark)
 {
     return memmem(block, n, mark, strlen(mark) + 1) != NULL;
 }
 
 /* True if the bytes are not text. */
-static bool is_binary(const unsigned char *block, size_t n)
+static bool has_binary_bytes(const unsigned char *block, size_t n)
 {
     for (size_t i = 0; i < n; i++)
         if (block[i] == 0x7f ||
@@ -80,18 +80,20 @@ static bool is_binary(const unsigned char *block, size_t n)
 }
 
 /* True if the file ends like a PDF of this program. */
-static bool is_own_pdf(FILE *file)
+static bool is_weartrack_pdf(FILE *file)
 {
-    char end[sizeof PDF_MARK - 1];
+    char end[sizeof PDF_SIGNATURE - 1];
     return fseeko(file, -(off_t)sizeof end, SEEK_END) == 0 &&
-           fread(end, 1, sizeof end, file) == sizeof end && memcmp(end, PDF_MARK, sizeof end) == 0;
+           fread(end, 1, sizeof end, file) == sizeof end &&
+           memcmp(end, PDF_SIGNATURE, sizeof end) == 0;
 }
 
-static bool is_own_database(const unsigned char *begin, size_t n)
+static bool is_weartrack_database(const unsigned char *begin, size_t n)
 {
-    return n >= DATABASE_ID_AT + DATABASE_ID_SIZE &&
-           memcmp(begin, DATABASE_START, sizeof DATABASE_START) == 0 &&
-           memcmp(begin + DATABASE_ID_AT, DATABASE_ID, DATABASE_ID_SIZE) == 0;
+    return n >= SQLITE_APPLICATION_ID_OFFSET + SQLITE_APPLICATION_ID_SIZE &&
+           memcmp(begin, SQLITE_SIGNATURE, sizeof SQLITE_SIGNATURE) == 0 &&
+           memcmp(begin + SQLITE_APPLICATION_ID_OFFSET, SQLITE_APPLICATION_ID,
+                  SQLITE_APPLICATION_ID_SIZE) == 0;
 }
 
 /* True if the file was probably written by an instrument: it is neither text nor HDF5, a database
@@ -100,20 +102,22 @@ static bool is_own_database(const unsigned char *begin, size_t n)
 static bool is_foreign(const char *path, off_t size)
 {
     static const char nanoscope[] = "\\*F";
-    const off_t places[] = {0, size / 2, size > (off_t)STORE_START ? size - (off_t)STORE_START : 0};
-    unsigned char block[STORE_START];
+    const off_t places[] = {0, size / 2,
+                            size > (off_t)STORE_HEADER_SIZE ? size - (off_t)STORE_HEADER_SIZE : 0};
+    unsigned char block[STORE_HEADER_SIZE];
     bool foreign = false;
     FILE *file = fopen(path, "rbe");
     if (file == NULL)
         return false; /* the later attempt to write reports an error */
-    bool own = is_own_pdf(file);
+    bool own = is_weartrack_pdf(file);
     for (size_t i = 0; i < sizeof places / sizeof *places && !own && !foreign; i++) {
         const size_t n =
             fseeko(file, places[i], SEEK_SET) == 0 ? fread(block, 1, sizeof block, file) : 0;
-        own = i == 0 && (block_holds(block, n, STORE_FORMAT_ATTRIBUTE) ||
-                         block_holds(block, n, STORE_MAP_ATTRIBUTE) || is_own_database(block, n));
-        foreign =
-            !own && (is_binary(block, n) || (i == 0 && n > 3 && memcmp(block, nanoscope, 3) == 0));
+        own = i == 0 &&
+              (contains_text(block, n, STORE_FORMAT_ATTRIBUTE) ||
+               contains_text(block, n, STORE_MAP_ATTRIBUTE) || is_weartrack_database(block, n));
+        foreign = !own && (has_binary_bytes(block, n) ||
+                           (i == 0 && n > 3 && memcmp(block, nanoscope, 3) == 0));
     }
     (void)fclose(file);
     return foreign;
@@ -125,7 +129,7 @@ wt_status wt_check_overwrite(const char *path, wt_error *err)
     if (stat(path, &info) != 0)
         return WT_OK;
     (void)pthread_mutex_lock(&guard.lock);
-    const bool read = is_read(&info), started = guard.started;
+    const bool read = is_protected_file(&info), started = guard.started;
     (void)pthread_mutex_unlock(&guard.lock);
     if (read)
         wt_fail(err, WT_E_ARG, "this is also an input and would be lost: nothing is written");

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <unistd.h>
 
-typedef struct job {
+typedef struct parallel_job {
     size_t n;
     wt_parallel_fn body;
     void *user;
@@ -19,10 +19,10 @@ typedef struct job {
     size_t done;
     size_t first_failed; /* n if none failed */
     wt_status status;
-} job;
+} parallel_job;
 
 typedef struct worker {
-    job *job;
+    parallel_job *parallel_job;
     unsigned number;
     pthread_t thread;
 } worker;
@@ -30,15 +30,15 @@ typedef struct worker {
 static void *worker_main(void *argument)
 {
     const worker *const w = argument;
-    job *const j = w->job;
+    parallel_job *const j = w->parallel_job;
     while (!atomic_load(&j->cancelled)) {
         const size_t i = atomic_fetch_add(&j->next, 1);
         if (i >= j->n)
             break;
         const wt_status status = j->body(j->user, i, w->number);
         const bool failed = status != WT_OK;
-        const bool tell = j->progress != NULL && j->progress->report != NULL;
-        if (!failed && !tell)
+        const bool reports = j->progress != NULL && j->progress->report != NULL;
+        if (!failed && !reports)
             continue;
         (void)pthread_mutex_lock(&j->lock);
         if (failed && i < j->first_failed) {
@@ -46,7 +46,7 @@ static void *worker_main(void *argument)
             j->status = status;
         }
         j->done++;
-        if (tell && !atomic_load(&j->cancelled) &&
+        if (reports && !atomic_load(&j->cancelled) &&
             !j->progress->report(j->progress->user, j->what, j->done, j->n))
             atomic_store(&j->cancelled, true);
         (void)pthread_mutex_unlock(&j->lock);
@@ -68,15 +68,15 @@ unsigned wt_thread_count(unsigned threads)
 wt_status wt_parallel_for(size_t n, unsigned threads, wt_parallel_fn body, void *user,
                           const wt_progress *progress, const char *what)
 {
-    job j = {.n = n,
-             .body = body,
-             .user = user,
-             .progress = progress,
-             .what = what,
-             .lock = PTHREAD_MUTEX_INITIALIZER,
-             .first_failed = n,
-             .status = WT_OK};
-    worker self = {.job = &j, .number = 0};
+    parallel_job j = {.n = n,
+                      .body = body,
+                      .user = user,
+                      .progress = progress,
+                      .what = what,
+                      .lock = PTHREAD_MUTEX_INITIALIZER,
+                      .first_failed = n,
+                      .status = WT_OK};
+    worker self = {.parallel_job = &j, .number = 0};
     size_t n_threads = wt_thread_count(threads);
     if (n_threads > n)
         n_threads = n;
@@ -85,7 +85,7 @@ wt_status wt_parallel_for(size_t n, unsigned threads, wt_parallel_fn body, void 
     size_t started = 0;
     while (helpers != NULL && started < n_threads - 1) {
         worker *const w = &helpers[started];
-        w->job = &j;
+        w->parallel_job = &j;
         w->number = (unsigned)started + 1;
         if (pthread_create(&w->thread, NULL, worker_main, w) != 0)
             break;

@@ -35,7 +35,7 @@ sandbox_limits sandbox_limits_for(size_t size)
 /* ---- in the sandbox -------------------------------------------------------------------------- */
 
 /* Sets a limit that never exceeds the current one. */
-static bool limit_resource(unsigned resource, size_t most)
+static bool lower_resource_limit(unsigned resource, size_t most)
 {
     struct rlimit both;
     if (getrlimit(resource, &both) != 0)
@@ -50,7 +50,7 @@ static bool limit_resource(unsigned resource, size_t most)
 
 /* Moves the output and the file to fixed descriptors and closes all others. The others are closed
  * first, because the calling program may have used all descriptors. */
-static bool keep_only(int to, int file)
+static bool close_other_descriptors(int to, int file)
 {
     const int first = file < 0 || to < file ? to : file, last = to < file ? file : to;
     if (first > 0)
@@ -58,10 +58,10 @@ static bool keep_only(int to, int file)
     if (last > first + 1)
         (void)close_range((unsigned)first + 1, (unsigned)last - 1, 0);
     closefrom(last + 1);
-    const int answer = fcntl(to, F_DUPFD, DOOR_FILE + 1);
-    const int given = file >= 0 ? fcntl(file, F_DUPFD, DOOR_FILE + 1) : 0;
+    const int answer = fcntl(to, F_DUPFD, SANDBOX_FILE_FD + 1);
+    const int given = file >= 0 ? fcntl(file, F_DUPFD, SANDBOX_FILE_FD + 1) : 0;
     if (answer < 0 || given < 0 || dup2(answer, ANSWER_FD) != ANSWER_FD ||
-        (file >= 0 && dup2(given, DOOR_FILE) != DOOR_FILE))
+        (file >= 0 && dup2(given, SANDBOX_FILE_FD) != SANDBOX_FILE_FD))
         return false;
     (void)close_range(0, ANSWER_FD - 1, 0);
     closefrom(ANSWER_FD + 1 + (file >= 0));
@@ -71,16 +71,16 @@ static bool keep_only(int to, int file)
 /* First byte of the output, written before the library reads the file: flags of missing
  * protections, or the reason why the sandbox failed. */
 enum {
-    SHUT_IN = 'P',
+    SANDBOX_ENTERED = 'P',
     NO_FILTER = 1,
-    MEMORY_OPEN = 2,
-    FEW_FILES = 'f',
-    LOW_MEMORY = 'm',
-    BAD = 'x'
+    MEMORY_UNLIMITED = 2,
+    SETUP_NO_DESCRIPTORS = 'f',
+    SETUP_NO_MEMORY = 'm',
+    SETUP_FAILED = 'x'
 };
 
 /* Applies all restrictions that sandbox.h describes. */
-static char enter_sandbox(int to, const sandbox_call *door, const sandbox_limits *limits,
+static char enter_sandbox(int to, const sandbox_call *request, const sandbox_limits *limits,
                           size_t data, pid_t parent)
 {
     const struct sigaction usual = {.sa_handler = SIG_DFL};
@@ -88,49 +88,53 @@ static char enter_sandbox(int to, const sandbox_call *door, const sandbox_limits
     (void)sigemptyset(&none);
     for (int i = 1; i < NSIG; i++)
         (void)sigaction(i, &usual, NULL); /* some signals cannot be set and need not be */
-    if (!keep_only(to, door->file))
-        return FEW_FILES;
+    if (!close_other_descriptors(to, request->file))
+        return SETUP_NO_DESCRIPTORS;
     if (prctl(PR_SET_PDEATHSIG, SIGKILL) != 0 || getppid() != parent ||
         prctl(PR_SET_DUMPABLE, 0) != 0 || prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0 ||
-        sigprocmask(SIG_SETMASK, &none, NULL) != 0 || !limit_resource(RLIMIT_NOFILE, 0) ||
-        !limit_resource(RLIMIT_FSIZE, 0) || !limit_resource(RLIMIT_CORE, 0) ||
-        !limit_resource(RLIMIT_NPROC, 0) || !limit_resource(RLIMIT_CPU, limits->cpu_time) ||
-        (data != 0 && !limit_resource(RLIMIT_DATA, data + limits->memory)))
-        return BAD;
-    const door_filter filter = seccomp_filter_install(ANSWER_FD);
+        sigprocmask(SIG_SETMASK, &none, NULL) != 0 || !lower_resource_limit(RLIMIT_NOFILE, 0) ||
+        !lower_resource_limit(RLIMIT_FSIZE, 0) || !lower_resource_limit(RLIMIT_CORE, 0) ||
+        !lower_resource_limit(RLIMIT_NPROC, 0) ||
+        !lower_resource_limit(RLIMIT_CPU, limits->cpu_time) ||
+        (data != 0 && !lower_resource_limit(RLIMIT_DATA, data + limits->memory)))
+        return SETUP_FAILED;
+    const sandbox_filter_state filter = seccomp_filter_install(ANSWER_FD);
     if (filter == FILTER_NO_MEMORY)
-        return LOW_MEMORY;
-    return (char)(SHUT_IN + (filter == FILTER_SET ? 0 : NO_FILTER) + (data != 0 ? 0 : MEMORY_OPEN));
+        return SETUP_NO_MEMORY;
+    return (char)(SANDBOX_ENTERED + (filter == FILTER_SET ? 0 : NO_FILTER) +
+                  (data != 0 ? 0 : MEMORY_UNLIMITED));
 }
 
 /* The output ends with the error object. Output without it is incomplete. */
-_Noreturn static void run_in_sandbox(const sandbox_call *door)
+_Noreturn static void run_in_sandbox(const sandbox_call *request)
 {
-    wt_error said = WT_ERROR_INIT;
+    wt_error reported = WT_ERROR_INIT;
     FILE *const answer = fdopen(ANSWER_FD, "w");
     if (answer == NULL || setvbuf(answer, NULL, _IOFBF, ANSWER_BUFFER) != 0)
         _exit(EXIT_FAILURE);
     resource_error_clear();
-    said.status = resource_error_finish(door->reading(door, answer, &said), &said);
-    const bool written = fwrite(&said, sizeof said, 1, answer) == 1 && fflush(answer) == 0;
+    reported.status =
+        resource_error_finish(request->reading(request, answer, &reported), &reported);
+    const bool written = fwrite(&reported, sizeof reported, 1, answer) == 1 && fflush(answer) == 0;
     _exit(written ? EXIT_SUCCESS : EXIT_FAILURE);
 }
 
-_Noreturn static void start_in_sandbox(int to, const sandbox_call *door,
+_Noreturn static void start_in_sandbox(int to, const sandbox_call *request,
                                        const sandbox_limits *limits, size_t data, pid_t parent)
 {
-    const char hello = enter_sandbox(to, door, limits, data, parent);
-    const bool held = hello >= SHUT_IN && hello <= SHUT_IN + (NO_FILTER | MEMORY_OPEN);
-    const ssize_t n = write(hello == FEW_FILES ? to : ANSWER_FD, &hello, 1);
+    const char report = enter_sandbox(to, request, limits, data, parent);
+    const bool held =
+        report >= SANDBOX_ENTERED && report <= SANDBOX_ENTERED + (NO_FILTER | MEMORY_UNLIMITED);
+    const ssize_t n = write(report == SETUP_NO_DESCRIPTORS ? to : ANSWER_FD, &report, 1);
     if (!held || n != 1)
         _exit(EXIT_FAILURE);
-    run_in_sandbox(door);
+    run_in_sandbox(request);
 }
 
 /* ---- in the calling process ------------------------------------------------------------------ */
 
 /* Protections that were missing in any process so far. */
-static atomic_uint gaps;
+static atomic_uint missing_protections;
 
 const char *wt_sandbox_limitations(void)
 {
@@ -143,12 +147,12 @@ const char *wt_sandbox_limitations(void)
         "read, and has no /proc, by which their memory is limited: a file made to do harm could do "
         "what "
         "you may; take files that you trust only"};
-    return words[atomic_load(&gaps)];
+    return words[atomic_load(&missing_protections)];
 }
 
 /* Determines the size of the data segment, which also counts for the fork; terabytes with a
  * sanitizer. 0 if it is unknown. Returns -1 with errno if no file can be opened. */
-static int data_size(size_t *size)
+static int data_segment_size(size_t *size)
 {
     size_t pages = 0;
     *size = 0;
@@ -162,35 +166,42 @@ static int data_size(size_t *size)
 }
 
 /* Signals are blocked until the new process has reset its signal handlers. */
-static pid_t start_child(int to, const sandbox_call *door, const sandbox_limits *limits,
+static pid_t start_child(int to, const sandbox_call *request, const sandbox_limits *limits,
                          size_t data)
 {
     sigset_t all, before;
     const pid_t parent = getpid();
-    if (door->enter != NULL)
-        door->enter(door->hold);
+    if (request->enter != NULL)
+        request->enter(request->hold);
     (void)sigfillset(&all);
     (void)pthread_sigmask(SIG_SETMASK, &all, &before);
     const pid_t child = fork();
     if (child == 0)
-        start_in_sandbox(to, door, limits, data, parent);
+        start_in_sandbox(to, request, limits, data, parent);
     const int number = errno;
     (void)pthread_sigmask(SIG_SETMASK, &before, NULL);
-    if (door->leave != NULL)
-        door->leave(door->hold);
+    if (request->leave != NULL)
+        request->leave(request->hold);
     errno = number;
     return child;
 }
 
 /* State of the output; STREAM_OPEN means that it continues. */
-typedef enum ending { COMING, ENDED, LATE, LONG, BROKEN, NO_MEMORY } ending;
+typedef enum stream_state {
+    STREAM_OPEN,
+    STREAM_ENDED,
+    STREAM_TIMED_OUT,
+    STREAM_TOO_LONG,
+    STREAM_BROKEN,
+    STREAM_NO_MEMORY
+} stream_state;
 
 struct sandbox_stream {
     const char *what;
     sandbox_limits limits;
     pid_t child;
     int from;
-    ending how;
+    stream_state outcome;
     char *bytes; /* received bytes that are not yet consumed */
     size_t length, room;
     size_t taken;
@@ -199,35 +210,35 @@ struct sandbox_stream {
 
 /* Reads output until `want` bytes are available, the output ends or a limit is exceeded. Only the
  * waiting time counts, because the caller may process the output slowly. */
-static void collect_answer(sandbox_stream *flow, size_t want)
+static void collect_output(sandbox_stream *stream, size_t want)
 {
-    const size_t most = flow->limits.answer + sizeof(wt_error);
-    while (flow->how == COMING && flow->length < want) {
-        if (flow->room - flow->length < ANSWER_BUFFER) {
-            char *const bytes = realloc(flow->bytes, 2 * flow->room + ANSWER_BUFFER);
+    const size_t most = stream->limits.answer + sizeof(wt_error);
+    while (stream->outcome == STREAM_OPEN && stream->length < want) {
+        if (stream->room - stream->length < ANSWER_BUFFER) {
+            char *const bytes = realloc(stream->bytes, 2 * stream->room + ANSWER_BUFFER);
             if (bytes == NULL) {
-                flow->how = NO_MEMORY;
+                stream->outcome = STREAM_NO_MEMORY;
                 return;
             }
-            flow->bytes = bytes;
-            flow->room = 2 * flow->room + ANSWER_BUFFER;
+            stream->bytes = bytes;
+            stream->room = 2 * stream->room + ANSWER_BUFFER;
         }
-        struct pollfd ready = {.fd = flow->from, .events = POLLIN};
-        const double begin = wt_time_wall(), left = flow->limits.wall_time - flow->waited;
+        struct pollfd ready = {.fd = stream->from, .events = POLLIN};
+        const double begin = wt_time_wall(), left = stream->limits.wall_time - stream->waited;
         const int n_ready = poll(&ready, 1, left > 0.0 ? (int)(1000.0 * left) + 1 : 0);
-        flow->waited += wt_time_wall() - begin;
-        const ssize_t n =
-            n_ready > 0 ? read(flow->from, flow->bytes + flow->length, flow->room - flow->length)
-                        : -1;
-        flow->length += n > 0 ? (size_t)n : 0;
+        stream->waited += wt_time_wall() - begin;
+        const ssize_t n = n_ready > 0 ? read(stream->from, stream->bytes + stream->length,
+                                             stream->room - stream->length)
+                                      : -1;
+        stream->length += n > 0 ? (size_t)n : 0;
         if (n_ready == 0)
-            flow->how = LATE;
+            stream->outcome = STREAM_TIMED_OUT;
         else if (n == 0)
-            flow->how = ENDED;
+            stream->outcome = STREAM_ENDED;
         else if (n < 0 && errno != EINTR)
-            flow->how = BROKEN;
-        else if (flow->taken + flow->length > most)
-            flow->how = LONG;
+            stream->outcome = STREAM_BROKEN;
+        else if (stream->taken + stream->length > most)
+            stream->outcome = STREAM_TOO_LONG;
     }
 }
 
@@ -254,21 +265,21 @@ static wt_status advise_damaged(wt_error *err)
 
 /* Reports a forbidden system call of the process. Its name is unknown if the process blocked all
  * signals. */
-static void explain_call(const sandbox_stream *flow, bool told, wt_error *err)
+static void explain_forbidden_call(const sandbox_stream *stream, bool told, wt_error *err)
 {
     int call = -1;
     char name[64] = "its name is not known";
-    if (told && flow->length >= sizeof call) {
-        memcpy(&call, flow->bytes + flow->length - sizeof call, sizeof call);
+    if (told && stream->length >= sizeof call) {
+        memcpy(&call, stream->bytes + stream->length - sizeof call, sizeof call);
         seccomp_syscall_name(call, name, sizeof name);
     }
     (void)wt_fail(err, WT_E_CORRUPT,
                   "reading the %s file led to a call of the system that reading does not need (%s) "
                   "and was stopped before it",
-                  flow->what, name);
+                  stream->what, name);
 }
 
-static wt_status fail_starved(const char *what, const sandbox_limits *limits, wt_error *err)
+static wt_status fail_memory_limit(const char *what, const sandbox_limits *limits, wt_error *err)
 {
     return wt_fail(err, WT_E_MEMORY, "reading the %s file takes more than %zu MiB of memory", what,
                    limits->memory / MIB);
@@ -278,27 +289,28 @@ static wt_status fail_starved(const char *what, const sandbox_limits *limits, wt
 enum { SCANNER_EXIT = 2 };
 
 /* Creates the error of incomplete output. */
-static wt_status explain_ending(const sandbox_stream *flow, int state, wt_error *err)
+static wt_status explain_failure(const sandbox_stream *stream, int state, wt_error *err)
 {
-    const char *const what = flow->what;
-    const sandbox_limits *const limits = &flow->limits;
-    const ending how = flow->how;
+    const char *const what = stream->what;
+    const sandbox_limits *const limits = &stream->limits;
+    const stream_state outcome = stream->outcome;
     const int by = WIFSIGNALED(state) ? WTERMSIG(state) : 0;
-    if (how == NO_MEMORY)
+    if (outcome == STREAM_NO_MEMORY)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
-    if (how == ENDED && by == 0 && WEXITSTATUS(state) == SCANNER_EXIT)
-        return fail_starved(what, limits, err);
-    if (how == BROKEN)
+    if (outcome == STREAM_ENDED && by == 0 && WEXITSTATUS(state) == SCANNER_EXIT)
+        return fail_memory_limit(what, limits, err);
+    if (outcome == STREAM_BROKEN)
         return wt_fail(err, WT_E_IO, "cannot hear from the process that reads %s", what);
-    if (how == LONG)
+    if (outcome == STREAM_TOO_LONG)
         (void)wt_fail(err, WT_E_CORRUPT, "the %s file gives more than %zu MiB of tables", what,
                       limits->answer / MIB);
-    else if (how == LATE || by == SIGXCPU)
+    else if (outcome == STREAM_TIMED_OUT || by == SIGXCPU)
         (void)wt_fail(err, WT_E_CORRUPT, "reading the %s file did not end within %u s%s", what,
-                      how == LATE ? limits->wall_time : limits->cpu_time,
-                      how == LATE ? "" : " of processor time");
-    else if (by == SIGSYS || (how == ENDED && by == 0 && WEXITSTATUS(state) == FILTER_EXIT))
-        explain_call(flow, by == 0, err);
+                      outcome == STREAM_TIMED_OUT ? limits->wall_time : limits->cpu_time,
+                      outcome == STREAM_TIMED_OUT ? "" : " of processor time");
+    else if (by == SIGSYS ||
+             (outcome == STREAM_ENDED && by == 0 && WEXITSTATUS(state) == FILTER_EXIT))
+        explain_forbidden_call(stream, by == 0, err);
     else if (by == SIGINT || by == SIGTERM || by == SIGHUP)
         return wt_fail(err, WT_E_CANCELLED, "reading was interrupted");
     else
@@ -311,26 +323,27 @@ static wt_status explain_ending(const sandbox_stream *flow, int state, wt_error 
 static wt_status reported_error(const char *what, const char *bytes, const sandbox_limits *limits,
                                 wt_error *err)
 {
-    wt_error said;
-    memcpy(&said, bytes, sizeof said);
-    if (said.status == WT_OK)
+    wt_error reported;
+    memcpy(&reported, bytes, sizeof reported);
+    if (reported.status == WT_OK)
         return WT_OK;
-    if (said.status == WT_E_MEMORY)
-        return fail_starved(what, limits, err);
-    char *const texts[] = {said.message,  said.file,  said.place,
-                           said.expected, said.found, said.advice};
-    const size_t sizes[] = {sizeof said.message,  sizeof said.file,  sizeof said.place,
-                            sizeof said.expected, sizeof said.found, sizeof said.advice};
+    if (reported.status == WT_E_MEMORY)
+        return fail_memory_limit(what, limits, err);
+    char *const texts[] = {reported.message,  reported.file,  reported.place,
+                           reported.expected, reported.found, reported.advice};
+    const size_t sizes[] = {sizeof reported.message, sizeof reported.file,
+                            sizeof reported.place,   sizeof reported.expected,
+                            sizeof reported.found,   sizeof reported.advice};
     for (size_t i = 0; i < COUNT_OF(texts); i++)
         texts[i][sizes[i] - 1] = '\0';
-    if (said.status <= WT_END || said.status > WT_E_INTERNAL)
-        said.status = WT_E_CORRUPT;
+    if (reported.status <= WT_END || reported.status > WT_E_INTERNAL)
+        reported.status = WT_E_CORRUPT;
     if (err != NULL)
-        *err = said;
-    return said.status;
+        *err = reported;
+    return reported.status;
 }
 
-static wt_status fail_to_make(const char *what, int number, wt_error *err)
+static wt_status fail_to_start(const char *what, int number, wt_error *err)
 {
     (void)wt_fail(err, number == ENOMEM ? WT_E_MEMORY : WT_E_IO, "no process for reading %s: %s",
                   what, strerror(number));
@@ -340,141 +353,143 @@ static wt_status fail_to_make(const char *what, int number, wt_error *err)
 }
 
 /* Receives the first byte of the process, which states whether the sandbox is active. */
-static wt_status hear_hello(sandbox_stream *flow, wt_error *err)
+static wt_status receive_start_report(sandbox_stream *stream, wt_error *err)
 {
-    collect_answer(flow, 1);
-    const char hello = flow->length > 0 ? flow->bytes[0] : BAD;
-    if (hello >= SHUT_IN && hello <= SHUT_IN + (NO_FILTER | MEMORY_OPEN)) {
-        atomic_fetch_or(&gaps, (unsigned)(hello - SHUT_IN));
-        flow->length--;
-        memmove(flow->bytes, flow->bytes + 1, flow->length);
+    collect_output(stream, 1);
+    const char report = stream->length > 0 ? stream->bytes[0] : SETUP_FAILED;
+    if (report >= SANDBOX_ENTERED && report <= SANDBOX_ENTERED + (NO_FILTER | MEMORY_UNLIMITED)) {
+        atomic_fetch_or(&missing_protections, (unsigned)(report - SANDBOX_ENTERED));
+        stream->length--;
+        memmove(stream->bytes, stream->bytes + 1, stream->length);
         return WT_OK;
     }
-    const ending how = flow->how;
-    const int state = finish_child(flow->child, how != ENDED);
+    const stream_state outcome = stream->outcome;
+    const int state = finish_child(stream->child, outcome != STREAM_ENDED);
     const int by = WIFSIGNALED(state) ? WTERMSIG(state) : 0;
-    flow->child = -1;
-    if (how == ENDED && (by == SIGINT || by == SIGTERM || by == SIGHUP))
+    stream->child = -1;
+    if (outcome == STREAM_ENDED && (by == SIGINT || by == SIGTERM || by == SIGHUP))
         return wt_fail(err, WT_E_CANCELLED, "reading was interrupted");
-    return fail_to_make(flow->what,
-                        hello == FEW_FILES                        ? EMFILE
-                        : hello == LOW_MEMORY || how == NO_MEMORY ? ENOMEM
-                                                                  : EPERM,
-                        err);
+    return fail_to_start(stream->what,
+                         report == SETUP_NO_DESCRIPTORS                             ? EMFILE
+                         : report == SETUP_NO_MEMORY || outcome == STREAM_NO_MEMORY ? ENOMEM
+                                                                                    : EPERM,
+                         err);
 }
 
-wt_status sandbox_start(const sandbox_call *door, const sandbox_limits *limits,
-                        sandbox_stream **begun, wt_error *err)
+wt_status sandbox_start(const sandbox_call *request, const sandbox_limits *limits,
+                        sandbox_stream **opened, wt_error *err)
 {
     int channel[2];
     size_t data = 0;
-    sandbox_stream *const flow = calloc(1, sizeof *flow);
-    if (flow == NULL)
+    sandbox_stream *const stream = calloc(1, sizeof *stream);
+    if (stream == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
-    *flow = (sandbox_stream){.what = door->what, .limits = *limits};
-    if (data_size(&data) != 0 || pipe2(channel, O_CLOEXEC) != 0) {
-        free(flow);
-        return fail_to_make(door->what, errno, err);
+    *stream = (sandbox_stream){.what = request->what, .limits = *limits};
+    if (data_segment_size(&data) != 0 || pipe2(channel, O_CLOEXEC) != 0) {
+        free(stream);
+        return fail_to_start(request->what, errno, err);
     }
-    flow->from = channel[0];
-    flow->child = start_child(channel[1], door, limits, data);
+    stream->from = channel[0];
+    stream->child = start_child(channel[1], request, limits, data);
     const int number = errno;
     (void)close(channel[1]);
-    const wt_status status =
-        flow->child < 0 ? fail_to_make(door->what, number, err) : hear_hello(flow, err);
+    const wt_status status = stream->child < 0 ? fail_to_start(request->what, number, err)
+                                               : receive_start_report(stream, err);
     if (status == WT_OK)
-        *begun = flow;
+        *opened = stream;
     else
-        sandbox_close(flow);
+        sandbox_close(stream);
     return status;
 }
 
 /* Ends the process, whose output is complete or broken, and returns its result. */
-static wt_status end_process(sandbox_stream *flow, wt_error *err)
+static wt_status end_child(sandbox_stream *stream, wt_error *err)
 {
-    const int state = finish_child(flow->child, flow->how != ENDED);
-    flow->child = -1;
-    if (flow->how == ENDED && state == 0 && flow->length >= sizeof(wt_error))
-        return reported_error(flow->what, flow->bytes + flow->length - sizeof(wt_error),
-                              &flow->limits, err);
-    return explain_ending(flow, state, err);
+    const int state = finish_child(stream->child, stream->outcome != STREAM_ENDED);
+    stream->child = -1;
+    if (stream->outcome == STREAM_ENDED && state == 0 && stream->length >= sizeof(wt_error))
+        return reported_error(stream->what, stream->bytes + stream->length - sizeof(wt_error),
+                              &stream->limits, err);
+    return explain_failure(stream, state, err);
 }
 
-static wt_status fail_unexpected(const sandbox_stream *flow, const char *how, wt_error *err)
+static wt_status fail_output_length(const sandbox_stream *stream, const char *outcome,
+                                    wt_error *err)
 {
-    (void)wt_fail(err, WT_E_CORRUPT, "the %s file gives %s than it says", flow->what, how);
+    (void)wt_fail(err, WT_E_CORRUPT, "the %s file gives %s than it says", stream->what, outcome);
     return advise_damaged(err);
 }
 
-wt_status sandbox_receive(sandbox_stream *flow, void *to, size_t n, wt_error *err)
+wt_status sandbox_receive(sandbox_stream *stream, void *to, size_t n, wt_error *err)
 {
-    if (flow->child < 0)
-        return fail_unexpected(flow, "less", err);
+    if (stream->child < 0)
+        return fail_output_length(stream, "less", err);
     /* The error object at the end must not be taken as output. */
-    collect_answer(flow, n + sizeof(wt_error));
-    if (flow->length < n + sizeof(wt_error)) {
-        const wt_status status = end_process(flow, err);
-        return status != WT_OK ? status : fail_unexpected(flow, "less", err);
+    collect_output(stream, n + sizeof(wt_error));
+    if (stream->length < n + sizeof(wt_error)) {
+        const wt_status status = end_child(stream, err);
+        return status != WT_OK ? status : fail_output_length(stream, "less", err);
     }
-    memcpy(to, flow->bytes, n);
-    flow->length -= n;
-    flow->taken += n;
-    memmove(flow->bytes, flow->bytes + n, flow->length);
+    memcpy(to, stream->bytes, n);
+    stream->length -= n;
+    stream->taken += n;
+    memmove(stream->bytes, stream->bytes + n, stream->length);
     return WT_OK;
 }
 
-wt_status sandbox_drain(sandbox_stream *flow, sandbox_sink *sink, void *user, wt_error *err)
+wt_status sandbox_drain(sandbox_stream *stream, sandbox_sink *sink, void *user, wt_error *err)
 {
     wt_status status = WT_OK;
-    if (flow->child < 0)
-        return fail_unexpected(flow, "less", err);
-    while (status == WT_OK && flow->how == COMING) {
-        collect_answer(flow, ANSWER_BUFFER + sizeof(wt_error));
+    if (stream->child < 0)
+        return fail_output_length(stream, "less", err);
+    while (status == WT_OK && stream->outcome == STREAM_OPEN) {
+        collect_output(stream, ANSWER_BUFFER + sizeof(wt_error));
         /* The error object at the end is not output. */
-        const size_t n = flow->length > sizeof(wt_error) ? flow->length - sizeof(wt_error) : 0;
-        status = n > 0 ? sink(user, flow->bytes, n, err) : WT_OK;
-        flow->length -= n;
-        flow->taken += n;
-        memmove(flow->bytes, flow->bytes + n, flow->length);
+        const size_t n = stream->length > sizeof(wt_error) ? stream->length - sizeof(wt_error) : 0;
+        status = n > 0 ? sink(user, stream->bytes, n, err) : WT_OK;
+        stream->length -= n;
+        stream->taken += n;
+        memmove(stream->bytes, stream->bytes + n, stream->length);
     }
-    return status == WT_OK ? end_process(flow, err) : status;
+    return status == WT_OK ? end_child(stream, err) : status;
 }
 
-wt_status sandbox_finish(sandbox_stream *flow, wt_error *err)
+wt_status sandbox_finish(sandbox_stream *stream, wt_error *err)
 {
-    if (flow->child < 0)
-        return fail_unexpected(flow, "less", err);
-    collect_answer(flow, SIZE_MAX);
-    const wt_status status = end_process(flow, err);
-    return status == WT_OK && flow->length != sizeof(wt_error) ? fail_unexpected(flow, "more", err)
-                                                               : status;
+    if (stream->child < 0)
+        return fail_output_length(stream, "less", err);
+    collect_output(stream, SIZE_MAX);
+    const wt_status status = end_child(stream, err);
+    return status == WT_OK && stream->length != sizeof(wt_error)
+               ? fail_output_length(stream, "more", err)
+               : status;
 }
 
-void sandbox_close(sandbox_stream *flow)
+void sandbox_close(sandbox_stream *stream)
 {
-    if (flow == NULL)
+    if (stream == NULL)
         return;
-    if (flow->child >= 0)
-        (void)finish_child(flow->child, true);
-    (void)close(flow->from);
-    free(flow->bytes);
-    free(flow);
+    if (stream->child >= 0)
+        (void)finish_child(stream->child, true);
+    (void)close(stream->from);
+    free(stream->bytes);
+    free(stream);
 }
 
-wt_status sandbox_read(const sandbox_call *door, const sandbox_limits *limits, char **answer,
+wt_status sandbox_read(const sandbox_call *request, const sandbox_limits *limits, char **answer,
                        size_t *length, wt_error *err)
 {
-    sandbox_stream *flow = NULL;
-    wt_status status = sandbox_start(door, limits, &flow, err);
+    sandbox_stream *stream = NULL;
+    wt_status status = sandbox_start(request, limits, &stream, err);
     if (status != WT_OK)
         return status;
-    collect_answer(flow, SIZE_MAX);
-    status = end_process(flow, err);
+    collect_output(stream, SIZE_MAX);
+    status = end_child(stream, err);
     if (status == WT_OK) {
-        *answer = flow->bytes;
-        *length = flow->length - sizeof(wt_error);
-        flow->bytes = NULL;
+        *answer = stream->bytes;
+        *length = stream->length - sizeof(wt_error);
+        stream->bytes = NULL;
     }
-    sandbox_close(flow);
+    sandbox_close(stream);
     return status;
 }

@@ -30,12 +30,12 @@ typedef struct sandbox_limits {
 sandbox_limits sandbox_limits_for(size_t size);
 
 /* Descriptor of the input file in the process. */
-enum { DOOR_FILE = 4 };
+enum { SANDBOX_FILE_FD = 4 };
 
 typedef struct sandbox_call {
     const char *what; /* for messages: "HDF5" */
     /* Runs in the sandbox. It reads the required data and prints them. */
-    wt_status (*reading)(const struct sandbox_call *door, FILE *answer, wt_error *err);
+    wt_status (*reading)(const struct sandbox_call *request, FILE *answer, wt_error *err);
     const void *bytes;
     size_t size;
     const void *with;          /* argument for `reading` */
@@ -47,21 +47,21 @@ typedef struct sandbox_call {
 
 /* Returns the output of `reading` in new memory, freed with free(). The output is not trustworthy,
  * because the file may have controlled the process. The error has no file name. */
-wt_status sandbox_read(const sandbox_call *door, const sandbox_limits *limits, char **answer,
+wt_status sandbox_read(const sandbox_call *request, const sandbox_limits *limits, char **answer,
                        size_t *length, wt_error *err) WT_NODISCARD;
 
 /* Variant that returns the output as a stream. */
 typedef struct sandbox_stream sandbox_stream;
-wt_status sandbox_start(const sandbox_call *door, const sandbox_limits *limits,
-                        sandbox_stream **flow, wt_error *err) WT_NODISCARD;
+wt_status sandbox_start(const sandbox_call *request, const sandbox_limits *limits,
+                        sandbox_stream **stream, wt_error *err) WT_NODISCARD;
 /* Reads the next n bytes; WT_E_CORRUPT if there are fewer. After a failure nothing can be read. */
-wt_status sandbox_receive(sandbox_stream *flow, void *to, size_t n, wt_error *err) WT_NODISCARD;
+wt_status sandbox_receive(sandbox_stream *stream, void *to, size_t n, wt_error *err) WT_NODISCARD;
 /* Passes the remaining output to `sink`, piece by piece. */
 typedef wt_status sandbox_sink(void *user, const void *piece, size_t n, wt_error *err);
-wt_status sandbox_drain(sandbox_stream *flow, sandbox_sink *sink, void *user,
+wt_status sandbox_drain(sandbox_stream *stream, sandbox_sink *sink, void *user,
                         wt_error *err) WT_NODISCARD;
 /* Ends the stream. It fails if output remains, or with the error of the process. */
-wt_status sandbox_finish(sandbox_stream *flow, wt_error *err) WT_NODISCARD;
-void sandbox_close(sandbox_stream *flow); /* also before the end of the output; accepts NULL */
+wt_status sandbox_finish(sandbox_stream *stream, wt_error *err) WT_NODISCARD;
+void sandbox_close(sandbox_stream *stream); /* also before the end of the output; accepts NULL */
 
 #endif

@@ -14,7 +14,7 @@
 
 /* Calls that the various C libraries use for memory, time, locks, their own signals and the exit.
  * libseccomp skips calls that other machines lack. */
-static const int harmless[] = {
+static const int allowed_calls[] = {
     SCMP_SYS(read),
     SCMP_SYS(readv),
     SCMP_SYS(pread64),
@@ -66,19 +66,19 @@ static const int harmless[] = {
 };
 
 /* Calls that a library may try without harm and can do without. They fail with EACCES. */
-static const int futile[] = {
+static const int denied_calls[] = {
     SCMP_SYS(access),     SCMP_SYS(faccessat), SCMP_SYS(faccessat2), SCMP_SYS(stat),
     SCMP_SYS(stat64),     SCMP_SYS(lstat),     SCMP_SYS(lstat64),    SCMP_SYS(statfs),
     SCMP_SYS(getdents64), SCMP_SYS(readlink),  SCMP_SYS(readlinkat), SCMP_SYS(openat2),
     SCMP_SYS(prctl),      SCMP_SYS(open),      SCMP_SYS(openat),
 };
 
-static int refuse_futile(scmp_filter_ctx filter)
+static int deny_unneeded_calls(scmp_filter_ctx filter)
 {
     const uint32_t denied = SCMP_ACT_ERRNO(EACCES);
     int failed = 0;
-    for (size_t i = 0; failed == 0 && i < COUNT_OF(futile); i++)
-        failed = seccomp_rule_add(filter, denied, futile[i], 0);
+    for (size_t i = 0; failed == 0 && i < COUNT_OF(denied_calls); i++)
+        failed = seccomp_rule_add(filter, denied, denied_calls[i], 0);
     /* These calls are forbidden with a name. Without a name they return the size of an open
      * file. */
     const struct scmp_arg_cmp named[] = {SCMP_A3(SCMP_CMP_MASKED_EQ, AT_EMPTY_PATH, 0),
@@ -93,13 +93,13 @@ static int refuse_futile(scmp_filter_ctx filter)
 }
 
 /* Allows calls that are harmless with certain arguments. */
-static int allow_some(scmp_filter_ctx filter, int answer)
+static int allow_conditional_calls(scmp_filter_ctx filter, int answer)
 {
     const scmp_datum_t itself = (scmp_datum_t)getpid(), to = (scmp_datum_t)answer;
     const struct {
         int call;
         struct scmp_arg_cmp if_so;
-    } some[] = {
+    } conditional[] = {
         {SCMP_SYS(write), SCMP_A0(SCMP_CMP_EQ, to, 0)},
         {SCMP_SYS(writev), SCMP_A0(SCMP_CMP_EQ, to, 0)},
         {SCMP_SYS(newfstatat), SCMP_A3(SCMP_CMP_MASKED_EQ, AT_EMPTY_PATH, AT_EMPTY_PATH)},
@@ -112,39 +112,41 @@ static int allow_some(scmp_filter_ctx filter, int answer)
         {SCMP_SYS(tgkill), SCMP_A0(SCMP_CMP_EQ, itself, 0)},
     };
     int failed = 0;
-    for (size_t i = 0; failed == 0 && i < COUNT_OF(some); i++)
-        failed = seccomp_rule_add_array(filter, SCMP_ACT_ALLOW, some[i].call, 1, &some[i].if_so);
+    for (size_t i = 0; failed == 0 && i < COUNT_OF(conditional); i++)
+        failed = seccomp_rule_add_array(filter, SCMP_ACT_ALLOW, conditional[i].call, 1,
+                                        &conditional[i].if_so);
     /* Messages of a sanitizer are discarded. */
     return failed != 0 ? failed
                        : seccomp_rule_add(filter, SCMP_ACT_ERRNO(EBADF), SCMP_SYS(write), 1,
                                           SCMP_A0(SCMP_CMP_NE, to, 0));
 }
 
-static int answer_to;
+static int report_descriptor;
 
-static void tell_call(int signal, siginfo_t *info, void *context)
+static void report_forbidden_call(int signal, siginfo_t *info, void *context)
 {
     (void)signal;
     (void)context;
     const int call = info->si_syscall;
-    (void)!write(answer_to, &call, sizeof call);
+    (void)!write(report_descriptor, &call, sizeof call);
     _exit(FILTER_EXIT);
 }
 
-door_filter seccomp_filter_install(int answer)
+sandbox_filter_state seccomp_filter_install(int answer)
 {
-    const struct sigaction tells = {.sa_sigaction = tell_call, .sa_flags = SA_SIGINFO};
-    answer_to = answer;
+    const struct sigaction reporter = {.sa_sigaction = report_forbidden_call,
+                                       .sa_flags = SA_SIGINFO};
+    report_descriptor = answer;
     scmp_filter_ctx filter = seccomp_init(SCMP_ACT_TRAP);
     if (filter == NULL)
         return FILTER_NO_MEMORY;
-    int failed = sigaction(SIGSYS, &tells, NULL);
-    for (size_t i = 0; failed == 0 && i < COUNT_OF(harmless); i++)
-        failed = seccomp_rule_add(filter, SCMP_ACT_ALLOW, harmless[i], 0);
+    int failed = sigaction(SIGSYS, &reporter, NULL);
+    for (size_t i = 0; failed == 0 && i < COUNT_OF(allowed_calls); i++)
+        failed = seccomp_rule_add(filter, SCMP_ACT_ALLOW, allowed_calls[i], 0);
     if (failed == 0)
-        failed = allow_some(filter, answer);
+        failed = allow_conditional_calls(filter, answer);
     if (failed == 0)
-        failed = refuse_futile(filter);
+        failed = deny_unneeded_calls(filter);
     if (failed == 0)
         failed = seccomp_load(filter);
     seccomp_release(filter);

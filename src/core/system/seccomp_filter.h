@@ -9,13 +9,17 @@
 
 #include <stddef.h>
 
-typedef enum door_filter { FILTER_SET, FILTER_REFUSED, FILTER_NO_MEMORY } door_filter;
+typedef enum sandbox_filter_state {
+    FILTER_SET,
+    FILTER_REFUSED,
+    FILTER_NO_MEMORY
+} sandbox_filter_state;
 
 /* Installs the filter permanently for the calling thread, which is the only one. The process may
  * write to `answer` only. A forbidden call ends the process with FILTER_EXIT, and its number, an
  * int, is the last output. */
 enum { FILTER_EXIT = 99 };
-door_filter seccomp_filter_install(int answer);
+sandbox_filter_state seccomp_filter_install(int answer);
 /* Writes the name of a system call, or its number if the name is unknown. */
 void seccomp_syscall_name(int call, char *name, size_t size);
 

@@ -16,7 +16,7 @@
 
 extern char **environ;
 
-static size_t count(const char *const *list)
+static size_t list_length(const char *const *list)
 {
     size_t n = 0;
     while (list != NULL && list[n] != NULL)
@@ -29,7 +29,7 @@ static bool is_hidden(const char *text, const char *const *beginnings)
 {
     bool hide = strncmp(text, "LC_", 3) == 0 || strncmp(text, "LANG=", 5) == 0 ||
                 strncmp(text, "LANGUAGE=", 9) == 0;
-    for (size_t k = 0; k < count(beginnings) && !hide; k++)
+    for (size_t k = 0; k < list_length(beginnings) && !hide; k++)
         hide = strncmp(text, beginnings[k], strlen(beginnings[k])) == 0;
     return hide;
 }
@@ -39,7 +39,7 @@ static bool is_hidden(const char *text, const char *const *beginnings)
  * free(). */
 static const char **environment(const program_call *call)
 {
-    const size_t n = count((const char *const *)environ), added = count(call->added);
+    const size_t n = list_length((const char *const *)environ), added = list_length(call->added);
     size_t kept = 0;
     const char **list = calloc(n + added + 2, sizeof *list);
     if (list == NULL)
@@ -54,9 +54,9 @@ static const char **environment(const program_call *call)
 }
 
 /* Creates the argument list for exec, freed with free(). */
-static const char **command_line(const program_call *call, const char *path)
+static const char **create_argument_list(const program_call *call, const char *path)
 {
-    const size_t n = count(call->arguments);
+    const size_t n = list_length(call->arguments);
     const char **list = calloc(n + 2, sizeof *list);
     if (list == NULL)
         return NULL;
@@ -74,7 +74,7 @@ typedef struct last_line {
 } last_line;
 
 /* Reads the available output. False at its end. */
-static bool read_words(int fd, last_line *last)
+static bool read_output(int fd, last_line *last)
 {
     char chunk[4096];
     const ssize_t got = read(fd, chunk, sizeof chunk);
@@ -91,7 +91,7 @@ static bool read_words(int fd, last_line *last)
 }
 
 /* A relative path is resolved, because the program runs in another folder. */
-static char *program_path(const char *program)
+static char *resolve_program_path(const char *program)
 {
     if (program[0] == '/' || strchr(program, '/') == NULL)
         return strdup(program);
@@ -100,17 +100,17 @@ static char *program_path(const char *program)
 }
 
 /* Arguments for the child process. */
-typedef struct start {
+typedef struct program_start {
     const char *path;
     const program_call *call;
     const char **arguments, **environment;
-    int words; /* descriptor for standard output and standard error */
-    int told;  /* receives errno if exec fails; closed by a successful exec */
+    int words;       /* descriptor for standard output and standard error */
+    int start_error; /* receives errno if exec fails; closed by a successful exec */
     pid_t parent;
-} start;
+} program_start;
 
 /* 0 means no limit. */
-static bool limit_resource(int resource, size_t most)
+static bool set_resource_limit(int resource, size_t most)
 {
     const struct rlimit limit = {most, most};
     return most == 0 || setrlimit((__rlimit_resource_t)resource, &limit) == 0;
@@ -118,13 +118,13 @@ static bool limit_resource(int resource, size_t most)
 
 /* Runs in the child, where only async-signal-safe functions are allowed. The child leads a process
  * group, so that its own children end with it. It does not outlive the parent. */
-_Noreturn static void become_program(const start *s)
+_Noreturn static void exec_program(const program_start *s)
 {
     const program_call *const call = s->call;
     if (prctl(PR_SET_PDEATHSIG, SIGKILL) == 0 && getppid() == s->parent && setpgid(0, 0) == 0 &&
-        limit_resource(RLIMIT_FSIZE, call->file_size) &&
-        limit_resource(RLIMIT_DATA, call->memory) && limit_resource(RLIMIT_CPU, call->cpu_time) &&
-        chdir(call->folder) == 0) {
+        set_resource_limit(RLIMIT_FSIZE, call->file_size) &&
+        set_resource_limit(RLIMIT_DATA, call->memory) &&
+        set_resource_limit(RLIMIT_CPU, call->cpu_time) && chdir(call->folder) == 0) {
         const int none = open("/dev/null", O_RDONLY | O_CLOEXEC);
         // Output of the program must not mix with data in a pipe.
         if (none >= 0 && dup2(none, STDIN_FILENO) >= 0 && dup2(s->words, STDOUT_FILENO) >= 0 &&
@@ -132,19 +132,19 @@ _Noreturn static void become_program(const start *s)
             (void)execvpe(s->path, (char *const *)s->arguments, (char *const *)s->environment);
     }
     const int code = errno;
-    (void)!write(s->told, &code, sizeof code);
+    (void)!write(s->start_error, &code, sizeof code);
     _exit(127);
 }
 
 /* Returns the errno of a failed exec, or 0. Closes the write end of the pipe. */
-static int why_not_started(int told[2], pid_t child)
+static int read_start_error(int start_error[2], pid_t child)
 {
     int code = 0;
     ssize_t got = 0;
-    close(told[1]);
-    told[1] = -1;
+    close(start_error[1]);
+    start_error[1] = -1;
     do
-        got = read(told[0], &code, sizeof code);
+        got = read(start_error[0], &code, sizeof code);
     while (got < 0 && errno == EINTR);
     if (got > 0)
         (void)waitpid(child, NULL, 0);
@@ -157,31 +157,31 @@ static wt_status start_program(const program_call *call, pid_t *child, int *word
                                wt_error *err)
 {
     wt_status status = WT_OK;
-    int said[2] = {-1, -1}, told[2] = {-1, -1};
-    char *path = program_path(call->program);
-    const char **list = environment(call), **line = command_line(call, path);
+    int output_pipe[2] = {-1, -1}, start_error[2] = {-1, -1};
+    char *path = resolve_program_path(call->program);
+    const char **list = environment(call), **line = create_argument_list(call, path);
     if (list == NULL || path == NULL || line == NULL) {
         status = wt_fail(err, WT_E_MEMORY, "out of memory");
-    } else if (pipe2(said, O_CLOEXEC) != 0 || pipe2(told, O_CLOEXEC) != 0) {
+    } else if (pipe2(output_pipe, O_CLOEXEC) != 0 || pipe2(start_error, O_CLOEXEC) != 0) {
         status = wt_fail(err, WT_E_IO, "no pipe for the messages of %s: %s", call->program,
                          strerror(errno));
     } else {
-        const start s = {path, call, line, list, said[1], told[1], getpid()};
+        const program_start s = {path, call, line, list, output_pipe[1], start_error[1], getpid()};
         *child = fork();
         if (*child == 0)
-            become_program(&s);
-        *code = *child < 0 ? errno : why_not_started(told, *child);
+            exec_program(&s);
+        *code = *child < 0 ? errno : read_start_error(start_error, *child);
     }
     if (status == WT_OK && *code == 0) {
-        *words = said[0];
-        said[0] = -1;
+        *words = output_pipe[0];
+        output_pipe[0] = -1;
         (void)fcntl(*words, F_SETFL, O_NONBLOCK);
     }
     for (int i = 0; i < 2; i++) {
-        if (said[i] >= 0)
-            close(said[i]);
-        if (told[i] >= 0)
-            close(told[i]);
+        if (output_pipe[i] >= 0)
+            close(output_pipe[i]);
+        if (start_error[i] >= 0)
+            close(start_error[i]);
     }
     free(path);
     free(list);
@@ -191,55 +191,55 @@ static wt_status start_program(const program_call *call, pid_t *child, int *word
 
 /* Waits for the end of the program, the time limit or a cancellation. The state of the pipe does
  * not matter, because children of the program may keep it open. The process is not reaped yet. */
-static wt_status await_end(const program_call *call, pid_t child, int fd, last_line *last,
-                           program_ending *how, wt_error *err)
+static wt_status wait_for_end(const program_call *call, pid_t child, int fd, last_line *last,
+                              program_outcome *outcome, wt_error *err)
 {
-    enum { ASK = 50, SOON = 2 }; // ms
+    enum { POLL_OPEN_MS = 50, POLL_CLOSED_MS = 2 }; // ms
     const double end = wt_time_wall() + call->limit;
     bool open = true;
     for (;;) {
         struct pollfd words = {open ? fd : -1, POLLIN, 0};
-        if (poll(&words, 1, open ? ASK : SOON) > 0)
-            open = read_words(fd, last);
+        if (poll(&words, 1, open ? POLL_OPEN_MS : POLL_CLOSED_MS) > 0)
+            open = read_output(fd, last);
         siginfo_t info = {.si_pid = 0};
         if (waitid(P_PID, (id_t)child, &info, WEXITED | WNOHANG | WNOWAIT) != 0)
             return wt_fail(err, WT_E_TOOL, "the end of %s was not seen: %s", call->program,
                            strerror(errno));
-        *how = PROGRAM_EXITED;
+        *outcome = PROGRAM_EXITED;
         if (info.si_pid == child)
             return WT_OK;
-        *how = PROGRAM_CANCELLED;
+        *outcome = PROGRAM_CANCELLED;
         if (call->go_on != NULL && !call->go_on(call->user))
             return WT_OK;
-        *how = PROGRAM_TOO_LONG;
+        *outcome = PROGRAM_TOO_LONG;
         if (wt_time_wall() >= end)
             return WT_OK;
     }
 }
 
-wt_status program_run(const program_call *call, program_end *end, wt_error *err)
+wt_status program_run(const program_call *call, program_result *end, wt_error *err)
 {
-    enum { LEFT = 32 }; // more than a pipe contains, but finite
+    enum { READS_AFTER_END = 32 }; // more than a pipe contains, but finite
     last_line last = {.length = 0};
     pid_t child = 0;
     int words = -1, state = 0;
-    *end = (program_end){.how = PROGRAM_NOT_STARTED};
+    *end = (program_result){.outcome = PROGRAM_NOT_STARTED};
     wt_status status = start_program(call, &child, &words, &end->code, err);
     if (status != WT_OK || end->code != 0)
         return status;
-    status = await_end(call, child, words, &last, &end->how, err);
+    status = wait_for_end(call, child, words, &last, &end->outcome, err);
     (void)kill(-child, SIGKILL); // before it is reaped, while its number is valid
-    for (int i = 0; i < LEFT && read_words(words, &last); i++)
+    for (int i = 0; i < READS_AFTER_END && read_output(words, &last); i++)
         ;
     close(words);
     while (waitpid(child, &state, 0) < 0 && errno == EINTR)
         ;
     memcpy(end->words, last.text, sizeof end->words);
-    if (end->how == PROGRAM_EXITED && WIFSIGNALED(state))
-        end->how = PROGRAM_SIGNALLED;
-    if (end->how == PROGRAM_SIGNALLED)
+    if (end->outcome == PROGRAM_EXITED && WIFSIGNALED(state))
+        end->outcome = PROGRAM_SIGNALLED;
+    if (end->outcome == PROGRAM_SIGNALLED)
         end->code = WTERMSIG(state);
-    else if (end->how == PROGRAM_EXITED)
+    else if (end->outcome == PROGRAM_EXITED)
         end->code = WEXITSTATUS(state);
     return status;
 }

@@ -21,23 +21,23 @@ typedef struct program_call {
     void *user;
 } program_call;
 
-typedef enum program_ending {
+typedef enum program_outcome {
     PROGRAM_EXITED,      /* code: its exit status */
     PROGRAM_SIGNALLED,   /* code: the signal */
     PROGRAM_TOO_LONG,    /* ended at the limit */
     PROGRAM_CANCELLED,   /* ended by go_on */
     PROGRAM_NOT_STARTED, /* code: the error number */
-} program_ending;
+} program_outcome;
 
-typedef struct program_end {
-    program_ending how;
+typedef struct program_result {
+    program_outcome outcome;
     int code;
     char words[400]; /* last line of the output that is not blank; "" without output */
-} program_end;
+} program_result;
 
 /* Runs a program without a shell and without standard input, in the C locale. The program ends with
  * this process, and its children end with it unless they leave its process group. WT_OK means that
  * *end is set, whatever the result; WT_E_MEMORY, WT_E_IO or WT_E_TOOL mean that it is not. */
-wt_status program_run(const program_call *call, program_end *end, wt_error *err) WT_NODISCARD;
+wt_status program_run(const program_call *call, program_result *end, wt_error *err) WT_NODISCARD;
 
 #endif

@@ -12,7 +12,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#define PATTERN ".weartrack-%ld-%16[0-9a-f]%n"
+#define NAME_PATTERN ".weartrack-%ld-%16[0-9a-f]%n"
 
 const char *temporary_directory(void)
 {
@@ -31,13 +31,13 @@ char *temporary_name(const char *folder)
     return wt_path_join(folder, base);
 }
 
-void temporary_hold(int descriptor)
+void temporary_lock(int descriptor)
 {
     /* Without file locks the check for a living process of this machine is sufficient. */
     (void)flock(descriptor, LOCK_EX | LOCK_NB);
 }
 
-char *temporary_folder(const char *folder, int *descriptor)
+char *temporary_folder_create(const char *folder, int *descriptor)
 {
     char *const path = temporary_name(folder);
     if (path == NULL)
@@ -45,7 +45,7 @@ char *temporary_folder(const char *folder, int *descriptor)
     if (mkdir(path, 0777) == 0) {
         *descriptor = open(path, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
         if (*descriptor >= 0) {
-            temporary_hold(*descriptor);
+            temporary_lock(*descriptor);
             return path;
         }
     }
@@ -57,7 +57,7 @@ char *temporary_folder(const char *folder, int *descriptor)
 
 enum { LEVELS = 8 }; /* depth of folders in a temporary one, including those of other programs */
 
-static void remove_at(int parent, const char *name, int deeper)
+static void remove_tree(int parent, const char *name, int deeper)
 {
     if (unlinkat(parent, name, 0) == 0 || deeper < 0)
         return;
@@ -66,7 +66,7 @@ static void remove_at(int parent, const char *name, int deeper)
     if (folder != NULL) {
         for (const struct dirent *entry; (entry = readdir(folder)) != NULL;)
             if (strcmp(entry->d_name, ".") != 0 && strcmp(entry->d_name, "..") != 0)
-                remove_at(fd, entry->d_name, deeper - 1);
+                remove_tree(fd, entry->d_name, deeper - 1);
         (void)closedir(folder);
     } else if (fd >= 0) {
         (void)close(fd);
@@ -76,7 +76,7 @@ static void remove_at(int parent, const char *name, int deeper)
 
 void temporary_remove(const char *path)
 {
-    remove_at(AT_FDCWD, path, LEVELS);
+    remove_tree(AT_FDCWD, path, LEVELS);
 }
 
 /* A process in another container is invisible but still holds its lock. */
@@ -85,8 +85,8 @@ static bool is_abandoned(int folder, const char *name)
     long process = 0;
     int end = 0;
     char random[17];
-    if (sscanf(name, PATTERN, &process, random, &end) != 2 || name[end] != '\0' || process <= 0 ||
-        kill((pid_t)process, 0) == 0 || errno != ESRCH)
+    if (sscanf(name, NAME_PATTERN, &process, random, &end) != 2 || name[end] != '\0' ||
+        process <= 0 || kill((pid_t)process, 0) == 0 || errno != ESRCH)
         return false;
     const int fd = openat(folder, name, O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
     const bool unlocked = fd >= 0 && flock(fd, LOCK_EX | LOCK_NB) == 0;
@@ -95,13 +95,13 @@ static bool is_abandoned(int folder, const char *name)
     return unlocked;
 }
 
-void temporary_sweep(const char *folder)
+void temporary_remove_abandoned(const char *folder)
 {
     DIR *const listing = opendir(folder);
     if (listing == NULL)
         return;
     for (const struct dirent *entry; (entry = readdir(listing)) != NULL;)
         if (is_abandoned(dirfd(listing), entry->d_name))
-            remove_at(dirfd(listing), entry->d_name, LEVELS);
+            remove_tree(dirfd(listing), entry->d_name, LEVELS);
     (void)closedir(listing);
 }

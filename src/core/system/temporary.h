@@ -13,12 +13,12 @@ const char *temporary_directory(void);
 char *temporary_name(const char *folder);
 /* Creates a folder with such a name. *descriptor marks it as used until it is closed. NULL with
  * errno. */
-char *temporary_folder(const char *folder, int *descriptor);
+char *temporary_folder_create(const char *folder, int *descriptor);
 /* Marks an open file as used. */
-void temporary_hold(int descriptor);
+void temporary_lock(int descriptor);
 /* Removes a file, or a folder with its contents up to eight levels deep; links are not followed. */
 void temporary_remove(const char *path);
 /* Removes the temporary files in `folder` whose processes no longer exist. */
-void temporary_sweep(const char *folder);
+void temporary_remove_abandoned(const char *folder);
 
 #endif

@@ -3,7 +3,7 @@
 
 #include <time.h>
 
-static double seconds(clockid_t clock)
+static double clock_seconds(clockid_t clock)
 {
     struct timespec t = {0, 0};
     (void)clock_gettime(clock, &t);
@@ -12,10 +12,10 @@ static double seconds(clockid_t clock)
 
 double wt_time_wall(void)
 {
-    return seconds(CLOCK_MONOTONIC);
+    return clock_seconds(CLOCK_MONOTONIC);
 }
 
 double wt_time_cpu(void)
 {
-    return seconds(CLOCK_PROCESS_CPUTIME_ID);
+    return clock_seconds(CLOCK_PROCESS_CPUTIME_ID);
 }

@@ -19,8 +19,8 @@
         .keys = table##_keys,                                                                      \
         .n_keys = TABLE##_N_KEYS,                                                                  \
     };                                                                                             \
-    _Static_assert((int)TABLE##_N_COLUMNS <= (int)SCHEMA_MOST &&                                   \
-                       (int)TABLE##_N_KEYS <= (int)SCHEMA_MOST,                                    \
+    _Static_assert((int)TABLE##_N_COLUMNS <= (int)SCHEMA_FIELDS_MAX &&                             \
+                       (int)TABLE##_N_KEYS <= (int)SCHEMA_FIELDS_MAX,                              \
                    "a set of columns or keys has one bit for each");
 TABLES(SCHEMA)
 

@@ -242,7 +242,7 @@
     /* read a bound table */                                                                       \
     static inline bool table##_has(const table_view *v, table##_column c)                          \
     {                                                                                              \
-        return view_has(v, &table##_schema, (unsigned)c);                                          \
+        return view_has_column(v, &table##_schema, (unsigned)c);                                   \
     }                                                                                              \
     static inline double table##_get(const table_view *v, size_t row, table##_column c)            \
     {                                                                                              \
@@ -256,7 +256,7 @@
     {                                                                                              \
         return view_key(v, &table##_schema, (unsigned)k);                                          \
     }                                                                                              \
-    static inline const char *table##_words(const table_view *v, table##_key k)                    \
+    static inline const char *table##_key_text(const table_view *v, table##_key k)                 \
     {                                                                                              \
         return view_key_text(v, &table##_schema, (unsigned)k);                                     \
     }

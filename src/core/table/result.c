@@ -41,7 +41,7 @@ void wt_result_free(wt_result *result)
 }
 
 /* True if one name equals the other or is a folder of it: a table cannot contain tables. */
-static bool collide(const char *a, const char *b)
+static bool names_collide(const char *a, const char *b)
 {
     while (*a != '\0' && *a == *b) {
         a++;
@@ -54,8 +54,8 @@ wt_status wt_result_add(wt_result *result, wt_table *table, wt_error *err)
 {
     wt_status status = WT_OK;
     wt_table **tables = NULL;
-    if (!table_name_is_valid(table->name) || collide(table->name, "case") ||
-        collide(table->name, "provenance")) {
+    if (!table_name_is_valid(table->name) || names_collide(table->name, "case") ||
+        names_collide(table->name, "provenance")) {
         status = wt_fail(err, WT_E_ARG, "not a name for a table");
         wt_error_expected(err, "a to z, digits and '_' in parts joined by '/', but not \"case\" "
                                "or \"provenance\"");
@@ -64,7 +64,7 @@ wt_status wt_result_add(wt_result *result, wt_table *table, wt_error *err)
         status = wt_fail(err, WT_E_ARG, "more than %d tables", (int)RESULT_TABLES_MAX);
     }
     for (size_t i = 0; status == WT_OK && i < result->n; i++)
-        if (collide(result->tables[i]->name, table->name))
+        if (names_collide(result->tables[i]->name, table->name))
             status = wt_fail(err, WT_E_ARG, "tables \"%s\" and \"%s\" collide",
                              result->tables[i]->name, table->name);
     if (status == WT_OK && (tables = array_grow(result->tables, result->n, sizeof *tables)) == NULL)

@@ -13,23 +13,23 @@
 static const struct {
     const table_schema *schema;
     size_t view;
-} bound[] = {{&modulus_groups_schema, offsetof(result_value_tables, groups)},
-             {&modulus_budget_schema, offsetof(result_value_tables, budget)},
-             {&modulus_rate_schema, offsetof(result_value_tables, rates)},
-             {&comparison_schema, offsetof(result_value_tables, comparison)},
-             {&friction_schema, offsetof(result_value_tables, friction)},
-             {&layer_schema, offsetof(result_value_tables, layer)},
-             {&what_if_schema, offsetof(result_value_tables, what_if)}};
+} table_views[] = {{&modulus_groups_schema, offsetof(result_value_tables, groups)},
+                   {&modulus_budget_schema, offsetof(result_value_tables, budget)},
+                   {&modulus_rate_schema, offsetof(result_value_tables, rates)},
+                   {&comparison_schema, offsetof(result_value_tables, comparison)},
+                   {&friction_schema, offsetof(result_value_tables, friction)},
+                   {&layer_schema, offsetof(result_value_tables, layer)},
+                   {&what_if_schema, offsetof(result_value_tables, what_if)}};
 
 const char *result_values_table(size_t i)
 {
-    return i < COUNT_OF(bound) ? bound[i].schema->name : NULL;
+    return i < COUNT_OF(table_views) ? table_views[i].schema->name : NULL;
 }
 
-bool result_values_are_of(const char *table)
+bool result_values_use_table(const char *table)
 {
-    for (size_t i = 0; i < COUNT_OF(bound); i++)
-        if (strcmp(bound[i].schema->name, table) == 0)
+    for (size_t i = 0; i < COUNT_OF(table_views); i++)
+        if (strcmp(table_views[i].schema->name, table) == 0)
             return true;
     return false;
 }
@@ -37,19 +37,19 @@ bool result_values_are_of(const char *table)
 wt_status result_values_bind(const wt_result *result, result_value_tables *tables, wt_error *err)
 {
     wt_status status = WT_OK;
-    for (size_t i = 0; i < COUNT_OF(bound); i++) {
-        table_view *view = (table_view *)((char *)tables + bound[i].view);
-        const wt_status one =
-            table_bind_of(result, bound[i].schema, "", view, status == WT_OK ? err : NULL);
+    for (size_t i = 0; i < COUNT_OF(table_views); i++) {
+        table_view *view = (table_view *)((char *)tables + table_views[i].view);
+        const wt_status one = table_bind_result(result, table_views[i].schema, "", view,
+                                                status == WT_OK ? err : NULL);
         if (one != WT_OK)
-            *view = (table_view){.schema = bound[i].schema, .suffix = ""};
+            *view = (table_view){.schema = table_views[i].schema, .suffix = ""};
         status = status == WT_OK ? one : status;
     }
     return status;
 }
 
-static result_value empty_finding(const char *name, const char *words, wt_quantity quantity,
-                                  const char *unit)
+static result_value empty_result_value(const char *name, const char *words, wt_quantity quantity,
+                                       const char *unit)
 {
     const double unknown = (double)NAN;
     return (result_value){.name = name,
@@ -84,10 +84,10 @@ static void find_frequencies(const result_value_tables *t, const char *group, do
     }
 }
 
-result_value result_value_of_group(const result_value_tables *t, size_t row)
+result_value result_value_group(const result_value_tables *t, size_t row)
 {
     const char *group = modulus_groups_text(&t->groups, row, MODULUS_GROUPS_GROUP);
-    result_value f = empty_finding("modulus", "Modulus", WT_Q_MODULUS, "Pa");
+    result_value f = empty_result_value("modulus", "Modulus", WT_Q_MODULUS, "Pa");
     f.number.value = modulus_groups_get(&t->groups, row, MODULUS_GROUPS_GEOMETRIC_MEAN);
     f.low = modulus_groups_get(&t->groups, row, MODULUS_GROUPS_LOW);
     f.high = modulus_groups_get(&t->groups, row, MODULUS_GROUPS_HIGH);
@@ -109,10 +109,11 @@ result_value result_value_of_group(const result_value_tables *t, size_t row)
 /* ---- ratio of the groups --------------------------------------------------------------------- */
 
 /* The first row of the table comparison holds the comparison over all rates. */
-result_value result_value_of_ratio(const result_value_tables *t)
+result_value result_value_ratio(const result_value_tables *t)
 {
     const table_view *c = &t->comparison;
-    result_value f = empty_finding("modulus_ratio", "Modulus, track over bulk", WT_Q_NONE, "1");
+    result_value f =
+        empty_result_value("modulus_ratio", "Modulus, track over bulk", WT_Q_NONE, "1");
     if (c->n_rows == 0)
         return f;
     double slowest = (double)NAN, fastest = (double)NAN;
@@ -120,9 +121,9 @@ result_value result_value_of_ratio(const result_value_tables *t)
     f.low = comparison_get(c, 0, COMPARISON_RATIO_LOW);
     f.high = comparison_get(c, 0, COMPARISON_RATIO_HIGH);
     f.neutral = 1;
-    f.verdict = comparison_words(c, COMPARISON_KEY_DIFFERS);
-    f.remedy = comparison_words(c, COMPARISON_KEY_SETTLED_BY);
-    f.includes = comparison_words(c, COMPARISON_KEY_INCLUDES);
+    f.verdict = comparison_key_text(c, COMPARISON_KEY_DIFFERS);
+    f.remedy = comparison_key_text(c, COMPARISON_KEY_SETTLED_BY);
+    f.includes = comparison_key_text(c, COMPARISON_KEY_INCLUDES);
     for (size_t i = 1; i < c->n_rows; i++)
         if (!isnan(comparison_get(c, i, COMPARISON_RATIO))) {
             slowest = fmin(slowest, comparison_get(c, i, COMPARISON_RATE_LOW));
@@ -133,9 +134,9 @@ result_value result_value_of_ratio(const result_value_tables *t)
     return f;
 }
 
-double result_value_ratio_of_all(const result_value_tables *t)
+double result_value_ratio_all_rates(const result_value_tables *t)
 {
-    const result_value ratio = result_value_of_ratio(t);
+    const result_value ratio = result_value_ratio(t);
     double mean[2] = {(double)NAN, (double)NAN};
     for (size_t i = 0; i < t->groups.n_rows; i++)
         for (int g = 0; g < 2; g++)
@@ -151,29 +152,29 @@ double result_value_ratio_of_all(const result_value_tables *t)
 /* Function that returns a number of one row of the table what_if. */
 typedef double what_if_number(const table_view *what_if, size_t row);
 
-#define NUMBER_OF(name, column)                                                                    \
+#define WHAT_IF_ACCESSOR(name, column)                                                             \
     static double name(const table_view *what_if, size_t row)                                      \
     {                                                                                              \
         return what_if_get(what_if, row, column);                                                  \
     }
-NUMBER_OF(hysteresis_of, WHAT_IF_HYSTERESIS)
-NUMBER_OF(area_of, WHAT_IF_AREA_RATIO)
-NUMBER_OF(total_of, WHAT_IF_FRICTION)
-NUMBER_OF(thickness_of, WHAT_IF_THICKNESS)
-NUMBER_OF(with_layer_of, WHAT_IF_WITH_LAYER)
+WHAT_IF_ACCESSOR(what_if_hysteresis, WHAT_IF_HYSTERESIS)
+WHAT_IF_ACCESSOR(what_if_area, WHAT_IF_AREA_RATIO)
+WHAT_IF_ACCESSOR(what_if_total, WHAT_IF_FRICTION)
+WHAT_IF_ACCESSOR(what_if_thickness, WHAT_IF_THICKNESS)
+WHAT_IF_ACCESSOR(what_if_with_layer, WHAT_IF_WITH_LAYER)
 
-static double change_of(const table_view *what_if, size_t row)
+static double what_if_change(const table_view *what_if, size_t row)
 {
-    return with_layer_of(what_if, row) - total_of(what_if, row);
+    return what_if_with_layer(what_if, row) - what_if_total(what_if, row);
 }
 
-static double relative_change_of(const table_view *what_if, size_t row)
+static double what_if_relative_change(const table_view *what_if, size_t row)
 {
-    return with_layer_of(what_if, row) / total_of(what_if, row) - 1;
+    return what_if_with_layer(what_if, row) / what_if_total(what_if, row) - 1;
 }
 
 /* Returns the change of the number due to one model choice. The rows of a choice are adjacent. */
-static double reach_of_choice(const table_view *what_if, size_t *row, what_if_number *number)
+static double choice_effect(const table_view *what_if, size_t *row, what_if_number *number)
 {
     const char *choice = what_if_text(what_if, *row, WHAT_IF_CHOICE);
     double low = number(what_if, 0), high = low;
@@ -188,7 +189,8 @@ static double reach_of_choice(const table_view *what_if, size_t *row, what_if_nu
 
 /* Computes the range over model choices. The first row has the choices that were used. A range
  * within the numerical error is empty. */
-static result_value_range range_of(const table_view *what_if, what_if_number *number, double error)
+static result_value_range model_choice_range(const table_view *what_if, what_if_number *number,
+                                             double error)
 {
     result_value_range r = {.low = (double)NAN, .high = (double)NAN};
     size_t low = 0, high = 0;
@@ -204,7 +206,7 @@ static result_value_range range_of(const table_view *what_if, what_if_number *nu
         return r; /* for example an observed thickness */
     for (size_t i = 1; i < what_if->n_rows;) {
         const char *choice = what_if_text(what_if, i, WHAT_IF_CHOICE);
-        const double reach = reach_of_choice(what_if, &i, number);
+        const double reach = choice_effect(what_if, &i, number);
         if (reach > widest) {
             widest = reach;
             r.widest = choice;
@@ -221,7 +223,7 @@ static result_value_range range_of(const table_view *what_if, what_if_number *nu
 
 /* Computes the 95 % interval of a normal error. The lower limit of a positive number is at least
  * 0. */
-static void set_interval(result_value *f, bool positive)
+static void set_normal_interval(result_value *f, bool positive)
 {
     const double half = NORMAL_95 * f->number.standard_error;
     if (!(half > 0) || !isfinite(half) || !isfinite(f->number.value))
@@ -238,62 +240,63 @@ typedef struct predicted {
     bool positive;
 } predicted;
 
-static const predicted of_friction[] = {
-    {FRICTION_KEY_FRICTION, total_of, true},
-    {FRICTION_KEY_HYSTERESIS, hysteresis_of, true},
-    {FRICTION_KEY_AREA_RATIO, area_of, true},
-    {FRICTION_KEY_WITH_LAYER, with_layer_of, true},
-    {FRICTION_KEY_CHANGE, change_of, false},
-    {FRICTION_KEY_RELATIVE_CHANGE, relative_change_of, false},
+static const predicted friction_numbers[] = {
+    {FRICTION_KEY_FRICTION, what_if_total, true},
+    {FRICTION_KEY_HYSTERESIS, what_if_hysteresis, true},
+    {FRICTION_KEY_AREA_RATIO, what_if_area, true},
+    {FRICTION_KEY_WITH_LAYER, what_if_with_layer, true},
+    {FRICTION_KEY_CHANGE, what_if_change, false},
+    {FRICTION_KEY_RELATIVE_CHANGE, what_if_relative_change, false},
 };
 
-result_value result_value_of_friction(const result_value_tables *t, friction_key key)
+result_value result_value_friction(const result_value_tables *t, friction_key key)
 {
     const schema_field *field = &friction_schema.keys[key];
     const char *words = field->headline != NULL ? field->headline : field->label;
-    result_value f = empty_finding(field->name, words, field->quantity, "1");
-    for (size_t i = 0; i < COUNT_OF(of_friction); i++) {
-        if (of_friction[i].key != key || t->friction.table == NULL)
+    result_value f = empty_result_value(field->name, words, field->quantity, "1");
+    for (size_t i = 0; i < COUNT_OF(friction_numbers); i++) {
+        if (friction_numbers[i].key != key || t->friction.table == NULL)
             continue;
         f.predicted = true;
         f.number = friction_value(&t->friction, key);
-        f.neutral = of_friction[i].positive ? (double)NAN : 0;
-        f.includes = friction_words(&t->friction, FRICTION_KEY_ERROR_INCLUDES);
-        f.lacks = friction_words(&t->friction, FRICTION_KEY_ERROR_LACKS);
+        f.neutral = friction_numbers[i].positive ? (double)NAN : 0;
+        f.includes = friction_key_text(&t->friction, FRICTION_KEY_ERROR_INCLUDES);
+        f.lacks = friction_key_text(&t->friction, FRICTION_KEY_ERROR_LACKS);
         f.velocity = friction_value(&t->friction, FRICTION_KEY_REFERENCE_VELOCITY).value;
         f.pressure = friction_value(&t->friction, FRICTION_KEY_PRESSURE).value;
-        f.range = range_of(&t->what_if, of_friction[i].number, f.number.numerical_error);
-        set_interval(&f, of_friction[i].positive);
+        f.range =
+            model_choice_range(&t->what_if, friction_numbers[i].number, f.number.numerical_error);
+        set_normal_interval(&f, friction_numbers[i].positive);
     }
     return f;
 }
 
-result_value result_value_of_thickness(const result_value_tables *t)
+result_value result_value_thickness(const result_value_tables *t)
 {
     const schema_field *field = &layer_schema.keys[LAYER_KEY_BALANCE_THICKNESS];
-    result_value f = empty_finding(field->name, field->headline, field->quantity, "m");
+    result_value f = empty_result_value(field->name, field->headline, field->quantity, "m");
     if (t->layer.table == NULL)
         return f;
     f.predicted = true;
     f.number = layer_value(&t->layer, LAYER_KEY_BALANCE_THICKNESS);
-    f.includes = layer_words(&t->layer, LAYER_KEY_ERROR_INCLUDES);
-    f.lacks = layer_words(&t->layer, LAYER_KEY_ERROR_LACKS);
+    f.includes = layer_key_text(&t->layer, LAYER_KEY_ERROR_INCLUDES);
+    f.lacks = layer_key_text(&t->layer, LAYER_KEY_ERROR_LACKS);
     f.velocity = layer_value(&t->layer, LAYER_KEY_VELOCITY).value;
     f.pressure = layer_value(&t->layer, LAYER_KEY_PRESSURE).value;
-    f.range = range_of(&t->what_if, thickness_of, f.number.numerical_error);
-    set_interval(&f, true);
+    f.range = model_choice_range(&t->what_if, what_if_thickness, f.number.numerical_error);
+    set_normal_interval(&f, true);
     return f;
 }
 
-bool result_value_of_key(const result_value_tables *t, const schema_field *key, result_value *f)
+bool result_value_from_key(const result_value_tables *t, const schema_field *key, result_value *f)
 {
     if (key == &layer_schema.keys[LAYER_KEY_BALANCE_THICKNESS]) {
-        *f = result_value_of_thickness(t);
+        *f = result_value_thickness(t);
         return true;
     }
-    for (size_t i = 0; i < COUNT_OF(of_friction); i++)
-        if (key == &friction_schema.keys[of_friction[i].key]) {
-            *f = result_value_of_friction(t, of_friction[i].key);
+    for (size_t i = 0; i < COUNT_OF(friction_numbers); i++)
+        if (key == &friction_schema.keys[friction_numbers[i].key]) {
+            *f = result_value_friction(t, friction_numbers[i].key);
             return true;
         }
     return false;
@@ -311,23 +314,23 @@ int result_value_digits(double value, double low, double high)
 
 /* ---- signs ----------------------------------------------------------------------------------- */
 
-static finding_sign sign_between(double low, double high, double neutral)
+static sign_verdict sign_from_bounds(double low, double high, double neutral)
 {
-    return high < neutral ? FINDING_LESS : low > neutral ? FINDING_MORE : FINDING_OPEN;
+    return high < neutral ? SIGN_BELOW : low > neutral ? SIGN_ABOVE : SIGN_UNDECIDED;
 }
 
-finding_sign result_value_sign_measured(const result_value *f)
+sign_verdict result_value_sign_measured(const result_value *f)
 {
     const bool known = !isnan(f->low) && !isnan(f->high);
-    return sign_between(known ? f->low : f->number.value, known ? f->high : f->number.value,
-                        f->neutral);
+    return sign_from_bounds(known ? f->low : f->number.value, known ? f->high : f->number.value,
+                            f->neutral);
 }
 
-finding_sign result_value_sign(const result_value *f)
+sign_verdict result_value_sign(const result_value *f)
 {
-    const finding_sign measured = result_value_sign_measured(f);
+    const sign_verdict measured = result_value_sign_measured(f);
     if (isnan(f->range.low))
         return measured;
-    return sign_between(f->range.low, f->range.high, f->neutral) == measured ? measured
-                                                                             : FINDING_OPEN;
+    return sign_from_bounds(f->range.low, f->range.high, f->neutral) == measured ? measured
+                                                                                 : SIGN_UNDECIDED;
 }

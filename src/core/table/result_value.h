@@ -34,9 +34,9 @@ typedef struct result_value {
         pressure; /* sliding velocity [m/s] and pressure [Pa]; NaN if unknown or not applicable */
 } result_value;
 
-/* Position of a value relative to its neutral value; FINDING_OPEN if the interval includes both
+/* Position of a value relative to its neutral value; SIGN_UNDECIDED if the interval includes both
  * signs. */
-typedef enum finding_sign { FINDING_LESS = -1, FINDING_OPEN = 0, FINDING_MORE = 1 } finding_sign;
+typedef enum sign_verdict { SIGN_BELOW = -1, SIGN_UNDECIDED = 0, SIGN_ABOVE = 1 } sign_verdict;
 
 /* Bound tables from which result values are computed. Each table may be absent. */
 typedef struct result_value_tables {
@@ -46,7 +46,7 @@ typedef struct result_value_tables {
 /* Returns the name of table i, NULL after the last one. */
 const char *result_values_table(size_t i);
 /* Returns true if result values use the table. */
-bool result_values_are_of(const char *table);
+bool result_values_use_table(const char *table);
 
 /* Binds the tables of a result. A table that cannot be bound is an error and is then absent. */
 wt_status result_values_bind(const wt_result *result, result_value_tables *tables,
@@ -54,25 +54,25 @@ wt_status result_values_bind(const wt_result *result, result_value_tables *table
 
 /* Modulus of a group, for a row of modulus_groups. The interval includes the stated calibration
  * errors. */
-result_value result_value_of_group(const result_value_tables *tables, size_t row);
+result_value result_value_group(const result_value_tables *tables, size_t row);
 /* Ratio of the moduli of the groups over all rates. */
-result_value result_value_of_ratio(const result_value_tables *tables);
+result_value result_value_ratio(const result_value_tables *tables);
 /* Ratio of the moduli of all rates, which may differ from the ratio of the common rates. NaN if it
  * is within the interval of the latter, or unknown. */
-double result_value_ratio_of_all(const result_value_tables *tables);
+double result_value_ratio_all_rates(const result_value_tables *tables);
 /* Values of friction and layer, selected by the key of the number. */
-result_value result_value_of_friction(const result_value_tables *tables, friction_key key);
-result_value result_value_of_thickness(const result_value_tables *tables);
+result_value result_value_friction(const result_value_tables *tables, friction_key key);
+result_value result_value_thickness(const result_value_tables *tables);
 /* Variant for a key of any schema. False if the key is not a result value. */
-bool result_value_of_key(const result_value_tables *tables, const schema_field *key,
-                         result_value *f);
+bool result_value_from_key(const result_value_tables *tables, const schema_field *key,
+                           result_value *f);
 
 /* Number of digits for a value and the limits of its interval: three, or as many as print two
  * digits of the half width, at most six. */
 int result_value_digits(double value, double low, double high);
 
 /* Sign by the interval only, and by the interval and all model choices. */
-finding_sign result_value_sign_measured(const result_value *f);
-finding_sign result_value_sign(const result_value *f);
+sign_verdict result_value_sign_measured(const result_value *f);
+sign_verdict result_value_sign(const result_value *f);
 
 #endif

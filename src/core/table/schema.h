@@ -6,7 +6,7 @@
 #include "weartrack/data.h"
 
 /* A set of columns or keys is a 64-bit number. */
-enum { SCHEMA_MOST = 64 };
+enum { SCHEMA_FIELDS_MAX = 64 };
 #define SCHEMA_BIT(i) ((uint64_t)1 << (i))
 
 typedef enum schema_kind {
@@ -20,12 +20,12 @@ typedef enum schema_kind {
 typedef enum schema_form {
     FORM_NONE, /* set by a function call */
     FORM_NUMBER,
-    FORM_COUNT,    /* size_t */
-    FORM_YES_NO,   /* bool */
-    FORM_ESTIMATE, /* its errors fill the error columns, if the table has them */
-    FORM_INTERVAL, /* its limits fill the columns of the limits, if the table has them */
-    FORM_WORDS,    /* const char *; NULL is "" in a column */
-    FORM_LETTERS   /* char [] */
+    FORM_COUNT,     /* size_t */
+    FORM_YES_NO,    /* bool */
+    FORM_ESTIMATE,  /* its errors fill the error columns, if the table has them */
+    FORM_INTERVAL,  /* its limits fill the columns of the limits, if the table has them */
+    FORM_TEXT,      /* const char *; NULL is "" in a column */
+    FORM_CHARACTERS /* char [] */
 } schema_form;
 
 /* Column or key of a table. */

@@ -12,7 +12,7 @@
 
 /* Writes a text as one cell: "-" for an empty text, with escapes for control characters, bytes that
  * are not UTF-8, and a "#" or a single "-" at the start. */
-void stream_put_text(FILE *out, const char *text);
+void stream_write_text(FILE *out, const char *text);
 /* Decodes a cell in place and adds a terminating zero. False for an invalid escape. */
 bool stream_unescape(char *text, size_t length);
 

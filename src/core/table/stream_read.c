@@ -12,7 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-typedef struct reader {
+typedef struct stream_reader {
     FILE *in;
     char *line; /* without the line feed */
     size_t size, length;
@@ -21,9 +21,9 @@ typedef struct reader {
     size_t n_long_names;
     wt_table *table;
     bool named; /* the stream has a "## table:" line, and the end of the table must be marked */
-} reader;
+} stream_reader;
 
-static void reader_free(reader *r)
+static void stream_reader_free(stream_reader *r)
 {
     free(r->line);
     wt_strings_free(r->long_names, r->n_long_names);
@@ -31,7 +31,7 @@ static void reader_free(reader *r)
 }
 
 /* Sets the place of the error; `column` counts from 1, 0 means the whole line. */
-static void set_place(const reader *r, size_t column, wt_error *err)
+static void set_error_location(const stream_reader *r, size_t column, wt_error *err)
 {
     char of_table[96] = "", of_column[96] = "";
     if (r->named)
@@ -45,7 +45,7 @@ static void set_place(const reader *r, size_t column, wt_error *err)
 }
 
 /* Returns WT_OK, WT_END or an error. */
-static wt_status next_line(reader *r, wt_error *err)
+static wt_status read_stream_line(stream_reader *r, wt_error *err)
 {
     errno = 0;
     const ssize_t n = getline(&r->line, &r->size, r->in);
@@ -66,46 +66,47 @@ static wt_status next_line(reader *r, wt_error *err)
         r->length -= 3;
         memmove(r->line, r->line + 3, r->length + 1);
     }
-    const size_t good = utf8_check(r->line, r->length);
+    const size_t good = utf8_valid_length(r->line, r->length);
     if (good != r->length || memchr(r->line, '\0', r->length) != NULL) {
         (void)wt_fail(err, WT_E_CORRUPT, "the line is not UTF-8 text");
         wt_error_expected(err, "a text stream of weartrack");
-        set_place(r, 0, err);
+        set_error_location(r, 0, err);
         return WT_E_CORRUPT;
     }
     return WT_OK;
 }
 
-static wt_status corrupt(const reader *r, size_t column, const char *message, const char *expected,
-                         const char *found, wt_error *err)
+static wt_status fail_corrupt_stream(const stream_reader *r, size_t column, const char *message,
+                                     const char *expected, const char *found, wt_error *err)
 {
     (void)wt_fail(err, WT_E_CORRUPT, "%s", message);
     wt_error_expected(err, "%s", expected);
     if (found != NULL)
         wt_error_found(err, "\"%s\"", found);
-    set_place(r, column, err);
+    set_error_location(r, column, err);
     return WT_E_CORRUPT;
 }
 
 /* An invalid name is an error of the file, not of an argument. */
-static wt_status fail_name(const reader *r, size_t column, wt_status status, wt_error *err)
+static wt_status fail_refused_name(const stream_reader *r, size_t column, wt_status status,
+                                   wt_error *err)
 {
     if (status == WT_E_ARG) {
         status = WT_E_CORRUPT;
         if (err != NULL)
             err->status = status;
     }
-    set_place(r, column, err);
+    set_error_location(r, column, err);
     return status;
 }
 
-static wt_status begin_table(reader *r, const char *name, wt_error *err)
+static wt_status begin_stream_table(stream_reader *r, const char *name, wt_error *err)
 {
     r->table = wt_table_new(name, "");
     return r->table != NULL ? WT_OK : wt_fail(err, WT_E_MEMORY, "out of memory");
 }
 
-static wt_status set_title(reader *r, const char *title, wt_error *err)
+static wt_status set_table_title(stream_reader *r, const char *title, wt_error *err)
 {
     char *const copy = strdup(title);
     if (copy == NULL)
@@ -116,7 +117,7 @@ static wt_status set_title(reader *r, const char *title, wt_error *err)
 }
 
 /* Stores a text until the columns are created. The reader owns the text. */
-static wt_status keep_long_name(reader *r, char *text, wt_error *err)
+static wt_status store_long_name(stream_reader *r, char *text, wt_error *err)
 {
     char **const kept = array_grow(r->long_names, r->n_long_names, sizeof *kept);
     r->long_names = kept != NULL ? kept : r->long_names;
@@ -129,13 +130,13 @@ static wt_status keep_long_name(reader *r, char *text, wt_error *err)
 }
 
 /* Parses "## key: value"; the line is changed in place. */
-static wt_status read_key(reader *r, wt_error *err)
+static wt_status read_key_line(stream_reader *r, wt_error *err)
 {
     static const char form[] = "a line \"## key: value\"";
     char *const key = r->line + 3;
     char *const colon = strchr(key, ':');
     if (r->length < 4 || r->line[2] != ' ' || colon == NULL)
-        return corrupt(r, 0, "not a line of a stream", form, r->line, err);
+        return fail_corrupt_stream(r, 0, "not a line of a stream", form, r->line, err);
     char *value = colon + 1;
     if (*value == ' ')
         value++;
@@ -146,44 +147,44 @@ static wt_status read_key(reader *r, wt_error *err)
     if (strcmp(key, "input") == 0)
         return WT_OK; /* for people only: the table `inputs` has the same contents */
     if (!stream_unescape(text, strlen(text)))
-        return corrupt(r, 0, "an escape that is not known",
-                       "\\t, \\n, \\r, \\\\, \\#, \\- or \\x41", text, err);
+        return fail_corrupt_stream(r, 0, "an escape that is not known",
+                                   "\\t, \\n, \\r, \\\\, \\#, \\- or \\x41", text, err);
     if (strcmp(key, "weartrack") == 0 || strcmp(key, "command") == 0)
         return WT_OK;
     if (strcmp(key, "table") == 0) {
         if (r->table != NULL)
-            return corrupt(r, 0, "the table has a name already, or its name comes late",
-                           "\"## table:\" once, before the other keys", text, err);
+            return fail_corrupt_stream(r, 0, "the table has a name already, or its name comes late",
+                                       "\"## table:\" once, before the other keys", text, err);
         if (!table_name_is_valid(text))
-            return corrupt(r, 0, "not a name for a table", "a to z, digits, '_' and '/'", text,
-                           err);
-        const wt_status status = begin_table(r, text, err);
+            return fail_corrupt_stream(r, 0, "not a name for a table",
+                                       "a to z, digits, '_' and '/'", text, err);
+        const wt_status status = begin_stream_table(r, text, err);
         r->named = status == WT_OK;
         return status;
     }
     if (strcmp(key, "column") == 0) {
         if (tab == NULL)
-            return corrupt(r, 0, "not the words for a column", "\"## column: name<TAB>words\"",
-                           value, err);
+            return fail_corrupt_stream(r, 0, "not the words for a column",
+                                       "\"## column: name<TAB>words\"", value, err);
         *tab = '\0';
         if (r->n_long_names >= 2 * TABLE_COLUMNS_MAX)
-            return corrupt(r, 0, "words for too many columns", "one line for each column", NULL,
-                           err);
-        const wt_status status = keep_long_name(r, strdup(value), err);
-        return status == WT_OK ? keep_long_name(r, strdup(text), err) : status;
+            return fail_corrupt_stream(r, 0, "words for too many columns",
+                                       "one line for each column", NULL, err);
+        const wt_status status = store_long_name(r, strdup(value), err);
+        return status == WT_OK ? store_long_name(r, strdup(text), err) : status;
     }
-    wt_status status = r->table == NULL ? begin_table(r, "table", err) : WT_OK;
+    wt_status status = r->table == NULL ? begin_stream_table(r, "table", err) : WT_OK;
     if (status == WT_OK && strcmp(key, "title") == 0)
-        return set_title(r, text, err);
+        return set_table_title(r, text, err);
     if (status == WT_OK && wt_table_key(r->table, key) != NULL)
-        return corrupt(r, 0, "the key is there twice", "each key once", key, err);
+        return fail_corrupt_stream(r, 0, "the key is there twice", "each key once", key, err);
     if (status == WT_OK)
         status = wt_table_set_key(r->table, key, text, err);
-    return status == WT_OK ? WT_OK : fail_name(r, 0, status, err);
+    return status == WT_OK ? WT_OK : fail_refused_name(r, 0, status, err);
 }
 
 /* Terminates a cell at the next tab. Returns the next cell, NULL after the last one. */
-static char *end_cell(char *cell)
+static char *split_cell(char *cell)
 {
     char *const tab = strchr(cell, '\t');
     if (tab == NULL)
@@ -192,7 +193,7 @@ static char *end_cell(char *cell)
     return tab + 1;
 }
 
-static const char *long_name_of(const reader *r, const char *name)
+static const char *find_long_name(const stream_reader *r, const char *name)
 {
     for (size_t i = 0; i + 1 < r->n_long_names; i += 2) {
         if (strcmp(r->long_names[i], name) == 0)
@@ -202,74 +203,74 @@ static const char *long_name_of(const reader *r, const char *name)
 }
 
 /* Parses "# name[unit]<TAB>name[unit]". */
-static wt_status read_header(reader *r, wt_error *err)
+static wt_status read_stream_header(stream_reader *r, wt_error *err)
 {
     static const char form[] = "a header line \"# name[unit]<TAB>name[unit]...\"";
     if (r->length < 3 || r->line[0] != '#' || r->line[1] != ' ')
-        return corrupt(r, 0, "the header line is missing", form, r->line, err);
-    wt_status status = r->table == NULL ? begin_table(r, "table", err) : WT_OK;
+        return fail_corrupt_stream(r, 0, "the header line is missing", form, r->line, err);
+    wt_status status = r->table == NULL ? begin_stream_table(r, "table", err) : WT_OK;
     size_t column = 0;
     char *next = NULL;
     for (char *cell = r->line + 2; status == WT_OK && cell != NULL; cell = next) {
         column++;
-        next = end_cell(cell);
+        next = split_cell(cell);
         const size_t length = strlen(cell);
         char *const bracket = strchr(cell, '[');
         if (bracket == NULL || cell[length - 1] != ']')
-            return corrupt(r, column, "a column without a unit", form, cell, err);
+            return fail_corrupt_stream(r, column, "a column without a unit", form, cell, err);
         cell[length - 1] = '\0';
         *bracket = '\0';
         const char *const unit = bracket + 1;
         if (strcmp(unit, STREAM_TEXT_UNIT) == 0)
-            status = wt_table_add_text_column(r->table, cell, long_name_of(r, cell), err);
+            status = wt_table_add_text_column(r->table, cell, find_long_name(r, cell), err);
         else
-            status = wt_table_add_column(r->table, cell, unit, long_name_of(r, cell), err);
+            status = wt_table_add_column(r->table, cell, unit, find_long_name(r, cell), err);
         if (status != WT_OK)
-            status = fail_name(r, column, status, err);
+            status = fail_refused_name(r, column, status, err);
     }
     return status;
 }
 
-static wt_status read_row(reader *r, wt_error *err)
+static wt_status read_stream_row(stream_reader *r, wt_error *err)
 {
     wt_table *const table = r->table;
     wt_status status = wt_table_add_row(table, err);
     size_t n_cells = 0;
     char *next = NULL;
     for (char *cell = r->line; status == WT_OK && cell != NULL; cell = next) {
-        next = end_cell(cell);
+        next = split_cell(cell);
         const size_t column = n_cells++;
         if (column >= table->n_columns)
             continue;
         if (table->columns[column].kind == WT_COLUMN_TEXT) {
             if (!stream_unescape(cell, strlen(cell)))
-                return corrupt(r, column + 1, "an escape that is not known",
-                               "\\t, \\n, \\r, \\\\, \\#, \\- or \\x41", cell, err);
-            status = wt_table_put_text(table, column, cell, err);
+                return fail_corrupt_stream(r, column + 1, "an escape that is not known",
+                                           "\\t, \\n, \\r, \\\\, \\#, \\- or \\x41", cell, err);
+            status = wt_table_set_text(table, column, cell, err);
         } else {
             double value;
-            if (!number_read(cell, strlen(cell), &value))
-                return corrupt(r, column + 1, "not a number",
-                               "a number with a decimal point, or nan", cell, err);
-            wt_table_put(table, column, value);
+            if (!parse_stored_number(cell, strlen(cell), &value))
+                return fail_corrupt_stream(r, column + 1, "not a number",
+                                           "a number with a decimal point, or nan", cell, err);
+            wt_table_set_number(table, column, value);
         }
     }
     if (status == WT_OK && n_cells != table->n_columns) {
         status = wt_fail(err, WT_E_CORRUPT, "the row does not fit the header line");
         wt_error_expected(err, "%zu cells parted by tabs", table->n_columns);
         wt_error_found(err, "%zu", n_cells);
-        set_place(r, 0, err);
+        set_error_location(r, 0, err);
     }
     return status;
 }
 
 wt_status wt_stream_read(FILE *in, const char *name, wt_table **table, wt_error *err)
 {
-    reader r = {.in = in};
+    stream_reader r = {.in = in};
     bool header = false, ended = false, begun = false;
     wt_status status = WT_OK;
     while (status == WT_OK && !ended) {
-        status = next_line(&r, err);
+        status = read_stream_line(&r, err);
         if (status != WT_OK)
             break;
         if (r.length > 0 && strcmp(r.line, "##") != 0)
@@ -279,15 +280,16 @@ wt_status wt_stream_read(FILE *in, const char *name, wt_table **table, wt_error 
         else if (r.length == 0)
             status = header ? wt_table_new_block(r.table, err) : WT_OK;
         else if (!header && strncmp(r.line, "##", 2) == 0)
-            status = read_key(&r, err);
+            status = read_key_line(&r, err);
         else if (!header) {
-            status = read_header(&r, err);
+            status = read_stream_header(&r, err);
             header = true;
         } else if (r.line[0] == '#')
-            status = corrupt(&r, 0, "a comment among the rows",
-                             "a row, or \"##\" alone where the table ends", r.line, err);
+            status =
+                fail_corrupt_stream(&r, 0, "a comment among the rows",
+                                    "a row, or \"##\" alone where the table ends", r.line, err);
         else
-            status = read_row(&r, err);
+            status = read_stream_row(&r, err);
     }
     if (status == WT_END && begun) {
         status = WT_OK;
@@ -295,12 +297,12 @@ wt_status wt_stream_read(FILE *in, const char *name, wt_table **table, wt_error 
             status = wt_fail(err, WT_E_CORRUPT, "the stream ends before the table does");
             wt_error_expected(err, "a line \"##\" alone at its end");
             wt_error_advice(err, "the program that wrote it may have failed: look at its message");
-            set_place(&r, 0, err);
+            set_error_location(&r, 0, err);
         }
     }
     if (status == WT_OK && !header)
-        status = corrupt(&r, 0, "a table without a header line",
-                         "a header line \"# name[unit]<TAB>name[unit]...\"", NULL, err);
+        status = fail_corrupt_stream(&r, 0, "a table without a header line",
+                                     "a header line \"# name[unit]<TAB>name[unit]...\"", NULL, err);
     if (status == WT_OK && r.named)
         status = table_use_current_names(r.table, err);
     if (status == WT_OK) {
@@ -309,6 +311,6 @@ wt_status wt_stream_read(FILE *in, const char *name, wt_table **table, wt_error 
     }
     if (status != WT_OK && status != WT_END)
         wt_error_file(err, name);
-    reader_free(&r);
+    stream_reader_free(&r);
     return status;
 }

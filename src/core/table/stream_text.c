@@ -10,7 +10,7 @@
 static const char raw[] = "\t\n\r\\#-", letters[] = "tnr\\#-";
 enum { ALWAYS_ESCAPED = 4 };
 
-void stream_put_text(FILE *out, const char *text)
+void stream_write_text(FILE *out, const char *text)
 {
     const size_t length = strlen(text);
     if (length == 0) {
@@ -22,7 +22,7 @@ void stream_put_text(FILE *out, const char *text)
         (void)putc('\\', out);
     size_t i = 0;
     while (i < length) {
-        const size_t n = utf8_character(text + i, length - i);
+        const size_t n = utf8_character_length(text + i, length - i);
         const unsigned char c = (unsigned char)text[i];
         const char *const escaped = memchr(raw, c, ALWAYS_ESCAPED);
         if (n > 1)
@@ -37,7 +37,7 @@ void stream_put_text(FILE *out, const char *text)
     }
 }
 
-static int hex_digit(char c)
+static int hex_digit_value(char c)
 {
     static const char digits[] = "0123456789ABCDEF";
     const char *const found = c != '\0' ? strchr(digits, c) : NULL;
@@ -58,7 +58,8 @@ bool stream_unescape(char *text, size_t length)
             if (letter != NULL) {
                 c = raw[letter - letters];
             } else if (escape == 'x' && length - from > 2) {
-                const int high = hex_digit(text[from + 1]), low = hex_digit(text[from + 2]);
+                const int high = hex_digit_value(text[from + 1]),
+                          low = hex_digit_value(text[from + 2]);
                 if (high < 0 || low < 0 || (high == 0 && low == 0))
                     return false;
                 c = (char)(high * 16 + low);

@@ -56,13 +56,13 @@ const char *wt_table_name(const wt_table *table)
 
 wt_status wt_table_rename(wt_table *table, const char *name, wt_error *err)
 {
-    char *const own = table_name_is_valid(name) ? strdup(name) : NULL;
+    char *const copy_of_name = table_name_is_valid(name) ? strdup(name) : NULL;
     if (!table_name_is_valid(name))
         return wt_fail(err, WT_E_ARG, "\"%s\" is no name of a table", name);
-    if (own == NULL)
+    if (copy_of_name == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     free(table->name);
-    table->name = own;
+    table->name = copy_of_name;
     return WT_OK;
 }
 
@@ -75,7 +75,7 @@ const char *wt_table_title(const wt_table *table)
 static bool unit_is_valid(const char *unit)
 {
     const size_t length = strlen(unit);
-    if (length == 0 || strcmp(unit, "text") == 0 || utf8_check(unit, length) != length)
+    if (length == 0 || strcmp(unit, "text") == 0 || utf8_valid_length(unit, length) != length)
         return false;
     for (size_t i = 0; i < length; i++) {
         if ((unsigned char)unit[i] < ' ' || strchr("[]\x7F", unit[i]) != NULL)
@@ -84,8 +84,8 @@ static bool unit_is_valid(const char *unit)
     return true;
 }
 
-static wt_status add_column(wt_table *table, wt_column_kind kind, const char *name,
-                            const char *unit, const char *long_name, wt_error *err)
+static wt_status add_typed_column(wt_table *table, wt_column_kind kind, const char *name,
+                                  const char *unit, const char *long_name, wt_error *err)
 {
     if (table->n_rows > 0)
         return wt_fail(err, WT_E_ARG, "column \"%s\" added to table \"%s\" after its rows", name,
@@ -125,13 +125,13 @@ static wt_status add_column(wt_table *table, wt_column_kind kind, const char *na
 wt_status wt_table_add_column(wt_table *table, const char *name, const char *unit,
                               const char *long_name, wt_error *err)
 {
-    return add_column(table, WT_COLUMN_NUMBER, name, unit, long_name, err);
+    return add_typed_column(table, WT_COLUMN_NUMBER, name, unit, long_name, err);
 }
 
 wt_status wt_table_add_text_column(wt_table *table, const char *name, const char *long_name,
                                    wt_error *err)
 {
-    return add_column(table, WT_COLUMN_TEXT, name, "", long_name, err);
+    return add_typed_column(table, WT_COLUMN_TEXT, name, "", long_name, err);
 }
 
 static bool grow_columns(wt_table *table)
@@ -216,14 +216,14 @@ long wt_table_find(const wt_table *table, const char *column_name)
     return -1;
 }
 
-void wt_table_put(wt_table *table, size_t column, double value)
+void wt_table_set_number(wt_table *table, size_t column, double value)
 {
     assert(table->n_rows > 0 && column < table->n_columns &&
            table->columns[column].kind == WT_COLUMN_NUMBER);
     table->columns[column].numbers[table->n_rows - 1] = value;
 }
 
-wt_status wt_table_put_text(wt_table *table, size_t column, const char *text, wt_error *err)
+wt_status wt_table_set_text(wt_table *table, size_t column, const char *text, wt_error *err)
 {
     assert(table->n_rows > 0 && column < table->n_columns &&
            table->columns[column].kind == WT_COLUMN_TEXT);

@@ -17,7 +17,7 @@ typedef struct table_column {
 
 typedef struct table_key {
     char *name;
-    char *text;         /* one line; of an estimate in the form of estimate_text */
+    char *text;         /* one line; of an estimate in the form of format_estimate_key */
     bool is_estimate;   /* the text is an estimate, */
     wt_estimate parsed; /* with these values; its unit points into `unit` */
     char *unit;

@@ -46,7 +46,7 @@ void table_free_keys(wt_table *table)
 
 /* Formats an estimate as "17.4 standard_error=0.3 numerical_error=0 unit=K". The caller frees the
  * text; NULL when out of memory. */
-static char *estimate_text(const wt_estimate *estimate)
+static char *format_estimate_key(const wt_estimate *estimate)
 {
     char value[32], standard_error[32], numerical_error[32];
     char *text = NULL;
@@ -61,7 +61,7 @@ static char *estimate_text(const wt_estimate *estimate)
     return text;
 }
 
-/* Parses the output of estimate_text; estimate->unit points into `text`. */
+/* Parses the output of format_estimate_key; estimate->unit points into `text`. */
 static bool parse_estimate(const char *text, wt_estimate *estimate)
 {
     const char *const second = strstr(text, standard_error_mark);
@@ -73,11 +73,11 @@ static bool parse_estimate(const char *text, wt_estimate *estimate)
     const char *const numerical_error = third + strlen(numerical_error_mark);
     estimate->unit = fourth + strlen(unit_mark);
     return estimate->unit[0] != '\0' &&
-           number_read(text, (size_t)(second - text), &estimate->value) &&
-           number_read(standard_error, (size_t)(third - standard_error),
-                       &estimate->standard_error) &&
-           number_read(numerical_error, (size_t)(fourth - numerical_error),
-                       &estimate->numerical_error);
+           parse_stored_number(text, (size_t)(second - text), &estimate->value) &&
+           parse_stored_number(standard_error, (size_t)(third - standard_error),
+                               &estimate->standard_error) &&
+           parse_stored_number(numerical_error, (size_t)(fourth - numerical_error),
+                               &estimate->numerical_error);
 }
 
 /* True for names with another meaning in a stream or as an attribute in a store. */
@@ -93,7 +93,7 @@ static bool is_reserved(const char *name)
 }
 
 /* True if the estimate key `estimate` needs the name for one of its parts. */
-static bool is_part_of(const char *name, const char *estimate)
+static bool is_estimate_part(const char *name, const char *estimate)
 {
     const size_t length = strlen(estimate);
     if (strncmp(name, estimate, length) != 0)
@@ -105,7 +105,7 @@ static bool is_part_of(const char *name, const char *estimate)
     return false;
 }
 
-static table_key *find_key(const wt_table *table, const char *name)
+static table_key *find_table_key(const wt_table *table, const char *name)
 {
     for (size_t i = 0; i < table->n_keys; i++) {
         if (strcmp(table->keys[i].name, name) == 0)
@@ -114,7 +114,7 @@ static table_key *find_key(const wt_table *table, const char *name)
     return NULL;
 }
 
-static wt_status check_name(const char *name, wt_error *err)
+static wt_status check_key_name(const char *name, wt_error *err)
 {
     if (table_word_is_valid(name) && !is_reserved(name))
         return WT_OK;
@@ -125,11 +125,11 @@ static wt_status check_name(const char *name, wt_error *err)
 }
 
 /* Fills a key from its text. An estimate is rewritten, so that it has one spelling. */
-static wt_status make_key(const char *name, table_key *key, wt_error *err)
+static wt_status fill_key(const char *name, table_key *key, wt_error *err)
 {
     key->is_estimate = parse_estimate(key->text, &key->parsed);
     if (key->is_estimate) {
-        char *const canonical = estimate_text(&key->parsed);
+        char *const canonical = format_estimate_key(&key->parsed);
         free(key->text);
         key->text = canonical;
         if (canonical == NULL || !parse_estimate(canonical, &key->parsed))
@@ -144,9 +144,10 @@ static wt_status make_key(const char *name, table_key *key, wt_error *err)
 }
 
 /* Finds the key with the name, or adds an empty one. */
-static wt_status find_place(wt_table *table, const char *name, table_key **place, wt_error *err)
+static wt_status find_or_add_key(wt_table *table, const char *name, table_key **place,
+                                 wt_error *err)
 {
-    *place = find_key(table, name);
+    *place = find_table_key(table, name);
     if (*place != NULL)
         return WT_OK;
     if (table->n_keys >= TABLE_KEYS_MAX)
@@ -161,22 +162,22 @@ static wt_status find_place(wt_table *table, const char *name, table_key **place
 }
 
 /* Sets a key. The function takes ownership of `text`, also on failure. */
-static wt_status set_key(wt_table *table, const char *name, char *text, wt_error *err)
+static wt_status set_key_text(wt_table *table, const char *name, char *text, wt_error *err)
 {
     table_key key = {.text = text};
-    wt_status status = check_name(name, err);
+    wt_status status = check_key_name(name, err);
     if (status == WT_OK)
-        status = make_key(name, &key, err);
+        status = fill_key(name, &key, err);
     for (size_t i = 0; status == WT_OK && i < table->n_keys; i++) {
         const table_key *const other = &table->keys[i];
-        if ((other->is_estimate && is_part_of(name, other->name)) ||
-            (key.is_estimate && is_part_of(other->name, name)))
+        if ((other->is_estimate && is_estimate_part(name, other->name)) ||
+            (key.is_estimate && is_estimate_part(other->name, name)))
             status = wt_fail(err, WT_E_ARG, "keys \"%s\" and \"%s\" of table \"%s\" collide", name,
                              other->name, table->name);
     }
     table_key *place = NULL;
     if (status == WT_OK)
-        status = find_place(table, name, &place, err);
+        status = find_or_add_key(table, name, &place, err);
     if (status == WT_OK) {
         key_free(place);
         *place = key;
@@ -191,16 +192,16 @@ wt_status wt_table_set_key(wt_table *table, const char *key, const char *text, w
     char *const copy = strdup(text != NULL ? text : "");
     if (copy == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
-    return set_key(table, key, copy, err);
+    return set_key_text(table, key, copy, err);
 }
 
 wt_status wt_table_set_estimate(wt_table *table, const char *key, wt_estimate estimate,
                                 wt_error *err)
 {
-    char *const text = estimate_text(&estimate);
+    char *const text = format_estimate_key(&estimate);
     if (text == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
-    return set_key(table, key, text, err);
+    return set_key_text(table, key, text, err);
 }
 
 size_t wt_table_n_keys(const wt_table *table)
@@ -215,13 +216,13 @@ const char *wt_table_key_name(const wt_table *table, size_t i)
 
 const char *wt_table_key(const wt_table *table, const char *key)
 {
-    const table_key *const found = find_key(table, key);
+    const table_key *const found = find_table_key(table, key);
     return found != NULL ? found->text : NULL;
 }
 
 bool wt_table_estimate(const wt_table *table, const char *key, wt_estimate *estimate)
 {
-    const table_key *const found = find_key(table, key);
+    const table_key *const found = find_table_key(table, key);
     if (found == NULL || !found->is_estimate)
         return false;
     *estimate = found->parsed;

@@ -7,16 +7,16 @@
 #include <math.h>
 
 /* Numeric member of any form; missing values are NaN. */
-typedef struct shown_number {
+typedef struct numeric_member {
     wt_estimate estimate;
     double low, high;
-} shown_number;
+} numeric_member;
 
-static shown_number number_at(const schema_field *field, const void *row)
+static numeric_member member_number(const schema_field *field, const void *row)
 {
     const void *const at = (const char *)row + field->offset;
     const wt_interval *interval = at;
-    shown_number n = {.low = (double)NAN, .high = (double)NAN};
+    numeric_member n = {.low = (double)NAN, .high = (double)NAN};
     if (field->form == FORM_NUMBER)
         n.estimate.value = *(const double *)at;
     else if (field->form == FORM_COUNT)
@@ -26,30 +26,30 @@ static shown_number number_at(const schema_field *field, const void *row)
     else if (field->form == FORM_ESTIMATE)
         n.estimate = *(const wt_estimate *)at;
     else
-        n = (shown_number){
+        n = (numeric_member){
             {interval->value, interval->standard_error, 0, NULL}, interval->low, interval->high};
     return n;
 }
 
-static const char *words_at(const schema_field *field, const void *row)
+static const char *member_text(const schema_field *field, const void *row)
 {
     const char *const at = (const char *)row + field->offset;
-    return field->form == FORM_WORDS ? *(const char *const *)(const void *)at : at;
+    return field->form == FORM_TEXT ? *(const char *const *)(const void *)at : at;
 }
 
-static bool is_words(const schema_field *field)
+static bool is_text_form(const schema_field *field)
 {
-    return field->form == FORM_WORDS || field->form == FORM_LETTERS;
+    return field->form == FORM_TEXT || field->form == FORM_CHARACTERS;
 }
 
-static void put_shown(table_writer *w, const table_schema *of, const schema_field *field,
-                      unsigned column, const void *row)
+static void write_member(table_writer *w, const table_schema *of, const schema_field *field,
+                         unsigned column, const void *row)
 {
-    if (is_words(field)) {
-        writer_text(w, of, column, words_at(field, row));
+    if (is_text_form(field)) {
+        writer_text(w, of, column, member_text(field, row));
         return;
     }
-    const shown_number n = number_at(field, row);
+    const numeric_member n = member_number(field, row);
     const unsigned columns[] = {field->standard_error, field->numerical_error, field->low,
                                 field->high};
     const double values[] = {n.estimate.standard_error, n.estimate.numerical_error, n.low, n.high};
@@ -61,26 +61,26 @@ static void put_shown(table_writer *w, const table_schema *of, const schema_fiel
             writer_number(w, of, columns[i], values[i]);
 }
 
-void writer_row(table_writer *w, const table_schema *of, const schema_field *fields,
-                const void *row)
+void writer_add_row(table_writer *w, const table_schema *of, const schema_field *fields,
+                    const void *row)
 {
     table_row(w);
     for (size_t i = 0; w->status == WT_OK && i < of->n_columns; i++)
         if (fields[i].form != FORM_NONE && !(w->left_out & SCHEMA_BIT(i)))
-            put_shown(w, of, &fields[i], (unsigned)i, row);
+            write_member(w, of, &fields[i], (unsigned)i, row);
 }
 
-static void set_shown(table_writer *w, const table_schema *of, const schema_field *field,
-                      unsigned key, const void *keys)
+static void set_member_key(table_writer *w, const table_schema *of, const schema_field *field,
+                           unsigned key, const void *keys)
 {
     char text[64];
-    if (is_words(field)) {
-        const char *const words = words_at(field, keys);
+    if (is_text_form(field)) {
+        const char *const words = member_text(field, keys);
         if (!field->optional || (words != NULL && words[0] != '\0'))
             writer_key_text(w, of, key, words);
         return;
     }
-    const wt_estimate estimate = number_at(field, keys).estimate;
+    const wt_estimate estimate = member_number(field, keys).estimate;
     if (field->optional && isnan(estimate.value))
         return;
     if (field->kind == SCHEMA_NUMBER || field->form == FORM_ESTIMATE ||
@@ -93,10 +93,10 @@ static void set_shown(table_writer *w, const table_schema *of, const schema_fiel
     }
 }
 
-void writer_keys(table_writer *w, const table_schema *of, const schema_field *fields,
-                 const void *keys)
+void writer_set_keys(table_writer *w, const table_schema *of, const schema_field *fields,
+                     const void *keys)
 {
     for (size_t i = 0; w->status == WT_OK && i < of->n_keys; i++)
         if (fields[i].form != FORM_NONE)
-            set_shown(w, of, &fields[i], (unsigned)i, keys);
+            set_member_key(w, of, &fields[i], (unsigned)i, keys);
 }

@@ -21,15 +21,15 @@
 /* Form of a member: a pointer to a string, or one of the other types. */
 #define SHOWN_FORM(of)                                                                             \
     _Generic(&((shown_row *)NULL)->of, char **                                                         \
-             : FORM_WORDS, default                                                                 \
+             : FORM_TEXT, default                                                                 \
              : _Generic(((shown_row *)NULL)->of, double                                                \
                         : FORM_NUMBER, size_t                                                      \
                         : FORM_COUNT, bool                                                         \
                         : FORM_YES_NO, wt_estimate                                                 \
                         : FORM_ESTIMATE, wt_interval                                               \
                         : FORM_INTERVAL, const char *                                              \
-                        : FORM_WORDS, char *                                                       \
-                        : FORM_LETTERS))
+                        : FORM_TEXT, char *                                                       \
+                        : FORM_CHARACTERS))
 #define SHOWS(name) .member = #name, .offset = offsetof(shown_row, name), .form = SHOWN_FORM(name)
 
 #define SHOWN_BY(table, row, FIELDS, add, writer)                                                  \
@@ -45,8 +45,8 @@
         writer(w, &table##_schema, table##_##row##_shows(), from);                                 \
     }
 #define SHOWN_COLUMNS(table, TABLE)                                                                \
-    SHOWN_BY(table, row, TABLE##_COLUMNS(COLUMN), add_row, writer_row)
-#define SHOWN_KEYS(table, TABLE) SHOWN_BY(table, keys, TABLE##_KEYS(KEY), set_keys, writer_keys)
+    SHOWN_BY(table, row, TABLE##_COLUMNS(COLUMN), add_row, writer_add_row)
+#define SHOWN_KEYS(table, TABLE) SHOWN_BY(table, keys, TABLE##_KEYS(KEY), set_keys, writer_set_keys)
 
 /* TABLE_ROW and TABLE_KEYS define the structure with its members; TABLE_ROW_OF and TABLE_KEYS_OF
  * use an existing one. */

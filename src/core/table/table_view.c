@@ -10,8 +10,8 @@ static void advise_producer(const table_schema *schema, wt_error *err)
     wt_error_advice(err, "give the output of `weartrack %s`", schema->made_by);
 }
 
-static wt_status fail_missing(const wt_table *table, const table_schema *schema, const char *what,
-                              const char *name, wt_error *err)
+static wt_status fail_missing_field(const wt_table *table, const table_schema *schema,
+                                    const char *what, const char *name, wt_error *err)
 {
     (void)wt_fail(err, WT_E_MISSING, "table \"%s\" has no %s \"%s\"", wt_table_name(table), what,
                   name);
@@ -45,18 +45,18 @@ wt_status table_bind(const wt_table *table, const table_schema *schema, const ch
         if (view->column[i] >= 0)
             status = check_column(table, schema, (size_t)view->column[i], c, err);
         else if (!c->optional)
-            status = fail_missing(table, schema, "column", c->name, err);
+            status = fail_missing_field(table, schema, "column", c->name, err);
         if (status != WT_OK)
             return status;
     }
     for (size_t i = 0; i < schema->n_keys; i++)
         if (!schema->keys[i].optional && wt_table_key(table, schema->keys[i].name) == NULL)
-            return fail_missing(table, schema, "key", schema->keys[i].name, err);
+            return fail_missing_field(table, schema, "key", schema->keys[i].name, err);
     return WT_OK;
 }
 
-wt_status table_bind_of(const wt_result *result, const table_schema *schema, const char *suffix,
-                        table_view *view, wt_error *err)
+wt_status table_bind_result(const wt_result *result, const table_schema *schema, const char *suffix,
+                            table_view *view, wt_error *err)
 {
     char name[SCHEMA_NAME_SIZE];
     schema_name(schema->name, suffix, name);
@@ -69,26 +69,26 @@ wt_status table_bind_of(const wt_result *result, const table_schema *schema, con
 
 /* Returns the position of a column, -1 if the table lacks it. `of` must be the schema of the
  * view. */
-static long place_of(const table_view *view, const table_schema *of, unsigned column)
+static long column_position(const table_view *view, const table_schema *of, unsigned column)
 {
     assert(view->schema == of && column < of->n_columns);
     return view->schema == of ? view->column[column] : -1;
 }
 
-bool view_has(const table_view *view, const table_schema *of, unsigned column)
+bool view_has_column(const table_view *view, const table_schema *of, unsigned column)
 {
-    return place_of(view, of, column) >= 0;
+    return column_position(view, of, column) >= 0;
 }
 
 double view_number(const table_view *view, const table_schema *of, size_t row, unsigned column)
 {
-    const long place = place_of(view, of, column);
+    const long place = column_position(view, of, column);
     return place < 0 ? (double)NAN : wt_table_number(view->table, row, (size_t)place);
 }
 
 const char *view_text(const table_view *view, const table_schema *of, size_t row, unsigned column)
 {
-    const long place = place_of(view, of, column);
+    const long place = column_position(view, of, column);
     return place < 0 ? "" : wt_table_text(view->table, row, (size_t)place);
 }
 

@@ -11,7 +11,7 @@ typedef struct table_view {
     const table_schema *schema;
     const char *suffix; /* of names that end in '/' or '_'; borrowed */
     size_t n_rows;
-    long column[SCHEMA_MOST]; /* positions of the columns; -1 if the table lacks the column */
+    long column[SCHEMA_FIELDS_MAX]; /* positions of the columns; -1 if the table lacks the column */
 } table_view;
 
 /* Binds a table to a schema. WT_E_MISSING names the table and the column or key; WT_E_UNIT reports
@@ -19,12 +19,12 @@ typedef struct table_view {
 wt_status table_bind(const wt_table *table, const table_schema *schema, const char *suffix,
                      table_view *view, wt_error *err) WT_NODISCARD;
 /* Binds the table of the schema in a result; the view has no table if the result lacks it. */
-wt_status table_bind_of(const wt_result *result, const table_schema *schema, const char *suffix,
-                        table_view *view, wt_error *err) WT_NODISCARD;
+wt_status table_bind_result(const wt_result *result, const table_schema *schema, const char *suffix,
+                            table_view *view, wt_error *err) WT_NODISCARD;
 
 /* ---- called by core/table/registry.h --------------------------------------------------------- */
 
-bool view_has(const table_view *view, const table_schema *of, unsigned column);
+bool view_has_column(const table_view *view, const table_schema *of, unsigned column);
 /* Return a cell; NaN or "" if an optional column is missing. */
 double view_number(const table_view *view, const table_schema *of, size_t row, unsigned column);
 const char *view_text(const table_view *view, const table_schema *of, size_t row, unsigned column);

@@ -3,7 +3,7 @@
 
 #include "core/base/clocale.h"
 
-static void add_columns(table_writer *w, const schema_field *columns)
+static void add_schema_columns(table_writer *w, const schema_field *columns)
 {
     for (size_t i = 0, n = 0; w->status == WT_OK && i < w->schema->n_columns; i++) {
         const schema_field *const c = &columns[i];
@@ -17,18 +17,18 @@ static void add_columns(table_writer *w, const schema_field *columns)
     }
 }
 
-table_writer table_begin_variant(const table_schema *schema, table_variant own, wt_error *err)
+table_writer table_begin_variant(const table_schema *schema, table_variant variant, wt_error *err)
 {
     char name[SCHEMA_NAME_SIZE];
     table_writer w = {.schema = schema,
-                      .suffix = own.suffix != NULL ? own.suffix : "",
+                      .suffix = variant.suffix != NULL ? variant.suffix : "",
                       .err = err,
-                      .left_out = own.left_out};
-    schema_name(own.name != NULL ? own.name : schema->name, w.suffix, name);
-    w.table = wt_table_new(name, own.title != NULL ? own.title : schema->title);
+                      .left_out = variant.left_out};
+    schema_name(variant.name != NULL ? variant.name : schema->name, w.suffix, name);
+    w.table = wt_table_new(name, variant.title != NULL ? variant.title : schema->title);
     if (w.table == NULL)
         w.status = wt_fail(err, WT_E_MEMORY, "out of memory");
-    add_columns(&w, own.columns != NULL ? own.columns : schema->columns);
+    add_schema_columns(&w, variant.columns != NULL ? variant.columns : schema->columns);
     return w;
 }
 
@@ -57,24 +57,24 @@ table_writer table_continue(wt_table *table, const table_schema *schema, const c
 }
 
 /* Reports an error of the program, not of its user. */
-static void fail_column(table_writer *w, const char *name, const char *what)
+static void fail_schema_field(table_writer *w, const char *name, const char *what)
 {
     w->status =
         wt_fail(w->err, WT_E_INTERNAL, "table \"%s\": \"%s\" %s", w->schema->name, name, what);
 }
 
-static void check_row(table_writer *w)
+static void check_last_row(table_writer *w)
 {
     if (w->status != WT_OK || wt_table_n_rows(w->table) == 0)
         return;
     for (size_t i = 0; w->status == WT_OK && i < w->schema->n_columns; i++)
         if (!((w->row | w->left_out) & SCHEMA_BIT(i)) && !w->schema->columns[i].sparse)
-            fail_column(w, w->schema->columns[i].name, "was not put in a row");
+            fail_schema_field(w, w->schema->columns[i].name, "was not put in a row");
 }
 
 void table_row(table_writer *w)
 {
-    check_row(w);
+    check_last_row(w);
     if (w->status == WT_OK)
         w->status = wt_table_add_row(w->table, w->err);
     w->row = 0;
@@ -88,10 +88,10 @@ void table_block(table_writer *w)
 
 wt_status table_end(table_writer *w, wt_table **table)
 {
-    check_row(w);
+    check_last_row(w);
     for (size_t i = 0; !w->continued && w->status == WT_OK && i < w->schema->n_keys; i++)
         if (!(w->keys & SCHEMA_BIT(i)) && !w->schema->keys[i].optional)
-            fail_column(w, w->schema->keys[i].name, "was not set");
+            fail_schema_field(w, w->schema->keys[i].name, "was not set");
     if (!w->continued && w->status != WT_OK) {
         wt_table_free(w->table);
         w->table = NULL;
@@ -104,17 +104,17 @@ wt_status table_end(table_writer *w, wt_table **table)
 /* ---- cells and keys -------------------------------------------------------------------------- */
 
 /* Returns true if the cell can be set, and marks it as set. */
-static bool takes_cell(table_writer *w, const table_schema *of, unsigned column, bool text)
+static bool accepts_cell(table_writer *w, const table_schema *of, unsigned column, bool text)
 {
     if (w->status != WT_OK)
         return false;
     if (w->schema != of || column >= w->schema->n_columns || (w->left_out & SCHEMA_BIT(column)) ||
         (w->schema->columns[column].kind == SCHEMA_TEXT) != text) {
-        fail_column(w, of->name, "has no such column");
+        fail_schema_field(w, of->name, "has no such column");
         return false;
     }
     if (w->row & SCHEMA_BIT(column)) {
-        fail_column(w, of->columns[column].name, "was put twice in a row");
+        fail_schema_field(w, of->columns[column].name, "was put twice in a row");
         return false;
     }
     w->row |= SCHEMA_BIT(column);
@@ -123,23 +123,23 @@ static bool takes_cell(table_writer *w, const table_schema *of, unsigned column,
 
 void writer_number(table_writer *w, const table_schema *of, unsigned column, double value)
 {
-    if (takes_cell(w, of, column, false))
-        wt_table_put(w->table, w->column[column], value);
+    if (accepts_cell(w, of, column, false))
+        wt_table_set_number(w->table, w->column[column], value);
 }
 
 void writer_text(table_writer *w, const table_schema *of, unsigned column, const char *text)
 {
-    if (takes_cell(w, of, column, true))
-        w->status = wt_table_put_text(w->table, w->column[column], text, w->err);
+    if (accepts_cell(w, of, column, true))
+        w->status = wt_table_set_text(w->table, w->column[column], text, w->err);
 }
 
-static bool takes_key(table_writer *w, const table_schema *of, unsigned key,
-                      char name[SCHEMA_NAME_SIZE])
+static bool accepts_key(table_writer *w, const table_schema *of, unsigned key,
+                        char name[SCHEMA_NAME_SIZE])
 {
     if (w->status != WT_OK)
         return false;
     if (w->schema != of || key >= w->schema->n_keys) {
-        fail_column(w, of->name, "has no such key");
+        fail_schema_field(w, of->name, "has no such key");
         return false;
     }
     w->keys |= SCHEMA_BIT(key);
@@ -150,7 +150,7 @@ static bool takes_key(table_writer *w, const table_schema *of, unsigned key,
 void writer_key(table_writer *w, const table_schema *of, unsigned key, wt_estimate estimate)
 {
     char name[SCHEMA_NAME_SIZE];
-    if (!takes_key(w, of, key, name))
+    if (!accepts_key(w, of, key, name))
         return;
     estimate.unit = schema_unit(&of->keys[key]);
     w->status = wt_table_set_estimate(w->table, name, estimate, w->err);
@@ -159,7 +159,7 @@ void writer_key(table_writer *w, const table_schema *of, unsigned key, wt_estima
 void writer_key_text(table_writer *w, const table_schema *of, unsigned key, const char *text)
 {
     char name[SCHEMA_NAME_SIZE];
-    if (takes_key(w, of, key, name))
+    if (accepts_key(w, of, key, name))
         w->status = wt_table_set_key(w->table, name, text, w->err);
 }
 

@@ -16,8 +16,8 @@ typedef struct table_writer {
     bool continued; /* the table belongs to the caller */
     wt_status status;
     wt_error *err;
-    uint64_t left_out, row, keys; /* excluded columns, columns set in the last row, keys set */
-    size_t column[SCHEMA_MOST];   /* positions of the columns in the table */
+    uint64_t left_out, row, keys;     /* excluded columns, columns set in the last row, keys set */
+    size_t column[SCHEMA_FIELDS_MAX]; /* positions of the columns in the table */
 } table_writer;
 
 /* Deviations of a table from its schema; 0 and NULL for none. */
@@ -30,7 +30,7 @@ typedef struct table_variant {
 
 /* Create a new table. */
 table_writer table_begin(const table_schema *schema, wt_error *err);
-table_writer table_begin_variant(const table_schema *schema, table_variant own, wt_error *err);
+table_writer table_begin_variant(const table_schema *schema, table_variant variant, wt_error *err);
 /* Continues a table that was created with this schema. */
 table_writer table_continue(wt_table *table, const table_schema *schema, const char *suffix,
                             wt_error *err);
@@ -46,10 +46,10 @@ void writer_number(table_writer *writer, const table_schema *of, unsigned column
 void writer_text(table_writer *writer, const table_schema *of, unsigned column, const char *text);
 /* Set a row or the keys from a structure. `fields` are the fields of `of` with forms and
  * offsets. */
-void writer_row(table_writer *writer, const table_schema *of, const schema_field *fields,
-                const void *row);
-void writer_keys(table_writer *writer, const table_schema *of, const schema_field *fields,
-                 const void *keys);
+void writer_add_row(table_writer *writer, const table_schema *of, const schema_field *fields,
+                    const void *row);
+void writer_set_keys(table_writer *writer, const table_schema *of, const schema_field *fields,
+                     const void *keys);
 void writer_key(table_writer *writer, const table_schema *of, unsigned key, wt_estimate estimate);
 void writer_key_text(table_writer *writer, const table_schema *of, unsigned key, const char *text);
 void writer_key_print(table_writer *writer, const table_schema *of, unsigned key,

@@ -21,9 +21,9 @@ wt_status material_check_value(const char *name, double value, const char *expec
     return range_error(full, value, expected, err);
 }
 
-wt_status material_wrap(const wt_material_law *law, void *data, double poisson_ratio,
-                        double frequency_min, double frequency_max, wt_material **material,
-                        wt_error *err)
+wt_status material_create(const wt_material_law *law, void *data, double poisson_ratio,
+                          double frequency_min, double frequency_max, wt_material **material,
+                          wt_error *err)
 {
     wt_material *made = malloc(sizeof *made);
     if (made == NULL) {

@@ -20,15 +20,15 @@ wt_status material_check_value(const char *name, double value, const char *expec
                                wt_error *err) WT_NODISCARD;
 /* Creates a material that owns `data`. On failure it frees `data`. NaN as a frequency limit
  * [rad/s] means unlimited. */
-wt_status material_wrap(const wt_material_law *law, void *data, double poisson_ratio,
-                        double frequency_min, double frequency_max, wt_material **material,
-                        wt_error *err) WT_NODISCARD;
+wt_status material_create(const wt_material_law *law, void *data, double poisson_ratio,
+                          double frequency_min, double frequency_max, wt_material **material,
+                          wt_error *err) WT_NODISCARD;
 /* Implements `free` for a law whose data are one block of memory. */
 void material_free_data(wt_material *material);
 
 /* Limits of a modulus [Pa]. Within them its square neither overflows nor underflows a double. */
-#define MODULUS_LEAST 1e-150
-#define MODULUS_MOST 1e150
+#define MODULUS_MIN 1e-150
+#define MODULUS_MAX 1e150
 #define MODULUS_RANGE "from 1e-150 to 1e150 Pa"
 
 #endif

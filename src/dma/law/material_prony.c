@@ -19,8 +19,8 @@ typedef struct prony_data {
 /* Adds one term at n frequencies below prony_square_limit. The loop has no branch and
  * vectorises. */
 WIDE_REGISTERS
-static void add_moduli(const double *restrict omega, size_t n, double modulus, double tau,
-                       double *restrict storage, double *restrict loss)
+static void add_term_moduli(const double *restrict omega, size_t n, double modulus, double tau,
+                            double *restrict storage, double *restrict loss)
 {
     for (size_t i = 0; i < n; i++) {
         const double z = omega[i] * tau, b = modulus * (z / (1 + z * z));
@@ -29,7 +29,7 @@ static void add_moduli(const double *restrict omega, size_t n, double modulus, d
     }
 }
 
-static double highest_of(const double *omega, size_t n)
+static double highest_frequency(const double *omega, size_t n)
 {
     double highest = 0;
     for (size_t i = 0; i < n; i++)
@@ -45,23 +45,23 @@ static void prony_modulus(const wt_material *material, const double *omega, size
         storage[i] = d->equilibrium;
         loss[i] = 0;
     }
-    const double highest = highest_of(omega, n);
+    const double highest = highest_frequency(omega, n);
     for (size_t k = 0; k < d->n; k++) {
         const double e = d->modulus[k];
         const double tau = d->relaxation_time[k];
         if (highest * tau < prony_square_limit)
-            add_moduli(omega, n, e, tau, storage, loss);
+            add_term_moduli(omega, n, e, tau, storage, loss);
         else
             for (size_t i = 0; i < n; i++)
-                prony_add(e, tau, omega[i], &storage[i], &loss[i]);
+                prony_add_term(e, tau, omega[i], &storage[i], &loss[i]);
     }
 }
 
 /* Adds one term to J1 and J2. Friction spends most of its time in this loop. Below the limit it
  * has no branch and vectorises. */
 WIDE_REGISTERS
-static void add_term(const double *restrict omega, size_t n, double modulus, double tau,
-                     double weight, double *restrict j1, double *restrict j2)
+static void add_angular_term(const double *restrict omega, size_t n, double modulus, double tau,
+                             double weight, double *restrict j1, double *restrict j2)
 {
     for (size_t i = 0; i < n; i++) {
         const double a = omega[i] * tau;
@@ -72,12 +72,12 @@ static void add_term(const double *restrict omega, size_t n, double modulus, dou
     }
 }
 
-static void add_term_beyond(const double *omega, size_t n, double modulus, double tau,
-                            double weight, double *j1, double *j2)
+static void add_angular_term_checked(const double *omega, size_t n, double modulus, double tau,
+                                     double weight, double *j1, double *j2)
 {
     for (size_t i = 0; i < n; i++)
         if (omega[i] * tau < prony_square_limit) {
-            add_term(&omega[i], 1, modulus, tau, weight, &j1[i], &j2[i]);
+            add_angular_term(&omega[i], 1, modulus, tau, weight, &j1[i], &j2[i]);
         } else {
             j1[i] += modulus / omega[i] / tau;
             j2[i] += weight;
@@ -93,7 +93,7 @@ static void prony_angular(const wt_material *material, const double *restrict om
 {
     const prony_data *d = material->data;
     const double base = d->equilibrium * d->equilibrium;
-    const double highest = highest_of(omega, n);
+    const double highest = highest_frequency(omega, n);
     for (size_t i = 0; i < n; i++) {
         j1[i] = 0;
         j2[i] = base;
@@ -101,9 +101,9 @@ static void prony_angular(const wt_material *material, const double *restrict om
     for (size_t k = 0; k < d->n; k++) {
         const double tau = d->relaxation_time[k];
         if (highest * tau < prony_square_limit)
-            add_term(omega, n, d->modulus[k], tau, d->weight[k], j1, j2);
+            add_angular_term(omega, n, d->modulus[k], tau, d->weight[k], j1, j2);
         else
-            add_term_beyond(omega, n, d->modulus[k], tau, d->weight[k], j1, j2);
+            add_angular_term_checked(omega, n, d->modulus[k], tau, d->weight[k], j1, j2);
     }
     const double two_pi = 2 * M_PI;
     for (size_t i = 0; i < n; i++) {
@@ -113,7 +113,8 @@ static void prony_angular(const wt_material *material, const double *restrict om
 }
 
 /* Computes sqrt(1 + a^2) and E a / sqrt(1 + a^2) for a = omega tau. */
-static void loss_parts(double omega, double modulus, double tau, double *root, double *height)
+static void loss_root_and_height(double omega, double modulus, double tau, double *root,
+                                 double *height)
 {
     const double a = omega * tau;
     const bool square = a < prony_square_limit;
@@ -125,8 +126,8 @@ enum { LOSS_BLOCK = 64 }; /* terms in one pass; their arrays fit on the stack */
 
 /* Adds h_j / (R_j + R_k) to the sums of the terms k of a block. */
 WIDE_REGISTERS
-static void add_pairs(double root, double height, const double *restrict roots, size_t n,
-                      double *restrict sums)
+static void add_pair_sums(double root, double height, const double *restrict roots, size_t n,
+                          double *restrict sums)
 {
     for (size_t k = 0; k < n; k++)
         sums[k] += height / (root + roots[k]);
@@ -143,12 +144,13 @@ static void prony_angular_loss(const wt_material *material, const double *omega,
             const size_t count = d->n - from < LOSS_BLOCK ? d->n - from : LOSS_BLOCK;
             double roots[LOSS_BLOCK], heights[LOSS_BLOCK], sums[LOSS_BLOCK] = {0};
             for (size_t k = 0; k < count; k++)
-                loss_parts(omega[i], d->modulus[from + k], d->relaxation_time[from + k], &roots[k],
-                           &heights[k]);
+                loss_root_and_height(omega[i], d->modulus[from + k], d->relaxation_time[from + k],
+                                     &roots[k], &heights[k]);
             for (size_t j = 0; j < d->n; j++) {
                 double root, height;
-                loss_parts(omega[i], d->modulus[j], d->relaxation_time[j], &root, &height);
-                add_pairs(root, height, roots, count, sums);
+                loss_root_and_height(omega[i], d->modulus[j], d->relaxation_time[j], &root,
+                                     &height);
+                add_pair_sums(root, height, roots, count, sums);
             }
             for (size_t k = 0; k < count; k++)
                 j2[i] += heights[k] * sums[k];
@@ -191,7 +193,7 @@ static wt_status prony_check(const wt_prony *prony, wt_error *err)
     }
     if (status == WT_OK)
         status = material_check_value("glass modulus (the sum of all moduli)", sum, MODULUS_RANGE,
-                                      sum >= MODULUS_LEAST && sum <= MODULUS_MOST, err);
+                                      sum >= MODULUS_MIN && sum <= MODULUS_MAX, err);
     return status;
 }
 
@@ -227,6 +229,6 @@ wt_status wt_material_prony(const wt_prony *prony, double poisson_ratio, wt_mate
             v += d->modulus[j] / (1 + tau / d->relaxation_time[j]);
         d->weight[k] = 2 * d->modulus[k] * v;
     }
-    return material_wrap(&prony_law, d, poisson_ratio, prony->frequency_min, prony->frequency_max,
-                         material, err);
+    return material_create(&prony_law, d, poisson_ratio, prony->frequency_min, prony->frequency_max,
+                           material, err);
 }

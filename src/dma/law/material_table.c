@@ -21,8 +21,8 @@ typedef struct table_data {
 } table_data;
 
 /* Computes ln E' and ln E''. They are limited to 700, so that e^x stays finite. */
-static void table_logs(const table_data *d, const double *omega, size_t n, double *storage,
-                       double *loss)
+static void table_log_moduli(const table_data *d, const double *omega, size_t n, double *storage,
+                             double *loss)
 {
     const double most = 700;
     const size_t ends[] = {0, d->n - 1};
@@ -59,9 +59,9 @@ static void table_modulus(const wt_material *material, const double *omega, size
     double logs[2][BATCH];
     for (size_t from = 0; from < n; from += BATCH) {
         const size_t left = n - from < BATCH ? n - from : BATCH;
-        table_logs(material->data, omega + from, left, logs[0], logs[1]);
-        exponential(logs[0], left, storage + from);
-        exponential(logs[1], left, loss + from);
+        table_log_moduli(material->data, omega + from, left, logs[0], logs[1]);
+        vector_exp(logs[0], left, storage + from);
+        vector_exp(logs[1], left, loss + from);
     }
 }
 
@@ -88,12 +88,12 @@ static wt_status table_check(const double *omega, const double *storage, const d
             material_check_value("angular frequency", omega[i], "finite, > 0 rad/s and rising",
                                  omega[i] > (i ? omega[i - 1] : 0), err);
         if (status == WT_OK)
-            status = material_check_value("storage modulus", storage[i], MODULUS_RANGE,
-                                          storage[i] >= MODULUS_LEAST && storage[i] <= MODULUS_MOST,
-                                          err);
+            status =
+                material_check_value("storage modulus", storage[i], MODULUS_RANGE,
+                                     storage[i] >= MODULUS_MIN && storage[i] <= MODULUS_MAX, err);
         if (status == WT_OK)
             status = material_check_value("loss modulus", loss[i], MODULUS_RANGE,
-                                          loss[i] >= MODULUS_LEAST && loss[i] <= MODULUS_MOST, err);
+                                          loss[i] >= MODULUS_MIN && loss[i] <= MODULUS_MAX, err);
         if (status != WT_OK) {
             wt_error_place(err, "knot %zu of %zu", i + 1, n);
             return status;
@@ -104,7 +104,7 @@ static wt_status table_check(const double *omega, const double *storage, const d
 
 /* Computes the end slopes from ratios. Differences of logarithms lose digits, which matters far
  * outside the knots. */
-static void find_slopes(table_data *d, const double *storage, const double *loss)
+static void find_end_slopes(table_data *d, const double *storage, const double *loss)
 {
     for (size_t end = 0; end < 2; end++) {
         const size_t k = end == 0 ? 0 : d->n - 2;
@@ -116,10 +116,10 @@ static void find_slopes(table_data *d, const double *storage, const double *loss
 
 /* A steeper modulus passes through the whole range of a double within three decades, and its
  * integrals are slow. */
-static const double steepest = 100;
+static const double max_slope = 100;
 
 /* Sliding contributes frequencies down to 0, where |E|^2 must stay integrable over the angle. */
-static wt_status check_slopes(const table_data *d, wt_error *err)
+static wt_status check_end_slopes(const table_data *d, wt_error *err)
 {
     const double low = fmin(d->slope[0][0], d->slope[0][1]);
     double most = 0;
@@ -132,7 +132,7 @@ static wt_status check_slopes(const table_data *d, wt_error *err)
     if (status == WT_OK)
         status = material_check_value("log-log slope of the modulus at an end of a table", most,
                                       "from -100 to 100, so that it can be continued",
-                                      fabs(most) <= steepest, err);
+                                      fabs(most) <= max_slope, err);
     if (status != WT_OK)
         wt_error_advice(err, "hold the end values instead, or leave out the knots at that end");
     return status;
@@ -170,11 +170,11 @@ wt_status wt_material_table(const double *omega, const double *storage, const do
             status =
                 wt_fail(err, WT_E_RANGE,
                         "knots %zu and %zu of a material table are too close together", i, i + 1);
-    find_slopes(d, storage, loss);
+    find_end_slopes(d, storage, loss);
     if (status == WT_OK && extrapolation == WT_EXTRAPOLATE_SLOPE)
-        status = check_slopes(d, err);
+        status = check_end_slopes(d, err);
     if (status == WT_OK)
-        return material_wrap(&table_law, d, poisson_ratio, omega[0], omega[n - 1], material, err);
+        return material_create(&table_law, d, poisson_ratio, omega[0], omega[n - 1], material, err);
     free(d);
     return status;
 }

@@ -18,7 +18,7 @@ enum { PLANE, AXIAL, SHEAR, N_MODULI };
 
 typedef struct transverse_data {
     wt_material *law[N_MODULI]; /* entries may share one material */
-    wt_transverse given;
+    wt_transverse parameters;
     double stiffness; /* 2 (1 - nu^2) */
     size_t n_breaks;
     double *breaks; /* breaks of all laws, rising [rad/s] */
@@ -36,30 +36,32 @@ wt_transverse wt_transverse_defaults(void)
                            .axial_poisson = (double)NAN};
 }
 
-#define FACTOR(name, member, limits, words)                                                        \
+#define MODULUS_FACTOR_PARAM(name, member, limits, words)                                          \
     {                                                                                              \
         PARAM(name, wt_transverse, member, WT_Q_NONE, limits), .value = "X", .help = words         \
     }
-#define POISSON(name, member, words)                                                               \
+#define POISSON_PARAM(name, member, words)                                                         \
     {                                                                                              \
         PARAM(name, wt_transverse, member, WT_Q_NONE, BRACED(-1, 1, false, false)),                \
             .value = "NU", .unset = "the Poisson ratio", .help = words                             \
     }
 static const wt_param rows[] = {
-    FACTOR("axial-storage", axial_storage, ABOVE(0),
-           "E' along the surface normal over that of the material"),
-    FACTOR("axial-loss", axial_loss, AT_LEAST(0),
-           "E'' along the surface normal over that of the material"),
-    FACTOR("plane-storage", plane_storage, ABOVE(0),
-           "E' in the plane of the surface over that of the material"),
-    FACTOR("plane-loss", plane_loss, AT_LEAST(0),
-           "E'' in the plane of the surface over that of the material"),
-    FACTOR("shear-storage", shear_storage, ABOVE(0),
-           "storage modulus of shear between normal and plane over E' / (2 (1 + nu_p))"),
-    FACTOR("shear-loss", shear_loss, AT_LEAST(0),
-           "loss modulus of shear between normal and plane over E'' / (2 (1 + nu_p))"),
-    POISSON("plane-poisson", plane_poisson,
-            "nu_p: contraction in the plane of the surface under a load in it"),
+    MODULUS_FACTOR_PARAM("axial-storage", axial_storage, ABOVE(0),
+                         "E' along the surface normal over that of the material"),
+    MODULUS_FACTOR_PARAM("axial-loss", axial_loss, AT_LEAST(0),
+                         "E'' along the surface normal over that of the material"),
+    MODULUS_FACTOR_PARAM("plane-storage", plane_storage, ABOVE(0),
+                         "E' in the plane of the surface over that of the material"),
+    MODULUS_FACTOR_PARAM("plane-loss", plane_loss, AT_LEAST(0),
+                         "E'' in the plane of the surface over that of the material"),
+    MODULUS_FACTOR_PARAM(
+        "shear-storage", shear_storage, ABOVE(0),
+        "storage modulus of shear between normal and plane over E' / (2 (1 + nu_p))"),
+    MODULUS_FACTOR_PARAM(
+        "shear-loss", shear_loss, AT_LEAST(0),
+        "loss modulus of shear between normal and plane over E'' / (2 (1 + nu_p))"),
+    POISSON_PARAM("plane-poisson", plane_poisson,
+                  "nu_p: contraction in the plane of the surface under a load in it"),
     {PARAM("axial-poisson", wt_transverse, axial_poisson, WT_Q_NONE, ANY_NUMBER), .value = "NU",
      .unset = "the Poisson ratio",
      .help = "nu_zp: contraction in the plane of the surface under a load along its normal"},
@@ -96,7 +98,7 @@ double complex transverse_compliance(const transverse_moduli *m)
     return csqrt(axial_compliance(m)) * csqrt(1 / m->shear + 2 * volume_compliance(m, &scale));
 }
 
-static double complex complex_of(double real, double imaginary)
+static double complex complex_number(double real, double imaginary)
 {
     const double parts[2] = {real, imaginary};
     double complex z;
@@ -107,9 +109,10 @@ static double complex complex_of(double real, double imaginary)
 /* Number of frequencies in one pass; they fit in the first cache. */
 enum { CHUNK = 32 };
 
-static void moduli_at(const transverse_data *d, const double *omega, size_t n, transverse_moduli *m)
+static void directional_moduli(const transverse_data *d, const double *omega, size_t n,
+                               transverse_moduli *m)
 {
-    const wt_transverse *t = &d->given;
+    const wt_transverse *t = &d->parameters;
     const double factor[N_MODULI][2] = {
         [PLANE] = {t->plane_storage, t->plane_loss},
         [AXIAL] = {t->axial_storage, t->axial_loss},
@@ -122,8 +125,8 @@ static void moduli_at(const transverse_data *d, const double *omega, size_t n, t
             d->law[k]->law->modulus(d->law[k], omega, n, storage, loss);
         const double scale = k == SHEAR ? to_shear : 1;
         for (size_t i = 0; i < n; i++) {
-            const double complex e =
-                complex_of(scale * (factor[k][0] * storage[i]), scale * (factor[k][1] * loss[i]));
+            const double complex e = complex_number(scale * (factor[k][0] * storage[i]),
+                                                    scale * (factor[k][1] * loss[i]));
             *(k == PLANE ? &m[i].plane : k == AXIAL ? &m[i].axial : &m[i].shear) = e;
             m[i].plane_poisson = t->plane_poisson;
             m[i].axial_poisson = t->axial_poisson;
@@ -138,7 +141,7 @@ static void transverse_modulus(const wt_material *material, const double *omega,
     transverse_moduli m[CHUNK];
     for (size_t from = 0; from < n; from += CHUNK) {
         const size_t count = n - from < CHUNK ? n - from : CHUNK;
-        moduli_at(d, omega + from, count, m);
+        directional_moduli(d, omega + from, count, m);
         for (size_t i = 0; i < count; i++) {
             const double complex e = d->stiffness / transverse_compliance(&m[i]);
             const bool liquid = isnan(creal(e)); /* a modulus is 0 */
@@ -161,8 +164,8 @@ static const double *transverse_breaks(const wt_material *material, size_t *n)
  * 1000 times the rounding error and far below the accuracy of a modulus. */
 static const double slack = 1e-12;
 
-static wt_status fail_moduli(const transverse_moduli *m, double omega, const char *what,
-                             const char *expected, wt_error *err)
+static wt_status fail_unphysical_moduli(const transverse_moduli *m, double omega, const char *what,
+                                        const char *expected, wt_error *err)
 {
     wt_fail(err, WT_E_RANGE, "the transversely isotropic material is %s at %.3g rad/s", what,
             omega);
@@ -177,10 +180,11 @@ static wt_status fail_moduli(const transverse_moduli *m, double omega, const cha
 }
 
 /* Checks the moduli at one frequency. *passive: false if some load would gain energy. */
-static wt_status check_at(const transverse_data *d, double omega, bool *passive, wt_error *err)
+static wt_status check_frequency(const transverse_data *d, double omega, bool *passive,
+                                 wt_error *err)
 {
     transverse_moduli m;
-    moduli_at(d, &omega, 1, &m);
+    directional_moduli(d, &omega, 1, &m);
     double scale;
     const double complex plane = 1 / m.plane, axial = 1 / m.axial,
                          sum = 1 / m.shear + 2 * volume_compliance(&m, &scale);
@@ -189,14 +193,16 @@ static wt_status check_at(const transverse_data *d, double omega, bool *passive,
     if (!isfinite(creal(sum)) || !isfinite(cimag(sum)))
         return WT_OK; /* the solid is a liquid at rest */
     if (share * creal(axial) > (1 + slack) * rest * creal(plane))
-        return fail_moduli(&m, omega, "unstable", "2 nu_zp^2 Re(1/Ez) <= (1 - nu_p) Re(1/Ep)", err);
+        return fail_unphysical_moduli(&m, omega, "unstable",
+                                      "2 nu_zp^2 Re(1/Ez) <= (1 - nu_p) Re(1/Ep)", err);
     if (8 * DBL_EPSILON * scale > slack * cabs(sum))
-        return fail_moduli(
+        return fail_unphysical_moduli(
             &m, omega, "incompressible and too stiff in shear, so singular",
             "a modulus of shear of the size of the others, or smaller Poisson ratios", err);
     *passive = share * -cimag(axial) <= (1 + slack) * rest * -cimag(plane);
     if (cimag(transverse_compliance(&m)) > 0)
-        return fail_moduli(&m, omega, "a source of energy", "a loss above 0 at the surface", err);
+        return fail_unphysical_moduli(&m, omega, "a source of energy",
+                                      "a loss above 0 at the surface", err);
     return WT_OK;
 }
 
@@ -218,7 +224,7 @@ static wt_status transverse_check(const wt_material *material, double low, doubl
                                         : d->breaks[i - steps - 1];
         bool passive = true;
         if (omega <= high || i <= steps)
-            status = check_at(d, omega, &passive, err);
+            status = check_frequency(d, omega, &passive, err);
         if (!passive) {
             from = fmin(from, omega);
             to = fmax(to, omega);
@@ -237,7 +243,7 @@ static wt_status transverse_check(const wt_material *material, double low, doubl
 
 /* ---- construction ---------------------------------------------------------------------------- */
 
-static void free_laws(wt_material *const *law)
+static void free_distinct_laws(wt_material *const *law)
 {
     for (size_t i = 0; i < N_MODULI; i++) {
         bool freed = false;
@@ -251,7 +257,7 @@ static void free_laws(wt_material *const *law)
 static void transverse_free(wt_material *material)
 {
     transverse_data *d = material->data;
-    free_laws(d->law);
+    free_distinct_laws(d->law);
     free(d->breaks);
     free(d);
 }
@@ -264,7 +270,7 @@ static const wt_material_law transverse_law = {
     .free = transverse_free,
 };
 
-static wt_status join_breaks(transverse_data *d, wt_error *err)
+static wt_status merge_breaks(transverse_data *d, wt_error *err)
 {
     size_t n[N_MODULI] = {0}, all = 0;
     const double *of[N_MODULI] = {NULL};
@@ -289,7 +295,7 @@ static wt_status join_breaks(transverse_data *d, wt_error *err)
 }
 
 /* Intersects the frequency ranges of all laws. The limits are NaN if no law has limits. */
-static void join_range(const transverse_data *d, double *low, double *high)
+static void intersect_ranges(const transverse_data *d, double *low, double *high)
 {
     *low = *high = (double)NAN;
     for (size_t i = 0; i < N_MODULI; i++) {
@@ -301,7 +307,7 @@ static void join_range(const transverse_data *d, double *low, double *high)
 /* Returns true if one law with one Poisson ratio applies in all directions. */
 static bool is_isotropic(const transverse_data *d)
 {
-    const wt_transverse *t = &d->given;
+    const wt_transverse *t = &d->parameters;
     const double factors[] = {t->plane_storage, t->plane_loss,    t->axial_storage,
                               t->axial_loss,    t->shear_storage, t->shear_loss};
     for (size_t i = 0; i < COUNT_OF(factors); i++)
@@ -327,28 +333,28 @@ wt_status wt_material_transverse(wt_material *plane, wt_material *axial, wt_mate
     if (status == WT_OK && (d = calloc(1, sizeof *d)) == NULL)
         status = wt_fail(err, WT_E_MEMORY, "out of memory for a material");
     if (status != WT_OK) {
-        free_laws(law);
+        free_distinct_laws(law);
         return status;
     }
     for (size_t i = 0; i < N_MODULI; i++)
         d->law[i] = law[i];
-    d->given = *transverse;
-    if (isnan(d->given.plane_poisson))
-        d->given.plane_poisson = poisson_ratio;
-    if (isnan(d->given.axial_poisson))
-        d->given.axial_poisson = poisson_ratio;
+    d->parameters = *transverse;
+    if (isnan(d->parameters.plane_poisson))
+        d->parameters.plane_poisson = poisson_ratio;
+    if (isnan(d->parameters.axial_poisson))
+        d->parameters.axial_poisson = poisson_ratio;
     if (is_isotropic(d)) {
-        plane->poisson_ratio = d->given.plane_poisson;
+        plane->poisson_ratio = d->parameters.plane_poisson;
         *material = plane;
         free(d);
         return WT_OK;
     }
     d->stiffness = 2 * (1 - poisson_ratio * poisson_ratio);
     double low, high;
-    join_range(d, &low, &high);
-    status = join_breaks(d, err);
+    intersect_ranges(d, &low, &high);
+    status = merge_breaks(d, err);
     if (status == WT_OK)
-        return material_wrap(&transverse_law, d, poisson_ratio, low, high, material, err);
+        return material_create(&transverse_law, d, poisson_ratio, low, high, material, err);
     transverse_free(&(wt_material){.data = d});
     return status;
 }

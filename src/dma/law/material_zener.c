@@ -45,7 +45,7 @@ wt_status wt_material_fractional_zener(double e0, double eg, double tau, double 
         status = material_check_value("e0", e0, "finite and >= 0 Pa", e0 >= 0, err);
     if (status == WT_OK)
         status = material_check_value("eg", eg, MODULUS_RANGE " and >= e0",
-                                      eg >= MODULUS_LEAST && eg <= MODULUS_MOST && eg >= e0, err);
+                                      eg >= MODULUS_MIN && eg <= MODULUS_MAX && eg >= e0, err);
     if (status == WT_OK)
         status = material_check_value("tau", tau, "finite and > 0 s", tau > 0, err);
     if (status == WT_OK)
@@ -62,5 +62,5 @@ wt_status wt_material_fractional_zener(double e0, double eg, double tau, double 
     d->alpha = alpha;
     d->cosine = alpha < 1 ? cos(alpha * M_PI_2) : 0;
     d->sine = sin(alpha * M_PI_2);
-    return material_wrap(&zener_law, d, poisson_ratio, (double)NAN, (double)NAN, material, err);
+    return material_create(&zener_law, d, poisson_ratio, (double)NAN, (double)NAN, material, err);
 }

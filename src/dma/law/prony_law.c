@@ -6,5 +6,5 @@ void prony_moduli(const wt_prony *series, double omega, double *storage, double 
     *storage = series->equilibrium_modulus;
     *loss = 0;
     for (size_t i = 0; i < series->n; i++)
-        prony_add(series->modulus[i], series->relaxation_time[i], omega, storage, loss);
+        prony_add_term(series->modulus[i], series->relaxation_time[i], omega, storage, loss);
 }

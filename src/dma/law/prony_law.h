@@ -11,8 +11,8 @@ static const double prony_square_limit = 1e150;
 
 /* Adds the contribution of one term: E z^2/(1 + z^2) to E' and E z/(1 + z^2) to E''. omega and
  * tau are positive or 0. */
-static inline void prony_add(double modulus, double relaxation_time, double omega, double *storage,
-                             double *loss)
+static inline void prony_add_term(double modulus, double relaxation_time, double omega,
+                                  double *storage, double *loss)
 {
     const double z = omega * relaxation_time;
     const bool square = z < prony_square_limit;

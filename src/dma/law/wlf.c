@@ -33,7 +33,7 @@ double wt_shift_law_log_a(const wt_shift_law *law, double temperature)
         return wt_wlf_log_shift(&law->wlf, temperature);
     case WT_LAW_ARRHENIUS:
         return wt_arrhenius_log_shift(law->activation_energy, reference, temperature);
-    case WT_LAW_JOINED:
+    case WT_LAW_WLF_ARRHENIUS:
         return wt_wlf_log_shift(&law->wlf, fmax(temperature, law->joint)) -
                wt_wlf_log_shift(&law->wlf, fmax(reference, law->joint)) +
                wt_arrhenius_log_shift(law->activation_energy, fmin(reference, law->joint),

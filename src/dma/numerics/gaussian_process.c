@@ -16,19 +16,19 @@
 #include <math.h>
 #include <string.h>
 
-enum { PARABOLA = SMOOTH_PARABOLA };
+enum { PARABOLA = GP_PARABOLA_TERMS };
 /* Correlation lengths of the departure, relative to half the range. They extend from a quarter
  * (below it the curve has as many slope changes as 15 points) to more than the range. Ratios of
  * its variance to the noise variance of a point extend from what ten points resolve to exact
  * data. The steps are so small that the weights change little between neighbours. */
 static const double lengths[] = {0.25, 0.4, 0.6, 1.0, 1.6, 2.5};
 static const double ratios[] = {1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8};
-enum { WAYS = COUNT_OF(lengths) * COUNT_OF(ratios) };
+enum { MAX_COMPONENTS = COUNT_OF(lengths) * COUNT_OF(ratios) };
 /* Halvings of an interval of about one standard error: to 1e-12 of it. */
 enum { HALVINGS = 40 };
 /* Components below this weight relative to the best one are dropped. All 48 together then weigh
  * less than a twentieth, which changes no shown digit. */
-static const double counts_for_nothing = 1e-3;
+static const double negligible_weight = 1e-3;
 
 /* One component of the mixture: a correlation length and a variance ratio. */
 typedef struct gp_hyperparameters {
@@ -42,32 +42,32 @@ typedef struct gp_hyperparameters {
 } gp_hyperparameters;
 
 /* Computes the powers of x or their derivatives. */
-static void parabola_powers(double x, smooth_order order, double p[PARABOLA])
+static void parabola_powers(double x, gp_order order, double p[PARABOLA])
 {
-    p[0] = order == SMOOTH_VALUE ? 1 : 0;
-    p[1] = order == SMOOTH_VALUE ? x : 1;
-    p[2] = order == SMOOTH_VALUE ? x * x : 2 * x;
+    p[0] = order == GP_VALUE ? 1 : 0;
+    p[1] = order == GP_VALUE ? x : 1;
+    p[2] = order == GP_VALUE ? x * x : 2 * x;
 }
 
 /* Returns the covariance of the departure at x, or its slope, with the departure at a point. */
-static double departure_covariance(const gp_hyperparameters *w, double x, double at,
-                                   smooth_order order)
+static double gp_departure_covariance(const gp_hyperparameters *w, double x, double at,
+                                      gp_order order)
 {
     const double away = (x - at) / w->length, value = w->ratio * exp(-0.5 * away * away);
-    return order == SMOOTH_VALUE ? value : -away / w->length * value;
+    return order == GP_VALUE ? value : -away / w->length * value;
 }
 
 /* ---- points ---------------------------------------------------------------------------------- */
 
-static wt_status take_points(gaussian_process *s, const double *x, const double *y, size_t n,
-                             wt_error *err)
+static wt_status merge_neighbours(gaussian_process *s, const double *x, const double *y, size_t n,
+                                  wt_error *err)
 {
-    const size_t each = (n + SMOOTH_POINTS - 1) / SMOOTH_POINTS;
+    const size_t each = (n + GP_MAX_POINTS - 1) / GP_MAX_POINTS;
     s->n = (n + each - 1) / each;
     s->x = arena_numbers(&s->memory, s->n);
     s->y = arena_numbers(&s->memory, s->n);
     s->count = arena_numbers(&s->memory, s->n);
-    s->ways = arena_alloc(&s->memory, WAYS, sizeof *s->ways);
+    s->components = arena_alloc(&s->memory, MAX_COMPONENTS, sizeof *s->components);
     if (s->memory.failed)
         return wt_fail(err, WT_E_MEMORY, "no memory for a curve");
     s->centre = 0.5 * (x[0] + x[n - 1]);
@@ -92,7 +92,7 @@ static bool solve_parabola(const gaussian_process *s, gp_hyperparameters *w, gsl
     gsl_vector_view coefficient = gsl_vector_view_array(w->coefficient, PARABOLA);
     for (size_t i = 0; i < s->n; i++) {
         double p[PARABOLA];
-        parabola_powers(s->x[i], SMOOTH_VALUE, p);
+        parabola_powers(s->x[i], GP_VALUE, p);
         for (size_t a = 0; a < PARABOLA; a++)
             for (size_t b = 0; b < PARABOLA; b++)
                 data[a * PARABOLA + b] += p[a] * gsl_matrix_get(w->flat, i, b);
@@ -109,20 +109,20 @@ static bool solve_parabola(const gaussian_process *s, gp_hyperparameters *w, gsl
 
 /* Fits a component with its length and ratio. Returns false if a matrix is singular. powers_y:
  * [n] scratch. */
-static bool fit_way(const gaussian_process *s, gp_hyperparameters *w, gsl_vector *powers_y)
+static bool fit_component(const gaussian_process *s, gp_hyperparameters *w, gsl_vector *powers_y)
 {
     double log_det = 0, squares = 0;
     gsl_vector_set_zero(powers_y);
     for (size_t i = 0; i < s->n; i++)
         for (size_t k = 0; k < s->n; k++)
             gsl_matrix_set(w->root, i, k,
-                           departure_covariance(w, s->x[i], s->x[k], SMOOTH_VALUE) +
+                           gp_departure_covariance(w, s->x[i], s->x[k], GP_VALUE) +
                                (i == k ? 1 / s->count[i] : 0));
     if (gsl_linalg_cholesky_decomp1(w->root) != GSL_SUCCESS)
         return false;
     for (size_t i = 0; i < s->n; i++) {
         double p[PARABOLA];
-        parabola_powers(s->x[i], SMOOTH_VALUE, p);
+        parabola_powers(s->x[i], GP_VALUE, p);
         log_det += 2 * log(gsl_matrix_get(w->root, i, i));
         for (size_t a = 0; a < PARABOLA; a++)
             gsl_matrix_set(w->flat, i, a, p[a]);
@@ -138,7 +138,7 @@ static bool fit_way(const gaussian_process *s, gp_hyperparameters *w, gsl_vector
         return false;
     for (size_t i = 0; i < s->n; i++) {
         double p[PARABOLA], fitted = 0;
-        parabola_powers(s->x[i], SMOOTH_VALUE, p);
+        parabola_powers(s->x[i], GP_VALUE, p);
         for (size_t a = 0; a < PARABOLA; a++)
             fitted += p[a] * w->coefficient[a];
         gsl_vector_set(w->pull, i, s->y[i] - fitted);
@@ -153,9 +153,9 @@ static bool fit_way(const gaussian_process *s, gp_hyperparameters *w, gsl_vector
     return isfinite(w->log_weight);
 }
 
-static gp_hyperparameters *new_way(gaussian_process *s, double length, double ratio)
+static gp_hyperparameters *new_component(gaussian_process *s, double length, double ratio)
 {
-    gp_hyperparameters *w = &s->ways[s->n_ways];
+    gp_hyperparameters *w = &s->components[s->n_components];
     *w = (gp_hyperparameters){.length = length,
                               .ratio = ratio,
                               .root = arena_matrix(&s->memory, s->n, s->n),
@@ -169,34 +169,34 @@ wt_status gaussian_process_new(const double *x, const double *y, size_t n, bool 
 {
     *s = (gaussian_process){.n = 0};
     gsl_quiet();
-    wt_status status = take_points(s, x, y, n, err);
+    wt_status status = merge_neighbours(s, x, y, n, err);
     gsl_vector *scratch = status == WT_OK ? arena_vector(&s->memory, s->n) : NULL;
     double best = -HUGE_VAL, sum = 0;
     for (size_t k = 0; status == WT_OK && k < COUNT_OF(lengths); k++)
         for (size_t r = 0; r < COUNT_OF(ratios); r++) {
             if (parabola && k + r > 0)
                 continue;
-            gp_hyperparameters *w = new_way(s, lengths[k], parabola ? 0 : ratios[r]);
+            gp_hyperparameters *w = new_component(s, lengths[k], parabola ? 0 : ratios[r]);
             if (s->memory.failed)
                 return wt_fail(err, WT_E_MEMORY, "no memory for a curve");
-            if (!fit_way(s, w, scratch))
+            if (!fit_component(s, w, scratch))
                 continue;
             best = fmax(best, w->log_weight);
-            s->n_ways++;
+            s->n_components++;
         }
-    if (status == WT_OK && s->n_ways == 0)
+    if (status == WT_OK && s->n_components == 0)
         status = wt_fail(err, WT_E_CONVERGENCE, "no curve through %zu points", n);
-    const size_t made = s->n_ways;
-    s->n_ways = 0;
+    const size_t made = s->n_components;
+    s->n_components = 0;
     for (size_t i = 0; i < made; i++) {
-        s->ways[i].weight = exp(s->ways[i].log_weight - best);
-        if (s->ways[i].weight < counts_for_nothing)
+        s->components[i].weight = exp(s->components[i].log_weight - best);
+        if (s->components[i].weight < negligible_weight)
             continue;
-        sum += s->ways[i].weight;
-        s->ways[s->n_ways++] = s->ways[i];
+        sum += s->components[i].weight;
+        s->components[s->n_components++] = s->components[i];
     }
-    for (size_t i = 0; i < s->n_ways; i++)
-        s->ways[i].weight /= sum;
+    for (size_t i = 0; i < s->n_components; i++)
+        s->components[i].weight /= sum;
     return status;
 }
 
@@ -209,27 +209,27 @@ void gaussian_process_free(gaussian_process *s)
 /* ---- predictions ----------------------------------------------------------------------------- */
 
 /* Mean of one component, for the scaled x. */
-static double way_mean(const gaussian_process *s, const gp_hyperparameters *w, double x,
-                       smooth_order order)
+static double component_mean(const gaussian_process *s, const gp_hyperparameters *w, double x,
+                             gp_order order)
 {
     double p[PARABOLA], mean = 0;
     parabola_powers(x, order, p);
     for (size_t a = 0; a < PARABOLA; a++)
         mean += p[a] * w->coefficient[a];
     for (size_t i = 0; i < s->n; i++)
-        mean += departure_covariance(w, x, s->x[i], order) * gsl_vector_get(w->pull, i);
+        mean += gp_departure_covariance(w, x, s->x[i], order) * gsl_vector_get(w->pull, i);
     return mean;
 }
 
-static double way_error(const gaussian_process *s, const gp_hyperparameters *w, double x,
-                        smooth_order order)
+static double component_error(const gaussian_process *s, const gp_hyperparameters *w, double x,
+                              gp_order order)
 {
-    double p[PARABOLA], known[SMOOTH_POINTS];
-    double square = order == SMOOTH_VALUE ? w->ratio : w->ratio / (w->length * w->length);
+    double p[PARABOLA], known[GP_MAX_POINTS];
+    double square = order == GP_VALUE ? w->ratio : w->ratio / (w->length * w->length);
     gsl_vector_view column = gsl_vector_view_array(known, s->n);
     parabola_powers(x, order, p);
     for (size_t i = 0; i < s->n; i++) {
-        known[i] = departure_covariance(w, x, s->x[i], order);
+        known[i] = gp_departure_covariance(w, x, s->x[i], order);
         for (size_t a = 0; a < PARABOLA; a++)
             p[a] -= known[i] * gsl_matrix_get(w->flat, i, a);
     }
@@ -243,33 +243,34 @@ static double way_error(const gaussian_process *s, const gp_hyperparameters *w, 
 }
 
 /* Returns the factor from the scaled x to x. */
-static double scale_of(const gaussian_process *s, smooth_order order)
+static double output_scale(const gaussian_process *s, gp_order order)
 {
-    return order == SMOOTH_VALUE ? 1 : 1 / s->half;
+    return order == GP_VALUE ? 1 : 1 / s->half;
 }
 
-double gaussian_process_mean(const gaussian_process *s, double x, smooth_order order)
+double gaussian_process_mean(const gaussian_process *s, double x, gp_order order)
 {
     double mean = 0;
-    for (size_t i = 0; i < s->n_ways; i++)
-        mean += s->ways[i].weight * way_mean(s, &s->ways[i], (x - s->centre) / s->half, order);
-    return mean * scale_of(s, order);
+    for (size_t i = 0; i < s->n_components; i++)
+        mean += s->components[i].weight *
+                component_mean(s, &s->components[i], (x - s->centre) / s->half, order);
+    return mean * output_scale(s, order);
 }
 
 /* Means and errors of all components at one x. */
 typedef struct model_mixture {
     size_t n;
-    double weight[WAYS], mean[WAYS], error[WAYS], freedom;
+    double weight[MAX_COMPONENTS], mean[MAX_COMPONENTS], error[MAX_COMPONENTS], freedom;
 } model_mixture;
 
-static model_mixture opinions_at(const gaussian_process *s, double x, smooth_order order)
+static model_mixture evaluate_components(const gaussian_process *s, double x, gp_order order)
 {
-    model_mixture o = {.n = s->n_ways, .freedom = (double)(s->n - PARABOLA)};
-    const double at = (x - s->centre) / s->half, scale = scale_of(s, order);
+    model_mixture o = {.n = s->n_components, .freedom = (double)(s->n - PARABOLA)};
+    const double at = (x - s->centre) / s->half, scale = output_scale(s, order);
     for (size_t i = 0; i < o.n; i++) {
-        o.weight[i] = s->ways[i].weight;
-        o.mean[i] = scale * way_mean(s, &s->ways[i], at, order);
-        o.error[i] = scale * way_error(s, &s->ways[i], at, order);
+        o.weight[i] = s->components[i].weight;
+        o.mean[i] = scale * component_mean(s, &s->components[i], at, order);
+        o.error[i] = scale * component_error(s, &s->components[i], at, order);
     }
     return o;
 }
@@ -286,62 +287,64 @@ static double probability_below(const model_mixture *o, double limit)
     return probability;
 }
 
-double smooth_below(const gaussian_process *s, double x, smooth_order order, double limit)
+double gaussian_process_probability_below(const gaussian_process *s, double x, gp_order order,
+                                          double limit)
 {
-    const model_mixture o = opinions_at(s, x, order);
+    const model_mixture o = evaluate_components(s, x, order);
     return probability_below(&o, limit);
 }
 
-typedef struct opinion_level {
+typedef struct mixture_level_search {
     const model_mixture *o;
     double probability;
-} opinion_level;
+} mixture_level_search;
 
-static bool less_probable(double x, void *user)
+static bool is_below_level(double x, void *user)
 {
-    const opinion_level *l = user;
+    const mixture_level_search *l = user;
     return probability_below(l->o, x) < l->probability;
 }
 
 /* Finds a quantile. The search starts at `from`, on the other side of the quantile, with steps
  * that double. */
-static double opinion_quantile(const model_mixture *o, double probability, double from, double step)
+static double model_mixture_quantile(const model_mixture *o, double probability, double from,
+                                     double step)
 {
     double other = from + step;
     while (step != 0 && (probability_below(o, other) < probability) == (step > 0) &&
            isfinite(other))
         other += step *= 2;
-    opinion_level l = {o, probability};
+    mixture_level_search l = {o, probability};
     double low = fmin(from, other), high = fmax(from, other);
-    root_halve(less_probable, &l, &low, &high, 0, HALVINGS);
+    root_bisect(is_below_level, &l, &low, &high, 0, HALVINGS);
     return 0.5 * (low + high);
 }
 
-static wt_interval interval_of(const model_mixture *o)
+static wt_interval model_mixture_interval(const model_mixture *o)
 {
     double mean = 0, error = 0;
     for (size_t i = 0; i < o->n; i++) {
         mean += o->weight[i] * o->mean[i];
         error = fmax(error, o->error[i]);
     }
-    const double low = opinion_quantile(o, 0.025, mean, -error),
-                 high = opinion_quantile(o, 0.975, mean, error);
+    const double low = model_mixture_quantile(o, 0.025, mean, -error),
+                 high = model_mixture_quantile(o, 0.975, mean, error);
     return (wt_interval){mean, (high - low) / (2 * NORMAL_95), low, high};
 }
 
 wt_interval gaussian_process_interval(const gaussian_process *s, double x)
 {
-    const model_mixture o = opinions_at(s, x, SMOOTH_VALUE);
-    return interval_of(&o);
+    const model_mixture o = evaluate_components(s, x, GP_VALUE);
+    return model_mixture_interval(&o);
 }
 
 /* ---- statistics of slopes -------------------------------------------------------------------- */
 
 /* Maximum weight of components in which the statistic is undefined: the share outside a 95 %
  * interval. */
-static const double without_number = 0.05;
+static const double max_undefined_share = 0.05;
 
-typedef struct slopes {
+typedef struct slope_workspace {
     const double *x; /* [n] */
     size_t n;
     double *mean, *moved;                /* [n] */
@@ -349,7 +352,7 @@ typedef struct slopes {
     gsl_matrix *covariance, *directions; /* [n][n] */
     gsl_vector *squares;                 /* [n] */
     gsl_eigen_symmv_workspace *eigen;
-} slopes;
+} slope_workspace;
 
 static double slope_covariance(const gp_hyperparameters *w, double x, double y)
 {
@@ -358,15 +361,16 @@ static double slope_covariance(const gp_hyperparameters *w, double x, double y)
 }
 
 /* Finds the principal directions of the slopes of one component and their variances. */
-static bool find_directions(const gaussian_process *s, const gp_hyperparameters *w, slopes *v)
+static bool find_slope_modes(const gaussian_process *s, const gp_hyperparameters *w,
+                             slope_workspace *v)
 {
     for (size_t k = 0; k < v->n; k++) {
         const double at = (v->x[k] - s->centre) / s->half;
         gsl_vector_view column = gsl_matrix_column(v->known, k);
         double p[PARABOLA];
-        parabola_powers(at, SMOOTH_SLOPE, p);
+        parabola_powers(at, GP_SLOPE, p);
         for (size_t i = 0; i < s->n; i++) {
-            const double value = departure_covariance(w, at, s->x[i], SMOOTH_SLOPE);
+            const double value = gp_departure_covariance(w, at, s->x[i], GP_SLOPE);
             gsl_vector_set(&column.vector, i, value);
             for (size_t a = 0; a < PARABOLA; a++)
                 p[a] -= value * gsl_matrix_get(w->flat, i, a);
@@ -376,7 +380,7 @@ static bool find_directions(const gaussian_process *s, const gp_hyperparameters 
         for (size_t j = 0; j < v->n; j++)
             gsl_matrix_set(v->covariance, k, j,
                            slope_covariance(w, at, (v->x[j] - s->centre) / s->half));
-        v->mean[k] = scale_of(s, SMOOTH_SLOPE) * way_mean(s, w, at, SMOOTH_SLOPE);
+        v->mean[k] = output_scale(s, GP_SLOPE) * component_mean(s, w, at, GP_SLOPE);
     }
     gsl_blas_dtrsm(CblasLeft, CblasLower, CblasNoTrans, CblasNonUnit, 1, w->root, v->known);
     gsl_blas_dgemm(CblasTrans, CblasNoTrans, -1, v->known, v->known, 1, v->covariance);
@@ -389,26 +393,28 @@ static bool find_directions(const gaussian_process *s, const gp_hyperparameters 
     return gsl_eigen_symmv(v->covariance, v->squares, v->directions, v->eigen) == GSL_SUCCESS;
 }
 
-static double number_beside(slopes *v, size_t k, double step, gaussian_process_number *number)
+static double shifted_statistic(slope_workspace *v, size_t k, double step,
+                                gaussian_process_statistic *statistic)
 {
     for (size_t i = 0; i < v->n; i++)
         v->moved[i] = v->mean[i] + step * gsl_matrix_get(v->directions, i, k);
-    return number(v->x, v->moved, v->n);
+    return statistic(v->x, v->moved, v->n);
 }
 
 /* Computes the statistic of one component and its error. Returns false if it is undefined. */
-static bool number_of_way(const gaussian_process *s, const gp_hyperparameters *w, slopes *v,
-                          gaussian_process_number *number, double *mean, double *error)
+static bool component_statistic(const gaussian_process *s, const gp_hyperparameters *w,
+                                slope_workspace *v, gaussian_process_statistic *statistic,
+                                double *mean, double *error)
 {
-    if (!find_directions(s, w, v))
+    if (!find_slope_modes(s, w, v))
         return false;
     double sum = 0;
-    *mean = number(v->x, v->mean, v->n);
+    *mean = statistic(v->x, v->mean, v->n);
     for (size_t k = 0; k < v->n && isfinite(*mean); k++) {
-        const double step = scale_of(s, SMOOTH_SLOPE) *
+        const double step = output_scale(s, GP_SLOPE) *
                             sqrt(fmax(gsl_vector_get(v->squares, k), 0) * w->variance),
-                     up = number_beside(v, k, step, number),
-                     down = number_beside(v, k, -step, number),
+                     up = shifted_statistic(v, k, step, statistic),
+                     down = shifted_statistic(v, k, -step, statistic),
                      half = isnan(up)     ? *mean - down
                             : isnan(down) ? up - *mean
                                           : (up - down) / 2;
@@ -418,42 +424,43 @@ static bool number_of_way(const gaussian_process *s, const gp_hyperparameters *w
     return isfinite(*mean) && isfinite(*error);
 }
 
-static wt_status new_slopes(const gaussian_process *s, const double *x, size_t n, arena *memory,
-                            slopes *v, wt_error *err)
+static wt_status slope_workspace_new(const gaussian_process *s, const double *x, size_t n,
+                                     arena *memory, slope_workspace *v, wt_error *err)
 {
-    *v = (slopes){.x = x,
-                  .n = n,
-                  .mean = arena_numbers(memory, n),
-                  .moved = arena_numbers(memory, n),
-                  .known = arena_matrix(memory, s->n, n),
-                  .powers = arena_matrix(memory, n, PARABOLA),
-                  .covariance = arena_matrix(memory, n, n),
-                  .directions = arena_matrix(memory, n, n),
-                  .squares = arena_vector(memory, n)};
+    *v = (slope_workspace){.x = x,
+                           .n = n,
+                           .mean = arena_numbers(memory, n),
+                           .moved = arena_numbers(memory, n),
+                           .known = arena_matrix(memory, s->n, n),
+                           .powers = arena_matrix(memory, n, PARABOLA),
+                           .covariance = arena_matrix(memory, n, n),
+                           .directions = arena_matrix(memory, n, n),
+                           .squares = arena_vector(memory, n)};
     if (memory->failed || (v->eigen = gsl_eigen_symmv_alloc(n)) == NULL)
         return wt_fail(err, WT_E_MEMORY, "no memory for the slopes of a curve");
     return WT_OK;
 }
 
-wt_status smooth_of_slopes(const gaussian_process *s, const double *x, size_t n,
-                           gaussian_process_number *number, wt_interval *interval, wt_error *err)
+wt_status gaussian_process_slope_interval(const gaussian_process *s, const double *x, size_t n,
+                                          gaussian_process_statistic *statistic,
+                                          wt_interval *interval, wt_error *err)
 {
     arena memory = {0};
-    slopes v;
+    slope_workspace v;
     model_mixture o = {.freedom = (double)(s->n - PARABOLA)};
     double sum = 0;
     *interval = (wt_interval){(double)NAN, (double)NAN, (double)NAN, (double)NAN};
-    const wt_status status = new_slopes(s, x, n, &memory, &v, err);
-    for (size_t i = 0; status == WT_OK && i < s->n_ways; i++) {
-        o.weight[o.n] = s->ways[i].weight;
-        if (!number_of_way(s, &s->ways[i], &v, number, &o.mean[o.n], &o.error[o.n]))
+    const wt_status status = slope_workspace_new(s, x, n, &memory, &v, err);
+    for (size_t i = 0; status == WT_OK && i < s->n_components; i++) {
+        o.weight[o.n] = s->components[i].weight;
+        if (!component_statistic(s, &s->components[i], &v, statistic, &o.mean[o.n], &o.error[o.n]))
             continue;
         sum += o.weight[o.n++];
     }
     for (size_t i = 0; i < o.n; i++)
         o.weight[i] /= sum;
-    if (sum >= 1 - without_number)
-        *interval = interval_of(&o);
+    if (sum >= 1 - max_undefined_share)
+        *interval = model_mixture_interval(&o);
     gsl_eigen_symmv_free(v.eigen);
     arena_free(&memory);
     return status;

@@ -10,7 +10,7 @@
 /* Coefficients of the parabola, maximum and minimum number of points. More points are merged,
  * because the time grows with the cube of their number. A mean of neighbours preserves all
  * features wider than the shortest length. The minimum is two more than the coefficients. */
-enum { SMOOTH_PARABOLA = 3, SMOOTH_POINTS = 48, SMOOTH_LEAST = 5 };
+enum { GP_PARABOLA_TERMS = 3, GP_MAX_POINTS = 48, GP_MIN_POINTS = 5 };
 
 struct gp_hyperparameters;
 typedef struct gaussian_process {
@@ -18,29 +18,30 @@ typedef struct gaussian_process {
     size_t n;
     double *x, *y, *count; /* [n] x from -1 to 1; count: number of merged points */
     double centre, half;
-    size_t n_ways;
-    struct gp_hyperparameters *ways;
+    size_t n_components;
+    struct gp_hyperparameters *components;
 } gaussian_process;
 
-typedef enum smooth_order { SMOOTH_VALUE, SMOOTH_SLOPE } smooth_order;
+typedef enum gp_order { GP_VALUE, GP_SLOPE } gp_order;
 
-/* Fits the curve. x is rising and n >= SMOOTH_LEAST. With `parabola` the Gaussian process is
+/* Fits the curve. x is rising and n >= GP_MIN_POINTS. With `parabola` the Gaussian process is
  * omitted. The caller frees s, also on failure. */
 wt_status gaussian_process_new(const double *x, const double *y, size_t n, bool parabola,
                                gaussian_process *s, wt_error *err) WT_NODISCARD;
 void gaussian_process_free(gaussian_process *s);
-double gaussian_process_mean(const gaussian_process *s, double x, smooth_order order);
+double gaussian_process_mean(const gaussian_process *s, double x, gp_order order);
 /* Returns the probability that the curve, or its slope, is below `limit` at x. */
-double smooth_below(const gaussian_process *s, double x, smooth_order order, double limit);
+double gaussian_process_probability_below(const gaussian_process *s, double x, gp_order order,
+                                          double limit);
 wt_interval gaussian_process_interval(const gaussian_process *s, double x);
 
 /* A statistic of the slopes at rising positions, such as the intersection of two tangents. NaN:
  * undefined. */
-typedef double gaussian_process_number(const double *x, const double *slope, size_t n);
+typedef double gaussian_process_statistic(const double *x, const double *slope, size_t n);
 /* Computes the interval of a statistic from the joint distribution of the slopes, to first
  * order. It is NaN if components with more than 5 % of the weight have no value. */
-wt_status smooth_of_slopes(const gaussian_process *s, const double *x, size_t n,
-                           gaussian_process_number *number, wt_interval *interval,
-                           wt_error *err) WT_NODISCARD;
+wt_status gaussian_process_slope_interval(const gaussian_process *s, const double *x, size_t n,
+                                          gaussian_process_statistic *statistic,
+                                          wt_interval *interval, wt_error *err) WT_NODISCARD;
 
 #endif

@@ -20,7 +20,7 @@ typedef struct shift_curve {
     double *x;         /* [n] */
     double *y[MODULI]; /* [n] */
     size_t n_left_out; /* points with a modulus <= 0 */
-    size_t n_together; /* measured points if neighbours were merged; otherwise 0 */
+    size_t n_merged;   /* measured points if neighbours were merged; otherwise 0 */
     bool given;        /* the shift is stated and not fitted */
     double given_a;    /* stated log10 a; only differences to other stated shifts count [decade] */
     bool held;         /* the vertical shift is stated, too */
@@ -29,7 +29,7 @@ typedef struct shift_curve {
 
 /* All isotherms by rising temperature. */
 typedef struct shift_set {
-    wt_shift_by by; /* not WT_BY_MODULI if a modulus is missing */
+    wt_shift_quantity by; /* not WT_SHIFT_MODULI if a modulus is missing */
     wt_loading loading;
     bool used[MODULI]; /* fitted quantities; tan delta takes the place of LOSS */
     size_t n;
@@ -41,11 +41,11 @@ typedef struct shift_set {
  * logarithms. Returns WT_E_RANGE with the isotherm that has too few positive points or a
  * temperature that is not in kelvin. Returns WT_E_MISSING if a modulus was not measured.
  * `memory` owns the arrays. */
-wt_status shift_set_new(const wt_sweep *sweep, wt_shift_by by, wt_log *log, arena *memory,
+wt_status shift_set_new(const wt_sweep *sweep, wt_shift_quantity by, wt_log *log, arena *memory,
                         shift_set *set, wt_error *err) WT_NODISCARD;
 
 /* Returns the change of the modulus along a curve, of E' if it is used [decade]. */
-double shift_change(const shift_set *set, size_t curve);
+double curve_modulus_change(const shift_set *set, size_t curve);
 
 /* Fits the shift of curve s relative to curve p by least squares of the used moduli in both
  * directions. b is fitted if free_b, otherwise it is an input. Returns false without overlap. */

@@ -19,7 +19,7 @@ struct order {
     size_t index;
 };
 
-static int by_temperature(const void *left, const void *right)
+static int compare_temperature(const void *left, const void *right)
 {
     const struct order *a = left, *b = right;
     if (a->temperature != b->temperature)
@@ -29,12 +29,12 @@ static int by_temperature(const void *left, const void *right)
 }
 
 /* Returns tan delta of a point. */
-static double factor_of(const wt_isotherm *t, size_t k)
+static double loss_factor_value(const wt_isotherm *t, size_t k)
 {
     return t->loss_factor != NULL ? t->loss_factor[k] : t->loss_modulus[k] / t->storage_modulus[k];
 }
 
-static wt_status check_temperatures(const wt_sweep *sweep, wt_error *err)
+static wt_status check_isotherm_temperatures(const wt_sweep *sweep, wt_error *err)
 {
     for (size_t i = 0; i < sweep->n_isotherms; i++) {
         const double t = sweep->isotherms[i].temperature;
@@ -52,41 +52,42 @@ static wt_status check_temperatures(const wt_sweep *sweep, wt_error *err)
 }
 
 /* Returns the quantities of a point that are fitted, NaN if unmeasured. */
-static void values_of(const wt_isotherm *t, wt_shift_by by, size_t k, double value[MODULI])
+static void fitted_values(const wt_isotherm *t, wt_shift_quantity by, size_t k,
+                          double value[MODULI])
 {
     value[STORAGE] = t->storage_modulus[k];
     value[LOSS] = t->loss_modulus[k];
-    if (by == WT_BY_LOSS_FACTOR)
-        value[LOSS] = factor_of(t, k);
+    if (by == WT_SHIFT_LOSS_FACTOR)
+        value[LOSS] = loss_factor_value(t, k);
 }
 
 /* Points within this range are replaced by their mean [decade]. A relaxation broadens moduli
  * over a decade, so nothing changes within a tenth of it. */
-static const double one_point = 0.09;
+static const double merge_width = 0.09;
 /* Evenly spaced points are merged from two per group on, other points from five on. A few close
  * points cost little and stay unchanged. */
 enum { LEAST_EVEN = 2, LEAST_TOGETHER = 5 };
-static const double even = 1.5; /* largest step divided by the mean step */
+static const double even_spacing_ratio = 1.5; /* largest step divided by the mean step */
 /* In groups of LEAST_MANY or more, points farther from the median are excluded from the mean
  * [standard deviations]. */
-static const double far_off = 5.0;
+static const double outlier_limit = 5.0;
 enum { LEAST_MANY = 5 };
 
 /* Returns the end of the group that starts at `from`. With `alone` each point is its own group. */
-static size_t end_of_repeats(const struct point *point, size_t n, size_t from, bool alone)
+static size_t merged_points_end(const struct point *point, size_t n, size_t from, bool is_unmerged)
 {
     size_t to = from + 1;
-    while (!alone && to < n && point[to].x - point[from].x < one_point)
+    while (!is_unmerged && to < n && point[to].x - point[from].x < merge_width)
         to++;
     return to;
 }
 
-static bool is_even(const struct point *point, size_t n)
+static bool is_evenly_spaced(const struct point *point, size_t n)
 {
     const double mean = (point[n - 1].x - point[0].x) / (double)(n - 1);
     bool is = true;
     for (size_t k = 1; k < n; k++)
-        is = is && point[k].x - point[k - 1].x <= even * mean;
+        is = is && point[k].x - point[k - 1].x <= even_spacing_ratio * mean;
     return is;
 }
 
@@ -94,13 +95,14 @@ static bool is_even(const struct point *point, size_t n)
 static bool is_sparse(const struct point *point, size_t n)
 {
     size_t left = 0;
-    for (size_t k = 0; k < n; k = end_of_repeats(point, n, k, false))
+    for (size_t k = 0; k < n; k = merged_points_end(point, n, k, false))
         left++;
-    return left < SHIFT_MIN_POINTS || n < (is_even(point, n) ? LEAST_EVEN : LEAST_TOGETHER) * left;
+    return left < SHIFT_MIN_POINTS ||
+           n < (is_evenly_spaced(point, n) ? LEAST_EVEN : LEAST_TOGETHER) * left;
 }
 
 /* Returns the mean of a group without outliers; copy: [n] scratch. */
-static double middle_of(const struct point *point, size_t n, int q, double *copy)
+static double robust_mean(const struct point *point, size_t n, int q, double *copy)
 {
     double sum = 0.0, weights = 0.0;
     for (size_t k = 0; k < n; k++)
@@ -110,37 +112,39 @@ static double middle_of(const struct point *point, size_t n, int q, double *copy
     for (size_t k = 0; k < n; k++)
         copy[k] = fabs(point[k].y[q] - median);
     gsl_sort(copy, 1, n);
-    const double far = far_off * 1.4826 * gsl_stats_median_from_sorted_data(copy, 1, n);
+    const double outlier_distance =
+        outlier_limit * 1.4826 * gsl_stats_median_from_sorted_data(copy, 1, n);
     for (size_t k = 0; k < n; k++) {
-        const bool near = n < LEAST_MANY || fabs(point[k].y[q] - median) <= far;
-        sum += near ? point[k].y[q] : 0.0;
-        weights += near;
+        const bool is_inlier = n < LEAST_MANY || fabs(point[k].y[q] - median) <= outlier_distance;
+        sum += is_inlier ? point[k].y[q] : 0.0;
+        weights += is_inlier;
     }
     return sum / weights; /* weights > 0, because half of the points are inliers */
 }
 
 /* Stores the points for the fit, rising and merged. curve->y also serves as scratch. */
-static void fill_points(const struct point *point, size_t n, shift_curve *curve)
+static void merge_curve_points(const struct point *point, size_t n, shift_curve *curve)
 {
-    const bool alone = is_sparse(point, n);
+    const bool is_unmerged = is_sparse(point, n);
     curve->n = 0;
     for (size_t from = 0, to; from < n; from = to, curve->n++) {
-        to = end_of_repeats(point, n, from, alone);
+        to = merged_points_end(point, n, from, is_unmerged);
         double x = 0.0;
         for (size_t i = from; i < to; i++)
             x += point[i].x / (double)(to - from);
         curve->x[curve->n] = x;
         for (int q = 0; q < MODULI; q++)
-            curve->y[q][curve->n] = to - from > 1
-                                        ? middle_of(point + from, to - from, q, curve->y[q] + from)
-                                        : point[from].y[q];
+            curve->y[q][curve->n] =
+                to - from > 1 ? robust_mean(point + from, to - from, q, curve->y[q] + from)
+                              : point[from].y[q];
     }
-    curve->n_together = alone ? 0 : n;
+    curve->n_merged = is_unmerged ? 0 : n;
 }
 
 /* Fills one curve from an isotherm; scratch: [isotherm->n]. */
-static wt_status fill_curve(const wt_isotherm *isotherm, const shift_set *set,
-                            struct point *scratch, shift_curve *curve, wt_log *log, wt_error *err)
+static wt_status fill_shift_curve(const wt_isotherm *isotherm, const shift_set *set,
+                                  struct point *scratch, shift_curve *curve, wt_log *log,
+                                  wt_error *err)
 {
     size_t n = 0;
     size_t first_bad = isotherm->n;
@@ -148,7 +152,7 @@ static wt_status fill_curve(const wt_isotherm *isotherm, const shift_set *set,
         const double w = isotherm->angular_frequency[k];
         double value[MODULI];
         bool good = w > 0.0 && isfinite(w);
-        values_of(isotherm, set->by, k, value);
+        fitted_values(isotherm, set->by, k, value);
         for (int q = 0; q < MODULI; q++) {
             good = good && (!set->used[q] || (value[q] > 0.0 && isfinite(value[q])));
             value[q] = set->used[q] ? log10(value[q]) : 0.0;
@@ -182,7 +186,7 @@ static wt_status fill_curve(const wt_isotherm *isotherm, const shift_set *set,
                    isotherm->angular_frequency[first_bad], isotherm->storage_modulus[first_bad],
                    isotherm->loss_modulus[first_bad]);
     qsort(scratch, n, sizeof *scratch, numbers_compare);
-    fill_points(scratch, n, curve);
+    merge_curve_points(scratch, n, curve);
     return WT_OK;
 }
 
@@ -196,7 +200,7 @@ static void find_measured_moduli(const wt_sweep *sweep, bool has[MODULI], bool *
         for (size_t k = 0; k < t->n; k++) {
             storage = storage || isfinite(t->storage_modulus[k]);
             loss = loss || isfinite(t->loss_modulus[k]);
-            ratio = ratio || isfinite(factor_of(t, k));
+            ratio = ratio || isfinite(loss_factor_value(t, k));
         }
         has[STORAGE] = has[STORAGE] && storage;
         has[LOSS] = has[LOSS] && loss;
@@ -204,21 +208,21 @@ static void find_measured_moduli(const wt_sweep *sweep, bool has[MODULI], bool *
     }
 }
 
-static wt_status choose_quantity(const wt_sweep *sweep, wt_shift_by by, shift_set *set,
-                                 wt_error *err)
+static wt_status choose_fitted_quantities(const wt_sweep *sweep, wt_shift_quantity by,
+                                          shift_set *set, wt_error *err)
 {
-    static const char *const names[] = {[WT_BY_MODULI] = "storage or loss modulus",
-                                        [WT_BY_STORAGE] = "storage modulus",
-                                        [WT_BY_LOSS] = "loss modulus",
-                                        [WT_BY_LOSS_FACTOR] = "loss factor"};
+    static const char *const names[] = {[WT_SHIFT_MODULI] = "storage or loss modulus",
+                                        [WT_SHIFT_STORAGE] = "storage modulus",
+                                        [WT_SHIFT_LOSS] = "loss modulus",
+                                        [WT_SHIFT_LOSS_FACTOR] = "loss factor"};
     bool has[MODULI], factor;
     find_measured_moduli(sweep, has, &factor);
-    if (by == WT_BY_MODULI && !(has[STORAGE] && has[LOSS]))
-        by = has[STORAGE] ? WT_BY_STORAGE : has[LOSS] ? WT_BY_LOSS : WT_BY_LOSS_FACTOR;
+    if (by == WT_SHIFT_MODULI && !(has[STORAGE] && has[LOSS]))
+        by = has[STORAGE] ? WT_SHIFT_STORAGE : has[LOSS] ? WT_SHIFT_LOSS : WT_SHIFT_LOSS_FACTOR;
     set->by = by;
-    set->used[STORAGE] = by == WT_BY_MODULI || by == WT_BY_STORAGE;
-    set->used[LOSS] = by != WT_BY_STORAGE;
-    if (by == WT_BY_LOSS_FACTOR
+    set->used[STORAGE] = by == WT_SHIFT_MODULI || by == WT_SHIFT_STORAGE;
+    set->used[LOSS] = by != WT_SHIFT_STORAGE;
+    if (by == WT_SHIFT_LOSS_FACTOR
             ? factor
             : set->used[STORAGE] <= has[STORAGE] && set->used[LOSS] <= has[LOSS])
         return WT_OK;
@@ -227,12 +231,12 @@ static wt_status choose_quantity(const wt_sweep *sweep, wt_shift_by by, shift_se
     return WT_E_MISSING;
 }
 
-wt_status shift_set_new(const wt_sweep *sweep, wt_shift_by by, wt_log *log, arena *memory,
+wt_status shift_set_new(const wt_sweep *sweep, wt_shift_quantity by, wt_log *log, arena *memory,
                         shift_set *set, wt_error *err)
 {
     const size_t n = sweep->n_isotherms;
     size_t n_points = 0, n_longest = 1;
-    wt_status status = check_temperatures(sweep, err);
+    wt_status status = check_isotherm_temperatures(sweep, err);
 
     if (status != WT_OK)
         return status;
@@ -253,34 +257,34 @@ wt_status shift_set_new(const wt_sweep *sweep, wt_shift_by by, wt_log *log, aren
         .n = n, .loading = sweep->loading, .curves = arena_alloc(memory, n, sizeof *set->curves)};
     if (memory->failed)
         return wt_fail(err, WT_E_MEMORY, "no memory for %zu isotherms", n);
-    status = choose_quantity(sweep, by, set, err);
-    if (status == WT_OK && set->loading != WT_OSCILLATION && set->by != WT_BY_STORAGE) {
+    status = choose_fitted_quantities(sweep, by, set, err);
+    if (status == WT_OK && set->loading != WT_OSCILLATION && set->by != WT_SHIFT_STORAGE) {
         status = wt_fail(err, WT_E_ARG, "after a step there is one quantity to shift by");
         wt_error_expected(err, "shift-by moduli, which takes it");
     }
     for (size_t i = 0; i < n; i++)
         order[i] = (struct order){sweep->isotherms[i].temperature, i};
-    qsort(order, n, sizeof *order, by_temperature);
+    qsort(order, n, sizeof *order, compare_temperature);
     for (size_t i = 0; i < n && status == WT_OK; i++) {
         const wt_isotherm *isotherm = &sweep->isotherms[order[i].index];
         shift_curve *curve = &set->curves[i];
         curve->temperature = isotherm->temperature;
-        curve->given = isotherm->shift_given;
-        curve->given_a = isotherm->given_log_a;
-        curve->held =
-            isotherm->shift_given && isotherm->vertical_given && set->by != WT_BY_LOSS_FACTOR;
-        curve->given_b = isotherm->given_log_b;
+        curve->given = isotherm->shift_is_stated;
+        curve->given_a = isotherm->stated_log_a;
+        curve->held = isotherm->shift_is_stated && isotherm->vertical_shift_is_stated &&
+                      set->by != WT_SHIFT_LOSS_FACTOR;
+        curve->given_b = isotherm->stated_log_b;
         curve->x = next;
         curve->y[STORAGE] = next + isotherm->n;
         curve->y[LOSS] = next + 2 * isotherm->n;
         next += 3 * isotherm->n;
-        status = fill_curve(isotherm, set, scratch, curve, log, err);
+        status = fill_shift_curve(isotherm, set, scratch, curve, log, err);
         set->n_points += curve->n;
     }
     return status;
 }
 
-double shift_change(const shift_set *set, size_t curve)
+double curve_modulus_change(const shift_set *set, size_t curve)
 {
     const shift_curve *c = &set->curves[curve];
     const double *y = c->y[set->used[STORAGE] ? STORAGE : LOSS];

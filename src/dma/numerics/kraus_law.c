@@ -15,9 +15,9 @@ enum { END = 3, FEWEST_FIT = 7, FROM_END = 2 };
  * falls there by (start_ratio gamma / gamma_c)^(2 m), less for a smaller first amplitude. */
 static const double start_ratio = 3;
 /* Fractions of the initial modulus whose strains are reported: onset of softening and half. */
-static const double tenth = 0.9, half = 0.5;
+static const double tenth_lost = 0.9, half_lost = 0.5;
 /* Quantile of the 95 % intervals, and the significance level of the fall. */
-static const double level = 0.975, chance = 0.05;
+static const double confidence = 0.975, significance = 0.05;
 
 double wt_kraus_storage(const wt_kraus *law, double strain)
 {
@@ -33,7 +33,7 @@ double wt_kraus_loss(const wt_kraus *law, double strain)
 
 /* ---- as measured ----------------------------------------------------------------------------- */
 
-static double falls_below(const payne_points *p, double to)
+static double crossing_strain(const payne_points *p, double to)
 {
     const double *x = p->log_strain, *y = p->storage;
     for (size_t i = 1; i < p->n; i++)
@@ -52,8 +52,8 @@ static void measure_softening(const payne_points *p, wt_payne *payne)
     payne->storage_start = numbers_mean(p->storage, first);
     payne->loss_start = numbers_mean(p->loss, first);
     payne->storage_end = numbers_mean(p->storage + p->n - last, last);
-    payne->strain_tenth = falls_below(p, tenth * payne->storage_start);
-    payne->strain_half = falls_below(p, half * payne->storage_start);
+    payne->strain_tenth = crossing_strain(p, tenth_lost * payne->storage_start);
+    payne->strain_half = crossing_strain(p, half_lost * payne->storage_start);
     for (size_t i = 1; i < p->n; i++)
         if (p->loss[i] > p->loss[top])
             top = i;
@@ -71,16 +71,16 @@ static void measure_softening(const payne_points *p, wt_payne *payne)
 /* Returns the root mean square of the residuals. The flag is true if neighbouring residuals have
  * the same sign more often than independent noise. */
 static double law_misfit(const payne_points *p, const double *y, const wt_kraus *law,
-                         double (*of)(const wt_kraus *, double), bool *wander)
+                         double (*law_function)(const wt_kraus *, double), bool *residuals_drift)
 {
     double squares = 0, steps = 0, before = 0;
     for (size_t i = 0; i < p->n; i++) {
-        const double off = y[i] - of(law, exp(p->log_strain[i]));
+        const double off = y[i] - law_function(law, exp(p->log_strain[i]));
         squares += off * off;
         steps += i > 0 ? (off - before) * (off - before) : 0;
         before = off;
     }
-    *wander = steps < (2 - 4 / sqrt((double)p->n)) * squares;
+    *residuals_drift = steps < (2 - 4 / sqrt((double)p->n)) * squares;
     return sqrt(squares / (double)p->n);
 }
 
@@ -89,27 +89,27 @@ static void withhold_unmeasured(const payne_points *p, wt_payne *payne)
 {
     const wt_interval unknown = {(double)NAN, (double)NAN, (double)NAN, (double)NAN};
     const double at = log(payne->law.strain_c);
-    const char *why = NULL;
+    const char *reason = NULL;
     if (at > p->log_strain[p->n - 1])
-        why = "half of the fall is not reached in range";
+        reason = "half of the fall is not reached in range";
     else if (at < p->log_strain[0])
-        why = "more than half of the fall lies below the smallest amplitude";
-    if (why == NULL)
+        reason = "more than half of the fall lies below the smallest amplitude";
+    if (reason == NULL)
         return;
-    payne->note = why;
+    payne->note = reason;
     payne->strain_c = payne->loss_m = payne->loss_inf = unknown;
     *(at > p->log_strain[0] ? &payne->storage_inf : &payne->storage_0) = unknown;
 }
 
-static void fit_law(const payne_points *p, wt_payne *payne)
+static void fit_kraus_law(const payne_points *p, wt_payne *payne)
 {
     double u, v;
-    bool wander, loss_wander;
-    payne_best(p, &u, &v);
-    const payne_levels s = payne_storage_at(p, u, v), l = payne_loss_at(p, u, v);
-    const double freedom = (double)(p->n - 4), flat = payne_flat(p);
+    bool residuals_drift, loss_residuals_drift;
+    payne_best_fit(p, &u, &v);
+    const payne_levels s = payne_storage_levels(p, u, v), l = payne_loss_levels(p, u, v);
+    const double freedom = (double)(p->n - 4), flat = payne_total_squares(p);
     if (!(s.rss > 0) ||
-        gsl_cdf_fdist_Q((flat - s.rss) / 3 / (s.rss / freedom), 3, freedom) > chance) {
+        gsl_cdf_fdist_Q((flat - s.rss) / 3 / (s.rss / freedom), 3, freedom) > significance) {
         payne->note = s.rss > 0 ? "no fall of the storage modulus that stands out of its scatter"
                                 : "the points have no scatter";
         return;
@@ -117,14 +117,15 @@ static void fit_law(const payne_points *p, wt_payne *payne)
     payne->fitted = true;
     payne->law = (wt_kraus){s.b, s.a, exp(u), exp(v), l.b, l.a};
     payne->storage_misfit =
-        law_misfit(p, p->storage, &payne->law, wt_kraus_storage, &wander) / payne->law.storage_0;
+        law_misfit(p, p->storage, &payne->law, wt_kraus_storage, &residuals_drift) /
+        payne->law.storage_0;
     payne->loss_misfit =
-        law_misfit(p, p->loss, &payne->law, wt_kraus_loss, &loss_wander) / payne->loss_max;
-    payne_intervals(p, gsl_cdf_tdist_Pinv(level, freedom), payne);
-    if (wander)
+        law_misfit(p, p->loss, &payne->law, wt_kraus_loss, &loss_residuals_drift) / payne->loss_max;
+    payne_intervals(p, gsl_cdf_tdist_Pinv(confidence, freedom), payne);
+    if (residuals_drift)
         payne->note = "the points leave the law of Kraus one after the other to the same side: "
                       "intervals too narrow";
-    if (loss_wander && payne->loss_note[0] == '\0')
+    if (loss_residuals_drift && payne->loss_note[0] == '\0')
         payne->loss_note = "the points leave the law of Kraus one after the other to the same "
                            "side: intervals too narrow";
     withhold_unmeasured(p, payne);
@@ -135,8 +136,8 @@ wt_status wt_payne_fit(const double *strain, const double *storage, const double
 {
     const double nan = (double)NAN;
     const wt_interval unknown = {nan, nan, nan, nan};
-    const bool alone = loss == NULL;
-    loss = alone ? storage : loss; /* placeholder; its results are set to NaN below */
+    const bool storage_only = loss == NULL;
+    loss = storage_only ? storage : loss; /* placeholder; its results are set to NaN below */
     if (strain == NULL || storage == NULL || payne == NULL || n == 0)
         return wt_fail(err, WT_E_ARG, "no strain sweep");
     for (size_t i = 0; i < n; i++)
@@ -165,8 +166,8 @@ wt_status wt_payne_fit(const double *strain, const double *storage, const double
     if (n < FEWEST_FIT)
         payne->note = "too few points for the law of Kraus";
     else
-        fit_law(&p, payne);
-    if (alone) {
+        fit_kraus_law(&p, payne);
+    if (storage_only) {
         payne->loss_start = payne->loss_max = payne->strain_loss_max = nan;
         payne->law.loss_m = payne->law.loss_inf = payne->loss_misfit = nan;
         payne->loss_m = payne->loss_inf = unknown;

@@ -10,11 +10,11 @@
 /* Grid cells of strain and exponent. A coarse grid around the best cell is refined 18 times,
  * each time in half the box, to 2e-7 of the range. A box grows by half in each of at most 20
  * rounds; 1.5^20 exceeds the whole range. */
-enum { SIDE = 48, CELLS = SIDE * SIDE, CLOSER = 9, POLISH = 18, ROUNDS = 20 };
+enum { SIDE = 48, CELLS = SIDE * SIDE, FINE_SIDE = 9, REFINEMENTS = 18, ROUNDS = 20 };
 /* Search range of ln strain outside the measured amplitudes: a decade below, where the fall is
  * complete, and two above, where it has hardly begun. Exponents of rubber are about 0.6 (Kraus
  * 1984); the range covers a factor of six to eight. */
-static const double below = 2.5, above = 4.7, exponent_min = 0.1, exponent_max = 5;
+static const double margin_below = 2.5, margin_above = 4.7, exponent_min = 0.1, exponent_max = 5;
 
 /* ---- levels ---------------------------------------------------------------------------------- */
 
@@ -60,20 +60,20 @@ static payne_levels fit_levels(const payne_points *p, const double *y, double (*
     return l;
 }
 
-payne_levels payne_storage_at(const payne_points *p, double u, double v)
+payne_levels payne_storage_levels(const payne_points *p, double u, double v)
 {
     payne_levels l = fit_levels(p, p->storage, storage_shape, u, v);
     if (l.b < l.a) /* the modulus would rise with strain */
-        l.rss = payne_flat(p);
+        l.rss = payne_total_squares(p);
     return l;
 }
 
-payne_levels payne_loss_at(const payne_points *p, double u, double v)
+payne_levels payne_loss_levels(const payne_points *p, double u, double v)
 {
     return fit_levels(p, p->loss, loss_shape, u, v);
 }
 
-double payne_flat(const payne_points *p)
+double payne_total_squares(const payne_points *p)
 {
     double mean = 0, rss = 0;
     for (size_t i = 0; i < p->n; i++)
@@ -85,20 +85,20 @@ double payne_flat(const payne_points *p)
 
 /* ---- the grid -------------------------------------------------------------------------------- */
 
-static payne_box widest_box(const payne_points *p)
+static payne_box search_box(const payne_points *p)
 {
-    return (payne_box){{p->log_strain[0] - below, log(exponent_min)},
-                       {p->log_strain[p->n - 1] + above, log(exponent_max)}};
+    return (payne_box){{p->log_strain[0] - margin_below, log(exponent_min)},
+                       {p->log_strain[p->n - 1] + margin_above, log(exponent_max)}};
 }
 
-static double cell_place(const payne_box *box, int axis, size_t i, size_t side)
+static double cell_position(const payne_box *box, int axis, size_t i, size_t side)
 {
     return box->low[axis] + (box->high[axis] - box->low[axis]) * (double)i / (double)(side - 1);
 }
 
 /* Returns a box of two cells around a point, limited to another box. */
-static payne_box box_about(const payne_box *in, const payne_box *box, const double at[2],
-                           size_t side)
+static payne_box box_around(const payne_box *in, const payne_box *box, const double at[2],
+                            size_t side)
 {
     payne_box made;
     for (int k = 0; k < 2; k++) {
@@ -109,49 +109,50 @@ static payne_box box_about(const payne_box *in, const payne_box *box, const doub
     return made;
 }
 
-void payne_best(const payne_points *p, double *u, double *v)
+void payne_best_fit(const payne_points *p, double *u, double *v)
 {
-    const payne_box all = widest_box(p);
+    const payne_box all = search_box(p);
     payne_box box = all;
     double at[2] = {0, 0};
     size_t side = SIDE;
-    for (int round = 0; round < POLISH; round++) {
+    for (int round = 0; round < REFINEMENTS; round++) {
         double least = HUGE_VAL;
         for (size_t i = 0; i < side; i++)
             for (size_t k = 0; k < side; k++) {
-                const double x = cell_place(&box, 0, i, side), y = cell_place(&box, 1, k, side);
-                const double rss = payne_storage_at(p, x, y).rss;
+                const double x = cell_position(&box, 0, i, side),
+                             y = cell_position(&box, 1, k, side);
+                const double rss = payne_storage_levels(p, x, y).rss;
                 if (rss < least) {
                     least = rss;
                     at[0] = x;
                     at[1] = y;
                 }
             }
-        box = box_about(&all, &box, at, side);
-        side = CLOSER;
+        box = box_around(&all, &box, at, side);
+        side = FINE_SIDE;
     }
     *u = at[0];
     *v = at[1];
 }
 
-static bool is_allowed(const payne_points *p, const double at[2], double most)
+static bool is_within_region(const payne_points *p, const double at[2], double most)
 {
-    return payne_storage_at(p, at[0], at[1]).rss <= most;
+    return payne_storage_levels(p, at[0], at[1]).rss <= most;
 }
 
 /* Returns a box that contains the best point and the one-parameter limits from it. */
-static payne_box start_box(const payne_points *p, const payne_box *all, const double best[2],
-                           double most)
+static payne_box initial_box(const payne_points *p, const payne_box *all, const double best[2],
+                             double most)
 {
     payne_box box;
     for (int k = 0; k < 2; k++)
-        for (int way = -1; way <= 1; way += 2) {
+        for (int sign = -1; sign <= 1; sign += 2) {
             double step = 1e-6, at[2] = {best[0], best[1]};
-            double *const end = way < 0 ? &box.low[k] : &box.high[k];
+            double *const end = sign < 0 ? &box.low[k] : &box.high[k];
             do {
-                at[k] = fmin(fmax(best[k] + way * step, all->low[k]), all->high[k]);
+                at[k] = fmin(fmax(best[k] + sign * step, all->low[k]), all->high[k]);
                 step *= 2;
-            } while (is_allowed(p, at, most) && at[k] > all->low[k] && at[k] < all->high[k]);
+            } while (is_within_region(p, at, most) && at[k] > all->low[k] && at[k] < all->high[k]);
             *end = at[k];
         }
     return box;
@@ -164,9 +165,9 @@ static payne_box allowed_box(const payne_points *p, const payne_box *all, const 
 {
     payne_box made = {{HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL}};
     for (size_t i = 0; i < CELLS; i++) {
-        const double at[2] = {cell_place(box, 0, i / SIDE, SIDE),
-                              cell_place(box, 1, i % SIDE, SIDE)};
-        for (int k = 0; k < 2 && is_allowed(p, at, most); k++) {
+        const double at[2] = {cell_position(box, 0, i / SIDE, SIDE),
+                              cell_position(box, 1, i % SIDE, SIDE)};
+        for (int k = 0; k < 2 && is_within_region(p, at, most); k++) {
             made.low[k] = fmin(made.low[k], at[k]);
             made.high[k] = fmax(made.high[k], at[k]);
         }
@@ -193,7 +194,7 @@ typedef struct extent {
     bool low_open, high_open;
 } extent;
 
-static void extend_to(extent *e, double low, double high, bool border)
+static void extend_extent(extent *e, double low, double high, bool border)
 {
     if (low < e->low) {
         e->low = low;
@@ -205,61 +206,63 @@ static void extend_to(extent *e, double low, double high, bool border)
     }
 }
 
-enum { STRAIN, EXPONENT, STORAGE_0, STORAGE_INF, LOSS_M, LOSS_INF, NUMBERS };
+enum { STRAIN, EXPONENT, STORAGE_0, STORAGE_INF, LOSS_M, LOSS_INF, N_PARAMETERS };
 
 /* Includes one cell: the ranges of the moduli at its strain and exponent. left: remaining square
  * of t. */
-static void see_cell(const payne_points *p, const double at[2], double left, double scatter,
-                     double loss_scatter, bool border, extent e[NUMBERS])
+static void include_cell(const payne_points *p, const double at[2], double left, double scatter,
+                         double loss_scatter, bool border, extent e[N_PARAMETERS])
 {
-    const payne_levels s = payne_storage_at(p, at[0], at[1]), l = payne_loss_at(p, at[0], at[1]);
+    const payne_levels s = payne_storage_levels(p, at[0], at[1]),
+                       l = payne_loss_levels(p, at[0], at[1]);
     const double t = sqrt(left), value[] = {s.b, s.a, l.b, l.a},
                  error[] = {s.b_error * scatter, s.a_error * scatter, l.b_error * loss_scatter,
                             l.a_error * loss_scatter};
-    extend_to(&e[STRAIN], at[0], at[0], border);
-    extend_to(&e[EXPONENT], at[1], at[1], border);
+    extend_extent(&e[STRAIN], at[0], at[0], border);
+    extend_extent(&e[EXPONENT], at[1], at[1], border);
     for (size_t i = 0; i < COUNT_OF(value); i++)
-        extend_to(&e[STORAGE_0 + i], value[i] - t * error[i], value[i] + t * error[i], border);
+        extend_extent(&e[STORAGE_0 + i], value[i] - t * error[i], value[i] + t * error[i], border);
 }
 
 /* Finds the parameter ranges in which the sum of squares exceeds the minimum by at most t^2
  * times the variance. */
-static void find_extents(const payne_points *p, const wt_kraus *law, double t, extent e[NUMBERS])
+static void find_extents(const payne_points *p, const wt_kraus *law, double t,
+                         extent e[N_PARAMETERS])
 {
     const double best[2] = {log(law->strain_c), log(law->exponent)};
     const double freedom = (double)(p->n - 4);
-    const double least = payne_storage_at(p, best[0], best[1]).rss, square = least / freedom;
-    const payne_box all = widest_box(p);
-    payne_box box = start_box(p, &all, best, least + t * t * square);
+    const double least = payne_storage_levels(p, best[0], best[1]).rss, square = least / freedom;
+    const payne_box all = search_box(p);
+    payne_box box = initial_box(p, &all, best, least + t * t * square);
     bool grown = true;
     for (int round = 0; round < ROUNDS && grown; round++)
         box = allowed_box(p, &all, &box, least + t * t * square, &grown);
     /* At the best point of the storage moduli the loss moduli also deviate by its error. Their
      * variance is therefore the minimum over the allowed region. */
-    double loss_least = payne_loss_at(p, best[0], best[1]).rss;
+    double loss_least = payne_loss_levels(p, best[0], best[1]).rss;
     for (size_t i = 0; i < CELLS; i++) {
-        const double at[2] = {cell_place(&box, 0, i / SIDE, SIDE),
-                              cell_place(&box, 1, i % SIDE, SIDE)};
-        if (is_allowed(p, at, least + t * t * square))
-            loss_least = fmin(loss_least, payne_loss_at(p, at[0], at[1]).rss);
+        const double at[2] = {cell_position(&box, 0, i / SIDE, SIDE),
+                              cell_position(&box, 1, i % SIDE, SIDE)};
+        if (is_within_region(p, at, least + t * t * square))
+            loss_least = fmin(loss_least, payne_loss_levels(p, at[0], at[1]).rss);
     }
     const double loss_square = loss_least / freedom;
-    for (int k = 0; k < NUMBERS; k++)
+    for (int k = 0; k < N_PARAMETERS; k++)
         e[k] = (extent){HUGE_VAL, -HUGE_VAL, false, false};
-    see_cell(p, best, t * t, sqrt(square), sqrt(loss_square), false, e);
+    include_cell(p, best, t * t, sqrt(square), sqrt(loss_square), false, e);
     for (size_t i = 0; i < CELLS; i++) {
-        const double at[2] = {cell_place(&box, 0, i / SIDE, SIDE),
-                              cell_place(&box, 1, i % SIDE, SIDE)};
-        const double left = t * t - (payne_storage_at(p, at[0], at[1]).rss - least) / square;
+        const double at[2] = {cell_position(&box, 0, i / SIDE, SIDE),
+                              cell_position(&box, 1, i % SIDE, SIDE)};
+        const double left = t * t - (payne_storage_levels(p, at[0], at[1]).rss - least) / square;
         const bool border = at[0] <= all.low[0] || at[0] >= all.high[0] || at[1] <= all.low[1] ||
                             at[1] >= all.high[1];
         if (left >= 0)
-            see_cell(p, at, left, sqrt(square), sqrt(loss_square), border, e);
+            include_cell(p, at, left, sqrt(square), sqrt(loss_square), border, e);
     }
 }
 
-static wt_interval number_interval(double value, const extent *wide, const extent *narrow,
-                                   bool logarithm)
+static wt_interval parameter_interval(double value, const extent *wide, const extent *narrow,
+                                      bool logarithm)
 {
     const bool open = narrow->low_open || narrow->high_open;
     const double low = logarithm ? exp(wide->low) : wide->low,
@@ -275,13 +278,13 @@ static wt_interval number_interval(double value, const extent *wide, const exten
 void payne_intervals(const payne_points *p, double t, wt_payne *payne)
 {
     const wt_kraus *law = &payne->law;
-    extent wide[NUMBERS], narrow[NUMBERS];
+    extent wide[N_PARAMETERS], narrow[N_PARAMETERS];
     find_extents(p, law, t, wide);
     find_extents(p, law, 1, narrow);
-    const double value[NUMBERS] = {law->strain_c,    law->exponent, law->storage_0,
-                                   law->storage_inf, law->loss_m,   law->loss_inf};
-    wt_interval *const of[NUMBERS] = {&payne->strain_c,    &payne->exponent, &payne->storage_0,
-                                      &payne->storage_inf, &payne->loss_m,   &payne->loss_inf};
-    for (size_t k = 0; k < NUMBERS; k++)
-        *of[k] = number_interval(value[k], &wide[k], &narrow[k], k <= EXPONENT);
+    const double value[N_PARAMETERS] = {law->strain_c,    law->exponent, law->storage_0,
+                                        law->storage_inf, law->loss_m,   law->loss_inf};
+    wt_interval *const of[N_PARAMETERS] = {&payne->strain_c,    &payne->exponent, &payne->storage_0,
+                                           &payne->storage_inf, &payne->loss_m,   &payne->loss_inf};
+    for (size_t k = 0; k < N_PARAMETERS; k++)
+        *of[k] = parameter_interval(value[k], &wide[k], &narrow[k], k <= EXPONENT);
 }

@@ -21,12 +21,13 @@ typedef struct payne_levels {
     double a, b, a_error, b_error, rss;
 } payne_levels;
 
-payne_levels payne_storage_at(const payne_points *p, double u, double v);
-payne_levels payne_loss_at(const payne_points *p, double u, double v);
-double payne_flat(const payne_points *p); /* sum of squares about the mean storage modulus */
+payne_levels payne_storage_levels(const payne_points *p, double u, double v);
+payne_levels payne_loss_levels(const payne_points *p, double u, double v);
+double
+payne_total_squares(const payne_points *p); /* sum of squares about the mean storage modulus */
 
 /* Finds the global minimum of the sum of squares. */
-void payne_best(const payne_points *p, double *u, double *v);
+void payne_best_fit(const payne_points *p, double *u, double *v);
 
 /* Fills the intervals and standard errors of payne. The sum of squares exceeds its minimum by at
  * most t^2 (interval) or 1 (standard error) times the variance. */

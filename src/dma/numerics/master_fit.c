@@ -15,7 +15,7 @@
  * material (master_widths.c). */
 static const double start_geometry = 0.002, start_departure = 0.02;
 /* Noise that is uniform along an isotherm. */
-const double master_even[SPECTRUM_SHAPES] = {0.0};
+const double master_uniform_noise[SPECTRUM_SHAPES] = {0.0};
 /* Maximum number of refits after outliers or curvature weights change. Later refits change
  * little. */
 enum { MOST_ROUNDS = 4, BEND_ROUNDS = 3 };
@@ -25,7 +25,7 @@ enum { MOST_ROUNDS = 4, BEND_ROUNDS = 3 };
 static const double same_temperature = 0.1;
 /* The fit restarts if a shift moved this far from its start [decade]. The relaxation times
  * extend 1.5 decades beyond the isotherms, and one decade shall remain. */
-static const double far = 0.5;
+static const double max_start_shift = 0.5;
 /* Terms per decade of a smooth spectrum, of a trial and of a line spectrum. E'' of equal terms h
  * apart in ln tau ripples by 2/cosh(pi^2/h): 1e-5 at 3 per decade, 8e-4 at 2, 5 % at 1. At 10
  * per decade a line is within a factor 1.12 of a term. A trial costs an eighth of that. Above
@@ -33,22 +33,23 @@ static const double far = 0.5;
  * steeper ones hide under the flanks of a Maxwell element. A corner between two such slopes has
  * curvature 1.5 at 3 per decade; the limit is twice that. Lines between the terms then shift the
  * isotherms by more than their errors. */
-static const double smooth_terms = 3.0, trial_terms = 5.0, sharp_terms = 10.0, sharp = 3.0;
+static const double smooth_terms = 3.0, trial_terms = 5.0, sharp_terms = 10.0,
+                    sharp_curvature = 3.0;
 /* Misfit of a modulus beyond its noise from which the shifts are meaningless [ln]. On a plateau
- * with d ln E'/d ln w = 0.1 it is 0.17 decade, about master_largest_sigma (shift_graph.c). If
+ * with d ln E'/d ln w = 0.1 it is 0.17 decade, about master_max_shift_error (shift_graph.c). If
  * superposition holds or nearly holds the misfit is 0.3 to 3 %; glassy polymers have 5 to 20 %
  * of E''. Below the limit the shift errors grow with the misfit (master_overlap.c), so only the
  * route changes abruptly. */
 static const double gross_misfit = 0.04;
 /* Misfit from which the shifts may be affected [ln]: 0.04 decade, twice the error from 1 % of
  * noise. */
-static const double may_move = 0.01;
+static const double shift_relevant_misfit = 0.01;
 /* Initial curvature scale of lines: a factor 150 between terms. The noise must fall by the
- * factor more_noise and by six standard errors, one false alarm in 1e9 for normal noise. The
+ * factor noise_ratio_limit and by six standard errors, one false alarm in 1e9 for normal noise. The
  * factor is chosen: at 1.3 lines between terms add 69 % to the square of the noise. At 1.15 some
  * smooth spectra count as lines, which costs terms and no precision. At 1.6 lines with 1.2 times
  * the noise are missed. */
-static const double lines_smooth = 5.0, more_noise = 1.3, surely = 6.0;
+static const double lines_smooth = 5.0, noise_ratio_limit = 1.3, noise_significance = 6.0;
 
 wt_master_options wt_master_options_defaults(void)
 {
@@ -91,12 +92,12 @@ PARAM_TABLE(wt_master_options_params, wt_master_options, rows, wt_master_options
  * it from the horizontal shift. */
 wt_status master_check_vertical(master_work *work, wt_error *err)
 {
-    if (work->set.by == WT_BY_LOSS_FACTOR)
+    if (work->set.by == WT_SHIFT_LOSS_FACTOR)
         work->options.vertical = WT_VERTICAL_NONE;
     /* the model of creep is a solid; a liquid gets a small equilibrium modulus */
     work->flows = work->set.loading == WT_CREEP && work->options.liquid;
     work->options.liquid = work->options.liquid && !work->flows;
-    if (work->set.by == WT_BY_MODULI || work->options.vertical != WT_VERTICAL_FREE)
+    if (work->set.by == WT_SHIFT_MODULI || work->options.vertical != WT_VERTICAL_FREE)
         return WT_OK;
     wt_fail(err, WT_E_ARG, "one modulus alone does not tell free vertical shifts");
     wt_error_place(err, "vertical-shift");
@@ -147,9 +148,9 @@ wt_status master_work_alloc(master_work *work, wt_error *err)
     work->b = arena_numbers(m, n);
     work->physical = arena_numbers(m, n);
     work->overlap = arena_numbers(m, n);
-    vertical_make_room(m, n, &work->vertical);
-    work->link = arena_alloc(m, n, sizeof *work->link);
-    work->own_a = arena_numbers(m, n);
+    vertical_alloc(m, n, &work->vertical);
+    work->edge = arena_alloc(m, n, sizeof *work->edge);
+    work->original_a = arena_numbers(m, n);
     work->posterior = posterior_new();
     if (work->posterior != NULL) {
         work->posterior->curve = arena_alloc(&work->posterior->memory, n, sizeof(size_t));
@@ -175,7 +176,7 @@ wt_status master_set_widths(master_work *work, wt_vertical_shift kind, double ge
 }
 
 /* Creates a spectrum for the placed curves and the arrays of the posterior for each curve. */
-wt_status master_make_spectrum(master_work *work, wt_error *err)
+wt_status master_new_spectrum(master_work *work, wt_error *err)
 {
     wt_posterior *p = work->posterior;
     const size_t evaluations = work->s->evaluations;
@@ -191,7 +192,7 @@ wt_status master_make_spectrum(master_work *work, wt_error *err)
     p->mean_b = arena_numbers(m, n);
     p->slope = arena_numbers(m, n);
     p->scratch = arena_numbers(m, 7 * n + 4 * work->s->n_linear);
-    p->with_all = arena_numbers(m, 3 * n + work->s->n_linear);
+    p->cross_covariance = arena_numbers(m, 3 * n + work->s->n_linear);
     if (m->failed)
         return wt_fail(err, WT_E_MEMORY, "no memory for %zu isotherms", n);
     work->vertical.mean = p->mean_b;
@@ -205,7 +206,7 @@ wt_status master_make_spectrum(master_work *work, wt_error *err)
 }
 
 /* Refits without outliers until their set is stable. */
-static wt_status leave_out(master_work *work, wt_error *err)
+static wt_status exclude_outliers(master_work *work, wt_error *err)
 {
     wt_status status = WT_OK;
     for (int round = 0; status == WT_OK && round < MOST_ROUNDS; round++) {
@@ -221,11 +222,11 @@ static wt_status leave_out(master_work *work, wt_error *err)
 wt_status master_fit_robust(master_work *work, wt_error *err)
 {
     const wt_status status = spectrum_fit(work->s, SPECTRUM_ROBUST, err);
-    return status == WT_OK ? leave_out(work, err) : status;
+    return status == WT_OK ? exclude_outliers(work, err) : status;
 }
 
 /* Stores the fitted shifts and returns the largest change [decade]. */
-static double take_shifts(master_work *work)
+static double store_fitted_shifts(master_work *work)
 {
     double most = 0.0;
     for (size_t i = 0; i < work->set.n; i++) {
@@ -241,16 +242,17 @@ static double take_shifts(master_work *work)
 
 /* Returns true if a line spectrum reduces the noise of a modulus significantly. The standard
  * error of the log ratio follows from the additional parameters. */
-static bool leave_less(const spectrum *lines, const spectrum *s, int q)
+static bool lines_reduce_noise(const spectrum *lines, const spectrum *s, int q)
 {
     const double less = log(s->noise[q] / lines->noise[q]);
     const double left = spectrum_squares(lines, q) / (lines->noise[q] * lines->noise[q]);
     const double more = fmax(lines->freedom[q] - s->freedom[q], 0.0);
-    return s->used[q] && less > log(more_noise) && less * left > surely * sqrt(more / 2.0);
+    return s->used[q] && less > log(noise_ratio_limit) &&
+           less * left > noise_significance * sqrt(more / 2.0);
 }
 
 /* Tests if a line spectrum with fixed vertical shifts reduces the noise. */
-static wt_status try_lines(const master_work *work, bool *better, wt_error *err)
+static wt_status try_line_spectrum(const master_work *work, bool *better, wt_error *err)
 {
     const spectrum *s = work->s;
     spectrum lines;
@@ -276,7 +278,7 @@ static wt_status try_lines(const master_work *work, bool *better, wt_error *err)
             (void)spectrum_noise_update(&lines, 1.0);
     }
     for (int q = 0; q < MODULI && status == WT_OK; q++)
-        *better |= leave_less(&lines, s, q);
+        *better |= lines_reduce_noise(&lines, s, q);
     work->s->evaluations += lines.evaluations;
     spectrum_free(&lines);
     return status;
@@ -284,25 +286,25 @@ static wt_status try_lines(const master_work *work, bool *better, wt_error *err)
 
 /* Tests if more terms are needed, because the spectrum has sharp curvature or lines reduce the
  * noise. */
-static wt_status needs_lines(master_work *work, bool *better, wt_error *err)
+static wt_status needs_line_spectrum(master_work *work, bool *better, wt_error *err)
 {
-    *better = work->s->smooth > sharp;
+    *better = work->s->smooth > sharp_curvature;
     wt_error no_lines = WT_ERROR_INIT; /* a failed trial is no failure of the fit */
-    (void)take_shifts(work);
-    if (!*better && try_lines(work, better, &no_lines) == WT_E_MEMORY)
+    (void)store_fitted_shifts(work);
+    if (!*better && try_line_spectrum(work, better, &no_lines) == WT_E_MEMORY)
         return wt_fail(err, WT_E_MEMORY, "%s", no_lines.message);
     return WT_OK;
 }
 
-static wt_status sharpen_spectrum(master_work *work, wt_error *err)
+static wt_status refine_line_spectrum(master_work *work, wt_error *err)
 {
     bool better = false;
-    wt_status lines = needs_lines(work, &better, err);
+    wt_status lines = needs_line_spectrum(work, &better, err);
     if (lines != WT_OK || !better)
         return lines;
     work->lines = true;
     work->terms_per_decade = sharp_terms;
-    const wt_status status = master_make_spectrum(work, err);
+    const wt_status status = master_new_spectrum(work, err);
     work->s->smooth = lines_smooth;
     return status == WT_OK ? master_fit_robust(work, err) : status;
 }
@@ -311,13 +313,13 @@ static wt_status sharpen_spectrum(master_work *work, wt_error *err)
 wt_status master_measure_misfit(master_work *work, wt_error *err)
 {
     double all[MODULI], within[MODULI];
-    const wt_status status = spectrum_misses(work->s, all, within, err);
-    work->gross = work->louder = false;
+    const wt_status status = spectrum_measure_misfit(work->s, all, within, err);
+    work->is_gross = work->exceeds_noise = false;
     for (int q = 0; status == WT_OK && q < MODULI; q++) {
         const double missed = all[q] * all[q] - within[q] * within[q];
-        const bool gross = missed > gross_misfit * gross_misfit;
-        work->gross = work->gross || gross;
-        work->louder = work->louder || (gross && missed > within[q] * within[q]);
+        const bool is_gross = missed > gross_misfit * gross_misfit;
+        work->is_gross = work->is_gross || is_gross;
+        work->exceeds_noise = work->exceeds_noise || (is_gross && missed > within[q] * within[q]);
         work->missed[q] = sqrt(fmax(missed, 0.0));
     }
     return status;
@@ -325,61 +327,61 @@ wt_status master_measure_misfit(master_work *work, wt_error *err)
 
 /* Restarts from the overlaps of E' if the misfit is large, because the start may be wrong. A
  * line spectrum also has a large misfit until it has enough terms. */
-static wt_status start_again(master_work *work, wt_error *err)
+static wt_status restart_from_overlaps(master_work *work, wt_error *err)
 {
     bool lines = false;
     wt_status status = master_measure_misfit(work, err);
-    if (status != WT_OK || !work->gross)
+    if (status != WT_OK || !work->is_gross)
         return status;
     if (isnan(work->options.terms_per_decade))
-        status = needs_lines(work, &lines, err);
+        status = needs_line_spectrum(work, &lines, err);
     if (status != WT_OK || lines || !work->set.used[STORAGE]) {
-        work->gross = work->gross && !lines;
+        work->is_gross = work->is_gross && !lines;
         return status;
     }
-    status = master_overlaps(work, err);
+    status = master_find_overlaps(work, err);
     for (size_t i = 0; status == WT_OK && i < work->set.n; i++)
-        if (work->link[i].placed && !work->set.curves[i].given) {
+        if (work->edge[i].placed && !work->set.curves[i].given) {
             work->placed[i] = true;
-            work->a[i] = work->link[i].a;
+            work->a[i] = work->edge[i].a;
         }
-    (void)spectrum_connected(&work->set, work->anchor, work->a, work->placed, work->overlap);
+    (void)spectrum_select_connected(&work->set, work->anchor, work->a, work->placed, work->overlap);
     if (status == WT_OK)
-        status = master_make_spectrum(work, err);
+        status = master_new_spectrum(work, err);
     if (status == WT_OK)
         status = spectrum_fit(work->s, SPECTRUM_ROBUST, err);
     return status == WT_OK ? master_measure_misfit(work, err) : status;
 }
 
-wt_status master_place(master_work *work, wt_error *err)
+wt_status master_place_isotherms(master_work *work, wt_error *err)
 {
     const double asked = work->options.terms_per_decade;
     wt_status status = WT_OK;
-    work->gross = false;
+    work->is_gross = false;
     work->terms_per_decade = isnan(asked) ? smooth_terms : asked;
-    spectrum_start(&work->set, work->anchor, work->options.vertical, work->physical, work->placed,
-                   work->a, work->b);
+    spectrum_place_isotherms(&work->set, work->anchor, work->options.vertical, work->physical,
+                             work->placed, work->a, work->b);
     for (size_t i = 0; work->part && i < work->set.n; i++)
         work->placed[i] = work->placed[i] && i >= work->first && i <= work->last;
     for (int round = 0; status == WT_OK && round < MOST_ROUNDS; round++) {
         const size_t before = work->s->n_curves;
-        const double moved = round > 0 ? take_shifts(work) : 0.0;
-        const size_t n =
-            spectrum_connected(&work->set, work->anchor, work->a, work->placed, work->overlap);
-        if (round > 0 && n == before && moved < far)
+        const double moved = round > 0 ? store_fitted_shifts(work) : 0.0;
+        const size_t n = spectrum_select_connected(&work->set, work->anchor, work->a, work->placed,
+                                                   work->overlap);
+        if (round > 0 && n == before && moved < max_start_shift)
             break;
-        status = master_make_spectrum(work, err);
+        status = master_new_spectrum(work, err);
         if (status == WT_OK)
             status = spectrum_fit(work->s, SPECTRUM_ROBUST, err);
         if (status == WT_OK && round == 0 && !work->part && !work->plain)
-            status = start_again(work, err);
-        if (work->gross)
+            status = restart_from_overlaps(work, err);
+        if (work->is_gross)
             break;
         if (status == WT_OK)
-            status = leave_out(work, err);
+            status = exclude_outliers(work, err);
     }
-    if (status == WT_OK && isnan(asked) && !work->gross)
-        status = sharpen_spectrum(work, err);
+    if (status == WT_OK && isnan(asked) && !work->is_gross)
+        status = refine_line_spectrum(work, err);
     if (status == WT_OK && work->s->n_curves < 2 && work->set.n > 1) {
         status = wt_fail(err, WT_E_NO_OVERLAP, "no isotherm overlaps the one of %.2f °C",
                          work->set.curves[work->anchor].temperature - WT_ZERO_CELSIUS);
@@ -393,14 +395,14 @@ wt_status master_place(master_work *work, wt_error *err)
 
 /* Estimates noise factors within the isotherms, then curvature weights, then correlation by the
  * fit. A small misfit of the spectrum therefore counts as noise. */
-wt_status master_find_noise(master_work *work, wt_error *err)
+wt_status master_estimate_noise(master_work *work, wt_error *err)
 {
-    wt_status status = spectrum_noise_within(work->s, &work->within, err);
-    spectrum_spread(work->s, master_even);
+    wt_status status = spectrum_estimate_noise(work->s, &work->within, err);
+    spectrum_set_point_noise(work->s, master_uniform_noise);
     for (int round = 0; status == WT_OK && round < BEND_ROUNDS; round++) {
         status = spectrum_fit(work->s, SPECTRUM_ROUGH, err);
         if (status == WT_OK && round + 1 < BEND_ROUNDS)
-            spectrum_bends(work->s);
+            spectrum_update_curvature(work->s);
     }
     return status == WT_OK ? spectrum_choose_rho(work->s, err) : status;
 }
@@ -408,24 +410,24 @@ wt_status master_find_noise(master_work *work, wt_error *err)
 /* Tests superposition with free vertical shifts, which the verdict excludes. The noise follows
  * the shape along the isotherms. The fit uses uniform noise, because a misfit at the ends does
  * not reduce their weight. */
-wt_status master_test(master_work *work, wt_error *err)
+wt_status master_test_superposition(master_work *work, wt_error *err)
 {
-    if (work->s->n_curves < 2 || work->set.by != WT_BY_MODULI)
+    if (work->s->n_curves < 2 || work->set.by != WT_SHIFT_MODULI)
         return WT_OK;
     spectrum *s = work->s;
     /* also tested without a request if the misfit may affect the shifts */
     work->tested = !work->options.series_only || work->part ||
-                   fmax(work->missed[STORAGE], work->missed[LOSS]) > may_move;
+                   fmax(work->missed[STORAGE], work->missed[LOSS]) > shift_relevant_misfit;
     const double rho = s->rho;
     wt_status status = master_set_widths(work, WT_VERTICAL_FREE, 0.0, 0.0, err);
     s->rho = work->within.rho;
-    spectrum_spread(s, work->within.shape);
+    spectrum_set_point_noise(s, work->within.shape);
     if (status == WT_OK)
-        status = spectrum_fit(s, work->gross ? SPECTRUM_ROUGH : SPECTRUM_NOISE, err);
+        status = spectrum_fit(s, work->is_gross ? SPECTRUM_ROUGH : SPECTRUM_NOISE, err);
     if (status == WT_OK && work->tested)
         status = superposition_test(s, work->within.uncertainty, &work->lack, err);
     s->rho = rho;
-    spectrum_spread(s, master_even);
+    spectrum_set_point_noise(s, master_uniform_noise);
     if (status == WT_OK) /* restores the columns that the cells use */
         status =
             master_set_widths(work, work->options.vertical, start_geometry, start_departure, err);

@@ -26,14 +26,14 @@ typedef struct master_work {
     spectrum *s; /* frame of the posterior */
     vertical vertical;
     spectrum_prior prior;
-    spectrum_within within; /* noise within the isotherms */
-    lack_of_fit lack;       /* lack of fit of one spectrum with free shifts */
+    spectrum_isotherm_noise within; /* noise within the isotherms */
+    lack_of_fit lack;               /* lack of fit of one spectrum with free shifts */
     bool tested;
     bool plain;            /* no restart and no overlap shifts */
-    bool gross;            /* the misfit is so large that the shifts are meaningless */
-    bool louder;           /* and the misfit exceeds the noise */
-    overlap_link *link;    /* [set.n] shifts by overlap of neighbours */
-    double *own_a;         /* [set.n] shifts of one spectrum of all isotherms [decade]; NaN: none */
+    bool is_gross;         /* the misfit is so large that the shifts are meaningless */
+    bool exceeds_noise;    /* and the misfit exceeds the noise */
+    overlap_edge *edge;    /* [set.n] shifts by overlap of neighbours */
+    double *original_a;    /* [set.n] shifts of one spectrum of all isotherms [decade]; NaN: none */
     double missed[MODULI]; /* misfit of one spectrum [ln] */
     wt_shift_route route;
     char no_spectrum[256]; /* reason why no spectrum with free shifts was found, or "" */
@@ -51,54 +51,54 @@ wt_status master_work_alloc(master_work *work, wt_error *err) WT_NODISCARD;
 wt_status master_choose_anchor(master_work *work, wt_error *err) WT_NODISCARD;
 /* Places the isotherms: start, outliers and connected isotherms. Sets the flag of a gross
  * misfit. */
-wt_status master_place(master_work *work, wt_error *err) WT_NODISCARD;
-wt_status master_find_noise(master_work *work, wt_error *err) WT_NODISCARD;
+wt_status master_place_isotherms(master_work *work, wt_error *err) WT_NODISCARD;
+wt_status master_estimate_noise(master_work *work, wt_error *err) WT_NODISCARD;
 /* Measures the misfit beyond the noise within the isotherms and sets its flags. */
 wt_status master_measure_misfit(master_work *work, wt_error *err) WT_NODISCARD;
 /* Tests superposition with free vertical shifts; fills `lack`. */
-wt_status master_test(master_work *work, wt_error *err) WT_NODISCARD;
+wt_status master_test_superposition(master_work *work, wt_error *err) WT_NODISCARD;
 /* Noise that is uniform along an isotherm. */
-extern const double master_even[SPECTRUM_SHAPES];
+extern const double master_uniform_noise[SPECTRUM_SHAPES];
 /* Fills the edges [set.n] from the overlaps, with the vertical shift of rubber elasticity or
  * with none. */
-wt_status master_links(const master_work *work, bool physical, overlap_link *link,
-                       wt_error *err) WT_NODISCARD;
+wt_status master_overlap_edges(const master_work *work, bool physical, overlap_edge *edge,
+                               wt_error *err) WT_NODISCARD;
 /* Sets the prior of the vertical shifts, with widths of clamping and departure [decade]. */
 wt_status master_set_widths(master_work *work, wt_vertical_shift kind, double geometry,
                             double departure, wt_error *err) WT_NODISCARD;
 /* Fits all relevant widths of the prior. The spectrum ends at the best one. */
 wt_status master_fit_widths(master_work *work, wt_error *err) WT_NODISCARD;
 /* Creates a spectrum for the placed curves at their present shifts, without outliers. */
-wt_status master_make_spectrum(master_work *work, wt_error *err) WT_NODISCARD;
+wt_status master_new_spectrum(master_work *work, wt_error *err) WT_NODISCARD;
 wt_status master_fit_robust(master_work *work, wt_error *err) WT_NODISCARD;
 /* Fills the edges of the work from the overlaps with the requested vertical shifts. */
-wt_status master_overlaps(master_work *work, wt_error *err) WT_NODISCARD;
+wt_status master_find_overlaps(master_work *work, wt_error *err) WT_NODISCARD;
 /* Replaces the shifts by those of the overlaps and fits the spectrum to them. */
-wt_status master_by_overlap(master_work *work, wt_error *err) WT_NODISCARD;
+wt_status master_use_overlap_shifts(master_work *work, wt_error *err) WT_NODISCARD;
 /* Computes the shift and error of an isotherm outside the described part. */
-bool master_beside_part(const master_work *work, size_t i, double *a, double *error);
+bool master_shift_outside_part(const master_work *work, size_t i, double *a, double *error);
 /* Tests if the overlaps determine shifts. They need storage moduli and no stated shift. The
  * function also fills the edges of the work. */
-wt_status master_may_overlap(master_work *work, bool *may, wt_error *err) WT_NODISCARD;
-/* Stores the shifts of the spectrum in own_a. */
-void master_keep_original(master_work *work);
+wt_status master_can_use_overlaps(master_work *work, bool *may, wt_error *err) WT_NODISCARD;
+/* Stores the shifts of the spectrum in original_a. */
+void master_store_original_shifts(master_work *work);
 /* Adds the disagreement with the overlaps to the errors of the shifts if superposition fails. */
 wt_status master_uncertainty(master_work *work, wt_error *err) WT_NODISCARD;
 /* Returns true if no shift of the spectrum remains determined. */
 bool master_all_uncertain(const master_work *work);
 /* A shift with a larger error is not determined [decade]. */
-extern const double master_largest_sigma;
+extern const double master_max_shift_error;
 /* Tests if the shifts of the spectrum agree with the overlaps, with the vertical shift of rubber
  * elasticity or with none. */
-wt_status master_agrees(const master_work *work, bool *agrees, wt_error *err) WT_NODISCARD;
+wt_status master_shifts_agree(const master_work *work, bool *agrees, wt_error *err) WT_NODISCARD;
 /* Returns true if the lack of fit is significant and relevant. */
-bool master_misfit_is_real(const lack_of_fit *lack);
+bool master_misfit_is_significant(const lack_of_fit *lack);
 /* Returns true if a lack of fit is likely, which prevents the verdict that superposition holds. */
 bool master_misfit_is_likely(const lack_of_fit *lack);
 /* Returns true if a common factor on all E'' is significant and relevant. */
-bool master_loss_is_off(const lack_of_fit *lack);
+bool master_loss_is_inconsistent(const lack_of_fit *lack);
 /* Returns true if that factor is the only misfit. It does not affect the shifts. */
-bool master_is_factor(const lack_of_fit *lack);
+bool master_misfit_is_loss_factor(const lack_of_fit *lack);
 
 /* Fits for the reference of the options. *better: after a lack of overlap, the temperature of a
  * steeper isotherm; otherwise NaN. */
@@ -116,9 +116,9 @@ wt_status master_check_reference(const master_work *work, const wt_master *m,
 wt_status master_check_shifts(const master_work *work, const wt_master *m,
                               wt_error *err) WT_NODISCARD;
 /* Appends a remark to the note of a shift after "; ". */
-void master_note(wt_master_shift *shift, const char *format, ...) WT_PRINTF(2, 3);
+void master_add_note(wt_master_shift *shift, const char *format, ...) WT_PRINTF(2, 3);
 /* Writes unexpected properties of the isotherms to their notes and to the log. */
-void master_notes(const master_work *work, const wt_sweep *sweep, wt_master *m, wt_log *log);
+void master_add_notes(const master_work *work, const wt_sweep *sweep, wt_master *m, wt_log *log);
 /* Sets the verdict on superposition. The shifts and the test must be complete. */
 void master_assess(const master_work *work, wt_master *master);
 

@@ -12,16 +12,16 @@
  * others is named. By chance ten points of both moduli have a third more noise in one of forty.
  * A vertical shift 0.1 decade from the physical one is named: 26 %, which no change of density
  * with temperature causes. */
-static const double noisy = 3.0, odd_vertical = 0.1;
+static const double noise_factor_limit = 3.0, vertical_deviation_limit = 0.1;
 /* Strain amplitudes with a larger ratio are different points of the Payne curve. At its steepest
  * it falls by a fifth of its height between them (Kraus 1984, with m = 0.6). Used for a note
  * only. */
-static const double odd_strain = 2.0;
+static const double strain_ratio_limit = 2.0;
 /* Runs within 0.5 K, the stability of a chamber, have one temperature. A difference of four
  * standard errors occurs by chance in one pair of 16,000. */
-static const double one_temperature = 0.5, odd_difference = 4.0;
+static const double same_temperature = 0.5, difference_limit = 4.0;
 
-void master_note(wt_master_shift *shift, const char *format, ...)
+void master_add_note(wt_master_shift *shift, const char *format, ...)
 {
     const size_t size = sizeof shift->note;
     size_t length = strlen(shift->note);
@@ -41,42 +41,43 @@ static void note_shift(const master_work *work, size_t i, wt_master_shift *shift
 {
     const wt_posterior *p = work->posterior;
     if (work->set.curves[i].n_left_out > 0)
-        master_note(shift, "%zu point%s without positive modulus left out",
-                    work->set.curves[i].n_left_out, work->set.curves[i].n_left_out > 1 ? "s" : "");
+        master_add_note(shift, "%zu point%s without positive modulus left out",
+                        work->set.curves[i].n_left_out,
+                        work->set.curves[i].n_left_out > 1 ? "s" : "");
     if (shift->n_outliers > 0)
-        master_note(shift, "%zu value%s off the curve left out", shift->n_outliers,
-                    shift->n_outliers > 1 ? "s" : "");
-    if (shift->noise_factor > noisy)
-        master_note(shift, "%.1f times the noise of the others", shift->noise_factor);
+        master_add_note(shift, "%zu value%s off the curve left out", shift->n_outliers,
+                        shift->n_outliers > 1 ? "s" : "");
+    if (shift->noise_factor > noise_factor_limit)
+        master_add_note(shift, "%.1f times the noise of the others", shift->noise_factor);
     if (!shift->determined)
         return;
-    if (work->set.curves[i].given && work->route == WT_SHIFTS_OF_SPECTRUM)
-        master_note(shift, "as given");
+    if (work->set.curves[i].given && work->route == WT_SHIFTS_FROM_SPECTRUM)
+        master_add_note(shift, "as given");
     if (work->options.vertical != WT_VERTICAL_NONE && isfinite(shift->log_b.value) &&
-        fabs(shift->log_b.value - shift->log_b_physical) > odd_vertical)
-        master_note(shift, "log bT %+.3f where rho T gives %+.3f", shift->log_b.value,
-                    shift->log_b_physical);
-    if (p->shape.kind != WT_LAW_NONE && p->shape.odd == (long)work->curve[i]) {
-        const double off = posterior_constant(p, law_odd_index(&p->shape)).value;
-        master_note(shift, "off the law by %+.2f decade, as if %+.1f K from its temperature", off,
-                    off / p->slope[work->curve[i]]);
+        fabs(shift->log_b.value - shift->log_b_physical) > vertical_deviation_limit)
+        master_add_note(shift, "log bT %+.3f where rho T gives %+.3f", shift->log_b.value,
+                        shift->log_b_physical);
+    if (p->shape.kind != WT_LAW_NONE && p->shape.outlier == (long)work->curve[i]) {
+        const double off = posterior_constant(p, law_outlier_index(&p->shape)).value;
+        master_add_note(shift, "off the law by %+.2f decade, as if %+.1f K from its temperature",
+                        off, off / p->slope[work->curve[i]]);
     }
 }
 
 /* Notes runs at one temperature with significantly different shifts. */
-static void note_runs(wt_master *m)
+static void note_repeated_runs(wt_master *m)
 {
     for (size_t i = 1; i < m->n_shifts; i++) {
         wt_master_shift *shift = &m->shifts[i];
         const wt_master_shift *before = &m->shifts[i - 1];
         if (!shift->determined || !before->determined ||
-            shift->temperature - before->temperature > one_temperature)
+            shift->temperature - before->temperature > same_temperature)
             continue;
         const double difference = shift->log_a.value - before->log_a.value;
         if (fabs(difference) >
-            odd_difference * hypot(shift->log_a.standard_error, before->log_a.standard_error))
-            master_note(shift, "log aT differs by %+.3f from the other run at this temperature",
-                        difference);
+            difference_limit * hypot(shift->log_a.standard_error, before->log_a.standard_error))
+            master_add_note(shift, "log aT differs by %+.3f from the other run at this temperature",
+                            difference);
     }
 }
 
@@ -98,7 +99,7 @@ static void note_strain(const wt_sweep *sweep, wt_log *log)
             high = fmax(high, pow(10.0, sum / (double)n));
         }
     }
-    if (high > odd_strain * low)
+    if (high > strain_ratio_limit * low)
         wt_log_add(log, WT_WARNING, NULL, NULL,
                    "isotherms were measured at strain amplitudes from %.2g to %.2g: a filled "
                    "rubber softens with strain, so their shifts mix temperature and strain",
@@ -109,11 +110,12 @@ static void note_strain(const wt_sweep *sweep, wt_log *log)
 static void note_quantity(const master_work *work, wt_log *log)
 {
     static const char *const open[] = {
-        [WT_BY_STORAGE] = "fitted to the storage modulus alone: the loss modulus is what its slope "
-                          "demands (Kramers-Kronig), and superposition is not tested",
-        [WT_BY_LOSS] = "fitted to the loss modulus alone: no equilibrium modulus, so no storage "
-                       "modulus and no series, and superposition is not tested",
-        [WT_BY_LOSS_FACTOR] =
+        [WT_SHIFT_STORAGE] =
+            "fitted to the storage modulus alone: the loss modulus is what its slope "
+            "demands (Kramers-Kronig), and superposition is not tested",
+        [WT_SHIFT_LOSS] = "fitted to the loss modulus alone: no equilibrium modulus, so no storage "
+                          "modulus and no series, and superposition is not tested",
+        [WT_SHIFT_LOSS_FACTOR] =
             "fitted to the loss factor alone: shifts and their law, but no level of "
             "the moduli, no vertical shift and no series, and superposition is not "
             "tested"};
@@ -127,7 +129,7 @@ static void note_quantity(const master_work *work, wt_log *log)
                    "creep of a liquid is fitted with an equilibrium modulus, which stands for "
                    "what flows: shifts, law and moduli at the measured times are those of the "
                    "liquid, and it is too stiff at longer ones");
-    else if (work->set.loading == WT_OSCILLATION && work->set.by != WT_BY_MODULI)
+    else if (work->set.loading == WT_OSCILLATION && work->set.by != WT_SHIFT_MODULI)
         wt_log_add(log, WT_WARNING, NULL, NULL, "%s", open[work->set.by]);
 }
 
@@ -136,8 +138,8 @@ static void note_route(const master_work *work, wt_log *log)
 {
     size_t measured = 0, left = 0;
     for (size_t i = 0; i < work->set.n; i++)
-        if (work->set.curves[i].n_together > 0) {
-            measured += work->set.curves[i].n_together;
+        if (work->set.curves[i].n_merged > 0) {
+            measured += work->set.curves[i].n_merged;
             left += work->set.curves[i].n;
         }
     if (measured > 0)
@@ -152,7 +154,7 @@ static void note_route(const master_work *work, wt_log *log)
                    "their storage modulus with their neighbours'",
                    work->set.curves[work->first].temperature - WT_ZERO_CELSIUS,
                    work->set.curves[work->last].temperature - WT_ZERO_CELSIUS);
-    else if (work->route == WT_SHIFTS_OF_OVERLAP)
+    else if (work->route == WT_SHIFTS_FROM_OVERLAP)
         wt_log_add(log, WT_WARNING, NULL, NULL,
                    "shifts are by the overlap of the storage modulus alone, from neighbour to "
                    "neighbour and %s: their errors hold what the places of an overlap "
@@ -166,13 +168,13 @@ static void note_route(const master_work *work, wt_log *log)
                        : "the vertical shift of rubber elasticity");
 }
 
-void master_notes(const master_work *work, const wt_sweep *sweep, wt_master *m, wt_log *log)
+void master_add_notes(const master_work *work, const wt_sweep *sweep, wt_master *m, wt_log *log)
 {
     note_quantity(work, log);
     note_route(work, log);
     for (size_t i = 0; i < m->n_shifts; i++)
         note_shift(work, i, &m->shifts[i]);
-    note_runs(m);
+    note_repeated_runs(m);
     note_strain(sweep, log);
     for (size_t i = 0; i < m->n_shifts; i++)
         if (m->shifts[i].note[0] != '\0')
@@ -189,17 +191,18 @@ void master_notes(const master_work *work, const wt_sweep *sweep, wt_master *m, 
         wt_log_add(log, WT_WARNING, NULL, NULL,
                    "the reference temperature is outside the isotherms: the law is "
                    "extrapolated");
-    if (m->n_shifts > 1 && work->set.by == WT_BY_MODULI &&
+    if (m->n_shifts > 1 && work->set.by == WT_SHIFT_MODULI &&
         m->superposition != WT_SUPERPOSITION_HOLDS)
         wt_log_add(log, WT_WARNING, NULL, NULL, "time-temperature superposition %s%s%s",
                    m->superposition == WT_SUPERPOSITION_FAILS ? "fails" : "cannot be judged",
                    isnan(m->valid_from) ? ": " : " ", m->because);
-    if (m->law.kind != WT_LAW_NONE && m->law_rms > master_largest_sigma)
+    if (m->law.kind != WT_LAW_NONE && m->law_rms > master_max_shift_error)
         wt_log_add(log, WT_WARNING, NULL, NULL,
                    "the law of the shift factors is %.2g decade off them (rms): it is none of "
                    "this material, and what is worked out at other temperatures with it is off "
                    "by as much",
                    m->law_rms);
     if (m->law.kind == WT_LAW_NONE && m->n_shifts > 1)
-        wt_log_add(log, WT_WARNING, NULL, NULL, "no law of the shift factors: %s", m->no_law);
+        wt_log_add(log, WT_WARNING, NULL, NULL, "no law of the shift factors: %s",
+                   m->no_law_reason);
 }

@@ -10,10 +10,10 @@
 
 /* Shifts of the spectrum and of the overlaps disagree if they differ by more standard errors
  * than this. */
-static const double agree = 2.0;
+static const double agreement_limit = 2.0;
 
 /* Returns true if all shifts of the spectrum agree with the overlaps. */
-static bool all_agree(const master_work *work, const overlap_link *link)
+static bool shifts_match_edges(const master_work *work, const overlap_edge *edge)
 {
     const spectrum *s = work->s;
     for (size_t i = 0; i < work->set.n; i++) {
@@ -21,30 +21,30 @@ static bool all_agree(const master_work *work, const overlap_link *link)
         if (column < 0)
             continue;
         const double variance = spectrum_variance(s, work->curve[i]);
-        const double off = spectrum_a(s, work->curve[i]) / M_LN10 - link[i].a;
-        if (!(fabs(off) <= agree * hypot(link[i].error, sqrt(variance) / M_LN10)))
+        const double off = spectrum_a(s, work->curve[i]) / M_LN10 - edge[i].a;
+        if (!(fabs(off) <= agreement_limit * hypot(edge[i].error, sqrt(variance) / M_LN10)))
             return false;
     }
     return true;
 }
 
-wt_status master_agrees(const master_work *work, bool *agrees, wt_error *err)
+wt_status master_shifts_agree(const master_work *work, bool *agrees, wt_error *err)
 {
     const size_t n = work->set.n;
     arena memory = {0};
-    overlap_link *link = arena_alloc(&memory, n, sizeof *link);
+    overlap_edge *edge = arena_alloc(&memory, n, sizeof *edge);
     wt_status status =
         memory.failed ? wt_fail(err, WT_E_MEMORY, "no memory for the overlaps") : WT_OK;
     *agrees = false;
     for (int physical = 0; physical < 2 && status == WT_OK && !*agrees; physical++) {
-        status = master_links(work, physical == 1, link, err);
-        *agrees = status == WT_OK && all_agree(work, link);
+        status = master_overlap_edges(work, physical == 1, edge, err);
+        *agrees = status == WT_OK && shifts_match_edges(work, edge);
     }
     arena_free(&memory);
     return status;
 }
 
-wt_status master_may_overlap(master_work *work, bool *may, wt_error *err)
+wt_status master_can_use_overlaps(master_work *work, bool *may, wt_error *err)
 {
     size_t placed = 0;
     bool given = !work->set.used[STORAGE];
@@ -53,61 +53,62 @@ wt_status master_may_overlap(master_work *work, bool *may, wt_error *err)
     *may = false;
     if (given)
         return WT_OK;
-    const wt_status status = master_overlaps(work, err);
+    const wt_status status = master_find_overlaps(work, err);
     for (size_t i = 0; status == WT_OK && i < work->set.n; i++)
-        placed += work->link[i].placed;
+        placed += work->edge[i].placed;
     *may = placed > 1;
     return status;
 }
 
-static size_t isotherms_away(const master_work *work, size_t i)
+static size_t distance_to_anchor(const master_work *work, size_t i)
 {
     return i > work->anchor ? i - work->anchor : work->anchor - i;
 }
 
 /* Returns the sum of squared errors of the steps that two isotherms share. */
-static double common_steps(const master_work *work, size_t one, size_t other)
+static double shared_step_variance(const master_work *work, size_t left, size_t right)
 {
     double sum = 0.0;
-    while (one != other) {
+    while (left != right) {
         size_t *const next =
-            isotherms_away(work, one) > isotherms_away(work, other) ? &one : &other;
-        *next = work->link[*next].onto;
+            distance_to_anchor(work, left) > distance_to_anchor(work, right) ? &left : &right;
+        *next = work->edge[*next].onto;
     }
-    for (; one != work->anchor; one = work->link[one].onto)
-        sum += work->link[one].step * work->link[one].step;
+    for (; left != work->anchor; left = work->edge[left].onto)
+        sum += work->edge[left].step * work->edge[left].step;
     return sum;
 }
 
 /* Converts a misfit of E' to a shift [decade], from the slope of the isotherms. It may
  * accumulate from one isotherm to the next if the material changes with temperature. */
-static double missed_shift(const master_work *work, double missed, size_t from, size_t i)
+static double misfit_to_shift(const master_work *work, double missed, size_t from, size_t i)
 {
     double sum = 0.0;
     for (; i != from; i = i < from ? i + 1 : i - 1) {
         const shift_curve *c = &work->set.curves[i];
-        sum += missed / M_LN10 * (c->x[c->n - 1] - c->x[0]) / shift_change(&work->set, i);
+        sum += missed / M_LN10 * (c->x[c->n - 1] - c->x[0]) / curve_modulus_change(&work->set, i);
     }
     return sum;
 }
 
 /* Returns the shift error due to the misfit of the spectrum [decade]. If one spectrum fails,
  * slow and fast times shift differently, in an unknown direction. */
-static double doubt_of_spectrum(const master_work *work, size_t i)
+static double spectrum_misfit_shift(const master_work *work, size_t i)
 {
     bool given = false;
     for (size_t k = 0; k < work->set.n; k++)
         given = given || work->set.curves[k].given;
-    if (given || master_is_factor(&work->lack))
+    if (given || master_misfit_is_loss_factor(&work->lack))
         return 0.0; /* stated shifts may cause the misfit; a factor on all E'' does not affect
                        shifts */
     const double missed = sqrt(work->lack.beyond) * work->missed[STORAGE];
-    return hypot(work->lack.parted * work->own_a[i], missed_shift(work, missed, work->anchor, i));
+    return hypot(work->lack.parted * work->original_a[i],
+                 misfit_to_shift(work, missed, work->anchor, i));
 }
 
 /* Returns the squared change of a shift by alternatives as good as E' alone, between two
  * isotherms. If one spectrum fails, no alternative is known to be right. */
-static double squared_ways(const overlap_link *from, const overlap_link *to)
+static double alternative_variance(const overlap_edge *from, const overlap_edge *to)
 {
     const double by_loss = to->by_loss - from->by_loss,
                  by_vertical = to->by_vertical - from->by_vertical;
@@ -116,71 +117,74 @@ static double squared_ways(const overlap_link *from, const overlap_link *to)
 
 /* Returns the variance of one shift due to the overlaps [decade^2]. Weak overlaps add no error
  * to a spectrum. */
-static double squared_doubt(const master_work *work, size_t i)
+static double overlap_variance(const master_work *work, size_t i)
 {
-    const overlap_link *link = &work->link[i];
-    if (!link->placed)
+    const overlap_edge *edge = &work->edge[i];
+    if (!edge->placed)
         return 0.0;
-    const double square = common_steps(work, i, i) + link->error * link->error;
-    const double alike = link->spread * link->spread;
-    if (work->route == WT_SHIFTS_OF_OVERLAP)
-        return square + alike + squared_ways(&work->link[work->anchor], link);
-    const double off = isnan(work->own_a[i]) ? 0.0 : fabs(link->a - work->own_a[i]);
-    return alike + pow(fmax(off - agree * sqrt(square), 0.0), 2);
+    const double square = shared_step_variance(work, i, i) + edge->error * edge->error;
+    const double alike = edge->spread * edge->spread;
+    if (work->route == WT_SHIFTS_FROM_OVERLAP)
+        return square + alike + alternative_variance(&work->edge[work->anchor], edge);
+    const double off = isnan(work->original_a[i]) ? 0.0 : fabs(edge->a - work->original_a[i]);
+    return alike + pow(fmax(off - agreement_limit * sqrt(square), 0.0), 2);
 }
 
 /* Returns true if the user stated the shift. Shifts of overlaps are also fixed, but do not count
  * here. */
-static bool is_held(const master_work *work, size_t i)
+static bool is_user_stated(const master_work *work, size_t i)
 {
-    return work->route != WT_SHIFTS_OF_OVERLAP && work->set.curves[i].given;
+    return work->route != WT_SHIFTS_FROM_OVERLAP && work->set.curves[i].given;
 }
 
 /* Sets the errors of the shifts if superposition fails or may fail. They combine the scatter
  * within the overlaps, the difference of spectrum and overlaps, and the misfit. The law treats
  * them as independent step errors of the same total size, because a common error leaves its form
  * unchanged. An error that is only possible is ignored by the law. Stated shifts have no error. */
-static wt_status doubt_shifts(master_work *work, wt_error *err)
+static wt_status set_extra_shift_errors(master_work *work, wt_error *err)
 {
     const size_t n = work->set.n;
     wt_posterior *p = work->posterior;
-    const bool may = work->route != WT_SHIFTS_OF_OVERLAP && !master_misfit_is_real(&work->lack);
-    const bool fails = !may && !master_loss_is_off(&work->lack);
+    const bool may =
+        work->route != WT_SHIFTS_FROM_OVERLAP && !master_misfit_is_significant(&work->lack);
+    const bool fails = !may && !master_loss_is_inconsistent(&work->lack);
     double all = 0.0, steps = 0.0;
-    p->doubt = arena_numbers(&p->memory, work->s->n_curves);
-    p->doubts = arena_matrix(&p->memory, work->s->n_curves, work->s->n_curves);
+    p->extra_error = arena_numbers(&p->memory, work->s->n_curves);
+    p->extra_covariance = arena_matrix(&p->memory, work->s->n_curves, work->s->n_curves);
     if (p->memory.failed)
         return wt_fail(err, WT_E_MEMORY, "no memory for the overlaps");
     for (size_t i = 0; i < n; i++) {
-        if (!work->placed[i] || is_held(work, i))
+        if (!work->placed[i] || is_user_stated(work, i))
             continue;
-        const double own = work->route == WT_SHIFTS_OF_OVERLAP ? 0.0 : doubt_of_spectrum(work, i);
-        const double square = squared_doubt(work, i);
+        const double own =
+            work->route == WT_SHIFTS_FROM_OVERLAP ? 0.0 : spectrum_misfit_shift(work, i);
+        const double square = overlap_variance(work, i);
         const double sure = fails ? square + own * own : square;
-        p->doubt[work->curve[i]] = hypot(sqrt(square), own);
-        all += work->link[i].placed ? sure : 0.0;
-        steps += work->link[i].placed ? common_steps(work, i, i) : 0.0;
+        p->extra_error[work->curve[i]] = hypot(sqrt(square), own);
+        all += work->edge[i].placed ? sure : 0.0;
+        steps += work->edge[i].placed ? shared_step_variance(work, i, i) : 0.0;
         for (size_t k = 0; k < n; k++)
-            if (work->placed[k] && !is_held(work, k) && work->link[i].placed &&
-                work->link[k].placed && (i < work->anchor) == (k < work->anchor))
-                gsl_matrix_set(p->doubts, work->curve[i], work->curve[k], common_steps(work, i, k));
+            if (work->placed[k] && !is_user_stated(work, k) && work->edge[i].placed &&
+                work->edge[k].placed && (i < work->anchor) == (k < work->anchor))
+                gsl_matrix_set(p->extra_covariance, work->curve[i], work->curve[k],
+                               shared_step_variance(work, i, k));
     }
-    gsl_matrix_scale(p->doubts, steps > 0.0 ? all / steps : 1.0);
+    gsl_matrix_scale(p->extra_covariance, steps > 0.0 ? all / steps : 1.0);
     if (may)
-        gsl_matrix_set_zero(p->doubts);
+        gsl_matrix_set_zero(p->extra_covariance);
     for (size_t i = 0; i < n; i++) /* without an overlap the error is independent */
-        if (work->placed[i] && !is_held(work, i) && !work->link[i].placed)
-            gsl_matrix_set(p->doubts, work->curve[i], work->curve[i],
-                           fails ? pow(p->doubt[work->curve[i]], 2) : 0.0);
+        if (work->placed[i] && !is_user_stated(work, i) && !work->edge[i].placed)
+            gsl_matrix_set(p->extra_covariance, work->curve[i], work->curve[i],
+                           fails ? pow(p->extra_error[work->curve[i]], 2) : 0.0);
     return WT_OK;
 }
 
-void master_keep_original(master_work *work)
+void master_store_original_shifts(master_work *work)
 {
     for (size_t i = 0; i < work->set.n; i++)
-        work->own_a[i] = work->placed[i] && work->no_spectrum[0] == '\0'
-                             ? spectrum_a(work->s, work->curve[i]) / M_LN10
-                             : (double)NAN;
+        work->original_a[i] = work->placed[i] && work->no_spectrum[0] == '\0'
+                                  ? spectrum_a(work->s, work->curve[i]) / M_LN10
+                                  : (double)NAN;
 }
 
 wt_status master_uncertainty(master_work *work, wt_error *err)
@@ -192,58 +196,60 @@ wt_status master_uncertainty(master_work *work, wt_error *err)
     for (size_t i = 0; i < work->set.n; i++)
         if (work->placed[i])
             b[i] = (spectrum_b(work->s, work->curve[i]) - b0) / M_LN10;
-    master_keep_original(work);
-    const wt_status status = overlap_chain(&work->set, work->anchor, b, NULL, work->link, err);
-    return status == WT_OK ? doubt_shifts(work, err) : status;
+    master_store_original_shifts(work);
+    const wt_status status = overlap_chain(&work->set, work->anchor, b, NULL, work->edge, err);
+    return status == WT_OK ? set_extra_shift_errors(work, err) : status;
 }
 
 bool master_all_uncertain(const master_work *work)
 {
-    const double *doubt = work->posterior->doubt;
-    bool all = doubt != NULL;
+    const double *extra_error = work->posterior->extra_error;
+    bool all = extra_error != NULL;
     for (size_t i = 0; all && i < work->set.n; i++)
-        all = i == work->anchor || !work->placed[i] || doubt[work->curve[i]] > master_largest_sigma;
+        all = i == work->anchor || !work->placed[i] ||
+              extra_error[work->curve[i]] > master_max_shift_error;
     return all;
 }
 
-wt_status master_by_overlap(master_work *work, wt_error *err)
+wt_status master_use_overlap_shifts(master_work *work, wt_error *err)
 {
     const bool physical = work->options.vertical == WT_VERTICAL_PHYSICAL;
     shift_set *set = &work->set;
     wt_status status = WT_OK;
     for (size_t i = 0; i < set->n; i++) {
-        work->placed[i] = work->link[i].placed;
-        work->a[i] = work->placed[i] ? work->link[i].a : 0.0;
+        work->placed[i] = work->edge[i].placed;
+        work->a[i] = work->placed[i] ? work->edge[i].a : 0.0;
         work->b[i] = physical ? work->physical[i] : 0.0;
     }
-    (void)spectrum_connected(set, work->anchor, work->a, work->placed, work->overlap);
+    (void)spectrum_select_connected(set, work->anchor, work->a, work->placed, work->overlap);
     for (size_t i = 0; i < set->n; i++) {
         set->curves[i].given = work->placed[i];
         set->curves[i].given_a = work->a[i];
     }
-    work->route = WT_SHIFTS_OF_OVERLAP;
+    work->route = WT_SHIFTS_FROM_OVERLAP;
     work->options.vertical = physical ? WT_VERTICAL_PHYSICAL : WT_VERTICAL_NONE;
     work->lines = false;
-    status = master_make_spectrum(work, err);
+    status = master_new_spectrum(work, err);
     if (status == WT_OK)
-        status = doubt_shifts(work, err);
+        status = set_extra_shift_errors(work, err);
     return status == WT_OK ? master_fit_robust(work, err) : status;
 }
 
 /* ---- isotherms outside the described part */
 
-bool master_beside_part(const master_work *work, size_t i, double *a, double *error)
+bool master_shift_outside_part(const master_work *work, size_t i, double *a, double *error)
 {
     const size_t end = i < work->first ? work->first : work->last;
-    const overlap_link *link = work->link;
-    if (!work->part || (i >= work->first && i <= work->last) || !link[i].placed ||
-        !link[end].placed || !work->placed[end])
+    const overlap_edge *edge = work->edge;
+    if (!work->part || (i >= work->first && i <= work->last) || !edge[i].placed ||
+        !edge[end].placed || !work->placed[end])
         return false;
     const wt_interval at = posterior_a(work->posterior, work->curve[end]);
-    const double alike = hypot(link[i].spread - link[end].spread, link[i].error - link[end].error);
-    *a = at.value + link[i].a - link[end].a;
-    *error = sqrt(at.standard_error * at.standard_error + alike * alike +
-                  squared_ways(&link[end], &link[i]) +
-                  fmax(common_steps(work, i, i) - common_steps(work, end, end), 0.0));
+    const double alike = hypot(edge[i].spread - edge[end].spread, edge[i].error - edge[end].error);
+    *a = at.value + edge[i].a - edge[end].a;
+    *error =
+        sqrt(at.standard_error * at.standard_error + alike * alike +
+             alternative_variance(&edge[end], &edge[i]) +
+             fmax(shared_step_variance(work, i, i) - shared_step_variance(work, end, end), 0.0));
     return true;
 }

@@ -13,7 +13,7 @@
 /* If the interval of the equilibrium modulus extends below this share of the lowest storage
  * modulus, only an upper limit is reported. Most of that modulus then relaxes later, and the
  * extrapolation of the spectrum decides it. */
-static const double known_equilibrium = 0.5;
+static const double equilibrium_limit_share = 0.5;
 /* Squared quantile of a one-sided 95 % limit. */
 static const double one_sided = 2.705543454095404;
 
@@ -33,20 +33,20 @@ void wt_master_clear(wt_master *master)
 
 static const wt_interval unknown_interval = {(double)NAN, (double)NAN, (double)NAN, (double)NAN};
 
-static wt_interval interval_of(wt_interval x, double (*f)(double))
+static wt_interval transform_interval(wt_interval x, double (*f)(double))
 {
     wt_interval y = {f(x.value), 0.0, f(x.low), f(x.high)};
     y.standard_error = 0.5 * (y.high - y.low) / NORMAL_95;
     return y;
 }
 
-static wt_interval interval_times(wt_interval x, double factor)
+static wt_interval scale_interval(wt_interval x, double factor)
 {
     return (wt_interval){x.value * factor, x.standard_error * factor, x.low * factor,
                          x.high * factor};
 }
 
-static wt_interval interval_plus(wt_interval x, double by)
+static wt_interval offset_interval(wt_interval x, double by)
 {
     x.value += by;
     x.low += by;
@@ -54,7 +54,7 @@ static wt_interval interval_plus(wt_interval x, double by)
     return x;
 }
 
-static wt_interval interval_between(wt_interval a, wt_interval b, double share)
+static wt_interval interpolate_interval(wt_interval a, wt_interval b, double share)
 {
     return (wt_interval){a.value + share * (b.value - a.value),
                          a.standard_error + share * (b.standard_error - a.standard_error),
@@ -62,18 +62,18 @@ static wt_interval interval_between(wt_interval a, wt_interval b, double share)
 }
 
 /* Returns true if the data determine the level of the moduli. */
-static bool has_level(wt_shift_by by)
+static bool has_modulus_level(wt_shift_quantity by)
 {
-    return by == WT_BY_MODULI || by == WT_BY_STORAGE;
+    return by == WT_SHIFT_MODULI || by == WT_SHIFT_STORAGE;
 }
 
 /* ---- law ------------------------------------------------------------------------------------- */
 
-static wt_interval of_pole(const wt_posterior *p, double sign)
+static wt_interval pole_interval(const wt_posterior *p, double sign)
 {
     const double lead = p->shape.reference - p->shape.coldest;
-    const wt_interval c2 =
-        interval_plus(interval_of(posterior_constant(p, law_pole_index(&p->shape)), exp), lead);
+    const wt_interval c2 = offset_interval(
+        transform_interval(posterior_constant(p, law_pole_index(&p->shape)), exp), lead);
     if (sign > 0.0)
         return c2;
     return (wt_interval){p->shape.reference - c2.value, c2.standard_error,
@@ -81,39 +81,39 @@ static wt_interval of_pole(const wt_posterior *p, double sign)
 }
 
 /* Returns the correlation of C1 and C2 over the mixture, with C2 through its derivative. */
-static double correlation_of_constants(const wt_posterior *p)
+static double wlf_constant_correlation(const wt_posterior *p)
 {
     const size_t pole = law_pole_index(&p->shape);
-    double mean[LAW_MOST], sum[3] = {0.0, 0.0, 0.0};
+    double mean[LAW_MAX_UNKNOWNS], sum[3] = {0.0, 0.0, 0.0};
     posterior_mean_law(p, mean);
-    for (size_t i = 0; i < p->n_parts; i++) {
-        const law_fit *f = &p->parts[i].law;
+    for (size_t i = 0; i < p->n_components; i++) {
+        const law_fit *f = &p->components[i].law;
         const double d1 = f->unknown[1] - mean[1], d2 = f->unknown[pole] - mean[pole];
-        sum[0] += p->parts[i].weight * (f->covariance[1][1] + d1 * d1);
-        sum[1] += p->parts[i].weight * (f->covariance[1][pole] + d1 * d2);
-        sum[2] += p->parts[i].weight * (f->covariance[pole][pole] + d2 * d2);
+        sum[0] += p->components[i].weight * (f->covariance[1][1] + d1 * d1);
+        sum[1] += p->components[i].weight * (f->covariance[1][pole] + d1 * d2);
+        sum[2] += p->components[i].weight * (f->covariance[pole][pole] + d2 * d2);
     }
     return sum[1] / sqrt(sum[0] * sum[2]);
 }
 
 /* Returns the law at a temperature. With few isotherms the law is reported only between them. */
-static wt_interval law_of(const wt_posterior *p, double temperature)
+static wt_interval reported_law(const wt_posterior *p, double temperature)
 {
     const size_t n = p->frame.n_curves;
     const bool inside = temperature >= p->temperature[0] && temperature <= p->temperature[n - 1];
-    return n >= LAW_LEAST_TOLD || inside ? posterior_law(p, temperature) : unknown_interval;
+    return n >= LAW_MIN_ISOTHERMS || inside ? posterior_law(p, temperature) : unknown_interval;
 }
 
-static void fill_law(const wt_posterior *p, wt_master *m)
+static void fill_shift_law(const wt_posterior *p, wt_master *m)
 {
-    double mean[LAW_MOST];
+    double mean[LAW_MAX_UNKNOWNS];
     m->offset = (wt_interval){0};
     m->c1 = m->c2 = m->activation_energy = m->slope = m->pole = unknown_interval;
     m->law = (wt_shift_law){.kind = WT_LAW_NONE,
                             .wlf = {m->reference_temperature, (double)NAN, (double)NAN}};
     m->law_rms = m->temperature_spread = m->c_correlation = (double)NAN;
     if (p->shape.kind == WT_LAW_NONE) {
-        snprintf(m->no_law, sizeof m->no_law, "%s", p->no_law);
+        snprintf(m->no_law_reason, sizeof m->no_law_reason, "%s", p->no_law_reason);
         return;
     }
     posterior_mean_law(p, mean);
@@ -121,31 +121,31 @@ static void fill_law(const wt_posterior *p, wt_master *m)
     m->offset = posterior_constant(p, 0);
     if (p->shape.kind != WT_LAW_ARRHENIUS) {
         m->c1 = posterior_constant(p, 1);
-        m->c2 = of_pole(p, 1.0);
-        m->pole = of_pole(p, -1.0);
+        m->c2 = pole_interval(p, 1.0);
+        m->pole = pole_interval(p, -1.0);
     }
     if (p->shape.kind != WT_LAW_ARRHENIUS)
-        m->c_correlation = correlation_of_constants(p);
+        m->c_correlation = wlf_constant_correlation(p);
     for (size_t i = 0; i < m->n_shifts; i++)
         if (!isnan(wt_shift_law_log_a(&m->law, m->shifts[i].temperature)))
-            m->shifts[i].law = law_of(p, m->shifts[i].temperature);
+            m->shifts[i].law = reported_law(p, m->shifts[i].temperature);
     if (p->shape.kind != WT_LAW_WLF)
-        m->activation_energy = posterior_constant(p, p->shape.kind == WT_LAW_JOINED ? 2 : 1);
+        m->activation_energy = posterior_constant(p, p->shape.kind == WT_LAW_WLF_ARRHENIUS ? 2 : 1);
     m->slope = posterior_slope(p, m->reference_temperature);
     m->temperature_spread = 0.0;
-    for (size_t i = 0; i < p->n_parts; i++)
-        m->temperature_spread += p->parts[i].weight * p->parts[i].spread;
+    for (size_t i = 0; i < p->n_components; i++)
+        m->temperature_spread += p->components[i].weight * p->components[i].spread;
 }
 
 /* Removes the errors of the law if all shifts are stated. */
-static void forget_errors(const spectrum *s, wt_master *m)
+static void clear_law_errors(const spectrum *s, wt_master *m)
 {
     wt_interval *const of_law[] = {&m->c1, &m->c2, &m->pole, &m->activation_energy, &m->slope};
     const double unknown = (double)NAN;
     bool given = s->n_curves > 1;
     for (size_t i = 0; i < s->n_curves; i++)
         given = given && s->given[i];
-    given = given && m->shift_route != WT_SHIFTS_OF_OVERLAP; /* overlap shifts have errors */
+    given = given && m->shift_route != WT_SHIFTS_FROM_OVERLAP; /* overlap shifts have errors */
     for (size_t i = 0; given && i < sizeof of_law / sizeof *of_law; i++)
         *of_law[i] = (wt_interval){of_law[i]->value, unknown, unknown, unknown};
     if (given)
@@ -154,7 +154,7 @@ static void forget_errors(const spectrum *s, wt_master *m)
         m->shifts[i].law = (wt_interval){m->shifts[i].law.value, unknown, unknown, unknown};
 }
 
-static void set_rms(wt_master *m)
+static void set_law_rms(wt_master *m)
 {
     double sum = 0.0;
     size_t n = 0;
@@ -176,7 +176,7 @@ struct order {
     size_t point;
 };
 
-static int by_x(const void *left, const void *right)
+static int compare_reduced_frequency(const void *left, const void *right)
 {
     const struct order *a = left, *b = right;
     if (a->x != b->x)
@@ -184,9 +184,9 @@ static int by_x(const void *left, const void *right)
     return (a->point > b->point) - (a->point < b->point);
 }
 
-/* Evaluates the spectrum at the points (of_step: the measured step response). It is computed on
- * a grid of 0.1 decade and interpolated linearly. */
-static void fill_fitted(const wt_posterior *p, bool of_step, wt_master *m)
+/* Evaluates the spectrum at the points (step_response: the measured step response). It is computed
+ * on a grid of 0.1 decade and interpolated linearly. */
+static void fill_fitted_moduli(const wt_posterior *p, bool step_response, wt_master *m)
 {
     const double step = 0.1;
     wt_interval low[WITH_LOSS_FACTOR], high[WITH_LOSS_FACTOR];
@@ -197,24 +197,25 @@ static void fill_fitted(const wt_posterior *p, bool of_step, wt_master *m)
             if (from == at + step)
                 memcpy(low, high, sizeof low);
             else
-                posterior_moduli(p, from * M_LN10, of_step, low);
-            posterior_moduli(p, (from + step) * M_LN10, of_step, high);
+                posterior_moduli(p, from * M_LN10, step_response, low);
+            posterior_moduli(p, (from + step) * M_LN10, step_response, high);
             at = from;
         }
         const double share = (x - from) / step;
-        const bool told[] = {has_level(p->by), p->by != WT_BY_LOSS_FACTOR && !of_step,
-                             p->by != WT_BY_LOSS && !of_step};
-        wt_interval *const fitted[] = {of_step ? m->fitted_step : m->fitted_storage, m->fitted_loss,
-                                       m->fitted_loss_factor};
+        const bool has_value[] = {has_modulus_level(p->by),
+                                  p->by != WT_SHIFT_LOSS_FACTOR && !step_response,
+                                  p->by != WT_SHIFT_LOSS && !step_response};
+        wt_interval *const fitted[] = {step_response ? m->fitted_step : m->fitted_storage,
+                                       m->fitted_loss, m->fitted_loss_factor};
         for (int q = 0; q < WITH_LOSS_FACTOR; q++)
-            if (told[q])
+            if (has_value[q])
                 fitted[q][j] =
-                    interval_times(interval_between(low[q], high[q], share), 1.0 / M_LN10);
+                    scale_interval(interpolate_interval(low[q], high[q], share), 1.0 / M_LN10);
     }
 }
 
 /* Returns the measured tan delta at a point of the spectrum. */
-static double factor_of_point(const spectrum *s, size_t k)
+static double measured_loss_factor(const spectrum *s, size_t k)
 {
     if (s->ratio)
         return exp(s->y[LOSS][k]);
@@ -222,10 +223,10 @@ static double factor_of_point(const spectrum *s, size_t k)
 }
 
 /* Fills the points of the determined isotherms, sorted by reduced frequency. */
-static wt_status fill_curve(const master_work *work, wt_master *m, wt_error *err)
+static wt_status fill_master_curve(const master_work *work, wt_master *m, wt_error *err)
 {
     const spectrum *s = work->s;
-    const bool of_step = s->loading != WT_OSCILLATION;
+    const bool step_response = s->loading != WT_OSCILLATION;
     wt_posterior *p = work->posterior;
     p->measured_factor = arena_numbers(&p->memory, s->n);
     struct order *order = malloc((s->n + 1) * sizeof *order);
@@ -251,7 +252,7 @@ static wt_status fill_curve(const master_work *work, wt_master *m, wt_error *err
         for (size_t k = s->first[work->curve[i]]; k < s->first[work->curve[i] + 1]; k++)
             order[m->n++] = (struct order){s->x[k] / M_LN10 + a, k};
     }
-    qsort(order, m->n, sizeof *order, by_x);
+    qsort(order, m->n, sizeof *order, compare_reduced_frequency);
     for (size_t j = 0; j < m->n; j++) {
         const size_t k = order[j].point;
         size_t i = 0;
@@ -262,10 +263,10 @@ static wt_status fill_curve(const master_work *work, wt_master *m, wt_error *err
         m->log_frequency[j] = order[j].x;
         const double b = m->shifts[i].log_b.value, unknown = (double)NAN;
         const double storage = s->used[STORAGE] ? s->y[STORAGE][k] / M_LN10 + b : unknown;
-        m->log_storage[j] = of_step ? unknown : storage;
-        m->log_step[j] = of_step ? storage : unknown;
+        m->log_storage[j] = step_response ? unknown : storage;
+        m->log_step[j] = step_response ? storage : unknown;
         m->log_loss[j] = s->used[LOSS] && !s->ratio ? s->y[LOSS][k] / M_LN10 + b : unknown;
-        p->measured_factor[j] = factor_of_point(s, k);
+        p->measured_factor[j] = measured_loss_factor(s, k);
         m->left_out[j] = (s->used[STORAGE] && s->weight[STORAGE][k] == 0.0) ||
                          (s->used[LOSS] && s->weight[LOSS][k] == 0.0);
     }
@@ -273,9 +274,9 @@ static wt_status fill_curve(const master_work *work, wt_master *m, wt_error *err
         m->fitted_storage[j] = m->fitted_loss[j] = m->fitted_loss_factor[j] = m->fitted_step[j] =
             unknown_interval;
     if (!work->options.series_only)
-        fill_fitted(work->posterior, false, m);
-    if (!work->options.series_only && of_step)
-        fill_fitted(work->posterior, true, m);
+        fill_fitted_moduli(work->posterior, false, m);
+    if (!work->options.series_only && step_response)
+        fill_fitted_moduli(work->posterior, true, m);
     free(order);
     return WT_OK;
 }
@@ -283,7 +284,7 @@ static wt_status fill_curve(const master_work *work, wt_master *m, wt_error *err
 /* Converts unknowns of the spectrum to a series at the reference temperature. `reached` returns
  * the probability that the spectrum extends to a term. The rest of the term counts as
  * equilibrium modulus. */
-static wt_status prony_of_terms(const wt_posterior *p, const double *value, double offset,
+static wt_status terms_to_prony(const wt_posterior *p, const double *value, double offset,
                                 double (*reached)(const spectrum *s, size_t term, size_t place),
                                 size_t place, wt_prony *prony, wt_error *err)
 {
@@ -301,23 +302,23 @@ static wt_status prony_of_terms(const wt_posterior *p, const double *value, doub
     return WT_OK;
 }
 
-static double reached_by(const spectrum *s, size_t term, size_t place)
+static double term_is_reached(const spectrum *s, size_t term, size_t place)
 {
-    return term < spectrum_end(s, place) ? 1.0 : 0.0;
+    return term < spectrum_end_term(s, place) ? 1.0 : 0.0;
 }
 
-static double reached_in_mean(const spectrum *s, size_t term, size_t unused)
+static double mean_term_reached(const spectrum *s, size_t term, size_t unused)
 {
     double sum = 0.0;
     (void)unused;
     for (size_t place = 0; place < SPECTRUM_ENDS; place++)
-        sum += reached_by(s, term, place) / SPECTRUM_ENDS;
+        sum += term_is_reached(s, term, place) / SPECTRUM_ENDS;
     return sum;
 }
 
 /* Finds the one-sided 95 % limit of ln of the equilibrium modulus from the rise of the
  * objective. The function changes the spectrum. */
-static wt_status limit_equilibrium(master_work *work, double *limit, wt_error *err)
+static wt_status find_equilibrium_limit(master_work *work, double *limit, wt_error *err)
 {
     spectrum *s = work->s;
     const double narrow = 1e-3, mean = s->equilibrium_mean, spread = s->equilibrium_spread;
@@ -325,12 +326,12 @@ static wt_status limit_equilibrium(master_work *work, double *limit, wt_error *e
     wt_status status = WT_OK;
     s->equilibrium_spread = narrow;
     s->equilibrium_mean = low;
-    status = spectrum_fit(s, SPECTRUM_HELD, err);
+    status = spectrum_fit(s, SPECTRUM_FIXED_NOISE, err);
     const double least = s->objective;
     while (status == WT_OK && high - low > 0.02) {
         s->equilibrium_mean = 0.5 * (low + high);
         s->value[s->n_terms] = s->equilibrium_mean;
-        status = spectrum_fit(s, SPECTRUM_HELD, err);
+        status = spectrum_fit(s, SPECTRUM_FIXED_NOISE, err);
         if (s->objective - least < one_sided)
             low = s->equilibrium_mean;
         else
@@ -348,12 +349,13 @@ static wt_status fill_series(master_work *work, wt_master *m, wt_error *err)
     double *value = malloc(p->frame.n_unknowns * sizeof *value);
     if (value == NULL)
         return wt_fail(err, WT_E_MEMORY, "no memory for the series");
-    double unknown[LAW_MOST];
+    double unknown[LAW_MAX_UNKNOWNS];
     posterior_mean(p, value);
     posterior_mean_law(p, unknown);
     wt_status status =
-        has_level(p->by) ? prony_of_terms(p, value, unknown[0], reached_in_mean, 0, &m->prony, err)
-                         : WT_OK;
+        has_modulus_level(p->by)
+            ? terms_to_prony(p, value, unknown[0], mean_term_reached, 0, &m->prony, err)
+            : WT_OK;
     free(value);
     if (status != WT_OK)
         return status;
@@ -363,19 +365,19 @@ static wt_status fill_series(master_work *work, wt_master *m, wt_error *err)
         m->prony.frequency_min = pow(10.0, m->log_frequency[0]);
         m->prony.frequency_max = pow(10.0, m->log_frequency[m->n - 1]);
     }
-    m->equilibrium = has_level(p->by) ? (wt_interval){0} : unknown_interval;
-    if (p->frame.liquid || !has_level(p->by))
+    m->equilibrium = has_modulus_level(p->by) ? (wt_interval){0} : unknown_interval;
+    if (p->frame.liquid || !has_modulus_level(p->by))
         return WT_OK;
     const wt_interval e = posterior_equilibrium(p);
-    m->equilibrium = interval_of(e, exp);
+    m->equilibrium = transform_interval(e, exp);
     double lowest = HUGE_VAL;
     for (size_t i = 0; i < m->n; i++)
         lowest = fmin(lowest, m->loading == WT_OSCILLATION ? m->log_storage[i] : m->log_step[i]);
-    m->equilibrium_limit = !(e.low >= log(known_equilibrium) + lowest * M_LN10);
+    m->equilibrium_limit = !(e.low >= log(equilibrium_limit_share) + lowest * M_LN10);
     if (!m->equilibrium_limit)
         return WT_OK;
     double limit;
-    status = limit_equilibrium(work, &limit, err);
+    status = find_equilibrium_limit(work, &limit, err);
     m->equilibrium.low = 0.0;
     m->equilibrium.high = fmax(exp(limit), m->equilibrium.high);
     m->equilibrium.standard_error = (double)NAN;
@@ -397,16 +399,16 @@ wt_status master_report(master_work *work, const wt_sweep *sweep, wt_log *log, w
                    .noise_loss = work->s->used[LOSS] ? work->s->noise[LOSS] : (double)NAN,
                    .correlation = work->s->rho,
                    .evaluations = work->s->evaluations,
-                   .step_allowed = sqrt(SPECTRUM_LEAST_GAIN),
+                   .step_allowed = sqrt(SPECTRUM_MIN_GAIN),
                    .step_left = work->posterior->step_left};
     work->posterior->by = work->set.by;
     m.settled = true;
-    for (size_t i = 0; i < work->posterior->n_parts; i++)
-        m.settled = m.settled && work->posterior->parts[i].cell->settled;
+    for (size_t i = 0; i < work->posterior->n_components; i++)
+        m.settled = m.settled && work->posterior->components[i].cell->settled;
     wt_status status = master_fill_shifts(work, &m, err);
     if (status == WT_OK) {
-        fill_law(work->posterior, &m);
-        forget_errors(work->s, &m);
+        fill_shift_law(work->posterior, &m);
+        clear_law_errors(work->s, &m);
         status = master_check_reference(work, &m, err);
     }
     if (status == WT_OK)
@@ -415,22 +417,22 @@ wt_status master_report(master_work *work, const wt_sweep *sweep, wt_log *log, w
         work->posterior->anchor_a = m.shifts[work->anchor].log_a.value;
         if (!work->measured_reference) /* the shifts already refer to the reference */
             m.offset = (wt_interval){0};
-        set_rms(&m);
+        set_law_rms(&m);
     }
     if (status == WT_OK)
-        status = fill_curve(work, &m, err);
+        status = fill_master_curve(work, &m, err);
     if (status == WT_OK)
         status = fill_series(work, &m, err);
     if (status != WT_OK) {
         wt_master_clear(&m);
         return status;
     }
-    m.superposition = WT_SUPERPOSITION_CANNOT_SAY;
+    m.superposition = WT_SUPERPOSITION_INCONCLUSIVE;
     m.valid_from = m.valid_to = (double)NAN;
     m.lack_of_fit_p = (double)NAN;
     if (!work->options.series_only)
         master_assess(work, &m);
-    master_notes(work, sweep, &m, log);
+    master_add_notes(work, sweep, &m, log);
     work->s->prior = NULL; /* the prior belongs to the work */
     m.posterior = work->posterior;
     work->posterior = NULL;
@@ -440,11 +442,11 @@ wt_status master_report(master_work *work, const wt_sweep *sweep, wt_log *log, w
 
 /* ---- queries of the result ------------------------------------------------------------------- */
 
-wt_interval wt_master_law(const wt_master *master, double temperature)
+wt_interval wt_master_log_shift(const wt_master *master, double temperature)
 {
     if (master->law.kind == WT_LAW_NONE || isnan(wt_shift_law_log_a(&master->law, temperature)))
         return unknown_interval;
-    return law_of(master->posterior, temperature);
+    return reported_law(master->posterior, temperature);
 }
 
 double wt_master_closed_form(const wt_master *master, size_t isotherm)
@@ -456,15 +458,15 @@ void wt_master_moduli(const wt_master *master, double angular_frequency, wt_inte
                       wt_interval *log_loss)
 {
     wt_interval modulus[WITH_LOSS_FACTOR];
-    const wt_shift_by by = master->posterior->by;
+    const wt_shift_quantity by = master->posterior->by;
     posterior_moduli(master->posterior, log(angular_frequency), false, modulus);
     *log_storage =
-        has_level(by) ? interval_times(modulus[STORAGE], 1.0 / M_LN10) : unknown_interval;
+        has_modulus_level(by) ? scale_interval(modulus[STORAGE], 1.0 / M_LN10) : unknown_interval;
     *log_loss =
-        by != WT_BY_LOSS_FACTOR ? interval_times(modulus[LOSS], 1.0 / M_LN10) : unknown_interval;
+        by != WT_SHIFT_LOSS_FACTOR ? scale_interval(modulus[LOSS], 1.0 / M_LN10) : unknown_interval;
 }
 
-wt_shift_by wt_master_shifted_by(const wt_master *master)
+wt_shift_quantity wt_master_shift_quantity(const wt_master *master)
 {
     return master->posterior->by;
 }
@@ -485,8 +487,8 @@ void wt_master_spectrum(const wt_master *master, size_t term, wt_interval *log_d
     const size_t before = term > 0 ? term - 1 : 0, after = term + 1 < p->n ? term + 1 : term;
     const double slope =
         log(p->modulus[after] / p->modulus[before]) / (step * (double)(after - before));
-    *log_density = interval_times(
-        interval_plus(posterior_term(master->posterior, term, slope), -log(step)), 1.0 / M_LN10);
+    *log_density = scale_interval(
+        offset_interval(posterior_term(master->posterior, term, slope), -log(step)), 1.0 / M_LN10);
 }
 
 wt_status wt_master_draw(const wt_master *master, uint64_t seed, size_t index, wt_prony *prony,
@@ -494,15 +496,15 @@ wt_status wt_master_draw(const wt_master *master, uint64_t seed, size_t index, w
 {
     const wt_posterior *p = master->posterior;
     const size_t n = p->frame.n_curves;
-    double unknown[LAW_MOST];
+    double unknown[LAW_MAX_UNKNOWNS];
     double *value = malloc((p->frame.n_unknowns + n) * sizeof *value);
     if (value == NULL)
         return wt_fail(err, WT_E_MEMORY, "no memory for a draw");
     double *b = value + p->frame.n_unknowns;
     wt_status status = posterior_draw(p, seed, index, value, unknown, b, err);
     if (status == WT_OK)
-        status = prony_of_terms(p, value, unknown[0], reached_by, posterior_place(seed, index),
-                                prony, err);
+        status = terms_to_prony(p, value, unknown[0], term_is_reached,
+                                posterior_end_index(seed, index), prony, err);
     if (status == WT_OK) {
         prony->deformation = master->deformation;
         prony->reference_temperature = master->reference_temperature;

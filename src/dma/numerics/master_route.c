@@ -12,7 +12,7 @@
 
 /* Ratio of the change along the steepest isotherm to that along the start isotherm. At 2 the
  * shift error halves, because it is noise divided by slope. */
-static const double much_steeper = 2.0;
+static const double steepness_ratio = 2.0;
 
 /* Returns the temperature of an isotherm that changes much more than the start isotherm, or NaN. */
 static double steeper_reference(const master_work *work)
@@ -21,17 +21,18 @@ static double steeper_reference(const master_work *work)
     size_t steepest = work->anchor;
     for (size_t i = 0; i < set->n; i++)
         if (set->curves[i].n >= SHIFT_MIN_POINTS &&
-            shift_change(set, i) > shift_change(set, steepest))
+            curve_modulus_change(set, i) > curve_modulus_change(set, steepest))
             steepest = i;
-    return shift_change(set, steepest) > much_steeper * shift_change(set, work->anchor)
+    return curve_modulus_change(set, steepest) >
+                   steepness_ratio * curve_modulus_change(set, work->anchor)
                ? set->curves[steepest].temperature
                : (double)NAN;
 }
 
 /* Tests if one spectrum describes the isotherms from `first` to `last`. It fails without
  * convergence, with too large a span, missing overlap or too few isotherms. */
-static wt_status try_part(const master_work *whole, size_t first, size_t last, bool *holds,
-                          wt_error *err)
+static wt_status test_part(const master_work *whole, size_t first, size_t last, bool *holds,
+                           wt_error *err)
 {
     master_work work = {.options = whole->options, .part = true, .set = whole->set};
     work.options.reference_temperature = whole->reference;
@@ -42,15 +43,15 @@ static wt_status try_part(const master_work *whole, size_t first, size_t last, b
     if (status == WT_OK)
         status = master_choose_anchor(&work, err);
     if (status == WT_OK)
-        status = master_place(&work, err);
+        status = master_place_isotherms(&work, err);
     if (status == WT_OK)
         status = master_measure_misfit(&work, err);
-    if (status == WT_OK && !work.gross && work.s->n_curves == work.set.n)
-        status = master_find_noise(&work, err);
-    if (status == WT_OK && !work.gross && work.s->n_curves == work.set.n)
-        status = master_test(&work, err);
-    if (status == WT_OK && work.tested && !master_misfit_is_real(&work.lack))
-        status = master_agrees(&work, holds, err);
+    if (status == WT_OK && !work.is_gross && work.s->n_curves == work.set.n)
+        status = master_estimate_noise(&work, err);
+    if (status == WT_OK && !work.is_gross && work.s->n_curves == work.set.n)
+        status = master_test_superposition(&work, err);
+    if (status == WT_OK && work.tested && !master_misfit_is_significant(&work.lack))
+        status = master_shifts_agree(&work, holds, err);
     posterior_free(work.posterior);
     arena_free(&work.memory);
     const bool none = status == WT_E_CONVERGENCE || status == WT_E_RANGE ||
@@ -61,7 +62,7 @@ static wt_status try_part(const master_work *whole, size_t first, size_t last, b
 /* ---- part that one spectrum describes -------------------------------------------------------- */
 
 /* Minimum number of isotherms with a law (shift_law.h). */
-enum { LEAST_PART = LAW_LEAST_TOLD };
+enum { LEAST_PART = LAW_MIN_ISOTHERMS };
 
 /* Extends one end of the part as far as the test holds: first to the last isotherm, then by
  * bisection. */
@@ -74,7 +75,7 @@ static wt_status widen_part(master_work *work, bool warm, wt_error *err)
     for (size_t tried = steps; status == WT_OK && steps > 0; tried = (steps + 1) / 2) {
         bool holds;
         const size_t next = warm ? *end + tried : *end - tried;
-        status = try_part(work, warm ? work->first : next, warm ? next : work->last, &holds, err);
+        status = test_part(work, warm ? work->first : next, warm ? next : work->last, &holds, err);
         if (status == WT_OK && holds) {
             *end = next;
             steps -= tried;
@@ -85,19 +86,19 @@ static wt_status widen_part(master_work *work, bool warm, wt_error *err)
     return status;
 }
 
-static wt_status find_part(master_work *work, wt_error *err)
+static wt_status find_describable_part(master_work *work, wt_error *err)
 {
     const size_t n = work->set.n;
     bool holds = false;
     wt_status status = WT_OK;
-    if (work->set.by != WT_BY_MODULI || n <= LEAST_PART)
+    if (work->set.by != WT_SHIFT_MODULI || n <= LEAST_PART)
         return WT_OK;
     /* around the anchor, rather on the warm side, above the glass */
     work->first = work->anchor > 0 ? work->anchor - 1 : 0;
     if (work->first + LEAST_PART > n)
         work->first = n - LEAST_PART;
     work->last = work->first + LEAST_PART - 1;
-    status = try_part(work, work->first, work->last, &holds, err);
+    status = test_part(work, work->first, work->last, &holds, err);
     if (status != WT_OK || !holds)
         return status;
     status = widen_part(work, true, err);
@@ -109,70 +110,71 @@ static wt_status find_part(master_work *work, wt_error *err)
 
 /* Fits without a restart. The gross misfit is measured only if the vertical shifts are not
  * fixed. */
-static wt_status fit_plainly(master_work *work, wt_error *err)
+static wt_status refit_without_restart(master_work *work, wt_error *err)
 {
     work->plain = true;
-    wt_status status = master_place(work, err);
+    wt_status status = master_place_isotherms(work, err);
     if (status == WT_OK)
-        status = master_find_noise(work, err);
+        status = master_estimate_noise(work, err);
     if (status == WT_OK && !work->prior.held)
         status = master_measure_misfit(work, err);
-    return status == WT_OK ? master_test(work, err) : status;
+    return status == WT_OK ? master_test_superposition(work, err) : status;
 }
 
 /* Fits one spectrum with free shifts. */
-static wt_status fit_own(master_work *work, wt_error *err)
+static wt_status fit_free_shifts(master_work *work, wt_error *err)
 {
-    wt_status status = master_place(work, err);
-    if (status == WT_OK && work->gross) { /* fixed vertical shifts may cause the whole misfit */
+    wt_status status = master_place_isotherms(work, err);
+    if (status == WT_OK && work->is_gross) { /* fixed vertical shifts may cause the whole misfit */
         status = master_set_widths(work, WT_VERTICAL_FREE, 0.0, 0.0, err);
         if (status == WT_OK)
             status = spectrum_fit(work->s, SPECTRUM_ROUGH, err);
         if (status == WT_OK)
             status = master_measure_misfit(work, err);
-        if (status != WT_OK || !work->gross) /* without them the fit is good: start again */
-            return status != WT_OK ? status : fit_plainly(work, err);
-        status = spectrum_noise_within(work->s, &work->within, err);
-        spectrum_spread(work->s, master_even);
+        if (status != WT_OK || !work->is_gross) /* without them the fit is good: start again */
+            return status != WT_OK ? status : refit_without_restart(work, err);
+        status = spectrum_estimate_noise(work->s, &work->within, err);
+        spectrum_set_point_noise(work->s, master_uniform_noise);
     } else if (status == WT_OK) {
-        status = master_find_noise(work, err);
+        status = master_estimate_noise(work, err);
         if (status == WT_OK) /* a good start may have ended far off */
             status = master_measure_misfit(work, err);
     }
-    return status == WT_OK ? master_test(work, err) : status;
+    return status == WT_OK ? master_test_superposition(work, err) : status;
 }
 
 /* Returns true if the misfit affects the shifts. Fixed vertical shifts or a factor on E'' do
  * not. */
-static bool is_real(const master_work *work)
+static bool misfit_is_relevant(const master_work *work)
 {
     const lack_of_fit *lack = &work->lack;
-    return !work->tested || ((work->louder || master_misfit_is_real(lack)) &&
+    return !work->tested || ((work->exceeds_noise || master_misfit_is_significant(lack)) &&
                              fabs(lack->factor) < fmax(work->missed[STORAGE], work->missed[LOSS]));
 }
 
 /* Fits one spectrum. If it fails or is far off, the function fits a part around the reference,
  * or else a spectrum at the overlap shifts. */
-static wt_status fit_spectrum(master_work *work, wt_error *err)
+static wt_status fit_by_best_route(master_work *work, wt_error *err)
 {
     wt_error failure = WT_ERROR_INIT;
-    wt_status status = fit_own(work, &failure);
+    wt_status status = fit_free_shifts(work, &failure);
     if (status == WT_E_CONVERGENCE)
         snprintf(work->no_spectrum, sizeof work->no_spectrum, "%s", failure.message);
     bool overlap = false;
-    if (work->no_spectrum[0] != '\0' || (status == WT_OK && work->gross && is_real(work))) {
-        const wt_status may = master_may_overlap(work, &overlap, err);
+    if (work->no_spectrum[0] != '\0' ||
+        (status == WT_OK && work->is_gross && misfit_is_relevant(work))) {
+        const wt_status may = master_can_use_overlaps(work, &overlap, err);
         if (may != WT_OK)
             return may;
     }
-    if (!overlap && status == WT_OK && work->gross)
-        status = fit_plainly(work, &failure);
+    if (!overlap && status == WT_OK && work->is_gross)
+        status = refit_without_restart(work, &failure);
     if (!overlap && status == WT_OK && work->tested && master_misfit_is_likely(&work->lack) &&
         work->set.used[STORAGE])
         status = master_uncertainty(work, &failure);
-    if (!overlap && status == WT_OK && master_misfit_is_real(&work->lack) &&
+    if (!overlap && status == WT_OK && master_misfit_is_significant(&work->lack) &&
         master_all_uncertain(work)) {
-        status = master_may_overlap(work, &overlap, err);
+        status = master_can_use_overlaps(work, &overlap, err);
         if (status != WT_OK)
             return status;
     }
@@ -181,18 +183,18 @@ static wt_status fit_spectrum(master_work *work, wt_error *err)
             *err = failure;
         return status;
     }
-    master_keep_original(work);
-    work->posterior->doubt = NULL; /* belonged to the spectrum of all isotherms */
-    work->posterior->doubts = NULL;
-    status = find_part(work, err);
+    master_store_original_shifts(work);
+    work->posterior->extra_error = NULL; /* belonged to the spectrum of all isotherms */
+    work->posterior->extra_covariance = NULL;
+    status = find_describable_part(work, err);
     if (status == WT_OK && work->part) {
         work->whole = work->lack;
         memcpy(work->missed_whole, work->missed, sizeof work->missed);
-        return fit_own(work, err);
+        return fit_free_shifts(work, err);
     }
     if (status == WT_OK)
-        status = master_by_overlap(work, err);
-    return status == WT_OK ? master_find_noise(work, err) : status;
+        status = master_use_overlap_shifts(work, err);
+    return status == WT_OK ? master_estimate_noise(work, err) : status;
 }
 
 wt_status master_fit_once(const wt_sweep *sweep, const wt_master_options *options, wt_log *log,
@@ -210,12 +212,12 @@ wt_status master_fit_once(const wt_sweep *sweep, const wt_master_options *option
         status = master_choose_anchor(&work, err);
     if (status == WT_OK) {
         closed_form_shifts(&work.set, work.anchor, work.posterior->closed_form);
-        status = fit_spectrum(&work, err);
+        status = fit_by_best_route(&work, err);
     }
     if (status == WT_OK)
         status = master_fit_widths(&work, err);
     if (status == WT_OK)
-        status = posterior_close(work.posterior, work.reference, err);
+        status = posterior_finish(work.posterior, work.reference, err);
     if (status == WT_OK)
         status = master_report(&work, sweep, log, master, err);
     *better = status == WT_E_NO_OVERLAP ? steeper_reference(&work) : (double)NAN;

@@ -21,49 +21,53 @@ static size_t count_outliers(const spectrum *s, size_t curve)
 }
 
 /* Notes why a shift is not determined. Returns false if it is determined. */
-static bool is_undetermined(const master_work *work, size_t i, const wt_interval *a,
-                            wt_master_shift *shift)
+static bool note_undetermined(const master_work *work, size_t i, const wt_interval *a,
+                              wt_master_shift *shift)
 {
     /* a shift that is only possibly uncertain is reported, with the larger error */
-    const bool fails = work->posterior->doubt != NULL && master_misfit_is_real(&work->lack) &&
-                       !master_loss_is_off(&work->lack);
+    const bool fails = work->posterior->extra_error != NULL &&
+                       master_misfit_is_significant(&work->lack) &&
+                       !master_loss_is_inconsistent(&work->lack);
     const double own = fails || !work->placed[i]
                            ? a->standard_error
                            : posterior_fit_error(work->posterior, work->curve[i]);
     if (work->set.curves[i].n < SHIFT_MIN_POINTS)
-        master_note(shift, "not determined: only %zu points", work->set.curves[i].n);
+        master_add_note(shift, "not determined: only %zu points", work->set.curves[i].n);
     else if (!work->placed[i])
-        master_note(shift, work->route == WT_SHIFTS_OF_OVERLAP
-                               ? "not determined: shares too little of E' with its neighbours"
-                               : "not determined: no overlap with the others");
-    else if (work->route == WT_SHIFTS_OF_OVERLAP)
+        master_add_note(shift, work->route == WT_SHIFTS_FROM_OVERLAP
+                                   ? "not determined: shares too little of E' with its neighbours"
+                                   : "not determined: no overlap with the others");
+    else if (work->route == WT_SHIFTS_FROM_OVERLAP)
         return false; /* each step is determined */
-    else if (fails && !(a->standard_error <= master_largest_sigma) &&
-             work->posterior->doubt[work->curve[i]] > master_largest_sigma)
-        master_note(shift, "not determined: superposition fails, overlaps leave open %.2g decade",
-                    a->standard_error);
-    else if (!(own <= master_largest_sigma))
-        master_note(shift, "not determined: no slope decides, error of log aT %.2g decade", own);
+    else if (fails && !(a->standard_error <= master_max_shift_error) &&
+             work->posterior->extra_error[work->curve[i]] > master_max_shift_error)
+        master_add_note(shift,
+                        "not determined: superposition fails, overlaps leave open %.2g decade",
+                        a->standard_error);
+    else if (!(own <= master_max_shift_error))
+        master_add_note(shift, "not determined: no slope decides, error of log aT %.2g decade",
+                        own);
     else if (work->options.vertical == WT_VERTICAL_FREE &&
-             fabs(posterior_tie(work->posterior, work->curve[i])) * clamping > master_largest_sigma)
-        master_note(shift,
-                    "not determined: no slope decides, %.2g decade of log bT is %.2g of log "
-                    "aT",
-                    clamping, master_largest_sigma);
+             fabs(posterior_a_per_b(work->posterior, work->curve[i])) * clamping >
+                 master_max_shift_error)
+        master_add_note(shift,
+                        "not determined: no slope decides, %.2g decade of log bT is %.2g of log "
+                        "aT",
+                        clamping, master_max_shift_error);
     return shift->note[0] != '\0';
 }
 
 /* Fills the shift of an isotherm outside the part that one spectrum describes. It is not in the
  * curve. */
-static bool fill_beside(const master_work *work, size_t i, wt_master_shift *shift)
+static bool fill_shift_outside_part(const master_work *work, size_t i, wt_master_shift *shift)
 {
     double a, error;
-    if (!master_beside_part(work, i, &a, &error))
+    if (!master_shift_outside_part(work, i, &a, &error))
         return false;
     if (!work->measured_reference)
         a += posterior_a_to_reference(work->posterior, work->curve[work->anchor]).value;
     shift->log_a = (wt_interval){a, error, a - NORMAL_95 * error, a + NORMAL_95 * error};
-    master_note(shift, "by the overlap of E' with its neighbour, not in the curve");
+    master_add_note(shift, "by the overlap of E' with its neighbour, not in the curve");
     return true;
 }
 
@@ -86,11 +90,11 @@ static void fill_shift(const master_work *work, size_t i, const double *log_b_ma
         shift->n_outliers = count_outliers(work->s, curve);
         a = posterior_a(work->posterior, curve);
     }
-    if (fill_beside(work, i, shift) || is_undetermined(work, i, &a, shift))
+    if (fill_shift_outside_part(work, i, shift) || note_undetermined(work, i, &a, shift))
         return;
     shift->determined = true;
     shift->log_a = work->measured_reference ? a : posterior_a_to_reference(work->posterior, curve);
-    if (work->set.by == WT_BY_LOSS_FACTOR)
+    if (work->set.by == WT_SHIFT_LOSS_FACTOR)
         return;
     shift->log_b = posterior_b(work->posterior, curve);
     shift->log_b_material = log_b_material[curve];
@@ -107,10 +111,10 @@ wt_status master_fill_shifts(const master_work *work, wt_master *m, wt_error *er
         return wt_fail(err, WT_E_MEMORY, "no memory for the shifts");
     }
     double *one = log_b + n;
-    for (size_t c = 0; c < p->n_parts; c++) {
-        posterior_smooth_b(p, p->parts[c].cell, p->parts[c].cell->value, one);
+    for (size_t c = 0; c < p->n_components; c++) {
+        posterior_smooth_b(p, p->components[c].cell, p->components[c].cell->value, one);
         for (size_t i = 0; i < n; i++)
-            log_b[i] += p->parts[c].weight * one[i];
+            log_b[i] += p->components[c].weight * one[i];
     }
     for (size_t i = 0; i < work->set.n; i++)
         fill_shift(work, i, log_b, &m->shifts[i]);
@@ -125,32 +129,32 @@ wt_status master_fill_shifts(const master_work *work, wt_master *m, wt_error *er
 
 /* If another isotherm changes by this factor more, the shift error there is half, and not all
  * isotherms are flat. */
-static const double much_steeper = 2.0;
+static const double steepness_ratio = 2.0;
 
 /* Fails because no slope determines the shifts. */
-static wt_status flat_isotherms(const master_work *work, wt_error *err)
+static wt_status fail_flat_isotherms(const master_work *work, wt_error *err)
 {
     const shift_curve *at = &work->set.curves[work->anchor];
     size_t steepest = work->anchor;
     for (size_t i = 0; i < work->set.n; i++)
-        if (shift_change(&work->set, i) > shift_change(&work->set, steepest))
+        if (curve_modulus_change(&work->set, i) > curve_modulus_change(&work->set, steepest))
             steepest = i;
-    const bool elsewhere =
-        shift_change(&work->set, steepest) > much_steeper * shift_change(&work->set, work->anchor);
+    const bool elsewhere = curve_modulus_change(&work->set, steepest) >
+                           steepness_ratio * curve_modulus_change(&work->set, work->anchor);
     wt_fail(err, WT_E_NO_OVERLAP,
             elsewhere ? "no shift is determined: the isotherm of the reference is flat"
                       : "no shift is determined: the isotherms are flat");
     wt_error_expected(err,
                       "moduli that change along an isotherm by more than noise and clamping do");
     wt_error_found(err, "a change of %.2g %% along that of the reference, %.2f °C",
-                   100.0 * expm1(shift_change(&work->set, work->anchor) * M_LN10),
+                   100.0 * expm1(curve_modulus_change(&work->set, work->anchor) * M_LN10),
                    at->temperature - WT_ZERO_CELSIUS);
     if (elsewhere)
         wt_error_advice(err,
                         "choose a reference temperature in the transition: %.2f °C, where it "
                         "changes by %.2g %%, or --reference-at tan-delta-peak",
                         work->set.curves[steepest].temperature - WT_ZERO_CELSIUS,
-                        100.0 * expm1(shift_change(&work->set, steepest) * M_LN10));
+                        100.0 * expm1(curve_modulus_change(&work->set, steepest) * M_LN10));
     else
         wt_error_advice(err,
                         "measure into the transition, or choose a reference temperature there");
@@ -165,7 +169,7 @@ wt_status master_check_shifts(const master_work *work, const wt_master *m, wt_er
         n += m->shifts[i].determined;
         placed += work->placed[i];
         doubted += work->placed[i] && i != work->anchor &&
-                   posterior_fit_error(work->posterior, work->curve[i]) <= master_largest_sigma;
+                   posterior_fit_error(work->posterior, work->curve[i]) <= master_max_shift_error;
     }
     if (n > 1 || m->n_shifts == 1)
         return WT_OK;
@@ -177,16 +181,16 @@ wt_status master_check_shifts(const master_work *work, const wt_master *m, wt_er
         wt_error_advice(err, "measure at smaller steps of temperature or over more frequencies");
         return WT_E_NO_OVERLAP;
     }
-    if (work->posterior->doubt != NULL && doubted > 0) {
+    if (work->posterior->extra_error != NULL && doubted > 0) {
         wt_fail(err, WT_E_NO_OVERLAP,
                 "no shift is determined: one spectrum misses the isotherms, and the overlaps of "
                 "neighbours leave every shift open by more than %.1f decade",
-                master_largest_sigma);
+                master_max_shift_error);
         wt_error_advice(err, "leave out isotherms or points that one process does not describe, "
                              "shift by the storage modulus alone, or give a law of the shifts");
         return WT_E_NO_OVERLAP;
     }
-    return flat_isotherms(work, err);
+    return fail_flat_isotherms(work, err);
 }
 
 wt_status master_check_reference(const master_work *work, const wt_master *m, wt_error *err)
@@ -195,12 +199,12 @@ wt_status master_check_reference(const master_work *work, const wt_master *m, wt
                  warmest = m->shifts[m->n_shifts - 1].temperature;
     const bool inside = m->reference_temperature > coldest && m->reference_temperature < warmest;
     if (work->measured_reference || (inside && m->law.kind != WT_LAW_NONE) ||
-        (m->law.kind != WT_LAW_NONE && m->offset.standard_error <= master_largest_sigma))
+        (m->law.kind != WT_LAW_NONE && m->offset.standard_error <= master_max_shift_error))
         return WT_OK;
     wt_fail(err, WT_E_RANGE, "no shift can be given for the reference temperature %.2f °C",
             m->reference_temperature - WT_ZERO_CELSIUS);
     wt_error_expected(err, "a temperature that the law of the shifts reaches within %.1f decade",
-                      master_largest_sigma);
+                      master_max_shift_error);
     wt_error_advice(err, "choose one of the measured temperatures");
     return WT_E_RANGE;
 }

@@ -14,25 +14,25 @@
 static const double significant = 0.01;
 /* Level below which superposition is not reported to hold, with the noise as estimated. The
  * estimated noise factors make small probabilities a few times too small. */
-static const double doubtful = 0.01;
+static const double likely_level = 0.01;
 /* Relative misfit that fails if certainly exceeded, and that leaves the verdict open if possibly
  * exceeded. Polyisoprene, a simple rubber, has 0.3 to 0.4 % due to the rheometer, so a lower
  * limit would blame the rubber. 1 % of a modulus corresponds to half a per cent in each side of
  * the cross section, which is harmless. */
-static const double matters = 0.004, may_matter = 0.01;
+static const double relevant_misfit = 0.004, possible_misfit = 0.01;
 /* Narrower windows hide a second process [decade]. E'' of one relaxation time is 1.14 decades
  * wide at half height, and a window must be wider to separate two. */
 static const double least_window = 1.5;
 /* Relevance and significance of the Kramers-Kronig difference between measured and predicted
  * E''. The level of 0.001 is strict, because this is an additional test. */
-static const double loss_matters = 0.01, loss_significant = 0.001;
+static const double relevant_loss_factor = 0.01, loss_significant = 0.001;
 /* An isotherm with a smaller overlap does not test superposition, because only the smoothness of
  * the spectrum places it [decade]. One step between terms. */
 static const double least_overlap = 0.3;
 /* Two isotherms can always be superposed. */
 enum { LEAST_ISOTHERMS = 3 };
 
-static double widest_of_half(const master_work *work)
+static double widest_window(const master_work *work)
 {
     double widest = 0.0; /* a wide window reveals a second process */
     for (size_t i = 0; i < work->set.n; i++) {
@@ -43,35 +43,35 @@ static double widest_of_half(const master_work *work)
     return widest;
 }
 
-bool master_misfit_is_real(const lack_of_fit *lack)
+bool master_misfit_is_significant(const lack_of_fit *lack)
 {
-    return lack->p_sure < significant && lack->misfit_low > matters;
+    return lack->p_sure < significant && lack->misfit_low > relevant_misfit;
 }
 
 bool master_misfit_is_likely(const lack_of_fit *lack)
 {
-    return lack->p < doubtful;
+    return lack->p < likely_level;
 }
 
-bool master_is_factor(const lack_of_fit *lack)
+bool master_misfit_is_loss_factor(const lack_of_fit *lack)
 {
-    return master_loss_is_off(lack) && !(lack->p_beyond < significant);
+    return master_loss_is_inconsistent(lack) && !(lack->p_beyond < significant);
 }
 
-bool master_loss_is_off(const lack_of_fit *lack)
+bool master_loss_is_inconsistent(const lack_of_fit *lack)
 {
     return lack->kk < loss_significant &&
-           fabs(lack->factor) - 2.0 * lack->factor_error > loss_matters;
+           fabs(lack->factor) - 2.0 * lack->factor_error > relevant_loss_factor;
 }
 
 /* Converts a bound to per cent and rounds it up. */
-static double at_most(double share)
+static double round_up_percent(double share)
 {
     return fmax(0.1, 0.1 * ceil(1e3 * share));
 }
 
 /* Describes which temperatures one spectrum misses and by how much. */
-static void because_gross(const master_work *work, wt_master *m)
+static void describe_gross_misfit(const master_work *work, wt_master *m)
 {
     const shift_curve *c = work->set.curves;
     char where[128] = "", *at = where;
@@ -99,39 +99,40 @@ static void because_gross(const master_work *work, wt_master *m)
 void master_assess(const master_work *work, wt_master *m)
 {
     size_t determined = 0;
-    const bool failed = work->posterior->doubt != NULL; /* shifts are withheld due to the failure */
+    const bool failed =
+        work->posterior->extra_error != NULL; /* shifts are withheld due to the failure */
     for (size_t i = 0; i < m->n_shifts; i++)
         determined += (m->shifts[i].determined || (failed && work->placed[i])) &&
                       work->overlap[i] >= least_overlap;
     const size_t undetermined = m->n_shifts - determined;
     const lack_of_fit *lack = work->part ? &work->whole : &work->lack;
-    const double window = widest_of_half(work);
-    const bool both = work->set.by == WT_BY_MODULI, tested = both && work->tested;
+    const double window = widest_window(work);
+    const bool both = work->set.by == WT_SHIFT_MODULI, tested = both && work->tested;
     m->lack_of_fit_p = tested ? lack->p : (double)NAN;
     m->misfit_low = tested ? lack->misfit_low : (double)NAN;
     m->misfit_high = tested ? lack->misfit_high : (double)NAN;
     m->kramers_kronig_p = tested ? lack->kk : (double)NAN;
     m->loss_factor = tested ? lack->factor : (double)NAN;
     m->loss_factor_error = tested ? lack->factor_error : (double)NAN;
-    m->superposition = WT_SUPERPOSITION_CANNOT_SAY;
+    m->superposition = WT_SUPERPOSITION_INCONCLUSIVE;
     m->valid_from = m->valid_to = (double)NAN;
     if (!both) {
         clocale_print(m->because, sizeof m->because,
                       "%s alone does not tell; storage and loss modulus together would",
-                      work->set.by == WT_BY_LOSS_FACTOR ? "the loss factor" : "one modulus");
+                      work->set.by == WT_SHIFT_LOSS_FACTOR ? "the loss factor" : "one modulus");
     } else if (work->no_spectrum[0] != '\0') {
         clocale_print(m->because, sizeof m->because, "one spectrum of all was not found (%s)",
                       work->no_spectrum);
-    } else if (work->part || work->route == WT_SHIFTS_OF_OVERLAP) {
+    } else if (work->part || work->route == WT_SHIFTS_FROM_OVERLAP) {
         m->superposition = WT_SUPERPOSITION_FAILS;
-        because_gross(work, m);
-    } else if (determined >= 2 && master_loss_is_off(lack)) {
+        describe_gross_misfit(work, m);
+    } else if (determined >= 2 && master_loss_is_inconsistent(lack)) {
         m->superposition = WT_SUPERPOSITION_FAILS;
         clocale_print(m->because, sizeof m->because,
                       "E'' is %+.1f %% off what E' demands (Kramers-Kronig, p %s): check the "
                       "instrument, the columns, and whether the material changed meanwhile",
-                      100.0 * expm1(lack->factor), number_chance(lack->kk).text);
-    } else if (determined >= LEAST_ISOTHERMS && master_misfit_is_real(lack)) {
+                      100.0 * expm1(lack->factor), format_probability(lack->kk).text);
+    } else if (determined >= LEAST_ISOTHERMS && master_misfit_is_significant(lack)) {
         m->superposition = WT_SUPERPOSITION_FAILS;
         char low[16], high[16];
         clocale_print(low, sizeof low, "%.1f", 100.0 * lack->misfit_low);
@@ -141,7 +142,7 @@ void master_assess(const master_work *work, wt_master *m)
                       "one spectrum misses the isotherms by %s%s%s %% (p %s): a second process "
                       "or a change of the material; treat the temperatures apart",
                       one ? "about " : low, one ? "" : " to ", high,
-                      number_chance(lack->p_sure).text);
+                      format_probability(lack->p_sure).text);
     } else if (determined < LEAST_ISOTHERMS) {
         clocale_print(m->because, sizeof m->because,
                       "%zu isotherm%s that overlap%s; three or more would tell", determined,
@@ -152,15 +153,15 @@ void master_assess(const master_work *work, wt_master *m)
             "%zu of %zu shifts not determined; smaller steps of temperature or a wider range of "
             "frequencies would tell",
             undetermined, m->n_shifts);
-    } else if (lack->misfit_high > may_matter) {
+    } else if (lack->misfit_high > possible_misfit) {
         clocale_print(
             m->because, sizeof m->because,
             "a misfit of up to %.1f %% would not be seen; less noise than %.1f %%, or more "
             "points, would tell",
-            at_most(lack->misfit_high), 100.0 * fmax(m->noise_storage, m->noise_loss));
+            round_up_percent(lack->misfit_high), 100.0 * fmax(m->noise_storage, m->noise_loss));
     } else if (master_misfit_is_likely(lack)) {
         clocale_print(m->because, sizeof m->because, "a misfit is likely (p %s) but below %.1f %%",
-                      number_chance(lack->p).text, at_most(lack->misfit_high));
+                      format_probability(lack->p).text, round_up_percent(lack->misfit_high));
     } else if (window < least_window) {
         clocale_print(
             m->because, sizeof m->because,
@@ -169,6 +170,6 @@ void master_assess(const master_work *work, wt_master *m)
     } else {
         m->superposition = WT_SUPERPOSITION_HOLDS;
         clocale_print(m->because, sizeof m->because, "misfit below %.1f %% (lack of fit p %s)",
-                      at_most(lack->misfit_high), number_chance(lack->p).text);
+                      round_up_percent(lack->misfit_high), format_probability(lack->p).text);
     }
 }

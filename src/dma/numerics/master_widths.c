@@ -15,14 +15,14 @@ static const double geometry_widths[] = {0.0003, 0.002, 0.008, 0.03};
 static const double geometry_cells[] = {0.0068, 0.0032, 0.0115, 0.0445};
 static const double departure_widths[] = {0.0, 0.02, 0.1};
 static const double departure_cells[] = {0.02, 0.04, 0.12};
-static const double geometry_believed = 0.01, departure_believed = 0.05;
+static const double geometry_prior_width = 0.01, departure_prior_width = 0.05;
 enum { GEOMETRIES = 4, DEPARTURES = 3 };
 
 /* Cells whose ln weight is this much below the largest are dropped. exp(-20) is 2e-9 of the
  * mixture; the law would have to raise it by exp(13) to the minimum share (posterior.c). */
-static const double hopeless = 20.0;
+static const double negligible_log_weight = 20.0;
 
-static double log_prior_of(double width, double believed, double cell)
+static double log_prior(double width, double believed, double cell)
 {
     return log(cell / (1.0 + width * width / (believed * believed)));
 }
@@ -34,49 +34,51 @@ static wt_status fit_cell(master_work *work, int g, int d, double *weight, wt_er
         master_set_widths(work, WT_VERTICAL_TIED, geometry_widths[g], departure_widths[d], err);
     if (status == WT_OK)
         status = spectrum_fit(work->s, SPECTRUM_NOISE, err);
-    *weight = log_prior_of(geometry_widths[g], geometry_believed, geometry_cells[g]) +
-              log_prior_of(departure_widths[d], departure_believed, departure_cells[d]) -
+    *weight = log_prior(geometry_widths[g], geometry_prior_width, geometry_cells[g]) +
+              log_prior(departure_widths[d], departure_prior_width, departure_cells[d]) -
               0.5 * work->s->criterion;
     return status == WT_OK && work->options.vertical == WT_VERTICAL_TIED
-               ? posterior_keep(work->posterior, WT_VERTICAL_TIED, &work->vertical, *weight, err)
+               ? posterior_store(work->posterior, WT_VERTICAL_TIED, &work->vertical, *weight, err)
                : status;
 }
 
 /* Fits from the widest prior to narrower ones until they become negligible. The array gets ln of
  * the weight of each geometry error. */
-static wt_status fit_tied(master_work *work, double *of, wt_error *err)
+static wt_status fit_tied_shift(master_work *work, double *log_weight, wt_error *err)
 {
     wt_status status = WT_OK;
     double best = -HUGE_VAL;
     for (int g = 0; g < GEOMETRIES; g++)
-        of[g] = -HUGE_VAL;
-    for (int g = GEOMETRIES - 1; g == GEOMETRIES - 1 || (g >= 0 && of[g + 1] > best - hopeless);
-         g--) {
+        log_weight[g] = -HUGE_VAL;
+    for (int g = GEOMETRIES - 1;
+         g == GEOMETRIES - 1 || (g >= 0 && log_weight[g + 1] > best - negligible_log_weight); g--) {
         double weight = 0.0;
-        for (int d = DEPARTURES - 1; weight >= of[g] - hopeless && d >= 0; d--) {
+        for (int d = DEPARTURES - 1; weight >= log_weight[g] - negligible_log_weight && d >= 0;
+             d--) {
             status = fit_cell(work, g, d, &weight, err);
             if (status != WT_OK)
                 return status;
-            of[g] = fmax(of[g], weight) + log1p(exp(-fabs(of[g] - weight)));
+            log_weight[g] = fmax(log_weight[g], weight) + log1p(exp(-fabs(log_weight[g] - weight)));
         }
-        best = fmax(best, of[g]);
+        best = fmax(best, log_weight[g]);
     }
     return status;
 }
 
 /* Fits free vertical shifts. The reference is clamped like the others, so the scatter of the
  * tied shifts is the error of its level. */
-static wt_status fit_free(master_work *work, const double *of, wt_error *err)
+static wt_status fit_free_shift(master_work *work, const double *log_weight, wt_error *err)
 {
     wt_status status = WT_OK;
     for (int g = 0; status == WT_OK && g < GEOMETRIES; g++) {
-        if (!(of[g] > -HUGE_VAL))
+        if (!(log_weight[g] > -HUGE_VAL))
             continue;
         status = master_set_widths(work, WT_VERTICAL_FREE, geometry_widths[g], 0.0, err);
         if (status == WT_OK)
             status = spectrum_fit(work->s, SPECTRUM_NOISE, err);
         if (status == WT_OK)
-            status = posterior_keep(work->posterior, WT_VERTICAL_FREE, &work->vertical, of[g], err);
+            status = posterior_store(work->posterior, WT_VERTICAL_FREE, &work->vertical,
+                                     log_weight[g], err);
     }
     return status;
 }
@@ -86,15 +88,15 @@ wt_status master_fit_widths(master_work *work, wt_error *err)
 {
     const wt_vertical_shift kind = work->options.vertical;
     wt_posterior *p = work->posterior;
-    double of[GEOMETRIES];
+    double log_weight[GEOMETRIES];
     wt_status status = WT_OK;
     if (work->prior.held) {
         status = spectrum_fit(work->s, SPECTRUM_NOISE, err);
-        return status == WT_OK ? posterior_keep(p, kind, &work->vertical, 0.0, err) : status;
+        return status == WT_OK ? posterior_store(p, kind, &work->vertical, 0.0, err) : status;
     }
-    status = fit_tied(work, of, err);
+    status = fit_tied_shift(work, log_weight, err);
     if (status == WT_OK && kind == WT_VERTICAL_FREE)
-        status = fit_free(work, of, err);
+        status = fit_free_shift(work, log_weight, err);
     if (status != WT_OK)
         return status;
     const posterior_cell *best = posterior_best(p);

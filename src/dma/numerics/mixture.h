@@ -4,12 +4,12 @@
 
 #include "weartrack/fit.h"
 
-typedef struct mixture_part {
+typedef struct mixture_component {
     double weight, mean, deviation;
-} mixture_part;
+} mixture_component;
 
 /* Returns the mean, the 95 % limits and the corresponding standard error. The weights must sum
  * to 1. */
-wt_interval mixture_interval(const mixture_part *part, size_t n);
+wt_interval mixture_interval(const mixture_component *part, size_t n);
 
 #endif

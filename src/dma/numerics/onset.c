@@ -10,15 +10,15 @@
 static const double glass_share = 0.1;
 /* The analysis covers these shares of the whole fall of ln E', extended by half its width on the
  * warm and twice on the cold side. It thus contains the glass and the steepest slope. */
-static const double begins = 0.1, ends = 0.6, warmer = 0.5, colder = 2;
+static const double fall_begin = 0.1, fall_end = 0.6, warm_margin = 0.5, cold_margin = 2;
 /* Positions at which slopes are compared: three per shortest correlation length. The cold
  * tangent lies between two of them. */
-enum { PLACES = 41 };
+enum { POSITIONS = 41 };
 /* A fall below a factor of 2 is no glass transition. Glass and rubber differ by two decades, or
  * half of one with much filler. */
 static const double least_fall = 2;
 
-static size_t steepest_of(const double *slope, size_t n)
+static size_t steepest_index(const double *slope, size_t n)
 {
     size_t at = 0;
     for (size_t i = 1; i < n; i++)
@@ -27,7 +27,7 @@ static size_t steepest_of(const double *slope, size_t n)
 }
 
 /* Integrates the slope from position a to position b by the trapezoidal rule. */
-static double fall_between(const double *x, const double *slope, size_t a, size_t b)
+static double integrate_slope(const double *x, const double *slope, size_t a, size_t b)
 {
     double sum = 0;
     for (size_t i = a; i < b; i++)
@@ -37,9 +37,9 @@ static double fall_between(const double *x, const double *slope, size_t a, size_
 
 /* Returns the intersection of the tangents, or NaN if the steepest slope or the glass is not
  * inside. */
-static double meeting_place(const double *x, const double *slope, size_t n)
+static double tangent_intersection(const double *x, const double *slope, size_t n)
 {
-    const size_t top = steepest_of(slope, n);
+    const size_t top = steepest_index(slope, n);
     const double steepest = slope[top], glass = glass_share * steepest;
     size_t cold = top;
     while (cold > 0 && slope[cold] < glass)
@@ -48,14 +48,15 @@ static double meeting_place(const double *x, const double *slope, size_t n)
         return (double)NAN;
     const double part = (glass - slope[cold]) / (slope[cold + 1] - slope[cold]),
                  at = x[cold] + part * (x[cold + 1] - x[cold]),
-                 fall = fall_between(x, slope, cold + 1, top) +
+                 fall = integrate_slope(x, slope, cold + 1, top) +
                         0.5 * (glass + slope[cold + 1]) * (x[cold + 1] - at);
     /* ln E' = glass (T - at) meets ln E' = fall + steepest (T - x[top]). */
     return at + (fall - steepest * (x[top] - at)) / (glass - steepest);
 }
 
 /* Selects the points around the fall: first index and end index. */
-static void choose_fall(const double *x, const double *z, size_t n, size_t *first, size_t *last)
+static void select_fall_points(const double *x, const double *z, size_t n, size_t *first,
+                               size_t *last)
 {
     size_t top = 0, low = 0, begin, end;
     for (size_t i = 1; i < n; i++)
@@ -63,27 +64,28 @@ static void choose_fall(const double *x, const double *z, size_t n, size_t *firs
     for (size_t i = low = top; i < n; i++)
         low = z[i] < z[low] ? i : low;
     const double fall = z[top] - z[low];
-    for (end = top; end < low && z[end] > z[top] - ends * fall;)
+    for (end = top; end < low && z[end] > z[top] - fall_end * fall;)
         end++;
-    for (begin = end; begin > top && z[begin] < z[top] - begins * fall;)
+    for (begin = end; begin > top && z[begin] < z[top] - fall_begin * fall;)
         begin--;
     const double width = x[end] - x[begin];
-    for (*first = begin; *first > 0 && x[*first - 1] >= x[begin] - colder * width;)
+    for (*first = begin; *first > 0 && x[*first - 1] >= x[begin] - cold_margin * width;)
         --*first;
-    for (*last = end + 1; *last < n && x[*last] <= x[end] + warmer * width;)
+    for (*last = end + 1; *last < n && x[*last] <= x[end] + warm_margin * width;)
         ++*last;
 }
 
-static wt_status place_onset(const double *x, const double *z, size_t n, wt_onset *onset,
-                             wt_error *err)
+static wt_status locate_onset(const double *x, const double *z, size_t n, wt_onset *onset,
+                              wt_error *err)
 {
-    double places[PLACES];
+    double positions[POSITIONS];
     gaussian_process s;
-    for (int i = 0; i < PLACES; i++)
-        places[i] = x[0] + (x[n - 1] - x[0]) * i / (PLACES - 1);
+    for (int i = 0; i < POSITIONS; i++)
+        positions[i] = x[0] + (x[n - 1] - x[0]) * i / (POSITIONS - 1);
     wt_status status = gaussian_process_new(x, z, n, false, &s, err);
     if (status == WT_OK)
-        status = smooth_of_slopes(&s, places, PLACES, meeting_place, &onset->at, err);
+        status = gaussian_process_slope_interval(&s, positions, POSITIONS, tangent_intersection,
+                                                 &onset->at, err);
     gaussian_process_free(&s);
     if (status == WT_OK && !isnan(onset->at.value))
         *onset = (wt_onset){true, onset->at, n, ""};
@@ -97,7 +99,7 @@ wt_status wt_onset_find(const double *x, const double *y, size_t n, wt_onset *on
     size_t first, last;
     *onset = (wt_onset){.at = {(double)NAN, (double)NAN, (double)NAN, (double)NAN},
                         .why_not = "fewer than 5 points"};
-    if (n < SMOOTH_LEAST)
+    if (n < GP_MIN_POINTS)
         return WT_OK;
     double *z = malloc(n * sizeof *z), lowest = HUGE_VAL, highest = -HUGE_VAL;
     if (z == NULL)
@@ -107,14 +109,14 @@ wt_status wt_onset_find(const double *x, const double *y, size_t n, wt_onset *on
         lowest = fmin(lowest, z[i]);
         highest = fmax(highest, z[i]);
     }
-    choose_fall(x, z, n, &first, &last);
+    select_fall_points(x, z, n, &first, &last);
     wt_status status = WT_OK;
     if (highest - lowest < log(least_fall))
         onset->why_not = "it falls by less than a factor 2";
-    else if (last - first < SMOOTH_LEAST)
+    else if (last - first < GP_MIN_POINTS)
         onset->why_not = "fewer than 5 points about its fall";
     else
-        status = place_onset(x + first, z + first, last - first, onset, err);
+        status = locate_onset(x + first, z + first, last - first, onset, err);
     free(z);
     return status;
 }

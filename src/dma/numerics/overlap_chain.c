@@ -18,10 +18,10 @@ static const double largest_sigma = 0.2;
 static const double slope_reach = 0.3;
 /* Gaps beyond this number of standard deviations get little weight. Cauchy weights cost 5 % of
  * the efficiency for normal noise. */
-static const double far_off = 2.385;
-static const double settled = 1e-5; /* [decade] */
+static const double weight_scale = 2.385;
+static const double convergence_step = 1e-5; /* [decade] */
 /* A noise correlation differs from 0 if it exceeds this number of standard errors. */
-static const double chance = 2.0;
+static const double correlation_significance = 2.0;
 enum { NEIGHBOURS = 2, MOST_STEPS = 50, LEAST_GAPS = 4 };
 
 /* A gap between two curves, and its change with the shift. */
@@ -40,7 +40,7 @@ struct overlap {
 };
 
 /* Computes the slope of a modulus at each point. */
-static void find_slopes(const shift_curve *c, int q, double *slope)
+static void find_curve_slopes(const shift_curve *c, int q, double *slope)
 {
     size_t from = 0, to = 0;
     for (size_t k = 0; k < c->n; k++) {
@@ -63,8 +63,8 @@ static void find_slopes(const shift_curve *c, int q, double *slope)
 
 /* Adds the gaps of the points of `from`, moved by a, to the curve `onto`; sign: 1 if `from` is
  * the shifted curve. */
-static void add_gaps(struct overlap *o, const shift_curve *onto, const shift_curve *from,
-                     const double *slope, double a, double sign)
+static void add_curve_gaps(struct overlap *o, const shift_curve *onto, const shift_curve *from,
+                           const double *slope, double a, double sign)
 {
     size_t k = 0;
     for (size_t i = 0; i < from->n; i++) {
@@ -84,22 +84,23 @@ static void add_gaps(struct overlap *o, const shift_curve *onto, const shift_cur
 static void find_gaps(struct overlap *o, double a)
 {
     o->n = 0;
-    add_gaps(o, o->p, o->s, o->slope_p, a, 1.0);
+    add_curve_gaps(o, o->p, o->s, o->slope_p, a, 1.0);
     o->n_first = o->n;
-    add_gaps(o, o->s, o->p, o->slope_s, -a, -1.0);
+    add_curve_gaps(o, o->s, o->p, o->slope_s, -a, -1.0);
     for (size_t i = 0; i < o->n; i++)
         o->scratch[i] = fabs(o->gap[i].off);
     gsl_sort(o->scratch, 1, o->n);
     const double spread =
-        o->n > 0 ? far_off * 1.4826 * gsl_stats_median_from_sorted_data(o->scratch, 1, o->n) : 0.0;
+        o->n > 0 ? weight_scale * 1.4826 * gsl_stats_median_from_sorted_data(o->scratch, 1, o->n)
+                 : 0.0;
     for (size_t i = 0; spread > 0.0 && i < o->n; i++) {
-        const double far = o->gap[i].off / spread;
-        o->gap[i].weight = 1.0 / (1.0 + far * far);
+        const double scaled_gap = o->gap[i].off / spread;
+        o->gap[i].weight = 1.0 / (1.0 + scaled_gap * scaled_gap);
     }
 }
 
 /* Returns the correction of the shift from the gaps, and the sums of squares of gaps and slopes. */
-static double gaps_by_slope(const struct overlap *o, double *gaps, double *slope_squares)
+static double shift_correction(const struct overlap *o, double *gaps, double *slope_squares)
 {
     double cross = 0.0;
     *gaps = *slope_squares = 0.0;
@@ -127,41 +128,41 @@ static double gap_correlation(const struct overlap *o)
 
 /* Fits a step by least squares from the closed form. The error includes the difference between
  * both. */
-static bool find_step(struct overlap *o, double start, double *a, double *error, double *spread)
+static bool fit_step(struct overlap *o, double start, double *a, double *error, double *spread)
 {
     double gaps = 0.0, slope_squares = 0.0;
     *a = start;
     for (int i = 0; i < MOST_STEPS; i++) {
         find_gaps(o, *a);
         const double move =
-            o->n >= LEAST_GAPS ? gaps_by_slope(o, &gaps, &slope_squares) : (double)NAN;
+            o->n >= LEAST_GAPS ? shift_correction(o, &gaps, &slope_squares) : (double)NAN;
         if (!isfinite(move))
             return false;
         *a += fmax(-largest_sigma, fmin(largest_sigma, move));
-        if (fabs(move) < settled)
+        if (fabs(move) < convergence_step)
             break;
     }
     find_gaps(o, *a);
-    if (o->n < LEAST_GAPS || !isfinite(gaps_by_slope(o, &gaps, &slope_squares)))
+    if (o->n < LEAST_GAPS || !isfinite(shift_correction(o, &gaps, &slope_squares)))
         return false;
     /* effective number of points; both directions use the same points */
     const double rho = gap_correlation(o), all = sqrt(gaps / slope_squares);
     const double independent = fmax(0.5 * (double)o->n * (1.0 - rho) / (1.0 + rho), 1.0);
     *error = hypot(all / sqrt(independent), 0.5 * (*a - start));
     /* correlation beyond that of noise */
-    *spread = fmax(rho - chance / sqrt((double)o->n), 0.0) * all;
+    *spread = fmax(rho - correlation_significance / sqrt((double)o->n), 0.0) * all;
     return *error <= largest_sigma;
 }
 
-struct chain {
+struct chain_work {
     const shift_set *set;
-    const double *b, *other_b;
+    const double *b, *alternative_b;
     double *slope[MODULI]; /* [points of the set] */
     size_t *first;         /* [n] first point of each curve */
     struct overlap overlap;
 };
 
-static void overlap_of(struct chain *c, size_t onto, size_t from, int q, const double *b)
+static void set_overlap(struct chain_work *c, size_t onto, size_t from, int q, const double *b)
 {
     struct overlap *o = &c->overlap;
     o->p = &c->set->curves[onto];
@@ -173,54 +174,54 @@ static void overlap_of(struct chain *c, size_t onto, size_t from, int q, const d
 }
 
 /* Returns the change of a step by an alternative, or 0 if the alternative determines none. */
-static double moved_by(struct chain *c, double start, double a)
+static double alternative_step_change(struct chain_work *c, double start, double a)
 {
     double other, error, spread;
-    return find_step(&c->overlap, start, &other, &error, &spread) ? other - a : 0.0;
+    return fit_step(&c->overlap, start, &other, &error, &spread) ? other - a : 0.0;
 }
 
-static bool link_to(struct chain *c, overlap_link *link, size_t onto, size_t from)
+static bool add_edge(struct chain_work *c, overlap_edge *edge, size_t onto, size_t from)
 {
     double a, error, spread;
-    if (!link[onto].placed)
+    if (!edge[onto].placed)
         return false;
-    overlap_of(c, onto, from, STORAGE, c->b);
+    set_overlap(c, onto, from, STORAGE, c->b);
     const double start = closed_form_step(c->set, onto, from, c->overlap.b);
-    if (isnan(start) || !find_step(&c->overlap, start, &a, &error, &spread))
+    if (isnan(start) || !fit_step(&c->overlap, start, &a, &error, &spread))
         return false;
-    link[from] = (overlap_link){.placed = true,
+    edge[from] = (overlap_edge){.placed = true,
                                 .onto = onto,
-                                .a = link[onto].a + a,
+                                .a = edge[onto].a + a,
                                 .step = error,
-                                .error = link[onto].error + error,
-                                .spread = link[onto].spread + spread,
-                                .by_loss = link[onto].by_loss,
-                                .by_vertical = link[onto].by_vertical};
+                                .error = edge[onto].error + error,
+                                .spread = edge[onto].spread + spread,
+                                .by_loss = edge[onto].by_loss,
+                                .by_vertical = edge[onto].by_vertical};
     if (c->set->used[LOSS]) {
-        overlap_of(c, onto, from, LOSS, c->b);
-        link[from].by_loss += moved_by(c, a, a);
+        set_overlap(c, onto, from, LOSS, c->b);
+        edge[from].by_loss += alternative_step_change(c, a, a);
     }
-    if (c->other_b != NULL) {
-        overlap_of(c, onto, from, STORAGE, c->other_b);
-        link[from].by_vertical += moved_by(c, a, a);
+    if (c->alternative_b != NULL) {
+        set_overlap(c, onto, from, STORAGE, c->alternative_b);
+        edge[from].by_vertical += alternative_step_change(c, a, a);
     }
     return true;
 }
 
-wt_status overlap_chain(const shift_set *set, size_t anchor, const double *b, const double *other_b,
-                        overlap_link *link, wt_error *err)
+wt_status overlap_chain(const shift_set *set, size_t anchor, const double *b,
+                        const double *alternative_b, overlap_edge *edge, wt_error *err)
 {
     const size_t n = set->n;
     size_t longest = 0;
     for (size_t i = 0; i < n; i++) {
-        link[i] = (overlap_link){.onto = anchor, .a = (double)NAN};
+        edge[i] = (overlap_edge){.onto = anchor, .a = (double)NAN};
         longest = set->curves[i].n > longest ? set->curves[i].n : longest;
     }
-    link[anchor] = (overlap_link){.placed = true, .onto = anchor};
+    edge[anchor] = (overlap_edge){.placed = true, .onto = anchor};
     if (!set->used[STORAGE])
         return WT_OK;
     arena memory = {0};
-    struct chain c = {.set = set, .b = b, .other_b = other_b};
+    struct chain_work c = {.set = set, .b = b, .alternative_b = alternative_b};
     for (int q = 0; q < MODULI; q++)
         c.slope[q] = arena_numbers(&memory, set->n_points);
     c.first = arena_alloc(&memory, n, sizeof *c.first);
@@ -234,14 +235,14 @@ wt_status overlap_chain(const shift_set *set, size_t anchor, const double *b, co
         c.first[i] = k;
         for (int q = 0; q < MODULI; q++)
             if (set->used[q])
-                find_slopes(&set->curves[i], q, c.slope[q] + k);
+                find_curve_slopes(&set->curves[i], q, c.slope[q] + k);
     }
     for (size_t i = anchor + 1; i < n; i++)
-        for (size_t k = 1; k <= NEIGHBOURS && anchor + k <= i && !link[i].placed; k++)
-            (void)link_to(&c, link, i - k, i);
+        for (size_t k = 1; k <= NEIGHBOURS && anchor + k <= i && !edge[i].placed; k++)
+            (void)add_edge(&c, edge, i - k, i);
     for (size_t i = anchor; i-- > 0;)
-        for (size_t k = 1; k <= NEIGHBOURS && i + k <= anchor && !link[i].placed; k++)
-            (void)link_to(&c, link, i + k, i);
+        for (size_t k = 1; k <= NEIGHBOURS && i + k <= anchor && !edge[i].placed; k++)
+            (void)add_edge(&c, edge, i + k, i);
     arena_free(&memory);
     return WT_OK;
 }

@@ -6,7 +6,7 @@
 
 #include "dma/numerics/isotherm.h"
 
-typedef struct overlap_link {
+typedef struct overlap_edge {
     bool placed;
     size_t onto;    /* index of the placed isotherm it is linked to; the anchor: itself */
     double a;       /* shift relative to the anchor */
@@ -16,11 +16,12 @@ typedef struct overlap_link {
                        in all */
     double by_loss; /* change of a by the overlaps of the loss modulus alone */
     double by_vertical; /* change of a by the other vertical shifts */
-} overlap_link;
+} overlap_edge;
 
-/* Fills the edges [set->n]. b: [set->n] vertical shifts of the moduli; other_b: [set->n]
+/* Fills the edges [set->n]. b: [set->n] vertical shifts of the moduli; alternative_b: [set->n]
  * alternative vertical shifts, or NULL. Without a storage modulus only the anchor is placed. */
-wt_status overlap_chain(const shift_set *set, size_t anchor, const double *b, const double *other_b,
-                        overlap_link *link, wt_error *err) WT_NODISCARD;
+wt_status overlap_chain(const shift_set *set, size_t anchor, const double *b,
+                        const double *alternative_b, overlap_edge *edge,
+                        wt_error *err) WT_NODISCARD;
 
 #endif

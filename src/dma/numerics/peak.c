@@ -10,13 +10,13 @@
 
 /* The fit includes points above this share of the height. A Gaussian has its inflection there,
  * which a parabola cannot follow. */
-static const double share = 0.6;
+static const double peak_share = 0.6;
 /* The fit needs nine points, three times the constants of a parabola. A largest point among the
  * outer two may belong to a continuing rise. */
 enum { LEAST = 9, FROM_END = 2 };
 /* A valley separates two maxima if the values rise by this factor on both sides. This is ten
  * times the scatter of a careful sweep. */
-static const double out_of_valley = 1.1;
+static const double valley_rise_ratio = 1.1;
 /* Points that interpolate a value. Chosen: half as many determine their scatter to 35 %, and
  * twice as many cover twice the curvature. */
 enum { NEIGHBOURS = 15 };
@@ -24,29 +24,29 @@ enum { NEIGHBOURS = 15 };
  * maxima. Bisection ends at 1e-12 of a step. */
 enum { GRID = 100, HALVINGS = 40 };
 
-static void tell_no_peak(wt_peak *peak, const char *why)
+static void set_no_peak(wt_peak *peak, const char *reason)
 {
     *peak = (wt_peak){.at = {(double)NAN, (double)NAN, (double)NAN, (double)NAN},
                       .height = {(double)NAN, (double)NAN, (double)NAN, (double)NAN},
                       .misfit = (double)NAN,
-                      .why_not = why};
+                      .why_not = reason};
 }
 
 /* Selects the points around the largest one: first index and end index. Returns false if they
  * leave the range. */
-static bool choose_points(const double *y, size_t n, size_t top, size_t asked, size_t *first,
-                          size_t *last)
+static bool select_peak_points(const double *y, size_t n, size_t top, size_t n_requested,
+                               size_t *first, size_t *last)
 {
     *first = top;
     *last = top + 1;
-    if (asked > 0) {
-        *first = top - (asked - 1) / 2;
-        *last = *first + asked;
-        return top >= (asked - 1) / 2 && *last <= n;
+    if (n_requested > 0) {
+        *first = top - (n_requested - 1) / 2;
+        *last = *first + n_requested;
+        return top >= (n_requested - 1) / 2 && *last <= n;
     }
-    while (*first > 0 && y[*first - 1] > share * y[top])
+    while (*first > 0 && y[*first - 1] > peak_share * y[top])
         --*first;
-    while (*last < n && y[*last] > share * y[top])
+    while (*last < n && y[*last] > peak_share * y[top])
         ++*last;
     while (*last - *first < LEAST && *last - *first < n) {
         if (*first > 0 && (*last == n || y[*first - 1] >= y[*last]))
@@ -61,7 +61,7 @@ static bool choose_points(const double *y, size_t n, size_t top, size_t asked, s
 
 static double falling_probability(const gaussian_process *s, double x)
 {
-    return smooth_below(s, x, SMOOTH_SLOPE, 0);
+    return gaussian_process_probability_below(s, x, GP_SLOPE, 0);
 }
 
 typedef struct slope_level {
@@ -69,7 +69,7 @@ typedef struct slope_level {
     double level;
 } slope_level;
 
-static bool falls_less(double x, void *user)
+static bool is_below_level(double x, void *user)
 {
     const slope_level *l = user;
     return falling_probability(l->s, x) < l->level;
@@ -79,13 +79,13 @@ static bool falls_less(double x, void *user)
 static double slope_crossing(const gaussian_process *s, double low, double high, double level)
 {
     slope_level l = {s, level};
-    root_halve(falls_less, &l, &low, &high, 0, HALVINGS);
+    root_bisect(is_below_level, &l, &low, &high, 0, HALVINGS);
     return 0.5 * (low + high);
 }
 
 /* Finds the maximum nearest to the largest point. The limits are where the curve rises or falls
  * with 97.5 % probability; NaN if undetermined. */
-static wt_interval find_top(const gaussian_process *s, double from, double to, double largest)
+static wt_interval find_maximum(const gaussian_process *s, double from, double to, double largest)
 {
     const double step = (to - from) / GRID;
     double probable[GRID + 1];
@@ -122,7 +122,7 @@ static double relative_misfit(const gaussian_process *s, const double *x, const 
 {
     double squares = 0;
     for (size_t i = 0; i < n; i++) {
-        const double off = z[i] - gaussian_process_mean(s, x[i], SMOOTH_VALUE);
+        const double off = z[i] - gaussian_process_mean(s, x[i], GP_VALUE);
         squares += off * off;
     }
     return sqrt(squares / (double)n);
@@ -130,19 +130,19 @@ static double relative_misfit(const gaussian_process *s, const double *x, const 
 
 /* Locates the peak of n points. z: the fitted values, ln y or with `parabola` y, relative to the
  * largest point. */
-static wt_status place_peak(const double *x, const double *z, size_t n, double largest_x,
-                            double largest_y, bool parabola, wt_peak *peak, wt_error *err)
+static wt_status locate_peak(const double *x, const double *z, size_t n, double largest_x,
+                             double largest_y, bool parabola, wt_peak *peak, wt_error *err)
 {
     gaussian_process s;
     wt_status status = gaussian_process_new(x, z, n, parabola, &s, err);
     if (status == WT_OK) {
-        peak->at = find_top(&s, x[0], x[n - 1], largest_x);
+        peak->at = find_maximum(&s, x[0], x[n - 1], largest_x);
         peak->n = n;
     }
     const bool closed = !isnan(peak->at.low) && !isnan(peak->at.high);
     peak->found = status == WT_OK && !isnan(peak->at.value) && (closed || parabola);
     if (status == WT_OK && !peak->found) {
-        tell_no_peak(peak, "no peak that stands out of the scatter of the points");
+        set_no_peak(peak, "no peak that stands out of the scatter of the points");
     } else if (status == WT_OK) {
         const wt_interval height = gaussian_process_interval(&s, peak->at.value);
         peak->misfit = relative_misfit(&s, x, z, n);
@@ -163,19 +163,18 @@ wt_status wt_peak_find(const double *x, const double *y, size_t n, size_t points
                        wt_error *err)
 {
     size_t top = 0, first, last;
-    tell_no_peak(peak, "fewer than 5 points");
-    if (n < SMOOTH_LEAST)
+    set_no_peak(peak, "fewer than 5 points");
+    if (n < GP_MIN_POINTS)
         return WT_OK;
     for (size_t i = 1; i < n; i++)
         top = y[i] > y[top] ? i : top;
     if (top < FROM_END || top + FROM_END >= n) {
-        tell_no_peak(peak, top < FROM_END
-                               ? "no peak in range: largest at the lowest temperatures"
-                               : "no peak in range: largest at the highest temperatures");
+        set_no_peak(peak, top < FROM_END ? "no peak in range: largest at the lowest temperatures"
+                                         : "no peak in range: largest at the highest temperatures");
         return WT_OK;
     }
-    if (!choose_points(y, n, top, points, &first, &last)) {
-        tell_no_peak(peak, "no peak in range: too few points on one side of the largest");
+    if (!select_peak_points(y, n, top, points, &first, &last)) {
+        set_no_peak(peak, "no peak in range: too few points on one side of the largest");
         return WT_OK;
     }
     double *z = malloc((last - first) * sizeof *z);
@@ -184,7 +183,7 @@ wt_status wt_peak_find(const double *x, const double *y, size_t n, size_t points
     for (size_t i = first; i < last; i++)
         z[i - first] = points > 0 ? y[i] / y[top] : log(y[i] / y[top]);
     const wt_status status =
-        place_peak(x + first, z, last - first, x[top], y[top], points > 0, peak, err);
+        locate_peak(x + first, z, last - first, x[top], y[top], points > 0, peak, err);
     free(z);
     return status;
 }
@@ -193,7 +192,7 @@ wt_status wt_peak_find(const double *x, const double *y, size_t n, size_t points
 
 typedef struct peak_list {
     const double *x, *y;
-    size_t main; /* the largest of all points */
+    size_t main_index; /* the largest of all points */
     wt_peak *peaks;
     size_t n, most;
 } peak_list;
@@ -205,14 +204,14 @@ static size_t find_valley(const double *y, size_t from, size_t to)
     size_t lowest = from;
     for (size_t i = from; i != to; i += to > from ? 1 : (size_t)-1) {
         lowest = y[i] < y[lowest] ? i : lowest;
-        if (lowest != from && y[i] >= out_of_valley * y[lowest])
+        if (lowest != from && y[i] >= valley_rise_ratio * y[lowest])
             return lowest;
     }
     return from;
 }
 
 /* Adds the peaks of the points [first, last), split at valleys. The main peak is skipped. */
-static wt_status add_peaks(peak_list *list, size_t first, size_t last, wt_error *err)
+static wt_status add_secondary_peaks(peak_list *list, size_t first, size_t last, wt_error *err)
 {
     const double *y = list->y;
     if (last - first < LEAST)
@@ -221,8 +220,8 @@ static wt_status add_peaks(peak_list *list, size_t first, size_t last, wt_error 
     for (size_t i = first; i < last; i++)
         top = y[i] > y[top] ? i : top;
     const size_t cold = find_valley(y, top, first), warm = find_valley(y, top, last - 1);
-    wt_status status = cold != top ? add_peaks(list, first, cold + 1, err) : WT_OK;
-    if (status == WT_OK && top != list->main && list->n < list->most) {
+    wt_status status = cold != top ? add_secondary_peaks(list, first, cold + 1, err) : WT_OK;
+    if (status == WT_OK && top != list->main_index && list->n < list->most) {
         const size_t from = cold != top ? cold : first, to = warm != top ? warm + 1 : last;
         wt_peak *peak = &list->peaks[list->n];
         status = to - from >= LEAST
@@ -230,7 +229,7 @@ static wt_status add_peaks(peak_list *list, size_t first, size_t last, wt_error 
                      : WT_OK;
         list->n += status == WT_OK && to - from >= LEAST && peak->found;
     }
-    return status == WT_OK && warm != top ? add_peaks(list, warm, last, err) : status;
+    return status == WT_OK && warm != top ? add_secondary_peaks(list, warm, last, err) : status;
 }
 
 wt_status wt_secondary_peaks(const double *x, const double *y, size_t n, size_t most,
@@ -238,19 +237,19 @@ wt_status wt_secondary_peaks(const double *x, const double *y, size_t n, size_t 
 {
     peak_list list = {.x = x, .y = y, .peaks = peaks, .most = most};
     for (size_t i = 1; i < n; i++)
-        list.main = y[i] > y[list.main] ? i : list.main;
-    const wt_status status = add_peaks(&list, 0, n, err);
+        list.main_index = y[i] > y[list.main_index] ? i : list.main_index;
+    const wt_status status = add_secondary_peaks(&list, 0, n, err);
     *n_peaks = status == WT_OK ? list.n : 0;
     return status;
 }
 
 /* ---- between points -------------------------------------------------------------------------- */
 
-wt_status wt_value_between(const double *x, const double *y, size_t n, double at,
-                           wt_interval *value, wt_error *err)
+wt_status wt_smooth_interpolate(const double *x, const double *y, size_t n, double at,
+                                wt_interval *value, wt_error *err)
 {
     *value = (wt_interval){(double)NAN, (double)NAN, (double)NAN, (double)NAN};
-    if (n < SMOOTH_LEAST || at < x[0] || at > x[n - 1])
+    if (n < GP_MIN_POINTS || at < x[0] || at > x[n - 1])
         return WT_OK;
     const size_t most = n < NEIGHBOURS ? n : NEIGHBOURS;
     size_t first = 0;

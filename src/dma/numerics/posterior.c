@@ -50,8 +50,8 @@ static wt_status fill_cell(const wt_posterior *p, posterior_cell *c, wt_error *e
                 : wt_fail(err, WT_E_CONVERGENCE, "the isotherms do not determine a spectrum");
 }
 
-wt_status posterior_keep(wt_posterior *p, wt_vertical_shift kind, const vertical *v,
-                         double log_weight, wt_error *err)
+wt_status posterior_store(wt_posterior *p, wt_vertical_shift kind, const vertical *v,
+                          double log_weight, wt_error *err)
 {
     const spectrum *s = &p->frame;
     const size_t n = s->n_unknowns, n_curves = s->n_curves;
@@ -121,7 +121,7 @@ bool posterior_column(const wt_posterior *p, size_t curve, size_t *column)
 }
 
 /* Sets the shifts of a cell and their covariance, in decades. */
-static void shifts_of(const wt_posterior *p, const posterior_cell *cell)
+static void set_cell_shifts(const wt_posterior *p, const posterior_cell *cell)
 {
     gsl_matrix *covariance = p->data.covariance;
     gsl_matrix_set_zero(covariance);
@@ -134,66 +134,67 @@ static void shifts_of(const wt_posterior *p, const posterior_cell *cell)
                 gsl_matrix_set(covariance, i, k,
                                gsl_matrix_get(cell->covariance, at, with) / (M_LN10 * M_LN10));
     }
-    if (p->doubts != NULL)
-        gsl_matrix_add(covariance, p->doubts);
+    if (p->extra_covariance != NULL)
+        gsl_matrix_add(covariance, p->extra_covariance);
 }
 
-static void part_alloc(wt_posterior *p, posterior_part *part)
+static void component_alloc(wt_posterior *p, posterior_component *component)
 {
     const size_t n = p->frame.n_curves;
-    part->pull = arena_vector(&p->memory, n);
-    part->inner = arena_matrix(&p->memory, n, n);
-    part->outer = arena_matrix(&p->memory, n, LAW_MOST);
-    part->inverse = arena_matrix(&p->memory, n, n);
+    component->pull = arena_vector(&p->memory, n);
+    component->inner = arena_matrix(&p->memory, n, n);
+    component->outer = arena_matrix(&p->memory, n, LAW_MAX_UNKNOWNS);
+    component->inverse = arena_matrix(&p->memory, n, n);
 }
 
 /* Computes the feedback of the law on spectrum and shifts. */
-static wt_status part_fill(wt_posterior *p, posterior_part *part, wt_error *err)
+static wt_status component_fill(wt_posterior *p, posterior_component *component, wt_error *err)
 {
     const law_data *data = &p->data;
-    const size_t n = data->n, k = part->law.n_unknowns;
+    const size_t n = data->n, k = component->law.n_unknowns;
     gsl_matrix *x = arena_matrix(&p->memory, n, k), *mx = arena_matrix(&p->memory, n, k);
     gsl_vector *gap = arena_vector(&p->memory, n);
-    part_alloc(p, part);
+    component_alloc(p, component);
     if (p->memory.failed)
         return wt_fail(err, WT_E_MEMORY, "no memory for the law");
     gsl_matrix *root = arena_matrix(&p->memory, n, n);
     const wt_status status = root == NULL || root->data == NULL
                                  ? wt_fail(err, WT_E_MEMORY, "no memory for the law")
-                                 : law_gls_covariance(data, part->spread, root, err);
+                                 : law_gls_covariance(data, component->spread, root, err);
     if (status != WT_OK)
         return status;
-    dense_inverse(root, part->inner, part->inverse);
-    law_design(data, &p->shape, part->law.unknown, x);
+    dense_inverse(root, component->inner, component->inverse);
+    law_design(data, &p->shape, component->law.unknown, x);
     for (size_t i = 0; i < n; i++)
         gsl_vector_set(gap, i,
-                       law_of_isotherm(data, &p->shape, part->law.unknown, i) - data->log_a[i]);
-    gsl_matrix_view outer = gsl_matrix_submatrix(part->outer, 0, 0, n, k);
+                       law_isotherm_value(data, &p->shape, component->law.unknown, i) -
+                           data->log_a[i]);
+    gsl_matrix_view outer = gsl_matrix_submatrix(component->outer, 0, 0, n, k);
     gsl_matrix_view of_law =
-        gsl_matrix_view_array_with_tda(&part->law.covariance[0][0], k, k, LAW_MOST);
-    gsl_blas_dgemv(CblasNoTrans, 1.0, part->inverse, gap, 0.0, part->pull);
-    gsl_blas_dgemm(CblasNoTrans, CblasNoTrans, 1.0, part->inverse, x, 0.0, mx);
+        gsl_matrix_view_array_with_tda(&component->law.covariance[0][0], k, k, LAW_MAX_UNKNOWNS);
+    gsl_blas_dgemv(CblasNoTrans, 1.0, component->inverse, gap, 0.0, component->pull);
+    gsl_blas_dgemm(CblasNoTrans, CblasNoTrans, 1.0, component->inverse, x, 0.0, mx);
     gsl_blas_dgemm(CblasNoTrans, CblasNoTrans, 1.0, mx, &of_law.matrix, 0.0, &outer.matrix);
-    gsl_matrix_memcpy(part->inner, part->inverse);
-    gsl_blas_dgemm(CblasNoTrans, CblasTrans, -1.0, &outer.matrix, mx, 1.0, part->inner);
+    gsl_matrix_memcpy(component->inner, component->inverse);
+    gsl_blas_dgemm(CblasNoTrans, CblasTrans, -1.0, &outer.matrix, mx, 1.0, component->inner);
     return WT_OK;
 }
 
 /* Fits all cells and temperature errors and computes their weights. */
-static wt_status fit_parts(wt_posterior *p, posterior_part *part, size_t *n, gsl_matrix *root,
-                           wt_error *err)
+static wt_status fit_components(wt_posterior *p, posterior_component *component, size_t *n,
+                                gsl_matrix *root, wt_error *err)
 {
     double most = -HUGE_VAL, sum = 0.0;
     for (size_t c = 0; c < p->n_cells; c++) {
         if (!(p->cells[c].weight > 0.0))
             continue;
-        shifts_of(p, &p->cells[c]);
+        set_cell_shifts(p, &p->cells[c]);
         for (size_t i = 0; i < LAW_SPREADS; i++, (*n)++) {
-            posterior_part *one = &part[*n];
-            *one = (posterior_part){.cell = &p->cells[c], .spread = law_spread(i)};
+            posterior_component *one = &component[*n];
+            *one = (posterior_component){.cell = &p->cells[c], .spread = law_spread(i)};
             wt_status status = law_gls_covariance(&p->data, one->spread, root, err);
             if (status == WT_OK)
-                status = law_fit_with(&p->data, &p->shape, root, &one->law, err);
+                status = law_fit_gls(&p->data, &p->shape, root, &one->law, err);
             if (status != WT_OK)
                 return status;
             one->weight = p->cells[c].log_weight - 0.5 * law_reml(&one->law) +
@@ -204,63 +205,63 @@ static wt_status fit_parts(wt_posterior *p, posterior_part *part, size_t *n, gsl
     if (!(most > -HUGE_VAL))
         return wt_fail(err, WT_E_RANGE, "the pole of the law is not determined");
     for (size_t i = 0; i < *n; i++)
-        sum += part[i].weight = exp(part[i].weight - most);
+        sum += component[i].weight = exp(component[i].weight - most);
     for (size_t i = 0; i < *n; i++)
-        part[i].weight /= sum;
+        component[i].weight /= sum;
     return WT_OK;
 }
 
 /* Stores the components with a relevant weight. */
-static wt_status weigh_parts(wt_posterior *p, gsl_matrix *root, wt_error *err)
+static wt_status weigh_components(wt_posterior *p, gsl_matrix *root, wt_error *err)
 {
     size_t n = 0;
     double sum = 0.0;
-    p->parts = arena_alloc(&p->memory, p->n_cells * LAW_SPREADS, sizeof *p->parts);
-    if (p->parts == NULL)
+    p->components = arena_alloc(&p->memory, p->n_cells * LAW_SPREADS, sizeof *p->components);
+    if (p->components == NULL)
         return wt_fail(err, WT_E_MEMORY, "no memory for the mixture");
-    wt_status status = fit_parts(p, p->parts, &n, root, err);
+    wt_status status = fit_components(p, p->components, &n, root, err);
     for (size_t i = 0; status == WT_OK && i < n; i++)
-        if (p->parts[i].weight >= least_share) {
-            posterior_part *kept = &p->parts[p->n_parts++];
-            *kept = p->parts[i];
+        if (p->components[i].weight >= least_share) {
+            posterior_component *kept = &p->components[p->n_components++];
+            *kept = p->components[i];
             sum += kept->weight;
-            shifts_of(p, kept->cell);
-            status = part_fill(p, kept, err);
+            set_cell_shifts(p, kept->cell);
+            status = component_fill(p, kept, err);
         }
-    for (size_t i = 0; i < p->n_parts; i++)
-        p->parts[i].weight /= sum;
+    for (size_t i = 0; i < p->n_components; i++)
+        p->components[i].weight /= sum;
     return status;
 }
 
 /* Uses the cells as components if there is no law. */
-static wt_status parts_without_law(wt_posterior *p, wt_error *err)
+static wt_status components_without_law(wt_posterior *p, wt_error *err)
 {
-    p->parts = arena_alloc(&p->memory, p->n_cells, sizeof *p->parts);
-    for (size_t i = 0; p->parts != NULL && i < p->n_cells; i++) {
-        posterior_part *part = &p->parts[p->n_parts];
-        *part = (posterior_part){.cell = &p->cells[i], .weight = p->cells[i].weight};
-        if (!(part->weight > 0.0))
+    p->components = arena_alloc(&p->memory, p->n_cells, sizeof *p->components);
+    for (size_t i = 0; p->components != NULL && i < p->n_cells; i++) {
+        posterior_component *component = &p->components[p->n_components];
+        *component = (posterior_component){.cell = &p->cells[i], .weight = p->cells[i].weight};
+        if (!(component->weight > 0.0))
             continue;
-        part_alloc(p, part);
-        p->n_parts++;
+        component_alloc(p, component);
+        p->n_components++;
     }
-    p->shape = (law_shape){.kind = WT_LAW_NONE, .odd = -1};
+    p->shape = (law_shape){.kind = WT_LAW_NONE, .outlier = -1};
     return p->memory.failed ? wt_fail(err, WT_E_MEMORY, "no memory for the mixture") : WT_OK;
 }
 
 /* Factors the covariance of the additional errors. Rows without such an error, as the reference,
  * are 0. */
-static wt_status factor_doubts(wt_posterior *p, wt_error *err)
+static wt_status factor_extra_covariance(wt_posterior *p, wt_error *err)
 {
     const size_t n = p->frame.n_curves;
-    if (p->doubts == NULL)
+    if (p->extra_covariance == NULL)
         return WT_OK;
-    gsl_matrix *root = p->doubts_root = arena_matrix(&p->memory, n, n);
+    gsl_matrix *root = p->extra_covariance_root = arena_matrix(&p->memory, n, n);
     if (p->memory.failed)
         return wt_fail(err, WT_E_MEMORY, "no memory for the law");
     for (size_t i = 0; i < n; i++)
         for (size_t k = 0; k <= i; k++) {
-            double sum = gsl_matrix_get(p->doubts, i, k);
+            double sum = gsl_matrix_get(p->extra_covariance, i, k);
             for (size_t j = 0; j < k; j++)
                 sum -= gsl_matrix_get(root, i, j) * gsl_matrix_get(root, k, j);
             const double pivot = gsl_matrix_get(root, k, k);
@@ -272,7 +273,7 @@ static wt_status factor_doubts(wt_posterior *p, wt_error *err)
     return WT_OK;
 }
 
-wt_status posterior_close(wt_posterior *p, double reference, wt_error *err)
+wt_status posterior_finish(wt_posterior *p, double reference, wt_error *err)
 {
     const size_t n = p->frame.n_curves;
     gsl_matrix *root = arena_matrix(&p->memory, n, n);
@@ -282,21 +283,21 @@ wt_status posterior_close(wt_posterior *p, double reference, wt_error *err)
                          .log_a = arena_numbers(&p->memory, n),
                          .covariance = arena_matrix(&p->memory, n, n),
                          .slope = p->slope,
-                         .scratch = arena_numbers(&p->memory, n * (LAW_MOST + 2))};
+                         .scratch = arena_numbers(&p->memory, n * (LAW_MAX_UNKNOWNS + 2))};
     if (p->memory.failed)
         return wt_fail(err, WT_E_MEMORY, "no memory for the law");
-    const wt_status doubts = factor_doubts(p, err);
-    if (doubts != WT_OK)
-        return doubts;
+    const wt_status extra_covariance = factor_extra_covariance(p, err);
+    if (extra_covariance != WT_OK)
+        return extra_covariance;
     weigh_cells(p);
-    shifts_of(p, posterior_best(p));
+    set_cell_shifts(p, posterior_best(p));
     wt_status status = n < 2 ? wt_fail(&failure, WT_E_RANGE, "one isotherm has no shift")
-                             : law_choose(&p->data, reference, root, &p->shape, &failure);
+                             : law_select(&p->data, reference, root, &p->shape, &failure);
     if (status == WT_OK)
-        status = weigh_parts(p, root, &failure);
+        status = weigh_components(p, root, &failure);
     if (status == WT_E_RANGE || status == WT_E_CONVERGENCE) {
-        snprintf(p->no_law, sizeof p->no_law, "%s", failure.message);
-        return parts_without_law(p, err);
+        snprintf(p->no_law_reason, sizeof p->no_law_reason, "%s", failure.message);
+        return components_without_law(p, err);
     }
     if (status != WT_OK && err != NULL)
         *err = failure;

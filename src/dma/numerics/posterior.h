@@ -24,53 +24,53 @@ typedef struct posterior_cell {
 } posterior_cell;
 
 /* A cell combined with a law and a temperature error. */
-typedef struct posterior_part {
+typedef struct posterior_component {
     const posterior_cell *cell;
     double spread, weight;
     law_fit law;
     gsl_vector *pull;    /* [n_curves] S^-1 (law - log a) */
     gsl_matrix *inner;   /* [n_curves^2] reduction of the covariance by the law */
-    gsl_matrix *outer;   /* [n_curves * LAW_MOST] S^-1 X cov(law) */
+    gsl_matrix *outer;   /* [n_curves * LAW_MAX_UNKNOWNS] S^-1 X cov(law) */
     gsl_matrix *inverse; /* [n_curves^2] S^-1 */
-} posterior_part;
+} posterior_component;
 
 struct wt_posterior {
     arena memory;
-    spectrum frame;      /* the spectrum: terms, columns, data */
-    double *temperature; /* [n_curves] */
-    double *mean_b;      /* [n_curves] prior of ln b */
-    double *slope;       /* [n_curves] slope of the law */
-    double *scratch;     /* [7 n_curves + 4 n_linear] */
-    double *with_all;    /* [3 n_curves + n_linear] scratch */
-    char no_law[256];    /* reason why there is no law */
-    size_t *curve;       /* [isotherms of the sweep] index in the spectrum */
+    spectrum frame;           /* the spectrum: terms, columns, data */
+    double *temperature;      /* [n_curves] */
+    double *mean_b;           /* [n_curves] prior of ln b */
+    double *slope;            /* [n_curves] slope of the law */
+    double *scratch;          /* [7 n_curves + 4 n_linear] */
+    double *cross_covariance; /* [3 n_curves + n_linear] scratch */
+    char no_law_reason[256];  /* reason why there is no law */
+    size_t *curve;            /* [isotherms of the sweep] index in the spectrum */
     double *closed_form; /* [isotherms of the sweep] log10 a of ISO 18437-6, against the anchor */
     double *measured_factor; /* [points of the master curve] tan delta, NaN: not measured */
-    wt_shift_by by;
-    double *doubt;           /* [n_curves] additional error of the shifts [decade], or NULL */
-    gsl_matrix *doubts;      /* [n_curves^2] its covariance for the law */
-    gsl_matrix *doubts_root; /* Cholesky factor of that covariance */
-    double anchor_a;         /* log10 a of the anchor against the reference temperature */
+    wt_shift_quantity by;
+    double *extra_error;          /* [n_curves] additional error of the shifts [decade], or NULL */
+    gsl_matrix *extra_covariance; /* [n_curves^2] its covariance for the law */
+    gsl_matrix *extra_covariance_root; /* Cholesky factor of that covariance */
+    double anchor_a;                   /* log10 a of the anchor against the reference temperature */
     law_shape shape;
     law_data data;
-    size_t n_cells, n_parts;
+    size_t n_cells, n_components;
     posterior_cell cells[POSTERIOR_CELLS];
-    posterior_part *parts;
+    posterior_component *components;
     double step_left; /* largest remaining step of a cell [standard errors] */
 };
 
 wt_posterior *posterior_new(void); /* NULL if memory is exhausted */
 void posterior_free(wt_posterior *p);
 /* Stores the present fit of the frame as a cell. */
-wt_status posterior_keep(wt_posterior *p, wt_vertical_shift kind, const vertical *v,
-                         double log_weight, wt_error *err) WT_NODISCARD;
+wt_status posterior_store(wt_posterior *p, wt_vertical_shift kind, const vertical *v,
+                          double log_weight, wt_error *err) WT_NODISCARD;
 /* Returns the cell with the largest weight without the law. */
 const posterior_cell *posterior_best(const wt_posterior *p);
 /* Restores the frame from a cell; its prior must be set. */
 void posterior_restore(wt_posterior *p, const posterior_cell *cell);
-/* Weighs the cells, chooses the law and weighs the components. Without a law, no_law has the
+/* Weighs the cells, chooses the law and weighs the components. Without a law, no_law_reason has the
  * reason. */
-wt_status posterior_close(wt_posterior *p, double reference, wt_error *err) WT_NODISCARD;
+wt_status posterior_finish(wt_posterior *p, double reference, wt_error *err) WT_NODISCARD;
 /* Finds the column of the shift of a curve. Returns false if it is fixed. */
 bool posterior_column(const wt_posterior *p, size_t curve, size_t *column);
 
@@ -80,7 +80,7 @@ double posterior_fit_error(const wt_posterior *p,
 wt_interval posterior_a_to_reference(const wt_posterior *p, size_t curve);
 wt_interval posterior_b(const wt_posterior *p, size_t curve);
 /* Returns d log a / d log b along equally good fits. */
-double posterior_tie(const wt_posterior *p, size_t curve);
+double posterior_a_per_b(const wt_posterior *p, size_t curve);
 wt_interval posterior_law(const wt_posterior *p, double temperature);
 wt_interval posterior_slope(const wt_posterior *p, double temperature); /* decade/K */
 wt_interval posterior_constant(const wt_posterior *p, size_t unknown);
@@ -93,19 +93,20 @@ void posterior_moduli(const wt_posterior *p, double x, bool measured,
 /* ln of the equilibrium modulus, averaged over the end of the spectrum. */
 wt_interval posterior_equilibrium(const wt_posterior *p);
 /* Returns the index of the end of the spectrum in a draw. */
-size_t posterior_place(uint64_t seed, size_t index);
+size_t posterior_end_index(uint64_t seed, size_t index);
 /* ln of the spectrum at the time of a term with the mean offset of the law; slope: d ln/d ln
  * tau. */
 wt_interval posterior_term(const wt_posterior *p, size_t term, double slope);
 /* Means over the mixture: all unknowns, and those of the law. */
 void posterior_mean(const wt_posterior *p, double *value);
-void posterior_mean_law(const wt_posterior *p, double unknown[LAW_MOST]);
+void posterior_mean_law(const wt_posterior *p, double unknown[LAW_MAX_UNKNOWNS]);
 /* log10 b of the material at the isotherms: the smooth part of the shifts. */
 void posterior_smooth_b(const wt_posterior *p, const posterior_cell *cell, const double *value,
                         double *log_b);
 /* One joint draw: unknowns of the spectrum [n_unknowns] and of the law, and b of the material at
  * the isotherms. The draw depends on seed and index only. */
 wt_status posterior_draw(const wt_posterior *p, uint64_t seed, size_t index, double *value,
-                         double unknown[LAW_MOST], double *log_b, wt_error *err) WT_NODISCARD;
+                         double unknown[LAW_MAX_UNKNOWNS], double *log_b,
+                         wt_error *err) WT_NODISCARD;
 
 #endif

@@ -15,45 +15,45 @@
 
 /* ---- intervals ------------------------------------------------------------------------------- */
 
-enum { MOST_PARTS = POSTERIOR_CELLS * LAW_SPREADS };
+enum { MAX_COMPONENTS = POSTERIOR_CELLS * LAW_SPREADS };
 
 /* Returns the additional variance of a shift. */
-static double doubt_of(const wt_posterior *p, size_t curve)
+static double extra_variance(const wt_posterior *p, size_t curve)
 {
-    return p->doubt != NULL ? p->doubt[curve] * p->doubt[curve] : 0.0;
+    return p->extra_error != NULL ? p->extra_error[curve] * p->extra_error[curve] : 0.0;
 }
 
-static wt_interval of_column(const wt_posterior *p, long column, double held, double variance)
+static wt_interval column_interval(const wt_posterior *p, long column, double held, double variance)
 {
-    mixture_part part[MOST_PARTS] = {{1.0, held, sqrt(variance)}};
+    mixture_component component[MAX_COMPONENTS] = {{1.0, held, sqrt(variance)}};
     if (column < 0 && variance > 0.0)
-        return mixture_interval(part, 1);
+        return mixture_interval(component, 1);
     if (column < 0)
         return (wt_interval){held, 0.0, held, held};
     const size_t c = (size_t)column;
     size_t n = 0;
     for (size_t i = 0; i < p->n_cells; i++)
         if (p->cells[i].weight > 0.0)
-            part[n++] = (mixture_part){
+            component[n++] = (mixture_component){
                 p->cells[i].weight, p->cells[i].value[c] / M_LN10,
                 sqrt(gsl_matrix_get(p->cells[i].covariance, c, c) / (M_LN10 * M_LN10) + variance)};
-    return mixture_interval(part, n);
+    return mixture_interval(component, n);
 }
 
 wt_interval posterior_a(const wt_posterior *p, size_t curve)
 {
-    return of_column(p, p->frame.column_a[curve], p->frame.given_a[curve] / M_LN10,
-                     doubt_of(p, curve));
+    return column_interval(p, p->frame.column_a[curve], p->frame.given_a[curve] / M_LN10,
+                           extra_variance(p, curve));
 }
 
 double posterior_fit_error(const wt_posterior *p, size_t curve)
 {
-    return of_column(p, p->frame.column_a[curve], p->frame.given_a[curve] / M_LN10, 0.0)
+    return column_interval(p, p->frame.column_a[curve], p->frame.given_a[curve] / M_LN10, 0.0)
         .standard_error;
 }
 
 /* Returns ln b of a curve with a fixed vertical shift. */
-static double held_b(const wt_posterior *p, size_t curve)
+static double fixed_b(const wt_posterior *p, size_t curve)
 {
     const double given = p->frame.given_b[curve];
     return isnan(given) ? p->mean_b[curve] : given;
@@ -61,10 +61,10 @@ static double held_b(const wt_posterior *p, size_t curve)
 
 wt_interval posterior_b(const wt_posterior *p, size_t curve)
 {
-    return of_column(p, p->frame.column_b[curve], held_b(p, curve) / M_LN10, 0.0);
+    return column_interval(p, p->frame.column_b[curve], fixed_b(p, curve) / M_LN10, 0.0);
 }
 
-double posterior_tie(const wt_posterior *p, size_t curve)
+double posterior_a_per_b(const wt_posterior *p, size_t curve)
 {
     const long a = p->frame.column_a[curve], b = p->frame.column_b[curve];
     const gsl_matrix *v = posterior_best(p)->covariance;
@@ -75,95 +75,98 @@ double posterior_tie(const wt_posterior *p, size_t curve)
 
 /* A quantity that depends linearly on the unknowns of spectrum and law. Its value is that of a
  * component before the feedback of the law. */
-struct quantity {
+struct linear_quantity {
     double value;
     const double *by_unknown; /* [n_unknowns], or NULL if it depends on the law alone */
-    double by_law[LAW_MOST];
+    double by_law[LAW_MAX_UNKNOWNS];
 };
 
 /* Computes the covariance of a quantity with all unknowns of a cell [n_unknowns] and returns its
  * variance. */
-static double spread_in_cell(const wt_posterior *p, const posterior_cell *cell, const double *by,
-                             double *with_all)
+static double cell_variance(const wt_posterior *p, const posterior_cell *cell, const double *by,
+                            double *cross_covariance)
 {
     const size_t n = p->frame.n_unknowns;
     double variance = 0.0;
-    memset(with_all, 0, n * sizeof *with_all);
+    memset(cross_covariance, 0, n * sizeof *cross_covariance);
     for (size_t i = 0; i < n; i++)
         if (by[i] != 0.0)
-            dense_add(with_all, n, by + i, 1, gsl_matrix_const_ptr(cell->covariance, i, 0), n, 1);
+            dense_add_rows(cross_covariance, n, by + i, 1,
+                           gsl_matrix_const_ptr(cell->covariance, i, 0), n, 1);
     for (size_t i = 0; i < n; i++)
-        variance += by[i] * with_all[i];
+        variance += by[i] * cross_covariance[i];
     return variance;
 }
 
 /* Returns the mean and variance of a quantity in a component; with: [n_curves] covariance with
  * log a. */
-static mixture_part of_part(const wt_posterior *p, const posterior_part *part,
-                            const struct quantity *x, double *with)
+static mixture_component component_moments(const wt_posterior *p,
+                                           const posterior_component *component,
+                                           const struct linear_quantity *x, double *with)
 {
     const size_t n_curves = p->frame.n_curves;
-    double *with_all = p->with_all, *pulled = with_all + p->frame.n_unknowns;
+    double *cross_covariance = p->cross_covariance,
+           *pulled = cross_covariance + p->frame.n_unknowns;
     double variance = 0.0, mean = x->value;
     if (x->by_unknown != NULL) {
-        variance = spread_in_cell(p, part->cell, x->by_unknown, with_all);
+        variance = cell_variance(p, component->cell, x->by_unknown, cross_covariance);
         memset(pulled, 0, n_curves * sizeof *pulled);
     }
     for (size_t k = 0; x->by_unknown != NULL && k < n_curves; k++) {
         size_t column;
-        with[k] = posterior_column(p, k, &column) ? with_all[column] / M_LN10 : 0.0;
-        dense_add(pulled, n_curves, with + k, 1, gsl_matrix_const_ptr(part->inner, k, 0), n_curves,
-                  1);
+        with[k] = posterior_column(p, k, &column) ? cross_covariance[column] / M_LN10 : 0.0;
+        dense_add_rows(pulled, n_curves, with + k, 1, gsl_matrix_const_ptr(component->inner, k, 0),
+                       n_curves, 1);
     }
     for (size_t k = 0; x->by_unknown != NULL && k < n_curves; k++) {
-        mean += with[k] * gsl_vector_get(part->pull, k);
+        mean += with[k] * gsl_vector_get(component->pull, k);
         variance -= with[k] * pulled[k];
-        for (size_t u = 0; u < part->law.n_unknowns; u++)
-            variance += 2.0 * with[k] * gsl_matrix_get(part->outer, k, u) * x->by_law[u];
+        for (size_t u = 0; u < component->law.n_unknowns; u++)
+            variance += 2.0 * with[k] * gsl_matrix_get(component->outer, k, u) * x->by_law[u];
     }
-    for (size_t u = 0; u < part->law.n_unknowns; u++)
-        for (size_t w = 0; w < part->law.n_unknowns; w++)
-            variance += x->by_law[u] * x->by_law[w] * part->law.covariance[u][w];
-    return (mixture_part){part->weight, mean, sqrt(fmax(variance, 0.0))};
+    for (size_t u = 0; u < component->law.n_unknowns; u++)
+        for (size_t w = 0; w < component->law.n_unknowns; w++)
+            variance += x->by_law[u] * x->by_law[w] * component->law.covariance[u][w];
+    return (mixture_component){component->weight, mean, sqrt(fmax(variance, 0.0))};
 }
 
 wt_interval posterior_law(const wt_posterior *p, double temperature)
 {
-    mixture_part part[MOST_PARTS];
-    for (size_t i = 0; i < p->n_parts; i++) {
-        struct quantity x = {0};
-        x.value = law_at(&p->shape, p->parts[i].law.unknown, temperature, x.by_law);
-        part[i] = of_part(p, &p->parts[i], &x, NULL);
+    mixture_component component[MAX_COMPONENTS];
+    for (size_t i = 0; i < p->n_components; i++) {
+        struct linear_quantity x = {0};
+        x.value = law_value(&p->shape, p->components[i].law.unknown, temperature, x.by_law);
+        component[i] = component_moments(p, &p->components[i], &x, NULL);
     }
-    return mixture_interval(part, p->n_parts);
+    return mixture_interval(component, p->n_components);
 }
 
 wt_interval posterior_slope(const wt_posterior *p, double temperature)
 {
     const double step = 0.01; /* K */
-    mixture_part part[MOST_PARTS];
-    for (size_t i = 0; i < p->n_parts; i++) {
-        const double *unknown = p->parts[i].law.unknown;
-        struct quantity x = {0}, before = {0};
-        x.value = law_at(&p->shape, unknown, temperature + step, x.by_law);
-        before.value = law_at(&p->shape, unknown, temperature - step, before.by_law);
+    mixture_component component[MAX_COMPONENTS];
+    for (size_t i = 0; i < p->n_components; i++) {
+        const double *unknown = p->components[i].law.unknown;
+        struct linear_quantity x = {0}, before = {0};
+        x.value = law_value(&p->shape, unknown, temperature + step, x.by_law);
+        before.value = law_value(&p->shape, unknown, temperature - step, before.by_law);
         x.value = (x.value - before.value) / (2.0 * step);
-        for (size_t u = 0; u < LAW_MOST; u++)
+        for (size_t u = 0; u < LAW_MAX_UNKNOWNS; u++)
             x.by_law[u] = (x.by_law[u] - before.by_law[u]) / (2.0 * step);
-        part[i] = of_part(p, &p->parts[i], &x, NULL);
+        component[i] = component_moments(p, &p->components[i], &x, NULL);
     }
-    return mixture_interval(part, p->n_parts);
+    return mixture_interval(component, p->n_components);
 }
 
 wt_interval posterior_constant(const wt_posterior *p, size_t unknown)
 {
-    mixture_part part[MOST_PARTS];
-    for (size_t i = 0; i < p->n_parts; i++) {
-        struct quantity x = {.value = p->parts[i].law.unknown[unknown]};
+    mixture_component component[MAX_COMPONENTS];
+    for (size_t i = 0; i < p->n_components; i++) {
+        struct linear_quantity x = {.value = p->components[i].law.unknown[unknown]};
         x.by_law[unknown] = 1.0;
-        part[i] = of_part(p, &p->parts[i], &x, NULL);
+        component[i] = component_moments(p, &p->components[i], &x, NULL);
     }
-    return mixture_interval(part, p->n_parts);
+    return mixture_interval(component, p->n_components);
 }
 
 /* scratch: covariance with log a, terms, and derivatives of both moduli and the loss factor */
@@ -171,64 +174,65 @@ void posterior_moduli(const wt_posterior *p, double x, bool measured,
                       wt_interval modulus[WITH_LOSS_FACTOR])
 {
     const size_t n = p->frame.n_unknowns;
-    mixture_part part[WITH_LOSS_FACTOR][MOST_PARTS];
+    mixture_component component[WITH_LOSS_FACTOR][MAX_COMPONENTS];
     double *term = p->scratch + p->frame.n_curves, *const by_storage = term + p->frame.n_linear;
     double *const gradient[WITH_LOSS_FACTOR] = {by_storage, by_storage + n, by_storage + 2 * n};
-    double value[WITH_LOSS_FACTOR], slope[WITH_LOSS_FACTOR], mean[LAW_MOST];
+    double value[WITH_LOSS_FACTOR], slope[WITH_LOSS_FACTOR], mean[LAW_MAX_UNKNOWNS];
     const posterior_cell *last = NULL;
     posterior_mean_law(p, mean);
     memset(by_storage, 0, WITH_LOSS_FACTOR * n * sizeof *by_storage);
-    for (size_t i = 0; i < p->n_parts; i++) {
-        if (p->parts[i].cell != last) {
-            last = p->parts[i].cell;
+    for (size_t i = 0; i < p->n_components; i++) {
+        if (p->components[i].cell != last) {
+            last = p->components[i].cell;
             spectrum_terms(&p->frame, last->value, term);
-            (measured ? spectrum_measured_at : spectrum_at)(&p->frame, term, x + mean[0] * M_LN10,
-                                                            value, slope, gradient);
+            (measured ? spectrum_measured_moduli : spectrum_moduli)(
+                &p->frame, term, x + mean[0] * M_LN10, value, slope, gradient);
             value[LOSS_FACTOR] = value[LOSS] - value[STORAGE];
             slope[LOSS_FACTOR] = slope[LOSS] - slope[STORAGE];
             for (size_t u = 0; u < n; u++)
                 gradient[LOSS_FACTOR][u] = gradient[LOSS][u] - gradient[STORAGE][u];
         }
         for (int q = 0; q < WITH_LOSS_FACTOR; q++) {
-            const double off = p->parts[i].law.unknown[0] - mean[0];
-            const struct quantity e = {
+            const double off = p->components[i].law.unknown[0] - mean[0];
+            const struct linear_quantity e = {
                 value[q] + slope[q] * M_LN10 * off, gradient[q], {slope[q] * M_LN10}};
-            part[q][i] = of_part(p, &p->parts[i], &e, p->scratch);
+            component[q][i] = component_moments(p, &p->components[i], &e, p->scratch);
         }
     }
     for (int q = 0; q < WITH_LOSS_FACTOR; q++)
-        modulus[q] = mixture_interval(part[q], p->n_parts);
+        modulus[q] = mixture_interval(component[q], p->n_components);
 }
 
 /* Interval of an unknown of the spectrum times `scale`, minus the offset of the law times
  * `offset`. A fixed unknown has the value `given` and `variance`. */
-static wt_interval of_unknown(const wt_posterior *p, long column, double given, double variance,
-                              double scale, double offset)
+static wt_interval offset_unknown_interval(const wt_posterior *p, long column, double given,
+                                           double variance, double scale, double offset)
 {
-    mixture_part part[MOST_PARTS];
+    mixture_component component[MAX_COMPONENTS];
     double *by_unknown = p->scratch + p->frame.n_curves;
     memset(by_unknown, 0, p->frame.n_unknowns * sizeof *by_unknown);
     if (column >= 0)
         by_unknown[column] = scale;
-    for (size_t i = 0; i < p->n_parts; i++) {
-        struct quantity x = {-offset * p->parts[i].law.unknown[0], by_unknown, {-offset}};
-        x.value += scale * (column >= 0 ? p->parts[i].cell->value[column] : given);
-        part[i] = of_part(p, &p->parts[i], &x, p->scratch);
-        part[i].deviation = sqrt(part[i].deviation * part[i].deviation + variance);
+    for (size_t i = 0; i < p->n_components; i++) {
+        struct linear_quantity x = {
+            -offset * p->components[i].law.unknown[0], by_unknown, {-offset}};
+        x.value += scale * (column >= 0 ? p->components[i].cell->value[column] : given);
+        component[i] = component_moments(p, &p->components[i], &x, p->scratch);
+        component[i].deviation = sqrt(component[i].deviation * component[i].deviation + variance);
     }
-    return mixture_interval(part, p->n_parts);
+    return mixture_interval(component, p->n_components);
 }
 
 wt_interval posterior_a_to_reference(const wt_posterior *p, size_t curve)
 {
-    return of_unknown(p, p->frame.column_a[curve], p->frame.given_a[curve], doubt_of(p, curve),
-                      1.0 / M_LN10, 1.0);
+    return offset_unknown_interval(p, p->frame.column_a[curve], p->frame.given_a[curve],
+                                   extra_variance(p, curve), 1.0 / M_LN10, 1.0);
 }
 
 /* Sums the terms [from, end) and computes the derivatives of ln of the sum times `sign`
  * [n_unknowns]. */
-static double sum_terms(const double *value, size_t from, size_t end, double sign,
-                        double *by_unknown)
+static double sum_term_moduli(const double *value, size_t from, size_t end, double sign,
+                              double *by_unknown)
 {
     double sum = 0.0;
     for (size_t j = from; j < end; j++)
@@ -243,30 +247,30 @@ static double sum_terms(const double *value, size_t from, size_t end, double sig
  * as log-normal. */
 wt_interval posterior_equilibrium(const wt_posterior *p)
 {
-    mixture_part share[SPECTRUM_ENDS * MOST_PARTS], measured[MOST_PARTS];
+    mixture_component share[SPECTRUM_ENDS * MAX_COMPONENTS], measured[MAX_COMPONENTS];
     const spectrum *s = &p->frame;
     double *by_unknown = p->scratch + s->n_curves;
     double left = 0.0;
     size_t n = 0;
     memset(by_unknown, 0, s->n_unknowns * sizeof *by_unknown);
-    for (size_t i = 0; i < p->n_parts; i++) {
-        const double *value = p->parts[i].cell->value;
-        const double all = sum_terms(value, s->n_measured, s->n_terms + 1, 1.0, by_unknown);
-        const struct quantity modulus = {.value = log(all), .by_unknown = by_unknown};
-        measured[i] = of_part(p, &p->parts[i], &modulus, p->scratch);
+    for (size_t i = 0; i < p->n_components; i++) {
+        const double *value = p->components[i].cell->value;
+        const double all = sum_term_moduli(value, s->n_measured, s->n_terms + 1, 1.0, by_unknown);
+        const struct linear_quantity modulus = {.value = log(all), .by_unknown = by_unknown};
+        measured[i] = component_moments(p, &p->components[i], &modulus, p->scratch);
         for (size_t place = 0; place < SPECTRUM_ENDS; place++) {
-            const size_t end = spectrum_end(s, place);
-            const double later = sum_terms(value, s->n_measured, end, 1.0, by_unknown);
-            const double rest = sum_terms(value, end, s->n_terms + 1, -1.0, by_unknown);
-            const struct quantity x = {.value = log(later / rest), .by_unknown = by_unknown};
-            share[n] = of_part(p, &p->parts[i], &x, p->scratch);
+            const size_t end = spectrum_end_term(s, place);
+            const double later = sum_term_moduli(value, s->n_measured, end, 1.0, by_unknown);
+            const double rest = sum_term_moduli(value, end, s->n_terms + 1, -1.0, by_unknown);
+            const struct linear_quantity x = {.value = log(later / rest), .by_unknown = by_unknown};
+            share[n] = component_moments(p, &p->components[i], &x, p->scratch);
             share[n].weight /= SPECTRUM_ENDS;
             left -= share[n].weight * log1p(exp(share[n].mean));
             n++;
         }
     }
     const wt_interval of_share = mixture_interval(share, n),
-                      at_end = mixture_interval(measured, p->n_parts);
+                      at_end = mixture_interval(measured, p->n_components);
     wt_interval e = {.value = at_end.value + left};
     e.low = e.value - hypot(left + log1p(exp(of_share.high)), at_end.value - at_end.low);
     e.high = e.value + hypot(left + log1p(exp(of_share.low)), at_end.high - at_end.value);
@@ -276,9 +280,9 @@ wt_interval posterior_equilibrium(const wt_posterior *p)
 
 wt_interval posterior_term(const wt_posterior *p, size_t term, double slope)
 {
-    double mean[LAW_MOST];
+    double mean[LAW_MAX_UNKNOWNS];
     posterior_mean_law(p, mean);
-    wt_interval x = of_unknown(p, (long)term, 0.0, 0.0, 1.0, slope * M_LN10);
+    wt_interval x = offset_unknown_interval(p, (long)term, 0.0, 0.0, 1.0, slope * M_LN10);
     const double by = slope * M_LN10 * mean[0];
     x.value += by;
     x.low += by;
@@ -289,14 +293,14 @@ wt_interval posterior_term(const wt_posterior *p, size_t term, double slope)
 /* ---- means and draws ------------------------------------------------------------------------- */
 
 /* Adds the change of all unknowns due to a gap between law and shifts (times S^-1). */
-static void add_pull(const wt_posterior *p, const posterior_part *part, const gsl_vector *pull,
-                     double scale, double *value)
+static void add_law_pull(const wt_posterior *p, const posterior_component *component,
+                         const gsl_vector *pull, double scale, double *value)
 {
     for (size_t k = 0; k < p->frame.n_curves; k++) {
         size_t column;
         if (!posterior_column(p, k, &column))
             continue;
-        const double *c = gsl_matrix_const_ptr(part->cell->covariance, column, 0);
+        const double *c = gsl_matrix_const_ptr(component->cell->covariance, column, 0);
         const double by = scale * gsl_vector_get(pull, k) / M_LN10;
         for (size_t u = 0; u < p->frame.n_unknowns; u++)
             value[u] += by * c[u];
@@ -306,25 +310,25 @@ static void add_pull(const wt_posterior *p, const posterior_part *part, const gs
 void posterior_mean(const wt_posterior *p, double *value)
 {
     memset(value, 0, p->frame.n_unknowns * sizeof *value);
-    for (size_t i = 0; i < p->n_parts; i++) {
+    for (size_t i = 0; i < p->n_components; i++) {
         for (size_t u = 0; u < p->frame.n_unknowns; u++)
-            value[u] += p->parts[i].weight * p->parts[i].cell->value[u];
-        add_pull(p, &p->parts[i], p->parts[i].pull, p->parts[i].weight, value);
+            value[u] += p->components[i].weight * p->components[i].cell->value[u];
+        add_law_pull(p, &p->components[i], p->components[i].pull, p->components[i].weight, value);
     }
 }
 
-void posterior_mean_law(const wt_posterior *p, double unknown[LAW_MOST])
+void posterior_mean_law(const wt_posterior *p, double unknown[LAW_MAX_UNKNOWNS])
 {
-    memset(unknown, 0, LAW_MOST * sizeof *unknown);
-    for (size_t i = 0; i < p->n_parts; i++)
-        for (size_t u = 0; u < LAW_MOST; u++)
-            unknown[u] += p->parts[i].weight * p->parts[i].law.unknown[u];
+    memset(unknown, 0, LAW_MAX_UNKNOWNS * sizeof *unknown);
+    for (size_t i = 0; i < p->n_components; i++)
+        for (size_t u = 0; u < LAW_MAX_UNKNOWNS; u++)
+            unknown[u] += p->components[i].weight * p->components[i].law.unknown[u];
 }
 
-static double b_of(const wt_posterior *p, const double *value, size_t curve)
+static double vertical_shift_value(const wt_posterior *p, const double *value, size_t curve)
 {
     const long column = p->frame.column_b[curve];
-    return column < 0 ? held_b(p, curve) : value[column];
+    return column < 0 ? fixed_b(p, curve) : value[column];
 }
 
 void posterior_smooth_b(const wt_posterior *p, const posterior_cell *cell, const double *value,
@@ -332,24 +336,24 @@ void posterior_smooth_b(const wt_posterior *p, const posterior_cell *cell, const
 {
     const size_t n = p->frame.n_curves;
     for (size_t i = 0; i < n; i++) {
-        double sum = cell->smooth != NULL ? p->mean_b[i] : b_of(p, value, i);
+        double sum = cell->smooth != NULL ? p->mean_b[i] : vertical_shift_value(p, value, i);
         for (size_t k = 0; cell->smooth != NULL && k < n; k++)
-            sum += cell->smooth[i * n + k] * (b_of(p, value, k) - p->mean_b[k]);
+            sum += cell->smooth[i * n + k] * (vertical_shift_value(p, value, k) - p->mean_b[k]);
         log_b[i] = (isnan(p->frame.given_b[i]) ? sum : p->frame.given_b[i]) / M_LN10;
     }
 }
 
-struct stream {
+struct random_stream {
     uint64_t state;
 };
 
-static double draw_uniform(struct stream *s)
+static double draw_uniform(struct random_stream *s)
 {
     s->state = splitmix64(s->state);
     return ((double)(s->state >> 11) + 0.5) * 0x1p-53;
 }
 
-static double draw_normal(struct stream *s)
+static double draw_normal(struct random_stream *s)
 {
     const double radius = sqrt(-2.0 * log(draw_uniform(s)));
     return radius * cos(2.0 * M_PI * draw_uniform(s));
@@ -357,37 +361,38 @@ static double draw_normal(struct stream *s)
 
 /* Selects the component of a draw. Consecutive draws cover the mixture evenly, in steps of the
  * golden ratio. */
-static const posterior_part *part_of_draw(const wt_posterior *p, uint64_t seed, size_t index)
+static const posterior_component *draw_component(const wt_posterior *p, uint64_t seed, size_t index)
 {
-    struct stream start = {splitmix64(seed)};
+    struct random_stream start = {splitmix64(seed)};
     double at = fmod(draw_uniform(&start) + (double)index * 0.6180339887498949, 1.0);
-    for (size_t i = 0; i + 1 < p->n_parts; i++) {
-        if (at < p->parts[i].weight)
-            return &p->parts[i];
-        at -= p->parts[i].weight;
+    for (size_t i = 0; i + 1 < p->n_components; i++) {
+        if (at < p->components[i].weight)
+            return &p->components[i];
+        at -= p->components[i].weight;
     }
-    return &p->parts[p->n_parts - 1];
+    return &p->components[p->n_components - 1];
 }
 
 /* Selects the end of the spectrum of a draw evenly, so that the draws of one component have all
  * ends. */
-size_t posterior_place(uint64_t seed, size_t index)
+size_t posterior_end_index(uint64_t seed, size_t index)
 {
-    struct stream start = {splitmix64(splitmix64(seed))};
+    struct random_stream start = {splitmix64(splitmix64(seed))};
     const double at =
         fmod(draw_uniform(&start) + (double)index * 0.7548776662466927, 1.0); /* plastic number */
     return (size_t)(at * SPECTRUM_ENDS);
 }
 
 /* Draws the unknowns of the law. */
-static void draw_law(const posterior_part *part, struct stream *s, double unknown[LAW_MOST])
+static void draw_law(const posterior_component *component, struct random_stream *s,
+                     double unknown[LAW_MAX_UNKNOWNS])
 {
-    double root[LAW_MOST][LAW_MOST] = {{0}}, e[LAW_MOST];
-    for (size_t u = 0; u < part->law.n_unknowns; u++) {
+    double root[LAW_MAX_UNKNOWNS][LAW_MAX_UNKNOWNS] = {{0}}, e[LAW_MAX_UNKNOWNS];
+    for (size_t u = 0; u < component->law.n_unknowns; u++) {
         e[u] = draw_normal(s);
-        unknown[u] = part->law.unknown[u];
+        unknown[u] = component->law.unknown[u];
         for (size_t v = 0; v <= u; v++) {
-            double sum = part->law.covariance[u][v];
+            double sum = component->law.covariance[u][v];
             for (size_t w = 0; w < v; w++)
                 sum -= root[u][w] * root[v][w];
             root[u][v] = u == v ? sqrt(fmax(sum, 0.0)) : root[v][v] > 0.0 ? sum / root[v][v] : 0.0;
@@ -399,32 +404,34 @@ static void draw_law(const posterior_part *part, struct stream *s, double unknow
 /* Limits the rise of a term. The response of the moduli is normal and linear in ln g near the
  * best fit. An unmeasured term has a standard deviation of tens in ln g, which the isotherms
  * exclude. Above 1 the draw continues along the tangent. */
-static void keep_linear(const wt_posterior *p, const posterior_part *part, double *value)
+static void linearise_draw(const wt_posterior *p, const posterior_component *component,
+                           double *value)
 {
     for (size_t j = 0; j < p->frame.n_linear; j++) {
-        const double rise = value[j] - part->cell->value[j];
+        const double rise = value[j] - component->cell->value[j];
         if (rise > 1.0)
-            value[j] = part->cell->value[j] + 1.0 + log(rise);
+            value[j] = component->cell->value[j] + 1.0 + log(rise);
     }
 }
 
 /* Subtracts the drawn additional errors of the shifts from the gap; e: [n_curves] scratch. */
-static void draw_doubts(const wt_posterior *p, struct stream *s, double *e, gsl_vector *gap)
+static void draw_extra_errors(const wt_posterior *p, struct random_stream *s, double *e,
+                              gsl_vector *gap)
 {
     for (size_t k = 0; k < p->frame.n_curves; k++) {
         e[k] = draw_normal(s);
         for (size_t i = 0; i <= k; i++)
-            *gsl_vector_ptr(gap, k) -= gsl_matrix_get(p->doubts_root, k, i) * e[i];
+            *gsl_vector_ptr(gap, k) -= gsl_matrix_get(p->extra_covariance_root, k, i) * e[i];
     }
 }
 
 /* Draws spectrum and shifts without the law, then moves them towards the drawn law. */
 wt_status posterior_draw(const wt_posterior *p, uint64_t seed, size_t index, double *value,
-                         double unknown[LAW_MOST], double *log_b, wt_error *err)
+                         double unknown[LAW_MAX_UNKNOWNS], double *log_b, wt_error *err)
 {
     const size_t n = p->frame.n_unknowns, n_curves = p->frame.n_curves;
-    const posterior_part *part = part_of_draw(p, seed, index);
-    struct stream s = {splitmix64(splitmix64(seed) ^ (uint64_t)index)};
+    const posterior_component *component = draw_component(p, seed, index);
+    struct random_stream s = {splitmix64(splitmix64(seed) ^ (uint64_t)index)};
     arena memory = {0};
     gsl_vector *e = arena_vector(&memory, n), *gap = arena_vector(&memory, n_curves),
                *pull = arena_vector(&memory, n_curves);
@@ -434,25 +441,26 @@ wt_status posterior_draw(const wt_posterior *p, uint64_t seed, size_t index, dou
     }
     for (size_t u = 0; u < n; u++)
         gsl_vector_set(e, u, draw_normal(&s));
-    gsl_blas_dtrsv(CblasLower, CblasTrans, CblasNonUnit, part->cell->root, e);
+    gsl_blas_dtrsv(CblasLower, CblasTrans, CblasNonUnit, component->cell->root, e);
     for (size_t u = 0; u < n; u++)
-        value[u] = part->cell->value[u] + gsl_vector_get(e, u);
-    memset(unknown, 0, LAW_MOST * sizeof *unknown);
-    if (part->law.n_unknowns > 0) {
-        draw_law(part, &s, unknown);
+        value[u] = component->cell->value[u] + gsl_vector_get(e, u);
+    memset(unknown, 0, LAW_MAX_UNKNOWNS * sizeof *unknown);
+    if (component->law.n_unknowns > 0) {
+        draw_law(component, &s, unknown);
         for (size_t k = 0; k < n_curves; k++) {
             size_t column;
-            const double law = law_of_isotherm(&p->data, &p->shape, unknown, k),
+            const double law = law_isotherm_value(&p->data, &p->shape, unknown, k),
                          a = posterior_column(p, k, &column) ? value[column] : p->frame.given_a[k];
-            gsl_vector_set(gap, k, law - a / M_LN10 - part->spread * p->slope[k] * draw_normal(&s));
+            gsl_vector_set(gap, k,
+                           law - a / M_LN10 - component->spread * p->slope[k] * draw_normal(&s));
         }
-        if (p->doubts_root != NULL)
-            draw_doubts(p, &s, e->data, gap);
-        gsl_blas_dgemv(CblasNoTrans, 1.0, part->inverse, gap, 0.0, pull);
-        add_pull(p, part, pull, 1.0, value);
+        if (p->extra_covariance_root != NULL)
+            draw_extra_errors(p, &s, e->data, gap);
+        gsl_blas_dgemv(CblasNoTrans, 1.0, component->inverse, gap, 0.0, pull);
+        add_law_pull(p, component, pull, 1.0, value);
     }
-    keep_linear(p, part, value);
-    posterior_smooth_b(p, part->cell, value, log_b);
+    linearise_draw(p, component, value);
+    posterior_smooth_b(p, component->cell, value, log_b);
     arena_free(&memory);
     return WT_OK;
 }

@@ -20,23 +20,23 @@
 enum { STORAGE, LOSS, MODULI };
 /* Points per decade for the fit and for the check: five and thirteen per term of the densest
  * series. */
-enum { POINTS = 16, JUDGED = 40 };
+enum { POINTS = 16, CHECK_POINTS = 40 };
 /* Steps of a fit, reweighting rounds, steps in a round, dampings of a step. They limit the time;
  * the best result is stored. Twice as many hardly improve a series, half as many cost one more
  * term. */
 enum { STEPS = 60, ROUNDS = 16, ROUND_STEPS = 3, DAMPINGS = 10 };
 /* More terms per decade do not improve the moduli, which then ripple by 1e-5 of E''
  * (dma/numerics/master_fit.c). */
-static const double most_density = 3;
+static const double max_density = 3;
 /* Range of the relaxation times outside the measured range [ln]. A term two decades faster has
  * 1e-4 of its modulus in E' and is a dashpot. A term eight decades slower replaces a long-term
  * modulus that is stated too low. */
 static const double faster = 2 * M_LN10, slower = 8 * M_LN10;
 /* Allowance for a larger deviation between the points. With 16 points per period the maximum of
  * a curve is missed by cos(pi/16), 2 %. */
-static const double between = 0.05;
+static const double interpolation_margin = 0.05;
 /* A term with a smaller share of any modulus is removed; it changes no reported digit. */
-static const double none = 1e-9;
+static const double negligible_share = 1e-9;
 /* Relative decrease of the sum of squares that ends the fit; half of it in the deviation. */
 static const double least_gain = 1e-3;
 
@@ -60,15 +60,15 @@ PARAM_TABLE(wt_reduction_params, wt_reduction, rows, wt_reduction_defaults, NO_P
 typedef struct reducer {
     arena memory;
     const wt_prony *from;
-    size_t n;               /* points */
-    double *x;              /* [n] ln w */
-    double *y[MODULI];      /* [n] ln of the moduli of the spectrum */
-    double *weight[MODULI]; /* [n] */
-    double *off[MODULI];    /* [n] ln of the ratio of the moduli */
-    double low, high;       /* limits of the relaxation times [ln] */
-    bool fitted;            /* the long-term modulus is fitted */
-    double long_term;       /* used if it is not fitted */
-    size_t most, likely;    /* maximum and initial number of terms in the search */
+    size_t n;                   /* points */
+    double *x;                  /* [n] ln w */
+    double *y[MODULI];          /* [n] ln of the moduli of the spectrum */
+    double *weight[MODULI];     /* [n] */
+    double *off[MODULI];        /* [n] ln of the ratio of the moduli */
+    double low, high;           /* limits of the relaxation times [ln] */
+    bool fitted;                /* the long-term modulus is fitted */
+    double long_term;           /* used if it is not fitted */
+    size_t most, initial_terms; /* maximum and initial number of terms in the search */
     size_t terms; /* present number; unknown[2 i] is ln tau, [2 i + 1] ln E; last ln E_inf */
     double *unknown, *trial, *best;
     double *row[MODULI];
@@ -86,8 +86,8 @@ static size_t n_unknowns(const reducer *r)
 
 /* Computes the moduli of the terms at x and, if `row` is not NULL, the derivatives of their
  * logarithms. */
-static void terms_at(const reducer *r, const double *unknown, double x, double modulus[MODULI],
-                     double *const row[MODULI])
+static void term_moduli(const reducer *r, const double *unknown, double x, double modulus[MODULI],
+                        double *const row[MODULI])
 {
     const size_t n = 2 * r->terms;
     const double rest = r->fitted ? exp(unknown[n]) : r->long_term;
@@ -117,7 +117,7 @@ static void terms_at(const reducer *r, const double *unknown, double x, double m
 }
 
 /* Returns the weighted sum of squares; with_normal: also fills the normal equations. */
-static double residual_squares(reducer *r, const double *unknown, bool with_normal)
+static double weighted_squares(reducer *r, const double *unknown, bool with_normal)
 {
     const size_t n = n_unknowns(r);
     double sum = 0;
@@ -127,7 +127,7 @@ static double residual_squares(reducer *r, const double *unknown, bool with_norm
     }
     for (size_t k = 0; k < r->n; k++) {
         double modulus[MODULI];
-        terms_at(r, unknown, r->x[k], modulus, with_normal ? r->row : NULL);
+        term_moduli(r, unknown, r->x[k], modulus, with_normal ? r->row : NULL);
         for (int q = 0; q < MODULI; q++) {
             const double off = log(modulus[q]) - r->y[q][k], w = r->weight[q][k];
             r->off[q][k] = off;
@@ -146,7 +146,7 @@ static double residual_squares(reducer *r, const double *unknown, bool with_norm
 
 /* ---- fit with a fixed number of terms -------------------------------------------------------- */
 
-static bool solve_normal(reducer *r, double damping)
+static bool solve_damped(reducer *r, double damping)
 {
     const size_t n = n_unknowns(r);
     gsl_matrix_view factor = gsl_matrix_submatrix(r->factor, 0, 0, n, n);
@@ -178,15 +178,15 @@ static void fit_unknowns(reducer *r, int steps)
     const size_t n = n_unknowns(r);
     double damping = 1e-3;
     for (int i = 0; i < steps; i++) {
-        const double before = residual_squares(r, r->unknown, true);
+        const double before = weighted_squares(r, r->unknown, true);
         double after = before;
         for (int k = 0; k < DAMPINGS; k++) {
             after = HUGE_VAL;
-            if (solve_normal(r, damping)) {
+            if (solve_damped(r, damping)) {
                 for (size_t u = 0; u < n; u++)
                     r->trial[u] = r->unknown[u] + gsl_vector_get(r->move, u);
                 clamp_times(r, r->trial);
-                after = residual_squares(r, r->trial, false);
+                after = weighted_squares(r, r->trial, false);
             }
             if (after < before)
                 break;
@@ -199,7 +199,7 @@ static void fit_unknowns(reducer *r, int steps)
         if (before - after < least_gain * before)
             break;
     }
-    r->objective = residual_squares(r, r->unknown, false);
+    r->objective = weighted_squares(r, r->unknown, false);
 }
 
 static double largest_deviation(const reducer *r)
@@ -211,7 +211,7 @@ static double largest_deviation(const reducer *r)
     return most;
 }
 
-static void weigh_alike(reducer *r)
+static void set_equal_weights(reducer *r)
 {
     for (int q = 0; q < MODULI; q++)
         for (size_t k = 0; k < r->n; k++)
@@ -220,14 +220,15 @@ static void weigh_alike(reducer *r)
 
 /* Fits from the present unknowns. `best` gets those with the least maximum deviation, which is
  * returned. Reweighting runs only if it can reach the requested deviation. */
-static double fit_terms(reducer *r, double enough)
+static double fit_terms(reducer *r, double tolerance)
 {
     const size_t n = n_unknowns(r);
-    weigh_alike(r);
+    set_equal_weights(r);
     fit_unknowns(r, STEPS);
     double best = largest_deviation(r);
     memcpy(r->best, r->unknown, n * sizeof *r->best);
-    for (int i = 0; i < ROUNDS && best > enough && (best < 4 * enough || enough == 0); i++) {
+    for (int i = 0; i < ROUNDS && best > tolerance && (best < 4 * tolerance || tolerance == 0);
+         i++) {
         double sum = 0;
         for (int q = 0; q < MODULI; q++)
             for (size_t k = 0; k < r->n; k++)
@@ -276,7 +277,7 @@ static void spread_terms(reducer *r, size_t terms)
 /* ---- number of terms ------------------------------------------------------------------------- */
 
 /* Returns the largest share of a term in a modulus. */
-static double largest_share(const reducer *r, size_t i)
+static double largest_modulus_share(const reducer *r, size_t i)
 {
     double most = 0;
     for (size_t k = 0; k < r->n; k++) {
@@ -288,7 +289,7 @@ static double largest_share(const reducer *r, size_t i)
     return most;
 }
 
-static void leave_out(reducer *r, size_t i)
+static void remove_term(reducer *r, size_t i)
 {
     memmove(r->unknown + 2 * i, r->unknown + 2 * i + 2,
             (n_unknowns(r) - 2 * i - 2) * sizeof *r->unknown);
@@ -296,11 +297,11 @@ static void leave_out(reducer *r, size_t i)
 }
 
 /* Removes one term: a negligible one, otherwise the two closest are merged. */
-static void merge_terms(reducer *r, double little)
+static void remove_or_merge_term(reducer *r, double little)
 {
     for (size_t i = 0; i < r->terms; i++)
-        if (largest_share(r, i) < little) {
-            leave_out(r, i);
+        if (largest_modulus_share(r, i) < little) {
+            remove_term(r, i);
             return;
         }
     size_t at = 0;
@@ -311,48 +312,48 @@ static void merge_terms(reducer *r, double little)
     const double e1 = exp(first[1]), e2 = exp(first[3]), share = e2 / (e1 + e2);
     first[0] += share * (first[2] - first[0]);
     first[1] = log(e1 + e2);
-    leave_out(r, at + 1);
+    remove_term(r, at + 1);
 }
 
 /* Stores the best terms without negligible ones and returns their deviation. */
-static double fit_best_terms(reducer *r, double *kept, double off)
+static double store_best_terms(reducer *r, double *best_terms, double off)
 {
     memcpy(r->unknown, r->best, n_unknowns(r) * sizeof *r->best);
     for (size_t i = r->terms; i-- > 0;)
-        if (largest_share(r, i) < none)
-            leave_out(r, i);
-    memcpy(kept, r->unknown, n_unknowns(r) * sizeof *kept);
-    qsort(kept, r->terms, 2 * sizeof *kept, numbers_compare);
+        if (largest_modulus_share(r, i) < negligible_share)
+            remove_term(r, i);
+    memcpy(best_terms, r->unknown, n_unknowns(r) * sizeof *best_terms);
+    qsort(best_terms, r->terms, 2 * sizeof *best_terms, numbers_compare);
     return off;
 }
 
 /* Finds the smallest number of terms: it increases by half until the deviation suffices, then
  * bisection, then merging as long as it succeeds. */
-static size_t fewest_terms(reducer *r, double enough, double *kept)
+static size_t fewest_terms(reducer *r, double tolerance, double *best_terms)
 {
-    size_t low = 0, high = 0, n = r->likely;
+    size_t low = 0, high = 0, n = r->initial_terms;
     double off = HUGE_VAL;
     while (high == 0 || high > low + 1) {
         spread_terms(r, n);
-        const double now = fit_terms(r, enough);
-        if (now <= enough || n == r->most) {
-            off = fit_best_terms(r, kept, now);
+        const double now = fit_terms(r, tolerance);
+        if (now <= tolerance || n == r->most) {
+            off = store_best_terms(r, best_terms, now);
             high = r->terms;
         } else {
             low = n;
         }
-        if (off > enough && n == r->most)
+        if (off > tolerance && n == r->most)
             return high;
         n = high > 0 ? low + (high - low) / 2
                      : (size_t)fmin((double)(n + n / 2 + 1), (double)r->most);
     }
     for (r->terms = high; r->terms > 1;) {
         n = r->terms;
-        memcpy(r->unknown, kept, n_unknowns(r) * sizeof *kept);
-        merge_terms(r, 0.1 * enough);
-        if (fit_terms(r, enough) > enough)
+        memcpy(r->unknown, best_terms, n_unknowns(r) * sizeof *best_terms);
+        remove_or_merge_term(r, 0.1 * tolerance);
+        if (fit_terms(r, tolerance) > tolerance)
             return n;
-        fit_best_terms(r, kept, off);
+        store_best_terms(r, best_terms, off);
     }
     return r->terms;
 }
@@ -369,8 +370,8 @@ static wt_status prepare_reduction(reducer *r, const wt_reduction *options, wt_e
                        "a series without terms or without a measured range of "
                        "frequencies cannot be reduced");
     r->n = (size_t)(POINTS * decades) + 8;
-    r->most = options->terms > 0 ? options->terms : (size_t)(most_density * decades) + 3;
-    r->likely = (size_t)decades + 1;
+    r->most = options->terms > 0 ? options->terms : (size_t)(max_density * decades) + 3;
+    r->initial_terms = (size_t)decades + 1;
     r->low = -last - faster;
     r->high = -first + slower;
     r->long_term = isnan(options->long_term) ? 0 : options->long_term;
@@ -407,7 +408,7 @@ static wt_status prepare_reduction(reducer *r, const wt_reduction *options, wt_e
 void wt_prony_deviation(const wt_prony *from, const wt_prony *to, double deviation[2])
 {
     const double first = log(from->frequency_min), last = log(from->frequency_max);
-    const size_t n = (size_t)(JUDGED * (last - first) / M_LN10) + 2;
+    const size_t n = (size_t)(CHECK_POINTS * (last - first) / M_LN10) + 2;
     deviation[0] = deviation[1] = 0;
     for (size_t k = 0; k < n; k++) {
         double is[MODULI], was[MODULI];
@@ -419,18 +420,18 @@ void wt_prony_deviation(const wt_prony *from, const wt_prony *to, double deviati
     }
 }
 
-static wt_status hand_out(const reducer *r, const double *kept, size_t terms, wt_prony *to,
-                          wt_error *err)
+static wt_status terms_to_series(const reducer *r, const double *best_terms, size_t terms,
+                                 wt_prony *to, wt_error *err)
 {
     wt_prony made = {0};
     const wt_status status = wt_prony_alloc(&made, terms, err);
     if (status != WT_OK)
         return status;
     for (size_t i = 0; i < terms; i++) {
-        made.relaxation_time[i] = exp(kept[2 * i]);
-        made.modulus[i] = exp(kept[2 * i + 1]);
+        made.relaxation_time[i] = exp(best_terms[2 * i]);
+        made.modulus[i] = exp(best_terms[2 * i + 1]);
     }
-    made.equilibrium_modulus = r->fitted ? exp(kept[2 * terms]) : r->long_term;
+    made.equilibrium_modulus = r->fitted ? exp(best_terms[2 * terms]) : r->long_term;
     made.deformation = r->from->deformation;
     made.reference_temperature = r->from->reference_temperature;
     made.frequency_min = r->from->frequency_min;
@@ -450,19 +451,19 @@ wt_status wt_prony_reduce(const wt_prony *from, const wt_reduction *options, wt_
     wt_status status = param_check(wt_reduction_params(), &o, err);
     if (status == WT_OK)
         status = prepare_reduction(&r, &o, err);
-    double *kept = status == WT_OK ? arena_numbers(&r.memory, 2 * r.most + 1) : NULL;
-    if (status == WT_OK && kept == NULL)
+    double *best_terms = status == WT_OK ? arena_numbers(&r.memory, 2 * r.most + 1) : NULL;
+    if (status == WT_OK && best_terms == NULL)
         status = wt_fail(err, WT_E_MEMORY, "no memory to reduce the series");
     if (status == WT_OK) {
         size_t terms = o.terms;
         if (terms > 0) {
             spread_terms(&r, terms);
-            fit_best_terms(&r, kept, fit_terms(&r, 0));
+            store_best_terms(&r, best_terms, fit_terms(&r, 0));
             terms = r.terms;
         } else {
-            terms = fewest_terms(&r, o.error * (1 - between), kept);
+            terms = fewest_terms(&r, o.error * (1 - interpolation_margin), best_terms);
         }
-        status = hand_out(&r, kept, terms, to, err);
+        status = terms_to_series(&r, best_terms, terms, to, err);
     }
     arena_free(&r.memory);
     return status;

@@ -16,18 +16,18 @@
 #include <string.h>
 
 /* Maximum number of Newton steps, which double the digits, and minimum number of samples. */
-enum { MOST_STEPS = 100, FEWEST = 2 };
+enum { MOST_STEPS = 100, MIN_SAMPLES = 2 };
 /* Step that ends the iteration [standard errors]: seven digits. */
-static const double settled = 1e-6;
+static const double convergence_step = 1e-6;
 /* Start distance of the pole below the coldest isotherm [K]. Williams, Landel and Ferry (J. Am.
  * Chem. Soc. 77 (1955) 3701) have it 51.6 K below the glass transition. */
-static const double usual_distance = 50.0;
+static const double typical_pole_distance = 50.0;
 
 /* ---- the shifts of a sample ------------------------------------------------------------------ */
 
 /* Reads the mean shifts over the cells of the posterior and their covariance within and between
  * cells. */
-static void take_shifts(const wt_posterior *p, long left_out, law_member *m)
+static void read_posterior_shifts(const wt_posterior *p, long left_out, law_member *m)
 {
     size_t row = 0;
     for (size_t i = 0; i < p->frame.n_curves; i++) {
@@ -61,14 +61,14 @@ static void take_shifts(const wt_posterior *p, long left_out, law_member *m)
     }
 }
 
-static wt_status add_member(law_samples *c, const wt_master *master, size_t sample, wt_error *err)
+static wt_status add_sample(law_samples *c, const wt_master *master, size_t sample, wt_error *err)
 {
     const wt_posterior *p = master->posterior;
     const law_shape *shape = &p->shape;
     law_member *m = &c->members[c->n_members++];
-    double constants[LAW_MOST];
+    double constants[LAW_MAX_UNKNOWNS];
     *m = (law_member){.sample = sample,
-                      .n = p->frame.n_curves - (shape->odd >= 0),
+                      .n = p->frame.n_curves - (shape->outlier >= 0),
                       .first = c->n,
                       .reference = shape->reference,
                       .coldest = shape->coldest};
@@ -81,14 +81,14 @@ static wt_status add_member(law_samples *c, const wt_master *master, size_t samp
     if (c->memory.failed)
         return wt_fail(err, WT_E_MEMORY, "no memory for a common law");
     memset(m->log_a, 0, m->n * sizeof *m->log_a);
-    take_shifts(p, shape->odd, m);
+    read_posterior_shifts(p, shape->outlier, m);
     posterior_mean_law(p, constants);
     m->main_constant = constants[1];
     if (shape->kind == WT_LAW_WLF) {
         m->distance = constants[law_pole_index(shape)];
     } else if (c->kind == WT_LAW_WLF) { /* same slope, with a typical pole of rubber */
-        m->distance = log(usual_distance);
-        m->main_constant *= (m->reference - m->coldest + usual_distance) /
+        m->distance = log(typical_pole_distance);
+        m->main_constant *= (m->reference - m->coldest + typical_pole_distance) /
                             (GAS_CONSTANT * M_LN10 * m->reference * m->reference);
     }
     c->n += m->n;
@@ -104,7 +104,7 @@ static wt_status add_member(law_samples *c, const wt_master *master, size_t samp
 
 /* Returns the sum of squares in units of the errors. If `cross` is not NULL it also fills the
  * normal equations. */
-static double residual_squares(const law_samples *c, const law_model *model, size_t spread,
+static double weighted_squares(const law_samples *c, const law_model *model, size_t spread,
                                const double *unknown, gsl_vector *off, gsl_matrix *columns,
                                gsl_matrix *cross, gsl_vector *right)
 {
@@ -117,10 +117,10 @@ static double residual_squares(const law_samples *c, const law_model *model, siz
         const law_member *m = &c->members[k];
         size_t at[LOCAL];
         gsl_vector_view y = gsl_vector_subvector(off, 0, m->n);
-        common_places(c, model, k, at);
+        shared_law_indices(c, model, k, at);
         for (size_t i = 0; i < m->n; i++) {
             double by[LOCAL];
-            const double law = common_value(c, model, k, unknown, m->temperature[i], by);
+            const double law = shared_law_value(c, model, k, unknown, m->temperature[i], by);
             if (!isfinite(law))
                 return HUGE_VAL;
             gsl_vector_set(off, i, m->log_a[i] - unknown[at[OFFSET]] - law);
@@ -133,14 +133,14 @@ static double residual_squares(const law_samples *c, const law_model *model, siz
         for (size_t u = 0; cross != NULL && u < LOCAL; u++) {
             gsl_vector_view x = gsl_matrix_subrow(columns, u, 0, m->n);
             double with = 0.0;
-            if (at[u] == NO_PLACE)
+            if (at[u] == NO_INDEX)
                 continue;
             gsl_blas_dtrsv(CblasLower, CblasNoTrans, CblasNonUnit, m->root[spread], &x.vector);
             gsl_blas_ddot(&x.vector, &y.vector, &with);
             *gsl_vector_ptr(right, at[u]) += with;
             for (size_t w = 0; w <= u; w++) {
                 gsl_vector_const_view other = gsl_matrix_const_subrow(columns, w, 0, m->n);
-                if (at[w] == NO_PLACE)
+                if (at[w] == NO_INDEX)
                     continue;
                 gsl_blas_ddot(&x.vector, &other.vector, &with);
                 *gsl_matrix_ptr(cross, at[u], at[w]) += with;
@@ -152,20 +152,20 @@ static double residual_squares(const law_samples *c, const law_model *model, siz
     return sum;
 }
 
-static void start_law(const law_samples *c, const law_model *model, double *unknown)
+static void set_start_values(const law_samples *c, const law_model *model, double *unknown)
 {
     for (size_t k = c->n_members; k-- > 0;) { /* the law of the first sample is the start for all */
         const law_member *m = &c->members[k];
         size_t at[LOCAL];
-        common_places(c, model, k, at);
+        shared_law_indices(c, model, k, at);
         unknown[at[OFFSET]] = 0.0;
         unknown[at[MAIN]] = m->main_constant;
-        if (at[POLE] != NO_PLACE)
+        if (at[POLE] != NO_INDEX)
             unknown[at[POLE]] = m->distance;
-        if (at[MOVED] != NO_PLACE) /* places the poles on one another */
+        if (at[MOVED] != NO_INDEX) /* places the poles on one another */
             unknown[at[MOVED]] = (m->coldest - exp(m->distance)) -
                                  (c->members[0].coldest - exp(c->members[0].distance));
-        if (!model->own && k == 0 && common_has_pole(c)) {
+        if (!model->separate && k == 0 && shared_law_has_pole(c)) {
             /* converts its law to the common reference, with the pole below all isotherms */
             const double pole = m->coldest - exp(m->distance);
             const double product = m->main_constant * (m->reference - pole);
@@ -178,7 +178,7 @@ static void start_law(const law_samples *c, const law_model *model, double *unkn
         const law_member *m = &c->members[k];
         double by[LOCAL], sum = 0.0;
         for (size_t i = 0; i < m->n; i++) {
-            const double law = common_value(c, model, k, unknown, m->temperature[i], by);
+            const double law = shared_law_value(c, model, k, unknown, m->temperature[i], by);
             sum += m->log_a[i] - (isfinite(law) ? law : 0.0);
         }
         unknown[k] = sum / (double)m->n;
@@ -186,14 +186,14 @@ static void start_law(const law_samples *c, const law_model *model, double *unkn
 }
 
 /* Returns true if the law falls with temperature and its pole is determined. */
-static bool is_law(const law_samples *c, const law_model *model, const solution *s)
+static bool is_valid_law(const law_samples *c, const law_model *model, const solution *s)
 {
     bool good = true;
     for (size_t k = 0; k < c->n_members; k++) {
         size_t at[LOCAL];
-        common_places(c, model, k, at);
+        shared_law_indices(c, model, k, at);
         good = good && s->unknown[at[MAIN]] > 0.0;
-        if (at[POLE] != NO_PLACE)
+        if (at[POLE] != NO_INDEX)
             good = good && s->unknown[at[POLE]] > log(POLE_NEAREST) &&
                    s->unknown[at[POLE]] < log(POLE_FARTHEST) &&
                    gsl_matrix_get(s->covariance, at[POLE], at[POLE]) < POLE_ERROR * POLE_ERROR;
@@ -202,7 +202,7 @@ static bool is_law(const law_samples *c, const law_model *model, const solution 
 }
 
 /* Levenberg-Marquardt steps for one temperature error until convergence. */
-static void fit_at_spread(law_samples *c, const law_model *model, size_t spread, solution *s)
+static void fit_with_spread(law_samples *c, const law_model *model, size_t spread, solution *s)
 {
     const size_t n = model->n_unknowns;
     arena *memory = &c->memory;
@@ -216,9 +216,9 @@ static void fit_at_spread(law_samples *c, const law_model *model, size_t spread,
     s->good = false;
     if (memory->failed)
         return;
-    start_law(c, model, s->unknown);
+    set_start_values(c, model, s->unknown);
     bool done = false;
-    s->chi_square = residual_squares(c, model, spread, s->unknown, off, columns, cross, right);
+    s->chi_square = weighted_squares(c, model, spread, s->unknown, off, columns, cross, right);
     for (int i = 0; i < MOST_STEPS && !done && s->chi_square < HUGE_VAL; i++) {
         gsl_matrix_memcpy(damped, cross);
         for (size_t u = 0; u < n; u++)
@@ -232,15 +232,15 @@ static void fit_at_spread(law_samples *c, const law_model *model, size_t spread,
             next[u] = s->unknown[u] + gsl_vector_get(step, u);
             size = fmax(size, fabs(gsl_vector_get(step, u)) * sqrt(gsl_matrix_get(cross, u, u)));
         }
-        const double now = residual_squares(c, model, spread, next, off, columns, NULL, NULL);
-        done = size < settled;
+        const double now = weighted_squares(c, model, spread, next, off, columns, NULL, NULL);
+        done = size < convergence_step;
         if (!(now <= s->chi_square)) {
             damping *= 10.0;
             continue;
         }
         damping *= 0.1;
         memcpy(s->unknown, next, n * sizeof *next);
-        s->chi_square = residual_squares(c, model, spread, s->unknown, off, columns, cross, right);
+        s->chi_square = weighted_squares(c, model, spread, s->unknown, off, columns, cross, right);
     }
     gsl_matrix_memcpy(s->covariance, cross);
     if (!done || gsl_linalg_cholesky_decomp1(s->covariance) != GSL_SUCCESS)
@@ -252,7 +252,7 @@ static void fit_at_spread(law_samples *c, const law_model *model, size_t spread,
         for (size_t i = 0; i < c->members[k].n; i++)
             s->reml += 2.0 * log(gsl_matrix_get(c->members[k].root[spread], i, i));
     gsl_linalg_cholesky_invert(s->covariance);
-    s->good = is_law(c, model, s);
+    s->good = is_valid_law(c, model, s);
 }
 
 /* Computes the weights of the temperature errors; false if none is left. The comparison of
@@ -284,13 +284,13 @@ static const char *why_not(const wt_master *m)
         return "it could not be fitted";
     if (m->law.kind == WT_LAW_NONE)
         return "it has no law of its own";
-    if (m->law.kind == WT_LAW_JOINED)
+    if (m->law.kind == WT_LAW_WLF_ARRHENIUS)
         return "its own law is Arrhenius joined to WLF";
     return isnan(m->slope.standard_error) ? "its shifts are given" : NULL;
 }
 
 /* Returns Arrhenius if no sample shows curvature, otherwise WLF. */
-static wt_law_kind kind_of_all(const wt_master *const *masters, size_t n)
+static wt_law_kind shared_law_kind(const wt_master *const *masters, size_t n)
 {
     bool bends = false;
     for (size_t i = 0; i < n; i++)
@@ -306,13 +306,13 @@ static wt_status gather_samples(law_samples *c, const wt_master *const *masters,
     if (c->members == NULL)
         return wt_fail(err, WT_E_MEMORY, "no memory for a common law");
     for (size_t i = 0; status == WT_OK && i < n; i++) {
-        const char *const why = why_not(masters[i]);
-        if (why == NULL)
-            status = add_member(c, masters[i], i, err);
+        const char *const reason = why_not(masters[i]);
+        if (reason == NULL)
+            status = add_sample(c, masters[i], i, err);
         else
-            snprintf(common->members[i].why_not, sizeof common->members[i].why_not, "%s", why);
+            snprintf(common->members[i].why_not, sizeof common->members[i].why_not, "%s", reason);
     }
-    if (status == WT_OK && c->n_members < FEWEST) {
+    if (status == WT_OK && c->n_members < MIN_SAMPLES) {
         size_t without = 0;
         while (common->members[without].why_not[0] == '\0')
             without++;
@@ -321,7 +321,7 @@ static wt_status gather_samples(law_samples *c, const wt_master *const *masters,
                        common->members[without].why_not);
         return WT_E_RANGE;
     }
-    if (status == WT_OK && c->how == WT_COMMON_MOVED && !common_has_pole(c)) {
+    if (status == WT_OK && c->sharing == WT_SHARED_LAW_SHIFTED && !shared_law_has_pole(c)) {
         wt_fail(err, WT_E_RANGE, "an Arrhenius law cannot be moved along the temperature");
         wt_error_advice(err, "ask for the same law of all samples");
         return WT_E_RANGE;
@@ -331,51 +331,54 @@ static wt_status gather_samples(law_samples *c, const wt_master *const *masters,
     const law_member *first = &c->members[0];
     c->reference = isnan(c->reference) ? first->reference : c->reference;
     c->coldest = fmin(c->reference, first->temperature[0]);
-    for (size_t k = 1; c->how == WT_COMMON_SAME && k < c->n_members; k++)
+    for (size_t k = 1; c->sharing == WT_SHARED_LAW_SAME && k < c->n_members; k++)
         c->coldest = fmin(c->coldest, c->members[k].temperature[0]);
     return WT_OK;
 }
 
-static wt_status make_common_law(law_samples *c, wt_shared_shift_law *common, wt_error *err)
+static wt_status compute_shared_law(law_samples *c, wt_shared_shift_law *common, wt_error *err)
 {
-    const law_model of_all = common_model(c, false), of_each = common_model(c, true);
-    solution one[LAW_SPREADS], own[LAW_SPREADS];
+    const law_model of_all = shared_law_model(c, false), of_each = shared_law_model(c, true);
+    solution shared[LAW_SPREADS], separate[LAW_SPREADS];
     for (size_t i = 0; i < LAW_SPREADS; i++) {
-        fit_at_spread(c, &of_all, i, &one[i]);
-        fit_at_spread(c, &of_each, i, &own[i]);
+        fit_with_spread(c, &of_all, i, &shared[i]);
+        fit_with_spread(c, &of_each, i, &separate[i]);
     }
     common->points = calloc(c->n, sizeof *common->points);
     if (c->memory.failed || common->points == NULL)
         return wt_fail(err, WT_E_MEMORY, "no memory for a common law");
-    if (!weigh_spreads(c, true, one)) {
+    if (!weigh_spreads(c, true, shared)) {
         wt_fail(err, WT_E_RANGE, "no one law describes the shifts of all samples");
         wt_error_advice(err, "%s",
-                        c->how == WT_COMMON_SAME ? "let it be moved along the temperature"
-                                                 : "let each have its own");
+                        c->sharing == WT_SHARED_LAW_SAME ? "let it be moved along the temperature"
+                                                         : "let each have its own");
         return WT_E_RANGE;
     }
-    const bool compared = weigh_spreads(c, false, own);
-    common_fill_law(c, one, common);
-    common->p = compared ? common_chance(c, one, own) : (double)NAN;
+    const bool compared = weigh_spreads(c, false, separate);
+    shared_law_fill(c, shared, common);
+    common->p = compared ? shared_law_p_value(c, shared, separate) : (double)NAN;
     for (size_t k = 0; k < c->n_members; k++)
         for (size_t i = 0; i < c->members[k].n; i++)
-            common_fill_point(c, k, i, one, own, compared, &common->points[common->n++]);
+            shared_law_fill_point(c, k, i, shared, separate, compared,
+                                  &common->points[common->n++]);
     return WT_OK;
 }
 
-wt_status wt_shared_shift_law_fit(const wt_master *const *masters, size_t n, wt_common how,
-                                  double reference, wt_shared_shift_law *common_law, wt_error *err)
+wt_status wt_shared_shift_law_fit(const wt_master *const *masters, size_t n,
+                                  wt_shared_law_mode sharing, double reference,
+                                  wt_shared_shift_law *common_law, wt_error *err)
 {
-    if (masters == NULL || common_law == NULL || n < FEWEST || how == WT_COMMON_NONE)
+    if (masters == NULL || common_law == NULL || n < MIN_SAMPLES || sharing == WT_SHARED_LAW_NONE)
         return wt_fail(err, WT_E_ARG, "a common law needs two samples or more");
-    law_samples c = {.how = how, .reference = reference, .kind = kind_of_all(masters, n)};
+    law_samples c = {
+        .sharing = sharing, .reference = reference, .kind = shared_law_kind(masters, n)};
     wt_shared_shift_law made = {.n_members = n, .members = calloc(n, sizeof *made.members)};
     gsl_quiet();
     wt_status status = made.members == NULL
                            ? wt_fail(err, WT_E_MEMORY, "no memory for a common law")
                            : gather_samples(&c, masters, n, &made, err);
     if (status == WT_OK)
-        status = make_common_law(&c, &made, err);
+        status = compute_shared_law(&c, &made, err);
     arena_free(&c.memory);
     if (status == WT_OK)
         *common_law = made;

@@ -10,7 +10,7 @@
 /* Unknowns that a shift of one sample depends on: its offset, the main constant, ln of the pole
  * distance, and the displacement of its law. */
 enum { OFFSET, MAIN, POLE, MOVED, LOCAL };
-#define NO_PLACE SIZE_MAX
+#define NO_INDEX SIZE_MAX
 
 /* Shifts of one sample, without the outlier of its law. */
 typedef struct law_member {
@@ -24,7 +24,7 @@ typedef struct law_member {
 
 typedef struct law_samples {
     arena memory;
-    wt_common how;
+    wt_shared_law_mode sharing;
     wt_law_kind kind;
     double reference, coldest; /* of the shared law */
     law_member *members;       /* [n_members] */
@@ -33,7 +33,7 @@ typedef struct law_samples {
 
 /* One law for all samples, or a separate law for each. */
 typedef struct law_model {
-    bool own;
+    bool separate;
     size_t n_unknowns;
 } law_model;
 
@@ -44,24 +44,25 @@ typedef struct solution {
     bool good;
 } solution;
 
-bool common_has_pole(const law_samples *c);
-law_model common_model(const law_samples *c, bool own);
-/* Fills the indices of the unknowns of a sample; NO_PLACE if absent. */
-void common_places(const law_samples *c, const law_model *m, size_t k, size_t place[LOCAL]);
+bool shared_law_has_pole(const law_samples *c);
+law_model shared_law_model(const law_samples *c, bool separate);
+/* Fills the indices of the unknowns of a sample; NO_INDEX if absent. */
+void shared_law_indices(const law_samples *c, const law_model *m, size_t k, size_t place[LOCAL]);
 /* Returns the law of a sample at a temperature [K] without its offset, and the derivatives by
  * its unknowns. NaN at and below the pole. */
-double common_value(const law_samples *c, const law_model *model, size_t k, const double *unknown,
-                    double temperature, double by[LOCAL]);
+double shared_law_value(const law_samples *c, const law_model *model, size_t k,
+                        const double *unknown, double temperature, double by[LOCAL]);
 
 /* Fills the constants and the displacements of the samples. */
-void common_fill_law(const law_samples *c, const solution one[LAW_SPREADS],
+void shared_law_fill(const law_samples *c, const solution shared[LAW_SPREADS],
                      wt_shared_shift_law *common);
 /* Returns the p value of the hypothesis of one law, averaged over the temperature errors of the
  * separate laws. */
-double common_chance(const law_samples *c, const solution one[LAW_SPREADS],
-                     const solution own[LAW_SPREADS]);
+double shared_law_p_value(const law_samples *c, const solution shared[LAW_SPREADS],
+                          const solution separate[LAW_SPREADS]);
 /* Fills the result for isotherm i of sample k. */
-void common_fill_point(const law_samples *c, size_t k, size_t i, const solution one[LAW_SPREADS],
-                       const solution own[LAW_SPREADS], bool compared, wt_shared_law_point *point);
+void shared_law_fill_point(const law_samples *c, size_t k, size_t i,
+                           const solution shared[LAW_SPREADS], const solution separate[LAW_SPREADS],
+                           bool compared, wt_shared_law_point *point);
 
 #endif

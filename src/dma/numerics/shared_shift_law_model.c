@@ -11,45 +11,47 @@
 
 /* ---- the model ------------------------------------------------------------------------------- */
 
-bool common_has_pole(const law_samples *c)
+bool shared_law_has_pole(const law_samples *c)
 {
     return c->kind == WT_LAW_WLF;
 }
 
-law_model common_model(const law_samples *c, bool own)
+law_model shared_law_model(const law_samples *c, bool separate)
 {
-    const size_t laws = own ? c->n_members : 1, each = common_has_pole(c) ? 2 : 1;
-    const size_t moved = !own && c->how == WT_COMMON_MOVED ? c->n_members - 1 : 0;
-    return (law_model){own, c->n_members + laws * each + moved};
+    const size_t laws = separate ? c->n_members : 1, each = shared_law_has_pole(c) ? 2 : 1;
+    const size_t moved = !separate && c->sharing == WT_SHARED_LAW_SHIFTED ? c->n_members - 1 : 0;
+    return (law_model){separate, c->n_members + laws * each + moved};
 }
 
-void common_places(const law_samples *c, const law_model *m, size_t k, size_t place[LOCAL])
+void shared_law_indices(const law_samples *c, const law_model *m, size_t k, size_t place[LOCAL])
 {
-    const size_t first = c->n_members, each = common_has_pole(c) ? 2 : 1;
-    const size_t law = first + (m->own ? k * each : 0);
+    const size_t first = c->n_members, each = shared_law_has_pole(c) ? 2 : 1;
+    const size_t law = first + (m->separate ? k * each : 0);
     place[OFFSET] = k;
     place[MAIN] = law;
-    place[POLE] = common_has_pole(c) ? law + 1 : NO_PLACE;
-    place[MOVED] = !m->own && c->how == WT_COMMON_MOVED && k > 0 ? first + each + k - 1 : NO_PLACE;
+    place[POLE] = shared_law_has_pole(c) ? law + 1 : NO_INDEX;
+    place[MOVED] = !m->separate && c->sharing == WT_SHARED_LAW_SHIFTED && k > 0
+                       ? first + each + k - 1
+                       : NO_INDEX;
 }
 
-double common_value(const law_samples *c, const law_model *model, size_t k, const double *unknown,
-                    double temperature, double by[LOCAL])
+double shared_law_value(const law_samples *c, const law_model *model, size_t k,
+                        const double *unknown, double temperature, double by[LOCAL])
 {
     const law_member *m = &c->members[k];
-    const double reference = model->own ? m->reference : c->reference,
-                 coldest = model->own ? m->coldest : c->coldest;
+    const double reference = model->separate ? m->reference : c->reference,
+                 coldest = model->separate ? m->coldest : c->coldest;
     size_t at[LOCAL];
-    common_places(c, model, k, at);
+    shared_law_indices(c, model, k, at);
     const double constant = unknown[at[MAIN]];
     by[OFFSET] = 1.0;
     by[POLE] = by[MOVED] = 0.0;
-    if (!common_has_pole(c)) {
+    if (!shared_law_has_pole(c)) {
         by[MAIN] = (reference - temperature) / (reference * temperature) / (GAS_CONSTANT * M_LN10);
         return constant * by[MAIN];
     }
     const double distance = exp(unknown[at[POLE]]);
-    const double x = temperature - (at[MOVED] != NO_PLACE ? unknown[at[MOVED]] : 0.0);
+    const double x = temperature - (at[MOVED] != NO_INDEX ? unknown[at[MOVED]] : 0.0);
     const double rise = x - reference, sum = distance + x - coldest;
     if (!(sum > 0.0))
         return (double)NAN;
@@ -61,25 +63,25 @@ double common_value(const law_samples *c, const law_model *model, size_t k, cons
 
 /* ---- results --------------------------------------------------------------------------------- */
 
-static double variance_of(const solution *s, const size_t at[LOCAL], const double by[LOCAL])
+static double linear_variance(const solution *s, const size_t at[LOCAL], const double by[LOCAL])
 {
     double sum = 0.0;
     for (size_t u = 0; u < LOCAL; u++)
         for (size_t w = 0; w < LOCAL; w++)
-            if (at[u] != NO_PLACE && at[w] != NO_PLACE)
+            if (at[u] != NO_INDEX && at[w] != NO_INDEX)
                 sum += by[u] * by[w] * gsl_matrix_get(s->covariance, at[u], at[w]);
     return fmax(sum, 0.0);
 }
 
 /* Returns the interval of an unknown over the temperature errors. */
-static wt_interval of_unknown(const solution s[LAW_SPREADS], size_t u)
+static wt_interval unknown_interval(const solution s[LAW_SPREADS], size_t u)
 {
-    mixture_part part[LAW_SPREADS];
+    mixture_component part[LAW_SPREADS];
     size_t n = 0;
     for (size_t i = 0; i < LAW_SPREADS; i++)
         if (s[i].weight > 0.0)
-            part[n++] = (mixture_part){s[i].weight, s[i].unknown[u],
-                                       sqrt(gsl_matrix_get(s[i].covariance, u, u))};
+            part[n++] = (mixture_component){s[i].weight, s[i].unknown[u],
+                                            sqrt(gsl_matrix_get(s[i].covariance, u, u))};
     return mixture_interval(part, n);
 }
 
@@ -90,16 +92,16 @@ static double law_difference(const law_samples *c, const law_model *model, size_
 {
     double by[LOCAL], less[LOCAL];
     size_t at[LOCAL];
-    common_places(c, model, k, at);
-    const double value = common_value(c, model, k, s->unknown, temperature, by) -
-                         common_value(c, model, k, s->unknown, from, less);
+    shared_law_indices(c, model, k, at);
+    const double value = shared_law_value(c, model, k, s->unknown, temperature, by) -
+                         shared_law_value(c, model, k, s->unknown, from, less);
     for (size_t u = 0; u < LOCAL; u++)
         by[u] -= less[u];
-    *variance = variance_of(s, at, by);
+    *variance = linear_variance(s, at, by);
     return value;
 }
 
-static double middle_temperature(const law_member *m)
+static double mean_temperature(const law_member *m)
 {
     double sum = 0.0;
     for (size_t i = 0; i < m->n; i++)
@@ -110,20 +112,20 @@ static double middle_temperature(const law_member *m)
 /* What a sample's own law has more than the common one, from the middle of its isotherms on, with
  * the error of its own law: what the common one takes away from it (Hausman 1978) is not known well
  * enough of so few isotherms (tests/unit/test_dma_shared_shift_law_fit.c). */
-static wt_interval own_less_common(const law_samples *c, size_t k, const solution one[LAW_SPREADS],
-                                   const solution own[LAW_SPREADS], double temperature)
+static wt_interval law_deviation(const law_samples *c, size_t k, const solution shared[LAW_SPREADS],
+                                 const solution separate[LAW_SPREADS], double temperature)
 {
-    const law_model of_all = common_model(c, false), of_each = common_model(c, true);
-    mixture_part part[LAW_SPREADS];
+    const law_model of_all = shared_law_model(c, false), of_each = shared_law_model(c, true);
+    mixture_component part[LAW_SPREADS];
     size_t n = 0;
     for (size_t i = 0; i < LAW_SPREADS; i++) {
         double v_own, ignored;
-        if (!(own[i].weight > 0.0) || !one[i].good)
+        if (!(separate[i].weight > 0.0) || !shared[i].good)
             continue;
-        const double from = middle_temperature(&c->members[k]);
-        const double d = law_difference(c, &of_each, k, &own[i], temperature, from, &v_own) -
-                         law_difference(c, &of_all, k, &one[i], temperature, from, &ignored);
-        part[n++] = (mixture_part){own[i].weight, d, sqrt(v_own)};
+        const double from = mean_temperature(&c->members[k]);
+        const double d = law_difference(c, &of_each, k, &separate[i], temperature, from, &v_own) -
+                         law_difference(c, &of_all, k, &shared[i], temperature, from, &ignored);
+        part[n++] = (mixture_component){separate[i].weight, d, sqrt(v_own)};
     }
     double sum = 0.0;
     for (size_t i = 0; i < n; i++)
@@ -134,23 +136,26 @@ static wt_interval own_less_common(const law_samples *c, size_t k, const solutio
                  : (wt_interval){(double)NAN, (double)NAN, (double)NAN, (double)NAN};
 }
 
-void common_fill_point(const law_samples *c, size_t k, size_t i, const solution one[LAW_SPREADS],
-                       const solution own[LAW_SPREADS], bool compared, wt_shared_law_point *point)
+void shared_law_fill_point(const law_samples *c, size_t k, size_t i,
+                           const solution shared[LAW_SPREADS], const solution separate[LAW_SPREADS],
+                           bool compared, wt_shared_law_point *point)
 {
     const law_member *m = &c->members[k];
-    const law_model of_all = common_model(c, false);
-    mixture_part law[LAW_SPREADS];
+    const law_model of_all = shared_law_model(c, false);
+    mixture_component law[LAW_SPREADS];
     size_t n = 0, at[LOCAL];
     double offset = 0.0;
-    common_places(c, &of_all, k, at);
+    shared_law_indices(c, &of_all, k, at);
     for (size_t w = 0; w < LAW_SPREADS; w++) {
         double by[LOCAL];
-        if (!(one[w].weight > 0.0))
+        if (!(shared[w].weight > 0.0))
             continue;
-        const double value = common_value(c, &of_all, k, one[w].unknown, m->temperature[i], by);
+        const double value =
+            shared_law_value(c, &of_all, k, shared[w].unknown, m->temperature[i], by);
         by[OFFSET] = 0.0;
-        law[n++] = (mixture_part){one[w].weight, value, sqrt(variance_of(&one[w], at, by))};
-        offset += one[w].weight * one[w].unknown[at[OFFSET]];
+        law[n++] =
+            (mixture_component){shared[w].weight, value, sqrt(linear_variance(&shared[w], at, by))};
+        offset += shared[w].weight * shared[w].unknown[at[OFFSET]];
     }
     *point = (wt_shared_law_point){.sample = m->sample,
                                    .temperature = m->temperature[i],
@@ -158,7 +163,7 @@ void common_fill_point(const law_samples *c, size_t k, size_t i, const solution 
                                    .log_a_error = sqrt(gsl_matrix_get(m->covariance, i, i)),
                                    .law = mixture_interval(law, n)};
     const double unknown = (double)NAN;
-    point->difference = compared ? own_less_common(c, k, one, own, m->temperature[i])
+    point->difference = compared ? law_deviation(c, k, shared, separate, m->temperature[i])
                                  : (wt_interval){unknown, unknown, unknown, unknown};
 }
 
@@ -182,49 +187,51 @@ static double constant_correlation(const solution s[LAW_SPREADS], size_t a, size
 }
 
 /* Converts ln of the pole distance to the constant C2. */
-static wt_interval to_c2(wt_interval x, double lead)
+static wt_interval distance_to_c2(wt_interval x, double lead)
 {
     wt_interval y = {lead + exp(x.value), 0.0, lead + exp(x.low), lead + exp(x.high)};
     y.standard_error = 0.5 * (y.high - y.low) / NORMAL_95;
     return y;
 }
 
-void common_fill_law(const law_samples *c, const solution one[LAW_SPREADS],
+void shared_law_fill(const law_samples *c, const solution shared[LAW_SPREADS],
                      wt_shared_shift_law *common)
 {
-    const law_model m = common_model(c, false);
+    const law_model m = shared_law_model(c, false);
     const wt_interval unknown = {(double)NAN, (double)NAN, (double)NAN, (double)NAN};
     size_t at[LOCAL];
-    common_places(c, &m, 0, at);
-    const wt_interval constant = of_unknown(one, at[MAIN]);
+    shared_law_indices(c, &m, 0, at);
+    const wt_interval constant = unknown_interval(shared, at[MAIN]);
     common->reference = c->reference;
     common->kind = c->kind;
-    common->c1 = common_has_pole(c) ? constant : unknown;
-    common->activation_energy = common_has_pole(c) ? unknown : constant;
-    common->c2 =
-        common_has_pole(c) ? to_c2(of_unknown(one, at[POLE]), c->reference - c->coldest) : unknown;
+    common->c1 = shared_law_has_pole(c) ? constant : unknown;
+    common->activation_energy = shared_law_has_pole(c) ? unknown : constant;
+    common->c2 = shared_law_has_pole(c)
+                     ? distance_to_c2(unknown_interval(shared, at[POLE]), c->reference - c->coldest)
+                     : unknown;
     common->c_correlation =
-        common_has_pole(c) ? constant_correlation(one, at[MAIN], at[POLE]) : (double)NAN;
+        shared_law_has_pole(c) ? constant_correlation(shared, at[MAIN], at[POLE]) : (double)NAN;
     common->spread = 0.0;
     for (size_t i = 0; i < LAW_SPREADS; i++)
-        common->spread += one[i].weight * law_spread(i);
+        common->spread += shared[i].weight * law_spread(i);
     for (size_t k = 0; k < c->n_members; k++) {
-        common_places(c, &m, k, at);
+        shared_law_indices(c, &m, k, at);
         wt_shared_law_member *member = &common->members[c->members[k].sample];
         member->used = true;
-        member->moved = at[MOVED] != NO_PLACE ? of_unknown(one, at[MOVED]) : (wt_interval){0};
+        member->moved =
+            at[MOVED] != NO_INDEX ? unknown_interval(shared, at[MOVED]) : (wt_interval){0};
     }
 }
 
-double common_chance(const law_samples *c, const solution one[LAW_SPREADS],
-                     const solution own[LAW_SPREADS])
+double shared_law_p_value(const law_samples *c, const solution shared[LAW_SPREADS],
+                          const solution separate[LAW_SPREADS])
 {
     const double freedom =
-        (double)(common_model(c, true).n_unknowns - common_model(c, false).n_unknowns);
+        (double)(shared_law_model(c, true).n_unknowns - shared_law_model(c, false).n_unknowns);
     double p = 0.0;
     for (size_t i = 0; i < LAW_SPREADS; i++)
-        if (own[i].weight > 0.0 && one[i].good)
-            p += own[i].weight *
-                 gsl_cdf_chisq_Q(fmax(one[i].chi_square - own[i].chi_square, 0.0), freedom);
+        if (separate[i].weight > 0.0 && shared[i].good)
+            p += separate[i].weight *
+                 gsl_cdf_chisq_Q(fmax(shared[i].chi_square - separate[i].chi_square, 0.0), freedom);
     return p;
 }

@@ -5,9 +5,10 @@
 
 /* A shift with a larger error is not determined [decade]. Its 95 % interval is most of a decade,
  * as wide as a step of 5 to 10 K between isotherms. */
-const double master_largest_sigma = 0.2;
+const double master_max_shift_error = 0.2;
 
-wt_status master_links(const master_work *work, bool physical, overlap_link *link, wt_error *err)
+wt_status master_overlap_edges(const master_work *work, bool physical, overlap_edge *edge,
+                               wt_error *err)
 {
     const size_t n = work->set.n;
     arena memory = {0};
@@ -18,14 +19,15 @@ wt_status master_links(const master_work *work, bool physical, overlap_link *lin
         rubber[i] = work->physical[i] - work->physical[work->anchor];
     if (status == WT_OK)
         status = overlap_chain(&work->set, work->anchor, physical ? rubber : none,
-                               physical ? none : rubber, link, err);
+                               physical ? none : rubber, edge, err);
     arena_free(&memory);
     return status;
 }
 
 /* Uses the vertical shift of rubber elasticity if requested, otherwise none. E' alone does not
  * separate it from the horizontal shift, and a glass has none. */
-wt_status master_overlaps(master_work *work, wt_error *err)
+wt_status master_find_overlaps(master_work *work, wt_error *err)
 {
-    return master_links(work, work->options.vertical == WT_VERTICAL_PHYSICAL, work->link, err);
+    return master_overlap_edges(work, work->options.vertical == WT_VERTICAL_PHYSICAL, work->edge,
+                                err);
 }

@@ -16,11 +16,11 @@
 
 /* Half width of the Cauchy prior of the temperature error [K]: the tolerance of a class B
  * platinum thermometer at 0 degC (IEC 60751). */
-const double law_believed = 0.3;
+const double law_temperature_tolerance = 0.3;
 /* Additional prior weight of the smallest temperature error, a fifth of all, because a program
  * may be very stable. It is chosen. Without it the errors of stable sweeps are too wide; twice
  * as much ignores scatter as large as the noise too often. */
-static const double steady = 0.15;
+static const double zero_spread_weight = 0.15;
 /* Minimum number of isotherms for that weight. With n - 3 degrees of freedom scatter as large as
  * the noise appears absent (chi^2 below half its mean) with probability 0.39 for five, 0.26 for
  * seven. */
@@ -35,7 +35,7 @@ double law_spread(size_t i)
 
 /* ---- the laws -------------------------------------------------------------------------------- */
 
-static bool has_wlf(const law_shape *shape)
+static bool law_has_wlf(const law_shape *shape)
 {
     return shape->kind != WT_LAW_ARRHENIUS;
 }
@@ -43,24 +43,26 @@ static bool has_wlf(const law_shape *shape)
 size_t law_unknowns(const law_shape *shape)
 {
     static const size_t count[] = {
-        [WT_LAW_WLF] = 3, [WT_LAW_ARRHENIUS] = 2, [WT_LAW_JOINED] = 4}; /* number of unknowns */
-    return count[shape->kind] + (shape->odd >= 0 ? 1 : 0);
+        [WT_LAW_WLF] = 3, [WT_LAW_ARRHENIUS] = 2, [WT_LAW_WLF_ARRHENIUS] = 4}; /* number of unknowns
+                                                                                */
+    return count[shape->kind] + (shape->outlier >= 0 ? 1 : 0);
 }
 
-size_t law_odd_index(const law_shape *shape)
+size_t law_outlier_index(const law_shape *shape)
 {
-    if (shape->odd < 0)
-        return LAW_MOST;
-    return shape->kind == WT_LAW_JOINED ? 3 : 2;
+    if (shape->outlier < 0)
+        return LAW_MAX_UNKNOWNS;
+    return shape->kind == WT_LAW_WLF_ARRHENIUS ? 3 : 2;
 }
 
 size_t law_pole_index(const law_shape *shape)
 {
-    return has_wlf(shape) ? law_unknowns(shape) - 1 : LAW_MOST;
+    return law_has_wlf(shape) ? law_unknowns(shape) - 1 : LAW_MAX_UNKNOWNS;
 }
 
 /* Returns -(T - Tref)/(C2 + T - Tref) and its derivative by ln of the pole distance. */
-static double wlf_part(const law_shape *shape, double distance, double temperature, double *by_pole)
+static double wlf_factor(const law_shape *shape, double distance, double temperature,
+                         double *by_pole)
 {
     const double rise = temperature - shape->reference;
     const double sum = distance + temperature - shape->coldest;
@@ -68,64 +70,67 @@ static double wlf_part(const law_shape *shape, double distance, double temperatu
     return -rise / sum;
 }
 
-static double arrhenius_part(double reference, double temperature)
+static double arrhenius_factor(double reference, double temperature)
 {
     return (reference - temperature) / (reference * temperature) / (GAS_CONSTANT * M_LN10);
 }
 
 /* Returns the factor of the main constant and its derivative by the pole. */
-static double part_main(const law_shape *shape, double distance, double temperature,
-                        double *by_pole)
+static double main_law_factor(const law_shape *shape, double distance, double temperature,
+                              double *by_pole)
 {
     const double r = shape->reference, joint = shape->joint;
     *by_pole = 0.0;
-    if (!has_wlf(shape))
-        return arrhenius_part(r, temperature);
-    if (shape->kind != WT_LAW_JOINED)
-        return wlf_part(shape, distance, temperature, by_pole);
+    if (!law_has_wlf(shape))
+        return arrhenius_factor(r, temperature);
+    if (shape->kind != WT_LAW_WLF_ARRHENIUS)
+        return wlf_factor(shape, distance, temperature, by_pole);
     double of_reference;
-    const double part = wlf_part(shape, distance, fmax(temperature, joint), by_pole) -
-                        wlf_part(shape, distance, fmax(r, joint), &of_reference);
+    const double part = wlf_factor(shape, distance, fmax(temperature, joint), by_pole) -
+                        wlf_factor(shape, distance, fmax(r, joint), &of_reference);
     *by_pole -= of_reference;
     return part;
 }
 
 /* Returns the factor of the energy below the joint. */
-static double part_below(const law_shape *shape, double temperature)
+static double below_joint_factor(const law_shape *shape, double temperature)
 {
-    return shape->kind == WT_LAW_JOINED ? arrhenius_part(fmin(shape->reference, shape->joint),
-                                                         fmin(temperature, shape->joint))
-                                        : 0.0;
+    return shape->kind == WT_LAW_WLF_ARRHENIUS
+               ? arrhenius_factor(fmin(shape->reference, shape->joint),
+                                  fmin(temperature, shape->joint))
+               : 0.0;
 }
 
 static double pole_distance(const law_shape *shape, const double *unknown)
 {
-    return has_wlf(shape) ? exp(unknown[law_pole_index(shape)]) : 1.0;
+    return law_has_wlf(shape) ? exp(unknown[law_pole_index(shape)]) : 1.0;
 }
 
-double law_at(const law_shape *shape, const double *unknown, double temperature, double *gradient)
+double law_value(const law_shape *shape, const double *unknown, double temperature,
+                 double *gradient)
 {
     double by_pole;
-    const double main_part = part_main(shape, pole_distance(shape, unknown), temperature, &by_pole),
-                 below = part_below(shape, temperature);
-    const bool joined = shape->kind == WT_LAW_JOINED;
+    const double main_part =
+                     main_law_factor(shape, pole_distance(shape, unknown), temperature, &by_pole),
+                 below = below_joint_factor(shape, temperature);
+    const bool joined = shape->kind == WT_LAW_WLF_ARRHENIUS;
     if (gradient != NULL) {
-        for (size_t u = 0; u < LAW_MOST; u++)
+        for (size_t u = 0; u < LAW_MAX_UNKNOWNS; u++)
             gradient[u] = 0.0;
         gradient[1] = main_part;
         if (joined)
             gradient[2] = below;
-        if (has_wlf(shape))
+        if (law_has_wlf(shape))
             gradient[law_pole_index(shape)] = unknown[1] * by_pole;
     }
     return unknown[1] * main_part + (joined ? unknown[2] * below : 0.0);
 }
 
-double law_of_isotherm(const law_data *data, const law_shape *shape, const double *unknown,
-                       size_t i)
+double law_isotherm_value(const law_data *data, const law_shape *shape, const double *unknown,
+                          size_t i)
 {
-    return unknown[0] + law_at(shape, unknown, data->temperature[i], NULL) +
-           ((long)i == shape->odd ? unknown[law_odd_index(shape)] : 0.0);
+    return unknown[0] + law_value(shape, unknown, data->temperature[i], NULL) +
+           ((long)i == shape->outlier ? unknown[law_outlier_index(shape)] : 0.0);
 }
 
 wt_shift_law law_constants(const law_shape *shape, const double *unknown)
@@ -133,14 +138,14 @@ wt_shift_law law_constants(const law_shape *shape, const double *unknown)
     wt_shift_law law = {.kind = shape->kind,
                         .wlf = {shape->reference, (double)NAN, (double)NAN},
                         .activation_energy = (double)NAN,
-                        .joint = shape->kind == WT_LAW_JOINED ? shape->joint : (double)NAN};
-    if (has_wlf(shape)) {
+                        .joint = shape->kind == WT_LAW_WLF_ARRHENIUS ? shape->joint : (double)NAN};
+    if (law_has_wlf(shape)) {
         law.wlf.c1 = unknown[1];
         law.wlf.c2 = shape->reference - shape->coldest + pole_distance(shape, unknown);
     }
     if (shape->kind == WT_LAW_ARRHENIUS)
         law.activation_energy = unknown[1];
-    if (shape->kind == WT_LAW_JOINED)
+    if (shape->kind == WT_LAW_WLF_ARRHENIUS)
         law.activation_energy = unknown[2];
     return law;
 }
@@ -168,7 +173,7 @@ static void design_pole(const law_data *data, const law_shape *shape, double dis
     const size_t pole = law_pole_index(shape);
     for (size_t i = 0; i < data->n; i++) {
         double by_pole;
-        gsl_matrix_set(x, i, 1, part_main(shape, distance, data->temperature[i], &by_pole));
+        gsl_matrix_set(x, i, 1, main_law_factor(shape, distance, data->temperature[i], &by_pole));
         if (pole < x->size2)
             gsl_matrix_set(x, i, pole, main_factor * by_pole);
     }
@@ -177,13 +182,13 @@ static void design_pole(const law_data *data, const law_shape *shape, double dis
 /* Fills the columns of offset, branch below the joint and outlier. */
 static void design_fixed(const law_data *data, const law_shape *shape, gsl_matrix *x)
 {
-    const size_t odd = law_odd_index(shape);
+    const size_t outlier = law_outlier_index(shape);
     for (size_t i = 0; i < data->n; i++) {
         gsl_matrix_set(x, i, 0, 1.0);
-        if (shape->kind == WT_LAW_JOINED)
-            gsl_matrix_set(x, i, 2, part_below(shape, data->temperature[i]));
-        if (odd < LAW_MOST)
-            gsl_matrix_set(x, i, odd, (long)i == shape->odd ? 1.0 : 0.0);
+        if (shape->kind == WT_LAW_WLF_ARRHENIUS)
+            gsl_matrix_set(x, i, 2, below_joint_factor(shape, data->temperature[i]));
+        if (outlier < LAW_MAX_UNKNOWNS)
+            gsl_matrix_set(x, i, outlier, (long)i == shape->outlier ? 1.0 : 0.0);
     }
 }
 
@@ -204,12 +209,12 @@ struct gls {
 };
 
 /* Whitens the columns that depend on the pole, or the others. */
-static void whiten_columns(const struct gls *g, gsl_matrix *x, bool of_pole)
+static void whiten_columns(const struct gls *g, gsl_matrix *x, bool pole_columns)
 {
     for (size_t u = 0; u < x->size2; u++) {
         gsl_vector_view column = gsl_matrix_column(x, u),
                         copy = gsl_vector_view_array(g->copy, x->size1);
-        if ((u == 1 || u == law_pole_index(g->shape)) != of_pole)
+        if ((u == 1 || u == law_pole_index(g->shape)) != pole_columns)
             continue;
         gsl_vector_memcpy(&copy.vector, &column.vector);
         dense_forward(g->root, g->copy);
@@ -236,9 +241,9 @@ static struct gls gls_new(const law_data *data, const law_shape *shape, const gs
 
 /* Returns a view of the covariance of the first unknowns; solve_at_pole() leaves a factor of its
  * inverse there. */
-static gsl_matrix_view covariance_of(law_fit *fit, size_t used)
+static gsl_matrix_view fit_covariance(law_fit *fit, size_t used)
 {
-    return gsl_matrix_view_array_with_tda(&fit->covariance[0][0], used, used, LAW_MOST);
+    return gsl_matrix_view_array_with_tda(&fit->covariance[0][0], used, used, LAW_MAX_UNKNOWNS);
 }
 
 /* Solves the least squares for a pole distance with `used` columns. Returns false if they are
@@ -247,7 +252,7 @@ static bool solve_at_pole(struct gls *g, double distance, double main_factor, si
                           law_fit *fit)
 {
     gsl_matrix_view x = gsl_matrix_submatrix(&g->x.matrix, 0, 0, g->data->n, used);
-    gsl_matrix_view cross = covariance_of(fit, used);
+    gsl_matrix_view cross = fit_covariance(fit, used);
     gsl_vector_view right = gsl_vector_view_array(fit->unknown, used);
     design_pole(g->data, g->shape, distance, main_factor, &x.matrix);
     whiten_columns(g, &x.matrix, true);
@@ -268,7 +273,7 @@ static bool solve_at_pole(struct gls *g, double distance, double main_factor, si
     return true;
 }
 
-static double chi_square_at(struct gls *g, double log_distance, law_fit *fit)
+static double pole_chi_square(struct gls *g, double log_distance, law_fit *fit)
 {
     const bool good = solve_at_pole(g, exp(log_distance), 1.0, law_unknowns(g->shape) - 1, fit);
     /* a law that rises with temperature is invalid */
@@ -276,12 +281,12 @@ static double chi_square_at(struct gls *g, double log_distance, law_fit *fit)
 }
 
 /* Finds the best ln of the pole distance by a scan and bisection. */
-static double best_pole(struct gls *g, law_fit *fit)
+static double fit_pole(struct gls *g, law_fit *fit)
 {
     const double nearest = log(POLE_NEAREST), farthest = log(POLE_FARTHEST);
     double step = (farthest - nearest) / POLE_GRID, best = HUGE_VAL, at = farthest;
     for (int i = 0; i <= POLE_GRID; i++) {
-        const double p = nearest + i * step, chi = chi_square_at(g, p, fit);
+        const double p = nearest + i * step, chi = pole_chi_square(g, p, fit);
         if (chi < best) {
             best = chi;
             at = p;
@@ -290,7 +295,7 @@ static double best_pole(struct gls *g, law_fit *fit)
     for (; step > 1e-5; step *= 0.5)
         for (int side = -1; side <= 1; side += 2) {
             const double p = fmax(nearest, fmin(farthest, at + 0.5 * side * step));
-            const double chi = chi_square_at(g, p, fit);
+            const double chi = pole_chi_square(g, p, fit);
             if (chi < best) {
                 best = chi;
                 at = p;
@@ -300,18 +305,18 @@ static double best_pole(struct gls *g, law_fit *fit)
     return at;
 }
 
-wt_status law_fit_with(const law_data *data, const law_shape *shape, const gsl_matrix *root,
-                       law_fit *fit, wt_error *err)
+wt_status law_fit_gls(const law_data *data, const law_shape *shape, const gsl_matrix *root,
+                      law_fit *fit, wt_error *err)
 {
     struct gls g = gls_new(data, shape, root);
     const size_t k = law_unknowns(shape), pole = law_pole_index(shape);
     *fit = (law_fit){.n_unknowns = k};
     bool good;
-    if (pole == LAW_MOST) {
+    if (pole == LAW_MAX_UNKNOWNS) {
         good = solve_at_pole(&g, 1.0, 1.0, k, fit);
     } else {
-        const double p = best_pole(&g, fit);
-        good = chi_square_at(&g, p, fit) < HUGE_VAL;
+        const double p = fit_pole(&g, fit);
+        good = pole_chi_square(&g, p, fit) < HUGE_VAL;
         const law_fit linear = *fit;
         good = good && solve_at_pole(&g, exp(p), linear.unknown[1], k, fit);
         memcpy(fit->unknown, linear.unknown, sizeof linear.unknown);
@@ -323,9 +328,9 @@ wt_status law_fit_with(const law_data *data, const law_shape *shape, const gsl_m
         wt_error_advice(err, "are the temperatures those of the isotherms?");
         return WT_E_RANGE;
     }
-    gsl_matrix_view covariance = covariance_of(fit, k);
+    gsl_matrix_view covariance = fit_covariance(fit, k);
     gsl_linalg_cholesky_invert(&covariance.matrix);
-    if (pole < LAW_MOST && !(fit->covariance[pole][pole] < POLE_ERROR * POLE_ERROR))
+    if (pole < LAW_MAX_UNKNOWNS && !(fit->covariance[pole][pole] < POLE_ERROR * POLE_ERROR))
         fit->chi_square = HUGE_VAL;
     for (size_t i = 0; i < data->n; i++)
         fit->log_det += 2.0 * log(gsl_matrix_get(root, i, i));
@@ -340,5 +345,7 @@ double law_reml(const law_fit *fit)
 double law_spread_prior(const law_data *data, double spread)
 {
     const bool none = data->n >= LEAST_STEADY && !(spread > law_spread(0));
-    return spread / (1.0 + spread * spread / (law_believed * law_believed)) + (none ? steady : 0.0);
+    return spread /
+               (1.0 + spread * spread / (law_temperature_tolerance * law_temperature_tolerance)) +
+           (none ? zero_spread_weight : 0.0);
 }

@@ -12,10 +12,10 @@
 
 /* An isotherm is an outlier if a separate shift improves -2 ln likelihood by more than this.
  * chi^2 with one degree of freedom exceeds 20 with probability 8e-6. */
-static const double odd_gain = 20.0;
+static const double outlier_gain = 20.0;
 /* Minimum number of isotherms for an outlier: offset, two constants, scatter, its shift, and one
  * degree of freedom. */
-enum { LEAST_ODD = 6 };
+enum { LEAST_OUTLIER = 6 };
 /* From seven isotherms on the small-sample term of Akaike is 40 or less. For six it is 40 for
  * WLF and 12 for Arrhenius, a difference that no curvature of a rubber justifies. Fewer
  * isotherms use the mean likelihood over the temperature errors. */
@@ -27,7 +27,7 @@ enum { LEAST_JOINED = 8 };
 enum { JOINTS = 24 };
 /* Share of the limit from which an isotherm is tested as an outlier. The linearised law
  * underestimates the gain. It only limits the time. */
-static const double odd_tried = 0.25;
+static const double outlier_trial_share = 0.25;
 
 struct search {
     law_data *data;
@@ -39,7 +39,7 @@ struct search {
 };
 
 /* Factors the covariances for the present slopes. */
-static wt_status make_roots(struct search *search, wt_error *err)
+static wt_status factor_spreads(struct search *search, wt_error *err)
 {
     const size_t n = search->data->n;
     wt_status status = WT_OK;
@@ -62,7 +62,7 @@ static wt_status law_likelihoods(const struct search *search, const law_shape *s
     *largest = HUGE_VAL;
     for (size_t i = 0; i < LAW_SPREADS; i++) {
         law_fit fit;
-        const wt_status status = law_fit_with(data, shape, search->root[i], &fit, err);
+        const wt_status status = law_fit_gls(data, shape, search->root[i], &fit, err);
         if (status != WT_OK)
             return status;
         value[i] = fit.chi_square + fit.log_det;
@@ -82,20 +82,20 @@ static double law_criterion(const law_data *data, const law_shape *shape, double
                             double mean)
 {
     /* offset, constants and spread; the outlier counts equally for all laws */
-    const double n = (double)data->n,
-                 k = (double)law_unknowns(shape) + 1.0 + (shape->kind == WT_LAW_JOINED ? 1.0 : 0.0);
+    const double n = (double)data->n, k = (double)law_unknowns(shape) + 1.0 +
+                                          (shape->kind == WT_LAW_WLF_ARRHENIUS ? 1.0 : 0.0);
     if (data->n < LEAST_CORRECTED)
         return mean + 2.0 * k;
     return n > k + 1.0 ? largest + 2.0 * k + 2.0 * k * (k + 1.0) / (n - k - 1.0) : HUGE_VAL;
 }
 
 /* Tests one law. *better: true if it is the best so far. */
-static wt_status consider_law(struct search *search, law_shape shape, bool *better, wt_error *err)
+static wt_status try_law(struct search *search, law_shape shape, bool *is_best, wt_error *err)
 {
     double largest, mean;
     wt_error failure = WT_ERROR_INIT;
     const wt_status status = law_likelihoods(search, &shape, &largest, &mean, &failure);
-    *better = false;
+    *is_best = false;
     if (status == WT_E_MEMORY || status == WT_E_INTERNAL) {
         if (err != NULL)
             *err = failure;
@@ -104,7 +104,7 @@ static wt_status consider_law(struct search *search, law_shape shape, bool *bett
     const double s =
         status == WT_OK ? law_criterion(search->data, &shape, largest, mean) : HUGE_VAL;
     if (s < search->best) {
-        *better = true;
+        *is_best = true;
         search->best = s;
         search->largest = largest;
         search->chosen = shape;
@@ -114,47 +114,47 @@ static wt_status consider_law(struct search *search, law_shape shape, bool *bett
 
 /* Tests the joints from `first` to before `end`. *best: the best one, if it improves on all
  * before. */
-static wt_status consider_joints(struct search *search, law_shape shape, size_t first, size_t end,
-                                 size_t step, size_t *best, wt_error *err)
+static wt_status try_joints(struct search *search, law_shape shape, size_t first, size_t end,
+                            size_t step, size_t *best, wt_error *err)
 {
     const law_data *data = search->data;
     wt_status status = WT_OK;
-    shape.kind = WT_LAW_JOINED;
+    shape.kind = WT_LAW_WLF_ARRHENIUS;
     for (size_t i = first; status == WT_OK && i < end; i += step) {
-        bool better = false;
+        bool is_best = false;
         shape.joint = data->temperature[i];
         shape.coldest = fmin(shape.joint, shape.reference);
         if (data->temperature[i] > data->temperature[0])
-            status = consider_law(search, shape, &better, err);
-        if (better)
+            status = try_law(search, shape, &is_best, err);
+        if (is_best)
             *best = i;
     }
     return status;
 }
 
-static wt_status consider_all(struct search *search, const law_shape *start, wt_error *err)
+static wt_status try_all_laws(struct search *search, const law_shape *start, wt_error *err)
 {
     const size_t n = search->data->n, step = 1 + n / JOINTS;
-    bool better;
+    bool is_best;
     size_t joint = 0;
     law_shape shape = *start;
     shape.kind = WT_LAW_ARRHENIUS;
-    wt_status status = consider_law(search, shape, &better, err);
+    wt_status status = try_law(search, shape, &is_best, err);
     shape.kind = WT_LAW_WLF;
-    if (status == WT_OK && n >= LAW_LEAST_TOLD)
-        status = consider_law(search, shape, &better, err);
+    if (status == WT_OK && n >= LAW_MIN_ISOTHERMS)
+        status = try_law(search, shape, &is_best, err);
     if (status == WT_OK && n >= LEAST_JOINED)
-        status = consider_joints(search, shape, 2, n - 3, step, &joint, err);
+        status = try_joints(search, shape, 2, n - 3, step, &joint, err);
     if (status == WT_OK && joint > 0 && step > 1)
-        status = consider_joints(search, shape, joint > step + 1 ? joint - step + 1 : 2,
-                                 joint + step < n - 3 ? joint + step : n - 3, 1, &joint, err);
+        status = try_joints(search, shape, joint > step + 1 ? joint - step + 1 : 2,
+                            joint + step < n - 3 ? joint + step : n - 3, 1, &joint, err);
     return status;
 }
 
 /* Computes the decrease of -2 ln likelihood by a separate shift of each isotherm, for the
  * linearised law. */
-static wt_status odd_gains(struct search *search, const law_shape *shape, double *gain,
-                           wt_error *err)
+static wt_status outlier_gains(struct search *search, const law_shape *shape, double *gain,
+                               wt_error *err)
 {
     const law_data *data = search->data;
     const size_t n = data->n, k = law_unknowns(shape);
@@ -166,13 +166,14 @@ static wt_status odd_gains(struct search *search, const law_shape *shape, double
     wt_status status = m->failed ? wt_fail(err, WT_E_MEMORY, "no memory for the law") : WT_OK;
     for (size_t i = 0; status == WT_OK && i < LAW_SPREADS; i++) {
         law_fit fit;
-        status = law_fit_with(data, shape, search->root[i], &fit, err);
+        status = law_fit_gls(data, shape, search->root[i], &fit, err);
         if (status != WT_OK)
             break;
         least[i] = fit.chi_square + fit.log_det - search->largest;
         law_design(data, shape, fit.unknown, x);
         for (size_t p = 0; p < n; p++)
-            gsl_vector_set(gap, p, data->log_a[p] - law_of_isotherm(data, shape, fit.unknown, p));
+            gsl_vector_set(gap, p,
+                           data->log_a[p] - law_isotherm_value(data, shape, fit.unknown, p));
         dense_inverse(search->root[i], scratch, inverse);
         gsl_blas_dgemv(CblasNoTrans, 1.0, inverse, gap, 0.0, pull);
         gsl_blas_dgemm(CblasNoTrans, CblasNoTrans, 1.0, inverse, x, 0.0, mx);
@@ -190,30 +191,31 @@ static wt_status odd_gains(struct search *search, const law_shape *shape, double
 }
 
 /* Searches the isotherm that does not belong to the law. */
-static wt_status find_odd(struct search *search, wt_error *err)
+static wt_status find_outlier_isotherm(struct search *search, wt_error *err)
 {
     const struct search plain = *search;
     const size_t n = search->data->n;
     double *gain = arena_numbers(&search->memory, n);
-    wt_status status =
-        gain == NULL ? wt_fail(err, WT_E_MEMORY, "no memory for the law") : make_roots(search, err);
+    wt_status status = gain == NULL ? wt_fail(err, WT_E_MEMORY, "no memory for the law")
+                                    : factor_spreads(search, err);
     if (status == WT_OK)
-        status = odd_gains(search, &plain.chosen, gain, err);
+        status = outlier_gains(search, &plain.chosen, gain, err);
     if (status == WT_E_RANGE)
         return WT_OK; /* for some temperature error the law does not fall, so it defines no outlier
                        */
     for (size_t i = 0; status == WT_OK && i < n; i++) {
         double largest, mean;
         law_shape shape = plain.chosen;
-        shape.odd = (long)i;
-        if (gain[i] < odd_tried * odd_gain)
+        shape.outlier = (long)i;
+        if (gain[i] < outlier_trial_share * outlier_gain)
             continue;
         status = law_likelihoods(search, &shape, &largest, &mean, err);
         if (status == WT_E_RANGE) {
             status = WT_OK; /* no such law exists without this isotherm */
             continue;
         }
-        if (status == WT_OK && largest < search->largest && largest < plain.largest - odd_gain) {
+        if (status == WT_OK && largest < search->largest &&
+            largest < plain.largest - outlier_gain) {
             search->largest = largest;
             search->chosen = shape;
         }
@@ -227,14 +229,14 @@ static void set_slopes(law_data *data, const law_shape *shape, const double *unk
 {
     const double step = 0.01; /* K */
     for (size_t i = 0; i < data->n; i++)
-        data->slope[i] = (law_at(shape, unknown, data->temperature[i] + step, NULL) -
-                          law_at(shape, unknown, data->temperature[i] - step, NULL)) /
+        data->slope[i] = (law_value(shape, unknown, data->temperature[i] + step, NULL) -
+                          law_value(shape, unknown, data->temperature[i] - step, NULL)) /
                          (2.0 * step);
 }
 
 /* Selects the law, first with the slopes of a WLF law, then with those of the selected one. */
-static wt_status choose_law(struct search *search, const law_shape *start, gsl_matrix *root,
-                            wt_error *err)
+static wt_status iterate_law_selection(struct search *search, const law_shape *start,
+                                       gsl_matrix *root, wt_error *err)
 {
     law_data *data = search->data;
     wt_status status = WT_OK;
@@ -243,36 +245,36 @@ static wt_status choose_law(struct search *search, const law_shape *start, gsl_m
         if (round == 2 && !(search->best < HUGE_VAL))
             break; /* with the temperature error no law falls */
         const law_shape *shape = round == 2 ? &search->chosen : start;
-        status = law_gls_covariance(data, law_believed, root, err);
+        status = law_gls_covariance(data, law_temperature_tolerance, root, err);
         if (status == WT_OK)
-            status = law_fit_with(data, shape, root, &fit, err);
+            status = law_fit_gls(data, shape, root, &fit, err);
         if (status != WT_OK)
             break;
         set_slopes(data, shape, fit.unknown);
         if (round == 1)
-            status = make_roots(search, err);
+            status = factor_spreads(search, err);
         if (round == 1 && status == WT_OK)
-            status = consider_all(search, start, err);
+            status = try_all_laws(search, start, err);
     }
     if (status == WT_OK && !(search->best < HUGE_VAL))
         status = wt_fail(err, WT_E_RANGE, "no law describes the shift factors");
     return status;
 }
 
-wt_status law_choose(law_data *data, double reference, gsl_matrix *root, law_shape *chosen,
+wt_status law_select(law_data *data, double reference, gsl_matrix *root, law_shape *chosen,
                      wt_error *err)
 {
     struct search search = {.data = data, .best = HUGE_VAL, .largest = HUGE_VAL};
-    const law_shape start = {.kind = data->n >= LAW_LEAST_TOLD ? WT_LAW_WLF : WT_LAW_ARRHENIUS,
+    const law_shape start = {.kind = data->n >= LAW_MIN_ISOTHERMS ? WT_LAW_WLF : WT_LAW_ARRHENIUS,
                              .reference = reference,
-                             .odd = -1,
+                             .outlier = -1,
                              .coldest = fmin(data->temperature[0], reference)};
     gsl_quiet();
     for (size_t i = 0; i < data->n; i++)
         data->slope[i] = 0.1;
-    wt_status status = choose_law(&search, &start, root, err);
-    if (status == WT_OK && data->n >= LEAST_ODD)
-        status = find_odd(&search, err);
+    wt_status status = iterate_law_selection(&search, &start, root, err);
+    if (status == WT_OK && data->n >= LEAST_OUTLIER)
+        status = find_outlier_isotherm(&search, err);
     arena_free(&search.memory);
     *chosen = search.chosen;
     return status;

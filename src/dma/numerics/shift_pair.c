@@ -33,8 +33,8 @@ struct overlap {
 
 /* Adds the gaps y_onto(x + a) - y_from(x) times `sign` for the points of `from` within `onto`.
  * Both abscissas rise, so one pass over `onto` suffices. */
-static void add_gaps(const shift_curve *onto, const shift_curve *from, const bool *used, double a,
-                     double sign, double pivot, struct overlap *sum)
+static void add_pair_gaps(const shift_curve *onto, const shift_curve *from, const bool *used,
+                          double a, double sign, double pivot, struct overlap *sum)
 {
     size_t k = 0;
     for (size_t i = 0; i < from->n; i++) {
@@ -59,11 +59,11 @@ static void add_gaps(const shift_curve *onto, const shift_curve *from, const boo
     }
 }
 
-static struct overlap overlap_at(const struct pair *pair, double a)
+static struct overlap overlap_sums(const struct pair *pair, double a)
 {
     struct overlap sum = {0};
-    add_gaps(pair->p, pair->s, pair->used, a, 1.0, pair->fixed_b, &sum);
-    add_gaps(pair->s, pair->p, pair->used, -a, -1.0, pair->fixed_b, &sum);
+    add_pair_gaps(pair->p, pair->s, pair->used, a, 1.0, pair->fixed_b, &sum);
+    add_pair_gaps(pair->s, pair->p, pair->used, -a, -1.0, pair->fixed_b, &sum);
     return sum;
 }
 
@@ -78,7 +78,7 @@ static double mean_square(const struct pair *pair, const struct overlap *sum, do
 
 /* Returns the log likelihood relative to residuals of `indifferent_residual` at all points;
  * smaller is better. The plain mean square would prefer a chance match of a few end points. */
-static double cost_of(const struct overlap *sum, double square)
+static double pair_cost(const struct overlap *sum, double square)
 {
     const double n = (double)(sum->n[STORAGE] + sum->n[LOSS]);
     return n * log((square + equal_residual * equal_residual) /
@@ -100,7 +100,7 @@ static bool ordinates_overlap(const struct pair *pair)
 }
 
 /* Returns true if enough points lie on the other curve. */
-static bool overlap_suffices(const struct pair *pair, const struct overlap *sum)
+static bool has_enough_overlap(const struct pair *pair, const struct overlap *sum)
 {
     bool enough = true;
     for (int q = 0; q < MODULI; q++)
@@ -119,12 +119,12 @@ bool shift_pair_fit(const shift_set *set, size_t onto, size_t from, bool free_b,
     const double step = (highest - lowest) / GRID;
     double best_cost = HUGE_VAL, least_square = HUGE_VAL, closest = 0.0, b_closest = 0.0;
     for (int g = 1; g < GRID; g++) {
-        const struct overlap sum = overlap_at(&pair, lowest + g * step);
-        if (!overlap_suffices(&pair, &sum))
+        const struct overlap sum = overlap_sums(&pair, lowest + g * step);
+        if (!has_enough_overlap(&pair, &sum))
             continue;
         double vertical;
         const double square = mean_square(&pair, &sum, &vertical);
-        const double cost = cost_of(&sum, square);
+        const double cost = pair_cost(&sum, square);
         if (cost < best_cost) {
             best_cost = cost;
             *a = lowest + g * step;

@@ -26,17 +26,17 @@ typedef struct spectrum_prior {
 
 /* Maximum number of smooth components (vertical_shift.c). It is exact to rounding over a range
  * of a thousand kelvin. */
-enum { SPECTRUM_MOST_SMOOTH = 64 };
+enum { SPECTRUM_MAX_SMOOTH = 64 };
 
 /* Prior of the second differences beyond an end of the measured range. */
-typedef struct spectrum_beyond {
+typedef struct spectrum_extrapolation {
     double weight[3], mean, precision;
-} spectrum_beyond;
+} spectrum_extrapolation;
 
 /* Retardation times of a spectrum (spectrum_step.c), cached while its terms are unchanged. */
 typedef struct spectrum_modes {
     bool known;
-    double *of;             /* [n_linear] terms of the cached values */
+    double *terms;          /* [n_linear] terms of the cached values */
     double instantaneous;   /* instantaneous modulus */
     size_t n;               /* relevant terms, slow ones first */
     size_t *index;          /* [n] index of the term */
@@ -83,14 +83,14 @@ typedef struct spectrum {
 
     /* noise and smoothness */
     double noise[MODULI];
-    double *kappa;               /* [n_curves] noise factor of an isotherm */
-    double *spread[MODULI];      /* [n] noise factor of a point */
-    double *bend;                /* [n_terms] weight of a second difference */
-    size_t bend_first, bend_end; /* range of the second differences with the measured prior */
-    spectrum_beyond beyond[2];   /* priors on the fast and the slow side */
-    double smooth;               /* standard deviation of the second differences */
-    double smooth_move;          /* last step of ln smooth */
-    double rho;                  /* correlation of neighbouring points */
+    double *kappa;                    /* [n_curves] noise factor of an isotherm */
+    double *spread[MODULI];           /* [n] noise factor of a point */
+    double *bend;                     /* [n_terms] weight of a second difference */
+    size_t bend_first, bend_end;      /* range of the second differences with the measured prior */
+    spectrum_extrapolation beyond[2]; /* priors on the fast and the slow side */
+    double smooth;                    /* standard deviation of the second differences */
+    double smooth_move;               /* last step of ln smooth */
+    double rho;                       /* correlation of neighbouring points */
 
     bool settled;       /* the last fit converged */
     size_t evaluations; /* number of evaluations so far */
@@ -101,10 +101,10 @@ typedef struct spectrum {
     /* Border: terms, then one unknown for each column of prior->smooth, with 1 on the diagonal
      * and -P S at the side. Eliminating these gives the equations with the prior. Blocks: a and
      * b. */
-    bordered normal[MODULI]; /* J'J of the rows of a modulus */
-    bordered precision;      /* normal / noise^2 + priors */
-    bordered factor;         /* Cholesky factor of the precision */
-    bordered covariance;     /* elements of the inverse at the non-zero positions */
+    bordered_matrix normal[MODULI]; /* J'J of the rows of a modulus */
+    bordered_matrix precision;      /* normal / noise^2 + priors */
+    bordered_matrix factor;         /* Cholesky factor of the precision */
+    bordered_matrix covariance;     /* elements of the inverse at the non-zero positions */
     gsl_matrix *scratch;
     double *border, *side; /* scratch of a solve */
     gsl_vector *gradient;
@@ -114,9 +114,9 @@ typedef struct spectrum {
     double criterion;       /* -2 ln evidence */
     double freedom[MODULI]; /* effective number of parameters of a modulus */
 
-    double *term;        /* [n_linear] */
-    double *copy;        /* [n] scratch */
-    double *was[MODULI]; /* [n] previous weights */
+    double *term;                    /* [n_linear] */
+    double *copy;                    /* [n] scratch */
+    double *previous_weight[MODULI]; /* [n] previous weights */
     gsl_vector *direction;
     double *trial;
 } spectrum;
@@ -131,20 +131,21 @@ void spectrum_free(spectrum *s);
 void spectrum_set_prior(spectrum *s, const spectrum_prior *prior);
 double spectrum_a(const spectrum *s, size_t curve);
 double spectrum_b(const spectrum *s, size_t curve);
-double spectrum_b_of(const spectrum *s, const double *value, size_t curve);
+double spectrum_trial_b(const spectrum *s, const double *value, size_t curve);
 
 /* Computes ln E' and ln E'' at x and their derivatives; slope: by x. gradient [n_linear]: by ln
  * of the terms, or NULL. */
-void spectrum_at(const spectrum *s, const double *term, double x, double log_modulus[MODULI],
-                 double slope[MODULI], double *const gradient[MODULI]);
-/* Variant of `spectrum_at` for the measured quantity: the step response in STORAGE, with LOSS 0. */
-void spectrum_measured_at(const spectrum *s, const double *term, double x,
-                          double log_modulus[MODULI], double slope[MODULI],
-                          double *const gradient[MODULI]);
+void spectrum_moduli(const spectrum *s, const double *term, double x, double log_modulus[MODULI],
+                     double slope[MODULI], double *const gradient[MODULI]);
+/* Variant of `spectrum_moduli` for the measured quantity: the step response in STORAGE, with LOSS
+ * 0. */
+void spectrum_measured_moduli(const spectrum *s, const double *term, double x,
+                              double log_modulus[MODULI], double slope[MODULI],
+                              double *const gradient[MODULI]);
 /* spectrum_step.c: computes ln E(t) or ln 1/J(t) at x = -ln t, depending on `loading`, and its
  * slope by x. Unless NULL, gradient gets the derivatives by ln of the terms [n_linear]. */
-void spectrum_step_at(const spectrum *s, const double *term, double x, double *log_modulus,
-                      double *slope, double *gradient);
+void spectrum_step_response(const spectrum *s, const double *term, double x, double *log_modulus,
+                            double *slope, double *gradient);
 void spectrum_modes_new(spectrum *s);
 void spectrum_terms(const spectrum *s, const double *value, double *term); /* [n_linear] */
 
@@ -167,12 +168,12 @@ double spectrum_squares(const spectrum *s, int q); /* sum of squares of the whit
 /* ---- spectrum_extrapolation.c */
 /* Extension of the terms beyond the measured range [decade]. */
 extern const double spectrum_fast_margin, spectrum_slow_margin;
-void spectrum_set_bends(spectrum *s);
+void spectrum_set_extrapolation(spectrum *s);
 /* The slow end of a spectrum is unknown. It has equal probability at SPECTRUM_ENDS positions
- * from the first decade beyond the measured range on. The terms from spectrum_end() on belong to
- * the equilibrium modulus. */
+ * from the first decade beyond the measured range on. The terms from spectrum_end_term() on belong
+ * to the equilibrium modulus. */
 enum { SPECTRUM_ENDS = 6 };
-size_t spectrum_end(const spectrum *s, size_t place);
+size_t spectrum_end_term(const spectrum *s, size_t place);
 
 /* ---- spectrum_prior.c */
 /* Assembles precision and gradient for the present noise and smoothness. */
@@ -186,16 +187,16 @@ double spectrum_prior_log_det(const spectrum *s);
 
 /* ---- spectrum_fit.c: Levenberg-Marquardt with noise and smoothness by Fellner-Schall */
 typedef enum spectrum_mode {
-    SPECTRUM_NOISE,  /* noise and smoothness are estimated */
-    SPECTRUM_ROUGH,  /* the same with an accuracy that suffices to find outliers */
-    SPECTRUM_ROBUST, /* the same with the weights of a Student distribution */
-    SPECTRUM_HELD,   /* noise and smoothness are fixed */
-    SPECTRUM_TRIAL   /* the same with an accuracy that suffices to compare the noise */
+    SPECTRUM_NOISE,       /* noise and smoothness are estimated */
+    SPECTRUM_ROUGH,       /* the same with an accuracy that suffices to find outliers */
+    SPECTRUM_ROBUST,      /* the same with the weights of a Student distribution */
+    SPECTRUM_FIXED_NOISE, /* noise and smoothness are fixed */
+    SPECTRUM_TRIAL        /* the same with an accuracy that suffices to compare the noise */
 } spectrum_mode;
 wt_status spectrum_fit(spectrum *s, spectrum_mode mode, wt_error *err) WT_NODISCARD;
 /* Gain of -2 ln likelihood at which a fit ends. Its root is the remaining step in standard
  * errors, 3 %. */
-#define SPECTRUM_LEAST_GAIN 1e-3
+#define SPECTRUM_MIN_GAIN 1e-3
 /* Returns the largest change of any unknown by one more Newton step, in standard errors, after a
  * fit. */
 double spectrum_step_left(const spectrum *s);
@@ -208,13 +209,13 @@ void spectrum_criterion(spectrum *s);
 void spectrum_student_weights(spectrum *s);
 /* Updates the weights of the second differences from their neighbourhood, because a transition
  * is more curved than a plateau. Beyond the slow end no weight exceeds 1. */
-void spectrum_bends(spectrum *s);
+void spectrum_update_curvature(spectrum *s);
 /* Excludes outliers and restores points that are none. Returns the number of changes. */
 size_t spectrum_outliers(spectrum *s);
 
 /* Prior weight of equal noise factors, in points: half of the 16 values of an isotherm with
  * eight frequencies. Chosen; a factor of five in the noise is found with 4 and with 16, too. */
-#define SPECTRUM_KAPPA_BELIEF 8.0
+#define SPECTRUM_KAPPA_PRIOR_POINTS 8.0
 
 /* ---- spectrum_correlation.c */
 /* Chooses the correlation along the isotherms by the criterion. */
@@ -222,19 +223,20 @@ wt_status spectrum_choose_rho(spectrum *s, wt_error *err) WT_NODISCARD;
 /* Noise about a separate polynomial of each isotherm, so that a misfit of the spectrum does not
  * count as noise. */
 enum { SPECTRUM_SHAPES = 2 };
-typedef struct spectrum_within {
+typedef struct spectrum_isotherm_noise {
     double rho;
     double
         shape[SPECTRUM_SHAPES]; /* line and parabola of ln noise along an isotherm, from -1 to 1 */
     double uncertainty;         /* variance of ln of the noise variance at low frequency */
-} spectrum_within;
+} spectrum_isotherm_noise;
 /* Sets the noise factors of the isotherms only. */
-wt_status spectrum_noise_within(spectrum *s, spectrum_within *within, wt_error *err) WT_NODISCARD;
+wt_status spectrum_estimate_noise(spectrum *s, spectrum_isotherm_noise *within,
+                                  wt_error *err) WT_NODISCARD;
 /* Computes the rms residual of each modulus [ln], and the rms residual about a polynomial of
  * each isotherm, for independent points. */
-wt_status spectrum_misses(spectrum *s, double all[MODULI], double within[MODULI],
-                          wt_error *err) WT_NODISCARD;
+wt_status spectrum_measure_misfit(spectrum *s, double all[MODULI], double within[MODULI],
+                                  wt_error *err) WT_NODISCARD;
 /* Sets the noise factors of the points from their isotherm and their position on it. */
-void spectrum_spread(spectrum *s, const double shape[SPECTRUM_SHAPES]);
+void spectrum_set_point_noise(spectrum *s, const double shape[SPECTRUM_SHAPES]);
 
 #endif

@@ -45,13 +45,14 @@ enum { LEAST_LEFT = 3 };
  * half of it treats real correlation of few points as chance. Twice as much makes noise of a
  * second process. */
 enum { CORRELATIONS = 15 };
-static const double correlation_first = -0.36, correlation_step = 0.18, correlation_believed = 0.3;
+static const double correlation_first = -0.36, correlation_step = 0.18,
+                    correlation_prior_width = 0.3;
 /* Shape of ln noise along all isotherms: a line and a parabola in the position from -1 to 1. The
  * prior width is a factor 2.2 from one end to the other. Chosen: the standard error of a slope
  * is 0.2 with 30 values, so a whole sweep overrules it. The rounds suffice because the shapes
  * are nearly independent. */
 enum { SHAPES = SPECTRUM_SHAPES, NOISE_ROUNDS = 4 };
-static const double shape_believed = 0.4;
+static const double shape_prior_width = 0.4;
 
 struct within {
     double squares, freedom, log_det;
@@ -66,14 +67,15 @@ struct noise_work {
 };
 
 /* Returns the position of a point on its isotherm, -1 to 1. */
-static double place_on_isotherm(const spectrum *s, size_t curve, size_t k)
+static double isotherm_position(const spectrum *s, size_t curve, size_t k)
 {
     const double from = s->x[s->first[curve]], to = s->x[s->first[curve + 1] - 1];
     return to > from ? (2.0 * s->x[k] - from - to) / (to - from) : 0.0;
 }
 
 /* Fits the polynomial of a curve in a modulus; fills rest and left. */
-static struct within residual_within(const spectrum *s, size_t curve, int q, struct noise_work *w)
+static struct within fit_isotherm_polynomial(const spectrum *s, size_t curve, int q,
+                                             struct noise_work *w)
 {
     const size_t from = s->first[curve], to = s->first[curve + 1];
     size_t n = LEAST_COEFFICIENTS;
@@ -86,7 +88,7 @@ static struct within residual_within(const spectrum *s, size_t curve, int q, str
         double power = spectrum_weight(s, k, q);
         sum.freedom += power > 0.0;
         v[k * width + n] = s->residual[q][k];
-        for (size_t i = 0; i < n; i++, power *= place_on_isotherm(s, curve, k))
+        for (size_t i = 0; i < n; i++, power *= isotherm_position(s, curve, k))
             v[k * width + i] = power;
     }
     if (sum.freedom < (double)LEAST_LEFT)
@@ -116,13 +118,13 @@ static struct within residual_within(const spectrum *s, size_t curve, int q, str
 }
 
 /* Returns -2 ln restricted likelihood of the polynomials, and sets the variance of each modulus. */
-static double within_all(const spectrum *s, struct noise_work *w)
+static double restricted_likelihood(const spectrum *s, struct noise_work *w)
 {
     double criterion = spectrum_log_det_correlation(s);
     for (int q = 0; q < MODULI; q++) {
         struct within sum = {0};
         for (size_t i = 0; i < s->n_curves; i++) {
-            const struct within one = residual_within(s, i, q, w);
+            const struct within one = fit_isotherm_polynomial(s, i, q, w);
             sum.squares += one.squares;
             sum.freedom += one.freedom;
             sum.log_det += one.log_det;
@@ -134,14 +136,14 @@ static double within_all(const spectrum *s, struct noise_work *w)
 }
 
 /* Sets the correlation to its posterior mean. Returns the variance of its atanh. */
-static double correlate_within(spectrum *s, struct noise_work *w)
+static double estimate_correlation(spectrum *s, struct noise_work *w)
 {
     double criterion[CORRELATIONS], least = HUGE_VAL, sum[3] = {0.0, 0.0, 0.0};
     for (int i = 0; i < CORRELATIONS; i++) {
         const double z = correlation_first + i * correlation_step;
         s->rho = tanh(z);
-        criterion[i] =
-            within_all(s, w) + 2.0 * log1p(z * z / (correlation_believed * correlation_believed));
+        criterion[i] = restricted_likelihood(s, w) +
+                       2.0 * log1p(z * z / (correlation_prior_width * correlation_prior_width));
         least = fmin(least, criterion[i]);
     }
     for (int i = 0; i < CORRELATIONS; i++) {
@@ -158,17 +160,17 @@ static double correlate_within(spectrum *s, struct noise_work *w)
 
 /* Adds the score and information of a curve for the shape. The mean position is removed, because
  * it is the factor of the isotherm. */
-static void add_shape(const spectrum *s, size_t curve, int q, struct noise_work *w)
+static void add_noise_shape(const spectrum *s, size_t curve, int q, struct noise_work *w)
 {
     double sum = 0.0, mean[SHAPES] = {0.0};
     for (size_t k = s->first[curve]; k < s->first[curve + 1]; k++) {
-        const double u = place_on_isotherm(s, curve, k);
+        const double u = isotherm_position(s, curve, k);
         sum += w->left[k];
         mean[0] += w->left[k] * u;
         mean[1] += w->left[k] * u * u;
     }
     for (size_t k = s->first[curve]; sum > 0.0 && k < s->first[curve + 1]; k++) {
-        const double u = place_on_isotherm(s, curve, k);
+        const double u = isotherm_position(s, curve, k);
         const double by[SHAPES] = {u - mean[0] / sum, u * u - mean[1] / sum};
         for (int i = 0; i < SHAPES; i++) {
             w->score[i] += by[i] * (w->rest[k] * w->rest[k] / w->scale[q] - w->left[k]);
@@ -180,25 +182,25 @@ static void add_shape(const spectrum *s, size_t curve, int q, struct noise_work 
 
 /* Updates the noise factors and the shape from the polynomials. Returns the variance of ln noise
  * at the ends. */
-static double shape_within(spectrum *s, struct noise_work *w, double shape[SHAPES])
+static double update_noise_shape(spectrum *s, struct noise_work *w, double shape[SHAPES])
 {
-    const double belief = 1.0 / (shape_believed * shape_believed);
+    const double belief = 1.0 / (shape_prior_width * shape_prior_width);
     const double end = 0.25; /* weight of the test columns, by the parabola */
-    (void)within_all(s, w);
+    (void)restricted_likelihood(s, w);
     for (int i = 0; i < SHAPES; i++) {
         w->score[i] = -belief * shape[i];
         for (int j = 0; j < SHAPES; j++)
             w->information[i * SHAPES + j] = i == j ? belief : 0.0;
     }
     for (size_t i = 0; i < s->n_curves; i++) {
-        double squares = SPECTRUM_KAPPA_BELIEF, freedom = SPECTRUM_KAPPA_BELIEF;
+        double squares = SPECTRUM_KAPPA_PRIOR_POINTS, freedom = SPECTRUM_KAPPA_PRIOR_POINTS;
         for (int q = 0; q < MODULI; q++) {
-            const struct within one = residual_within(s, i, q, w);
+            const struct within one = fit_isotherm_polynomial(s, i, q, w);
             if (!(one.freedom > 0.0 && w->scale[q] > 0.0))
                 continue;
             squares += one.squares / w->scale[q] * s->kappa[i] * s->kappa[i];
             freedom += one.freedom;
-            add_shape(s, i, q, w);
+            add_noise_shape(s, i, q, w);
         }
         s->kappa[i] = sqrt(squares / freedom);
     }
@@ -212,7 +214,7 @@ static double shape_within(spectrum *s, struct noise_work *w, double shape[SHAPE
     return end * end * w->information[SHAPES * SHAPES - 1];
 }
 
-void spectrum_spread(spectrum *s, const double shape[SPECTRUM_SHAPES])
+void spectrum_set_point_noise(spectrum *s, const double shape[SPECTRUM_SHAPES])
 {
     double mean = 0.0;
     for (size_t i = 0; i < s->n_curves; i++)
@@ -220,7 +222,7 @@ void spectrum_spread(spectrum *s, const double shape[SPECTRUM_SHAPES])
     for (size_t i = 0; i < s->n_curves; i++) {
         s->kappa[i] *= exp(-mean);
         for (size_t k = s->first[i]; k < s->first[i + 1]; k++) {
-            const double u = place_on_isotherm(s, i, k);
+            const double u = isotherm_position(s, i, k);
             for (int q = 0; q < MODULI; q++)
                 s->spread[q][k] = s->kappa[i] * exp(shape[0] * u + shape[1] * (u * u - 1.0 / 3.0));
         }
@@ -237,7 +239,8 @@ static wt_status noise_work_new(const spectrum *s, struct noise_work *w, wt_erro
     return WT_OK;
 }
 
-wt_status spectrum_misses(spectrum *s, double all[MODULI], double within[MODULI], wt_error *err)
+wt_status spectrum_measure_misfit(spectrum *s, double all[MODULI], double within[MODULI],
+                                  wt_error *err)
 {
     const double rho = s->rho;
     struct noise_work w;
@@ -250,7 +253,7 @@ wt_status spectrum_misses(spectrum *s, double all[MODULI], double within[MODULI]
         memcpy(weights + (size_t)q * s->n, s->weight[q], s->n * sizeof *weights);
     (void)spectrum_outliers(s);
     spectrum_evaluate(s, s->value, false);
-    (void)within_all(s, &w);
+    (void)restricted_likelihood(s, &w);
     for (int q = 0; q < MODULI; q++) {
         double n = 0.0;
         for (size_t k = 0; k < s->n; k++)
@@ -265,22 +268,22 @@ wt_status spectrum_misses(spectrum *s, double all[MODULI], double within[MODULI]
     return WT_OK;
 }
 
-wt_status spectrum_noise_within(spectrum *s, spectrum_within *within, wt_error *err)
+wt_status spectrum_estimate_noise(spectrum *s, spectrum_isotherm_noise *within, wt_error *err)
 {
     struct noise_work w;
     const wt_status status = noise_work_new(s, &w, err);
     if (status != WT_OK)
         return status;
-    *within = (spectrum_within){0};
+    *within = (spectrum_isotherm_noise){0};
     for (size_t i = 0; i < s->n_curves; i++)
         s->kappa[i] = 1.0;
     for (int round = 0; round < NOISE_ROUNDS; round++) {
-        spectrum_spread(s, within->shape);
+        spectrum_set_point_noise(s, within->shape);
         s->rho = 0.0;
         spectrum_evaluate(s, s->value, false);
-        const double of_correlation = correlate_within(s, &w);
+        const double of_correlation = estimate_correlation(s, &w);
         within->rho = s->rho;
-        within->uncertainty = 4.0 * (of_correlation + shape_within(s, &w, within->shape));
+        within->uncertainty = 4.0 * (of_correlation + update_noise_shape(s, &w, within->shape));
     }
     s->rho = 0.0;
     free(w.v);

@@ -13,18 +13,18 @@
  * has curved valleys, where a half or an eighth of a step gains more than a damped one. */
 enum { MAX_DAMPINGS = 12, MAX_HALVINGS = 4 };
 /* Maximum number of steps. A fit that reaches it is reported as not converged, except a start. */
-static const int most_steps[] = {[SPECTRUM_NOISE] = 300,
-                                 [SPECTRUM_ROUGH] = 80,
-                                 [SPECTRUM_ROBUST] = 40,
-                                 [SPECTRUM_HELD] = 80,
-                                 [SPECTRUM_TRIAL] = 80};
+static const int max_steps[] = {[SPECTRUM_NOISE] = 300,
+                                [SPECTRUM_ROUGH] = 80,
+                                [SPECTRUM_ROBUST] = 40,
+                                [SPECTRUM_FIXED_NOISE] = 80,
+                                [SPECTRUM_TRIAL] = 80};
 /* Steps and noise depend on each other, so the iteration may cycle if the misfit is large. After
  * this number of steps, three times that of a valid sweep, the updates shrink (Robbins and
  * Monro, Ann. Math. Stat. 22 (1951) 400). */
 static const double whole_steps = 30.0;
 /* The fit ends if a step gains less than this of -2 ln likelihood (1 is a standard error), and
  * noise and smoothness change by less than this share. */
-static const double least_gain = SPECTRUM_LEAST_GAIN, least_change = 2e-3;
+static const double least_gain = SPECTRUM_MIN_GAIN, min_change = 2e-3;
 /* Limits of rough fits: a third of a standard error and 2 % of the noise suffice to find points
  * with five standard deviations. With fixed noise only the objective matters, whose differences
  * become weights, exp(-0.01). */
@@ -34,7 +34,7 @@ static const double rough_gain = 0.1, rough_change = 0.02, held_gain = 0.02;
 static const double trial_gain = 0.005, trial_left = 0.1;
 
 /* Maximum relative addition to a diagonal that rounding explains. */
-static const double most_rounding = 1e-8;
+static const double max_rounding = 1e-8;
 
 /* Factors precision + damping * diagonal. The smooth part of the vertical shifts is no unknown
  * and is not damped. The diagonal of a vertical shift is the one without it. */
@@ -44,13 +44,13 @@ static bool factor_damped(spectrum *s, double damping)
     for (size_t i = 0; i < s->n_linear; i++)
         *gsl_matrix_ptr(s->factor.border, i, i) *= 1.0 + damping;
     for (size_t i = 0; i < s->n_curves; i++) {
-        double *own = s->factor.own + BLOCK_OWN * i;
+        double *diagonal = s->factor.diagonal + BLOCK_DIAGONAL * i;
         double smooth = 0.0;
         for (size_t j = 0; j < s->prior->n_smooth; j++)
             smooth +=
                 pow(gsl_matrix_get(s->precision.side, BLOCK_SIDE * i + 1, s->n_linear + j), 2);
-        own[0] += s->column_a[i] < 0 ? 0.0 : damping * own[0];
-        own[2] += s->column_b[i] < 0 ? 0.0 : damping * (own[2] - smooth);
+        diagonal[0] += s->column_a[i] < 0 ? 0.0 : damping * diagonal[0];
+        diagonal[2] += s->column_b[i] < 0 ? 0.0 : damping * (diagonal[2] - smooth);
     }
     return bordered_factor(&s->factor);
 }
@@ -76,7 +76,7 @@ void spectrum_solve(const spectrum *s, const double *y, double *x)
 
 double spectrum_variance(const spectrum *s, size_t curve)
 {
-    return s->covariance.own[BLOCK_OWN * curve];
+    return s->covariance.diagonal[BLOCK_DIAGONAL * curve];
 }
 
 static wt_status invert_precision(spectrum *s, wt_error *err)
@@ -84,9 +84,9 @@ static wt_status invert_precision(spectrum *s, wt_error *err)
     /* With little noise and a loose prior, rounding may remove a diagonal element; the loop adds
      * it back. */
     double rounding = 0.0;
-    while (!factor_damped(s, rounding) && rounding < most_rounding)
+    while (!factor_damped(s, rounding) && rounding < max_rounding)
         rounding = fmax(10.0 * rounding, (double)s->n_unknowns * DBL_EPSILON);
-    if (!(rounding < most_rounding))
+    if (!(rounding < max_rounding))
         return wt_fail(err, WT_E_CONVERGENCE, "the isotherms do not determine a spectrum");
     s->rounding = rounding;
     s->log_det = bordered_log_det(&s->factor);
@@ -105,14 +105,14 @@ double spectrum_step_left(const spectrum *s)
 
 /* Returns true if a Newton step gains little. Noise and smoothness may require further steps,
  * and a damped step gains little. */
-static bool is_at_end(spectrum *s, double enough_gain)
+static bool has_converged(spectrum *s, double enough_gain)
 {
     return !factor_damped(s, 0.0) || spectrum_step_left(s) < sqrt(enough_gain);
 }
 
 /* Tries a step and shortens it until the objective does not rise. Returns the gain, or a
  * negative number. */
-static double go_along(spectrum *s)
+static double line_search(spectrum *s)
 {
     double gain = -1.0, share = 1.0;
     for (int i = 0; i < MAX_HALVINGS && !(gain >= 0.0); i++, share *= 0.5) { /* also handles NaN */
@@ -125,7 +125,7 @@ static double go_along(spectrum *s)
 }
 
 /* Performs a damped step that does not raise the objective. *gain: its gain. */
-static wt_status take_step(spectrum *s, double *damping, double *gain, wt_error *err)
+static wt_status damped_step(spectrum *s, double *damping, double *gain, wt_error *err)
 {
     *gain = 0.0;
     for (int i = 0; i < MAX_DAMPINGS; i++) {
@@ -134,7 +134,7 @@ static wt_status take_step(spectrum *s, double *damping, double *gain, wt_error 
             continue;
         }
         spectrum_solve(s, s->gradient->data, s->direction->data);
-        const double gained = go_along(s);
+        const double gained = line_search(s);
         if (gained >= 0.0) {
             memcpy(s->value, s->trial, s->n_unknowns * sizeof *s->value);
             *gain = gained;
@@ -165,7 +165,7 @@ static void prepare_equations(spectrum *s)
 wt_status spectrum_fit(spectrum *s, spectrum_mode mode, wt_error *err)
 {
     const bool rough = mode == SPECTRUM_ROBUST || mode == SPECTRUM_ROUGH;
-    const bool held = mode == SPECTRUM_HELD || mode == SPECTRUM_TRIAL;
+    const bool held = mode == SPECTRUM_FIXED_NOISE || mode == SPECTRUM_TRIAL;
     const double least = rough ? rough_gain : held ? held_gain : least_gain;
     wt_status status = WT_OK;
     double damping = 0.0, gain = HUGE_VAL, change = 0.0;
@@ -173,8 +173,8 @@ wt_status spectrum_fit(spectrum *s, spectrum_mode mode, wt_error *err)
     gsl_quiet();
     s->smooth_move = 0.0;
     prepare_equations(s);
-    for (int i = 0; status == WT_OK && !done && i < most_steps[mode]; i++) {
-        status = take_step(s, &damping, &gain, err);
+    for (int i = 0; status == WT_OK && !done && i < max_steps[mode]; i++) {
+        status = damped_step(s, &damping, &gain, err);
         if (status != WT_OK)
             break;
         prepare_equations(s);
@@ -192,8 +192,8 @@ wt_status spectrum_fit(spectrum *s, spectrum_mode mode, wt_error *err)
         }
         const bool trial = mode == SPECTRUM_TRIAL;
         const double enough = trial ? fmax(least, trial_gain * s->objective) : least;
-        done = gain < enough && change < (rough ? rough_change : least_change) &&
-               is_at_end(s, trial ? fmax(least, trial_left * s->objective) : least);
+        done = gain < enough && change < (rough ? rough_change : min_change) &&
+               has_converged(s, trial ? fmax(least, trial_left * s->objective) : least);
     }
     s->settled = done;
     if (status == WT_OK)

@@ -28,7 +28,7 @@ static wt_status allocate_spectrum(spectrum *s, wt_error *err)
 {
     arena *m = &s->memory;
     const size_t most = s->n_linear + 2 * s->n_curves;
-    const size_t smooth = s->n_curves < SPECTRUM_MOST_SMOOTH ? s->n_curves : SPECTRUM_MOST_SMOOTH;
+    const size_t smooth = s->n_curves < SPECTRUM_MAX_SMOOTH ? s->n_curves : SPECTRUM_MAX_SMOOTH;
     const size_t border = s->n_linear + smooth;
     s->first = arena_alloc(m, s->n_curves + 1, sizeof *s->first);
     s->column_a = arena_alloc(m, s->n_curves, sizeof *s->column_a);
@@ -41,7 +41,7 @@ static wt_status allocate_spectrum(spectrum *s, wt_error *err)
     for (int q = 0; q < MODULI; q++) {
         s->y[q] = arena_numbers(m, s->n);
         s->weight[q] = arena_numbers(m, s->n);
-        s->was[q] = arena_numbers(m, s->n);
+        s->previous_weight[q] = arena_numbers(m, s->n);
         s->spread[q] = arena_numbers(m, s->n);
         s->residual[q] = arena_numbers(m, s->n);
         s->row[q] = arena_numbers(m, (s->n + TILE_ROWS - 1) * (s->n_linear + 2));
@@ -76,7 +76,7 @@ void spectrum_free(spectrum *s)
 
 /* Returns ln E'' of a point, an estimate from the slope of E' (local Kramers-Kronig), or ln tan
  * delta. */
-static double near_loss(const spectrum *s, size_t curve, size_t k)
+static double estimated_loss(const spectrum *s, size_t curve, size_t k)
 {
     if (s->used[LOSS])
         return s->y[LOSS][k];
@@ -95,7 +95,7 @@ static double loss_at(const spectrum *s, double at, const double *a, const doubl
         for (size_t k = s->first[i]; k < s->first[i + 1]; k++) {
             const double away = (s->x[k] + a[i] - at) / s->step;
             const double w = 1.0 / (1e-2 + away * away * away * away);
-            sum += w * (near_loss(s, i, k) + b[i]);
+            sum += w * (estimated_loss(s, i, k) + b[i]);
             weights += w;
         }
     return sum / weights;
@@ -103,7 +103,7 @@ static double loss_at(const spectrum *s, double at, const double *a, const doubl
 
 /* Sets the start terms from E'' at the frequency of each term. For tan delta alone E' starts at
  * 1 and rises by 2/pi delta. */
-static void start_terms(spectrum *s, const double *a, const double *b)
+static void set_start_terms(spectrum *s, const double *a, const double *b)
 {
     double lowest = HUGE_VAL, slowest = HUGE_VAL, fastest = -HUGE_VAL, level = 0.0;
     const int q = s->used[STORAGE] ? STORAGE : LOSS;
@@ -139,7 +139,7 @@ wt_status spectrum_new(const shift_set *set, const bool *use, size_t anchor, con
     *s = (spectrum){.liquid = liquid,
                     .loading = set->loading,
                     .used = {set->used[STORAGE], set->used[LOSS]},
-                    .ratio = set->by == WT_BY_LOSS_FACTOR,
+                    .ratio = set->by == WT_SHIFT_LOSS_FACTOR,
                     .step = M_LN10 / terms_per_decade};
     for (size_t i = 0; i < set->n; i++) {
         const shift_curve *c = &set->curves[i];
@@ -192,13 +192,13 @@ wt_status spectrum_new(const shift_set *set, const bool *use, size_t anchor, con
         s->kappa[curve++] = 1.0;
     }
     s->first[curve] = k;
-    start_terms(s, start, start + s->n_curves);
+    set_start_terms(s, start, start + s->n_curves);
     s->smooth = 0.3;
     for (size_t j = 0; j < s->n_terms; j++) {
         s->bend[j] = 1.0;
         s->time[j] = exp((double)j * s->step);
     }
-    spectrum_set_bends(s);
+    spectrum_set_extrapolation(s);
     for (int q = 0; q < MODULI; q++)
         s->noise[q] = 0.05;
     /* until a prior is set: the shifts follow the terms, including the anchor */
@@ -217,7 +217,7 @@ double spectrum_a(const spectrum *s, size_t curve)
     return s->column_a[curve] < 0 ? s->given_a[curve] : s->value[s->column_a[curve]];
 }
 
-double spectrum_b_of(const spectrum *s, const double *value, size_t curve)
+double spectrum_trial_b(const spectrum *s, const double *value, size_t curve)
 {
     if (s->column_b[curve] >= 0)
         return value[s->column_b[curve]];
@@ -226,7 +226,7 @@ double spectrum_b_of(const spectrum *s, const double *value, size_t curve)
 
 double spectrum_b(const spectrum *s, size_t curve)
 {
-    return spectrum_b_of(s, s->value, curve);
+    return spectrum_trial_b(s, s->value, curve);
 }
 
 void spectrum_terms(const spectrum *s, const double *value, double *term)
@@ -264,8 +264,8 @@ void spectrum_set_prior(spectrum *s, const spectrum_prior *prior)
 enum { SUMS = 2 * MODULI };
 
 /* Adds one SIMD vector of terms; storage_at, loss_at: E' and E'' of each term, or NULL. */
-WIDE_PART void add_terms(const double *term, const double *time, double first, wide sum[SUMS],
-                         double *storage_at, double *loss_at)
+WIDE_INLINE void add_term_lanes(const double *term, const double *time, double first,
+                                wide sum[SUMS], double *storage_at, double *loss_at)
 {
     wide e, z;
     simd_load(&e, term);
@@ -284,19 +284,19 @@ WIDE_PART void add_terms(const double *term, const double *time, double first, w
 
 /* Sums the moduli and their slopes at a frequency over all terms with times first * s->time. */
 WIDE_REGISTERS
-static void sum_terms(const spectrum *s, const double *term, double first, double total[SUMS],
-                      double *const by[MODULI])
+static void sum_moduli(const spectrum *s, const double *term, double first, double total[SUMS],
+                       double *const by[MODULI])
 {
     wide sum[SUMS] = {{0.0}};
     const size_t whole = s->n_terms / WIDE * WIDE, rest = s->n_terms - whole;
     for (size_t j = 0; j < whole; j += WIDE)
-        add_terms(term + j, s->time + j, first, sum, by != NULL ? by[STORAGE] + j : NULL,
-                  by != NULL ? by[LOSS] + j : NULL);
+        add_term_lanes(term + j, s->time + j, first, sum, by != NULL ? by[STORAGE] + j : NULL,
+                       by != NULL ? by[LOSS] + j : NULL);
     if (rest > 0) {
         double last[WIDE] = {0.0}, time[WIDE] = {0.0}, storage[WIDE], loss[WIDE];
         memcpy(last, term + whole, rest * sizeof *last);
         memcpy(time, s->time + whole, rest * sizeof *time);
-        add_terms(last, time, first, sum, storage, loss);
+        add_term_lanes(last, time, first, sum, storage, loss);
         if (by != NULL) {
             memcpy(by[STORAGE] + whole, storage, rest * sizeof *storage);
             memcpy(by[LOSS] + whole, loss, rest * sizeof *loss);
@@ -313,12 +313,12 @@ static void scale_row(double *row, size_t n, double by)
         row[j] *= by;
 }
 
-void spectrum_at(const spectrum *s, const double *term, double x, double log_modulus[MODULI],
-                 double slope[MODULI], double *const gradient[MODULI])
+void spectrum_moduli(const spectrum *s, const double *term, double x, double log_modulus[MODULI],
+                     double slope[MODULI], double *const gradient[MODULI])
 {
     const double equilibrium = s->liquid ? 0.0 : term[s->n_terms];
     double total[SUMS];
-    sum_terms(s, term, exp(x + s->log_tau), total, gradient);
+    sum_moduli(s, term, exp(x + s->log_tau), total, gradient);
     total[STORAGE] += equilibrium;
     for (int q = 0; q < MODULI; q++) {
         log_modulus[q] = log(total[q]);
@@ -332,19 +332,19 @@ void spectrum_at(const spectrum *s, const double *term, double x, double log_mod
     }
 }
 
-void spectrum_measured_at(const spectrum *s, const double *term, double x,
-                          double log_modulus[MODULI], double slope[MODULI],
-                          double *const gradient[MODULI])
+void spectrum_measured_moduli(const spectrum *s, const double *term, double x,
+                              double log_modulus[MODULI], double slope[MODULI],
+                              double *const gradient[MODULI])
 {
     if (s->loading == WT_OSCILLATION) {
-        spectrum_at(s, term, x, log_modulus, slope, gradient);
+        spectrum_moduli(s, term, x, log_modulus, slope, gradient);
         return;
     }
     log_modulus[LOSS] = slope[LOSS] = 0.0;
     if (gradient != NULL)
         memset(gradient[LOSS], 0, s->n_linear * sizeof *gradient[LOSS]);
-    spectrum_step_at(s, term, x, &log_modulus[STORAGE], &slope[STORAGE],
-                     gradient != NULL ? gradient[STORAGE] : NULL);
+    spectrum_step_response(s, term, x, &log_modulus[STORAGE], &slope[STORAGE],
+                           gradient != NULL ? gradient[STORAGE] : NULL);
 }
 
 /* ---- rows ------------------------------------------------------------------------------------ */
@@ -355,7 +355,7 @@ double spectrum_weight(const spectrum *s, size_t k, int q)
 }
 
 /* Finds the included point before point k of a curve. Returns false if there is none. */
-static bool point_before(const spectrum *s, size_t curve, int q, size_t k, size_t *before)
+static bool previous_point(const spectrum *s, size_t curve, int q, size_t k, size_t *before)
 {
     while (k > s->first[curve] && s->weight[q][k - 1] == 0.0)
         k--;
@@ -367,9 +367,9 @@ void spectrum_whiten(const spectrum *s, size_t curve, int q, double *v, size_t w
 {
     const size_t from = s->first[curve];
     size_t at, before;
-    if (s->rho == 0.0 || !point_before(s, curve, q, s->first[curve + 1], &at))
+    if (s->rho == 0.0 || !previous_point(s, curve, q, s->first[curve + 1], &at))
         return;
-    for (; point_before(s, curve, q, at, &before); at = before) {
+    for (; previous_point(s, curve, q, at, &before); at = before) {
         const double rho = pow(s->rho, (double)(at - before));
         const double scale = 1.0 / sqrt(1.0 - rho * rho);
         for (size_t j = 0; j < width; j++)
@@ -384,17 +384,17 @@ double spectrum_log_det_correlation(const spectrum *s)
     for (size_t i = 0; i < s->n_curves && s->rho != 0.0; i++)
         for (int q = 0; q < MODULI; q++) {
             size_t at, before;
-            if (!point_before(s, i, q, s->first[i + 1], &at))
+            if (!previous_point(s, i, q, s->first[i + 1], &at))
                 continue;
-            for (; point_before(s, i, q, at, &before); at = before)
+            for (; previous_point(s, i, q, at, &before); at = before)
                 sum += log(1.0 - pow(s->rho, 2.0 * (double)(at - before)));
         }
     return sum;
 }
 
 /* Converts ln E'' and its derivatives to those of ln tan delta. */
-static void to_factor(const spectrum *s, double modulus[MODULI], double slope[MODULI],
-                      double *const row[MODULI])
+static void convert_to_loss_factor(const spectrum *s, double modulus[MODULI], double slope[MODULI],
+                                   double *const row[MODULI])
 {
     modulus[LOSS] -= modulus[STORAGE];
     slope[LOSS] -= slope[STORAGE];
@@ -409,13 +409,14 @@ void spectrum_evaluate(spectrum *s, const double *value, bool with_rows)
     spectrum_terms(s, value, s->term);
     for (size_t i = 0; i < s->n_curves; i++) {
         const double a = s->column_a[i] < 0 ? s->given_a[i] : value[s->column_a[i]];
-        const double b = spectrum_b_of(s, value, i);
+        const double b = spectrum_trial_b(s, value, i);
         for (size_t k = s->first[i]; k < s->first[i + 1]; k++) {
             double *const row[MODULI] = {s->row[STORAGE] + k * width, s->row[LOSS] + k * width};
             double modulus[MODULI], slope[MODULI];
-            spectrum_measured_at(s, s->term, s->x[k] + a, modulus, slope, with_rows ? row : NULL);
+            spectrum_measured_moduli(s, s->term, s->x[k] + a, modulus, slope,
+                                     with_rows ? row : NULL);
             if (s->ratio)
-                to_factor(s, modulus, slope, with_rows ? row : NULL);
+                convert_to_loss_factor(s, modulus, slope, with_rows ? row : NULL);
             for (int q = 0; q < MODULI; q++) {
                 const double w = spectrum_weight(s, k, q);
                 s->residual[q][k] = w * (s->y[q][k] - modulus[q] + (s->ratio ? 0.0 : b));
@@ -437,21 +438,22 @@ void spectrum_evaluate(spectrum *s, const double *value, bool with_rows)
 
 /* Adds the products of all rows to the block of the terms. The upper triangle is complete. */
 WIDE_REGISTERS
-static void add_rows(gsl_matrix *normal, size_t m, const double *row, size_t width, size_t rows)
+static void add_row_products(gsl_matrix *normal, size_t m, const double *row, size_t width,
+                             size_t rows)
 {
     rows = (rows + TILE_ROWS - 1) / TILE_ROWS * TILE_ROWS; /* the rows after the last are zeros */
     for (size_t i = 0; i < m; i += TILE)
         for (size_t j = i; j < m; j += TILE)
-            tile_add(gsl_matrix_ptr(normal, i, j), m - i, m - j, normal->tda,
-                     (tile_rows){row + i, row + j, width, width, rows}, false);
+            tile_add_product(gsl_matrix_ptr(normal, i, j), m - i, m - j, normal->tda,
+                             (tile_rows){row + i, row + j, width, width, rows}, false);
 }
 
 /* Adds the products of the shifts of a curve with the terms and with each other. */
-static void add_shifts(spectrum *s, size_t curve, int q)
+static void add_shift_products(spectrum *s, size_t curve, int q)
 {
     const size_t m = s->n_linear, width = m + 2;
     const bool free[BLOCK_SIDE] = {s->column_a[curve] >= 0, s->column_b[curve] >= 0};
-    double *own = s->normal[q].own + BLOCK_OWN * curve;
+    double *diagonal = s->normal[q].diagonal + BLOCK_DIAGONAL * curve;
     for (size_t c = 0; c < BLOCK_SIDE; c++) {
         double *restrict into = gsl_matrix_ptr(s->normal[q].side, BLOCK_SIDE * curve + c, 0);
         for (size_t k = s->first[curve]; free[c] && k < s->first[curve + 1]; k++) {
@@ -461,7 +463,7 @@ static void add_shifts(spectrum *s, size_t curve, int q)
                 into[j] += r * row[j];
             for (size_t d = 0; d <= c; d++)
                 if (free[d])
-                    own[c + d] += r * row[m + d];
+                    diagonal[c + d] += r * row[m + d];
         }
     }
 }
@@ -472,11 +474,11 @@ void spectrum_normal(spectrum *s)
     for (int q = 0; q < MODULI; q++) {
         gsl_matrix *normal = s->normal[q].border;
         bordered_zero(&s->normal[q]);
-        for (size_t k = 0; k < s->n; k += TILE_NEAR) /* the last rows are zeros */
-            add_rows(normal, m, s->row[q] + k * width, width,
-                     k + TILE_NEAR < s->n ? TILE_NEAR : s->n - k);
+        for (size_t k = 0; k < s->n; k += TILE_CACHED_ROWS) /* the last rows are zeros */
+            add_row_products(normal, m, s->row[q] + k * width, width,
+                             k + TILE_CACHED_ROWS < s->n ? TILE_CACHED_ROWS : s->n - k);
         for (size_t i = 0; i < s->n_curves; i++)
-            add_shifts(s, i, q);
+            add_shift_products(s, i, q);
         for (size_t i = 0; i < m; i++) /* lower triangle */
             for (size_t j = 0; j < i; j++)
                 gsl_matrix_set(normal, i, j, gsl_matrix_get(normal, j, i));

@@ -18,15 +18,15 @@ static const double least_smooth = 1e-3;
  * weight of 5 second differences; the window has 7 at 3 terms per decade. Chosen: the share of
  * the window is 7 of 12. It would be 7 of 9 with 2, which noise disturbs, and 7 of 27 with 20,
  * which equalises all. */
-static const double bend_reach = 1.0, bend_belief = 5.0;
+static const double curvature_window = 1.0, curvature_prior_count = 5.0;
 /* Degrees of freedom of the Student distribution during the search for outliers, as in Lange,
  * Little and Taylor (J. Am. Stat. Assoc. 84 (1989) 881). */
-static const double student = 4.0;
+static const double student_freedom = 4.0;
 /* A point is excluded beyond the first number of standard deviations and restored below the
  * second. For normal noise, one of a thousand points is lost in one of a hundred sweeps. */
 static const double outlier = 5.0, no_outlier = 4.5;
 
-static double count_used(const spectrum *s, int q)
+static double count_used_points(const spectrum *s, int q)
 {
     double n = 0.0;
     for (size_t k = 0; k < s->n; k++)
@@ -35,7 +35,7 @@ static double count_used(const spectrum *s, int q)
 }
 
 /* Returns the trace of covariance times normal equations, which do not contain the smooth part. */
-static double trace_of_product(const bordered *covariance, const bordered *normal)
+static double product_trace(const bordered_matrix *covariance, const bordered_matrix *normal)
 {
     double sum = 0.0, sides = 0.0;
     for (size_t i = 0; i < normal->m; i++)
@@ -45,7 +45,8 @@ static double trace_of_product(const bordered *covariance, const bordered *norma
         for (size_t k = 0; k < normal->m; k++)
             sides += gsl_matrix_get(covariance->side, i, k) * gsl_matrix_get(normal->side, i, k);
     for (size_t i = 0; i < normal->n; i++) {
-        const double *v = covariance->own + BLOCK_OWN * i, *n = normal->own + BLOCK_OWN * i;
+        const double *v = covariance->diagonal + BLOCK_DIAGONAL * i,
+                     *n = normal->diagonal + BLOCK_DIAGONAL * i;
         sum += v[0] * n[0] + 2.0 * v[1] * n[1] + v[2] * n[2];
     }
     return sum + 2.0 * sides;
@@ -56,8 +57,8 @@ double spectrum_noise_update(spectrum *s, double share)
     double change = 0.0;
     for (int q = 0; q < MODULI; q++) {
         const double square = s->noise[q] * s->noise[q];
-        s->freedom[q] = trace_of_product(&s->covariance, &s->normal[q]) / square;
-        const double left = fmax(count_used(s, q) - s->freedom[q], 1.0);
+        s->freedom[q] = product_trace(&s->covariance, &s->normal[q]) / square;
+        const double left = fmax(count_used_points(s, q) - s->freedom[q], 1.0);
         const double next = fmax(sqrt(spectrum_squares(s, q) / left), least_noise);
         const double move = log(next / s->noise[q]);
         change = fmax(change, fabs(move));
@@ -95,7 +96,7 @@ void spectrum_criterion(spectrum *s)
 /* ---- curvature weights ----------------------------------------------------------------------- */
 
 /* Returns the information about a second difference; *square: its square in units of smooth^2. */
-static double bend_known(const spectrum *s, size_t j, double *square)
+static double curvature_information(const spectrum *s, size_t j, double *square)
 {
     static const double weight[3] = {1.0, -2.0, 1.0}; /* second difference */
     const double unit = s->smooth * s->smooth;
@@ -108,18 +109,18 @@ static double bend_known(const spectrum *s, size_t j, double *square)
     return fmax(1.0 - s->bend[j] * variance / unit, 0.0);
 }
 
-void spectrum_bends(spectrum *s)
+void spectrum_update_curvature(spectrum *s)
 {
-    const size_t reach = (size_t)ceil(bend_reach * M_LN10 / s->step);
+    const size_t reach = (size_t)ceil(curvature_window * M_LN10 / s->step);
     const size_t first = s->n_fast + reach;
     const size_t last = s->n_measured > first + reach ? s->n_measured - reach : first;
     double *next = s->term; /* scratch */
     for (size_t j = s->bend_first; j < s->bend_end; j++) {
         const size_t at = j < first ? first : j > last ? last : j;
-        double sum = bend_belief, known = bend_belief;
+        double sum = curvature_prior_count, known = curvature_prior_count;
         for (size_t i = at - reach; i <= at + reach && i < s->bend_end; i++) {
             double square;
-            known += bend_known(s, i, &square);
+            known += curvature_information(s, i, &square);
             sum += square;
         }
         next[j] = j > last ? fmin(known / sum, 1.0) : known / sum;
@@ -137,12 +138,12 @@ void spectrum_student_weights(spectrum *s)
             for (size_t k = s->first[i]; s->used[q] && k < s->first[i + 1]; k++) {
                 const double r = s->residual[q][k] / s->noise[q];
                 const double square = r * r / s->weight[q][k];
-                s->weight[q][k] = (student + 1.0) / (student + square);
+                s->weight[q][k] = (student_freedom + 1.0) / (student_freedom + square);
             }
 }
 
 /* Returns the standard deviation from the median of n absolute residuals, which it sorts. */
-static double robust_spread(double *residual, size_t n)
+static double robust_deviation(double *residual, size_t n)
 {
     for (size_t k = 0; k < n; k++)
         residual[k] = fabs(residual[k]);
@@ -158,7 +159,7 @@ size_t spectrum_outliers(spectrum *s)
     s->rho = 0.0;
     for (int q = 0; q < MODULI; q++)
         for (size_t k = 0; k < s->n; k++) {
-            s->was[q][k] = s->weight[q][k];
+            s->previous_weight[q][k] = s->weight[q][k];
             s->weight[q][k] = s->used[q] ? 1.0 : 0.0;
         }
     spectrum_evaluate(s, s->value, false);
@@ -168,17 +169,17 @@ size_t spectrum_outliers(spectrum *s)
             continue;
         for (size_t k = 0; k < s->n; k++)
             copy[k] = s->residual[q][k];
-        const double all = robust_spread(copy, s->n);
+        const double all = robust_deviation(copy, s->n);
         for (size_t i = 0; i < s->n_curves; i++) {
             const size_t from = s->first[i], n = s->first[i + 1] - from;
             for (size_t k = 0; k < n; k++)
                 copy[k] = s->residual[q][from + k];
-            const double spread = fmax(fmax(robust_spread(copy, n), all), least_noise);
+            const double spread = fmax(fmax(robust_deviation(copy, n), all), least_noise);
             for (size_t k = from; k < from + n; k++) {
                 const double off = fabs(s->residual[q][k]) / spread;
-                const bool out = off > (s->was[q][k] == 0.0 ? no_outlier : outlier);
+                const bool out = off > (s->previous_weight[q][k] == 0.0 ? no_outlier : outlier);
                 s->weight[q][k] = out ? 0.0 : 1.0;
-                changed += out != (s->was[q][k] == 0.0);
+                changed += out != (s->previous_weight[q][k] == 0.0);
             }
         }
     }

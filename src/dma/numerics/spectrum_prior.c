@@ -9,26 +9,26 @@
 #include <string.h>
 
 /* Prior of the second difference of terms j to j + 2, in the measured range or beyond an end. */
-typedef struct bend_law {
+typedef struct curvature_prior {
     const double *weight;
     double mean, precision;
-} bend_law;
+} curvature_prior;
 
-static bool is_beyond(const spectrum *s, size_t j)
+static bool is_extrapolated(const spectrum *s, size_t j)
 {
     return j < s->bend_first || j >= s->bend_end;
 }
 
-static bend_law law_of_bend(const spectrum *s, size_t j)
+static curvature_prior find_curvature_prior(const spectrum *s, size_t j)
 {
     static const double plain[3] = {1.0, -2.0, 1.0}; /* second difference */
-    const spectrum_beyond *b = &s->beyond[j < s->bend_first ? 0 : 1];
-    if (is_beyond(s, j))
-        return (bend_law){b->weight, b->mean, b->precision};
-    return (bend_law){plain, 0.0, s->bend[j] / (s->smooth * s->smooth)};
+    const spectrum_extrapolation *b = &s->beyond[j < s->bend_first ? 0 : 1];
+    if (is_extrapolated(s, j))
+        return (curvature_prior){b->weight, b->mean, b->precision};
+    return (curvature_prior){plain, 0.0, s->bend[j] / (s->smooth * s->smooth)};
 }
 
-static double off_law(const bend_law *law, const double *value)
+static double curvature_residual(const curvature_prior *law, const double *value)
 {
     return law->weight[0] * value[0] + law->weight[1] * value[1] + law->weight[2] * value[2] -
            law->mean;
@@ -38,8 +38,8 @@ double spectrum_roughness(const spectrum *s, const double *value)
 {
     double sum = 0.0;
     for (size_t j = s->bend_first; j < s->bend_end; j++) {
-        const bend_law law = law_of_bend(s, j);
-        sum += s->bend[j] * pow(off_law(&law, value + j), 2);
+        const curvature_prior law = find_curvature_prior(s, j);
+        sum += s->bend[j] * pow(curvature_residual(&law, value + j), 2);
     }
     return sum;
 }
@@ -48,7 +48,7 @@ double spectrum_roughness_trace(const spectrum *s)
 {
     double sum = 0.0;
     for (size_t j = s->bend_first; j < s->bend_end; j++) {
-        const bend_law law = law_of_bend(s, j);
+        const curvature_prior law = find_curvature_prior(s, j);
         for (size_t i = 0; i < 3; i++)
             for (size_t k = 0; k < 3; k++)
                 sum += s->bend[j] * law.weight[i] * law.weight[k] *
@@ -57,14 +57,14 @@ double spectrum_roughness_trace(const spectrum *s)
     return sum;
 }
 
-static double off_mean_b(const spectrum *s, const double *value, size_t curve)
+static double vertical_residual(const spectrum *s, const double *value, size_t curve)
 {
-    return spectrum_b_of(s, value, curve) - s->prior->mean[curve];
+    return spectrum_trial_b(s, value, curve) - s->prior->mean[curve];
 }
 
 /* Residual of the level, which a loose prior fixes for tan delta alone. The level is not
  * reported. */
-static double off_level(const spectrum *s, const double *value)
+static double level_residual(const spectrum *s, const double *value)
 {
     double sum = -s->level;
     for (size_t j = 0; j < s->n_terms; j++)
@@ -73,36 +73,36 @@ static double off_level(const spectrum *s, const double *value)
 }
 
 /* Computes S' P times the deviation of the vertical shifts from their mean, into prior->at. */
-static void find_smooth(const spectrum *s, const double *value)
+static void project_smooth_part(const spectrum *s, const double *value)
 {
     const spectrum_prior *p = s->prior;
     memset(p->at, 0, p->n_smooth * sizeof *p->at);
     for (size_t i = 0; i < s->n_curves; i++) {
-        const double off = p->precision[i] * off_mean_b(s, value, i);
+        const double off = p->precision[i] * vertical_residual(s, value, i);
         for (size_t j = 0; j < p->n_smooth; j++)
             p->at[j] += gsl_matrix_get(p->smooth, i, j) * off;
     }
 }
 
 /* Returns the deviation of a vertical shift without its smooth part. */
-static double off_smooth(const spectrum *s, const double *value, size_t curve)
+static double unsmooth_residual(const spectrum *s, const double *value, size_t curve)
 {
     const spectrum_prior *p = s->prior;
-    double off = off_mean_b(s, value, curve);
+    double off = vertical_residual(s, value, curve);
     for (size_t j = 0; j < p->n_smooth; j++)
         off -= gsl_matrix_get(p->smooth, curve, j) * p->at[j];
     return off;
 }
 
-static double off_vertical(const spectrum *s, const double *value)
+static double vertical_penalty(const spectrum *s, const double *value)
 {
     const spectrum_prior *p = s->prior;
     double sum = 0.0;
     if (p->precision == NULL)
         return 0.0;
-    find_smooth(s, value);
+    project_smooth_part(s, value);
     for (size_t i = 0; i < s->n_curves; i++)
-        sum += p->precision[i] * off_mean_b(s, value, i) * off_smooth(s, value, i);
+        sum += p->precision[i] * vertical_residual(s, value, i) * unsmooth_residual(s, value, i);
     return sum;
 }
 
@@ -110,8 +110,8 @@ double spectrum_objective(const spectrum *s, const double *value)
 {
     double sum = 0.0;
     for (size_t j = 0; j + 2 < s->n_terms; j++) {
-        const bend_law law = law_of_bend(s, j);
-        sum += law.precision * pow(off_law(&law, value + j), 2);
+        const curvature_prior law = find_curvature_prior(s, j);
+        sum += law.precision * pow(curvature_residual(&law, value + j), 2);
     }
     for (int q = 0; q < MODULI; q++)
         sum += spectrum_squares(s, q) / (s->noise[q] * s->noise[q]);
@@ -120,15 +120,15 @@ double spectrum_objective(const spectrum *s, const double *value)
         sum += off * off;
     }
     if (s->ratio)
-        sum += pow(off_level(s, value), 2);
-    return sum + off_vertical(s, value);
+        sum += pow(level_residual(s, value), 2);
+    return sum + vertical_penalty(s, value);
 }
 
-static void add_bends(spectrum *s)
+static void add_curvature_priors(spectrum *s)
 {
     for (size_t j = 0; j + 2 < s->n_terms; j++) {
-        const bend_law law = law_of_bend(s, j);
-        const double off = off_law(&law, s->value + j);
+        const curvature_prior law = find_curvature_prior(s, j);
+        const double off = curvature_residual(&law, s->value + j);
         for (size_t i = 0; i < 3; i++) {
             *gsl_vector_ptr(s->gradient, j + i) -= law.precision * law.weight[i] * off;
             for (size_t k = 0; k < 3; k++)
@@ -138,18 +138,19 @@ static void add_bends(spectrum *s)
     }
 }
 
-static void add_vertical(spectrum *s)
+static void add_vertical_prior(spectrum *s)
 {
     const spectrum_prior *p = s->prior;
     if (p->precision == NULL)
         return;
-    find_smooth(s, s->value);
+    project_smooth_part(s, s->value);
     for (size_t i = 0; i < s->n_curves; i++) {
         const double w = p->precision[i];
         if (s->column_b[i] < 0)
             continue;
-        *gsl_vector_ptr(s->gradient, (size_t)s->column_b[i]) -= w * off_smooth(s, s->value, i);
-        s->precision.own[BLOCK_OWN * i + 2] += w;
+        *gsl_vector_ptr(s->gradient, (size_t)s->column_b[i]) -=
+            w * unsmooth_residual(s, s->value, i);
+        s->precision.diagonal[BLOCK_DIAGONAL * i + 2] += w;
         for (size_t j = 0; j < p->n_smooth; j++)
             gsl_matrix_set(s->precision.side, BLOCK_SIDE * i + 1, s->n_linear + j,
                            -w * gsl_matrix_get(p->smooth, i, j));
@@ -160,20 +161,21 @@ static void add_vertical(spectrum *s)
 
 static void add_priors(spectrum *s)
 {
-    add_bends(s);
+    add_curvature_priors(s);
     if (!s->liquid) {
         const double w = 1.0 / (s->equilibrium_spread * s->equilibrium_spread);
         *gsl_matrix_ptr(s->precision.border, s->n_terms, s->n_terms) += w;
         *gsl_vector_ptr(s->gradient, s->n_terms) -=
             w * (s->value[s->n_terms] - s->equilibrium_mean);
     }
-    const double share = 1.0 / (double)s->n_terms, off = s->ratio ? off_level(s, s->value) : 0.0;
+    const double share = 1.0 / (double)s->n_terms,
+                 off = s->ratio ? level_residual(s, s->value) : 0.0;
     for (size_t j = 0; s->ratio && j < s->n_terms; j++) {
         *gsl_vector_ptr(s->gradient, j) -= share * off;
         for (size_t i = 0; i < s->n_terms; i++)
             *gsl_matrix_ptr(s->precision.border, j, i) += share * share;
     }
-    add_vertical(s);
+    add_vertical_prior(s);
 }
 
 /* Adds J'r of a modulus times `scale`. */
@@ -194,17 +196,17 @@ static void add_gradient(spectrum *s, int q, double scale)
 }
 
 /* Adds the normal equations of a modulus times `scale`. */
-static void add_normal(bordered *into, const bordered *normal, double scale)
+static void add_normal_equations(bordered_matrix *into, const bordered_matrix *normal, double scale)
 {
     const size_t m = normal->m;
     for (size_t i = 0; i < m; i++)
-        dense_add(gsl_matrix_ptr(into->border, i, 0), m, &scale, 1,
-                  gsl_matrix_const_ptr(normal->border, i, 0), m, 1);
+        dense_add_rows(gsl_matrix_ptr(into->border, i, 0), m, &scale, 1,
+                       gsl_matrix_const_ptr(normal->border, i, 0), m, 1);
     for (size_t i = 0; i < BLOCK_SIDE * normal->n; i++)
-        dense_add(gsl_matrix_ptr(into->side, i, 0), m, &scale, 1,
-                  gsl_matrix_const_ptr(normal->side, i, 0), m, 1);
-    for (size_t i = 0; i < BLOCK_OWN * normal->n; i++)
-        into->own[i] += scale * normal->own[i];
+        dense_add_rows(gsl_matrix_ptr(into->side, i, 0), m, &scale, 1,
+                       gsl_matrix_const_ptr(normal->side, i, 0), m, 1);
+    for (size_t i = 0; i < BLOCK_DIAGONAL * normal->n; i++)
+        into->diagonal[i] += scale * normal->diagonal[i];
 }
 
 void spectrum_assemble(spectrum *s)
@@ -214,22 +216,22 @@ void spectrum_assemble(spectrum *s)
     bordered_zero(&s->precision);
     for (int q = 0; q < MODULI; q++) {
         const double scale = 1.0 / (s->noise[q] * s->noise[q]);
-        add_normal(&s->precision, &s->normal[q], scale);
+        add_normal_equations(&s->precision, &s->normal[q], scale);
         add_gradient(s, q, scale);
     }
     add_priors(s);
     for (size_t i = 0; i < s->n_curves; i++) { /* fixed shifts */
-        double *own = s->precision.own + BLOCK_OWN * i;
+        double *diagonal = s->precision.diagonal + BLOCK_DIAGONAL * i;
         if (s->column_a[i] < 0)
-            own[0] = 1.0;
+            diagonal[0] = 1.0;
         if (s->column_b[i] < 0)
-            own[2] = 1.0;
+            diagonal[2] = 1.0;
     }
 }
 
 void spectrum_precision(const spectrum *s, gsl_matrix *precision)
 {
-    const bordered *p = &s->precision;
+    const bordered_matrix *p = &s->precision;
     const size_t m = s->n_linear;
     gsl_matrix_set_zero(precision);
     for (size_t i = 0; i < m; i++)
@@ -248,7 +250,8 @@ void spectrum_precision(const spectrum *s, gsl_matrix *precision)
             }
             for (size_t d = 0; d < BLOCK_SIDE; d++)
                 if (column[d] >= 0)
-                    gsl_matrix_set(precision, at, (size_t)column[d], p->own[BLOCK_OWN * i + c + d]);
+                    gsl_matrix_set(precision, at, (size_t)column[d],
+                                   p->diagonal[BLOCK_DIAGONAL * i + c + d]);
         }
         /* removes the smooth part: P - P S S' P */
         for (size_t k = 0; s->column_b[i] >= 0 && s->prior->n_smooth > 0 && k < s->n_curves; k++) {

@@ -34,8 +34,8 @@ static void place_isotherm(const shift_set *set, size_t anchor, wt_vertical_shif
     }
 }
 
-void spectrum_start(const shift_set *set, size_t anchor, wt_vertical_shift kind,
-                    const double *physical, bool *placed, double *a, double *b)
+void spectrum_place_isotherms(const shift_set *set, size_t anchor, wt_vertical_shift kind,
+                              const double *physical, bool *placed, double *a, double *b)
 {
     /* a table for another reference includes the vertical shift of this one in all rows */
     const shift_curve *at = &set->curves[anchor];
@@ -44,9 +44,9 @@ void spectrum_start(const shift_set *set, size_t anchor, wt_vertical_shift kind,
         const shift_curve *c = &set->curves[i];
         placed[i] = i == anchor || (c->given && c->n >= SHIFT_MIN_POINTS);
         a[i] = c->given ? c->given_a - set->curves[anchor].given_a : 0.0;
-        b[i] = c->held                                                    ? c->given_b - off
-               : kind == WT_VERTICAL_NONE || set->by == WT_BY_LOSS_FACTOR ? 0.0
-                                                                          : physical[i];
+        b[i] = c->held                                                       ? c->given_b - off
+               : kind == WT_VERTICAL_NONE || set->by == WT_SHIFT_LOSS_FACTOR ? 0.0
+                                                                             : physical[i];
     }
     for (size_t i = anchor + 1; i < set->n; i++)
         place_isotherm(set, anchor, kind, i, placed, a, b);
@@ -59,8 +59,8 @@ static double shared_decades(const shift_curve *p, double a_p, const shift_curve
     return fmin(p->x[p->n - 1] + a_p, s->x[s->n - 1] + a_s) - fmax(p->x[0] + a_p, s->x[0] + a_s);
 }
 
-size_t spectrum_connected(const shift_set *set, size_t anchor, const double *a, bool *placed,
-                          double *overlap)
+size_t spectrum_select_connected(const shift_set *set, size_t anchor, const double *a, bool *placed,
+                                 double *overlap)
 {
     size_t count = 1;
     for (size_t i = 0; i < set->n; i++)

@@ -16,8 +16,8 @@ static const double least_share = 1e-14;
 
 /* ---- relaxation ------------------------------------------------------------------------------ */
 
-static void relaxation_at(const spectrum *s, const double *term, double x, double *log_modulus,
-                          double *slope, double *gradient)
+static void relaxation_response(const spectrum *s, const double *term, double x,
+                                double *log_modulus, double *slope, double *gradient)
 {
     const double ratio = exp(s->step);
     double modulus = s->liquid ? 0.0 : term[s->n_terms], rise = 0.0;
@@ -42,45 +42,45 @@ static void relaxation_at(const spectrum *s, const double *term, double x, doubl
 /* The transform p E~(p) = E_inf + sum E_j p / (p + r_j) at p = -x, where x is exp(+-u) times the
  * rate `near`. A root lies between two rates. u is its distance to the nearer one, so the share
  * x / (r - x) of that rate is exact. */
-typedef struct between {
+typedef struct root_bracket {
     const double *modulus, *rate; /* [n], rates rising */
     size_t n, near;
     double equilibrium, sign;
-} between;
+} root_bracket;
 
 /* Returns x / (r_j - x). */
-static double share_of(const between *b, size_t j, double u)
+static double rate_share(const root_bracket *b, size_t j, double u)
 {
     return j == b->near ? 1.0 / expm1(-b->sign * u)
                         : 1.0 / (b->rate[j] / b->rate[b->near] * exp(-b->sign * u) - 1.0);
 }
 
 /* Returns the transform times u, which removes the pole at 0. It is positive beyond the root. */
-static double beyond_root(double u, void *user)
+static double scaled_transform(double u, void *user)
 {
-    const between *b = user;
+    const root_bracket *b = user;
     double sum = b->equilibrium;
     for (size_t j = 0; j < b->n; j++)
-        sum -= b->modulus[j] * share_of(b, j, u);
+        sum -= b->modulus[j] * rate_share(b, j, u);
     return -b->sign * u * sum;
 }
 
 /* Finds the root between rate k - 1 (0 before the first) and rate k. Returns u; b has the nearer
  * rate. */
-static double find_root(between *b, size_t k)
+static double find_retardation_root(root_bracket *b, size_t k)
 {
-    *b = (between){b->modulus, b->rate, b->n, k, b->equilibrium, -1.0};
+    *b = (root_bracket){b->modulus, b->rate, b->n, k, b->equilibrium, -1.0};
     double far = k > 0 ? 0.5 * log(b->rate[k] / b->rate[k - 1]) : 1.0;
     /* below the first rate only E_inf opposes the terms */
-    while (k == 0 && beyond_root(far, b) < 0.0 && far < 700.0)
+    while (k == 0 && scaled_transform(far, b) < 0.0 && far < 700.0)
         far *= 2.0;
-    if (k > 0 && beyond_root(far, b) < 0.0) {
+    if (k > 0 && scaled_transform(far, b) < 0.0) {
         b->near = k - 1;
         b->sign = 1.0;
     }
     const double least = far * 1e-18; /* at 0 the product is NaN */
     double u = (double)NAN;
-    return root_find(beyond_root, b, least, far, 0.0, &u, NULL) == WT_OK ? u : (double)NAN;
+    return root_find(scaled_transform, b, least, far, 0.0, &u, NULL) == WT_OK ? u : (double)NAN;
 }
 
 void spectrum_modes_new(spectrum *s)
@@ -90,7 +90,7 @@ void spectrum_modes_new(spectrum *s)
     const size_t n = s->n_terms;
     if (modes == NULL)
         return; /* the arena records the failure */
-    modes->of = arena_numbers(m, s->n_linear);
+    modes->terms = arena_numbers(m, s->n_linear);
     modes->index = arena_alloc(m, n, sizeof *modes->index);
     modes->modulus = arena_numbers(m, n);
     modes->rate = arena_numbers(m, n);
@@ -116,21 +116,21 @@ static void find_modes(const spectrum *s, const double *term)
         m->rate[m->n++] = exp(-(s->log_tau + (double)j * s->step));
     }
     m->instantaneous = slower;
-    between b = {.modulus = m->modulus, .rate = m->rate, .n = m->n};
+    root_bracket b = {.modulus = m->modulus, .rate = m->rate, .n = m->n};
     b.equilibrium = term[s->n_terms];
     for (size_t k = 0; k < m->n; k++) {
-        const double u = find_root(&b, k);
+        const double u = find_retardation_root(&b, k);
         double *share = m->share + k * m->n, slope = 0.0, bend = 0.0;
         m->root[k] = m->rate[b.near] * exp(b.sign * u);
         for (size_t j = 0; j < m->n; j++) {
-            const double a = share[j] = share_of(&b, j, u);
+            const double a = share[j] = rate_share(&b, j, u);
             slope += m->modulus[j] * a * (1.0 + a);
             bend -= 2.0 * m->modulus[j] * a * a * (1.0 + a);
         }
         m->slope[k] = slope;
         m->bend[k] = bend / slope;
     }
-    memcpy(m->of, term, s->n_linear * sizeof *m->of);
+    memcpy(m->terms, term, s->n_linear * sizeof *m->terms);
     m->known = true;
 }
 
@@ -140,7 +140,7 @@ static void find_modes(const spectrum *s, const double *term)
 static void creep_derivatives(const spectrum *s, double time, double compliance, double *gradient)
 {
     const spectrum_modes *m = s->modes;
-    const double equilibrium = m->of[s->n_terms];
+    const double equilibrium = m->terms[s->n_terms];
     double of_equilibrium = -1.0 / (equilibrium * equilibrium);
     memset(gradient, 0, s->n_terms * sizeof *gradient);
     for (size_t k = 0; k < m->n; k++) {
@@ -156,12 +156,12 @@ static void creep_derivatives(const spectrum *s, double time, double compliance,
     gradient[s->n_terms] = -equilibrium * of_equilibrium / compliance;
 }
 
-static void creep_at(const spectrum *s, const double *term, double x, double *log_modulus,
-                     double *slope, double *gradient)
+static void creep_response(const spectrum *s, const double *term, double x, double *log_modulus,
+                           double *slope, double *gradient)
 {
     const double time = exp(-x);
     spectrum_modes *m = s->modes;
-    if (!m->known || memcmp(m->of, term, s->n_linear * sizeof *m->of) != 0)
+    if (!m->known || memcmp(m->terms, term, s->n_linear * sizeof *m->terms) != 0)
         find_modes(s, term);
     double compliance = 1.0 / m->instantaneous, rise = 0.0;
     for (size_t k = 0; k < m->n; k++) {
@@ -176,11 +176,11 @@ static void creep_at(const spectrum *s, const double *term, double x, double *lo
         creep_derivatives(s, time, compliance, gradient);
 }
 
-void spectrum_step_at(const spectrum *s, const double *term, double x, double *log_modulus,
-                      double *slope, double *gradient)
+void spectrum_step_response(const spectrum *s, const double *term, double x, double *log_modulus,
+                            double *slope, double *gradient)
 {
     if (s->loading == WT_CREEP)
-        creep_at(s, term, x, log_modulus, slope, gradient);
+        creep_response(s, term, x, log_modulus, slope, gradient);
     else
-        relaxation_at(s, term, x, log_modulus, slope, gradient);
+        relaxation_response(s, term, x, log_modulus, slope, gradient);
 }

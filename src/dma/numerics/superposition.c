@@ -37,7 +37,7 @@ static const double least_squares = 0.01;
  * noise within the isotherms. The variance of ln of a variance is 2 divided by them: 12 are a
  * factor 1.5. Chosen: the 1 % point of F for 20 columns is 3.9. It would be 7.4 with half and
  * 2.7 with twice as many. */
-static const double least_known = 12.0;
+static const double min_noise_freedom = 12.0;
 
 /* Relative accuracy of the limits of the misfit; two digits are reported. */
 static const double misfit_close = 1e-4;
@@ -60,30 +60,30 @@ typedef struct explanation {
     size_t rank;
 } explanation;
 
-struct extra {
+struct test_work {
     const spectrum *s;
     arena memory;
     size_t n;       /* number of filled columns */
     double *column; /* [MOST_COLUMNS * 2 longest] whitened columns of one isotherm, E' then E'' */
     size_t longest; /* largest number of points of an isotherm */
-    gsl_matrix *together; /* [n_linear^2] products of the columns through the terms */
-    double *toward;       /* [n_linear] the same with the residuals */
-    double *share;        /* [PARTINGS * n_terms] dependence of a term on a separation */
-    explanation got;
+    gsl_matrix *common_products; /* [n_linear^2] products of the columns through the terms */
+    double *common_residuals;    /* [n_linear] the same with the residuals */
+    double *share;               /* [PARTINGS * n_terms] dependence of a term on a separation */
+    explanation total;
     double squares, points, freedom;
     double uncertainty; /* variance of ln of the noise variance of the columns */
 };
 
-static double *column_of(const struct extra *x, size_t column, int q)
+static double *column_values(const struct test_work *x, size_t column, int q)
 {
     return x->column + (column * MODULI + (size_t)q) * x->longest;
 }
 
 /* Adds a power of the frequency as a column, whitened and divided by the noise. */
-static void add_column(struct extra *x, size_t curve, int q, int power)
+static void add_test_column(struct test_work *x, size_t curve, int q, int power)
 {
     const spectrum *s = x->s;
-    double *v = column_of(x, x->n++, q);
+    double *v = column_values(x, x->n++, q);
     const size_t from = s->first[curve], to = s->first[curve + 1];
     const double middle = 0.5 * (s->x[from] + s->x[to - 1]);
     const double half = fmax(0.5 * (s->x[to - 1] - s->x[from]), 1e-300);
@@ -93,24 +93,24 @@ static void add_column(struct extra *x, size_t curve, int q, int power)
     spectrum_whiten(s, curve, q, v, 1);
 }
 
-static void clear_columns(struct extra *x)
+static void clear_columns(struct test_work *x)
 {
     x->n = 0;
     memset(x->column, 0, MOST_COLUMNS * MODULI * x->longest * sizeof *x->column);
 }
 
-static void fill_columns(struct extra *x, size_t curve)
+static void fill_isotherm_columns(struct test_work *x, size_t curve)
 {
     const size_t points = x->s->first[curve + 1] - x->s->first[curve];
     clear_columns(x);
     for (int q = 0; q < MODULI; q++)
         for (int p = first_power[q]; p < (points < LEAST_PARABOLA ? 2 : POWERS); p++)
-            add_column(x, curve, q, p);
+            add_test_column(x, curve, q, p);
 }
 
 /* Computes the dependence of the terms on each separation: rising from -1 to 1 across it
  * [PARTINGS * n_terms]. */
-static void follow_partings(const spectrum *s, double *share)
+static void set_parting_shares(const spectrum *s, double *share)
 {
     double low = HUGE_VAL, high = -HUGE_VAL;
     for (size_t i = 0; i < s->n_curves; i++) {
@@ -127,21 +127,21 @@ static void follow_partings(const spectrum *s, double *share)
 
 /* Adds the change of the moduli of a point if each term moves by its share of the shift of the
  * isotherm. */
-static void add_parted(struct extra *x, size_t curve, size_t k, const double *share,
-                       double *const part[MODULI])
+static void add_parting_columns(struct test_work *x, size_t curve, size_t k, const double *share,
+                                double *const part[MODULI])
 {
     const spectrum *s = x->s;
     const double a = spectrum_a(s, curve);
     double modulus[MODULI], slope[MODULI];
-    spectrum_at(s, s->term, s->x[k] + a, modulus, slope, part);
+    spectrum_moduli(s, s->term, s->x[k] + a, modulus, slope, part);
     for (size_t j = 0; j < s->n_terms; j++) {
         const double z = exp(s->x[k] + a + s->log_tau + (double)j * s->step);
         const double rise[MODULI] = {2.0 / (1.0 + z * z), 2.0 / (1.0 + z * z) - 1.0};
         for (int q = 0; q < MODULI; q++)
             for (size_t p = 0; p < PARTINGS; p++)
-                column_of(x, p, q)[k - s->first[curve]] += a * spectrum_weight(s, k, q) /
-                                                           s->noise[q] * share[p * s->n_terms + j] *
-                                                           part[q][j] * rise[q];
+                column_values(x, p, q)[k - s->first[curve]] +=
+                    a * spectrum_weight(s, k, q) / s->noise[q] * share[p * s->n_terms + j] *
+                    part[q][j] * rise[q];
     }
 }
 
@@ -149,11 +149,11 @@ static void add_parted(struct extra *x, size_t curve, size_t k, const double *sh
 
 /* Computes the products of the columns of a curve with its rows, divided by the noise, and with
  * the residuals. The shifts are projected out. */
-static void add_products(const struct extra *x, size_t curve, struct columns *to)
+static void add_products(const struct test_work *x, size_t curve, struct columns *to)
 {
     const spectrum *s = x->s;
     const size_t m = s->n_linear, width = m + 2, from = s->first[curve], end = s->first[curve + 1];
-    const double *own = s->factor.own + BLOCK_OWN * curve;
+    const double *diagonal = s->factor.diagonal + BLOCK_DIAGONAL * curve;
     const double *side[BLOCK_SIDE] = {
         gsl_matrix_const_ptr(s->factor.side, BLOCK_SIDE * curve, 0),
         gsl_matrix_const_ptr(s->factor.side, BLOCK_SIDE * curve + 1, 0)};
@@ -161,24 +161,24 @@ static void add_products(const struct extra *x, size_t curve, struct columns *to
     for (size_t c = 0; c < to->n; c++) {
         for (int q = 0; q < MODULI; q++)
             for (size_t k = from; k < end; k++) {
-                const double w = column_of(x, c, q)[k - from] / s->noise[q];
+                const double w = column_values(x, c, q)[k - from] / s->noise[q];
                 const double *row = s->row[q] + k * width;
                 if (w == 0.0)
                     continue;
-                dense_add(to->border[c], m, &w, 1, row, width, 1);
+                dense_add_rows(to->border[c], m, &w, 1, row, width, 1);
                 to->right[c] += w * s->residual[q][k];
                 shift[c][0] += s->column_a[curve] >= 0 ? w * row[m] : 0.0;
                 shift[c][1] += s->column_b[curve] >= 0 ? w * row[m + 1] : 0.0;
             }
-        shift[c][0] /= own[0];
-        shift[c][1] = (shift[c][1] - own[1] * shift[c][0]) / own[2];
+        shift[c][0] /= diagonal[0];
+        shift[c][1] = (shift[c][1] - diagonal[1] * shift[c][0]) / diagonal[2];
         for (size_t j = 0; j < m; j++)
             to->border[c][j] -= shift[c][0] * side[0][j] + shift[c][1] * side[1][j];
         for (size_t d = 0; d <= c; d++) {
             double sum = 0.0;
             for (int q = 0; q < MODULI; q++)
                 for (size_t k = 0; k < end - from; k++)
-                    sum += column_of(x, c, q)[k] * column_of(x, d, q)[k];
+                    sum += column_values(x, c, q)[k] * column_values(x, d, q)[k];
             if (c == d)
                 to->length[c] += sum;
             to->product[c * MOST_COLUMNS + d] +=
@@ -187,7 +187,7 @@ static void add_products(const struct extra *x, size_t curve, struct columns *to
     }
 }
 
-static void clear_products(const struct extra *x, size_t n, struct columns *c)
+static void clear_products(const struct test_work *x, size_t n, struct columns *c)
 {
     c->n = n;
     for (size_t i = 0; i < n; i++) {
@@ -198,7 +198,7 @@ static void clear_products(const struct extra *x, size_t n, struct columns *c)
 }
 
 /* Scales all products to columns of length 1. */
-static void scale_products(const struct extra *x, struct columns *c)
+static void scale_products(const struct test_work *x, struct columns *c)
 {
     for (size_t i = 0; i < c->n; i++)
         c->length[i] = sqrt(c->length[i]);
@@ -213,7 +213,7 @@ static void scale_products(const struct extra *x, struct columns *c)
 }
 
 /* Multiplies by the inverse of the factor of the border. */
-static void by_border(const spectrum *s, double *v)
+static void apply_border_inverse(const spectrum *s, double *v)
 {
     const size_t m = s->n_linear; /* with free shifts the border has only terms */
     gsl_matrix_const_view root = gsl_matrix_const_submatrix(s->factor.border, 0, 0, m, m);
@@ -221,10 +221,10 @@ static void by_border(const spectrum *s, double *v)
 }
 
 /* Projects out the terms. */
-static void take_out_terms(const struct extra *x, struct columns *c)
+static void project_out_terms(const struct test_work *x, struct columns *c)
 {
     for (size_t i = 0; i < c->n; i++) {
-        by_border(x->s, c->border[i]);
+        apply_border_inverse(x->s, c->border[i]);
         for (size_t j = 0; j <= i; j++)
             for (size_t k = 0; k < x->s->n_linear; k++)
                 c->product[i * MOST_COLUMNS + j] -= c->border[i][k] * c->border[j][k];
@@ -233,7 +233,7 @@ static void take_out_terms(const struct extra *x, struct columns *c)
 
 /* Returns the separation of the times of the measured range as a share of the shifts. It is half
  * the range of the fitted separations, with the factor. */
-static double parted_share(const struct extra *x, const struct columns *c)
+static double parted_share(const struct test_work *x, const struct columns *c)
 {
     const spectrum *s = x->s;
     double matrix[WITH_FACTOR * WITH_FACTOR] = {0.0}, by[WITH_FACTOR], low = HUGE_VAL,
@@ -255,16 +255,16 @@ static double parted_share(const struct extra *x, const struct columns *c)
     return high > low ? 0.5 * (high - low) : 0.0;
 }
 
-static void swap(double *a, double *b)
+static void swap_numbers(double *a, double *b)
 {
-    const double keep = *a;
+    const double saved = *a;
     *a = *b;
-    *b = keep;
+    *b = saved;
 }
 
 /* Orthogonalises the remaining columns, largest remainder first, and adds the squares that they
  * explain. */
-static void orthogonalise(struct extra *x, struct columns *c)
+static void orthogonalise(struct test_work *x, struct columns *c)
 {
     double *a = c->product;
     for (size_t i = 0; i < c->n; i++)
@@ -275,10 +275,10 @@ static void orthogonalise(struct extra *x, struct columns *c)
         for (size_t i = rank; i < c->n; i++)
             pivot = a[i * MOST_COLUMNS + i] > a[pivot * MOST_COLUMNS + pivot] ? i : pivot;
         for (size_t i = 0; i < c->n; i++)
-            swap(a + rank * MOST_COLUMNS + i, a + pivot * MOST_COLUMNS + i);
+            swap_numbers(a + rank * MOST_COLUMNS + i, a + pivot * MOST_COLUMNS + i);
         for (size_t i = 0; i < c->n; i++)
-            swap(a + i * MOST_COLUMNS + rank, a + i * MOST_COLUMNS + pivot);
-        swap(c->right + rank, c->right + pivot);
+            swap_numbers(a + i * MOST_COLUMNS + rank, a + i * MOST_COLUMNS + pivot);
+        swap_numbers(c->right + rank, c->right + pivot);
         double *const border = c->border[rank];
         c->border[rank] = c->border[pivot];
         c->border[pivot] = border;
@@ -294,31 +294,31 @@ static void orthogonalise(struct extra *x, struct columns *c)
         for (size_t i = rank + 1; i < c->n; i++) {
             const double f = a[i * MOST_COLUMNS + rank] * root, less = -f;
             c->right[i] -= f * c->right[rank];
-            dense_add(c->border[i], x->s->n_linear, &less, 1, c->border[rank], 1, 1);
+            dense_add_rows(c->border[i], x->s->n_linear, &less, 1, c->border[rank], 1, 1);
             for (size_t j = rank + 1; j < c->n; j++)
                 a[i * MOST_COLUMNS + j] -= f * a[rank * MOST_COLUMNS + j] * root;
         }
     }
     for (size_t i = 0; i < c->n; i++)
-        x->got.explained += c->right[i] * c->right[i];
-    x->got.rank += c->n;
+        x->total.explained += c->right[i] * c->right[i];
+    x->total.rank += c->n;
 }
 
 /* Adds the products of the orthogonal columns of an isotherm through the terms. */
-static void add_together(struct extra *x, const struct columns *c)
+static void accumulate_common(struct test_work *x, const struct columns *c)
 {
     const size_t m = x->s->n_linear;
     for (size_t i = 0; i < c->n; i++) {
-        dense_add(x->toward, m, &c->right[i], 1, c->border[i], m, 1);
+        dense_add_rows(x->common_residuals, m, &c->right[i], 1, c->border[i], m, 1);
         for (size_t j = 0; j < m; j++)
-            dense_add(gsl_matrix_ptr(x->together, j, 0), m, &c->border[i][j], 1, c->border[i], m,
-                      1);
+            dense_add_rows(gsl_matrix_ptr(x->common_products, j, 0), m, &c->border[i][j], 1,
+                           c->border[i], m, 1);
     }
 }
 
 /* Projects the terms out of the columns of all isotherms together. For each eigenvector of the
  * common products the model leaves 1 minus the eigenvalue. */
-static wt_status take_out_together(struct extra *x, wt_error *err)
+static wt_status project_out_common(struct test_work *x, wt_error *err)
 {
     const size_t m = x->s->n_linear;
     gsl_vector *value = arena_vector(&x->memory, m);
@@ -329,42 +329,42 @@ static wt_status take_out_together(struct extra *x, wt_error *err)
         return wt_fail(err, WT_E_MEMORY, "no memory for the test of superposition");
     }
     for (size_t i = 0; i < m; i++)
-        by_border(x->s, gsl_matrix_ptr(x->together, i, 0));
-    gsl_matrix_transpose(x->together);
+        apply_border_inverse(x->s, gsl_matrix_ptr(x->common_products, i, 0));
+    gsl_matrix_transpose(x->common_products);
     for (size_t i = 0; i < m; i++)
-        by_border(x->s, gsl_matrix_ptr(x->together, i, 0));
-    by_border(x->s, x->toward);
-    gsl_eigen_symmv(x->together, value, vector, work);
+        apply_border_inverse(x->s, gsl_matrix_ptr(x->common_products, i, 0));
+    apply_border_inverse(x->s, x->common_residuals);
+    gsl_eigen_symmv(x->common_products, value, vector, work);
     gsl_eigen_symmv_free(work);
     for (size_t k = 0; k < m; k++) {
         const double taken = gsl_vector_get(value, k), left = 1.0 - taken;
         double sum = 0.0;
         for (size_t i = 0; i < m; i++)
-            sum += gsl_matrix_get(vector, i, k) * x->toward[i];
-        x->got.explained += left > least_left ? sum * sum / left : -sum * sum / taken;
-        x->got.rank -= left > least_left ? 0 : 1;
+            sum += gsl_matrix_get(vector, i, k) * x->common_residuals[i];
+        x->total.explained += left > least_left ? sum * sum / left : -sum * sum / taken;
+        x->total.rank -= left > least_left ? 0 : 1;
     }
     return WT_OK;
 }
 
 /* Computes the squares explained by a line and a parabola of each isotherm. */
-static wt_status explain_isotherms(struct extra *x, struct columns *c, wt_error *err)
+static wt_status explain_isotherms(struct test_work *x, struct columns *c, wt_error *err)
 {
-    x->got = (explanation){0.0, 0};
+    x->total = (explanation){0.0, 0};
     for (size_t i = 0; i < x->s->n_curves; i++) {
-        fill_columns(x, i);
+        fill_isotherm_columns(x, i);
         clear_products(x, x->n, c);
         add_products(x, i, c);
         scale_products(x, c);
         orthogonalise(x, c);
-        add_together(x, c);
+        accumulate_common(x, c);
     }
-    return take_out_together(x, err);
+    return project_out_common(x, err);
 }
 
 /* Fills the columns of all isotherms: a second process shifts slow and fast times differently in
  * proportion to the shift. The last column is the factor on E''. */
-static wt_status fill_of_all(struct extra *x, struct columns *c, wt_error *err)
+static wt_status fill_shared_columns(struct test_work *x, struct columns *c, wt_error *err)
 {
     const spectrum *s = x->s;
     double *share = x->share = arena_numbers(&x->memory, PARTINGS * s->n_terms);
@@ -372,34 +372,34 @@ static wt_status fill_of_all(struct extra *x, struct columns *c, wt_error *err)
                                   arena_numbers(&x->memory, s->n_linear)};
     if (x->memory.failed)
         return wt_fail(err, WT_E_MEMORY, "no memory for the test of superposition");
-    follow_partings(s, share);
+    set_parting_shares(s, share);
     clear_products(x, WITH_FACTOR, c);
     for (size_t i = 0; i < s->n_curves; i++) {
         clear_columns(x);
         for (size_t k = s->first[i]; k < s->first[i + 1]; k++)
-            add_parted(x, i, k, share, part);
+            add_parting_columns(x, i, k, share, part);
         for (size_t p = 0; p < PARTINGS; p++)
             for (int q = 0; q < MODULI; q++)
-                spectrum_whiten(s, i, q, column_of(x, p, q), 1);
+                spectrum_whiten(s, i, q, column_values(x, p, q), 1);
         x->n = FACTOR;
-        add_column(x, i, LOSS, 0);
+        add_test_column(x, i, LOSS, 0);
         add_products(x, i, c);
     }
     scale_products(x, c);
-    take_out_terms(x, c);
+    project_out_terms(x, c);
     return WT_OK;
 }
 
 /* Computes the squares explained by the separations. */
-static void explain_partings(struct extra *x, struct columns *c)
+static void explain_partings(struct test_work *x, struct columns *c)
 {
     c->n = PARTINGS;
-    x->got = (explanation){0.0, 0};
+    x->total = (explanation){0.0, 0};
     orthogonalise(x, c);
 }
 
 /* Returns the noncentral chi-square distribution as a Poisson mixture of central ones. */
-static double noncentral_below(double x, double freedom, double lambda)
+static double noncentral_probability(double x, double freedom, double lambda)
 {
     const double mean = 0.5 * lambda, width = 10.0 * sqrt(mean) + 20.0;
     double sum = 0.0;
@@ -421,10 +421,10 @@ typedef struct noncentral {
     double x, freedom, probability;
 } noncentral;
 
-static bool more_probable(double lambda, void *user)
+static bool probability_exceeds(double lambda, void *user)
 {
     const noncentral *c = user;
-    return noncentral_below(c->x, c->freedom, lambda) > c->probability;
+    return noncentral_probability(c->x, c->freedom, lambda) > c->probability;
 }
 
 /* Returns lambda for which the distribution function at x has this probability. */
@@ -435,39 +435,39 @@ static double noncentrality(double x, double freedom, double probability)
         return pow(sqrt(x - half) - gsl_cdf_ugaussian_Pinv(probability), 2) - half;
     noncentral c = {x, freedom, probability};
     double low = 0.0, high = 4.0 * x + 100.0;
-    if (!more_probable(low, &c))
+    if (!probability_exceeds(low, &c))
         return 0.0;
-    root_halve(more_probable, &c, &low, &high, misfit_close, MOST_HALVINGS);
+    root_bisect(probability_exceeds, &c, &low, &high, misfit_close, MOST_HALVINGS);
     return 0.5 * (low + high);
 }
 
 /* Returns the degrees of freedom of the noise estimate for the columns. */
-static double known_freedom(const struct extra *x, double left)
+static double noise_freedom(const struct test_work *x, double left)
 {
-    return fmax(2.0 / (2.0 / left + x->uncertainty), fmin(least_known, left));
+    return fmax(2.0 / (2.0 / left + x->uncertainty), fmin(min_noise_freedom, left));
 }
 
 /* Returns the degrees of freedom that k columns leave. */
-static double left_by(const struct extra *x, double k)
+static double remaining_freedom(const struct test_work *x, double k)
 {
     return fmax(x->points - x->freedom - k, 1.0);
 }
 
-static double variance_left(const struct extra *x, double q, double k)
+static double remaining_variance(const struct test_work *x, double q, double k)
 {
-    return fmax(x->squares - q, least_squares * x->squares) / left_by(x, k);
+    return fmax(x->squares - q, least_squares * x->squares) / remaining_freedom(x, k);
 }
 
 /* Updates the probability and misfit in `result` if the columns are less likely. The misfit is
  * the larger one. */
-static void judge_columns(const struct extra *x, lack_of_fit *result)
+static void assess_columns(const struct test_work *x, lack_of_fit *result)
 {
     const spectrum *s = x->s;
-    const double q = x->got.explained, k = (double)x->got.rank, left = left_by(x, k);
-    const double variance = variance_left(x, q, k);
-    if (x->got.rank == 0)
+    const double q = x->total.explained, k = (double)x->total.rank, left = remaining_freedom(x, k);
+    const double variance = remaining_variance(x, q, k);
+    if (x->total.rank == 0)
         return;
-    const double known = known_freedom(x, left);
+    const double known = noise_freedom(x, left);
     const double to_misfit = s->noise[STORAGE] * s->noise[LOSS] * variance / x->points;
     const double above = q / variance;
     result->p = fmin(result->p, tests * gsl_cdf_fdist_Q(above / k, k, left));
@@ -479,23 +479,24 @@ static void judge_columns(const struct extra *x, lack_of_fit *result)
 
 /* Tests the factor on E''. `lines` is the result of the isotherm columns; what they explain
  * beyond the factor is another misfit. */
-static void test_factor(const struct extra *x, const struct columns *c, explanation lines,
-                        lack_of_fit *result)
+static void test_loss_factor(const struct test_work *x, const struct columns *c, explanation lines,
+                             lack_of_fit *result)
 {
     const double d = c->product[FACTOR * MOST_COLUMNS + FACTOR], r = c->right[FACTOR];
-    const double left = left_by(x, 1.0), q = fmax(lines.explained - r * r / d, 0.0);
+    const double left = remaining_freedom(x, 1.0), q = fmax(lines.explained - r * r / d, 0.0);
     const double spread = fmax((x->squares - r * r / d) / left, 1e-300);
-    const double known = known_freedom(x, left), k = (double)lines.rank;
+    const double known = noise_freedom(x, left), k = (double)lines.rank;
     if (lines.rank > 1)
-        result->p_beyond = gsl_cdf_fdist_Q(q / variance_left(x, lines.explained, k) / (k - 1.0),
-                                           k - 1.0, known_freedom(x, left_by(x, k)));
+        result->p_beyond =
+            gsl_cdf_fdist_Q(q / remaining_variance(x, lines.explained, k) / (k - 1.0), k - 1.0,
+                            noise_freedom(x, remaining_freedom(x, k)));
     result->beyond = lines.explained > 0.0 ? q / lines.explained : 1.0;
     result->factor = r / d / c->length[FACTOR];
     result->factor_error = sqrt(spread / d) / c->length[FACTOR];
     result->kk = 2.0 * gsl_cdf_tdist_Q(fabs(r) / sqrt(spread * d), known);
 }
 
-static void make_room(struct extra *x, struct columns *c)
+static void allocate_test(struct test_work *x, struct columns *c)
 {
     const spectrum *s = x->s;
     for (size_t i = 0; i < s->n_curves; i++) {
@@ -503,8 +504,8 @@ static void make_room(struct extra *x, struct columns *c)
         x->longest = points > x->longest ? points : x->longest;
     }
     x->column = arena_numbers(&x->memory, MOST_COLUMNS * MODULI * x->longest);
-    x->together = arena_matrix(&x->memory, s->n_linear, s->n_linear);
-    x->toward = arena_numbers(&x->memory, s->n_linear);
+    x->common_products = arena_matrix(&x->memory, s->n_linear, s->n_linear);
+    x->common_residuals = arena_numbers(&x->memory, s->n_linear);
     for (size_t i = 0; i < MOST_COLUMNS; i++)
         c->border[i] = arena_numbers(&x->memory, s->n_linear);
 }
@@ -512,9 +513,9 @@ static void make_room(struct extra *x, struct columns *c)
 wt_status superposition_test(const spectrum *s, double uncertainty, lack_of_fit *result,
                              wt_error *err)
 {
-    struct extra x = {.s = s, .uncertainty = uncertainty};
+    struct test_work x = {.s = s, .uncertainty = uncertainty};
     struct columns c = {0};
-    make_room(&x, &c);
+    allocate_test(&x, &c);
     wt_status status = x.memory.failed
                            ? wt_fail(err, WT_E_MEMORY, "no memory for the test of superposition")
                            : WT_OK;
@@ -527,16 +528,16 @@ wt_status superposition_test(const spectrum *s, double uncertainty, lack_of_fit 
     *result = (lack_of_fit){.p = 1.0, .p_sure = 1.0, .p_beyond = 1.0};
     if (status == WT_OK)
         status = explain_isotherms(&x, &c, err);
-    const explanation lines = x.got;
+    const explanation lines = x.total;
     if (status == WT_OK) {
-        judge_columns(&x, result);
-        status = fill_of_all(&x, &c, err);
+        assess_columns(&x, result);
+        status = fill_shared_columns(&x, &c, err);
     }
     if (status == WT_OK) {
-        test_factor(&x, &c, lines, result);
+        test_loss_factor(&x, &c, lines, result);
         result->parted = parted_share(&x, &c);
         explain_partings(&x, &c);
-        judge_columns(&x, result);
+        assess_columns(&x, result);
     }
     arena_free(&x.memory);
     return status;

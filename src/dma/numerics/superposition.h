@@ -16,7 +16,8 @@ typedef struct lack_of_fit {
         parted; /* separation of slow and fast times as a share of the shift, without that factor */
 } lack_of_fit;
 
-/* Tests a fit with free vertical shifts; uncertainty: that of its noise (spectrum_within). */
+/* Tests a fit with free vertical shifts; uncertainty: that of its noise (spectrum_isotherm_noise).
+ */
 wt_status superposition_test(const spectrum *s, double uncertainty, lack_of_fit *result,
                              wt_error *err) WT_NODISCARD;
 

@@ -12,15 +12,16 @@
 /* Correlation length of the departure of the material [K]; a filler network or a transition
  * changes over tens of kelvin. Chosen: at 20 the departure follows isotherms 10 K apart
  * individually, as clamping does. At 80 it is nearly a line. */
-static const double reach = 40.0;
+static const double correlation_length = 40.0;
 
 /* Returns the covariance of the smooth departure at two temperatures; it is 0 at the reference. */
-static double departure_covariance(const vertical *v, double t1, double t2)
+static double vertical_departure_covariance(const vertical *v, double t1, double t2)
 {
     const double r = v->reference_temperature;
-    const double k12 = exp(-0.5 * (t1 - t2) * (t1 - t2) / (reach * reach));
-    const double k1 = exp(-0.5 * (t1 - r) * (t1 - r) / (reach * reach));
-    const double k2 = exp(-0.5 * (t2 - r) * (t2 - r) / (reach * reach));
+    const double k12 =
+        exp(-0.5 * (t1 - t2) * (t1 - t2) / (correlation_length * correlation_length));
+    const double k1 = exp(-0.5 * (t1 - r) * (t1 - r) / (correlation_length * correlation_length));
+    const double k2 = exp(-0.5 * (t2 - r) * (t2 - r) / (correlation_length * correlation_length));
     return k12 - k1 - k2 + 1.0;
 }
 
@@ -30,14 +31,14 @@ double vertical_physical(const vertical *v, double temperature)
     return log(t0 / temperature) + v->expansion * (temperature - t0);
 }
 
-void vertical_make_room(arena *memory, size_t n, vertical *v)
+void vertical_alloc(arena *memory, size_t n, vertical *v)
 {
-    const size_t most = n < SPECTRUM_MOST_SMOOTH ? n : SPECTRUM_MOST_SMOOTH;
-    v->room.precision = arena_numbers(memory, n);
-    v->room.smooth = arena_matrix(memory, n, most);
+    const size_t most = n < SPECTRUM_MAX_SMOOTH ? n : SPECTRUM_MAX_SMOOTH;
+    v->prior_storage.precision = arena_numbers(memory, n);
+    v->prior_storage.smooth = arena_matrix(memory, n, most);
     v->left = arena_numbers(memory, n);
     v->root = arena_matrix(memory, most, most);
-    v->room.at = arena_numbers(memory, most);
+    v->prior_storage.at = arena_numbers(memory, most);
 }
 
 /* Factors the covariance of the departure by pivoted Cholesky down to rounding. Returns the
@@ -49,7 +50,7 @@ static size_t factor_departure(const vertical *v, const double *temperature, siz
     double *left = v->left;
     size_t m = 0;
     for (size_t i = 0; i < n; i++)
-        left[i] = departure_covariance(v, temperature[i], temperature[i]);
+        left[i] = vertical_departure_covariance(v, temperature[i], temperature[i]);
     for (; departure > 0.0 && m < smooth->size2; m++) {
         size_t pivot = 0;
         for (size_t i = 1; i < n; i++)
@@ -58,7 +59,7 @@ static size_t factor_departure(const vertical *v, const double *temperature, siz
             break;
         const double root = sqrt(left[pivot]);
         for (size_t i = 0; i < n; i++) {
-            double with = departure_covariance(v, temperature[i], temperature[pivot]);
+            double with = vertical_departure_covariance(v, temperature[i], temperature[pivot]);
             for (size_t j = 0; j < m; j++)
                 with -= gsl_matrix_get(smooth, i, j) * gsl_matrix_get(smooth, pivot, j);
             gsl_matrix_set(smooth, i, m, with / root);
@@ -75,7 +76,7 @@ static size_t factor_departure(const vertical *v, const double *temperature, siz
 
 /* Converts the factor F of the departure to S = F R^-T, where R is the factor of 1 + F' P F.
  * *log_det: ln of its determinant. */
-static bool smooth_of_departure(const vertical *v, size_t n, double clamped, size_t m,
+static bool departure_to_smooth(const vertical *v, size_t n, double clamped, size_t m,
                                 gsl_matrix *smooth, double *log_det)
 {
     double *root = v->root->data;
@@ -103,7 +104,7 @@ wt_status vertical_prior(vertical *v, wt_vertical_shift kind, const double *temp
 {
     const size_t n = s->n_curves;
     const double geometry = v->geometry * M_LN10, clamped = 1.0 / (geometry * geometry);
-    *prior = v->room;
+    *prior = v->prior_storage;
     prior->held = kind == WT_VERTICAL_NONE || kind == WT_VERTICAL_PHYSICAL;
     prior->mean = v->mean;
     for (size_t i = 0; i < n; i++) {
@@ -117,7 +118,7 @@ wt_status vertical_prior(vertical *v, wt_vertical_shift kind, const double *temp
     if (kind != WT_VERTICAL_TIED)
         return WT_OK;
     const size_t m = prior->n_smooth = factor_departure(v, temperature, n, prior->smooth);
-    if (!smooth_of_departure(v, n, clamped, m, prior->smooth, &prior->log_det))
+    if (!departure_to_smooth(v, n, clamped, m, prior->smooth, &prior->log_det))
         return wt_fail(err, WT_E_INTERNAL, "the prior of the vertical shifts is not positive");
     prior->log_det += 2.0 * (double)n * log(geometry);
     return WT_OK;

@@ -8,7 +8,7 @@ typedef struct vertical {
     double reference_temperature, expansion; /* [K], [1/K] */
     double geometry, departure;              /* standard deviations [decade] */
     double *mean;                            /* [n] owned by the caller */
-    spectrum_prior room;                     /* arrays of the prior; one prior at a time */
+    spectrum_prior prior_storage;            /* arrays of the prior; one prior at a time */
     double *left;                            /* [n] scratch */
     gsl_matrix *root;                        /* scratch */
 } vertical;
@@ -16,7 +16,7 @@ typedef struct vertical {
 /* Returns ln b of rubber elasticity. */
 double vertical_physical(const vertical *v, double temperature);
 /* Allocates the arrays for n curves. */
-void vertical_make_room(arena *memory, size_t n, vertical *v);
+void vertical_alloc(arena *memory, size_t n, vertical *v);
 /* Fills the prior of the curves of a spectrum, which borrows `mean` and the arrays. Free shifts
  * fix only the anchor, with the clamping error; without a geometry error the anchor is exact. */
 wt_status vertical_prior(vertical *v, wt_vertical_shift kind, const double *temperature,

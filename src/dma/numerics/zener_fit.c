@@ -14,11 +14,11 @@ enum { CONSTANTS = 4, STEPS = 200, DAMPINGS = 12 };
 /* Above this ratio to the measured moduli the glass modulus is undetermined, because less than a
  * tenth of the transition is visible. A long-term modulus below this share of the lowest E'
  * counts as 0. */
-static const double beyond = 10, negligible = 1e-3;
+static const double max_glass_ratio = 10, negligible = 1e-3;
 enum { LN_E0, LN_RISE, LN_TAU, LOGIT_ALPHA };
 
 /* Computes ln E' and ln E'' of E0 + rise z/(1 + z), z = (i w tau)^alpha. */
-static void law_at(const double *p, double ln_w, double ln[2])
+static void zener_log_moduli(const double *p, double ln_w, double ln[2])
 {
     const double alpha = 1 / (1 + exp(-p[LOGIT_ALPHA])), exponent = alpha * (ln_w + p[LN_TAU]);
     const double r = exp(-fabs(exponent)), c = cos(alpha * M_PI_2), s = sin(alpha * M_PI_2);
@@ -28,25 +28,25 @@ static void law_at(const double *p, double ln_w, double ln[2])
 }
 
 /* Returns true if both moduli of the point are measured and not excluded. */
-static bool point_counts(const wt_master *m, size_t i)
+static bool is_usable_point(const wt_master *m, size_t i)
 {
     return !m->left_out[i] && isfinite(m->log_storage[i]) && isfinite(m->log_loss[i]);
 }
 
 /* Returns the sum of squared ln residuals of the included points, and fills the sum of each
  * modulus. */
-static double residual_squares(const wt_master *m, const double *p, double of[2])
+static double log_residual_squares(const wt_master *m, const double *p, double squares[2])
 {
-    of[0] = of[1] = 0;
+    squares[0] = squares[1] = 0;
     for (size_t i = 0; i < m->n; i++) {
         double ln[2];
-        if (!point_counts(m, i))
+        if (!is_usable_point(m, i))
             continue;
-        law_at(p, m->log_frequency[i] * M_LN10, ln);
-        of[0] += pow(ln[0] - m->log_storage[i] * M_LN10, 2);
-        of[1] += pow(ln[1] - m->log_loss[i] * M_LN10, 2);
+        zener_log_moduli(p, m->log_frequency[i] * M_LN10, ln);
+        squares[0] += pow(ln[0] - m->log_storage[i] * M_LN10, 2);
+        squares[1] += pow(ln[1] - m->log_loss[i] * M_LN10, 2);
     }
-    return of[0] + of[1];
+    return squares[0] + squares[1];
 }
 
 static void normal_equations(const wt_master *m, const double *p, double normal[][CONSTANTS],
@@ -61,16 +61,16 @@ static void normal_equations(const wt_master *m, const double *p, double normal[
     for (size_t k = 0; k < m->n; k++) {
         double here[2], slope[2][CONSTANTS];
         const double x = m->log_frequency[k] * M_LN10;
-        if (!point_counts(m, k))
+        if (!is_usable_point(m, k))
             continue;
-        law_at(p, x, here);
+        zener_log_moduli(p, x, here);
         for (int i = 0; i < CONSTANTS; i++) {
-            double moved[CONSTANTS], high[2], low[2];
+            double shifted[CONSTANTS], high[2], low[2];
             for (int j = 0; j < CONSTANTS; j++)
-                moved[j] = p[j] + (j == i ? step : 0);
-            law_at(moved, x, high);
-            moved[i] = p[i] - step;
-            law_at(moved, x, low);
+                shifted[j] = p[j] + (j == i ? step : 0);
+            zener_log_moduli(shifted, x, high);
+            shifted[i] = p[i] - step;
+            zener_log_moduli(shifted, x, low);
             for (int q = 0; q < 2; q++)
                 slope[q][i] = (high[q] - low[q]) / (2 * step);
         }
@@ -86,9 +86,9 @@ static void normal_equations(const wt_master *m, const double *p, double normal[
 }
 
 /* Levenberg-Marquardt; returns the sum of squares. */
-static double descend_from(const wt_master *m, double *p)
+static double minimise_squares(const wt_master *m, double *p)
 {
-    double of[2], sum = residual_squares(m, p, of), damping = 1e-2;
+    double squares[2], sum = log_residual_squares(m, p, squares), damping = 1e-2;
     for (int i = 0; i < STEPS; i++) {
         double normal[CONSTANTS][CONSTANTS], gradient[CONSTANTS], next = HUGE_VAL;
         normal_equations(m, p, normal, gradient);
@@ -105,7 +105,7 @@ static double descend_from(const wt_master *m, double *p)
                 continue;
             for (int a = 0; a < CONSTANTS; a++)
                 trial[a] = p[a] + fmin(fmax(move[a], -3), 3);
-            next = residual_squares(m, trial, of);
+            next = log_residual_squares(m, trial, squares);
             for (int a = 0; next < sum && a < CONSTANTS; a++)
                 p[a] = trial[a];
         }
@@ -127,16 +127,16 @@ static double akaike_criterion(double sum, double n, double constants)
     return n - k > 1 ? n * log(sum / n) + 2 * k + 2 * k * (k + 1) / (n - k - 1) : (double)NAN;
 }
 
-static void series_squares(const wt_master *m, const wt_prony *series, double of[2])
+static void series_squares(const wt_master *m, const wt_prony *series, double squares[2])
 {
-    of[0] = of[1] = 0;
+    squares[0] = squares[1] = 0;
     for (size_t i = 0; i < m->n; i++) {
         double storage, loss;
         prony_moduli(series, pow(10, m->log_frequency[i]), &storage, &loss);
-        if (!point_counts(m, i))
+        if (!is_usable_point(m, i))
             continue;
-        of[0] += pow(log(storage) - m->log_storage[i] * M_LN10, 2);
-        of[1] += pow(log(loss) - m->log_loss[i] * M_LN10, 2);
+        squares[0] += pow(log(storage) - m->log_storage[i] * M_LN10, 2);
+        squares[1] += pow(log(loss) - m->log_loss[i] * M_LN10, 2);
     }
 }
 
@@ -144,11 +144,11 @@ wt_status wt_master_zener(const wt_master *m, const wt_prony *series, wt_zener_f
                           wt_error *err)
 {
     static const double exponents[] = {-1.0, 0.0, 1.0}; /* logit of alpha to start from */
-    double points = 0, lowest = HUGE_VAL, highest = -HUGE_VAL, best = HUGE_VAL, of[2];
+    double points = 0, lowest = HUGE_VAL, highest = -HUGE_VAL, best = HUGE_VAL, squares[2];
     double constants[CONSTANTS] = {0};
     gsl_quiet();
     for (size_t i = 0; i < m->n; i++) {
-        if (!point_counts(m, i))
+        if (!is_usable_point(m, i))
             continue;
         points++;
         lowest = fmin(lowest, m->log_storage[i] * M_LN10);
@@ -160,7 +160,7 @@ wt_status wt_master_zener(const wt_master *m, const wt_prony *series, wt_zener_f
         for (int at = 1; at < 4; at++) {
             const double x = m->log_frequency[(size_t)at * m->n / 4] * M_LN10;
             double p[CONSTANTS] = {lowest, highest, -x, exponents[i]};
-            const double sum = descend_from(m, p);
+            const double sum = minimise_squares(m, p);
             if (!(sum < best))
                 continue;
             best = sum;
@@ -169,23 +169,23 @@ wt_status wt_master_zener(const wt_master *m, const wt_prony *series, wt_zener_f
         }
     if (!(best < HUGE_VAL))
         return wt_fail(err, WT_E_CONVERGENCE, "no fractional Zener law goes through the points");
-    (void)residual_squares(m, constants, of);
+    (void)log_residual_squares(m, constants, squares);
     const double x = -constants[LN_TAU] / M_LN10, rise = exp(constants[LN_RISE]);
     const double e0 = exp(constants[LN_E0]);
     *fit = (wt_zener_fit){.e0 = constants[LN_E0] < lowest + log(negligible) ? 0 : e0,
                           .eg = e0 + rise,
-                          .determined = e0 + rise < beyond * exp(highest) &&
+                          .determined = e0 + rise < max_glass_ratio * exp(highest) &&
                                         x > m->log_frequency[0] - 1 &&
                                         x < m->log_frequency[m->n - 1] + 1,
                           .tau = exp(constants[LN_TAU]),
                           .alpha = 1 / (1 + exp(-constants[LOGIT_ALPHA])),
-                          .rms_storage = sqrt(of[0] / points),
-                          .rms_loss = sqrt(of[1] / points),
+                          .rms_storage = sqrt(squares[0] / points),
+                          .rms_loss = sqrt(squares[1] / points),
                           .aicc = akaike_criterion(best, 2 * points, CONSTANTS)};
-    series_squares(m, series, of);
-    fit->series_rms_storage = sqrt(of[0] / points);
-    fit->series_rms_loss = sqrt(of[1] / points);
-    fit->series_aicc = akaike_criterion(of[0] + of[1], 2 * points,
+    series_squares(m, series, squares);
+    fit->series_rms_storage = sqrt(squares[0] / points);
+    fit->series_rms_loss = sqrt(squares[1] / points);
+    fit->series_aicc = akaike_criterion(squares[0] + squares[1], 2 * points,
                                         2 * (double)series->n + (series->equilibrium_modulus > 0));
     return WT_OK;
 }

@@ -16,7 +16,7 @@
 #define TERM(k) (1.0 / ((k) * (k)))
 
 /* Legendre's chi function, the sum of z^k / k^2 over odd k, for 0 <= z <= sqrt(2) - 1. */
-static double chi_2(double z)
+static double legendre_chi_2(double z)
 {
     /* The series starts at the k whose term is 1e-16 of the first. */
     static const double term[] = {TERM(35), TERM(33), TERM(31), TERM(29), TERM(27), TERM(25),
@@ -29,27 +29,30 @@ static double chi_2(double z)
     return z * sum;
 }
 
-/* L as a function of z = e^-|y|, by the closed form of chi_2(z) + chi_2((1 - z) / (1 + z)). */
+/* L as a function of z = e^-|y|, by the closed form of legendre_chi_2(z) + legendre_chi_2((1 - z) /
+ * (1 + z)). */
 static double phase_integral(double z)
 {
     const double other = (1 - z) / (1 + z);
     if (z >= 1)
         return 0;
-    return other > z ? M_PI * M_PI / 4 - 2 * chi_2(z) : log(z) * log(other) + 2 * chi_2(other);
+    return other > z ? M_PI * M_PI / 4 - 2 * legendre_chi_2(z)
+                     : log(z) * log(other) + 2 * legendre_chi_2(other);
 }
 
-static double phase_from(double omega, double edge)
+static double step_phase(double omega, double edge)
 {
     return omega > edge ? phase_integral(edge / omega) : -phase_integral(omega / edge);
 }
 
-void wt_ratio_slope_at(const wt_ratio_slope *slope, double omega, double *log_ratio, double *phase)
+void wt_ratio_slope_eval(const wt_ratio_slope *slope, double omega, double *log_ratio,
+                         double *phase)
 {
-    const double held = fmin(fmax(omega, slope->low), slope->high);
+    const double clamped = fmin(fmax(omega, slope->low), slope->high);
     *log_ratio = *phase = 0;
     if (slope->exponent == 0)
         return;
-    *log_ratio = slope->exponent * log(held / slope->reference);
+    *log_ratio = slope->exponent * log(clamped / slope->reference);
     *phase =
-        slope->exponent / M_PI * (phase_from(omega, slope->low) - phase_from(omega, slope->high));
+        slope->exponent / M_PI * (step_phase(omega, slope->low) - step_phase(omega, slope->high));
 }

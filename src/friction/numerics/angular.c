@@ -21,7 +21,7 @@
 enum { SHORT_DEGREE = 4, CLOSED_DEGREE = 8, DEGREES = 3 };
 /* Limits of the refinement: 1/4096 of the width, or three successive halvings that each reduce the
  * error by less than a factor of ten. Rounding then dominates. */
-enum { MOST_CUTS = 12, VAIN_CUTS = 3 };
+enum { MAX_HALVINGS = 12, MAX_FUTILE_HALVINGS = 3 };
 
 /* Segments end at the integer multiples of this width in ln w and at the knots of the law. A closed
  * form is smooth: its poles have the distance pi/2 from the real axis. */
@@ -31,14 +31,14 @@ static const double same_bound = 1e-12;
 /* Relative error goal of a series: a share of the tolerance, which leaves the rest to subintervals
  * and rules. It is at least some dozens of roundings. It is at most 1e-6, because a larger goal
  * saves no coefficient. */
-static const double goal_share = 0.01, least_goal = 2e-14, most_goal = 1e-6;
+static const double goal_share = 0.01, min_goal = 2e-14, max_goal = 1e-6;
 /* Relative error of J1 and J2 from a sum of positive terms with a few roundings each. */
 static const double closed_error = 16 * DBL_EPSILON;
 /* Number of terms at which a series costs as much as the closed form. 100 velocities and setup at
  * 1e-10 take 0.29 ms either way with 7 terms; with 10 terms 0.31 and 0.28 ms. */
 enum { MANY_TERMS = 8 };
 /* Range in which squares and powers of omega tau neither overflow nor underflow. */
-static const double least_frequency = 1e-250, most_frequency = 1e250;
+static const double min_frequency = 1e-250, max_frequency = 1e250;
 
 /* J1 and J2 on a segment. To the right of a knot w_k both integrals have a (ln w - ln w_k)^(3/2)
  * singularity: the series there runs in u = sqrt(ln w - ln w_k). */
@@ -47,9 +47,9 @@ typedef struct series {
     double anchor;       /* ln w_k; NaN if the series runs in ln w */
     double middle, half; /* of u */
     size_t degree;
-    double error, of_values; /* relative error of the series, and of the values at its nodes */
-    double j1[LONG_DEGREE + 1], j2[LONG_DEGREE + 1]; /* coefficients of the powers of z = (u -
-                                                        middle) / half */
+    double error, value_error; /* relative error of the series, and of the values at its nodes */
+    double j1[CHEBYSHEV_DEGREE_MAX + 1], j2[CHEBYSHEV_DEGREE_MAX + 1]; /* coefficients of the powers
+                                                        of z = (u - middle) / half */
 } series;
 
 typedef struct series_list {
@@ -61,59 +61,59 @@ struct angular_law {
     const wt_material *material;
     const angular_weight *weight; /* NULL if none */
     bool closed;                  /* the law has a closed form, and no weight is set */
-    double tolerance, piece_width;
+    double tolerance, segment_width;
     const gauss_rule *rule;
     double goal;
-    angular_panels panels;
-    angular_panels below[2]; /* subintervals up to each limit */
-    double panels_low, panels_high;
-    double limit[2];                                   /* range of the measured data; NaN if
-                                                          unknown */
-    series_list pieces;                                /* rising, without gaps */
-    double node[LONG_DEGREE + 1];                      /* cos(pi k / LONG_DEGREE) */
-    double fit[DEGREES][(LONG_DEGREE + 1) * FIT_ROOM]; /* matrix of each degree, one column for
-                                                          each node */
+    angular_subintervals subintervals;
+    angular_subintervals below[2]; /* subintervals up to each limit */
+    double subintervals_low, subintervals_high;
+    double limit[2];                       /* range of the measured data; NaN if
+                                              unknown */
+    series_list segments;                  /* rising, without gaps */
+    double node[CHEBYSHEV_DEGREE_MAX + 1]; /* cos(pi k / CHEBYSHEV_DEGREE_MAX) */
+    double fit[DEGREES][(CHEBYSHEV_DEGREE_MAX + 1) * CHEBYSHEV_FIT_STRIDE]; /* matrix of each
+                                                          degree, one column for each node */
 };
 
 /* ---- series ---------------------------------------------------------------------------------- */
 
 /* The coefficients of an interpolation at cos(pi k / degree) are weighted sums of its values. */
-static void make_fits(angular_law *a)
+static void compute_fit_matrices(angular_law *a)
 {
-    double cosine[2 * LONG_DEGREE];
-    for (size_t k = 0; k < 2 * LONG_DEGREE; k++)
-        cosine[k] = cos(M_PI * (double)k / LONG_DEGREE);
+    double cosine[2 * CHEBYSHEV_DEGREE_MAX];
+    for (size_t k = 0; k < 2 * CHEBYSHEV_DEGREE_MAX; k++)
+        cosine[k] = cos(M_PI * (double)k / CHEBYSHEV_DEGREE_MAX);
     memcpy(a->node, cosine, sizeof a->node);
     for (size_t i = 0, degree = SHORT_DEGREE; i < DEGREES; i++, degree *= 2)
         for (size_t k = 0; k <= degree; k++)
             for (size_t j = 0; j <= degree; j++) {
                 const double node = k == 0 || k == degree ? 0.5 : 1;
                 const double term = j == 0 || j == degree ? 1 : 2;
-                a->fit[i][k * FIT_ROOM + j] =
+                a->fit[i][k * CHEBYSHEV_FIT_STRIDE + j] =
                     node * term / (double)degree *
-                    cosine[j * k * (LONG_DEGREE / degree) % (2 * LONG_DEGREE)];
+                    cosine[j * k * (CHEBYSHEV_DEGREE_MAX / degree) % (2 * CHEBYSHEV_DEGREE_MAX)];
             }
 }
 
-static double least_of(const double *value, size_t step)
+static double smallest_value(const double *value, size_t step)
 {
     double least = value[0];
-    for (size_t k = 0; k <= LONG_DEGREE; k += step)
+    for (size_t k = 0; k <= CHEBYSHEV_DEGREE_MAX; k += step)
         least = fmin(least, value[k]);
     return least;
 }
 
 /* Converts both series to powers of z, with the larger of the two degrees. */
-static void series_powers(series *s, const double *j1, const double *j2, double goal)
+static void series_to_powers(series *s, const double *j1, const double *j2, double goal)
 {
-    const size_t step = LONG_DEGREE / s->degree;
-    const double least[2] = {least_of(j1, step), least_of(j2, step)};
+    const size_t step = CHEBYSHEV_DEGREE_MAX / s->degree;
+    const double least[2] = {smallest_value(j1, step), smallest_value(j2, step)};
     double *const coefficient[2] = {s->j1, s->j2};
     size_t degree[2] = {s->degree, s->degree};
     double more = 0;
     for (size_t i = 0; i < 2; i++) {
-        const double left =
-            chebyshev_powers(coefficient[i], &degree[i], 0.3 * fmax(goal, s->error) * least[i]);
+        const double left = chebyshev_to_monomials(coefficient[i], &degree[i],
+                                                   0.3 * fmax(goal, s->error) * least[i]);
         more = fmax(more, least[i] > 0 ? left / least[i] : 0);
     }
     s->degree = degree[0] > degree[1] ? degree[0] : degree[1];
@@ -121,21 +121,22 @@ static void series_powers(series *s, const double *j1, const double *j2, double 
 }
 
 /* Evaluates J1 and J2 at every `step`th node of a segment, beginning with `first`. */
-static void series_values(const angular_law *a, const series *s, size_t first, size_t step,
-                          double *j1, double *j2)
+static void series_node_values(const angular_law *a, const series *s, size_t first, size_t step,
+                               double *j1, double *j2)
 {
-    double x[LONG_DEGREE + 1], w[LONG_DEGREE + 1], new1[LONG_DEGREE + 1], new2[LONG_DEGREE + 1];
+    double x[CHEBYSHEV_DEGREE_MAX + 1], w[CHEBYSHEV_DEGREE_MAX + 1], new1[CHEBYSHEV_DEGREE_MAX + 1],
+        new2[CHEBYSHEV_DEGREE_MAX + 1];
     size_t n = 0, k = first;
     do {
         const double u = s->middle + s->half * a->node[k];
         x[n++] = isnan(s->anchor) ? u : s->anchor + u * u;
-    } while ((k += step) <= LONG_DEGREE);
-    exponential(x, n, w);
+    } while ((k += step) <= CHEBYSHEV_DEGREE_MAX);
+    vector_exp(x, n, w);
     if (a->closed)
         a->material->law->angular(a->material, w, n, new1, new2);
     else
         for (size_t i = 0; i < n; i++)
-            angular_panels_integrate(&a->panels, w[i], &new1[i], &new2[i]);
+            angular_subintervals_integrate(&a->subintervals, w[i], &new1[i], &new2[i]);
     for (size_t i = 0; i < n; i++) {
         j1[first + i * step] = new1[i];
         j2[first + i * step] = new2[i];
@@ -143,13 +144,15 @@ static void series_values(const angular_law *a, const series *s, size_t first, s
 }
 
 /* Relative error of the values that a series interpolates. */
-static double values_error(const angular_law *a, const series *s, const double *j1,
-                           const double *j2)
+static double series_value_error(const angular_law *a, const series *s, const double *j1,
+                                 const double *j2)
 {
-    const size_t last = LONG_DEGREE; /* node at the lower limit */
-    return a->closed ? closed_error
-                     : fmax(angular_panels_error(&a->panels, exp(s->high), j1[0], j2[0]),
-                            angular_panels_error(&a->panels, exp(s->low), j1[last], j2[last]));
+    const size_t last = CHEBYSHEV_DEGREE_MAX; /* node at the lower limit */
+    return a->closed
+               ? closed_error
+               : fmax(
+                     angular_subintervals_error(&a->subintervals, exp(s->high), j1[0], j2[0]),
+                     angular_subintervals_error(&a->subintervals, exp(s->low), j1[last], j2[last]));
 }
 
 static series series_fit(const angular_law *a, double low, double high, double anchor)
@@ -162,18 +165,20 @@ static series series_fit(const angular_law *a, double low, double high, double a
                 .anchor = anchor,
                 .middle = 0.5 * (from + to),
                 .half = 0.5 * (to - from)};
-    double j1[LONG_DEGREE + 1], j2[LONG_DEGREE + 1], goal = a->goal;
+    double j1[CHEBYSHEV_DEGREE_MAX + 1], j2[CHEBYSHEV_DEGREE_MAX + 1], goal = a->goal;
     const size_t begin = a->closed ? CLOSED_DEGREE : SHORT_DEGREE;
-    for (size_t degree = begin; degree <= LONG_DEGREE; degree *= 2) {
-        const size_t step = LONG_DEGREE / degree;
+    for (size_t degree = begin; degree <= CHEBYSHEV_DEGREE_MAX; degree *= 2) {
+        const size_t step = CHEBYSHEV_DEGREE_MAX / degree;
         if (degree == begin) {
-            series_values(a, &s, 0, step, j1, j2);
-            s.of_values = values_error(a, &s, j1, j2);
-            goal = fmax(goal, s.of_values);
+            series_node_values(a, &s, 0, step, j1, j2);
+            s.value_error = series_value_error(a, &s, j1, j2);
+            goal = fmax(goal, s.value_error);
         } else {
-            series_values(a, &s, step, 2 * step, j1, j2);
+            series_node_values(a, &s, step, 2 * step, j1, j2);
         }
-        const double *fit = a->fit[degree == SHORT_DEGREE ? 0 : degree == LONG_DEGREE ? 2 : 1];
+        const double *fit = a->fit[degree == SHORT_DEGREE           ? 0
+                                   : degree == CHEBYSHEV_DEGREE_MAX ? 2
+                                                                    : 1];
         chebyshev_fit(j1, degree, fit, s.j1);
         chebyshev_fit(j2, degree, fit, s.j2);
         s.degree = degree;
@@ -181,7 +186,7 @@ static series series_fit(const angular_law *a, double low, double high, double a
         if (s.error <= goal)
             break;
     }
-    series_powers(&s, j1, j2, goal);
+    series_to_powers(&s, j1, j2, goal);
     return s;
 }
 
@@ -198,29 +203,30 @@ static bool series_push(series_list *list, const series *s)
 /* Adds a fitted segment, or its halves if its error is too large, as with close knots or steep
  * tables. A narrow segment may have a larger error, because it has less weight. `futile` counts the
  * halvings with little gain. */
-static bool series_add(const angular_law *a, series_list *list, const series *s, int cuts, int vain)
+static bool series_add(const angular_law *a, series_list *list, const series *s, int halvings,
+                       int futile)
 {
     const double middle = isnan(s->anchor) ? s->middle : s->anchor + s->middle * s->middle;
     const double allowed =
-        2 * fmax(a->goal, s->of_values) * fmax(1, law_width / (s->high - s->low));
-    if (s->error <= allowed || cuts == MOST_CUTS || vain == VAIN_CUTS ||
+        2 * fmax(a->goal, s->value_error) * fmax(1, law_width / (s->high - s->low));
+    if (s->error <= allowed || halvings == MAX_HALVINGS || futile == MAX_FUTILE_HALVINGS ||
         !(middle > s->low && middle < s->high))
         return series_push(list, s);
     const series left = series_fit(a, s->low, middle, s->anchor),
                  right = series_fit(a, middle, s->high, s->anchor);
-    vain += fmin(left.error, right.error) > 0.1 * s->error;
-    return series_add(a, list, &left, cuts + 1, vain) &&
-           series_add(a, list, &right, cuts + 1, vain);
+    futile += fmin(left.error, right.error) > 0.1 * s->error;
+    return series_add(a, list, &left, halvings + 1, futile) &&
+           series_add(a, list, &right, halvings + 1, futile);
 }
 
-static const double *knots_of(const angular_law *a, size_t *n)
+static const double *material_knots(const angular_law *a, size_t *n)
 {
     *n = 0;
     return a->material->law->breaks != NULL ? a->material->law->breaks(a->material, n) : NULL;
 }
 
 /* Returns the nearest knot at or below x if it affects a segment there, else NaN. */
-static double knot_before(const double *knots, size_t n, double x)
+static double preceding_knot(const double *knots, size_t n, double x)
 {
     size_t low = 0, high = n; /* knots with an index below `low` are at or below x */
     while (low < high) {
@@ -235,23 +241,23 @@ static double knot_before(const double *knots, size_t n, double x)
 }
 
 /* Adds the segments between two multiples of the segment width. */
-static bool add_pieces(const angular_law *a, long first, long last, double *bounds,
-                       series_list *list)
+static bool add_segments(const angular_law *a, long first, long last, double *bounds,
+                         series_list *list)
 {
     size_t n = 0, n_knots;
-    const double *knots = knots_of(a, &n_knots);
+    const double *knots = material_knots(a, &n_knots);
     for (long m = first; m <= last; m++)
-        bounds[n++] = (double)m * a->piece_width;
+        bounds[n++] = (double)m * a->segment_width;
     for (size_t k = 0; k < n_knots; k++) {
         const double x = log(knots[k]);
-        if (x > bounds[0] && x < (double)last * a->piece_width)
+        if (x > bounds[0] && x < (double)last * a->segment_width)
             bounds[n++] = x;
     }
     numbers_sort(bounds, n);
     for (size_t i = 1, from = 0; i < n; i++) {
         if (bounds[i] - bounds[from] < same_bound)
             continue;
-        const double anchor = knot_before(knots, n_knots, bounds[from]);
+        const double anchor = preceding_knot(knots, n_knots, bounds[from]);
         const series s = series_fit(a, bounds[from], bounds[i], anchor);
         if (!series_add(a, list, &s, 0, 0))
             return false;
@@ -261,20 +267,20 @@ static bool add_pieces(const angular_law *a, long first, long last, double *boun
 }
 
 /* Extends the subintervals to the union of this range and the present one. */
-static wt_status extend_panels(angular_law *a, double low, double high, wt_error *err)
+static wt_status extend_subintervals(angular_law *a, double low, double high, wt_error *err)
 {
-    if (a->panels.n > 0) {
-        low = fmin(low, a->panels_low);
-        high = fmax(high, a->panels_high);
-        angular_panels_clear(&a->panels);
+    if (a->subintervals.n > 0) {
+        low = fmin(low, a->subintervals_low);
+        high = fmax(high, a->subintervals_high);
+        angular_subintervals_clear(&a->subintervals);
     }
-    a->panels_low = low;
-    a->panels_high = high;
+    a->subintervals_low = low;
+    a->subintervals_high = high;
     /* Beyond the end, because rounding may place a frequency there, where the integrand has a pole.
      */
-    const wt_status status =
-        angular_panels_new(a->material, a->rule, low, 1.01 * high, a->goal, &a->panels, err);
-    a->panels.weight = a->weight;
+    const wt_status status = angular_subintervals_new(a->material, a->rule, low, 1.01 * high,
+                                                      a->goal, &a->subintervals, err);
+    a->subintervals.weight = a->weight;
     return status;
 }
 
@@ -284,68 +290,68 @@ typedef struct series_range {
     long first, last, have_first, have_last;
 } series_range;
 
-static series_range range_with(const angular_law *a, double w_min, double w_max)
+static series_range extended_range(const angular_law *a, double w_min, double w_max)
 {
-    const series_list *have = &a->pieces;
-    series_range r = {(long)floor(log(w_min) / a->piece_width),
-                      (long)ceil(log(w_max) / a->piece_width), 0, 0};
+    const series_list *have = &a->segments;
+    series_range r = {(long)floor(log(w_min) / a->segment_width),
+                      (long)ceil(log(w_max) / a->segment_width), 0, 0};
     if (r.last <= r.first)
         r.last = r.first + 1;
     r.have_first = r.have_last = r.last; /* no segment yet */
     if (have->n > 0) {
-        r.have_first = lround(have->items[0].low / a->piece_width);
-        r.have_last = lround(have->items[have->n - 1].high / a->piece_width);
+        r.have_first = lround(have->items[0].low / a->segment_width);
+        r.have_last = lround(have->items[have->n - 1].high / a->segment_width);
         r.first = r.first < r.have_first ? r.first : r.have_first;
         r.last = r.last > r.have_last ? r.last : r.have_last;
     }
     return r;
 }
 
-bool angular_covers(const angular_law *angular, double w_min, double w_max)
+bool angular_covers_range(const angular_law *angular, double w_min, double w_max)
 {
     const wt_material_law *law = angular->material->law;
     if (angular->closed && (law->terms == NULL || law->terms(angular->material) < MANY_TERMS ||
-                            !(w_min >= least_frequency && w_max <= most_frequency)))
+                            !(w_min >= min_frequency && w_max <= max_frequency)))
         return true;
-    const series_range r = range_with(angular, w_min, w_max);
+    const series_range r = extended_range(angular, w_min, w_max);
     return r.first == r.have_first && r.last == r.have_last;
 }
 
-wt_status angular_cover(angular_law *angular, double w_min, double w_max, wt_error *err)
+wt_status angular_extend(angular_law *angular, double w_min, double w_max, wt_error *err)
 {
-    if (angular_covers(angular, w_min, w_max))
+    if (angular_covers_range(angular, w_min, w_max))
         return WT_OK;
-    const double piece_width = angular->piece_width;
-    const series_list *have = &angular->pieces;
-    const series_range range = range_with(angular, w_min, w_max);
+    const double segment_width = angular->segment_width;
+    const series_list *have = &angular->segments;
+    const series_range range = extended_range(angular, w_min, w_max);
     const long first = range.first, last = range.last, have_first = range.have_first,
                have_last = range.have_last;
     const wt_status status = angular->closed
                                  ? WT_OK
-                                 : extend_panels(angular, exp((double)first * piece_width),
-                                                 exp((double)last * piece_width), err);
+                                 : extend_subintervals(angular, exp((double)first * segment_width),
+                                                       exp((double)last * segment_width), err);
     if (status != WT_OK)
         return status;
     size_t n_knots;
-    (void)knots_of(angular, &n_knots);
+    (void)material_knots(angular, &n_knots);
     series_list made = {0};
     double *bounds = calloc((size_t)(last - first) + 1 + n_knots, sizeof *bounds);
-    bool good = bounds && add_pieces(angular, first, have_first, bounds, &made);
-    for (size_t i = 0; good && i < have->n; i++)
-        good = series_push(&made, &have->items[i]);
-    good = good && add_pieces(angular, have_last, last, bounds, &made);
+    bool succeeded = bounds && add_segments(angular, first, have_first, bounds, &made);
+    for (size_t i = 0; succeeded && i < have->n; i++)
+        succeeded = series_push(&made, &have->items[i]);
+    succeeded = succeeded && add_segments(angular, have_last, last, bounds, &made);
     free(bounds);
-    if (!good) {
+    if (!succeeded) {
         free(made.items);
         return wt_fail(err, WT_E_MEMORY, "out of memory for the angular integrals");
     }
-    free(angular->pieces.items);
-    angular->pieces = made;
+    free(angular->segments.items);
+    angular->segments = made;
     return WT_OK;
 }
 
 /* Returns the index of the first segment that reaches x, or of the last one. */
-static size_t piece_at(const series_list *list, double x)
+static size_t segment_index(const series_list *list, double x)
 {
     size_t low = 0, high = list->n > 0 ? list->n - 1 : 0;
     while (low < high) {
@@ -358,15 +364,16 @@ static size_t piece_at(const series_list *list, double x)
     return low;
 }
 
-bool angular_closed(const angular_law *angular, double x_min, double x_max)
+bool angular_uses_closed_form(const angular_law *angular, double x_min, double x_max)
 {
-    const series_list *pieces = &angular->pieces;
-    return angular->closed && (pieces->n == 0 || !(x_min >= pieces->items[0].low &&
-                                                   x_max <= pieces->items[pieces->n - 1].high));
+    const series_list *segments = &angular->segments;
+    return angular->closed &&
+           (segments->n == 0 ||
+            !(x_min >= segments->items[0].low && x_max <= segments->items[segments->n - 1].high));
 }
 
 /* Nodes in one segment, with padding for whole registers. */
-enum { BATCH = 32, AT_ONCE = 2 * WIDE };
+enum { BATCH = 32, NODES_PER_STEP = 2 * WIDE };
 
 /* Evaluates both series at n <= BATCH positions. Even and odd powers alternate, so that their
  * operations are independent. Each `value` has the capacity BATCH. */
@@ -378,7 +385,7 @@ static void series_eval(const series *restrict s, size_t n, const double *restri
     const double *const j1 = s->j1, *const j2 = s->j2;
     const double above1 = s->degree > top ? j1[top + 1] : 0,
                  above2 = s->degree > top ? j2[top + 1] : 0;
-    for (size_t from = 0; from < n; from += AT_ONCE) {
+    for (size_t from = 0; from < n; from += NODES_PER_STEP) {
         wide a, b;
         memcpy(&a, z + from, sizeof a);
         memcpy(&b, z + from + WIDE, sizeof b);
@@ -407,8 +414,8 @@ static void series_eval(const series *restrict s, size_t n, const double *restri
 
 /* Maps x to z of a segment. A value that rounding puts outside is moved to the limit. */
 WIDE_REGISTERS
-static void place_in(const series *restrict s, const double *restrict x, size_t n,
-                     double *restrict z)
+static void map_to_segment(const series *restrict s, const double *restrict x, size_t n,
+                           double *restrict z)
 {
     const double scale = 1 / s->half, middle = s->middle, anchor = s->anchor;
     if (isnan(anchor))
@@ -428,25 +435,25 @@ void angular_eval(const angular_law *angular, const double *w, const double *x, 
 {
     if (n == 0)
         return;
-    if (angular_closed(angular, x[0], x[n - 1])) {
+    if (angular_uses_closed_form(angular, x[0], x[n - 1])) {
         angular->material->law->angular(angular->material, w, n, j1, j2);
         return;
     }
-    const series_list *pieces = &angular->pieces;
-    size_t k = piece_at(pieces, x[0]);
+    const series_list *segments = &angular->segments;
+    size_t k = segment_index(segments, x[0]);
     for (size_t from = 0, count; from < n; from += count) {
         double z[BATCH];
-        while (k + 1 < pieces->n && x[from] > pieces->items[k].high)
+        while (k + 1 < segments->n && x[from] > segments->items[k].high)
             k++;
-        while (k > 0 && x[from] < pieces->items[k].low)
+        while (k > 0 && x[from] < segments->items[k].low)
             k--;
-        const series *s = &pieces->items[k];
+        const series *s = &segments->items[k];
         for (count = 1; count < BATCH && from + count < n && !(x[from + count] > s->high) &&
                         !(x[from + count] < s->low);
              count++)
             ;
-        place_in(s, x + from, count, z);
-        const size_t whole = (count + AT_ONCE - 1) / AT_ONCE * AT_ONCE;
+        map_to_segment(s, x + from, count, z);
+        const size_t whole = (count + NODES_PER_STEP - 1) / NODES_PER_STEP * NODES_PER_STEP;
         for (size_t i = count; i < whole; i++)
             z[i] = 0;
         if (from + whole <= n) { /* the next segment overwrites the padding */
@@ -460,94 +467,94 @@ void angular_eval(const angular_law *angular, const double *w, const double *x, 
     }
 }
 
-double angular_error(const angular_law *angular, double x_min, double x_max, size_t *piece)
+double angular_error(const angular_law *angular, double x_min, double x_max, size_t *segment)
 {
-    const series_list *pieces = &angular->pieces;
+    const series_list *segments = &angular->segments;
     double error = 0;
-    while (*piece + 1 < pieces->n && pieces->items[*piece].high < x_min)
-        ++*piece;
-    for (size_t i = *piece; i < pieces->n && pieces->items[i].low <= x_max; i++)
-        error = fmax(error, pieces->items[i].error + pieces->items[i].of_values);
+    while (*segment + 1 < segments->n && segments->items[*segment].high < x_min)
+        ++*segment;
+    for (size_t i = *segment; i < segments->n && segments->items[i].low <= x_max; i++)
+        error = fmax(error, segments->items[i].error + segments->items[i].value_error);
     return error;
 }
 
 /* ---- the share of extrapolated frequencies --------------------------------------------------- */
 
-bool angular_limited(const angular_law *angular)
+bool angular_has_limits(const angular_law *angular)
 {
     return !isnan(angular->limit[0]) || !isnan(angular->limit[1]);
 }
 
-wt_status angular_cover_outside(angular_law *angular, wt_error *err)
+wt_status angular_prepare_outside(angular_law *angular, wt_error *err)
 {
     const double *limit = angular->limit;
     const double low = fmin(limit[0], limit[1]);
     wt_status status = WT_OK;
     for (size_t k = 0; k < 2 && status == WT_OK; k++)
         if (!isnan(limit[k]) && angular->below[k].n == 0) {
-            status = angular_panels_new(angular->material, angular->rule, low, limit[k], most_goal,
-                                        &angular->below[k], err);
+            status = angular_subintervals_new(angular->material, angular->rule, low, limit[k],
+                                              max_goal, &angular->below[k], err);
             angular->below[k].weight = angular->weight;
         }
     return status;
 }
 
 /* Parts of J1 from frequencies below a limit. */
-static void parts_below(const angular_law *a, size_t limit, const double *w, const double *j1,
-                        size_t n, double *part)
+static void parts_below_limit(const angular_law *a, size_t limit, const double *w, const double *j1,
+                              size_t n, double *part)
 {
     const double end = a->limit[limit];
     double lowest = w[0], j2;
     for (size_t i = 1; i < n; i++)
         lowest = w[i] < lowest ? w[i] : lowest;
     if (lowest >= 2 * end) {
-        angular_panels_far(&a->below[limit], w, n, part);
+        angular_subintervals_far(&a->below[limit], w, n, part);
         return;
     }
     for (size_t i = 0; i < n; i++)
         if (w[i] > end)
-            angular_panels_integrate(&a->below[limit], w[i], &part[i], &j2);
+            angular_subintervals_integrate(&a->below[limit], w[i], &part[i], &j2);
         else
             part[i] = j1[i];
 }
 
-void angular_outside(const angular_law *angular, const double *w, const double *j1, size_t n,
-                     double *outside)
+void angular_extrapolated_part(const angular_law *angular, const double *w, const double *j1,
+                               size_t n, double *outside)
 {
-    double part[RULE_MOST];
+    double part[GAUSS_NODES_MAX];
     for (size_t i = 0; i < n; i++)
         outside[i] = 0;
     for (size_t limit = 0; limit < 2; limit++) {
         if (isnan(angular->limit[limit]))
             continue;
-        parts_below(angular, limit, w, j1, n, part);
+        parts_below_limit(angular, limit, w, j1, n, part);
         for (size_t i = 0; i < n; i++)
             outside[i] += limit == 0 ? part[i] : j1[i] - part[i];
     }
     for (size_t i = 0; i < n; i++) {
-        const double some = outside[i] > 0 ? outside[i] : 0;
-        outside[i] = some < j1[i] ? some : j1[i];
+        const double extrapolated = outside[i] > 0 ? outside[i] : 0;
+        outside[i] = extrapolated < j1[i] ? extrapolated : j1[i];
     }
 }
 
 /* ---- construction ---------------------------------------------------------------------------- */
 
-static double limit_of(double frequency)
+static double frequency_limit(double frequency)
 {
     return frequency > 0 && isfinite(frequency) ? frequency : (double)NAN;
 }
 
-static void choose_pieces(angular_law *a, bool closed)
+static void choose_segments(angular_law *a, bool closed)
 {
     a->closed = closed;
-    a->goal = fmin(fmax(goal_share * a->tolerance, least_goal), most_goal);
-    a->piece_width = closed ? closed_width : law_width;
+    a->goal = fmin(fmax(goal_share * a->tolerance, min_goal), max_goal);
+    a->segment_width = closed ? closed_width : law_width;
 }
 
-void angular_weigh(angular_law *angular, const angular_weight *weight)
+void angular_set_weight(angular_law *angular, const angular_weight *weight)
 {
     angular->weight = weight;
-    choose_pieces(angular, false);
+    choose_segments(angular, false);
 }
 
 wt_status angular_new(const wt_material *material, double tolerance, arena *memory,
@@ -557,21 +564,21 @@ wt_status angular_new(const wt_material *material, double tolerance, arena *memo
     if (made == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory for the angular integrals");
     made->material = material;
-    make_fits(made);
+    compute_fit_matrices(made);
     made->tolerance = tolerance;
-    choose_pieces(made, material->law->angular != NULL);
-    made->limit[0] = limit_of(material->frequency_min);
-    made->limit[1] = limit_of(material->frequency_max);
+    choose_segments(made, material->law->angular != NULL);
+    made->limit[0] = frequency_limit(material->frequency_min);
+    made->limit[1] = frequency_limit(material->frequency_max);
     *angular = made;
-    return rule_of(PANEL_NODES, &made->rule, err);
+    return gauss_rule_get(SUBINTERVAL_NODES, &made->rule, err);
 }
 
 void angular_clear(angular_law *angular)
 {
     if (angular == NULL)
         return;
-    free(angular->pieces.items);
-    angular_panels_clear(&angular->panels);
-    angular_panels_clear(&angular->below[0]);
-    angular_panels_clear(&angular->below[1]);
+    free(angular->segments.items);
+    angular_subintervals_clear(&angular->subintervals);
+    angular_subintervals_clear(&angular->below[0]);
+    angular_subintervals_clear(&angular->below[1]);
 }

@@ -15,13 +15,13 @@
 
 /* Width of a subinterval in ln omega. The poles of a Maxwell element have the distance pi/2 from
  * the axis, and ten nodes leave (0.35/2/pi)^20, or 1e-25. Only the kernel K is steeper, near w. */
-static const double widest = 0.35;
+static const double max_width = 0.35;
 /* Largest change of ln F over one subinterval: ten nodes integrate exp(1.2 x) to rounding. */
-static const double steepest = 1.2;
+static const double max_log_change = 1.2;
 /* Distance in ln omega from the start of the integrals to the range. Below the start, a power law
  * is assumed. The first value makes the contribution of a constant modulus, which is weighted with
  * c, smaller than the goal. The second suffices where the law is a power law. */
-static const double deep = 8, shallow = 2.5;
+static const double power_law_margin = 8, knot_margin = 2.5;
 /* The integrals begin at an integer multiple of this, so that similar ranges have the same
  * subintervals. */
 static const double stride = 16;
@@ -29,7 +29,7 @@ static const int power_of[2] = {2, 1};
 
 /* ---- edges ----------------------------------------------------------------------------------- */
 
-static void logs_at(const wt_material *material, double x, double e[2])
+static void log_moduli(const wt_material *material, double x, double e[2])
 {
     const double omega = exp(x);
     material->law->modulus(material, &omega, 1, &e[0], &e[1]);
@@ -37,7 +37,7 @@ static void logs_at(const wt_material *material, double x, double e[2])
     e[1] = log(e[1]);
 }
 
-static double largest_change(const double *a, const double *b)
+static double largest_log_change(const double *a, const double *b)
 {
     const double storage = fabs(b[0] - a[0]), loss = fabs(b[1] - a[1]);
     return 2 * fmax(isfinite(storage) ? storage : 0, isfinite(loss) ? loss : 0);
@@ -51,45 +51,46 @@ typedef struct edge_list {
 /* Limit of the last Legendre coefficients of a resolved subinterval, relative to its mean. The
  * error of the rule is of the order of their square, because the rule is exact to twice their
  * degree. */
-static const double resolved = 1e-7;
+static const double tail_limit = 1e-7;
 /* Limit of the subdivision, as a multiple of the number that the steepness requires. A function
  * that is not smooth on a 64th of the width is a jump. It bounds time and memory. */
-static const size_t most_parts = 64;
+static const size_t max_subdivisions = 64;
 
-static bool is_small(const gauss_rule *rule, const double *f, const rule_top *top)
+static bool has_small_tail(const gauss_rule *rule, const double *f, const legendre_top *top)
 {
     double sum = 0;
     for (size_t i = 0; i < rule->n; i++)
         sum += rule->weight[i] * f[i];
-    return fmax(fabs(top->coefficient[RULE_TOP - 1]), fabs(top->coefficient[RULE_TOP - 2])) <=
-           0.5 * resolved * sum;
+    return fmax(fabs(top->coefficient[LEGENDRE_TOP - 1]),
+                fabs(top->coefficient[LEGENDRE_TOP - 2])) <= 0.5 * tail_limit * sum;
 }
 
 /* The moduli of several laws can nearly cancel between two edges whose values do not show it. */
 static bool is_resolved(const wt_material *material, const gauss_rule *rule, double from, double to)
 {
-    double omega[PANEL_NODES], storage[PANEL_NODES], loss[PANEL_NODES], square[PANEL_NODES];
-    rule_top of_loss, of_square;
-    for (size_t i = 0; i < PANEL_NODES; i++)
+    double omega[SUBINTERVAL_NODES], storage[SUBINTERVAL_NODES], loss[SUBINTERVAL_NODES],
+        square[SUBINTERVAL_NODES];
+    legendre_top of_loss, of_square;
+    for (size_t i = 0; i < SUBINTERVAL_NODES; i++)
         omega[i] = exp(from + 0.5 * (to - from) * (1 + rule->node[i]));
-    material->law->modulus(material, omega, PANEL_NODES, storage, loss);
-    for (size_t i = 0; i < PANEL_NODES; i++)
+    material->law->modulus(material, omega, SUBINTERVAL_NODES, storage, loss);
+    for (size_t i = 0; i < SUBINTERVAL_NODES; i++)
         square[i] = storage[i] * storage[i] + loss[i] * loss[i];
-    rule_tops(rule, loss, square, &of_loss, &of_square);
-    return is_small(rule, loss, &of_loss) && is_small(rule, square, &of_square);
+    gauss_rule_top_coefficients(rule, loss, square, &of_loss, &of_square);
+    return has_small_tail(rule, loss, &of_loss) && has_small_tail(rule, square, &of_square);
 }
 
 /* Returns the number of parts of a subinterval: that required by its logarithmic change `by`, or
  * more. */
-static size_t count_parts(const wt_material *material, const gauss_rule *rule, double from,
-                          double to, double by)
+static size_t count_subdivisions(const wt_material *material, const gauss_rule *rule, double from,
+                                 double to, double by)
 {
-    const double steep = ceil(fmax((to - from) / widest, by / steepest));
+    const double steep = ceil(fmax((to - from) / max_width, by / max_log_change));
     const size_t least = steep > 1 ? (size_t)fmin(steep, 1e6) : 1;
     size_t n = least;
     if (material->law->power_below || material->law->angular != NULL)
         return n; /* power law between knots, or closed form as smooth as a Maxwell element */
-    for (size_t i = 0; i < n && n < most_parts * least; i++)
+    for (size_t i = 0; i < n && n < max_subdivisions * least; i++)
         if (!is_resolved(material, rule, from + (to - from) * (double)i / (double)n,
                          from + (to - from) * (double)(i + 1) / (double)n)) {
             n *= 2;
@@ -108,7 +109,7 @@ static void add_edges(edge_list *list, double from, double to, size_t n, double 
         }
 }
 
-static double larger_log(double largest, const double e[2])
+static double max_abs_log(double largest, const double e[2])
 {
     for (size_t i = 0; i < 2; i++)
         if (isfinite(e[i]))
@@ -117,29 +118,29 @@ static double larger_log(double largest, const double e[2])
 }
 
 /* Places edges from `first` to `last`, at the integer multiples of the width and at the knots. */
-static void lay_edges(const wt_material *material, const gauss_rule *rule, double first,
-                      double last, edge_list *list)
+static void place_edges(const wt_material *material, const gauss_rule *rule, double first,
+                        double last, edge_list *list)
 {
     size_t n_breaks = 0, k = 0;
     const double *breaks =
         material->law->breaks != NULL ? material->law->breaks(material, &n_breaks) : NULL;
     double x = first, e[2], next_e[2];
-    logs_at(material, x, e);
-    double largest = larger_log(0, e);
+    log_moduli(material, x, e);
+    double largest = max_abs_log(0, e);
     if (list->edge != NULL) {
         list->edge[0] = first;
         list->largest[0] = largest;
     }
     list->n = 1;
     while (x < last) {
-        double next = fmin((floor(x / widest + 1e-9) + 1) * widest, last);
+        double next = fmin((floor(x / max_width + 1e-9) + 1) * max_width, last);
         while (k < n_breaks && log(breaks[k]) <= x)
             k++;
         if (k < n_breaks)
             next = fmin(next, log(breaks[k]));
-        logs_at(material, next, next_e);
-        largest = larger_log(largest, next_e);
-        const size_t n = count_parts(material, rule, x, next, largest_change(e, next_e));
+        log_moduli(material, next, next_e);
+        largest = max_abs_log(largest, next_e);
+        const size_t n = count_subdivisions(material, rule, x, next, largest_log_change(e, next_e));
         add_edges(list, x, next, n, largest);
         x = next;
         e[0] = next_e[0];
@@ -150,29 +151,30 @@ static void lay_edges(const wt_material *material, const gauss_rule *rule, doubl
 /* ---- sums ------------------------------------------------------------------------------------ */
 
 /* Evaluates F at the nodes of subinterval p. */
-static void evaluate_panel(angular_panels *a, size_t p)
+static void evaluate_subinterval(angular_subintervals *a, size_t p)
 {
     const double half = 0.5 * (a->edge[p + 1] - a->edge[p]);
-    double *omega = a->omega + p * PANEL_NODES;
-    double storage[PANEL_NODES], loss[PANEL_NODES];
-    for (size_t i = 0; i < PANEL_NODES; i++)
+    double *omega = a->omega + p * SUBINTERVAL_NODES;
+    double storage[SUBINTERVAL_NODES], loss[SUBINTERVAL_NODES];
+    for (size_t i = 0; i < SUBINTERVAL_NODES; i++)
         omega[i] = exp(a->edge[p] + half * (1 + a->rule->node[i]));
-    a->material->law->modulus(a->material, omega, PANEL_NODES, storage, loss);
-    for (size_t i = 0; i < PANEL_NODES; i++) {
+    a->material->law->modulus(a->material, omega, SUBINTERVAL_NODES, storage, loss);
+    for (size_t i = 0; i < SUBINTERVAL_NODES; i++) {
         const double weight = half * a->rule->weight[i];
-        a->value[0][p * PANEL_NODES + i] = weight * loss[i];
-        a->value[1][p * PANEL_NODES + i] = weight * (storage[i] * storage[i] + loss[i] * loss[i]);
+        a->value[0][p * SUBINTERVAL_NODES + i] = weight * loss[i];
+        a->value[1][p * SUBINTERVAL_NODES + i] =
+            weight * (storage[i] * storage[i] + loss[i] * loss[i]);
     }
 }
 
 /* Starts the sums. Below the first edge, E' and E'' continue as the power laws that they are there.
  */
-static void start_sums(angular_panels *a)
+static void init_sums(angular_subintervals *a)
 {
     const double x = a->edge[0], step = 1;
     double e[3][2];
     for (size_t i = 0; i < 3; i++)
-        logs_at(a->material, x + step * (double)i, e[i]);
+        log_moduli(a->material, x + step * (double)i, e[i]);
     for (size_t f = 0; f < 2; f++) {
         double *sum = a->below[f];
         for (size_t part = f == 0 ? 1 : 0; part < 2; part++) {
@@ -192,17 +194,17 @@ static void start_sums(angular_panels *a)
 
 /* Error of one subinterval with the integral `sum` from the rounding of ln omega at nodes, edges
  * and knots. */
-static double moved_part(const angular_panels *a, size_t f, size_t p, double sum)
+static double rounding_part(const angular_subintervals *a, size_t f, size_t p, double sum)
 {
-    const double *value = a->value[f] + p * PANEL_NODES, *weight = a->rule->weight;
-    const double first = value[0] / weight[0], last = value[PANEL_NODES - 1] / weight[0];
+    const double *value = a->value[f] + p * SUBINTERVAL_NODES, *weight = a->rule->weight;
+    const double first = value[0] / weight[0], last = value[SUBINTERVAL_NODES - 1] / weight[0];
     const double width = a->edge[p + 1] - a->edge[p];
     const double far = fmax(fabs(a->edge[p]), fabs(a->edge[p + 1]));
     const double change = first > 0 && last > 0 ? fabs(log(last / first)) : 0;
     return 2 * DBL_EPSILON * (1 + far) * sum * change / width;
 }
 
-static void sum_panels(angular_panels *a)
+static void sum_subintervals(angular_subintervals *a)
 {
     for (size_t p = 0; p <= a->n; p++)
         a->edge_omega[p] = exp(a->edge[p]);
@@ -213,20 +215,20 @@ static void sum_panels(angular_panels *a)
             double *to = a->below[f] + (p + 1) * a->terms;
             double factor = f == 0 ? shrink * shrink : shrink;
             const double passed = from[0] * factor;
-            a->moved[f][p + 1] = a->moved[f][p] * factor;
+            a->rounding[f][p + 1] = a->rounding[f][p] * factor;
             for (size_t m = 0; m < a->terms; m++) {
                 to[m] = from[m] * factor;
                 factor *= shrink * shrink;
             }
-            for (size_t i = 0; i < PANEL_NODES; i++) {
-                const double c = a->omega[p * PANEL_NODES + i] / b, square = c * c;
-                double term = a->value[f][p * PANEL_NODES + i] * (f == 0 ? square : c);
+            for (size_t i = 0; i < SUBINTERVAL_NODES; i++) {
+                const double c = a->omega[p * SUBINTERVAL_NODES + i] / b, square = c * c;
+                double term = a->value[f][p * SUBINTERVAL_NODES + i] * (f == 0 ? square : c);
                 for (size_t m = 0; m < a->terms; m++) {
                     to[m] += term;
                     term *= square;
                 }
             }
-            a->moved[f][p + 1] += moved_part(a, f, p, to[0] - passed);
+            a->rounding[f][p + 1] += rounding_part(a, f, p, to[0] - passed);
         }
     }
 }
@@ -236,12 +238,13 @@ static void sum_panels(angular_panels *a)
 /* A group is used if w is at least twice its width above it. The ellipse through w then has half
  * axes with the sum 9.9 times the half width, and 9.9^-16 is 1e-16. A wider group never lies that
  * close below w and above w / 2. */
-static const double group_apart = 2, group_widest = 0.25;
+static const double group_distance = 2, group_max_width = 0.25;
 
 /* Distributes n values at given frequencies over the nodes of a group between two edges, by
  * barycentric interpolation. */
-static void spread(const gauss_rule *rule, double from, double to, size_t n, const double *omega,
-                   const double *value1, const double *value2, panel_group *group)
+static void distribute_nodes(const gauss_rule *rule, double from, double to, size_t n,
+                             const double *omega, const double *value1, const double *value2,
+                             subinterval_group *group)
 {
     double weight[GROUP_NODES];
     for (size_t j = 0; j < GROUP_NODES; j++)
@@ -263,33 +266,34 @@ static void spread(const gauss_rule *rule, double from, double to, size_t n, con
 }
 
 /* Fills a group of level k from its subintervals or from the two groups of the level below. */
-static void fill_group(const angular_panels *a, const gauss_rule *rule, size_t k, size_t i)
+static void fill_group(const angular_subintervals *a, const gauss_rule *rule, size_t k, size_t i)
 {
-    panel_group *group = &a->group[k][i];
-    const size_t size = (size_t)GROUP_LEAST << k, nodes = i * size * PANEL_NODES;
+    subinterval_group *group = &a->group[k][i];
+    const size_t size = (size_t)GROUP_LEAST << k, nodes = i * size * SUBINTERVAL_NODES;
     const double from = a->edge[i * size], to = a->edge[(i + 1) * size];
-    if (!(to - from <= group_widest))
+    if (!(to - from <= group_max_width))
         return;
     for (size_t j = 0; j < GROUP_NODES; j++)
         group->omega[j] = exp(from + 0.5 * (to - from) * (1 + rule->node[j]));
     if (k == 0)
-        spread(rule, from, to, size * PANEL_NODES, a->omega + nodes, a->value[0] + nodes,
-               a->value[1] + nodes, group);
+        distribute_nodes(rule, from, to, size * SUBINTERVAL_NODES, a->omega + nodes,
+                         a->value[0] + nodes, a->value[1] + nodes, group);
     for (size_t half = 0; k > 0 && half < 2; half++) {
-        const panel_group *part = &a->group[k - 1][2 * i + half];
-        spread(rule, from, to, GROUP_NODES, part->omega, part->value[0], part->value[1], group);
+        const subinterval_group *part = &a->group[k - 1][2 * i + half];
+        distribute_nodes(rule, from, to, GROUP_NODES, part->omega, part->value[0], part->value[1],
+                         group);
     }
 }
 
 /* Groups make the cost of one frequency logarithmic in the number of narrow subintervals near it.
  */
-static wt_status group_panels(angular_panels *a, wt_error *err)
+static wt_status group_subintervals(angular_subintervals *a, wt_error *err)
 {
     const gauss_rule *rule;
-    const wt_status status = rule_of(GROUP_NODES, &rule, err);
+    const wt_status status = gauss_rule_get(GROUP_NODES, &rule, err);
     bool dense = false;
     for (size_t p = 0; !dense && p + 4 * GROUP_LEAST <= a->n; p += GROUP_LEAST)
-        dense = a->edge[p + 4 * GROUP_LEAST] - a->edge[p] <= group_widest;
+        dense = a->edge[p + 4 * GROUP_LEAST] - a->edge[p] <= group_max_width;
     for (size_t k = 0; status == WT_OK && dense && k < GROUP_LEVELS; k++) {
         const size_t n = a->n / ((size_t)GROUP_LEAST << k);
         if (n == 0)
@@ -305,7 +309,8 @@ static wt_status group_panels(angular_panels *a, wt_error *err)
 
 /* Returns the number of subintervals from p on in a group far enough below x; 0 if there is none.
  */
-static size_t group_at(const angular_panels *a, size_t p, double x, const panel_group **group)
+static size_t find_group(const angular_subintervals *a, size_t p, double x,
+                         const subinterval_group **group)
 {
     size_t size = 0;
     for (size_t k = 0; k < GROUP_LEVELS && a->group[k] != NULL; k++) {
@@ -313,7 +318,7 @@ static size_t group_at(const angular_panels *a, size_t p, double x, const panel_
         if (p % next != 0 || p + next > a->n)
             break;
         const double from = a->edge[p], to = a->edge[p + next];
-        if (!(to - from <= group_widest && to + group_apart * (to - from) <= x))
+        if (!(to - from <= group_max_width && to + group_distance * (to - from) <= x))
             break;
         size = next;
         *group = &a->group[k][p / next];
@@ -321,8 +326,9 @@ static size_t group_at(const angular_panels *a, size_t p, double x, const panel_
     return size;
 }
 
-wt_status angular_panels_new(const wt_material *material, const gauss_rule *rule, double low,
-                             double high, double goal, angular_panels *panels, wt_error *err)
+wt_status angular_subintervals_new(const wt_material *material, const gauss_rule *rule, double low,
+                                   double high, double goal, angular_subintervals *subintervals,
+                                   wt_error *err)
 {
     size_t n_breaks = 0;
     const double *breaks =
@@ -331,15 +337,16 @@ wt_status angular_panels_new(const wt_material *material, const gauss_rule *rule
     double begin = log(low);
     if (n_breaks > 0)
         begin = fmin(begin, log(breaks[0]));
-    const double first = fmax(
-        floor(begin / stride) * stride - (is_power ? shallow : deep - log(goal)), log(DBL_MIN) + 1);
-    angular_panels a = {.material = material, .rule = rule};
+    const double first = fmax(floor(begin / stride) * stride -
+                                  (is_power ? knot_margin : power_law_margin - log(goal)),
+                              log(DBL_MIN) + 1);
+    angular_subintervals a = {.material = material, .rule = rule};
     /* c^(2m) is 4^-m */
     a.terms = 2 + (size_t)ceil(-log(fmin(fmax(goal, 1e-16), 0.1)) / (2 * M_LN2));
     edge_list list = {0};
-    lay_edges(material, rule, first, log(high), &list);
+    place_edges(material, rule, first, log(high), &list);
     a.n = list.n - 1;
-    const size_t nodes = a.n * PANEL_NODES, sums = (a.n + 1) * a.terms;
+    const size_t nodes = a.n * SUBINTERVAL_NODES, sums = (a.n + 1) * a.terms;
     a.numbers = calloc(5 * (a.n + 1) + 3 * nodes + 2 * sums, sizeof *a.numbers);
     if (a.numbers == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory for the angular integrals");
@@ -350,33 +357,33 @@ wt_status angular_panels_new(const wt_material *material, const gauss_rule *rule
     a.value[1] = a.value[0] + nodes;
     a.below[0] = a.value[1] + nodes;
     a.below[1] = a.below[0] + sums;
-    a.moved[0] = a.below[1] + sums;
-    a.moved[1] = a.moved[0] + a.n + 1;
-    a.largest = list.largest = a.moved[1] + a.n + 1;
-    lay_edges(material, rule, first, log(high), &list);
-    start_sums(&a);
+    a.rounding[0] = a.below[1] + sums;
+    a.rounding[1] = a.rounding[0] + a.n + 1;
+    a.largest = list.largest = a.rounding[1] + a.n + 1;
+    place_edges(material, rule, first, log(high), &list);
+    init_sums(&a);
     for (size_t p = 0; p < a.n; p++)
-        evaluate_panel(&a, p);
-    sum_panels(&a);
-    *panels = a;
-    const wt_status status = group_panels(panels, err);
+        evaluate_subinterval(&a, p);
+    sum_subintervals(&a);
+    *subintervals = a;
+    const wt_status status = group_subintervals(subintervals, err);
     if (status != WT_OK)
-        angular_panels_clear(panels);
+        angular_subintervals_clear(subintervals);
     return status;
 }
 
-void angular_panels_clear(angular_panels *panels)
+void angular_subintervals_clear(angular_subintervals *subintervals)
 {
-    free(panels->numbers);
+    free(subintervals->numbers);
     for (size_t k = 0; k < GROUP_LEVELS; k++)
-        free(panels->group[k]);
-    *panels = (angular_panels){0};
+        free(subintervals->group[k]);
+    *subintervals = (angular_subintervals){0};
 }
 
 /* ---- one frequency --------------------------------------------------------------------------- */
 
 /* Returns the last edge at or below x. */
-static size_t edge_before(const angular_panels *a, double x)
+static size_t preceding_edge(const angular_subintervals *a, double x)
 {
     size_t low = a->edge[a->n] <= x ? a->n : 0, high = a->n;
     while (low < high) {
@@ -390,13 +397,14 @@ static size_t edge_before(const angular_panels *a, double x)
 }
 
 /* Adds the integral below an edge at c <= 1/2: sum_m b_m S_m c^(2m + s). */
-static void add_far(const angular_panels *a, size_t edge, double w, double *j1, double *j2)
+static void add_far_series(const angular_subintervals *a, size_t edge, double w, double *j1,
+                           double *j2)
 {
     const double c = a->edge_omega[edge] / w, square = c * c;
     const double *s1 = a->below[0] + edge * a->terms, *s2 = a->below[1] + edge * a->terms;
     double sum1 = 0, sum2 = 0, b = 1, power = 1;
     if (a->weight != NULL)
-        weight_far(a->weight, s1, s2, a->terms, square, &sum1, &sum2);
+        weight_series_sum(a->weight, s1, s2, a->terms, square, &sum1, &sum2);
     for (size_t m = 0; a->weight == NULL && m < a->terms && power > DBL_EPSILON / 64; m++) {
         sum1 += b * power * s1[m];
         sum2 += b * power * s2[m];
@@ -409,8 +417,8 @@ static void add_far(const angular_panels *a, size_t edge, double w, double *j1, 
 
 /* Evaluates sum_m of[m] c^(2m), c = edge / w, times 4 c^2. */
 WIDE_REGISTERS
-static void far_series(const double *restrict of, size_t terms, double edge,
-                       const double *restrict w, size_t n, double *restrict j1)
+static void evaluate_far_series(const double *restrict of, size_t terms, double edge,
+                                const double *restrict w, size_t n, double *restrict j1)
 {
     for (size_t i = 0; i < n; i++) {
         const double c = edge / w[i], square = c * c;
@@ -421,31 +429,32 @@ static void far_series(const double *restrict of, size_t terms, double edge,
     }
 }
 
-void angular_panels_far(const angular_panels *panels, const double *w, size_t n, double *j1)
+void angular_subintervals_far(const angular_subintervals *subintervals, const double *w, size_t n,
+                              double *j1)
 {
-    const angular_panels *a = panels;
+    const angular_subintervals *a = subintervals;
     const double *sums = a->below[0] + a->n * a->terms, edge = a->edge_omega[a->n];
-    double of[WEIGHT_FAR], b = 1, nearest = 0, power = 1;
+    double of[WEIGHT_SERIES_TERMS], b = 1, nearest = 0, power = 1;
     for (size_t i = 0; i < n; i++)
         nearest = nearest > edge / w[i] ? nearest : edge / w[i];
     size_t terms = 0;
-    for (; terms < a->terms && terms < WEIGHT_FAR && power > DBL_EPSILON / 64; terms++) {
+    for (; terms < a->terms && terms < WEIGHT_SERIES_TERMS && power > DBL_EPSILON / 64; terms++) {
         of[terms] = sums[terms] * (a->weight != NULL ? a->weight->far[0][terms] : b);
         b *= (double)(2 * terms + 1) / (double)(2 * terms + 2);
         power *= nearest * nearest;
     }
-    far_series(of, terms, edge, w, n, j1);
+    evaluate_far_series(of, terms, edge, w, n, j1);
 }
 
-enum { MIDDLE = 8 * PANEL_NODES }; /* nodes of one batch, which fits on the stack */
+enum { NODE_BATCH = 8 * SUBINTERVAL_NODES }; /* nodes of one batch, which fits on the stack */
 
 /* Adds n <= NODE_BATCH nodes of subintervals whose distance below w is at least their width. */
 WIDE_REGISTERS
-static void add_middle(size_t n, const double *restrict omega, const double *restrict f1,
-                       const double *restrict f2, double w, double *restrict j1,
-                       double *restrict j2)
+static void add_node_sum(size_t n, const double *restrict omega, const double *restrict f1,
+                         const double *restrict f2, double w, double *restrict j1,
+                         double *restrict j2)
 {
-    double kernel[MIDDLE], cosine[MIDDLE];
+    double kernel[NODE_BATCH], cosine[NODE_BATCH];
     for (size_t i = 0; i < n; i++) {
         cosine[i] = omega[i] / w;
         kernel[i] = cosine[i] / sqrt((1 - cosine[i]) * (1 + cosine[i]));
@@ -471,95 +480,99 @@ static void add_middle(size_t n, const double *restrict omega, const double *res
     }
 }
 
-static void add_nodes(const angular_panels *a, size_t n, const double *omega, const double *f1,
-                      const double *f2, double w, double *j1, double *j2)
+static void add_nodes(const angular_subintervals *a, size_t n, const double *omega,
+                      const double *f1, const double *f2, double w, double *j1, double *j2)
 {
     if (a->weight != NULL)
-        weight_middle(a->weight, n, omega, f1, f2, w, j1, j2);
+        weight_node_sum(a->weight, n, omega, f1, f2, w, j1, j2);
     else
-        add_middle(n, omega, f1, f2, w, j1, j2);
+        add_node_sum(n, omega, f1, f2, w, j1, j2);
 }
 
 /* Integrates from ln omega = `from` to `to` close below x = ln w, with ln omega = x - t^2. */
-static void add_near(const angular_panels *a, double x, double from, double to, double w,
-                     double *j1, double *j2)
+static void add_near_integral(const angular_subintervals *a, double x, double from, double to,
+                              double w, double *j1, double *j2)
 {
-    double omega[PANEL_NODES], storage[PANEL_NODES], loss[PANEL_NODES], weight[PANEL_NODES],
-        cosine[PANEL_NODES], t[PANEL_NODES], power[PANEL_NODES], gap[PANEL_NODES];
-    const double near = sqrt(fmax(0, x - to)), far = sqrt(x - from), half = 0.5 * (far - near);
-    for (size_t i = 0; i < PANEL_NODES; i++) {
-        t[i] = near + half * (1 + a->rule->node[i]);
+    double omega[SUBINTERVAL_NODES], storage[SUBINTERVAL_NODES], loss[SUBINTERVAL_NODES],
+        weight[SUBINTERVAL_NODES], cosine[SUBINTERVAL_NODES], t[SUBINTERVAL_NODES],
+        power[SUBINTERVAL_NODES], gap[SUBINTERVAL_NODES];
+    const double t_first = sqrt(fmax(0, x - to)), far = sqrt(x - from),
+                 half = 0.5 * (far - t_first);
+    for (size_t i = 0; i < SUBINTERVAL_NODES; i++) {
+        t[i] = t_first + half * (1 + a->rule->node[i]);
         power[i] = -2 * t[i] * t[i];
     }
-    exponential_less_one(power, PANEL_NODES, gap); /* c^2 - 1 */
-    for (size_t i = 0; i < PANEL_NODES; i++) {
+    vector_expm1(power, SUBINTERVAL_NODES, gap); /* c^2 - 1 */
+    for (size_t i = 0; i < SUBINTERVAL_NODES; i++) {
         cosine[i] = sqrt(1 + gap[i]);
         omega[i] = w * cosine[i];
         weight[i] = half * a->rule->weight[i] * 2 * t[i] * cosine[i] / sqrt(-gap[i]);
     }
-    a->material->law->modulus(a->material, omega, PANEL_NODES, storage, loss);
-    const angular_weight *in_direction = a->weight;
-    for (size_t i = 0; i < PANEL_NODES; i++) {
+    a->material->law->modulus(a->material, omega, SUBINTERVAL_NODES, storage, loss);
+    const angular_weight *direction_weight = a->weight;
+    for (size_t i = 0; i < SUBINTERVAL_NODES; i++) {
         double part1 = weight[i] * cosine[i] * loss[i];
         double part2 = weight[i] * (storage[i] * storage[i] + loss[i] * loss[i]);
-        if (in_direction != NULL) {
-            part1 *= weight_at(in_direction->power[0], 1 + gap[i]);
-            part2 *= weight_at(in_direction->power[1], 1 + gap[i]);
+        if (direction_weight != NULL) {
+            part1 *= weight_evaluate(direction_weight->power[0], 1 + gap[i]);
+            part2 *= weight_evaluate(direction_weight->power[1], 1 + gap[i]);
         }
         *j1 += part1;
         *j2 += part2;
     }
 }
 
-void angular_panels_integrate(const angular_panels *panels, double w, double *j1, double *j2)
+void angular_subintervals_integrate(const angular_subintervals *subintervals, double w, double *j1,
+                                    double *j2)
 {
-    const angular_panels *a = panels;
+    const angular_subintervals *a = subintervals;
     *j1 = *j2 = 0;
     if (w >= 2 * a->edge_omega[a->n]) {
-        add_far(a, a->n, w, j1, j2);
+        add_far_series(a, a->n, w, j1, j2);
     } else {
         const double x = log(w);
-        size_t p = edge_before(a, x - M_LN2);
-        add_far(a, p, w, j1, j2);
+        size_t p = preceding_edge(a, x - M_LN2);
+        add_far_series(a, p, w, j1, j2);
         while (p < a->n && a->edge[p] < x) {
-            const panel_group *group;
-            const size_t grouped = group_at(a, p, x, &group);
+            const subinterval_group *group;
+            const size_t grouped = find_group(a, p, x, &group);
             if (grouped > 0) {
                 add_nodes(a, GROUP_NODES, group->omega, group->value[0], group->value[1], w, j1,
                           j2);
                 p += grouped;
                 continue;
             }
-            size_t from = p * PANEL_NODES;
+            size_t from = p * SUBINTERVAL_NODES;
             while (p < a->n && 2 * a->edge[p + 1] <= x + a->edge[p] &&
-                   (p * PANEL_NODES == from || group_at(a, p, x, &group) == 0))
+                   (p * SUBINTERVAL_NODES == from || find_group(a, p, x, &group) == 0))
                 p++;
-            for (const size_t end = p * PANEL_NODES; from < end; from += MIDDLE)
-                add_nodes(a, end - from < MIDDLE ? end - from : MIDDLE, a->omega + from,
+            for (const size_t end = p * SUBINTERVAL_NODES; from < end; from += NODE_BATCH)
+                add_nodes(a, end - from < NODE_BATCH ? end - from : NODE_BATCH, a->omega + from,
                           a->value[0] + from, a->value[1] + from, w, j1, j2);
             /* narrow subintervals may follow */
             for (; p < a->n && a->edge[p] < x && 2 * a->edge[p + 1] > x + a->edge[p]; p++)
-                add_near(a, x, a->edge[p], fmin(a->edge[p + 1], x), w, j1, j2);
+                add_near_integral(a, x, a->edge[p], fmin(a->edge[p + 1], x), w, j1, j2);
         }
     }
     *j1 *= 4;
     *j2 *= 4;
 }
 
-double angular_panels_error(const angular_panels *panels, double w, double j1, double j2)
+double angular_subintervals_error(const angular_subintervals *subintervals, double w, double j1,
+                                  double j2)
 {
-    const angular_panels *a = panels;
+    const angular_subintervals *a = subintervals;
     const double x = log(w);
-    const size_t edge = edge_before(a, x - widest);
+    const size_t edge = preceding_edge(a, x - max_width);
     double e[2];
-    logs_at(a->material, x, e);
-    const double largest = larger_log(a->largest[edge_before(a, x)], e);
+    log_moduli(a->material, x, e);
+    const double largest = max_abs_log(a->largest[preceding_edge(a, x)], e);
     const double start = a->edge_omega[0] / w, c = a->edge_omega[edge] / w;
     const double kernel = 4 * c / sqrt((1 - c) * (1 + c)); /* value at the edge; smaller below it */
-    const double error1 = 4 * a->start_error[0] * start * start + kernel * c * a->moved[0][edge];
-    const double error2 = 4 * a->start_error[1] * start + kernel * a->moved[1][edge];
+    const double error1 = 4 * a->start_error[0] * start * start + kernel * c * a->rounding[0][edge];
+    const double error2 = 4 * a->start_error[1] * start + kernel * a->rounding[1][edge];
     const double error = fmax(j1 > 0 ? error1 / j1 : 0, j2 > 0 ? error2 / j2 : 0) +
                          pow(4, -(double)a->terms) + 8 * DBL_EPSILON +
                          2 * DBL_EPSILON * (4 + largest);
-    return a->weight != NULL ? error * a->weight->caution : error;
+    return a->weight != NULL ? error * a->weight->cancellation : error;
 }

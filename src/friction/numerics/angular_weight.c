@@ -12,7 +12,7 @@
 
 /* ---- anisotropy ------------------------------------------------------------------------------ */
 
-bool anisotropy_is_any(const wt_anisotropy *a)
+bool anisotropy_is_present(const wt_anisotropy *a)
 {
     for (size_t k = 0; k < WT_ANISOTROPY_ORDERS; k++)
         if (a->amplitude[k] != 0)
@@ -21,7 +21,7 @@ bool anisotropy_is_any(const wt_anisotropy *a)
 }
 
 /* Amplitudes of cos(m phi) and of sin(m phi). */
-static void split_order(const wt_anisotropy *a, size_t k, double *even, double *odd)
+static void split_harmonic(const wt_anisotropy *a, size_t k, double *even, double *odd)
 {
     /* a whole number of turns off, so that grooves across and along are exact */
     const double turn = remainder(anisotropy_order(k) * a->angle[k], 2 * M_PI);
@@ -32,11 +32,11 @@ static void split_order(const wt_anisotropy *a, size_t k, double *even, double *
         *odd = 0;
 }
 
-bool anisotropy_is_aside(const wt_anisotropy *a)
+bool anisotropy_has_lateral_force(const wt_anisotropy *a)
 {
     for (size_t k = 0; k < WT_ANISOTROPY_ORDERS; k++) {
         double even, odd;
-        split_order(a, k, &even, &odd);
+        split_harmonic(a, k, &even, &odd);
         if (odd != 0)
             return true;
     }
@@ -63,9 +63,9 @@ static double cosine_moment(double p)
 
 /* Ratio of the sum of absolute terms of the polynomial to its value, for moduli that are powers of
  * the frequency: |E|^2 from constant to its steepest, E'' in between. */
-static double caution_of(const double power[WEIGHT_POWERS])
+static double polynomial_cancellation(const double power[WEIGHT_POWERS])
 {
-    double caution = 1;
+    double cancellation = 1;
     for (int p = 0; p <= 2; p++) {
         double sum = 0, terms = 0;
         for (size_t j = 0; j < WEIGHT_POWERS; j++) {
@@ -73,43 +73,43 @@ static double caution_of(const double power[WEIGHT_POWERS])
             sum += term;
             terms += fabs(term);
         }
-        caution = fmax(caution, terms / sum);
+        cancellation = fmax(cancellation, terms / sum);
     }
-    return caution;
+    return cancellation;
 }
 
 /* 1 / sqrt(1 - c^2) = sum_m b_m c^2m. */
-static void finish_weight(angular_weight *w)
+static void complete_weight(angular_weight *w)
 {
-    double b[WEIGHT_FAR];
-    for (size_t m = 0; m < WEIGHT_FAR; m++)
+    double b[WEIGHT_SERIES_TERMS];
+    for (size_t m = 0; m < WEIGHT_SERIES_TERMS; m++)
         b[m] = m == 0 ? 1 : b[m - 1] * (double)(2 * m - 1) / (double)(2 * m);
-    w->caution = 1;
+    w->cancellation = 1;
     for (size_t f = 0; f < 2; f++) {
-        for (size_t m = 0; m < WEIGHT_FAR; m++)
+        for (size_t m = 0; m < WEIGHT_SERIES_TERMS; m++)
             for (size_t j = 0; j < WEIGHT_POWERS && j <= m; j++)
                 w->far[f][m] += w->power[f][j] * b[m - j];
-        w->caution = fmax(w->caution, caution_of(w->power[f]));
+        w->cancellation = fmax(w->cancellation, polynomial_cancellation(w->power[f]));
     }
 }
 
-angular_weight weight_along(const wt_anisotropy *a)
+angular_weight weight_longitudinal(const wt_anisotropy *a)
 {
     angular_weight w = {.power = {{1}, {1}}};
     double before[WEIGHT_POWERS] = {1}, now[WEIGHT_POWERS] = {-1, 2}; /* cos 0, cos 2 phi */
     for (size_t k = 0; k < WT_ANISOTROPY_ORDERS; k++) {
         double even, odd;
-        split_order(a, k, &even, &odd);
+        split_harmonic(a, k, &even, &odd);
         for (size_t j = 0; j < WEIGHT_POWERS; j++)
             w.power[0][j] += even * now[j];
         next_chebyshev(before, now);
     }
     memcpy(w.power[1], w.power[0], sizeof w.power[1]);
-    finish_weight(&w);
+    complete_weight(&w);
     return w;
 }
 
-angular_weight weight_aside(const wt_anisotropy *a, double *shift)
+angular_weight weight_lateral(const wt_anisotropy *a, double *shift)
 {
     angular_weight w = {.power = {{0}, {1}}};
     /* sin(phi) sin(2 k phi) = cos(phi) 2 (1 - x) U_(k-1)(2 x - 1), within 2 k */
@@ -117,20 +117,20 @@ angular_weight weight_aside(const wt_anisotropy *a, double *shift)
     *shift = 0;
     for (size_t k = 0; k < WT_ANISOTROPY_ORDERS; k++) {
         double even, odd;
-        split_order(a, k, &even, &odd);
+        split_harmonic(a, k, &even, &odd);
         for (size_t j = 0; j < WEIGHT_POWERS; j++)
             w.power[0][j] += 2 * odd * (now[j] - (j > 0 ? now[j - 1] : 0));
         *shift += anisotropy_order(k) * fabs(odd);
         next_chebyshev(before, now);
     }
     w.power[0][0] += *shift;
-    finish_weight(&w);
+    complete_weight(&w);
     return w;
 }
 
 /* ---- sums ------------------------------------------------------------------------------------ */
 
-double weight_at(const double power[WEIGHT_POWERS], double square)
+double weight_evaluate(const double power[WEIGHT_POWERS], double square)
 {
     double sum = power[WEIGHT_POWERS - 1];
     for (size_t j = WEIGHT_POWERS - 1; j-- > 0;)
@@ -138,8 +138,8 @@ double weight_at(const double power[WEIGHT_POWERS], double square)
     return sum;
 }
 
-void weight_far(const angular_weight *w, const double *s1, const double *s2, size_t terms,
-                double square, double *sum1, double *sum2)
+void weight_series_sum(const angular_weight *w, const double *s1, const double *s2, size_t terms,
+                       double square, double *sum1, double *sum2)
 {
     double power = 1;
     for (size_t m = 0; m < terms; m++) {
@@ -149,13 +149,13 @@ void weight_far(const angular_weight *w, const double *s1, const double *s2, siz
     }
 }
 
-void weight_middle(const angular_weight *w, size_t n, const double *omega, const double *f1,
-                   const double *f2, double at, double *j1, double *j2)
+void weight_node_sum(const angular_weight *w, size_t n, const double *omega, const double *f1,
+                     const double *f2, double at, double *j1, double *j2)
 {
     for (size_t i = 0; i < n; i++) {
         const double c = omega[i] / at, square = c * c;
         const double kernel = c / sqrt((1 - c) * (1 + c));
-        *j1 += weight_at(w->power[0], square) * kernel * c * f1[i];
-        *j2 += weight_at(w->power[1], square) * kernel * f2[i];
+        *j1 += weight_evaluate(w->power[0], square) * kernel * c * f1[i];
+        *j2 += weight_evaluate(w->power[1], square) * kernel * f2[i];
     }
 }

@@ -16,13 +16,13 @@
 /* r = ln(G / G0) as Chebyshev series on segments of x = ln G0. The nearest singular points of P are
  * at i pi/2 from a real x, 4 segments away, and 7.8^-16 is 5e-15. The segments end at G0 = 1e12,
  * where the following line in ln G0 neglects 1/G0^2 of G. */
-enum { DEGREE = 16, PIECES = 42 };
-static const double piece_width = 0.8;
+enum { DEGREE = 16, SEGMENTS = 42 };
+static const double segment_width = 0.8;
 
 struct area_law {
     wt_area_law kind;
     double offset; /* offset of the line beyond the segments */
-    double coefficient[PIECES][DEGREE + 1];
+    double coefficient[SEGMENTS][DEGREE + 1];
 };
 
 /* S = constant + linear P + square P^2 + fourth P^4. */
@@ -33,59 +33,60 @@ static const struct {
                [WT_AREA_WM17] = {5.0 / 9, 0, -2.0 / 9, 2.0 / 3},
                [WT_AREA_XU24] = {0.42, 0.58, 0, 0}};
 
-static double factor_at(wt_area_law kind, double area)
+static double correction_factor(wt_area_law kind, double area)
 {
     const double square = area * area;
     return factors[kind].constant + factors[kind].linear * area + factors[kind].square * square +
            factors[kind].fourth * square * square;
 }
 
-static double first_x(void)
+static double first_log_variance(void)
 {
-    return log(CONTACT_FULL);
+    return log(CONTACT_FULL_VARIANCE);
 }
 
 /* ---- construction ---------------------------------------------------------------------------- */
 
 /* Integral of dG / S. */
-static double rise_between(wt_area_law kind, double from, double to)
+static double full_contact_increment(wt_area_law kind, double from, double to)
 {
     const double middle = 0.5 * (from + to), half = 0.5 * (to - from);
     double sum = 0;
     for (size_t i = 0; i < 4; i++) {
         const double low = middle - half * gauss_8_node[i], high = middle + half * gauss_8_node[i];
-        sum += gauss_8_weight[i] *
-               (1 / factor_at(kind, contact_area(low)) + 1 / factor_at(kind, contact_area(high)));
+        sum += gauss_8_weight[i] * (1 / correction_factor(kind, contact_area(low)) +
+                                    1 / correction_factor(kind, contact_area(high)));
     }
     return half * sum;
 }
 
 /* Newton steps double the number of digits: four suffice from an estimate with 10 % error. */
-enum { STEPS = 6 };
+enum { NEWTON_STEPS = 6 };
 
 /* Returns G at G0 = `to` from the pair (G0, G) at a nearby G0. */
-static double march(wt_area_law kind, double from, double variance, double to)
+static double step_variance(wt_area_law kind, double from, double variance, double to)
 {
-    double g = variance + (to - from) * factor_at(kind, contact_area(variance));
-    for (size_t i = 0; i < STEPS; i++)
-        g -= (from + rise_between(kind, variance, g) - to) * factor_at(kind, contact_area(g));
+    double g = variance + (to - from) * correction_factor(kind, contact_area(variance));
+    for (size_t i = 0; i < NEWTON_STEPS; i++)
+        g -= (from + full_contact_increment(kind, variance, g) - to) *
+             correction_factor(kind, contact_area(g));
     return g;
 }
 
 /* Returns the root of G = S(P(G)) G0. It is unique because the right side falls with G. */
-static double solve_closed(wt_area_law kind, double variance)
+static double solve_implicit(wt_area_law kind, double variance)
 {
-    double g = factor_at(kind, contact_area(variance)) * variance;
-    for (size_t i = 0; i < 2 * STEPS; i++) {
+    double g = correction_factor(kind, contact_area(variance)) * variance;
+    for (size_t i = 0; i < 2 * NEWTON_STEPS; i++) {
         const double area = contact_area(g), y = 0.5 / sqrt(g);
         const double slope = -M_2_SQRTPI * exp(-y * y) * y / (2 * g); /* dP/dG */
-        const double off = g - factor_at(kind, area) * variance;
+        const double off = g - correction_factor(kind, area) * variance;
         g -= off / (1 - factors[kind].linear * slope * variance);
     }
     return g;
 }
 
-static void fit_piece(const double *value, double *coefficient)
+static void fit_segment(const double *value, double *coefficient)
 {
     for (size_t j = 0; j <= DEGREE; j++) {
         double sum = 0;
@@ -96,45 +97,46 @@ static void fit_piece(const double *value, double *coefficient)
     }
 }
 
-static double at_node(size_t piece, size_t k)
+static double node_log_variance(size_t segment, size_t k)
 {
-    const double middle = first_x() + piece_width * ((double)piece + 0.5);
-    return middle + 0.5 * piece_width * cos(M_PI * (double)k / DEGREE);
+    const double middle = first_log_variance() + segment_width * ((double)segment + 0.5);
+    return middle + 0.5 * segment_width * cos(M_PI * (double)k / DEGREE);
 }
 
-static area_law *make_law(wt_area_law kind)
+static area_law *compute_area_law(wt_area_law kind)
 {
-    area_law *made = malloc(sizeof *made);
-    if (made == NULL)
+    area_law *computed = malloc(sizeof *computed);
+    if (computed == NULL)
         return NULL;
-    made->kind = kind;
-    double from = CONTACT_FULL, g = CONTACT_FULL;
-    for (size_t p = 0; p < PIECES; p++) {
+    computed->kind = kind;
+    double from = CONTACT_FULL_VARIANCE, g = CONTACT_FULL_VARIANCE;
+    for (size_t p = 0; p < SEGMENTS; p++) {
         double value[DEGREE + 1];
         for (size_t k = DEGREE + 1; k-- > 0;) { /* in rising order */
-            const double to = exp(at_node(p, k));
-            g = kind == WT_AREA_XU24 ? solve_closed(kind, to) : march(kind, from, g, to);
+            const double to = exp(node_log_variance(p, k));
+            g = kind == WT_AREA_XU24 ? solve_implicit(kind, to) : step_variance(kind, from, g, to);
             from = to;
             value[k] = log(g / to);
         }
-        fit_piece(value, made->coefficient[p]);
+        fit_segment(value, computed->coefficient[p]);
     }
-    const double slope = factors[kind].constant, bend = factors[kind].square / (M_PI * slope);
-    made->offset = g - slope * from - bend * log(from);
-    return made;
+    const double slope = factors[kind].constant,
+                 log_coefficient = factors[kind].square / (M_PI * slope);
+    computed->offset = g - slope * from - log_coefficient * log(from);
+    return computed;
 }
 
-wt_status area_law_of(wt_area_law kind, const area_law **law, wt_error *err)
+wt_status area_law_get(wt_area_law kind, const area_law **law, wt_error *err)
 {
     static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
-    static area_law *made[COUNT_OF(factors)];
+    static area_law *computed[COUNT_OF(factors)];
     *law = NULL;
     if (kind == WT_AREA_PERSSON)
         return WT_OK;
     pthread_mutex_lock(&lock);
-    if (made[kind] == NULL)
-        made[kind] = make_law(kind);
-    *law = made[kind];
+    if (computed[kind] == NULL)
+        computed[kind] = compute_area_law(kind);
+    *law = computed[kind];
     pthread_mutex_unlock(&lock);
     return *law != NULL ? WT_OK : wt_fail(err, WT_E_MEMORY, "out of memory for a contact area");
 }
@@ -142,25 +144,25 @@ wt_status area_law_of(wt_area_law kind, const area_law **law, wt_error *err)
 /* ---- use ------------------------------------------------------------------------------------- */
 
 /* Asymptotic G beyond the segments. */
-static double far_variance(const area_law *law, double variance)
+static double asymptotic_variance(const area_law *law, double variance)
 {
     const wt_area_law kind = law->kind;
     const double slope = factors[kind].constant;
     return kind == WT_AREA_XU24
-               ? solve_closed(kind, variance)
+               ? solve_implicit(kind, variance)
                : slope * variance + factors[kind].square / (M_PI * slope) * log(variance) +
                      law->offset;
 }
 
 double area_law_variance(const area_law *law, double variance)
 {
-    if (law == NULL || !(variance > CONTACT_FULL))
+    if (law == NULL || !(variance > CONTACT_FULL_VARIANCE))
         return variance;
-    const double place = (log(variance) - first_x()) / piece_width;
-    if (!(place < PIECES))
-        return far_variance(law, variance);
-    const size_t piece = (size_t)place;
-    const double *c = law->coefficient[piece], z = 2 * (place - (double)piece) - 1;
+    const double position = (log(variance) - first_log_variance()) / segment_width;
+    if (!(position < SEGMENTS))
+        return asymptotic_variance(law, variance);
+    const size_t segment = (size_t)position;
+    const double *c = law->coefficient[segment], z = 2 * (position - (double)segment) - 1;
     double next = 0, here = 0;
     for (size_t j = DEGREE; j > 0; j--) { /* Clenshaw recurrence */
         const double before = 2 * z * here - next + c[j];
@@ -172,18 +174,18 @@ double area_law_variance(const area_law *law, double variance)
 
 double area_law_integral(const area_law *law, double variance, double gamma)
 {
-    if (law == NULL || !(variance > CONTACT_FULL))
+    if (law == NULL || !(variance > CONTACT_FULL_VARIANCE))
         return contact_integral(variance, gamma);
-    const double length = log(variance) - first_x();
-    const size_t n = 1 + (size_t)(length / piece_width);
+    const double length = log(variance) - first_log_variance();
+    const size_t n = 1 + (size_t)(length / segment_width);
     const double half = 0.5 * length / (double)n;
     double sum = 0;
     for (size_t p = 0; p < n; p++)
         for (size_t i = 0; i < 8; i++) {
             const double node = i < 4 ? -gauss_8_node[i] : gauss_8_node[i - 4];
-            const double g0 = exp(first_x() + half * ((double)(2 * p + 1) + node));
+            const double g0 = exp(first_log_variance() + half * ((double)(2 * p + 1) + node));
             const double area = contact_area(area_law_variance(law, g0));
             sum += half * gauss_8_weight[i % 4] * g0 * area * (gamma + (1 - gamma) * area * area);
         }
-    return CONTACT_FULL + sum;
+    return CONTACT_FULL_VARIANCE + sum;
 }

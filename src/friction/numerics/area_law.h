@@ -19,7 +19,7 @@ typedef struct area_law area_law;
 
 /* Returns the law, which the first request creates for all threads. It is never freed. NULL for
  * Persson's law. */
-wt_status area_law_of(wt_area_law kind, const area_law **law, wt_error *err) WT_NODISCARD;
+wt_status area_law_get(wt_area_law kind, const area_law **law, wt_error *err) WT_NODISCARD;
 /* Returns G as a function of G0; G0 itself for a NULL law. */
 double area_law_variance(const area_law *law, double variance);
 /* int_0^G0 S_mu P dG0' with S_mu = gamma + (1 - gamma) P^2. */

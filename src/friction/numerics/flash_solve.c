@@ -20,19 +20,19 @@ enum { DEPTH = 5 };
 static const double damping = 0.5;
 /* Far from a solution the first steps are plain steps with stronger damping. They converge up to a
  * map slope of -7. */
-enum { CAREFUL_MAPS = 12 };
-static const double careful_damping = 0.25;
+enum { DAMPED_MAPS = 12 };
+static const double strong_damping = 0.25;
 /* A smooth solution needs at most the first number of maps; an existing one is found within the
  * second. */
-enum { FREE_MAPS = 15, MOST_MAPS = 60 };
+enum { FREE_MAPS = 15, MAX_MAPS = 60 };
 /* Error of a coarse solution relative to the largest rise. */
-static const double coarse_enough = 1e-5;
+static const double coarse_tolerance = 1e-5;
 /* Share of the tolerance that a residual may have in ln a_T. */
 static const double goal_share = 0.05;
 /* Number of waves in a batch, for whole registers. */
-enum { WAVES_AT_ONCE = 32 };
+enum { WAVE_BATCH = 32 };
 /* Differences below this are rounding and carry no information. */
-static const double least_pivot = 1e-10;
+static const double min_pivot = 1e-10;
 
 struct flash_scratch {
     double *rise, *next, *residual;         /* [nodes] rise above T0, its map and the residual */
@@ -40,8 +40,8 @@ struct flash_scratch {
     double *steps, *changes;                /* [DEPTH * nodes] differences of the rise and of the
                                                residual */
     double *shift, *omega, *x, *j1, *j2;    /* [nodes] */
-    double *further;                        /* [nodes] ln of the extra shift of a layer; NULL if
-                                               it is shifted as the bulk */
+    double *extra_shift;                    /* [nodes] ln of the extra shift of a layer; NULL if
+                                           it is shifted as the bulk */
     double *loss_j1, *loss_j2;              /* [nodes] with softening */
     double *g, *running, *area, *mu, *heat; /* [nodes] */
     double *wave, *square, *sum;            /* [waves] */
@@ -50,12 +50,12 @@ struct flash_scratch {
     size_t nodes;
 };
 
-static size_t most_nodes(const flash_law *law)
+static size_t max_nodes(const flash_law *law)
 {
     size_t most = 0;
     for (size_t k = 0; k < FLASH_GRIDS; k++)
         most = law->grid[k].n > most ? law->grid[k].n : most;
-    return flash_whole_rows(most) + RULE_MOST;
+    return flash_padded_rows(most) + GAUSS_NODES_MAX;
 }
 
 flash_scratch *flash_scratch_new(const wt_friction_workspace *ws, arena *memory)
@@ -63,15 +63,15 @@ flash_scratch *flash_scratch_new(const wt_friction_workspace *ws, arena *memory)
     flash_scratch *s = arena_alloc(memory, 1, sizeof *s);
     if (s == NULL)
         return NULL;
-    const size_t n = most_nodes(ws->flash);
+    const size_t n = max_nodes(ws->flash);
     double **const by_node[] = {
         &s->rise,  &s->next,    &s->residual, &s->last_rise, &s->last_residual, &s->shift,
         &s->omega, &s->x,       &s->j1,       &s->j2,        &s->loss_j1,       &s->loss_j2,
         &s->g,     &s->running, &s->area,     &s->mu,        &s->heat,          &s->coarse};
     for (size_t i = 0; i < COUNT_OF(by_node); i++)
         *by_node[i] = arena_numbers(memory, n);
-    if (flash_has_layer(ws->flash))
-        s->further = arena_numbers(memory, n);
+    if (flash_has_layer_shift(ws->flash))
+        s->extra_shift = arena_numbers(memory, n);
     s->steps = arena_numbers(memory, DEPTH * n);
     s->changes = arena_numbers(memory, DEPTH * n);
     double **const by_wave[] = {&s->wave, &s->square, &s->sum, &s->amount[0], &s->amount[1]};
@@ -83,7 +83,7 @@ flash_scratch *flash_scratch_new(const wt_friction_workspace *ws, arena *memory)
     return s;
 }
 
-size_t flash_nodes(flash_scratch *scratch)
+size_t flash_reset_node_count(flash_scratch *scratch)
 {
     const size_t nodes = scratch->nodes;
     scratch->nodes = 0;
@@ -106,8 +106,8 @@ typedef struct flash_map {
 
 /* sum[i] += factor[r] rows[r][i]; the number of rows is a multiple of FLASH_ROWS. */
 WIDE_REGISTERS
-static void add_rows(const double *restrict rows, size_t stride, size_t n_rows, size_t n,
-                     const double *restrict factor, double *restrict sum)
+static void add_matrix_rows(const double *restrict rows, size_t stride, size_t n_rows, size_t n,
+                            const double *restrict factor, double *restrict sum)
 {
     for (size_t r = 0; r < n_rows; r += FLASH_ROWS) {
         const double *a = rows + r * stride, *b = a + stride, *c = b + stride, *d = c + stride;
@@ -118,44 +118,45 @@ static void add_rows(const double *restrict rows, size_t stride, size_t n_rows, 
 }
 
 /* Weights dk m(k) / pi of the waves from the `first` on. */
-static void fill_waves(const flash_map *map, double tau, size_t first, size_t n, double *wave)
+static void fill_wave_weights(const flash_map *map, double tau, size_t first, size_t n,
+                              double *wave)
 {
-    double exponent[WAVES_AT_ONCE];
+    double exponent[WAVE_BATCH];
     const double diffusivity = map->law->options.diffusivity, step = map->grid->step;
     for (size_t from = 0, count; from < n; from += count) {
-        count = n - from < WAVES_AT_ONCE ? n - from : WAVES_AT_ONCE;
+        count = n - from < WAVE_BATCH ? n - from : WAVE_BATCH;
         double k = exp(map->grid->first - (double)(first + from) * step);
         const double ratio = exp(-step);
-        double scale[WAVES_AT_ONCE];
+        double scale[WAVE_BATCH];
         for (size_t j = 0; j < count; j++, k *= ratio) {
             exponent[j] = -k * k * tau;
             scale[j] = -step / (M_PI * diffusivity * k);
         }
-        exponential_less_one(exponent, count, wave + from);
+        vector_expm1(exponent, count, wave + from);
         for (size_t j = 0; j < count; j++)
             wave[from + j] *= scale[j];
     }
 }
 
 /* Sum of the waves beyond the lattice, down to where they are negligible. */
-static double sum_longest(const flash_map *map, double tau)
+static double sum_long_waves(const flash_map *map, double tau)
 {
     const flash_grid *grid = map->grid;
     const double lowest = fmin(log(map->law->q0), -0.5 * log(tau)) - grid->below;
     const double count = (grid->first - lowest) / grid->step - (double)grid->n_k;
-    double wave[WAVES_AT_ONCE], sum = 0;
+    double wave[WAVE_BATCH], sum = 0;
     const size_t left = count > 0 ? (size_t)count : 0;
     for (size_t from = 0, n; from < left; from += n) {
-        n = left - from < WAVES_AT_ONCE ? left - from : WAVES_AT_ONCE;
-        fill_waves(map, tau, grid->n_k + from, n, wave);
+        n = left - from < WAVE_BATCH ? left - from : WAVE_BATCH;
+        fill_wave_weights(map, tau, grid->n_k + from, n, wave);
         for (size_t j = 0; j < n; j++)
             sum += wave[j];
     }
     return sum;
 }
 
-static flash_map map_on(const wt_friction_workspace *ws, flash_scratch *s, size_t grid,
-                        const friction_load *at, double *amount)
+static flash_map create_map(const wt_friction_workspace *ws, flash_scratch *s, size_t grid,
+                            const friction_load *at, double *amount)
 {
     const flash_law *law = ws->flash;
     flash_map map = {.ws = ws,
@@ -166,29 +167,29 @@ static flash_map map_on(const wt_friction_workspace *ws, flash_scratch *s, size_
                      .part = 1,
                      .amount = amount};
     const double tau = law->options.diffusivity * law->options.contact_size / at->speed;
-    fill_waves(&map, tau, 0, map.grid->n_k, s->wave);
-    map.longest = sum_longest(&map, tau);
+    fill_wave_weights(&map, tau, 0, map.grid->n_k, s->wave);
+    map.longest = sum_long_waves(&map, tau);
     return map;
 }
 
 /* J1 and J2 at the current temperatures. */
-static void find_moduli(const flash_map *map)
+static void compute_moduli(const flash_map *map)
 {
     flash_scratch *s = map->s;
     const flash_grid *grid = map->grid;
     const wt_friction_workspace *ws = map->ws;
     const double log_speed = log(map->at.speed);
     flash_log_shift(map->law, s->rise, grid->n, s->shift);
-    exponential(s->shift, grid->n, s->omega);
+    vector_exp(s->shift, grid->n, s->omega);
     for (size_t i = 0; i < grid->n; i++) {
         s->omega[i] *= grid->q[i] * map->at.speed;
         s->x[i] = grid->log_q[i] + log_speed + s->shift[i];
     }
-    if (s->further != NULL)
-        flash_log_layer(map->law, s->rise, grid->n, s->further);
-    double own_error = 0; /* the pass at these temperatures reports this error */
-    friction_moduli(ws, grid->q, s->omega, s->x, s->further, grid->n, s->j1, s->j2, s->loss_j1,
-                    s->loss_j2, &own_error);
+    if (s->extra_shift != NULL)
+        flash_log_layer_shift(map->law, s->rise, grid->n, s->extra_shift);
+    double ignored_error = 0; /* the pass at these temperatures reports this error */
+    friction_moduli(ws, grid->q, s->omega, s->x, s->extra_shift, grid->n, s->j1, s->j2, s->loss_j1,
+                    s->loss_j2, &ignored_error);
     s->nodes += grid->n;
     if (ws->loss == NULL)
         return;
@@ -200,7 +201,7 @@ static void find_moduli(const flash_map *map)
 }
 
 /* Computes P, the contributions to mu without weights, and the heat. */
-static void find_heat(const flash_map *map)
+static void compute_heat(const flash_map *map)
 {
     flash_scratch *s = map->s;
     const flash_grid *grid = map->grid;
@@ -210,11 +211,11 @@ static void find_heat(const flash_map *map)
     double variance = 0;
     for (size_t i = 0; i < grid->n; i++)
         s->g[i] = 0.125 * ratio * ratio * map->at.density * grid->factor2[i] * s->j2[i];
-    for (size_t p = 0; p < grid->n_panels; p++) {
+    for (size_t p = 0; p < grid->n_subintervals; p++) {
         double *running = s->running + p * n;
-        for (size_t i = 0; i < grid->rule->room; i++)
+        for (size_t i = 0; i < grid->rule->row_stride; i++)
             running[i] = variance;
-        const double part = rule_running(grid->rule, s->g + p * n, running);
+        const double part = gauss_rule_integrate(grid->rule, s->g + p * n, running);
         for (size_t i = 0; i < n; i++)
             running[i] = fmax(running[i], i > 0 ? running[i - 1] : variance);
         variance = fmax(variance + part, running[n - 1]);
@@ -234,32 +235,32 @@ static void find_heat(const flash_map *map)
 }
 
 /* Applies the map from `rise` to `next`. */
-static void make_next(flash_map *map)
+static void apply_map(flash_map *map)
 {
     flash_scratch *s = map->s;
     const flash_grid *grid = map->grid;
-    find_moduli(map);
-    find_heat(map);
-    const size_t rows = flash_whole_rows(grid->n), n_k = grid->n_k;
+    compute_moduli(map);
+    compute_heat(map);
+    const size_t rows = flash_padded_rows(grid->n), n_k = grid->n_k;
     double of_longest = 0;
     for (size_t i = 0; i < grid->n; i++)
         of_longest += s->heat[i] / grid->q[i];
     map->constant = map->longest * of_longest;
     memset(s->heat + grid->n, 0, (rows - grid->n) * sizeof *s->heat);
     memset(s->sum, 0, n_k * sizeof *s->sum);
-    add_rows(grid->in, n_k, rows, n_k, s->heat, s->sum);
+    add_matrix_rows(grid->in, n_k, rows, n_k, s->heat, s->sum);
     for (size_t j = 0; j < n_k; j++)
         map->amount[j] = s->wave[j] * s->sum[j];
     for (size_t i = 0; i < grid->n; i++)
         s->next[i] = map->constant;
-    add_rows(grid->out, grid->n, n_k, grid->n, map->amount, s->next);
+    add_matrix_rows(grid->out, grid->n, n_k, grid->n, map->amount, s->next);
     for (size_t i = 0; i < grid->n; i++)
         s->next[i] = fmin(s->next[i], map->law->hottest);
 }
 
 /* ---- Anderson mixing ------------------------------------------------------------------------- */
 
-static double largest(const double *x, size_t n)
+static double largest_magnitude(const double *x, size_t n)
 {
     double most = 0;
     for (size_t i = 0; i < n; i++)
@@ -268,7 +269,7 @@ static double largest(const double *x, size_t n)
 }
 
 WIDE_REGISTERS
-static double dot(const double *a, const double *b, size_t n)
+static double dot_product(const double *a, const double *b, size_t n)
 {
     wide sum = {0}, x, y;
     size_t i = 0;
@@ -285,17 +286,17 @@ static double dot(const double *a, const double *b, size_t n)
 
 /* Computes the next temperatures: the combination of the last steps that minimises the residual
  * (Anderson mixing). */
-static void mix(const flash_map *map, size_t n_steps, double taken)
+static void mix_anderson(const flash_map *map, size_t n_steps, double step_share)
 {
     flash_scratch *s = map->s;
     const size_t n = map->grid->n;
     double a[DEPTH * DEPTH], gamma[DEPTH] = {0};
     for (size_t u = 0; u < n_steps; u++) {
-        gamma[u] = dot(s->changes + u * n, s->residual, n);
+        gamma[u] = dot_product(s->changes + u * n, s->residual, n);
         for (size_t v = 0; v <= u; v++)
-            a[u * DEPTH + v] = dot(s->changes + u * n, s->changes + v * n, n);
+            a[u * DEPTH + v] = dot_product(s->changes + u * n, s->changes + v * n, n);
     }
-    const bool mixed = n_steps > 0 && cholesky_solve(a, DEPTH, n_steps, least_pivot, gamma);
+    const bool mixed = n_steps > 0 && cholesky_solve(a, DEPTH, n_steps, min_pivot, gamma);
     memcpy(s->last_rise, s->rise, n * sizeof *s->rise);
     memcpy(s->last_residual, s->residual, n * sizeof *s->residual);
     for (size_t i = 0; i < n; i++) {
@@ -304,53 +305,56 @@ static void mix(const flash_map *map, size_t n_steps, double taken)
             rise -= gamma[u] * s->steps[u * n + i];
             left -= gamma[u] * s->changes[u * n + i];
         }
-        rise += taken * left;
+        rise += step_share * left;
         s->rise[i] = fmin(fmax(rise, 0), map->law->hottest);
     }
 }
 
 /* Result of a search. */
-typedef struct search {
+typedef struct search_result {
     bool found;
     double residual; /* [K] */
     double gain;     /* ratio of the temperature error to the residual */
     size_t maps;
-} search;
+} search_result;
 
 /* Iterates from `rise` until the residual is below the goal [K] or below the share `part` of the
  * rise. The first `n_damped` steps use the strong damping. */
-static search find_fixed(flash_map *map, double goal, double part, size_t careful)
+static search_result iterate_to_fixed_point(flash_map *map, double goal, double part,
+                                            size_t n_damped)
 {
     flash_scratch *s = map->s;
     const size_t n = map->grid->n;
-    search found = {.gain = 1};
-    size_t n_steps = 0, place = 0;
-    while (found.maps < MOST_MAPS) {
-        make_next(map);
+    search_result found = {.gain = 1};
+    size_t n_steps = 0, slot = 0;
+    while (found.maps < MAX_MAPS) {
+        apply_map(map);
         found.maps++;
         for (size_t i = 0; i < n; i++)
             s->residual[i] = s->next[i] - s->rise[i];
-        found.residual = largest(s->residual, n);
+        found.residual = largest_magnitude(s->residual, n);
         if (found.maps > 1) {
-            double *step = s->steps + place * n, *change = s->changes + place * n;
+            double *step = s->steps + slot * n, *change = s->changes + slot * n;
             for (size_t i = 0; i < n; i++) {
                 step[i] = s->rise[i] - s->last_rise[i];
                 change[i] = s->residual[i] - s->last_residual[i];
             }
-            found.gain = fmax(found.gain, largest(step, n) / largest(change, n));
-            place = (place + 1) % DEPTH;
+            found.gain =
+                fmax(found.gain, largest_magnitude(step, n) / largest_magnitude(change, n));
+            slot = (slot + 1) % DEPTH;
             n_steps += n_steps < DEPTH;
         }
         if (!isfinite(found.residual))
             return found;
-        if (found.residual <= fmax(goal, part * largest(s->next, n))) {
+        if (found.residual <= fmax(goal, part * largest_magnitude(s->next, n))) {
             found.found = s->next[n - 1] < map->law->hottest;
             return found;
         }
-        if (found.maps < careful)
-            mix(map, 0, careful_damping);
+        if (found.maps < n_damped)
+            mix_anderson(map, 0, strong_damping);
         else
-            mix(map, n_steps, n_steps > 0 && found.maps < FREE_MAPS && careful == 0 ? 1 : damping);
+            mix_anderson(map, n_steps,
+                         n_steps > 0 && found.maps < FREE_MAPS && n_damped == 0 ? 1 : damping);
     }
     return found;
 }
@@ -359,34 +363,34 @@ static search find_fixed(flash_map *map, double goal, double part, size_t carefu
 
 /* Error of the rise from the lattice: a tenth of the bound of a trapezoidal rule whose integrand is
  * regular for |arg k| below pi/4, plus the waves below and above the lattice. */
-static double lattice_off(const flash_grid *grid, double rise)
+static double lattice_error(const flash_grid *grid, double rise)
 {
     return rise * (0.1 * exp(-0.5 * M_PI * M_PI / grid->step) + 2 * exp(-grid->below));
 }
 
 /* Error of the rise at q1 from the rules, where the heat has a kink that mu and G do not show. The
  * error of each subinterval is propagated as heat in its middle. */
-static double kink_off(const flash_map *map)
+static double kink_error(const flash_map *map)
 {
     flash_scratch *s = map->s;
     const flash_grid *grid = map->grid;
     const size_t n = grid->rule->n;
-    double off = 0;
+    double rise_error = 0;
     if (!map->law->options.clipped)
         return 0;
     for (size_t i = 0; i < grid->n; i++)
         s->running[i] = s->heat[i] / grid->weight[i];
-    for (size_t p = 0; p < grid->n_panels; p++) {
-        rule_top top, other;
-        rule_tops(grid->rule, s->running + p * n, s->g + p * n, &top, &other);
+    for (size_t p = 0; p < grid->n_subintervals; p++) {
+        legendre_top top, other;
+        gauss_rule_top_coefficients(grid->rule, s->running + p * n, s->g + p * n, &top, &other);
         const size_t middle = p * n + n / 2;
-        const double error = rule_error(grid->rule, &top);
+        const double error = gauss_rule_error(grid->rule, &top);
         for (size_t j = 0; j < grid->n_k; j++)
-            off += error * s->wave[j] * grid->in[middle * grid->n_k + j] *
-                   grid->out[j * grid->n + grid->n - 1];
-        off += error * map->longest / grid->q[middle];
+            rise_error += error * s->wave[j] * grid->in[middle * grid->n_k + j] *
+                          grid->out[j * grid->n + grid->n - 1];
+        rise_error += error * map->longest / grid->q[middle];
     }
-    return off;
+    return rise_error;
 }
 
 static double sum_weighted(const flash_grid *grid, const double *value)
@@ -400,17 +404,17 @@ static double sum_weighted(const flash_grid *grid, const double *value)
 static double steepest_shift(const flash_law *law, double rise)
 {
     const double step = 1e-3, at[] = {step, rise, rise + step}; /* [K] */
-    double shift[3], further[3] = {0};
+    double shift[3], extra_shift[3] = {0};
     flash_log_shift(law, at, 3, shift);
-    if (flash_has_layer(law))
-        flash_log_layer(law, at, 3, further);
+    if (flash_has_layer_shift(law))
+        flash_log_layer_shift(law, at, 3, extra_shift);
     const double bulk = fmax(fabs(shift[0]), fabs(shift[2] - shift[1]));
     for (size_t i = 0; i < 3; i++)
-        shift[i] += further[i];
+        shift[i] += extra_shift[i];
     return fmax(bulk, fmax(fabs(shift[0]), fabs(shift[2] - shift[1]))) / step;
 }
 
-static double goal_of(const flash_law *law)
+static double residual_goal(const flash_law *law)
 {
     return goal_share * fmax(law->tolerance, 1e-13) / steepest_shift(law, 0);
 }
@@ -423,13 +427,14 @@ static flash_solution refine(const wt_friction_workspace *ws, flash_scratch *s,
     const flash_grid *coarse = &law->grid[FLASH_COARSE], *fine = &law->grid[FLASH_FINE];
     const size_t n_coarse = coarse->rule->n, n_fine = fine->rule->n;
     memcpy(s->coarse, s->next, coarse->n * sizeof *s->coarse);
-    for (size_t p = 0; p < fine->n_panels; p++)
+    for (size_t p = 0; p < fine->n_subintervals; p++)
         for (size_t i = 0; i < n_fine; i++) {
-            const double rise = dot(law->refine + i * n_coarse, s->coarse + p * n_coarse, n_coarse);
+            const double rise =
+                dot_product(law->refine + i * n_coarse, s->coarse + p * n_coarse, n_coarse);
             s->rise[p * n_fine + i] = fmin(fmax(rise, 0), law->hottest);
         }
-    flash_map map = map_on(ws, s, FLASH_FINE, at, amount);
-    const search found = find_fixed(&map, goal_of(law), 0, 0);
+    flash_map map = create_map(ws, s, FLASH_FINE, at, amount);
+    const search_result found = iterate_to_fixed_point(&map, residual_goal(law), 0, 0);
     const heat_profile heat = {.law = law,
                                .square = fine->square,
                                .amount = amount,
@@ -437,19 +442,19 @@ static flash_solution refine(const wt_friction_workspace *ws, flash_scratch *s,
                                .constant = map.constant};
     double rise;
     heat_rise(&heat, &ws->roughness->q1, 1, &rise);
-    return (flash_solution){.found = found.found,
-                            .rise = rise,
-                            .gain = found.gain,
-                            .off = found.gain *
-                                   (found.residual + lattice_off(fine, rise) + kink_off(&map)),
-                            .hysteresis = sum_weighted(fine, s->mu),
-                            .variance = sum_weighted(fine, s->g),
-                            .steepest = steepest_shift(law, rise),
-                            .maps = found.maps,
-                            .heat = heat};
+    return (flash_solution){
+        .found = found.found,
+        .rise = rise,
+        .gain = found.gain,
+        .rise_error = found.gain * (found.residual + lattice_error(fine, rise) + kink_error(&map)),
+        .hysteresis = sum_weighted(fine, s->mu),
+        .variance = sum_weighted(fine, s->g),
+        .steepest = steepest_shift(law, rise),
+        .maps = found.maps,
+        .heat = heat};
 }
 
-static void begin_at(flash_scratch *s, const flash_grid *grid, double rise)
+static void set_uniform_rise(flash_scratch *s, const flash_grid *grid, double rise)
 {
     for (size_t i = 0; i < grid->n; i++)
         s->rise[i] = rise;
@@ -458,15 +463,15 @@ static void begin_at(flash_scratch *s, const flash_grid *grid, double rise)
 /* If the full heat is too large for one search, it is increased in these steps. */
 static const double first_part = 1.0 / 64, part_ratio = 2;
 
-static search search_cold(flash_map *map)
+static search_result search_cold(flash_map *map)
 {
-    begin_at(map->s, map->grid, 0);
-    search found = find_fixed(map, 0, coarse_enough, 0);
+    set_uniform_rise(map->s, map->grid, 0);
+    search_result found = iterate_to_fixed_point(map, 0, coarse_tolerance, 0);
     if (found.found)
         return found;
-    begin_at(map->s, map->grid, 0);
+    set_uniform_rise(map->s, map->grid, 0);
     for (map->part = first_part; map->part <= 1; map->part *= part_ratio) {
-        found = find_fixed(map, 0, coarse_enough, 0);
+        found = iterate_to_fixed_point(map, 0, coarse_tolerance, 0);
         if (!found.found)
             break;
     }
@@ -483,12 +488,12 @@ static const double probes[] = {20, 60, 160};
 enum { HALVINGS = 3 };
 
 /* Rise due to the heat at a uniform rise, averaged over the heat. */
-static double mean_rise(flash_map *map, double rise)
+static double compute_mean_rise(flash_map *map, double rise)
 {
     flash_scratch *s = map->s;
     double sum = 0, weight = 0;
-    begin_at(s, map->grid, rise);
-    make_next(map);
+    set_uniform_rise(s, map->grid, rise);
+    apply_map(map);
     for (size_t i = 0; i < map->grid->n; i++) {
         const double part = map->grid->weight[i] * s->mu[i];
         weight += part;
@@ -499,30 +504,30 @@ static double mean_rise(flash_map *map, double rise)
 
 /* Searches from a uniform rise between `low`, which heats itself further, and `high`, which does
  * not. */
-static search search_between(flash_map *map, double low, double high)
+static search_result search_bracket(flash_map *map, double low, double high)
 {
-    search found = {0};
+    search_result found = {0};
     double from = low, to = high;
     for (size_t k = 0; k < HALVINGS; k++) {
         const double middle = sqrt(from * to);
-        *(mean_rise(map, middle) >= middle ? &from : &to) = middle;
+        *(compute_mean_rise(map, middle) >= middle ? &from : &to) = middle;
     }
     const double starts[] = {to, high};
     for (size_t k = 0; !found.found && k < COUNT_OF(starts); k++) {
-        begin_at(map->s, map->grid, starts[k]);
-        found = find_fixed(map, 0, coarse_enough, CAREFUL_MAPS);
+        set_uniform_rise(map->s, map->grid, starts[k]);
+        found = iterate_to_fixed_point(map, 0, coarse_tolerance, DAMPED_MAPS);
     }
     return found;
 }
 
 /* Finds the hottest solution from above; `next` is undefined if there is none. */
-static search search_hot(flash_map *map)
+static search_result search_hot(flash_map *map)
 {
-    const double cold = mean_rise(map, 0);
+    const double cold = compute_mean_rise(map, 0);
     double low = 0, high = map->law->hottest;
     /* a contact that cools at 20 K and at 60 K does not heat up at 160 K */
     for (size_t k = 0; k < COUNT_OF(probes) && probes[k] < map->law->hottest; k++) {
-        const double made = mean_rise(map, probes[k]);
+        const double made = compute_mean_rise(map, probes[k]);
         if (made > cold && made >= probes[k]) {
             low = probes[k];
             high = map->law->hottest;
@@ -532,14 +537,14 @@ static search search_hot(flash_map *map)
         if (k > 0 && !(low > 0 && low == probes[k]))
             break;
     }
-    return low > 0 ? search_between(map, low, high) : (search){0};
+    return low > 0 ? search_bracket(map, low, high) : (search_result){0};
 }
 
 flash_solution flash_solve(const wt_friction_workspace *ws, flash_scratch *s,
                            const friction_load *at)
 {
-    flash_map map = map_on(ws, s, FLASH_COARSE, at, s->amount[0]);
-    search found = search_cold(&map);
+    flash_map map = create_map(ws, s, FLASH_COARSE, at, s->amount[0]);
+    search_result found = search_cold(&map);
     size_t maps = found.maps;
     if (!found.found)
         found = search_hot(&map);
@@ -552,16 +557,16 @@ flash_solution flash_solve(const wt_friction_workspace *ws, flash_scratch *s,
 
 /* Two solutions that differ by less are equal [K]: ten times the error of a coarse solution at 40
  * K. */
-static const double same = 0.01;
+static const double same_rise = 0.01;
 
 flash_solution flash_solve_hot(const wt_friction_workspace *ws, flash_scratch *s,
                                const friction_load *at, const flash_solution *cold)
 {
-    flash_map map = map_on(ws, s, FLASH_COARSE, at, s->amount[1]);
-    const search found = search_hot(&map);
-    if (!found.found || s->next[map.grid->n - 1] < cold->rise + same)
+    flash_map map = create_map(ws, s, FLASH_COARSE, at, s->amount[1]);
+    const search_result found = search_hot(&map);
+    if (!found.found || s->next[map.grid->n - 1] < cold->rise + same_rise)
         return (flash_solution){.maps = found.maps};
     flash_solution hot = refine(ws, s, at, s->amount[1]);
-    hot.found = hot.found && hot.rise > cold->rise + same;
+    hot.found = hot.found && hot.rise > cold->rise + same_rise;
     return hot;
 }

@@ -23,17 +23,17 @@ static const struct {
                {0, {8, 18}, {0.3, 0.14}}};
 
 /* Below this tolerance, rounding dominates. */
-static const double least_tolerance = 1e-13;
+static const double min_tolerance = 1e-13;
 /* Cells towards q0. The heat that a core neglects is of the order of its length. */
 static const double core_share = 0.1;
-enum { LEVELS_LEAST = 3, LEVELS_MOST = 12 };
+enum { MIN_LEVELS = 3, MAX_LEVELS = 12 };
 
 /* Rubber is destroyed above this temperature [K]; a hotter solution is not valid. */
 static const double hottest = 573.15;
 
 /* ln(a_T / a_T0) of a law, where `log_a` is ln a_T0. */
-static void log_shift_of(const wt_shift_law *shift, double temperature, double log_a,
-                         const double *rise, size_t n, double *log_shift)
+static void compute_log_shift(const wt_shift_law *shift, double temperature, double log_a,
+                              const double *rise, size_t n, double *log_shift)
 {
     const wt_wlf *wlf = &shift->wlf;
     /* relative to T0, so that small rises keep their digits */
@@ -49,29 +49,32 @@ static void log_shift_of(const wt_shift_law *shift, double temperature, double l
 
 void flash_log_shift(const flash_law *law, const double *rise, size_t n, double *log_shift)
 {
-    log_shift_of(&law->shift, law->temperature, law->log_a, rise, n, log_shift);
+    compute_log_shift(&law->shift, law->temperature, law->log_a, rise, n, log_shift);
 }
 
-bool flash_has_layer(const flash_law *law)
+bool flash_has_layer_shift(const flash_law *law)
 {
     return law != NULL && law->layer_shift.kind != WT_LAW_NONE;
 }
 
-void flash_log_layer(const flash_law *law, const double *rise, size_t n, double *log_further)
+void flash_log_layer_shift(const flash_law *law, const double *rise, size_t n,
+                           double *log_extra_shift)
 {
     for (size_t i = 0; i < n; i++) {
         double bulk, layer;
         flash_log_shift(law, &rise[i], 1, &bulk);
-        log_shift_of(&law->layer_shift, law->temperature, law->layer_log_a, &rise[i], 1, &layer);
-        log_further[i] = layer - bulk;
+        compute_log_shift(&law->layer_shift, law->temperature, law->layer_log_a, &rise[i], 1,
+                          &layer);
+        log_extra_shift[i] = layer - bulk;
     }
 }
 
 /* ---- use of a profile ------------------------------------------------------------------------ */
 
 WIDE_REGISTERS
-static void add_waves(const double *restrict square, const double *restrict amount, size_t n_waves,
-                      const double *restrict of_q, size_t n, double *restrict rise)
+static void add_wave_rises(const double *restrict square, const double *restrict amount,
+                           size_t n_waves, const double *restrict of_q, size_t n,
+                           double *restrict rise)
 {
     for (size_t j = 0; j < n_waves; j++) {
         const double here = square[j], part = amount[j];
@@ -83,13 +86,13 @@ static void add_waves(const double *restrict square, const double *restrict amou
 void heat_rise(const heat_profile *heat, const double *q, size_t n, double *rise)
 {
     for (size_t from = 0, count; from < n; from += count) {
-        double of_q[RULE_MOST];
-        count = n - from < RULE_MOST ? n - from : RULE_MOST;
+        double of_q[GAUSS_NODES_MAX];
+        count = n - from < GAUSS_NODES_MAX ? n - from : GAUSS_NODES_MAX;
         for (size_t i = 0; i < count; i++) {
             of_q[i] = 4 * q[from + i] * q[from + i];
             rise[from + i] = heat->constant;
         }
-        add_waves(heat->square, heat->amount, heat->n, of_q, count, rise + from);
+        add_wave_rises(heat->square, heat->amount, heat->n, of_q, count, rise + from);
     }
 }
 
@@ -101,12 +104,13 @@ void heat_log_shift(const heat_profile *heat, const double *q, size_t n, double 
     flash_log_shift(heat->law, log_shift, n, log_shift);
 }
 
-void heat_log_layer(const heat_profile *heat, const double *q, size_t n, double *log_further)
+void heat_log_layer_shift(const heat_profile *heat, const double *q, size_t n,
+                          double *log_extra_shift)
 {
-    heat_rise(heat, q, n, log_further);
+    heat_rise(heat, q, n, log_extra_shift);
     for (size_t i = 0; i < n; i++)
-        log_further[i] = fmin(log_further[i], heat->law->hottest);
-    flash_log_layer(heat->law, log_further, n, log_further);
+        log_extra_shift[i] = fmin(log_extra_shift[i], heat->law->hottest);
+    flash_log_layer_shift(heat->law, log_extra_shift, n, log_extra_shift);
 }
 
 /* ---- nodes ----------------------------------------------------------------------------------- */
@@ -127,40 +131,40 @@ static void copy_nodes(flash_grid *grid, const double *q, const double *factor1,
         }
     }
     grid->n += n;
-    grid->n_panels++;
+    grid->n_subintervals++;
 }
 
-static wt_status place_grid(const wt_friction_workspace *ws, flash_grid *grid,
-                            const panel_plan *plan, arena *memory, wt_error *err)
+static wt_status fill_grid(const wt_friction_workspace *ws, flash_grid *grid,
+                           const subinterval_plan *plan, arena *memory, wt_error *err)
 {
     scale_grid all;
-    arena own = {0};
-    grid_init(&all, plan, grid->rule, &own);
-    const size_t room = (plan->n_panels + 1) * grid->rule->n;
+    arena local_memory = {0};
+    grid_init(&all, plan, grid->rule, &local_memory);
+    const size_t room = (plan->n_subintervals + 1) * grid->rule->n;
     double **const numbers[] = {&grid->q,       &grid->log_q, &grid->weight, &grid->factor1,
                                 &grid->factor2, &grid->f,     &grid->g};
     const size_t n_numbers = ws->softening != NULL ? COUNT_OF(numbers) : 5;
     for (size_t i = 0; i < n_numbers; i++)
         *numbers[i] = arena_numbers(memory, room);
     wt_status status = WT_OK;
-    if (own.failed || memory->failed)
+    if (local_memory.failed || memory->failed)
         status = wt_fail(err, WT_E_MEMORY, "out of memory for a flash temperature");
     if (status == WT_OK) {
         const size_t core = plan->levels * grid->rule->n;
         const wt_layer_state *layer = &ws->options.layer;
         grid_fill_core(&all, plan, plan->levels, ws->roughness, layer);
-        grid_fill_panels(&all, plan, 0, plan->n_panels, ws->roughness, layer);
+        grid_fill_subintervals(&all, plan, 0, plan->n_subintervals, ws->roughness, layer);
         const bool soft = all.f != NULL;
         copy_nodes(grid, all.core_q + core, all.core_factor1 + core, all.core_factor2 + core,
                    soft ? all.core_f + core : NULL, soft ? all.core_g + core : NULL,
                    all.core_half_width[plan->levels]);
-        for (size_t p = 0; p < plan->n_panels; p++) {
+        for (size_t p = 0; p < plan->n_subintervals; p++) {
             const size_t at = p * grid->rule->n;
             copy_nodes(grid, all.q + at, all.factor1 + at, all.factor2 + at,
                        soft ? all.f + at : NULL, soft ? all.g + at : NULL, all.half_width[p]);
         }
     }
-    arena_free(&own);
+    arena_free(&local_memory);
     return status;
 }
 
@@ -168,14 +172,14 @@ static wt_status place_grid(const wt_friction_workspace *ws, flash_grid *grid,
 
 /* The lattice ends at the k where the factor 4 q / (k^2 + 4 q^2) of any q differs by exp(-digits)
  * from that of k = 0. */
-static wt_status make_lattice(const flash_law *law, flash_grid *grid, double digits, arena *memory,
-                              wt_error *err)
+static wt_status create_lattice(const flash_law *law, flash_grid *grid, double digits,
+                                arena *memory, wt_error *err)
 {
     const size_t n = grid->n;
     const double last = log(law->q0) - 0.5 * digits;
-    const size_t n_k = flash_whole_rows(1 + (size_t)((grid->first - last) / grid->step));
+    const size_t n_k = flash_padded_rows(1 + (size_t)((grid->first - last) / grid->step));
     grid->square = arena_numbers(memory, n_k);
-    grid->in = arena_numbers(memory, n_k * flash_whole_rows(n));
+    grid->in = arena_numbers(memory, n_k * flash_padded_rows(n));
     grid->out = arena_numbers(memory, n_k * n);
     grid->n_k = n_k;
     if (memory->failed)
@@ -195,7 +199,7 @@ static wt_status make_lattice(const flash_law *law, flash_grid *grid, double dig
 /* ---- both grids ------------------------------------------------------------------------------ */
 
 /* Matrix of the polynomial interpolation from the nodes of one rule to those of another. */
-static void fill_refine(const gauss_rule *from, const gauss_rule *to, double *matrix)
+static void fill_interpolation_matrix(const gauss_rule *from, const gauss_rule *to, double *matrix)
 {
     for (size_t i = 0; i < to->n; i++)
         for (size_t j = 0; j < from->n; j++) {
@@ -207,46 +211,49 @@ static void fill_refine(const gauss_rule *from, const gauss_rule *to, double *ma
         }
 }
 
-static size_t levels_for(double tolerance)
+static size_t flash_core_levels(double tolerance)
 {
     const double levels = ceil(-0.5 * log2(core_share * cbrt(tolerance)));
-    return (size_t)fmin(fmax(levels, LEVELS_LEAST), LEVELS_MOST);
+    return (size_t)fmin(fmax(levels, MIN_LEVELS), MAX_LEVELS);
 }
 
-static wt_status place_grids(wt_friction_workspace *ws, flash_law *law, wt_error *err)
+static wt_status create_grids(wt_friction_workspace *ws, flash_law *law, wt_error *err)
 {
-    arena own = {0};
-    panel_plan plan;
+    arena local_memory = {0};
+    subinterval_plan plan;
     size_t ladder = 0;
     while (law->tolerance < ladders[ladder].tolerance)
         ladder++;
-    panel_plan_init(&plan, ws->roughness, PANEL_WIDTH, levels_for(law->tolerance), NULL, NULL, 0, 0,
-                    ws->softening, &own);
-    double *bounds = arena_numbers(&own, plan.capacity + 1);
-    wt_status status =
-        own.failed ? wt_fail(err, WT_E_MEMORY, "out of memory for a flash temperature") : WT_OK;
+    subinterval_plan_init(&plan, ws->roughness, SUBINTERVAL_WIDTH,
+                          flash_core_levels(law->tolerance), NULL, NULL, 0, 0, ws->softening,
+                          &local_memory);
+    double *bounds = arena_numbers(&local_memory, plan.capacity + 1);
+    wt_status status = local_memory.failed
+                           ? wt_fail(err, WT_E_MEMORY, "out of memory for a flash temperature")
+                           : WT_OK;
     if (status == WT_OK)
-        panel_plan_lay(&plan, ws->roughness, NULL, 0, NULL, 0, bounds);
+        subinterval_plan_lay(&plan, ws->roughness, NULL, 0, NULL, 0, bounds);
     for (size_t k = 0; status == WT_OK && k < FLASH_GRIDS; k++) {
         flash_grid *grid = &law->grid[k];
-        const double digits = -log(fmax(law->tolerance, least_tolerance));
+        const double digits = -log(fmax(law->tolerance, min_tolerance));
         grid->step = ladders[ladder].step[k];
         grid->below = digits + 3; /* the neglected part falls as k below the lattice and as k^-5
                                      above it */
         grid->first = log(ws->roughness->q1) + grid->below / 5;
-        status = rule_of(ladders[ladder].nodes[k], &grid->rule, err);
+        status = gauss_rule_get(ladders[ladder].nodes[k], &grid->rule, err);
         if (status == WT_OK)
-            status = place_grid(ws, grid, &plan, &ws->memory, err);
+            status = fill_grid(ws, grid, &plan, &ws->memory, err);
         if (status == WT_OK)
-            status = make_lattice(law, grid, digits, &ws->memory, err);
+            status = create_lattice(law, grid, digits, &ws->memory, err);
     }
-    arena_free(&own);
+    arena_free(&local_memory);
     return status;
 }
 
 /* ---- construction ---------------------------------------------------------------------------- */
 
-static wt_status check_law(const wt_friction_options *o, const wt_shift_law *layer, wt_error *err)
+static wt_status check_shift_law(const wt_friction_options *o, const wt_shift_law *layer,
+                                 wt_error *err)
 {
     if (o->shift.kind == WT_LAW_NONE) {
         (void)wt_fail(err, WT_E_MISSING, "a flash temperature needs the shift law of the material");
@@ -268,7 +275,7 @@ static wt_status check_law(const wt_friction_options *o, const wt_shift_law *lay
 wt_status flash_new(wt_friction_workspace *ws, wt_error *err)
 {
     const wt_friction_options *o = &ws->options;
-    wt_status status = check_law(o, &ws->layer_law, err);
+    wt_status status = check_shift_law(o, &ws->layer_law, err);
     flash_law *law = status == WT_OK ? arena_alloc(&ws->memory, 1, sizeof *law) : NULL;
     if (status == WT_OK && law == NULL)
         status = wt_fail(err, WT_E_MEMORY, "out of memory for a flash temperature");
@@ -286,12 +293,12 @@ wt_status flash_new(wt_friction_workspace *ws, wt_error *err)
     law->tolerance = o->tolerance;
     law->q0 = ws->roughness->q0;
     ws->flash = law;
-    status = place_grids(ws, law, err);
+    status = create_grids(ws, law, err);
     const gauss_rule *coarse = law->grid[FLASH_COARSE].rule, *fine = law->grid[FLASH_FINE].rule;
     if (status == WT_OK)
         law->refine = arena_numbers(&ws->memory, coarse->n * fine->n);
     if (law->refine != NULL)
-        fill_refine(coarse, fine, law->refine);
+        fill_interpolation_matrix(coarse, fine, law->refine);
     else if (status == WT_OK)
         status = wt_fail(err, WT_E_MEMORY, "out of memory for a flash temperature");
     return status;

@@ -30,14 +30,15 @@ typedef struct heat_profile {
 /* Rise above T0 at n wavenumbers [K], and ln(a_T / a_T0) there. */
 void heat_rise(const heat_profile *heat, const double *q, size_t n, double *rise);
 void heat_log_shift(const heat_profile *heat, const double *q, size_t n, double *log_shift);
-/* Variant of flash_log_layer at the temperatures of the profile. */
-void heat_log_layer(const heat_profile *heat, const double *q, size_t n, double *log_further);
+/* Variant of flash_log_layer_shift at the temperatures of the profile. */
+void heat_log_layer_shift(const heat_profile *heat, const double *q, size_t n,
+                          double *log_extra_shift);
 
 /* Two grids: a solution is searched for on the coarse one and refined on the fine one. */
 enum { FLASH_COARSE, FLASH_FINE, FLASH_GRIDS };
 /* Number of matrix rows that are summed at a time. */
 enum { FLASH_ROWS = 4 };
-static inline size_t flash_whole_rows(size_t n)
+static inline size_t flash_padded_rows(size_t n)
 {
     return (n + FLASH_ROWS - 1) / FLASH_ROWS * FLASH_ROWS;
 }
@@ -47,7 +48,7 @@ static inline size_t flash_whole_rows(size_t n)
  * velocity. */
 typedef struct flash_grid {
     const gauss_rule *rule;
-    size_t n, n_panels;         /* n is the total number of nodes */
+    size_t n, n_subintervals;   /* n is the total number of nodes */
     double *q, *log_q, *weight; /* weight repeats the weights of the rule */
     /* as in scale_grid, times the half width; f and g are NULL without softening */
     double *factor1, *factor2, *f, *g;
@@ -81,8 +82,9 @@ struct friction_load;
 void flash_log_shift(const flash_law *law, const double *rise, size_t n, double *log_shift);
 /* True if a layer's own material has another shift law. The second function computes ln of its
  * shift relative to the bulk at n rises. */
-bool flash_has_layer(const flash_law *law);
-void flash_log_layer(const flash_law *law, const double *rise, size_t n, double *log_further);
+bool flash_has_layer_shift(const flash_law *law);
+void flash_log_layer_shift(const flash_law *law, const double *rise, size_t n,
+                           double *log_extra_shift);
 /* Creates the law of a workspace whose material, roughness and tolerance are set. */
 wt_status flash_new(struct wt_friction_workspace *ws, wt_error *err) WT_NODISCARD;
 
@@ -94,7 +96,7 @@ typedef struct flash_solution {
     bool found;
     double rise;                 /* rise at q1 [K] */
     double gain;                 /* factor from an error of the heat to that of T */
-    double off;                  /* error of T without that of the rules [K] */
+    double rise_error;           /* error of T without that of the rules [K] */
     double variance, hysteresis; /* from the nodes of this grid; the comparison with a pass gives
                                     the error of the rules */
     double steepest;             /* largest |d ln a_T / dT| [1/K] */
@@ -109,6 +111,6 @@ flash_solution flash_solve(const struct wt_friction_workspace *ws, flash_scratch
 flash_solution flash_solve_hot(const struct wt_friction_workspace *ws, flash_scratch *scratch,
                                const struct friction_load *at, const flash_solution *cold);
 /* Returns the number of nodes at which J1 and J2 were evaluated, and resets the count. */
-size_t flash_nodes(flash_scratch *scratch);
+size_t flash_reset_node_count(flash_scratch *scratch);
 
 #endif

@@ -12,33 +12,33 @@
 
 /* The rules of a pass adapt, those of the temperatures do not; their difference measures the error
  * of the heat. The factor allows for cancellation in the difference. */
-static const double of_difference = 3;
+static const double difference_factor = 3;
 
-double friction_heat_off(const flash_solution *solution, const friction_pass *pass)
+double friction_heat_error(const flash_solution *solution, const friction_pass *pass)
 {
     const double mu = fabs(solution->hysteresis - pass->hysteresis);
     const double g = fabs(solution->variance - pass->variance);
     const double relative = fmax(pass->hysteresis > 0 ? mu / pass->hysteresis : 0,
                                  pass->variance > 0 ? g / pass->variance : 0);
-    return solution->off + of_difference * solution->gain * relative * solution->rise;
+    return solution->rise_error + difference_factor * solution->gain * relative * solution->rise;
 }
 
 void friction_shift_nodes(const flash_solution *solution, const double *q, size_t n, double *omega,
-                          double *log_omega, double *further)
+                          double *log_omega, double *extra_shift)
 {
-    double shift[RULE_MOST], factor[RULE_MOST];
+    double shift[GAUSS_NODES_MAX], factor[GAUSS_NODES_MAX];
     heat_log_shift(&solution->heat, q, n, shift);
-    exponential(shift, n, factor);
+    vector_exp(shift, n, factor);
     for (size_t i = 0; i < n; i++) {
         omega[i] *= factor[i];
         log_omega[i] += shift[i];
     }
-    if (further != NULL)
-        heat_log_layer(&solution->heat, q, n, further);
+    if (extra_shift != NULL)
+        heat_log_layer_shift(&solution->heat, q, n, extra_shift);
 }
 
 /* Sets all results of a load without a solution to NaN. */
-static void unsettled_point(wt_friction_point *point)
+static void set_unsolved_point(wt_friction_point *point)
 {
     const wt_estimate unknown = {(double)NAN, (double)NAN, (double)NAN, "1"};
     *point = (wt_friction_point){.stress_variance = unknown,
@@ -60,7 +60,7 @@ wt_status friction_heated_point(
 {
     wt_status status = WT_OK;
     const flash_solution cold = flash_solve(ws, scratch->flash, &at);
-    unsettled_point(point);
+    set_unsolved_point(point);
     if (cold.found) {
         at.heat = &cold;
         point->unsettled = false;
@@ -75,17 +75,17 @@ wt_status friction_heated_point(
                                                   other.temperature.value};
         }
     }
-    scratch->nodes += flash_nodes(scratch->flash);
+    scratch->nodes += flash_reset_node_count(scratch->flash);
     return status;
 }
 
-wt_status friction_heat(const wt_friction_workspace *ws, friction_scratch *scratch,
-                        friction_load *at, wt_error *err)
+wt_status friction_solve_heat(const wt_friction_workspace *ws, friction_scratch *scratch,
+                              friction_load *at, wt_error *err)
 {
     if (ws->flash == NULL || !(at->speed > 0))
         return WT_OK;
     scratch->heat = flash_solve(ws, scratch->flash, at);
-    scratch->nodes += flash_nodes(scratch->flash);
+    scratch->nodes += flash_reset_node_count(scratch->flash);
     if (!scratch->heat.found) {
         wt_fail(err, WT_E_CONVERGENCE, "no flash temperature was found");
         wt_error_found(err, "none at %g m/s and %g Pa", at->speed, at->pressure);
@@ -99,15 +99,15 @@ wt_status friction_heat(const wt_friction_workspace *ws, friction_scratch *scrat
 
 /* ---- knots ----------------------------------------------------------------------------------- */
 
-typedef struct crossing {
+typedef struct knot_crossing {
     const wt_roughness *roughness;
     const heat_profile *heat;
     double knot;
-} crossing;
+} knot_crossing;
 
-static double beyond_knot(double t, void *user)
+static double knot_distance(double t, void *user)
 {
-    const crossing *c = user;
+    const knot_crossing *c = user;
     const double q = fmin(c->roughness->q0 + c->roughness->q0 * expm1(t), c->roughness->q1);
     double shift;
     heat_log_shift(c->heat, &q, 1, &shift);
@@ -116,17 +116,17 @@ static double beyond_knot(double t, void *user)
 
 /* Moves each knot to the scale where the shifted frequency crosses it. A knot without a crossing is
  * left outside the range. */
-void friction_move_knots(const wt_friction_workspace *ws, const heat_profile *heat, double *knots)
+void friction_shift_knots(const wt_friction_workspace *ws, const heat_profile *heat, double *knots)
 {
     const wt_roughness *r = ws->roughness;
     const double length = log1p((r->q1 - r->q0) / r->q0);
-    const double at_low = beyond_knot(0, &(crossing){r, heat, 0});
-    const double at_high = beyond_knot(length, &(crossing){r, heat, length});
+    const double at_low = knot_distance(0, &(knot_crossing){r, heat, 0});
+    const double at_high = knot_distance(length, &(knot_crossing){r, heat, length});
     for (size_t k = 0; k < ws->n_knots; k++) {
-        crossing c = {r, heat, knots[k]};
+        knot_crossing c = {r, heat, knots[k]};
         const bool inside = at_low < knots[k] && length + at_high > knots[k];
         double t = knots[k] - (knots[k] <= at_low ? at_low : at_high);
-        if (inside && root_find(beyond_knot, &c, 0, length, 0, &t, NULL) != WT_OK)
+        if (inside && root_find(knot_distance, &c, 0, length, 0, &t, NULL) != WT_OK)
             t = 2 * length;
         knots[k] = t;
     }

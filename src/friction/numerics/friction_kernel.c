@@ -48,14 +48,14 @@ static const wt_param rows[] = {
 };
 PARAM_TABLE(wt_friction_params, wt_friction_options, rows, wt_friction_defaults, NO_PARTS)
 
-static wt_status no_memory(wt_error *err)
+static wt_status out_of_memory_error(wt_error *err)
 {
     return wt_fail(err, WT_E_MEMORY, "out of memory for the friction integral");
 }
 
 /* The closed form in the core neglects the change of dmu/dG over the core, which is about its
  * length. The share of the core in mu is about the square root of its length. */
-static size_t levels_for(double tolerance)
+static size_t friction_core_levels(double tolerance)
 {
     const double core = fmax(1e-10, 0.1 * cbrt(tolerance * tolerance));
     return (size_t)ceil(-0.5 * log2(core));
@@ -65,10 +65,10 @@ wt_status friction_scratch_init(friction_scratch *scratch, const wt_friction_wor
                                 size_t n_cuts, arena *memory, wt_error *err)
 {
     *scratch = (friction_scratch){0};
-    panel_plan_init(&scratch->plan, ws->roughness, ws->plan.width, ws->plan.levels, ws->knots,
-                    ws->slopes, ws->n_knots, n_cuts, ws->softening, memory);
-    const size_t panels = scratch->plan.capacity;
-    scratch->room = panels;
+    subinterval_plan_init(&scratch->plan, ws->roughness, ws->plan.width, ws->plan.levels, ws->knots,
+                          ws->slopes, ws->n_knots, n_cuts, ws->softening, memory);
+    const size_t subintervals = scratch->plan.capacity;
+    scratch->room = subintervals;
     for (size_t k = 0; k < FRICTION_RULES; k++)
         grid_init(&scratch->grids[k], &scratch->plan, ws->rules[k], memory);
     double **const by_node[] = {&scratch->omega,   &scratch->log_omega, &scratch->j1,
@@ -76,43 +76,45 @@ wt_status friction_scratch_init(friction_scratch *scratch, const wt_friction_wor
                                 &scratch->loss_j1, &scratch->loss_j2};
     const size_t n_by_node = ws->softening != NULL ? COUNT_OF(by_node) : 6;
     for (size_t i = 0; i < n_by_node; i++)
-        *by_node[i] = arena_alloc(memory, (panels + 2) * RULE_MOST, sizeof **by_node[i]);
+        *by_node[i] =
+            arena_alloc(memory, (subintervals + 2) * GAUSS_NODES_MAX, sizeof **by_node[i]);
     scratch->knots = arena_alloc(memory, ws->n_knots + 1, sizeof *scratch->knots);
-    double **const by_panel[] = {&scratch->bounds,   &scratch->panel_mu,   &scratch->panel_g,
-                                 &scratch->error_mu, &scratch->error_g,    &scratch->rough_g,
-                                 &scratch->rough_mu, &scratch->of_variance};
-    for (size_t i = 0; i < COUNT_OF(by_panel); i++)
-        *by_panel[i] = arena_alloc(memory, panels + 1, sizeof **by_panel[i]);
-    if (flash_has_layer(ws->flash))
-        scratch->further = arena_numbers(memory, (panels + 2) * RULE_MOST);
+    double **const by_subinterval[] = {&scratch->bounds,        &scratch->subinterval_mu,
+                                       &scratch->subinterval_g, &scratch->error_mu,
+                                       &scratch->error_g,       &scratch->estimated_g,
+                                       &scratch->estimated_mu,  &scratch->variance_effect};
+    for (size_t i = 0; i < COUNT_OF(by_subinterval); i++)
+        *by_subinterval[i] = arena_alloc(memory, subintervals + 1, sizeof **by_subinterval[i]);
+    if (flash_has_layer_shift(ws->flash))
+        scratch->extra_shift = arena_numbers(memory, (subintervals + 2) * GAUSS_NODES_MAX);
     if (ws->flash != NULL)
         scratch->flash = flash_scratch_new(ws, memory);
-    return memory->failed ? no_memory(err) : WT_OK;
+    return memory->failed ? out_of_memory_error(err) : WT_OK;
 }
 
-static double rounding_of(const wt_friction_workspace *ws)
+static double relative_rounding(const wt_friction_workspace *ws)
 {
     const strain_law *s = ws->softening;
     /* near q0 the strain depends on a rounded q - q0, which is divided among all cells */
     return s == NULL ? FRICTION_ROUNDING
-                     : FRICTION_ROUNDING * s->caution +
+                     : FRICTION_ROUNDING * s->cancellation +
                            2 * s->steepest * (8 + (double)ws->plan.levels) * DBL_EPSILON;
 }
 
 /* The modulus of a closed form has no singular point closer to a real ln q than i pi/2, the pole of
  * a Maxwell element. The modulus of a layer can have one. */
-static void choose_panels(wt_friction_workspace *ws)
+static void choose_subinterval_width(wt_friction_workspace *ws)
 {
     const wt_layer_state *layer = &ws->options.layer;
     const bool smooth =
         ws->material->law->angular != NULL && ws->softening == NULL && !ws->anisotropic;
     const bool bulk = !(layer->thickness > 0) || (layer->modulus_ratio == 1 && ws->own == NULL);
-    panel_plan_init(&ws->plan, ws->roughness, smooth && bulk ? smooth_width : PANEL_WIDTH,
-                    levels_for(ws->options.tolerance), NULL, NULL, 0, 0, ws->softening,
-                    &ws->memory);
+    subinterval_plan_init(
+        &ws->plan, ws->roughness, smooth && bulk ? smooth_width : SUBINTERVAL_WIDTH,
+        friction_core_levels(ws->options.tolerance), NULL, NULL, 0, 0, ws->softening, &ws->memory);
 }
 
-static wt_status make_rules(wt_friction_workspace *ws, wt_error *err)
+static wt_status choose_rules(wt_friction_workspace *ws, wt_error *err)
 {
     /* between knots, subintervals are narrow */
     const size_t last = COUNT_OF(ladders) - (ws->n_knots > 0 ? 2 : 1);
@@ -121,7 +123,7 @@ static wt_status make_rules(wt_friction_workspace *ws, wt_error *err)
     while (ladder < last && ws->options.tolerance < ladders[ladder].tolerance)
         ladder++;
     for (size_t k = 0; status == WT_OK && k < FRICTION_RULES; k++)
-        status = rule_of(ladders[ladder].nodes[k], &ws->rules[k], err);
+        status = gauss_rule_get(ladders[ladder].nodes[k], &ws->rules[k], err);
     return status;
 }
 
@@ -130,69 +132,69 @@ static wt_status prepare_plan(wt_friction_workspace *ws, wt_error *err)
 {
     double *bounds = arena_alloc(&ws->memory, ws->plan.capacity + 1, sizeof *bounds);
     if (ws->memory.failed)
-        return no_memory(err);
-    panel_plan_lay(&ws->plan, ws->roughness, NULL, 0, NULL, 0, bounds);
+        return out_of_memory_error(err);
+    subinterval_plan_lay(&ws->plan, ws->roughness, NULL, 0, NULL, 0, bounds);
     return WT_OK;
 }
 
-static wt_status new_angular(wt_friction_workspace *ws, const wt_material *material,
-                             angular_law **made, wt_error *err)
+static wt_status create_angular_law(wt_friction_workspace *ws, const wt_material *material,
+                                    angular_law **made, wt_error *err)
 {
     const wt_status status = angular_new(material, ws->options.tolerance, &ws->memory, made, err);
     if (status == WT_OK && ws->anisotropic)
-        angular_weigh(*made, &ws->along);
+        angular_set_weight(*made, &ws->along);
     return status;
 }
 
 /* Sets the weight of the roughness. Shared series do not include it and are discarded. */
-static wt_status begin_anisotropy(wt_friction_workspace *ws, wt_error *err)
+static wt_status init_anisotropy(wt_friction_workspace *ws, wt_error *err)
 {
     const wt_anisotropy *anisotropy = &ws->options.anisotropy;
-    ws->anisotropic = anisotropy_is_any(anisotropy);
+    ws->anisotropic = anisotropy_is_present(anisotropy);
     if (!ws->anisotropic)
         return WT_OK;
-    ws->along = weight_along(anisotropy);
+    ws->along = weight_longitudinal(anisotropy);
     ws->options.series = NULL;
     return wt_anisotropy_check(anisotropy, err);
 }
 
-static wt_status begin_softening(wt_friction_workspace *ws, wt_error *err)
+static wt_status init_softening(wt_friction_workspace *ws, wt_error *err)
 {
     const wt_friction_options *o = &ws->options;
     const wt_status status = softening_new(o->softening, o->strain_factor, ws->material,
                                            ws->roughness, &ws->memory, &ws->softening, err);
     ws->options.softening = NULL; /* the table was borrowed for this call only */
-    return status == WT_OK ? new_angular(ws, &ws->softening->loss, &ws->loss, err) : status;
+    return status == WT_OK ? create_angular_law(ws, &ws->softening->loss, &ws->loss, err) : status;
 }
 
 /* Prepares a layer with its own moduli, which are then part of J1 and J2. Subintervals end where
  * either material is not smooth. */
-static wt_status begin_layer(wt_friction_workspace *ws, wt_error *err)
+static wt_status init_layer_moduli(wt_friction_workspace *ws, wt_error *err)
 {
     wt_layer_state *layer = &ws->options.layer;
     if (!layer_has_moduli(layer))
         return WT_OK;
     ws->own = arena_alloc(&ws->memory, 1, sizeof *ws->own);
     if (ws->own == NULL)
-        return no_memory(err);
+        return out_of_memory_error(err);
     const wt_status status =
         layer_slope_shift(&ws->options.shift, ws->options.temperature, &layer->slope, err);
     if (status != WT_OK)
         return status;
-    *ws->own = layer_moduli_of(ws->material, *layer, ws->options.tolerance);
+    *ws->own = layer_moduli_create(ws->material, *layer, ws->options.tolerance);
     ws->own->weight = ws->anisotropic ? &ws->along : NULL;
     size_t more = ws->own->n_edges;
     const double *edges = ws->own->edges;
     if (layer->own != NULL && layer->own->law->breaks != NULL)
         edges = layer->own->law->breaks(layer->own, &more);
     if (layer->own != NULL)
-        ws->layer_law = layer->own_law;
+        ws->layer_law = layer->material_law;
     *layer = (wt_layer_state){.thickness = layer->thickness, .modulus_ratio = 1};
     if (more == 0)
         return WT_OK;
     double *all = arena_numbers(&ws->memory, ws->n_knots + more);
     if (all == NULL)
-        return no_memory(err);
+        return out_of_memory_error(err);
     for (size_t k = 0; k < ws->n_knots + more; k++)
         all[k] = k < ws->n_knots ? ws->knots[k] : edges[k - ws->n_knots];
     numbers_sort(all, ws->n_knots + more);
@@ -210,22 +212,22 @@ static void prepare_knots(wt_friction_workspace *ws)
         ws->log_knots = arena_numbers(&ws->memory, ws->n_knots);
     if (ws->slopes == NULL || ws->log_knots == NULL)
         return;
-    grid_slopes(ws->material, ws->knots, ws->n_knots, ws->slopes);
+    material_slopes(ws->material, ws->knots, ws->n_knots, ws->slopes);
     for (size_t k = 0; k < ws->n_knots; k++)
         ws->log_knots[k] = log(ws->knots[k]);
 }
 
 /* Creates the angular integrals of the material, unless they are shared, and those of the lateral
  * force. */
-static wt_status begin_angular(wt_friction_workspace *ws, wt_error *err)
+static wt_status init_angular(wt_friction_workspace *ws, wt_error *err)
 {
     const wt_friction_options *o = &ws->options;
     ws->angular = o->series;
     wt_status status = WT_OK;
     if (o->series == NULL)
-        status = new_angular(ws, ws->material, &ws->angular, err);
-    if (status == WT_OK && anisotropy_is_aside(&o->anisotropy))
-        status = friction_side_new(ws->material, o, ws->own, &ws->memory, &ws->side, err);
+        status = create_angular_law(ws, ws->material, &ws->angular, err);
+    if (status == WT_OK && anisotropy_has_lateral_force(&o->anisotropy))
+        status = lateral_force_new(ws->material, o, ws->own, &ws->memory, &ws->side, err);
     return status;
 }
 
@@ -241,7 +243,7 @@ wt_status wt_friction_workspace_new(const wt_material *material, const wt_roughn
         return status;
     wt_friction_workspace *ws = calloc(1, sizeof *ws);
     if (ws == NULL)
-        return no_memory(err);
+        return out_of_memory_error(err);
     ws->material = material;
     ws->roughness = roughness;
     ws->options = o;
@@ -250,28 +252,28 @@ wt_status wt_friction_workspace_new(const wt_material *material, const wt_roughn
         ws->knots = material->law->breaks(material, &ws->n_knots);
     ws->threads = wt_thread_count(o.threads);
     ws->scratch = arena_alloc(&ws->memory, ws->threads, sizeof *ws->scratch);
-    status = begin_anisotropy(ws, err);
+    status = init_anisotropy(ws, err);
     if (status == WT_OK)
-        status = begin_layer(ws, err);
+        status = init_layer_moduli(ws, err);
     prepare_knots(ws);
     if (status == WT_OK && o.softening != NULL)
-        status = begin_softening(ws, err);
-    choose_panels(ws);
+        status = init_softening(ws, err);
+    choose_subinterval_width(ws);
 
     if (status == WT_OK)
-        status = begin_angular(ws, err);
+        status = init_angular(ws, err);
     if (status == WT_OK)
-        status = make_rules(ws, err);
+        status = choose_rules(ws, err);
     if (status == WT_OK)
-        ws->rounding = rounding_of(ws);
+        ws->rounding = relative_rounding(ws);
     if (status == WT_OK)
-        status = area_law_of(o.area_law, &ws->area, err);
+        status = area_law_get(o.area_law, &ws->area, err);
     if (status == WT_OK && o.flash.on)
         status = flash_new(ws, err);
     if (status == WT_OK && ws->n_knots == 0)
         status = prepare_plan(ws, err);
     if (status == WT_OK && ws->memory.failed)
-        status = no_memory(err);
+        status = out_of_memory_error(err);
     for (unsigned i = 0; status == WT_OK && i < ws->threads; i++)
         status = friction_scratch_init(&ws->scratch[i], ws, 0, &ws->memory, err);
     if (status != WT_OK) {
@@ -289,12 +291,12 @@ void wt_friction_workspace_free(wt_friction_workspace *ws)
     if (ws->options.series == NULL)
         angular_clear(ws->angular);
     angular_clear(ws->loss);
-    friction_side_clear(ws->side);
+    lateral_force_clear(ws->side);
     arena_free(&ws->memory);
     free(ws);
 }
 
-size_t friction_nodes(const wt_friction_workspace *ws)
+size_t friction_node_count(const wt_friction_workspace *ws)
 {
     size_t nodes = 0;
     for (unsigned i = 0; i < ws->threads; i++)
@@ -304,11 +306,11 @@ size_t friction_nodes(const wt_friction_workspace *ws)
 
 /* Other threads may read a shared series. If it does not cover the range, the workspace creates its
  * own series. */
-static wt_status leave_given(wt_friction_workspace *ws, double lowest, double highest,
-                             wt_error *err)
+static wt_status replace_shared_series(wt_friction_workspace *ws, double lowest, double highest,
+                                       wt_error *err)
 {
     angular_law *own = NULL;
-    if (ws->options.series == NULL || angular_covers(ws->angular, lowest, highest))
+    if (ws->options.series == NULL || angular_covers_range(ws->angular, lowest, highest))
         return WT_OK;
     const wt_status status =
         angular_new(ws->material, ws->options.tolerance, &ws->memory, &own, err);
@@ -320,7 +322,7 @@ static wt_status leave_given(wt_friction_workspace *ws, double lowest, double hi
 }
 
 /* Factor of the lowest frequency for the hottest possible rubber. */
-static double lowest_shift(const wt_friction_workspace *ws)
+static double min_frequency_factor(const wt_friction_workspace *ws)
 {
     double log_shift = 0;
     if (ws->flash != NULL)
@@ -344,14 +346,14 @@ wt_status friction_prepare(wt_friction_workspace *ws, double pressure, const dou
         fastest = fmax(fastest, speed);
     }
     const wt_material *material = ws->material;
-    const double shift = lowest_shift(ws);
+    const double shift = min_frequency_factor(ws);
     const double lowest = (isfinite(slowest) ? slowest : 0) * ws->roughness->q0 * shift;
     const double highest = fastest * ws->roughness->q1;
     if (n == 0)
         return WT_OK;
     wt_status status = WT_OK;
     if ((!material->law->angular || ws->anisotropic) &&
-        !(least * ws->roughness->q0 * shift >= ANGULAR_LEAST && highest <= DBL_MAX)) {
+        !(least * ws->roughness->q0 * shift >= ANGULAR_MIN_FREQUENCY && highest <= DBL_MAX)) {
         (void)range_error("velocity", highest <= DBL_MAX ? least : fastest,
                           "not 0, and so that q v is a frequency in range", err);
         wt_error_advice(err,
@@ -363,16 +365,18 @@ wt_status friction_prepare(wt_friction_workspace *ws, double pressure, const dou
     if (!material->law->angular && material->law->check != NULL)
         status = material->law->check(material, lowest, highest, NULL, err);
     if (status == WT_OK)
-        status = leave_given(ws, lowest, highest, err);
+        status = replace_shared_series(ws, lowest, highest, err);
     if (status == WT_OK)
-        status = angular_cover(ws->angular, lowest, highest, err);
+        status = angular_extend(ws->angular, lowest, highest, err);
     if (status == WT_OK && ws->softening != NULL)
-        status = angular_cover(ws->loss, lowest, highest, err);
-    return status == WT_OK && ws->side != NULL ? friction_side_cover(ws->side, lowest, highest, err)
-                                               : status;
+        status = angular_extend(ws->loss, lowest, highest, err);
+    return status == WT_OK && ws->side != NULL
+               ? lateral_force_extend(ws->side, lowest, highest, err)
+               : status;
 }
 
-friction_load friction_load_at(const wt_friction_workspace *ws, double pressure, double velocity)
+friction_load friction_load_create(const wt_friction_workspace *ws, double pressure,
+                                   double velocity)
 {
     const double speed = fabs(velocity);
     return (friction_load){.pressure = pressure,
@@ -382,19 +386,19 @@ friction_load friction_load_at(const wt_friction_workspace *ws, double pressure,
                            .density = 1};
 }
 
-const panel_plan *friction_plan(const wt_friction_workspace *ws, friction_scratch *scratch,
-                                const friction_load *at, const double *cuts, size_t n_cuts)
+const subinterval_plan *friction_plan(const wt_friction_workspace *ws, friction_scratch *scratch,
+                                      const friction_load *at, const double *cuts, size_t n_cuts)
 {
     if (!ws->n_knots && !n_cuts)
         return &ws->plan;
     for (size_t k = 0; k < ws->n_knots; k++)
         scratch->knots[k] = ws->log_knots[k] - at->log_lowest;
     if (at->heat != NULL)
-        friction_move_knots(ws, &at->heat->heat, scratch->knots);
-    panel_plan_lay(&scratch->plan, ws->roughness, cuts, n_cuts, scratch->knots, ws->n_knots,
-                   scratch->bounds);
+        friction_shift_knots(ws, &at->heat->heat, scratch->knots);
+    subinterval_plan_lay(&scratch->plan, ws->roughness, cuts, n_cuts, scratch->knots, ws->n_knots,
+                         scratch->bounds);
     for (size_t k = 0; k < FRICTION_RULES; k++)
-        grid_begin(&scratch->grids[k], &scratch->plan);
+        grid_reset(&scratch->grids[k], &scratch->plan);
     return &scratch->plan;
 }
 
@@ -404,19 +408,19 @@ friction_relative friction_relative_error(const wt_friction_workspace *ws,
     /* J2 grows at most with the square of the frequency, J1 linearly; P depends on G as stated for
      * FRICTION_AREA_POWER */
     const double shifted =
-        at.heat != NULL ? at.heat->steepest * friction_heat_off(at.heat, pass) : 0;
+        at.heat != NULL ? at.heat->steepest * friction_heat_error(at.heat, pass) : 0;
     const double of_g = 2 * shifted, of_mu = shifted + FRICTION_AREA_POWER * of_g;
     friction_relative e = {ws->rounding + of_g, ws->rounding + of_mu};
     if (pass->variance > 0)
-        e.variance += pass->variance_moved / pass->variance;
+        e.variance += pass->variance_input_error / pass->variance;
     if (pass->hysteresis > 0)
-        e.hysteresis += pass->hysteresis_moved / pass->hysteresis;
+        e.hysteresis += pass->hysteresis_input_error / pass->hysteresis;
     return e;
 }
 
 /* ---- velocities ------------------------------------------------------------------------------ */
 
-static wt_estimate estimate_of(double value, double error)
+static wt_estimate dimensionless_estimate(double value, double error)
 {
     return (wt_estimate){.value = value, .numerical_error = error, .unit = "1"};
 }
@@ -429,11 +433,11 @@ typedef struct compute_job {
     wt_friction_point *points;
 } compute_job;
 
-static bool with_share(const wt_friction_workspace *ws)
+static bool needs_extrapolated_share(const wt_friction_workspace *ws)
 {
-    return !ws->options.without_share &&
+    return !ws->options.skip_extrapolated_share &&
            (ws->own != NULL ? !isnan(ws->own->limit[0]) || !isnan(ws->own->limit[1])
-                            : angular_limited(ws->angular));
+                            : angular_has_limits(ws->angular));
 }
 
 /* Computes a load with known temperatures, for a positive velocity. */
@@ -441,10 +445,10 @@ static wt_status compute_load(const wt_friction_workspace *ws, friction_scratch 
                               const friction_load *at, wt_friction_point *point)
 {
     const double tolerance = ws->options.tolerance;
-    const panel_plan *plan = friction_plan(ws, scratch, at, NULL, 0);
+    const subinterval_plan *plan = friction_plan(ws, scratch, at, NULL, 0);
     friction_pass pass;
     friction_record record = {0};
-    friction_evaluate(ws, scratch, plan, (friction_effort){0}, *at, with_share(ws),
+    friction_evaluate(ws, scratch, plan, (friction_effort){0}, *at, needs_extrapolated_share(ws),
                       ws->side != NULL ? &record : NULL, &pass);
     const friction_relative relative = friction_relative_error(ws, &pass, *at);
     const double error_g = relative.variance * pass.variance + pass.variance_error;
@@ -452,24 +456,24 @@ static wt_status compute_load(const wt_friction_workspace *ws, friction_scratch 
     const double corrected = area_law_variance(ws->area, pass.variance);
     const double area = contact_area(corrected);
     const double error_area = contact_area_error(corrected, error_g);
-    point->stress_variance = estimate_of(pass.variance, error_g);
-    point->area_ratio = estimate_of(area, error_area);
+    point->stress_variance = dimensionless_estimate(pass.variance, error_g);
+    point->area_ratio = dimensionless_estimate(area, error_area);
     point->one_minus_area =
-        estimate_of(contact_gap(corrected), contact_gap_error(corrected, error_g));
-    point->hysteresis = estimate_of(pass.hysteresis, error_mu);
+        dimensionless_estimate(contact_gap(corrected), contact_gap_error(corrected, error_g));
+    point->hysteresis = dimensionless_estimate(pass.hysteresis, error_mu);
     if (at->heat != NULL)
         point->temperature = (wt_estimate){.value = ws->options.temperature + at->heat->rise,
-                                           .numerical_error = friction_heat_off(at->heat, &pass),
+                                           .numerical_error = friction_heat_error(at->heat, &pass),
                                            .unit = "K"};
     point->nodes = pass.nodes;
     point->reached = error_g <= tolerance * pass.variance && error_area <= tolerance * area &&
                      error_mu <= tolerance * pass.hysteresis;
-    point->extrapolated_share = ws->options.without_share ? (double)NAN
-                                : pass.hysteresis > 0     ? fmin(pass.outside / pass.hysteresis, 1)
-                                                          : 0;
-    point->side = estimate_of(0, 0);
+    point->extrapolated_share = ws->options.skip_extrapolated_share ? (double)NAN
+                                : pass.hysteresis > 0 ? fmin(pass.outside / pass.hysteresis, 1)
+                                                      : 0;
+    point->side = dimensionless_estimate(0, 0);
     const wt_status status =
-        ws->side != NULL ? friction_side_of(ws, *at, &record, error_mu, &point->side) : WT_OK;
+        ws->side != NULL ? lateral_force_compute(ws, *at, &record, error_mu, &point->side) : WT_OK;
     free(record.q);
     free(record.mu);
     return status;
@@ -480,11 +484,11 @@ static wt_status compute_point(const compute_job *job, friction_scratch *scratch
 {
     const wt_friction_workspace *ws = job->ws;
     wt_status status;
-    friction_load at = friction_load_at(ws, job->pressure, velocity);
+    friction_load at = friction_load_create(ws, job->pressure, velocity);
     const double sign = velocity < 0 ? -1 : velocity > 0 ? 1 : 0;
     if (ws->flash == NULL || sign == 0) {
         status = compute_load(ws, scratch, &at, point);
-        point->temperature = estimate_of((double)NAN, (double)NAN);
+        point->temperature = dimensionless_estimate((double)NAN, (double)NAN);
         point->hot = (wt_friction_branch){(double)NAN, (double)NAN, (double)NAN};
         point->unsettled = false;
     } else {
@@ -497,7 +501,7 @@ static wt_status compute_point(const compute_job *job, friction_scratch *scratch
     return status;
 }
 
-static wt_status compute_one(void *user, size_t i, unsigned worker)
+static wt_status compute_velocity(void *user, size_t i, unsigned worker)
 {
     const compute_job *job = user;
     wt_friction_point *point = &job->points[i];
@@ -515,13 +519,13 @@ wt_status wt_friction_compute(wt_friction_workspace *workspace, double pressure,
     if (workspace == NULL || velocity == NULL || points == NULL)
         return wt_fail(err, WT_E_ARG, "friction needs velocities and a place for the results");
     wt_status status = friction_prepare(workspace, pressure, velocity, n, err);
-    if (status == WT_OK && n > 0 && workspace->own == NULL && with_share(workspace))
-        status = angular_cover_outside(workspace->angular, err);
+    if (status == WT_OK && n > 0 && workspace->own == NULL && needs_extrapolated_share(workspace))
+        status = angular_prepare_outside(workspace->angular, err);
     if (status != WT_OK)
         return status;
     compute_job job = {
         .ws = workspace, .pressure = pressure, .velocity = velocity, .n = n, .points = points};
-    status = wt_parallel_for(n, workspace->threads, compute_one, &job, NULL, "friction");
+    status = wt_parallel_for(n, workspace->threads, compute_velocity, &job, NULL, "friction");
     if (status == WT_E_RANGE) {
         (void)range_error("pressure", pressure,
                           "so high that the stress variance G stays finite, in Pa", err);

@@ -18,26 +18,26 @@ enum { RULE_FIRST, RULE_CHECK, FRICTION_RULES };
 
 /* Working memory of one thread. */
 typedef struct friction_scratch {
-    panel_plan plan;                  /* plan of this velocity, if knots move with it */
+    subinterval_plan plan;            /* plan of this velocity, if knots move with it */
     scale_grid grids[FRICTION_RULES]; /* nodes of this plan, or of the common plan */
     size_t room;                      /* capacity: number of subintervals */
     double *knots;                    /* [n_knots] t */
     double *bounds;                   /* [room + 1] t */
     /* [(room + 2) * max nodes] all subintervals, then one recomputed, then the core */
     double *omega, *log_omega, *j1, *j2;
-    double *rise, *full;        /* rise of G, and hysteresis at full contact */
-    double *further;            /* ln of the extra shift of a layer; NULL if it is shifted as the
-                                   bulk */
-    double *loss_j1, *loss_j2;  /* integrals of the loss modulus, with softening */
-    double *panel_mu, *panel_g; /* [room + 1] parts of the last pass */
-    double *error_mu, *error_g; /* errors of the rules in these parts */
+    double *rise, *full;       /* rise of G, and hysteresis at full contact */
+    double *extra_shift;       /* ln of the extra shift of a layer; NULL if it is shifted as the
+                              bulk */
+    double *loss_j1, *loss_j2; /* integrals of the loss modulus, with softening */
+    double *subinterval_mu, *subinterval_g; /* [room + 1] parts of the last pass */
+    double *error_mu, *error_g;             /* errors of the rules in these parts */
     /* [room + 1] for each subinterval: G and the hysteresis at full contact by the first rule, and
      * the effect of an error of G on the hysteresis */
-    double *rough_g, *rough_mu, *of_variance;
+    double *estimated_g, *estimated_mu, *variance_effect;
     double own_error;     /* largest relative error of J1 and J2 of a layer with its own moduli */
     size_t nodes;         /* number of nodes at which J1 and J2 were evaluated */
     flash_scratch *flash; /* NULL without flash temperature */
-    flash_solution heat;  /* result of friction_heat */
+    flash_solution heat;  /* result of friction_solve_heat */
 } friction_scratch;
 
 struct wt_friction_workspace {
@@ -50,7 +50,7 @@ struct wt_friction_workspace {
     angular_law *loss;     /* law of the loss modulus, with softening */
     angular_weight along;  /* weight of anisotropic roughness */
     bool anisotropic;
-    struct friction_side *side; /* integrals of its lateral force; NULL if none */
+    struct lateral_force *side; /* integrals of its lateral force; NULL if none */
     layer_moduli *own;          /* layer's own moduli; NULL if none */
     wt_shift_law layer_law;     /* shift law of its own material; none if it is shifted as the
                                    bulk */
@@ -63,7 +63,7 @@ struct wt_friction_workspace {
     double *log_knots; /* [n_knots] */
     double *slopes;    /* [n_knots + 1] slopes of the material between the knots */
     const gauss_rule *rules[FRICTION_RULES];
-    panel_plan plan; /* common plan of all velocities, for materials without knots */
+    subinterval_plan plan; /* common plan of all velocities, for materials without knots */
     unsigned threads;
     friction_scratch *scratch; /* [threads] */
 };
@@ -77,18 +77,19 @@ typedef struct friction_load {
 } friction_load;
 
 /* Creates a load without heat. */
-friction_load friction_load_at(const wt_friction_workspace *ws, double pressure, double velocity);
+friction_load friction_load_create(const wt_friction_workspace *ws, double pressure,
+                                   double velocity);
 
 /* Start and extent of the refinement of a pass. */
 typedef struct friction_effort {
-    size_t level;   /* lowest level of the core */
-    size_t halves;  /* number of halvings of every subinterval */
-    bool all_along; /* G up to each subinterval is as accurate as the total, and no core that can
-                       be resolved uses the closed form */
+    size_t level;             /* lowest level of the core */
+    size_t halves;            /* number of halvings of every subinterval */
+    bool accurate_everywhere; /* G up to each subinterval is as accurate as the total, and no core
+                       that can be resolved uses the closed form */
 } friction_effort;
 
 /* Share of the tolerance for the rules; the rest is for J1 and J2. */
-#define FRICTION_SHARE 0.5
+#define FRICTION_RULE_SHARE 0.5
 
 /* Result of one pass. Part 0 is the core; the subintervals follow from the innermost cell in use.
  */
@@ -97,8 +98,8 @@ typedef struct friction_pass {
     double variance_error, hysteresis_error; /* errors of the rules and of the closed form in the
                                                 core */
     double outside; /* part of the hysteresis from extrapolated frequencies */
-    double variance_moved, hysteresis_moved; /* errors propagated from J1 and J2 */
-    size_t level;                            /* level of the core */
+    double variance_input_error, hysteresis_input_error; /* errors propagated from J1 and J2 */
+    size_t level;                                        /* level of the core */
     size_t nodes;
     size_t parts;             /* number of parts of the plan */
     size_t piece, loss_piece; /* start of the search for errors of J1 and J2 */
@@ -123,27 +124,27 @@ wt_status friction_scratch_init(friction_scratch *scratch, const wt_friction_wor
  * modulus are computed, too. The own moduli of a layer are included, and `*error` is raised to
  * their largest relative error. */
 void friction_moduli(const wt_friction_workspace *ws, const double *q, const double *omega,
-                     const double *x, const double *further, size_t n, double *j1, double *j2,
+                     const double *x, const double *extra_shift, size_t n, double *j1, double *j2,
                      double *loss_j1, double *loss_j2, double *error);
 /* Total number of nodes of all threads and calls. */
-size_t friction_nodes(const wt_friction_workspace *ws);
+size_t friction_node_count(const wt_friction_workspace *ws);
 
 /* Returns WT_E_RANGE unless pressure > 0 and the velocities are valid; then prepares J1 and J2. */
 wt_status friction_prepare(wt_friction_workspace *ws, double pressure, const double *velocity,
                            size_t n, wt_error *err) WT_NODISCARD;
 /* Creates the plan of this load with these additional cuts, or returns the common one. */
-const panel_plan *friction_plan(const wt_friction_workspace *ws, friction_scratch *scratch,
-                                const friction_load *at, const double *cuts, size_t n_cuts);
+const subinterval_plan *friction_plan(const wt_friction_workspace *ws, friction_scratch *scratch,
+                                      const friction_load *at, const double *cuts, size_t n_cuts);
 /* Evaluates all subintervals with the first rule, repeats those that need it with the rule of the
  * check, and halves those that still need it. The record may be NULL. */
 void friction_evaluate(const wt_friction_workspace *ws, friction_scratch *scratch,
-                       const panel_plan *plan, friction_effort effort, friction_load at,
+                       const subinterval_plan *plan, friction_effort effort, friction_load at,
                        bool with_outside, friction_record *record, friction_pass *pass);
 
 /* Finds the temperatures of a load, by which its moduli are then shifted. Without flash temperature
  * it does nothing. Returns WT_E_CONVERGENCE if there is no solution. */
-wt_status friction_heat(const wt_friction_workspace *ws, friction_scratch *scratch,
-                        friction_load *at, wt_error *err) WT_NODISCARD;
+wt_status friction_solve_heat(const wt_friction_workspace *ws, friction_scratch *scratch,
+                              friction_load *at, wt_error *err) WT_NODISCARD;
 
 /* Computes a point by `compute` at its self-consistent temperatures, and its second solution. */
 wt_status friction_heated_point(
@@ -152,13 +153,13 @@ wt_status friction_heated_point(
                          const friction_load *at, wt_friction_point *point),
     wt_friction_point *point);
 /* Error of the temperatures [K], from a pass at them. */
-double friction_heat_off(const flash_solution *solution, const friction_pass *pass);
-/* Shifts the frequencies at n <= RULE_MOST wavenumbers by the temperatures there, and computes ln
- * of the extra shift of the layer (NULL if not requested). */
+double friction_heat_error(const flash_solution *solution, const friction_pass *pass);
+/* Shifts the frequencies at n <= GAUSS_NODES_MAX wavenumbers by the temperatures there, and
+ * computes ln of the extra shift of the layer (NULL if not requested). */
 void friction_shift_nodes(const flash_solution *solution, const double *q, size_t n, double *omega,
-                          double *log_omega, double *further);
+                          double *log_omega, double *extra_shift);
 /* Moves the knots t of the material according to the temperatures. */
-void friction_move_knots(const wt_friction_workspace *ws, const heat_profile *heat, double *knots);
+void friction_shift_knots(const wt_friction_workspace *ws, const heat_profile *heat, double *knots);
 
 /* Relative errors of G and of the hysteresis of a pass from J1, J2 and rounding. */
 typedef struct friction_relative {

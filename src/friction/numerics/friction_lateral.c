@@ -10,7 +10,7 @@
 
 /* K changes its sign where J1 does not, and the accuracy of a series is relative to its values. K
  * is therefore the difference of two integrals without zeros. */
-struct friction_side {
+struct lateral_force {
     angular_weight weight;
     double shift;         /* K = J1 of `shifted` - shift * J1 of `plain` */
     angular_law *shifted; /* with the weight */
@@ -18,20 +18,20 @@ struct friction_side {
     layer_moduli own[2];  /* both for a layer with its own moduli */
 };
 
-wt_status friction_side_new(const wt_material *material, const wt_friction_options *options,
-                            const layer_moduli *own, arena *memory, friction_side **side,
+wt_status lateral_force_new(const wt_material *material, const wt_friction_options *options,
+                            const layer_moduli *own, arena *memory, lateral_force **side,
                             wt_error *err)
 {
-    friction_side *made = arena_alloc(memory, 1, sizeof *made);
+    lateral_force *made = arena_alloc(memory, 1, sizeof *made);
     if (made == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory for the force to the side");
     *side = made;
-    made->weight = weight_aside(&options->anisotropy, &made->shift);
+    made->weight = weight_lateral(&options->anisotropy, &made->shift);
     wt_status status = angular_new(material, options->tolerance, memory, &made->plain, err);
     if (status == WT_OK)
         status = angular_new(material, options->tolerance, memory, &made->shifted, err);
     if (status == WT_OK)
-        angular_weigh(made->shifted, &made->weight);
+        angular_set_weight(made->shifted, &made->weight);
     if (own != NULL) {
         made->own[0] = made->own[1] = *own;
         made->own[0].weight = &made->weight;
@@ -40,7 +40,7 @@ wt_status friction_side_new(const wt_material *material, const wt_friction_optio
     return status;
 }
 
-void friction_side_clear(friction_side *side)
+void lateral_force_clear(lateral_force *side)
 {
     if (side == NULL)
         return;
@@ -48,42 +48,42 @@ void friction_side_clear(friction_side *side)
     angular_clear(side->plain);
 }
 
-wt_status friction_side_cover(friction_side *side, double lowest, double highest, wt_error *err)
+wt_status lateral_force_extend(lateral_force *side, double lowest, double highest, wt_error *err)
 {
-    const wt_status status = angular_cover(side->plain, lowest, highest, err);
-    return status == WT_OK ? angular_cover(side->shifted, lowest, highest, err) : status;
+    const wt_status status = angular_extend(side->plain, lowest, highest, err);
+    return status == WT_OK ? angular_extend(side->shifted, lowest, highest, err) : status;
 }
 
 /* Values at the nodes of a record. */
-typedef struct side_nodes {
+typedef struct lateral_nodes {
     double *omega, *log_omega, *j1, *j2, *shifted, *plain;
-    double *further; /* extra shift of a layer's frequencies; NULL if shifted as the bulk */
-    double *numbers; /* memory of these arrays */
-} side_nodes;
+    double *extra_shift; /* extra shift of a layer's frequencies; NULL if shifted as the bulk */
+    double *numbers;     /* memory of these arrays */
+} lateral_nodes;
 
-static bool place_nodes(const friction_record *record, friction_load at, bool further,
-                        side_nodes *nodes)
+static bool fill_lateral_nodes(const friction_record *record, friction_load at, bool extra_shift,
+                               lateral_nodes *nodes)
 {
     const size_t n = record->n;
     double *numbers = malloc(7 * n * sizeof *numbers);
     if (numbers == NULL)
         return false;
-    *nodes = (side_nodes){numbers,
-                          numbers + n,
-                          numbers + 2 * n,
-                          numbers + 3 * n,
-                          numbers + 4 * n,
-                          numbers + 5 * n,
-                          further ? numbers + 6 * n : NULL,
-                          numbers};
+    *nodes = (lateral_nodes){numbers,
+                             numbers + n,
+                             numbers + 2 * n,
+                             numbers + 3 * n,
+                             numbers + 4 * n,
+                             numbers + 5 * n,
+                             extra_shift ? numbers + 6 * n : NULL,
+                             numbers};
     for (size_t i = 0; i < n; i++) {
         nodes->omega[i] = record->q[i] * at.speed;
         nodes->log_omega[i] = log(record->q[i]) + log(at.speed);
     }
-    for (size_t i = 0; at.heat != NULL && i < n; i += RULE_MOST)
-        friction_shift_nodes(at.heat, record->q + i, n - i < RULE_MOST ? n - i : RULE_MOST,
-                             nodes->omega + i, nodes->log_omega + i,
-                             further ? nodes->further + i : NULL);
+    for (size_t i = 0; at.heat != NULL && i < n; i += GAUSS_NODES_MAX)
+        friction_shift_nodes(at.heat, record->q + i,
+                             n - i < GAUSS_NODES_MAX ? n - i : GAUSS_NODES_MAX, nodes->omega + i,
+                             nodes->log_omega + i, extra_shift ? nodes->extra_shift + i : NULL);
     return true;
 }
 
@@ -91,28 +91,30 @@ static bool place_nodes(const friction_record *record, friction_load at, bool fu
 static const double closed_error = 16 * DBL_EPSILON;
 /* Factor on the error of the rules and of the variance in the hysteresis: the dependence of K / J1
  * on the moduli at most doubles it. */
-static const double of_rules = 2;
+static const double rule_error_factor = 2;
 
-wt_status friction_side_of(const wt_friction_workspace *ws, friction_load at,
-                           const friction_record *record, double hysteresis_error,
-                           wt_estimate *side)
+wt_status lateral_force_compute(const wt_friction_workspace *ws, friction_load at,
+                                const friction_record *record, double hysteresis_error,
+                                wt_estimate *side)
 {
-    const friction_side *s = ws->side;
+    const lateral_force *s = ws->side;
     const size_t n = record->n;
-    side_nodes k;
+    lateral_nodes k;
     *side = (wt_estimate){.unit = "1"};
     if (record->failed ||
-        (n > 0 && !place_nodes(record, at, at.heat != NULL && flash_has_layer(ws->flash), &k)))
+        (n > 0 &&
+         !fill_lateral_nodes(record, at, at.heat != NULL && flash_has_layer_shift(ws->flash), &k)))
         return WT_E_MEMORY;
     if (n == 0)
         return WT_OK;
     size_t piece[2] = {0, 0};
     double own_error = 0;
     if (ws->own != NULL) {
-        layer_moduli_eval(ws->own, record->q, k.omega, k.further, n, k.j1, k.j2, NULL, &own_error);
-        layer_moduli_eval(&s->own[0], record->q, k.omega, k.further, n, k.shifted, k.j2, NULL,
+        layer_moduli_eval(ws->own, record->q, k.omega, k.extra_shift, n, k.j1, k.j2, NULL,
                           &own_error);
-        layer_moduli_eval(&s->own[1], record->q, k.omega, k.further, n, k.plain, k.j2, NULL,
+        layer_moduli_eval(&s->own[0], record->q, k.omega, k.extra_shift, n, k.shifted, k.j2, NULL,
+                          &own_error);
+        layer_moduli_eval(&s->own[1], record->q, k.omega, k.extra_shift, n, k.plain, k.j2, NULL,
                           &own_error);
     } else {
         angular_eval(ws->angular, k.omega, k.log_omega, n, k.j1, k.j2);
@@ -140,7 +142,7 @@ wt_status friction_side_of(const wt_friction_workspace *ws, friction_load at,
         error += record->mu[i] *
                  (error_shifted * k.shifted[i] + s->shift * error_plain * k.plain[i]) / k.j1[i];
     }
-    side->numerical_error = error + of_rules * largest * hysteresis_error;
+    side->numerical_error = error + rule_error_factor * largest * hysteresis_error;
     free(k.numbers);
     return WT_OK;
 }

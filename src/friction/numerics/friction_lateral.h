@@ -12,20 +12,20 @@
 
 #include "friction/numerics/friction_kernel.h"
 
-typedef struct friction_side friction_side;
+typedef struct lateral_force lateral_force;
 
 /* The object is allocated in the arena; clear it before the arena is freed. */
-wt_status friction_side_new(const wt_material *material, const wt_friction_options *options,
-                            const layer_moduli *own, arena *memory, friction_side **side,
+wt_status lateral_force_new(const wt_material *material, const wt_friction_options *options,
+                            const layer_moduli *own, arena *memory, lateral_force **side,
                             wt_error *err) WT_NODISCARD;
-void friction_side_clear(friction_side *side); /* no effect on NULL */
-/* Extends both integrals as angular_cover does. */
-wt_status friction_side_cover(friction_side *side, double lowest, double highest,
-                              wt_error *err) WT_NODISCARD;
+void lateral_force_clear(lateral_force *side); /* no effect on NULL */
+/* Extends both integrals as angular_extend does. */
+wt_status lateral_force_extend(lateral_force *side, double lowest, double highest,
+                               wt_error *err) WT_NODISCARD;
 /* Computes the lateral friction of a pass with recorded nodes and this error of the hysteresis, for
  * a positive velocity. */
-wt_status friction_side_of(const wt_friction_workspace *ws, friction_load at,
-                           const friction_record *record, double hysteresis_error,
-                           wt_estimate *side) WT_NODISCARD;
+wt_status lateral_force_compute(const wt_friction_workspace *ws, friction_load at,
+                                const friction_record *record, double hysteresis_error,
+                                wt_estimate *side) WT_NODISCARD;
 
 #endif

@@ -5,12 +5,12 @@
 #include "friction/numerics/friction_kernel.h"
 
 void friction_moduli(const wt_friction_workspace *ws, const double *q, const double *omega,
-                     const double *x, const double *further, size_t n, double *j1, double *j2,
+                     const double *x, const double *extra_shift, size_t n, double *j1, double *j2,
                      double *loss_j1, double *loss_j2, double *error)
 {
     if (ws->own != NULL) {
-        layer_moduli_eval(ws->own, q, omega, further, n, j1, j2, ws->loss != NULL ? loss_j2 : NULL,
-                          error);
+        layer_moduli_eval(ws->own, q, omega, extra_shift, n, j1, j2,
+                          ws->loss != NULL ? loss_j2 : NULL, error);
         return;
     }
     angular_eval(ws->angular, omega, x, n, j1, j2);

@@ -32,9 +32,9 @@ static void fill_nodes(const wt_friction_workspace *workspace, friction_load at,
     const wt_roughness *roughness = workspace->roughness;
     for (size_t i = 0; i < n; i++)
         cuts[i] = log1p((wavenumber[i] - roughness->q0) / roughness->q0);
-    const panel_plan *plan = friction_plan(workspace, scratch, &at, cuts, n);
+    const subinterval_plan *plan = friction_plan(workspace, scratch, &at, cuts, n);
     friction_pass pass;
-    const friction_effort effort = {.all_along = true};
+    const friction_effort effort = {.accurate_everywhere = true};
     friction_evaluate(workspace, scratch, plan, effort, at, false, NULL, &pass);
 
     const friction_relative relative = friction_relative_error(workspace, &pass, at);
@@ -44,12 +44,12 @@ static void fill_nodes(const wt_friction_workspace *workspace, friction_load at,
     size_t part = 0; /* the next part; part p ends at end[p] */
     for (size_t i = 0; i < n; i++) {
         while (part < pass.parts) {
-            const double end =
-                part == 0 ? plan->core[pass.level].t_high : plan->panels[first + part - 1].t_high;
+            const double end = part == 0 ? plan->core[pass.level].t_high
+                                         : plan->subintervals[first + part - 1].t_high;
             if (end > cuts[i] + slack * (cuts[i] > slack))
                 break;
-            variance += scratch->panel_g[part];
-            hysteresis += scratch->panel_mu[part];
+            variance += scratch->subinterval_g[part];
+            hysteresis += scratch->subinterval_mu[part];
             difference += scratch->error_g[part];
             error += scratch->error_mu[part];
             part++;
@@ -83,13 +83,13 @@ wt_status wt_friction_profile(wt_friction_workspace *workspace, double pressure,
     if (status != WT_OK || n == 0)
         return status;
 
-    friction_load at = friction_load_at(workspace, pressure, velocity);
+    friction_load at = friction_load_create(workspace, pressure, velocity);
     friction_scratch scratch;
     arena memory = {0};
     double *cuts = arena_alloc(&memory, n, sizeof *cuts);
     status = friction_scratch_init(&scratch, workspace, n, &memory, err);
     if (status == WT_OK)
-        status = friction_heat(workspace, &scratch, &at, err);
+        status = friction_solve_heat(workspace, &scratch, &at, err);
     if (status == WT_OK)
         fill_nodes(workspace, at,
                    velocity < 0   ? -1

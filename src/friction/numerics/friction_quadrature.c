@@ -26,12 +26,12 @@ static double series_error(const wt_friction_workspace *ws, double own_error, do
                            double high, friction_pass *pass)
 {
     if (ws->own != NULL)
-        return own_error * (ws->softening != NULL ? 2 * ws->softening->caution : 1);
+        return own_error * (ws->softening != NULL ? 2 * ws->softening->cancellation : 1);
     if (ws->flash != NULL) /* frequencies need not rise from one subinterval to the next */
         pass->piece = pass->loss_piece = 0;
     const double error = angular_error(ws->angular, fmin(low, high), fmax(low, high), &pass->piece);
     return ws->softening == NULL ? error
-                                 : ws->softening->caution *
+                                 : ws->softening->cancellation *
                                        (error + angular_error(ws->loss, fmin(low, high),
                                                               fmax(low, high), &pass->loss_piece));
 }
@@ -39,26 +39,27 @@ static double series_error(const wt_friction_workspace *ws, double own_error, do
 /* Adds the errors of a part from J1, J2 and rounding; its n nodes have ln omega = `x`, and G so far
  * includes the part. The series have errors. Steep integrands also amplify the rounding of ln(q /
  * q0), ln omega and the logarithms of the knots. */
-static void add_moved(const wt_friction_workspace *ws, double own_error, const grid_panel *panel,
-                      const double *x, const double *j1, const double *j2, size_t n,
-                      double log_lowest, double variance, double hysteresis, double variance_so_far,
-                      friction_pass *pass)
+static void add_input_errors(const wt_friction_workspace *ws, double own_error,
+                             const grid_subinterval *subinterval, const double *x, const double *j1,
+                             const double *j2, size_t n, double log_lowest, double variance,
+                             double hysteresis, double variance_so_far, friction_pass *pass)
 {
-    const bool closed = ws->own == NULL && angular_closed(ws->angular, x[0], x[n - 1]) &&
-                        (ws->loss == NULL || angular_closed(ws->loss, x[0], x[n - 1]));
+    const bool closed = ws->own == NULL && angular_uses_closed_form(ws->angular, x[0], x[n - 1]) &&
+                        (ws->loss == NULL || angular_uses_closed_form(ws->loss, x[0], x[n - 1]));
     /* ln omega is a sum of two terms */
     const double far = fmax(fabs(x[0]), fabs(x[n - 1])) + fabs(log_lowest);
     const double moved = closed ? 0 : 4 * DBL_EPSILON * (1 + far);
     const double series = closed ? 0 : series_error(ws, own_error, x[0], x[n - 1], pass);
     const double steepest_closed = 2; /* largest slope of a term of a Prony series */
     const double nodes =
-        DBL_EPSILON * (1 + panel->t_high) * (fabs(panel->power) + steepest_closed + 1);
-    pass->variance_moved += variance * (nodes + series + (closed ? 0 : moved * steepness(j2, n)));
-    pass->hysteresis_moved +=
+        DBL_EPSILON * (1 + subinterval->t_high) * (fabs(subinterval->power) + steepest_closed + 1);
+    pass->variance_input_error +=
+        variance * (nodes + series + (closed ? 0 : moved * steepness(j2, n)));
+    pass->hysteresis_input_error +=
         hysteresis * (nodes + series + (closed ? 0 : moved * steepness(j1, n)));
     if (variance_so_far > 0)
-        pass->hysteresis_moved +=
-            hysteresis * FRICTION_AREA_POWER * (pass->variance_moved / variance_so_far);
+        pass->hysteresis_input_error +=
+            hysteresis * FRICTION_AREA_POWER * (pass->variance_input_error / variance_so_far);
 }
 
 /* ---- nodes ----------------------------------------------------------------------------------- */
@@ -70,27 +71,28 @@ typedef struct node_view {
     const double *f, *g; /* NULL without softening */
     double half;
     double *omega, *log_omega, *j1, *j2;
-    double *further;     /* extra shift of a layer's frequencies; NULL if shifted as the bulk */
+    double *extra_shift; /* extra shift of a layer's frequencies; NULL if shifted as the bulk */
     double *rise, *full; /* rise of G, and hysteresis at full contact, both without weights */
 } node_view;
 
-static node_view place_view(friction_scratch *scratch, const scale_grid *grid, size_t from)
+static node_view create_view(friction_scratch *scratch, const scale_grid *grid, size_t from)
 {
     return (node_view){.rule = grid->rule,
                        .omega = scratch->omega + from,
                        .log_omega = scratch->log_omega + from,
-                       .further = scratch->further != NULL ? scratch->further + from : NULL,
+                       .extra_shift =
+                           scratch->extra_shift != NULL ? scratch->extra_shift + from : NULL,
                        .j1 = scratch->j1 + from,
                        .j2 = scratch->j2 + from,
                        .rise = scratch->rise + from,
                        .full = scratch->full + from};
 }
 
-static node_view panel_view(friction_scratch *scratch, const scale_grid *grid, size_t p,
-                            size_t from)
+static node_view subinterval_view(friction_scratch *scratch, const scale_grid *grid, size_t p,
+                                  size_t from)
 {
     const size_t at = p * grid->rule->n;
-    node_view view = place_view(scratch, grid, from);
+    node_view view = create_view(scratch, grid, from);
     view.t = grid->t + at;
     view.q = grid->q + at;
     view.factor1 = grid->factor1 + at;
@@ -116,8 +118,8 @@ static void soften_moduli(const friction_scratch *scratch, const node_view *view
     }
 }
 
-static void place_nodes(size_t n, const double *restrict q, const double *restrict t,
-                        friction_load at, double *restrict omega, double *restrict log_omega)
+static void fill_frequencies(size_t n, const double *restrict q, const double *restrict t,
+                             friction_load at, double *restrict omega, double *restrict log_omega)
 {
     for (size_t i = 0; i < n; i++) {
         omega[i] = q[i] * at.speed;
@@ -125,12 +127,12 @@ static void place_nodes(size_t n, const double *restrict q, const double *restri
     }
 }
 
-static void place_omega(const node_view *view, friction_load at)
+static void fill_view_frequencies(const node_view *view, friction_load at)
 {
-    place_nodes(view->rule->n, view->q, view->t, at, view->omega, view->log_omega);
+    fill_frequencies(view->rule->n, view->q, view->t, at, view->omega, view->log_omega);
     if (at.heat != NULL)
         friction_shift_nodes(at.heat, view->q, view->rule->n, view->omega, view->log_omega,
-                             view->further);
+                             view->extra_shift);
 }
 
 /* Evaluates J1 and J2 at n nodes whose frequencies are set. */
@@ -142,7 +144,7 @@ static void evaluate_nodes(const wt_friction_workspace *ws, friction_scratch *sc
     double *loss_j2 = ws->loss != NULL ? scratch->loss_j2 + from : NULL;
     scratch->nodes += n;
     friction_moduli(ws, q, omega, scratch->log_omega + from,
-                    scratch->further != NULL ? scratch->further + from : NULL, n,
+                    scratch->extra_shift != NULL ? scratch->extra_shift + from : NULL, n,
                     scratch->j1 + from, scratch->j2 + from, loss_j1, loss_j2, &scratch->own_error);
 }
 
@@ -151,7 +153,7 @@ typedef struct pass_scale {
     double g, mu;
 } pass_scale;
 
-static pass_scale scale_of(const wt_friction_workspace *ws, friction_load at)
+static pass_scale compute_pass_scale(const wt_friction_workspace *ws, friction_load at)
 {
     const double ratio = ws->stiffness * at.modulus / at.pressure;
     return (pass_scale){.g = ratio * ratio / 8 * at.density, .mu = ratio / 2 * at.density};
@@ -172,13 +174,13 @@ static void fill_parts(const node_view *view, pass_scale scale)
 }
 
 /* Largest share of the remaining error budget for one part. */
-static const double one_part = 0.25;
+static const double part_share = 0.25;
 
 /* State shared by the parts of one pass. */
-typedef struct walk {
+typedef struct pass_state {
     const wt_friction_workspace *ws;
     friction_scratch *scratch;
-    const panel_plan *plan;
+    const subinterval_plan *plan;
     friction_effort effort;
     friction_load at;
     pass_scale scale;
@@ -187,24 +189,24 @@ typedef struct walk {
     friction_pass *pass;
     double variance_left, hysteresis_left;   /* remaining error budget of the rules */
     double variance_least, hysteresis_least; /* lower limit of the budget of a part */
-} walk;
+} pass_state;
 
 /* Evaluates the contributions to G and to the hysteresis at the nodes of a subinterval or core. */
-static void evaluate_view(const walk *w, const node_view *view)
+static void evaluate_view(const pass_state *w, const node_view *view)
 {
-    place_omega(view, w->at);
+    fill_view_frequencies(view, w->at);
     evaluate_nodes(w->ws, w->scratch, view->q, view->omega, view->rule->n);
     soften_moduli(w->scratch, view);
     fill_parts(view, w->scale);
 }
 
-static node_view core_view(const walk *w, size_t rule, size_t level)
+static node_view core_view(const pass_state *w, size_t rule, size_t level)
 {
     friction_scratch *scratch = w->scratch;
     scale_grid *grid = &scratch->grids[rule];
-    const size_t from = (scratch->room + 1) * RULE_MOST;
+    const size_t from = (scratch->room + 1) * GAUSS_NODES_MAX;
     grid_fill_core(grid, w->plan, level, w->ws->roughness, &w->ws->options.layer);
-    node_view view = place_view(scratch, grid, from);
+    node_view view = create_view(scratch, grid, from);
     const size_t first = level * grid->rule->n;
     view.t = grid->core_t + first;
     view.q = grid->core_q + first;
@@ -232,29 +234,30 @@ typedef struct pass_part {
     double variance_error, hysteresis_error; /* errors of the rule */
     double closed_error;                     /* error of the hysteresis from the closed form in a
                                                 core */
-    double share[RULE_MOST];                 /* hysteresis of each node */
+    double share[GAUSS_NODES_MAX];           /* hysteresis of each node */
 } pass_part;
 
 /* ---- estimates ------------------------------------------------------------------------------- */
 
 /* Estimated hysteresis of a subinterval on top of the variance so far. */
-static double rough_part(const wt_friction_workspace *ws, const friction_scratch *scratch, size_t p,
-                         double variance)
+static double estimate_subinterval_hysteresis(const wt_friction_workspace *ws,
+                                              const friction_scratch *scratch, size_t p,
+                                              double variance)
 {
     const double gamma = ws->options.gamma;
     const double square =
-        1 / (1 + M_PI * (variance + 0.5 * scratch->rough_g[p])); /* approximates P^2 */
-    return scratch->rough_mu[p] * sqrt(square) * (gamma + (1 - gamma) * square);
+        1 / (1 + M_PI * (variance + 0.5 * scratch->estimated_g[p])); /* approximates P^2 */
+    return scratch->estimated_mu[p] * sqrt(square) * (gamma + (1 - gamma) * square);
 }
 
 /* Estimated hysteresis of the subintervals outside the cells. */
-static double rough_hysteresis(const wt_friction_workspace *ws, const friction_scratch *scratch,
-                               const panel_plan *plan, double variance)
+static double estimate_hysteresis(const wt_friction_workspace *ws, const friction_scratch *scratch,
+                                  const subinterval_plan *plan, double variance)
 {
     double hysteresis = 0;
-    for (size_t p = plan->levels; p < plan->n_panels; p++) {
-        hysteresis += rough_part(ws, scratch, p, variance);
-        variance += scratch->rough_g[p];
+    for (size_t p = plan->levels; p < plan->n_subintervals; p++) {
+        hysteresis += estimate_subinterval_hysteresis(ws, scratch, p, variance);
+        variance += scratch->estimated_g[p];
     }
     return hysteresis;
 }
@@ -263,17 +266,17 @@ static double rough_hysteresis(const wt_friction_workspace *ws, const friction_s
 
 /* Integrates the core. P is 1 in it, or it is so short that dmu/dG is nearly constant: mu =
  * (dmu/dG) int S P dG in closed form. */
-static void core_pass(const wt_friction_workspace *ws, const node_view *core, pass_part *part)
+static void integrate_core(const wt_friction_workspace *ws, const node_view *core, pass_part *part)
 {
     const gauss_rule *rule = core->rule;
     const double *g = core->rise, *mu = core->full;
     double least = (double)INFINITY, most = 0, contact = 1;
-    rule_top top_g, top_mu;
-    rule_tops(rule, g, mu, &top_g, &top_mu);
+    legendre_top top_g, top_mu;
+    gauss_rule_top_coefficients(rule, g, mu, &top_g, &top_mu);
     part->variance = weighted_sum(rule, g);
-    part->variance_error = rule_error(rule, &top_g);
+    part->variance_error = gauss_rule_error(rule, &top_g);
     part->closed_error = 0;
-    if (part->variance > CONTACT_FULL) {
+    if (part->variance > CONTACT_FULL_VARIANCE) {
         for (size_t i = 0; i < rule->n; i++)
             if (g[i] > 0) {
                 least = fmin(least, mu[i] / g[i]);
@@ -284,7 +287,7 @@ static void core_pass(const wt_friction_workspace *ws, const node_view *core, pa
         part->closed_error = (most - least) * integral;
     }
     part->hysteresis = contact * weighted_sum(rule, mu);
-    part->hysteresis_error = contact * rule_error(rule, &top_mu);
+    part->hysteresis_error = contact * gauss_rule_error(rule, &top_mu);
     for (size_t i = 0; i < rule->n; i++)
         part->share[i] = contact * rule->weight[i] * mu[i];
 }
@@ -292,9 +295,9 @@ static void core_pass(const wt_friction_workspace *ws, const node_view *core, pa
 /* Number of levels by which a core is too short. A cell is 1/4 of the next, and G in the core
  * scales alike. The error of the closed form, which is the change of dmu/dG times the integral,
  * scales as 1/16. */
-static double levels_short(const pass_part *part, double allowed)
+static double missing_levels(const pass_part *part, double allowed)
 {
-    const double target = 0.5 * CONTACT_FULL;
+    const double target = 0.5 * CONTACT_FULL_VARIANCE;
     const double full = part->variance > 0 ? 0.5 * log2(target / part->variance) : 0;
     return part->closed_error > 0 && allowed > 0
                ? fmax(full, 0.25 * log2(allowed / part->closed_error))
@@ -303,20 +306,20 @@ static double levels_short(const pass_part *part, double allowed)
 
 /* Finds the largest core at `*level` or deeper in which P is 1 or the closed form has an error of
  * at most `allowed` of the hysteresis; else the deepest core. */
-static node_view find_core(const walk *w, double allowed, size_t *level, pass_part *part)
+static node_view choose_core(const pass_state *w, double allowed, size_t *level, pass_part *part)
 {
-    const panel_plan *plan = w->plan;
+    const subinterval_plan *plan = w->plan;
     if (*level > plan->levels)
         *level = plan->levels;
     for (;;) {
         const node_view core = core_view(w, RULE_FIRST, *level);
-        core_pass(w->ws, &core, part);
+        integrate_core(w->ws, &core, part);
         const double cells =
             ldexp(part->variance, 2 * (int)*level); /* G up to the first subinterval outside
                                                        the cells */
         const double least =
-            allowed > 0 ? allowed * rough_hysteresis(w->ws, w->scratch, plan, cells) : 0;
-        const double shorter = levels_short(part, least);
+            allowed > 0 ? allowed * estimate_hysteresis(w->ws, w->scratch, plan, cells) : 0;
+        const double shorter = missing_levels(part, least);
         if (*level >= plan->levels || !(shorter < 0))
             return core;
         const double deeper = ceil(-shorter);
@@ -328,36 +331,37 @@ static node_view find_core(const walk *w, double allowed, size_t *level, pass_pa
 /* ---- subintervals ---------------------------------------------------------------------------- */
 
 /* From this G on, the hysteresis resolves P: 1 - P is a fifth there and no longer small. */
-static const double area_begun = 0.3;
+static const double small_gap_variance = 0.3;
 
 /* Error of one subinterval, from the values at full contact and with S P, where G rises from
  * `before` to `after`. Where P begins to fall below 1, the last coefficients do not resolve the
  * difference, which is therefore tested separately. */
-static double hysteresis_error(const gauss_rule *rule, const rule_top *full, const rule_top *part,
-                               double before, double after)
+static double hysteresis_error(const gauss_rule *rule, const legendre_top *full,
+                               const legendre_top *part, double before, double after)
 {
-    rule_top gap;
-    if (!(before < area_begun))
-        return rule_error(rule, part);
-    const double own = rule_error(rule, full);
-    if (!(after > CONTACT_FULL))
+    legendre_top gap;
+    if (!(before < small_gap_variance))
+        return gauss_rule_error(rule, part);
+    const double own = gauss_rule_error(rule, full);
+    if (!(after > CONTACT_FULL_VARIANCE))
         return own;
-    for (size_t k = 0; k < RULE_TOP; k++)
+    for (size_t k = 0; k < LEGENDRE_TOP; k++)
         gap.coefficient[k] = full->coefficient[k] - part->coefficient[k];
-    return own + rule_error(rule, &gap);
+    return own + gauss_rule_error(rule, &gap);
 }
 
 /* Integrates a subinterval on top of the variance so far. */
-static void panel_pass(const wt_friction_workspace *ws, const node_view *view, double variance,
-                       pass_part *part)
+static void integrate_subinterval(const wt_friction_workspace *ws, const node_view *view,
+                                  double variance, pass_part *part)
 {
     const gauss_rule *rule = view->rule;
     const double gamma = ws->options.gamma, *g = view->rise, *full = view->full;
-    double running[RULE_MOST + CONTACT_ROOM], area[RULE_MOST + CONTACT_ROOM], mu[RULE_MOST];
-    rule_top top_g, top_full, top_mu;
-    for (size_t j = 0; j < rule->n + CONTACT_ROOM; j++)
+    double running[GAUSS_NODES_MAX + CONTACT_PADDING], area[GAUSS_NODES_MAX + CONTACT_PADDING],
+        mu[GAUSS_NODES_MAX];
+    legendre_top top_g, top_full, top_mu;
+    for (size_t j = 0; j < rule->n + CONTACT_PADDING; j++)
         running[j] = variance;
-    part->variance = rule_running(rule, g, running);
+    part->variance = gauss_rule_integrate(rule, g, running);
     part->closed_error = 0;
     part->hysteresis = 0;
     bool falls = running[0] < variance;
@@ -380,10 +384,10 @@ static void panel_pass(const wt_friction_workspace *ws, const node_view *view, d
         part->share[j] = rule->weight[j] * mu[j];
         part->hysteresis += part->share[j];
     }
-    rule_tops(rule, g, mu, &top_g, &top_mu);
-    part->variance_error = rule_error(rule, &top_g);
-    if (variance < area_begun)
-        rule_tops(rule, full, mu, &top_full, &top_mu);
+    gauss_rule_top_coefficients(rule, g, mu, &top_g, &top_mu);
+    part->variance_error = gauss_rule_error(rule, &top_g);
+    if (variance < small_gap_variance)
+        gauss_rule_top_coefficients(rule, full, mu, &top_full, &top_mu);
     part->hysteresis_error =
         hysteresis_error(rule, &top_full, &top_mu, variance, variance + part->variance);
 }
@@ -391,13 +395,13 @@ static void panel_pass(const wt_friction_workspace *ws, const node_view *view, d
 /* ---- one pass -------------------------------------------------------------------------------- */
 
 /* Part of the hysteresis from extrapolated frequencies. */
-static double outside_of(const wt_friction_workspace *ws, const node_view *view,
-                         const pass_part *part)
+static double extrapolated_part(const wt_friction_workspace *ws, const node_view *view,
+                                const pass_part *part)
 {
     const size_t n = view->rule->n;
-    double j1[RULE_MOST] = {0}, outside[RULE_MOST], sum = 0;
+    double j1[GAUSS_NODES_MAX] = {0}, outside[GAUSS_NODES_MAX], sum = 0;
     for (size_t j = 0; ws->own != NULL && j < n; j++) {
-        const double times = view->further != NULL ? exp(view->further[j]) : 1;
+        const double times = view->extra_shift != NULL ? exp(view->extra_shift[j]) : 1;
         const double at = times * view->omega[j];
         if (at < ws->own->limit[0] || at > ws->own->limit[1])
             sum += part->share[j];
@@ -406,7 +410,7 @@ static double outside_of(const wt_friction_workspace *ws, const node_view *view,
         return sum;
     for (size_t j = 0; j < n; j++)
         j1[j] = view->g != NULL ? view->j1[j] / view->g[j] : view->j1[j];
-    angular_outside(ws->angular, view->omega, j1, n, outside);
+    angular_extrapolated_part(ws->angular, view->omega, j1, n, outside);
     for (size_t j = 0; j < n; j++)
         if (part->share[j] > 0)
             sum += part->share[j] * (outside[j] / j1[j]);
@@ -414,8 +418,8 @@ static double outside_of(const wt_friction_workspace *ws, const node_view *view,
 }
 
 /* Adds a part to the pass: the core (index 0) or a subinterval. */
-static void add_part(walk *w, const grid_panel *panel, const node_view *view, const pass_part *part,
-                     size_t place)
+static void add_pass_part(pass_state *w, const grid_subinterval *subinterval, const node_view *view,
+                          const pass_part *part, size_t part_index)
 {
     const wt_friction_workspace *ws = w->ws;
     friction_scratch *scratch = w->scratch;
@@ -425,17 +429,17 @@ static void add_part(walk *w, const grid_panel *panel, const node_view *view, co
     if (w->record != NULL)
         friction_record_add(w->record, view->q, part->share, n);
     if (w->with_outside)
-        pass->outside += outside_of(ws, view, part);
+        pass->outside += extrapolated_part(ws, view, part);
     pass->variance_error += part->variance_error;
-    add_moved(ws, scratch->own_error, panel, view->log_omega, view->j1, view->j2, n,
-              w->at.log_lowest, part->variance, part->hysteresis, variance, pass);
+    add_input_errors(ws, scratch->own_error, subinterval, view->log_omega, view->j1, view->j2, n,
+                     w->at.log_lowest, part->variance, part->hysteresis, variance, pass);
     double error = part->hysteresis_error + part->closed_error;
-    if (place > 0 && variance > 0) /* G may be almost 0, where its quotients are undefined */
+    if (part_index > 0 && variance > 0) /* G may be almost 0, where its quotients are undefined */
         error += FRICTION_AREA_POWER * part->hysteresis * (pass->variance_error / variance);
-    scratch->error_g[place] += part->variance_error;
-    scratch->error_mu[place] += error;
-    scratch->panel_g[place] += part->variance;
-    scratch->panel_mu[place] += part->hysteresis;
+    scratch->error_g[part_index] += part->variance_error;
+    scratch->error_mu[part_index] += error;
+    scratch->subinterval_g[part_index] += part->variance;
+    scratch->subinterval_mu[part_index] += part->hysteresis;
     pass->variance = variance;
     pass->hysteresis += part->hysteresis;
     pass->hysteresis_error += error;
@@ -445,170 +449,174 @@ static void add_part(walk *w, const grid_panel *panel, const node_view *view, co
 }
 
 /* Evaluates the subintervals from `first` up to, but not including, `last` by the first rule. */
-static void begin_panels(const walk *w, size_t first, size_t last)
+static void evaluate_subintervals(const pass_state *w, size_t first, size_t last)
 {
     friction_scratch *scratch = w->scratch;
     scale_grid *grid = &scratch->grids[RULE_FIRST];
     const size_t n = grid->rule->n;
-    grid_fill_panels(grid, w->plan, first, last, w->ws->roughness, &w->ws->options.layer);
+    grid_fill_subintervals(grid, w->plan, first, last, w->ws->roughness, &w->ws->options.layer);
     for (size_t p = first; p < last; p++) {
-        const node_view view = panel_view(scratch, grid, p, p * n);
-        place_omega(&view, w->at);
+        const node_view view = subinterval_view(scratch, grid, p, p * n);
+        fill_view_frequencies(&view, w->at);
     }
     evaluate_nodes(w->ws, scratch, grid->q + first * n, scratch->omega + first * n,
                    (last - first) * n);
     for (size_t p = first; p < last; p++) {
-        const node_view view = panel_view(scratch, grid, p, p * n);
+        const node_view view = subinterval_view(scratch, grid, p, p * n);
         soften_moduli(scratch, &view);
         fill_parts(&view, w->scale);
-        scratch->rough_g[p] = weighted_sum(view.rule, view.rise);
-        scratch->rough_mu[p] = weighted_sum(view.rule, view.full);
+        scratch->estimated_g[p] = weighted_sum(view.rule, view.rise);
+        scratch->estimated_mu[p] = weighted_sum(view.rule, view.full);
     }
 }
 
 /* Evaluates part of a subinterval by a rule. */
-static node_view part_view(const walk *w, const grid_panel *panel, size_t rule)
+static node_view part_view(const pass_state *w, const grid_subinterval *subinterval, size_t rule)
 {
     friction_scratch *scratch = w->scratch;
     scale_grid *grid = &scratch->grids[rule];
-    grid_fill_part(grid, w->plan, panel, w->ws->roughness, &w->ws->options.layer);
-    const node_view view = panel_view(scratch, grid, w->plan->capacity, scratch->room * RULE_MOST);
+    grid_fill_part(grid, w->plan, subinterval, w->ws->roughness, &w->ws->options.layer);
+    const node_view view =
+        subinterval_view(scratch, grid, w->plan->capacity, scratch->room * GAUSS_NODES_MAX);
     evaluate_view(w, &view);
     return view;
 }
 
 /* Largest number of halvings: a function that is not smooth on a thousandth of a subinterval is a
  * jump. */
-enum { MOST_HALVES = 10 };
+enum { MAX_HALVINGS = 10 };
 
 /* Starts a pass on top of a core. It estimates the totals by the first rule, and the effect of an
  * error of G from each subinterval on the hysteresis of all later ones. */
-static void begin_pass(walk *w, size_t level, const pass_part *core)
+static void init_pass(pass_state *w, size_t level, const pass_part *core)
 {
     friction_scratch *scratch = w->scratch;
-    const size_t first = w->plan->levels - level, last = w->plan->n_panels;
+    const size_t first = w->plan->levels - level, last = w->plan->n_subintervals;
     double variance = core->variance, hysteresis = core->hysteresis, sum = 0;
     for (size_t p = first; p < last; p++) {
-        const double part = rough_part(w->ws, scratch, p, variance);
-        variance += scratch->rough_g[p];
+        const double part = estimate_subinterval_hysteresis(w->ws, scratch, p, variance);
+        variance += scratch->estimated_g[p];
         hysteresis += part;
-        scratch->of_variance[p] = variance > 0 ? FRICTION_AREA_POWER * part / variance : 0;
+        scratch->variance_effect[p] = variance > 0 ? FRICTION_AREA_POWER * part / variance : 0;
     }
     for (size_t p = last; p > first; p--)
-        scratch->of_variance[p - 1] = sum += scratch->of_variance[p - 1];
-    const double share = FRICTION_SHARE * w->ws->options.tolerance;
+        scratch->variance_effect[p - 1] = sum += scratch->variance_effect[p - 1];
+    const double share = FRICTION_RULE_SHARE * w->ws->options.tolerance;
     w->variance_left = share * variance;
     w->hysteresis_left = share * hysteresis;
-    w->variance_least = one_part * one_part * w->variance_left;
-    w->hysteresis_least = one_part * one_part * w->hysteresis_left;
+    w->variance_least = part_share * part_share * w->variance_left;
+    w->hysteresis_least = part_share * part_share * w->hysteresis_left;
     *w->pass = (friction_pass){.level = level, .parts = last - first + 1};
-    for (size_t place = 0; place < w->pass->parts; place++)
-        scratch->error_g[place] = scratch->error_mu[place] = scratch->panel_g[place] =
-            scratch->panel_mu[place] = 0;
+    for (size_t part_index = 0; part_index < w->pass->parts; part_index++)
+        scratch->error_g[part_index] = scratch->error_mu[part_index] =
+            scratch->subinterval_g[part_index] = scratch->subinterval_mu[part_index] = 0;
 }
 
-static double of_variance_after_core(const walk *w)
+static double core_variance_effect(const pass_state *w)
 {
     const size_t first = w->plan->levels - w->pass->level;
-    return first < w->plan->n_panels ? w->scratch->of_variance[first] : 0;
+    return first < w->plan->n_subintervals ? w->scratch->variance_effect[first] : 0;
 }
 
 /* True if a rule is accurate enough for part of a subinterval that was halved `depth` times. */
-static bool is_fine(const walk *w, const pass_part *part, double of_variance, size_t depth)
+static bool is_accurate(const pass_state *w, const pass_part *part, double variance_effect,
+                        size_t depth)
 {
     const double share = ldexp(1, -(int)depth), so_far = w->pass->variance + part->variance;
-    const double variance = share * fmax(one_part * w->variance_left, w->variance_least);
-    const double hysteresis = share * fmax(one_part * w->hysteresis_left, w->hysteresis_least);
-    return part->variance_error <=
-               (w->effort.all_along ? one_part * w->ws->options.tolerance * so_far : variance) &&
-           part->variance_error * of_variance + part->hysteresis_error <= hysteresis;
+    const double variance = share * fmax(part_share * w->variance_left, w->variance_least);
+    const double hysteresis = share * fmax(part_share * w->hysteresis_left, w->hysteresis_least);
+    return part->variance_error <= (w->effort.accurate_everywhere
+                                        ? part_share * w->ws->options.tolerance * so_far
+                                        : variance) &&
+           part->variance_error * variance_effect + part->hysteresis_error <= hysteresis;
 }
 
 /* Largest rise of ln G over a subinterval for which the coefficients are a reliable error estimate.
  * P = erf(1/(2 sqrt G)) has its nearest singular points at the distance pi/2 from a real ln G, as a
  * Maxwell element in ln q, and 1 - P is steep near 0. */
-static const double most_steep[FRICTION_RULES] = {2.5, 3.5};
+static const double max_log_rise[FRICTION_RULES] = {2.5, 3.5};
 
-static bool is_steep(const walk *w, const pass_part *part, size_t rule)
+static bool is_steep(const pass_state *w, const pass_part *part, size_t rule)
 {
-    const double before = fmax(w->pass->variance, CONTACT_FULL);
-    return log((w->pass->variance + part->variance) / before) > most_steep[rule];
+    const double before = fmax(w->pass->variance, CONTACT_FULL_VARIANCE);
+    return log((w->pass->variance + part->variance) / before) > max_log_rise[rule];
 }
 
 /* Evaluates a whole subinterval by the rule of the check. */
-static node_view check_view(const walk *w, size_t p)
+static node_view check_rule_view(const pass_state *w, size_t p)
 {
     friction_scratch *scratch = w->scratch;
     scale_grid *grid = &scratch->grids[RULE_CHECK];
-    grid_fill_panels(grid, w->plan, p, p + 1, w->ws->roughness, &w->ws->options.layer);
-    const node_view view = panel_view(scratch, grid, p, scratch->room * RULE_MOST);
+    grid_fill_subintervals(grid, w->plan, p, p + 1, w->ws->roughness, &w->ws->options.layer);
+    const node_view view = subinterval_view(scratch, grid, p, scratch->room * GAUSS_NODES_MAX);
     evaluate_view(w, &view);
     return view;
 }
 
 /* Adds a subinterval or part of one, from its nodes by the first rule, with refinement. */
-static void add_panel(walk *w, const grid_panel *panel, node_view view, size_t p, size_t first,
-                      size_t depth)
+static void add_refined_subinterval(pass_state *w, const grid_subinterval *subinterval,
+                                    node_view view, size_t p, size_t first, size_t depth)
 {
-    const double of_variance = w->scratch->of_variance[p];
+    const double variance_effect = w->scratch->variance_effect[p];
     bool halve = depth < w->effort.halves;
     pass_part part;
     if (!halve) {
-        panel_pass(w->ws, &view, w->pass->variance, &part);
-        if (is_steep(w, &part, RULE_FIRST) || !is_fine(w, &part, of_variance, depth)) {
-            view = depth == 0 ? check_view(w, p) : part_view(w, panel, RULE_CHECK);
-            panel_pass(w->ws, &view, w->pass->variance, &part);
-            halve = depth < MOST_HALVES &&
-                    (is_steep(w, &part, RULE_CHECK) || !is_fine(w, &part, of_variance, depth));
+        integrate_subinterval(w->ws, &view, w->pass->variance, &part);
+        if (is_steep(w, &part, RULE_FIRST) || !is_accurate(w, &part, variance_effect, depth)) {
+            view = depth == 0 ? check_rule_view(w, p) : part_view(w, subinterval, RULE_CHECK);
+            integrate_subinterval(w->ws, &view, w->pass->variance, &part);
+            halve = depth < MAX_HALVINGS && (is_steep(w, &part, RULE_CHECK) ||
+                                             !is_accurate(w, &part, variance_effect, depth));
         }
     }
     if (!halve) {
-        add_part(w, panel, &view, &part, p - first + 1);
+        add_pass_part(w, subinterval, &view, &part, p - first + 1);
         return;
     }
     for (int upper = 0; upper < 2; upper++) {
-        const grid_panel half = grid_half(panel, upper);
-        add_panel(w, &half, part_view(w, &half, RULE_FIRST), p, first, depth + 1);
+        const grid_subinterval half = grid_half(subinterval, upper);
+        add_refined_subinterval(w, &half, part_view(w, &half, RULE_FIRST), p, first, depth + 1);
     }
 }
 
 void friction_evaluate(const wt_friction_workspace *ws, friction_scratch *scratch,
-                       const panel_plan *plan, friction_effort effort, friction_load at,
+                       const subinterval_plan *plan, friction_effort effort, friction_load at,
                        bool with_outside, friction_record *record, friction_pass *pass)
 {
-    walk w = {.ws = ws,
-              .scratch = scratch,
-              .plan = plan,
-              .effort = effort,
-              .at = at,
-              .scale = scale_of(ws, at),
-              .with_outside = with_outside,
-              .record = record,
-              .pass = pass};
-    const double share = FRICTION_SHARE * ws->options.tolerance;
-    const bool closed = !effort.all_along && ws->options.gamma == 1;
-    const size_t last = plan->n_panels, n = ws->rules[RULE_FIRST]->n;
+    pass_state w = {.ws = ws,
+                    .scratch = scratch,
+                    .plan = plan,
+                    .effort = effort,
+                    .at = at,
+                    .scale = compute_pass_scale(ws, at),
+                    .with_outside = with_outside,
+                    .record = record,
+                    .pass = pass};
+    const double share = FRICTION_RULE_SHARE * ws->options.tolerance;
+    const bool closed = !effort.accurate_everywhere && ws->options.gamma == 1;
+    const size_t last = plan->n_subintervals, n = ws->rules[RULE_FIRST]->n;
     size_t level = effort.level;
     pass_part part;
     scratch->own_error = 0;
-    begin_panels(&w, plan->levels, last);
-    node_view view = find_core(&w, closed ? one_part * share : 0, &level, &part);
-    begin_panels(&w, plan->levels - level, plan->levels);
-    begin_pass(&w, level, &part);
-    while (!is_fine(&w, &part, of_variance_after_core(&w), 0)) {
+    evaluate_subintervals(&w, plan->levels, last);
+    node_view view = choose_core(&w, closed ? part_share * share : 0, &level, &part);
+    evaluate_subintervals(&w, plan->levels - level, plan->levels);
+    init_pass(&w, level, &part);
+    while (!is_accurate(&w, &part, core_variance_effect(&w), 0)) {
         view = core_view(&w, RULE_CHECK, level);
-        core_pass(ws, &view, &part);
-        if (is_fine(&w, &part, of_variance_after_core(&w), 0) || level == plan->levels)
+        integrate_core(ws, &view, &part);
+        if (is_accurate(&w, &part, core_variance_effect(&w), 0) || level == plan->levels)
             break;
         level++; /* one more cell corresponds to a halving of a subinterval */
         view = core_view(&w, RULE_FIRST, level);
-        core_pass(ws, &view, &part);
-        begin_panels(&w, plan->levels - level, plan->levels - level + 1);
-        begin_pass(&w, level, &part);
+        integrate_core(ws, &view, &part);
+        evaluate_subintervals(&w, plan->levels - level, plan->levels - level + 1);
+        init_pass(&w, level, &part);
     }
     const size_t first = plan->levels - level;
-    add_part(&w, &plan->core[level], &view, &part, 0);
+    add_pass_part(&w, &plan->core[level], &view, &part, 0);
     for (size_t p = first; p < last; p++)
-        add_panel(&w, &plan->panels[p], panel_view(scratch, &scratch->grids[RULE_FIRST], p, p * n),
-                  p, first, 0);
+        add_refined_subinterval(&w, &plan->subintervals[p],
+                                subinterval_view(scratch, &scratch->grids[RULE_FIRST], p, p * n), p,
+                                first, 0);
 }

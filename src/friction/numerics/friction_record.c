@@ -10,7 +10,7 @@
 void friction_record_add(friction_record *record, const double *q, const double *mu, size_t n)
 {
     if (record->n + n > record->room) {
-        const size_t room = 2 * record->room + 8 * RULE_MOST;
+        const size_t room = 2 * record->room + 8 * GAUSS_NODES_MAX;
         double *more_q = realloc(record->q, room * sizeof *more_q);
         record->q = more_q != NULL ? more_q : record->q;
         double *more_mu = realloc(record->mu, room * sizeof *more_mu);

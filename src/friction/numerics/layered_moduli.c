@@ -34,7 +34,7 @@ bool layer_has_moduli(const wt_layer_state *layer)
 wt_status layer_slope_shift(const wt_shift_law *law, double to, wt_ratio_slope *slope,
                             wt_error *err)
 {
-    const double same = 1; /* largest temperature difference without a shift law [K] */
+    const double same_temperature = 1; /* largest temperature difference without a shift law [K] */
     const double from = slope->temperature;
     if (isnan(from) || slope->exponent == 0 || from == to)
         return WT_OK;
@@ -46,7 +46,7 @@ wt_status layer_slope_shift(const wt_shift_law *law, double to, wt_ratio_slope *
         return WT_E_MISSING;
     }
     const double log_a = wt_shift_law_log_a(law, from) - wt_shift_law_log_a(law, to);
-    if (isnan(log_a) && fabs(from - to) <= same)
+    if (isnan(log_a) && fabs(from - to) <= same_temperature)
         return WT_OK;
     if (isnan(log_a)) {
         wt_fail(err, WT_E_MISSING, "the modulus ratio is of another temperature than the rubber");
@@ -63,7 +63,7 @@ wt_status layer_slope_shift(const wt_shift_law *law, double to, wt_ratio_slope *
 
 /* theta is a fraction 1 / (1 + e^-p) of a part, p = t + e^t - 1. It rises as e^t from the start,
  * which covers many decades of frequency, and converges to the end double-exponentially. */
-static void make_rule(layer_moduli *m, double tolerance)
+static void create_angle_rule(layer_moduli *m, double tolerance)
 {
     size_t k = 0;
     while (tolerance < rules[k].tolerance)
@@ -95,20 +95,20 @@ static double loss_angle(double log_omega, void *user)
     const double omega = exp(log_omega);
     double storage, loss, log_ratio, phase;
     m->bulk->law->modulus(m->bulk, &omega, 1, &storage, &loss);
-    wt_ratio_slope_at(&m->layer.slope, omega, &log_ratio, &phase);
+    wt_ratio_slope_eval(&m->layer.slope, omega, &log_ratio, &phase);
     return atan2(loss, storage) + phase;
 }
 
 /* Adds the edges of the ranges with zero loss modulus. Beyond the measured range the phase of a
  * ratio falls with the frequency, and the loss angle of a rubber hardly changes. Six decades
  * further, the loss angle is always the larger. */
-static void add_gain_edges(layer_moduli *m)
+static void add_zero_loss_edges(layer_moduli *m)
 {
     const double beyond = 6 * M_LN10,
                  step = M_LN10 / 8; /* the loss angle of a rubber changes over decades */
     const double low = log(m->limit[0]) - beyond, high = log(m->limit[1]) + beyond;
     double before = loss_angle(low, m), root;
-    for (double from = low; from < high && m->n_edges < LAYER_MOST_EDGES; from += step) {
+    for (double from = low; from < high && m->n_edges < LAYER_MAX_EDGES; from += step) {
         const double now = loss_angle(from + step, m);
         if ((before > 0) != (now > 0) &&
             root_find(loss_angle, m, from, from + step, 0, &root, NULL) == WT_OK)
@@ -118,20 +118,20 @@ static void add_gain_edges(layer_moduli *m)
     numbers_sort(m->edges, m->n_edges);
 }
 
-layer_moduli layer_moduli_of(const wt_material *bulk, wt_layer_state layer, double tolerance)
+layer_moduli layer_moduli_create(const wt_material *bulk, wt_layer_state layer, double tolerance)
 {
     layer_moduli m = {.bulk = bulk, .layer = layer};
     if (layer.own == NULL) {
         m.limit[0] = m.edges[m.n_edges++] = layer.slope.low;
         m.limit[1] = m.edges[m.n_edges++] = layer.slope.high;
         if (layer.slope.exponent < 0)
-            add_gain_edges(&m);
+            add_zero_loss_edges(&m);
     } else {
         m.limit[0] = layer.own->frequency_min;
         m.limit[1] = layer.own->frequency_max;
     }
     m.knots = has_knots(bulk) || (layer.own != NULL && has_knots(layer.own));
-    make_rule(&m, tolerance);
+    create_angle_rule(&m, tolerance);
     return m;
 }
 
@@ -140,8 +140,8 @@ layer_moduli layer_moduli_of(const wt_material *bulk, wt_layer_state layer, doub
 /* Complex moduli of bulk and layer; the frequencies of a layer's own material are multiplied by
  * `times`. A negative loss modulus is set to 0, because a rubber cannot return more energy than it
  * received. */
-static void find_moduli(const layer_moduli *m, const double *omega, double times, size_t n,
-                        double complex *bulk, double complex *layer)
+static void evaluate_moduli(const layer_moduli *m, const double *omega, double times, size_t n,
+                            double complex *bulk, double complex *layer)
 {
     double storage[ANGLE_NODES], loss[ANGLE_NODES];
     m->bulk->law->modulus(m->bulk, omega, n, storage, loss);
@@ -159,7 +159,7 @@ static void find_moduli(const layer_moduli *m, const double *omega, double times
             continue;
         }
         double log_ratio, phase;
-        wt_ratio_slope_at(&m->layer.slope, omega[i], &log_ratio, &phase);
+        wt_ratio_slope_eval(&m->layer.slope, omega[i], &log_ratio, &phase);
         const double ratio = m->layer.modulus_ratio * exp(log_ratio);
         const double complex turned = bulk[i] * (ratio * cos(phase) + unit * (ratio * sin(phase)));
         layer[i] = creal(turned) + unit * fmax(cimag(turned), 0);
@@ -169,18 +169,18 @@ static void find_moduli(const layer_moduli *m, const double *omega, double times
 double layer_moduli_ratio(const layer_moduli *m, double omega)
 {
     double complex bulk, layer;
-    find_moduli(m, &omega, 1, 1, &bulk, &layer);
+    evaluate_moduli(m, &omega, 1, 1, &bulk, &layer);
     return cabs(layer) / cabs(bulk);
 }
 
-bool layer_moduli_gain(const layer_moduli *m, double low, double high, double range[2])
+bool layer_moduli_zero_loss_range(const layer_moduli *m, double low, double high, double range[2])
 {
     enum { STEPS = 200 }; /* about ten in a decade */
     bool any = false;
     for (size_t i = 0; m->layer.own == NULL && i <= STEPS; i++) {
         const double omega = low * pow(high / low, (double)i / STEPS);
         double complex bulk, layer;
-        find_moduli(m, &omega, 1, 1, &bulk, &layer);
+        evaluate_moduli(m, &omega, 1, 1, &bulk, &layer);
         if (cimag(layer) > 0 || !(cimag(bulk) > 0))
             continue;
         if (!any)
@@ -202,7 +202,7 @@ typedef struct layered_wave {
     double expm1_2, expm1_4;
 } layered_wave;
 
-static layered_wave layered_wave_of(double x)
+static layered_wave layered_wave_create(double x)
 {
     return (layered_wave){.x = x,
                           .e = exp(-2 * x),
@@ -236,8 +236,8 @@ typedef struct angle_sums {
     double j1[ANGLE_LEVELS], j2[ANGLE_LEVELS], loss[ANGLE_LEVELS];
 } angle_sums;
 
-static void add_part(const layer_moduli *m, const layered_wave *wave, double omega, double times,
-                     double from, double to, angle_sums *sums)
+static void add_angle_part(const layer_moduli *m, const layered_wave *wave, double omega,
+                           double times, double from, double to, angle_sums *sums)
 {
     double sine[ANGLE_NODES], at[ANGLE_NODES] = {0};
     double complex bulk[ANGLE_NODES], layer[ANGLE_NODES];
@@ -245,12 +245,12 @@ static void add_part(const layer_moduli *m, const layered_wave *wave, double ome
         sine[i] = sin(from + (to - from) * m->fraction[i]);
         at[i] = omega * sine[i];
     }
-    find_moduli(m, at, times, m->n, bulk, layer);
+    evaluate_moduli(m, at, times, m->n, bulk, layer);
     for (size_t i = 0; i < m->n; i++) {
         const double complex e = layer[i] * layered_stiffness(wave, layer[i] / bulk[i]);
         const double square = sine[i] * sine[i], width = 4 * (to - from);
-        const double of1 = m->weight != NULL ? weight_at(m->weight->power[0], square) : 1;
-        const double of2 = m->weight != NULL ? weight_at(m->weight->power[1], square) : 1;
+        const double of1 = m->weight != NULL ? weight_evaluate(m->weight->power[0], square) : 1;
+        const double of2 = m->weight != NULL ? weight_evaluate(m->weight->power[1], square) : 1;
         const double loss = cimag(e), storage = creal(e);
         for (size_t k = 0, every = 1; k < ANGLE_LEVELS && i % every == 0; k++, every *= 2) {
             const double by = width * (m->share[i] * (double)every + (i == 0 ? m->below[k] : 0));
@@ -263,7 +263,7 @@ static void add_part(const layer_moduli *m, const layered_wave *wave, double ome
 
 /* Half as many nodes leave the square root of the error of all nodes; if a material has knots, a
  * fraction of it. */
-static double sum_error(const layer_moduli *m, const double sum[ANGLE_LEVELS])
+static double angle_error(const layer_moduli *m, const double sum[ANGLE_LEVELS])
 {
     const double room = 10;
     const double fewer = fabs(sum[0] - sum[1]) / sum[0];
@@ -272,30 +272,32 @@ static double sum_error(const layer_moduli *m, const double sum[ANGLE_LEVELS])
     return (m->knots ? fewer : fmin(fewer, room * fewer * fewer)) + 8 * DBL_EPSILON;
 }
 
-static angle_sums sum_turn(const layer_moduli *m, double q, double omega, double times)
+static angle_sums integrate_quarter_turn(const layer_moduli *m, double q, double omega,
+                                         double times)
 {
-    const layered_wave wave = layered_wave_of(q * m->layer.thickness);
+    const layered_wave wave = layered_wave_create(q * m->layer.thickness);
     angle_sums sums = {{0}, {0}, {0}};
     double from = 0;
     for (size_t k = 0; k < m->n_edges; k++)
         if (m->edges[k] < omega) {
             const double to = asin(m->edges[k] / omega);
-            add_part(m, &wave, omega, times, from, to, &sums);
+            add_angle_part(m, &wave, omega, times, from, to, &sums);
             from = to;
         }
-    add_part(m, &wave, omega, times, from, M_PI_2, &sums);
+    add_angle_part(m, &wave, omega, times, from, M_PI_2, &sums);
     return sums;
 }
 
 void layer_moduli_eval(const layer_moduli *m, const double *q, const double *omega,
-                       const double *further, size_t n, double *j1, double *j2, double *loss_j2,
+                       const double *extra_shift, size_t n, double *j1, double *j2, double *loss_j2,
                        double *error)
 {
     for (size_t i = 0; i < n; i++) {
-        const angle_sums sums = sum_turn(m, q[i], omega[i], further != NULL ? exp(further[i]) : 1);
+        const angle_sums sums = integrate_quarter_turn(
+            m, q[i], omega[i], extra_shift != NULL ? exp(extra_shift[i]) : 1);
         j1[i] = sums.j1[0];
         j2[i] = sums.j2[0];
-        *error = fmax(*error, fmax(sum_error(m, sums.j1), sum_error(m, sums.j2)));
+        *error = fmax(*error, fmax(angle_error(m, sums.j1), angle_error(m, sums.j2)));
         if (loss_j2 != NULL)
             loss_j2[i] = sums.loss[0];
     }

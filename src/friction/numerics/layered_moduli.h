@@ -15,13 +15,13 @@ enum { ANGLE_NODES = 144, ANGLE_LEVELS = 2 }; /* levels: all nodes, every second
 /* Capacity for the limits of the measured range of a ratio and of the ranges with zero loss
  * modulus. A series with many relaxation times has several such ranges; further ones are ignored.
  */
-enum { LAYER_MOST_EDGES = 16 };
+enum { LAYER_MAX_EDGES = 16 };
 
 typedef struct layer_moduli {
     const wt_material *bulk; /* borrowed, as is the material of the layer */
     wt_layer_state layer;
-    const angular_weight *weight;   /* weight of anisotropic roughness, borrowed; NULL if none */
-    double edges[LAYER_MOST_EDGES]; /* frequencies at which the layer's moduli are not smooth,
+    const angular_weight *weight;  /* weight of anisotropic roughness, borrowed; NULL if none */
+    double edges[LAYER_MAX_EDGES]; /* frequencies at which the layer's moduli are not smooth,
                                        rising [rad/s] */
     size_t n_edges;
     double limit[2]; /* range in which the layer's moduli are measured [rad/s]; NaN if unlimited */
@@ -36,17 +36,18 @@ bool layer_has_moduli(const wt_layer_state *layer);
 /* Shifts the frequencies of a slope from its temperature to another one by the law of the bulk. */
 wt_status layer_slope_shift(const wt_shift_law *law, double to, wt_ratio_slope *slope,
                             wt_error *err) WT_NODISCARD;
-layer_moduli layer_moduli_of(const wt_material *bulk, wt_layer_state layer, double tolerance);
+layer_moduli layer_moduli_create(const wt_material *bulk, wt_layer_state layer, double tolerance);
 /* |E_layer / E_bulk| at a frequency > 0. */
 double layer_moduli_ratio(const layer_moduli *moduli, double omega);
 /* Range of frequencies between `low` and `high` in which a falling ratio would give a negative loss
  * modulus, which is set to 0. False if there is none. */
-bool layer_moduli_gain(const layer_moduli *moduli, double low, double high, double range[2]);
+bool layer_moduli_zero_loss_range(const layer_moduli *moduli, double low, double high,
+                                  double range[2]);
 /* J1 and J2 at n wavenumbers with their frequencies q v. The frequency of the layer is
  * exp(extra_shift) times as high (NULL: the same). loss_j2 receives the integral of the squared
  * loss modulus. `*error` is raised to the largest relative error. */
 void layer_moduli_eval(const layer_moduli *moduli, const double *q, const double *omega,
-                       const double *further, size_t n, double *j1, double *j2, double *loss_j2,
+                       const double *extra_shift, size_t n, double *j1, double *j2, double *loss_j2,
                        double *error);
 
 #endif

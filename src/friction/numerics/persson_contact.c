@@ -13,19 +13,20 @@
 
 double contact_area(double variance)
 {
-    return variance > CONTACT_FULL ? erf(0.5 / sqrt(variance)) : 1;
+    return variance > CONTACT_FULL_VARIANCE ? erf(0.5 / sqrt(variance)) : 1;
 }
 
 /* Above this variance the argument of erf is at most 1, and its power series converges fast. */
-static const double late = 0.25;
+static const double large_variance = 0.25;
 /* Lengths in whole registers, because a partial register costs as much. */
-enum { REGISTER = CONTACT_ROOM + 1, AT_ONCE = 8 };
+enum { REGISTER_LENGTH = CONTACT_PADDING + 1, REGISTERS_PER_BATCH = 8 };
 
 /* erf(x) = 2 / sqrt(pi) sum of (-1)^k x^(2 k + 1) / (k! (2 k + 1)), even and odd k in turn. */
 WIDE_REGISTERS
-static void late_areas(const double *restrict variance, size_t registers, double *restrict area)
+static void large_variance_areas(const double *restrict variance, size_t registers,
+                                 double *restrict area)
 {
-    for (size_t i = 0; i < registers * REGISTER; i++) {
+    for (size_t i = 0; i < registers * REGISTER_LENGTH; i++) {
         const double square = 0.25 / variance[i], fourth = square * square;
         double even = 1 / 690452066304000.0, odd = 1 / 12449059983360000.0; /* k = 16, 17 */
         even = even * fourth + 1 / 2528170444800.0;
@@ -52,10 +53,10 @@ static void late_areas(const double *restrict variance, size_t registers, double
  * 14 in z = 9.6 / (x + 2) - 2.2. z is 1 at x = 1 and -1 at x = 6, where e^(-x^2) is 2e-16. The
  * polynomial interpolates at Chebyshev nodes with the error 3e-17. */
 WIDE_REGISTERS
-static void early_ratios(const double *restrict variance, size_t registers,
-                         double *restrict exponent, double *restrict ratio)
+static void scaled_erfc(const double *restrict variance, size_t registers,
+                        double *restrict exponent, double *restrict ratio)
 {
-    for (size_t i = 0; i < registers * REGISTER; i++) {
+    for (size_t i = 0; i < registers * REGISTER_LENGTH; i++) {
         const double z = 9.6 / (0.5 / sqrt(variance[i]) + 2) - 2.2, zz = z * z;
         exponent[i] = -0.25 / variance[i];
         double even = 1.8387975053360617e-11, odd = -7.2896200910643853e-11;
@@ -76,29 +77,32 @@ static void early_ratios(const double *restrict variance, size_t registers,
     }
 }
 
-static void early_areas(const double *variance, size_t registers, double *area)
+static void small_variance_areas(const double *variance, size_t registers, double *area)
 {
-    double exponent[REGISTER * AT_ONCE], ratio[REGISTER * AT_ONCE], power[REGISTER * AT_ONCE];
+    double exponent[REGISTER_LENGTH * REGISTERS_PER_BATCH],
+        ratio[REGISTER_LENGTH * REGISTERS_PER_BATCH], power[REGISTER_LENGTH * REGISTERS_PER_BATCH];
     for (size_t from = 0, n; from < registers; from += n) {
-        n = registers - from < AT_ONCE ? registers - from : AT_ONCE;
-        early_ratios(variance + from * REGISTER, n, exponent, ratio);
-        exponential(exponent, n * REGISTER, power);
-        for (size_t i = 0; i < n * REGISTER; i++)
-            area[from * REGISTER + i] = 1 - power[i] * ratio[i];
+        n = registers - from < REGISTERS_PER_BATCH ? registers - from : REGISTERS_PER_BATCH;
+        scaled_erfc(variance + from * REGISTER_LENGTH, n, exponent, ratio);
+        vector_exp(exponent, n * REGISTER_LENGTH, power);
+        for (size_t i = 0; i < n * REGISTER_LENGTH; i++)
+            area[from * REGISTER_LENGTH + i] = 1 - power[i] * ratio[i];
     }
 }
 
 void contact_areas(const double *variance, size_t n, double *area)
 {
     size_t full = 0, early;
-    while (full < n && !(variance[full] > CONTACT_FULL))
+    while (full < n && !(variance[full] > CONTACT_FULL_VARIANCE))
         area[full++] = 1;
-    for (early = full; early < n && !(variance[early] > late);)
+    for (early = full; early < n && !(variance[early] > large_variance);)
         early++;
     if (early > full)
-        early_areas(variance + full, (early - full + REGISTER - 1) / REGISTER, area + full);
+        small_variance_areas(variance + full,
+                             (early - full + REGISTER_LENGTH - 1) / REGISTER_LENGTH, area + full);
     if (n > early)
-        late_areas(variance + early, (n - early + REGISTER - 1) / REGISTER, area + early);
+        large_variance_areas(variance + early, (n - early + REGISTER_LENGTH - 1) / REGISTER_LENGTH,
+                             area + early);
 }
 
 /* erfc is so steep that the rounding of its argument y matters; y^2 G = 1/4 gives that rounding. */
@@ -114,7 +118,7 @@ double contact_gap(double variance)
 
 /* Change of P = erf(y), y^2 = 1 / (4 G), with G by its slope. Within G (1 +- e) the slope is larger
  * by at most (1 - e)^-1.5 exp(y^2 e). NaN if the change is too large for that. */
-static double small_change(double variance, double variance_error)
+static double linear_change(double variance, double variance_error)
 {
     const double e = variance_error / variance, square = 0.25 / variance, power = square * e;
     if (!(e < 0.01 && power < 0.1))
@@ -125,7 +129,7 @@ static double small_change(double variance, double variance_error)
 
 double contact_area_error(double variance, double variance_error)
 {
-    const double area = contact_area(variance), change = small_change(variance, variance_error);
+    const double area = contact_area(variance), change = linear_change(variance, variance_error);
     if (change >= 0)
         return change + 4 * DBL_EPSILON * area;
     const double above = area - contact_area(variance + variance_error);
@@ -140,7 +144,7 @@ static const double gap_rounding = 1e-14;
 
 double contact_gap_error(double variance, double variance_error)
 {
-    const double gap = contact_gap(variance), change = small_change(variance, variance_error);
+    const double gap = contact_gap(variance), change = linear_change(variance, variance_error);
     /* where erfc underflows, the true value is below the smallest normal number */
     const double least = variance > 0 ? DBL_MIN : 0;
     if (change >= 0)
@@ -178,7 +182,7 @@ static double cube_integral(double variance)
 
 double contact_integral(double variance, double gamma)
 {
-    if (!(variance > CONTACT_FULL))
+    if (!(variance > CONTACT_FULL_VARIANCE))
         return variance;
     const double y = 0.5 / sqrt(variance);
     const double plain = variance * erf(y) + sqrt(variance / M_PI) * exp(-y * y) - 0.5 * erfc(y);

@@ -8,13 +8,13 @@
 #include <stddef.h>
 
 /* Below this variance 1 - P is less than 1e-38. */
-#define CONTACT_FULL 3e-3
+#define CONTACT_FULL_VARIANCE 3e-3
 
 /* P = erf(1 / (2 sqrt G)); 1 for G <= 0. */
 double contact_area(double variance);
 /* Contact areas of n rising variances. Both arrays have this number of additional elements, whose
  * values are arbitrary. */
-enum { CONTACT_ROOM = 3 };
+enum { CONTACT_PADDING = 3 };
 void contact_areas(const double *variance, size_t n, double *area);
 /* 1 - P without cancellation. */
 double contact_gap(double variance);

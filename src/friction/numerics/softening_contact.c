@@ -14,34 +14,34 @@
 
 /* ---- the loss modulus alone ------------------------------------------------------------------ */
 
-static const wt_material *whole_of(const wt_material *loss)
+static const wt_material *source_material(const wt_material *loss)
 {
     const strain_law *s = loss->data;
-    return s->whole;
+    return s->source;
 }
 
 static void loss_modulus(const wt_material *material, const double *omega, size_t n,
                          double *storage, double *loss)
 {
-    const wt_material *whole = whole_of(material);
-    whole->law->modulus(whole, omega, n, storage, loss);
+    const wt_material *source = source_material(material);
+    source->law->modulus(source, omega, n, storage, loss);
     for (size_t i = 0; i < n; i++)
         storage[i] = 0;
 }
 
 static const double *loss_breaks(const wt_material *material, size_t *n)
 {
-    const wt_material *whole = whole_of(material);
+    const wt_material *source = source_material(material);
     *n = 0;
-    return whole->law->breaks != NULL ? whole->law->breaks(whole, n) : NULL;
+    return source->law->breaks != NULL ? source->law->breaks(source, n) : NULL;
 }
 
 /* J1 is not computed here; it is read from the complete material. */
 static void loss_angular(const wt_material *material, const double *omega, size_t n, double *j1,
                          double *j2)
 {
-    const wt_material *whole = whole_of(material);
-    whole->law->angular_loss(whole, omega, n, j2);
+    const wt_material *source = source_material(material);
+    source->law->angular_loss(source, omega, n, j2);
     for (size_t i = 0; i < n; i++)
         j1[i] = 0;
 }
@@ -49,8 +49,8 @@ static void loss_angular(const wt_material *material, const double *omega, size_
 /* The closed form is a double sum. */
 static size_t loss_terms(const wt_material *material)
 {
-    const wt_material *whole = whole_of(material);
-    const size_t n = whole->law->terms != NULL ? whole->law->terms(whole) : 1;
+    const wt_material *source = source_material(material);
+    const size_t n = source->law->terms != NULL ? source->law->terms(source) : 1;
     return n * n;
 }
 
@@ -74,14 +74,14 @@ double softening_strain(const strain_law *s, double q)
 
 /* Strain at q = q0 e^t. Near q0 a rounded q loses digits of t; the square of the strain is
  * proportional to t there. */
-static double strain_at(const strain_law *s, double q, double t)
+static double running_strain(const strain_law *s, double q, double t)
 {
     const double rounded = log1p((q - s->roughness->q0) / s->roughness->q0);
     return softening_strain(s, q) * (rounded > 0 && t < rounding_counts ? sqrt(t / rounded) : 1);
 }
 
 /* Returns the last point of the table at or below ln eps, or n. */
-static size_t point_before(const strain_law *s, double log_strain)
+static size_t preceding_point(const strain_law *s, double log_strain)
 {
     size_t low = 0, high = s->n;
     while (low < high) {
@@ -94,12 +94,12 @@ static size_t point_before(const strain_law *s, double log_strain)
     return low > 0 ? low - 1 : s->n;
 }
 
-void softening_at(const strain_law *s, const double *q, const double *t, size_t n, double *f,
-                  double *g)
+void softening_factors(const strain_law *s, const double *q, const double *t, size_t n, double *f,
+                       double *g)
 {
     for (size_t i = 0; i < n; i++) {
-        const double x = log(strain_at(s, q[i], t[i]));
-        const size_t before = point_before(s, x);
+        const double x = log(running_strain(s, q[i], t[i]));
+        const size_t before = preceding_point(s, x);
         const size_t k = before == s->n ? 0 : before;
         f[i] = s->f[k];
         g[i] = s->g[k];
@@ -113,20 +113,20 @@ void softening_at(const strain_law *s, const double *q, const double *t, size_t 
 
 /* ---- construction ---------------------------------------------------------------------------- */
 
-typedef struct meeting {
+typedef struct strain_crossing {
     const strain_law *s;
     double strain;
-} meeting;
+} strain_crossing;
 
-static double strain_above(double t, void *user)
+static double strain_excess(double t, void *user)
 {
-    const meeting *m = user;
+    const strain_crossing *m = user;
     const wt_roughness *r = m->s->roughness;
-    const double ratio = strain_at(m->s, fmin(r->q0 + r->q0 * expm1(t), r->q1), t) / m->strain;
+    const double ratio = running_strain(m->s, fmin(r->q0 + r->q0 * expm1(t), r->q1), t) / m->strain;
     return ratio * ratio - 1;
 }
 
-static wt_status find_cuts(strain_law *s, arena *memory, wt_error *err)
+static wt_status find_strain_cuts(strain_law *s, arena *memory, wt_error *err)
 {
     const wt_roughness *r = s->roughness;
     const double length = log1p((r->q1 - r->q0) / r->q0);
@@ -135,13 +135,13 @@ static wt_status find_cuts(strain_law *s, arena *memory, wt_error *err)
         return wt_fail(err, WT_E_MEMORY, "out of memory for a table of strain");
     double from = 0;
     for (size_t k = 0; k < s->n; k++) {
-        meeting m = {.s = s, .strain = exp(s->log_strain[k])};
-        if (!(strain_above(length, &m) > 0))
+        strain_crossing m = {.s = s, .strain = exp(s->log_strain[k])};
+        if (!(strain_excess(length, &m) > 0))
             break;
-        const bool met = strain_above(from, &m) < 0; /* otherwise the strain is reached at the
+        const bool met = strain_excess(from, &m) < 0; /* otherwise the strain is reached at the
                                                         smallest representable t */
         const wt_status status =
-            met ? root_find(strain_above, &m, from, length, 0, &from, err) : WT_OK;
+            met ? root_find(strain_excess, &m, from, length, 0, &from, err) : WT_OK;
         if (status != WT_OK)
             return status;
         const double q = fmin(r->q0 + r->q0 * expm1(from), r->q1);
@@ -174,9 +174,9 @@ wt_status softening_new(const wt_softening *table, double factor, const wt_mater
                       .log_strain = numbers,
                       .f = numbers + table->n,
                       .g = numbers + 2 * table->n,
-                      .caution = 1,
+                      .cancellation = 1,
                       .range = {roughness->q1, roughness->q1},
-                      .whole = material,
+                      .source = material,
                       .loss = *material};
     s->loss.law = material->law->angular_loss != NULL ? &loss_law_closed : &loss_law;
     s->loss.data = s;
@@ -185,7 +185,7 @@ wt_status softening_new(const wt_softening *table, double factor, const wt_mater
         s->log_strain[k] = log(table->strain[k]);
         const double f = s->f[k] = table->storage[k], g = s->g[k] = table->loss[k];
         if (f > g)
-            s->caution = fmax(s->caution, 2 * (f / g) * (f / g) - 1);
+            s->cancellation = fmax(s->cancellation, 2 * (f / g) * (f / g) - 1);
         if (k == 0)
             continue;
         const double by = s->log_strain[k] - s->log_strain[k - 1];
@@ -194,12 +194,12 @@ wt_status softening_new(const wt_softening *table, double factor, const wt_mater
             fmax(s->steepest, fmax(fabs(f - s->f[k - 1]), fabs(g - s->g[k - 1])) / (by * least));
     }
     *made = s;
-    return find_cuts(s, memory, err);
+    return find_strain_cuts(s, memory, err);
 }
 
 /* ---- public functions ------------------------------------------------------------------------ */
 
-void wt_friction_strained(const wt_friction_workspace *workspace, double range[2])
+void wt_friction_strain_range(const wt_friction_workspace *workspace, double range[2])
 {
     const strain_law *s = workspace != NULL ? workspace->softening : NULL;
     for (size_t i = 0; i < 2; i++)

@@ -19,13 +19,13 @@ typedef struct strain_law {
     size_t n;
     double *log_strain, *f, *g; /* [n] */
     size_t n_cuts;
-    double *cuts;    /* [n_cuts] ln(q / q0) at which the strain of a point of the table is
-                        reached, rising */
-    double range[2]; /* wavenumbers of the first and the last point; q1 if not reached */
-    double caution;  /* factor by which the relative error of the sum for J2 can exceed that of
-                        its terms */
-    double steepest; /* largest |d ln f / d ln eps| and |d ln g / d ln eps| */
-    const wt_material *whole;
+    double *cuts;        /* [n_cuts] ln(q / q0) at which the strain of a point of the table is
+                            reached, rising */
+    double range[2];     /* wavenumbers of the first and the last point; q1 if not reached */
+    double cancellation; /* factor by which the relative error of the sum for J2 can exceed that of
+                       its terms */
+    double steepest;     /* largest |d ln f / d ln eps| and |d ln g / d ln eps| */
+    const wt_material *source;
     wt_material loss; /* material whose |E|^2 is the squared loss modulus of the source */
 } strain_law;
 
@@ -36,7 +36,7 @@ wt_status softening_new(const wt_softening *table, double factor, const wt_mater
 /* Strain at a wavenumber. */
 double softening_strain(const strain_law *s, double q);
 /* f and g at n wavenumbers q = q0 e^t. */
-void softening_at(const strain_law *s, const double *q, const double *t, size_t n, double *f,
-                  double *g);
+void softening_factors(const strain_law *s, const double *q, const double *t, size_t n, double *f,
+                       double *g);
 
 #endif

@@ -24,7 +24,7 @@
 static const double force_range = 0.3e-9;
 /* Search range of the work of adhesion [J/m^2]. Surfaces have 1e-3 to 1; welded surfaces are no
  * contact. */
-static const double least_work = 1e-9, most_work = 1e3;
+static const double min_work = 1e-9, max_work = 1e3;
 /* Bisection needs about 60 steps, and false position about 10, to the last digit of a double. */
 /* Relative step of the bare depth at convergence. The remaining error is of the order of its
  * square. */
@@ -47,22 +47,23 @@ typedef struct bare_contacts {
     double g[BLOCK], slope[BLOCK], curvature[BLOCK];
 } bare_contacts;
 
-static void bare_at(const adhesion *law, const double *bare, size_t n, bare_contacts *to)
+static void bare_contact_values(const adhesion *law, const double *bare, size_t n,
+                                bare_contacts *to)
 {
     contact_table_values(law->table, bare, n, to->g, to->slope, to->curvature);
 }
 
-static double pull_of(const adhesion *law)
+static double adhesion_prefactor(const adhesion *law)
 {
     return sqrt(2.0 * M_PI * law->work / law->reduced);
 }
 
-WIDE_REGISTERS void adhesion_along(const adhesion *law, const double *bare, size_t n,
-                                   adhesive_contacts *to)
+WIDE_REGISTERS void adhesion_contacts(const adhesion *law, const double *bare, size_t n,
+                                      adhesive_contacts *to)
 {
     bare_contacts v;
-    const double e = law->reduced, pull = pull_of(law);
-    bare_at(law, bare, n, &v);
+    const double e = law->reduced, pull = adhesion_prefactor(law);
+    bare_contact_values(law, bare, n, &v);
     for (size_t i = 0; i < n; i++) {
         const double a = 0.5 * v.slope[i], root = sqrt(a), fall = pull * root,
                      q = 0.25 * pull * v.curvature[i] / root,
@@ -76,10 +77,10 @@ WIDE_REGISTERS void adhesion_along(const adhesion *law, const double *bare, size
     }
 }
 
-adhesive_contact adhesion_at(const adhesion *law, double bare)
+adhesive_contact adhesion_contact_value(const adhesion *law, double bare)
 {
     adhesive_contacts c;
-    adhesion_along(law, &bare, 1, &c);
+    adhesion_contacts(law, &bare, 1, &c);
     return (adhesive_contact){c.radius[0],    c.depth[0],      c.force[0],
                               c.stiffness[0], c.by_modulus[0], c.by_work[0]};
 }
@@ -94,47 +95,47 @@ typedef struct release_search {
 /* Stability of the branch against the cantilever at n points: (dF + k ddelta) along the branch over
  * the change of the bare depth, and over k if k is infinite. The branch is stable where the value
  * is positive. */
-WIDE_REGISTERS static void restoring_at(const release_search *s, const double *bare, size_t n,
-                                        double *to)
+WIDE_REGISTERS static void branch_stabilities(const release_search *s, const double *bare, size_t n,
+                                              double *to)
 {
     bare_contacts v;
-    const double e = s->law->reduced, pull = pull_of(s->law), k = s->k;
+    const double e = s->law->reduced, pull = adhesion_prefactor(s->law), k = s->k;
     const bool fixed = isinf(k);
-    bare_at(s->law, bare, n, &v);
+    bare_contact_values(s->law, bare, n, &v);
     for (size_t i = 0; i < n; i++) {
         const double a = 0.5 * v.slope[i], q = 0.25 * pull * v.curvature[i] / sqrt(a);
         to[i] = fixed ? 1.0 - q : 2.0 * e * a * (1.0 - 3.0 * q) + k * (1.0 - q);
     }
 }
 
-static double restoring(double bare, void *user)
+static double branch_stability(double bare, void *user)
 {
     double value;
-    restoring_at(user, &bare, 1, &value);
+    branch_stabilities(user, &bare, 1, &value);
     return value;
 }
 
-static bool holds(release_search *s, double bare)
+static bool is_stable(release_search *s, double bare)
 {
-    return restoring(bare, s) > 0.0;
+    return branch_stability(bare, s) > 0.0;
 }
 
-static double end_between(release_search *s, double low, double high)
+static double solve_branch_end(release_search *s, double low, double high)
 {
     double end = high;
-    return root_find(restoring, s, low, high, 0.0, &end, NULL) == WT_OK ? end : (double)NAN;
+    return root_find(branch_stability, s, low, high, 0.0, &end, NULL) == WT_OK ? end : (double)NAN;
 }
 
 /* Finds the end of the branch from any start. The function requires that the branch has one end. */
-static double end_from(release_search *s, double bare)
+static double bracket_branch_end(release_search *s, double bare)
 {
-    const bool inside = holds(s, bare);
+    const bool inside = is_stable(s, bare);
     double next = bare;
-    for (int i = 0; i < MAX_STEPS && holds(s, next) == inside; i++) {
+    for (int i = 0; i < MAX_STEPS && is_stable(s, next) == inside; i++) {
         bare = next;
         next *= inside ? 0.25 : 4.0;
     }
-    return inside ? end_between(s, next, bare) : end_between(s, bare, next);
+    return inside ? solve_branch_end(s, next, bare) : solve_branch_end(s, bare, next);
 }
 
 /* Radius over the square root of the profile slope rises with the radius below a corner at radius
@@ -148,36 +149,36 @@ double adhesion_release(const adhesion *law, double k)
     const wt_tip *tip = contact_table_tip(law->table);
     const double corner = contact_switch_depth(tip);
     if (!(corner > 0.0) || isinf(corner))
-        return end_from(&search, 1e-9);
+        return bracket_branch_end(&search, 1e-9);
     double top = corner;
     for (bare_contacts v = {.slope = {0.0}}; v.slope[0] < 4.0 * tip->transition_radius;
-         bare_at(law, &top, 1, &v))
+         bare_contact_values(law, &top, 1, &v))
         top *= 2.0;
-    if (!holds(&search, top))
-        return end_from(&search, top);
+    if (!is_stable(&search, top))
+        return bracket_branch_end(&search, top);
     double bare[CORNER_NODES + 1], force[CORNER_NODES];
     for (int i = 0; i <= CORNER_NODES; i++) {
         const double share = (double)i / CORNER_NODES;
         bare[i] = corner + share * share * (top - corner);
     }
-    restoring_at(&search, bare, CORNER_NODES, force);
+    branch_stabilities(&search, bare, CORNER_NODES, force);
     for (int i = CORNER_NODES - 1; i > 0; i--)
         if (!(force[i] > 0.0))
-            return end_between(&search, bare[i], bare[i + 1]);
-    return holds(&search, corner) ? end_from(&search, corner)
-                                  : corner; /* below the corner, the end on the cap */
+            return solve_branch_end(&search, bare[i], bare[i + 1]);
+    return is_stable(&search, corner) ? bracket_branch_end(&search, corner)
+                                      : corner; /* below the corner, the end on the cap */
 }
 
 /* ---- equilibrium with a cantilever ----------------------------------------------------------- */
 
 /* Computes the positions of the base at points of the branch, and their derivatives by the bare
  * depth. */
-WIDE_REGISTERS static void bases_at(const adhesion *law, double k, const double *bare, size_t n,
-                                    double *base, double *rise)
+WIDE_REGISTERS static void base_positions(const adhesion *law, double k, const double *bare,
+                                          size_t n, double *base, double *rise)
 {
     bare_contacts v;
-    const double pull = pull_of(law), soft = law->reduced / k;
-    bare_at(law, bare, n, &v);
+    const double pull = adhesion_prefactor(law), soft = law->reduced / k;
+    bare_contact_values(law, bare, n, &v);
     for (size_t i = 0; i < n; i++) {
         const double a = 0.5 * v.slope[i], root = sqrt(a), fall = pull * root,
                      q = 0.25 * pull * v.curvature[i] / root;
@@ -186,10 +187,10 @@ WIDE_REGISTERS static void bases_at(const adhesion *law, double k, const double 
     }
 }
 
-static double base_at(const adhesion *law, double k, double bare)
+static double base_position(const adhesion *law, double k, double bare)
 {
     double base, rise;
-    bases_at(law, k, &bare, 1, &base, &rise);
+    base_positions(law, k, &bare, 1, &base, &rise);
     return base;
 }
 
@@ -198,18 +199,18 @@ typedef struct balance_block {
     double position[BLOCK], bare[BLOCK], low[BLOCK], high[BLOCK];
 } balance_block;
 
-WIDE_PART void choose(wide *to, const wide_bits *which, const wide *one, const wide *other)
+WIDE_INLINE void select_lanes(wide *to, const wide_bits *which, const wide *one, const wide *other)
 {
     *to = (wide)((*which & (wide_bits)*one) | (~*which & (wide_bits)*other));
 }
 
 /* Performs a Newton step, or a bisection step if the former leaves the bracket. Returns the largest
  * relative change of a bare depth. */
-WIDE_REGISTERS static double step_on(const adhesion *law, double k, balance_block *b)
+WIDE_REGISTERS static double newton_step_block(const adhesion *law, double k, balance_block *b)
 {
     double base[BLOCK], rise[BLOCK], most = 0.0;
     wide largest = {0.0};
-    bases_at(law, k, b->bare, BLOCK, base, rise);
+    base_positions(law, k, b->bare, BLOCK, base, rise);
     for (size_t i = 0; i < BLOCK; i += WIDE) {
         wide bare, low, high, at, excess, slope;
         simd_load(&bare, b->bare + i);
@@ -220,15 +221,15 @@ WIDE_REGISTERS static double step_on(const adhesion *law, double k, balance_bloc
         simd_load(&slope, rise + i);
         excess -= at;
         const wide_bits above = excess > 0.0;
-        choose(&low, &above, &low, &bare);
-        choose(&high, &above, &bare, &high);
+        select_lanes(&low, &above, &low, &bare);
+        select_lanes(&high, &above, &bare, &high);
         wide next = bare - excess / slope;
         const wide half = 0.5 * (low + high);
         const wide_bits inside = (next >= low) & (next <= high);
-        choose(&next, &inside, &next, &half);
+        select_lanes(&next, &inside, &next, &half);
         const wide share = (next - bare) / next, other = -share;
-        wide_raise(&largest, &share);
-        wide_raise(&largest, &other);
+        wide_maximum(&largest, &share);
+        wide_maximum(&largest, &other);
         simd_store(b->low + i, &low);
         simd_store(b->high + i, &high);
         simd_store(b->bare + i, &next);
@@ -242,35 +243,37 @@ WIDE_REGISTERS static double step_on(const adhesion *law, double k, balance_bloc
  * the difference between cubic and line at either end. */
 typedef struct branch {
     double bare[NODES + 1], base[NODES + 1], rise[NODES + 1];
-    double up[NODES], span[NODES], near_low[NODES], near_high[NODES];
+    double up[NODES], span[NODES], cubic_low[NODES], cubic_high[NODES];
 } branch;
 
 /* Samples the branch from its end to a position. At its end the position is quadratic in the bare
  * depth. */
-static void nodes_to(const adhesion *law, double k, double release, double farthest, branch *to)
+static void sample_branch(const adhesion *law, double k, double release, double farthest,
+                          branch *to)
 {
     double top = release > 0.0 ? 2.0 * release : 1e-6 * farthest;
-    while (base_at(law, k, top) < farthest)
+    while (base_position(law, k, top) < farthest)
         top *= 2.0;
     for (size_t j = 0; j <= NODES; j++) {
         const double share = (double)j / NODES;
         to->bare[j] = release + share * share * (top - release);
     }
     for (size_t j = 0; j <= NODES; j += BLOCK)
-        bases_at(law, k, to->bare + j, j + BLOCK <= NODES ? BLOCK : NODES + 1 - j, to->base + j,
-                 to->rise + j);
+        base_positions(law, k, to->bare + j, j + BLOCK <= NODES ? BLOCK : NODES + 1 - j,
+                       to->base + j, to->rise + j);
     for (size_t j = 0; j < NODES; j++) {
         to->up[j] = to->bare[j + 1] - to->bare[j];
         to->span[j] = to->base[j + 1] - to->base[j];
-        to->near_low[j] = to->span[j] / to->rise[j] - to->up[j];
-        to->near_high[j] = to->span[j] / to->rise[j + 1] - to->up[j];
+        to->cubic_low[j] = to->span[j] / to->rise[j] - to->up[j];
+        to->cubic_high[j] = to->span[j] / to->rise[j + 1] - to->up[j];
     }
 }
 
 /* Interpolates points of the branch; node[j] is the last node below position j. The cubic uses the
  * slopes at the nodes. The interval at the end of the branch is linear, because its slope is
  * infinite. */
-WIDE_REGISTERS static void guess(const branch *nodes, const size_t node[BLOCK], balance_block *b)
+WIDE_REGISTERS static void interpolate_branch(const branch *nodes, const size_t node[BLOCK],
+                                              balance_block *b)
 {
     double part[6][BLOCK];
     for (size_t j = 0; j < BLOCK; j++) {
@@ -280,26 +283,26 @@ WIDE_REGISTERS static void guess(const branch *nodes, const size_t node[BLOCK], 
         part[0][j] = nodes->up[at];
         part[1][j] = nodes->base[at];
         part[2][j] = nodes->span[at];
-        part[3][j] = nodes->near_low[at];
-        part[4][j] = nodes->near_high[at];
+        part[3][j] = nodes->cubic_low[at];
+        part[4][j] = nodes->cubic_high[at];
         part[5][j] = (double)at;
     }
     for (size_t i = 0; i < BLOCK; i += WIDE) {
-        wide z, low, high, up, base, span, near_low, near_high, at;
+        wide z, low, high, up, base, span, cubic_low, cubic_high, at;
         simd_load(&z, b->position + i);
         simd_load(&low, b->low + i);
         simd_load(&high, b->high + i);
         simd_load(&up, part[0] + i);
         simd_load(&base, part[1] + i);
         simd_load(&span, part[2] + i);
-        simd_load(&near_low, part[3] + i);
-        simd_load(&near_high, part[4] + i);
+        simd_load(&cubic_low, part[3] + i);
+        simd_load(&cubic_high, part[4] + i);
         simd_load(&at, part[5] + i);
         const wide t = (z - base) / span, u = 1.0 - t, line = low + up * t;
-        wide place = line + u * t * (u * near_low - t * near_high);
-        const wide_bits cubic = (at > 0.0) & (place > low) & (place < high);
-        choose(&place, &cubic, &place, &line);
-        simd_store(b->bare + i, &place);
+        wide interpolated = line + u * t * (u * cubic_low - t * cubic_high);
+        const wide_bits cubic = (at > 0.0) & (interpolated > low) & (interpolated < high);
+        select_lanes(&interpolated, &cubic, &interpolated, &line);
+        simd_store(b->bare + i, &interpolated);
     }
 }
 
@@ -309,14 +312,14 @@ void adhesion_balance(const adhesion *law, double k, double release, const doubl
     double farthest = -(double)INFINITY;
     for (size_t i = 0; i < n; i++)
         farthest = position[i] > farthest ? position[i] : farthest;
-    const double held = release > 0.0 ? base_at(law, k, release) : 0.0;
+    const double held_position = release > 0.0 ? base_position(law, k, release) : 0.0;
     branch nodes;
-    if (!(farthest > held)) { /* all positions are below the end of the branch */
+    if (!(farthest > held_position)) { /* all positions are below the end of the branch */
         for (size_t i = 0; i < n; i++)
             bare[i] = release;
         return;
     }
-    nodes_to(law, k, release, farthest, &nodes);
+    sample_branch(law, k, release, farthest, &nodes);
     size_t at = 0;
     for (size_t i = 0; i < n; i += BLOCK) {
         balance_block b;
@@ -324,7 +327,7 @@ void adhesion_balance(const adhesion *law, double k, double release, const doubl
         for (size_t j = 0; j < BLOCK; j++) {
             const double z = position[i + j < n ? i + j : n - 1];
             b.position[j] = z;
-            n_held += !(z > held);
+            n_held += !(z > held_position);
             while (at > 0 && z < nodes.base[at])
                 at--;
             while (at + 2 <= NODES && !(z < nodes.base[at + 1]))
@@ -332,12 +335,13 @@ void adhesion_balance(const adhesion *law, double k, double release, const doubl
             node[j] = at;
         }
         if (n_held < BLOCK)
-            guess(&nodes, node, &b);
+            interpolate_branch(&nodes, node, &b);
         for (size_t j = 0; j < BLOCK && n_held > 0; j++)
-            if (!(b.position[j] > held))
+            if (!(b.position[j] > held_position))
                 b.bare[j] = b.low[j] = b.high[j] = release;
         for (int round = 0;
-             n_held < BLOCK && round < MAX_ROUNDS && step_on(law, k, &b) > close_step; round++) {
+             n_held < BLOCK && round < MAX_ROUNDS && newton_step_block(law, k, &b) > close_step;
+             round++) {
         }
         for (size_t j = 0; j < BLOCK && i + j < n; j++)
             bare[i + j] = b.bare[j];
@@ -350,7 +354,7 @@ void adhesion_balance(const adhesion *law, double k, double release, const doubl
 static double log_pull_off(const wt_contact_table *table, double reduced, double k, double log_work)
 {
     const adhesion law = {table, reduced, exp(log_work)};
-    return log(fmax(-adhesion_at(&law, adhesion_release(&law, k)).force, DBL_MIN));
+    return log(fmax(-adhesion_contact_value(&law, adhesion_release(&law, k)).force, DBL_MIN));
 }
 
 /* Solves with the Illinois variant of false position. The function is nearly linear in logarithms.
@@ -362,25 +366,25 @@ double adhesion_work(const wt_contact_table *table, double reduced, double k, do
         return (double)NAN;
     if (tip->shape == WT_TIP_PUNCH)
         return pull_off * pull_off / (8.0 * M_PI * reduced * pow(tip->radius, 3));
-    const double wanted = log(pull_off), close = 1e-12;
-    double low = log(least_work), high = log(most_work);
-    double below = log_pull_off(table, reduced, k, low) - wanted;
-    double above = log_pull_off(table, reduced, k, high) - wanted;
+    const double target = log(pull_off), close = 1e-12;
+    double low = log(min_work), high = log(max_work);
+    double below = log_pull_off(table, reduced, k, low) - target;
+    double above = log_pull_off(table, reduced, k, high) - target;
     if (!(below < 0.0) || !(above > 0.0))
         return (double)NAN;
     for (int i = 0, side = 0; i < MAX_ROUNDS && high - low > close; i++) {
         const double middle = high - above * (high - low) / (above - below);
-        const double off = log_pull_off(table, reduced, k, middle) - wanted;
-        const int now = off > 0.0 ? 1 : -1;
-        if (fabs(off) < close)
+        const double deviation = log_pull_off(table, reduced, k, middle) - target;
+        const int now = deviation > 0.0 ? 1 : -1;
+        if (fabs(deviation) < close)
             return exp(middle);
-        if (off > 0.0) {
+        if (deviation > 0.0) {
             high = middle;
-            above = off;
+            above = deviation;
             below *= side == now ? 0.5 : 1.0;
         } else {
             low = middle;
-            below = off;
+            below = deviation;
             above *= side == now ? 0.5 : 1.0;
         }
         side = now;

@@ -25,14 +25,14 @@ typedef struct adhesive_contact {
     double stiffness;           /* dF/ddelta */
     double by_modulus, by_work; /* dF/dE*, dF/dw; by_work is infinite without adhesion */
 } adhesive_contact;
-adhesive_contact adhesion_at(const adhesion *law, double bare);
+adhesive_contact adhesion_contact_value(const adhesion *law, double bare);
 /* Contacts at up to ADHESION_BLOCK points. */
 enum { ADHESION_BLOCK = 32 };
 typedef struct adhesive_contacts {
     double radius[ADHESION_BLOCK], depth[ADHESION_BLOCK], force[ADHESION_BLOCK],
         stiffness[ADHESION_BLOCK], by_modulus[ADHESION_BLOCK], by_work[ADHESION_BLOCK];
 } adhesive_contacts;
-void adhesion_along(const adhesion *law, const double *bare, size_t n, adhesive_contacts *to);
+void adhesion_contacts(const adhesion *law, const double *bare, size_t n, adhesive_contacts *to);
 
 /* Returns the bare depth at which a cantilever of spring constant k pulls off. k = 0 means dead
  * load, INFINITY a fixed depth. The result is 0 without adhesion. */

@@ -26,11 +26,11 @@ double tip_facet_factor(unsigned sides)
     return sides == 0 ? 1.0 : sides / M_PI * sin(M_PI / sides);
 }
 
-bool contact_law_holds(const wt_tip *tip, double depth)
+bool contact_law_is_valid(const wt_tip *tip, double depth)
 {
-    const bool faced = tip->shape == WT_TIP_CONE || tip->shape == WT_TIP_BLUNTED_PYRAMID;
-    return (faced || !(depth > ROUND_TIP_REACH * tip->radius)) &&
-           !(thin_sample_reach(tip, depth) > THIN_SAMPLE_REACH);
+    const bool has_faces = tip->shape == WT_TIP_CONE || tip->shape == WT_TIP_BLUNTED_PYRAMID;
+    return (has_faces || !(depth > ROUND_TIP_MAX_DEPTH_RATIO * tip->radius)) &&
+           !(thin_sample_radius_ratio(tip, depth) > THIN_SAMPLE_MAX_RATIO);
 }
 
 double contact_switch_depth(const wt_tip *tip)
@@ -50,7 +50,7 @@ double contact_switch_depth(const wt_tip *tip)
                : tip->transition_radius * tip->transition_radius / tip->radius;
 }
 
-static contact_point_values paraboloid(double radius, double delta)
+static contact_point_values paraboloid_contact(double radius, double delta)
 {
     double a = sqrt(radius * delta);
     return (contact_point_values){4.0 / 3.0 * a * delta, 2.0 * a, a / delta};
@@ -69,21 +69,21 @@ static double sphere_force(double radius, double t)
     return radius * radius * (share * share * t + rest);
 }
 
-static contact_point_values sphere(double radius, double delta)
+static contact_point_values sphere_contact(double radius, double delta)
 {
     enum { MAX_ROUNDS = 60 }; /* limit of Newton's steps from above */
     const double x = delta / radius;
-    double t = sqrt(x) * sqrt(1.0 + x), share = 0.0, left = 0.0; /* not below the root */
+    double t = sqrt(x) * sqrt(1.0 + x), share = 0.0, cosh_term = 0.0; /* not below the root */
     for (int i = 0; i < MAX_ROUNDS; i++) {
         share = tanh(t);
-        left = 1.0 / (cosh(t) * cosh(t));
-        const double next = t - (t * share - x) / (share + t * left);
+        cosh_term = 1.0 / (cosh(t) * cosh(t));
+        const double next = t - (t * share - x) / (share + t * cosh_term);
         if (!(fabs(next - t) > DBL_EPSILON * t))
             break;
         t = next;
     }
     return (contact_point_values){sphere_force(radius, t), 2.0 * radius * share,
-                                  2.0 * left / (share + t * left)};
+                                  2.0 * cosh_term / (share + t * cosh_term)};
 }
 
 static contact_point_values sharp_contact(const wt_tip *tip, double delta)
@@ -132,11 +132,11 @@ contact_point_values contact_values(const wt_tip *tip, double delta)
 {
     switch (tip->shape) {
     case WT_TIP_PARABOLOID:
-        return paraboloid(tip->radius, delta);
+        return paraboloid_contact(tip->radius, delta);
     case WT_TIP_CONE:
         return sharp_contact(tip, delta);
     case WT_TIP_SPHERE:
-        return sphere(tip->radius, delta);
+        return sphere_contact(tip->radius, delta);
     case WT_TIP_PUNCH:
         return (contact_point_values){2.0 * tip->radius * delta, 2.0 * tip->radius, 0.0};
     case WT_TIP_BLUNTED_PYRAMID:
@@ -145,11 +145,11 @@ contact_point_values contact_values(const wt_tip *tip, double delta)
     if (tip->transition_radius == 0.0)
         return sharp_contact(tip, delta);
     if (delta < contact_switch_depth(tip))
-        return paraboloid(tip->radius, delta);
+        return paraboloid_contact(tip->radius, delta);
     return faces_contact(tip, delta);
 }
 
-double thin_sample_reach(const wt_tip *tip, double delta)
+double thin_sample_radius_ratio(const wt_tip *tip, double delta)
 {
     return tip->sample_thickness > 0.0 && delta > 0.0
                ? 0.5 * contact_values(tip, delta).slope / tip->sample_thickness

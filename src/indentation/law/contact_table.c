@@ -65,8 +65,8 @@ static double piece_rise(const wt_tip *tip, double from, double w)
 }
 
 /* Creates a piece. `lo` has the values at its start on entry and at its end on return. */
-static piece piece_make(const wt_tip *tip, double switch_depth, uint64_t number,
-                        contact_point_values *lo)
+static piece create_piece(const wt_tip *tip, double switch_depth, uint64_t number,
+                          contact_point_values *lo)
 {
     const double e = piece_start(number), end = piece_start(number + 1), w = end - e;
     const contact_point_values hi = contact_values(tip, switch_depth + end);
@@ -117,7 +117,7 @@ wt_status wt_contact_table_new(const wt_tip *tip, double delta_min, double delta
     t->n = n;
     contact_point_values lo = contact_values(tip, at + piece_start(first));
     for (size_t i = 0; i < n; i++)
-        t->pieces[i] = piece_make(tip, at, first + i, &lo);
+        t->pieces[i] = create_piece(tip, at, first + i, &lo);
     *table = t;
     return WT_OK;
 }
@@ -132,7 +132,7 @@ void wt_contact_table_free(wt_contact_table *table)
     free(table);
 }
 
-static inline contact_point_values half_space(const wt_contact_table *table, double d)
+static inline contact_point_values evaluate_scalar(const wt_contact_table *table, double d)
 {
     const double at = table->switch_depth;
     uint64_t number;
@@ -156,8 +156,8 @@ static inline contact_point_values half_space(const wt_contact_table *table, dou
 }
 
 /* Loads four numbers, from number k on, of each of four pieces and transposes them. */
-WIDE_PART void columns_of(const wt_contact_table *table, const wide_bits *number, size_t k,
-                          wide to[WIDE])
+WIDE_INLINE void load_columns(const wt_contact_table *table, const wide_bits *number, size_t k,
+                              wide to[WIDE])
 {
     const double *from = (const double *)table->pieces + k;
     wide a, b, c, d; /* separate variables; an array would be split through memory */
@@ -176,12 +176,13 @@ WIDE_PART void columns_of(const wt_contact_table *table, const wide_bits *number
 }
 
 /* Output arrays [n]; slope and curvature may be NULL. */
-typedef struct values_at {
+typedef struct value_arrays {
     double *g, *slope, *curvature;
-} values_at;
+} value_arrays;
 
 /* Evaluates four depths from i on. Returns false unless pieces cover all of them. */
-WIDE_PART bool in_pieces(const wt_contact_table *table, const double *delta, size_t i, values_at to)
+WIDE_INLINE bool evaluate_lanes(const wt_contact_table *table, const double *delta, size_t i,
+                                value_arrays to)
 {
     wide d, c[2 * WIDE]; /* members of a piece */
     simd_load(&d, delta + i);
@@ -190,8 +191,8 @@ WIDE_PART bool in_pieces(const wt_contact_table *table, const double *delta, siz
     const wide_bits out = (d <= 0.0) | (number < 0) | (number >= (int64_t)table->n);
     if ((out[0] | out[1] | out[2] | out[3]) != 0)
         return false;
-    columns_of(table, &number, 0, c);
-    columns_of(table, &number, WIDE, c + WIDE);
+    load_columns(table, &number, 0, c);
+    load_columns(table, &number, WIDE, c + WIDE);
     const wide t = (d - c[6]) * c[7];
     const wide value = c[0] + t * (c[1] + t * (c[2] + t * (c[3] + t * (c[4] + t * c[5]))));
     simd_store(to.g + i, &value);
@@ -208,15 +209,15 @@ WIDE_PART bool in_pieces(const wt_contact_table *table, const double *delta, siz
     return true;
 }
 
-WIDE_REGISTERS static void half_spaces(const wt_contact_table *table, const double *delta, size_t n,
-                                       values_at to)
+WIDE_REGISTERS static void evaluate_depths(const wt_contact_table *table, const double *delta,
+                                           size_t n, value_arrays to)
 {
     for (size_t i = 0; i < n; i += WIDE) {
         const size_t end = i + WIDE < n ? i + WIDE : n;
-        if (i + WIDE <= n && in_pieces(table, delta, i, to))
+        if (i + WIDE <= n && evaluate_lanes(table, delta, i, to))
             continue;
         for (size_t j = i; j < end; j++) {
-            const contact_point_values v = half_space(table, delta[j]);
+            const contact_point_values v = evaluate_scalar(table, delta[j]);
             to.g[j] = v.g;
             if (to.slope != NULL)
                 to.slope[j] = v.slope;
@@ -229,18 +230,18 @@ WIDE_REGISTERS static void half_spaces(const wt_contact_table *table, const doub
 void contact_table_values(const wt_contact_table *table, const double *delta, size_t n, double *g,
                           double *slope, double *curvature)
 {
-    half_spaces(table, delta, n, (values_at){g, slope, curvature});
+    evaluate_depths(table, delta, n, (value_arrays){g, slope, curvature});
 }
 
 void wt_contact_table_eval(const wt_contact_table *table, const double *delta, size_t n, double *g,
                            double *slope)
 {
     if (!(table->tip.sample_thickness > 0.0)) {
-        half_spaces(table, delta, n, (values_at){g, slope, NULL});
+        evaluate_depths(table, delta, n, (value_arrays){g, slope, NULL});
         return;
     }
     for (size_t i = 0; i < n; i++) {
-        contact_point_values v = half_space(table, delta[i]);
+        contact_point_values v = evaluate_scalar(table, delta[i]);
         if (delta[i] > 0.0)
             v = thin_sample_values(&table->tip, v);
         g[i] = v.g;

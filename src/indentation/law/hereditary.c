@@ -24,7 +24,7 @@ wt_status hereditary_reserve(hereditary *m, size_t terms, wt_error *err)
         return wt_fail(err, WT_E_MEMORY, "out of memory for a Prony series of %zu terms", terms);
     free(m->block);
     *m = (hereditary){.block = block, .capacity = terms};
-    double **const arrays[N_ARRAYS] = {&m->modulus,   &m->time,      &m->fade,     &m->gain,
+    double **const arrays[N_ARRAYS] = {&m->modulus,   &m->time,      &m->decay,    &m->gain,
                                        &m->memory[0], &m->memory[1], &m->memory[2]};
     for (size_t i = 0; i < N_ARRAYS; i++)
         *arrays[i] = block + i * (terms + 1);
@@ -41,12 +41,12 @@ void hereditary_begin(hereditary *m, const wt_prony *series, double scale, doubl
                       double longest)
 {
     m->n = 0;
-    m->rest = scale * series->equilibrium_modulus;
+    m->equilibrium = scale * series->equilibrium_modulus;
     m->viscosity = m->step = 0.0;
     for (size_t i = 0; i < series->n; i++) {
         const double e = scale * series->modulus[i], tau = series->relaxation_time[i];
         if (tau > slowest * longest) {
-            m->rest += e;
+            m->equilibrium += e;
         } else if (tau < quickest * shortest) {
             m->viscosity += e * tau;
         } else {
@@ -56,31 +56,31 @@ void hereditary_begin(hereditary *m, const wt_prony *series, double scale, doubl
     }
 }
 
-void hereditary_step(hereditary *m, double step)
+void hereditary_set_step(hereditary *m, double step)
 {
     if (step <= m->step && step >= m->step)
         return;
     m->step = step;
-    m->gains = 0.0;
+    m->total_gain = 0.0;
     for (size_t i = 0; i < m->n; i++) {
         const double x = step / m->time[i];
-        m->fade[i] = exp(-x);
+        m->decay[i] = exp(-x);
         m->gain[i] = m->modulus[i] * (x > 0.0 ? -expm1(-x) / x : 1.0);
-        m->gains += m->gain[i];
+        m->total_gain += m->gain[i];
     }
 }
 
-double hereditary_fade(const hereditary *m, double *memory)
+double hereditary_decay(const hereditary *m, double *memory)
 {
     double sum = 0.0;
     for (size_t i = 0; i < m->n; i++) {
-        memory[i] *= m->fade[i];
+        memory[i] *= m->decay[i];
         sum += memory[i];
     }
     return sum;
 }
 
-void hereditary_add(const hereditary *m, double *memory, double change)
+void hereditary_add_change(const hereditary *m, double *memory, double change)
 {
     for (size_t i = 0; i < m->n; i++)
         memory[i] += m->gain[i] * change;

@@ -12,15 +12,16 @@
 
 /* Prony series prepared for the steps of one motion. */
 typedef struct hereditary {
-    double rest;      /* equilibrium modulus, with the terms that do not relax within the motion */
+    double
+        equilibrium;  /* equilibrium modulus, with the terms that do not relax within the motion */
     double viscosity; /* sum of modulus times relaxation time over the terms that relax within a
                          step */
     size_t n;         /* remaining terms */
     double *modulus, *time;
-    double step;         /* length of the step for the next members */
-    double *fade;        /* factor by which each term decays in a step */
-    double *gain, gains; /* increase of each term per unit change over a step, and their sum */
-    double *memory[3];   /* [n] each; states that the caller advances along the motion */
+    double step;              /* length of the step for the next members */
+    double *decay;            /* factor by which each term decays in a step */
+    double *gain, total_gain; /* increase of each term per unit change over a step, and their sum */
+    double *memory[3];        /* [n] each; states that the caller advances along the motion */
     double *block;
     size_t capacity;
 } hereditary;
@@ -34,16 +35,16 @@ void hereditary_clear(hereditary *m);
 void hereditary_begin(hereditary *m, const wt_prony *series, double scale, double shortest,
                       double longest);
 /* Prepares a step of this length. An unchanged length costs nothing. */
-void hereditary_step(hereditary *m, double step);
+void hereditary_set_step(hereditary *m, double step);
 /* Advances a state [n] over the step and returns its sum. */
-double hereditary_fade(const hereditary *m, double *memory);
+double hereditary_decay(const hereditary *m, double *memory);
 /* Adds an even change of f during the step. */
-void hereditary_add(const hereditary *m, double *memory, double change);
+void hereditary_add_change(const hereditary *m, double *memory, double change);
 /* Force at the end of a step in which f changed from `before` to `f`. `faded` is the result of
- * hereditary_fade. */
+ * hereditary_decay. */
 static inline double hereditary_force(const hereditary *m, double faded, double before, double f)
 {
-    return m->rest * f + faded + (m->gains + m->viscosity / m->step) * (f - before);
+    return m->equilibrium * f + faded + (m->total_gain + m->viscosity / m->step) * (f - before);
 }
 
 /* Computes the forces of a tip at n times. The base rises from contact (the first position) to one

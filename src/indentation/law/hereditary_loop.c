@@ -18,7 +18,7 @@ static const double close = 1e-15; /* tolerance of t1 in steps */
 static const double long_step = 36.0;
 
 /* History of loading and state of unloading. */
-typedef struct loop {
+typedef struct indentation_loop {
     hereditary *law;
     const wt_contact_table *table;
     double compliance;
@@ -26,14 +26,14 @@ typedef struct loop {
     double *depth, *f;      /* [steps] of loading */
     double *pushed, *moved; /* [steps][terms] states of f and of the depth */
     size_t step;            /* t1 lies in the step that ends here */
-    double since;           /* time since that step began */
-    double *left;           /* [terms] decay since that step began */
+    double step_time;       /* time since that step began */
+    double *step_decay;     /* [terms] decay since that step began */
     double *now;            /* [terms] state of the depth */
-} loop;
+} indentation_loop;
 
 /* Solves base = depth + compliance (past + now f(depth)) with Newton's method from above. */
-static double depth_in(const wt_contact_table *table, double compliance, double base, double past,
-                       double now, double *f)
+static double loading_depth(const wt_contact_table *table, double compliance, double base,
+                            double past, double now, double *f)
 {
     const double most = base - compliance * past;
     double x = fmax(most, 0.0), slope;
@@ -48,37 +48,37 @@ static double depth_in(const wt_contact_table *table, double compliance, double 
     return x;
 }
 
-static double step_in(loop *l, size_t i, double base)
+static double advance_loading(indentation_loop *l, size_t i, double base)
 {
     hereditary *law = l->law;
     const size_t n = law->n;
     double *pushed = l->pushed + i * n, *moved = l->moved + i * n;
     memcpy(pushed, pushed - n, n * sizeof *pushed);
     memcpy(moved, moved - n, n * sizeof *moved);
-    const double faded = hereditary_fade(law, pushed), before = l->f[i - 1];
-    hereditary_fade(law, moved);
+    const double faded = hereditary_decay(law, pushed), before = l->f[i - 1];
+    hereditary_decay(law, moved);
     const double past = hereditary_force(law, faded, before, 0.0);
     const double now = hereditary_force(law, 0.0, 0.0, 1.0);
-    l->depth[i] = depth_in(l->table, l->compliance, base, past, now, &l->f[i]);
-    hereditary_add(law, pushed, l->f[i] - before);
-    hereditary_add(law, moved, l->depth[i] - l->depth[i - 1]);
+    l->depth[i] = loading_depth(l->table, l->compliance, base, past, now, &l->f[i]);
+    hereditary_add_change(law, pushed, l->f[i] - before);
+    hereditary_add_change(law, moved, l->depth[i] - l->depth[i - 1]);
     return past + now * l->f[i];
 }
 
-static void begin_step(loop *l, double t)
+static void begin_unloading_step(indentation_loop *l, double t)
 {
-    l->since = l->step > 0 ? t - l->time[l->step - 1] : 0.0;
+    l->step_time = l->step > 0 ? t - l->time[l->step - 1] : 0.0;
     for (size_t i = 0; i < l->law->n && l->step > 0; i++)
-        l->left[i] = exp(-l->since / l->law->time[i]);
+        l->step_decay[i] = exp(-l->step_time / l->law->time[i]);
 }
 
 /* Force if t1 lies a share of the step after its start. `open` receives the part of the integral
  * since t1 that loading contributes. */
-static double force_since(const loop *l, double share, double *depth, double *open)
+static double unloading_force(const indentation_loop *l, double share, double *depth, double *open)
 {
     const hereditary *law = l->law;
     const size_t j = l->step;
-    const double part = share * (l->time[j] - l->time[j - 1]), since = l->since - part;
+    const double part = share * (l->time[j] - l->time[j - 1]), step_time = l->step_time - part;
     const double moved = share * (l->depth[j] - l->depth[j - 1]);
     double f, slope, force = 0.0;
     *depth = l->depth[j - 1] + moved;
@@ -86,58 +86,60 @@ static double force_since(const loop *l, double share, double *depth, double *op
     wt_contact_table_eval(l->table, depth, 1, &f, &slope);
     for (size_t i = 0; i < law->n; i++) {
         const double x = part / law->time[i];
-        const double risen = x < long_step ? l->left[i] * expm1(x) : exp(-since / law->time[i]);
-        const double gain = law->modulus[i] * (x > 0.0 ? risen / x : l->left[i]);
+        const double risen =
+            x < long_step ? l->step_decay[i] * expm1(x) : exp(-step_time / law->time[i]);
+        const double gain = law->modulus[i] * (x > 0.0 ? risen / x : l->step_decay[i]);
         const size_t at = (j - 1) * law->n + i;
-        force += l->left[i] * l->pushed[at] + gain * (f - l->f[j - 1]);
-        *open -= l->left[i] * l->moved[at] + gain * moved;
+        force += l->step_decay[i] * l->pushed[at] + gain * (f - l->f[j - 1]);
+        *open -= l->step_decay[i] * l->moved[at] + gain * moved;
     }
-    return law->rest * f + force;
+    return law->equilibrium * f + force;
 }
 
 /* State at one time of unloading, with the depth at the end of the previous step. */
-typedef struct moment {
-    const loop *l;
+typedef struct unloading_state {
+    const indentation_loop *l;
     double base, before, faded;
     double force, depth; /* for the latest t1 */
-} moment;
+} unloading_state;
 
 /* Integral since t1, which is a share of the step. It falls as t1 rises, and its root determines
  * the contact. */
-static double integral_since(double share, void *user)
+static double depth_integral(double share, void *user)
 {
-    moment *m = user;
-    const loop *l = m->l;
+    unloading_state *m = user;
+    const indentation_loop *l = m->l;
     const hereditary *law = l->law;
     double then, open;
-    m->force = force_since(l, share, &then, &open);
+    m->force = unloading_force(l, share, &then, &open);
     m->depth = m->base - l->compliance * m->force;
-    return law->rest * (m->depth - then) + open + m->faded +
-           (law->gains + law->viscosity / law->step) * (m->depth - m->before);
+    return law->equilibrium * (m->depth - then) + open + m->faded +
+           (law->total_gain + law->viscosity / law->step) * (m->depth - m->before);
 }
 
-static wt_status step_out(loop *l, double t, double base, double *depth, double *force,
-                          wt_error *err)
+static wt_status advance_unloading(indentation_loop *l, double t, double base, double *depth,
+                                   double *force, wt_error *err)
 {
-    moment m = {.l = l, .base = base, .before = *depth, .faded = hereditary_fade(l->law, l->now)};
+    unloading_state m = {
+        .l = l, .base = base, .before = *depth, .faded = hereditary_decay(l->law, l->now)};
     *depth = base;
     *force = 0.0;
-    begin_step(l, t);
-    while (l->step > 0 && integral_since(0.0, &m) <= 0.0) {
+    begin_unloading_step(l, t);
+    while (l->step > 0 && depth_integral(0.0, &m) <= 0.0) {
         l->step--;
-        begin_step(l, t);
+        begin_unloading_step(l, t);
     }
     if (l->step == 0)
         return WT_OK;
     /* if not below zero, the contact keeps its radius */
     double share = 1.0;
-    if (integral_since(1.0, &m) < 0.0) {
-        const wt_status status = root_find(integral_since, &m, 0.0, 1.0, close, &share, err);
+    if (depth_integral(1.0, &m) < 0.0) {
+        const wt_status status = root_find(depth_integral, &m, 0.0, 1.0, close, &share, err);
         if (status != WT_OK)
             return status;
-        (void)integral_since(share, &m);
+        (void)depth_integral(share, &m);
     }
-    hereditary_add(l->law, l->now, m.depth - m.before);
+    hereditary_add_change(l->law, l->now, m.depth - m.before);
     *depth = m.depth;
     *force = m.force;
     return WT_OK;
@@ -151,32 +153,33 @@ wt_status hereditary_loop(hereditary *law, const wt_contact_table *table, double
     double *block = calloc(n * (2 + 2 * terms) + 2 * terms + 1, sizeof *block);
     if (block == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory for %zu steps of an indentation", n);
-    loop l = {.law = law,
-              .table = table,
-              .compliance = compliance,
-              .time = time,
-              .depth = block,
-              .f = block + n,
-              .pushed = block + 2 * n,
-              .moved = block + (2 + terms) * n,
-              .left = block + (2 + 2 * terms) * n,
-              .now = block + (2 + 2 * terms) * n + terms};
+    indentation_loop l = {.law = law,
+                          .table = table,
+                          .compliance = compliance,
+                          .time = time,
+                          .depth = block,
+                          .f = block + n,
+                          .pushed = block + 2 * n,
+                          .moved = block + (2 + terms) * n,
+                          .step_decay = block + (2 + 2 * terms) * n,
+                          .now = block + (2 + 2 * terms) * n + terms};
     double depth = 0.0;
-    bool out = false;
+    bool is_unloading = false;
     wt_status status = WT_OK;
     force[0] = 0.0;
     for (size_t i = 1; i < n && status == WT_OK; i++) {
-        hereditary_step(law, time[i] - time[i - 1]);
-        if (!out) { /* with a cantilever the depth still rises shortly after the base has turned */
-            force[i] = step_in(&l, i, base[i]);
+        hereditary_set_step(law, time[i] - time[i - 1]);
+        if (!is_unloading) { /* with a cantilever the depth still rises shortly after the base has
+                                turned */
+            force[i] = advance_loading(&l, i, base[i]);
             if (l.depth[i] >= l.depth[i - 1])
                 continue;
-            out = true;
+            is_unloading = true;
             l.step = i - 1;
             depth = l.depth[i - 1];
             memcpy(l.now, l.moved + (i - 1) * terms, terms * sizeof *l.now);
         }
-        status = step_out(&l, time[i], base[i], &depth, &force[i], err);
+        status = advance_unloading(&l, time[i], base[i], &depth, &force[i], err);
     }
     free(block);
     return status;

@@ -8,15 +8,15 @@
 #include <math.h>
 
 /* Upper limit of x within which the law is accurate to 2 %, as for the ratio. */
-static const double largest_x = 6.0;
+static const double max_radius_ratio = 6.0;
 
-bool thin_layer_holds(double ratio, double x)
+bool thin_layer_is_valid(double ratio, double x)
 {
-    return ratio >= THIN_LAYER_LEAST_RATIO && ratio <= THIN_LAYER_LARGEST_RATIO && x >= 0.0 &&
-           x < largest_x;
+    return ratio >= THIN_LAYER_MIN_RATIO && ratio <= THIN_LAYER_MAX_RATIO && x >= 0.0 &&
+           x < max_radius_ratio;
 }
 
-double thin_layer_apparent(double ratio, double x)
+double thin_layer_apparent_modulus(double ratio, double x)
 {
     const double q = log(ratio);
     const double influence =

@@ -9,12 +9,12 @@
 #include <stdbool.h>
 
 /* Range of the ratio of moduli within which the law is accurate to 2 %. */
-#define THIN_LAYER_LEAST_RATIO 0.3
-#define THIN_LAYER_LARGEST_RATIO 3.0
+#define THIN_LAYER_MIN_RATIO 0.3
+#define THIN_LAYER_MAX_RATIO 3.0
 
 /* Apparent modulus of a homogeneous model over E1. ratio = E1/E2; x = contact radius of the
- * homogeneous half-space at that depth over h. The error is below 2 % where thin_layer_holds. */
-double thin_layer_apparent(double ratio, double x);
-bool thin_layer_holds(double ratio, double x);
+ * homogeneous half-space at that depth over h. The error is below 2 % where thin_layer_is_valid. */
+double thin_layer_apparent_modulus(double ratio, double x);
+bool thin_layer_is_valid(double ratio, double x);
 
 #endif

@@ -47,7 +47,7 @@ static double shape_number(const wt_tip *tip, double a, double *slope)
 contact_point_values thin_sample_values(const wt_tip *tip, contact_point_values half_space)
 {
     const double a = 0.5 * half_space.slope, growth = 0.5 * half_space.curvature;
-    const double reach = a / tip->sample_thickness, x = fmin(reach, THIN_SAMPLE_REACH);
+    const double reach = a / tip->sample_thickness, x = fmin(reach, THIN_SAMPLE_MAX_RATIO);
     double u_slope, u = shape_number(tip, a, &u_slope);
     const double g = bases[tip->unbonded].first, g2 = 0.5 * g * g * (3.0 - u);
     const double *c = bases[tip->unbonded].third;

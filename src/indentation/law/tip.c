@@ -12,17 +12,17 @@
 static const double degree = M_PI / 180.0; /* [rad] */
 
 /* Smallest half-angle of pyramids and cones; no real needle is sharper. */
-#define SHARPEST (M_PI / 180.0)
+#define MIN_HALF_ANGLE (M_PI / 180.0)
 
 const wt_param tip_dimensions[TIP_N_DIMENSIONS] = {
     [TIP_HALF_ANGLE] = {PARAM("half-angle", wt_tip, half_angle, WT_Q_ANGLE,
-                              FROM_BELOW(SHARPEST, M_PI_2))},
+                              FROM_BELOW(MIN_HALF_ANGLE, M_PI_2))},
     [TIP_RADIUS] = {PARAM("radius", wt_tip, radius, WT_Q_LENGTH, AT_LEAST(0))},
     [TIP_SIDES] = {PARAM("sides", wt_tip, sides, WT_Q_NONE, FROM_TO(3, 1e6))},
     [TIP_TRANSITION] = {PARAM("transition", wt_tip, transition_radius, WT_Q_LENGTH, AT_LEAST(0))},
 };
 
-static bool is_within(tip_dimension which, double value)
+static bool is_valid_dimension(tip_dimension which, double value)
 {
     return param_check_number(&tip_dimensions[which], value, NULL) == WT_OK;
 }
@@ -32,19 +32,20 @@ double wt_tip_tangent_transition(double radius, double half_angle)
     return radius * cos(half_angle);
 }
 
-static wt_status check_positive(double value, const char *what, wt_error *err)
+static wt_status check_positive(double value, const char *name, wt_error *err)
 {
-    if (value > 0.0 && is_within(TIP_RADIUS, value))
+    if (value > 0.0 && is_valid_dimension(TIP_RADIUS, value))
         return WT_OK;
-    wt_status status = wt_fail(err, WT_E_RANGE, "%s is not usable", what);
-    wt_error_expected(err, "a length above 0, at most %g m", quantity_most(WT_Q_LENGTH));
+    wt_status status = wt_fail(err, WT_E_RANGE, "%s is not usable", name);
+    wt_error_expected(err, "a length above 0, at most %g m",
+                      quantity_plausible_maximum(WT_Q_LENGTH));
     wt_error_found(err, "%g m", value);
     return status;
 }
 
 static wt_status check_half_angle(double half_angle, wt_error *err)
 {
-    if (is_within(TIP_HALF_ANGLE, half_angle))
+    if (is_valid_dimension(TIP_HALF_ANGLE, half_angle))
         return WT_OK;
     wt_status status = wt_fail(err, WT_E_RANGE, "half-angle of the tip is not usable");
     wt_error_expected(err, "an angle from the axis to the face between 1 and 90 degrees");
@@ -55,7 +56,7 @@ static wt_status check_half_angle(double half_angle, wt_error *err)
 static wt_status check_cap(const wt_tip *tip, wt_error *err)
 {
     double b = tip->transition_radius;
-    if (!is_within(TIP_TRANSITION, b)) {
+    if (!is_valid_dimension(TIP_TRANSITION, b)) {
         wt_status status = wt_fail(err, WT_E_RANGE, "transition radius of the tip is not usable");
         wt_error_expected(err, "a length of 0 (sharp) or more");
         wt_error_found(err, "%g m", b);
@@ -78,22 +79,22 @@ static wt_status check_cap(const wt_tip *tip, wt_error *err)
 }
 
 /* Checks a standard error. An error as large as the value makes the value meaningless. */
-static wt_status check_error(double value, double error, const char *what, wt_error *err)
+static wt_status check_tip_error(double value, double error, const char *name, wt_error *err)
 {
     if (error == 0.0 || (error > 0.0 && error < value))
         return WT_OK;
     const wt_status status =
-        wt_fail(err, WT_E_RANGE, "the standard error of the %s is not usable", what);
-    wt_error_expected(err, "one below the %s itself", what);
+        wt_fail(err, WT_E_RANGE, "the standard error of the %s is not usable", name);
+    wt_error_expected(err, "one below the %s itself", name);
     wt_error_found(err, "%g of %g in SI units", error, value);
     return status;
 }
 
 wt_status wt_tip_check(const wt_tip *tip, wt_error *err)
 {
-    wt_status status = check_error(tip->half_angle, tip->half_angle_error, "half-angle", err);
+    wt_status status = check_tip_error(tip->half_angle, tip->half_angle_error, "half-angle", err);
     if (status == WT_OK)
-        status = check_error(tip->radius, tip->radius_error, "radius", err);
+        status = check_tip_error(tip->radius, tip->radius_error, "radius", err);
     if (status == WT_OK && tip->sample_thickness != 0.0)
         status = check_positive(tip->sample_thickness, "thickness of the sample", err);
     if (status != WT_OK)
@@ -106,7 +107,7 @@ wt_status wt_tip_check(const wt_tip *tip, wt_error *err)
     case WT_TIP_CONE:
         return check_half_angle(tip->half_angle, err);
     case WT_TIP_BLUNTED_PYRAMID:
-        if (tip->sides != 0 && !is_within(TIP_SIDES, tip->sides)) {
+        if (tip->sides != 0 && !is_valid_dimension(TIP_SIDES, tip->sides)) {
             status = wt_fail(err, WT_E_RANGE, "a pyramid of %u sides does not exist", tip->sides);
             wt_error_expected(err, "3 sides or more, up to 1e6, or 0 for a cone");
             return status;

@@ -32,16 +32,16 @@ contact_point_values contact_values(const wt_tip *tip, double delta);
 
 /* Largest contact radius over the thickness of a sample on a rigid base for which the force is
  * known. */
-#define THIN_SAMPLE_REACH 1.0
-double thin_sample_reach(const wt_tip *tip, double delta);
+#define THIN_SAMPLE_MAX_RATIO 1.0
+double thin_sample_radius_ratio(const wt_tip *tip, double delta);
 /* Corrects G and slope of a half-space for the rigid base. The curvature is NaN. */
 contact_point_values thin_sample_values(const wt_tip *tip, contact_point_values half_space);
 
 /* Largest depth over the radius of a sphere, paraboloid or punch for which the contact law applies.
  * Strains are of the order of 1 there, and a paraboloid differs from a sphere by 11 %. */
-#define ROUND_TIP_REACH 1.0
+#define ROUND_TIP_MAX_DEPTH_RATIO 1.0
 /* True if the contact law of a tip applies at a depth, including the limit of a thin sample. */
-bool contact_law_holds(const wt_tip *tip, double depth);
+bool contact_law_is_valid(const wt_tip *tip, double depth);
 
 /* Returns the tip of a table. */
 const wt_tip *contact_table_tip(const wt_contact_table *table);
@@ -52,9 +52,9 @@ void contact_table_values(const wt_contact_table *table, const double *delta, si
 
 /* Parses a pyramid or cone with a cap from the text of wt_tip_describe. Returns false for other
  * tips and texts. */
-bool tip_from_description(const char *words, wt_tip *tip);
+bool tip_from_description(const char *description, wt_tip *tip);
 /* Parses a tip of any shape from the text of wt_tip_describe. */
-bool tip_of_any_description(const char *words, wt_tip *tip);
+bool tip_from_any_description(const char *description, wt_tip *tip);
 
 /* Returns the depth b^2/R below which a blunted tip is a paraboloid. It is infinite for a
  * paraboloid and 0 for other tips. */

@@ -29,30 +29,34 @@ static const struct {
 };
 enum { PYRAMID, N_SHAPES = sizeof shapes / sizeof shapes[0] };
 
-enum { LIST = 256 }; /* characters of a list */
+enum { LIST_SIZE = 256 }; /* characters of a list */
 
 /* Appends a word to a list "a, b or c"; `after` words follow. */
-static void add_word(char list[LIST], const char *word, size_t after)
+static void append_list_item(char list[LIST_SIZE], const char *word, size_t after)
 {
     const size_t used = strlen(list);
-    snprintf(list + used, LIST - used, "%s%s", used == 0 ? "" : after == 0 ? " or " : ", ", word);
+    snprintf(list + used, LIST_SIZE - used, "%s%s",
+             used == 0    ? ""
+             : after == 0 ? " or "
+                          : ", ",
+             word);
 }
 
 /* Adds advice with examples, and with the most similar name if there is one. */
-static void advise_shape(wt_error *err, size_t shape, const spell_suggestion *near)
+static void advise_shape(wt_error *err, size_t shape, const spell_suggestion *suggestion)
 {
-    char examples[LIST] = "";
+    char examples[LIST_SIZE] = "";
     for (size_t i = 0; i < N_SHAPES; i++)
         if (shape == N_SHAPES || shape == i)
-            add_word(examples, shapes[i].example, N_SHAPES - 1 - i);
-    if (near != NULL && near->name != NULL)
-        wt_error_advice(err, "did you mean %s? Write it like %s", near->name, examples);
+            append_list_item(examples, shapes[i].example, N_SHAPES - 1 - i);
+    if (suggestion != NULL && suggestion->name != NULL)
+        wt_error_advice(err, "did you mean %s? Write it like %s", suggestion->name, examples);
     else
         wt_error_advice(err, "write it like %s", examples);
 }
 
-static wt_status tip_syntax(wt_error *err, size_t shape, const char *text, const char *expected,
-                            const spell_suggestion *found)
+static wt_status fail_tip_syntax(wt_error *err, size_t shape, const char *text,
+                                 const char *expected, const spell_suggestion *found)
 {
     wt_status status = wt_fail(err, WT_E_ARG, "tip \"%s\" is not understood", text);
     wt_error_expected(err, "%s", expected);
@@ -61,37 +65,38 @@ static wt_status tip_syntax(wt_error *err, size_t shape, const char *text, const
     return status;
 }
 
-static wt_status parse_item(const char *text, size_t shape, const char *item, size_t length,
-                            wt_estimate values[TIP_N_DIMENSIONS], unsigned *seen, wt_error *err)
+static wt_status parse_tip_item(const char *text, size_t shape, const char *item, size_t length,
+                                wt_estimate values[TIP_N_DIMENSIONS], unsigned *seen, wt_error *err)
 {
     const char *equals = memchr(item, '=', length);
     if (equals == NULL)
-        return tip_syntax(err, shape, text, "name=value",
-                          &(spell_suggestion){.word = item, .length = length});
+        return fail_tip_syntax(err, shape, text, "name=value",
+                               &(spell_suggestion){.word = item, .length = length});
     size_t name_length = (size_t)(equals - item), key = 0;
     while (key < TIP_N_DIMENSIONS && (strlen(tip_dimensions[key].name) != name_length ||
                                       strncmp(tip_dimensions[key].name, item, name_length) != 0))
         key++;
     if (key == TIP_N_DIMENSIONS || !(shapes[shape].allowed & 1u << key)) {
-        char names[LIST] = "";
-        spell_suggestion near = nearest_to(item, name_length);
+        char names[LIST_SIZE] = "";
+        spell_suggestion suggestion = spell_suggestion_begin(item, name_length);
         for (size_t i = 0; i < TIP_N_DIMENSIONS; i++)
             if (shapes[shape].allowed & 1u << i) {
-                add_word(names, tip_dimensions[i].name, shapes[shape].allowed >> (i + 1));
-                spell_suggestion_try(&near, tip_dimensions[i].name, strlen(tip_dimensions[i].name));
+                append_list_item(names, tip_dimensions[i].name, shapes[shape].allowed >> (i + 1));
+                spell_suggestion_try(&suggestion, tip_dimensions[i].name,
+                                     strlen(tip_dimensions[i].name));
             }
-        return tip_syntax(err, shape, text, names, &near);
+        return fail_tip_syntax(err, shape, text, names, &suggestion);
     }
     if (*seen & 1u << key)
-        return tip_syntax(err, shape, text, "every name once",
-                          &(spell_suggestion){.word = item, .length = length});
+        return fail_tip_syntax(err, shape, text, "every name once",
+                               &(spell_suggestion){.word = item, .length = length});
     *seen |= 1u << key;
 
     char value[64];
     size_t value_length = length - name_length - 1;
     if (value_length >= sizeof value)
-        return tip_syntax(err, shape, text, "a number with its unit",
-                          &(spell_suggestion){.word = equals + 1, .length = value_length});
+        return fail_tip_syntax(err, shape, text, "a number with its unit",
+                               &(spell_suggestion){.word = equals + 1, .length = value_length});
     memcpy(value, equals + 1, value_length);
     value[value_length] = '\0';
     wt_status status = wt_estimate_parse(value, tip_dimensions[key].quantity, &values[key], err);
@@ -108,19 +113,20 @@ static wt_status parse_item(const char *text, size_t shape, const char *item, si
 
 static wt_status find_shape(const char *text, size_t length, size_t *shape, wt_error *err)
 {
-    char names[LIST] = "";
-    spell_suggestion near = nearest_to(text, length);
-    size_t meant = N_SHAPES;
+    char names[LIST_SIZE] = "";
+    spell_suggestion suggestion = spell_suggestion_begin(text, length);
+    size_t suggested_shape = N_SHAPES;
     for (*shape = 0; *shape < N_SHAPES; ++*shape) {
         if (strlen(shapes[*shape].name) == length &&
             strncmp(shapes[*shape].name, text, length) == 0)
             return WT_OK;
-        add_word(names, shapes[*shape].name, N_SHAPES - 1 - *shape);
-        spell_suggestion_try(&near, shapes[*shape].name, strlen(shapes[*shape].name));
-        if (near.name == shapes[*shape].name)
-            meant = *shape;
+        append_list_item(names, shapes[*shape].name, N_SHAPES - 1 - *shape);
+        spell_suggestion_try(&suggestion, shapes[*shape].name, strlen(shapes[*shape].name));
+        if (suggestion.name == shapes[*shape].name)
+            suggested_shape = *shape;
     }
-    return tip_syntax(err, near.name != NULL ? meant : N_SHAPES, text, names, &near);
+    return fail_tip_syntax(err, suggestion.name != NULL ? suggested_shape : N_SHAPES, text, names,
+                           &suggestion);
 }
 
 wt_status wt_tip_parse(const char *text, wt_tip *tip, wt_error *err)
@@ -135,7 +141,7 @@ wt_status wt_tip_parse(const char *text, wt_tip *tip, wt_error *err)
     unsigned seen = 0;
     for (const char *item = colon != NULL ? colon + 1 : ""; *item != '\0';) {
         size_t length = strcspn(item, ",");
-        status = parse_item(text, shape, item, length, values, &seen, err);
+        status = parse_tip_item(text, shape, item, length, values, &seen, err);
         if (status != WT_OK)
             return status;
         item += length;
@@ -162,25 +168,26 @@ wt_status wt_tip_parse(const char *text, wt_tip *tip, wt_error *err)
         return status;
     }
 
-    wt_tip made = {.shape = shapes[shape].shape,
-                   .half_angle = values[TIP_HALF_ANGLE].value,
-                   .radius = values[TIP_RADIUS].value,
-                   .half_angle_error = values[TIP_HALF_ANGLE].standard_error,
-                   .radius_error = values[TIP_RADIUS].standard_error};
+    wt_tip parsed = {.shape = shapes[shape].shape,
+                     .half_angle = values[TIP_HALF_ANGLE].value,
+                     .radius = values[TIP_RADIUS].value,
+                     .half_angle_error = values[TIP_HALF_ANGLE].standard_error,
+                     .radius_error = values[TIP_RADIUS].standard_error};
     if (seen & 1u << TIP_HALF_ANGLE && seen & 1u << TIP_RADIUS) {
-        made.shape = WT_TIP_BLUNTED_PYRAMID;
+        parsed.shape = WT_TIP_BLUNTED_PYRAMID;
         if (shape == PYRAMID)
-            made.sides = seen & 1u << TIP_SIDES ? (unsigned)values[TIP_SIDES].value : 4;
-        made.transition_radius = seen & 1u << TIP_TRANSITION
-                                     ? values[TIP_TRANSITION].value
-                                     : wt_tip_tangent_transition(made.radius, made.half_angle);
+            parsed.sides = seen & 1u << TIP_SIDES ? (unsigned)values[TIP_SIDES].value : 4;
+        parsed.transition_radius =
+            seen & 1u << TIP_TRANSITION
+                ? values[TIP_TRANSITION].value
+                : wt_tip_tangent_transition(parsed.radius, parsed.half_angle);
     }
-    status = wt_tip_check(&made, err);
+    status = wt_tip_check(&parsed, err);
     if (status != WT_OK) {
         wt_error_place(err, "tip \"%s\"", text);
         return status;
     }
-    *tip = made;
+    *tip = parsed;
     return WT_OK;
 }
 
@@ -237,11 +244,11 @@ size_t wt_tip_describe(const wt_tip *tip, char *buffer, size_t size)
 
 /* Parses the quantity after a label, up to a comma or the end. Returns false without a valid
  * quantity. */
-static bool quantity_after(const char *words, const char *word, const char *unit,
-                           wt_quantity quantity, double *value)
+static bool parse_labelled_quantity(const char *description, const char *word, const char *unit,
+                                    wt_quantity quantity, double *value)
 {
     char text[48];
-    const char *at = strstr(words, word);
+    const char *at = strstr(description, word);
     if (at == NULL)
         return false;
     at += strlen(word);
@@ -252,24 +259,26 @@ static bool quantity_after(const char *words, const char *word, const char *unit
     return wt_quantity_parse(text, quantity, value, NULL) == WT_OK;
 }
 
-bool tip_from_description(const char *words, wt_tip *tip)
+bool tip_from_description(const char *description, wt_tip *tip)
 {
     double sides = 0;
-    const bool cone = strncmp(words, "blunted cone, ", 14) == 0;
+    const bool cone = strncmp(description, "blunted cone, ", 14) == 0;
     *tip = (wt_tip){.shape = WT_TIP_BLUNTED_PYRAMID};
-    if (!(cone || quantity_after(words, "blunted pyramid, ", " ", WT_Q_NONE, &sides)) ||
-        !quantity_after(words, "half-angle ", "deg", WT_Q_ANGLE, &tip->half_angle) ||
-        !quantity_after(words, "cap radius ", "", WT_Q_LENGTH, &tip->radius) ||
-        !quantity_after(words, "transition radius b ", "", WT_Q_LENGTH, &tip->transition_radius))
+    if (!(cone ||
+          parse_labelled_quantity(description, "blunted pyramid, ", " ", WT_Q_NONE, &sides)) ||
+        !parse_labelled_quantity(description, "half-angle ", "deg", WT_Q_ANGLE, &tip->half_angle) ||
+        !parse_labelled_quantity(description, "cap radius ", "", WT_Q_LENGTH, &tip->radius) ||
+        !parse_labelled_quantity(description, "transition radius b ", "", WT_Q_LENGTH,
+                                 &tip->transition_radius))
         return false;
     tip->sides = (unsigned)sides;
     return wt_tip_check(tip, NULL) == WT_OK;
 }
 
-bool tip_of_any_description(const char *words, wt_tip *tip)
+bool tip_from_any_description(const char *description, wt_tip *tip)
 {
     static const struct {
-        const char *words;
+        const char *description;
         wt_tip_shape shape;
         bool round; /* true: a radius; false: an angle */
     } plain[] = {{"paraboloid, ", WT_TIP_PARABOLOID, true},
@@ -278,17 +287,19 @@ bool tip_of_any_description(const char *words, wt_tip *tip)
                  {"cone, ", WT_TIP_CONE, false}};
     double sides = 0;
     for (size_t i = 0; i < COUNT_OF(plain); i++) {
-        if (strncmp(words, plain[i].words, strlen(plain[i].words)) != 0)
+        if (strncmp(description, plain[i].description, strlen(plain[i].description)) != 0)
             continue;
         *tip = (wt_tip){.shape = plain[i].shape};
         return (plain[i].round
-                    ? quantity_after(words, "radius ", "", WT_Q_LENGTH, &tip->radius)
-                    : quantity_after(words, "half-angle ", "deg", WT_Q_ANGLE, &tip->half_angle)) &&
+                    ? parse_labelled_quantity(description, "radius ", "", WT_Q_LENGTH, &tip->radius)
+                    : parse_labelled_quantity(description, "half-angle ", "deg", WT_Q_ANGLE,
+                                              &tip->half_angle)) &&
                wt_tip_check(tip, NULL) == WT_OK;
     }
-    if (!quantity_after(words, "sharp pyramid, ", " ", WT_Q_NONE, &sides))
-        return tip_from_description(words, tip);
+    if (!parse_labelled_quantity(description, "sharp pyramid, ", " ", WT_Q_NONE, &sides))
+        return tip_from_description(description, tip);
     *tip = (wt_tip){.shape = WT_TIP_BLUNTED_PYRAMID, .sides = (unsigned)sides};
-    return quantity_after(words, "half-angle ", "deg", WT_Q_ANGLE, &tip->half_angle) &&
+    return parse_labelled_quantity(description, "half-angle ", "deg", WT_Q_ANGLE,
+                                   &tip->half_angle) &&
            wt_tip_check(tip, NULL) == WT_OK;
 }

@@ -16,25 +16,25 @@
 /* Smallest significant root of a work of adhesion, in its standard errors. The same limit applies
  * to a constant pull. */
 static const double work_errors = 3.0;
-static const double kink_left =
+static const double kink_step =
     1e-3; /* in standard errors; a larger remaining step ends at a kink */
 static const double better_chi2 =
     9.0; /* smallest 2 ln(likelihood ratio) against no adhesion, equivalent to 3 standard errors */
 /* Smallest Tabor parameter of the JKR law. The logarithmic mean of DMT (0.1) and JKR (5) is 0.7
  * (Johnson and Greenwood, J. Colloid Interface Sci. 192 (1997) 326). */
-static const double least_tabor = 1.0;
+static const double min_tabor = 1.0;
 /* Largest constant pull over the pull measured at the end of the retract. The mean over the samples
  * of a pull-off is two thirds of its largest value. */
-static const double most_pull = 1.5;
+static const double max_pull_ratio = 1.5;
 /* Share of the improvement that a score must predict. A law without its best work and contact point
  * still shows most of it. */
-static const double near_gain = 0.5;
+static const double score_share = 0.5;
 /* Trial works of adhesion as shares of the largest pull that is not detected. A score is linear in
  * the work and also detects a work four times as large. */
-static const double some_pulls[] = {1.0, 0.25};
+static const double trial_pulls[] = {1.0, 0.25};
 /* Trial positions of first contact before the contact point without adhesion, in depths of a jump.
  * Offset and tilt hide about one depth. The fits converge from within a factor of two. */
-static const double some_jumps[] = {2.0, 1.0, 4.0};
+static const double trial_jumps[] = {2.0, 1.0, 4.0};
 enum {
     MAX_ROUNDS = 3, /* with the jump at the contact point; each round reduces the error to less than
                        a tenth */
@@ -45,7 +45,7 @@ enum {
 
 /* ---- adhesive contact ------------------------------------------------------------------------ */
 
-static size_t first_beyond(const curve_samples *s, double position)
+static size_t find_position(const curve_samples *s, double position)
 {
     size_t i = 0;
     while (i < s->n && !(s->position[i] > position))
@@ -53,16 +53,16 @@ static size_t first_beyond(const curve_samples *s, double position)
     return i;
 }
 
-static void refine(curve_fitting *f, curve_solution *s)
+static void refine_adhesion_fit(curve_fitting *f, curve_solution *s)
 {
     curve_refine(f->table, &f->input.samples, f->kind, s->p, f->workspace, s);
 }
 
 /* Evaluates the law at the solution. The forces without the wave, the depths and the residuals of
  * the workspace are then those of the solution. */
-static void evaluate(const curve_fitting *f)
+static void evaluate_solution(const curve_fitting *f)
 {
-    curve_law m = curve_law_of(f->table, &f->input.samples, &f->kind, f->workspace);
+    curve_law m = curve_law_create(f->table, &f->input.samples, &f->kind, f->workspace);
     curve_law_evaluate(&m, f->solution.p, &f->solution.wave);
 }
 
@@ -70,14 +70,15 @@ static void evaluate(const curve_fitting *f)
 static double cost_without_adhesion(const curve_fitting *f, const double p[CURVE_N_PARAMETERS])
 {
     const curve_kind plainly = {.tilt = f->kind.tilt};
-    curve_law m = curve_law_of(f->table, &f->input.samples, &plainly, f->workspace);
+    curve_law m = curve_law_create(f->table, &f->input.samples, &plainly, f->workspace);
     curve_model_start(&m, p);
     return curve_model_cost(&m, p);
 }
 
 /* Averages the samples before and after a jump for a starting fit, which needs few samples. Returns
  * false if there are too few. */
-static bool thin(const curve_fitting *f, size_t jump, curve_samples *to, size_t *to_jump)
+static bool average_start_samples(const curve_fitting *f, size_t jump, curve_samples *to,
+                                  size_t *to_jump)
 {
     const curve_samples *s = &f->input.samples;
     const size_t length = (s->n - jump) / START_SAMPLES;
@@ -97,19 +98,19 @@ static bool thin(const curve_fitting *f, size_t jump, curve_samples *to, size_t 
 
 /* Moves the jump to the sample with the lowest cost. The cost has a kink where the jump moves to
  * another sample. */
-static void move_jump(curve_fitting *f, curve_solution *s)
+static void shift_jump(curve_fitting *f, curve_solution *s)
 {
     const size_t n = f->input.samples.n;
-    for (int way = -1; way <= 1; way += 2)
+    for (int direction = -1; direction <= 1; direction += 2)
         for (int i = 0; i < MAX_MOVES; i++) {
             curve_solution moved = *s;
             const size_t jump = f->kind.jump;
-            f->kind.jump = way < 0 ? jump - 1 : jump + 1;
-            f->kind.below = s->cost;
+            f->kind.jump = direction < 0 ? jump - 1 : jump + 1;
+            f->kind.cost_limit = s->cost;
             if (f->kind.jump >= CURVE_BASELINE_SAMPLES &&
                 n - f->kind.jump >= CURVE_BASELINE_SAMPLES)
-                refine(f, &moved);
-            f->kind.below = 0.0;
+                refine_adhesion_fit(f, &moved);
+            f->kind.cost_limit = 0.0;
             if (!(moved.cost < s->cost)) {
                 f->kind.jump = jump;
                 break;
@@ -126,66 +127,67 @@ static double refine_jump(curve_fitting *f, curve_solution *s, bool follows)
     curve_solution best = {.cost = (double)INFINITY};
     size_t jump_of_best = f->kind.jump;
     for (int round = 0; round < MAX_ROUNDS; round++) {
-        refine(f, s);
+        refine_adhesion_fit(f, s);
         if (!(s->cost < best.cost))
             break;
         best = *s;
         jump_of_best = f->kind.jump;
-        const size_t jump = first_beyond(samples, s->p[CURVE_C]);
+        const size_t jump = find_position(samples, s->p[CURVE_C]);
         if (!follows || jump == f->kind.jump || jump < CURVE_BASELINE_SAMPLES ||
             samples->n - jump < CURVE_BASELINE_SAMPLES)
             break;
         f->kind.jump = jump;
     }
-    const double there = s->cost;
+    const double final_cost = s->cost;
     f->kind.jump = jump_of_best;
     *s = best;
-    if (follows && !f->kind.rough)
-        move_jump(f, s);
-    return there;
+    if (follows && !f->kind.is_approximate)
+        shift_jump(f, s);
+    return final_cost;
 }
 
 /* Starts a fit from a jump. The contact point is fixed first and free afterwards, because a fit
  * from the wrong side of the jump does not converge. Returns false if the start fails: the averaged
  * samples have a larger cost than without adhesion, by more than one sample on the wrong side of
  * the jump causes. */
-static bool start_from(curve_fitting *f, curve_solution *s, double pull, size_t jump, bool follows)
+static bool start_adhesion_fit(curve_fitting *f, curve_solution *s, double pull, size_t jump,
+                               bool follows)
 {
     const bool fixed = f->kind.contact_fixed;
     const curve_samples all = f->input.samples;
     const curve_solution elastic = *s;
-    curve_samples some;
-    double there = 0.0, most = (double)INFINITY;
+    curve_samples thinned;
+    double final_cost = 0.0, most = (double)INFINITY;
     if (!fixed)
         s->p[CURVE_C] = all.position[jump];
     f->kind.jump = jump;
-    if (thin(f, jump, &some, &f->kind.jump)) {
-        f->input.samples = some;
+    if (average_start_samples(f, jump, &thinned, &f->kind.jump)) {
+        f->input.samples = thinned;
         most = cost_without_adhesion(f, elastic.p) + pull * pull;
     }
-    f->kind.contact_fixed = f->kind.rough = true;
-    refine(f, s);
+    f->kind.contact_fixed = f->kind.is_approximate = true;
+    refine_adhesion_fit(f, s);
     f->kind.contact_fixed = fixed;
     if (!fixed)
-        there = refine_jump(f, s, follows);
+        final_cost = refine_jump(f, s, follows);
     f->input.samples = all;
-    f->kind.rough = false;
-    return !(there > most);
+    f->kind.is_approximate = false;
+    return !(final_cost > most);
 }
 
 /* Refines a fit from a jump. If `follows`, the jump stays at the contact point. */
-static curve_solution refine_from(curve_fitting *f, curve_solution s, double pull, size_t jump,
-                                  bool follows)
+static curve_solution refine_adhesion_start(curve_fitting *f, curve_solution s, double pull,
+                                            size_t jump, bool follows)
 {
     const bool fixed = f->kind.contact_fixed;
     const curve_samples all = f->input.samples;
-    if (!start_from(f, &s, pull, jump, follows)) {
+    if (!start_adhesion_fit(f, &s, pull, jump, follows)) {
         s.converged = false;
         return s;
     }
     f->kind.jump = jump;
     if (follows && !fixed) {
-        const size_t touched = first_beyond(&all, s.p[CURVE_C]);
+        const size_t touched = find_position(&all, s.p[CURVE_C]);
         if (touched >= CURVE_BASELINE_SAMPLES && all.n - touched >= CURVE_BASELINE_SAMPLES)
             f->kind.jump = touched;
     }
@@ -195,7 +197,7 @@ static curve_solution refine_from(curve_fitting *f, curve_solution s, double pul
         f->kind.no_errors = false;
     }
     if (fixed || s.converged)
-        refine(f, &s);
+        refine_adhesion_fit(f, &s);
     f->kind.jump = s.first_contact;
     return s;
 }
@@ -213,40 +215,40 @@ static bool is_adhesive(const curve_fitting *f)
     const double root = s->p[CURVE_W];
     const adhesion law = {f->table, s->p[CURVE_E], root * root};
     /* A detected snap-in can be excluded, which is better than a law that does not fit. */
-    const bool strict = f->snap_on > 0.0 && !curve_fits(f);
-    const bool at_kink = s->step_left * s->p[CURVE_E] > kink_left * s->standard_error[CURVE_E];
+    const bool strict = f->snap_in_pull > 0.0 && !curve_passes_misfit_test(f);
+    const bool at_kink = s->step_left * s->p[CURVE_E] > kink_step * s->standard_error[CURVE_E];
     const double errors = f->kind.constant_pull && !strict ? 0.5 * work_errors : work_errors;
     return s->converged && !(strict && at_kink) &&
            root > errors * residual_over_noise(s) * s->standard_error[CURVE_W] &&
-           (f->kind.constant_pull || !(adhesion_tabor(&law) < least_tabor));
+           (f->kind.constant_pull || !(adhesion_tabor(&law) < min_tabor));
 }
 
 /* Fits adhesive contact from several starts. `jump` is the first sample in contact. If it is 0, the
  * contact begins some depths of a jump before the contact point without adhesion. The solution has
  * the kind of this fit afterwards. */
-static bool fit_adhesion_from(curve_fitting *f, curve_solution start, double pull, double depth,
-                              size_t jump)
+static bool search_adhesion_fit(curve_fitting *f, curve_solution start, double pull, double depth,
+                                size_t jump)
 {
     const curve_samples *samples = &f->input.samples;
     const bool follows = jump == 0;
-    for (size_t i = 0; i < (follows ? sizeof some_jumps / sizeof some_jumps[0] : 1); i++) {
+    for (size_t i = 0; i < (follows ? sizeof trial_jumps / sizeof trial_jumps[0] : 1); i++) {
         if (follows)
-            jump = first_beyond(samples, start.p[CURVE_C] - some_jumps[i] * depth);
+            jump = find_position(samples, start.p[CURVE_C] - trial_jumps[i] * depth);
         if (jump < CURVE_BASELINE_SAMPLES || samples->n - jump < CURVE_BASELINE_SAMPLES)
             continue;
-        f->solution = refine_from(f, start, pull, jump, follows);
+        f->solution = refine_adhesion_start(f, start, pull, jump, follows);
         /* In a wrong minimum, contact begins far from where the force rises. */
-        const bool near = !follows || f->solution.cost < start.cost;
-        if (near && is_adhesive(f))
+        const bool is_near_start = !follows || f->solution.cost < start.cost;
+        if (is_near_start && is_adhesive(f))
             return true;
-        if (near && f->solution.converged) /* the fit converged to almost no adhesion */
+        if (is_near_start && f->solution.converged) /* the fit converged to almost no adhesion */
             break;
     }
     return false;
 }
 
 /* Finds the JKR law with this pull-off force. Returns false if no such law applies. */
-static bool law_of_pull(const curve_fitting *f, double pull, adhesion *law)
+static bool find_jkr_law(const curve_fitting *f, double pull, adhesion *law)
 {
     const double reduced = f->solution.p[CURVE_E], k = f->input.samples.spring_constant;
     *law = (adhesion){f->table, reduced, adhesion_work(f->table, reduced, k, pull)};
@@ -259,18 +261,18 @@ static double jump_depth(const curve_fitting *f, const adhesion *law)
     const double k = f->input.samples.spring_constant, touch = 0.0;
     double bare;
     adhesion_balance(law, k, adhesion_release(law, k), &touch, 1, &bare);
-    return adhesion_at(law, bare).depth;
+    return adhesion_contact_value(law, bare).depth;
 }
 
 static bool fit_jkr(curve_fitting *f, double pull, size_t jump)
 {
     curve_solution start = f->solution;
     adhesion law;
-    if (!law_of_pull(f, pull, &law))
+    if (!find_jkr_law(f, pull, &law))
         return false;
     start.p[CURVE_W] = sqrt(law.work);
     f->kind.adhesive = true;
-    return fit_adhesion_from(f, start, pull, jump_depth(f, &law), jump);
+    return search_adhesion_fit(f, start, pull, jump_depth(f, &law), jump);
 }
 
 static bool fit_constant_pull(curve_fitting *f, double pull, size_t jump)
@@ -278,25 +280,25 @@ static bool fit_constant_pull(curve_fitting *f, double pull, size_t jump)
     curve_solution start = f->solution;
     start.p[CURVE_W] = pull;
     f->kind.adhesive = f->kind.constant_pull = true;
-    return fit_adhesion_from(f, start, pull, pull / f->input.samples.spring_constant, jump);
+    return search_adhesion_fit(f, start, pull, pull / f->input.samples.spring_constant, jump);
 }
 
 /* Fit of one law and its kind. */
-typedef struct outcome {
+typedef struct adhesive_law_fit {
     curve_solution solution;
     curve_kind kind;
-    bool found, likely;
+    bool found, is_plausible;
     double evidence; /* twice the log likelihood of approach and retract */
-} outcome;
-enum { CONSTANT_PULL, JKR, JKR_FROM_PULL, LAWS };
+} adhesive_law_fit;
+enum { CONSTANT_PULL, JKR, JKR_REFINED, LAWS };
 
 /* True if the pull of this fit, within its errors, is compatible with the retract. The pull-off of
  * rubber is at least as strong as its snap-in. */
-static bool pull_is_likely(const curve_fitting *f)
+static bool pull_is_plausible(const curve_fitting *f)
 {
     const double root = fmax(0.0, f->solution.p[CURVE_W] -
                                       NORMAL_95 * f->solution.standard_error[CURVE_W]),
-                 most = most_pull * f->pull_off;
+                 most = max_pull_ratio * f->pull_off;
     if (!(f->pull_off > 0.0))
         return true;
     if (f->kind.constant_pull)
@@ -306,39 +308,39 @@ static bool pull_is_likely(const curve_fitting *f)
 }
 
 /* Log likelihood ratio 2 ln of `other` over a solution. */
-static double evidence_of(const curve_solution *than, const curve_solution *other)
+static double log_evidence(const curve_solution *than, const curve_solution *other)
 {
     return than->effective_n * log(than->cost / other->cost) / fmax(1.0, than->lack.statistic);
 }
 
-static double gain_of(const curve_fitting *f, const curve_solution *other)
+static double likelihood_gain(const curve_fitting *f, const curve_solution *other)
 {
-    return evidence_of(&f->solution, other);
+    return log_evidence(&f->solution, other);
 }
 
 /* True if the tip pulls off, within the errors of the fit, at the position of first contact or
  * later. Rubber keeps contact at least up to that position during the retract. */
-static bool lets_go_late(const curve_fitting *f, const curve_solution *out)
+static bool pull_off_is_late(const curve_fitting *f, const curve_solution *out)
 {
-    const double *position = f->way_out.samples.position;
-    const size_t jump = f->way_out.jump;
+    const double *position = f->unloading.samples.position;
+    const size_t jump = f->unloading.jump;
     const double between = position[jump + 1] - position[jump];
     return !(position[jump] > out->p[CURVE_C] + NORMAL_95 * out->standard_error[CURVE_C] + between);
 }
 
 /* Computes the evidence of the laws found. Without loss the retract follows the same law, and its
  * neck and pull-off distinguish laws that the approach does not. */
-static void weigh(curve_fitting *f, outcome law[LAWS])
+static void weigh_laws(curve_fitting *f, adhesive_law_fit law[LAWS])
 {
     const curve_solution *best = NULL;
     curve_solution out[LAWS];
-    bool fitted = f->loss < CURVE_LEAST_LOSS && law[CONSTANT_PULL].found;
+    bool fitted = f->loss < CURVE_MIN_LOSS && law[CONSTANT_PULL].found;
     for (int i = 0; i < LAWS; i++) {
         if (!law[i].found)
             continue;
         if (best == NULL || law[i].solution.cost < best->cost)
             best = &law[i].solution;
-        fitted = fitted && curve_fit_way_out(f, &law[i].kind, &law[i].solution, &out[i]);
+        fitted = fitted && curve_fit_unloading(f, &law[i].kind, &law[i].solution, &out[i]);
     }
     const curve_solution *least = NULL;
     for (int i = 0; i < LAWS && fitted; i++)
@@ -347,35 +349,37 @@ static void weigh(curve_fitting *f, outcome law[LAWS])
     for (int i = 0; i < LAWS; i++) {
         if (!law[i].found)
             continue;
-        law[i].evidence = evidence_of(best, &law[i].solution);
+        law[i].evidence = log_evidence(best, &law[i].solution);
         if (fitted) {
-            law[i].evidence += evidence_of(least, &out[i]);
-            law[i].likely = law[i].likely && (!out[i].converged || lets_go_late(f, &out[i]));
+            law[i].evidence += log_evidence(least, &out[i]);
+            law[i].is_plausible =
+                law[i].is_plausible && (!out[i].converged || pull_off_is_late(f, &out[i]));
         }
     }
 }
 
-static bool better_law(const outcome *a, const outcome *b, bool lossy)
+static bool is_better_law(const adhesive_law_fit *a, const adhesive_law_fit *b, bool lossy)
 {
-    if (!a->found || !b->found || a->likely != b->likely)
-        return a->found && (!b->found || a->likely);
+    if (!a->found || !b->found || a->is_plausible != b->is_plausible)
+        return a->found && (!b->found || a->is_plausible);
     if (lossy && a->kind.constant_pull != b->kind.constant_pull)
         return b->kind.constant_pull;
     return a->evidence > b->evidence;
 }
 
 /* Alternative fit with a log likelihood ratio of chi2. */
-static curve_other by_likelihood(double chi2, double moved)
+static curve_alternative alternative_from_gain(double chi2, double moved)
 {
-    return (curve_other){moved, 1.0 / (1.0 + exp(-0.5 * chi2))};
+    return (curve_alternative){moved, 1.0 / (1.0 + exp(-0.5 * chi2))};
 }
 
-static curve_other by_other(const curve_fitting *f, const curve_solution *other, double chi2)
+static curve_alternative alternative_from_fit(const curve_fitting *f, const curve_solution *other,
+                                              double chi2)
 {
-    return by_likelihood(chi2, other->p[CURVE_E] / f->solution.p[CURVE_E] - 1.0);
+    return alternative_from_gain(chi2, other->p[CURVE_E] / f->solution.p[CURVE_E] - 1.0);
 }
 
-static double weight_of(const curve_other *o)
+static double alternative_weight(const curve_alternative *o)
 {
     return o->chance * o->moved * o->moved;
 }
@@ -385,20 +389,20 @@ static double weight_of(const curve_other *o)
  * only a constant pull can win; other laws are then tried only if it does. */
 static bool fit_adhesion_laws(curve_fitting *f, double pull, size_t jump, bool pull_alone)
 {
-    const outcome before = {f->solution, f->kind, true, true, 0.0};
-    outcome law[LAWS] = {{.found = false}};
-    const outcome *best = &law[0];
+    const adhesive_law_fit before = {f->solution, f->kind, true, true, 0.0};
+    adhesive_law_fit law[LAWS] = {{.found = false}};
+    const adhesive_law_fit *best = &law[0];
     /* Loss resembles a constant pull, and neither law describes it, so costs do not decide. Forces
      * on rubber have a short range. */
-    const bool lossy = jump == 0 && f->loss > CURVE_LEAST_LOSS;
+    const bool lossy = jump == 0 && f->loss > CURVE_MIN_LOSS;
     for (int i = 0; i < LAWS; i++) {
         f->solution = before.solution;
         f->kind = before.kind;
         const bool found =
             i == CONSTANT_PULL ? fit_constant_pull(f, pull, jump) : fit_jkr(f, pull, jump);
-        law[i] = (outcome){f->solution, f->kind, found, pull_is_likely(f), 0.0};
+        law[i] = (adhesive_law_fit){f->solution, f->kind, found, pull_is_plausible(f), 0.0};
         if (i == CONSTANT_PULL && pull_alone &&
-            !(law[i].found && -gain_of(f, &before.solution) > better_chi2))
+            !(law[i].found && -likelihood_gain(f, &before.solution) > better_chi2))
             break;
         /* The cost has kinks where samples pull off. A second start uses the fitted constant pull.
          */
@@ -407,21 +411,21 @@ static bool fit_adhesion_laws(curve_fitting *f, double pull, size_t jump, bool p
         if (i == JKR && !(jump == 0 && pull > 0.0))
             break;
     }
-    weigh(f, law);
+    weigh_laws(f, law);
     for (int i = 1; i < LAWS; i++)
-        if (better_law(&law[i], best, lossy))
+        if (is_better_law(&law[i], best, lossy))
             best = &law[i];
-    const outcome *to = best->found ? best : &before;
+    const adhesive_law_fit *to = best->found ? best : &before;
     f->solution = to->solution;
     f->kind = to->kind;
     f->kind.wave = to->solution.wave;
-    f->other_law = (curve_other){0.0, 0.0};
+    f->other_law = (curve_alternative){0.0, 0.0};
     for (int i = 0; i < LAWS && best->found; i++)
-        if (law[i].found && &law[i] != best && (law[i].likely || !best->likely)) {
+        if (law[i].found && &law[i] != best && (law[i].is_plausible || !best->is_plausible)) {
             const curve_solution *other = &law[i].solution;
             const double gain = fmin(0.0, law[i].evidence - best->evidence);
-            const curve_other moved = by_other(f, other, gain);
-            if (weight_of(&moved) > weight_of(&f->other_law))
+            const curve_alternative moved = alternative_from_fit(f, other, gain);
+            if (alternative_weight(&moved) > alternative_weight(&f->other_law))
                 f->other_law = moved;
         }
     return best->found;
@@ -430,18 +434,18 @@ static bool fit_adhesion_laws(curve_fitting *f, double pull, size_t jump, bool p
 /* ---- score test for adhesion ----------------------------------------------------------------- */
 
 /* Computes the residuals of a law at p. */
-static void residuals_of(const curve_fitting *f, const curve_kind *kind,
-                         const double p[CURVE_N_PARAMETERS], double *to)
+static void compute_residuals(const curve_fitting *f, const curve_kind *kind,
+                              const double p[CURVE_N_PARAMETERS], double *to)
 {
-    curve_law m = curve_law_of(f->table, &f->input.samples, kind, f->workspace);
+    curve_law m = curve_law_create(f->table, &f->input.samples, kind, f->workspace);
     curve_law_evaluate(&m, p, &kind->wave);
     memcpy(to, f->workspace->residual, f->input.samples.n * sizeof *to);
 }
 
 /* Computes the difference of the forces with and without adhesion of this pull. `without` has the
  * residuals without adhesion. Returns false if the law does not apply. */
-static bool difference_of(const curve_fitting *f, bool constant_pull, double pull,
-                          const double *without, double *to)
+static bool law_force_difference(const curve_fitting *f, bool constant_pull, double pull,
+                                 const double *without, double *to)
 {
     curve_kind kind = {.tilt = f->kind.tilt, .adhesive = true, .constant_pull = constant_pull};
     double p[CURVE_N_PARAMETERS];
@@ -449,15 +453,15 @@ static bool difference_of(const curve_fitting *f, bool constant_pull, double pul
     memcpy(p, f->solution.p, sizeof p);
     p[CURVE_W] = pull;
     if (!constant_pull) {
-        if (!law_of_pull(f, pull, &law))
+        if (!find_jkr_law(f, pull, &law))
             return false;
         p[CURVE_W] = sqrt(law.work);
         if (!f->kind.contact_fixed)
-            p[CURVE_C] -= some_jumps[0] * jump_depth(f, &law);
+            p[CURVE_C] -= trial_jumps[0] * jump_depth(f, &law);
         p[CURVE_F0] = curve_baseline(&f->solution, p[CURVE_C]); /* keeps the baseline unchanged */
     }
-    residuals_of(f, &kind, p, to);
-    const size_t touched = first_beyond(&f->input.samples, p[CURVE_C]);
+    compute_residuals(f, &kind, p, to);
+    const size_t touched = find_position(&f->input.samples, p[CURVE_C]);
     for (size_t i = 0; i < f->input.samples.n; i++)
         to[i] = i < touched ? 0.0 : without[i] - to[i];
     return true;
@@ -467,32 +471,32 @@ static bool difference_of(const curve_fitting *f, bool constant_pull, double pul
  * Otherwise the effect of a plausible pull on the modulus adds to the error. The workspace is that
  * of the solution afterwards. `pull_alone` is true if only a constant pull could replace the fit.
  */
-static bool adhesion_matters(curve_fitting *f, double most, bool *pull_alone)
+static bool adhesion_may_improve(curve_fitting *f, double most, bool *pull_alone)
 {
     const curve_kind plainly = {.tilt = f->kind.tilt};
     wt_indent_workspace *w = f->workspace;
     /* The arrays of the scan are free after the scan. */
     double *const difference[] = {w->start_position, w->start_force, w->tip};
     enum { SCORES = sizeof difference / sizeof difference[0] };
-    curve_step step[SCORES];
-    residuals_of(f, &plainly, f->solution.p, w->weight);
+    curve_score_result step[SCORES];
+    compute_residuals(f, &plainly, f->solution.p, w->weight);
     /* The force is linear in a constant pull, so any small pull will do. */
-    (void)difference_of(f, true, f->input.step_noise, w->weight, difference[0]);
+    (void)law_force_difference(f, true, f->input.step_noise, w->weight, difference[0]);
     size_t n = 1;
-    for (size_t i = 0; i < sizeof some_pulls / sizeof some_pulls[0]; i++)
-        if (difference_of(f, false, some_pulls[i] * most, w->weight, difference[n]))
+    for (size_t i = 0; i < sizeof trial_pulls / sizeof trial_pulls[0]; i++)
+        if (law_force_difference(f, false, trial_pulls[i] * most, w->weight, difference[n]))
             n++;
     curve_score(f->table, &f->input.samples, &f->kind, &f->solution, difference, n, w, step);
-    bool matters = false;
+    bool may_improve = false;
     for (size_t i = n; i-- > 0;)
-        if (step[i].share > 0.0 && step[i].gain > near_gain * better_chi2) {
-            *pull_alone = !matters && i == 0;
-            matters = true;
+        if (step[i].share > 0.0 && step[i].gain > score_share * better_chi2) {
+            *pull_alone = !may_improve && i == 0;
+            may_improve = true;
         }
-    if (matters)
+    if (may_improve)
         return true;
     if (step[0].share > 0.0 && step[0].gain > 0.25 * work_errors * work_errors)
-        f->other_law = by_likelihood(step[0].gain, step[0].modulus);
+        f->other_law = alternative_from_gain(step[0].gain, step[0].modulus);
     return false;
 }
 
@@ -502,47 +506,47 @@ bool curve_fit_adhesion(curve_fitting *f)
 {
     const curve_solution elastic = f->solution;
     const curve_kind plainly = f->kind;
-    const bool try_it =
+    const bool is_adhesion_tried =
         !f->options->plain_least_squares && !(contact_table_tip(f->table)->sample_thickness > 0.0);
     curve_snap found = f->snap;
-    if (f->snap_on > 0.0) {
-        if (try_it) { /* starts at the deepest sample; before it the cantilever jumps or is
-                         attracted */
-            curve_leave_out(f, found.start, found.deepest + 1);
+    if (f->snap_in_pull > 0.0) {
+        if (is_adhesion_tried) { /* starts at the deepest sample; before it the cantilever jumps or
+                         is attracted */
+            curve_exclude_samples(f, found.start, found.deepest + 1);
             if (fit_adhesion_laws(f, found.pull, found.start, false)) {
-                evaluate(f);
+                evaluate_solution(f);
                 return true;
             }
             found.end -= found.deepest + 1 - found.start;
             found.deepest = found.start;
         }
         f->kind = plainly;
-        curve_leave_out(f, found.start, found.end);
-        curve_begin_wave(f, &plainly.wave);
+        curve_exclude_samples(f, found.start, found.end);
+        curve_subtract_wave(f, &plainly.wave);
         return curve_scan_and_refine(f);
     }
     /* The pull-off of rubber is much stronger than its snap-in, which was not detected. */
-    if (!(f->pull_off > 0.0) || !try_it)
+    if (!(f->pull_off > 0.0) || !is_adhesion_tried)
         return true;
     const double most = fmin(f->pull_off, CURVE_PULL_NOISE * f->input.step_noise);
-    const bool quick = curve_fits(f) && !curve_has_wave(&elastic.wave);
+    const bool quick = curve_passes_misfit_test(f) && !curve_has_wave(&elastic.wave);
     bool pull_alone = false;
-    if (quick && !adhesion_matters(f, most, &pull_alone))
+    if (quick && !adhesion_may_improve(f, most, &pull_alone))
         return true;
     if (!fit_adhesion_laws(f, most, 0, pull_alone)) {
-        evaluate(f);
+        evaluate_solution(f);
         return true;
     }
-    const double gain = -gain_of(f, &elastic);
+    const double gain = -likelihood_gain(f, &elastic);
     if (gain > better_chi2) {
-        evaluate(f);
+        evaluate_solution(f);
         return true;
     }
     const curve_solution law = f->solution;
     f->kind = plainly;
     f->solution = elastic;
     f->kind.wave = elastic.wave;
-    evaluate(f);
-    f->other_law = by_other(f, &law, gain);
+    evaluate_solution(f);
+    f->other_law = alternative_from_fit(f, &law, gain);
     return true;
 }

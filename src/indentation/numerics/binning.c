@@ -14,7 +14,7 @@ enum { MOST_NODES = FREE_BINS + PRESSED_BINS + 1 + HELD_BINS + RETRACT_BINS };
 enum { LEAST_BASELINE = 2 * FREE_BINS };
 /* Duration of the first mean of the dwell over that of the dwell. The means with a constant ratio
  * of times cover three decades. */
-static const double first_share = 1e-3;
+static const double first_bin_share = 1e-3;
 /* Start of the contact means before the contact point, in lengths of the contact. They still
  * include a contact point with that error. The value is chosen; the fit includes the adjacent means
  * as well. */
@@ -24,13 +24,13 @@ static const double margin = 0.2;
  */
 static const double free_share = 0.5;
 
-static void open_node(const wt_dwell_history *h, dwell_nodes *to, size_t i)
+static void begin_node(const wt_dwell_history *h, dwell_nodes *to, size_t i)
 {
     to->from[to->n] = h->time[i];
     to->n++;
 }
 
-static void put_sample(const wt_dwell_history *h, dwell_nodes *to, size_t i, double step)
+static void add_node_sample(const wt_dwell_history *h, dwell_nodes *to, size_t i, double step)
 {
     const size_t k = to->n - 1;
     to->count[k]++;
@@ -41,8 +41,8 @@ static void put_sample(const wt_dwell_history *h, dwell_nodes *to, size_t i, dou
 }
 
 /* Adds means with equal numbers of samples. */
-static void put_equal(const wt_dwell_history *h, size_t from, size_t to, size_t bins, double step,
-                      dwell_nodes *nodes)
+static void add_equal_bins(const wt_dwell_history *h, size_t from, size_t to, size_t bins,
+                           double step, dwell_nodes *nodes)
 {
     const size_t n = to - from;
     size_t last = bins;
@@ -50,47 +50,47 @@ static void put_equal(const wt_dwell_history *h, size_t from, size_t to, size_t 
     for (size_t i = 0; i < n; i++) {
         const size_t bin = i * bins / n;
         if (bin != last)
-            open_node(h, nodes, from + i);
+            begin_node(h, nodes, from + i);
         last = bin;
-        put_sample(h, nodes, from + i, step);
+        add_node_sample(h, nodes, from + i, step);
     }
 }
 
 /* Adds means over times since the approach that grow by a constant factor. */
-static void put_held(const wt_dwell_history *h, double step, dwell_nodes *nodes)
+static void add_dwell_bins(const wt_dwell_history *h, double step, dwell_nodes *nodes)
 {
     const size_t from = h->n_approach, n = h->n_dwell;
     const double start = h->time[from] - step, duration = h->time[from + n - 1] - start;
-    const double first = fmax(step, first_share * duration), ratio = log(duration / first);
+    const double first = fmax(step, first_bin_share * duration), ratio = log(duration / first);
     double last = -1;
     for (size_t i = from; i < from + n; i++) {
         const double since = h->time[i] - start;
         const double bin =
             since < first ? 0 : fmin(floor(log(since / first) / ratio * HELD_BINS), HELD_BINS - 1);
         if (!(bin <= last))
-            open_node(h, nodes, i);
+            begin_node(h, nodes, i);
         last = bin;
-        put_sample(h, nodes, i, step);
+        add_node_sample(h, nodes, i, step);
     }
 }
 
 /* Adds the farther part of the retract after its strongest pull. It is at least as far from the
  * sample as the depth of loading. */
-static void put_retract(const wt_dwell_history *h, dwell_nodes *nodes)
+static void add_retract_bins(const wt_dwell_history *h, dwell_nodes *nodes)
 {
     const size_t from = h->n_approach + h->n_dwell, end = from + h->n_retract;
-    const double deep = h->position[h->n_approach - 1] - h->contact_point;
+    const double max_depth = h->position[h->n_approach - 1] - h->contact_point;
     size_t first = from;
     for (size_t i = from; i < end; i++)
         if (h->force[i] < h->force[first])
             first = i;
-    while (first < end && !(h->position[first] < h->contact_point - deep))
+    while (first < end && !(h->position[first] < h->contact_point - max_depth))
         first++;
     if (end - first < LEAST_BASELINE)
         return;
     const size_t begin = first + (size_t)(free_share * (double)(end - first));
-    put_equal(h, begin, end, RETRACT_BINS,
-              (h->time[end - 1] - h->time[begin]) / (double)(end - 1 - begin), nodes);
+    add_equal_bins(h, begin, end, RETRACT_BINS,
+                   (h->time[end - 1] - h->time[begin]) / (double)(end - 1 - begin), nodes);
 }
 
 /* ---- noise ----------------------------------------------------------------------------------- */
@@ -100,14 +100,14 @@ static void put_retract(const wt_dwell_history *h, dwell_nodes *nodes)
 enum { OCTAVES = 24 }; /* covers 2^24 samples, more than a curve has */
 /* Limit of the multiplicative iterations. The estimate needs an accuracy of some per cent. */
 enum { ROUNDS = 400 };
-typedef struct noise {
+typedef struct dwell_noise {
     double white, slow[OCTAVES], time[OCTAVES]; /* variances of a sample; times [s] */
     size_t n;
     double extra; /* additional variance in contact */
-} noise;
+} dwell_noise;
 
 /* Residuals of a line through n samples against time. */
-static void take_line(const double *time, const double *force, size_t n, double *residual)
+static void subtract_line(const double *time, const double *force, size_t n, double *residual)
 {
     double t = 0, f = 0, tt = 0, tf = 0;
     for (size_t i = 0; i < n; i++) {
@@ -140,7 +140,7 @@ static double mean_square_difference(const double *x, size_t n, size_t m)
 
 /* Mean square difference for a process of variance 1. x = duration of a mean over the time of the
  * process. */
-static double difference_of(double x)
+static double process_difference(double x)
 {
     const double within = x < 1e-3 ? 1 - x / 3 : 2 * (x + expm1(-x)) / (x * x),
                  across = x < 1e-3 ? 1 - x : pow(expm1(-x) / x, 2);
@@ -161,11 +161,11 @@ static double step_variance(const wt_dwell_history *h, size_t from, size_t n, do
 
 /* Finds non-negative variances that reproduce the measured differences, by iterations in the
  * logarithm. */
-static void share_out(const double *seen, size_t n, double response[OCTAVES][OCTAVES + 1],
-                      double *variance)
+static void fit_noise_variances(const double *measured, size_t n,
+                                double response[OCTAVES][OCTAVES + 1], double *variance)
 {
     for (size_t k = 0; k <= n; k++)
-        variance[k] = seen[0] / (double)(n + 1);
+        variance[k] = measured[0] / (double)(n + 1);
     for (int round = 0; round < ROUNDS; round++) {
         double up[OCTAVES + 1] = {0}, down[OCTAVES + 1] = {0};
         for (size_t i = 0; i < n; i++) {
@@ -174,7 +174,7 @@ static void share_out(const double *seen, size_t n, double response[OCTAVES][OCT
                 sum += response[i][k] * variance[k];
             for (size_t k = 0; k <= n; k++) {
                 const double part = response[i][k] / sum;
-                up[k] += part * seen[i] / sum;
+                up[k] += part * measured[i] / sum;
                 down[k] += part;
             }
         }
@@ -183,28 +183,28 @@ static void share_out(const double *seen, size_t n, double response[OCTAVES][OCT
     }
 }
 
-static noise noise_of(const wt_dwell_history *h, size_t n, double stiffness, double step,
-                      double *residual)
+static dwell_noise estimate_dwell_noise(const wt_dwell_history *h, size_t n, double stiffness,
+                                        double step, double *residual)
 {
-    noise v = {0};
-    double seen[OCTAVES] = {0}, response[OCTAVES][OCTAVES + 1], variance[OCTAVES + 1];
+    dwell_noise v = {0};
+    double measured[OCTAVES] = {0}, response[OCTAVES][OCTAVES + 1], variance[OCTAVES + 1];
     const double whole = h->time[h->n_approach + h->n_dwell - 1] - h->time[0];
-    size_t seen_n = 0;
-    take_line(h->time, h->force, n, residual);
-    for (size_t m = 1; 8 * m <= n && seen_n < OCTAVES; m *= 2) {
-        seen[seen_n] = mean_square_difference(residual, n, m);
-        response[seen_n][0] = 2 / (double)m;
-        seen_n++;
+    size_t n_measured = 0;
+    subtract_line(h->time, h->force, n, residual);
+    for (size_t m = 1; 8 * m <= n && n_measured < OCTAVES; m *= 2) {
+        measured[n_measured] = mean_square_difference(residual, n, m);
+        response[n_measured][0] = 2 / (double)m;
+        n_measured++;
     }
-    for (size_t i = 0; i < seen_n; i++)
-        for (size_t k = 0; k < seen_n; k++)
-            response[i][k + 1] = difference_of(ldexp(1, (int)i - (int)k));
-    share_out(seen, seen_n, response, variance);
+    for (size_t i = 0; i < n_measured; i++)
+        for (size_t k = 0; k < n_measured; k++)
+            response[i][k + 1] = process_difference(ldexp(1, (int)i - (int)k));
+    fit_noise_variances(measured, n_measured, response, variance);
     v.white = variance[0];
     for (; v.n < OCTAVES; v.n++) {
         v.time[v.n] = step * ldexp(1, (int)v.n);
-        v.slow[v.n] = variance[1 + (v.n < seen_n ? v.n : seen_n - 1)];
-        if (v.n >= seen_n && v.time[v.n] > whole)
+        v.slow[v.n] = variance[1 + (v.n < n_measured ? v.n : n_measured - 1)];
+        if (v.n >= n_measured && v.time[v.n] > whole)
             break;
     }
     v.extra =
@@ -221,14 +221,14 @@ static double noise_covariance(const dwell_nodes *n, size_t i, size_t k, double 
     return exp(-fmax(0, n->from[k] - n->to[i]) / time) * (-expm1(-x) / x) * (-expm1(-y) / y);
 }
 
-static bool make_factor(dwell_nodes *n, const noise *v, arena *memory)
+static bool factor_covariance(dwell_nodes *n, const dwell_noise *v, arena *memory)
 {
     n->factor = arena_matrix(memory, n->n, n->n);
     if (memory->failed)
         return false;
     for (size_t i = 0; i < n->n; i++)
         for (size_t k = i; k < n->n; k++) {
-            const bool pressed = i >= n->first_pressed && i < n->first_free;
+            const bool pressed = i >= n->first_loading && i < n->first_free;
             double c = 0;
             for (size_t j = 0; j < v->n; j++)
                 c += v->slow[j] * noise_covariance(n, i, k, v->time[j]);
@@ -239,8 +239,8 @@ static bool make_factor(dwell_nodes *n, const noise *v, arena *memory)
     return gsl_linalg_cholesky_decomp1(n->factor) == GSL_SUCCESS;
 }
 
-const char *dwell_nodes_make(const wt_dwell_history *h, double stiffness, arena *memory,
-                             dwell_nodes *nodes)
+const char *dwell_nodes_create(const wt_dwell_history *h, double stiffness, arena *memory,
+                               dwell_nodes *nodes)
 {
     double **const arrays[] = {&nodes->time, &nodes->position, &nodes->force,
                                &nodes->from, &nodes->to,       &nodes->count};
@@ -262,22 +262,23 @@ const char *dwell_nodes_make(const wt_dwell_history *h, double stiffness, arena 
     const double before = (h->time[h->n_approach - 1] - h->time[0]) / (double)(h->n_approach - 1),
                  step = (h->time[h->n_approach + h->n_dwell - 1] - h->time[h->n_approach]) /
                         (double)(h->n_dwell - 1);
-    put_equal(h, 0, split, FREE_BINS, before, nodes);
-    nodes->first_pressed = nodes->n;
-    put_equal(h, split, h->n_approach - 1, PRESSED_BINS, before, nodes);
-    put_equal(h, h->n_approach - 1, h->n_approach, 1, before, nodes); /* end of the approach */
-    nodes->first_held = nodes->n;
-    put_held(h, step, nodes);
+    add_equal_bins(h, 0, split, FREE_BINS, before, nodes);
+    nodes->first_loading = nodes->n;
+    add_equal_bins(h, split, h->n_approach - 1, PRESSED_BINS, before, nodes);
+    add_equal_bins(h, h->n_approach - 1, h->n_approach, 1, before, nodes); /* end of the approach */
+    nodes->first_dwell = nodes->n;
+    add_dwell_bins(h, step, nodes);
     nodes->first_free = nodes->n;
     if (h->n_retract > 0)
-        put_retract(h, nodes);
+        add_retract_bins(h, nodes);
     for (size_t i = 0; i < nodes->n; i++) {
         nodes->time[i] /= nodes->count[i];
         nodes->position[i] /= nodes->count[i];
         nodes->force[i] /= nodes->count[i];
     }
-    const noise v = noise_of(h, split, stiffness, before, residual);
-    if (isnan(v.white) || !make_factor(nodes, &v, memory)) /* variances without noise are NaN */
+    const dwell_noise v = estimate_dwell_noise(h, split, stiffness, before, residual);
+    if (isnan(v.white) ||
+        !factor_covariance(nodes, &v, memory)) /* variances without noise are NaN */
         return "no noise in the baseline";
     return "";
 }

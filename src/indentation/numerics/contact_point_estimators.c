@@ -13,7 +13,7 @@ static const double threshold = 2.0; /* in largest deviations of the baseline */
 static const size_t windows = 20;    /* number of windows; a variance covers one */
 enum { LEAST_WINDOW = 5 };
 
-static const char *const words[WT_CONTACT_ESTIMATORS] = {
+static const char *const estimator_texts[WT_CONTACT_ESTIMATORS] = {
     [WT_CONTACT_THRESHOLD] = "threshold of the baseline",
     [WT_CONTACT_VARIANCES] = "ratio of variances",
     [WT_CONTACT_LINES] = "meeting of two lines",
@@ -23,15 +23,15 @@ static const char *const words[WT_CONTACT_ESTIMATORS] = {
 const char *wt_contact_estimator_text(wt_contact_estimator estimator)
 {
     const size_t i = (size_t)estimator;
-    return i < WT_CONTACT_ESTIMATORS ? words[i] : "unknown";
+    return i < WT_CONTACT_ESTIMATORS ? estimator_texts[i] : "unknown";
 }
 
 /* Weighted sums over a range of samples. */
-typedef struct sums {
+typedef struct line_sums {
     double n, z, f, zz, zf, ff;
-} sums;
+} line_sums;
 
-static void add(sums *to, double z, double f, double sign)
+static void add_sample(line_sums *to, double z, double f, double sign)
 {
     to->n += sign;
     to->z += sign * z;
@@ -41,14 +41,14 @@ static void add(sums *to, double z, double f, double sign)
     to->ff += sign * f * f;
 }
 
-static double variance(const sums *s)
+static double sample_variance(const line_sums *s)
 {
     return (s->ff - s->f * s->f / s->n) / s->n;
 }
 
 /* Returns the first sample whose force exceeds the baseline mean by twice the largest deviation, or
  * n without such a sample. */
-static size_t by_threshold(const double *force, size_t n)
+static size_t threshold_index(const double *force, size_t n)
 {
     const size_t first = (size_t)(baseline_share * (double)n);
     double mean = 0.0, most = 0.0;
@@ -63,38 +63,38 @@ static size_t by_threshold(const double *force, size_t n)
 }
 
 /* Returns the length of the run of equal forces after one more sample. */
-static size_t run_on(size_t run, double before, double now)
+static size_t next_run_length(size_t run, double before, double now)
 {
     return now < before || now > before ? 1 : run + 1;
 }
 
 /* Returns the sample with the largest ratio of the variances after and before it. The result is n
  * for constant forces of a coarse detector, because rounding would decide. */
-static size_t by_variances(const double *force, size_t n)
+static size_t variance_ratio_index(const double *force, size_t n)
 {
     const size_t window = n / windows > LEAST_WINDOW ? n / windows : LEAST_WINDOW;
-    sums before = {0}, behind = {0};
+    line_sums before = {0}, after = {0};
     double best = 0.0;
     size_t at = n, run = 0;
     for (size_t i = 0; i < window && 2 * window < n; i++) {
-        run = i > 0 ? run_on(run, force[i - 1], force[i]) : 1;
-        add(&before, 0.0, force[i], 1.0);
-        add(&behind, 0.0, force[window + 1 + i], 1.0);
+        run = i > 0 ? next_run_length(run, force[i - 1], force[i]) : 1;
+        add_sample(&before, 0.0, force[i], 1.0);
+        add_sample(&after, 0.0, force[window + 1 + i], 1.0);
     }
     for (size_t i = window; i + window < n; i++) {
         if (run >= window)
             return n;
-        const double ratio = variance(&behind) / variance(&before);
+        const double ratio = sample_variance(&after) / sample_variance(&before);
         if (ratio > best) {
             best = ratio;
             at = i;
         }
-        run = run_on(run, force[i - 1], force[i]);
+        run = next_run_length(run, force[i - 1], force[i]);
         if (i + window + 1 < n) {
-            add(&before, 0.0, force[i], 1.0);
-            add(&before, 0.0, force[i - window], -1.0);
-            add(&behind, 0.0, force[i + window + 1], 1.0);
-            add(&behind, 0.0, force[i + 1], -1.0);
+            add_sample(&before, 0.0, force[i], 1.0);
+            add_sample(&before, 0.0, force[i - window], -1.0);
+            add_sample(&after, 0.0, force[i + window + 1], 1.0);
+            add_sample(&after, 0.0, force[i + 1], -1.0);
         }
     }
     return at;
@@ -102,23 +102,23 @@ static size_t by_variances(const double *force, size_t n)
 
 /* Returns the sample where a constant and a line meet with the least squares of the force. Height
  * and slope are linear parameters for each sample. */
-static size_t by_lines(const double *position, const double *force, size_t n)
+static size_t two_lines_index(const double *position, const double *force, size_t n)
 {
-    sums all = {0}, behind = {0};
+    line_sums all = {0}, after = {0};
     double best = (double)INFINITY;
     size_t at = n;
     for (size_t i = 0; i < n; i++)
-        add(&all, position[i], force[i], 1.0);
+        add_sample(&all, position[i], force[i], 1.0);
     for (size_t i = n; i-- > 1;) {
-        add(&behind, position[i], force[i], 1.0);
+        add_sample(&after, position[i], force[i], 1.0);
         /* Sums of x = position - c after the sample; x is 0 before it. */
-        const double c = position[i - 1], x = behind.z - c * behind.n,
-                     xx = behind.zz - c * (2.0 * behind.z - c * behind.n),
-                     xf = behind.zf - c * behind.f;
+        const double c = position[i - 1], x = after.z - c * after.n,
+                     xx = after.zz - c * (2.0 * after.z - c * after.n), xf = after.zf - c * after.f;
         const double free_xx = xx - x * x / all.n, free_xf = xf - x * all.f / all.n;
-        const double left = free_xx > 0.0 && free_xf > 0.0 ? -free_xf * free_xf / free_xx : 0.0;
-        if (left < best) {
-            best = left;
+        const double residual_change =
+            free_xx > 0.0 && free_xf > 0.0 ? -free_xf * free_xf / free_xx : 0.0;
+        if (residual_change < best) {
+            best = residual_change;
             at = i - 1;
         }
     }
@@ -127,7 +127,7 @@ static size_t by_lines(const double *position, const double *force, size_t n)
 
 /* Returns the sample farthest below the line from the first to the strongest force, with both axes
  * scaled to 1. */
-static size_t by_direct_path(const double *force, size_t n)
+static size_t direct_path_index(const double *force, size_t n)
 {
     double low = force[0], high = force[0], least = (double)INFINITY;
     size_t at = n;
@@ -152,10 +152,10 @@ void curve_estimate_contact(curve_fitting *f, double contact[WT_CONTACT_ESTIMATO
     const size_t n = f->input.n_all - f->n_snap;
     curve_samples all = *s;
     curve_minimum minima[CURVE_MAX_MINIMA];
-    const size_t found[] = {[WT_CONTACT_THRESHOLD] = by_threshold(s->force, n),
-                            [WT_CONTACT_VARIANCES] = by_variances(s->force, n),
-                            [WT_CONTACT_LINES] = by_lines(s->position, s->force, n),
-                            [WT_CONTACT_DIRECT_PATH] = by_direct_path(s->force, n)};
+    const size_t found[] = {[WT_CONTACT_THRESHOLD] = threshold_index(s->force, n),
+                            [WT_CONTACT_VARIANCES] = variance_ratio_index(s->force, n),
+                            [WT_CONTACT_LINES] = two_lines_index(s->position, s->force, n),
+                            [WT_CONTACT_DIRECT_PATH] = direct_path_index(s->force, n)};
     for (size_t i = 0; i < sizeof found / sizeof found[0]; i++) {
         const size_t j = found[i];
         const double above =

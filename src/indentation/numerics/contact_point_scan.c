@@ -26,20 +26,20 @@
 /* Smallest depth of a contact point over the whole depth, 2^-SCAN_OCTAVES. */
 static const double least_depth = 1e-5;
 /* Smallest rise of the cost between two minima. It is 1.6 standard deviations for 2,500 samples. */
-static const double least_rise = 1.001;
+static const double min_rise = 1.001;
 /* Tolerances over the distance of the scan points: for weights, which change slowly, and for starts
  * of the least squares. */
-static const double rough = 1e-2, fine = 1e-3;
+static const double coarse_tolerance = 1e-2, fine_tolerance = 1e-3;
 /* Largest 1 + S/k without weights. Weights from 0.7 to 1 hardly move a minimum, and the least
  * squares correct it. */
-static const double weights_matter = 1.2;
+static const double min_weight_ratio = 1.2;
 enum {
     NODES = SCAN_NODES,
-    REACH = SCAN_REACH, /* range of contact points before the start, in whole depths */
-    PER_OCTAVE = 16,    /* contact points per octave; a power of 2, as for the nodes */
+    REACH = SCAN_EXTENT, /* range of contact points before the start, in whole depths */
+    PER_OCTAVE = 16,     /* contact points per octave; a power of 2, as for the nodes */
     MAX_DEPTHS = (SCAN_OCTAVES + REACH) * PER_OCTAVE,
     MAX_ITERATIONS = 40, /* of Brent; golden sections alone reach 4e-9 */
-    SAMPLES_BEHIND = 4,  /* per 1024 samples; the deepest ones, for spikes and end effects */
+    SKIPPED_SAMPLES = 4, /* per 1024 samples; the deepest ones, for spikes and end effects */
     STRIDE = NODES + 2,  /* offset between octaves */
 };
 
@@ -62,25 +62,25 @@ typedef struct contact_sums {
     double g, gg, gf, gz;
 } contact_sums;
 
-typedef struct projected {
+typedef struct projected_fit {
     double modulus, offset, tilt; /* offset at the origin of the position */
     double cost;
-} projected;
+} projected_fit;
 
-WIDE_REGISTERS static void find_tips(projection *p)
+WIDE_REGISTERS static void find_tip_positions(projection *p)
 {
     const curve_samples *s = p->samples;
     const double k = s->spring_constant;
     double *tip = p->workspace->tip;
     for (size_t i = 0; i < s->n; i++)
         tip[i] = tip_position(s->position[i], s->force[i], k);
-    const curve_span all = curve_span_of(tip, s->n);
+    const curve_span all = curve_find_span(tip, s->n);
     p->deepest = all.high;
     p->top = all.high - all.low;
 }
 
 /* Computes the weighted sums of all samples. Without `weighted` the weights are 1. */
-WIDE_REGISTERS static void weigh(projection *p, bool weighted)
+WIDE_REGISTERS static void sum_weighted_samples(projection *p, bool weighted)
 {
     const curve_samples *s = p->samples;
     double *const weight = p->workspace->weight;
@@ -117,12 +117,12 @@ WIDE_REGISTERS static void weigh(projection *p, bool weighted)
     p->inverse_zz = 1.0 / p->s_zz;
 }
 
-static projection begin(const wt_contact_table *table, const curve_samples *samples, bool tilt,
-                        wt_indent_workspace *w)
+static projection begin_projection(const wt_contact_table *table, const curve_samples *samples,
+                                   bool tilt, wt_indent_workspace *w)
 {
     projection p = {.table = table, .samples = samples, .workspace = w, .tilt = tilt};
-    find_tips(&p);
-    weigh(&p, false);
+    find_tip_positions(&p);
+    sum_weighted_samples(&p, false);
     return p;
 }
 
@@ -131,13 +131,13 @@ static double cost_without_contact(const projection *p)
     return p->tilt && p->s_zz > 0.0 ? p->s_ff - p->s_zf * p->s_zf * p->inverse_zz : p->s_ff;
 }
 
-static projected project(const projection *p, contact_sums s)
+static projected_fit solve_projection(const projection *p, contact_sums s)
 {
     const double along = p->tilt ? s.gz * p->inverse_zz : 0.0;
     const double free_gg = s.gg - s.g * s.g * p->inverse_w - s.gz * along,
                  free_gf = s.gf - p->s_zf * along;
-    projected result = {0.0, p->origin_force, p->tilt ? p->s_zf * p->inverse_zz : 0.0,
-                        cost_without_contact(p)};
+    projected_fit result = {0.0, p->origin_force, p->tilt ? p->s_zf * p->inverse_zz : 0.0,
+                            cost_without_contact(p)};
     /* No modulus is determined if the contact part is a straight line. */
     if (free_gf > 0.0 && free_gg > 1e-12 * s.gg) {
         result.modulus = free_gf / free_gg;
@@ -151,7 +151,7 @@ static projected project(const projection *p, contact_sums s)
 
 /* Converts a contact at a tip position, with all samples, to the position of contact with the
  * undeflected cantilever. */
-WIDE_REGISTERS static curve_minimum to_minimum(const projection *p, double contact)
+WIDE_REGISTERS static curve_minimum convert_minimum(const projection *p, double contact)
 {
     wt_indent_workspace *w = p->workspace;
     const double *position = p->samples->position, *force = p->samples->force;
@@ -183,8 +183,8 @@ WIDE_REGISTERS static curve_minimum to_minimum(const projection *p, double conta
         gf += weighted * (f - p->origin_force);
         gz += weighted * (z - p->origin_position);
     }
-    const projected at =
-        project(p, (contact_sums){simd_sum(&g), simd_sum(&gg), simd_sum(&gf), simd_sum(&gz)});
+    const projected_fit at = solve_projection(
+        p, (contact_sums){simd_sum(&g), simd_sum(&gg), simd_sum(&gf), simd_sum(&gz)});
     const double offset0 = at.offset - at.tilt * p->origin_position; /* at position 0 */
     const double c = (contact + offset0 / k) / (1.0 - at.tilt / k);
     return (curve_minimum){c, at.modulus, offset0 + at.tilt * c, at.tilt, at.cost};
@@ -195,44 +195,44 @@ WIDE_REGISTERS static curve_minimum to_minimum(const projection *p, double conta
 /* Computes the grid positions of the samples: octave l and node as l * STRIDE + node, plus the
  * fraction to the next node. x is the depth fraction times 2^-l, with a fraction from 1/2 to 1; in
  * the last octave it may be smaller. */
-WIDE_REGISTERS static void find_places(const projection *p)
+WIDE_REGISTERS static void find_node_positions(const projection *p)
 {
     const double scale = (1.0 - 0x1p-50) / p->top, last = ldexp(1.0, -(int)p->n_octaves);
     const size_t n = p->samples->n;
     const double *tip = p->workspace->tip;
-    double *place = p->workspace->scratch;
+    double *position_index = p->workspace->scratch;
     for (size_t i = 0; i < n; i += WIDE) {
         wide part, normal = last - (wide){0.0};
         for (size_t j = 0; j < WIDE; j++)
             part[j] = tip[i + j < n ? i + j : n - 1];
         part = (p->deepest - part) * scale;
-        wide_raise(&normal, &part);
+        wide_maximum(&normal, &part);
         const wide_bits exponent = (wide_bits)normal >> 52; /* 1022 - l */
         const wide power = (wide)((2045 - exponent) << 52);
         const wide_bits whole = (1022 - exponent) | (wide_bits)(0x1p52 - (wide){0.0});
         part = ((wide)whole - 0x1p52) * STRIDE + NODES * (1.0 - part * power);
         for (size_t j = 0; j < WIDE && i + j < n; j++)
-            place[i + j] = part[j];
+            position_index[i + j] = part[j];
     }
 }
 
 /* Distributes the samples to the nodes of their octaves. Each octave is then added to the nodes of
  * the previous octave, whose step is twice as large. */
-WIDE_REGISTERS static void share_samples(const projection *p)
+WIDE_REGISTERS static void distribute_samples(const projection *p)
 {
     scan_octave *octaves = p->workspace->octave;
     const curve_samples *s = p->samples;
     const wide origin = {0.0, p->origin_force, p->origin_position, 0.0};
-    const double *place = p->workspace->scratch, *weight = p->workspace->weight;
+    const double *position_index = p->workspace->scratch, *weight = p->workspace->weight;
     static const wide nothing = {0.0};
     wide node[SCAN_OCTAVES * STRIDE]; /* sums of weight, force and position */
     for (size_t i = 0; i < p->n_octaves * STRIDE; i++)
         node[i] = nothing;
     for (size_t i = 0; i < s->n;) { /* consecutive samples between the same nodes */
-        const int at = (int)place[i];
+        const int at = (int)position_index[i];
         wide to_left = node[at], to_right = node[at + 1];
-        for (; i < s->n && (int)place[i] == at; i++) {
-            const double right = weight[i] * (place[i] - at), left = weight[i] - right;
+        for (; i < s->n && (int)position_index[i] == at; i++) {
+            const double right = weight[i] * (position_index[i] - at), left = weight[i] - right;
             const wide sample = (wide){1.0, s->force[i], s->position[i], 0.0} - origin;
             to_left += left * sample;
             to_right += right * sample;
@@ -260,33 +260,33 @@ WIDE_REGISTERS static void share_samples(const projection *p)
 
 /* Tabulates the contact function at multiples of the step. The first octave includes the range
  * before the start. */
-static void make_values(const projection *p)
+static void tabulate_contact_function(const projection *p)
 {
     wt_indent_workspace *w = p->workspace;
-    double depth[REACH * NODES + 1], *far = w->before_start[0];
+    double depth[REACH * NODES + 1], *extended = w->before_start[0];
     for (size_t l = p->n_octaves; l-- > 0;) {
         scan_octave *o = &w->octave[l];
-        const size_t known = l + 1 < p->n_octaves ? NODES / 2 : 0,
+        const size_t n_shared = l + 1 < p->n_octaves ? NODES / 2 : 0,
                      n = l > 0 ? NODES : REACH * NODES;
         const double step = ldexp(p->top, -(int)l) / NODES;
-        double *g = l > 0 ? o->g : far;
-        for (size_t i = 0; i < known; i++)
+        double *g = l > 0 ? o->g : extended;
+        for (size_t i = 0; i < n_shared; i++)
             g[i] = w->octave[l + 1].g[2 * i];
-        for (size_t i = known; i <= n; i++)
+        for (size_t i = n_shared; i <= n; i++)
             depth[i] = (double)i * step;
-        wt_contact_table_eval(p->table, depth + known, n + 1 - known, g + known, NULL);
+        wt_contact_table_eval(p->table, depth + n_shared, n + 1 - n_shared, g + n_shared, NULL);
         for (size_t i = 0; i <= NODES; i++) {
             o->g[i] = g[i];
             o->gg[i] = g[i] * g[i];
         }
     }
     for (size_t i = 0; i <= REACH * NODES; i++)
-        w->before_start[1][i] = far[i] * far[i];
+        w->before_start[1][i] = extended[i] * extended[i];
 }
 
 /* Sums over the nodes from `first` on with values of the contact function and of its square. */
-WIDE_REGISTERS static contact_sums sums_of(const scan_octave *o, size_t first, const double *g,
-                                           const double *gg)
+WIDE_REGISTERS static contact_sums contact_function_sums(const scan_octave *o, size_t first,
+                                                         const double *g, const double *gg)
 {
     const size_t n = NODES + 1 - first;
     wide s = {0.0}, ss = s, sf = s, sz = s;
@@ -312,14 +312,14 @@ WIDE_REGISTERS static contact_sums sums_of(const scan_octave *o, size_t first, c
     return (contact_sums){simd_sum(&s), simd_sum(&ss), simd_sum(&sf), simd_sum(&sz)};
 }
 
-static double cost_of(const projection *p, const scan_octave *o, size_t first, const double *g,
-                      const double *gg)
+static double projected_cost(const projection *p, const scan_octave *o, size_t first,
+                             const double *g, const double *gg)
 {
-    return project(p, sums_of(o, first, g, gg)).cost;
+    return solve_projection(p, contact_function_sums(o, first, g, gg)).cost;
 }
 
 /* Cost of any contact point on the grid of one octave. */
-WIDE_REGISTERS static double cost_between(double depth, void *projection_)
+WIDE_REGISTERS static double interpolated_cost(double depth, void *projection_)
 {
     const projection *p = projection_;
     const scan_octave *o = &p->workspace->octave[p->octave];
@@ -332,14 +332,14 @@ WIDE_REGISTERS static double cost_between(double depth, void *projection_)
     wt_contact_table_eval(p->table, delta + first, NODES + 1 - first, g + first, NULL);
     for (size_t i = first; i <= NODES; i++)
         gg[i] = g[i] * g[i];
-    return cost_of(p, o, first, g + first, gg + first);
+    return projected_cost(p, o, first, g + first, gg + first);
 }
 
 /* Brent's minimisation to a relative accuracy of the bracket. */
-static double brent(projection *p, double lo, double middle, double hi, double accuracy)
+static double minimise_brent(projection *p, double lo, double middle, double hi, double accuracy)
 {
     gsl_min_fminimizer *minimizer = p->workspace->minimizer;
-    gsl_function function = {cost_between, p};
+    gsl_function function = {interpolated_cost, p};
     if (gsl_min_fminimizer_set(minimizer, &function, middle, lo, hi) != GSL_SUCCESS)
         return middle; /* constant within rounding */
     for (int i = 0; i < MAX_ITERATIONS; i++) {
@@ -354,7 +354,7 @@ static double brent(projection *p, double lo, double middle, double hi, double a
 
 /* Finds the minima of the scan, lowest first, at most CURVE_MAX_MINIMA. A minimum without a rise
  * before a lower one is a ripple. A minimum at the far end counts: contact before the start. */
-static size_t find_bottoms(const double *cost, size_t n, double nothing, size_t *bottom)
+static size_t find_scan_minima(const double *cost, size_t n, double nothing, size_t *minimum_index)
 {
     size_t m = 0;
     double highest_since = 0.0;
@@ -364,24 +364,24 @@ static size_t find_bottoms(const double *cost, size_t n, double nothing, size_t 
         bool rises = i + 1 == n || cost[i] <= cost[i + 1];
         if (!falls || !rises || !(cost[i] < nothing))
             continue;
-        if (m > 0 && highest_since <= least_rise * fmax(cost[bottom[m - 1]], cost[i])) {
-            if (cost[i] >= cost[bottom[m - 1]])
+        if (m > 0 && highest_since <= min_rise * fmax(cost[minimum_index[m - 1]], cost[i])) {
+            if (cost[i] >= cost[minimum_index[m - 1]])
                 continue;
             m--;
         }
-        bottom[m++] = i;
+        minimum_index[m++] = i;
         highest_since = cost[i];
     }
     for (size_t i = 1; i < m; i++) { /* insertion sort of a few values */
-        size_t index = bottom[i], j = i;
-        for (; j > 0 && cost[bottom[j - 1]] > cost[index]; j--)
-            bottom[j] = bottom[j - 1];
-        bottom[j] = index;
+        size_t index = minimum_index[i], j = i;
+        for (; j > 0 && cost[minimum_index[j - 1]] > cost[index]; j--)
+            minimum_index[j] = minimum_index[j - 1];
+        minimum_index[j] = index;
     }
     return m < CURVE_MAX_MINIMA ? m : CURVE_MAX_MINIMA;
 }
 
-static void keep_best(curve_minimum *minima, size_t *n, curve_minimum candidate)
+static void insert_minimum(curve_minimum *minima, size_t *n, curve_minimum candidate)
 {
     size_t at = *n;
     while (at > 0 && minima[at - 1].cost > candidate.cost)
@@ -396,53 +396,56 @@ static void keep_best(curve_minimum *minima, size_t *n, curve_minimum candidate)
 }
 
 /* Costs of contact points from far before the start to the deepest. */
-typedef struct profile {
+typedef struct cost_profile {
     double depth[MAX_DEPTHS], cost[MAX_DEPTHS];
     size_t octave[MAX_DEPTHS], n;
-} profile;
+} cost_profile;
 
-static void add_point(profile *to, double depth, double cost, size_t octave)
+static void add_profile_point(cost_profile *to, double depth, double cost, size_t octave)
 {
     to->depth[to->n] = depth;
     to->cost[to->n] = cost;
     to->octave[to->n++] = octave;
 }
 
-static void scan(const projection *p, double shallowest, profile *to)
+static void scan_costs(const projection *p, double shallowest, cost_profile *to)
 {
     const wt_indent_workspace *w = p->workspace;
     const double *g = w->before_start[0], *gg = w->before_start[1];
     to->n = 0;
     for (size_t octave = REACH * NODES; octave > NODES; octave /= 2)
         for (size_t i = octave; i > octave / 2; i -= octave / 2 / PER_OCTAVE)
-            add_point(to, p->top * (double)i / NODES,
-                      cost_of(p, &w->octave[0], 0, g + i - NODES, gg + i - NODES), 0);
+            add_profile_point(to, p->top * (double)i / NODES,
+                              projected_cost(p, &w->octave[0], 0, g + i - NODES, gg + i - NODES),
+                              0);
     for (size_t l = 0; l < p->n_octaves; l++) {
         const scan_octave *o = &w->octave[l];
         for (size_t node = 0; node < NODES / 2; node += NODES / 2 / PER_OCTAVE) {
             const double depth = ldexp(p->top, -(int)l) * (1.0 - (double)node / NODES);
             if (depth >= shallowest)
-                add_point(to, depth, cost_of(p, o, node + 1, o->g + 1, o->gg + 1), l);
+                add_profile_point(to, depth, projected_cost(p, o, node + 1, o->g + 1, o->gg + 1),
+                                  l);
         }
     }
 }
 
 /* Refines the lowest minima of the scan. */
-static size_t find_minima(projection *p, const profile *points, double accuracy,
-                          curve_minimum minima[CURVE_MAX_MINIMA])
+static size_t refine_minima(projection *p, const cost_profile *points, double accuracy,
+                            curve_minimum minima[CURVE_MAX_MINIMA])
 {
-    size_t bottom[MAX_DEPTHS], n = 0;
-    const size_t n_bottoms = find_bottoms(points->cost, points->n, cost_without_contact(p), bottom);
-    for (size_t i = 0; i < n_bottoms; i++) {
-        const size_t j = bottom[i];
+    size_t minimum_index[MAX_DEPTHS], n = 0;
+    const size_t n_scan_minima =
+        find_scan_minima(points->cost, points->n, cost_without_contact(p), minimum_index);
+    for (size_t i = 0; i < n_scan_minima; i++) {
+        const size_t j = minimum_index[i];
         double at = points->depth[j];
         if (j > 0 && j + 1 < points->n) {
             p->octave = points->octave[j - 1];
-            at = brent(p, points->depth[j + 1], at, points->depth[j - 1], accuracy);
+            at = minimise_brent(p, points->depth[j + 1], at, points->depth[j - 1], accuracy);
         }
-        const curve_minimum minimum = to_minimum(p, p->deepest - at);
+        const curve_minimum minimum = convert_minimum(p, p->deepest - at);
         if (minimum.reduced_modulus > 0.0)
-            keep_best(minima, &n, minimum);
+            insert_minimum(minima, &n, minimum);
     }
     return n;
 }
@@ -450,44 +453,44 @@ static size_t find_minima(projection *p, const profile *points, double accuracy,
 size_t curve_scan(const wt_contact_table *table, const curve_samples *samples, bool tilt,
                   bool weighted, wt_indent_workspace *w, curve_minimum minima[CURVE_MAX_MINIMA])
 {
-    projection p = begin(table, samples, tilt, w);
-    const size_t behind = SAMPLES_BEHIND * ((samples->n + 1023) / 1024);
-    double nearest = -(double)INFINITY;
-    profile points;
-    for (size_t i = 0; i + behind <= samples->n; i++)
-        nearest = w->tip[i] > nearest ? w->tip[i] : nearest;
+    projection p = begin_projection(table, samples, tilt, w);
+    const size_t n_skipped = SKIPPED_SAMPLES * ((samples->n + 1023) / 1024);
+    double upper_tip = -(double)INFINITY;
+    cost_profile points;
+    for (size_t i = 0; i + n_skipped <= samples->n; i++)
+        upper_tip = w->tip[i] > upper_tip ? w->tip[i] : upper_tip;
     /* invalid data may overflow or be too small for a division */
     if (!isnormal(p.top) || p.top < 0.0)
         return 0;
-    const double shallowest = fmax(p.deepest - nearest, least_depth * p.top);
+    const double shallowest = fmax(p.deepest - upper_tip, least_depth * p.top);
     p.n_octaves = 1;
     while (p.n_octaves < SCAN_OCTAVES && ldexp(p.top, -(int)p.n_octaves) > shallowest)
         p.n_octaves++;
-    find_places(&p);
-    share_samples(&p);
-    make_values(&p);
-    scan(&p, shallowest, &points);
+    find_node_positions(&p);
+    distribute_samples(&p);
+    tabulate_contact_function(&p);
+    scan_costs(&p, shallowest, &points);
     if (weighted) { /* an approximate solution is sufficient for the weights */
-        if (find_minima(&p, &points, rough, minima) == 0)
+        if (refine_minima(&p, &points, coarse_tolerance, minima) == 0)
             return 0;
-        const bool matter = curve_weights(table, samples, &minima[0], w) > weights_matter;
-        weigh(&p, matter);
-        if (matter) {
-            share_samples(&p);
-            scan(&p, shallowest, &points);
+        const bool has_weights = curve_weights(table, samples, &minima[0], w) > min_weight_ratio;
+        sum_weighted_samples(&p, has_weights);
+        if (has_weights) {
+            distribute_samples(&p);
+            scan_costs(&p, shallowest, &points);
         }
     }
-    return find_minima(&p, &points, fine, minima);
+    return refine_minima(&p, &points, fine_tolerance, minima);
 }
 
-bool curve_scan_at(const wt_contact_table *table, const curve_samples *samples, bool tilt,
-                   double contact_point, wt_indent_workspace *w, curve_minimum *minimum)
+bool curve_scan_point(const wt_contact_table *table, const curve_samples *samples, bool tilt,
+                      double contact_point, wt_indent_workspace *w, curve_minimum *minimum)
 {
-    const projection p = begin(table, samples, tilt, w);
+    const projection p = begin_projection(table, samples, tilt, w);
     /* The tip position at contact depends on the baseline, which is part of the solution. */
     double tip = tip_position(contact_point, p.origin_force, samples->spring_constant);
     for (int i = 0; i < MAX_ITERATIONS; i++) {
-        *minimum = to_minimum(&p, tip);
+        *minimum = convert_minimum(&p, tip);
         double step = contact_point - minimum->contact_point;
         tip += step;
         if (fabs(step) <= 1e-12 * fabs(p.top))

@@ -13,7 +13,7 @@ static const double better_chi2 = 9.0; /* smallest 2 ln(likelihood ratio) agains
 
 /* Finds the times of the remaining samples, which are a subset of the measured ones in the same
  * order. Returns false unless the times rise. */
-static bool find_times(const curve_fitting *f)
+static bool match_sample_times(const curve_fitting *f)
 {
     const curve_samples *s = &f->input.samples;
     const curve_branch *measured = f->approach;
@@ -32,12 +32,12 @@ static bool find_times(const curve_fitting *f)
     return i == s->n;
 }
 
-bool curve_remember(curve_fitting *f, const wt_prony *series, bool in_loading_times)
+bool curve_prepare_relaxation(curve_fitting *f, const wt_prony *series, bool in_loading_times)
 {
     wt_indent_workspace *w = f->workspace;
     const curve_samples *s = &f->input.samples;
     const size_t first = f->solution.first_contact;
-    if (first < 1 || first + 1 >= s->n || !find_times(f))
+    if (first < 1 || first + 1 >= s->n || !match_sample_times(f))
         return false;
     const double load = w->time[s->n - 1] - w->time[first - 1];
     double shortest = load;
@@ -52,15 +52,15 @@ bool curve_remember(curve_fitting *f, const wt_prony *series, bool in_loading_ti
 
 /* Refits an elastic solution with the spectrum of the options if the times are known. A curve that
  * the elastic fit describes better has another spectrum. */
-static void add_memory(curve_fitting *f)
+static void refit_with_spectrum(curve_fitting *f)
 {
     const curve_solution elastic = f->solution;
-    if (!curve_remember(f, f->options->spectrum, false))
+    if (!curve_prepare_relaxation(f, f->options->spectrum, false))
         return;
     f->kind.memory = true;
     curve_refine(f->table, &f->input.samples, f->kind, elastic.p, f->workspace, &f->solution);
-    f->another_rubber = elastic.effective_n * log(f->solution.cost / elastic.cost) > better_chi2;
-    if (f->solution.converged && !f->another_rubber)
+    f->spectrum_mismatch = elastic.effective_n * log(f->solution.cost / elastic.cost) > better_chi2;
+    if (f->solution.converged && !f->spectrum_mismatch)
         return;
     f->kind.memory = false;
     f->solution = elastic;
@@ -76,7 +76,7 @@ bool curve_scan_and_refine(curve_fitting *f)
     bool fixed = !isnan(o->fixed_contact_point);
     if (fixed) {
         double c = o->fixed_contact_point - f->input.position_origin;
-        if (!curve_scan_at(f->table, s, o->fit_tilt, c, f->workspace, &f->minima[0]))
+        if (!curve_scan_point(f->table, s, o->fit_tilt, c, f->workspace, &f->minima[0]))
             return false;
         f->n_minima = 1;
     } else {
@@ -94,6 +94,6 @@ bool curve_scan_and_refine(curve_fitting *f)
                            .wave = f->kind.wave};
     curve_refine(f->table, s, f->kind, start, f->workspace, &f->solution);
     if (o->spectrum != NULL && !o->plain_least_squares)
-        add_memory(f);
+        refit_with_spectrum(f);
     return true;
 }

@@ -17,13 +17,13 @@
  * scatter needs at least three curves. */
 enum {
     BLOCKS = 10,
-    LEAST_BLOCKS = 6,
+    MIN_BLOCKS = 6,
     BLOCK_SAMPLES = 2,
     PARAMETERS = 3,
     LINE = 2, /* parameters of a line */
-    CURVE_LEAST = 40,
-    FAR_SHARE = 10,
-    LEAST_UNITS = 3
+    MIN_CURVE_SAMPLES = 40,
+    END_FRACTION = 10,
+    MIN_UNITS = 3
 };
 /* Share of the baseline for its tilt; it must be as long as the part. The rest may include
  * long-range forces and optical interference. The value is chosen; half of it makes the tilt nearly
@@ -31,7 +31,7 @@ enum {
 static const double baseline_share = 0.6;
 /* Smallest rise of the signal in standard deviations of the noise. It determines a slope to some
  * per cent. */
-static const double least_rise = 20;
+static const double min_rise = 20;
 /* Standard deviation of a normal distribution over its median distance from the median. */
 static const double mad_to_deviation = 1.4826;
 
@@ -53,29 +53,30 @@ PARAM_TABLE(wt_slope_params, wt_slope_options, rows, wt_slope_defaults, NO_PARTS
 /* ---- the samples ----------------------------------------------------------------------------- */
 
 /* Samples from far away to contact. */
-typedef struct samples {
+typedef struct slope_samples {
     double *z, *v; /* [n] */
     double *scratch;
     size_t n;
-} samples;
+} slope_samples;
 
-static void take_samples(samples *s, const double *position, const double *signal, size_t n)
+static void collect_finite_samples(slope_samples *s, const double *position, const double *signal,
+                                   size_t n)
 {
     for (size_t i = 0; i < n; i++)
         if (isfinite(position[i]) && isfinite(signal[i])) {
             s->z[s->n] = position[i];
             s->v[s->n++] = signal[i];
         }
-    const size_t end = s->n / FAR_SHARE;
+    const size_t end = s->n / END_FRACTION;
     if (end > 0 && numbers_mean(s->v, end) > numbers_mean(s->v + s->n - end, end)) {
         numbers_reverse(s->z, s->n);
         numbers_reverse(s->v, s->n);
     }
 }
 
-static double far_level(const samples *s)
+static double baseline_level(const slope_samples *s)
 {
-    const size_t n = s->n / FAR_SHARE;
+    const size_t n = s->n / END_FRACTION;
     for (size_t i = 0; i < n; i++)
         s->scratch[i] = s->v[i];
     return numbers_median(s->scratch, n);
@@ -83,7 +84,7 @@ static double far_level(const samples *s)
 
 /* Standard deviation of the noise from the median step. The contact affects the median only if it
  * is most of the curve. */
-static double step_noise(const samples *s)
+static double difference_noise_level(const slope_samples *s)
 {
     for (size_t i = 0; i + 1 < s->n; i++)
         s->scratch[i] = fabs(s->v[i + 1] - s->v[i]);
@@ -92,13 +93,13 @@ static double step_noise(const samples *s)
 
 /* ---- lines ----------------------------------------------------------------------------------- */
 
-typedef struct line {
+typedef struct fitted_line {
     double z, v, slope; /* mean position, mean signal, slope */
-} line;
+} fitted_line;
 
-static line line_through(const double *z, const double *v, size_t n)
+static fitted_line fit_line(const double *z, const double *v, size_t n)
 {
-    line l = {numbers_mean(z, n), numbers_mean(v, n), 0};
+    fitted_line l = {numbers_mean(z, n), numbers_mean(v, n), 0};
     double zz = 0, zv = 0;
     for (size_t i = 0; i < n; i++) {
         zz += (z[i] - l.z) * (z[i] - l.z);
@@ -110,17 +111,18 @@ static line line_through(const double *z, const double *v, size_t n)
 
 /* ---- the part of the contact ----------------------------------------------------------------- */
 
-typedef struct part {
+typedef struct contact_part {
     size_t first, n;
     double from, to; /* limits of the position */
     double contact;  /* intersection of the line through the part with the baseline */
-} part;
+} contact_part;
 
 /* Finds the part of the contact. The first limits are crossings of the signal, the final ones those
  * of a line through these samples, so that noise does not select the samples. Positions rise
  * towards contact afterwards. Returns false without such a line; p->n is the number of samples in
  * any case. */
-static bool find_part(samples *s, double low, double high, double baseline, part *p)
+static bool find_contact_part(slope_samples *s, double low, double high, double baseline,
+                              contact_part *p)
 {
     size_t peak = 0;
     for (size_t i = 1; i < s->n; i++)
@@ -133,9 +135,9 @@ static bool find_part(samples *s, double low, double high, double baseline, part
     while (begin > 0 && s->v[begin - 1] > low)
         begin--;
     p->n = end - begin + 1;
-    if (p->n < LEAST_BLOCKS)
+    if (p->n < MIN_BLOCKS)
         return false;
-    line l = line_through(s->z + begin, s->v + begin, p->n);
+    fitted_line l = fit_line(s->z + begin, s->v + begin, p->n);
     if (!isfinite(l.slope) || !(fabs(l.slope) > 0))
         return false;
     if (l.slope < 0) {
@@ -160,7 +162,8 @@ static bool find_part(samples *s, double low, double high, double baseline, part
 
 /* Slope of the baseline far from contact, with a standard error from block means. The result is NaN
  * if the baseline is shorter than the part. */
-static double baseline_tilt(const samples *s, const part *p, double *standard_error)
+static double fit_baseline_tilt(const slope_samples *s, const contact_part *p,
+                                double *standard_error)
 {
     const double end = s->z[0] + baseline_share * (p->contact - s->z[0]);
     double z[BLOCKS], v[BLOCKS], zz = 0, left = 0;
@@ -174,23 +177,23 @@ static double baseline_tilt(const samples *s, const part *p, double *standard_er
         z[b] = numbers_mean(s->z + first, length);
         v[b] = numbers_mean(s->v + first, length);
     }
-    const line l = line_through(z, v, BLOCKS);
+    const fitted_line l = fit_line(z, v, BLOCKS);
     for (size_t b = 0; b < BLOCKS; b++) {
-        const double off = v[b] - l.v - l.slope * (z[b] - l.z);
+        const double deviation = v[b] - l.v - l.slope * (z[b] - l.z);
         zz += (z[b] - l.z) * (z[b] - l.z);
-        left += off * off;
+        left += deviation * deviation;
     }
     *standard_error = sqrt(left / (BLOCKS - LINE) / zz);
-    return line_through(s->z, s->v, n).slope;
+    return fit_line(s->z, s->v, n).slope;
 }
 
 /* ---- the slope ------------------------------------------------------------------------------- */
 
 /* Fits a parabola to the block means. */
-static void fit_blocks(const samples *s, const part *p, wt_contact_slope *c)
+static void fit_block_parabola(const slope_samples *s, const contact_part *p, wt_contact_slope *c)
 {
     const size_t most = p->n / BLOCK_SAMPLES;
-    const size_t n = most < LEAST_BLOCKS ? LEAST_BLOCKS : most < BLOCKS ? most : BLOCKS;
+    const size_t n = most < MIN_BLOCKS ? MIN_BLOCKS : most < BLOCKS ? most : BLOCKS;
     double z[BLOCKS], v[BLOCKS], zz = 0, zzz = 0, zv = 0, qq = 0, qv = 0, left = 0;
     for (size_t b = 0; b < n; b++) {
         const size_t first = p->n * b / n, end = p->n * (b + 1) / n;
@@ -214,8 +217,8 @@ static void fit_blocks(const samples *s, const part *p, wt_contact_slope *c)
     }
     const double slope = zv / zz, bend = qv / qq;
     for (size_t b = 0; b < n; b++) {
-        const double off = v[b] - slope * z[b] - bend * q[b];
-        left += off * off;
+        const double deviation = v[b] - slope * z[b] - bend * q[b];
+        left += deviation * deviation;
     }
     c->freedom = (double)n - PARAMETERS;
     const double variance = left / c->freedom;
@@ -226,59 +229,60 @@ static void fit_blocks(const samples *s, const part *p, wt_contact_slope *c)
     c->change_error = 2 * sqrt(variance / qq) * c->travel / slope;
 }
 
-static double line_residual(const samples *s, const part *p)
+static double line_residual(const slope_samples *s, const contact_part *p)
 {
-    const line l = line_through(s->z + p->first, s->v + p->first, p->n);
+    const fitted_line l = fit_line(s->z + p->first, s->v + p->first, p->n);
     double squares = 0;
     for (size_t i = p->first; i < p->first + p->n; i++) {
-        const double off = s->v[i] - l.v - l.slope * (s->z[i] - l.z);
-        squares += off * off;
+        const double deviation = s->v[i] - l.v - l.slope * (s->z[i] - l.z);
+        squares += deviation * deviation;
     }
     return sqrt(squares / (double)p->n);
 }
 
-static void measure_part(const samples *s, const part *p, double rise, wt_contact_slope *c)
+static void measure_part(const slope_samples *s, const contact_part *p, double rise,
+                         wt_contact_slope *c)
 {
     c->n = p->n;
     c->misfit = line_residual(s, p) / rise;
-    fit_blocks(s, p, c);
+    fit_block_parabola(s, p, c);
     double tilt_error = 0;
-    const double tilt = baseline_tilt(s, p, &tilt_error), own = c->slope;
+    const double tilt = fit_baseline_tilt(s, p, &tilt_error), uncorrected = c->slope;
     if (isnan(tilt))
         return;
     c->slope -= tilt;
     c->slope_error = hypot(c->slope_error, tilt_error);
     c->tilt = tilt / c->slope;
-    c->change *= own / c->slope;
-    c->change_error *= own / c->slope;
+    c->change *= uncorrected / c->slope;
+    c->change_error *= uncorrected / c->slope;
 }
 
-static void measure_slope(samples *s, const wt_slope_options *options, wt_contact_slope *c)
+static void measure_slope(slope_samples *s, const wt_slope_options *options, wt_contact_slope *c)
 {
-    if (s->n < CURVE_LEAST) {
+    if (s->n < MIN_CURVE_SAMPLES) {
         snprintf(c->why_not, sizeof c->why_not, "%zu samples, at least %d are needed", s->n,
-                 CURVE_LEAST);
+                 MIN_CURVE_SAMPLES);
         return;
     }
-    const double baseline = far_level(s), noise = step_noise(s);
+    const double baseline = baseline_level(s), noise = difference_noise_level(s);
     double top = s->v[0];
     for (size_t i = 1; i < s->n; i++)
         top = fmax(top, s->v[i]);
     const double rise = top - baseline;
-    part p = {.n = 0};
-    if (!(rise > least_rise * noise)) {
+    contact_part p = {.n = 0};
+    if (!(rise > min_rise * noise)) {
         clocale_print(c->why_not, sizeof c->why_not,
-                      "no contact: the signal rises by less than %g times its noise", least_rise);
+                      "no contact: the signal rises by less than %g times its noise", min_rise);
         return;
     }
     c->signal_from = options->from * rise;
     c->signal_to = options->to * rise;
     const bool rises =
-        find_part(s, baseline + c->signal_from, baseline + c->signal_to, baseline, &p);
-    if (p.n < LEAST_BLOCKS) {
+        find_contact_part(s, baseline + c->signal_from, baseline + c->signal_to, baseline, &p);
+    if (p.n < MIN_BLOCKS) {
         clocale_print(c->why_not, sizeof c->why_not,
                       "%zu samples between %g and %g of the rise, at least %d are needed", p.n,
-                      options->from, options->to, LEAST_BLOCKS);
+                      options->from, options->to, MIN_BLOCKS);
         return;
     }
     if (rises)
@@ -312,13 +316,13 @@ wt_status wt_contact_slope_fit(const double *position, const double *signal, siz
         status = range_error("contact-to", options->to, "more than contact-from", err);
     if (status != WT_OK)
         return status;
-    double *room = malloc(3 * (n + 1) * sizeof *room);
-    if (room == NULL)
+    double *block = malloc(3 * (n + 1) * sizeof *block);
+    if (block == NULL)
         return wt_fail(err, WT_E_MEMORY, "no memory for %zu samples", n);
-    samples s = {.z = room, .v = room + n + 1, .scratch = room + 2 * (n + 1)};
-    take_samples(&s, position, signal, n);
+    slope_samples s = {.z = block, .v = block + n + 1, .scratch = block + 2 * (n + 1)};
+    collect_finite_samples(&s, position, signal, n);
     measure_slope(&s, options, slope);
-    free(room);
+    free(block);
     return WT_OK;
 }
 
@@ -335,7 +339,7 @@ static double unit_mean(const double *values, const long *units, size_t n, size_
     return numbers_mean(values + first, *at - first);
 }
 
-static size_t count_units(const double *values, const long *units, size_t n, double *sum)
+static size_t sum_unit_means(const double *values, const long *units, size_t n, double *sum)
 {
     size_t n_units = 0;
     *sum = 0;
@@ -349,10 +353,10 @@ wt_interval wt_student_mean(const double *values, const long *units, size_t n, s
     const double unknown = (double)NAN;
     wt_interval i = {unknown, unknown, unknown, unknown};
     double sum = 0, squares = 0;
-    *n_units = count_units(values, units, n, &sum);
-    if (*n_units < LEAST_UNITS) {
+    *n_units = sum_unit_means(values, units, n, &sum);
+    if (*n_units < MIN_UNITS) {
         units = NULL;
-        *n_units = count_units(values, units, n, &sum);
+        *n_units = sum_unit_means(values, units, n, &sum);
     }
     if (n == 0)
         return i;
@@ -361,11 +365,11 @@ wt_interval wt_student_mean(const double *values, const long *units, size_t n, s
     if (*n_units < 2)
         return i;
     for (size_t at = 0; at < n;) {
-        const double off = unit_mean(values, units, n, &at) - i.value;
-        squares += off * off;
+        const double deviation = unit_mean(values, units, n, &at) - i.value;
+        squares += deviation * deviation;
     }
     i.standard_error = sqrt(squares / (count - 1) / count);
-    const double half = wt_student(count - 1) * i.standard_error;
+    const double half = wt_student_quantile(count - 1) * i.standard_error;
     i.low = i.value - half;
     i.high = i.value + half;
     return i;

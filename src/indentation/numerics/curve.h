@@ -20,18 +20,18 @@
 enum {
     CURVE_MIN_SAMPLES = 32, /* 18 for baseline and contact, and a reserve for excluded samples */
     CURVE_MAX_MINIMA = 4,   /* the result has the best two, and refinement may change their order */
-    CURVE_TIP_MOVES = 2,    /* radius and half-angle; tips have no other size with an error */
-    CURVE_POWER_TERMS = 15, /* terms of a power law as a series */
+    CURVE_TIP_VARIATIONS = 2, /* radius and half-angle; tips have no other size with an error */
+    CURVE_POWER_TERMS = 15,   /* terms of a power law as a series */
 };
 /* Smallest significant loss over the work; a smaller one is due to piezo and noise. */
-#define CURVE_LEAST_LOSS 0.03
+#define CURVE_MIN_LOSS 0.03
 
 /* E(t) = t^-power from 1e-4 to 1e3 loading times, and a constant for slower relaxation. */
 typedef struct curve_power {
     double modulus[CURVE_POWER_TERMS], time[CURVE_POWER_TERMS];
     wt_prony series;
 } curve_power;
-void curve_power_make(curve_power *to, double power, double load_time);
+void curve_power_create(curve_power *to, double power, double load_time);
 
 /* Samples in the order of time. */
 typedef struct curve_samples {
@@ -40,7 +40,7 @@ typedef struct curve_samples {
     double spring_constant;
     size_t gap_from, gap_to; /* samples above the range of the fit: modelled but not compared */
 } curve_samples;
-static inline bool curve_in_gap(const curve_samples *s, size_t i)
+static inline bool curve_is_in_gap(const curve_samples *s, size_t i)
 {
     return i >= s->gap_from && i < s->gap_to;
 }
@@ -56,7 +56,7 @@ typedef struct curve_wave {
 
 /* Sums at depths below the deepest point, from that of an octave to 0, and the contact function at
  * equal distances: contact_point_scan.c. */
-enum { SCAN_OCTAVES = 17, SCAN_NODES = 128, SCAN_REACH = 4 };
+enum { SCAN_OCTAVES = 17, SCAN_NODES = 128, SCAN_EXTENT = 4 };
 typedef struct scan_octave {
     double weight[SCAN_NODES + 2], force[SCAN_NODES + 2], position[SCAN_NODES + 2];
     double g[SCAN_NODES + 1], gg[SCAN_NODES + 1]; /* square of the contact function */
@@ -65,26 +65,27 @@ typedef struct scan_octave {
 /* Tips with one size decreased and increased by the same factor (borrowed; NULL if none), and the
  * standard error of the size in units of that step. A misfit that they explain is not a misfit of
  * the law. The standard errors include them. */
-typedef struct tip_move {
+typedef struct tip_variation {
     const wt_contact_table *down, *up;
     double deviation;
-} tip_move;
+} tip_variation;
 
 struct wt_indent_workspace {
-    tip_move tip_move[CURVE_TIP_MOVES];
-    tip_move any_radius; /* radius without a stated error; the deviation is 1 in its logarithm */
+    tip_variation tip_variation[CURVE_TIP_VARIATIONS];
+    tip_variation
+        unstated_radius; /* radius without a stated error; the deviation is 1 in its logarithm */
     size_t capacity;
     double *block; /* storage of the arrays below */
     double *position, *force, *tip, *delta, *g, *slope, *residual, *scratch, *weight;
     double *by_modulus, *by_work; /* of an adhesive contact, at constant depth */
     double *by_contact, *time;    /* of a viscoelastic contact */
-    double *given_force, *given_time, *given_retract; /* inputs of wt_indent_force_curve */
+    double *input_force, *input_time, *input_retract; /* inputs of wt_indent_fit_force_curve */
     double *retract_position, *retract_force;         /* retract, set by curve_read_retract */
     double *start_position, *start_force;             /* samples of starting fits */
     double *without_wave; /* forces minus the wave; `force` includes it */
-    double *wave_column[WAVE_PARAMETERS], *wave_give; /* derivatives: interference_model.c */
+    double *wave_column[WAVE_PARAMETERS], *wave_response; /* derivatives: interference_model.c */
     scan_octave octave[SCAN_OCTAVES];
-    double before_start[2][SCAN_REACH * SCAN_NODES + 1]; /* contact function and its square */
+    double before_start[2][SCAN_EXTENT * SCAN_NODES + 1]; /* contact function and its square */
     gsl_min_fminimizer *minimizer;
     hereditary memory;
     size_t evaluations; /* evaluations of the model so far */
@@ -148,7 +149,7 @@ static inline double curve_sum(const double *a, size_t n)
 typedef struct curve_span {
     double low, high;
 } curve_span;
-curve_span curve_span_of(const double *x, size_t n);
+curve_span curve_find_span(const double *x, size_t n);
 /* Returns the k-th smallest of n numbers from 0 to `largest`. The function destroys x. */
 double curve_select(double *x, size_t n, size_t k, double largest);
 
@@ -156,9 +157,9 @@ double curve_select(double *x, size_t n, size_t k, double largest);
 void curve_set_reason(char reason[160], const char *format, ...) WT_PRINTF(2, 3);
 /* Value with its unit as short text. */
 typedef struct si_text {
-    char words[40];
+    char buffer[40];
 } si_text;
-si_text curve_si(double value, const char *unit);
+si_text curve_format_si(double value, const char *unit);
 
 /* ---- preparation: preparation.c -------------------------------------------------------------- */
 
@@ -199,8 +200,8 @@ size_t curve_scan(const wt_contact_table *table, const curve_samples *samples, b
                   bool weighted, wt_indent_workspace *workspace,
                   curve_minimum minima[CURVE_MAX_MINIMA]);
 /* Variant of curve_scan for one given contact point (a position of the samples). */
-bool curve_scan_at(const wt_contact_table *table, const curve_samples *samples, bool tilt,
-                   double contact_point, wt_indent_workspace *workspace, curve_minimum *minimum);
+bool curve_scan_point(const wt_contact_table *table, const curve_samples *samples, bool tilt,
+                      double contact_point, wt_indent_workspace *workspace, curve_minimum *minimum);
 
 /* ---- refinement and errors: least_squares.c -------------------------------------------------- */
 
@@ -210,15 +211,15 @@ enum { CURVE_E, CURVE_C, CURVE_F0, CURVE_T, CURVE_W, CURVE_N_PARAMETERS };
 
 /* Lack of fit: the residual compared with the noise of the same curve (lack_of_fit.c). Values are
  * NaN if the baseline is too short. */
-enum { CURVE_WAVES = WT_CURVE_WAVES };
-typedef struct curve_lack {
+enum { CURVE_WAVES = WT_MISFIT_TERMS };
+typedef struct curve_misfit_test {
     double statistic, chance; /* of the contact part, and of more than that by noise alone */
     double baseline_p;        /* that a straight baseline departs as much from a line */
     double wave[CURVE_WAVES]; /* cosines over the contact [N] */
     double window;            /* length of the window of the cosines, up to the end [m] */
     double flat_chance;       /* p value of the flattening of the force at its top */
     double flat_from;         /* force below which the flattening is small [N] */
-} curve_lack;
+} curve_misfit_test;
 
 typedef struct curve_solution {
     double
@@ -233,7 +234,7 @@ typedef struct curve_solution {
     double max_indentation;
     double noise, correlation_length;
     double effective_n; /* samples over correlation length */
-    curve_lack lack;
+    curve_misfit_test lack;
     bool bent; /* significant slope change of the baseline; the errors include its continuation in
                   contact */
     curve_wave wave;
@@ -245,15 +246,15 @@ typedef struct curve_kind {
     bool tilt, contact_fixed;
     bool plain; /* residual of the force against the measured indentation */
     bool adhesive;
-    bool constant_pull; /* adhesive contact with a constant force in addition to the contact law
-                           (Derjaguin, Muller and Toporov; a capillary) in the place of the root of
-                           the work */
-    bool memory;        /* the rubber has the spectrum of the options; not with adhesion */
-    bool rough;         /* stop at a thousandth of a standard error and compute no errors */
-    bool no_errors;     /* compute no errors */
-    double below;       /* a fit that cannot reach this cost may stop; 0: no limit */
-    size_t jump;        /* adhesive contact: first sample in contact; 0: at the contact point */
-    curve_wave wave;    /* start values of the wave */
+    bool constant_pull;  /* adhesive contact with a constant force in addition to the contact law
+                            (Derjaguin, Muller and Toporov; a capillary) in the place of the root of
+                            the work */
+    bool memory;         /* the rubber has the spectrum of the options; not with adhesion */
+    bool is_approximate; /* stop at a thousandth of a standard error and compute no errors */
+    bool no_errors;      /* compute no errors */
+    double cost_limit;   /* a fit that cannot reach this cost may stop; 0: no limit */
+    size_t jump;         /* adhesive contact: first sample in contact; 0: at the contact point */
+    curve_wave wave;     /* start values of the wave */
 } curve_kind;
 static inline bool curve_has_wave(const curve_wave *wave)
 {
@@ -273,17 +274,17 @@ void curve_refine(const wt_contact_table *table, const curve_samples *samples, c
                   curve_solution *solution);
 /* Result of the score test (Rao, Proc. Camb. Phil. Soc. 44 (1948) 50). It estimates the improvement
  * by a share of a difference between laws, with all parameters free, without a fit. */
-typedef struct curve_step {
+typedef struct curve_score_result {
     double share;   /* share of the difference */
     double gain;    /* 2 ln of the ratio of likelihoods */
     double modulus; /* relative change of the modulus */
-} curve_step;
+} curve_score_result;
 /* Score test at a solution of this kind. `difference` has n arrays with the differences to the
  * forces of other laws at each sample [N]. The result is 0 if the parameters can compensate a
  * difference. The workspace is that of the solution afterwards. */
 void curve_score(const wt_contact_table *table, const curve_samples *samples,
                  const curve_kind *kind, const curve_solution *at, double *const *difference,
-                 size_t n, wt_indent_workspace *workspace, curve_step *to);
+                 size_t n, wt_indent_workspace *workspace, curve_score_result *to);
 /* Computes the weights 1/h^2, h = 1 + S/k, of all samples for a scan from those of a minimum.
  * Returns the largest h. */
 double curve_weights(const wt_contact_table *table, const curve_samples *samples,

@@ -21,7 +21,7 @@ wt_indent_options wt_indent_defaults(void)
                                .fit_depth = 0.0,
                                .fit_force_fraction = 1.0,
                                .fit_tilt = true,
-                               .least_chance = 0.01,
+                               .misfit_p_threshold = 0.01,
                                .largest_error = 0.5,
                                .doubtful_error = 0.05,
                                .plain_least_squares = false,
@@ -46,7 +46,8 @@ static const wt_param rows[] = {
            FROM_BELOW(0, 1)),
      .value = "X",
      .help = "of the contact fit forces from this share of the largest on; the baseline stays"},
-    {PARAM("misfit-p-threshold", wt_indent_options, least_chance, WT_Q_NONE, FROM_BELOW(0, 1)),
+    {PARAM("misfit-p-threshold", wt_indent_options, misfit_p_threshold, WT_Q_NONE,
+           FROM_BELOW(0, 1)),
      .former = "least-chance", .value = "P",
      .help = "residuals that noise makes with a smaller chance are called a misfit; larger calls "
              "more curves so, moduli stay; 0: no misfit is looked for, errors are those of noise "
@@ -98,12 +99,12 @@ void wt_indent_workspace_free(wt_indent_workspace *workspace)
 
 /* ---- rates ----------------------------------------------------------------------------------- */
 
-static bool is_known(const curve_branch *b, size_t i)
+static bool is_finite_sample(const curve_branch *b, size_t i)
 {
     return isfinite(b->height[i]) && isfinite(b->force[i]);
 }
 
-static void find_rates(const curve_fitting *f, const curve_branch *approach, wt_indent_fit *fit)
+static void compute_rates(const curve_fitting *f, const curve_branch *approach, wt_indent_fit *fit)
 {
     const double *height = approach->height, *time = approach->time;
     const size_t n = approach->n;
@@ -112,14 +113,15 @@ static void find_rates(const curve_fitting *f, const curve_branch *approach, wt_
                  end = fitted->position[fitted->n - 1] + f->input.position_origin;
     const double direction = f->input.direction;
     size_t first = 0, last = n, last_fitted = n, contact = 0;
-    while (first < n && !is_known(approach, first))
+    while (first < n && !is_finite_sample(approach, first))
         first++;
-    while (last > first && !is_known(approach, last - 1))
+    while (last > first && !is_finite_sample(approach, last - 1))
         last--;
-    while (last_fitted > 0 &&
-           !(direction * height[last_fitted - 1] <= end && is_known(approach, last_fitted - 1)))
+    while (last_fitted > 0 && !(direction * height[last_fitted - 1] <= end &&
+                                is_finite_sample(approach, last_fitted - 1)))
         last_fitted--;
-    while (contact < n && !(direction * height[contact] >= c && is_known(approach, contact)))
+    while (contact < n &&
+           !(direction * height[contact] >= c && is_finite_sample(approach, contact)))
         contact++;
     last = last > first ? last - 1 : n;
     last_fitted = last_fitted > 0 ? last_fitted - 1 : n;
@@ -200,7 +202,7 @@ static void report_adhesion(const curve_fitting *f, wt_indent_fit *fit)
     const curve_solution *s = &f->solution;
     const double root = s->p[CURVE_W], k = f->input.samples.spring_constant;
     adhesion law = {f->table, s->p[CURVE_E], 0.0};
-    fit->adhesion_force = f->snap_on;
+    fit->adhesion_force = f->snap_in_pull;
     fit->pull_off_force = f->pull_off;
     if (f->pull_off >= 0.0)
         fit->pull_off_work =
@@ -226,18 +228,18 @@ static void report_spectrum(const curve_fitting *f, wt_indent_fit *fit)
     /* A power-law relaxation replaces the spectrum if that does not converge, and has another unit.
      */
     const bool memory = f->kind.memory && !f->kind.adhesive && !(f->loss_power > 0.0);
-    if (spectrum == NULL || !(fit->load_time > 0.0) || (f->another_rubber && !f->kind.adhesive))
+    if (spectrum == NULL || !(fit->load_time > 0.0) || (f->spectrum_mismatch && !f->kind.adhesive))
         return;
-    const double here = hereditary_modulus(spectrum, 1.0 / fit->load_time);
-    const double unit = memory ? f->unit : here;
+    const double loading_modulus = hereditary_modulus(spectrum, 1.0 / fit->load_time);
+    const double unit = memory ? f->unit : loading_modulus;
     fit->spectrum_factor.value = fit->modulus.value / unit;
     fit->spectrum_factor.standard_error = fit->modulus.standard_error / unit;
-    fit->modulus.value *= here / unit;
-    fit->modulus.standard_error *= here / unit;
-    fit->misfit_error *= here / unit;
+    fit->modulus.value *= loading_modulus / unit;
+    fit->modulus.standard_error *= loading_modulus / unit;
+    fit->misfit_error *= loading_modulus / unit;
 }
 
-static const double outside_95 = 0.05; /* probability outside of a 95 % interval */
+static const double outside_probability = 0.05; /* probability outside of a 95 % interval */
 static const double error_digits =
     1e-3; /* tolerance of an error, which is reported with two digits */
 
@@ -245,10 +247,10 @@ static const double error_digits =
  * two fits. */
 typedef struct two_fits {
     double error;
-    const curve_other *other;
+    const curve_alternative *other;
 } two_fits;
 
-static double held_of_two(double with_other, void *user)
+static double coverage_deficit(double with_other, void *user)
 {
     const two_fits *of = user;
     const double end = NORMAL_95 * with_other, width = M_SQRT2 * of->error,
@@ -256,23 +258,23 @@ static double held_of_two(double with_other, void *user)
     const double beyond =
         (1.0 - chance) * erfc(end / width) +
         0.5 * chance * (erfc((end - moved) / width) + erfc((end + moved) / width));
-    return outside_95 - beyond;
+    return outside_probability - beyond;
 }
 
 /* Returns the error that the alternative fit adds, as a root of the difference of squares. */
-static double error_by(double error, const curve_other *other)
+static double added_error(double error, const curve_alternative *other)
 {
     two_fits of = {error, other};
     double with_other = error;
     if (!(error > 0.0) || !(fabs(other->moved) > 0.0))
         return 0.0;
-    if (root_find(held_of_two, &of, error, error + fabs(other->moved), error_digits * error,
+    if (root_find(coverage_deficit, &of, error, error + fabs(other->moved), error_digits * error,
                   &with_other, NULL) != WT_OK)
         return fabs(other->moved);
     return sqrt(with_other * with_other - error * error);
 }
 
-static void report(curve_fitting *f, wt_indent_fit *fit)
+static void report_fit(curve_fitting *f, wt_indent_fit *fit)
 {
     const curve_solution *s = &f->solution;
     const curve_samples *samples = &f->input.samples;
@@ -280,8 +282,8 @@ static void report(curve_fitting *f, wt_indent_fit *fit)
     const double e = reduced * s->p[CURVE_E] * (1.0 + f->loss_shift);
     fit->modulus.value = e;
     const double error = hypot(s->standard_error[CURVE_E] / s->p[CURVE_E], f->loss_error),
-                 by_law = error_by(error, &f->other_law);
-    f->contact_error = error_by(error, &f->other_contact);
+                 by_law = added_error(error, &f->other_law);
+    f->contact_error = added_error(error, &f->other_contact);
     fit->modulus.standard_error =
         e * sqrt(error * error + pow(f->contact_error, 2) + by_law * by_law);
     fit->contact_point.value = s->p[CURVE_C] + f->input.position_origin;
@@ -316,7 +318,7 @@ static void report(curve_fitting *f, wt_indent_fit *fit)
     double *above = f->workspace->scratch;
     for (size_t i = 0; i < n; i++)
         above[i] = samples->force[i] - curve_baseline(s, samples->position[i]);
-    fit->max_force = fmax(curve_span_of(above, n).high, 0.0);
+    fit->max_force = fmax(curve_find_span(above, n).high, 0.0);
     for (int j = 0; j < CURVE_WAVES; j++)
         fit->misfit[j] = s->lack.wave[j] / fit->max_force;
     if (curve_has_wave(&s->wave)) {
@@ -333,23 +335,23 @@ static void report(curve_fitting *f, wt_indent_fit *fit)
 }
 
 /* 2 ln(likelihood ratio) of a 95 % interval for one parameter. */
-static const double likely_chi2 = 3.84;
+static const double interval_chi2 = 3.84;
 
 /* Adds the error due to a second contact point of similar likelihood. The result keeps the modulus
  * of the better one. */
-static void add_other_contact(curve_fitting *f)
+static void add_second_contact(curve_fitting *f)
 {
     if (f->n_minima < 2 || f->kind.adhesive)
         return;
     const double chi2 = f->solution.effective_n * log(f->minima[1].cost / f->minima[0].cost);
     const double share = 1.0 / (1.0 + exp(0.5 * fmax(chi2, 0.0)));
-    if (chi2 < likely_chi2)
-        f->other_contact =
-            (curve_other){f->minima[1].reduced_modulus / f->minima[0].reduced_modulus - 1.0, share};
+    if (chi2 < interval_chi2)
+        f->other_contact = (curve_alternative){
+            f->minima[1].reduced_modulus / f->minima[0].reduced_modulus - 1.0, share};
 }
 
-static wt_status check_arguments(const wt_indent_options *options, const wt_tip *tip, size_t n,
-                                 double spring_constant, wt_error *err)
+static wt_status check_fit_arguments(const wt_indent_options *options, const wt_tip *tip, size_t n,
+                                     double spring_constant, wt_error *err)
 {
     if (n == 0)
         return wt_fail(err, WT_E_ARG, "a force curve without samples");
@@ -375,13 +377,13 @@ static void fit_once(const curve_fitting *of, const curve_branch *retract, doubl
     if (fit->verdict != WT_CURVE_ACCEPTED)
         return;
     fit->direction = f->input.direction;
-    if (curve_leaves_the_sample(f, fit->reason)) {
+    if (curve_is_retract(f, fit->reason)) {
         fit->verdict = WT_CURVE_NO_APPROACH;
         return;
     }
     bool found = curve_scan_and_refine(f) && curve_fit_interference(f);
-    if (found && curve_find_snap(f, &f->snap))
-        f->snap_on = f->snap.pull;
+    if (found && curve_find_snap_in(f, &f->snap))
+        f->snap_in_pull = f->snap.pull;
     if (found && retract->n > 0)
         curve_read_retract(f, retract->height, retract->force, retract->n);
     if (found)
@@ -389,25 +391,26 @@ static void fit_once(const curve_fitting *of, const curve_branch *retract, doubl
     if (found)
         found = curve_fit_range(f);
     if (!found) {
-        fit->verdict = curve_no_contact(f, fit->reason);
+        fit->verdict = curve_no_contact_verdict(f, fit->reason);
         return;
     }
-    curve_allow_loss(f);
+    curve_fit_loss(f);
     curve_add_misfit(f);
-    add_other_contact(f);
-    report(f, fit);
-    find_rates(f, approach, fit);
+    add_second_contact(f);
+    report_fit(f, fit);
+    compute_rates(f, approach, fit);
     report_spectrum(f, fit);
     fit->verdict = curve_assess(f, fit);
     if (f->options->contact_estimators)
         curve_estimate_contact(f, fit->contact_by);
     if (f->options->fit_retract)
-        curve_report_way_out(f, fit);
+        curve_report_unloading(f, fit);
 }
 
 /* Fits the forces up to a limit, as the option fit-force does. */
-static void fit_below(const curve_fitting *of, const curve_branch *retract, double spring_constant,
-                      double limit, curve_fitting *f, wt_indent_fit *fit)
+static void fit_below_limit(const curve_fitting *of, const curve_branch *retract,
+                            double spring_constant, double limit, curve_fitting *f,
+                            wt_indent_fit *fit)
 {
     wt_indent_options options = *of->options;
     curve_fitting below = *of;
@@ -431,17 +434,17 @@ static void fit_below_saturation(const curve_fitting *of, const curve_branch *re
     curve_fitting rest = *f;
     double limit = 0.0;
     for (int round = 0; round < LIMIT_ROUNDS && below.verdict == WT_CURVE_SATURATED; round++) {
-        const double next = curve_linear_to(&rest);
+        const double next = curve_linear_limit(&rest);
         if (!(next > o->fit_force_from) || (limit > 0.0 && !(next < limit)))
             break;
         limit = next;
-        fit_below(of, retract, spring_constant, limit, &rest, &below);
+        fit_below_limit(of, retract, spring_constant, limit, &rest, &below);
     }
-    if (wt_curve_usable(below.verdict)) {
+    if (wt_curve_verdict_is_usable(below.verdict)) {
         *f = rest;
         *fit = below;
     } else if (limit > 0.0) {
-        curve_judge_nothing_below(limit, below.verdict, fit->reason);
+        curve_append_limit_verdict(limit, below.verdict, fit->reason);
     }
 }
 
@@ -454,7 +457,8 @@ wt_status curve_fit_branches(const wt_contact_table *table, const wt_indent_opti
     const size_t n = approach->n;
     if (options == NULL)
         options = &defaults;
-    wt_status status = check_arguments(options, contact_table_tip(table), n, spring_constant, err);
+    wt_status status =
+        check_fit_arguments(options, contact_table_tip(table), n, spring_constant, err);
     if (status == WT_OK)
         status = curve_reserve(workspace, retract->n > n ? retract->n : n, err);
     const size_t terms = options->spectrum != NULL ? options->spectrum->n : 0;
@@ -464,20 +468,20 @@ wt_status curve_fit_branches(const wt_contact_table *table, const wt_indent_opti
     if (status != WT_OK)
         return status;
 
-    const curve_fitting begin = {.table = table,
-                                 .options = options,
-                                 .approach = approach,
-                                 .workspace = workspace,
-                                 .pull_off = (double)NAN,
-                                 .loss = (double)NAN,
-                                 .loss_bias = (double)NAN,
-                                 .loss_power = (double)NAN,
-                                 .range_settled = true};
+    const curve_fitting initial = {.table = table,
+                                   .options = options,
+                                   .approach = approach,
+                                   .workspace = workspace,
+                                   .pull_off = (double)NAN,
+                                   .loss = (double)NAN,
+                                   .loss_bias = (double)NAN,
+                                   .loss_power = (double)NAN,
+                                   .range_converged = true};
     curve_fitting f;
-    fit_once(&begin, retract, spring_constant, &f, fit);
+    fit_once(&initial, retract, spring_constant, &f, fit);
     if (fit->verdict == WT_CURVE_SATURATED)
-        fit_below_saturation(&begin, retract, spring_constant, &f, fit);
-    if (wt_curve_usable(fit->verdict)) {
+        fit_below_saturation(&initial, retract, spring_constant, &f, fit);
+    if (wt_curve_verdict_is_usable(fit->verdict)) {
         workspace->step_allowed = fmax(workspace->step_allowed, f.solution.step_allowed);
         workspace->step_left = fmax(workspace->step_left, f.solution.step_left);
     }

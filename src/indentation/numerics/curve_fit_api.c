@@ -9,7 +9,7 @@
 #include <math.h>
 #include <string.h>
 
-static wt_status no_approach(const wt_force_curve *curve, wt_indent_fit *fit)
+static wt_status set_no_approach(const wt_force_curve *curve, wt_indent_fit *fit)
 {
     fit->verdict = WT_CURVE_NO_APPROACH;
     size_t length = (size_t)snprintf(fit->reason, sizeof fit->reason, "segments in the curve:");
@@ -22,66 +22,66 @@ static wt_status no_approach(const wt_force_curve *curve, wt_indent_fit *fit)
     return WT_OK;
 }
 
-static wt_status missing(wt_error *err, const wt_segment *segment, const char *what,
-                         const char *expected, const char *advice)
+static wt_status fail_missing(wt_error *err, const wt_segment *segment, const char *quantity,
+                              const char *expected, const char *advice)
 {
-    wt_status status = wt_fail(err, WT_E_MISSING, "%s is missing", what);
+    wt_status status = wt_fail(err, WT_E_MISSING, "%s is missing", quantity);
     wt_error_place(err, "segment %zu", segment->index);
     wt_error_expected(err, "%s", expected);
     wt_error_advice(err, "%s", advice);
     return status;
 }
 
-static wt_status no_force(wt_error *err, const wt_segment *segment)
+static wt_status fail_no_force(wt_error *err, const wt_segment *segment)
 {
     if (wt_segment_channel(segment, WT_Q_DEFLECTION_VOLTAGE) != NULL)
-        return missing(err, segment, "the deflection sensitivity",
-                       "metres per volt in the file or given",
-                       "give it, e.g. --sensitivity 120nm/V");
-    return missing(err, segment, "the force",
-                   "a channel of force, deflection or deflection voltage",
-                   "see what the file holds with: weartrack info FILE");
+        return fail_missing(err, segment, "the deflection sensitivity",
+                            "metres per volt in the file or given",
+                            "give it, e.g. --sensitivity 120nm/V");
+    return fail_missing(err, segment, "the force",
+                        "a channel of force, deflection or deflection voltage",
+                        "see what the file holds with: weartrack info FILE");
 }
 
 /* Returns the retract; it is empty if height or force are missing. */
-static curve_branch way_out(const wt_segment *retract, const wt_cantilever *cantilever,
-                            wt_indent_workspace *workspace)
+static curve_branch retract_branch(const wt_segment *retract, const wt_cantilever *cantilever,
+                                   wt_indent_workspace *workspace)
 {
     const double *height = retract != NULL ? segment_height(retract) : NULL;
     const double *force =
-        height != NULL ? segment_force(retract, cantilever, workspace->given_retract) : NULL;
+        height != NULL ? segment_force(retract, cantilever, workspace->input_retract) : NULL;
     return (curve_branch){height, force, NULL, force != NULL ? retract->n_points : 0};
 }
 
-wt_status wt_indent_force_curve(const wt_contact_table *table, const wt_indent_options *options,
-                                const wt_force_curve *curve, wt_indent_workspace *workspace,
-                                wt_indent_fit *fit, wt_error *err)
+wt_status wt_indent_fit_force_curve(const wt_contact_table *table, const wt_indent_options *options,
+                                    const wt_force_curve *curve, wt_indent_workspace *workspace,
+                                    wt_indent_fit *fit, wt_error *err)
 {
     const double k = curve->cantilever.spring_constant;
     const wt_segment *approach = wt_force_curve_segment(curve, WT_SEGMENT_APPROACH);
     if (approach == NULL || approach->n_points == 0) {
         curve_fit_empty(fit);
-        return no_approach(curve, fit);
+        return set_no_approach(curve, fit);
     }
     if (isnan(k))
-        return missing(err, approach, "the spring constant", "a value in the file or given",
-                       "give it, e.g. --spring-constant 0.1N/m");
+        return fail_missing(err, approach, "the spring constant", "a value in the file or given",
+                            "give it, e.g. --spring-constant 0.1N/m");
     const double *height = segment_height(approach);
     if (height == NULL)
-        return missing(err, approach, "the height", "a channel of height or measured height",
-                       "see what the file holds with: weartrack info FILE");
+        return fail_missing(err, approach, "the height", "a channel of height or measured height",
+                            "see what the file holds with: weartrack info FILE");
     const wt_segment *retract = wt_force_curve_segment(curve, WT_SEGMENT_RETRACT);
     const size_t n_out = retract != NULL ? retract->n_points : 0;
     wt_status status =
         curve_reserve(workspace, n_out > approach->n_points ? n_out : approach->n_points, err);
     if (status != WT_OK)
         return status;
-    const double *force = segment_force(approach, &curve->cantilever, workspace->given_force);
+    const double *force = segment_force(approach, &curve->cantilever, workspace->input_force);
     if (force == NULL)
-        return no_force(err, approach);
-    const curve_branch in = {height, force, segment_time(approach, workspace->given_time),
+        return fail_no_force(err, approach);
+    const curve_branch in = {height, force, segment_time(approach, workspace->input_time),
                              approach->n_points};
-    const curve_branch out = way_out(retract, &curve->cantilever, workspace);
+    const curve_branch out = retract_branch(retract, &curve->cantilever, workspace);
     status = curve_fit_branches(table, options, &in, &out, k, workspace, fit, err);
     if (status == WT_OK && fit->verdict == WT_CURVE_ACCEPTED) {
         if (retract != NULL && retract < approach)
@@ -91,8 +91,8 @@ wt_status wt_indent_force_curve(const wt_contact_table *table, const wt_indent_o
     return status;
 }
 
-size_t wt_indent_curve(const wt_indent_fit *fit, const double *height, const double *force,
-                       size_t n, double spring_constant, double *delta, double *out_force)
+size_t wt_indent_plot_points(const wt_indent_fit *fit, const double *height, const double *force,
+                             size_t n, double spring_constant, double *delta, double *out_force)
 {
     size_t m = 0;
     for (size_t i = 0; i < n; i++) {

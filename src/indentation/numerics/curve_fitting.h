@@ -11,7 +11,7 @@
  * samples; maps have 1e8. */
 #define CURVE_PULL_NOISE 6.0
 /* Smallest ratio to the deepest pull elsewhere. Two oscillations of one drift differ by less. */
-#define CURVE_PULL_REST 1.5
+#define CURVE_PULL_RATIO 1.5
 enum { CURVE_BASELINE_SAMPLES = 10, CURVE_CONTACT_SAMPLES = 8 }; /* smallest numbers */
 
 typedef struct curve_snap {
@@ -21,16 +21,16 @@ typedef struct curve_snap {
 } curve_snap;
 
 /* Retract reversed in time, with forces above its baseline. n is 0 if it cannot be fitted. */
-typedef struct curve_way_out {
+typedef struct curve_unloading {
     curve_samples samples;
     size_t jump; /* first sample in contact after the pull-off; 0 without a pull-off */
-} curve_way_out;
+} curve_unloading;
 
 /* Alternative fit: relative difference of its modulus, and the probability that it is the correct
  * one of the two. */
-typedef struct curve_other {
+typedef struct curve_alternative {
     double moved, chance;
-} curve_other;
+} curve_alternative;
 
 typedef struct curve_fitting {
     const wt_contact_table *table;
@@ -43,7 +43,7 @@ typedef struct curve_fitting {
     curve_minimum minima[CURVE_MAX_MINIMA];
     size_t n_minima;
     curve_snap snap;
-    double snap_on;    /* pull before contact [N]; 0 if none is significant */
+    double snap_in_pull; /* pull before contact [N]; 0 if none is significant */
     double pull_off;   /* pull of the retract [N]; 0 if none is significant, NaN without a suitable
                           retract */
     double loss;       /* lost work over the work of the approach; NaN without a retract */
@@ -51,16 +51,16 @@ typedef struct curve_fitting {
     double loss_bias;  /* relative excess of the modulus of a fit without loss */
     double loss_shift,
         loss_error; /* mean relative excess of the modulus with other spectra, and its error */
-    curve_way_out way_out;
+    curve_unloading unloading;
     size_t n_snap; /* samples excluded because of a snap-in */
-    bool range_settled;
-    bool range_empty;      /* too few samples in the range; the fit uses all samples */
-    bool another_rubber;   /* the spectrum of the options does not describe the curve */
-    bool below_saturation; /* the fit only covers forces up to the limit of the options */
-    bool unknown_loss;     /* the curve loses work, and the law of the fit does not describe it */
+    bool range_converged;
+    bool range_empty;       /* too few samples in the range; the fit uses all samples */
+    bool spectrum_mismatch; /* the spectrum of the options does not describe the curve */
+    bool below_saturation;  /* the fit only covers forces up to the limit of the options */
+    bool unknown_loss;      /* the curve loses work, and the law of the fit does not describe it */
     /* Alternative law of adhesion, second contact point, and the relative error of the modulus due
      * to the latter. */
-    curve_other other_law, other_contact;
+    curve_alternative other_law, other_contact;
     double contact_error;
     double unit; /* viscoelastic fit: |E*| of the spectrum for a modulus of 1 in the solution */
 } curve_fitting;
@@ -76,9 +76,9 @@ static inline double curve_baseline(const curve_solution *s, double position)
 bool curve_scan_and_refine(curve_fitting *f);
 /* Prepares the relaxation of a series for the samples. Its times are in loading times or in
  * seconds. Returns false if the times of the samples are not known. */
-bool curve_remember(curve_fitting *f, const wt_prony *series, bool in_loading_times);
+bool curve_prepare_relaxation(curve_fitting *f, const wt_prony *series, bool in_loading_times);
 /* True if noise alone explains the residual, or if the baseline is too short for the test. */
-bool curve_fits(const curve_fitting *f);
+bool curve_passes_misfit_test(const curve_fitting *f);
 
 /* ---- interference: interference.c ------------------------------------------------------------ */
 
@@ -87,7 +87,7 @@ bool curve_fits(const curve_fitting *f);
 bool curve_fit_interference(curve_fitting *f);
 /* Subtracts the wave, as a function of the height, from the forces for a scan or the start of a
  * fit. */
-void curve_begin_wave(curve_fitting *f, const curve_wave *wave);
+void curve_subtract_wave(curve_fitting *f, const curve_wave *wave);
 
 /* ---- range of the fit: fit_range.c ----------------------------------------------------------- */
 
@@ -95,7 +95,7 @@ void curve_begin_wave(curve_fitting *f, const curve_wave *wave);
  * found. */
 bool curve_fit_range(curve_fitting *f);
 /* Number of samples in contact that are compared with the law. */
-size_t curve_in_range(const curve_fitting *f);
+size_t curve_count_in_range(const curve_fitting *f);
 
 /* Computes contact points by other estimators relative to that of the fit of all samples:
  * contact_point_estimators.c. */
@@ -110,23 +110,23 @@ void curve_read_retract(curve_fitting *f, const double *height, const double *fo
 
 /* Fits a contact law of this kind, with separate parameters, to the retract. Returns false if there
  * is none. The workspace is that of this fit afterwards. */
-bool curve_fit_way_out(const curve_fitting *f, const curve_kind *kind, const curve_solution *in,
-                       curve_solution *out);
+bool curve_fit_unloading(const curve_fitting *f, const curve_kind *kind, const curve_solution *in,
+                         curve_solution *out);
 
 /* Reports the fit of the retract alone. If no work is lost and its modulus differs, the reason of a
  * usable curve mentions it. The function destroys the fit. */
-void curve_report_way_out(curve_fitting *f, wt_indent_fit *fit);
+void curve_report_unloading(curve_fitting *f, wt_indent_fit *fit);
 
 /* ---- snap-in: snap_in.c ---- */
 
 /* Finds a significant pull just before the force rises. The baseline of the solution becomes a line
  * through the samples before it. */
-bool curve_find_snap(curve_fitting *f, curve_snap *found);
+bool curve_find_snap_in(curve_fitting *f, curve_snap *found);
 /* Returns the sample at which a pull begins that lasts to sample `at`. The first half of the forces
  * above the baseline must be free of it. noise: of successive samples. */
 size_t curve_tail_start(const double *above, size_t at, double noise);
 /* Excludes the samples from start to before end. */
-void curve_leave_out(curve_fitting *f, size_t start, size_t end);
+void curve_exclude_samples(curve_fitting *f, size_t start, size_t end);
 
 /* ---- adhesion: adhesion_fit.c ---- */
 
@@ -138,10 +138,10 @@ bool curve_fit_adhesion(curve_fitting *f);
 /* ---- loss without a spectrum: hysteresis_loss.c ---------------------------------------------- */
 
 /* Fits a relaxation if the retract shows loss, and determines the bias of the modulus. */
-void curve_allow_loss(curve_fitting *f);
+void curve_fit_loss(curve_fitting *f);
 /* True for loss under a punch without a spectrum. There spectra of equal loss scatter more than the
  * error that is stated for the other tips. */
-bool curve_unknown_loss(const curve_fitting *f);
+bool curve_has_unknown_loss(const curve_fitting *f);
 
 /* ---- verdict: curve_verdict.c ---------------------------------------------------------------- */
 
@@ -149,17 +149,17 @@ bool curve_unknown_loss(const curve_fitting *f);
 void curve_add_misfit(curve_fitting *f);
 
 /* Verdict of a curve in which only a baseline was found. */
-wt_curve_verdict curve_no_contact(curve_fitting *f, char reason[160]);
+wt_curve_verdict curve_no_contact_verdict(curve_fitting *f, char reason[160]);
 /* True if the reversed curve resembles a contact more. The function destroys the samples in this
  * case. */
-bool curve_leaves_the_sample(curve_fitting *f, char reason[160]);
+bool curve_is_retract(curve_fitting *f, char reason[160]);
 /* Appends text to a reason if it fits completely. */
 void curve_append_note(char reason[160], const char *text);
 /* Returns the verdict on a fit and sets its reason. */
 wt_curve_verdict curve_assess(curve_fitting *f, wt_indent_fit *fit);
 /* Largest force to which a saturated curve may be fitted [N]. */
-double curve_linear_to(const curve_fitting *f);
+double curve_linear_limit(const curve_fitting *f);
 /* Appends the verdict on the forces below the limit to the reason of a rejection. */
-void curve_judge_nothing_below(double limit, wt_curve_verdict below, char reason[160]);
+void curve_append_limit_verdict(double limit, wt_curve_verdict below, char reason[160]);
 
 #endif

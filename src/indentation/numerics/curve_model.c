@@ -26,7 +26,7 @@ WIDE_REGISTERS static void sum_baseline(curve_law *m, size_t n)
 {
     const curve_samples *s = m->samples;
     m->n_baseline = n;
-    m->baseline_end = n > 0 ? curve_span_of(s->position, n).high : -(double)INFINITY;
+    m->baseline_end = n > 0 ? curve_find_span(s->position, n).high : -(double)INFINITY;
     m->z0 = n > 0 ? curve_sum(s->position, n) / (double)n : 0.0;
     m->f0 = n > 0 ? curve_sum(s->force, n) / (double)n : 0.0;
     wide z = {0.0}, zz = z, f = z, zf = z, ff = z;
@@ -73,7 +73,7 @@ static size_t count_baseline(const curve_law *m, double c)
 }
 
 /* Computes the measured indentations. */
-static void measure(curve_law *m, const double p[N], size_t first)
+static void measure_indentations(curve_law *m, const double p[N], size_t first)
 {
     m->balanced = false;
     const curve_samples *s = m->samples;
@@ -84,7 +84,7 @@ static void measure(curve_law *m, const double p[N], size_t first)
 }
 
 /* Performs a Newton step for each sample in contact and returns the largest step. */
-WIDE_REGISTERS static double step_on(const curve_law *m, const double p[N], size_t first)
+WIDE_REGISTERS static double newton_step(const curve_law *m, const double p[N], size_t first)
 {
     const curve_samples *s = m->samples;
     const wt_indent_workspace *w = m->workspace;
@@ -101,11 +101,11 @@ WIDE_REGISTERS static double step_on(const curve_law *m, const double p[N], size
         z -= p[CURVE_C];
         const wide out = -delta;
         wide step = (k * (z - delta) - e * g) / (k + e * slope);
-        wide_raise(&step, &out);
+        wide_maximum(&step, &out);
         step = (wide)((wide_bits)step & (z > 0.0));
         const wide back = -step;
-        wide_raise(&most, &step);
-        wide_raise(&most, &back);
+        wide_maximum(&most, &step);
+        wide_maximum(&most, &back);
         g += slope * step;
         delta += step;
         simd_store(w->g + i, &g);
@@ -131,12 +131,12 @@ WIDE_REGISTERS static double step_on(const curve_law *m, const double p[N], size
 /* Replaces the indentations of the workspace by those in equilibrium, with G and G'. k (z - x) - E*
  * G(x) falls and is concave in x, so Newton's method converges from any start. The indentations of
  * the previous evaluation are a good start. */
-WIDE_REGISTERS static void balance(curve_law *m, const double p[N], size_t first)
+WIDE_REGISTERS static void balance_elastic(curve_law *m, const double p[N], size_t first)
 {
     const curve_samples *s = m->samples;
     wt_indent_workspace *w = m->workspace;
     if (m->balanced) /* starts with the previous values of G and G' */
-        (void)step_on(m, p, first);
+        (void)newton_step(m, p, first);
     m->balanced = true;
     for (size_t i = first; i < s->n; i++) {
         const double z = s->position[i] - p[CURVE_C], delta = w->delta[i];
@@ -144,24 +144,26 @@ WIDE_REGISTERS static void balance(curve_law *m, const double p[N], size_t first
         w->delta[i] = inside ? delta : z;
     }
     const double deepest = /* not negative for a curve without contact */
-        first < s->n ? fmax(0.0, curve_span_of(s->position + first, s->n - first).high - p[CURVE_C])
-                     : 0.0;
+        first < s->n
+            ? fmax(0.0, curve_find_span(s->position + first, s->n - first).high - p[CURVE_C])
+            : 0.0;
     /* The error after a step of 1e-7 is of the order of its square. */
     double largest_step = (double)INFINITY;
     for (int i = 0; i < MAX_NEWTON && largest_step > 1e-7 * deepest; i++) {
         wt_contact_table_eval(m->table, w->delta + first, s->n - first, w->g + first,
                               w->slope + first);
-        largest_step = step_on(m, p, first);
+        largest_step = newton_step(m, p, first);
     }
 }
 
 /* Evaluates a block of the branch. Samples at the end of the branch are all equal. */
-static void along(const adhesion *law, const double *bare, size_t n, adhesive_contacts *to)
+static void evaluate_branch_block(const adhesion *law, const double *bare, size_t n,
+                                  adhesive_contacts *to)
 {
     size_t same = 1;
     while (same < n && !(bare[same] > bare[0]) && !(bare[same] < bare[0]))
         same++;
-    adhesion_along(law, bare, same == n ? 1 : n, to);
+    adhesion_contacts(law, bare, same == n ? 1 : n, to);
     for (size_t j = 1; j < n && same == n; j++) {
         to->depth[j] = to->depth[0];
         to->force[j] = to->force[0];
@@ -191,7 +193,7 @@ static void balance_adhesive(const curve_law *m, const double p[N], size_t first
     for (size_t i = first; i < s->n; i += ADHESION_BLOCK) {
         const size_t n = s->n - i < ADHESION_BLOCK ? s->n - i : ADHESION_BLOCK;
         adhesive_contacts c;
-        along(&law, bare + i, n, &c);
+        evaluate_branch_block(&law, bare + i, n, &c);
         for (size_t j = 0; j < n; j++) {
             const bool touches = m->jump > 0 || z[i + j] > 0.0;
             const bool moves =
@@ -208,7 +210,7 @@ static void balance_adhesive(const curve_law *m, const double p[N], size_t first
 }
 
 /* Equilibrium with a constant pull P, which is equivalent to a height increased by P/k. */
-static void balance_pull(curve_law *m, const double p[N], size_t first)
+static void balance_constant_pull(curve_law *m, const double p[N], size_t first)
 {
     const curve_samples *s = m->samples;
     wt_indent_workspace *w = m->workspace;
@@ -217,7 +219,7 @@ static void balance_pull(curve_law *m, const double p[N], size_t first)
     memcpy(higher, p, sizeof higher);
     higher[CURVE_C] -= pull / k;
     m->balanced = false; /* the previous forces include the pull */
-    balance(m, higher, first);
+    balance_elastic(m, higher, first);
     for (size_t i = first; i < s->n; i++) {
         const double z = s->position[i] - p[CURVE_C], g = w->g[i];
         const bool touches = m->jump > 0 ? i >= m->jump : z > 0.0, rests = z + pull / k > 0.0;
@@ -230,23 +232,23 @@ static void balance_pull(curve_law *m, const double p[N], size_t first)
     }
 }
 
-WIDE_REGISTERS static double evaluate(curve_law *m, const double p[N], size_t first)
+WIDE_REGISTERS static double evaluate_model(curve_law *m, const double p[N], size_t first)
 {
     const curve_samples *s = m->samples;
     wt_indent_workspace *w = m->workspace;
     w->evaluations++;
     if (m->plain) {
-        measure(m, p, first);
+        measure_indentations(m, p, first);
         wt_contact_table_eval(m->table, w->delta + first, s->n - first, w->g + first,
                               w->slope + first);
     } else if (m->adhesive && m->constant_pull) {
-        balance_pull(m, p, first);
+        balance_constant_pull(m, p, first);
     } else if (m->adhesive) {
         balance_adhesive(m, p, first);
     } else if (m->memory) {
-        curve_balance_memory(m, p, first);
+        curve_balance_hereditary(m, p, first);
     } else {
-        balance(m, p, first);
+        balance_elastic(m, p, first);
     }
     const double e = p[CURVE_E], c = p[CURVE_C], f0 = p[CURVE_F0], t = p[CURVE_T];
     const double *position = s->position, *force = s->force, *g = w->g;
@@ -266,20 +268,20 @@ void curve_model_resume(curve_law *m, const double p[N])
 void curve_model_start(curve_law *m, const double p[N])
 {
     curve_model_resume(m, p);
-    measure(m, p, m->n_baseline);
+    measure_indentations(m, p, m->n_baseline);
 }
 
 double curve_model_cost(curve_law *m, const double p[N])
 {
     if (m->jump == 0 && m->n_baseline > 0 && p[CURVE_C] < m->baseline_end) {
         sum_baseline(m, count_baseline(m, p[CURVE_C]));
-        measure(m, p, m->n_baseline);
+        measure_indentations(m, p, m->n_baseline);
     }
     double n = (double)m->n_baseline, t = p[CURVE_T];
     double offset = m->f0 - p[CURVE_F0] - t * (m->z0 - p[CURVE_C]);
     double baseline = m->ff + t * t * m->zz - 2.0 * t * m->zf +
                       offset * (n * offset + 2.0 * m->f - 2.0 * t * m->z);
-    return baseline + evaluate(m, p, m->n_baseline);
+    return baseline + evaluate_model(m, p, m->n_baseline);
 }
 
 void curve_model_complete(const curve_law *m, const double p[N])
@@ -297,7 +299,7 @@ void curve_model_complete(const curve_law *m, const double p[N])
 }
 
 /* Adds a row for the first n parameters. */
-static inline void add_row(normal_equations *e, const double row[N], double r, size_t n)
+static inline void add_equation_row(normal_equations *e, const double row[N], double r, size_t n)
 {
     for (size_t a = 0; a < n; a++) {
         for (size_t b = a; b < n; b++)
@@ -308,12 +310,13 @@ static inline void add_row(normal_equations *e, const double row[N], double r, s
 
 /* Adds the rows of curve_model_row for non-viscoelastic contact with all samples compared, four at
  * a time. Returns the next sample. */
-WIDE_REGISTERS static size_t sum_four(const curve_law *m, const double p[N], normal_equations *to)
+WIDE_REGISTERS static size_t sum_rows_simd(const curve_law *m, const double p[N],
+                                           normal_equations *to)
 {
     const curve_samples *s = m->samples;
     const wt_indent_workspace *w = m->workspace;
-    const double soft = p[CURVE_E] / s->spring_constant, with_c = m->free[CURVE_C] ? -1.0 : 0.0,
-                 with_t = m->free[CURVE_T] ? 1.0 : 0.0;
+    const double compliance_factor = p[CURVE_E] / s->spring_constant,
+                 with_c = m->free[CURVE_C] ? -1.0 : 0.0, with_t = m->free[CURVE_T] ? 1.0 : 0.0;
     const double *const by_modulus = m->adhesive ? w->by_modulus : w->g;
     wide ee = {0.0}, ec = ee, ef = ee, et = ee, cc = ee, cf = ee, ct = ee, tf = ee, tt = ee,
          er = ee, cr = ee, fr = ee, tr = ee, ew = ee, cw = ee, fw = ee, tw = ee, ww = ee, wr = ee;
@@ -324,7 +327,7 @@ WIDE_REGISTERS static size_t sum_four(const curve_law *m, const double p[N], nor
         simd_load(&g, by_modulus + i);
         simd_load(&r, w->residual + i);
         simd_load(&z, s->position + i);
-        const wide balanced = 1.0 / (1.0 + soft * slope), by_e = g * balanced,
+        const wide balanced = 1.0 / (1.0 + compliance_factor * slope), by_e = g * balanced,
                    by_c = with_c * (p[CURVE_T] + p[CURVE_E] * slope * balanced),
                    by_t = with_t * (z - p[CURVE_C]);
         ee += by_e * by_e;
@@ -379,12 +382,12 @@ static void sum_rows(const curve_law *m, const double p[N], normal_equations *to
 {
     const curve_samples *s = m->samples;
     const bool simple = !m->plain && !m->memory && !m->wave && s->gap_to <= s->gap_from;
-    const size_t first = simple ? sum_four(m, p, to) : m->n_baseline;
+    const size_t first = simple ? sum_rows_simd(m, p, to) : m->n_baseline;
     normal_equations e = *to; /* a local copy keeps the sums in registers */
     for (size_t i = first; i < s->n; i++) {
         double row[N], r = m->workspace->residual[i];
         curve_model_row(m, p, i, row);
-        add_row(&e, row, r, CURVE_W);
+        add_equation_row(&e, row, r, CURVE_W);
         if (m->adhesive) {
             for (size_t a = 0; a < N; a++)
                 e.jj[a][CURVE_W] += row[a] * row[CURVE_W];

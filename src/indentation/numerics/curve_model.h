@@ -15,13 +15,13 @@ typedef struct curve_law {
     bool free[CURVE_N_PARAMETERS];
     bool plain, adhesive, memory;
     bool constant_pull; /* adhesion is a constant force [N], in the place of the root of the work */
-    bool rough;         /* as in curve_kind */
-    double below;       /* as in curve_kind */
+    bool is_approximate; /* as in curve_kind */
+    double cost_limit;   /* as in curve_kind */
     bool balanced; /* the indentations of the workspace are in equilibrium, with the force and its
                       slope */
     bool wave; /* the force includes a wave; the derivatives then exclude their projection on the
                   wave */
-    double imitated[WAVE_PARAMETERS][CURVE_N_PARAMETERS];
+    double wave_projection[WAVE_PARAMETERS][CURVE_N_PARAMETERS];
     size_t jump; /* adhesive contact: first sample; 0: at the contact point */
     /* The first samples are far from contact in any step of the fit and enter by sums alone. */
     size_t n_baseline;
@@ -30,10 +30,10 @@ typedef struct curve_law {
     double z, zz, f, zf, ff;
 } curve_law;
 
-/* curve_law_of creates the law of a kind of fit. curve_law_evaluate evaluates all samples at the
- * fitted parameters p. */
-curve_law curve_law_of(const wt_contact_table *table, const curve_samples *samples,
-                       const curve_kind *kind, wt_indent_workspace *workspace);
+/* curve_law_create creates the law of a kind of fit. curve_law_evaluate evaluates all samples at
+ * the fitted parameters p. */
+curve_law curve_law_create(const wt_contact_table *table, const curve_samples *samples,
+                           const curve_kind *kind, wt_indent_workspace *workspace);
 void curve_law_evaluate(curve_law *model, const double p[CURVE_N_PARAMETERS],
                         const curve_wave *wave);
 
@@ -54,8 +54,8 @@ void curve_model_normal(const curve_law *model, const double p[CURVE_N_PARAMETER
 void curve_model_complete(const curve_law *model, const double p[CURVE_N_PARAMETERS]);
 /* Tests the lack of fit at the parameters of the latest evaluation. `e` has the residuals of the
  * noise. */
-curve_lack curve_lack_of_fit(const curve_law *model, const double p[CURVE_N_PARAMETERS],
-                             const double *e);
+curve_misfit_test curve_lack_of_fit(const curve_law *model, const double p[CURVE_N_PARAMETERS],
+                                    const double *e);
 /* Effect of the noise on the sums J'e at the parameters of the latest evaluation. */
 typedef struct curve_noise {
     double variance;           /* variance of a sample of the baseline */
@@ -67,8 +67,8 @@ typedef struct curve_noise {
 } curve_noise;
 /* Estimates the noise from the residuals e, of which the first `first` are the baseline. `bent`
  * states that the baseline is not straight, and its continuation in contact is unknown. */
-curve_noise curve_noise_of(const curve_law *model, const double p[CURVE_N_PARAMETERS],
-                           const double *e, size_t first, bool bent);
+curve_noise curve_estimate_noise(const curve_law *model, const double p[CURVE_N_PARAMETERS],
+                                 const double *e, size_t first, bool bent);
 /* Variance of a unit wave of means over `length` samples by frequency. A frequency of 1 is half a
  * cycle per mean. */
 enum { NOISE_BANDS = 52 };
@@ -97,7 +97,7 @@ static inline double curve_model_row(const curve_law *m, const double p[CURVE_N_
     double plain = m->plain ? h : 1.0, balanced = m->plain ? 1.0 : 1.0 / h;
     const double by_contact = m->memory ? w->by_contact[i] : -stiffness;
     if (m->wave)
-        balanced *= w->wave_give[i];
+        balanced *= w->wave_response[i];
     row[CURVE_E] = (m->adhesive || m->memory ? w->by_modulus[i] : w->g[i]) * balanced;
     row[CURVE_C] = m->free[CURVE_C] ? -p[CURVE_T] * plain + by_contact * balanced : 0.0;
     row[CURVE_F0] = plain;
@@ -105,8 +105,8 @@ static inline double curve_model_row(const curve_law *m, const double p[CURVE_N_
     row[CURVE_W] = m->adhesive ? w->by_work[i] * balanced : 0.0;
     for (size_t j = 0; j < WAVE_PARAMETERS && m->wave; j++)
         for (size_t a = 0; a < CURVE_N_PARAMETERS; a++)
-            row[a] -= m->imitated[j][a] * w->wave_column[j][i];
-    for (size_t a = 0; a < CURVE_N_PARAMETERS && curve_in_gap(m->samples, i); a++)
+            row[a] -= m->wave_projection[j][a] * w->wave_column[j][i];
+    for (size_t a = 0; a < CURVE_N_PARAMETERS && curve_is_in_gap(m->samples, i); a++)
         row[a] = 0.0;
     return plain;
 }
@@ -123,12 +123,13 @@ typedef struct wave_step {
 } wave_step;
 /* Computes the projection at the latest evaluation and wave. Returns false if the wave is not
  * determined. */
-bool curve_wave_imitate(curve_law *model, const double p[CURVE_N_PARAMETERS], wave_step *to);
+bool curve_wave_project(curve_law *model, const double p[CURVE_N_PARAMETERS], wave_step *to);
 
 /* Computes the equilibrium of cantilever and viscoelastic rubber (hereditary_fit.c) for the samples
  * from `first` on; earlier samples are out of contact. The results are depth, force over modulus
  * with its instantaneous slope, and the derivatives by modulus and contact point times h. */
-void curve_balance_memory(const curve_law *model, const double p[CURVE_N_PARAMETERS], size_t first);
+void curve_balance_hereditary(const curve_law *model, const double p[CURVE_N_PARAMETERS],
+                              size_t first);
 /* Solves k (z - x) = E (past + now G(x)) for the depth x if k z > E past, and returns G and its
  * slope there. `start` is an initial value or 0. The left side minus the right side falls and is
  * concave. */

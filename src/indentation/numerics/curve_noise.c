@@ -17,13 +17,13 @@
 
 enum {
     N = CURVE_N_PARAMETERS,
-    IN_CONTACT = 32, /* blocks */
-    BLOCKS = 512,    /* largest total */
-    FINE = 192,      /* of the baseline, for its spectrum */
-    LEAST = 16,      /* smallest number in the baseline */
-    WAVES = 64,      /* evaluated one by one; faster waves are combined */
-    AT_ONCE = 16,    /* a multiple of WIDE */
-    PARTS = AT_ONCE / WIDE,
+    IN_CONTACT = 32,          /* blocks */
+    BLOCKS = 512,             /* largest total */
+    BASELINE_BLOCKS = 192,    /* of the baseline, for its spectrum */
+    MIN_BASELINE_BLOCKS = 16, /* smallest number in the baseline */
+    WAVES = 64,               /* evaluated one by one; faster waves are combined */
+    AT_ONCE = 16,             /* a multiple of WIDE */
+    LANES = AT_ONCE / WIDE,
     PER_OCTAVE = 4, /* bands; within half a band the frequency changes by 9 % */
     POWERS = 4,     /* exponents of 1/f in halves, up to 2 for a random walk */
     CORNERS = 9,    /* octaves, up to the longest waves of 512 blocks */
@@ -43,7 +43,7 @@ static struct {
         root[SHAPES][NOISE_BANDS]; /* of the density */
 } shapes;
 
-static void add_shape(size_t s, double knee, double corner, double power)
+static void add_noise_shape(size_t s, double knee, double corner, double power)
 {
     shapes.knee[s] = knee;
     for (size_t b = 0; b < NOISE_BANDS; b++) {
@@ -57,19 +57,19 @@ static void add_shape(size_t s, double knee, double corner, double power)
 
 static pthread_once_t shapes_once = PTHREAD_ONCE_INIT;
 
-static void make_shapes(void)
+static void tabulate_shapes(void)
 {
     size_t s = 0;
-    add_shape(s++, 0.0, 1.0, 1.0);
+    add_noise_shape(s++, 0.0, 1.0, 1.0);
     for (int knee = -2; knee < CORNERS - 2; knee++)
         for (int power = 1; power <= POWERS; power++)
-            add_shape(s++, exp2(-knee), 0.0, 0.5 * power);
+            add_noise_shape(s++, exp2(-knee), 0.0, 0.5 * power);
     for (int corner = 0; corner < CORNERS; corner++)
         for (int height = 0; height < HEIGHTS; height++)
-            add_shape(s++, exp2(height - corner), exp2(-corner), 2.0);
+            add_noise_shape(s++, exp2(height - corner), exp2(-corner), 2.0);
 }
 
-static size_t band_of(double frequency)
+static size_t frequency_band(double frequency)
 {
     const double band = -PER_OCTAVE * log2(frequency);
     return !(band > 0.0) ? 0 : band < NOISE_BANDS - 1 ? (size_t)(band + 0.5) : NOISE_BANDS - 1;
@@ -78,15 +78,15 @@ static size_t band_of(double frequency)
 double curve_noise_variance(const curve_spectrum *s, double k, size_t n, size_t length)
 {
     const double part = s->length / (double)length;
-    return part * s->density[band_of(part * k / (double)n)];
+    return part * s->density[frequency_band(part * k / (double)n)];
 }
 
 /* Projects each of n_x series on the unit cosines k to k + AT_ONCE - 1 of n blocks. Several cosines
  * at once avoid the latency of the recursion. */
-WIDE_REGISTERS static void find_waves(size_t k, size_t n, const double (*x)[BLOCKS], size_t n_x,
-                                      double along[AT_ONCE][N])
+WIDE_REGISTERS static void project_cosines(size_t k, size_t n, const double (*x)[BLOCKS],
+                                           size_t n_x, double along[AT_ONCE][N])
 {
-    wide twice[PARTS], before[PARTS], now[PARTS], sums[N][PARTS] = {{{0.0}}};
+    wide twice[LANES], before[LANES], now[LANES], sums[N][LANES] = {{{0.0}}};
     double last[AT_ONCE], sum[N][AT_ONCE];
     const double mirror = k % 2 == 0 ? 1.0 : -1.0; /* sign of the second half of wave k */
     for (size_t j = 0; j < AT_ONCE; j++) {
@@ -100,10 +100,10 @@ WIDE_REGISTERS static void find_waves(size_t k, size_t n, const double (*x)[BLOC
             const double other = mirror * x[c][n - 1 - i], same = x[c][i] + other,
                          opposite = x[c][i] - other;
             const wide both = {same, opposite, same, opposite};
-            for (size_t v = 0; v < PARTS; v++)
+            for (size_t v = 0; v < LANES; v++)
                 sums[c][v] += now[v] * both;
         }
-        for (size_t v = 0; v < PARTS; v++) {
+        for (size_t v = 0; v < LANES; v++) {
             const wide next = twice[v] * now[v] - before[v];
             before[v] = now[v];
             now[v] = next;
@@ -123,10 +123,11 @@ WIDE_REGISTERS static void find_waves(size_t k, size_t n, const double (*x)[BLOC
 
 /* Subtracts the powers of z below `count` from the first n values of x. With count 3, z2 receives
  * the orthogonal square over `all` values. Returns the coefficient of the last power. */
-WIDE_REGISTERS static double remove_powers(const double *z, double *x, size_t n, size_t all,
-                                           int count, double *z2)
+WIDE_REGISTERS static double subtract_polynomial(const double *z, double *x, size_t n, size_t all,
+                                                 int count, double *z2)
 {
-    double one[FINE + BLOCKS], line[FINE + BLOCKS], *const power[3] = {one, line, z2};
+    double one[BASELINE_BLOCKS + BLOCKS],
+        line[BASELINE_BLOCKS + BLOCKS], *const power[3] = {one, line, z2};
     const double middle = z[n / 2];
     double share = 0.0;
     for (int k = 0; k < count; k++) {
@@ -148,8 +149,8 @@ WIDE_REGISTERS static double remove_powers(const double *z, double *x, size_t n,
     return share;
 }
 
-WIDE_REGISTERS static void average(const curve_law *m, const double p[N], const double *e,
-                                   size_t first, block_sums *b)
+WIDE_REGISTERS static void average_blocks(const curve_law *m, const double p[N], const double *e,
+                                          size_t first, block_sums *b)
 {
     const curve_samples *s = m->samples;
     const size_t contact = s->n - first, least = (s->n + BLOCKS - 1) / BLOCKS;
@@ -185,22 +186,22 @@ bool curve_noise_spectrum(const double *x, size_t n, curve_spectrum *to)
     double chance[SHAPES], level[SHAPES], best = -(double)INFINITY, all = 0.0;
     const double waves = (double)n - 2.0; /* x excludes an offset and a tilt */
     double *const density = to->density, rest = curve_dot(x, x, n);
-    (void)pthread_once(&shapes_once, make_shapes);
+    (void)pthread_once(&shapes_once, tabulate_shapes);
     for (size_t first = 0; first < n && first <= WAVES; first += AT_ONCE) {
         double along[AT_ONCE][N];
-        find_waves(first, n, (const double(*)[BLOCKS])x, 1, along);
+        project_cosines(first, n, (const double(*)[BLOCKS])x, 1, along);
         for (size_t k = first; k < first + AT_ONCE && k < n && k <= WAVES; k++) {
             const double square = along[k - first][0] * along[k - first][0];
             rest -= square;
             if (k < 2)
                 continue;
-            const size_t band = band_of((double)k / (double)n);
+            const size_t band = frequency_band((double)k / (double)n);
             power[band] += square;
             count[band] += 1.0;
         }
     }
     if (n > WAVES + 1) {
-        const size_t band = band_of(sqrt(WAVES / (double)n));
+        const size_t band = frequency_band(sqrt(WAVES / (double)n));
         power[band] += fmax(rest, 0.0);
         count[band] += (double)(n - WAVES - 1);
     }
@@ -236,8 +237,8 @@ bool curve_noise_spectrum(const double *x, size_t n, curve_spectrum *to)
 }
 
 /* Computes J' (covariance of the noise) J for the free parameters. */
-WIDE_REGISTERS static void sum_waves(const block_sums *b, const curve_spectrum *s, size_t n_free,
-                                     double to[N][N])
+WIDE_REGISTERS static void sum_noise_covariance(const block_sums *b, const curve_spectrum *s,
+                                                size_t n_free, double to[N][N])
 {
     double waves[AT_ONCE][N], left[N][N];
     size_t k = 0;
@@ -250,7 +251,7 @@ WIDE_REGISTERS static void sum_waves(const block_sums *b, const curve_spectrum *
         const double level = curve_noise_variance(s, k > 0 ? (double)k : 0.5, b->n, b->length);
         const double *along = waves[k % AT_ONCE];
         if (k % AT_ONCE == 0)
-            find_waves(k, b->n, (const double(*)[BLOCKS])b->column, n_free, waves);
+            project_cosines(k, b->n, (const double(*)[BLOCKS])b->column, n_free, waves);
         for (size_t c = 0; c < n_free; c++)
             for (size_t d = 0; d <= c; d++) {
                 to[c][d] += level * along[c] * along[d];
@@ -266,13 +267,14 @@ WIDE_REGISTERS static void sum_waves(const block_sums *b, const curve_spectrum *
 /* Spectrum of the baseline residual without a line, or without a parabola if the baseline is bent.
  * The function also returns that parabola over all blocks. It returns false if the baseline is too
  * short. */
-WIDE_REGISTERS static bool read_baseline(const curve_law *m, const double *e, size_t first,
-                                         block_sums *b, bool bent, double *bow, double *curvature,
-                                         curve_spectrum *to)
+WIDE_REGISTERS static bool baseline_spectrum(const curve_law *m, const double *e, size_t first,
+                                             block_sums *b, bool bent, double *baseline_parabola,
+                                             double *curvature, curve_spectrum *to)
 {
-    double x[BLOCKS], y[BLOCKS], z[FINE + BLOCKS], square[FINE + BLOCKS];
-    const size_t length = (first + FINE - 1) / FINE, n = length > 0 ? first / length : 0;
-    if (n < LEAST)
+    double x[BLOCKS], y[BLOCKS], z[BASELINE_BLOCKS + BLOCKS], square[BASELINE_BLOCKS + BLOCKS];
+    const size_t length = (first + BASELINE_BLOCKS - 1) / BASELINE_BLOCKS,
+                 n = length > 0 ? first / length : 0;
+    if (n < MIN_BASELINE_BLOCKS)
         return false;
     for (size_t i = 0; i < n; i++) {
         const size_t from = first - (n - i) * length;
@@ -281,26 +283,26 @@ WIDE_REGISTERS static bool read_baseline(const curve_law *m, const double *e, si
     }
     memcpy(z + n, b->z, b->n * sizeof *z);
     memcpy(y, x, n * sizeof *y);
-    *curvature = remove_powers(z, y, n, n + b->n, 3, square);
+    *curvature = subtract_polynomial(z, y, n, n + b->n, 3, square);
     for (size_t i = 0; i < b->n; i++)
-        bow[i] = bent ? *curvature * square[n + i] : 0.0;
+        baseline_parabola[i] = bent ? *curvature * square[n + i] : 0.0;
     if (!bent)
-        remove_powers(z, x, n, n, 2, square);
+        subtract_polynomial(z, x, n, n, 2, square);
     to->length = (double)length;
     return curve_noise_spectrum(bent ? y : x, n, to);
 }
 
-WIDE_REGISTERS curve_noise curve_noise_of(const curve_law *m, const double p[N], const double *e,
-                                          size_t first, bool bent)
+WIDE_REGISTERS curve_noise curve_estimate_noise(const curve_law *m, const double p[N],
+                                                const double *e, size_t first, bool bent)
 {
     block_sums b;
     curve_spectrum s;
-    double bow[BLOCKS] = {0.0};
+    double baseline_parabola[BLOCKS] = {0.0};
     curve_noise noise = {.variance = 0.0, .correlation_length = 1.0, .curvature = (double)NAN};
-    average(m, p, e, first, &b);
+    average_blocks(m, p, e, first, &b);
     if (first > 0)
         noise.variance = curve_dot(e, e, first) / (double)first;
-    if (!read_baseline(m, e, first, &b, bent, bow, &noise.curvature, &s)) {
+    if (!baseline_spectrum(m, e, first, &b, bent, baseline_parabola, &noise.curvature, &s)) {
         s.length = (double)b.length;
         if (!curve_noise_spectrum(b.e, b.n, &s))
             return noise;
@@ -312,8 +314,8 @@ WIDE_REGISTERS curve_noise curve_noise_of(const curve_law *m, const double p[N],
         noise.correlation_length = fmax(1.0, curve_noise_variance(&s, wave, 1, 1) / noise.variance);
     }
     for (size_t c = 0; c < N; c++)
-        noise.bend[c] = curve_dot(b.column[c], bow, b.n);
-    sum_waves(&b, &s, m->adhesive ? N : CURVE_W, noise.scatter);
+        noise.bend[c] = curve_dot(b.column[c], baseline_parabola, b.n);
+    sum_noise_covariance(&b, &s, m->adhesive ? N : CURVE_W, noise.scatter);
     for (size_t c = 0; c < N; c++)
         for (size_t d = 0; d <= c; d++) {
             noise.scatter[c][d] += noise.bend[c] * noise.bend[d];

@@ -19,19 +19,20 @@ static const double contact_noise = 5.0;
 static const double baseline_bend = 0.1;
 /* Largest change of the modulus in per cent per per cent of sensitivity. Sensitivities have errors
  * of 1 % at best, and the modulus then has largest_error. */
-static const double rigid_gain = 50.0;
-static const double told_gain = 1000.0;  /* largest reported value; a larger one has no meaning */
+static const double max_gain = 50.0;
+static const double max_reported_gain =
+    1000.0;                              /* largest reported value; a larger one has no meaning */
 static const double reverse_ratio = 0.5; /* cost of the reversed fit; near ties do not count */
 enum { BEND_BLOCKS = 16 };
-static const double least_bias = 0.005; /* smallest reported bias of the modulus by loss */
+static const double min_reported_bias = 0.005; /* smallest reported bias of the modulus by loss */
 /* Largest tested loss over the work, at a tan delta of 1. Elastic fits of rubber with broad spectra
  * differed by up to 12 % for a pyramid and 17 % for a cone. */
-static const double most_tried = 0.85;
+static const double max_tested_loss = 0.85;
 /* Significance level of flattening by noise; a map of a thousand curves has one. */
 static const double flat_chance = 0.001;
-static const double most_flat = 0.5;  /* largest loss; more loss flattens the force too */
-static const double below_flat = 0.9; /* share of the plateau force that is clear of its noise */
-static const double large_error =
+static const double max_flat_loss = 0.5; /* largest loss; more loss flattens the force too */
+static const double plateau_share = 0.9; /* share of the plateau force that is clear of its noise */
+static const double min_reported_error =
     0.2; /* smallest reported error of the modulus; only its order of magnitude is known */
 
 static const struct {
@@ -54,12 +55,12 @@ const char *wt_curve_verdict_text(wt_curve_verdict verdict)
     return i < sizeof verdicts / sizeof verdicts[0] ? verdicts[i].text : "unknown verdict";
 }
 
-bool wt_curve_usable(wt_curve_verdict verdict)
+bool wt_curve_verdict_is_usable(wt_curve_verdict verdict)
 {
     return verdict == WT_CURVE_ACCEPTED || verdict == WT_CURVE_DOUBTFUL;
 }
 
-bool wt_curve_usable_id(const char *id)
+bool wt_curve_verdict_id_is_usable(const char *id)
 {
     return strcmp(id, wt_curve_verdict_id(WT_CURVE_ACCEPTED)) == 0 ||
            strcmp(id, wt_curve_verdict_id(WT_CURVE_DOUBTFUL)) == 0;
@@ -98,22 +99,23 @@ static double force_fall(const curve_samples *s)
     return first - last;
 }
 
-wt_curve_verdict curve_no_contact(curve_fitting *f, char reason[160])
+wt_curve_verdict curve_no_contact_verdict(curve_fitting *f, char reason[160])
 {
     const double fall = force_fall(&f->input.samples);
-    const si_text change = curve_si(fabs(fall), "N"), noise = curve_si(f->input.step_noise, "N");
+    const si_text change = curve_format_si(fabs(fall), "N"),
+                  noise = curve_format_si(f->input.step_noise, "N");
     if (fall > contact_noise * f->input.step_noise) {
         curve_set_reason(
             reason, "the force falls by %s towards the sample (noise %s): sign of the deflection?",
-            change.words, noise.words);
+            change.buffer, noise.buffer);
         return WT_CURVE_NEGATIVE;
     }
-    curve_set_reason(reason, "the force changes by %s from start to end (noise %s)", change.words,
-                     noise.words);
+    curve_set_reason(reason, "the force changes by %s from start to end (noise %s)", change.buffer,
+                     noise.buffer);
     return WT_CURVE_NO_CONTACT;
 }
 
-bool curve_leaves_the_sample(curve_fitting *f, char reason[160])
+bool curve_is_retract(curve_fitting *f, char reason[160])
 {
     curve_samples *s = &f->input.samples;
     const double fall = force_fall(s);
@@ -129,7 +131,7 @@ bool curve_leaves_the_sample(curve_fitting *f, char reason[160])
     if (n > 0 && minima[0].contact_point > s->position[0] &&
         minima[0].cost < reverse_ratio * cost) {
         curve_set_reason(reason, "the force falls by %s along the segment: it leaves the sample",
-                         curve_si(fall, "N").words);
+                         curve_format_si(fall, "N").buffer);
         return true;
     }
     curve_reverse(s);
@@ -145,13 +147,13 @@ static wt_curve_verdict contact_verdict(const curve_fitting *f, const wt_indent_
     const double length = s->p[CURVE_C] - samples->position[0];
     if (length <= 0.0) {
         curve_set_reason(reason, "contact is found %s before the first sample",
-                         curve_si(-length, "m").words);
+                         curve_format_si(-length, "m").buffer);
         return WT_CURVE_NO_BASELINE;
     }
     if (!(fit->max_force > contact_noise * s->noise)) {
         curve_set_reason(reason, "largest force %s is %.1f times the noise of %s, %g needed",
-                         curve_si(fit->max_force, "N").words, fit->max_force / s->noise,
-                         curve_si(s->noise, "N").words, contact_noise);
+                         curve_format_si(fit->max_force, "N").buffer, fit->max_force / s->noise,
+                         curve_format_si(s->noise, "N").buffer, contact_noise);
         return WT_CURVE_NO_CONTACT;
     }
     if (s->first_contact < CURVE_BASELINE_SAMPLES) {
@@ -159,8 +161,8 @@ static wt_curve_verdict contact_verdict(const curve_fitting *f, const wt_indent_
                          CURVE_BASELINE_SAMPLES);
         return WT_CURVE_NO_BASELINE;
     }
-    if (f->range_empty || curve_in_range(f) < CURVE_CONTACT_SAMPLES) {
-        curve_set_reason(reason, "%zu samples in contact%s, %d needed", curve_in_range(f),
+    if (f->range_empty || curve_count_in_range(f) < CURVE_CONTACT_SAMPLES) {
+        curve_set_reason(reason, "%zu samples in contact%s, %d needed", curve_count_in_range(f),
                          f->range_empty || samples->gap_to > samples->gap_from ||
                                  samples->n < f->input.n_all - f->n_snap
                              ? " in the range of the fit"
@@ -168,69 +170,69 @@ static wt_curve_verdict contact_verdict(const curve_fitting *f, const wt_indent_
                          CURVE_CONTACT_SAMPLES);
         return WT_CURVE_TOO_SHORT;
     }
-    if (s->sensitivity_gain > rigid_gain) {
+    if (s->sensitivity_gain > max_gain) {
         curve_set_reason(
             reason,
             "1 %% of deflection sensitivity would change the modulus by %s%.0f %%, %g %% allowed",
-            s->sensitivity_gain > told_gain ? "more than " : "",
-            fmin(s->sensitivity_gain, told_gain), rigid_gain);
+            s->sensitivity_gain > max_reported_gain ? "more than " : "",
+            fmin(s->sensitivity_gain, max_reported_gain), max_gain);
         return WT_CURVE_RIGID;
     }
     return WT_CURVE_ACCEPTED;
 }
 
-bool curve_fits(const curve_fitting *f)
+bool curve_passes_misfit_test(const curve_fitting *f)
 {
-    return !(f->solution.lack.chance < f->options->least_chance);
+    return !(f->solution.lack.chance < f->options->misfit_p_threshold);
 }
 
-bool curve_unknown_loss(const curve_fitting *f)
+bool curve_has_unknown_loss(const curve_fitting *f)
 {
-    return contact_table_tip(f->table)->shape == WT_TIP_PUNCH && f->loss > CURVE_LEAST_LOSS &&
+    return contact_table_tip(f->table)->shape == WT_TIP_PUNCH && f->loss > CURVE_MIN_LOSS &&
            !f->kind.memory;
 }
 
 /* True if the force flattens. A punch is exempt, because its force need not steepen. */
 static bool force_flattens(const curve_fitting *f)
 {
-    return f->solution.lack.flat_chance < flat_chance && !(f->loss > most_flat) &&
+    return f->solution.lack.flat_chance < flat_chance && !(f->loss > max_flat_loss) &&
            contact_table_tip(f->table)->shape != WT_TIP_PUNCH;
 }
 
 /* True if the depth exceeds the range of the contact law. */
-static bool beyond_contact_law(const curve_fitting *f, char reason[160])
+static bool exceeds_contact_law(const curve_fitting *f, char reason[160])
 {
     const double depth = f->solution.max_indentation;
     const wt_tip *tip = contact_table_tip(f->table);
-    const double reach = thin_sample_reach(tip, depth);
-    if (!contact_law_holds(tip, depth) && !(reach > THIN_SAMPLE_REACH)) {
-        curve_set_reason(reason,
-                         "doubtful: %s deep, %.1f radii of the tip; the contact law holds to %g",
-                         curve_si(depth, "m").words, depth / tip->radius, ROUND_TIP_REACH);
+    const double reach = thin_sample_radius_ratio(tip, depth);
+    if (!contact_law_is_valid(tip, depth) && !(reach > THIN_SAMPLE_MAX_RATIO)) {
+        curve_set_reason(
+            reason, "doubtful: %s deep, %.1f radii of the tip; the contact law holds to %g",
+            curve_format_si(depth, "m").buffer, depth / tip->radius, ROUND_TIP_MAX_DEPTH_RATIO);
         return true;
     }
-    if (reach > THIN_SAMPLE_REACH)
+    if (reach > THIN_SAMPLE_MAX_RATIO)
         curve_set_reason(
             reason,
             "doubtful: contact radius %.2f of the thickness of the sample; its law holds to %g",
-            reach, THIN_SAMPLE_REACH);
-    return reach > THIN_SAMPLE_REACH;
+            reach, THIN_SAMPLE_MAX_RATIO);
+    return reach > THIN_SAMPLE_MAX_RATIO;
 }
 
 /* Formats "E +- 6 % of 7 %". */
 static si_text misfit_text(const wt_indent_fit *fit)
 {
     si_text text;
-    clocale_print(text.words, sizeof text.words, "E +- %.2g %% of %.2g %%",
+    clocale_print(text.buffer, sizeof text.buffer, "E +- %.2g %% of %.2g %%",
                   100.0 * fit->misfit_error / fit->modulus.value,
                   100.0 * fit->modulus.standard_error / fit->modulus.value);
     return text;
 }
 
 /* Returns possible causes of a misfit. */
-static const char *cause_of_misfit(const curve_fitting *f)
+static const char *misfit_cause(const curve_fitting *f)
 {
-    if (f->snap_on > 0.0 || f->pull_off > 0.0)
+    if (f->snap_in_pull > 0.0 || f->pull_off > 0.0)
         return "a pull that the contact law does not describe";
     if (f->solution.bent)
         return "baseline bent: piezo or drift";
@@ -246,23 +248,23 @@ static wt_curve_verdict interval_verdict(const curve_fitting *f, const wt_indent
         return WT_CURVE_ACCEPTED;
     if (f->contact_error * f->contact_error > 0.5 * error * error) {
         const curve_minimum *first = &f->minima[0], *second = &f->minima[1];
-        curve_set_reason(reason,
-                         "a contact point %s away gives %s instead of %s at %.3f times the cost",
-                         curve_si(fabs(second->contact_point - first->contact_point), "m").words,
-                         curve_si(second->reduced_modulus / first->reduced_modulus * e, "Pa").words,
-                         curve_si(e, "Pa").words, second->cost / first->cost);
+        curve_set_reason(
+            reason, "a contact point %s away gives %s instead of %s at %.3f times the cost",
+            curve_format_si(fabs(second->contact_point - first->contact_point), "m").buffer,
+            curve_format_si(second->reduced_modulus / first->reduced_modulus * e, "Pa").buffer,
+            curve_format_si(e, "Pa").buffer, second->cost / first->cost);
         return WT_CURVE_AMBIGUOUS;
     }
     if (fit->misfit_error * fit->misfit_error > 0.5 * error * error * e * e) {
-        curve_set_reason(reason, "misfit: %s, %g %% allowed; %s", misfit_text(fit).words,
-                         100.0 * f->options->largest_error, cause_of_misfit(f));
-        return f->snap_on > 0.0 || f->pull_off > 0.0 ? WT_CURVE_ADHESIVE
-               : f->solution.bent                    ? WT_CURVE_DRIFT
-                                                     : WT_CURVE_POOR_FIT;
+        curve_set_reason(reason, "misfit: %s, %g %% allowed; %s", misfit_text(fit).buffer,
+                         100.0 * f->options->largest_error, misfit_cause(f));
+        return f->snap_in_pull > 0.0 || f->pull_off > 0.0 ? WT_CURVE_ADHESIVE
+               : f->solution.bent                         ? WT_CURVE_DRIFT
+                                                          : WT_CURVE_POOR_FIT;
     }
     curve_set_reason(reason, "standard error %.0f %% of the modulus of %s, %g %% allowed%s",
-                     100.0 * error, curve_si(e, "Pa").words, 100.0 * f->options->largest_error,
-                     f->solution.bent ? "; baseline bent" : "");
+                     100.0 * error, curve_format_si(e, "Pa").buffer,
+                     100.0 * f->options->largest_error, f->solution.bent ? "; baseline bent" : "");
     return WT_CURVE_IMPRECISE;
 }
 
@@ -277,7 +279,7 @@ static wt_curve_verdict law_verdict(const curve_fitting *f, const wt_indent_fit 
             reason,
             "the force flattens towards its top (chance %s by noise): detector, or the sample "
             "gives way",
-            number_chance(s->lack.flat_chance).text);
+            format_probability(s->lack.flat_chance).text);
         return WT_CURVE_SATURATED;
     }
     if (!s->converged || isnan(s->standard_error[CURVE_E])) {
@@ -287,9 +289,9 @@ static wt_curve_verdict law_verdict(const curve_fitting *f, const wt_indent_fit 
     const wt_curve_verdict verdict = interval_verdict(f, fit, reason);
     if (verdict != WT_CURVE_ACCEPTED)
         return verdict;
-    if (beyond_contact_law(f, reason))
+    if (exceeds_contact_law(f, reason))
         return WT_CURVE_DOUBTFUL;
-    if (curve_unknown_loss(f)) {
+    if (curve_has_unknown_loss(f)) {
         curve_set_reason(
             reason,
             "doubtful: %.0f %% of the work lost; what loss does under a punch is known with "
@@ -297,29 +299,29 @@ static wt_curve_verdict law_verdict(const curve_fitting *f, const wt_indent_fit 
             100.0 * f->loss);
         return WT_CURVE_DOUBTFUL;
     }
-    if (isnan(fit->misfit_error) && f->options->least_chance > 0.0 && !f->kind.plain) {
+    if (isnan(fit->misfit_error) && f->options->misfit_p_threshold > 0.0 && !f->kind.plain) {
         curve_set_reason(reason,
                          "doubtful: what a misfit makes of the modulus is not known: the samples "
                          "do not tell it from their noise; a longer approach would");
         return WT_CURVE_DOUBTFUL;
     }
-    if (!(s->lack.chance >= f->options->least_chance) &&
+    if (!(s->lack.chance >= f->options->misfit_p_threshold) &&
         fit->misfit_error > f->options->doubtful_error * fit->modulus.value) {
-        curve_set_reason(reason, "doubtful: misfit: %s; %s", misfit_text(fit).words,
-                         cause_of_misfit(f));
+        curve_set_reason(reason, "doubtful: misfit: %s; %s", misfit_text(fit).buffer,
+                         misfit_cause(f));
         return WT_CURVE_DOUBTFUL;
     }
-    const double pull = fmax(f->snap_on, f->pull_off > 0.0 ? f->pull_off : 0.0);
+    const double pull = fmax(f->snap_in_pull, f->pull_off > 0.0 ? f->pull_off : 0.0);
     if (departure > baseline_bend * fit->max_force && pull > 0.0) {
         curve_set_reason(reason, "doubtful: adhesion: a pull of %s, and %s before contact; %s",
-                         curve_si(pull, "N").words, curve_si(departure, "N").words,
+                         curve_format_si(pull, "N").buffer, curve_format_si(departure, "N").buffer,
                          "a longer baseline would tell them apart");
         return WT_CURVE_DOUBTFUL;
     }
     if (departure > baseline_bend * fit->max_force) {
         curve_set_reason(reason, "doubtful: baseline departs from a line by %s, %.0f %% of %s",
-                         curve_si(departure, "N").words, 100.0 * departure / fit->max_force,
-                         curve_si(fit->max_force, "N").words);
+                         curve_format_si(departure, "N").buffer, 100.0 * departure / fit->max_force,
+                         curve_format_si(fit->max_force, "N").buffer);
         return WT_CURVE_DOUBTFUL;
     }
     curve_set_reason(reason, "accepted");
@@ -333,37 +335,37 @@ void curve_append_note(char reason[160], const char *text)
 }
 
 /* Appends remarks on an accepted curve. */
-static void add_notes(const curve_fitting *f, const wt_indent_fit *fit, char reason[160])
+static void append_notes(const curve_fitting *f, const wt_indent_fit *fit, char reason[160])
 {
     char text[160];
     if (f->kind.adhesive && f->kind.constant_pull) {
         curve_set_reason(text, "; with a constant pull of %s",
-                         curve_si(fit->contact_pull.value, "N").words);
+                         curve_format_si(fit->contact_pull.value, "N").buffer);
         curve_append_note(reason, text);
     } else if (f->kind.adhesive) {
         curve_set_reason(text, "; with adhesion of %.3g mJ/m^2", 1e3 * fit->work_of_adhesion.value);
         curve_append_note(reason, text);
-    } else if (f->snap_on > 0.0) {
+    } else if (f->snap_in_pull > 0.0) {
         curve_set_reason(text, "; snap-on of %s left out (%zu samples)",
-                         curve_si(f->snap_on, "N").words, f->n_snap);
+                         curve_format_si(f->snap_in_pull, "N").buffer, f->n_snap);
         curve_append_note(reason, text);
     }
     if (f->pull_off > 0.0 && isnan(fit->pull_off_work) &&
         !(contact_table_tip(f->table)->sample_thickness > 0.0)) {
         curve_set_reason(text,
                          "; a pull-off of %s needs no work of adhesion from 1 nJ/m^2 to 1 kJ/m^2",
-                         curve_si(f->pull_off, "N").words);
+                         curve_format_si(f->pull_off, "N").buffer);
         curve_append_note(reason, text);
     }
-    if (f->another_rubber && !f->kind.adhesive)
+    if (f->spectrum_mismatch && !f->kind.adhesive)
         curve_append_note(reason, "; not of the spectrum of the DMA");
-    if (!curve_fits(f) && strstr(reason, "misfit") == NULL) {
-        curve_set_reason(text, "; misfit: %s", misfit_text(fit).words);
+    if (!curve_passes_misfit_test(f) && strstr(reason, "misfit") == NULL) {
+        curve_set_reason(text, "; misfit: %s", misfit_text(fit).buffer);
         curve_append_note(reason, text);
     }
     if (f->unknown_loss && f->kind.memory) {
         curve_append_note(reason, "; the spectrum of the DMA does not describe its loss");
-    } else if (fabs(f->loss_bias) >= least_bias) {
+    } else if (fabs(f->loss_bias) >= min_reported_bias) {
         curve_set_reason(
             text,
             "; %.0f %% of the work lost: with a memory of time^-%.2g, %.2g %% %s than without",
@@ -372,41 +374,41 @@ static void add_notes(const curve_fitting *f, const wt_indent_fit *fit, char rea
         curve_append_note(reason, text);
     } else if (f->unknown_loss) {
         curve_set_reason(text, "; %.0f %% of the work lost: %s", 100.0 * fit->loss,
-                         fit->loss > most_tried ? "how near |E*| is not known"
-                                                : "|E*| at 1/(loading time) within 20 %");
+                         fit->loss > max_tested_loss ? "how near |E*| is not known"
+                                                     : "|E*| at 1/(loading time) within 20 %");
         curve_append_note(reason, text);
     }
     if (fit->interference_amplitude > 0.0) {
         curve_set_reason(text, "; interference of %s and a period of %s fitted",
-                         curve_si(fit->interference_amplitude, "N").words,
-                         curve_si(fit->interference_period, "m").words);
+                         curve_format_si(fit->interference_amplitude, "N").buffer,
+                         curve_format_si(fit->interference_period, "m").buffer);
         curve_append_note(reason, text);
     }
     if (f->solution.bent)
         curve_append_note(reason, "; baseline bent, which the error holds");
     const double error = fit->modulus.standard_error / fit->modulus.value;
-    if (error > large_error) {
+    if (error > min_reported_error) {
         curve_set_reason(text, "; standard error %.0f %%", 100.0 * error);
         curve_append_note(reason, text);
     }
     const struct {
         size_t n;
         const char *what;
-    } left_out[] = {{f->input.n_missing, "missing samples"},
+    } excluded[] = {{f->input.n_missing, "missing samples"},
                     {f->input.n_repeated, "repeated samples"},
                     {f->input.n_spikes, "spikes left out"}};
-    for (size_t i = 0; i < sizeof left_out / sizeof left_out[0]; i++)
-        if (left_out[i].n > 0) {
-            curve_set_reason(text, "; %zu %s", left_out[i].n, left_out[i].what);
+    for (size_t i = 0; i < sizeof excluded / sizeof excluded[0]; i++)
+        if (excluded[i].n > 0) {
+            curve_set_reason(text, "; %zu %s", excluded[i].n, excluded[i].what);
             curve_append_note(reason, text);
         }
-    if (!f->range_settled)
+    if (!f->range_converged)
         curve_append_note(reason, "; the range of the fit did not settle");
 }
 
 /* Changes the verdict of a usable fit to doubtful, because it only covers forces below a limit. */
-static wt_curve_verdict judge_below(const curve_fitting *f, wt_curve_verdict verdict,
-                                    char reason[160])
+static wt_curve_verdict verdict_below_limit(const curve_fitting *f, wt_curve_verdict verdict,
+                                            char reason[160])
 {
     static const char doubtful[] = "doubtful: ";
     char all[160], text[160];
@@ -415,7 +417,7 @@ static wt_curve_verdict judge_below(const curve_fitting *f, wt_curve_verdict ver
         reason,
         "doubtful: fitted up to %s, above which the force flattens: detector, or the sample "
         "gives way",
-        curve_si(f->options->fit_force, "N").words);
+        curve_format_si(f->options->fit_force, "N").buffer);
     if (verdict == WT_CURVE_DOUBTFUL) {
         curve_set_reason(text, "; %s", all + strlen(doubtful));
         curve_append_note(reason, text);
@@ -429,23 +431,23 @@ wt_curve_verdict curve_assess(curve_fitting *f, wt_indent_fit *fit)
     if (verdict != WT_CURVE_ACCEPTED)
         return verdict;
     verdict = law_verdict(f, fit, fit->reason);
-    if (wt_curve_usable(verdict) && f->below_saturation)
-        verdict = judge_below(f, verdict, fit->reason);
-    if (wt_curve_usable(verdict))
-        add_notes(f, fit, fit->reason);
+    if (wt_curve_verdict_is_usable(verdict) && f->below_saturation)
+        verdict = verdict_below_limit(f, verdict, fit->reason);
+    if (wt_curve_verdict_is_usable(verdict))
+        append_notes(f, fit, fit->reason);
     return verdict;
 }
 
-double curve_linear_to(const curve_fitting *f)
+double curve_linear_limit(const curve_fitting *f)
 {
-    return f->input.flat_level > 0.0 ? below_flat * f->input.flat_level
+    return f->input.flat_level > 0.0 ? plateau_share * f->input.flat_level
                                      : f->solution.lack.flat_from;
 }
 
-void curve_judge_nothing_below(double limit, wt_curve_verdict below, char reason[160])
+void curve_append_limit_verdict(double limit, wt_curve_verdict below, char reason[160])
 {
     char text[160];
-    curve_set_reason(text, "; up to %s: %s", curve_si(limit, "N").words,
+    curve_set_reason(text, "; up to %s: %s", curve_format_si(limit, "N").buffer,
                      wt_curve_verdict_text(below));
     curve_append_note(reason, text);
 }

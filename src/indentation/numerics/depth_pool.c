@@ -30,56 +30,56 @@ enum {
 };
 static const double shape_error =
     0.01; /* relative error of the modulus due to the choice of the law */
-static const double largest_log =
+static const double max_log_factor =
     4.0; /* largest log factor; at a factor of 55 one side is nearly rigid */
 
-static size_t n_parameters(depth_law law)
+static size_t parameter_count(depth_law law)
 {
     return law == DEPTH_LINE || law == DEPTH_TIED ? 3 : 4;
 }
 
 /* Solves by the Cholesky factor of the scatter, so that each number is in units of its error. */
-static void whiten(const depth_mean *m, double x[W])
+static void whiten_waves(const depth_mean *m, double x[W])
 {
     gsl_matrix_const_view factor = gsl_matrix_const_view_array(m->factor, W, W);
     gsl_vector_view v = gsl_vector_view_array(x, W);
     gsl_blas_dtrsv(CblasLower, CblasNoTrans, CblasNonUnit, &factor.matrix, &v.vector);
 }
 
-static int residual_of(const gsl_vector *p, void *user, gsl_vector *r)
+static int depth_residual(const gsl_vector *p, void *user, gsl_vector *r)
 {
     const depth_mean *m = user;
     double wave[W];
     for (size_t a = 0; a < p->size; a++)
-        if (!(fabs(gsl_vector_get(p, a)) < largest_log))
+        if (!(fabs(gsl_vector_get(p, a)) < max_log_factor))
             return GSL_EDOM;
     depth_mean_waves(m, p->data, wave);
     for (size_t j = 0; j < W; j++)
         wave[j] -= m->wave[j];
-    whiten(m, wave);
+    whiten_waves(m, wave);
     for (size_t j = 0; j < W; j++)
         gsl_vector_set(r, j, wave[j]);
     return GSL_SUCCESS;
 }
 
 /* Derivatives by central differences. The step is absolute, because parameters may be nearly 0. */
-static int derivatives_of(const gsl_vector *at, void *user, gsl_matrix *jacobian)
+static int depth_jacobian(const gsl_vector *at, void *user, gsl_matrix *jacobian)
 {
     const depth_mean *m = user;
     const double step = 1e-4;
     for (size_t a = 0; a < at->size; a++) {
-        double p[DEPTH_PARAMETERS], more[W], less[W];
+        double p[DEPTH_PARAMETERS], widening[W], less[W];
         for (size_t b = 0; b < at->size; b++)
             p[b] = gsl_vector_get(at, b);
         p[a] += step;
-        depth_mean_waves(m, p, more);
+        depth_mean_waves(m, p, widening);
         p[a] -= 2.0 * step;
         depth_mean_waves(m, p, less);
         for (size_t j = 0; j < W; j++)
-            more[j] = (more[j] - less[j]) / (2.0 * step);
-        whiten(m, more);
+            widening[j] = (widening[j] - less[j]) / (2.0 * step);
+        whiten_waves(m, widening);
         for (size_t j = 0; j < W; j++)
-            gsl_matrix_set(jacobian, j, a, more[j]);
+            gsl_matrix_set(jacobian, j, a, widening[j]);
     }
     return GSL_SUCCESS;
 }
@@ -87,12 +87,12 @@ static int derivatives_of(const gsl_vector *at, void *user, gsl_matrix *jacobian
 depth_fit depth_fit_law(depth_pool *d, depth_law law, const double *start, wt_error *err)
 {
     depth_mean *m = &d->mean;
-    const size_t n_p = n_parameters(law);
-    const gsl_multifit_nlinear_parameters how = gsl_multifit_nlinear_default_parameters();
+    const size_t n_p = parameter_count(law);
+    const gsl_multifit_nlinear_parameters settings = gsl_multifit_nlinear_default_parameters();
     gsl_multifit_nlinear_fdf problem = {
-        .f = residual_of, .df = derivatives_of, .n = W, .p = n_p, .params = m};
+        .f = depth_residual, .df = depth_jacobian, .n = W, .p = n_p, .params = m};
     gsl_multifit_nlinear_workspace *w =
-        gsl_multifit_nlinear_alloc(gsl_multifit_nlinear_trust, &how, W, n_p);
+        gsl_multifit_nlinear_alloc(gsl_multifit_nlinear_trust, &settings, W, n_p);
     depth_fit fit = {.law = law};
     gsl_vector_const_view from = gsl_vector_const_view_array(start, n_p);
     int info = 0;
@@ -109,10 +109,10 @@ depth_fit depth_fit_law(depth_pool *d, depth_law law, const double *start, wt_er
         double square[DEPTH_PARAMETERS * DEPTH_PARAMETERS];
         gsl_matrix_view inverse = gsl_matrix_view_array(square, n_p, n_p);
         const gsl_matrix *j = gsl_multifit_nlinear_jac(w);
-        fit.good = gsl_multifit_nlinear_covar(j, 1e-10, &inverse.matrix) == GSL_SUCCESS;
+        fit.is_valid = gsl_multifit_nlinear_covar(j, 1e-10, &inverse.matrix) == GSL_SUCCESS;
         for (size_t a = 0; a < n_p; a++) {
             fit.p[a] = gsl_vector_get(gsl_multifit_nlinear_position(w), a);
-            fit.good = fit.good && gsl_matrix_get(&inverse.matrix, a, a) > 0.0;
+            fit.is_valid = fit.is_valid && gsl_matrix_get(&inverse.matrix, a, a) > 0.0;
             for (size_t b = 0; b < n_p; b++)
                 for (size_t i = 0; i < W; i++)
                     fit.gain[a][i] +=
@@ -133,19 +133,19 @@ depth_fit depth_fit_law(depth_pool *d, depth_law law, const double *start, wt_er
 
 static int by_spot(const void *a, const void *b)
 {
-    const wt_depth_curve *x = a, *y = b;
+    const wt_curve_residuals *x = a, *y = b;
     return (x->spot > y->spot) - (x->spot < y->spot);
 }
 
 /* Computes the mean curve and its scatter. Returns false if the scatter matrix is singular. */
-static bool make_mean(depth_pool *d, const wt_contact_table *table, double poisson_ratio)
+static bool compute_mean_curve(depth_pool *d, const wt_contact_table *table, double poisson_ratio)
 {
     const double curves = (double)d->n;
     double modulus = 0.0, depth = 0.0, k = 0.0, g, slope;
     depth_mean *m = &d->mean;
     *m = (depth_mean){.table = table};
     for (size_t i = 0; i < d->n; i++) {
-        const wt_depth_curve *c = &d->curve[i];
+        const wt_curve_residuals *c = &d->curve[i];
         modulus += log(c->modulus) / curves;
         depth += c->depth / curves;
         k += c->spring_constant / curves;
@@ -173,7 +173,7 @@ static bool make_mean(depth_pool *d, const wt_contact_table *table, double poiss
 }
 
 /* Moments of d->value over units. A unit is the mean over a spot, or a curve. */
-static moments over_units(depth_pool *d)
+static moments unit_moments(depth_pool *d)
 {
     size_t unit = 0, in_unit = 0;
     for (size_t i = 0; i < d->n; i++) {
@@ -186,17 +186,17 @@ static moments over_units(depth_pool *d)
         in_unit++;
     }
     d->value[unit++] /= (double)in_unit;
-    return moments_of(d->value, unit);
+    return sample_moments(d->value, unit);
 }
 
 /* Computes the mean parabola of the baselines over the window if it is significant. */
-static void find_bend(depth_pool *d)
+static void find_common_bend(depth_pool *d)
 {
     depth_mean *m = &d->mean;
     double z[DEPTH_POINTS], bend[DEPTH_POINTS];
     for (size_t i = 0; i < d->n; i++)
         d->value[i] = d->curve[i].curvature;
-    const moments all = over_units(d);
+    const moments all = unit_moments(d);
     const double error = students_t_quantile(all.n - 1.0) * sqrt(all.variance / all.n);
     const double curvature = fabs(all.mean) > error ? all.mean : 0.0;
     const double middle = 0.5 * (m->length - m->baseline), n = m->length + m->baseline;
@@ -208,56 +208,56 @@ static void find_bend(depth_pool *d)
     depth_mean_cosines(m, bend, m->bend);
 }
 
-double depth_share_of(const depth_mean *m, const depth_fit *fit, const double by[DEPTH_PARAMETERS],
-                      const double w[W])
+double depth_projection(const depth_mean *m, const depth_fit *fit,
+                        const double by[DEPTH_PARAMETERS], const double w[W])
 {
     double white[W], sum = 0.0;
     memcpy(white, w, sizeof white);
-    whiten(m, white);
-    for (size_t a = 0; a < n_parameters(fit->law); a++)
+    whiten_waves(m, white);
+    for (size_t a = 0; a < parameter_count(fit->law); a++)
         for (size_t j = 0; j < W; j++)
             sum += by[a] * fit->gain[a][j] * white[j];
     return sum;
 }
 
-depth_value depth_value_of(depth_pool *d, const depth_fit *fit, double at,
+depth_value depth_estimate(depth_pool *d, const depth_fit *fit, double at,
                            const double by[DEPTH_PARAMETERS], bool with_level, double losses)
 {
     const depth_mean *m = &d->mean;
-    const double rest = (double)(W - n_parameters(fit->law));
+    const double rest = (double)(W - parameter_count(fit->law));
     for (size_t i = 0; i < d->n; i++) {
         double wave[W];
         for (size_t a = 0; a < W; a++)
             wave[a] = d->curve[i].misfit[a] - m->wave[a];
         d->value[i] =
-            at + depth_share_of(m, fit, by, wave) + (with_level ? log(d->curve[i].modulus) : 0.0);
+            at + depth_projection(m, fit, by, wave) + (with_level ? log(d->curve[i].modulus) : 0.0);
     }
-    const moments all = over_units(d);
+    const moments all = unit_moments(d);
     /* The weights come from the same curves: Rao, Biometrika 54 (1967) 447. A significant lack of
      * fit also increases the error of the parameters. */
     const double curves = (double)d->n, left = fmax(1.0, curves - 1.0 - rest);
-    const double more = (curves - 1.0) / left * (1.0 + fit->left / (curves - 1.0));
-    const double scatter = sqrt(all.variance / all.n * more * fit->excess);
+    const double widening = (curves - 1.0) / left * (1.0 + fit->left / (curves - 1.0));
+    const double scatter = sqrt(all.variance / all.n * widening * fit->excess);
     return (depth_value){.mean = all.mean,
                          .scatter = {fit->law == DEPTH_LINE || fit->law == DEPTH_TIED
                                          ? scatter
                                          : hypot(scatter, shape_error),
                                      fmin(all.n - 1.0, left)},
-                         .bend = depth_share_of(m, fit, by, m->bend),
+                         .bend = depth_projection(m, fit, by, m->bend),
                          .loss = losses * m->loss_error};
 }
 
-void depth_pool_make(depth_pool *d, const wt_contact_table *table, double poisson_ratio,
-                     const wt_depth_curve *curve, size_t n, arena *memory)
+void depth_pool_create(depth_pool *d, const wt_contact_table *table, double poisson_ratio,
+                       const wt_curve_residuals *curve, size_t n, arena *memory)
 {
-    wt_depth_curve *sorted = arena_alloc(memory, n, sizeof *sorted);
+    wt_curve_residuals *sorted = arena_alloc(memory, n, sizeof *sorted);
     *d = (depth_pool){.curve = sorted, .value = arena_numbers(memory, n)};
     gsl_quiet();
     for (size_t i = 0; i < n && !memory->failed; i++)
         if (!isnan(curve[i].loss_error))
             sorted[d->n++] = curve[i];
-    d->n_lossy = n - d->n;
-    if (memory->failed || d->n < WT_DEPTH_LEAST_CURVES || d->n_lossy >= d->n)
+    d->n_excluded_by_loss = n - d->n;
+    if (memory->failed || d->n < WT_DEPTH_MIN_CURVES || d->n_excluded_by_loss >= d->n)
         return;
     qsort(sorted, d->n, sizeof *sorted, by_spot);
     d->n_units = 1;
@@ -266,9 +266,9 @@ void depth_pool_make(depth_pool *d, const wt_contact_table *table, double poisso
     d->by_spot = d->n_units >= LEAST_SPOTS;
     if (!d->by_spot)
         d->n_units = d->n;
-    d->known = make_mean(d, table, poisson_ratio);
-    if (d->known) {
+    d->has_mean = compute_mean_curve(d, table, poisson_ratio);
+    if (d->has_mean) {
         depth_mean_prepare(&d->mean);
-        find_bend(d);
+        find_common_bend(d);
     }
 }

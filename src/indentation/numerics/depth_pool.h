@@ -11,12 +11,12 @@
 #include "indentation/numerics/depth_residuals.h"
 
 /* Largest ratio of the loss error at a shallow depth to that at the whole depth. */
-#define DEPTH_MORE_SHALLOW 1.5
+#define DEPTH_SHALLOW_FACTOR 1.5
 
 typedef struct depth_pool {
-    const wt_depth_curve *curve; /* [n] sorted by spot */
-    size_t n, n_lossy, n_units;  /* n_lossy: excluded curves */
-    bool by_spot, known;         /* true if the mean curve exists */
+    const wt_curve_residuals *curve;       /* [n] sorted by spot */
+    size_t n, n_excluded_by_loss, n_units; /* n_excluded_by_loss: excluded curves */
+    bool by_spot, has_mean;                /* true if the mean curve exists */
     depth_mean mean;
     double *value; /* [n] of the curves, then of the units */
 } depth_pool;
@@ -29,7 +29,7 @@ typedef struct depth_fit {
     double left;              /* remaining sum of squares */
     double excess;            /* remaining sum of squares over that from scatter; at least 1 */
     double chance;            /* p value of the lack of fit */
-    bool good;
+    bool is_valid;
 } depth_fit;
 
 /* Number of the curves: mean, error by scatter, and systematic errors. The latter have a sign,
@@ -42,8 +42,8 @@ typedef struct depth_value {
 
 /* Sorts the curves and computes their mean if there are enough. memory.failed is true if memory is
  * short. */
-void depth_pool_make(depth_pool *d, const wt_contact_table *table, double poisson_ratio,
-                     const wt_depth_curve *curve, size_t n, arena *memory);
+void depth_pool_create(depth_pool *d, const wt_contact_table *table, double poisson_ratio,
+                       const wt_curve_residuals *curve, size_t n, arena *memory);
 /* Fits a law by least squares from `start`. The member `tie` of the mean has the constraint of a
  * tied layer. */
 depth_fit depth_fit_law(depth_pool *d, depth_law law, const double *start,
@@ -51,10 +51,10 @@ depth_fit depth_fit_law(depth_pool *d, depth_law law, const double *start,
 /* Computes a number with its error. `at` is its value at the parameters of the fit and `by` its
  * derivatives. with_level adds ln E of each curve. `losses` is the factor of the loss error. The
  * interval uses Student's t over the units. */
-depth_value depth_value_of(depth_pool *d, const depth_fit *fit, double at,
+depth_value depth_estimate(depth_pool *d, const depth_fit *fit, double at,
                            const double by[DEPTH_PARAMETERS], bool with_level, double losses);
 /* Returns the change of a number with these derivatives due to cosines w, over the force. */
-double depth_share_of(const depth_mean *m, const depth_fit *fit, const double by[DEPTH_PARAMETERS],
-                      const double w[CURVE_WAVES]);
+double depth_projection(const depth_mean *m, const depth_fit *fit,
+                        const double by[DEPTH_PARAMETERS], const double w[CURVE_WAVES]);
 
 #endif

@@ -15,7 +15,7 @@ enum {
     MAX_STEPS = 60, /* bisection alone reaches the last digit */
 };
 
-depth_modulus depth_modulus_of(const depth_mean *m, depth_law law, const double *p)
+depth_modulus depth_modulus_create(const depth_mean *m, depth_law law, const double *p)
 {
     depth_modulus to = {.law = law, .level = p[DEPTH_LEVEL]};
     if (law == DEPTH_TIED) {
@@ -27,7 +27,7 @@ depth_modulus depth_modulus_of(const depth_mean *m, depth_law law, const double 
         to.reach = exp(p[DEPTH_REACH]);
     } else {
         to.slope = p[DEPTH_SLOPE];
-        to.bend = law == DEPTH_BENT ? p[DEPTH_BEND] : 0.0;
+        to.bend = law == DEPTH_QUADRATIC ? p[DEPTH_BEND] : 0.0;
     }
     return to;
 }
@@ -35,10 +35,12 @@ depth_modulus depth_modulus_of(const depth_mean *m, depth_law law, const double 
 double depth_log_modulus(const depth_modulus *l, double u)
 {
     if (l->law == DEPTH_LAYER)
-        return l->level + log(thin_layer_apparent(l->ratio, l->reach * u));
+        return l->level + log(thin_layer_apparent_modulus(l->ratio, l->reach * u));
     if (l->law == DEPTH_TIED)
-        return l->level + log(thin_layer_apparent(l->ratio, l->reach * u)) + (u - 1.0) * l->slope;
-    return l->level + (u - 1.0) * (l->slope + (l->law == DEPTH_BENT ? l->bend * (u - 1.0) : 0.0));
+        return l->level + log(thin_layer_apparent_modulus(l->ratio, l->reach * u)) +
+               (u - 1.0) * l->slope;
+    return l->level +
+           (u - 1.0) * (l->slope + (l->law == DEPTH_QUADRATIC ? l->bend * (u - 1.0) : 0.0));
 }
 
 /* Point with its bracket in the search for the equilibrium. */
@@ -49,8 +51,8 @@ typedef struct balance_point {
 
 /* Performs one step for n points at depths x. Returns the number of points that have not converged;
  * they come first afterwards. */
-static size_t step_points(const depth_mean *m, const depth_modulus *l, balance_point *b, double *x,
-                          size_t n, double force[DEPTH_POINTS])
+static size_t newton_step_points(const depth_mean *m, const depth_modulus *l, balance_point *b,
+                                 double *x, size_t n, double force[DEPTH_POINTS])
 {
     double g[DEPTH_POINTS], slope[DEPTH_POINTS];
     size_t left = 0;
@@ -60,15 +62,16 @@ static size_t step_points(const depth_mean *m, const depth_modulus *l, balance_p
         double next = x[j];
         const double e =
             m->reduced * (l != NULL ? exp(depth_log_modulus(l, slope[j] / m->widest)) : 1.0);
-        const double over = m->k * (at.z - next) - e * g[j];
-        *(over > 0.0 ? &at.low : &at.high) = next;
-        const double step = over / (m->k + e * slope[j]); /* Newton's step with constant E */
-        const bool there = fabs(step) < 1e-13 * at.z;
-        if (!there)
+        const double excess_force = m->k * (at.z - next) - e * g[j];
+        *(excess_force > 0.0 ? &at.low : &at.high) = next;
+        const double step =
+            excess_force / (m->k + e * slope[j]); /* Newton's step with constant E */
+        const bool is_converged = fabs(step) < 1e-13 * at.z;
+        if (!is_converged)
             next = next + step > at.low && next + step < at.high ? next + step
                                                                  : 0.5 * (at.low + at.high);
         force[at.to] = m->k * (at.z - next);
-        if (!there) {
+        if (!is_converged) {
             b[left] = at;
             x[left++] = next;
         }
@@ -78,8 +81,8 @@ static size_t step_points(const depth_mean *m, const depth_modulus *l, balance_p
 
 /* Computes the equilibrium force at positions from the contact point. l is NULL for the modulus of
  * the fit. */
-static void forces_at(const depth_mean *m, const depth_modulus *l, const double z[DEPTH_POINTS],
-                      double force[DEPTH_POINTS])
+static void balance_forces(const depth_mean *m, const depth_modulus *l,
+                           const double z[DEPTH_POINTS], double force[DEPTH_POINTS])
 {
     balance_point b[DEPTH_POINTS];
     double x[DEPTH_POINTS];
@@ -92,12 +95,12 @@ static void forces_at(const depth_mean *m, const depth_modulus *l, const double 
         }
     }
     for (int i = 0; i < MAX_STEPS && n > 0; i++)
-        n = step_points(m, l, b, x, n, force);
+        n = newton_step_points(m, l, b, x, n, force);
 }
 
 /* Subtracts the line that a fit to the differences in the window, and to zeros before it, would
  * have. */
-static void take_out_line(const depth_mean *m, const double *z, double *d)
+static void subtract_line(const depth_mean *m, const double *z, double *d)
 {
     const double from = -m->baseline, to = m->length, n = to - from,
                  step = m->window / DEPTH_POINTS;
@@ -126,16 +129,16 @@ void depth_mean_cosines(const depth_mean *m, const double d[DEPTH_POINTS], doubl
 
 void depth_mean_waves(const depth_mean *m, const double *p, double wave[W])
 {
-    double z[DEPTH_POINTS], from_contact[DEPTH_POINTS], d[DEPTH_POINTS];
-    const depth_modulus law = depth_modulus_of(m, m->law, p);
+    double z[DEPTH_POINTS], align_with_contact[DEPTH_POINTS], d[DEPTH_POINTS];
+    const depth_modulus law = depth_modulus_create(m, m->law, p);
     for (size_t i = 0; i < DEPTH_POINTS; i++) {
         z[i] = depth_mean_point(m, i);
-        from_contact[i] = z[i] - p[DEPTH_CONTACT] * m->depth;
+        align_with_contact[i] = z[i] - p[DEPTH_CONTACT] * m->depth;
     }
-    forces_at(m, &law, from_contact, d);
+    balance_forces(m, &law, align_with_contact, d);
     for (size_t i = 0; i < DEPTH_POINTS; i++)
         d[i] -= m->fitted[i];
-    take_out_line(m, z, d);
+    subtract_line(m, z, d);
     depth_mean_cosines(m, d, wave);
 }
 
@@ -147,5 +150,5 @@ void depth_mean_prepare(depth_mean *m)
         for (size_t j = 0; j < W; j++)
             m->cosine[i][j] = cos(M_PI * (double)(j + 1) * ((double)i + 0.5) / DEPTH_POINTS);
     }
-    forces_at(m, NULL, z, m->fitted);
+    balance_forces(m, NULL, z, m->fitted);
 }

@@ -15,10 +15,10 @@ enum {
 };
 
 /* Laws. The first parameter is the shift of the contact point over the depth. DEPTH_LINE and
- * DEPTH_BENT: ln of the modulus at the largest depth, slope, curvature. DEPTH_LAYER: ln E1, ln
+ * DEPTH_QUADRATIC: ln of the modulus at the largest depth, slope, curvature. DEPTH_LAYER: ln E1, ln
  * E1/E2, ln (contact radius over thickness). DEPTH_TIED (layer of given thickness on a bulk of
  * given modulus): ln E1, additional slope. */
-typedef enum depth_law { DEPTH_LINE, DEPTH_BENT, DEPTH_LAYER, DEPTH_TIED } depth_law;
+typedef enum depth_law { DEPTH_LINE, DEPTH_QUADRATIC, DEPTH_LAYER, DEPTH_TIED } depth_law;
 enum {
     DEPTH_CONTACT,
     DEPTH_LEVEL,
@@ -56,7 +56,7 @@ typedef struct depth_modulus {
     double ratio, reach;       /* of a layer */
 } depth_modulus;
 
-depth_modulus depth_modulus_of(const depth_mean *m, depth_law law, const double *p);
+depth_modulus depth_modulus_create(const depth_mean *m, depth_law law, const double *p);
 double depth_log_modulus(const depth_modulus *l, double u);
 
 /* Tabulates values at the points of the window that all fits of the mean curve share. */

@@ -14,8 +14,8 @@
  * a cycle. */
 enum { MAX_ROUNDS = 12, FREE_ROUNDS = 6 };
 
-static wt_status check_order(const char *from_name, double from, const char *to_name, double to,
-                             wt_error *err)
+static wt_status check_limit_order(const char *from_name, double from, const char *to_name,
+                                   double to, wt_error *err)
 {
     if (!(to > 0.0) || from < to)
         return WT_OK;
@@ -33,43 +33,44 @@ wt_status curve_range_check(const wt_indent_options *o, const wt_tip *tip, wt_er
         return status;
     }
     wt_status status =
-        check_order("fit-depth-from", o->fit_depth_from, "fit-depth", o->fit_depth, err);
+        check_limit_order("fit-depth-from", o->fit_depth_from, "fit-depth", o->fit_depth, err);
     if (status == WT_OK)
-        status = check_order("fit-depth-from", o->fit_depth_from, "fit-radii",
-                             o->fit_radii * tip->radius, err);
+        status = check_limit_order("fit-depth-from", o->fit_depth_from, "fit-radii",
+                                   o->fit_radii * tip->radius, err);
     if (status == WT_OK)
-        status = check_order("fit-force-from", o->fit_force_from, "fit-force", o->fit_force, err);
+        status =
+            check_limit_order("fit-force-from", o->fit_force_from, "fit-force", o->fit_force, err);
     if (status == WT_OK)
-        status = check_order("fit-force-fraction-from", o->fit_force_fraction_from,
-                             "fit-force-fraction", o->fit_force_fraction, err);
+        status = check_limit_order("fit-force-fraction-from", o->fit_force_fraction_from,
+                                   "fit-force-fraction", o->fit_force_fraction, err);
     return status;
 }
 
 /* ---- positions of the limits ----------------------------------------------------------------- */
 
-static double force_at(const curve_fitting *f, size_t i)
+static double sample_force(const curve_fitting *f, size_t i)
 {
     const curve_samples *s = &f->input.samples;
     return s->force[i] - curve_baseline(&f->solution, s->position[i]);
 }
 
-static double depth_at(const curve_fitting *f, size_t i)
+static double sample_depth(const curve_fitting *f, size_t i)
 {
     const curve_samples *s = &f->input.samples;
-    return s->position[i] - f->solution.p[CURVE_C] - force_at(f, i) / s->spring_constant;
+    return s->position[i] - f->solution.p[CURVE_C] - sample_force(f, i) / s->spring_constant;
 }
 
-static size_t count_all(const curve_fitting *f)
+static size_t count_samples(const curve_fitting *f)
 {
     return f->input.n_all - f->n_snap;
 }
 
 /* Returns the first sample in contact beyond a limit. It is halfway between the first sample above
  * and the last below, so that noise does not decide. */
-static size_t crossing(const curve_fitting *f, double (*value)(const curve_fitting *, size_t),
-                       double limit)
+static size_t limit_crossing(const curve_fitting *f, double (*value)(const curve_fitting *, size_t),
+                             double limit)
 {
-    const size_t n = count_all(f);
+    const size_t n = count_samples(f);
     size_t first_above = n, last_below = f->solution.first_contact;
     for (size_t i = f->solution.first_contact; i < n; i++) {
         if (value(f, i) <= limit)
@@ -80,20 +81,20 @@ static size_t crossing(const curve_fitting *f, double (*value)(const curve_fitti
     return (first_above + last_below + 1) / 2;
 }
 
-static double largest_force(const curve_fitting *f)
+static double max_sample_force(const curve_fitting *f)
 {
     double largest = 0.0;
-    for (size_t i = 0; i < count_all(f); i++)
-        largest = fmax(largest, force_at(f, i));
+    for (size_t i = 0; i < count_samples(f); i++)
+        largest = fmax(largest, sample_force(f, i));
     return largest;
 }
 
 /* Samples from `from` to before `to` are in the range. */
-typedef struct range {
+typedef struct sample_range {
     size_t from, to;
-} range;
+} sample_range;
 
-static range find_range(const curve_fitting *f)
+static sample_range find_fit_range(const curve_fitting *f)
 {
     const wt_indent_options *o = f->options;
     double deepest = (double)INFINITY, strongest = (double)INFINITY, weakest = o->fit_force_from;
@@ -104,29 +105,29 @@ static range find_range(const curve_fitting *f)
     if (o->fit_force > 0.0)
         strongest = o->fit_force;
     if (o->fit_force_fraction < 1.0 || o->fit_force_fraction_from > 0.0) {
-        const double largest = largest_force(f);
+        const double largest = max_sample_force(f);
         weakest = fmax(weakest, o->fit_force_fraction_from * largest);
         if (o->fit_force_fraction < 1.0)
             strongest = fmin(strongest, o->fit_force_fraction * largest);
     }
-    range r = {f->solution.first_contact, count_all(f)};
+    sample_range r = {f->solution.first_contact, count_samples(f)};
     if (isfinite(deepest))
-        r.to = crossing(f, depth_at, deepest);
+        r.to = limit_crossing(f, sample_depth, deepest);
     if (isfinite(strongest)) {
-        const size_t to = crossing(f, force_at, strongest);
+        const size_t to = limit_crossing(f, sample_force, strongest);
         r.to = to < r.to ? to : r.to;
     }
     if (o->fit_depth_from > 0.0)
-        r.from = crossing(f, depth_at, o->fit_depth_from);
+        r.from = limit_crossing(f, sample_depth, o->fit_depth_from);
     if (weakest > 0.0) {
-        const size_t from = crossing(f, force_at, weakest);
+        const size_t from = limit_crossing(f, sample_force, weakest);
         r.from = from > r.from ? from : r.from;
     }
     r.from = r.from < r.to ? r.from : r.to;
     return r;
 }
 
-size_t curve_in_range(const curve_fitting *f)
+size_t curve_count_in_range(const curve_fitting *f)
 {
     const curve_samples *s = &f->input.samples;
     const size_t first =
@@ -136,7 +137,7 @@ size_t curve_in_range(const curve_fitting *f)
 
 /* ---- fit of the range ------------------------------------------------------------------------ */
 
-static bool limited(const wt_indent_options *o)
+static bool has_limits(const wt_indent_options *o)
 {
     return o->fit_depth > 0.0 || o->fit_radii > 0.0 || o->fit_force > 0.0 ||
            o->fit_force_fraction < 1.0 || o->fit_depth_from > 0.0 || o->fit_force_from > 0.0 ||
@@ -148,13 +149,13 @@ static bool limited(const wt_indent_options *o)
 bool curve_fit_range(curve_fitting *f)
 {
     curve_samples *s = &f->input.samples;
-    if (!limited(f->options))
+    if (!has_limits(f->options))
         return true;
     for (int round = 0; round < MAX_ROUNDS; round++) {
-        range now = find_range(f);
-        const bool lower = now.from > f->solution.first_contact;
-        size_t gap_from = lower ? f->solution.first_contact : 0;
-        size_t gap_to = lower ? now.from : 0;
+        sample_range now = find_fit_range(f);
+        const bool has_lower_limit = now.from > f->solution.first_contact;
+        size_t gap_from = has_lower_limit ? f->solution.first_contact : 0;
+        size_t gap_to = has_lower_limit ? now.from : 0;
         if (round >= FREE_ROUNDS) { /* prevents a cycle */
             now.to = now.to < s->n ? now.to : s->n;
             gap_to = gap_to > s->gap_to ? gap_to : s->gap_to;
@@ -166,7 +167,7 @@ bool curve_fit_range(curve_fitting *f)
         s->n = now.to;
         s->gap_from = gap_from;
         s->gap_to = gap_to;
-        if (curve_in_range(f) < CURVE_CONTACT_SAMPLES) {
+        if (curve_count_in_range(f) < CURVE_CONTACT_SAMPLES) {
             f->range_empty = true; /* the verdict reports it */
             return true;
         }
@@ -175,6 +176,6 @@ bool curve_fit_range(curve_fitting *f)
         else if (!curve_scan_and_refine(f))
             return false;
     }
-    f->range_settled = false;
+    f->range_converged = false;
     return true;
 }

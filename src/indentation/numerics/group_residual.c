@@ -16,10 +16,10 @@
 /* T^2 requires more curves than cosines. Twice as many give as many degrees of freedom. */
 enum { W = CURVE_WAVES, LEAST_CURVES = 2 * W };
 
-wt_curve_pool wt_curve_pool_make(const double (*misfit)[WT_CURVE_WAVES], size_t n)
+wt_pooled_misfit wt_pooled_misfit_compute(const double (*misfit)[WT_MISFIT_TERMS], size_t n)
 {
     double mean[W] = {0.0}, scatter[W * W] = {0.0}, solved[W], amplitude = 0.0, t = 0.0;
-    wt_curve_pool pool = {.n = n, .misfit = (double)NAN, .chance = (double)NAN};
+    wt_pooled_misfit pool = {.n = n, .misfit = (double)NAN, .chance = (double)NAN};
     if (n < LEAST_CURVES)
         return pool;
     gsl_quiet();

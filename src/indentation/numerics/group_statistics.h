@@ -10,7 +10,7 @@
 typedef struct compare_units {
     double *value[2]; /* [n] ln E of the units of bulk and track at one rate */
     size_t n[2], curves[2];
-    wt_rate_matching rates_by;
+    wt_rate_matching rate_matching;
     bool apart;            /* the groups have no rate in common */
     bool known;            /* the values are at one rate */
     double shift_variance; /* variance of the difference due to the slope within the spots */
@@ -20,11 +20,11 @@ typedef struct compare_units {
     double interaction_p;             /* p value of equal slopes in both groups; NaN if not known */
 } compare_units;
 
-wt_status compare_units_make(const wt_group *const groups[2], bool by_spot, arena *memory,
-                             compare_units *units, wt_error *err) WT_NODISCARD;
+wt_status compare_units_create(const wt_group *const groups[2], bool by_spot, arena *memory,
+                               compare_units *units, wt_error *err) WT_NODISCARD;
 
 /* Smallest number of spots that determine their scatter, for a comparison with a single spot. */
-enum { COMPARE_MANY_SPOTS = 3 };
+enum { COMPARE_MIN_SPOTS = 3 };
 /* Standard error of the difference of two means, one of which has two units or more. `shift` adds
  * an error and `known` a normal variance. */
 t_error compare_welch(moments a, moments b, t_error shift, double known);

@@ -21,20 +21,21 @@
  * exact in a double. */
 enum { EXACT_UNITS = 50 };
 /* Customary power of a test since Cohen (1988). */
-static const double power = 0.8;
+static const double test_power = 0.8;
 
 /* ---- the difference of two means ------------------------------------------------------------- */
 
 /* Largest scatter of a single unit over that of the other group. This is a heuristic. A single unit
  * has no scatter, and a track is less uniform than the bulk. A ratio of three would be visible. */
-static const double lone_scatter = 2;
+static const double single_unit_scatter = 2;
 
 /* Standard error of one unit against several, whose scatter is the only one available. */
-static t_error compare_lone(moments several, t_error shift, double known)
+static t_error single_unit_error(moments several, t_error shift, double known)
 {
-    const t_error own = {sqrt(several.variance * (1 / several.n + lone_scatter * lone_scatter)),
-                         several.n - 1};
-    const t_error parts[] = {own, shift, {sqrt(known), (double)INFINITY}};
+    const t_error mean_error = {
+        sqrt(several.variance * (1 / several.n + single_unit_scatter * single_unit_scatter)),
+        several.n - 1};
+    const t_error parts[] = {mean_error, shift, {sqrt(known), (double)INFINITY}};
     return t_error_sum(parts, COUNT_OF(parts));
 }
 
@@ -43,7 +44,7 @@ static t_error compare_lone(moments several, t_error shift, double known)
 t_error compare_welch(moments a, moments b, t_error shift, double known)
 {
     if (fmin(a.n, b.n) < 2)
-        return compare_lone(a.n > b.n ? a : b, shift, known);
+        return single_unit_error(a.n > b.n ? a : b, shift, known);
     const t_error normal = {sqrt(known), (double)INFINITY};
     const t_error parts[] = {
         {sqrt(a.variance / a.n), a.n - 1}, {sqrt(b.variance / b.n), b.n - 1}, shift, normal};
@@ -59,11 +60,11 @@ t_error compare_welch(moments a, moments b, t_error shift, double known)
     return wider ? pooled : welch;
 }
 
-size_t wt_spots_needed(double log_ratio, double scatter)
+size_t wt_required_spots(double log_ratio, double scatter)
 {
     for (size_t n = 2; n <= 1000; n++) {
         const double df = 2.0 * (double)n - 2;
-        if (students_t_quantile(df) + gsl_cdf_tdist_Pinv(power, df) <=
+        if (students_t_quantile(df) + gsl_cdf_tdist_Pinv(test_power, df) <=
             fabs(log_ratio) / (scatter * sqrt(2.0 / (double)n)))
             return n;
     }
@@ -87,10 +88,10 @@ static void count_rankings(size_t m, size_t n, double *counts)
     }
 }
 
-typedef struct ranked {
+typedef struct ranked_unit {
     double value;
     bool track;
-} ranked;
+} ranked_unit;
 
 /* Computes U of the track from the sum of its ranks, with mean ranks for ties. *ties is the sum of
  * t^3 - t over groups of t equal values. All values are integers or halves and exact. */
@@ -98,12 +99,12 @@ static wt_status rank_units(const compare_units *units, arena *memory, double *u
                             wt_error *err)
 {
     const size_t m = units->n[1], n = m + units->n[0];
-    ranked *all = arena_alloc(memory, n, sizeof *all);
+    ranked_unit *all = arena_alloc(memory, n, sizeof *all);
     if (all == NULL)
         return wt_fail(err, WT_E_MEMORY, "no memory for the comparison of two groups");
     for (size_t i = 0; i < n; i++)
-        all[i] =
-            i < m ? (ranked){units->value[1][i], true} : (ranked){units->value[0][i - m], false};
+        all[i] = i < m ? (ranked_unit){units->value[1][i], true}
+                       : (ranked_unit){units->value[0][i - m], false};
     qsort(all, n, sizeof *all, numbers_compare);
     double ranks = 0.0;
     *ties = 0.0;
@@ -155,7 +156,7 @@ wt_status compare_ranks(const compare_units *units, arena *memory, wt_comparison
     return WT_OK;
 }
 
-void wt_holm(const double *p, size_t n, double *adjusted)
+void wt_holm_adjust(const double *p, size_t n, double *adjusted)
 {
     size_t left = 0;
     for (size_t i = 0; i < n; i++) {

@@ -36,14 +36,14 @@ typedef struct cells {
     size_t units[2];
 } cells;
 
-typedef struct curve {
+typedef struct rate_curve {
     long spot, rate;
     double x, y;
-} curve;
+} rate_curve;
 
-static int by_cell(const void *a, const void *b)
+static int compare_curves(const void *a, const void *b)
 {
-    const curve *p = a, *q = b;
+    const rate_curve *p = a, *q = b;
     if (p->spot != q->spot)
         return p->spot < q->spot ? -1 : 1;
     if (p->rate != q->rate)
@@ -55,16 +55,16 @@ static int by_cell(const void *a, const void *b)
 
 /* Adds the cells in an order that does not depend on that of the curves, so that sums are
  * reproducible. */
-static void add_cells(const wt_group *group, int g, bool by_spot, curve *curves, cells *to)
+static void add_cells(const wt_group *group, int g, bool by_spot, rate_curve *curves, cells *to)
 {
     for (size_t i = 0; i < group->n; i++)
-        curves[i] = (curve){.spot = by_spot ? group->spot[i] : 0,
-                            .rate = group->rate != NULL ? group->rate_class[i] : 0,
-                            .x = group->rate != NULL ? log(group->rate[i]) : 0,
-                            .y = log(group->modulus[i])};
-    qsort(curves, group->n, sizeof *curves, by_cell);
+        curves[i] = (rate_curve){.spot = by_spot ? group->spot[i] : 0,
+                                 .rate = group->rate != NULL ? group->rate_class[i] : 0,
+                                 .x = group->rate != NULL ? log(group->rate[i]) : 0,
+                                 .y = log(group->modulus[i])};
+    qsort(curves, group->n, sizeof *curves, compare_curves);
     for (size_t i = 0; i < group->n;) {
-        const curve first = curves[i];
+        const rate_curve first = curves[i];
         to->units[g] += !by_spot || i == 0 || curves[i - 1].spot != first.spot ? 1 : 0;
         cell *c = &to->cell[to->n++];
         *c = (cell){.group = g, .unit = to->units[g] - 1, .rate = first.rate};
@@ -96,7 +96,7 @@ static size_t count_rates(const cells *all)
 /* Assigns one rate to each class, and only keeps common rates if there are any. The rates of the
  * curves scatter with their moduli, and the softer group indents slightly faster, which is not the
  * slope. */
-static void level_rates(cells *all, rate *rates, bool *apart)
+static void equalise_rates(cells *all, rate *rates, bool *apart)
 {
     const size_t n_rates = count_rates(all);
     for (size_t i = 0; i < all->n; i++) {
@@ -108,16 +108,16 @@ static void level_rates(cells *all, rate *rates, bool *apart)
     *apart = true;
     for (size_t i = 0; i < n_rates; i++)
         *apart = *apart && !(rates[i].curves[0] > 0 && rates[i].curves[1] > 0);
-    size_t kept = 0;
+    size_t n_kept = 0;
     for (size_t i = 0; i < all->n; i++) {
         cell c = all->cell[i];
         const rate *r = &rates[c.rate];
         if (!*apart && !(r->curves[1 - c.group] > 0))
             continue;
         c.x = (r->x[0] + r->x[1]) / (r->curves[0] + r->curves[1]);
-        all->cell[kept++] = c;
+        all->cell[n_kept++] = c;
     }
-    all->n = kept;
+    all->n = n_kept;
 }
 
 /* ---- sums over the cells --------------------------------------------------------------------- */
@@ -158,7 +158,7 @@ static size_t sum_spots(const cells *all, spot *spots)
 }
 
 /* Fits the slope within the spots and tests if it is equal in both groups. */
-static void slope_within(const spot *spots, size_t n, compare_units *u)
+static void fit_within_spot_slope(const spot *spots, size_t n, compare_units *u)
 {
     double xx[2] = {0}, xy[2] = {0}, yy = 0, cells_used = 0;
     for (size_t i = 0; i < n; i++) {
@@ -206,8 +206,8 @@ static double mean_rates(const spot *spots, size_t n, double x[2], double *xy)
 }
 
 /* Fits the means of the spots by group and ln rate, if each spot has one rate. */
-static bool slope_between(const spot *spots, size_t n, double xx, double xy, double *slope,
-                          compare_units *u)
+static bool fit_between_spot_slope(const spot *spots, size_t n, double xx, double xy, double *slope,
+                                   compare_units *u)
 {
     const double df = (double)n - 3;
     if (!(df >= 1) || !(xx > same_rate * same_rate / 4))
@@ -230,19 +230,19 @@ static bool slope_between(const spot *spots, size_t n, double xx, double xy, dou
     return true;
 }
 
-static void make_values(const spot *spots, size_t n, compare_units *u)
+static void set_unit_values(const spot *spots, size_t n, compare_units *u)
 {
     double x[2], xy, slope = 0;
     const double xx = mean_rates(spots, n, x, &xy), dx = x[1] - x[0];
-    u->rates_by = WT_RATES_COMMON;
+    u->rate_matching = WT_RATES_COMMON;
     u->known = true;
     if (!isnan(u->slope)) {
         slope = u->slope;
         u->shift_variance = dx * dx * u->slope_error * u->slope_error;
-        u->rates_by = u->apart ? WT_RATES_WITHIN : WT_RATES_COMMON;
+        u->rate_matching = u->apart ? WT_RATES_WITHIN : WT_RATES_COMMON;
     } else if (u->apart || xx > same_rate * same_rate / 4) {
-        u->rates_by = WT_RATES_BETWEEN;
-        u->known = slope_between(spots, n, xx, xy, &slope, u);
+        u->rate_matching = WT_RATES_BETWEEN;
+        u->known = fit_between_spot_slope(spots, n, xx, xy, &slope, u);
     }
     const double middle = (x[0] + x[1]) / 2;
     for (size_t i = 0; i < n; i++) {
@@ -252,12 +252,12 @@ static void make_values(const spot *spots, size_t n, compare_units *u)
     }
 }
 
-wt_status compare_units_make(const wt_group *const groups[2], bool by_spot, arena *memory,
-                             compare_units *units, wt_error *err)
+wt_status compare_units_create(const wt_group *const groups[2], bool by_spot, arena *memory,
+                               compare_units *units, wt_error *err)
 {
     const size_t all = groups[0]->n + groups[1]->n;
     cells c = {.cell = arena_alloc(memory, all, sizeof *c.cell)};
-    curve *curves = arena_alloc(memory, all, sizeof *curves);
+    rate_curve *curves = arena_alloc(memory, all, sizeof *curves);
     spot *spots = arena_alloc(memory, all, sizeof *spots);
     compare_units u = {.slope = (double)NAN,
                        .slope_error = (double)NAN,
@@ -271,10 +271,10 @@ wt_status compare_units_make(const wt_group *const groups[2], bool by_spot, aren
     rate *rates = memory->failed ? NULL : arena_alloc(memory, count_rates(&c), sizeof *rates);
     if (rates == NULL)
         return wt_fail(err, WT_E_MEMORY, "no memory for the comparison of two groups");
-    level_rates(&c, rates, &u.apart);
+    equalise_rates(&c, rates, &u.apart);
     const size_t n = sum_spots(&c, spots);
-    slope_within(spots, n, &u);
-    make_values(spots, n, &u);
+    fit_within_spot_slope(spots, n, &u);
+    set_unit_values(spots, n, &u);
     *units = u;
     return WT_OK;
 }

@@ -48,14 +48,14 @@ static void visit_disc(const wt_height_map *f, double x, double y, double radius
         }
 }
 
-typedef struct sums {
+typedef struct plane_sums {
     double m[SPOT_UNKNOWNS][SPOT_UNKNOWNS], v[SPOT_UNKNOWNS], plane[3], squares;
     size_t n, missing;
-} sums;
+} plane_sums;
 
 static void add_pixel(void *user, double u, double v, double z)
 {
-    sums *s = user;
+    plane_sums *s = user;
     const double row[3] = {1, u, v};
     if (!isfinite(z)) {
         s->missing++;
@@ -71,13 +71,13 @@ static void add_pixel(void *user, double u, double v, double z)
 
 static void add_square(void *user, double u, double v, double z)
 {
-    sums *s = user;
-    const double left = z - (s->plane[0] + s->plane[1] * u + s->plane[2] * v);
+    plane_sums *s = user;
+    const double residual = z - (s->plane[0] + s->plane[1] * u + s->plane[2] * v);
     if (isfinite(z))
-        s->squares += left * left;
+        s->squares += residual * residual;
 }
 
-static void first_height(void *user, double u, double v, double z)
+static void find_first_height(void *user, double u, double v, double z)
 {
     double *height = user;
     (void)u;
@@ -88,13 +88,13 @@ static void first_height(void *user, double u, double v, double z)
 
 spot_plane spot_plane_fit(const wt_height_map *field, double x, double y, double radius)
 {
-    sums s = {.plane = {(double)NAN, 0, 0}};
+    plane_sums s = {.plane = {(double)NAN, 0, 0}};
     spot_plane plane = {(double)NAN, (double)NAN, (double)NAN, (double)NAN, 0, 0};
-    visit_disc(field, x, y, radius, first_height, &s.plane[0]);
+    visit_disc(field, x, y, radius, find_first_height, &s.plane[0]);
     visit_disc(field, x, y, radius, add_pixel, &s);
     plane.n = s.n;
     plane.missing = s.missing;
-    if (s.n < SPOT_LEAST_PIXELS || !spot_solve(3, s.m, s.v))
+    if (s.n < SPOT_MIN_PIXELS || !spot_solve(3, s.m, s.v))
         return plane;
     s.plane[0] += s.v[0];
     s.plane[1] = s.v[1];
@@ -107,21 +107,21 @@ spot_plane spot_plane_fit(const wt_height_map *field, double x, double y, double
     return plane;
 }
 
-bool spot_covers(const wt_height_map *f, double x, double y, double radius)
+bool spot_disc_is_covered(const wt_height_map *f, double x, double y, double radius)
 {
     const double width = (double)(f->nx - 1) * f->dx, height = (double)(f->ny - 1) * f->dy;
     if (x < radius || y < radius || x > width - radius || y > height - radius)
         return false;
     const spot_plane p = spot_plane_fit(f, x, y, radius);
-    return p.n >= SPOT_LEAST_PIXELS && 10 * p.missing <= p.n + p.missing;
+    return p.n >= SPOT_MIN_PIXELS && 10 * p.missing <= p.n + p.missing;
 }
 
 /* ---- interpolation --------------------------------------------------------------------------- */
 
-enum { NODES = 6 }; /* nodes of a fifth-degree polynomial */
+enum { INTERPOLATION_NODES = 6 }; /* nodes of a fifth-degree polynomial */
 
 /* Weights of the polynomial through the pixels -2 .. 3, at 0 <= t < 1. */
-static void polynomial_weights(double t, double w[NODES])
+static void polynomial_weights(double t, double w[INTERPOLATION_NODES])
 {
     const double a = t + 2, b = t + 1, d = t - 1, e = t - 2, f = t - 3;
     w[0] = -b * t * d * e * f / 120;
@@ -132,18 +132,18 @@ static void polynomial_weights(double t, double w[NODES])
     w[5] = a * b * t * d * e / 120;
 }
 
-double spot_between(const wt_height_map *f, double i, double j)
+double spot_interpolate_height(const wt_height_map *f, double i, double j)
 {
     const double bi = floor(i), bj = floor(j);
-    double wi[NODES], wj[NODES], sum = 0;
+    double wi[INTERPOLATION_NODES], wj[INTERPOLATION_NODES], sum = 0;
     if (!(bi >= 2) || !(bj >= 2) || bi + 3 > (double)(f->nx - 1) || bj + 3 > (double)(f->ny - 1))
         return (double)NAN;
     polynomial_weights(i - bi, wi);
     polynomial_weights(j - bj, wj);
     const double *corner = f->z + ((size_t)bj - 2) * f->nx + (size_t)bi - 2;
-    for (size_t b = 0; b < NODES; b++) {
+    for (size_t b = 0; b < INTERPOLATION_NODES; b++) {
         double row = 0;
-        for (size_t a = 0; a < NODES; a++)
+        for (size_t a = 0; a < INTERPOLATION_NODES; a++)
             row += wi[a] * corner[b * f->nx + a];
         sum += wj[b] * row;
     }
@@ -179,12 +179,12 @@ static bool row_mean(const wt_height_map *f, size_t j, double low, double high, 
     return n > 0;
 }
 
-static wt_status cut_patch(const wt_height_map *f, double x, double y, double radius, patch *to,
-                           wt_error *err)
+static wt_status extract_patch(const wt_height_map *f, double x, double y, double radius, patch *to,
+                               wt_error *err)
 {
     size_t i[2], j[2];
-    pixel_span(x, 2 * radius + NODES * f->dx, f->dx, f->nx, &i[0], &i[1]);
-    pixel_span(y, 2 * radius + NODES * f->dy, f->dy, f->ny, &j[0], &j[1]);
+    pixel_span(x, 2 * radius + INTERPOLATION_NODES * f->dx, f->dx, f->nx, &i[0], &i[1]);
+    pixel_span(y, 2 * radius + INTERPOLATION_NODES * f->dy, f->dy, f->ny, &j[0], &j[1]);
     *to = (patch){{NULL, i[1] - i[0] + 1, j[1] - j[0] + 1, f->dx, f->dy},
                   x - (double)i[0] * f->dx,
                   y - (double)j[0] * f->dy,
@@ -221,8 +221,9 @@ static double mean_depth(const patch *p, double radius)
                      r = radius * sqrt(2 * at / (double)rings);
         for (size_t a = 0; a < spokes; a++) {
             const double angle = 2 * M_PI * ((double)a + 0.5 * (double)(k % 2)) / (double)spokes,
-                         z = spot_between(&p->field, (p->x + r * cos(angle)) / p->field.dx,
-                                          (p->y + r * sin(angle)) / p->field.dy);
+                         z = spot_interpolate_height(&p->field,
+                                                     (p->x + r * cos(angle)) / p->field.dx,
+                                                     (p->y + r * sin(angle)) / p->field.dy);
             if (!isfinite(z))
                 continue;
             sum -= z;
@@ -232,14 +233,15 @@ static double mean_depth(const patch *p, double radius)
     return 10 * n >= 9 * rings * spokes ? sum / (double)n : (double)NAN;
 }
 
-wt_status spot_depression_at(const wt_height_map *difference, double x, double y, double radius,
-                             spot_depression *dent, wt_error *err)
+wt_status spot_measure_depression(const wt_height_map *difference, double x, double y,
+                                  double radius, spot_depression *dent, wt_error *err)
 {
     patch p = {.z = NULL};
     *dent = (spot_depression){(double)NAN, (double)NAN};
-    if (!spot_covers(difference, x, y, 4 * radius) || !spot_covers(difference, x, y, radius))
+    if (!spot_disc_is_covered(difference, x, y, 4 * radius) ||
+        !spot_disc_is_covered(difference, x, y, radius))
         return WT_OK;
-    const wt_status status = cut_patch(difference, x, y, radius, &p, err);
+    const wt_status status = extract_patch(difference, x, y, radius, &p, err);
     if (status == WT_OK)
         *dent = (spot_depression){mean_depth(&p, radius),
                                   mean_depth(&p, 2 * radius) * M_PI * 4 * radius * radius};

@@ -10,7 +10,7 @@
 #include <stddef.h>
 
 /* Smallest number of pixels of a disc: four for each parameter of a plane. */
-enum { SPOT_LEAST_PIXELS = 12 };
+enum { SPOT_MIN_PIXELS = 12 };
 
 /* Least-squares plane over a disc, and the residual heights. */
 typedef struct spot_plane {
@@ -19,13 +19,13 @@ typedef struct spot_plane {
     size_t n, missing;               /* numbers of pixels */
 } spot_plane;
 
-/* Fits a plane. The result is NaN with fewer than SPOT_LEAST_PIXELS. */
+/* Fits a plane. The result is NaN with fewer than SPOT_MIN_PIXELS. */
 spot_plane spot_plane_fit(const wt_height_map *field, double x, double y, double radius);
 /* True if a disc lies inside the image with enough pixels, at most a tenth of them missing. */
-bool spot_covers(const wt_height_map *field, double x, double y, double radius);
+bool spot_disc_is_covered(const wt_height_map *field, double x, double y, double radius);
 /* Height at a position in pixels by fifth-degree polynomials through six pixels in each direction.
  * The result is NaN if one of them is unknown. */
-double spot_between(const wt_height_map *field, double i, double j);
+double spot_interpolate_height(const wt_height_map *field, double i, double j);
 /* Solves n symmetric equations from their lower triangle in place. m becomes its Cholesky factor.
  * Returns false if the matrix is singular. */
 enum { SPOT_UNKNOWNS = 3 };
@@ -64,7 +64,7 @@ typedef struct spot_depression {
 } spot_depression;
 /* Measures a depression. The result is NaN if the difference does not cover it. Returns WT_E_MEMORY
  * on failure. */
-wt_status spot_depression_at(const wt_height_map *difference, double x, double y, double radius,
-                             spot_depression *dent, wt_error *err) WT_NODISCARD;
+wt_status spot_measure_depression(const wt_height_map *difference, double x, double y,
+                                  double radius, spot_depression *dent, wt_error *err) WT_NODISCARD;
 
 #endif

@@ -34,7 +34,7 @@ double curve_balanced_depth(const wt_contact_table *table, double k, double z, d
     return x;
 }
 
-void curve_balance_memory(const curve_law *m, const double p[CURVE_N_PARAMETERS], size_t first)
+void curve_balance_hereditary(const curve_law *m, const double p[CURVE_N_PARAMETERS], size_t first)
 {
     const curve_samples *s = m->samples;
     wt_indent_workspace *w = m->workspace;
@@ -52,11 +52,11 @@ void curve_balance_memory(const curve_law *m, const double p[CURVE_N_PARAMETERS]
             continue;
         const double step = w->time[i] - w->time[i - 1];
         if (!(fabs(step - law->step) < same_step * step))
-            hereditary_step(law, step);
+            hereditary_set_step(law, step);
         const double now = hereditary_force(law, 0.0, 0.0, 1.0);
         double past[N_MEMORIES], f[N_MEMORIES] = {0.0};
         for (size_t j = 0; j < N_MEMORIES; j++)
-            past[j] = hereditary_force(law, hereditary_fade(law, law->memory[j]), before[j], 0.0);
+            past[j] = hereditary_force(law, hereditary_decay(law, law->memory[j]), before[j], 0.0);
         if (k * z > e * past[FORCE]) {
             double slope;
             w->delta[i] =
@@ -72,7 +72,7 @@ void curve_balance_memory(const curve_law *m, const double p[CURVE_N_PARAMETERS]
             w->by_contact[i] = -(1.0 + by_contact) * stiffness;
         }
         for (size_t j = 0; j < N_MEMORIES; j++) {
-            hereditary_add(law, law->memory[j], f[j] - before[j]);
+            hereditary_add_change(law, law->memory[j], f[j] - before[j]);
             before[j] = f[j];
         }
     }

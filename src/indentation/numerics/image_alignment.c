@@ -11,10 +11,10 @@
 /* Pixels along an image at the start of the search over all shifts, whose run time grows with their
  * fourth power. The resolution then doubles in steps. The best shift changes by one or two pixels,
  * and the search covers three pixels to each side. */
-enum { COARSE = 64, NEAR = 3 };
+enum { COARSE_PIXELS = 64, SEARCH_RADIUS = 3 };
 /* Blocks along an axis, each with its own shift, and the smallest number of blocks, which is twice
  * the number of drift parameters. */
-enum { SIDE = 4, PARTS = SIDE * SIDE, LEAST_PARTS = 6 };
+enum { SIDE = 4, PARTS = SIDE * SIDE, MIN_PARTS = 6 };
 /* Limit of the iterations. */
 enum { MOST_STEPS = 20 };
 
@@ -24,7 +24,7 @@ typedef struct region {
     double x, y, radius;
 } region;
 
-static bool left_out(const wt_height_map *f, const region *r, size_t i, size_t j)
+static bool is_in_disc(const wt_height_map *f, const region *r, size_t i, size_t j)
 {
     const double u = (double)i * f->dx - r->x, v = (double)j * f->dy - r->y;
     return u * u + v * v <= r->radius * r->radius;
@@ -34,13 +34,14 @@ static bool left_out(const wt_height_map *f, const region *r, size_t i, size_t j
 
 /* Adds the differences of a line, minus one height for precision, to the equations of a plane.
  * Returns their sum of squares. u is the start of the line. */
-static double add_line(const double *was, const double *is, size_t pixels, const double u[2],
-                       double *height, double m[SPOT_UNKNOWNS][SPOT_UNKNOWNS], double *v)
+static double add_line_differences(const double *first_row, const double *second_row, size_t pixels,
+                                   const double u[2], double *height,
+                                   double m[SPOT_UNKNOWNS][SPOT_UNKNOWNS], double *v)
 {
     double n = 0, along = 0, along_along = 0, sum = 0, sum_along = 0, squares = 0, first = *height,
            at = u[0];
     for (size_t i = 0; i < pixels; i++, at++) {
-        double d = is[i] - was[i];
+        double d = second_row[i] - first_row[i];
         if (!isfinite(d))
             continue;
         first = isnan(first) ? d : first;
@@ -87,9 +88,10 @@ static double height_variance(const wt_height_map *before, const wt_height_map *
     for (size_t j = from[1]; j < to[1]; j++) {
         const double u[2] = {-0.5 * (double)(to[0] - from[0] - 1),
                              (double)j - 0.5 * (double)(from[1] + to[1] - 1)};
-        const double *is = after->z + (size_t)((long)j + s[1]) * after->nx;
-        squares += add_line(before->z + j * before->nx + from[0],
-                            is + (size_t)((long)from[0] + s[0]), to[0] - from[0], u, &first, m, v);
+        const double *second_row = after->z + (size_t)((long)j + s[1]) * after->nx;
+        squares += add_line_differences(before->z + j * before->nx + from[0],
+                                        second_row + (size_t)((long)from[0] + s[0]),
+                                        to[0] - from[0], u, &first, m, v);
     }
     const double n = m[0][0], right[SPOT_UNKNOWNS] = {v[0], v[1], v[2]};
     if (n < (double)least || !spot_solve(SPOT_UNKNOWNS, m, v))
@@ -100,8 +102,9 @@ static double height_variance(const wt_height_map *before, const wt_height_map *
 }
 
 /* Finds the best shift within from..to of both axes. */
-static bool best_shift(const wt_height_map *before, const wt_height_map *after, const region *r,
-                       const long from[2], const long to[2], size_t least, long shift[2])
+static bool find_best_shift(const wt_height_map *before, const wt_height_map *after,
+                            const region *r, const long from[2], const long to[2], size_t least,
+                            long shift[2])
 {
     double best = (double)INFINITY;
     for (long b = from[1]; b <= to[1]; b++)
@@ -147,27 +150,27 @@ static wt_status search_level(const wt_height_map *before, const wt_height_map *
         status = coarsen_image(after, f, &small[1], err);
     if (status == WT_OK) {
         const size_t n = small[0].nx * small[0].ny, other = small[1].nx * small[1].ny;
-        const long low[2] = {first ? -(long)small[0].nx : 2 * shift[0] - NEAR,
-                             first ? -(long)small[0].ny : 2 * shift[1] - NEAR},
-                   high[2] = {first ? (long)small[1].nx : 2 * shift[0] + NEAR,
-                              first ? (long)small[1].ny : 2 * shift[1] + NEAR};
+        const long low[2] = {first ? -(long)small[0].nx : 2 * shift[0] - SEARCH_RADIUS,
+                             first ? -(long)small[0].ny : 2 * shift[1] - SEARCH_RADIUS},
+                   high[2] = {first ? (long)small[1].nx : 2 * shift[0] + SEARCH_RADIUS,
+                              first ? (long)small[1].ny : 2 * shift[1] + SEARCH_RADIUS};
         all.i[1] = small[0].nx;
         all.j[1] = small[0].ny;
-        *found =
-            best_shift(&small[0], &small[1], &all, low, high, (n < other ? n : other) / 4, shift);
+        *found = find_best_shift(&small[0], &small[1], &all, low, high, (n < other ? n : other) / 4,
+                                 shift);
     }
     free((void *)small[0].z);
     free((void *)small[1].z);
     return status;
 }
 
-static wt_status find_whole(const wt_height_map *before, const wt_height_map *after,
-                            const region *all, long shift[2], bool *found, wt_error *err)
+static wt_status find_pixel_shift(const wt_height_map *before, const wt_height_map *after,
+                                  const region *all, long shift[2], bool *found, wt_error *err)
 {
     const size_t most = before->nx > before->ny ? before->nx : before->ny;
     wt_status status = WT_OK;
     size_t f = 1;
-    while (most / f > COARSE)
+    while (most / f > COARSE_PIXELS)
         f *= 2;
     *found = true;
     for (bool first = true; f > 0 && status == WT_OK && *found; f /= 2, first = false)
@@ -178,16 +181,16 @@ static wt_status find_whole(const wt_height_map *before, const wt_height_map *af
 /* ---- subpixel shifts ------------------------------------------------------------------------- */
 
 /* Image block: centre [m], shift [pixels], and weight for each axis. */
-typedef struct part {
+typedef struct image_block {
     double x, y, shift[2], weight[2];
-} part;
+} image_block;
 
 /* Slope of the difference along the rows, shifts in x and y, and the difference itself. */
 enum { SLOPE, SHIFT_X, SHIFT_Y, UNKNOWNS, DIFFERENCE = UNKNOWNS, TERMS };
 
 /* Adds a row with a free offset, because scanning does not determine the offset of a row. */
-static void add_row(const double sum[TERMS], double products[TERMS][TERMS], size_t n,
-                    double m[SPOT_UNKNOWNS][SPOT_UNKNOWNS], double *v)
+static void add_row_equations(const double sum[TERMS], double products[TERMS][TERMS], size_t n,
+                              double m[SPOT_UNKNOWNS][SPOT_UNKNOWNS], double *v)
 {
     for (size_t p = 0; p < UNKNOWNS && n > 0; p++) {
         for (size_t q = 0; q <= p; q++)
@@ -198,8 +201,9 @@ static void add_row(const double sum[TERMS], double products[TERMS][TERMS], size
 
 /* Sums the equations of a Gauss-Newton step. The slopes are those of the first image at its pixels,
  * whose noise is independent of that of the interpolated heights. */
-static void sum_part(const wt_height_map *before, const wt_height_map *after, const region *r,
-                     const double shift[2], double m[SPOT_UNKNOWNS][SPOT_UNKNOWNS], double *v)
+static void sum_block_equations(const wt_height_map *before, const wt_height_map *after,
+                                const region *r, const double shift[2],
+                                double m[SPOT_UNKNOWNS][SPOT_UNKNOWNS], double *v)
 {
     const double middle = 0.5 * (double)(r->i[0] + r->i[1]), half = (double)(r->i[1] - r->i[0]);
     for (size_t j = r->j[0] > 0 ? r->j[0] : 1; j < r->j[1] && j + 1 < before->ny; j++) {
@@ -210,8 +214,8 @@ static void sum_part(const wt_height_map *before, const wt_height_map *after, co
             double row[TERMS] = {
                 ((double)i - middle) / half, 0.5 * (z[1] - *(z - 1)),
                 0.5 * (z[before->nx] - *(z - before->nx)),
-                *z - spot_between(after, (double)i + shift[0], (double)j + shift[1])};
-            if (left_out(before, r, i, j) || !isfinite(row[1] + row[2] + row[3]))
+                *z - spot_interpolate_height(after, (double)i + shift[0], (double)j + shift[1])};
+            if (is_in_disc(before, r, i, j) || !isfinite(row[1] + row[2] + row[3]))
                 continue;
             first = n == 0 ? row[DIFFERENCE] : first;
             row[DIFFERENCE] -= first;
@@ -222,18 +226,18 @@ static void sum_part(const wt_height_map *before, const wt_height_map *after, co
                     products[p][q] += row[p] * row[q];
             }
         }
-        add_row(sum, products, n, m, v);
+        add_row_equations(sum, products, n, m, v);
     }
 }
 
 /* Refines the shift of a block from whole pixels. Returns false if it is not determined. */
 static bool refine_shift(const wt_height_map *before, const wt_height_map *after, const region *r,
-                         part *p)
+                         image_block *p)
 {
     const double start[2] = {p->shift[0], p->shift[1]};
     for (int step = 0; step < MOST_STEPS; step++) {
         double m[SPOT_UNKNOWNS][SPOT_UNKNOWNS] = {{0}}, v[SPOT_UNKNOWNS] = {0};
-        sum_part(before, after, r, p->shift, m, v);
+        sum_block_equations(before, after, r, p->shift, m, v);
         if (!spot_solve(UNKNOWNS, m, v))
             return false;
         p->shift[0] += v[SHIFT_X];
@@ -251,32 +255,33 @@ static bool refine_shift(const wt_height_map *before, const wt_height_map *after
 }
 
 /* Copies the image with NaN in the disc. */
-static wt_status cut_disc(const wt_height_map *f, const region *r, wt_height_map *to, wt_error *err)
+static wt_status blank_disc(const wt_height_map *f, const region *r, wt_height_map *to,
+                            wt_error *err)
 {
     double *z = malloc(f->nx * f->ny * sizeof *z);
     if (z == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     for (size_t j = 0; j < f->ny; j++)
         for (size_t i = 0; i < f->nx; i++)
-            z[j * f->nx + i] = left_out(f, r, i, j) ? (double)NAN : f->z[j * f->nx + i];
+            z[j * f->nx + i] = is_in_disc(f, r, i, j) ? (double)NAN : f->z[j * f->nx + i];
     *to = *f;
     to->z = z;
     return WT_OK;
 }
 
-static size_t count_outside(const wt_height_map *f, const region *r)
+static size_t count_outside_disc(const wt_height_map *f, const region *r)
 {
     size_t n = 0;
     for (size_t j = r->j[0]; j < r->j[1]; j++)
         for (size_t i = r->i[0]; i < r->i[1]; i++)
-            n += !left_out(f, r, i, j);
+            n += !is_in_disc(f, r, i, j);
     return n;
 }
 
 /* Finds the shifts of the blocks of the overlap. `cut` is the first image without the disc. */
-static size_t find_parts(const wt_height_map *before, const wt_height_map *cut,
-                         const wt_height_map *after, const region *all, const long whole[2],
-                         part parts[PARTS])
+static size_t find_block_shifts(const wt_height_map *before, const wt_height_map *cut,
+                                const wt_height_map *after, const region *all, const long whole[2],
+                                image_block parts[PARTS])
 {
     size_t from[2], to[2], n = 0;
     const size_t size[2] = {before->nx, before->ny}, other[2] = {after->nx, after->ny};
@@ -294,15 +299,15 @@ static size_t find_parts(const wt_height_map *before, const wt_height_map *cut,
                 r.i[k] = from[0] + (to[0] - from[0]) * (a + k) / SIDE;
                 r.j[k] = from[1] + (to[1] - from[1]) * (b + k) / SIDE;
             }
-            part *p = &parts[n];
-            const long low[2] = {whole[0] - NEAR, whole[1] - NEAR},
-                       high[2] = {whole[0] + NEAR, whole[1] + NEAR};
+            image_block *p = &parts[n];
+            const long low[2] = {whole[0] - SEARCH_RADIUS, whole[1] - SEARCH_RADIUS},
+                       high[2] = {whole[0] + SEARCH_RADIUS, whole[1] + SEARCH_RADIUS};
             long shift[2] = {0, 0};
-            if (!best_shift(cut, after, &r, low, high, count_outside(cut, &r) / 4, shift))
+            if (!find_best_shift(cut, after, &r, low, high, count_outside_disc(cut, &r) / 4, shift))
                 continue;
-            *p = (part){.x = 0.5 * (double)(r.i[0] + r.i[1] - 1) * before->dx,
-                        .y = 0.5 * (double)(r.j[0] + r.j[1] - 1) * before->dy,
-                        .shift = {(double)shift[0], (double)shift[1]}};
+            *p = (image_block){.x = 0.5 * (double)(r.i[0] + r.i[1] - 1) * before->dx,
+                               .y = 0.5 * (double)(r.j[0] + r.j[1] - 1) * before->dy,
+                               .shift = {(double)shift[0], (double)shift[1]}};
             n += refine_shift(before, after, &r, p);
         }
     return n;
@@ -312,12 +317,12 @@ static size_t find_parts(const wt_height_map *before, const wt_height_map *cut,
 
 /* Plane through the shifts of the blocks along one axis: value at the position, gradient along x
  * and y. */
-typedef struct drift {
+typedef struct drift_plane {
     double at, gradient[2], error, rms; /* [pixels]; rms of the residuals of the blocks */
-} drift;
+} drift_plane;
 
-static bool fit_drift(const part *parts, size_t n, int axis, const region *all, double length,
-                      drift *to)
+static bool fit_drift(const image_block *parts, size_t n, int axis, const region *all,
+                      double length, drift_plane *to)
 {
     double m[SPOT_UNKNOWNS][SPOT_UNKNOWNS] = {{0}}, v[SPOT_UNKNOWNS] = {0}, squares = 0, sum = 0,
            weight = 0, unit[SPOT_UNKNOWNS] = {1};
@@ -329,33 +334,35 @@ static bool fit_drift(const part *parts, size_t n, int axis, const region *all, 
             v[p] += parts[k].weight[axis] * row[p] * parts[k].shift[axis];
         }
     }
-    double again[SPOT_UNKNOWNS][SPOT_UNKNOWNS];
+    double second[SPOT_UNKNOWNS][SPOT_UNKNOWNS];
     for (size_t p = 0; p < SPOT_UNKNOWNS; p++)
         for (size_t q = 0; q < SPOT_UNKNOWNS; q++)
-            again[p][q] = m[p][q];
-    if (!spot_solve(3, m, v) || !spot_solve(3, again, unit))
+            second[p][q] = m[p][q];
+    if (!spot_solve(3, m, v) || !spot_solve(3, second, unit))
         return false;
     for (size_t k = 0; k < n; k++) {
-        const double off = parts[k].shift[axis] - v[0] - v[1] * (parts[k].x - all->x) / length -
-                           v[2] * (parts[k].y - all->y) / length;
-        squares += off * off;
-        sum += parts[k].weight[axis] * off * off;
+        const double deviation = parts[k].shift[axis] - v[0] -
+                                 v[1] * (parts[k].x - all->x) / length -
+                                 v[2] * (parts[k].y - all->y) / length;
+        squares += deviation * deviation;
+        sum += parts[k].weight[axis] * deviation * deviation;
         weight += parts[k].weight[axis];
     }
-    *to = (drift){.at = v[0],
-                  .gradient = {v[1] / length, v[2] / length},
-                  .error = sqrt(sum / (double)(n - 3) * unit[0]),
-                  .rms = sqrt(squares / (double)(n - 3))};
+    *to = (drift_plane){.at = v[0],
+                        .gradient = {v[1] / length, v[2] / length},
+                        .error = sqrt(sum / (double)(n - 3) * unit[0]),
+                        .rms = sqrt(squares / (double)(n - 3))};
     return weight > 0;
 }
 
 /* Fits the drift. Excludes up to a quarter of the blocks, the largest residual first, until the
  * rest agrees. */
-static bool fit_parts(part *parts, size_t *n, const region *all, double length, drift found[2])
+static bool fit_block_drift(image_block *parts, size_t *n, const region *all, double length,
+                            drift_plane found[2])
 {
     const size_t least = *n - *n / 4;
     for (;;) {
-        if (*n < LEAST_PARTS || !fit_drift(parts, *n, 0, all, length, &found[0]) ||
+        if (*n < MIN_PARTS || !fit_drift(parts, *n, 0, all, length, &found[0]) ||
             !fit_drift(parts, *n, 1, all, length, &found[1]))
             return false;
         if (hypot(found[0].rms, found[1].rms) < 0.5)
@@ -365,13 +372,13 @@ static bool fit_parts(part *parts, size_t *n, const region *all, double length, 
         size_t worst = 0;
         double most = -1;
         for (size_t k = 0; k < *n; k++) {
-            double off[2];
+            double deviation[2];
             for (int axis = 0; axis < 2; axis++)
-                off[axis] = parts[k].shift[axis] - found[axis].at -
-                            found[axis].gradient[0] * (parts[k].x - all->x) -
-                            found[axis].gradient[1] * (parts[k].y - all->y);
-            if (hypot(off[0], off[1]) > most) {
-                most = hypot(off[0], off[1]);
+                deviation[axis] = parts[k].shift[axis] - found[axis].at -
+                                  found[axis].gradient[0] * (parts[k].x - all->x) -
+                                  found[axis].gradient[1] * (parts[k].y - all->y);
+            if (hypot(deviation[0], deviation[1]) > most) {
+                most = hypot(deviation[0], deviation[1]);
                 worst = k;
             }
         }
@@ -386,8 +393,8 @@ wt_status spot_align(const wt_height_map *before, const wt_height_map *after, do
     const double length = fmax((double)before->nx * before->dx, (double)before->ny * before->dy);
     long whole[2] = {0, 0};
     bool found = false;
-    part parts[PARTS];
-    drift d[2];
+    image_block parts[PARTS];
+    drift_plane d[2];
     *shift = (spot_shift){.x = (double)NAN,
                           .y = (double)NAN,
                           .x_error = (double)NAN,
@@ -395,11 +402,11 @@ wt_status spot_align(const wt_height_map *before, const wt_height_map *after, do
                           .overlap = (double)NAN};
     wt_height_map cut = {.z = NULL};
     size_t n = 0;
-    wt_status status = cut_disc(before, &all, &cut, err);
+    wt_status status = blank_disc(before, &all, &cut, err);
     if (status == WT_OK)
-        status = find_whole(&cut, after, &all, whole, &found, err);
+        status = find_pixel_shift(&cut, after, &all, whole, &found, err);
     if (status == WT_OK && found)
-        n = find_parts(before, &cut, after, &all, whole, parts);
+        n = find_block_shifts(before, &cut, after, &all, whole, parts);
     free((void *)cut.z);
     if (status != WT_OK || !found)
         return status;
@@ -408,7 +415,7 @@ wt_status spot_align(const wt_height_map *before, const wt_height_map *after, do
                              fmin((double)before->ny, (double)after->ny - (double)whole[1])};
     shift->overlap =
         (right[0] - left[0]) * (right[1] - left[1]) / ((double)before->nx * (double)before->ny);
-    if (!fit_parts(parts, &n, &all, length, d))
+    if (!fit_block_drift(parts, &n, &all, length, d))
         return WT_OK;
     shift->blocks = n;
     shift->degrees = n - 3;
@@ -438,8 +445,8 @@ wt_status spot_resample(const wt_height_map *field, double dx, double dy, wt_hei
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     for (size_t j = 0; j < to->ny; j++)
         for (size_t i = 0; i < to->nx; i++)
-            z[j * to->nx + i] =
-                spot_between(field, (double)i * dx / field->dx, (double)j * dy / field->dy);
+            z[j * to->nx + i] = spot_interpolate_height(field, (double)i * dx / field->dx,
+                                                        (double)j * dy / field->dy);
     to->z = z;
     return WT_OK;
 }
@@ -454,7 +461,8 @@ void spot_difference(const wt_height_map *before, const wt_height_map *after,
             const double x = shift->x + shift->gradient[0][0] * u + shift->gradient[0][1] * v,
                          y = shift->y + shift->gradient[1][0] * u + shift->gradient[1][1] * v;
             difference[j * before->nx + i] =
-                spot_between(after, (double)i + x / before->dx, (double)j + y / before->dy) -
+                spot_interpolate_height(after, (double)i + x / before->dx,
+                                        (double)j + y / before->dy) -
                 before->z[j * before->nx + i];
         }
 }

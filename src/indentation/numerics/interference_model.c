@@ -31,27 +31,28 @@ double curve_wave_cost(const curve_law *m, const double p[N], const curve_wave *
         const bool with_tip = !wave->by_height && fabs(w->g[i]) > 0.0;
         const double path = with_tip ? p[CURVE_C] + w->delta[i] : s->position[i];
         const double cosine = cos(number * path), sine = sin(number * path);
-        const double turn = b * cosine - a * sine;
-        const double part = p[CURVE_F0] + p[CURVE_T] * (s->position[i] - p[CURVE_C]);
+        const double phase_derivative = b * cosine - a * sine;
+        const double baseline = p[CURVE_F0] + p[CURVE_T] * (s->position[i] - p[CURVE_C]);
         w->wave_column[WAVE_COSINE][i] = cosine;
         w->wave_column[WAVE_SINE][i] = sine;
-        w->wave_column[WAVE_NUMBER][i] = path * turn;
-        w->wave_give[i] = with_tip ? 1.0 - number * turn / s->spring_constant : 1.0;
+        w->wave_column[WAVE_NUMBER][i] = path * phase_derivative;
+        w->wave_response[i] = with_tip ? 1.0 - number * phase_derivative / s->spring_constant : 1.0;
         s->force[i] = w->force[i] - a * cosine - b * sine;
-        w->residual[i] = curve_in_gap(s, i) ? 0.0 : s->force[i] - part - p[CURVE_E] * w->g[i];
+        w->residual[i] =
+            curve_is_in_gap(s, i) ? 0.0 : s->force[i] - baseline - p[CURVE_E] * w->g[i];
         sum += w->residual[i] * w->residual[i];
     }
     return sum;
 }
 
-bool curve_wave_imitate(curve_law *m, const double p[N], wave_step *to)
+bool curve_wave_project(curve_law *m, const double p[N], wave_step *to)
 {
     const curve_samples *s = m->samples;
     double *const *column = m->workspace->wave_column;
     double ww[M][M] = {{0.0}}, wj[M][N] = {{0.0}}, wr[M] = {0.0}, scale[M], scaled[M * M];
-    memset(m->imitated, 0, sizeof m->imitated);
+    memset(m->wave_projection, 0, sizeof m->wave_projection);
     for (size_t i = 0; i < s->n; i++) {
-        if (curve_in_gap(s, i))
+        if (curve_is_in_gap(s, i))
             continue;
         double row[N];
         curve_model_row(m, p, i, row);
@@ -85,7 +86,7 @@ bool curve_wave_imitate(curve_law *m, const double p[N], wave_step *to)
         for (size_t j = 0; j < M; j++) {
             x[j] *= scale[j];
             if (a < N)
-                m->imitated[j][a] = x[j];
+                m->wave_projection[j][a] = x[j];
             else
                 to->gain += x[j] * wr[j];
         }

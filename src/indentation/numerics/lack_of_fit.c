@@ -30,17 +30,17 @@ enum {
     WINDOW = BLOCKS_WINDOW,
     MAX_ORDER = BLOCKS_MAX_ORDER,
 };
-static const double least_bend = 3.0;      /* in innovations; noise exceeds it in 1 of 400 cases */
-static const double less_steep = 0.9;      /* largest slope at the end over the steepest slope */
-static const double still_straight = 0.75; /* share of the force at the steepest slope */
+static const double min_curvature = 3.0;   /* in innovations; noise exceeds it in 1 of 400 cases */
+static const double max_end_slope = 0.9;   /* largest slope at the end over the steepest slope */
+static const double straight_share = 0.75; /* share of the force at the steepest slope */
 
 typedef residual_blocks blocks;
-typedef double waves[COSINES][BLOCKS_HISTORY];
+typedef double cosine_table[COSINES][BLOCKS_HISTORY];
 
 /* Tabulates cosines over the window, and zeros before it. */
-static void make_waves(const blocks *b, waves to)
+static void tabulate_cosines(const blocks *b, cosine_table to)
 {
-    memset(to, 0, sizeof(waves));
+    memset(to, 0, sizeof(cosine_table));
     for (size_t j = 0; j < COSINES; j++) {
         double *wave = to[j] + MAX_ORDER;
         const double angle = M_PI * (double)(j + 1) / (double)b->n, twice = 2.0 * cos(angle);
@@ -51,23 +51,24 @@ static void make_waves(const blocks *b, waves to)
     }
 }
 
-WIDE_REGISTERS static double contact_residual_chance(const blocks *b, waves wave, double *statistic)
+WIDE_REGISTERS static double contact_residual_chance(const blocks *b, cosine_table wave,
+                                                     double *statistic)
 {
     double store[MAX_COLUMNS][WINDOW], r[WINDOW], *columns[MAX_COLUMNS];
-    size_t n = 0, counted;
+    size_t n = 0, n_counted;
     residual_blocks_whiten(b, b->r, b->n_before, b->n, r);
     for (; n < b->n_columns; n++)
         residual_blocks_whiten(b, b->column[n], MAX_ORDER, b->n, store[n]);
     for (size_t j = 0; j < COSINES; j++, n++)
         residual_blocks_whiten(b, wave[j], MAX_ORDER, b->n, store[n]);
-    residual_blocks_leave_out_gap(b, r);
+    residual_blocks_zero_gap(b, r);
     for (size_t c = 0; c < n; c++) {
-        residual_blocks_leave_out_gap(b, store[c]);
+        residual_blocks_zero_gap(b, store[c]);
         columns[c] = store[c];
     }
-    const double taken = residual_project_out(r, columns, n, b->n_columns, b->n, &counted);
-    *statistic = counted > 0 ? taken / (double)counted / b->innovation : 0.0;
-    return gsl_cdf_fdist_Q(*statistic, (double)counted, b->freedom);
+    const double explained = residual_orthogonalise(r, columns, n, b->n_columns, b->n, &n_counted);
+    *statistic = n_counted > 0 ? explained / (double)n_counted / b->innovation : 0.0;
+    return gsl_cdf_fdist_Q(*statistic, (double)n_counted, b->freedom);
 }
 
 static double baseline_residual_chance(const blocks *b)
@@ -75,7 +76,7 @@ static double baseline_residual_chance(const blocks *b)
     double power[4][BEFORE], store[4][BEFORE], r[BEFORE];
     double *const columns[4] = {store[0], store[1], store[2], store[3]};
     const size_t skip = b->order, n = b->n_before - skip;
-    size_t counted;
+    size_t n_counted;
     for (size_t i = 0; i < b->n_before; i++) {
         const double x = 2.0 * (double)i / (double)(b->n_before - 1) - 1.0;
         power[0][i] = 1.0;
@@ -85,27 +86,28 @@ static double baseline_residual_chance(const blocks *b)
     for (int c = 0; c < 4; c++)
         residual_blocks_whiten(b, power[c], skip, n, store[c]);
     residual_blocks_whiten(b, b->r, skip, n, r);
-    const double taken = residual_project_out(r, columns, 4, 2, n, &counted);
-    if (counted == 0)
+    const double explained = residual_orthogonalise(r, columns, 4, 2, n, &n_counted);
+    if (n_counted == 0)
         return 1.0;
-    return gsl_cdf_fdist_Q(taken / (double)counted / b->innovation, (double)counted, b->freedom);
+    return gsl_cdf_fdist_Q(explained / (double)n_counted / b->innovation, (double)n_counted,
+                           b->freedom);
 }
 
 /* Curvature of a parabola through the last n of N whitened blocks, in standard deviations of the
  * innovation, with its sign. */
-WIDE_REGISTERS static double bend_of(const blocks *b, const double *force, double (*column)[WINDOW],
-                                     size_t n)
+WIDE_REGISTERS static double top_curvature(const blocks *b, const double *force,
+                                           double (*column)[WINDOW], size_t n)
 {
     double x[WINDOW], power[3][WINDOW], bend = 0.0;
     memcpy(x, force + b->n - n, n * sizeof *x);
     for (size_t k = 0; k < 3; k++) {
         memcpy(power[k], column[k] + b->n - n, n * sizeof *x);
         for (size_t d = 0; d < k; d++)
-            residual_remove_along(power[d], power[k], n);
+            residual_subtract_projection(power[d], power[k], n);
         const double norm = sqrt(curve_dot(power[k], power[k], n));
         for (size_t i = 0; i < n; i++)
             power[k][i] /= norm;
-        bend = residual_remove_along(power[k], x, n);
+        bend = residual_subtract_projection(power[k], x, n);
     }
     return bend / sqrt(b->innovation);
 }
@@ -113,7 +115,7 @@ WIDE_REGISTERS static double bend_of(const blocks *b, const double *force, doubl
 /* Tests the flattening against the height, because samples may be missing and a piezo may slow
  * down. */
 WIDE_REGISTERS static void find_flat_top(const curve_law *m, const double p[N], const blocks *b,
-                                         curve_lack *lack)
+                                         curve_misfit_test *lack)
 {
     enum { ALL = MAX_ORDER + WINDOW };
     const curve_samples *s = m->samples;
@@ -132,7 +134,7 @@ WIDE_REGISTERS static void find_flat_top(const curve_law *m, const double p[N], 
     for (size_t k = 0; k < 3; k++)
         residual_blocks_whiten(b, power[k], MAX_ORDER, b->n, column[k]);
     for (size_t top = 1; top <= TOPS; top++)
-        most = fmax(most, -bend_of(b, white, column, top * b->n / 8));
+        most = fmax(most, -top_curvature(b, white, column, top * b->n / 8));
     double slope = 0.0;
     for (size_t i = MAX_ORDER; i + 3 < all; i++) {
         const double moved = power[1][i + 3] - power[1][i];
@@ -141,19 +143,20 @@ WIDE_REGISTERS static void find_flat_top(const curve_law *m, const double p[N], 
         slope = (force[i + 3] - force[i]) / moved;
         if (slope > steepest) {
             steepest = slope;
-            lack->flat_from = still_straight * (0.5 * (force[i + 3] + force[i]) - p[CURVE_F0]);
+            lack->flat_from = straight_share * (0.5 * (force[i + 3] + force[i]) - p[CURVE_F0]);
         }
     }
-    const bool flat = most > least_bend && slope < less_steep * steepest; /* slope at the end */
+    const bool flat =
+        most > min_curvature && slope < max_end_slope * steepest; /* slope at the end */
     lack->flat_chance = flat ? 0.5 * TOPS * gsl_cdf_fdist_Q(most * most, 1.0, b->freedom) : 1.0;
 }
 
-curve_lack curve_lack_of_fit(const curve_law *m, const double p[N], const double *e)
+curve_misfit_test curve_lack_of_fit(const curve_law *m, const double p[N], const double *e)
 {
     blocks b;
-    waves wave;
+    cosine_table wave;
     const double unknown = (double)NAN;
-    curve_lack lack = {
+    curve_misfit_test lack = {
         .statistic = unknown, .chance = unknown, .baseline_p = unknown, .flat_chance = unknown};
     for (int j = 0; j < CURVE_WAVES; j++)
         lack.wave[j] = unknown;
@@ -162,11 +165,11 @@ curve_lack curve_lack_of_fit(const curve_law *m, const double p[N], const double
         return lack;
     const size_t history = b.n_before < MAX_ORDER ? b.n_before : MAX_ORDER;
     lack.window = b.travel;
-    if (b.n_before >= BLOCKS_LEAST)
+    if (b.n_before >= BLOCKS_MIN_BASELINE)
         lack.baseline_p = baseline_residual_chance(&b);
     if (history == MAX_ORDER)
         find_flat_top(m, p, &b, &lack);
-    make_waves(&b, wave);
+    tabulate_cosines(&b, wave);
     lack.chance = contact_residual_chance(&b, wave, &lack.statistic);
     for (size_t j = 0; j < CURVE_WAVES; j++)
         lack.wave[j] = 2.0 / (double)b.n * curve_dot(b.r + b.n_before, wave[j] + MAX_ORDER, b.n);

@@ -27,7 +27,7 @@ enum { HALVES = 60 }; /* more than the binary digits of a double */
 /* Relative error of the predicted change over depth. The law is accurate to 2 % of the modulus for
  * a ratio of 3, which is 2 % of the change. The contact point, fitted together with the slope,
  * increases it up to threefold. */
-static const double law_share = 0.06;
+static const double law_error_share = 0.06;
 
 /* Finds ln(E1/E2) of a layer with ln(E_app/E2) = log_ratio at x = contact radius over thickness.
  * The result is NaN outside the range of the law. */
@@ -36,25 +36,27 @@ static double layer_log_ratio(double log_ratio, double x)
     double low = -2.0, high = 2.0; /* beyond the range of the law */
     for (int i = 0; i < HALVES; i++) {
         const double middle = 0.5 * (low + high);
-        const double apparent = middle + log(thin_layer_apparent(exp(middle), x));
+        const double apparent = middle + log(thin_layer_apparent_modulus(exp(middle), x));
         *(apparent < log_ratio ? &low : &high) = middle;
     }
-    return thin_layer_holds(exp(low), x) ? low : (double)NAN;
+    return thin_layer_is_valid(exp(low), x) ? low : (double)NAN;
 }
 
 double wt_layer_modulus(const wt_layer_profile *profile, double ratio, double thickness,
                         double contact_radius)
 {
-    const double of_layer = layer_log_ratio(log(ratio), profile->contact_radius / thickness);
-    const double layer = exp(of_layer), x = contact_radius / thickness;
-    return !isnan(of_layer) && thin_layer_holds(layer, x) ? layer * thin_layer_apparent(layer, x)
-                                                          : (double)NAN;
+    const double layer_log_modulus =
+        layer_log_ratio(log(ratio), profile->contact_radius / thickness);
+    const double layer = exp(layer_log_modulus), x = contact_radius / thickness;
+    return !isnan(layer_log_modulus) && thin_layer_is_valid(layer, x)
+               ? layer * thin_layer_apparent_modulus(layer, x)
+               : (double)NAN;
 }
 
 /* Change of ln of the modulus over depth that two rubbers under one tip may differ by without a
  * layer (relaxation, weak adhesion). It equals the error due to the choice of a law elsewhere
  * (depth_pool.c). */
-static const double unlike = 0.01;
+static const double material_difference = 0.01;
 
 /* Thickness with the fit of its law; the first is infinite. */
 typedef struct layer_step {
@@ -71,11 +73,11 @@ typedef struct layer_test {
     layer_step step[WT_LAYER_STEPS];
 } layer_test;
 
-static const double by_slope[DEPTH_PARAMETERS] = {[DEPTH_SLOPE] =
-                                                      1.0}; /* derivatives of the slope itself */
+static const double slope_gradient[DEPTH_PARAMETERS] = {
+    [DEPTH_SLOPE] = 1.0}; /* derivatives of the slope itself */
 
 /* Derivative of the slope of the track by ln of the ratio. */
-static double gain_of_ratio(depth_mean *m, const depth_fit *fit)
+static double ratio_sensitivity(depth_mean *m, const depth_fit *fit)
 {
     const double at = m->tie.log_ratio, step = 1e-4;
     double more[CURVE_WAVES], less[CURVE_WAVES];
@@ -88,26 +90,27 @@ static double gain_of_ratio(depth_mean *m, const depth_fit *fit)
     m->tie.log_ratio = at;
     for (size_t i = 0; i < CURVE_WAVES; i++)
         more[i] = (more[i] - less[i]) / (2.0 * step);
-    return -depth_share_of(m, fit, by_slope, more);
+    return -depth_projection(m, fit, slope_gradient, more);
 }
 
 /* Difference of the additional slope to that of the bulk as a standard normal deviate. `excess` is
  * the smallest lack of fit over all thicknesses, because that of a wrong thickness is no error. */
-static double deviate_of(layer_test *t, const layer_step *step, double excess)
+static double slope_deviate(layer_test *t, const layer_step *step, double excess)
 {
     depth_pool *track = &t->arena[1];
     depth_fit for_all = step->fit;
     const depth_fit *const fit = &for_all;
     for_all.excess = excess;
     track->mean.tie = step->tie;
-    const depth_value v =
-        depth_value_of(track, fit, fit->p[DEPTH_SLOPE], by_slope, false, DEPTH_MORE_SHALLOW);
-    const double of_law = law_share * (fit->p[DEPTH_SLOPE] - t->step[0].fit.p[DEPTH_SLOPE]);
-    const double of_ratio = fabs(gain_of_ratio(&track->mean, fit)) * t->log_ratio.standard_error;
+    const depth_value v = depth_estimate(track, fit, fit->p[DEPTH_SLOPE], slope_gradient, false,
+                                         DEPTH_SHALLOW_FACTOR);
+    const double of_law = law_error_share * (fit->p[DEPTH_SLOPE] - t->step[0].fit.p[DEPTH_SLOPE]);
+    const double of_ratio =
+        fabs(ratio_sensitivity(&track->mean, fit)) * t->log_ratio.standard_error;
     const t_error parts[] = {v.scatter, t->bulk.scatter, {of_ratio, t->ratio_df}};
     const double shared = pow(v.bend - t->bulk.bend, 2) + pow(v.loss - t->bulk.loss, 2) +
-                          of_law * of_law + unlike * unlike;
-    const t_error error = t_error_with(t_error_sum(parts, COUNT_OF(parts)), shared);
+                          of_law * of_law + material_difference * material_difference;
+    const t_error error = t_error_add_normal(t_error_sum(parts, COUNT_OF(parts)), shared);
     const double ratio = (v.mean - t->bulk.mean) / error.error;
     const double most = 30.0; /* limit beyond the precision of the normal distribution */
     const double beyond = gsl_cdf_tdist_Q(fabs(ratio), error.df);
@@ -115,25 +118,26 @@ static double deviate_of(layer_test *t, const layer_step *step, double excess)
 }
 
 /* Fits the law at a thickness. Returns false outside its range or without convergence. */
-static bool take_step(layer_test *t, double log_thickness, layer_step *to, wt_error *err)
+static bool fit_thickness_step(layer_test *t, double log_thickness, layer_step *to, wt_error *err)
 {
     depth_mean *m = &t->arena[1].mean;
     const double reach = 0.5 * m->widest / exp(log_thickness);
-    const double of_layer = layer_log_ratio(t->log_ratio.value, reach);
-    if (isnan(of_layer))
+    const double layer_log_modulus = layer_log_ratio(t->log_ratio.value, reach);
+    if (isnan(layer_log_modulus))
         return false;
     m->tie = (depth_tie){reach, t->log_ratio.value};
-    const double start[] = {0.0, of_layer - t->log_ratio.value, 0.0};
+    const double start[] = {0.0, layer_log_modulus - t->log_ratio.value, 0.0};
     *to = (layer_step){m->tie, depth_fit_law(&t->arena[1], DEPTH_TIED, start, err)};
-    return to->fit.good &&
-           thin_layer_holds(exp(to->fit.p[DEPTH_LEVEL] + t->log_ratio.value), reach);
+    return to->fit.is_valid &&
+           thin_layer_is_valid(exp(to->fit.p[DEPTH_LEVEL] + t->log_ratio.value), reach);
 }
 
 /* ---- the interval ---------------------------------------------------------------------------- */
 
 /* Extends the interval by the allowed part between two steps, with linear interpolation of the
  * deviate. */
-static void add_allowed(const double x[2], const double z[2], double limit, double range[2])
+static void extend_allowed_range(const double x[2], const double z[2], double limit,
+                                 double range[2])
 {
     double ends[2] = {0.0, 1.0}; /* shares of the way from the first to the second step */
     const double slope = z[1] - z[0];
@@ -151,7 +155,7 @@ static void add_allowed(const double x[2], const double z[2], double limit, doub
 }
 
 /* Returns where the deviate is 0, or the step nearest to it. */
-static double root_of(const wt_layer_profile *p)
+static double find_zero_deviate(const wt_layer_profile *p)
 {
     size_t nearest = 0;
     for (size_t i = 1; i < p->n_steps; i++) {
@@ -167,37 +171,37 @@ static double root_of(const wt_layer_profile *p)
 /* Sets the interval. Thinner layers predict a larger change over depth, upwards for a soft layer.
  * If the thinnest layer is not allowed, it excludes all thinner ones only if its change is too
  * large. */
-static void judge(wt_layer_profile *p, double log_ratio)
+static void assess_profile(wt_layer_profile *p, double log_ratio)
 {
     const double limit = gsl_cdf_ugaussian_Pinv(0.975);
     double range[2] = {HUGE_VAL, -HUGE_VAL};
     const size_t last = p->n_steps - 1;
     for (size_t i = 1; i < p->n_steps; i++)
-        add_allowed(&p->log_thickness[i - 1], &p->deviate[i - 1], limit, range);
+        extend_allowed_range(&p->log_thickness[i - 1], &p->deviate[i - 1], limit, range);
     const bool soft = log_ratio < 0.0;
     const bool too_much = soft ? p->deviate[last] < -limit : p->deviate[last] > limit;
     const bool open_below =
         fabs(p->deviate[last]) <= limit || (!too_much && soft == (p->deviate[0] > 0));
     p->below = open_below;
-    const bool open_above = fabs(p->deviate[0]) <= limit, any = range[1] >= range[0];
+    const bool open_above = fabs(p->deviate[0]) <= limit, has_allowed = range[1] >= range[0];
     p->thickness = (wt_interval){.value = (double)NAN,
                                  .standard_error = (double)NAN,
                                  .low = open_below ? 0.0 : exp(range[0]),
-                                 .high = open_above ? (double)INFINITY
-                                         : any      ? exp(range[1])
-                                                    : p->least};
-    p->says = open_below && open_above ? WT_ALLOWS_ANY
-              : open_above             ? WT_ALLOWS_THICKER
-              : open_below             ? WT_ALLOWS_THINNER
-              : any                    ? WT_ALLOWS_BETWEEN
-                                       : WT_ALLOWS_NONE;
-    if (p->says == WT_ALLOWS_BETWEEN)
-        p->thickness.value = exp(root_of(p));
-    if (p->says == WT_ALLOWS_NONE)
+                                 .high = open_above    ? (double)INFINITY
+                                         : has_allowed ? exp(range[1])
+                                                       : p->least};
+    p->says = open_below && open_above ? WT_LAYER_BOUND_ANY
+              : open_above             ? WT_LAYER_BOUND_LOWER
+              : open_below             ? WT_LAYER_BOUND_UPPER
+              : has_allowed            ? WT_LAYER_BOUND_BOTH
+                                       : WT_LAYER_BOUND_EMPTY;
+    if (p->says == WT_LAYER_BOUND_BOTH)
+        p->thickness.value = exp(find_zero_deviate(p));
+    if (p->says == WT_LAYER_BOUND_EMPTY)
         p->thickness.low = p->thickness.high = (double)NAN;
 }
 
-static wt_status make_profile(layer_test *t, wt_layer_profile *p, wt_error *err)
+static wt_status compute_profile(layer_test *t, wt_layer_profile *p, wt_error *err)
 {
     const double start[DEPTH_PARAMETERS] = {0.0};
     wt_error failure = WT_ERROR_INIT;
@@ -205,25 +209,25 @@ static wt_status make_profile(layer_test *t, wt_layer_profile *p, wt_error *err)
                     line = depth_fit_law(&t->arena[1], DEPTH_LINE, start, &failure);
     const double top = log(thickest * p->contact_radius), end = log(thinnest * p->contact_radius);
     const double ratio = (end - top) / (WT_LAYER_STEPS - 1);
-    if (bulk.good && line.good) {
-        t->bulk = depth_value_of(&t->arena[0], &bulk, bulk.p[DEPTH_SLOPE], by_slope, false,
-                                 DEPTH_MORE_SHALLOW);
+    if (bulk.is_valid && line.is_valid) {
+        t->bulk = depth_estimate(&t->arena[0], &bulk, bulk.p[DEPTH_SLOPE], slope_gradient, false,
+                                 DEPTH_SHALLOW_FACTOR);
         p->log_thickness[0] = top;
         t->step[0].fit = line; /* nearly infinite */
         p->n_steps = 1;
     }
     if (p->n_steps == 1 && isnan(layer_log_ratio(t->log_ratio.value, 0.0)))
-        p->says = WT_ALLOWS_BEYOND;
+        p->says = WT_LAYER_BOUND_OUTSIDE_LAW;
     double excess = line.excess;
     for (size_t i = 1; p->n_steps == i && i < WT_LAYER_STEPS; i++) {
         p->log_thickness[i] = top + ratio * (double)i;
-        if (take_step(t, p->log_thickness[i], &t->step[i], &failure)) {
+        if (fit_thickness_step(t, p->log_thickness[i], &t->step[i], &failure)) {
             excess = fmin(excess, t->step[i].fit.excess);
             p->n_steps++;
         }
     }
     for (size_t i = 0; i < p->n_steps; i++)
-        p->deviate[i] = deviate_of(t, &t->step[i], excess);
+        p->deviate[i] = slope_deviate(t, &t->step[i], excess);
     if (failure.status != WT_OK) {
         if (err != NULL)
             *err = failure;
@@ -232,14 +236,14 @@ static wt_status make_profile(layer_test *t, wt_layer_profile *p, wt_error *err)
     if (p->n_steps < 2)
         return WT_OK;
     p->least = exp(p->log_thickness[p->n_steps - 1]);
-    judge(p, t->log_ratio.value);
+    assess_profile(p, t->log_ratio.value);
     return WT_OK;
 }
 
-wt_status wt_layer_profile_make(const wt_contact_table *const table[2], double poisson_ratio,
-                                const wt_depth_curve *const curve[2], const size_t n[2],
-                                wt_estimate log_ratio, double ratio_df, wt_layer_profile *profile,
-                                wt_error *err)
+wt_status wt_layer_profile_compute(const wt_contact_table *const table[2], double poisson_ratio,
+                                   const wt_curve_residuals *const curve[2], const size_t n[2],
+                                   wt_estimate log_ratio, double ratio_df,
+                                   wt_layer_profile *profile, wt_error *err)
 {
     arena memory = {0};
     layer_test t = {.log_ratio = log_ratio, .ratio_df = ratio_df};
@@ -248,18 +252,18 @@ wt_status wt_layer_profile_make(const wt_contact_table *const table[2], double p
     *profile = (wt_layer_profile){.thickness = {(double)NAN, (double)NAN, (double)NAN, (double)NAN},
                                   .least = (double)NAN};
     for (int g = 0; g < 2; g++) {
-        depth_pool_make(&t.arena[g], table[g], poisson_ratio, curve[g], n[g], &memory);
+        depth_pool_create(&t.arena[g], table[g], poisson_ratio, curve[g], n[g], &memory);
         profile->n[g] = t.arena[g].n;
         profile->n_units[g] = t.arena[g].n_units;
         thick = thick && !(contact_table_tip(table[g])->sample_thickness > 0.0);
     }
     if (memory.failed) {
         status = wt_fail(err, WT_E_MEMORY, "out of memory");
-    } else if (t.arena[0].known && t.arena[1].known && thick && isfinite(log_ratio.value) &&
+    } else if (t.arena[0].has_mean && t.arena[1].has_mean && thick && isfinite(log_ratio.value) &&
                log_ratio.standard_error >= 0.0) {
         profile->depth = t.arena[1].mean.depth;
         profile->contact_radius = 0.5 * t.arena[1].mean.widest;
-        status = make_profile(&t, profile, err);
+        status = compute_profile(&t, profile, err);
     }
     arena_free(&memory);
     return status;

@@ -20,10 +20,11 @@ enum { N = CURVE_N_PARAMETERS, MAX_ITERATIONS = 60, MAX_ADHESIVE = 25 };
 
 /* p values of a straight baseline below which it is reported as bent, and below which the errors
  * include it. */
-static const double bent_chance = 0.01, perhaps_bent = 0.05;
+static const double bent_chance = 0.01, possible_bend_chance = 0.05;
 
 /* Solves (J'J + damping diag) x = y for several y with columns scaled to 1. */
-static bool solve(const normal_equations *e, double damping, double (*y)[N], size_t n_y)
+static bool solve_normal_equations(const normal_equations *e, double damping, double (*y)[N],
+                                   size_t n_y)
 {
     double scaled[N * N], scale[N];
     for (size_t a = 0; a < N; a++) {
@@ -49,7 +50,7 @@ static bool solve(const normal_equations *e, double damping, double (*y)[N], siz
     return true;
 }
 
-static double dot(const double a[N], const double b[N])
+static double parameter_dot(const double a[N], const double b[N])
 {
     double sum = 0.0;
     for (size_t i = 0; i < N; i++)
@@ -61,38 +62,39 @@ static double dot(const double a[N], const double b[N])
 static const double least_step = 1e-5;
 
 /* Factor on the smallest decrease for approximate convergence: a thousandth of a standard error. */
-static const double nearly = 1e4;
-static const double stuck = 1e8; /* a tenth of a standard error */
-static const double at_kink =
+static const double near_minimum_factor = 1e4;
+static const double stalled_factor = 1e8; /* a tenth of a standard error */
+static const double kink_factor =
     1e10; /* one standard error; limit of the gain that a sample at a kink prevents */
 static const double least_damping = 1e-3;
 /* Largest ratio of the decrease of the cost in a whole fit to the predicted decrease of a step.
  * Near convergence it is one, also with a jump shifted by one sample. */
-static const double most_promises = 10.0;
+static const double max_promise_factor = 10.0;
 
-static double by_step(const curve_samples *s, double cost)
+static double step_cost(const curve_samples *s, double cost)
 {
     return least_step * least_step / (double)s->n * cost;
 }
 
-WIDE_REGISTERS static double by_rounding(const curve_samples *s)
+WIDE_REGISTERS static double rounding_cost(const curve_samples *s)
 {
     return 1e-28 * curve_dot(s->force, s->force, s->n);
 }
 
-static double cost_at(curve_law *m, const double p[N], const curve_wave *wave)
+static double evaluate_cost(curve_law *m, const double p[N], const curve_wave *wave)
 {
     const double cost = curve_model_cost(m, p);
     return m->wave ? curve_wave_cost(m, p, wave) : cost;
 }
 
 /* Parameters of the wave after a step of the other parameters. */
-static curve_wave wave_after(const curve_law *m, const curve_wave *wave, const wave_step *alone,
-                             const double step[N], double damping)
+static curve_wave step_wave(const curve_law *m, const curve_wave *wave, const wave_step *wave_only,
+                            const double step[N], double damping)
 {
     curve_wave to = *wave;
     for (size_t j = 0; j < WAVE_PARAMETERS && m->wave; j++)
-        to.p[j] += alone->step[j] / (1.0 + damping) - dot(m->imitated[j], step);
+        to.p[j] +=
+            wave_only->step[j] / (1.0 + damping) - parameter_dot(m->wave_projection[j], step);
     return to;
 }
 
@@ -100,64 +102,65 @@ static curve_wave wave_after(const curve_law *m, const curve_wave *wave, const w
 static bool minimise(curve_law *m, double p[N], curve_wave *wave, double *cost)
 {
     const curve_samples *s = m->samples;
-    double expected = (double)INFINITY, kept = 0.0; /* damping at the start of a step */
-    const double rounding = by_rounding(s), close = m->rough ? nearly : 1.0;
-    wave_step alone = {.gain = 0.0};
+    double expected = (double)INFINITY, kept_damping = 0.0; /* damping at the start of a step */
+    const double rounding = rounding_cost(s), close = m->is_approximate ? near_minimum_factor : 1.0;
+    wave_step wave_only = {.gain = 0.0};
     curve_model_start(m, p);
-    *cost = cost_at(m, p, wave);
+    *cost = evaluate_cost(m, p, wave);
     for (int iteration = 0; iteration < (m->adhesive ? MAX_ADHESIVE : MAX_ITERATIONS);
          iteration++) {
         normal_equations e;
-        if (m->wave && !curve_wave_imitate(m, p, &alone))
+        if (m->wave && !curve_wave_project(m, p, &wave_only))
             return false;
         curve_model_normal(m, p, &e);
         bool moved = false;
         for (double damping = 0.0; !moved;
-             damping = damping > 0.0 ? 10.0 * damping : fmax(kept, least_damping)) {
+             damping = damping > 0.0 ? 10.0 * damping : fmax(kept_damping, least_damping)) {
             double step[1][N], trial[N];
             memcpy(step[0], e.jr, sizeof e.jr);
-            bool solved = solve(&e, damping, step, 1);
+            bool solved = solve_normal_equations(&e, damping, step, 1);
             if (damping == 0.0) {
-                expected = solved ? dot(step[0], e.jr) + alone.gain : (double)INFINITY;
-                if (expected <= close * by_step(s, *cost) || expected <= rounding)
+                expected =
+                    solved ? parameter_dot(step[0], e.jr) + wave_only.gain : (double)INFINITY;
+                if (expected <= close * step_cost(s, *cost) || expected <= rounding)
                     return true;
-                if (*cost - most_promises * expected > m->below && m->below > 0.0)
+                if (*cost - max_promise_factor * expected > m->cost_limit && m->cost_limit > 0.0)
                     return false;
             }
             for (size_t a = 0; a < N; a++)
                 trial[a] = p[a] + step[0][a];
-            const curve_wave trial_wave = wave_after(m, wave, &alone, step[0], damping);
+            const curve_wave trial_wave = step_wave(m, wave, &wave_only, step[0], damping);
             const double before = *cost;
-            const bool near = expected < fmax(1e-9 * before, 1e-14 * m->ff);
-            const bool too_far = damping == 0.0 && kept > 0.0 && !near;
-            if (solved && !too_far && trial[CURVE_E] > 0.0 && trial[CURVE_W] >= 0.0 &&
+            const bool is_near_minimum = expected < fmax(1e-9 * before, 1e-14 * m->ff);
+            const bool is_too_long = damping == 0.0 && kept_damping > 0.0 && !is_near_minimum;
+            if (solved && !is_too_long && trial[CURVE_E] > 0.0 && trial[CURVE_W] >= 0.0 &&
                 (!m->wave || trial_wave.p[WAVE_NUMBER] > 0.0)) {
-                double trial_cost = cost_at(m, trial, &trial_wave);
+                double trial_cost = evaluate_cost(m, trial, &trial_wave);
                 /* Near the minimum the decrease is below the rounding error of the cost. */
-                if (trial_cost < before || (damping == 0.0 && near)) {
+                if (trial_cost < before || (damping == 0.0 && is_near_minimum)) {
                     *cost = trial_cost;
                     memcpy(p, trial, sizeof trial);
                     *wave = trial_wave;
                     moved = true;
-                    if (damping <= kept) /* accepted at the first attempt */
-                        kept = 0.1 * damping < least_damping ? 0.0 : 0.1 * damping;
+                    if (damping <= kept_damping) /* accepted at the first attempt */
+                        kept_damping = 0.1 * damping < least_damping ? 0.0 : 0.1 * damping;
                     else
-                        kept = damping;
+                        kept_damping = damping;
                 }
             }
             /* A kink, where a sample pulls off, prevents any further decrease, however large the
              * predicted one. */
             if (moved && m->adhesive && damping > 0.0 &&
-                before - *cost < stuck * by_step(s, before))
-                return expected <= at_kink * by_step(s, before);
+                before - *cost < stalled_factor * step_cost(s, before))
+                return expected <= kink_factor * step_cost(s, before);
             if (damping > 1e8) { /* no descent: converged within rounding unless a larger decrease
                                     was predicted */
-                *cost = cost_at(m, p, wave);
+                *cost = evaluate_cost(m, p, wave);
                 return expected <= 1e6 * rounding;
             }
         }
     }
-    return expected <= nearly * by_step(s, *cost);
+    return expected <= near_minimum_factor * step_cost(s, *cost);
 }
 
 static size_t first_contact(const curve_law *m, const double p[N])
@@ -169,7 +172,7 @@ static size_t first_contact(const curve_law *m, const double p[N])
     return first;
 }
 
-WIDE_REGISTERS static void statistics(const curve_law *m, curve_solution *s)
+WIDE_REGISTERS static void compute_statistics(const curve_law *m, curve_solution *s)
 {
     const curve_samples *samples = m->samples;
     wt_indent_workspace *w = m->workspace;
@@ -199,7 +202,7 @@ WIDE_REGISTERS static void statistics(const curve_law *m, curve_solution *s)
     s->lack = curve_lack_of_fit(m, p, w->scratch);
     s->bent = s->lack.baseline_p < bent_chance;
     const curve_noise noise =
-        curve_noise_of(m, p, w->scratch, first, s->lack.baseline_p < perhaps_bent);
+        curve_estimate_noise(m, p, w->scratch, first, s->lack.baseline_p < possible_bend_chance);
     s->noise = sqrt(noise.variance);
     s->correlation_length = noise.correlation_length;
     s->effective_n = (double)(n - (samples->gap_to - samples->gap_from)) / noise.correlation_length;
@@ -209,7 +212,7 @@ WIDE_REGISTERS static void statistics(const curve_law *m, curve_solution *s)
         inverse[a][a] = 1.0;
     memcpy(inverse[N], gain, sizeof gain);
     memcpy(inverse[N + 1], e.jr, sizeof e.jr); /* step to the minimum */
-    bool solved = solve(&e, 0.0, inverse, N + 2);
+    bool solved = solve_normal_equations(&e, 0.0, inverse, N + 2);
     for (size_t a = 0; a < N; a++) {
         double variance = 0.0;
         for (size_t b = 0; b < N; b++)
@@ -218,16 +221,17 @@ WIDE_REGISTERS static void statistics(const curve_law *m, curve_solution *s)
         s->standard_error[a] = !m->free[a] ? 0.0 : solved ? sqrt(variance) : (double)NAN;
     }
     /* A step with a smaller predicted decrease changes the modulus by less. */
-    const double allowed = fmax(by_step(samples, s->cost), by_rounding(samples));
+    const double allowed = fmax(step_cost(samples, s->cost), rounding_cost(samples));
     s->step_allowed = sqrt(allowed * inverse[CURVE_E][CURVE_E]) / p[CURVE_E];
-    s->step_left = sqrt(dot(inverse[N + 1], e.jr) * inverse[CURVE_E][CURVE_E]) / p[CURVE_E];
+    s->step_left =
+        sqrt(parameter_dot(inverse[N + 1], e.jr) * inverse[CURVE_E][CURVE_E]) / p[CURVE_E];
     s->curvature = noise.curvature;
-    s->bend_shift = solved ? dot(inverse[CURVE_E], noise.bend) : (double)NAN;
+    s->bend_shift = solved ? parameter_dot(inverse[CURVE_E], noise.bend) : (double)NAN;
     s->sensitivity_gain = solved ? inverse[N][CURVE_E] / p[CURVE_E] : (double)NAN;
 }
 
-curve_law curve_law_of(const wt_contact_table *table, const curve_samples *samples,
-                       const curve_kind *kind, wt_indent_workspace *workspace)
+curve_law curve_law_create(const wt_contact_table *table, const curve_samples *samples,
+                           const curve_kind *kind, wt_indent_workspace *workspace)
 {
     return (curve_law){.table = table,
                        .samples = samples,
@@ -238,8 +242,8 @@ curve_law curve_law_of(const wt_contact_table *table, const curve_samples *sampl
                        .constant_pull = kind->constant_pull,
                        .memory = kind->memory && !kind->adhesive,
                        .wave = curve_has_wave(&kind->wave),
-                       .rough = kind->rough && !curve_has_wave(&kind->wave),
-                       .below = kind->below,
+                       .is_approximate = kind->is_approximate && !curve_has_wave(&kind->wave),
+                       .cost_limit = kind->cost_limit,
                        .jump = kind->jump};
 }
 
@@ -247,36 +251,37 @@ void curve_law_evaluate(curve_law *m, const double p[N], const curve_wave *wave)
 {
     wave_step ignored;
     curve_model_resume(m, p);
-    (void)cost_at(m, p, wave);
+    (void)evaluate_cost(m, p, wave);
     if (m->wave)
-        (void)curve_wave_imitate(m, p, &ignored);
+        (void)curve_wave_project(m, p, &ignored);
     curve_model_complete(m, p);
 }
 
 /* Variant of curve_refine for one kind of wave, or without a wave. */
-static void refine_one(const wt_contact_table *table, const curve_samples *samples,
-                       const curve_kind *kind, const double p[N], wt_indent_workspace *workspace,
-                       curve_solution *solution)
+static void refine_single_kind(const wt_contact_table *table, const curve_samples *samples,
+                               const curve_kind *kind, const double p[N],
+                               wt_indent_workspace *workspace, curve_solution *solution)
 {
-    curve_law m = curve_law_of(table, samples, kind, workspace);
+    curve_law m = curve_law_create(table, samples, kind, workspace);
     curve_solution s = {.p = {p[CURVE_E], p[CURVE_C], p[CURVE_F0], kind->tilt ? p[CURVE_T] : 0.0,
                               kind->adhesive ? p[CURVE_W] : 0.0},
                         .wave = kind->wave};
     wave_step ignored;
     s.converged = minimise(&m, s.p, &s.wave, &s.cost);
     if (m.wave)
-        s.converged = curve_wave_imitate(&m, s.p, &ignored) && s.converged;
+        s.converged = curve_wave_project(&m, s.p, &ignored) && s.converged;
     s.first_contact = first_contact(&m, s.p);
-    if (!m.rough && !kind->no_errors) {
+    if (!m.is_approximate && !kind->no_errors) {
         curve_model_complete(&m, s.p);
-        statistics(&m, &s);
+        compute_statistics(&m, &s);
     }
     *solution = s;
 }
 
 /* Score test of one difference at the latest evaluation. */
-static bool score_one(const curve_law *m, const curve_solution *at, const normal_equations *e,
-                      const double *difference, curve_step *to)
+static bool score_difference(const curve_law *m, const curve_solution *at,
+                             const normal_equations *e, const double *difference,
+                             curve_score_result *to)
 {
     const curve_samples *s = m->samples;
     double towards[N] = {0.0}, along[1][N], row[N], dd = 0.0, dr = 0.0;
@@ -291,10 +296,10 @@ static bool score_one(const curve_law *m, const curve_solution *at, const normal
             towards[a] += row[a] * d;
     }
     memcpy(along[0], towards, sizeof towards);
-    if (!solve(e, 0.0, along, 1))
+    if (!solve_normal_equations(e, 0.0, along, 1))
         return false;
-    dd -= dot(along[0], towards);
-    dr -= dot(along[0], e->jr);
+    dd -= parameter_dot(along[0], towards);
+    dr -= parameter_dot(along[0], e->jr);
     if (!(dd > 0.0) || !(dr * dr / dd < at->cost))
         return false;
     to->share = dr / dd;
@@ -305,18 +310,18 @@ static bool score_one(const curve_law *m, const curve_solution *at, const normal
 
 void curve_score(const wt_contact_table *table, const curve_samples *samples,
                  const curve_kind *kind, const curve_solution *at, double *const *difference,
-                 size_t n, wt_indent_workspace *workspace, curve_step *to)
+                 size_t n, wt_indent_workspace *workspace, curve_score_result *to)
 {
-    curve_law m = curve_law_of(table, samples, kind, workspace);
+    curve_law m = curve_law_create(table, samples, kind, workspace);
     normal_equations e;
     curve_law_evaluate(&m, at->p, &at->wave);
     curve_model_normal(&m, at->p, &e);
     for (size_t j = 0; j < n; j++)
-        if (!score_one(&m, at, &e, difference[j], &to[j]))
-            to[j] = (curve_step){0.0, 0.0, 0.0};
+        if (!score_difference(&m, at, &e, difference[j], &to[j]))
+            to[j] = (curve_score_result){0.0, 0.0, 0.0};
 }
 
-static bool better(const curve_solution *a, const curve_solution *b)
+static bool is_better_solution(const curve_solution *a, const curve_solution *b)
 {
     return a->converged && (!b->converged || a->cost < b->cost);
 }
@@ -325,30 +330,34 @@ void curve_refine(const wt_contact_table *table, const curve_samples *samples, c
                   const double p[N], wt_indent_workspace *workspace, curve_solution *solution)
 {
     if (!curve_has_wave(&kind.wave)) {
-        refine_one(table, samples, &kind, p, workspace, solution);
+        refine_single_kind(table, samples, &kind, p, workspace, solution);
         return;
     }
-    curve_solution way[2], other; /* wave as a function of tip position, and of height */
+    curve_solution solution_by_kind[2],
+        other; /* wave as a function of tip position, and of height */
     for (int h = 0; h < 2; h++) {
         kind.wave.by_height = h;
-        refine_one(table, samples, &kind, p, workspace, &way[h]);
+        refine_single_kind(table, samples, &kind, p, workspace, &solution_by_kind[h]);
     }
     for (int h = 0; h < 2;
          h++) { /* starts from the other solution, because there are several minima */
         curve_kind from = kind;
-        from.wave = way[1 - h].wave;
+        from.wave = solution_by_kind[1 - h].wave;
         from.wave.by_height = h;
-        refine_one(table, samples, &from, way[1 - h].p, workspace, &other);
-        way[h] = better(&other, &way[h]) ? other : way[h];
+        refine_single_kind(table, samples, &from, solution_by_kind[1 - h].p, workspace, &other);
+        solution_by_kind[h] =
+            is_better_solution(&other, &solution_by_kind[h]) ? other : solution_by_kind[h];
     }
-    const double chi2 = way[0].effective_n * log(way[1].cost / way[0].cost);
-    const int best = better(&way[1], &way[0]);
-    kind.wave = way[best].wave; /* restores the workspace of the solution */
-    refine_one(table, samples, &kind, way[best].p, workspace, solution);
+    const double chi2 =
+        solution_by_kind[0].effective_n * log(solution_by_kind[1].cost / solution_by_kind[0].cost);
+    const int best = is_better_solution(&solution_by_kind[1], &solution_by_kind[0]);
+    kind.wave = solution_by_kind[best].wave; /* restores the workspace of the solution */
+    refine_single_kind(table, samples, &kind, solution_by_kind[best].p, workspace, solution);
     const double share = 1.0 / (1.0 + exp(0.5 * fabs(chi2))); /* likelihood of the other kind */
     for (size_t a = 0; a < N; a++)
         solution->standard_error[a] =
-            hypot(solution->standard_error[a], sqrt(share) * (way[0].p[a] - way[1].p[a]));
+            hypot(solution->standard_error[a],
+                  sqrt(share) * (solution_by_kind[0].p[a] - solution_by_kind[1].p[a]));
 }
 
 double curve_weights(const wt_contact_table *table, const curve_samples *samples,
@@ -357,7 +366,7 @@ double curve_weights(const wt_contact_table *table, const curve_samples *samples
     enum { MOST = 64 }; /* nodes with linear interpolation; weights need no precision */
     const size_t n = samples->n < MOST ? samples->n : MOST;
     const double c = minimum->contact_point;
-    const double last = fmax(c, curve_span_of(samples->position, samples->n).high);
+    const double last = fmax(c, curve_find_span(samples->position, samples->n).high);
     double position[MOST], force[MOST] = {0.0}, weight[MOST + 1], largest = 1.0;
     const double step = (last - c) / (double)(n - 1);
     for (size_t i = 0; i < n; i++)

@@ -15,7 +15,7 @@
  * one more kind of discrepancy of known shape, with the same prior probability. It is excluded if
  * it is nearly equivalent to another modulus.
  *
- * Tips within the stated errors (tip_move of the workspace), and a detected pull that no law
+ * Tips within the stated errors (tip_variation of the workspace), and a detected pull that no law
  * includes, are further columns with a standard deviation of 1. A misfit that they explain is not
  * one of the law.
  *
@@ -53,26 +53,28 @@ enum {
 static const double length_median = 0.5, length_sd = 0.7;
 /* Largest discrepancy over the largest force; beyond it the law is meaningless. Only the prior
  * limits a discrepancy that the parameters explain. */
-static const double largest_size = 0.3;
+static const double max_size = 0.3;
 /* Largest discrepancy over the rms of the residual. The worst known case is the size of a tip: a
  * radius error of 1 to 15 % of a pyramid of 20 degrees changes the force by 60 times its residual.
  * A pull changes it by 3 times. */
-static const double most_hidden = 60.0;
+static const double max_hidden_ratio = 60.0;
 /* Largest change of the logarithm of a radius; makers state radii within a factor of two. */
-static const double largest_radius = 0.7;
-static const double of_radius =
+static const double max_log_radius = 0.7;
+static const double radius_probability =
     0.5; /* prior probability of a wrong radius among the discrepancies */
 static const double size_ratio = 2.5; /* ratio of trial sizes; the likelihoods are wider */
-static const double no_size = 0.01;   /* threshold of a likelihood below which the size is zero */
-static const double outside = 0.05;   /* probability outside a 95 % interval */
-static const double no_chance = 1e-4; /* probability below which a case is not in the interval */
+static const double negligible_size =
+    0.01; /* threshold of a likelihood below which the size is zero */
+static const double outside_probability = 0.05; /* probability outside a 95 % interval */
+static const double negligible_chance =
+    1e-4; /* probability below which a case is not in the interval */
 static const double error_step =
     0.01; /* relative tolerance of an error, which is reported with two digits */
 
 /* Prior probability that the law is correct. At 0.5 the intervals of correct laws are 1.2 to 1.5
  * times too wide; at 0.9 small misfits are missed. It hardly affects visible misfits. */
-static const double holds = 0.8;
-static const double to_be_seen =
+static const double law_probability = 0.8;
+static const double visible_force =
     3.0; /* in noise of a block; noise exceeds it in one of 700 cases */
 
 /* Square roots of the covariances of the coefficients for s = 1 (lower triangles), and prior
@@ -83,7 +85,7 @@ static struct {
 static pthread_once_t kernels_once = PTHREAD_ONCE_INIT;
 
 /* Computes the Legendre functions that are orthonormal on [0, 1]. */
-static void legendre(double x, double to[LEGENDRE])
+static void legendre_values(double x, double to[LEGENDRE])
 {
     const double y = 2.0 * x - 1.0;
     double before = 0.0, now = 1.0;
@@ -95,11 +97,11 @@ static void legendre(double x, double to[LEGENDRE])
     }
 }
 
-static void make_kernels(void)
+static void tabulate_kernels(void)
 {
     double at[NODES][LEGENDRE], at_distance[NODES], all = 0.0;
     for (int i = 0; i < NODES; i++)
-        legendre((i + 0.5) / NODES, at[i]);
+        legendre_values((i + 0.5) / NODES, at[i]);
     for (int l = 0; l < LENGTHS; l++) {
         const double node = l - 0.5 * (LENGTHS - 1), length = length_median * exp(length_sd * node);
         double a[M][M] = {{0.0}};
@@ -131,13 +133,13 @@ static void make_kernels(void)
 
 /* ---- sums of the data ------------------------------------------------------------------------ */
 
-typedef struct columns {
+typedef struct whitened_columns {
     double a[N][BLOCKS_WINDOW], b[M][BLOCKS_WINDOW], y[BLOCKS_WINDOW];
-} columns;
+} whitened_columns;
 
 /* Adds the blocks of the baseline to aa and ay. */
-static void add_baseline(const curve_law *m, const double p[N], const double *e,
-                         const residual_blocks *b, double aa[M][M], double ay[N])
+static void add_baseline_sums(const curve_law *m, const double p[N], const double *e,
+                              const residual_blocks *b, double aa[M][M], double ay[N])
 {
     const curve_samples *s = m->samples;
     const size_t n = b->first / b->length, start = b->first - n * b->length;
@@ -184,9 +186,9 @@ static void add_baseline(const curve_law *m, const double p[N], const double *e,
 /* Returns a pull before contact that the law of the fit does not include. The residual decides
  * whether it acts in contact. A pull-off is no measure of it, because it is much stronger than the
  * snap-in on rubber. */
-static double pull_without_law(const curve_fitting *f)
+static double unmodelled_pull(const curve_fitting *f)
 {
-    return f->kind.adhesive ? 0.0 : f->snap_on;
+    return f->kind.adhesive ? 0.0 : f->snap_in_pull;
 }
 
 /* Relative change of a force due to a shift of the tip by its deviation: slope and curvature. */
@@ -194,7 +196,7 @@ typedef struct tip_change {
     double slope, bend;
 } tip_change;
 
-static tip_change change_of_tip(const curve_law *m, const tip_move *move, double depth)
+static tip_change tip_force_change(const curve_law *m, const tip_variation *move, double depth)
 {
     double now = 0.0, up = 0.0, down = 0.0;
     if (move->up == NULL || !(depth > 0.0))
@@ -210,33 +212,34 @@ static tip_change change_of_tip(const curve_law *m, const tip_move *move, double
 
 /* Fills the columns of each block of the history and window: Legendre functions in units of the
  * largest force, effects of a shifted tip, and a pull. */
-static void fill_columns(const curve_fitting *f, const curve_law *m, const double p[N],
-                         const residual_blocks *b, double force, columns *to, misfit_sums *d)
+static void fill_misfit_columns(const curve_fitting *f, const curve_law *m, const double p[N],
+                                const residual_blocks *b, double force, whitened_columns *to,
+                                misfit_sums *d)
 {
     double raw[M][BLOCKS_HISTORY];
-    const double pull = pull_without_law(f);
-    const tip_move *const tips = f->workspace->tip_move;
+    const double pull = unmodelled_pull(f);
+    const tip_variation *const tips = f->workspace->tip_variation;
     size_t n_tips = 0;
-    while (n_tips < CURVE_TIP_MOVES && tips[n_tips].up != NULL)
+    while (n_tips < CURVE_TIP_VARIATIONS && tips[n_tips].up != NULL)
         n_tips++;
-    const size_t n_moves = n_tips + (pull > 0.0), bends = FUNCTIONS + n_moves;
+    const size_t n_variations = n_tips + (pull > 0.0), bends = FUNCTIONS + n_variations;
     d->n_tips = n_tips;
-    d->n_moves = n_moves;
-    d->any_radius = f->workspace->any_radius.up != NULL;
+    d->n_variations = n_variations;
+    d->unstated_radius = f->workspace->unstated_radius.up != NULL;
     const double deepest = f->solution.max_indentation;
     for (size_t i = 0; i < BLOCKS_MAX_ORDER + b->n; i++) {
         double at[LEGENDRE] = {0.0};
         if (b->touch[i] > 0.0)
-            legendre(b->depth[i], at);
+            legendre_values(b->depth[i], at);
         for (size_t k = 0; k < LEGENDRE; k++)
             raw[k][i] = at[k] * b->touch[i] * force;
         /* Shares of the force as block means, as the law has them. */
         const double contact = b->touch[i] > 0.0 ? p[CURVE_E] * b->column[CURVE_E][i] : 0.0;
         const tip_change radius =
-            change_of_tip(m, &f->workspace->any_radius, b->depth[i] * deepest);
+            tip_force_change(m, &f->workspace->unstated_radius, b->depth[i] * deepest);
         raw[MISFIT_RADIUS][i] = contact * radius.slope;
         for (size_t k = 0; k < n_tips; k++) {
-            const tip_change moved = change_of_tip(m, &tips[k], b->depth[i] * deepest);
+            const tip_change moved = tip_force_change(m, &tips[k], b->depth[i] * deepest);
             raw[FUNCTIONS + k][i] = contact * moved.slope;
             raw[bends + k][i] = contact * moved.bend;
         }
@@ -254,7 +257,7 @@ static void fill_columns(const curve_fitting *f, const curve_law *m, const doubl
 }
 
 /* Standard deviation of the mean of a block. */
-static double noise_of_block(const residual_blocks *b)
+static double block_noise(const residual_blocks *b)
 {
     const double of_baseline =
         b->n_before > 0 ? curve_dot(b->r, b->r, b->n_before) / (double)b->n_before : 0.0;
@@ -263,10 +266,10 @@ static double noise_of_block(const residual_blocks *b)
 
 /* Prior range of the contact point. Force is visible from the depth at which that of the law, or
  * the measured one, exceeds the noise of a block. The linear model cannot determine this range. */
-static double contact_reach(const curve_law *m, const double p[N], const residual_blocks *b)
+static double contact_point_range(const curve_law *m, const double p[N], const residual_blocks *b)
 {
     const curve_samples *s = m->samples;
-    const double length = (double)b->length, noise = to_be_seen * noise_of_block(b);
+    const double length = (double)b->length, noise = visible_force * block_noise(b);
     const size_t n = b->first / b->length + b->n, start = s->n - n * b->length;
     double by_law = 0.0, visible = s->position[s->n - 1] - p[CURVE_C];
     for (size_t i = s->n; i-- > b->first;)
@@ -286,8 +289,8 @@ static double contact_reach(const curve_law *m, const double p[N], const residua
 
 /* Transforms back from the triangular form and units of the noise. The function destroys `solved`.
  */
-static void back_to_parameters(double (*aa)[M], const double *scale, double (*solved)[N],
-                               size_t n_columns, misfit_sums *to)
+static void solve_parameter_changes(double (*aa)[M], const double *scale, double (*solved)[N],
+                                    size_t n_columns, misfit_sums *to)
 {
     const size_t q = to->n_free;
     for (size_t k = 0; k < n_columns; k++) {
@@ -298,28 +301,29 @@ static void back_to_parameters(double (*aa)[M], const double *scale, double (*so
             x[c] /= aa[c][c];
         }
         for (size_t c = 0; c < q; c++)
-            to->imitated[c][k] = scale[c] * x[c];
+            to->parameter_change[c][k] = scale[c] * x[c];
     }
 }
 
-static bool sum_up(const curve_fitting *f, const curve_law *m, const double p[N], const double *e,
-                   const residual_blocks *b, double force, misfit_sums *to)
+static bool sum_misfit_columns(const curve_fitting *f, const curve_law *m, const double p[N],
+                               const double *e, const residual_blocks *b, double force,
+                               misfit_sums *to)
 {
-    columns of;
+    whitened_columns of;
     double aa[M][M] = {{0.0}}, ay[N] = {0.0}, scale[N], solved[M][N];
     *to = (misfit_sums){0};
-    fill_columns(f, m, p, b, force, &of, to);
-    const size_t n = b->n, columns_b = FUNCTIONS + to->n_moves + to->n_tips;
+    fill_misfit_columns(f, m, p, b, force, &of, to);
+    const size_t n = b->n, columns_b = FUNCTIONS + to->n_variations + to->n_tips;
     for (size_t i = 0; i < N; i++)
         if (m->free[i])
             to->which[to->n_free++] = i;
     const size_t q = to->n_free;
-    residual_blocks_leave_out_gap(b, of.y);
+    residual_blocks_zero_gap(b, of.y);
     for (size_t c = 0; c < q; c++)
-        residual_blocks_leave_out_gap(b, of.a[c]);
+        residual_blocks_zero_gap(b, of.a[c]);
     for (size_t c = 0; c < columns_b; c++)
-        residual_blocks_leave_out_gap(b, of.b[c]);
-    add_baseline(m, p, e, b, aa, ay);
+        residual_blocks_zero_gap(b, of.b[c]);
+    add_baseline_sums(m, p, e, b, aa, ay);
     for (size_t c = 0; c < q; c++) {
         for (size_t d = 0; d < q; d++)
             aa[c][d] += curve_dot(of.a[c], of.a[d], n);
@@ -327,7 +331,7 @@ static bool sum_up(const curve_fitting *f, const curve_law *m, const double p[N]
         if (!(aa[c][c] > 0.0))
             return false;
     }
-    const double reach = contact_reach(m, p, b);
+    const double reach = contact_point_range(m, p, b);
     for (size_t c = 0; c < q; c++) {
         if (to->which[c] == CURVE_C)
             aa[c][c] += b->innovation / (reach * reach);
@@ -355,13 +359,13 @@ static bool sum_up(const curve_fitting *f, const curve_law *m, const double p[N]
                 (curve_dot(of.b[k], of.b[l], n) - misfit_dot(solved[k], solved[l], q)) /
                 b->innovation;
         if (k == MISFIT_RADIUS)
-            to->any_radius =
-                to->any_radius && most_hidden * most_hidden * to->mm[k][k] * b->innovation >
-                                      curve_dot(of.b[k], of.b[k], n);
+            to->unstated_radius = to->unstated_radius && max_hidden_ratio * max_hidden_ratio *
+                                                                 to->mm[k][k] * b->innovation >
+                                                             curve_dot(of.b[k], of.b[k], n);
         to->my[k] =
             (curve_dot(of.b[k], of.y, n) - misfit_dot(solved[k], along_y, q)) / b->innovation;
     }
-    back_to_parameters(aa, scale, solved, columns_b, to);
+    solve_parameter_changes(aa, scale, solved, columns_b, to);
     return true;
 }
 
@@ -371,10 +375,10 @@ static bool sum_up(const curve_fitting *f, const curve_law *m, const double p[N]
  * rotation makes their matrix tridiagonal, so that each size needs little time. */
 typedef struct length_sums {
     double with[LEGENDRE], next[LEGENDRE]; /* diagonal, and off-diagonal elements */
-    double residual[LEGENDRE], imitated[N][LEGENDRE];
+    double residual[LEGENDRE], parameter_change[N][LEGENDRE];
 } length_sums;
 
-static void turn(double (*q)[LEGENDRE], const double x[LEGENDRE], double to[LEGENDRE])
+static void rotate_vector(double (*q)[LEGENDRE], const double x[LEGENDRE], double to[LEGENDRE])
 {
     for (size_t i = 0; i < LEGENDRE; i++)
         to[i] = 0.0;
@@ -384,8 +388,8 @@ static void turn(double (*q)[LEGENDRE], const double x[LEGENDRE], double to[LEGE
 }
 
 /* Makes the matrix `with` = root' mm root tridiagonal. */
-static void make_tridiagonal(double (*root)[LEGENDRE], double (*with)[LEGENDRE],
-                             const misfit_sums *d, length_sums *to)
+static void tridiagonalise(double (*root)[LEGENDRE], double (*with)[LEGENDRE], const misfit_sums *d,
+                           length_sums *to)
 {
     double tau[LEGENDRE - 1], q[LEGENDRE][LEGENDRE], turned[LEGENDRE][LEGENDRE];
     gsl_matrix_view a = gsl_matrix_view_array(&with[0][0], LEGENDRE, LEGENDRE),
@@ -398,13 +402,13 @@ static void make_tridiagonal(double (*root)[LEGENDRE], double (*with)[LEGENDRE],
                                    &beside.vector);
     to->next[LEGENDRE - 1] = 0.0;
     for (size_t k = 0; k < LEGENDRE; k++) /* root times q */
-        turn(q, root[k], turned[k]);
-    turn(turned, d->my, to->residual);
+        rotate_vector(q, root[k], turned[k]);
+    rotate_vector(turned, d->my, to->residual);
     for (size_t c = 0; c < d->n_free; c++)
-        turn(turned, d->imitated[c], to->imitated[c]);
+        rotate_vector(turned, d->parameter_change[c], to->parameter_change[c]);
 }
 
-static length_sums sums_of_length(const misfit_sums *d, int length)
+static length_sums length_scale_sums(const misfit_sums *d, int length)
 {
     double root[LEGENDRE][LEGENDRE], half[LEGENDRE][LEGENDRE], with[LEGENDRE][LEGENDRE] = {{0.0}};
     length_sums to;
@@ -417,23 +421,23 @@ static length_sums sums_of_length(const misfit_sums *d, int length)
     for (size_t i = 0; i < LEGENDRE; i++)
         for (size_t j = 0; j <= i; j++)
             with[i][j] = misfit_dot(half[i] + j, root[j] + j, LEGENDRE - j);
-    make_tridiagonal(kernels.root[length], with, d, &to);
+    tridiagonalise(kernels.root[length], with, d, &to);
     return to;
 }
 
 /* Sums for another radius, which has one function. */
-static length_sums sums_of_radius(const misfit_sums *d)
+static length_sums radius_sums(const misfit_sums *d)
 {
     length_sums to = {.with = {d->mm[MISFIT_RADIUS][MISFIT_RADIUS]},
                       .residual = {d->my[MISFIT_RADIUS]}};
     for (size_t c = 0; c < d->n_free; c++)
-        to.imitated[c][0] = d->imitated[c][MISFIT_RADIUS];
+        to.parameter_change[c][0] = d->parameter_change[c][MISFIT_RADIUS];
     return to;
 }
 
 /* Evaluates a discrepancy of size s. Returns the part of the squared residual that it explains. */
-static double try_size(const misfit_sums *d, const length_sums *l, double s,
-                       const misfit_candidate *none, misfit_candidate *c)
+static double evaluate_size(const misfit_sums *d, const length_sums *l, double s,
+                            const misfit_candidate *none, misfit_candidate *c)
 {
     const double square = s * s;
     double factor[LEGENDRE], share[LEGENDRE] = {0.0}, x[LEGENDRE], explained = 0.0, product = 1.0;
@@ -461,7 +465,7 @@ static double try_size(const misfit_sums *d, const length_sums *l, double s,
         c->shift[a] = none->shift[a];
         c->variance[a] = none->variance[a];
         for (size_t i = 0; i < LEGENDRE; i++) {
-            y = l->imitated[a][i] - share[i] * y;
+            y = l->parameter_change[a][i] - share[i] * y;
             c->shift[a] -= factor[i] * y * x[i];
             c->variance[a] += factor[i] * y * y;
         }
@@ -470,29 +474,29 @@ static double try_size(const misfit_sums *d, const length_sums *l, double s,
 }
 
 /* Log likelihood of the unexplained residual for an estimated variance of the noise. */
-static double student(double unexplained, double freedom)
+static double student_log_likelihood(double unexplained, double freedom)
 {
     return -0.5 * (freedom + LEGENDRE) * log(1.0 + fmax(unexplained, 0.0) / freedom);
 }
 
-typedef struct mixture {
+typedef struct candidate_mixture {
     size_t n;
     misfit_candidate part[CANDIDATES]; /* the first candidate is no discrepancy */
     double tip[N]; /* part of the variances due to the stated errors of the tip */
-} mixture;
+} candidate_mixture;
 
-static bool weigh_sizes(misfit_sums *d, double largest, double freedom, mixture *to)
+static bool weigh_candidates(misfit_sums *d, double largest, double freedom, candidate_mixture *to)
 {
     misfit_candidate *const none = &to->part[0];
     double explained[CANDIDATES] = {0.0}, most = 0.0, best, sum = 0.0;
     length_sums of[KINDS];
     if (!misfit_remove_bias(d, none, to->tip))
         return false;
-    const size_t kinds = LENGTHS + d->any_radius;
+    const size_t kinds = LENGTHS + d->unstated_radius;
     for (int l = 0; l < LENGTHS; l++)
-        of[l] = sums_of_length(d, l);
-    if (d->any_radius)
-        of[LENGTHS] = sums_of_radius(d);
+        of[l] = length_scale_sums(d, l);
+    if (d->unstated_radius)
+        of[LENGTHS] = radius_sums(d);
     to->n = 1;
     bool matters = true;
     for (double s = 1.0; to->n + kinds <= 1 + kinds * SIZES && matters; s /= size_ratio) {
@@ -500,18 +504,21 @@ static bool weigh_sizes(misfit_sums *d, double largest, double freedom, mixture 
         for (size_t l = 0; l < kinds; l++, to->n++) {
             misfit_candidate *c = &to->part[to->n];
             explained[to->n] =
-                try_size(d, &of[l], s * (l < LENGTHS ? largest : largest_radius), none, c);
+                evaluate_size(d, &of[l], s * (l < LENGTHS ? largest : max_log_radius), none, c);
             most = fmax(most, explained[to->n]); /* value of the largest size */
-            matters = matters || c->log_likelihood < -no_size || explained[to->n] > no_size;
-            c->chance = l == LENGTHS ? of_radius
-                                     : (d->any_radius ? 1.0 - of_radius : 1.0) * kernels.chance[l];
+            matters = matters || c->log_likelihood < -negligible_size ||
+                      explained[to->n] > negligible_size;
+            c->chance = l == LENGTHS ? radius_probability
+                                     : (d->unstated_radius ? 1.0 - radius_probability : 1.0) *
+                                           kernels.chance[l];
         }
     }
-    best = none->log_likelihood = log(holds) + student(most, freedom);
+    best = none->log_likelihood = log(law_probability) + student_log_likelihood(most, freedom);
     for (size_t i = 1; i < to->n; i++) {
         misfit_candidate *c = &to->part[i];
-        c->log_likelihood += student(most - explained[i], freedom) +
-                             log((1.0 - holds) * c->chance * (double)kinds / (double)(to->n - 1));
+        c->log_likelihood +=
+            student_log_likelihood(most - explained[i], freedom) +
+            log((1.0 - law_probability) * c->chance * (double)kinds / (double)(to->n - 1));
         best = fmax(best, c->log_likelihood);
     }
     for (size_t i = 0; i < to->n; i++)
@@ -525,8 +532,8 @@ static bool weigh_sizes(misfit_sums *d, double largest, double freedom, mixture 
  * from the variances. A shift counts as a deviation, because the direction of a correction is more
  * certain than its size. It is limited to least_shift, because a linear model permits a negative
  * modulus. */
-static double error_of(const mixture *m, size_t a, double less, double standard_error,
-                       double least_shift)
+static double mixture_error(const candidate_mixture *m, size_t a, double less,
+                            double standard_error, double least_shift)
 {
     double low = standard_error, high = standard_error, sd[CANDIDATES];
     for (size_t i = 0; i < m->n; i++) {
@@ -534,16 +541,16 @@ static double error_of(const mixture *m, size_t a, double less, double standard_
         const double shift = fmax(c->shift[a], least_shift);
         sd[i] = sqrt(fmax(0.0, c->variance[a] - less) + shift * shift +
                      standard_error * standard_error);
-        if (c->chance > no_chance)
+        if (c->chance > negligible_chance)
             high = fmax(high, sd[i]);
     }
     while (high - low > error_step * high) {
         const double error = 0.5 * (low + high);
         double beyond = 0.0;
         for (size_t i = 0; i < m->n; i++)
-            if (m->part[i].chance > no_chance)
+            if (m->part[i].chance > negligible_chance)
                 beyond += m->part[i].chance * erfc(NORMAL_95 * error / (M_SQRT2 * sd[i]));
-        *(beyond > outside ? &low : &high) = error;
+        *(beyond > outside_probability ? &low : &high) = error;
     }
     return high;
 }
@@ -551,7 +558,7 @@ static double error_of(const mixture *m, size_t a, double less, double standard_
 /* ---- error ----------------------------------------------------------------------------------- */
 
 /* Evaluates the residuals of the noise at p and stores them in the scratch array. */
-static void evaluate(curve_law *m, const double p[N], const curve_wave *wave)
+static void evaluate_residuals(curve_law *m, const double p[N], const curve_wave *wave)
 {
     wt_indent_workspace *w = m->workspace;
     curve_law_evaluate(m, p, wave);
@@ -564,31 +571,32 @@ static void evaluate(curve_law *m, const double p[N], const curve_wave *wave)
 void curve_add_misfit(curve_fitting *f)
 {
     curve_solution *s = &f->solution;
-    curve_law m = curve_law_of(f->table, &f->input.samples, &f->kind, f->workspace);
+    curve_law m = curve_law_create(f->table, &f->input.samples, &f->kind, f->workspace);
     residual_blocks b;
     misfit_sums d;
-    mixture found;
+    candidate_mixture found;
     double *const e = f->workspace->scratch;
     for (size_t i = 0; i < N; i++) /* until it is known */
         s->misfit_error[i] = m.free[i] ? (double)NAN : 0.0;
-    if (f->kind.plain || !(f->options->least_chance > 0.0) || !s->converged)
+    if (f->kind.plain || !(f->options->misfit_p_threshold > 0.0) || !s->converged)
         return;
-    (void)pthread_once(&kernels_once, make_kernels);
-    evaluate(&m, s->p, &s->wave);
+    (void)pthread_once(&kernels_once, tabulate_kernels);
+    evaluate_residuals(&m, s->p, &s->wave);
     const double force = s->p[CURVE_E] * f->workspace->g[f->input.samples.n - 1];
     if (!(force > 0.0) || !residual_blocks_average(&m, s->p, e, &b) ||
-        !residual_blocks_find_noise(&m, s->p, &b) || !sum_up(f, &m, s->p, e, &b, force, &d))
+        !residual_blocks_find_noise(&m, s->p, &b) ||
+        !sum_misfit_columns(f, &m, s->p, e, &b, force, &d))
         return;
     const double *residual = b.r + b.n_before;
     const double seen = sqrt(curve_dot(residual, residual, b.n) / (double)b.n) / force;
-    if (!weigh_sizes(&d, fmin(largest_size, most_hidden * seen), b.freedom, &found))
+    if (!weigh_candidates(&d, fmin(max_size, max_hidden_ratio * seen), b.freedom, &found))
         return;
     for (size_t a = 0; a < d.n_free; a++) {
         const size_t i = d.which[a];
         const double noise = s->standard_error[i],
                      least = i == CURVE_E ? -s->p[CURVE_E] : -(double)INFINITY,
-                     by_law = error_of(&found, a, found.tip[a], noise, least),
-                     error = error_of(&found, a, 0.0, noise, least);
+                     by_law = mixture_error(&found, a, found.tip[a], noise, least),
+                     error = mixture_error(&found, a, 0.0, noise, least);
         s->misfit_error[i] = sqrt(by_law * by_law - noise * noise);
         s->standard_error[i] = error;
     }

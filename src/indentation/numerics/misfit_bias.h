@@ -11,9 +11,9 @@ enum {
     MISFIT_SMOOTH = 10,            /* functions of the depth that represent a discrepancy */
     MISFIT_RADIUS = MISFIT_SMOOTH, /* effect of another radius of the tip */
     MISFIT_FUNCTIONS,
-    MISFIT_MOVES = CURVE_TIP_MOVES + 1, /* variations of the tip, and a pull */
+    MISFIT_VARIATIONS = CURVE_TIP_VARIATIONS + 1, /* variations of the tip, and a pull */
     /* The last columns are the curvatures of the variations. */
-    MISFIT_COLUMNS = MISFIT_FUNCTIONS + MISFIT_MOVES + CURVE_TIP_MOVES,
+    MISFIT_COLUMNS = MISFIT_FUNCTIONS + MISFIT_VARIATIONS + CURVE_TIP_VARIATIONS,
 };
 
 /* Whitened sums in units of the noise: columns of the discrepancy without the part that the
@@ -21,10 +21,11 @@ enum {
  * variations. */
 typedef struct misfit_sums {
     size_t n_free, which[CURVE_N_PARAMETERS]; /* free parameters */
-    size_t n_tips, n_moves; /* variations of the tip; all variations, with a pull */
-    bool any_radius; /* an unstated radius that the residual determines; else its column is 0 */
-    double imitated[CURVE_N_PARAMETERS]
-                   [MISFIT_COLUMNS];           /* change of the parameters per unit of a column */
+    size_t n_tips, n_variations; /* variations of the tip; all variations, with a pull */
+    bool
+        unstated_radius; /* an unstated radius that the residual determines; else its column is 0 */
+    double parameter_change[CURVE_N_PARAMETERS]
+                           [MISFIT_COLUMNS];   /* change of the parameters per unit of a column */
     double mm[MISFIT_COLUMNS][MISFIT_COLUMNS]; /* products of the columns */
     double my[MISFIT_COLUMNS];                 /* products with the residual */
 } misfit_sums;

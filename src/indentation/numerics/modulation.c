@@ -29,20 +29,20 @@ enum { LEAST_PERIODS = 5, LEAST_SAMPLES = 64 };
 /* Frequencies of the noise, in cycles per segment. They lie outside the bandwidth of the weights at
  * the drive, and their distance makes their noise independent: Hann weights extend over two cycles
  * to each side. Sixteen of them determine the noise power to 25 %. */
-enum { NEAREST = 3, APART = 2, NEIGHBOURS = 8 /* on each side */ };
+enum { FIRST_OFFSET = 3, OFFSET_STEP = 2, NEIGHBOURS = 8 /* on each side */ };
 /* Smallest significant power of the height over the noise power. Noise exceeds it with a
  * probability of exp(-100). The drive must exceed its noise tenfold, because E'' is otherwise not
  * accurate to 10 %. */
-static const double significant = 100;
+static const double min_power_ratio = 100;
 static const double pi = 3.14159265358979323846; /* double precision */
 
-typedef struct samples {
+typedef struct modulation_samples {
     const double *time, *of[2]; /* height and force */
     size_t n;
     double start, duration, step;
-} samples;
+} modulation_samples;
 
-static void row_of(const samples *s, size_t i, double omega, double row[COLUMNS])
+static void fill_row(const modulation_samples *s, size_t i, double omega, double row[COLUMNS])
 {
     const double t = s->time[i] - s->start, u = 2 * t / s->duration - 1;
     row[0] = 1;
@@ -54,7 +54,7 @@ static void row_of(const samples *s, size_t i, double omega, double row[COLUMNS]
     row[6] = sin(omega * t);
 }
 
-static double hann_weight(const samples *s, size_t i)
+static double hann_weight(const modulation_samples *s, size_t i)
 {
     const double x = sin(pi * ((double)i + 0.5) / (double)s->n);
     return x * x;
@@ -62,14 +62,14 @@ static double hann_weight(const samples *s, size_t i)
 
 /* Fits the coefficients of height and force at a frequency. Returns false if the columns are not
  * independent. */
-static bool fit_columns(const samples *s, double omega, double to[2][COLUMNS])
+static bool fit_columns(const modulation_samples *s, double omega, double to[2][COLUMNS])
 {
     double normal[COLUMNS][COLUMNS] = {{0}}, row[COLUMNS];
     for (size_t k = 0; k < 2; k++)
         for (size_t a = 0; a < COLUMNS; a++)
             to[k][a] = 0;
     for (size_t i = 0; i < s->n; i++) {
-        row_of(s, i, omega, row);
+        fill_row(s, i, omega, row);
         const double w = hann_weight(s, i);
         for (size_t a = 0; a < COLUMNS; a++) {
             for (size_t b = 0; b < COLUMNS; b++)
@@ -89,9 +89,9 @@ static bool fit_columns(const samples *s, double omega, double to[2][COLUMNS])
     return true;
 }
 
-static double power_at(double omega, void *user)
+static double drive_power(double omega, void *user)
 {
-    const samples *s = user;
+    const modulation_samples *s = user;
     double c[2][COLUMNS];
     return fit_columns(s, omega, c) ? c[0][SLOW] * c[0][SLOW] + c[0][SLOW + 1] * c[0][SLOW + 1] : 0;
 }
@@ -110,7 +110,7 @@ static size_t transform_length(size_t n)
 }
 
 /* Returns the strongest frequency of the height [rad/s]. */
-static double strongest_frequency(samples *s, arena *memory)
+static double strongest_frequency(modulation_samples *s, arena *memory)
 {
     const size_t n = transform_length(s->n);
     double c[2][COLUMNS], row[COLUMNS], *work = arena_numbers(memory, s->n);
@@ -121,7 +121,7 @@ static double strongest_frequency(samples *s, arena *memory)
     memory->failed = memory->failed || table == NULL || space == NULL;
     if (!memory->failed && fit_columns(s, 2 * pi / (2 * s->step), c)) {
         for (size_t i = 0; i < s->n; i++) {
-            row_of(s, i, 0, row);
+            fill_row(s, i, 0, row);
             work[i] = s->of[0][i] - s->of[0][0];
             for (size_t a = 0; a < SLOW; a++)
                 work[i] -= c[0][a] * row[a];
@@ -138,27 +138,29 @@ static double strongest_frequency(samples *s, arena *memory)
     gsl_fft_real_workspace_free(space);
     const double bin = 2 * pi / ((double)n * s->step);
     const double low = ((double)best - 1) * bin, high = ((double)best + 1) * bin;
-    return best > 0 ? root_maximum(power_at, s, low, high, SECTIONS) : 0;
+    return best > 0 ? root_maximum(drive_power, s, low, high, SECTIONS) : 0;
 }
 
 /* Mean power of the height residual at frequencies next to the drive, whole cycles apart. The
  * result is NaN if there are none. */
-static double noise_of(const samples *s, const double own[COLUMNS], double drive)
+static double neighbour_noise(const modulation_samples *s, const double coefficients[COLUMNS],
+                              double drive)
 {
     const double bin = 2 * pi / s->duration;
     double power = 0, row[COLUMNS];
     size_t n = 0;
     for (int k = -NEIGHBOURS; k <= NEIGHBOURS; k++) {
-        const double off = APART * k + (k > 0 ? NEAREST - APART : APART - NEAREST),
+        const double off = OFFSET_STEP * k +
+                           (k > 0 ? FIRST_OFFSET - OFFSET_STEP : OFFSET_STEP - FIRST_OFFSET),
                      omega = drive + off * bin;
         double complex sum = 0;
-        if (k == 0 || omega < NEAREST * bin || omega > pi / s->step)
+        if (k == 0 || omega < FIRST_OFFSET * bin || omega > pi / s->step)
             continue;
         for (size_t i = 0; i < s->n; i++) {
             double rest = s->of[0][i] - s->of[0][0];
-            row_of(s, i, drive, row);
+            fill_row(s, i, drive, row);
             for (size_t a = 0; a < COLUMNS; a++)
-                rest -= own[a] * row[a];
+                rest -= coefficients[a] * row[a];
             /* The mean weight is 1/2, so the factor is 4. */
             sum += 4 * hann_weight(s, i) * rest * cexp(-unit * omega * (s->time[i] - s->start)) /
                    (double)s->n;
@@ -169,7 +171,7 @@ static double noise_of(const samples *s, const double own[COLUMNS], double drive
     return n > 0 ? power / (double)n : (double)NAN;
 }
 
-static const char *why_no_modulation(const double *time, const double *position,
+static const char *modulation_defect(const double *time, const double *position,
                                      const double *force, size_t n)
 {
     if (n < LEAST_SAMPLES)
@@ -190,10 +192,10 @@ wt_status wt_modulation_fit(const double *time, const double *position, const do
     double c[2][COLUMNS];
     arena memory = {0};
     gsl_quiet();
-    *modulation = (wt_modulation){.why_not = why_no_modulation(time, position, force, n)};
+    *modulation = (wt_modulation){.why_not = modulation_defect(time, position, force, n)};
     if (modulation->why_not[0] != '\0')
         return WT_OK;
-    samples s = {.time = time, .of = {position, force}, .n = n, .start = time[0]};
+    modulation_samples s = {.time = time, .of = {position, force}, .n = n, .start = time[0]};
     s.step = (time[n - 1] - time[0]) / (double)(n - 1);
     s.duration = s.step * (double)n;
     const double omega =
@@ -221,10 +223,10 @@ wt_status wt_modulation_fit(const double *time, const double *position, const do
         modulation->mean[0] += share * position[i];
         modulation->mean[1] += share * force[i];
     }
-    const double noise = noise_of(&s, c[0], omega);
+    const double noise = neighbour_noise(&s, c[0], omega);
     modulation->start = s.start;
     modulation->found =
-        c[0][SLOW] * c[0][SLOW] + c[0][SLOW + 1] * c[0][SLOW + 1] > significant * noise;
+        c[0][SLOW] * c[0][SLOW] + c[0][SLOW + 1] * c[0][SLOW + 1] > min_power_ratio * noise;
     if (!modulation->found)
         modulation->why_not = "no modulation of the height that is more than noise";
     return WT_OK;

@@ -59,9 +59,9 @@ wt_status curve_reserve(wt_indent_workspace *w, size_t n, wt_error *err)
                                        &w->residual,
                                        &w->scratch,
                                        &w->weight,
-                                       &w->given_force,
-                                       &w->given_time,
-                                       &w->given_retract,
+                                       &w->input_force,
+                                       &w->input_time,
+                                       &w->input_retract,
                                        &w->by_work,
                                        &w->by_modulus,
                                        &w->retract_position,
@@ -74,33 +74,33 @@ wt_status curve_reserve(wt_indent_workspace *w, size_t n, wt_error *err)
                                        &w->wave_column[WAVE_COSINE],
                                        &w->wave_column[WAVE_SINE],
                                        &w->wave_column[WAVE_NUMBER],
-                                       &w->wave_give};
+                                       &w->wave_response};
     for (size_t i = 0; i < N_ARRAYS; i++)
         *arrays[i] = block + i * capacity;
     return WT_OK;
 }
 
-WIDE_REGISTERS static double mean(const double *x, size_t n)
+WIDE_REGISTERS static double sample_mean(const double *x, size_t n)
 {
     return curve_sum(x, n) / (double)n;
 }
 
 WIDE_REGISTERS
-curve_span curve_span_of(const double *x, size_t n)
+curve_span curve_find_span(const double *x, size_t n)
 {
     wide low = x[0] - (wide){0.0}, high = low, low2 = low, high2 = low, now;
     double rest[2 * WIDE];
     size_t i = 0;
     for (; i + 2 * WIDE <= n; i += 2 * WIDE) { /* two of each avoid the latency */
         simd_load(&now, x + i);
-        wide_lower(&low, &now);
-        wide_raise(&high, &now);
+        wide_minimum(&low, &now);
+        wide_maximum(&high, &now);
         simd_load(&now, x + i + WIDE);
-        wide_lower(&low2, &now);
-        wide_raise(&high2, &now);
+        wide_minimum(&low2, &now);
+        wide_maximum(&high2, &now);
     }
-    wide_lower(&low, &low2);
-    wide_raise(&high, &high2);
+    wide_minimum(&low, &low2);
+    wide_maximum(&high, &high2);
     simd_store(rest, &low);
     simd_store(rest + WIDE, &high);
     curve_span span = {x[0], x[0]};
@@ -116,30 +116,30 @@ curve_span curve_span_of(const double *x, size_t n)
 }
 
 /* 32 classes for each power of two below `largest`. */
-static size_t class_of(double x, double largest)
+static size_t size_class(double x, double largest)
 {
-    enum { LEADING = 52 - 5 }; /* the first 5 of the 52 bits of the fraction: 32 classes */
+    enum { LEADING_BITS = 52 - 5 }; /* the first 5 of the 52 bits of the fraction: 32 classes */
     uint64_t bits, most;
     memcpy(&bits, &x, sizeof bits);
     memcpy(&most, &largest, sizeof most);
-    const uint64_t below = (most >> LEADING) - (bits >> LEADING);
+    const uint64_t below = (most >> LEADING_BITS) - (bits >> LEADING_BITS);
     return below < CLASSES ? (size_t)below : CLASSES - 1;
 }
 
 /* Counts all values by size class. Only those of the class of the k-th are compared. */
 double curve_select(double *x, size_t n, size_t k, double largest)
 {
-    size_t count[CLASSES] = {0}, class = CLASSES - 1, kept = 0;
+    size_t count[CLASSES] = {0}, class = CLASSES - 1, n_kept = 0;
     for (size_t i = 0; i < n; i++)
-        count[class_of(x[i], largest)]++;
+        count[size_class(x[i], largest)]++;
     for (; k >= count[class]; class --)
         k -= count[class];
     for (size_t i = 0; i < n; i++) {
         const double now = x[i];
-        x[kept] = now;
-        kept += class_of(now, largest) == class;
+        x[n_kept] = now;
+        n_kept += size_class(now, largest) == class;
     }
-    return gsl_stats_select(x, 1, kept, k);
+    return gsl_stats_select(x, 1, n_kept, k);
 }
 
 /* Standard deviation of white noise from the median of the absolute successive differences.
@@ -150,7 +150,7 @@ WIDE_REGISTERS static double difference_noise(const curve_samples *s, double *re
     const size_t n = s->n - 1;
     for (size_t i = 0; i < n; i++)
         scratch[i] = fabs(s->force[i + 1] - s->force[i]);
-    const curve_span all = curve_span_of(scratch, n);
+    const curve_span all = curve_find_span(scratch, n);
     double smallest = all.low > 0.0 ? all.low : (double)INFINITY;
     for (size_t i = 0; i < n && !(all.low > 0.0); i++)
         smallest = scratch[i] > 0.0 && scratch[i] < smallest ? scratch[i] : smallest;
@@ -160,9 +160,9 @@ WIDE_REGISTERS static double difference_noise(const curve_samples *s, double *re
 
 /* True if the force has a plateau at its top. `first` receives its first sample. The test compares
  * the force gained over an equal travel before it. */
-static bool flat_top(const curve_samples *s, double noise, double resolution, size_t *first)
+static bool has_flat_top(const curve_samples *s, double noise, double resolution, size_t *first)
 {
-    const curve_span all = curve_span_of(s->force, s->n);
+    const curve_span all = curve_find_span(s->force, s->n);
     const double band = fmax(fmax(8.0 * noise, 1.5 * resolution), 1e-6 * (all.high - all.low));
     size_t i = s->n;
     while (i > 0 && s->force[i - 1] >= all.high - band)
@@ -182,7 +182,7 @@ static bool flat_top(const curve_samples *s, double noise, double resolution, si
 static double advance_per_bending(const curve_samples *s, double noise)
 {
     size_t n_start = s->n / 10;
-    const double start = mean(s->force, n_start), max = curve_span_of(s->force, s->n).high;
+    const double start = sample_mean(s->force, n_start), max = curve_find_span(s->force, s->n).high;
     if (!(max - start > 40.0 * noise))
         return (double)NAN;
     double n = 0.0, sz = 0.0, sf = 0.0, sff = 0.0, szf = 0.0;
@@ -203,7 +203,8 @@ static double advance_per_bending(const curve_samples *s, double noise)
 }
 
 /* True if all samples are finite and none repeats the previous one. */
-WIDE_REGISTERS static bool all_good(const double *height, const double *force, size_t n)
+WIDE_REGISTERS static bool has_only_good_samples(const double *height, const double *force,
+                                                 size_t n)
 {
     wide sum = {0.0}; /* of zeros, or NaN */
     wide_bits same = {0};
@@ -226,10 +227,11 @@ WIDE_REGISTERS static bool all_good(const double *height, const double *force, s
 }
 
 /* Copies the valid samples. The direction is not yet known. */
-static size_t clean(const double *height, const double *force, size_t n, curve_input *input)
+static size_t copy_good_samples(const double *height, const double *force, size_t n,
+                                curve_input *input)
 {
-    size_t kept = 0;
-    if (all_good(height, force, n)) {
+    size_t n_kept = 0;
+    if (has_only_good_samples(height, force, n)) {
         memcpy(input->samples.position, height, n * sizeof *height);
         memcpy(input->samples.force, force, n * sizeof *force);
         return n;
@@ -237,18 +239,18 @@ static size_t clean(const double *height, const double *force, size_t n, curve_i
     for (size_t i = 0; i < n; i++) {
         if (!isfinite(height[i]) || !isfinite(force[i])) {
             input->n_missing++;
-        } else if (kept > 0 && height[i] == input->samples.position[kept - 1] &&
-                   force[i] == input->samples.force[kept - 1]) {
+        } else if (n_kept > 0 && height[i] == input->samples.position[n_kept - 1] &&
+                   force[i] == input->samples.force[n_kept - 1]) {
             input->n_repeated++;
         } else {
-            input->samples.position[kept] = height[i];
-            input->samples.force[kept++] = force[i];
+            input->samples.position[n_kept] = height[i];
+            input->samples.force[n_kept++] = force[i];
         }
     }
-    return kept;
+    return n_kept;
 }
 
-static double median_of(const double *x, size_t n)
+static double small_median(const double *x, size_t n)
 {
     double sorted[SPIKE_SIDE];
     for (size_t i = 0; i < n; i++) { /* insertion sort of a few values */
@@ -260,7 +262,7 @@ static double median_of(const double *x, size_t n)
     return n % 2 == 1 ? sorted[n / 2] : 0.5 * (sorted[n / 2 - 1] + sorted[n / 2]);
 }
 
-static bool above_most(const double side[SPIKE_SIDE], double x)
+static bool exceeds_majority(const double side[SPIKE_SIDE], double x)
 {
     int n = 0;
     for (size_t i = 0; i < SPIKE_SIDE; i++)
@@ -271,42 +273,50 @@ static bool above_most(const double side[SPIKE_SIDE], double x)
 /* True if the force continues from sample i like a contact at its end. Most of the following
  * samples are not below it, and the last step grows by less than a factor of 3 (the second step of
  * a quadratic force). */
-static bool goes_on(const curve_samples *s, size_t i, size_t kept, double far)
+static bool continues_contact(const curve_samples *s, size_t i, size_t n_kept,
+                              double spike_threshold)
 {
-    const double x = s->force[i], step = s->force[kept - 1] - s->force[kept - 2];
+    const double x = s->force[i], step = s->force[n_kept - 1] - s->force[n_kept - 2];
     size_t above = 0;
     for (size_t j = i + 1; j < s->n; j++)
-        above += s->force[j] > x - 0.5 * far;
+        above += s->force[j] > x - 0.5 * spike_threshold;
     return i + 1 < s->n ? 2 * above > s->n - i - 1
-                        : x - s->force[kept - 1] < far + end_step * fabs(step);
+                        : x - s->force[n_kept - 1] < spike_threshold + end_step * fabs(step);
 }
 
 /* True if sample i lies far outside the samples before and after it. Earlier spikes are removed
  * already. A step agrees with one side, and a snap-in has a step or a neighbour. At an end only one
  * side and its trend exist. */
-static bool is_spike(const curve_samples *s, size_t i, size_t kept, double far)
+static bool is_spike(const curve_samples *s, size_t i, size_t n_kept, double spike_threshold)
 {
     const double x = s->force[i], *right = s->force + i + 1;
-    const bool start = kept < SPIKE_SIDE;
-    const double *left = start ? NULL : s->force + kept - SPIKE_SIDE;
-    if (start ? i + 2 * SPIKE_SIDE >= s->n : kept < 2 * SPIKE_SIDE)
+    const bool start = n_kept < SPIKE_SIDE;
+    const double *left = start ? NULL : s->force + n_kept - SPIKE_SIDE;
+    if (start ? i + 2 * SPIKE_SIDE >= s->n : n_kept < 2 * SPIKE_SIDE)
         return false;
     if (start || i + SPIKE_SIDE >= s->n) {
-        const double level = median_of(start ? right : left, SPIKE_SIDE);
-        const double next = median_of(start ? right + SPIKE_SIDE : left - SPIKE_SIDE, SPIKE_SIDE);
-        return x - level > far + 2.0 * fabs(level - next) && (start || !goes_on(s, i, kept, far));
+        const double level = small_median(start ? right : left, SPIKE_SIDE);
+        const double next =
+            small_median(start ? right + SPIKE_SIDE : left - SPIKE_SIDE, SPIKE_SIDE);
+        return x - level > spike_threshold + 2.0 * fabs(level - next) &&
+               (start || !continues_contact(s, i, n_kept, spike_threshold));
     }
-    const double beside = fmin(s->force[kept - 1], s->force[i + 1]) - x;
-    if (!(beside > far) && !(above_most(left, x - 0.5 * far) && above_most(right, x - 0.5 * far)))
+    const double neighbour_excess = fmin(s->force[n_kept - 1], s->force[i + 1]) - x;
+    if (!(neighbour_excess > spike_threshold) &&
+        !(exceeds_majority(left, x - 0.5 * spike_threshold) &&
+          exceeds_majority(right, x - 0.5 * spike_threshold)))
         return false; /* this test avoids the slower medians */
-    const double before = median_of(left, SPIKE_SIDE), behind = median_of(right, SPIKE_SIDE);
-    const double above = x - fmax(before, behind), below = fmin(before, behind) - x;
-    return above > far || (beside > far && below > fmax(far, spike_step * fabs(before - behind)));
+    const double before = small_median(left, SPIKE_SIDE), after = small_median(right, SPIKE_SIDE);
+    const double above = x - fmax(before, after), below = fmin(before, after) - x;
+    return above > spike_threshold ||
+           (neighbour_excess > spike_threshold &&
+            below > fmax(spike_threshold, spike_step * fabs(before - after)));
 }
 
 /* Returns the first sample from i > 0 on that differs much from the previous one or is near the
  * end. */
-WIDE_REGISTERS static size_t quiet_until(const curve_samples *s, size_t i, double far)
+WIDE_REGISTERS static size_t skip_quiet_samples(const curve_samples *s, size_t i,
+                                                double spike_threshold)
 {
     const double *force = s->force;
     while (i >= SPIKE_SIDE && i + SPIKE_SIDE + WIDE < s->n) {
@@ -314,7 +324,7 @@ WIDE_REGISTERS static size_t quiet_until(const curve_samples *s, size_t i, doubl
         simd_load(&now, force + i);
         simd_load(&before, force + i - 1);
         const wide step = now - before;
-        const wide_bits any = (step > far) | (-step > far);
+        const wide_bits any = (step > spike_threshold) | (-step > spike_threshold);
         if ((any[0] | any[1] | any[2] | any[3]) != 0)
             break;
         i += WIDE;
@@ -323,33 +333,34 @@ WIDE_REGISTERS static size_t quiet_until(const curve_samples *s, size_t i, doubl
 }
 
 /* Removes spikes and returns their number. */
-static size_t leave_out_spikes(curve_samples *s, double far)
+static size_t remove_spikes(curve_samples *s, double spike_threshold)
 {
-    size_t kept = 0;
+    size_t n_kept = 0;
     bool after_spike = true; /* also true at an end */
     for (size_t i = 0; i < s->n; i++) {
-        if (kept == i && !after_spike)
-            i = kept = quiet_until(s, i, 0.5 * far);
-        const bool end = kept < SPIKE_SIDE || i + SPIKE_SIDE >= s->n;
-        const bool spike =
-            (end || after_spike || fabs(s->force[i] - s->force[kept - 1]) > 0.5 * far) &&
-            is_spike(s, i, kept, far);
+        if (n_kept == i && !after_spike)
+            i = n_kept = skip_quiet_samples(s, i, 0.5 * spike_threshold);
+        const bool end = n_kept < SPIKE_SIDE || i + SPIKE_SIDE >= s->n;
+        const bool spike = (end || after_spike ||
+                            fabs(s->force[i] - s->force[n_kept - 1]) > 0.5 * spike_threshold) &&
+                           is_spike(s, i, n_kept, spike_threshold);
         after_spike = spike;
         if (spike)
             continue;
-        s->position[kept] = s->position[i];
-        s->force[kept++] = s->force[i];
+        s->position[n_kept] = s->position[i];
+        s->force[n_kept++] = s->force[i];
     }
-    const size_t spikes = s->n - kept;
-    s->n = kept;
+    const size_t spikes = s->n - n_kept;
+    s->n = n_kept;
     return spikes;
 }
 
 /* Number of samples below the limit of the force above its start. It is halfway between the first
  * sample above and the last below. */
-static size_t limit_force(const curve_samples *s, const wt_indent_options *o)
+static size_t count_below_limit(const curve_samples *s, const wt_indent_options *o)
 {
-    const double start = mean(s->force, s->n / 10), max = curve_span_of(s->force, s->n).high;
+    const double start = sample_mean(s->force, s->n / 10),
+                 max = curve_find_span(s->force, s->n).high;
     double limit = start + o->fit_force_fraction * (max - start);
     if (o->fit_force > 0.0)
         limit = fmin(limit, start + o->fit_force);
@@ -371,30 +382,32 @@ void curve_set_reason(char reason[160], const char *format, ...)
     va_end(arguments);
 }
 
-si_text curve_si(double value, const char *unit)
+si_text curve_format_si(double value, const char *unit)
 {
     si_text text;
-    wt_format_si(value, unit, 3, text.words, sizeof text.words);
+    wt_format_si(value, unit, 3, text.buffer, sizeof text.buffer);
     return text;
 }
 
 /* Orients the positions and subtracts the means, which preserves digits in sums. */
-WIDE_REGISTERS static wt_curve_verdict turn_and_centre(curve_input *input, char reason[160])
+WIDE_REGISTERS static wt_curve_verdict orient_and_centre(curve_input *input, char reason[160])
 {
     curve_samples *s = &input->samples;
     const size_t end = s->n / 20 + 1;
-    const curve_span all = curve_span_of(s->position, s->n);
-    const double travel = mean(s->position + s->n - end, end) - mean(s->position, end);
+    const curve_span all = curve_find_span(s->position, s->n);
+    const double travel =
+        sample_mean(s->position + s->n - end, end) - sample_mean(s->position, end);
     if (!(fabs(travel) > travel_share * (all.high - all.low))) {
-        curve_set_reason(reason,
-                         "the height does not go one way: from start to end %s in a range of %s",
-                         curve_si(travel, "m").words, curve_si(all.high - all.low, "m").words);
+        curve_set_reason(
+            reason, "the height does not go one way: from start to end %s in a range of %s",
+            curve_format_si(travel, "m").buffer, curve_format_si(all.high - all.low, "m").buffer);
         return WT_CURVE_NO_APPROACH;
     }
     input->direction = travel > 0.0 ? 1.0 : -1.0;
     const double direction = input->direction,
-                 position_origin = input->position_origin = direction * mean(s->position, s->n),
-                 force_origin = input->force_origin = mean(s->force, s->n);
+                 position_origin = input->position_origin =
+                     direction * sample_mean(s->position, s->n),
+                 force_origin = input->force_origin = sample_mean(s->force, s->n);
     double *restrict position = s->position, *restrict force = s->force;
     for (size_t i = 0; i < s->n; i++) {
         position[i] = direction * position[i] - position_origin;
@@ -433,7 +446,7 @@ wt_curve_verdict curve_prepare(const double *height, const double *force, size_t
                                        .force = w->force,
                                        .spring_constant = spring_constant}};
     curve_samples *s = &input->samples;
-    s->n = clean(height, force, n, input);
+    s->n = copy_good_samples(height, force, n, input);
     if ((double)input->n_missing > missing_share * (double)n) {
         curve_set_reason(reason, "%zu of %zu samples are not numbers, %g %% allowed",
                          input->n_missing, n, 100.0 * missing_share);
@@ -446,25 +459,25 @@ wt_curve_verdict curve_prepare(const double *height, const double *force, size_t
 
     double resolution = 0.0;
     input->step_noise = difference_noise(s, w->scratch, &resolution);
-    const double far = spike_noise * fmax(input->step_noise, resolution);
-    if (far > 0.0) /* one pass only; further passes would remove samples of a contact noisier than
-                      the baseline */
-        input->n_spikes = leave_out_spikes(s, far);
+    const double spike_threshold = spike_noise * fmax(input->step_noise, resolution);
+    if (spike_threshold > 0.0) /* one pass only; further passes would remove samples of a contact
+                      noisier than the baseline */
+        input->n_spikes = remove_spikes(s, spike_threshold);
     if ((double)input->n_spikes > spike_share * (double)n) {
         curve_set_reason(reason, "%zu of %zu samples are spikes, %g %% allowed", input->n_spikes, n,
                          100.0 * spike_share);
         return WT_CURVE_NOT_FINITE;
     }
 
-    const wt_curve_verdict verdict = turn_and_centre(input, reason);
+    const wt_curve_verdict verdict = orient_and_centre(input, reason);
     if (verdict != WT_CURVE_ACCEPTED)
         return verdict;
 
     input->n_all = s->n;
     size_t top = 0;
     if (options->fit_force_fraction < 1.0 || options->fit_force > 0.0) {
-        input->saturated = flat_top(s, input->step_noise, resolution, &top);
-        s->n = limit_force(s, options);
+        input->saturated = has_flat_top(s, input->step_noise, resolution, &top);
+        s->n = count_below_limit(s, options);
     }
     if (s->n < CURVE_MIN_SAMPLES) {
         curve_set_reason(reason, "%zu samples below the limit of the force, %d needed", s->n,
@@ -472,14 +485,15 @@ wt_curve_verdict curve_prepare(const double *height, const double *force, size_t
         return WT_CURVE_TOO_SHORT;
     }
 
-    if (flat_top(s, input->step_noise, resolution, &top)) {
-        const double level = s->force[top] - mean(s->force, s->n / 10);
-        const double travelled = s->position[s->n - 1] - s->position[top];
+    if (has_flat_top(s, input->step_noise, resolution, &top)) {
+        const double level = s->force[top] - sample_mean(s->force, s->n / 10);
+        const double travel_at_top = s->position[s->n - 1] - s->position[top];
         input->flat_level = level;
         curve_set_reason(
             reason,
             "force stands still at %s above its start over the last %zu samples (%s of travel)",
-            curve_si(level, "N").words, s->n - top, curve_si(travelled, "m").words);
+            curve_format_si(level, "N").buffer, s->n - top,
+            curve_format_si(travel_at_top, "m").buffer);
         return WT_CURVE_SATURATED;
     }
     return advance_verdict(input, reason);

@@ -38,9 +38,9 @@ enum { PER_DECADE = 4 };
  * 1 for a visible relaxation (dma/numerics/master_fit.c); curvature per squared e-fold of time;
  * bumps, 20 % of H. A dwell determines slope and level; curvature and bumps widen the intervals.
  * Doubled values widen them accordingly where the dwell does not determine them. */
-static const double usual_slope = 0.5, usual_bend = 0.15, usual_bump = 0.2;
+static const double slope_sd = 0.5, bend_sd = 0.15, bump_sd = 0.2;
 /* Range of the series beyond the measured times; a term slower by 30 relaxes by 3 %. */
-static const double beyond = 30;
+static const double term_range = 30;
 /* Periods of the tested ripples of the spectrum in ln tau. They are close to the width of one
  * relaxation time, 1.14 decades. */
 static const double period[RIPPLES / 2] = {M_LN10, 1.5 * M_LN10};
@@ -51,11 +51,11 @@ static const double converged = 1e-8;
 /* Smallest ratio of the final to the initial indentation. Below it the dwell is not at constant
  * height or force, and the fit lacks Ting's law for a shrinking contact. 5 % of indentation are 8
  * to 10 % of force. */
-static const double fell = 0.95;
+static const double min_depth_ratio = 0.95;
 /* Customary significance level of the misfit. */
-static const double least_chance = 0.01;
+static const double misfit_p_threshold = 0.01;
 
-typedef struct dwell_task {
+typedef struct relaxation_task {
     const wt_contact_table *table;
     const wt_dwell_history *history;
     dwell_nodes nodes;
@@ -72,16 +72,16 @@ typedef struct dwell_task {
     double *residual, *shifted, *depth, *pressed; /* [n] */
     double *jacobian;                             /* [N_PARAMETERS][n] */
     double *rippled;                              /* [RIPPLES][n] derivatives by the ripples */
-} dwell_task;
+} relaxation_task;
 
 /* Sets the relaxation times from well below the first to well above the last time of the dwell. */
-static void make_terms(dwell_task *t)
+static void set_relaxation_times(relaxation_task *t)
 {
     const dwell_nodes *n = &t->nodes;
-    const double load = n->time[n->first_held - 1] - n->time[n->first_pressed],
-                 first = n->time[n->first_held] - n->time[n->first_held - 1],
-                 last = n->time[n->first_free - 1] - n->time[n->first_pressed];
-    const double low = log(fmin(load, first) / beyond), high = log(last * beyond);
+    const double load = n->time[n->first_dwell - 1] - n->time[n->first_loading],
+                 first = n->time[n->first_dwell] - n->time[n->first_dwell - 1],
+                 last = n->time[n->first_free - 1] - n->time[n->first_loading];
+    const double low = log(fmin(load, first) / term_range), high = log(last * term_range);
     t->middle = sqrt(load * last);
     t->bump_width = 1.5 * log(last / load) / (BUMPS - 1);
     for (size_t k = 0; k < BUMPS; k++)
@@ -99,7 +99,7 @@ static void make_terms(dwell_task *t)
 /* Computes the moduli of the terms and returns the equilibrium modulus. LEVEL is the logarithm of
  * the relaxation modulus at the middle of the dwell, which hardly depends on the spectrum. RISE is
  * the spectrum there over that modulus. */
-static double make_moduli(dwell_task *t, const double *p)
+static double compute_term_moduli(relaxation_task *t, const double *p)
 {
     const double level = t->history->modulus * exp(p[LEVEL]), rise = p[RISE] * level * t->width;
     double rest = level;
@@ -121,19 +121,19 @@ static double make_moduli(dwell_task *t, const double *p)
 }
 
 /* Computes storage and loss modulus at an angular frequency. */
-static void moduli_at(dwell_task *t, const double *p, double omega, double to[2])
+static void complex_modulus(relaxation_task *t, const double *p, double omega, double to[2])
 {
-    to[0] = make_moduli(t, p);
+    to[0] = compute_term_moduli(t, p);
     to[1] = 0;
     for (size_t i = 0; i < t->n_terms; i++)
-        prony_add(t->modulus[i], t->time[i], omega, &to[0], &to[1]);
+        prony_add_term(t->modulus[i], t->time[i], omega, &to[0], &to[1]);
 }
 
 /* Adds the difference between the mean over a time interval and the value at its centre, due to the
  * curvature of the force. */
-static void bend_means(const dwell_nodes *n, const double *pressed, double *force)
+static void correct_mean_curvature(const dwell_nodes *n, const double *pressed, double *force)
 {
-    const size_t part[] = {n->first_pressed, n->first_held - 1, n->first_held, n->first_free};
+    const size_t part[] = {n->first_loading, n->first_dwell - 1, n->first_dwell, n->first_free};
     for (size_t j = 0; j < sizeof part / sizeof part[0]; j += 2)
         for (size_t i = part[j] + 1; i + 1 < part[j + 1]; i++) {
             const double before = n->time[i] - n->time[i - 1], after = n->time[i + 1] - n->time[i],
@@ -147,14 +147,14 @@ static void bend_means(const dwell_nodes *n, const double *pressed, double *forc
 }
 
 /* Computes the forces of the nodes, and the indentations unless depth is NULL. */
-static void predict_forces(dwell_task *t, const double *p, double *force, double *depth)
+static void predict_forces(relaxation_task *t, const double *p, double *force, double *depth)
 {
     const dwell_nodes *n = &t->nodes;
     const wt_dwell_history *h = t->history;
     const double nu = h->poisson_ratio, k = h->spring_constant;
     hereditary *law = &t->law;
     double before = 0, start = 0;
-    const double rest = make_moduli(t, p);
+    const double rest = compute_term_moduli(t, p);
     const wt_prony series = {.equilibrium_modulus = rest,
                              .n = t->n_terms,
                              .relaxation_time = t->time,
@@ -168,14 +168,14 @@ static void predict_forces(dwell_task *t, const double *p, double *force, double
         double g = 0, slope = 0, pressed = 0, x = 0;
         t->pressed[i] = 0;
         force[i] = p[OFFSET] * t->unit[OFFSET] + p[TILT] * t->unit[TILT] * z +
-                   p[DRIFT] * t->unit[DRIFT] * (n->time[i] - n->time[n->first_held - 1]);
+                   p[DRIFT] * t->unit[DRIFT] * (n->time[i] - n->time[n->first_dwell - 1]);
         if (i == 0 || i >= n->first_free || (before <= 0 && !(z > 0)))
             continue;
         const double last = n->position[i - 1] - h->contact_point - p[POINT] * t->unit[POINT];
-        hereditary_step(law, (n->time[i] - n->time[i - 1]) / SUBSTEPS);
+        hereditary_set_step(law, (n->time[i] - n->time[i - 1]) / SUBSTEPS);
         for (int j = 1; j <= SUBSTEPS; j++) {
             const double at = last + (z - last) * j / SUBSTEPS,
-                         faded = hereditary_fade(law, law->memory[0]),
+                         faded = hereditary_decay(law, law->memory[0]),
                          now = hereditary_force(law, 0, 0, 1),
                          past = hereditary_force(law, faded, before, 0);
             g = x = pressed = 0;
@@ -183,7 +183,7 @@ static void predict_forces(dwell_task *t, const double *p, double *force, double
                 x = curve_balanced_depth(t->table, k, at, 1, past, now, start, &g, &slope);
                 pressed = past + now * g;
             }
-            hereditary_add(law, law->memory[0], g - before);
+            hereditary_add_change(law, law->memory[0], g - before);
             before = g;
             start = x;
         }
@@ -191,7 +191,7 @@ static void predict_forces(dwell_task *t, const double *p, double *force, double
         if (depth != NULL)
             depth[i] = x;
     }
-    bend_means(n, t->pressed, force);
+    correct_mean_curvature(n, t->pressed, force);
 }
 
 /* Divides by the Cholesky factor of the covariance. */
@@ -205,7 +205,7 @@ static void whiten_residual(const dwell_nodes *n, double *x)
 }
 
 /* Computes the whitened residuals and returns the sum of squares with that of the priors. */
-static double cost_of(dwell_task *t, const double *p, double *residual)
+static double dwell_cost(relaxation_task *t, const double *p, double *residual)
 {
     double sum = 0;
     predict_forces(t, p, residual, NULL);
@@ -220,32 +220,33 @@ static double cost_of(dwell_task *t, const double *p, double *residual)
 }
 
 /* Computes J'J and J'r with the priors. */
-static void dwell_equations(dwell_task *t, const double *p, double jj[N_PARAMETERS][N_PARAMETERS],
-                            double jr[N_PARAMETERS])
+static void dwell_equations(relaxation_task *t, const double *p,
+                            double jj[N_PARAMETERS][N_PARAMETERS], double jr[N_PARAMETERS])
 {
     const size_t n = t->nodes.n;
     for (size_t a = 0; a < N_PARAMETERS; a++) {
         double there[N_PARAMETERS], *column = t->jacobian + a * n;
         for (size_t b = 0; b < N_PARAMETERS; b++)
             there[b] = p[b] + (b == a ? derivative_step : 0);
-        (void)cost_of(t, there, column);
+        (void)dwell_cost(t, there, column);
         for (size_t i = 0; i < n; i++)
             column[i] = (t->residual[i] - column[i]) / derivative_step;
     }
     for (size_t a = 0; a < N_PARAMETERS; a++) {
-        const double own = t->sd[a] > 0 ? 1 / (t->sd[a] * t->sd[a]) : 0;
-        jr[a] = curve_dot(t->jacobian + a * n, t->residual, n) - own * p[a];
+        const double prior_weight = t->sd[a] > 0 ? 1 / (t->sd[a] * t->sd[a]) : 0;
+        jr[a] = curve_dot(t->jacobian + a * n, t->residual, n) - prior_weight * p[a];
         for (size_t b = 0; b < N_PARAMETERS; b++)
-            jj[a][b] = curve_dot(t->jacobian + a * n, t->jacobian + b * n, n) + (a == b ? own : 0);
+            jj[a][b] = curve_dot(t->jacobian + a * n, t->jacobian + b * n, n) +
+                       (a == b ? prior_weight : 0);
     }
 }
 
 /* Levenberg-Marquardt fit of the first n parameters. Returns the sum of squares, or NaN on failure.
  */
-static double fit_parameters(dwell_task *t, size_t n, double p[N_PARAMETERS],
+static double fit_parameters(relaxation_task *t, size_t n, double p[N_PARAMETERS],
                              double jj[N_PARAMETERS][N_PARAMETERS])
 {
-    double cost = cost_of(t, p, t->residual), damping = 1e-3, jr[N_PARAMETERS];
+    double cost = dwell_cost(t, p, t->residual), damping = 1e-3, jr[N_PARAMETERS];
     for (int step = 0; step < MAX_STEPS; step++) {
         double damped[N_PARAMETERS][N_PARAMETERS], next[N_PARAMETERS], there;
         dwell_equations(t, p, jj, jr);
@@ -263,7 +264,7 @@ static double fit_parameters(dwell_task *t, size_t n, double p[N_PARAMETERS],
                 gsl_linalg_cholesky_svx(&matrix.matrix, &x.vector) == GSL_SUCCESS) {
                 for (size_t a = 0; a < N_PARAMETERS; a++)
                     next[a] += p[a];
-                there = cost_of(t, next, t->shifted);
+                there = dwell_cost(t, next, t->shifted);
             }
             damping *= there <= cost ? 0.1 : 4;
         } while (!(there <= cost) && damping < 1e12);
@@ -272,7 +273,7 @@ static double fit_parameters(dwell_task *t, size_t n, double p[N_PARAMETERS],
         const double gain = cost - there;
         for (size_t a = 0; a < N_PARAMETERS; a++)
             p[a] = next[a];
-        cost = cost_of(t, p, t->residual);
+        cost = dwell_cost(t, p, t->residual);
         if (gain <= converged * cost)
             break;
     }
@@ -285,7 +286,7 @@ static double fit_parameters(dwell_task *t, size_t n, double p[N_PARAMETERS],
 /* p value of the ripples of the spectrum, given noise and priors. They reveal single relaxation
  * times long before the whole misfit is significant. The result is NaN without a test: the fit
  * leaves nothing of a ripple, or rounding decides. */
-static double ripple_chance(dwell_task *t, const double *p, const gsl_matrix *covariance)
+static double ripple_chance(relaxation_task *t, const double *p, const gsl_matrix *covariance)
 {
     const size_t n = t->nodes.n;
     double along[RIPPLES][N_PARAMETERS], m[RIPPLES][RIPPLES], left[RIPPLES], solved[RIPPLES],
@@ -293,7 +294,7 @@ static double ripple_chance(dwell_task *t, const double *p, const gsl_matrix *co
     for (size_t k = 0; k < RIPPLES; k++) {
         double *column = t->rippled + k * n;
         t->ripple[k] = derivative_step;
-        (void)cost_of(t, p, column);
+        (void)dwell_cost(t, p, column);
         t->ripple[k] = 0;
         for (size_t i = 0; i < n; i++)
             column[i] = (t->residual[i] - column[i]) / derivative_step;
@@ -320,8 +321,8 @@ static double ripple_chance(dwell_task *t, const double *p, const gsl_matrix *co
 
 /* Standard error from g' C g, and the part that curves share because of the priors. `scale`
  * multiplies the part of the noise. */
-static void errors_of(const dwell_task *t, const gsl_matrix *covariance, const double *gradient,
-                      double scale, double *error, double *common)
+static void propagate_errors(const relaxation_task *t, const gsl_matrix *covariance,
+                             const double *gradient, double scale, double *error, double *common)
 {
     double all = 0, shared = 0;
     for (size_t a = 0; a < N_PARAMETERS; a++) {
@@ -337,70 +338,70 @@ static void errors_of(const dwell_task *t, const gsl_matrix *covariance, const d
 
 /* Sets the moduli at the frequencies of a grid common to all curves, between the inverse times from
  * contact to the start and end of the dwell. */
-static void tell_moduli(dwell_task *t, const double *p, const gsl_matrix *covariance, double scale,
-                        wt_dwell *to)
+static void set_dwell_moduli(relaxation_task *t, const double *p, const gsl_matrix *covariance,
+                             double scale, wt_dwell *to)
 {
     /* No error is known of what the model does not describe. */
-    const double known = to->misfit_p >= least_chance ? 1 : (double)NAN;
+    const double known = to->misfit_p >= misfit_p_threshold ? 1 : (double)NAN;
     const double low = ceil(-log10(to->load_time + to->duration) * PER_DECADE),
                  high = floor(-log10(to->load_time) * PER_DECADE);
     for (double at = low; at <= high && to->n < WT_DWELL_FREQUENCIES; at++) {
         wt_dwell_moduli *m = &to->moduli[to->n++];
         double value[2], there[2], gradient[2][N_PARAMETERS] = {{0}};
         m->angular_frequency = pow(10, at / PER_DECADE);
-        moduli_at(t, p, m->angular_frequency, value);
+        complex_modulus(t, p, m->angular_frequency, value);
         for (size_t a = LEVEL; a < N_PARAMETERS; a++) {
             double q[N_PARAMETERS];
             for (size_t b = 0; b < N_PARAMETERS; b++)
                 q[b] = p[b] + (b == a ? derivative_step : 0);
-            moduli_at(t, q, m->angular_frequency, there);
+            complex_modulus(t, q, m->angular_frequency, there);
             for (size_t k = 0; k < 2; k++)
                 gradient[k][a] = (there[k] - value[k]) / derivative_step;
         }
         m->storage = (wt_estimate){.value = value[0], .unit = "Pa"};
         m->loss = (wt_estimate){.value = value[1], .unit = "Pa"};
-        errors_of(t, covariance, gradient[0], known * scale, &m->storage.standard_error,
-                  &m->storage_common_error);
-        errors_of(t, covariance, gradient[1], known * scale, &m->loss.standard_error,
-                  &m->loss_common_error);
+        propagate_errors(t, covariance, gradient[0], known * scale, &m->storage.standard_error,
+                         &m->storage_common_error);
+        propagate_errors(t, covariance, gradient[1], known * scale, &m->loss.standard_error,
+                         &m->loss_common_error);
     }
 }
 
 /* Sets contact point and baseline, and the shared error of the indentation. */
-static void tell_place(const dwell_task *t, const double *p, const gsl_matrix *covariance,
-                       wt_dwell *to)
+static void set_contact_estimates(const relaxation_task *t, const double *p,
+                                  const gsl_matrix *covariance, wt_dwell *to)
 {
     const dwell_nodes *n = &t->nodes;
     const size_t last = n->first_free - 1;
     const double k = t->history->spring_constant;
-    const bool described = to->misfit_p >= least_chance;
+    const bool described = to->misfit_p >= misfit_p_threshold;
     double gradient[N_PARAMETERS] = {0}, all;
     to->contact_point = t->history->contact_point + p[POINT] * t->unit[POINT];
     to->baseline_offset = p[OFFSET] * t->unit[OFFSET];
     to->baseline_tilt = p[TILT] * t->unit[TILT];
     to->drift = p[DRIFT] * t->unit[DRIFT];
-    to->drift_from = n->time[n->first_held - 1];
+    to->drift_start = n->time[n->first_dwell - 1];
     gradient[POINT] = -t->unit[POINT] * (1 + to->baseline_tilt / k);
     gradient[OFFSET] = t->unit[OFFSET] / k;
     gradient[TILT] = t->unit[TILT] * (n->position[last] - to->contact_point) / k;
-    gradient[DRIFT] = t->unit[DRIFT] * (n->time[last] - to->drift_from) / k;
-    errors_of(t, covariance, gradient, described ? 1 : (double)NAN, &all,
-              &to->indentation_common_error);
+    gradient[DRIFT] = t->unit[DRIFT] * (n->time[last] - to->drift_start) / k;
+    propagate_errors(t, covariance, gradient, described ? 1 : (double)NAN, &all,
+                     &to->indentation_common_error);
 }
 
-static void tell_points(dwell_task *t, const double *p, wt_dwell *to)
+static void set_dwell_points(relaxation_task *t, const double *p, wt_dwell *to)
 {
     const dwell_nodes *n = &t->nodes;
     const double nu = t->history->poisson_ratio, k = t->history->spring_constant;
     predict_forces(t, p, t->shifted, t->depth);
-    for (size_t i = n->first_held; i < n->first_free; i++) {
+    for (size_t i = n->first_dwell; i < n->first_free; i++) {
         wt_dwell_point *point = &to->point[to->n_points++];
         const double z = n->position[i] - t->history->contact_point - p[POINT] * t->unit[POINT];
         const double baseline =
             p[OFFSET] * t->unit[OFFSET] + p[TILT] * t->unit[TILT] * z +
-            p[DRIFT] * t->unit[DRIFT] * (n->time[i] - n->time[n->first_held - 1]);
+            p[DRIFT] * t->unit[DRIFT] * (n->time[i] - n->time[n->first_dwell - 1]);
         double g[2];
-        point->time = n->time[i] - n->from[n->first_held] + to->load_time;
+        point->time = n->time[i] - n->from[n->first_dwell] + to->load_time;
         point->force = n->force[i] - baseline;
         point->indentation = z - point->force / k;
         wt_contact_table_eval(t->table, &point->indentation, 1, &g[0], NULL);
@@ -409,41 +410,41 @@ static void tell_points(dwell_task *t, const double *p, wt_dwell *to)
         point->fitted = (t->shifted[i] - baseline) * (1 - nu * nu) / g[1];
     }
     const wt_dwell_point *first = &to->point[0], *last = &to->point[to->n_points - 1];
-    to->creep = fabs(n->position[n->first_free - 1] - n->position[n->first_held]) * k >
+    to->creep = fabs(n->position[n->first_free - 1] - n->position[n->first_dwell]) * k >
                 fabs(last->force - first->force);
-    if (last->indentation < fell * first->indentation)
+    if (last->indentation < min_depth_ratio * first->indentation)
         to->why_not = "the indentation falls in it, of which the law holds nothing";
-    if (!contact_law_holds(contact_table_tip(t->table),
-                           fmax(first->indentation, last->indentation)))
+    if (!contact_law_is_valid(contact_table_tip(t->table),
+                              fmax(first->indentation, last->indentation)))
         to->why_not = "deeper than the contact law of the tip holds";
 }
 
 /* Time from the contact point, interpolated between the means, to the dwell. */
-static double load_time(const dwell_task *t, const double *p)
+static double load_time(const relaxation_task *t, const double *p)
 {
     const dwell_nodes *n = &t->nodes;
     const double c = t->history->contact_point + p[POINT] * t->unit[POINT];
-    size_t i = n->first_pressed;
-    while (i < n->first_held && n->position[i] < c)
+    size_t i = n->first_loading;
+    while (i < n->first_dwell && n->position[i] < c)
         i++;
-    if (i == 0 || i == n->first_held)
+    if (i == 0 || i == n->first_dwell)
         return (double)NAN;
     const double part = (c - n->position[i - 1]) / (n->position[i] - n->position[i - 1]);
-    return n->from[n->first_held] - n->time[i - 1] - part * (n->time[i] - n->time[i - 1]);
+    return n->from[n->first_dwell] - n->time[i - 1] - part * (n->time[i] - n->time[i - 1]);
 }
 
 /* p value of the smaller of two p values. One test alone can reject the law. Acceptance needs both,
  * because the whole misfit does not show the ripples. */
-static double chance_of_two(double misfit, double ripples)
+static double combined_chance(double misfit, double ripples)
 {
     if (isnan(ripples))
-        return misfit * (2 - misfit) < least_chance ? misfit * (2 - misfit) : (double)NAN;
+        return misfit * (2 - misfit) < misfit_p_threshold ? misfit * (2 - misfit) : (double)NAN;
     const double chance = fmin(misfit, ripples);
     return chance * (2 - chance);
 }
 
-static void tell_relaxation(dwell_task *t, const double *p, double cost,
-                            double jj[N_PARAMETERS][N_PARAMETERS], wt_dwell *to)
+static void set_relaxation_result(relaxation_task *t, const double *p, double cost,
+                                  double jj[N_PARAMETERS][N_PARAMETERS], wt_dwell *to)
 {
     const dwell_nodes *n = &t->nodes;
     const double freedom = (double)(n->n - N_PARAMETERS);
@@ -455,37 +456,37 @@ static void tell_relaxation(dwell_task *t, const double *p, double cost,
         to->why_not = "no relaxation modulus goes through approach and dwell";
         return;
     }
-    to->duration = n->to[n->first_free - 1] - n->from[n->first_held];
+    to->duration = n->to[n->first_free - 1] - n->from[n->first_dwell];
     to->misfit = cost / freedom;
     to->misfit_p =
-        chance_of_two(gsl_cdf_chisq_Q(cost, freedom), ripple_chance(t, p, &matrix.matrix));
-    tell_points(t, p, to);
+        combined_chance(gsl_cdf_chisq_Q(cost, freedom), ripple_chance(t, p, &matrix.matrix));
+    set_dwell_points(t, p, to);
     if (to->why_not[0] != '\0')
         return;
-    tell_place(t, p, &matrix.matrix, to);
-    tell_moduli(t, p, &matrix.matrix, fmax(1, to->misfit), to);
+    set_contact_estimates(t, p, &matrix.matrix, to);
+    set_dwell_moduli(t, p, &matrix.matrix, fmax(1, to->misfit), to);
     if (to->n == 0)
         to->why_not = "too short beside its loading";
     to->found = to->n > 0;
 }
 
 /* Sets the start of the search, an elastic sample. */
-static void begin_elastic(dwell_task *t, double p[N_PARAMETERS])
+static void start_elastic(relaxation_task *t, double p[N_PARAMETERS])
 {
     const wt_dwell_history *h = t->history;
     const dwell_nodes *n = &t->nodes;
-    const double deep = h->position[h->n_approach - 1] - h->contact_point,
-                 largest = n->force[n->first_held - 1] - h->baseline_offset,
+    const double max_depth = h->position[h->n_approach - 1] - h->contact_point,
+                 largest = n->force[n->first_dwell - 1] - h->baseline_offset,
                  time = n->time[n->first_free - 1] - n->time[0];
-    const double unit[] = {deep, largest, largest / deep, largest / time};
-    const double rate = (n->position[n->first_held - 1] - n->position[0]) /
-                        (n->time[n->first_held - 1] - n->time[0]);
+    const double unit[] = {max_depth, largest, largest / max_depth, largest / time};
+    const double rate = (n->position[n->first_dwell - 1] - n->position[0]) /
+                        (n->time[n->first_dwell - 1] - n->time[0]);
     for (size_t a = 0; a < N_PARAMETERS; a++) {
         t->unit[a] = a <= DRIFT ? unit[a] : 1;
-        t->sd[a] = a >= BUMP ? usual_bump : 0;
+        t->sd[a] = a >= BUMP ? bump_sd : 0;
     }
-    t->sd[SLOPE] = usual_slope;
-    t->sd[BEND] = usual_bend;
+    t->sd[SLOPE] = slope_sd;
+    t->sd[BEND] = bend_sd;
     /* The tilt may be entirely due to drift, or not at all. */
     t->sd[DRIFT] = hypot(h->baseline_tilt.value, h->baseline_tilt.standard_error) * fabs(rate) /
                    t->unit[DRIFT];
@@ -496,7 +497,7 @@ static void begin_elastic(dwell_task *t, double p[N_PARAMETERS])
     p[TILT] = h->baseline_tilt.value / t->unit[TILT];
 }
 
-static const char *why_no_relaxation(const wt_dwell_history *h)
+static const char *history_defect(const wt_dwell_history *h)
 {
     const size_t n = h->n_approach + h->n_dwell + h->n_retract;
     if (!(h->spring_constant > 0) || !(h->modulus > 0) || !isfinite(h->contact_point) ||
@@ -511,7 +512,7 @@ static const char *why_no_relaxation(const wt_dwell_history *h)
     return h->position[h->n_approach - 1] > h->contact_point ? "" : "not in contact";
 }
 
-static void fit_relaxation(dwell_task *t, arena *memory, wt_dwell *to)
+static void fit_relaxation(relaxation_task *t, arena *memory, wt_dwell *to)
 {
     const wt_dwell_history *h = t->history;
     const double depth = h->position[h->n_approach - 1] - h->contact_point;
@@ -519,7 +520,7 @@ static void fit_relaxation(dwell_task *t, arena *memory, wt_dwell *to)
     wt_contact_table_eval(t->table, &depth, 1, &g, &slope);
     const double s = h->modulus * slope;
     to->why_not =
-        dwell_nodes_make(h, h->spring_constant * s / (h->spring_constant + s), memory, &t->nodes);
+        dwell_nodes_create(h, h->spring_constant * s / (h->spring_constant + s), memory, &t->nodes);
     t->residual = arena_numbers(memory, t->nodes.n);
     t->jacobian = arena_numbers(memory, N_PARAMETERS * t->nodes.n);
     t->rippled = arena_numbers(memory, RIPPLES * t->nodes.n);
@@ -528,11 +529,11 @@ static void fit_relaxation(dwell_task *t, arena *memory, wt_dwell *to)
     t->pressed = arena_numbers(memory, t->nodes.n);
     if (to->why_not[0] != '\0' || memory->failed)
         return;
-    begin_elastic(t, p);
-    make_terms(t);
+    start_elastic(t, p);
+    set_relaxation_times(t);
     (void)fit_parameters(t, BUMP, p, jj);
     const double cost = fit_parameters(t, N_PARAMETERS, p, jj);
-    tell_relaxation(t, p, cost, jj, to);
+    set_relaxation_result(t, p, cost, jj, to);
 }
 
 wt_status wt_dwell_fit(const wt_contact_table *table, const wt_dwell_history *history,
@@ -540,10 +541,10 @@ wt_status wt_dwell_fit(const wt_contact_table *table, const wt_dwell_history *hi
 {
     if (table == NULL || history == NULL || dwell == NULL || history->n_approach == 0)
         return wt_fail(err, WT_E_ARG, "no dwell");
-    dwell_task t = {.table = table, .history = history};
+    relaxation_task t = {.table = table, .history = history};
     arena memory = {0};
     *dwell = (wt_dwell){.load_time = (double)NAN, .misfit = (double)NAN};
-    dwell->why_not = why_no_relaxation(history);
+    dwell->why_not = history_defect(history);
     gsl_quiet();
     wt_status status = hereditary_reserve(&t.law, MOST_TERMS, err);
     if (status == WT_OK && dwell->why_not[0] == '\0')

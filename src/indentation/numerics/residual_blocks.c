@@ -17,12 +17,12 @@ static const double before_contact =
     0.2; /* share of the contact before it that belongs to the window, for a snap-in */
 /* Smallest residual over the force, due to rounding in files and tables. */
 static const double rounding_share = 2e-5;
-static const double same =
+static const double rounding_tolerance =
     1e-9; /* relative remainder of a column that depends linearly on earlier ones */
 
 /* Adds sample j to block i of the history and window. */
-static void add_columns(const curve_law *m, const double p[N], size_t j, size_t i,
-                        residual_blocks *b)
+static void add_block_columns(const curve_law *m, const double p[N], size_t j, size_t i,
+                              residual_blocks *b)
 {
     const wt_indent_workspace *w = m->workspace;
     double row[N];
@@ -31,9 +31,9 @@ static void add_columns(const curve_law *m, const double p[N], size_t j, size_t 
     for (size_t a = 0; a < N; a++)
         if (m->free[a])
             b->column[c++][i] += row[a] / factor * share;
-    for (size_t k = 0; k < WAVE_PARAMETERS && m->wave && !curve_in_gap(m->samples, j); k++)
+    for (size_t k = 0; k < WAVE_PARAMETERS && m->wave && !curve_is_in_gap(m->samples, j); k++)
         b->column[c + k][i] += w->wave_column[k][j] / factor * share;
-    if (w->delta[j] > 0.0 && (m->jump == 0 || j >= m->jump) && !curve_in_gap(m->samples, j)) {
+    if (w->delta[j] > 0.0 && (m->jump == 0 || j >= m->jump) && !curve_is_in_gap(m->samples, j)) {
         const double touch = share / curve_model_factor(m, p, j);
         b->touch[i] += touch;
         b->depth[i] += touch * w->delta[j];
@@ -41,7 +41,7 @@ static void add_columns(const curve_law *m, const double p[N], size_t j, size_t 
 }
 
 /* Converts sums of the depths to means, relative to the largest. */
-static void scale_depths(residual_blocks *b)
+static void normalise_depths(residual_blocks *b)
 {
     double most = 0.0;
     for (size_t i = 0; i < BLOCKS_MAX_ORDER + b->n; i++) {
@@ -87,12 +87,12 @@ WIDE_REGISTERS bool residual_blocks_average(const curve_law *m, const double p[N
     const size_t history = b->n_before < BLOCKS_MAX_ORDER ? b->n_before : BLOCKS_MAX_ORDER;
     for (size_t i = BLOCKS_MAX_ORDER - history; i < BLOCKS_MAX_ORDER + b->n; i++)
         for (size_t j = 0; j < length; j++)
-            add_columns(m, p, first + i * length + j - BLOCKS_MAX_ORDER * length, i, b);
-    scale_depths(b);
+            add_block_columns(m, p, first + i * length + j - BLOCKS_MAX_ORDER * length, i, b);
+    normalise_depths(b);
     return true;
 }
 
-double residual_remove_along(const double *q, double *x, size_t n)
+double residual_subtract_projection(const double *q, double *x, size_t n)
 {
     const double along = curve_dot(q, x, n);
     for (size_t i = 0; i < n; i++)
@@ -100,40 +100,40 @@ double residual_remove_along(const double *q, double *x, size_t n)
     return along;
 }
 
-WIDE_REGISTERS double residual_project_out(double *r, double *const *columns, size_t n_columns,
-                                           size_t count, size_t n, size_t *n_counted)
+WIDE_REGISTERS double residual_orthogonalise(double *r, double *const *columns, size_t n_columns,
+                                             size_t count, size_t n, size_t *n_counted)
 {
-    double taken = 0.0;
+    double removed = 0.0;
     *n_counted = 0;
     for (size_t c = 0; c < n_columns; c++) {
         const double before = curve_dot(columns[c], columns[c], n);
         for (int twice = 0; twice < 2; twice++)
             for (size_t d = 0; d < c; d++)
-                residual_remove_along(columns[d], columns[c], n);
+                residual_subtract_projection(columns[d], columns[c], n);
         const double norm = curve_dot(columns[c], columns[c], n);
-        const bool new = norm > same *same *before;
+        const bool new = norm > rounding_tolerance *rounding_tolerance *before;
         for (size_t i = 0; i < n; i++)
             columns[c][i] = new ? columns[c][i] / sqrt(norm) : 0.0;
-        const double along = residual_remove_along(columns[c], r, n);
+        const double along = residual_subtract_projection(columns[c], r, n);
         if (c >= count && new) {
-            taken += along * along;
+            removed += along * along;
             ++*n_counted;
         }
     }
-    return taken;
+    return removed;
 }
 
 /* ---- noise ----------------------------------------------------------------------------------- */
 
 /* Noise in one or two runs of blocks. */
-typedef struct runs {
+typedef struct noise_runs {
     double x[MOST];
     size_t n, second; /* blocks; start of the second run */
-    double taken;     /* parameters that were eliminated */
-} runs;
+    double removed;   /* parameters that were eliminated */
+} noise_runs;
 
 /* Subtracts a polynomial of `terms` terms. */
-static void take_out_powers(double *x, size_t n, size_t terms)
+static void subtract_polynomial(double *x, size_t n, size_t terms)
 {
     double power[POWERS][BLOCKS_BEFORE];
     double *const columns[POWERS] = {power[0], power[1], power[2], power[3]};
@@ -144,11 +144,11 @@ static void take_out_powers(double *x, size_t n, size_t terms)
         for (size_t k = 1; k < terms; k++)
             power[k][i] = power[k - 1][i] * at;
     }
-    residual_project_out(x, columns, terms, terms, n, &ignored);
+    residual_orthogonalise(x, columns, terms, terms, n, &ignored);
 }
 
 /* Subtracts the columns of the parameters and slow cosines from the window. */
-static void take_out_slow(const residual_blocks *b, double *x)
+static void subtract_slow_waves(const residual_blocks *b, double *x)
 {
     double store[BLOCKS_COLUMNS + SLOW][BLOCKS_WINDOW], *columns[BLOCKS_COLUMNS + SLOW];
     size_t ignored;
@@ -159,17 +159,17 @@ static void take_out_slow(const residual_blocks *b, double *x)
             store[c][i] = c < b->n_columns ? b->column[c][BLOCKS_MAX_ORDER + i]
                                            : cos(angle * ((double)i + 0.5));
     }
-    residual_project_out(x, columns, b->n_columns + SLOW, b->n_columns + SLOW, b->n, &ignored);
+    residual_orthogonalise(x, columns, b->n_columns + SLOW, b->n_columns + SLOW, b->n, &ignored);
 }
 
 /* Fits an autoregression by Burg's method, with the order by the corrected Akaike criterion. */
-WIDE_REGISTERS static void autoregress(const runs *of, residual_blocks *b)
+WIDE_REGISTERS static void fit_autoregression(const noise_runs *of, residual_blocks *b)
 {
     const size_t n = of->n, start[2] = {0, of->second}, stop[2] = {of->second, n};
     double x[MOST], back[MOST], a[BLOCKS_MAX_ORDER + 1] = {0.0};
     memcpy(x, of->x, n * sizeof *x);
     memcpy(back, of->x, n * sizeof *back);
-    const double all = (double)n - of->taken + POWERS;
+    const double all = (double)n - of->removed + POWERS;
     double variance = curve_dot(x, x, n) / all, best = (double)INFINITY;
     b->innovation = 0.0;
     b->order = 0; /* also for a baseline without noise */
@@ -209,22 +209,22 @@ WIDE_REGISTERS static void autoregress(const runs *of, residual_blocks *b)
 
 bool residual_blocks_find_noise(const curve_law *m, const double p[N], residual_blocks *b)
 {
-    runs of = {.n = b->n_before, .second = b->n_before, .taken = POWERS};
-    const bool is_short = b->n_before < BLOCKS_LEAST;
+    noise_runs of = {.n = b->n_before, .second = b->n_before, .removed = POWERS};
+    const bool is_short = b->n_before < BLOCKS_MIN_BASELINE;
     memcpy(of.x, b->r, b->n_before * sizeof *of.x);
     if (!is_short) {
-        take_out_powers(of.x, of.n, POWERS);
+        subtract_polynomial(of.x, of.n, POWERS);
     } else { /* slow parts in contact may be misfit, fast ones are noise */
         of.n = b->n_before + b->n;
-        of.taken = (double)(b->n_columns + SLOW + 1);
+        of.removed = (double)(b->n_columns + SLOW + 1);
         memcpy(of.x + b->n_before, b->r + b->n_before, b->n * sizeof *of.x);
-        take_out_powers(of.x, b->n_before, b->n_before > 0 ? 1 : 0);
-        take_out_slow(b, of.x + b->n_before);
+        subtract_polynomial(of.x, b->n_before, b->n_before > 0 ? 1 : 0);
+        subtract_slow_waves(b, of.x + b->n_before);
     }
-    if ((double)of.n < of.taken + POWERS)
+    if ((double)of.n < of.removed + POWERS)
         return false;
-    autoregress(&of, b);
-    b->freedom = ((double)of.n - (is_short ? of.taken : 0.0)) / BLOCKS_PER_FREEDOM;
+    fit_autoregression(&of, b);
+    b->freedom = ((double)of.n - (is_short ? of.removed : 0.0)) / BLOCKS_PER_FREEDOM;
     const double top = rounding_share * p[CURVE_E] * m->workspace->g[m->samples->n - 1];
     b->innovation = fmax(b->innovation, top * top);
     return b->innovation > 0.0 && isfinite(b->innovation);
@@ -240,7 +240,7 @@ void residual_blocks_whiten(const residual_blocks *b, const double *x, size_t fr
     }
 }
 
-void residual_blocks_leave_out_gap(const residual_blocks *b, double *x)
+void residual_blocks_zero_gap(const residual_blocks *b, double *x)
 {
     const size_t end = b->gap_to > b->gap_from ? b->gap_to + b->order : 0;
     for (size_t i = b->gap_from; i < end && i < b->n; i++)

@@ -9,10 +9,10 @@
 #include "indentation/numerics/curve_model.h"
 
 enum {
-    BLOCKS_WINDOW = 48,   /* blocks of the contact */
-    BLOCKS_BEFORE = 400,  /* largest number of blocks of the baseline */
-    BLOCKS_LEAST = 16,    /* smallest baseline that determines the noise alone */
-    BLOCKS_MAX_ORDER = 6, /* order of the autoregression */
+    BLOCKS_WINDOW = 48,       /* blocks of the contact */
+    BLOCKS_BEFORE = 400,      /* largest number of blocks of the baseline */
+    BLOCKS_MIN_BASELINE = 16, /* smallest baseline that determines the noise alone */
+    BLOCKS_MAX_ORDER = 6,     /* order of the autoregression */
     BLOCKS_HISTORY = BLOCKS_MAX_ORDER + BLOCKS_WINDOW,
     BLOCKS_COLUMNS = CURVE_N_PARAMETERS + WAVE_PARAMETERS,
 };
@@ -51,14 +51,14 @@ bool residual_blocks_find_noise(const curve_law *m, const double p[CURVE_N_PARAM
 void residual_blocks_whiten(const residual_blocks *b, const double *x, size_t from, size_t n,
                             double *out);
 /* Sets the innovations of blocks with samples that are not compared to 0. */
-void residual_blocks_leave_out_gap(const residual_blocks *b, double *x);
+void residual_blocks_zero_gap(const residual_blocks *b, double *x);
 
 /* Subtracts the projection on the unit vector q from x and returns its coefficient. */
-double residual_remove_along(const double *q, double *x, size_t n);
+double residual_subtract_projection(const double *q, double *x, size_t n);
 /* Orthonormalises the columns one by one and subtracts their projections from r. Returns the sum of
  * squares of the projections from column `count` on, and their number. Columns and r are destroyed.
  */
-double residual_project_out(double *r, double *const *columns, size_t n_columns, size_t count,
-                            size_t n, size_t *n_counted);
+double residual_orthogonalise(double *r, double *const *columns, size_t n_columns, size_t count,
+                              size_t n, size_t *n_counted);
 
 #endif

@@ -11,18 +11,19 @@
 #include <math.h>
 
 /* Parameter of a law for the pull-off force; NaN if the law does not apply. */
-static double adhesion_of_pull_off(const curve_fitting *f, const curve_kind *kind, double reduced)
+static double pull_off_parameter(const curve_fitting *f, const curve_kind *kind, double reduced)
 {
     if (kind->constant_pull)
         return f->pull_off;
-    return sqrt(adhesion_work(f->table, reduced, f->way_out.samples.spring_constant, f->pull_off));
+    return sqrt(
+        adhesion_work(f->table, reduced, f->unloading.samples.spring_constant, f->pull_off));
 }
 
-bool curve_fit_way_out(const curve_fitting *f, const curve_kind *kind, const curve_solution *in,
-                       curve_solution *out)
+bool curve_fit_unloading(const curve_fitting *f, const curve_kind *kind, const curve_solution *in,
+                         curve_solution *out)
 {
-    const curve_samples *s = &f->way_out.samples;
-    const size_t jump = f->way_out.jump;
+    const curve_samples *s = &f->unloading.samples;
+    const size_t jump = f->unloading.jump;
     const bool adhesive = jump > 0;
     const curve_kind fitted = {.tilt = kind->tilt,
                                .adhesive = adhesive,
@@ -35,7 +36,7 @@ bool curve_fit_way_out(const curve_fitting *f, const curve_kind *kind, const cur
     if (fitted.adhesive && !fitted.constant_pull && !adhesion_applies(contact_table_tip(f->table)))
         return false;
     if (adhesive)
-        p[CURVE_W] = adhesion_of_pull_off(f, kind, p[CURVE_E]);
+        p[CURVE_W] = pull_off_parameter(f, kind, p[CURVE_E]);
     if (isnan(p[CURVE_W]))
         return false;
     curve_refine(f->table, s, fitted, p, f->workspace, out);
@@ -43,17 +44,17 @@ bool curve_fit_way_out(const curve_fitting *f, const curve_kind *kind, const cur
 }
 
 /* Fits the laws and returns the best. Returns false if none fits. */
-static bool fit_better_law(const curve_fitting *f, curve_solution *best, curve_kind *kind)
+static bool fit_best_law(const curve_fitting *f, curve_solution *best, curve_kind *kind)
 {
-    const bool adhesive = f->way_out.jump > 0;
+    const bool adhesive = f->unloading.jump > 0;
     bool found = false;
     for (int pull = 0; pull <= adhesive; pull++) {
         const curve_kind law = {.tilt = f->kind.tilt,
                                 .adhesive = adhesive,
                                 .constant_pull = pull,
-                                .jump = f->way_out.jump};
+                                .jump = f->unloading.jump};
         curve_solution out;
-        if (!curve_fit_way_out(f, &law, &f->solution, &out) || !out.converged ||
+        if (!curve_fit_unloading(f, &law, &f->solution, &out) || !out.converged ||
             (found && !(out.cost < best->cost)))
             continue;
         found = true;
@@ -63,27 +64,27 @@ static bool fit_better_law(const curve_fitting *f, curve_solution *best, curve_k
     return found;
 }
 
-static void say_other_modulus(const curve_fitting *f, wt_indent_fit *fit)
+static void append_retract_modulus(const curve_fitting *f, wt_indent_fit *fit)
 {
     const double error = hypot(fit->modulus.standard_error, fit->retract_modulus.standard_error);
     char text[160];
-    if (!wt_curve_usable(fit->verdict) || !(fabs(f->loss) < CURVE_LEAST_LOSS) ||
+    if (!wt_curve_verdict_is_usable(fit->verdict) || !(fabs(f->loss) < CURVE_MIN_LOSS) ||
         !(fabs(fit->retract_modulus.value - fit->modulus.value) > NORMAL_95 * error))
         return;
     curve_set_reason(text, "; the retract gives %s +- %s",
-                     curve_si(fit->retract_modulus.value, "Pa").words,
-                     curve_si(fit->retract_modulus.standard_error, "Pa").words);
+                     curve_format_si(fit->retract_modulus.value, "Pa").buffer,
+                     curve_format_si(fit->retract_modulus.standard_error, "Pa").buffer);
     curve_append_note(fit->reason, text);
 }
 
-void curve_report_way_out(curve_fitting *f, wt_indent_fit *fit)
+void curve_report_unloading(curve_fitting *f, wt_indent_fit *fit)
 {
     const double reduced = 1.0 - f->options->poisson_ratio * f->options->poisson_ratio;
     curve_fitting out = *f;
-    if (!fit_better_law(f, &out.solution, &out.kind))
+    if (!fit_best_law(f, &out.solution, &out.kind))
         return;
-    out.input.samples = f->way_out.samples;
-    out.snap_on = 0.0;
+    out.input.samples = f->unloading.samples;
+    out.snap_in_pull = 0.0;
     curve_add_misfit(&out);
     const curve_solution *s = &out.solution;
     fit->retract_modulus.value = reduced * s->p[CURVE_E];
@@ -96,5 +97,5 @@ void curve_report_way_out(curve_fitting *f, wt_indent_fit *fit)
         fit->retract_work.value = root * root;
         fit->retract_work.standard_error = 2.0 * root * error;
     }
-    say_other_modulus(f, fit);
+    append_retract_modulus(f, fit);
 }

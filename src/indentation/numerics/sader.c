@@ -34,7 +34,7 @@ static void bessel_k(double complex z, double complex k[2])
     }
 }
 
-static double polynomial(const double *c, int n, double x)
+static double evaluate_polynomial(const double *c, int n, double x)
 {
     double sum = 0;
     while (n-- > 0)
@@ -60,9 +60,10 @@ void wt_hydrodynamic_function(double reynolds, double *real, double *imaginary)
     double complex k[2];
     bessel_k(-i * root, k);
     const double complex circle = 1 + 4 * i * k[1] / (root * k[0]),
-                         blade = polynomial(real_over, 7, x) / polynomial(real_under, 7, x) +
-                                 i * polynomial(imaginary_over, 6, x) /
-                                     polynomial(imaginary_under, 7, x);
+                         blade = evaluate_polynomial(real_over, 7, x) /
+                                     evaluate_polynomial(real_under, 7, x) +
+                                 i * evaluate_polynomial(imaginary_over, 6, x) /
+                                     evaluate_polynomial(imaginary_under, 7, x);
     *real = creal(circle * blade);
     *imaginary = cimag(circle * blade);
 }
@@ -88,7 +89,7 @@ wt_fluid wt_medium_properties(wt_medium medium, double temperature)
 
 /* ---- the spring constant --------------------------------------------------------------------- */
 
-static double spring_constant(double length, double width, double resonance, double quality,
+static double sader_stiffness(double length, double width, double resonance, double quality,
                               wt_fluid fluid)
 {
     const double omega = 2 * pi * resonance;
@@ -105,15 +106,15 @@ wt_estimate wt_sader_spring_constant(wt_estimate length, wt_estimate width, wt_e
     const double step =
         1e-4; /* of a difference quotient, whose error is of the order of its square */
     const double l = length.value, b = width.value, f = resonance.value, q = quality.value;
-    const double k = spring_constant(l, b, f, q, fluid);
-    const double by_width = log(spring_constant(l, b * (1 + step), f, q, fluid) /
-                                spring_constant(l, b * (1 - step), f, q, fluid)) /
-                            (2 * step),
-                 by_resonance = log(spring_constant(l, b, f * (1 + step), q, fluid) /
-                                    spring_constant(l, b, f * (1 - step), q, fluid)) /
+    const double k = sader_stiffness(l, b, f, q, fluid);
+    const double compare_widths = log(sader_stiffness(l, b * (1 + step), f, q, fluid) /
+                                      sader_stiffness(l, b * (1 - step), f, q, fluid)) /
+                                  (2 * step),
+                 by_resonance = log(sader_stiffness(l, b, f * (1 + step), q, fluid) /
+                                    sader_stiffness(l, b, f * (1 - step), q, fluid)) /
                                 (2 * step);
-    const double error = hypot(
-        hypot(length.standard_error / l, quality.standard_error / q),
-        hypot(by_width * width.standard_error / b, by_resonance * resonance.standard_error / f));
+    const double error = hypot(hypot(length.standard_error / l, quality.standard_error / q),
+                               hypot(compare_widths * width.standard_error / b,
+                                     by_resonance * resonance.standard_error / f));
     return (wt_estimate){k, k * error, 0, "N/m"};
 }

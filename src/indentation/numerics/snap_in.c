@@ -33,8 +33,8 @@ size_t curve_tail_start(const double *above, size_t at, double noise)
 
 /* Finds a pull relative to the baseline of p. Returns true if it exceeds everything before it
  * significantly. */
-WIDE_REGISTERS static bool stands_out(const curve_fitting *f, const double p[CURVE_N_PARAMETERS],
-                                      curve_snap *found)
+WIDE_REGISTERS static bool
+find_prominent_pull(const curve_fitting *f, const double p[CURVE_N_PARAMETERS], curve_snap *found)
 {
     const curve_samples *s = &f->input.samples;
     const curve_solution line = {
@@ -43,7 +43,7 @@ WIDE_REGISTERS static bool stands_out(const curve_fitting *f, const double p[CUR
     size_t deepest = 0;
     for (size_t i = 0; i < s->n; i++)
         above[i] = s->force[i] - curve_baseline(&line, s->position[i]);
-    const double pull = -curve_span_of(above, s->n).low;
+    const double pull = -curve_find_span(above, s->n).low;
     while (-above[deepest] < pull)
         deepest++;
     const size_t start = curve_tail_start(above, deepest, f->input.step_noise);
@@ -59,19 +59,19 @@ WIDE_REGISTERS static bool stands_out(const curve_fitting *f, const double p[CUR
     }
     noise = sqrt(noise / (double)start);
     const double after_contact = s->position[start] - p[CURVE_C];
-    const double reach = s->position[s->n - 1] - p[CURVE_C];
+    const double max_travel = s->position[s->n - 1] - p[CURVE_C];
     *found = (curve_snap){start, deepest, end, pull};
-    return pull > CURVE_PULL_NOISE * noise && pull > CURVE_PULL_REST * elsewhere &&
-           fabs(after_contact) < gap_tolerance * reach && end < s->n &&
+    return pull > CURVE_PULL_NOISE * noise && pull > CURVE_PULL_RATIO * elsewhere &&
+           fabs(after_contact) < gap_tolerance * max_travel && end < s->n &&
            s->n - (end - start) >= CURVE_MIN_SAMPLES;
 }
 
 /* Sets the baseline of p to the line through the first n samples. Returns its standard error at the
  * contact point. */
-static double set_baseline(const curve_fitting *f, size_t n, double p[CURVE_N_PARAMETERS])
+static double fit_baseline_line(const curve_fitting *f, size_t n, double p[CURVE_N_PARAMETERS])
 {
     const curve_samples *s = &f->input.samples;
-    double offset, tilt, cov00, cov01, cov11, rest, there, error;
+    double offset, tilt, cov00, cov01, cov11, rest, baseline_force, error;
     (void)gsl_fit_linear(s->position, 1, s->force, 1, n, &offset, &tilt, &cov00, &cov01, &cov11,
                          &rest);
     if (!f->kind.tilt) {
@@ -79,8 +79,9 @@ static double set_baseline(const curve_fitting *f, size_t n, double p[CURVE_N_PA
         cov00 = rest / (double)(n * n);
         tilt = cov01 = cov11 = 0.0;
     }
-    (void)gsl_fit_linear_est(p[CURVE_C], offset, tilt, cov00, cov01, cov11, &there, &error);
-    p[CURVE_F0] = there;
+    (void)gsl_fit_linear_est(p[CURVE_C], offset, tilt, cov00, cov01, cov11, &baseline_force,
+                             &error);
+    p[CURVE_F0] = baseline_force;
     p[CURVE_T] = tilt;
     return error;
 }
@@ -88,11 +89,10 @@ static double set_baseline(const curve_fitting *f, size_t n, double p[CURVE_N_PA
 /* Finds a pull as large as the force, which displaces the baseline of a fit without it. The
  * reference is a line through the far half of the samples before the lowest force, at which contact
  * begins. */
-static bool stands_out_of_far(const curve_fitting *f, double p[CURVE_N_PARAMETERS],
-                              curve_snap *found)
+static bool find_large_pull(const curve_fitting *f, double p[CURVE_N_PARAMETERS], curve_snap *found)
 {
     const curve_samples *s = &f->input.samples;
-    const double low = curve_span_of(s->force, s->n).low;
+    const double low = curve_find_span(s->force, s->n).low;
     size_t deepest = 0;
     while (s->force[deepest] > low)
         deepest++;
@@ -100,36 +100,36 @@ static bool stands_out_of_far(const curve_fitting *f, double p[CURVE_N_PARAMETER
     if (half < CURVE_BASELINE_SAMPLES || f->kind.contact_fixed)
         return false;
     p[CURVE_C] = s->position[deepest];
-    const double error = set_baseline(f, half, p);
-    if (!stands_out(f, p, found))
+    const double error = fit_baseline_line(f, half, p);
+    if (!find_prominent_pull(f, p, found))
         return false;
-    const double top = curve_span_of(f->workspace->scratch, s->n).high;
+    const double top = curve_find_span(f->workspace->scratch, s->n).high;
     return found->deepest == deepest && found->pull > CURVE_PULL_NOISE * error &&
            found->pull > large_pull * top;
 }
 
-bool curve_find_snap(curve_fitting *f, curve_snap *found)
+bool curve_find_snap_in(curve_fitting *f, curve_snap *found)
 {
     double p[CURVE_N_PARAMETERS];
     memcpy(p, f->solution.p, sizeof p);
-    if (!stands_out(f, p, found) && !stands_out_of_far(f, p, found)) {
+    if (!find_prominent_pull(f, p, found) && !find_large_pull(f, p, found)) {
         *found = (curve_snap){.pull = 0.0};
         return false;
     }
-    (void)set_baseline(f, found->start, p);
+    (void)fit_baseline_line(f, found->start, p);
     memcpy(f->solution.p, p, sizeof p);
     return true;
 }
 
-void curve_leave_out(curve_fitting *f, size_t start, size_t end)
+void curve_exclude_samples(curve_fitting *f, size_t start, size_t end)
 {
     curve_samples *s = &f->input.samples;
     const wt_indent_workspace *w = f->workspace;
-    const size_t behind = f->input.n_all - f->n_snap - end;
-    memmove(s->position + start, s->position + end, behind * sizeof *s->position);
-    memmove(s->force + start, s->force + end, behind * sizeof *s->force);
+    const size_t n_after = f->input.n_all - f->n_snap - end;
+    memmove(s->position + start, s->position + end, n_after * sizeof *s->position);
+    memmove(s->force + start, s->force + end, n_after * sizeof *s->force);
     if (s->force != w->force) /* the forces exclude a wave */
-        memmove(w->force + start, w->force + end, behind * sizeof *w->force);
+        memmove(w->force + start, w->force + end, n_after * sizeof *w->force);
     s->n -= end - start;
     f->n_snap += end - start;
 }

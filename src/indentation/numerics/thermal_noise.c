@@ -18,11 +18,11 @@
 #include <string.h>
 
 /* Logarithmic parameters: floor, mean square of the deflection, resonance, quality. */
-enum { FLOOR, SQUARE, RESONANCE, QUALITY, P };
+enum { FLOOR, MEAN_SQUARE, RESONANCE, QUALITY, P };
 /* Limit of the iterations. Correlated neighbouring bins, two for a Hann window. Smallest number of
  * points, six per parameter. Blocks for a slow departure, five per parameter. Bins of the mean in
  * the search for the peak. */
-enum { STEPS = 200, LAGS = 3, LEAST_POINTS = 24, BLOCKS = 20, PEAK_SMOOTH = 3 };
+enum { STEPS = 200, LAGS = 3, MIN_POINTS = 24, BLOCKS = 20, PEAK_SMOOTH = 3 };
 /* Start values of the quality, from an overdamped cantilever in water to one in vacuum. Range of
  * the fit in peak widths to either side, where the oscillator has 1/6400 of its top and the floor
  * is visible. Limits of the range over the resonance, between low-frequency noise and the second
@@ -32,26 +32,26 @@ static const double range_widths = 40, range_low = 0.25, range_high = 3;
 /* Probability for 95 % intervals. Clipping of residuals in standard deviations, which one normal
  * value in 370 exceeds. Standard deviation of a normal distribution over its median absolute
  * deviation. */
-static const double level = 0.975, clipped = 3, mad_to_deviation = 1.4826;
+static const double interval_level = 0.975, clip_deviations = 3, mad_to_deviation = 1.4826;
 static const double pi = 3.14159265358979323846; /* double precision */
 
-typedef struct noise {
+typedef struct periodogram {
     const double *f, *p; /* [n] within the range */
     size_t n;
-} noise;
+} periodogram;
 
 /* Returns the spectrum at a frequency; g receives its logarithmic derivatives by the parameters. */
 static double oscillator_spectrum(const double theta[P], double f, double g[P])
 {
     const double white = exp(theta[FLOOR]), f0 = exp(theta[RESONANCE]), q = exp(theta[QUALITY]);
     const double x = f / f0, x2 = x * x, d = (1 - x2) * (1 - x2) + x2 / (q * q);
-    const double peak = 2 * exp(theta[SQUARE]) / (pi * f0 * q) / d, s = white + peak;
+    const double peak = 2 * exp(theta[MEAN_SQUARE]) / (pi * f0 * q) / d, s = white + peak;
     if (g != NULL) {
         /* ln peak = ln square - ln f0 - ln q - ln d; x is proportional to 1/f0. */
         const double d_x = -4 * x2 * (1 - x2) + 2 * x2 / (q * q); /* d d / d ln x */
         const double d_q = -2 * x2 / (q * q);
         g[FLOOR] = white / s;
-        g[SQUARE] = peak / s;
+        g[MEAN_SQUARE] = peak / s;
         g[RESONANCE] = peak / s * (-1 + d_x / d);
         g[QUALITY] = peak / s * (-1 - d_q / d);
     }
@@ -59,7 +59,7 @@ static double oscillator_spectrum(const double theta[P], double f, double g[P])
 }
 
 /* Half of the deviance for one average. */
-static double half_deviance(const noise *v, const double theta[P])
+static double half_deviance(const periodogram *v, const double theta[P])
 {
     double sum = 0;
     for (size_t i = 0; i < v->n; i++) {
@@ -78,7 +78,7 @@ static bool solve_scoring(double a[P][P], const double b[P], double x[P])
     return cholesky_solve(&l[0][0], P, P, 0, x);
 }
 
-static void fisher_information(const noise *v, const double theta[P], double fisher[P][P],
+static void fisher_information(const periodogram *v, const double theta[P], double fisher[P][P],
                                double score[P])
 {
     for (int a = 0; a < P; a++) {
@@ -98,7 +98,7 @@ static void fisher_information(const noise *v, const double theta[P], double fis
 }
 
 /* Damped Fisher scoring. Returns true at convergence. */
-static bool raise_likelihood(const noise *v, double theta[P])
+static bool maximise_likelihood(const periodogram *v, double theta[P])
 {
     double best = half_deviance(v, theta), damping = 1e-3;
     for (int step = 0; step < STEPS; step++) {
@@ -132,7 +132,7 @@ static bool raise_likelihood(const noise *v, double theta[P])
 /* ---- errors ---------------------------------------------------------------------------------- */
 
 /* Computes the variance of the residuals and their correlation with the next ones. */
-static double scatter_of(const double *r, size_t n, double correlation[LAGS + 1])
+static double residual_scatter(const double *r, size_t n, double correlation[LAGS + 1])
 {
     double squares = 0;
     for (size_t i = 0; i < n; i++)
@@ -149,19 +149,19 @@ static double scatter_of(const double *r, size_t n, double correlation[LAGS + 1]
 
 /* Computes the covariance of the parameters with the correlation of neighbours. Returns false if
  * the matrix is singular. */
-static bool parameter_covariance(const noise *v, const double theta[P], const double *gradient,
-                                 double variance, const double correlation[LAGS + 1],
-                                 double cov[P][P])
+static bool parameter_covariance(const periodogram *v, const double theta[P],
+                                 const double *gradient, double variance,
+                                 const double correlation[LAGS + 1], double cov[P][P])
 {
-    double fisher[P][P], score[P], meat[P][P] = {{0}}, inverse[P][P];
+    double fisher[P][P], score[P], score_covariance[P][P] = {{0}}, inverse[P][P];
     fisher_information(v, theta, fisher, score);
     for (size_t lag = 0; lag <= LAGS; lag++)
         for (size_t i = 0; i + lag < v->n; i++)
             for (int a = 0; a < P; a++)
                 for (int b = 0; b < P; b++) {
                     const double *x = gradient + i * P, *y = gradient + (i + lag) * P;
-                    meat[a][b] += variance * correlation[lag] *
-                                  (lag == 0 ? x[a] * x[b] : x[a] * y[b] + y[a] * x[b]);
+                    score_covariance[a][b] += variance * correlation[lag] *
+                                              (lag == 0 ? x[a] * x[b] : x[a] * y[b] + y[a] * x[b]);
                 }
     for (int a = 0; a < P; a++) {
         double unit[P] = {0};
@@ -174,7 +174,7 @@ static bool parameter_covariance(const noise *v, const double theta[P], const do
             cov[a][b] = 0;
             for (int k = 0; k < P; k++)
                 for (int l = 0; l < P; l++)
-                    cov[a][b] += inverse[a][k] * meat[k][l] * inverse[b][l];
+                    cov[a][b] += inverse[a][k] * score_covariance[k][l] * inverse[b][l];
         }
     return true;
 }
@@ -182,22 +182,22 @@ static bool parameter_covariance(const noise *v, const double theta[P], const do
 static wt_interval log_normal_interval(double log_value, double variance)
 {
     const double value = exp(log_value), error = sqrt(variance);
-    const double half = gsl_cdf_ugaussian_Pinv(level) * error;
+    const double half = gsl_cdf_ugaussian_Pinv(interval_level) * error;
     return (wt_interval){value, value * error, value * exp(-half), value * exp(half)};
 }
 
 /* p value of slow departures: block sums of the residuals against their scatter. A departure
  * increases the scatter, so clipped residuals determine it. */
-static double slow_chance(const double *r, size_t n, double *room)
+static double slow_departure_chance(const double *r, size_t n, double *scratch)
 {
     double shared = 1, squares = 0, correlation[LAGS + 1];
     for (size_t i = 0; i < n; i++)
-        room[i] = fabs(r[i]);
-    numbers_sort(room, n);
-    const double most = clipped * mad_to_deviation * room[n / 2];
+        scratch[i] = fabs(r[i]);
+    numbers_sort(scratch, n);
+    const double most = clip_deviations * mad_to_deviation * scratch[n / 2];
     for (size_t i = 0; i < n; i++)
-        room[i] = fmax(-most, fmin(most, r[i]));
-    const double variance = scatter_of(room, n, correlation);
+        scratch[i] = fmax(-most, fmin(most, r[i]));
+    const double variance = residual_scatter(scratch, n, correlation);
     for (size_t lag = 1; lag <= LAGS; lag++)
         shared += 2 * correlation[lag];
     for (size_t b = 0; b < BLOCKS; b++) {
@@ -210,28 +210,29 @@ static double slow_chance(const double *r, size_t n, double *room)
     return gsl_cdf_chisq_Q(squares, BLOCKS - P);
 }
 
-static bool tell_errors(const noise *v, const double theta[P], wt_thermal *t, double *room)
+static bool set_fit_errors(const periodogram *v, const double theta[P], wt_thermal *t,
+                           double *scratch)
 {
-    double *const r = room, *const gradient = room + v->n;
+    double *const r = scratch, *const gradient = scratch + v->n;
     double correlation[LAGS + 1], cov[P][P];
     for (size_t i = 0; i < v->n; i++)
         r[i] = v->p[i] / oscillator_spectrum(theta, v->f[i], gradient + i * P) - 1;
-    const double variance = scatter_of(r, v->n, correlation);
+    const double variance = residual_scatter(r, v->n, correlation);
     if (!parameter_covariance(v, theta, gradient, variance, correlation, cov))
         return false;
-    t->mean_square = log_normal_interval(theta[SQUARE], cov[SQUARE][SQUARE]);
+    t->mean_square = log_normal_interval(theta[MEAN_SQUARE], cov[MEAN_SQUARE][MEAN_SQUARE]);
     t->resonance = log_normal_interval(theta[RESONANCE], cov[RESONANCE][RESONANCE]);
     t->quality = log_normal_interval(theta[QUALITY], cov[QUALITY][QUALITY]);
     t->floor = exp(theta[FLOOR]);
     t->averages = 1 / variance;
-    t->chance = slow_chance(r, v->n, gradient);
+    t->chance = slow_departure_chance(r, v->n, gradient);
     return isfinite(t->mean_square.standard_error) && isfinite(t->quality.standard_error);
 }
 
 /* ---- position of the peak -------------------------------------------------------------------- */
 
 /* Returns the maximum of p f, averaged over a few bins. Low-frequency noise hardly affects it. */
-static size_t find_peak(const double *f, const double *p, size_t n)
+static size_t find_resonance_peak(const double *f, const double *p, size_t n)
 {
     size_t peak = PEAK_SMOOTH / 2;
     double most = 0;
@@ -248,16 +249,16 @@ static size_t find_peak(const double *f, const double *p, size_t n)
 }
 
 /* Returns the 10 % quantile. */
-static double low_level(const double *p, size_t n, double *room)
+static double floor_level(const double *p, size_t n, double *scratch)
 {
     for (size_t i = 0; i < n; i++)
-        room[i] = p[i];
-    numbers_sort(room, n);
-    return room[n / 10];
+        scratch[i] = p[i];
+    numbers_sort(scratch, n);
+    return scratch[n / 10];
 }
 
 /* Selects the start value of the quality with the best likelihood near the peak. */
-static void start_parameters(const noise *v, double f0, double ground, double theta[P])
+static void start_parameters(const periodogram *v, double f0, double ground, double theta[P])
 {
     double best = (double)INFINITY, area = 0;
     for (size_t i = 1; i < v->n; i++)
@@ -273,46 +274,47 @@ static void start_parameters(const noise *v, double f0, double ground, double th
     }
 }
 
-static noise frequency_range(const double *f, const double *p, size_t n, double from, double to)
+static periodogram select_frequency_range(const double *f, const double *p, size_t n, double from,
+                                          double to)
 {
     size_t first = 0, end = n;
     while (first < n && !(f[first] >= from))
         first++;
     while (end > first && !(f[end - 1] <= to))
         end--;
-    return (noise){f + first, p + first, end - first};
+    return (periodogram){f + first, p + first, end - first};
 }
 
-static bool tell_no_oscillator(wt_thermal *t, const char *why)
+static bool reject_oscillator(wt_thermal *t, const char *why)
 {
     t->why_not = why;
     return false;
 }
 
 static bool fit_oscillator(const double *f, const double *p, size_t n, double from, double to,
-                           wt_thermal *t, double *room)
+                           wt_thermal *t, double *scratch)
 {
-    if (n < LEAST_POINTS)
-        return tell_no_oscillator(t, "too few points");
-    const double f0 = f[find_peak(f, p, n)], ground = low_level(p, n, room);
+    if (n < MIN_POINTS)
+        return reject_oscillator(t, "too few points");
+    const double f0 = f[find_resonance_peak(f, p, n)], ground = floor_level(p, n, scratch);
     double theta[P] = {0};
-    const noise about = frequency_range(f, p, n, range_low * f0, range_high * f0);
-    start_parameters(&about, f0, ground, theta);
+    const periodogram peak_range = select_frequency_range(f, p, n, range_low * f0, range_high * f0);
+    start_parameters(&peak_range, f0, ground, theta);
     const double width = f0 / exp(theta[QUALITY]);
     t->from = !isnan(from) ? from : fmax(range_low * f0, f0 - range_widths * width);
     t->to = !isnan(to) ? to : fmin(range_high * f0, f0 + range_widths * width);
-    const noise v = frequency_range(f, p, n, t->from, t->to);
+    const periodogram v = select_frequency_range(f, p, n, t->from, t->to);
     t->n = v.n;
-    if (v.n < LEAST_POINTS)
-        return tell_no_oscillator(t, "too few points in the range of the fit");
+    if (v.n < MIN_POINTS)
+        return reject_oscillator(t, "too few points in the range of the fit");
     if (f0 < v.f[0] || f0 > v.f[v.n - 1])
-        return tell_no_oscillator(t, "the largest peak lies outside of the range of the fit");
-    if (!raise_likelihood(&v, theta))
-        return tell_no_oscillator(t, "no oscillator on a white floor fits");
+        return reject_oscillator(t, "the largest peak lies outside of the range of the fit");
+    if (!maximise_likelihood(&v, theta))
+        return reject_oscillator(t, "no oscillator on a white floor fits");
     if (exp(theta[RESONANCE]) < v.f[0] || exp(theta[RESONANCE]) > v.f[v.n - 1])
-        return tell_no_oscillator(t, "the resonance lies outside of the range of the fit");
-    return tell_errors(&v, theta, t, room) ||
-           tell_no_oscillator(t, "the spectrum does not bound the oscillator");
+        return reject_oscillator(t, "the resonance lies outside of the range of the fit");
+    return set_fit_errors(&v, theta, t, scratch) ||
+           reject_oscillator(t, "the spectrum does not bound the oscillator");
 }
 
 wt_status wt_thermal_fit(const double *frequency, const double *density, size_t n, double from,
@@ -333,17 +335,17 @@ wt_status wt_thermal_fit(const double *frequency, const double *density, size_t 
                             .why_not = ""};
     if (n > SIZE_MAX / sizeof(double) / (P + 3))
         return wt_fail(err, WT_E_MEMORY, "no memory for %zu points", n);
-    double *room = malloc((P + 3) * (n + 1) * sizeof *room);
-    if (room == NULL)
+    double *scratch = malloc((P + 3) * (n + 1) * sizeof *scratch);
+    if (scratch == NULL)
         return wt_fail(err, WT_E_MEMORY, "no memory for %zu points", n);
-    double *const f = room, *const p = room + n + 1;
+    double *const f = scratch, *const p = scratch + n + 1;
     size_t m = 0;
     for (size_t i = 0; i < n; i++)
         if (frequency[i] > 0 && density[i] > 0 && isfinite(density[i])) {
             f[m] = frequency[i];
             p[m++] = density[i];
         }
-    thermal->found = fit_oscillator(f, p, m, from, to, thermal, room + 2 * (n + 1));
-    free(room);
+    thermal->found = fit_oscillator(f, p, m, from, to, thermal, scratch + 2 * (n + 1));
+    free(scratch);
     return WT_OK;
 }

@@ -22,22 +22,22 @@ enum { LOW_NODES = 12, HIGH_NODES = 16 };
 /* Tolerance of the difference of the two rules; larger subintervals are halved down to the second
  * share of their depth. Omega has a kink where the barrier vanishes, which a subinterval that short
  * may contain. */
-static const double panel_goal = 1e-13;
-static const double least_panel = 1e-14;
+static const double subinterval_goal = 1e-13;
+static const double min_relative_length = 1e-14;
 /* Value of ln(V_a e / kB T) below which expm1(x) equals x in double precision. */
 static const double log_linear = -37;
 /* Above this x, exp(-x) is negligible against 1. */
-static const double large = 40;
+static const double large_exponent = 40;
 /* Upper limit of the number of subintervals: a profile needs some hundred, and fifty at each kink.
  */
-enum { MOST_PANELS = 20000 };
+enum { MAX_SUBINTERVALS = 20000 };
 
 struct activation {
-    wt_energy_source dwell; /* source whose density is e */
-    double log_rate;        /* ln(P Omega_inf) */
-    double barrier;         /* eps / kB T */
-    double log_volume;      /* ln(V_a / kB T) */
-    double bare;            /* depth above which the barrier is 0, if e falls */
+    wt_energy_source dwell;    /* source whose density is e */
+    double log_rate;           /* ln(P Omega_inf) */
+    double barrier;            /* eps / kB T */
+    double log_volume;         /* ln(V_a / kB T) */
+    double barrier_free_depth; /* depth above which the barrier is 0, if e falls */
     const gauss_rule *low, *high;
     size_t n, room;   /* number of subintervals, and capacity */
     double *edge;     /* [n + 1] */
@@ -52,7 +52,7 @@ static double attempt_rate(wt_attempt_frequency attempt, double temperature)
     return BOLTZMANN * temperature / (attempt == WT_ATTEMPT_H ? PLANCK : REDUCED_PLANCK);
 }
 
-double wt_activation_background(const wt_activation *parameters)
+double wt_activation_unloaded_rate(const wt_activation *parameters)
 {
     const wt_activation *p = parameters;
     return p->temperature > 0 ? attempt_rate(p->attempt, p->temperature) *
@@ -60,26 +60,26 @@ double wt_activation_background(const wt_activation *parameters)
                               : (double)NAN;
 }
 
-double wt_activation_least_barrier(double temperature, wt_attempt_frequency attempt, double rate)
+double wt_activation_min_barrier(double temperature, wt_attempt_frequency attempt, double rate)
 {
     return BOLTZMANN * temperature * log(attempt_rate(attempt, temperature) / rate);
 }
 
 /* Condition T ln(A(T) / rate) = eps / kB. The left side rises for A > rate. */
-typedef struct shelf {
+typedef struct shelf_condition {
     double barrier, rate;
     wt_attempt_frequency attempt;
-} shelf;
+} shelf_condition;
 
 static double shelf_excess(double temperature, void *user)
 {
-    const shelf *s = user;
-    return wt_activation_least_barrier(temperature, s->attempt, s->rate) / s->barrier - 1;
+    const shelf_condition *s = user;
+    return wt_activation_min_barrier(temperature, s->attempt, s->rate) / s->barrier - 1;
 }
 
-double wt_activation_most_temperature(double barrier, wt_attempt_frequency attempt, double rate)
+double wt_activation_max_temperature(double barrier, wt_attempt_frequency attempt, double rate)
 {
-    shelf s = {barrier, rate, attempt};
+    shelf_condition s = {barrier, rate, attempt};
     double low = rate / attempt_rate(attempt, 1), high = fmax(1, 2 * low), found = (double)NAN;
     if (!(barrier > 0) || !(rate > 0))
         return found;
@@ -91,27 +91,28 @@ double wt_activation_most_temperature(double barrier, wt_attempt_frequency attem
 /* ---- the rate -------------------------------------------------------------------------------- */
 
 /* ln(V_a e / kB T) */
-static double log_help(const activation *a, double depth)
+static double log_reduced_energy(const activation *a, double depth)
 {
     return a->log_volume + energy_log_density(&a->dwell, depth);
 }
 
 /* ln(exp(x) - 1) as a function of ln x; x is limited to the barrier. */
-static double log_gained(const activation *a, double log_x)
+static double log_expm1(const activation *a, double log_x)
 {
     if (log_x < log_linear)
         return log_x;
     const double x = fmin(exp(fmin(log_x, log(a->barrier))), a->barrier);
-    return x > large ? x : log(expm1(x));
+    return x > large_exponent ? x : log(expm1(x));
 }
 
 double activation_log_density(const activation *a, double depth)
 {
-    return a->log_rate + log_gained(a, log_help(a, depth));
+    return a->log_rate + log_expm1(a, log_reduced_energy(a, depth));
 }
 
 /* ln of the integral between two depths, by one rule. */
-static double stretch_integral(const activation *a, const gauss_rule *rule, double low, double high)
+static double log_interval_integral(const activation *a, const gauss_rule *rule, double low,
+                                    double high)
 {
     double value[HIGH_NODES], most = -HUGE_VAL, sum = 0;
     const double half = 0.5 * (high - low);
@@ -125,27 +126,27 @@ static double stretch_integral(const activation *a, const gauss_rule *rule, doub
 }
 
 /* Zero at the depth where V_a e = eps. */
-static double bare_function(double depth, void *user)
+static double barrier_excess(double depth, void *user)
 {
     const activation *a = user;
-    return log_help(a, depth) - log(a->barrier);
+    return log_reduced_energy(a, depth) - log(a->barrier);
 }
 
-static wt_status find_bare(activation *a, wt_error *err)
+static wt_status find_barrier_free_depth(activation *a, wt_error *err)
 {
     double q_min, q_max;
-    (void)energy_range(&a->dwell, &q_min, &q_max);
-    if (!energy_falls(&a->dwell) || !(bare_function(0, a) > 0))
+    (void)energy_wavenumber_range(&a->dwell, &q_min, &q_max);
+    if (!energy_is_monotonic(&a->dwell) || !(barrier_excess(0, a) > 0))
         return WT_OK;
     double high = 1 / q_max;
-    while (bare_function(high, a) > 0)
+    while (barrier_excess(high, a) > 0)
         high *= 2;
-    return root_find(bare_function, a, 0, high, 0, &a->bare, err);
+    return root_find(barrier_excess, a, 0, high, 0, &a->barrier_free_depth, err);
 }
 
 /* ---- subintervals ---------------------------------------------------------------------------- */
 
-static bool panels_grow(activation *a)
+static bool grow_subintervals(activation *a)
 {
     if (a->n + 1 < a->room)
         return true;
@@ -162,16 +163,16 @@ static bool panels_grow(activation *a)
 
 /* Adds the next subinterval, as long as the rules agree; *length returns the trial length of the
  * following one. */
-static void panel_add(activation *a, double *length)
+static void add_subinterval(activation *a, double *length)
 {
     const double from = a->edge[a->n];
     double part;
-    if (from < a->bare && from + *length > a->bare)
-        *length = a->bare - from;
+    if (from < a->barrier_free_depth && from + *length > a->barrier_free_depth)
+        *length = a->barrier_free_depth - from;
     for (;;) {
-        part = stretch_integral(a, a->high, from, from + *length);
-        const double other = stretch_integral(a, a->low, from, from + *length);
-        if (fabs(part - other) <= panel_goal || *length <= least_panel * from)
+        part = log_interval_integral(a, a->high, from, from + *length);
+        const double other = log_interval_integral(a, a->low, from, from + *length);
+        if (fabs(part - other) <= subinterval_goal || *length <= min_relative_length * from)
             break;
         *length *= 0.5;
     }
@@ -186,21 +187,21 @@ static double linear_tail(const activation *a, double depth)
     return a->log_rate + a->log_volume + energy_log_tail(&a->dwell, depth);
 }
 
-static wt_status panels_make(activation *a, wt_error *err)
+static wt_status create_subintervals(activation *a, wt_error *err)
 {
     double q_min, q_max;
-    (void)energy_range(&a->dwell, &q_min, &q_max);
-    const double falling = energy_falling(&a->dwell);
+    (void)energy_wavenumber_range(&a->dwell, &q_min, &q_max);
+    const double falling = energy_monotonic_depth(&a->dwell);
     double length = 1 / q_max;
-    if (!panels_grow(a))
+    if (!grow_subintervals(a))
         return wt_fail(err, WT_E_MEMORY, "out of memory for the rate of an activated layer");
     a->edge[0] = 0;
-    while (a->edge[a->n] < falling || !(log_help(a, a->edge[a->n]) < log_linear)) {
-        if (a->n == MOST_PANELS)
+    while (a->edge[a->n] < falling || !(log_reduced_energy(a, a->edge[a->n]) < log_linear)) {
+        if (a->n == MAX_SUBINTERVALS)
             return wt_fail(err, WT_E_RANGE, "the rate of an activated layer cannot be integrated");
-        if (!panels_grow(a))
+        if (!grow_subintervals(a))
             return wt_fail(err, WT_E_MEMORY, "out of memory for the rate of an activated layer");
-        panel_add(a, &length);
+        add_subinterval(a, &length);
     }
     a->log_tail = malloc((a->n + 1) * sizeof *a->log_tail);
     if (a->log_tail == NULL)
@@ -212,7 +213,7 @@ static wt_status panels_make(activation *a, wt_error *err)
 }
 
 /* Returns the last edge at or above a depth. */
-static size_t panel_of(const activation *a, double depth)
+static size_t find_subinterval(const activation *a, double depth)
 {
     size_t low = 0, high = a->n;
     while (high - low > 1) {
@@ -227,31 +228,32 @@ static size_t panel_of(const activation *a, double depth)
 
 double activation_log_tail(const activation *a, double depth)
 {
-    const size_t i = panel_of(a, depth);
+    const size_t i = find_subinterval(a, depth);
     if (i == a->n)
         return linear_tail(a, depth);
     if (depth == a->edge[i])
         return a->log_tail[i];
-    return log_add(a->log_tail[i + 1], stretch_integral(a, a->high, depth, a->edge[i + 1]));
+    return log_add(a->log_tail[i + 1], log_interval_integral(a, a->high, depth, a->edge[i + 1]));
 }
 
-double activation_log_gain(const activation *a, double depth, double length)
+double activation_log_integral(const activation *a, double depth, double length)
 {
     const double end = depth + length, last = a->edge[a->n];
-    const size_t first = panel_of(a, depth), to = panel_of(a, end);
+    const size_t first = find_subinterval(a, depth), to = find_subinterval(a, end);
     if (!(end > depth)) /* the length is below the resolution of the depth */
         return length > 0 ? activation_log_density(a, depth) + log(length) : -HUGE_VAL;
     if (first == a->n)
-        return a->log_rate + a->log_volume + energy_log_gain(&a->dwell, depth, length);
+        return a->log_rate + a->log_volume + energy_log_integral(&a->dwell, depth, length);
     if (first == to)
-        return stretch_integral(a, a->high, depth, end);
-    double sum = stretch_integral(a, a->high, depth, a->edge[first + 1]);
+        return log_interval_integral(a, a->high, depth, end);
+    double sum = log_interval_integral(a, a->high, depth, a->edge[first + 1]);
     for (size_t i = first + 1; i < to; i++)
         sum = log_add(sum, a->log_part[i]);
     if (to == a->n && end > last)
-        return log_add(sum,
-                       a->log_rate + a->log_volume + energy_log_gain(&a->dwell, last, end - last));
-    return end > a->edge[to] ? log_add(sum, stretch_integral(a, a->high, a->edge[to], end)) : sum;
+        return log_add(sum, a->log_rate + a->log_volume +
+                                energy_log_integral(&a->dwell, last, end - last));
+    return end > a->edge[to] ? log_add(sum, log_interval_integral(a, a->high, a->edge[to], end))
+                             : sum;
 }
 
 /* ---- with bounds ----------------------------------------------------------------------------- */
@@ -259,14 +261,15 @@ double activation_log_gain(const activation *a, double depth, double length)
 /* exp(-scale) times d Omega / dz, and the largest |d Omega/dz| and |d^2 Omega/dz^2| below a depth.
  */
 typedef struct rate_slopes {
-    double slope, most_slope, most_bend;
+    double slope, max_slope, max_curvature;
 } rate_slopes;
 
-static rate_slopes slopes_at(const activation *a, double depth, double reach, double scale)
+static rate_slopes compute_rate_slopes(const activation *a, double depth, double reach,
+                                       double scale)
 {
     double q_min = 0, q_max;
-    (void)energy_range(&a->dwell, &q_min, &q_max);
-    const energy_course c = energy_course_at(&a->dwell, q_min, depth, 0, reach);
+    (void)energy_wavenumber_range(&a->dwell, &q_min, &q_max);
+    const energy_expansion c = energy_expand(&a->dwell, q_min, depth, 0, reach);
     const double volume = exp(a->log_volume + c.log_scale); /* factor of the scaled expansion */
     const double x = volume * c.value;
     const double highest =
@@ -278,30 +281,32 @@ static rate_slopes slopes_at(const activation *a, double depth, double reach, do
                          most * (steepest * steepest + volume * c.curvature)};
 }
 
-energy_course activation_course(const activation *a, double depth, double length, double reach)
+energy_expansion activation_expand(const activation *a, double depth, double length, double reach)
 {
-    energy_course course = {.value = 1};
-    course.log_scale =
-        length > 0 ? activation_log_gain(a, depth, length) : activation_log_density(a, depth);
-    const rate_slopes here = slopes_at(a, depth, reach, course.log_scale);
+    energy_expansion expansion = {.value = 1};
+    expansion.log_scale =
+        length > 0 ? activation_log_integral(a, depth, length) : activation_log_density(a, depth);
+    const rate_slopes here = compute_rate_slopes(a, depth, reach, expansion.log_scale);
     if (!(length > 0)) {
-        course.slope = here.slope;
-        course.curvature = here.most_bend;
-        return course;
+        expansion.slope = here.slope;
+        expansion.curvature = here.max_curvature;
+        return expansion;
     }
-    const rate_slopes there = slopes_at(a, depth + length, reach, course.log_scale);
-    course.slope = exp(activation_log_density(a, depth + length) - course.log_scale) -
-                   exp(activation_log_density(a, depth) - course.log_scale);
-    course.curvature = here.most_slope + there.most_slope;
-    return course;
+    const rate_slopes there = compute_rate_slopes(a, depth + length, reach, expansion.log_scale);
+    expansion.slope = exp(activation_log_density(a, depth + length) - expansion.log_scale) -
+                      exp(activation_log_density(a, depth) - expansion.log_scale);
+    expansion.curvature = here.max_slope + there.max_slope;
+    return expansion;
 }
 
 /* ---- the object ------------------------------------------------------------------------------ */
 
 double activation_error(const activation *a)
 {
-    const double most = fmin(exp(log_help(a, energy_falling(&a->dwell))), a->barrier);
-    return panel_goal + (1 + most) * a->dwell.numerical_error + 8 * DBL_EPSILON * (1 + a->barrier);
+    const double most =
+        fmin(exp(log_reduced_energy(a, energy_monotonic_depth(&a->dwell))), a->barrier);
+    return subinterval_goal + (1 + most) * a->dwell.numerical_error +
+           8 * DBL_EPSILON * (1 + a->barrier);
 }
 
 void activation_free(activation *a)
@@ -338,7 +343,7 @@ wt_status activation_new(const wt_energy_source *source, const wt_activation *pa
     const wt_activation *p = parameters;
     double q_min, q_max;
     *out = NULL;
-    if (!energy_range(source, &q_min, &q_max))
+    if (!energy_wavenumber_range(source, &q_min, &q_max))
         return WT_OK;
     activation *a = calloc(1, sizeof *a);
     if (a == NULL)
@@ -347,15 +352,15 @@ wt_status activation_new(const wt_energy_source *source, const wt_activation *pa
     a->barrier = p->barrier / energy;
     a->log_volume = log(p->volume) - log(energy);
     a->log_rate = log(p->area_ratio) + log(attempt_rate(p->attempt, p->temperature)) - a->barrier;
-    wt_status status = rule_of(LOW_NODES, &a->low, err);
+    wt_status status = gauss_rule_get(LOW_NODES, &a->low, err);
     if (status == WT_OK)
-        status = rule_of(HIGH_NODES, &a->high, err);
+        status = gauss_rule_get(HIGH_NODES, &a->high, err);
     if (status == WT_OK)
         status = copy_dwell(source, velocity * p->area_ratio, &a->dwell, err);
     if (status == WT_OK)
-        status = find_bare(a, err);
+        status = find_barrier_free_depth(a, err);
     if (status == WT_OK)
-        status = panels_make(a, err);
+        status = create_subintervals(a, err);
     if (status == WT_OK)
         *out = a;
     else

@@ -18,10 +18,10 @@ void activation_free(activation *a);
  * length. */
 double activation_log_density(const activation *a, double depth);
 double activation_log_tail(const activation *a, double depth);
-double activation_log_gain(const activation *a, double depth, double length);
-/* Variant that also returns the slope and a bound of the second derivative, as energy_course_at
+double activation_log_integral(const activation *a, double depth, double length);
+/* Variant that also returns the slope and a bound of the second derivative, as energy_expand
  * does. */
-energy_course activation_course(const activation *a, double depth, double length, double reach);
+energy_expansion activation_expand(const activation *a, double depth, double length, double reach);
 /* Relative numerical error of the integrals. */
 double activation_error(const activation *a);
 

@@ -11,14 +11,14 @@
 #include <gsl/gsl_linalg.h>
 #include <math.h>
 
-enum { ENERGY, WEAR, BOTH }; /* the constants of a pair, and their number */
+enum { ENERGY, WEAR, N_CONSTANTS }; /* the constants of a pair, and their number */
 /* Largest share of common errors that keeps the covariance matrix regular in double precision, and
  * the smallest share tried. */
-static const double whole = 1 - 1e-6, least_part = 1.0 / 64;
+static const double whole = 1 - 1e-6, min_common_share = 1.0 / 64;
 /* Relative limit of the determinant: below it the two constants are fully correlated. */
-static const double least_determinant = 1e-9;
+static const double min_relative_determinant = 1e-9;
 
-constant_axes constant_axes_of(pair_covariance c)
+constant_axes constant_axes_compute(pair_covariance c)
 {
     const double middle = 0.5 * (c.energy + c.wear),
                  apart = hypot(0.5 * (c.energy - c.wear), c.both),
@@ -36,14 +36,14 @@ constant_axes constant_axes_of(pair_covariance c)
     return a;
 }
 
-static double determinant(pair_covariance c)
+static double covariance_determinant(pair_covariance c)
 {
     return c.energy * c.wear - c.both * c.both;
 }
 
-static pair_covariance inverse(pair_covariance c)
+static pair_covariance invert_covariance(pair_covariance c)
 {
-    const double d = determinant(c);
+    const double d = covariance_determinant(c);
     return (pair_covariance){c.wear / d, c.energy / d, -c.both / d};
 }
 
@@ -58,7 +58,7 @@ typedef struct pair_work {
     double *columns;    /* [3][2n] design columns of both constants, and the values */
 } pair_work;
 
-static void find_root(pair_covariance c, double root[4])
+static void compute_covariance_root(pair_covariance c, double root[4])
 {
     root[0] = sqrt(fmax(c.energy, 0));
     root[1] = 0;
@@ -67,7 +67,8 @@ static void find_root(pair_covariance c, double root[4])
 }
 
 /* Covariance of constant `a` of pair i with constant `b` of pair k. */
-static double covariance_of(const pair_work *w, double part, size_t i, size_t k, size_t a, size_t b)
+static double element_covariance(const pair_work *w, double part, size_t i, size_t k, size_t a,
+                                 size_t b)
 {
     const pair_covariance *c = &w->of[i].whole;
     if (i == k)
@@ -78,7 +79,7 @@ static double covariance_of(const pair_work *w, double part, size_t i, size_t k,
     return part * (p[0] * q[0] + p[1] * q[1]);
 }
 
-static double dot(const double *x, const double *y, size_t n)
+static double dot_product(const double *x, const double *y, size_t n)
 {
     double sum = 0;
     for (size_t i = 0; i < n; i++)
@@ -87,18 +88,19 @@ static double dot(const double *x, const double *y, size_t n)
 }
 
 /* Computes chi-squared by generalised least squares. False if the covariance matrix is singular. */
-static bool find_chi_squared(pair_work *w, double part, double *to)
+static bool compute_chi_squared(pair_work *w, double part, double *to)
 {
-    const size_t all = BOTH * w->n;
+    const size_t all = N_CONSTANTS * w->n;
     gsl_matrix_view v = gsl_matrix_view_array(w->covariance, all, all);
     for (size_t r = 0; r < all; r++) {
-        w->columns[r] = r % BOTH == ENERGY;
-        w->columns[all + r] = r % BOTH == WEAR;
-        w->columns[2 * all + r] = r % BOTH == ENERGY ? w->of[r / BOTH].energy - w->of[0].energy
-                                                     : w->of[r / BOTH].wear - w->of[0].wear;
+        w->columns[r] = r % N_CONSTANTS == ENERGY;
+        w->columns[all + r] = r % N_CONSTANTS == WEAR;
+        w->columns[2 * all + r] = r % N_CONSTANTS == ENERGY
+                                      ? w->of[r / N_CONSTANTS].energy - w->of[0].energy
+                                      : w->of[r / N_CONSTANTS].wear - w->of[0].wear;
         for (size_t c = 0; c < all; c++)
-            w->covariance[r * all + c] =
-                covariance_of(w, part, r / BOTH, c / BOTH, r % BOTH, c % BOTH);
+            w->covariance[r * all + c] = element_covariance(
+                w, part, r / N_CONSTANTS, c / N_CONSTANTS, r % N_CONSTANTS, c % N_CONSTANTS);
     }
     if (gsl_linalg_cholesky_decomp1(&v.matrix) != 0)
         return false;
@@ -108,10 +110,10 @@ static bool find_chi_squared(pair_work *w, double part, double *to)
             return false;
     }
     const double *e = w->columns, *k = e + all, *y = k + all;
-    const pair_covariance i =
-        inverse((pair_covariance){dot(e, e, all), dot(k, k, all), dot(e, k, all)});
-    const double of_e = dot(e, y, all), of_k = dot(k, y, all);
-    *to = fmax(dot(y, y, all) - i.energy * of_e * of_e - i.wear * of_k * of_k -
+    const pair_covariance i = invert_covariance(
+        (pair_covariance){dot_product(e, e, all), dot_product(k, k, all), dot_product(e, k, all)});
+    const double of_e = dot_product(e, y, all), of_k = dot_product(k, y, all);
+    *to = fmax(dot_product(y, y, all) - i.energy * of_e * of_e - i.wear * of_k * of_k -
                    2 * i.both * of_e * of_k,
                0);
     return true;
@@ -120,42 +122,43 @@ static bool find_chi_squared(pair_work *w, double part, double *to)
 /* ---- the common pair ------------------------------------------------------------------------- */
 
 /* Weight matrix of pair i by rows; `sum` is the inverse of the sum of the weights. */
-static void weight_of(const pair_work *w, pair_covariance sum, size_t i, double weight[4])
+static void pair_weight(const pair_work *w, pair_covariance sum, size_t i, double weight[4])
 {
-    const pair_covariance own = inverse(w->of[i].whole);
-    weight[0] = sum.energy * own.energy + sum.both * own.both;
-    weight[1] = sum.energy * own.both + sum.both * own.wear;
-    weight[2] = sum.both * own.energy + sum.wear * own.both;
-    weight[3] = sum.both * own.both + sum.wear * own.wear;
+    const pair_covariance precision = invert_covariance(w->of[i].whole);
+    weight[0] = sum.energy * precision.energy + sum.both * precision.both;
+    weight[1] = sum.energy * precision.both + sum.both * precision.wear;
+    weight[2] = sum.both * precision.energy + sum.wear * precision.both;
+    weight[3] = sum.both * precision.both + sum.wear * precision.wear;
 }
 
 static void add_common(const pair_work *w, pair_covariance sum, size_t i, size_t k,
                        pair_covariance *to)
 {
     double p[4], q[4];
-    weight_of(w, sum, i, p);
-    weight_of(w, sum, k, q);
-    for (size_t a = 0; a < BOTH; a++)
-        for (size_t b = 0; b < BOTH; b++) {
-            const double c = covariance_of(w, 1, i, k, a, b);
+    pair_weight(w, sum, i, p);
+    pair_weight(w, sum, k, q);
+    for (size_t a = 0; a < N_CONSTANTS; a++)
+        for (size_t b = 0; b < N_CONSTANTS; b++) {
+            const double c = element_covariance(w, 1, i, k, a, b);
             to->energy += p[a] * c * q[b];
             to->wear += p[2 + a] * c * q[2 + b];
             to->both += p[a] * c * q[2 + b];
         }
 }
 
-static void find_mean(const pair_work *w, shared_pair *to)
+static void compute_weighted_mean(const pair_work *w, shared_pair *to)
 {
     pair_covariance sum = {0, 0, 0};
     for (size_t i = 0; i < w->n; i++) {
-        const pair_covariance own = inverse(w->of[i].whole);
-        sum = (pair_covariance){sum.energy + own.energy, sum.wear + own.wear, sum.both + own.both};
+        const pair_covariance precision = invert_covariance(w->of[i].whole);
+        sum = (pair_covariance){sum.energy + precision.energy, sum.wear + precision.wear,
+                                sum.both + precision.both};
     }
-    sum = inverse(sum);
+    sum = invert_covariance(sum);
     pair_covariance common = sum;
     for (size_t i = 0; i < w->n; i++) {
         double weight[4];
-        weight_of(w, sum, i, weight);
+        pair_weight(w, sum, i, weight);
         to->energy += weight[0] * w->of[i].energy + weight[1] * w->of[i].wear;
         to->wear += weight[2] * w->of[i].energy + weight[3] * w->of[i].wear;
         for (size_t k = 0; k < w->n; k++)
@@ -165,20 +168,20 @@ static void find_mean(const pair_work *w, shared_pair *to)
     to->covariance = common.energy + common.wear > sum.energy + sum.wear ? common : sum;
 }
 
-static void fit(pair_work *w, shared_pair *to)
+static void fit_shared_pair(pair_work *w, shared_pair *to)
 {
     double common;
     *to = (shared_pair){.energy = 0};
     for (size_t i = 0; i < w->n; i++)
-        find_root(w->of[i].inputs, w->root + 4 * i);
-    find_mean(w, to);
-    (void)find_chi_squared(w, 0, &to->chi_squared);
-    for (double part = whole; part > least_part; part /= 2)
-        if (find_chi_squared(w, part, &common)) {
+        compute_covariance_root(w->of[i].inputs, w->root + 4 * i);
+    compute_weighted_mean(w, to);
+    (void)compute_chi_squared(w, 0, &to->chi_squared);
+    for (double part = whole; part > min_common_share; part /= 2)
+        if (compute_chi_squared(w, part, &common)) {
             to->chi_squared = fmin(to->chi_squared, common);
             break;
         }
-    to->p = gsl_cdf_chisq_Q(to->chi_squared, BOTH * ((double)w->n - 1));
+    to->p = gsl_cdf_chisq_Q(to->chi_squared, N_CONSTANTS * ((double)w->n - 1));
 }
 
 wt_status shared_pair_fit(const constant_pair *of, const bool *common, size_t n, shared_pair *to,
@@ -188,17 +191,18 @@ wt_status shared_pair_fit(const constant_pair *of, const bool *common, size_t n,
     if (n < 2)
         return wt_fail(err, WT_E_ARG, "one pair shares nothing");
     for (size_t i = 0; i < n; i++)
-        if (!(determinant(of[i].whole) > least_determinant * of[i].whole.energy * of[i].whole.wear))
+        if (!(covariance_determinant(of[i].whole) >
+              min_relative_determinant * of[i].whole.energy * of[i].whole.wear))
             return wt_fail(err, WT_E_ARG, "a pair without a covariance shares nothing");
     arena memory = {0};
     pair_work w = {.of = of,
                    .common = common,
                    .n = n,
                    .root = arena_numbers(&memory, 4 * n),
-                   .covariance = arena_numbers(&memory, BOTH * n * BOTH * n),
-                   .columns = arena_numbers(&memory, 3 * BOTH * n)};
+                   .covariance = arena_numbers(&memory, N_CONSTANTS * n * N_CONSTANTS * n),
+                   .columns = arena_numbers(&memory, 3 * N_CONSTANTS * n)};
     if (!memory.failed)
-        fit(&w, to);
+        fit_shared_pair(&w, to);
     const wt_status status = memory.failed ? wt_fail(err, WT_E_MEMORY, "out of memory") : WT_OK;
     arena_free(&memory);
     return status;

@@ -19,7 +19,7 @@ typedef struct constant_axes {
     char loose[32];                  /* combination with the largest uncertainty: "U_c k^-0.42" */
     double loose_error, tight_error; /* standard deviations along and across that combination */
 } constant_axes;
-constant_axes constant_axes_of(pair_covariance c);
+constant_axes constant_axes_compute(pair_covariance c);
 
 /* ln U_c and ln k of a case. */
 typedef struct constant_pair {

@@ -54,7 +54,7 @@ wt_status energy_check(const wt_energy_source *source, wt_error *err)
     return param_check_number(&local_friction, source->local_friction, err);
 }
 
-bool energy_range(const wt_energy_source *source, double *q_min, double *q_max)
+bool energy_wavenumber_range(const wt_energy_source *source, double *q_min, double *q_max)
 {
     *q_min = (double)INFINITY;
     *q_max = 0;
@@ -77,7 +77,7 @@ static double asymmetry(double m)
 /* True if the density falls with depth. The incompressible density of one wavenumber has its
  * extrema at q z = 1 and 1 - r. They coincide for m = 1, and only then does the density fall
  * monotonically. */
-bool energy_falls(const wt_energy_source *source)
+bool energy_is_monotonic(const wt_energy_source *source)
 {
     return source->profile == WT_PROFILE_PERSSON || source->local_friction == 1;
 }
@@ -89,18 +89,18 @@ typedef struct quadratic {
     double c[3];
 } quadratic;
 
-WIDE_PART quadratic density_from(double s, double x)
+WIDE_INLINE quadratic density_polynomial(double s, double x)
 {
     return (quadratic){
         {2 * ((2 - s) * x * x + s * (1 - x) * (1 - x)), 4 * ((2 - s) * x - s * (1 - x)), 4}};
 }
 
-WIDE_PART quadratic slope_from(double s, double x)
+WIDE_INLINE quadratic slope_polynomial(double s, double x)
 {
     return (quadratic){{-8 * (x - 1) * (x - s), -8 * (2 * x - 1 - s), -8}};
 }
 
-WIDE_PART quadratic bend_from(double s, double x)
+WIDE_INLINE quadratic curvature_polynomial(double s, double x)
 {
     return (quadratic){
         {8 * (2 * x * x - 2 * (2 + s) * x + 1 + 3 * s), 8 * (4 * x - 2 * (2 + s)), 16}};
@@ -112,8 +112,8 @@ typedef struct batch {
     size_t n;
     const double *q;
     double r, depth, length;
-    double power[BATCH]; /* power that remains at the depth, over exp(-2 q_min depth) */
-    double gone[BATCH];  /* exp(-2 q length) - 1 */
+    double power[BATCH];       /* power that remains at the depth, over exp(-2 q_min depth) */
+    double decay_expm1[BATCH]; /* exp(-2 q length) - 1 */
 } batch;
 
 /* Fills a batch, beginning with a wavenumber. */
@@ -124,13 +124,13 @@ static void batch_fill(const wt_energy_source *source, size_t from, double q_min
     b->q = source->wavenumber + from;
     for (size_t i = 0; i < b->n; i++) /* wavenumbers without power may be below q_min */
         x[i] = b->q[i] > q_min ? -2 * (b->q[i] - q_min) * b->depth : 0;
-    exponential(x, b->n, b->power);
+    vector_exp(x, b->n, b->power);
     for (size_t i = 0; i < b->n; i++) {
         b->power[i] *= source->power[from + i];
         x[i] = -2 * b->q[i] * b->length;
     }
     if (b->length > 0)
-        exponential_less_one(x, b->n, b->gone);
+        vector_expm1(x, b->n, b->decay_expm1);
 }
 
 /* Evaluates a function of depth z for each wavenumber, for the power exp(2 q z). */
@@ -141,7 +141,7 @@ static void energy_shape(const wt_energy_source *source, const batch *b, double 
 {
     const bool plain = source->profile == WT_PROFILE_PERSSON;
     for (size_t i = 0; i < b->n; i++)
-        value[i] = b->q[i] * (plain ? 2 : density_from(1 - b->r, b->q[i] * b->depth).c[0]);
+        value[i] = b->q[i] * (plain ? 2 : density_polynomial(1 - b->r, b->q[i] * b->depth).c[0]);
 }
 
 /* exp(2 q z) int_z^inf g */
@@ -154,29 +154,30 @@ static void tail_shape(const wt_energy_source *source, const batch *b, double *v
     }
 }
 
-WIDE_PART double lesser(double a, double b)
+WIDE_INLINE double smaller_value(double a, double b)
 {
     return a < b ? a : b;
 }
 
 /* Largest |exp(-2 t) (c[0] + c[1] t + c[2] t^2)| for 0 <= t <= width. */
-WIDE_PART double largest_of(quadratic of, double width)
+WIDE_INLINE double polynomial_bound(quadratic of, double width)
 {
     static const double inverse_square = 0.13533528323661269; /* exp(-2) */
-    return fabs(of.c[0]) + fabs(of.c[1]) * lesser(width, 0.5 / M_E) +
-           fabs(of.c[2]) * lesser(width * width, inverse_square);
+    return fabs(of.c[0]) + fabs(of.c[1]) * smaller_value(width, 0.5 / M_E) +
+           fabs(of.c[2]) * smaller_value(width * width, inverse_square);
 }
 
 /* Length below which the closed form cancels. The series in y = -2 l has the terms l^(k+1) y^j /
  * (j! (k+1+j)); the first neglected one, j = 7, is below 1e-16. */
-static const double short_way = 0.01;
+static const double short_length = 0.01;
 /* Largest length. exp(-800) is 0 at its end, and its square must not overflow. */
-static const double longest_way = 400;
+static const double longest_length = 400;
 
 /* int_0^l t^k exp(-2 t) dt; the second argument is exp(-2 l) - 1. */
-WIDE_PART quadratic moments(double l, double gone)
+WIDE_INLINE quadratic moments(double l, double decay_expm1)
 {
-    const double y = -2 * l, way = lesser(l, longest_way), left = 1 + gone;
+    const double y = -2 * l, limited_length = smaller_value(l, longest_length),
+                 left = 1 + decay_expm1;
     const double first =
         l *
         (1 + y * (1 / 2.0 +
@@ -191,37 +192,37 @@ WIDE_PART quadratic moments(double l, double gone)
         (1 / 3.0 +
          y * (1 / 4.0 +
               y * (1 / 10.0 + y * (1 / 36.0 + y * (1 / 168.0 + y * (1 / 960.0 + y / 6480.0))))));
-    const double j0 = -0.5 * gone;
-    const double j1 = 0.5 * (j0 - way * left);
-    const double j2 = j1 - 0.5 * way * way * left;
-    return (quadratic){
-        {l < short_way ? first : j0, l < short_way ? second : j1, l < short_way ? third : j2}};
+    const double j0 = -0.5 * decay_expm1;
+    const double j1 = 0.5 * (j0 - limited_length * left);
+    const double j2 = j1 - 0.5 * limited_length * limited_length * left;
+    return (quadratic){{l < short_length ? first : j0, l < short_length ? second : j1,
+                        l < short_length ? third : j2}};
 }
 
-WIDE_PART double integral_of(quadratic of, quadratic moment)
+WIDE_INLINE double integrate_polynomial(quadratic of, quadratic moment)
 {
     return of.c[0] * moment.c[0] + of.c[1] * moment.c[1] + of.c[2] * moment.c[2];
 }
 
 /* exp(2 q z) int_z^(z+length) g */
 WIDE_REGISTERS
-static void gain_shape(const wt_energy_source *source, const batch *b, double *value)
+static void integral_shape(const wt_energy_source *source, const batch *b, double *value)
 {
     const bool plain = source->profile == WT_PROFILE_PERSSON;
     const double s = 1 - b->r, depth = b->depth, length = b->length;
     for (size_t i = 0; plain && i < b->n; i++)
-        value[i] = -b->gone[i];
+        value[i] = -b->decay_expm1[i];
     for (size_t i = 0; !plain && i < b->n; i++) {
         const double q = b->q[i];
-        const double gain =
-            integral_of(density_from(s, q * depth), moments(q * length, b->gone[i]));
+        const double gain = integrate_polynomial(density_polynomial(s, q * depth),
+                                                 moments(q * length, b->decay_expm1[i]));
         value[i] = gain > 0 ? gain : 0;
     }
 }
 
 /* Sum over the wavenumbers, divided by exp(-2 q_min depth). */
-static double sum_of(const wt_energy_source *source, shape_fn *of, double depth, double length,
-                     double q_min)
+static double scaled_sum(const wt_energy_source *source, shape_fn *of, double depth, double length,
+                         double q_min)
 {
     double sum = 0, value[BATCH];
     batch b = {.r = asymmetry(source->local_friction), .depth = depth, .length = length};
@@ -236,20 +237,20 @@ static double sum_of(const wt_energy_source *source, shape_fn *of, double depth,
 
 /* Below this sum the powers are scaled by the slowest decay. It is far above 1e-308, where doubles
  * lose digits. */
-static const double least_sum = 1e-200;
+static const double min_sum = 1e-200;
 
 static double log_sum(const wt_energy_source *source, shape_fn *of, double depth, double length)
 {
     double q_min, q_max;
-    const double sum = sum_of(source, of, depth, length, 0);
-    if (sum > least_sum || !energy_range(source, &q_min, &q_max))
+    const double sum = scaled_sum(source, of, depth, length, 0);
+    if (sum > min_sum || !energy_wavenumber_range(source, &q_min, &q_max))
         return log(sum);
-    return log(sum_of(source, of, depth, length, q_min)) - 2 * q_min * depth;
+    return log(scaled_sum(source, of, depth, length, q_min)) - 2 * q_min * depth;
 }
 
 /* Sum of the values with power; values without power may be arbitrary. */
 WIDE_REGISTERS
-static double total_of(const double *value, const double *power, size_t n)
+static double sum_with_power(const double *value, const double *power, size_t n)
 {
     double sum[WIDE] = {0};
     size_t i = 0;
@@ -263,7 +264,7 @@ static double total_of(const double *value, const double *power, size_t n)
 
 /* Tail and density of both profiles for a batch. */
 WIDE_REGISTERS
-static void terms_of_both(const batch *b, double value[ENERGY_BOTH][BATCH])
+static void profile_terms(const batch *b, double value[ENERGY_PROFILE_VALUES][BATCH])
 {
     const double r = b->r, depth = b->depth;
     for (size_t i = 0; i < b->n; i++) {
@@ -271,99 +272,104 @@ static void terms_of_both(const batch *b, double value[ENERGY_BOTH][BATCH])
         value[0][i] = power;
         value[1][i] = power * q * 2;
         value[2][i] = power * (1 + 2 * x * (x + r));
-        value[3][i] = power * q * density_from(1 - r, x).c[0];
+        value[3][i] = power * q * density_polynomial(1 - r, x).c[0];
     }
 }
 
-static void sums_of_both(const wt_energy_source *source, double depth, double q_min,
-                         double sum[ENERGY_BOTH])
+static void profile_sums(const wt_energy_source *source, double depth, double q_min,
+                         double sum[ENERGY_PROFILE_VALUES])
 {
-    double value[ENERGY_BOTH][BATCH];
+    double value[ENERGY_PROFILE_VALUES][BATCH];
     batch b = {.r = asymmetry(source->local_friction), .depth = depth};
-    for (size_t k = 0; k < ENERGY_BOTH; k++)
+    for (size_t k = 0; k < ENERGY_PROFILE_VALUES; k++)
         sum[k] = 0;
     for (size_t from = 0; from < source->n; from += BATCH) {
         batch_fill(source, from, q_min, &b);
-        terms_of_both(&b, value);
-        for (size_t k = 0; k < ENERGY_BOTH; k++)
-            sum[k] += total_of(value[k], b.power, b.n);
+        profile_terms(&b, value);
+        for (size_t k = 0; k < ENERGY_PROFILE_VALUES; k++)
+            sum[k] += sum_with_power(value[k], b.power, b.n);
     }
 }
 
-void energy_log_both(const wt_energy_source *source, double depth, double logarithm[ENERGY_BOTH])
+void energy_log_profiles(const wt_energy_source *source, double depth,
+                         double logarithm[ENERGY_PROFILE_VALUES])
 {
-    double sum[ENERGY_BOTH], scaled[ENERGY_BOTH], q_min, q_max;
+    double sum[ENERGY_PROFILE_VALUES], scaled[ENERGY_PROFILE_VALUES], q_min, q_max;
     bool small = false;
-    sums_of_both(source, depth, 0, sum);
-    for (size_t k = 0; k < ENERGY_BOTH; k++)
-        small = small || !(sum[k] > least_sum);
-    small = small && energy_range(source, &q_min, &q_max);
+    profile_sums(source, depth, 0, sum);
+    for (size_t k = 0; k < ENERGY_PROFILE_VALUES; k++)
+        small = small || !(sum[k] > min_sum);
+    small = small && energy_wavenumber_range(source, &q_min, &q_max);
     if (small)
-        sums_of_both(source, depth, q_min, scaled);
-    for (size_t k = 0; k < ENERGY_BOTH; k++)
+        profile_sums(source, depth, q_min, scaled);
+    for (size_t k = 0; k < ENERGY_PROFILE_VALUES; k++)
         logarithm[k] =
-            small && !(sum[k] > least_sum) ? log(scaled[k]) - 2 * q_min * depth : log(sum[k]);
+            small && !(sum[k] > min_sum) ? log(scaled[k]) - 2 * q_min * depth : log(sum[k]);
 }
 
-double energy_falling(const wt_energy_source *source)
+double energy_monotonic_depth(const wt_energy_source *source)
 {
     double q_min, q_max;
     const double last = fmax(1, 1 - asymmetry(source->local_friction));
-    return !energy_falls(source) && energy_range(source, &q_min, &q_max) ? last / q_min : 0;
+    return !energy_is_monotonic(source) && energy_wavenumber_range(source, &q_min, &q_max)
+               ? last / q_min
+               : 0;
 }
 
 /* Contributions of the wavenumbers of a batch to an expansion of the incompressible profile. */
-typedef struct course_terms {
+typedef struct expansion_terms {
     double value[BATCH], slope[BATCH], curvature[BATCH];
-} course_terms;
+} expansion_terms;
 
 /* Contributions to the density. */
 WIDE_REGISTERS
-static void density_terms(const batch *b, double reach, course_terms *t)
+static void density_terms(const batch *b, double reach, expansion_terms *t)
 {
     const double s = 1 - b->r, depth = b->depth;
     for (size_t i = 0; i < b->n; i++) {
         const double q = b->q[i], power = q * b->power[i], x = q * depth;
-        t->value[i] = power * density_from(s, x).c[0];
-        t->slope[i] = power * q * slope_from(s, x).c[0];
-        t->curvature[i] = power * q * q * largest_of(bend_from(s, x), q * reach);
+        t->value[i] = power * density_polynomial(s, x).c[0];
+        t->slope[i] = power * q * slope_polynomial(s, x).c[0];
+        t->curvature[i] = power * q * q * polynomial_bound(curvature_polynomial(s, x), q * reach);
     }
 }
 
 /* Contributions to the integral of the density over a length. */
 WIDE_REGISTERS
-static void gain_terms(const batch *b, double reach, course_terms *t)
+static void integral_terms(const batch *b, double reach, expansion_terms *t)
 {
     const double s = 1 - b->r, depth = b->depth, length = b->length;
     for (size_t i = 0; i < b->n; i++) {
         const double q = b->q[i], power = b->power[i], x = q * depth, width = q * reach;
-        const double l = q * length, gone = b->gone[i], way = lesser(l, longest_way);
-        const quadratic over = moments(l, gone);
-        const double gain = integral_of(density_from(s, x), over);
-        const double apart = largest_of(slope_from(s, x), width) +
-                             (1 + gone) * largest_of(slope_from(s, x + way), width);
-        const double along = l * largest_of(bend_from(s, x), width + l);
+        const double l = q * length, decay_expm1 = b->decay_expm1[i],
+                     limited_length = smaller_value(l, longest_length);
+        const quadratic over = moments(l, decay_expm1);
+        const double gain = integrate_polynomial(density_polynomial(s, x), over);
+        const double apart =
+            polynomial_bound(slope_polynomial(s, x), width) +
+            (1 + decay_expm1) * polynomial_bound(slope_polynomial(s, x + limited_length), width);
+        const double along = l * polynomial_bound(curvature_polynomial(s, x), width + l);
         t->value[i] = power * (gain > 0 ? gain : 0);
-        t->slope[i] = power * q * integral_of(slope_from(s, x), over);
-        t->curvature[i] = power * q * q * lesser(apart, along);
+        t->slope[i] = power * q * integrate_polynomial(slope_polynomial(s, x), over);
+        t->curvature[i] = power * q * q * smaller_value(apart, along);
     }
 }
 
-energy_course energy_course_at(const wt_energy_source *source, double q_min, double depth,
+energy_expansion energy_expand(const wt_energy_source *source, double q_min, double depth,
                                double length, double reach)
 {
     batch b = {.r = asymmetry(source->local_friction), .depth = depth, .length = length};
-    course_terms t;
-    energy_course sum = {.log_scale = -2 * q_min * depth};
+    expansion_terms t;
+    energy_expansion sum = {.log_scale = -2 * q_min * depth};
     for (size_t from = 0; from < source->n; from += BATCH) {
         batch_fill(source, from, q_min, &b);
         if (length > 0)
-            gain_terms(&b, reach, &t);
+            integral_terms(&b, reach, &t);
         else
             density_terms(&b, reach, &t);
-        sum.value += total_of(t.value, b.power, b.n);
-        sum.slope += total_of(t.slope, b.power, b.n);
-        sum.curvature += total_of(t.curvature, b.power, b.n);
+        sum.value += sum_with_power(t.value, b.power, b.n);
+        sum.slope += sum_with_power(t.slope, b.power, b.n);
+        sum.curvature += sum_with_power(t.curvature, b.power, b.n);
     }
     return sum;
 }
@@ -378,9 +384,9 @@ double energy_log_tail(const wt_energy_source *source, double depth)
     return log_sum(source, tail_shape, depth, 0);
 }
 
-double energy_log_gain(const wt_energy_source *source, double depth, double length)
+double energy_log_integral(const wt_energy_source *source, double depth, double length)
 {
-    return length > 0 ? log_sum(source, gain_shape, depth, length) : -(double)INFINITY;
+    return length > 0 ? log_sum(source, integral_shape, depth, length) : -(double)INFINITY;
 }
 
 double wt_energy_density(const wt_energy_source *source, double depth)

@@ -22,25 +22,26 @@ wt_status energy_check(const wt_energy_source *source, wt_error *err) WT_NODISCA
 /* ln of w(z), of int_z^inf w, and of int_z^(z+length) w; -infinity for a source without power. */
 double energy_log_density(const wt_energy_source *source, double depth);
 double energy_log_tail(const wt_energy_source *source, double depth);
-double energy_log_gain(const wt_energy_source *source, double depth, double length);
+double energy_log_integral(const wt_energy_source *source, double depth, double length);
 /* Computes the first two for both profiles at the cost of one. */
-enum { ENERGY_BOTH = 4 };
-void energy_log_both(const wt_energy_source *source, double depth, double logarithm[ENERGY_BOTH]);
+enum { ENERGY_PROFILE_VALUES = 4 };
+void energy_log_profiles(const wt_energy_source *source, double depth,
+                         double logarithm[ENERGY_PROFILE_VALUES]);
 /* Returns the smallest and the largest wavenumber with power; false if there is none. */
-bool energy_range(const wt_energy_source *source, double *q_min, double *q_max);
+bool energy_wavenumber_range(const wt_energy_source *source, double *q_min, double *q_max);
 /* True if w falls with depth for any set of wavenumbers. */
-bool energy_falls(const wt_energy_source *source);
+bool energy_is_monotonic(const wt_energy_source *source);
 /* Depth below which w falls for any powers [m]. */
-double energy_falling(const wt_energy_source *source);
+double energy_monotonic_depth(const wt_energy_source *source);
 
 /* int_z^(z+length) w, or w itself for length 0, at a depth, with its slope there and a bound of its
  * second derivative over the next `reach`. All are multiplied by exp(log_scale). q_min is the
  * smallest wavenumber with power. */
-typedef struct energy_course {
+typedef struct energy_expansion {
     double log_scale;
     double value, slope, curvature;
-} energy_course;
-energy_course energy_course_at(const wt_energy_source *source, double q_min, double depth,
+} energy_expansion;
+energy_expansion energy_expand(const wt_energy_source *source, double q_min, double depth,
                                double length, double reach);
 
 #endif

@@ -8,67 +8,70 @@
 #include <float.h>
 #include <math.h>
 
-static wt_layer_regime regime_of(double log_ratio)
+static wt_layer_regime classify_regime(double log_ratio)
 {
     if (!(log_ratio > 0))
         return WT_LAYER_NONE;
     return log_ratio < 1 ? WT_LAYER_THIN : WT_LAYER_THICK;
 }
 
-static wt_estimate seconds(double value, double error)
+static wt_estimate time_estimate(double value, double error)
 {
     return (wt_estimate){.value = value, .numerical_error = error, .unit = "s"};
 }
 
 /* Removal time of the initial layer. With damage transport no new layer forms for R <= 1: the old
  * layer is worn from the top. */
-static wt_estimate removal_of_old_layer(const layer_rates *rates, double start)
+static wt_estimate compute_removal_time(const layer_rates *rates, double start)
 {
     if (start == 0)
-        return seconds(0, 0);
+        return time_estimate(0, 0);
     const double time = rates->wear > 0 ? start / rates->wear : HUGE_VAL;
-    return seconds(time, (4 * DBL_EPSILON + rates->wear_error) * time);
+    return time_estimate(time, (4 * DBL_EPSILON + rates->wear_error) * time);
 }
 
 /* 1/(kappa Qw) at the balance; its error follows from those of the thickness and of kappa. */
-static wt_estimate relaxation_of(const layer_rates *rates, wt_estimate thickness)
+static wt_estimate compute_relaxation_time(const layer_rates *rates, wt_estimate thickness)
 {
-    const double rate = rates->wear > 0 ? rates->wear * layer_decay(rates, thickness.value) : 0;
+    const double rate =
+        rates->wear > 0 ? rates->wear * layer_decay_rate(rates, thickness.value) : 0;
     if (!(rate > 0))
-        return seconds(HUGE_VAL, 0);
+        return time_estimate(HUGE_VAL, 0);
     const double time = 1 / rate;
-    if (rates->without_errors)
-        return seconds(time, (double)NAN);
-    const double above = layer_decay(rates, thickness.value + thickness.numerical_error);
-    const double below = layer_decay(rates, fmax(0, thickness.value - thickness.numerical_error));
+    if (rates->skip_numerical_errors)
+        return time_estimate(time, (double)NAN);
+    const double above = layer_decay_rate(rates, thickness.value + thickness.numerical_error);
+    const double below =
+        layer_decay_rate(rates, fmax(0, thickness.value - thickness.numerical_error));
     const double moved =
         fmax(fabs(1 / (rates->wear * above) - time), fabs(1 / (rates->wear * below) - time));
-    return seconds(time, moved + time * (2 * rates->error + rates->wear_error + 64 * DBL_EPSILON));
+    return time_estimate(time,
+                         moved + time * (2 * rates->error + rates->wear_error + 64 * DBL_EPSILON));
 }
 
 /* Sets the balance with ageing, which modifies rubber at every depth at any wear rate. */
-static void age_everywhere(wt_layer_balance *b, bool without_errors)
+static void set_aged_balance(wt_layer_steady_state *b, bool skip_numerical_errors)
 {
     b->formation_rate_zero = b->ratio = b->critical_specific_wear_rate = HUGE_VAL;
     b->thickness.value = HUGE_VAL;
-    b->thickness.numerical_error = without_errors ? (double)NAN : 0;
+    b->thickness.numerical_error = skip_numerical_errors ? (double)NAN : 0;
     b->regime = WT_LAYER_THICK;
-    b->relaxation_time = seconds(HUGE_VAL, 0);
+    b->relaxation_time = time_estimate(HUGE_VAL, 0);
     b->eigenvalue = 0;
 }
 
-wt_status wt_layer_balance_compute(const wt_energy_source *source,
-                                   const wt_layer_parameters *parameters, wt_layer_balance *balance,
-                                   wt_error *err)
+wt_status wt_layer_steady_state_compute(const wt_energy_source *source,
+                                        const wt_layer_parameters *parameters,
+                                        wt_layer_steady_state *balance, wt_error *err)
 {
     if (balance == NULL)
         return wt_fail(err, WT_E_ARG, "a balance needs a place for the result");
     layer_rates r;
-    wt_layer_balance b = {0};
-    wt_status status = layer_rates_make(source, parameters, &r, err);
+    wt_layer_steady_state b = {0};
+    wt_status status = layer_rates_compute(source, parameters, &r, err);
     if (status == WT_OK)
         status = layer_fixed_point(&r, 0, &b.thickness, err);
-    b.incubation_time = seconds((double)NAN, (double)NAN);
+    b.incubation_time = time_estimate((double)NAN, (double)NAN);
     if (status == WT_OK && !parameters->balance_only)
         status = layer_damage_time(&r, parameters->incubation, (wt_estimate){.unit = "m"},
                                    &b.incubation_time, err);
@@ -89,18 +92,18 @@ wt_status wt_layer_balance_compute(const wt_energy_source *source,
             ? 0
             : exp(r.log_power - r.threshold) /
                   (parameters->pressure * parameters->velocity * layer_wear_rate(&unit, r.power));
-    b.regime = regime_of(r.log_ratio);
-    b.relaxation_time = relaxation_of(&r, b.thickness);
+    b.regime = classify_regime(r.log_ratio);
+    b.relaxation_time = compute_relaxation_time(&r, b.thickness);
     b.eigenvalue = b.regime == WT_LAYER_NONE ? 0 : -1 / b.relaxation_time.value;
-    b.removal_time = seconds((double)NAN, (double)NAN);
+    b.removal_time = time_estimate((double)NAN, (double)NAN);
     if (r.background > 0) {
-        age_everywhere(&b, r.without_errors);
+        set_aged_balance(&b, r.skip_numerical_errors);
     } else if (b.regime == WT_LAYER_NONE) {
         if (parameters->incubation)
-            b.removal_time = removal_of_old_layer(&r, parameters->start_thickness);
+            b.removal_time = compute_removal_time(&r, parameters->start_thickness);
         else
-            status = layer_march_time(&r, parameters->start_thickness, (wt_estimate){.unit = "m"},
-                                      &b.removal_time, err);
+            status = layer_integrate_time(&r, parameters->start_thickness,
+                                          (wt_estimate){.unit = "m"}, &b.removal_time, err);
     }
     layer_rates_clear(&r);
     if (status == WT_OK)
@@ -108,14 +111,15 @@ wt_status wt_layer_balance_compute(const wt_energy_source *source,
     return status;
 }
 
-wt_status wt_layer_time(const wt_energy_source *source, const wt_layer_parameters *parameters,
-                        wt_estimate thickness, wt_estimate *time, wt_error *err)
+wt_status wt_layer_growth_time(const wt_energy_source *source,
+                               const wt_layer_parameters *parameters, wt_estimate thickness,
+                               wt_estimate *time, wt_error *err)
 {
     if (time == NULL)
         return wt_fail(err, WT_E_ARG, "the time of a thickness needs a place for it");
     layer_rates r;
-    *time = seconds((double)NAN, (double)NAN);
-    wt_status status = layer_rates_make(source, parameters, &r, err);
+    *time = time_estimate((double)NAN, (double)NAN);
+    wt_status status = layer_rates_compute(source, parameters, &r, err);
     if (status != WT_OK || !(thickness.value > 0)) {
         layer_rates_clear(&r);
         return status;
@@ -124,10 +128,10 @@ wt_status wt_layer_time(const wt_energy_source *source, const wt_layer_parameter
     if (parameters->incubation)
         status = layer_damage_time(&r, true, thickness, time, err);
     else if (start < thickness.value)
-        status = layer_march_time(&r, start, thickness, time, err);
+        status = layer_integrate_time(&r, start, thickness, time, err);
     /* never reached, or the old layer is still thicker at that time */
     if (isinf(time->value) || start - r.wear * time->value >= thickness.value)
-        *time = seconds((double)NAN, (double)NAN);
+        *time = time_estimate((double)NAN, (double)NAN);
     layer_rates_clear(&r);
     return status;
 }

@@ -19,9 +19,9 @@
 
 /* Smallest depth interval relative to the depth. A maximum inside exceeds the ends by the square of
  * it, which is below rounding. */
-static const double least_stretch = 1e-9;
+static const double min_relative_interval = 1e-9;
 
-damage damage_of(const layer_rates *rates, bool with_wear)
+damage damage_create(const layer_rates *rates, bool with_wear)
 {
     return (damage){.rates = rates, .worn = with_wear && rates->wear > 0, .q_max = rates->q_max};
 }
@@ -29,7 +29,7 @@ damage damage_of(const layer_rates *rates, bool with_wear)
 void damage_set_time(damage *d, double time)
 {
     d->time = time;
-    d->way = d->worn ? d->rates->wear * time : 0;
+    d->worn_depth = d->worn ? d->rates->wear * time : 0;
 }
 
 /* ln of the factor from the integral or density of the energy to D / Lambda. */
@@ -41,44 +41,46 @@ static double damage_scale(const damage *d)
 }
 
 /* Present depth coordinate of the damage of an earlier load, after the wear since then. */
-static double now_at(const damage *d, size_t i, double depth)
+static double shifted_depth(const damage *d, size_t i, double depth)
 {
-    return depth + d->past[i].worn + d->way;
+    return depth + d->past[i].worn + d->worn_depth;
 }
 
 /* ln(D / Lambda) due to the loads, without ageing. */
-double damage_of_loads(double depth, const damage *d)
+double damage_log_total(double depth, const damage *d)
 {
     double sum = -HUGE_VAL;
     if (d->rates->formation > 0 && d->time > 0)
-        sum = (d->worn ? rates_log_gain(d->rates, depth, d->way)
+        sum = (d->worn ? rates_log_integral(d->rates, depth, d->worn_depth)
                        : rates_log_density(d->rates, depth)) +
               damage_scale(d);
     for (size_t i = 0; i < d->n_past; i++) {
         const damage_load *p = &d->past[i];
-        const double place = now_at(d, i, depth);
-        sum = log_add(sum, p->log_scale + (p->way > 0 ? rates_log_gain(p->rates, place, p->way)
-                                                      : rates_log_density(p->rates, place)));
+        const double shifted = shifted_depth(d, i, depth);
+        sum =
+            log_add(sum, p->log_scale + (p->worn_depth > 0
+                                             ? rates_log_integral(p->rates, shifted, p->worn_depth)
+                                             : rates_log_density(p->rates, shifted)));
     }
     return sum;
 }
 
 /* Returns the level that the loads must reach, given the damage without load. If that damage
  * suffices, the smallest number is used. */
-static double damage_wanted(const damage *d)
+static double damage_required_level(const damage *d)
 {
     const double unloaded = d->rates->background * d->time + d->past_background;
     return unloaded > 0 ? log(fmax(DBL_MIN, exp(d->level) - unloaded)) : d->level;
 }
 
-double damage_at(double depth, void *user)
+double damage_excess(double depth, void *user)
 {
     const damage *d = user;
     if (d->n_past > 0)
-        return damage_of_loads(depth, d) - damage_wanted(d);
-    const double energy =
-        d->worn ? rates_log_gain(d->rates, depth, d->way) : rates_log_density(d->rates, depth);
-    return energy + damage_scale(d) - damage_wanted(d);
+        return damage_log_total(depth, d) - damage_required_level(d);
+    const double energy = d->worn ? rates_log_integral(d->rates, depth, d->worn_depth)
+                                  : rates_log_density(d->rates, depth);
+    return energy + damage_scale(d) - damage_required_level(d);
 }
 
 double damage_error(const layer_rates *rates)
@@ -87,47 +89,50 @@ double damage_error(const layer_rates *rates)
 }
 
 /* Adds an expansion with the logarithm of its weight. */
-static void course_plus(energy_course *sum, energy_course c, double log_weight)
+static void add_expansion(energy_expansion *sum, energy_expansion c, double log_weight)
 {
     c.log_scale += log_weight;
     if (!(c.value > 0))
         return;
     const double most = fmax(sum->log_scale, c.log_scale);
     const double left = exp(sum->log_scale - most), right = exp(c.log_scale - most);
-    *sum = (energy_course){most, left * sum->value + right * c.value,
-                           left * sum->slope + right * c.slope,
-                           left * sum->curvature + right * c.curvature};
+    *sum = (energy_expansion){most, left * sum->value + right * c.value,
+                              left * sum->slope + right * c.slope,
+                              left * sum->curvature + right * c.curvature};
 }
 
 /* D / Lambda with slope and bound of the second derivative; multiply all by exp(log_scale). */
-energy_course damage_course(const damage *d, double depth, double reach)
+energy_expansion damage_expand(const damage *d, double depth, double reach)
 {
-    energy_course sum;
+    energy_expansion sum;
     if (d->n_past == 0) {
-        sum = rates_course(d->rates, depth, d->way, reach);
+        sum = rates_expand(d->rates, depth, d->worn_depth, reach);
         sum.log_scale += damage_scale(d);
         return sum;
     }
-    sum = (energy_course){.log_scale = -HUGE_VAL};
+    sum = (energy_expansion){.log_scale = -HUGE_VAL};
     if (d->rates->formation > 0 && d->time > 0)
-        course_plus(&sum, rates_course(d->rates, depth, d->way, reach), damage_scale(d));
+        add_expansion(&sum, rates_expand(d->rates, depth, d->worn_depth, reach), damage_scale(d));
     for (size_t i = 0; i < d->n_past; i++) {
         const damage_load *p = &d->past[i];
-        course_plus(&sum, rates_course(p->rates, now_at(d, i, depth), p->way, reach), p->log_scale);
+        add_expansion(&sum,
+                      rates_expand(p->rates, shifted_depth(d, i, depth), p->worn_depth, reach),
+                      p->log_scale);
     }
     return sum;
 }
 
-damage_load damage_load_of(const damage *d)
+damage_load damage_load_create(const damage *d)
 {
-    return (damage_load){.rates = d->rates, .way = d->way, .log_scale = damage_scale(d)};
+    return (damage_load){
+        .rates = d->rates, .worn_depth = d->worn_depth, .log_scale = damage_scale(d)};
 }
 
 /* Searches upwards from the lower end of `range`, where D is below the level. With `best` NULL it
  * stops at the first interval where D is below the level at the lower end and not below at the
  * upper; false if there is none. Otherwise it searches the whole range for the depth *best of the
  * largest D, and sets the level to it. */
-bool damage_climb(damage *d, stretch range, stretch *crossing, double *best)
+bool damage_find_rise(damage *d, depth_interval range, depth_interval *crossing, double *best)
 {
     const double floor = 1e-12 / d->q_max;
     double high = range.high, length = 0.5 * high;
@@ -135,13 +140,13 @@ bool damage_climb(damage *d, stretch range, stretch *crossing, double *best)
     while (high > range.low) {
         const double low = fmax(high - length, range.low);
         length = high - low;
-        const energy_course c = damage_course(d, low, length);
-        const double excess = c.log_scale - damage_wanted(d);
+        const energy_expansion c = damage_expand(d, low, length);
+        const double excess = c.log_scale - damage_required_level(d);
         const double here = log(c.value) + excess;
         const double most =
             log(c.value + length * (fmax(0, c.slope) + 0.5 * length * c.curvature)) + excess;
         const bool turns = fabs(c.slope) < length * c.curvature;
-        if (turns && !(most <= DBL_EPSILON) && length > fmax(floor, least_stretch * high)) {
+        if (turns && !(most <= DBL_EPSILON) && length > fmax(floor, min_relative_interval * high)) {
             length *= 0.5;
             halved = true;
             continue;
@@ -150,7 +155,7 @@ bool damage_climb(damage *d, stretch range, stretch *crossing, double *best)
             *best = low;
             d->level += here;
         } else if (best == NULL && here >= 0) {
-            *crossing = (stretch){low, high};
+            *crossing = (depth_interval){low, high};
             return true;
         }
         high = low;
@@ -163,31 +168,33 @@ bool damage_climb(damage *d, stretch range, stretch *crossing, double *best)
 /* Returns the depth at or below `from` with the largest D, and sets the level to it. */
 static double damage_peak(damage *d, double from)
 {
-    const double end = fmax(from, energy_falling(d->rates->source));
+    const double end = fmax(from, energy_monotonic_depth(d->rates->source));
     double depth = end;
     d->level = 0;
-    d->level = damage_at(end, d);
-    (void)damage_climb(d, (stretch){from, end}, NULL, &depth);
+    d->level = damage_excess(end, d);
+    (void)damage_find_rise(d, (depth_interval){from, end}, NULL, &depth);
     return depth;
 }
 
 /* Finds the deepest position in a range at which D equals the level; NaN if there is none. D must
  * be below the level at the lower end. */
-static wt_status damage_edge(damage *d, stretch range, double level, double *edge, wt_error *err)
+static wt_status damage_deepest_edge(damage *d, depth_interval range, double level, double *edge,
+                                     wt_error *err)
 {
-    stretch s;
+    depth_interval s;
     *edge = (double)NAN;
     d->level = level;
-    if (!damage_climb(d, range, &s, NULL))
+    if (!damage_find_rise(d, range, &s, NULL))
         return WT_OK;
-    const bool deeper = damage_at(s.high, d) >= 0; /* rounding of the interval limit */
+    const bool deeper = damage_excess(s.high, d) >= 0; /* rounding of the interval limit */
     *edge = deeper ? s.high : s.low;
-    return !deeper && damage_at(s.low, d) > 0 ? root_find(damage_at, d, s.low, s.high, 0, edge, err)
-                                              : WT_OK;
+    return !deeper && damage_excess(s.low, d) > 0
+               ? root_find(damage_excess, d, s.low, s.high, 0, edge, err)
+               : WT_OK;
 }
 
-/* Searches as damage_climb does, but for the depth where D falls below the level. */
-static bool damage_leave(damage *d, double from, stretch *crossing)
+/* Searches as damage_find_rise does, but for the depth where D falls below the level. */
+static bool damage_find_fall(damage *d, double from, depth_interval *crossing)
 {
     const double floor = 1e-12 / d->q_max;
     double high = from, length = 0.5 * high;
@@ -195,18 +202,18 @@ static bool damage_leave(damage *d, double from, stretch *crossing)
     while (high > 0) {
         const double low = fmax(high - length, 0);
         length = high - low;
-        const energy_course c = damage_course(d, low, length);
-        const double excess = c.log_scale - damage_wanted(d);
+        const energy_expansion c = damage_expand(d, low, length);
+        const double excess = c.log_scale - damage_required_level(d);
         const double least = c.value - length * (fmax(0, -c.slope) + 0.5 * length * c.curvature);
         const bool turns = fabs(c.slope) < length * c.curvature;
         if (turns && !(least > 0 && log(least) + excess >= 0) &&
-            length > fmax(floor, least_stretch * high)) {
+            length > fmax(floor, min_relative_interval * high)) {
             length *= 0.5;
             halved = true;
             continue;
         }
         if (log(c.value) + excess < 0) {
-            *crossing = (stretch){low, high};
+            *crossing = (depth_interval){low, high};
             return true;
         }
         high = low;
@@ -216,24 +223,24 @@ static bool damage_leave(damage *d, double from, stretch *crossing)
     return false;
 }
 
-wt_status damage_band(damage *d, double from, stretch *band, double *above, wt_error *err)
+wt_status damage_band(damage *d, double from, depth_interval *band, double *above, wt_error *err)
 {
-    stretch s;
+    depth_interval s;
     double upper = 0, lower = 0;
     *above = 0;
-    if (!damage_climb(d, (stretch){0, from}, &s, NULL))
+    if (!damage_find_rise(d, (depth_interval){0, from}, &s, NULL))
         return wt_fail(err, WT_E_NOT_FOUND, "no modified band");
     lower = s.low;
     wt_status status = WT_OK;
     const double inside = s.low;
-    if (damage_at(s.low, d) > 0 && damage_at(s.high, d) < 0)
-        status = root_find(damage_at, d, s.low, s.high, 0, &lower, err);
-    if (status == WT_OK && damage_leave(d, inside, &s)) {
+    if (damage_excess(s.low, d) > 0 && damage_excess(s.high, d) < 0)
+        status = root_find(damage_excess, d, s.low, s.high, 0, &lower, err);
+    if (status == WT_OK && damage_find_fall(d, inside, &s)) {
         *above = upper = s.low;
-        if (damage_at(s.low, d) < 0 && damage_at(s.high, d) > 0)
-            status = root_find(damage_at, d, s.low, s.high, 0, &upper, err);
+        if (damage_excess(s.low, d) < 0 && damage_excess(s.high, d) > 0)
+            status = root_find(damage_excess, d, s.low, s.high, 0, &upper, err);
     }
-    *band = (stretch){upper, lower};
+    *band = (depth_interval){upper, lower};
     return status;
 }
 
@@ -243,33 +250,33 @@ static wt_status edge_error(damage *d, double edge, double most, double error, d
                             wt_error *err)
 {
     double least = 0;
-    const wt_status status = damage_edge(d, (stretch){0, edge}, error, &least, err);
+    const wt_status status = damage_deepest_edge(d, (depth_interval){0, edge}, error, &least, err);
     *reach = fmax(most - edge, edge - (isnan(least) ? 0 : least)) + 4 * DBL_EPSILON * edge;
     return status;
 }
 
 /* Thickness for a profile that falls with depth: a single edge that only moves deeper. */
-static wt_status falling_depth(damage *d, double error, double earlier, wt_estimate *thickness,
-                               wt_error *err)
+static wt_status monotonic_thickness(damage *d, double error, double earlier,
+                                     wt_estimate *thickness, wt_error *err)
 {
-    const bool none = damage_at(0, d) < 0;
-    if (d->rates->without_errors)
+    const bool none = damage_excess(0, d) < 0;
+    if (d->rates->skip_numerical_errors)
         thickness->numerical_error = (double)NAN;
-    if (none && d->rates->without_errors)
+    if (none && d->rates->skip_numerical_errors)
         return WT_OK;
     if (none) /* a layer may exist within the error */
         d->level = -error;
-    if (none && damage_at(0, d) < 0)
+    if (none && damage_excess(0, d) < 0)
         return WT_OK;
     double edge = earlier, step = earlier > 0 ? 0.1 * earlier : 1 / d->rates->q_max;
-    stretch s = {earlier, earlier};
+    depth_interval s = {earlier, earlier};
     do {
         s.low = s.high;
         s.high += step;
         step *= 2;
-    } while (damage_at(s.high, d) >= 0);
-    if (damage_at(s.low, d) > 0) { /* otherwise the edge is there up to rounding */
-        const wt_status status = root_find(damage_at, d, s.low, s.high, 0, &edge, err);
+    } while (damage_excess(s.high, d) >= 0);
+    if (damage_excess(s.low, d) > 0) { /* otherwise the edge is there up to rounding */
+        const wt_status status = root_find(damage_excess, d, s.low, s.high, 0, &edge, err);
         if (status != WT_OK)
             return status;
     }
@@ -278,13 +285,13 @@ static wt_status falling_depth(damage *d, double error, double earlier, wt_estim
         return WT_OK;
     }
     thickness->value = edge;
-    if (d->rates->without_errors)
+    if (d->rates->skip_numerical_errors)
         return WT_OK;
-    const double lost =
-        exp(rates_log_density(d->rates, edge)) - exp(rates_log_density(d->rates, edge + d->way));
-    const double reach = error / lost * exp(rates_log_gain(d->rates, edge, d->way));
-    thickness->numerical_error = root_reach(
-        damage_at, d, edge, error, fmax(2 * DBL_EPSILON * edge, isfinite(reach) ? reach : 0),
+    const double lost = exp(rates_log_density(d->rates, edge)) -
+                        exp(rates_log_density(d->rates, edge + d->worn_depth));
+    const double reach = error / lost * exp(rates_log_integral(d->rates, edge, d->worn_depth));
+    thickness->numerical_error = root_displacement(
+        damage_excess, d, edge, error, fmax(2 * DBL_EPSILON * edge, isfinite(reach) ? reach : 0),
         error / d->rates->q_max);
     return WT_OK;
 }
@@ -293,7 +300,7 @@ wt_status layer_damage_depth(const layer_rates *rates, double time, double earli
                              wt_estimate *thickness, wt_error *err)
 {
     *thickness = (wt_estimate){.unit = "m"};
-    damage d = damage_of(rates, true);
+    damage d = damage_create(rates, true);
     if (rates->formation == 0 || time == 0)
         return WT_OK;
     const double error = damage_error(rates);
@@ -302,40 +309,40 @@ wt_status layer_damage_depth(const layer_rates *rates, double time, double earli
         thickness->value = HUGE_VAL;
         return WT_OK;
     }
-    if (energy_falls(rates->source))
-        return falling_depth(&d, error, earlier, thickness, err);
+    if (energy_is_monotonic(rates->source))
+        return monotonic_thickness(&d, error, earlier, thickness, err);
     d.level = -error;
-    double end = fmax(energy_falling(rates->source), 1 / rates->q_min);
-    while (damage_at(end, &d) >= 0)
+    double end = fmax(energy_monotonic_depth(rates->source), 1 / rates->q_min);
+    while (damage_excess(end, &d) >= 0)
         end *= 2;
     double most, edge;
-    wt_status status = damage_edge(&d, (stretch){0, end}, -error, &most, err);
+    wt_status status = damage_deepest_edge(&d, (depth_interval){0, end}, -error, &most, err);
     if (status != WT_OK || isnan(most))
         return status;
     /* slightly deeper, because D at the edge may be on either side of its level */
-    const stretch range = {0, most * (1 + 4 * DBL_EPSILON) + DBL_MIN};
-    status = damage_edge(&d, range, 0, &edge, err);
+    const depth_interval range = {0, most * (1 + 4 * DBL_EPSILON) + DBL_MIN};
+    status = damage_deepest_edge(&d, range, 0, &edge, err);
     if (status != WT_OK)
         return status;
     thickness->value = isnan(edge) ? 0 : edge;
-    thickness->numerical_error = rates->without_errors ? (double)NAN : most;
-    if (isnan(edge) || rates->without_errors) /* a layer may exist within the error */
+    thickness->numerical_error = rates->skip_numerical_errors ? (double)NAN : most;
+    if (isnan(edge) || rates->skip_numerical_errors) /* a layer may exist within the error */
         return status;
     return edge_error(&d, edge, most, error, &thickness->numerical_error, err);
 }
 
 /* ---- times ----------------------------------------------------------------------------------- */
 
-typedef struct passage {
+typedef struct arrival {
     damage *d;
     double depth;
-} passage;
+} arrival;
 
-static double passage_at(double log_time, void *user)
+static double arrival_excess(double log_time, void *user)
 {
-    const passage *p = user;
+    const arrival *p = user;
     damage_set_time(p->d, exp(log_time));
-    return damage_at(p->depth, p->d);
+    return damage_excess(p->depth, p->d);
 }
 
 /* ln of the time at which a depth reaches the level; infinite if never. */
@@ -346,11 +353,11 @@ static wt_status damage_log_time(damage *d, double depth, double level, double *
     d->level = level;
     damage_set_time(d, 1);
     if (!d->worn) {
-        const double rate = damage_of_loads(depth, d);
+        const double rate = damage_log_total(depth, d);
         *log_time = level - (r->background > 0 ? log_add(rate, log(r->background)) : rate);
         return WT_OK;
     }
-    passage p = {d, depth};
+    arrival p = {d, depth};
     /* from a worn depth of the shortest wave to one at which the longest wave has decayed */
     const double step = log(4);
     double end = log(1e3 / r->q_min / r->wear);
@@ -358,28 +365,29 @@ static wt_status damage_log_time(damage *d, double depth, double level, double *
         end = fmax(end, level - log(r->background) + step);
     double low = -log(r->q_max * r->wear);
     *log_time = (double)INFINITY;
-    while (passage_at(low, &p) >= 0)
+    while (arrival_excess(low, &p) >= 0)
         low -= step;
     double high = low + step;
-    while (high < end && passage_at(high, &p) < 0)
+    while (high < end && arrival_excess(high, &p) < 0)
         high += step;
-    if (passage_at(high, &p) < 0)
+    if (arrival_excess(high, &p) < 0)
         return WT_OK;
-    return root_find(passage_at, &p, high - step, high, 0, log_time, err);
+    return root_find(arrival_excess, &p, high - step, high, 0, log_time, err);
 }
 
 /* ln of the first time at which any depth at or below `from` reaches the level. It alternates
  * between the time of one position and the position of the largest D at that time until both agree.
  */
-static wt_status damage_first(damage *d, double from, double level, double *log_time, wt_error *err)
+static wt_status damage_first_log_time(damage *d, double from, double level, double *log_time,
+                                       wt_error *err)
 {
     wt_status status = damage_log_time(d, from, level, log_time, err);
     if (status == WT_OK && isinf(*log_time)) /* w(0) can be 0, but not in the falling range */
-        status =
-            damage_log_time(d, fmax(from, energy_falling(d->rates->source)), level, log_time, err);
+        status = damage_log_time(d, fmax(from, energy_monotonic_depth(d->rates->source)), level,
+                                 log_time, err);
     const double longest = log(DBL_MAX);
     double last = longest;
-    while (status == WT_OK && *log_time < last && !energy_falls(d->rates->source)) {
+    while (status == WT_OK && *log_time < last && !energy_is_monotonic(d->rates->source)) {
         last = *log_time;
         damage_set_time(d, exp(last));
         const double best = damage_peak(d, from);
@@ -395,28 +403,29 @@ wt_status layer_damage_time(const layer_rates *rates, bool with_wear, wt_estimat
                             wt_estimate *time, wt_error *err)
 {
     *time = (wt_estimate){.value = (double)NAN, .numerical_error = (double)NAN, .unit = "s"};
-    damage d = damage_of(rates, with_wear);
+    damage d = damage_create(rates, with_wear);
     if (!isfinite(depth.value))
         return WT_OK;
     const double error = damage_error(rates);
     if (rates->formation == 0) {
         if (rates->background > 0) {
             time->value = 1 / rates->background;
-            time->numerical_error = rates->without_errors ? (double)NAN : error * time->value;
+            time->numerical_error =
+                rates->skip_numerical_errors ? (double)NAN : error * time->value;
         }
         return WT_OK;
     }
     const double above = fmax(0, depth.value - depth.numerical_error);
     double log_time = 0, early = 0, late = 0;
-    wt_status status = damage_first(&d, depth.value, 0, &log_time, err);
+    wt_status status = damage_first_log_time(&d, depth.value, 0, &log_time, err);
     if (status != WT_OK || isinf(log_time))
         return status;
     time->value = exp(log_time);
-    if (rates->without_errors)
+    if (rates->skip_numerical_errors)
         return WT_OK;
-    status = damage_first(&d, above, -error, &early, err);
+    status = damage_first_log_time(&d, above, -error, &early, err);
     if (status == WT_OK)
-        status = damage_first(&d, depth.value + depth.numerical_error, error, &late, err);
+        status = damage_first_log_time(&d, depth.value + depth.numerical_error, error, &late, err);
     time->numerical_error = fmax(time->value - exp(early), exp(late) - time->value) +
                             8 * DBL_EPSILON * (1 + fabs(log_time)) * time->value;
     return status;

@@ -28,9 +28,9 @@ void layer_loads_clear(layer_loads *loads)
     *loads = (layer_loads){0};
 }
 
-static wt_status stage_check(const wt_layer_stage *stages, size_t i, wt_error *err)
+static wt_status check_stage(const wt_layer_load *stages, size_t i, wt_error *err)
 {
-    const wt_layer_stage *s = &stages[i];
+    const wt_layer_load *s = &stages[i];
     wt_status status = WT_OK;
     if (!(s->duration >= 0) || !isfinite(s->duration))
         status = range_error("duration of a stage", s->duration, "finite and >= 0 s", err);
@@ -42,18 +42,18 @@ static wt_status stage_check(const wt_layer_stage *stages, size_t i, wt_error *e
     return status;
 }
 
-static void loads_take(layer_loads *loads, const layer_rates *r)
+static void include_load_range(layer_loads *loads, const layer_rates *r)
 {
     if (!(r->q_max > 0))
         return;
     loads->q_min = loads->q_max > 0 ? fmin(loads->q_min, r->q_min) : r->q_min;
     loads->q_max = fmax(loads->q_max, r->q_max);
-    loads->falling = fmax(loads->falling, energy_falling(r->source));
+    loads->falling = fmax(loads->falling, energy_monotonic_depth(r->source));
     loads->error = fmax(loads->error, damage_error(r));
 }
 
-wt_status layer_loads_make(const wt_layer_stage *stages, size_t n, layer_loads *loads,
-                           wt_error *err)
+wt_status layer_loads_create(const wt_layer_load *stages, size_t n, layer_loads *loads,
+                             wt_error *err)
 {
     if (stages == NULL || n == 0 || stages->source == NULL)
         return wt_fail(err, WT_E_ARG, "the loads of a layer need one stage at least");
@@ -62,19 +62,19 @@ wt_status layer_loads_make(const wt_layer_stage *stages, size_t n, layer_loads *
                            .past = calloc(n, sizeof *loads->past),
                            .begin = calloc(n, sizeof *loads->begin),
                            .start = stages->parameters.start_thickness,
-                           .falls = energy_falls(stages->source)};
+                           .falls = energy_is_monotonic(stages->source)};
     wt_status status = WT_OK;
     if (loads->rates == NULL || loads->past == NULL || loads->begin == NULL)
         status = wt_fail(err, WT_E_MEMORY, "out of memory for the loads of a layer");
     for (size_t i = 0; status == WT_OK && i < n; i++) {
         wt_layer_parameters p = stages[i].parameters;
         p.incubation = true; /* damage is transported */
-        status = stage_check(stages, i, err);
+        status = check_stage(stages, i, err);
         if (status == WT_OK)
-            status = layer_rates_make(stages[i].source, &p, &loads->rates[i], err);
+            status = layer_rates_compute(stages[i].source, &p, &loads->rates[i], err);
         if (status != WT_OK)
             break;
-        loads_take(loads, &loads->rates[i]);
+        include_load_range(loads, &loads->rates[i]);
         if (i + 1 < n)
             loads->begin[i + 1] = loads->begin[i] + stages[i].duration;
     }
@@ -83,27 +83,27 @@ wt_status layer_loads_make(const wt_layer_stage *stages, size_t n, layer_loads *
     return status;
 }
 
-damage layer_loads_at(layer_loads *loads, double time, double *worn)
+damage layer_loads_damage(layer_loads *loads, double time, double *worn)
 {
     size_t now = 0;
     while (now + 1 < loads->n && loads->begin[now + 1] <= time)
         now++;
-    damage d = damage_of(&loads->rates[now], true);
+    damage d = damage_create(&loads->rates[now], true);
     damage_set_time(&d, time - loads->begin[now]);
     d.q_max = loads->q_max;
     d.past = loads->past;
-    *worn = d.way;
+    *worn = d.worn_depth;
     double since = 0; /* depth worn off up to the present load [m] */
     for (size_t i = now; i-- > 0;) {
         const layer_rates *r = &loads->rates[i];
-        damage before = damage_of(r, true);
+        damage before = damage_create(r, true);
         damage_set_time(&before, loads->begin[i + 1] - loads->begin[i]);
         d.past_background += r->background * before.time;
         if (r->formation > 0 && before.time > 0) {
-            loads->past[d.n_past] = damage_load_of(&before);
+            loads->past[d.n_past] = damage_load_create(&before);
             loads->past[d.n_past++].worn = since;
         }
-        since += before.way;
+        since += before.worn_depth;
     }
     *worn += since;
     return d;
@@ -112,59 +112,60 @@ damage layer_loads_at(layer_loads *loads, double time, double *worn)
 /* ---- bands ----------------------------------------------------------------------------------- */
 
 /* Edge with its error, from the error of the damage. */
-static wt_estimate edge_of(damage *d, double edge, double error)
+static wt_estimate edge_with_error(damage *d, double edge, double error)
 {
     wt_estimate e = {.value = edge, .unit = "m"};
     const double step = slope_step * edge;
-    const double slope = step > 0 ? (damage_at(edge + step, d) - damage_at(edge, d)) / step : 0;
+    const double slope =
+        step > 0 ? (damage_excess(edge + step, d) - damage_excess(edge, d)) / step : 0;
     if (edge > 0)
         e.numerical_error = error / fabs(slope) + 4 * DBL_EPSILON * edge;
     return e;
 }
 
-static void section_add(wt_layer_section *s, wt_layer_band band)
+static void add_band(wt_layer_section *s, wt_layer_band band)
 {
-    if (s->n < WT_LAYER_BANDS)
+    if (s->n < WT_LAYER_MAX_BANDS)
         s->band[s->n] = band;
     s->n++;
 }
 
 /* Returns a depth below all bands. */
-static double below_bands(const layer_loads *loads, damage *d)
+static double depth_below_bands(const layer_loads *loads, damage *d)
 {
     double end = fmax(loads->falling, 1 / loads->q_min);
-    while (damage_at(end, d) >= 0)
+    while (damage_excess(end, d) >= 0)
         end *= 2;
     return end;
 }
 
-static wt_status falling_band(const layer_loads *loads, damage *d, wt_layer_section *section,
-                              wt_error *err)
+static wt_status add_monotonic_band(const layer_loads *loads, damage *d, wt_layer_section *section,
+                                    wt_error *err)
 {
     double edge = 0;
-    if (damage_at(0, d) < 0)
+    if (damage_excess(0, d) < 0)
         return WT_OK;
-    const double end = below_bands(loads, d);
+    const double end = depth_below_bands(loads, d);
     const wt_status status =
-        damage_at(0, d) > 0 ? root_find(damage_at, d, 0, end, 0, &edge, err) : WT_OK;
-    section_add(section,
-                (wt_layer_band){.upper = {.unit = "m"}, .lower = edge_of(d, edge, loads->error)});
+        damage_excess(0, d) > 0 ? root_find(damage_excess, d, 0, end, 0, &edge, err) : WT_OK;
+    add_band(section, (wt_layer_band){.upper = {.unit = "m"},
+                                      .lower = edge_with_error(d, edge, loads->error)});
     return status;
 }
 
-static wt_status record_group_bands(const layer_loads *loads, damage *d, wt_layer_section *section,
-                                    wt_error *err)
+static wt_status find_bands(const layer_loads *loads, damage *d, wt_layer_section *section,
+                            wt_error *err)
 {
-    double from = below_bands(loads, d);
+    double from = depth_below_bands(loads, d);
     while (from > 0) {
-        stretch band;
+        depth_interval band;
         const wt_status status = damage_band(d, from, &band, &from, NULL);
         if (status == WT_E_NOT_FOUND)
             break;
         if (status != WT_OK)
             return wt_fail(err, status, "the edges of a modified band cannot be found");
-        section_add(section, (wt_layer_band){edge_of(d, band.low, loads->error),
-                                             edge_of(d, band.high, loads->error)});
+        add_band(section, (wt_layer_band){edge_with_error(d, band.low, loads->error),
+                                          edge_with_error(d, band.high, loads->error)});
     }
     return WT_OK;
 }
@@ -174,14 +175,14 @@ static void add_old_layer(wt_layer_section *s, double depth)
 {
     wt_layer_band old = {{.unit = "m"},
                          {.value = depth, .numerical_error = 4 * DBL_EPSILON * depth, .unit = "m"}};
-    if (!(depth > 0) || s->n > WT_LAYER_BANDS)
+    if (!(depth > 0) || s->n > WT_LAYER_MAX_BANDS)
         return;
     while (s->n > 0 && s->band[s->n - 1].upper.value <= depth) {
         if (s->band[s->n - 1].lower.value > depth)
             old.lower = s->band[s->n - 1].lower;
         s->n--;
     }
-    section_add(s, old);
+    add_band(s, old);
 }
 
 /* Section for damage that falls with depth, where the value at the surface decides if there is a
@@ -190,42 +191,42 @@ static wt_status falling(const layer_loads *loads, damage *d, bool edges, wt_lay
                          wt_error *err)
 {
     if (edges)
-        return falling_band(loads, d, section, err);
-    if (damage_at(0, d) >= 0)
-        section_add(section, (wt_layer_band){{.unit = "m"}, {.unit = "m"}});
+        return add_monotonic_band(loads, d, section, err);
+    if (damage_excess(0, d) >= 0)
+        add_band(section, (wt_layer_band){{.unit = "m"}, {.unit = "m"}});
     return WT_OK;
 }
 
-static wt_status section_at(layer_loads *loads, double time, bool edges, wt_layer_section *section,
-                            wt_error *err)
+static wt_status compute_section(layer_loads *loads, double time, bool edges,
+                                 wt_layer_section *section, wt_error *err)
 {
     wt_layer_section s = {.time = time};
-    damage d = layer_loads_at(loads, time, &s.worn);
+    damage d = layer_loads_damage(loads, time, &s.worn);
     const double unloaded = d.rates->background * d.time + d.past_background;
     const bool any = d.n_past > 0 || (d.rates->formation > 0 && d.time > 0);
     wt_status status = WT_OK;
     if (unloaded >= 1)
-        section_add(&s, (wt_layer_band){{.unit = "m"}, {.value = HUGE_VAL, .unit = "m"}});
+        add_band(&s, (wt_layer_band){{.unit = "m"}, {.value = HUGE_VAL, .unit = "m"}});
     else if (any)
-        status = loads->falls ? falling(loads, &d, edges, &s, err)
-                              : record_group_bands(loads, &d, &s, err);
+        status = loads->falls ? falling(loads, &d, edges, &s, err) : find_bands(loads, &d, &s, err);
     add_old_layer(&s, loads->start - s.worn);
     *section = s;
     return status;
 }
 
-wt_status layer_section_at(layer_loads *loads, double time, wt_layer_section *section,
-                           wt_error *err)
+wt_status layer_section_compute(layer_loads *loads, double time, wt_layer_section *section,
+                                wt_error *err)
 {
-    return section_at(loads, time, true, section, err);
+    return compute_section(loads, time, true, section, err);
 }
 
-wt_status layer_bands_at(layer_loads *loads, double time, wt_layer_section *section, wt_error *err)
+wt_status layer_section_bands(layer_loads *loads, double time, wt_layer_section *section,
+                              wt_error *err)
 {
-    return section_at(loads, time, false, section, err);
+    return compute_section(loads, time, false, section, err);
 }
 
-wt_status wt_layer_sections(const wt_layer_stage *stages, size_t n_stages, const double *time,
+wt_status wt_layer_sections(const wt_layer_load *stages, size_t n_stages, const double *time,
                             size_t n, wt_layer_section *sections, wt_error *err)
 {
     layer_loads loads = {0};
@@ -233,14 +234,14 @@ wt_status wt_layer_sections(const wt_layer_stage *stages, size_t n_stages, const
         return wt_fail(err, WT_E_ARG, "the sections of a layer need times and a place for them");
     wt_status status = layer_times_check(time, n, err);
     if (status == WT_OK)
-        status = layer_loads_make(stages, n_stages, &loads, err);
+        status = layer_loads_create(stages, n_stages, &loads, err);
     for (size_t i = 0; status == WT_OK && i < n; i++)
-        status = layer_section_at(&loads, time[i], &sections[i], err);
+        status = layer_section_compute(&loads, time[i], &sections[i], err);
     layer_loads_clear(&loads);
     return status;
 }
 
-wt_status wt_layer_damage(const wt_layer_stage *stages, size_t n_stages, double time, double depth,
+wt_status wt_layer_damage(const wt_layer_load *stages, size_t n_stages, double time, double depth,
                           double *amount, wt_error *err)
 {
     layer_loads loads = {0};
@@ -248,13 +249,13 @@ wt_status wt_layer_damage(const wt_layer_stage *stages, size_t n_stages, double 
         return wt_fail(err, WT_E_ARG, "a damage needs a depth and a place for it");
     wt_status status = layer_times_check(&time, 1, err);
     if (status == WT_OK)
-        status = layer_loads_make(stages, n_stages, &loads, err);
+        status = layer_loads_create(stages, n_stages, &loads, err);
     if (status == WT_OK) {
         double worn;
-        damage d = layer_loads_at(&loads, time, &worn);
+        damage d = layer_loads_damage(&loads, time, &worn);
         const double unloaded = d.rates->background * d.time + d.past_background;
         const bool any = d.n_past > 0 || (d.rates->formation > 0 && d.time > 0);
-        *amount = unloaded + (any ? exp(damage_of_loads(depth, &d)) : 0);
+        *amount = unloaded + (any ? exp(damage_log_total(depth, &d)) : 0);
     }
     layer_loads_clear(&loads);
     return status;

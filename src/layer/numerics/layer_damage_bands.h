@@ -18,16 +18,16 @@ typedef struct layer_loads {
     double error;                 /* relative error of the damage */
 } layer_loads;
 
-wt_status layer_loads_make(const wt_layer_stage *stages, size_t n, layer_loads *loads,
-                           wt_error *err) WT_NODISCARD;
+wt_status layer_loads_create(const wt_layer_load *stages, size_t n, layer_loads *loads,
+                             wt_error *err) WT_NODISCARD;
 void layer_loads_clear(layer_loads *loads);
 /* Returns the damage at a time, and the depth worn off until then. */
-damage layer_loads_at(layer_loads *loads, double time, double *worn);
-wt_status layer_section_at(layer_loads *loads, double time, wt_layer_section *section,
-                           wt_error *err) WT_NODISCARD;
+damage layer_loads_damage(layer_loads *loads, double time, double *worn);
+wt_status layer_section_compute(layer_loads *loads, double time, wt_layer_section *section,
+                                wt_error *err) WT_NODISCARD;
 /* Variant that omits the lower edge of damage that falls with depth, which is the most expensive
  * part. */
-wt_status layer_bands_at(layer_loads *loads, double time, wt_layer_section *section,
-                         wt_error *err) WT_NODISCARD;
+wt_status layer_section_bands(layer_loads *loads, double time, wt_layer_section *section,
+                              wt_error *err) WT_NODISCARD;
 
 #endif

@@ -9,8 +9,8 @@
 /* d delta/dt = Qf0 exp(-kappa delta) - Qw, clamped at 0. With s = kappa Qw t, phi = (1-exp(-s))/s:
  *   delta = d0 + log1p(a) / kappa,  a = kappa t phi (Qf0 exp(-kappa d0) - Qw)
  * Near a = -1 the same result is the logarithm of a sum of two positive terms. */
-double wt_layer_exponential(double start_thickness, double kappa, double formation_rate_zero,
-                            double wear_rate, double time)
+double wt_layer_exponential_thickness(double start_thickness, double kappa,
+                                      double formation_rate_zero, double wear_rate, double time)
 {
     if (!(start_thickness >= 0 && kappa >= 0 && formation_rate_zero >= 0 && wear_rate >= 0 &&
           time >= 0) ||

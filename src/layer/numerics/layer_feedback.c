@@ -15,7 +15,7 @@
  * of the energy. */
 static const double slope_step = 3e-3;
 /* Smallest height of an extremum of ln(Qf / Qw) above rounding. */
-static const double least_fold = 1e-7;
+static const double min_fold_height = 1e-7;
 /* Number of golden-section steps: they reduce a bracket to 1e-8, where an extremum is flat to
  * 1e-16. */
 enum { SECTIONS = 40 };
@@ -36,7 +36,7 @@ typedef struct loop_point {
     double formation, wear, decay, wear_factor, q_max;
 } loop_point;
 
-static loop_point point_at(loop_search *s, double thickness)
+static loop_point compute_loop_point(loop_search *s, double thickness)
 {
     loop_point p = {.log_ratio = (double)NAN};
     wt_energy_source source = {0};
@@ -46,7 +46,7 @@ static loop_point point_at(loop_search *s, double thickness)
         return p;
     s->status = s->energy(thickness, s->user, &source, &parameters, s->err);
     if (s->status == WT_OK)
-        s->status = layer_rates_make(&source, &parameters, &rates, s->err);
+        s->status = layer_rates_compute(&source, &parameters, &rates, s->err);
     if (s->status == WT_OK && rates.background > 0) {
         s->status = wt_fail(s->err, WT_E_ARG, "a layer that ages has no balance to act back on");
         wt_error_place(s->err, "ageing");
@@ -54,9 +54,9 @@ static loop_point point_at(loop_search *s, double thickness)
         layer_rates_clear(&rates);
     }
     if (s->status == WT_OK) {
-        p = (loop_point){.formation = layer_formation(&rates, thickness),
+        p = (loop_point){.formation = layer_formation_rate(&rates, thickness),
                          .wear = rates.wear,
-                         .decay = layer_decay(&rates, thickness),
+                         .decay = layer_decay_rate(&rates, thickness),
                          .wear_factor = parameters.specific_wear_rate,
                          .q_max = rates.q_max};
         p.log_ratio = rates.formation > 0
@@ -68,59 +68,61 @@ static loop_point point_at(loop_search *s, double thickness)
     return p;
 }
 
-static double log_ratio_at(double log_thickness, void *user)
+static double compute_log_ratio(double log_thickness, void *user)
 {
-    return point_at(user, exp(log_thickness)).log_ratio;
+    return compute_loop_point(user, exp(log_thickness)).log_ratio;
 }
 
-static double less_at(double log_thickness, void *user)
+static double negative_log_ratio(double log_thickness, void *user)
 {
-    return -log_ratio_at(log_thickness, user);
+    return -compute_log_ratio(log_thickness, user);
 }
 
 /* d ln(Qf / Qw) / dd by five points. */
-static double slope_at(loop_search *s, double thickness)
+static double log_ratio_slope(loop_search *s, double thickness)
 {
     const double h = slope_step * thickness;
-    const double near = point_at(s, thickness + h).log_ratio - point_at(s, thickness - h).log_ratio;
-    const double far =
-        point_at(s, thickness + 2 * h).log_ratio - point_at(s, thickness - 2 * h).log_ratio;
-    return (8 * near - far) / (12 * h);
+    const double inner_difference = compute_loop_point(s, thickness + h).log_ratio -
+                                    compute_loop_point(s, thickness - h).log_ratio;
+    const double outer_difference = compute_loop_point(s, thickness + 2 * h).log_ratio -
+                                    compute_loop_point(s, thickness - 2 * h).log_ratio;
+    return (8 * inner_difference - outer_difference) / (12 * h);
 }
 
-static void add_root(loop_search *s, double thickness, wt_layer_loop *loop)
+static void add_root(loop_search *s, double thickness, wt_layer_feedback *loop)
 {
-    if (loop->n_roots == WT_LAYER_ROOTS)
+    if (loop->n_roots == WT_LAYER_MAX_ROOTS)
         return;
     wt_layer_root *r = &loop->root[loop->n_roots++];
-    const loop_point p = point_at(s, thickness);
+    const loop_point p = compute_loop_point(s, thickness);
     /* d (Qf - Qw) / dd at equal rates */
     r->thickness = thickness;
-    r->eigenvalue = p.wear * slope_at(s, thickness);
+    r->eigenvalue = p.wear * log_ratio_slope(s, thickness);
     r->map_slope = 1 + r->eigenvalue / (p.wear * p.decay);
     r->stable = r->eigenvalue < 0;
 }
 
-static void add_fold(loop_search *s, double low, double high, bool maximum, wt_layer_loop *loop)
+static void add_fold(loop_search *s, double low, double high, bool maximum, wt_layer_feedback *loop)
 {
-    if (loop->n_folds == WT_LAYER_ROOTS)
+    if (loop->n_folds == WT_LAYER_MAX_ROOTS)
         return;
-    const double place = root_maximum(maximum ? log_ratio_at : less_at, s, low, high, SECTIONS);
-    const loop_point p = point_at(s, exp(place));
+    const double log_position =
+        root_maximum(maximum ? compute_log_ratio : negative_log_ratio, s, low, high, SECTIONS);
+    const loop_point p = compute_loop_point(s, exp(log_position));
     loop->fold[loop->n_folds++] =
-        (wt_layer_fold){exp(place), p.wear_factor * exp(p.log_ratio), maximum};
+        (wt_layer_fold){exp(log_position), p.wear_factor * exp(p.log_ratio), maximum};
 }
 
 /* Adds a balance below the grid. There, either the bare surface or the layer of the first thickness
  * is modified, and the other is worn. The thickness is 0 if the energy is discontinuous at 0, as
  * for shearing. The balance is stable if the bare surface is modified; otherwise it is a threshold.
  */
-static void add_thinnest(loop_search *s, double log_low, bool grows, wt_layer_loop *loop)
+static void add_thinnest_root(loop_search *s, double log_low, bool grows, wt_layer_feedback *loop)
 {
     const double least = log_low + log(below_grid);
     double root = -HUGE_VAL;
-    if ((log_ratio_at(least, s) > 0) == grows) {
-        const wt_status status = root_find(log_ratio_at, s, least, log_low, 0, &root, s->err);
+    if ((compute_log_ratio(least, s) > 0) == grows) {
+        const wt_status status = root_find(compute_log_ratio, s, least, log_low, 0, &root, s->err);
         s->status = s->status == WT_OK ? status : s->status;
     }
     if (s->status != WT_OK)
@@ -133,12 +135,12 @@ static void add_thinnest(loop_search *s, double log_low, bool grows, wt_layer_lo
 
 /* Finds the roots and extrema of values on a grid of ln d. */
 static void search_grid(loop_search *s, const double *x, const double *value, size_t n,
-                        wt_layer_loop *loop)
+                        wt_layer_feedback *loop)
 {
     for (size_t i = 1; s->status == WT_OK && i < n; i++) {
         double root;
         if ((value[i - 1] > 0) != (value[i] > 0)) {
-            wt_status status = root_find(log_ratio_at, s, x[i - 1], x[i], 0, &root, s->err);
+            wt_status status = root_find(compute_log_ratio, s, x[i - 1], x[i], 0, &root, s->err);
             if (s->status == WT_OK)
                 s->status = status;
             if (s->status == WT_OK)
@@ -147,13 +149,13 @@ static void search_grid(loop_search *s, const double *x, const double *value, si
         if (i + 1 == n)
             continue;
         const double before = value[i] - value[i - 1], after = value[i + 1] - value[i];
-        if (before * after < 0 && fmin(fabs(before), fabs(after)) > least_fold)
+        if (before * after < 0 && fmin(fabs(before), fabs(after)) > min_fold_height)
             add_fold(s, x[i - 1], x[i + 1], before > 0, loop);
     }
 }
 
-wt_status wt_layer_loop_find(wt_layer_energy_fn energy, void *user, double low, double high,
-                             size_t grid, wt_layer_loop *loop, wt_error *err)
+wt_status wt_layer_feedback_solve(wt_layer_energy_fn energy, void *user, double low, double high,
+                                  size_t grid, wt_layer_feedback *loop, wt_error *err)
 {
     if (energy == NULL || loop == NULL || !(low > 0) || !(high > low) || grid < 3)
         return wt_fail(err, WT_E_ARG, "a layer that acts back needs a range of thickness");
@@ -162,17 +164,17 @@ wt_status wt_layer_loop_find(wt_layer_energy_fn energy, void *user, double low, 
     if (x == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory for a layer that acts back");
     double *value = x + grid;
-    wt_layer_loop l = {.low = low, .high = high};
-    const double bare = point_at(&s, 0).log_ratio;
+    wt_layer_feedback l = {.low = low, .high = high};
+    const double bare = compute_loop_point(&s, 0).log_ratio;
     l.ratio = exp(bare);
     if (!(bare > 0))
         l.root[l.n_roots++] = (wt_layer_root){0, true, (double)NAN, (double)NAN};
     for (size_t i = 0; s.status == WT_OK && i < grid; i++) {
         x[i] = log(low) + log(high / low) * (double)i / (double)(grid - 1);
-        value[i] = log_ratio_at(x[i], &s);
+        value[i] = compute_log_ratio(x[i], &s);
     }
     if (s.status == WT_OK && (bare > 0) != (value[0] > 0))
-        add_thinnest(&s, x[0], bare > 0, &l);
+        add_thinnest_root(&s, x[0], bare > 0, &l);
     if (s.status == WT_OK)
         search_grid(&s, x, value, grid, &l);
     free(x);
@@ -186,26 +188,26 @@ wt_status wt_layer_loop_find(wt_layer_energy_fn energy, void *user, double low, 
 /* Formation under the layer for the time integration, which uses the wear rate of the bare surface.
  * A change of the wear rate by the layer is counted as formation, which exceeds wear up to the
  * first balance. */
-typedef struct own_search {
+typedef struct formation_search {
     loop_search *search;
     double wear;
-} own_search;
+} formation_search;
 
-static double log_formation_at(double thickness, void *user)
+static double compute_log_formation(double thickness, void *user)
 {
-    const own_search *o = user;
-    const loop_point p = point_at(o->search, thickness);
+    const formation_search *o = user;
+    const loop_point p = compute_loop_point(o->search, thickness);
     const double log_formation = p.log_ratio + log(p.wear);
     return p.wear == o->wear ? log_formation : log(exp(log_formation) - p.wear + o->wear);
 }
 
-static wt_status march_own(loop_search *s, layer_rates *rates, const double *time, size_t n,
-                           wt_layer_point *points, wt_error *err)
+static wt_status integrate_feedback_history(loop_search *s, layer_rates *rates, const double *time,
+                                            size_t n, wt_layer_point *points, wt_error *err)
 {
-    const wt_status status = layer_history_in_order(rates, 0, false, time, n, points, err);
+    const wt_status status = layer_history_sorted(rates, 0, false, time, n, points, err);
     for (size_t i = 0; status == WT_OK && i < n; i++) {
         points[i].time = time[i];
-        const loop_point p = point_at(s, points[i].thickness.value);
+        const loop_point p = compute_loop_point(s, points[i].thickness.value);
         points[i].formation_rate = p.formation;
         points[i].wear_rate = p.wear;
     }
@@ -213,7 +215,7 @@ static wt_status march_own(loop_search *s, layer_rates *rates, const double *tim
 }
 
 /* Returns the lowest stable root above a bare surface; 0 if no layer grows. */
-static double growing_to(const wt_layer_loop *loop)
+static double target_thickness(const wt_layer_feedback *loop)
 {
     for (size_t i = 0; loop->ratio > 1 && i < loop->n_roots; i++)
         if (loop->root[i].stable)
@@ -221,8 +223,9 @@ static double growing_to(const wt_layer_loop *loop)
     return 0;
 }
 
-wt_status wt_layer_loop_history(wt_layer_energy_fn energy, void *user, const wt_layer_loop *loop,
-                                const double *time, size_t n, wt_layer_point *points, wt_error *err)
+wt_status wt_layer_feedback_history(wt_layer_energy_fn energy, void *user,
+                                    const wt_layer_feedback *loop, const double *time, size_t n,
+                                    wt_layer_point *points, wt_error *err)
 {
     if (energy == NULL || loop == NULL || (n > 0 && (time == NULL || points == NULL)))
         return wt_fail(err, WT_E_ARG, "a layer that acts back needs its roots and times");
@@ -230,8 +233,8 @@ wt_status wt_layer_loop_history(wt_layer_energy_fn energy, void *user, const wt_
     if (status != WT_OK)
         return status;
     loop_search s = {.energy = energy, .user = user, .err = err};
-    const loop_point bare = point_at(&s, 0);
-    const double target = growing_to(loop);
+    const loop_point bare = compute_loop_point(&s, 0);
+    const double target = target_thickness(loop);
     if (s.status != WT_OK)
         return s.status;
     if (!(target > 0)) {
@@ -245,22 +248,22 @@ wt_status wt_layer_loop_history(wt_layer_energy_fn energy, void *user, const wt_
         wt_error_advice(err, "without wear, or with little, it has no balance: leave out feedback");
         return WT_E_RANGE;
     }
-    feedback_rate *own = calloc(1, sizeof *own);
-    if (own == NULL)
+    feedback_rate *feedback = calloc(1, sizeof *feedback);
+    if (feedback == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory for a layer that acts back");
-    own_search o = {&s, bare.wear};
-    status = feedback_rate_make(log_formation_at, &o, 1 / bare.q_max, target, own, err);
+    formation_search o = {&s, bare.wear};
+    status = feedback_rate_create(compute_log_formation, &o, 1 / bare.q_max, target, feedback, err);
     if (status == WT_OK)
         status = s.status;
-    layer_rates rates = {.own = own,
+    layer_rates rates = {.feedback = feedback,
                          .q_min = 1 / target,
                          .q_max = bare.q_max,
                          .formation = bare.formation,
                          .wear = bare.wear,
                          .log_ratio = log(bare.formation / bare.wear)};
     if (status == WT_OK)
-        status = march_own(&s, &rates, time, n, points, err);
-    feedback_rate_clear(own);
-    free(own);
+        status = integrate_feedback_history(&s, &rates, time, n, points, err);
+    feedback_rate_clear(feedback);
+    free(feedback);
     return status;
 }

@@ -12,27 +12,27 @@
 /* Order for a function that is smooth over a factor of two: the last coefficients are rounding. */
 enum { ORDER = 24 };
 
-void feedback_rate_clear(feedback_rate *own)
+void feedback_rate_clear(feedback_rate *feedback)
 {
-    for (size_t i = 0; i < own->n; i++) {
-        gsl_cheb_free(own->panel[i].value);
-        gsl_cheb_free(own->panel[i].slope);
+    for (size_t i = 0; i < feedback->n; i++) {
+        gsl_cheb_free(feedback->subinterval[i].value);
+        gsl_cheb_free(feedback->subinterval[i].slope);
     }
-    own->n = 0;
+    feedback->n = 0;
 }
 
-wt_status feedback_rate_make(own_fn f, void *user, double first, double target, feedback_rate *own,
-                             wt_error *err)
+wt_status feedback_rate_create(feedback_formation_fn f, void *user, double first, double target,
+                               feedback_rate *feedback, wt_error *err)
 {
     gsl_function function = {f, user};
-    *own = (feedback_rate){.target = target};
+    *feedback = (feedback_rate){.target = target};
     for (double low = 0, high = fmin(first, target); low < target; high *= 2) {
-        if (own->n == OWN_PANELS)
+        if (feedback->n == FEEDBACK_SUBINTERVALS)
             return wt_fail(err, WT_E_RANGE, "a layer is too thick beside the shortest wave");
-        own_panel *p = &own->panel[own->n];
-        *p = (own_panel){low, 2 * high > target ? target : high, gsl_cheb_alloc(ORDER),
-                         gsl_cheb_alloc(ORDER)};
-        own->n++;
+        feedback_subinterval *p = &feedback->subinterval[feedback->n];
+        *p = (feedback_subinterval){low, 2 * high > target ? target : high, gsl_cheb_alloc(ORDER),
+                                    gsl_cheb_alloc(ORDER)};
+        feedback->n++;
         if (p->value == NULL || p->slope == NULL)
             return wt_fail(err, WT_E_MEMORY, "out of memory for a layer that acts back");
         gsl_cheb_init(p->value, &function, p->low, p->high);
@@ -42,20 +42,20 @@ wt_status feedback_rate_make(own_fn f, void *user, double first, double target, 
     return WT_OK;
 }
 
-static const own_panel *panel_at(const feedback_rate *own, double thickness)
+static const feedback_subinterval *find_subinterval(const feedback_rate *feedback, double thickness)
 {
     size_t i = 0;
-    while (i + 1 < own->n && thickness > own->panel[i].high)
+    while (i + 1 < feedback->n && thickness > feedback->subinterval[i].high)
         i++;
-    return &own->panel[i];
+    return &feedback->subinterval[i];
 }
 
-double feedback_rate_log(const feedback_rate *own, double thickness)
+double feedback_rate_log(const feedback_rate *feedback, double thickness)
 {
-    return gsl_cheb_eval(panel_at(own, thickness)->value, thickness);
+    return gsl_cheb_eval(find_subinterval(feedback, thickness)->value, thickness);
 }
 
-double feedback_rate_slope(const feedback_rate *own, double thickness)
+double feedback_rate_slope(const feedback_rate *feedback, double thickness)
 {
-    return gsl_cheb_eval(panel_at(own, thickness)->slope, thickness);
+    return gsl_cheb_eval(find_subinterval(feedback, thickness)->slope, thickness);
 }

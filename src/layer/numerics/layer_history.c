@@ -25,7 +25,7 @@ static wt_status history_damage(const layer_rates *rates, double start, const la
         const double old = fmax(0, start - rates->wear * at[i].time);
         if (old > grown.value) {
             grown.value = old;
-            grown.numerical_error = rates->without_errors
+            grown.numerical_error = rates->skip_numerical_errors
                                         ? (double)NAN
                                         : fmax(grown.numerical_error, 4 * DBL_EPSILON * start) +
                                               rates->wear_error * rates->wear * at[i].time;
@@ -52,11 +52,12 @@ static void history_exponential(const layer_rates *rates, double kappa, double s
                  most_wear = rates->wear * (1 + rates->wear_error);
     for (size_t i = 0; i < n; i++) {
         const double formation = rates->formation;
-        const double value = wt_layer_exponential(start, kappa, formation, rates->wear, time[i]);
-        const double more =
-            wt_layer_exponential(start, kappa, formation * (1 + relative), least_wear, time[i]);
-        const double less = wt_layer_exponential(start, kappa, formation * fmax(0, 1 - relative),
-                                                 most_wear, time[i]);
+        const double value =
+            wt_layer_exponential_thickness(start, kappa, formation, rates->wear, time[i]);
+        const double more = wt_layer_exponential_thickness(start, kappa, formation * (1 + relative),
+                                                           least_wear, time[i]);
+        const double less = wt_layer_exponential_thickness(
+            start, kappa, formation * fmax(0, 1 - relative), most_wear, time[i]);
         points[i].thickness = (wt_estimate){
             .value = value,
             .numerical_error = fmax(more - value, value - less) +
@@ -65,9 +66,8 @@ static void history_exponential(const layer_rates *rates, double kappa, double s
     }
 }
 
-wt_status layer_history_in_order(const layer_rates *rates, double start, bool transport,
-                                 const double *time, size_t n, wt_layer_point *points,
-                                 wt_error *err)
+wt_status layer_history_sorted(const layer_rates *rates, double start, bool transport,
+                               const double *time, size_t n, wt_layer_point *points, wt_error *err)
 {
     layer_instant *order = calloc(n + 1, sizeof *order);
     if (order == NULL)
@@ -76,7 +76,7 @@ wt_status layer_history_in_order(const layer_rates *rates, double start, bool tr
         order[i] = (layer_instant){time[i], &points[i]};
     qsort(order, n, sizeof *order, numbers_compare);
     const wt_status status = transport ? history_damage(rates, start, order, n, err)
-                                       : layer_march(rates, start, order, n, err);
+                                       : layer_integrate_thickness(rates, start, order, n, err);
     free(order);
     return status;
 }
@@ -99,7 +99,7 @@ wt_status wt_layer_history(const wt_energy_source *source, const wt_layer_parame
     if (n && (time == NULL || points == NULL))
         return wt_fail(err, WT_E_ARG, "the history of a layer needs times and a place for it");
     layer_rates rates;
-    wt_status status = layer_rates_make(source, parameters, &rates, err);
+    wt_status status = layer_rates_compute(source, parameters, &rates, err);
     if (status == WT_OK)
         status = layer_times_check(time, n, err);
     if (status != WT_OK || n == 0) {
@@ -110,11 +110,11 @@ wt_status wt_layer_history(const wt_energy_source *source, const wt_layer_parame
     if (kappa > 0 && !parameters->incubation)
         history_exponential(&rates, kappa, parameters->start_thickness, time, n, points);
     else
-        status = layer_history_in_order(&rates, parameters->start_thickness, parameters->incubation,
-                                        time, n, points, err);
+        status = layer_history_sorted(&rates, parameters->start_thickness, parameters->incubation,
+                                      time, n, points, err);
     for (size_t i = 0; status == WT_OK && i < n; i++) {
         points[i].time = time[i];
-        points[i].formation_rate = layer_formation(&rates, points[i].thickness.value);
+        points[i].formation_rate = layer_formation_rate(&rates, points[i].thickness.value);
         points[i].wear_rate = rates.wear;
     }
     layer_rates_clear(&rates);

@@ -16,7 +16,7 @@
 
 wt_status wt_layer_identify_wear(const wt_energy_source *source, const wt_layer_parameters *p,
                                  double thickness, double specific_wear_rate,
-                                 wt_layer_identified *found, wt_error *err)
+                                 wt_identified_constants *found, wt_error *err)
 {
     if (p == NULL || found == NULL)
         return wt_fail(err, WT_E_ARG, "nothing to identify a layer by");
@@ -30,10 +30,11 @@ wt_status wt_layer_identify_wear(const wt_energy_source *source, const wt_layer_
         wt_error_found(err, "%g m, %g m^2/N", thickness, specific_wear_rate);
         return WT_E_RANGE;
     }
-    *found = (wt_layer_identified){.critical_energy = exp(there) / (p->damage * specific_wear_rate *
-                                                                    p->pressure * p->velocity),
-                                   .specific_wear_rate = specific_wear_rate,
-                                   .ratio = exp(zero - there)};
+    *found =
+        (wt_identified_constants){.critical_energy = exp(there) / (p->damage * specific_wear_rate *
+                                                                   p->pressure * p->velocity),
+                                  .specific_wear_rate = specific_wear_rate,
+                                  .ratio = exp(zero - there)};
     return WT_OK;
 }
 
@@ -46,7 +47,7 @@ typedef struct growth {
 } growth;
 
 /* d l / d delta for the rate balance, d delta/dt = Qw (J(delta)/J(balance) - 1). */
-static double worn_while(double depth, void *user)
+static double worn_per_growth(double depth, void *user)
 {
     const growth *g = user;
     return 1 / expm1(energy_log_tail(g->source, depth) - g->log_there);
@@ -54,24 +55,24 @@ static double worn_while(double depth, void *user)
 
 /* ln of the damage that a position gains along its path, over that at the balance; 0 at the edge of
  * the layer. */
-static double surplus_at(double length, void *user)
+static double log_surplus(double length, void *user)
 {
     const growth *g = user;
-    return energy_log_gain(g->source, g->from, length) - g->log_there;
+    return energy_log_integral(g->source, g->from, length) - g->log_there;
 }
 
 /* The integrand is smooth away from the balance: far fewer intervals are needed. */
-enum { STRETCHES = 200 };
+enum { MAX_INTERVALS = 200 };
 static const double integral_tolerance = 1e-12;
 
-static wt_status worn_by_rates(growth *g, double *length, wt_error *err)
+static wt_status compute_worn_length_rates(growth *g, double *length, wt_error *err)
 {
     double error = 0;
-    gsl_function f = {worn_while, g};
-    gsl_integration_workspace *const w = gsl_integration_workspace_alloc(STRETCHES);
+    gsl_function f = {worn_per_growth, g};
+    gsl_integration_workspace *const w = gsl_integration_workspace_alloc(MAX_INTERVALS);
     if (w == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
-    const int failed = gsl_integration_qag(&f, 0, g->from, 0, integral_tolerance, STRETCHES,
+    const int failed = gsl_integration_qag(&f, 0, g->from, 0, integral_tolerance, MAX_INTERVALS,
                                            GSL_INTEG_GAUSS61, w, length, &error);
     gsl_integration_workspace_free(w);
     if (failed != 0 && !(error <= 1e-6 * *length)) {
@@ -81,22 +82,22 @@ static wt_status worn_by_rates(growth *g, double *length, wt_error *err)
     return WT_OK;
 }
 
-static wt_status worn_by_transport(growth *g, double *length, wt_error *err)
+static wt_status compute_worn_length_transport(growth *g, double *length, wt_error *err)
 {
     double high = g->from, low = high;
     if (!(energy_log_tail(g->source, g->from) > g->log_there))
         return wt_fail(err, WT_E_RANGE,
                        "no energy between that share of the thickness and all of it");
-    while (surplus_at(high, g) < 0)
+    while (log_surplus(high, g) < 0)
         high *= 2;
-    while (surplus_at(low, g) >= 0)
+    while (log_surplus(low, g) >= 0)
         low /= 2;
-    return root_find(surplus_at, g, low, high, 0, length, err);
+    return root_find(log_surplus, g, low, high, 0, length, err);
 }
 
 wt_status wt_layer_identify_time(const wt_energy_source *source, const wt_layer_parameters *p,
                                  double thickness, double time, double share,
-                                 wt_layer_identified *found, wt_error *err)
+                                 wt_identified_constants *found, wt_error *err)
 {
     wt_status status = wt_layer_identify_wear(source, p, thickness, 1, found, err);
     if (status == WT_OK && (!(time > 0) || !(share > 0) || !(share < 1))) {
@@ -109,7 +110,8 @@ wt_status wt_layer_identify_time(const wt_energy_source *source, const wt_layer_
         return status;
     growth g = {source, share * thickness, energy_log_tail(source, thickness)};
     double length = 0;
-    status = p->incubation ? worn_by_transport(&g, &length, err) : worn_by_rates(&g, &length, err);
+    status = p->incubation ? compute_worn_length_transport(&g, &length, err)
+                           : compute_worn_length_rates(&g, &length, err);
     if (status != WT_OK)
         return status;
     const double k = length / (p->duty * p->pressure * p->velocity * time);

@@ -18,15 +18,15 @@ enum { LOW_NODES = 12, HIGH_NODES = 16 };
 /* Length of a subinterval as a share of the distance to the balance, where the time has a
  * logarithm. The second limit is in units of the local decay length, over which formation is
  * smooth. The shares affect the cost only: inaccurate subintervals are halved. */
-static const double way_part = 0.7;
-static const double decay_part = 2;
+static const double distance_share = 0.7;
+static const double decay_lengths = 2;
 /* Tolerance of the difference of the two rules; a hundred subintervals then have an error of 1e-10.
  */
-static const double panel_goal = 1e-12;
+static const double subinterval_goal = 1e-12;
 /* Formation is neglected below this share of wear. */
 static const double log_negligible = -41.5; /* 1e-18 */
 
-typedef struct march {
+typedef struct integration {
     const layer_rates *rates;
     const gauss_rule *low, *high;
     double target;    /* final thickness [m]: the balance, or 0 */
@@ -34,22 +34,22 @@ typedef struct march {
     double thickness, time;
     double time_error;
     double sensitivity; /* int Qf / (Qf - Qw)^2: minus d time / d ln Qf */
-} march;
+} integration;
 
 static double net_rate(const layer_rates *rates, double thickness)
 {
-    return layer_formation(rates, thickness) - rates->wear;
+    return layer_formation_rate(rates, thickness) - rates->wear;
 }
 
 /* Time from `from` over `length` in the direction of the integration. */
-static double panel_time(const march *m, const gauss_rule *rule, double from, double length,
-                         double *sensitivity)
+static double subinterval_time(const integration *m, const gauss_rule *rule, double from,
+                               double length, double *sensitivity)
 {
     double sum = 0;
     *sensitivity = 0;
     for (size_t i = 0; i < rule->n; i++) {
         const double thickness = from + m->direction * 0.5 * length * (1 + rule->node[i]);
-        const double formation = layer_formation(m->rates, thickness);
+        const double formation = layer_formation_rate(m->rates, thickness);
         const double rate = formation - m->rates->wear;
         const double weight = 0.5 * length * rule->weight[i] / fabs(rate);
         sum += weight;
@@ -59,24 +59,24 @@ static double panel_time(const march *m, const gauss_rule *rule, double from, do
 }
 
 /* Length of the next subinterval; 0 if the target is reached up to rounding. */
-static double panel_length(const march *m)
+static double choose_length(const integration *m)
 {
-    const double kappa = layer_decay(m->rates, m->thickness);
+    const double kappa = layer_decay_rate(m->rates, m->thickness);
     const double rate = fabs(net_rate(m->rates, m->thickness));
-    const double slope = layer_formation(m->rates, m->thickness) * kappa;
+    const double slope = layer_formation_rate(m->rates, m->thickness) * kappa;
     double length = fabs(m->target - m->thickness);
     const double noise = 4 * DBL_EPSILON * (m->thickness + (kappa > 0 ? 1 / kappa : 0));
     const bool balance = m->direction > 0 || m->rates->log_ratio >= 0;
     if (balance) {
         if (length <= noise)
             return 0;
-        length *= way_part;
+        length *= distance_share;
     } else if (slope > 0) { /* the balance is virtual, at a negative thickness */
-        length = fmin(length, way_part * log1p(kappa * rate / slope) / kappa);
+        length = fmin(length, distance_share * log1p(kappa * rate / slope) / kappa);
     }
     if (kappa == 0) /* surface of a profile that begins at 0 */
         return m->rates->q_min > 0 ? fmin(length, 1 / m->rates->q_min) : length;
-    return fmin(length, decay_part / kappa);
+    return fmin(length, decay_lengths / kappa);
 }
 
 /* Relative rounding error of Qf, which is the exponential of a sum of logarithms. */
@@ -88,19 +88,20 @@ static double rounding_error(const layer_rates *rates, double thickness)
 
 /* Integrates one subinterval and shortens it until its two rules agree within the noise of Qf - Qw.
  * Returns the time. */
-static double panel_take(const march *m, double *length, double *error, double *sensitivity)
+static double integrate_subinterval(const integration *m, double *length, double *error,
+                                    double *sensitivity)
 {
     double time = 0, ignored;
     for (int i = 0; i < 60; i++) {
         const double end = m->thickness + m->direction * *length;
-        const double formation = layer_formation(m->rates, end);
+        const double formation = layer_formation_rate(m->rates, end);
         const double noise =
             rounding_error(m->rates, end) * formation / fabs(formation - m->rates->wear);
-        time = panel_time(m, m->high, m->thickness, *length, sensitivity);
-        *error = fabs(time - panel_time(m, m->low, m->thickness, *length, &ignored));
+        time = subinterval_time(m, m->high, m->thickness, *length, sensitivity);
+        *error = fabs(time - subinterval_time(m, m->low, m->thickness, *length, &ignored));
         /* times below the smallest normal number have no digits left, and neither has a formation
          * that underflows */
-        if (!(*error > (panel_goal + 4 * noise) * time + DBL_MIN))
+        if (!(*error > (subinterval_goal + 4 * noise) * time + DBL_MIN))
             break;
         *length *= 0.5;
     }
@@ -109,32 +110,33 @@ static double panel_take(const march *m, double *length, double *error, double *
 
 /* Thickness at a time inside the subinterval that starts here, by Newton's method with a bracket.
  * The start value is linear. */
-static double panel_find(const march *m, double length, double took, double time)
+static double locate_thickness(const integration *m, double length, double duration, double time)
 {
     double low = 0, high = length;
-    double way = length * ((time - m->time) / took);
+    double distance = length * ((time - m->time) / duration);
     for (int i = 0; i < 60; i++) {
         double ignored;
-        const double excess = m->time + panel_time(m, m->high, m->thickness, way, &ignored) - time;
+        const double excess =
+            m->time + subinterval_time(m, m->high, m->thickness, distance, &ignored) - time;
         if (excess > 0)
-            high = way;
+            high = distance;
         else
-            low = way;
-        const double here = m->thickness + m->direction * way;
-        double next = way - excess * fabs(net_rate(m->rates, here));
+            low = distance;
+        const double here = m->thickness + m->direction * distance;
+        double next = distance - excess * fabs(net_rate(m->rates, here));
         if (!(next >= low && next <= high))
             next = 0.5 * (low + high);
-        const double change = fabs(next - way);
-        way = next;
+        const double change = fabs(next - distance);
+        distance = next;
         /* the noise of the quadrature is some ulps of the whole thickness */
-        if (change <= 4 * DBL_EPSILON * way || change <= 16 * DBL_EPSILON * m->thickness)
+        if (change <= 4 * DBL_EPSILON * distance || change <= 16 * DBL_EPSILON * m->thickness)
             break;
     }
-    return m->thickness + m->direction * way;
+    return m->thickness + m->direction * distance;
 }
 
-static wt_estimate estimate_at(const march *m, double thickness, double time, double time_error,
-                               double sensitivity)
+static wt_estimate thickness_estimate(const integration *m, double thickness, double time,
+                                      double time_error, double sensitivity)
 {
     const double rate = fabs(net_rate(m->rates, thickness));
     const double relative = rounding_error(m->rates, thickness);
@@ -148,7 +150,7 @@ static wt_estimate estimate_at(const march *m, double thickness, double time, do
 
 /* Length over which only wear matters. Far above the balance the thickness is linear in time, down
  * to where formation is significant. */
-static wt_status skip_pure_wear(march *m, double *length, wt_error *err)
+static wt_status skip_pure_wear(integration *m, double *length, wt_error *err)
 {
     *length = 0;
     if (m->direction > 0 || m->rates->wear == 0)
@@ -164,19 +166,19 @@ static wt_status skip_pure_wear(march *m, double *length, wt_error *err)
 }
 
 /* Starts an integration. *linear is the length over which only wear matters. */
-static wt_status march_begin(march *m, const layer_rates *rates, double start, wt_estimate *target,
-                             double *linear, wt_error *err)
+static wt_status begin_integration(integration *m, const layer_rates *rates, double start,
+                                   wt_estimate *target, double *linear, wt_error *err)
 {
-    *m = (march){.rates = rates, .thickness = start};
+    *m = (integration){.rates = rates, .thickness = start};
     wt_status status = WT_OK;
-    if (rates->own != NULL)
-        *target = (wt_estimate){.value = rates->own->target, .unit = "m"};
+    if (rates->feedback != NULL)
+        *target = (wt_estimate){.value = rates->feedback->target, .unit = "m"};
     else
         status = layer_fixed_point(rates, 0, target, err);
     if (status == WT_OK)
-        status = rule_of(LOW_NODES, &m->low, err);
+        status = gauss_rule_get(LOW_NODES, &m->low, err);
     if (status == WT_OK)
-        status = rule_of(HIGH_NODES, &m->high, err);
+        status = gauss_rule_get(HIGH_NODES, &m->high, err);
     m->target = target->value;
     m->direction = net_rate(rates, start) > 0 ? 1 : -1;
     if (m->direction < 0)
@@ -184,13 +186,13 @@ static wt_status march_begin(march *m, const layer_rates *rates, double start, w
     return status == WT_OK ? skip_pure_wear(m, linear, err) : status;
 }
 
-wt_status layer_march(const layer_rates *rates, double start, const layer_instant *at, size_t n,
-                      wt_error *err)
+wt_status layer_integrate_thickness(const layer_rates *rates, double start, const layer_instant *at,
+                                    size_t n, wt_error *err)
 {
-    march m;
+    integration m;
     wt_estimate target;
     double linear = 0;
-    wt_status status = march_begin(&m, rates, start, &target, &linear, err);
+    wt_status status = begin_integration(&m, rates, start, &target, &linear, err);
     if (status != WT_OK)
         return status;
 
@@ -205,25 +207,26 @@ wt_status layer_march(const layer_rates *rates, double start, const layer_instan
         const double until = linear / rates->wear;
         for (; i < n && at[i].time < until; i++)
             at[i].point->thickness =
-                estimate_at(&m, start - rates->wear * at[i].time, at[i].time, 0, 0);
+                thickness_estimate(&m, start - rates->wear * at[i].time, at[i].time, 0, 0);
         m.thickness = start - linear;
         m.time = until;
     }
     for (; i < n && at[i].time == 0; i++)
         at[i].point->thickness = (wt_estimate){.value = start, .unit = "m"};
     while (i < n) {
-        double length = panel_length(&m);
+        double length = choose_length(&m);
         if (!(length > 0))
             break;
         double error, sensitivity;
-        const double took = panel_take(&m, &length, &error, &sensitivity);
+        const double duration = integrate_subinterval(&m, &length, &error, &sensitivity);
         const double sum_error = m.time_error + error;
         const double sum_sensitivity = m.sensitivity + sensitivity;
-        for (; i < n && at[i].time <= m.time + took; i++)
-            at[i].point->thickness = estimate_at(&m, panel_find(&m, length, took, at[i].time),
-                                                 at[i].time, sum_error, sum_sensitivity);
+        for (; i < n && at[i].time <= m.time + duration; i++)
+            at[i].point->thickness =
+                thickness_estimate(&m, locate_thickness(&m, length, duration, at[i].time),
+                                   at[i].time, sum_error, sum_sensitivity);
         m.thickness += m.direction * length;
-        m.time += took;
+        m.time += duration;
         m.time_error = sum_error;
         m.sensitivity = sum_sensitivity;
         if (!isfinite(m.time))
@@ -238,7 +241,7 @@ wt_status layer_march(const layer_rates *rates, double start, const layer_instan
 }
 
 /* Time from `start` to `goal`, which must lie on the path of the integration. */
-static double march_to(march *m, double goal, double linear)
+static double integrate_to_thickness(integration *m, double goal, double linear)
 {
     const double first = fmin(linear, m->thickness - goal);
     if (linear > 0) {
@@ -248,10 +251,10 @@ static double march_to(march *m, double goal, double linear)
     while (m->direction * (goal - m->thickness) > 0) {
         double error, sensitivity;
         const double left = m->direction * (goal - m->thickness);
-        double length = fmin(panel_length(m), left);
+        double length = fmin(choose_length(m), left);
         if (!(length > 0))
             break;
-        m->time += panel_take(m, &length, &error, &sensitivity);
+        m->time += integrate_subinterval(m, &length, &error, &sensitivity);
         m->time_error += error;
         m->sensitivity += sensitivity;
         m->thickness = length >= left ? goal : m->thickness + m->direction * length;
@@ -259,8 +262,8 @@ static double march_to(march *m, double goal, double linear)
     return m->time;
 }
 
-wt_status layer_march_time(const layer_rates *rates, double start, wt_estimate goal,
-                           wt_estimate *time, wt_error *err)
+wt_status layer_integrate_time(const layer_rates *rates, double start, wt_estimate goal,
+                               wt_estimate *time, wt_error *err)
 {
     *time = (wt_estimate){.unit = "s"};
     if (start == goal.value)
@@ -270,13 +273,13 @@ wt_status layer_march_time(const layer_rates *rates, double start, wt_estimate g
     const bool grows = goal.value > start;
     if (!isfinite(goal.value) || (grows ? !(rate > 0 && there > 0) : !(rate < 0 && there < 0)))
         return WT_OK;
-    march m;
+    integration m;
     wt_estimate target;
     double linear = 0;
-    const wt_status status = march_begin(&m, rates, start, &target, &linear, err);
+    const wt_status status = begin_integration(&m, rates, start, &target, &linear, err);
     if (status == WT_OK) {
         const double relative = rounding_error(rates, fmax(start, goal.value));
-        time->value = march_to(&m, goal.value, linear);
+        time->value = integrate_to_thickness(&m, goal.value, linear);
         time->numerical_error = m.time_error + relative * time->value +
                                 (rates->error + relative) * m.sensitivity +
                                 rates->wear_error * (m.sensitivity + time->value) +

@@ -48,7 +48,7 @@ static const wt_param rows[] = {
 PARAM_TABLE(wt_layer_params, wt_layer_parameters, rows, wt_layer_defaults, NO_PARTS)
 
 /* Checks the parameters that the closure requires. */
-static wt_status closure_check(const wt_layer_parameters *p, wt_error *err)
+static wt_status check_closure(const wt_layer_parameters *p, wt_error *err)
 {
     const bool activated = p->closure == WT_CLOSURE_ACTIVATED;
     const wt_activation *a = &p->activation;
@@ -71,7 +71,7 @@ void layer_rates_clear(layer_rates *rates)
 }
 
 /* Sets the rates of the closure. */
-static wt_status rates_close(layer_rates *r, const wt_layer_parameters *p, wt_error *err)
+static wt_status apply_closure(layer_rates *r, const wt_layer_parameters *p, wt_error *err)
 {
     r->error = r->source->numerical_error;
     if (p->closure == WT_CLOSURE_ENERGY) {
@@ -82,7 +82,7 @@ static wt_status rates_close(layer_rates *r, const wt_layer_parameters *p, wt_er
     }
     r->threshold = log(p->damage);
     if (p->activation.ageing)
-        r->background = wt_activation_background(&p->activation) / p->damage;
+        r->background = wt_activation_unloaded_rate(&p->activation) / p->damage;
     if (!(r->power > 0) || !(p->velocity > 0))
         return WT_OK;
     const wt_status status =
@@ -104,15 +104,15 @@ double layer_wear_rate(const wt_layer_parameters *p, double power)
 
 /* Factor from the relative error of the power to that of the wear: m x / (1 + x), x = (power /
  * E_c)^m. */
-static double wear_follows(const wt_layer_parameters *p, double power)
+static double wear_power_sensitivity(const wt_layer_parameters *p, double power)
 {
     if (!(p->severity_power > 0) || !(power > 0))
         return 0;
     return p->severity_exponent / (1 + pow(power / p->severity_power, -p->severity_exponent));
 }
 
-wt_status layer_rates_make(const wt_energy_source *source, const wt_layer_parameters *parameters,
-                           layer_rates *rates, wt_error *err)
+wt_status layer_rates_compute(const wt_energy_source *source, const wt_layer_parameters *parameters,
+                              layer_rates *rates, wt_error *err)
 {
     *rates = (layer_rates){0};
     if (parameters == NULL)
@@ -125,18 +125,19 @@ wt_status layer_rates_make(const wt_energy_source *source, const wt_layer_parame
         status = param_check(wt_layer_params(), &checked, err);
     }
     if (status == WT_OK)
-        status = closure_check(parameters, err);
+        status = check_closure(parameters, err);
     if (status != WT_OK)
         return status;
     const wt_layer_parameters *p = parameters;
-    layer_rates r = {.source = source, .duty = p->duty, .without_errors = p->without_errors};
-    if (!energy_range(source, &r.q_min, &r.q_max))
+    layer_rates r = {
+        .source = source, .duty = p->duty, .skip_numerical_errors = p->skip_numerical_errors};
+    if (!energy_wavenumber_range(source, &r.q_min, &r.q_max))
         r.q_min = 0;
     for (size_t i = 0; i < source->n; i++)
         r.power += source->power[i];
-    status = rates_close(&r, p, err);
+    status = apply_closure(&r, p, err);
     r.wear = p->duty * layer_wear_rate(p, r.power) * p->pressure * p->velocity;
-    r.wear_error = wear_follows(p, r.power) * source->numerical_error;
+    r.wear_error = wear_power_sensitivity(p, r.power) * source->numerical_error;
     /* the density of a wave is proportional to q, and its second derivative to q^3 */
     const double bends = r.power * r.q_max * r.q_max * r.q_max;
     if (status == WT_OK && (!isfinite(r.formation) || !isfinite(r.wear) || !isfinite(bends))) {
@@ -167,23 +168,23 @@ double rates_log_tail(const layer_rates *rates, double depth)
                                     : energy_log_tail(rates->source, depth);
 }
 
-double rates_log_gain(const layer_rates *rates, double depth, double length)
+double rates_log_integral(const layer_rates *rates, double depth, double length)
 {
-    return rates->activated != NULL ? activation_log_gain(rates->activated, depth, length)
-                                    : energy_log_gain(rates->source, depth, length);
+    return rates->activated != NULL ? activation_log_integral(rates->activated, depth, length)
+                                    : energy_log_integral(rates->source, depth, length);
 }
 
-energy_course rates_course(const layer_rates *rates, double depth, double length, double reach)
+energy_expansion rates_expand(const layer_rates *rates, double depth, double length, double reach)
 {
     return rates->activated != NULL
-               ? activation_course(rates->activated, depth, length, reach)
-               : energy_course_at(rates->source, rates->q_min, depth, length, reach);
+               ? activation_expand(rates->activated, depth, length, reach)
+               : energy_expand(rates->source, rates->q_min, depth, length, reach);
 }
 
-double layer_formation(const layer_rates *rates, double thickness)
+double layer_formation_rate(const layer_rates *rates, double thickness)
 {
-    if (rates->own != NULL)
-        return exp(feedback_rate_log(rates->own, thickness));
+    if (rates->feedback != NULL)
+        return exp(feedback_rate_log(rates->feedback, thickness));
     if (rates->formation == 0)
         return 0;
     const double fall = rates_log_tail(rates, thickness) - rates->log_power;
@@ -192,10 +193,10 @@ double layer_formation(const layer_rates *rates, double thickness)
     return fall > lowest ? rates->formation * exp(fall) : exp(log(rates->formation) + fall);
 }
 
-double layer_decay(const layer_rates *rates, double thickness)
+double layer_decay_rate(const layer_rates *rates, double thickness)
 {
-    if (rates->own != NULL)
-        return fabs(feedback_rate_slope(rates->own, thickness));
+    if (rates->feedback != NULL)
+        return fabs(feedback_rate_slope(rates->feedback, thickness));
     if (rates->formation == 0)
         return 0;
     return exp(rates_log_density(rates, thickness) - rates_log_tail(rates, thickness));
@@ -208,18 +209,18 @@ typedef struct balance_root {
     double level; /* required ln(Qf / Qf(0)) */
 } balance_root;
 
-static double balance_function(double depth, void *user)
+static double log_formation_excess(double depth, void *user)
 {
     const balance_root *b = user;
     return rates_log_tail(b->rates, depth) - b->rates->log_power - b->level;
 }
 
 /* Displacement of the root due to this error of ln Qf. */
-static double root_error(balance_root *b, double root, double error)
+static double balance_root_error(balance_root *b, double root, double error)
 {
-    const double kappa = layer_decay(b->rates, root);
+    const double kappa = layer_decay_rate(b->rates, root);
     const double reach = fmax(kappa > 0 ? error / kappa : 0, 2 * DBL_EPSILON * root);
-    return root_reach(balance_function, b, root, error, reach, DBL_MIN);
+    return root_displacement(log_formation_excess, b, root, error, reach, DBL_MIN);
 }
 
 wt_status layer_fixed_point(const layer_rates *rates, double log_scale, wt_estimate *thickness,
@@ -230,9 +231,9 @@ wt_status layer_fixed_point(const layer_rates *rates, double log_scale, wt_estim
     const double error = 8 * DBL_EPSILON * (1 + fabs(excess) + fabs(rates->log_power)) +
                          rates->error + rates->wear_error;
     const bool none = !(excess > 0);
-    if (none && !rates->without_errors) /* largest possible thickness within the error */
+    if (none && !rates->skip_numerical_errors) /* largest possible thickness within the error */
         excess += error;
-    if (rates->without_errors)
+    if (rates->skip_numerical_errors)
         thickness->numerical_error = (double)NAN;
     if (!(excess > 0))
         return WT_OK;
@@ -242,14 +243,14 @@ wt_status layer_fixed_point(const layer_rates *rates, double log_scale, wt_estim
     }
     balance_root b = {.rates = rates, .level = -excess};
     double high = excess / (2 * rates->q_min);
-    while (balance_function(high, &b) > 0)
+    while (log_formation_excess(high, &b) > 0)
         high *= 2;
     double root = 0;
-    const wt_status status = root_find(balance_function, &b, 0, high, 0, &root, err);
+    const wt_status status = root_find(log_formation_excess, &b, 0, high, 0, &root, err);
     if (status != WT_OK)
         return status;
     thickness->value = none ? 0 : root;
-    if (!rates->without_errors)
-        thickness->numerical_error = none ? root : root_error(&b, root, error);
+    if (!rates->skip_numerical_errors)
+        thickness->numerical_error = none ? root : balance_root_error(&b, root, error);
     return WT_OK;
 }

@@ -11,35 +11,35 @@
  * integral belong to the energy, or to the rate of an activated closure. */
 typedef struct layer_rates {
     const wt_energy_source *source;
-    activation *activated;           /* NULL for the energy closure */
-    const struct feedback_rate *own; /* formation with feedback; NULL if as on the bulk */
-    double q_min, q_max;             /* range of the terms with power [rad/m]; 0 without power */
-    double formation;                /* Qf(0) [m/s], duty included */
-    double wear;                     /* [m/s], duty included */
-    double power;                    /* power per area [W/m^2] */
-    double log_power;                /* ln of the tail at the surface; 0 without power */
-    double log_ratio;                /* ln R; -infinity without power, +infinity without wear */
-    double threshold;                /* ln(U_c Lambda), or ln Lambda of an activated closure */
-    double background;               /* damage rate without load over Lambda [1/s]; 0 if none */
-    double error;                    /* relative error of a tail */
-    double wear_error;               /* relative error of the wear if it depends on the power;
-                                        else 0 */
+    activation *activated;                /* NULL for the energy closure */
+    const struct feedback_rate *feedback; /* formation with feedback; NULL if as on the bulk */
+    double q_min, q_max; /* range of the terms with power [rad/m]; 0 without power */
+    double formation;    /* Qf(0) [m/s], duty included */
+    double wear;         /* [m/s], duty included */
+    double power;        /* power per area [W/m^2] */
+    double log_power;    /* ln of the tail at the surface; 0 without power */
+    double log_ratio;    /* ln R; -infinity without power, +infinity without wear */
+    double threshold;    /* ln(U_c Lambda), or ln Lambda of an activated closure */
+    double background;   /* damage rate without load over Lambda [1/s]; 0 if none */
+    double error;        /* relative error of a tail */
+    double wear_error;   /* relative error of the wear if it depends on the power;
+                            else 0 */
     double duty;
-    bool without_errors;
+    bool skip_numerical_errors;
 } layer_rates;
 
-wt_status layer_rates_make(const wt_energy_source *source, const wt_layer_parameters *parameters,
-                           layer_rates *rates, wt_error *err) WT_NODISCARD;
+wt_status layer_rates_compute(const wt_energy_source *source, const wt_layer_parameters *parameters,
+                              layer_rates *rates, wt_error *err) WT_NODISCARD;
 /* Specific wear rate k with the effect of the power [m^2/N]. */
 double layer_wear_rate(const wt_layer_parameters *parameters, double power);
 void layer_rates_clear(layer_rates *rates);
 double rates_log_density(const layer_rates *rates, double depth);
 double rates_log_tail(const layer_rates *rates, double depth);
-double rates_log_gain(const layer_rates *rates, double depth, double length);
-energy_course rates_course(const layer_rates *rates, double depth, double length, double reach);
-double layer_formation(const layer_rates *rates, double thickness); /* Qf */
+double rates_log_integral(const layer_rates *rates, double depth, double length);
+energy_expansion rates_expand(const layer_rates *rates, double depth, double length, double reach);
+double layer_formation_rate(const layer_rates *rates, double thickness); /* Qf */
 /* Local decay rate of Qf, w / int w [1/m]. */
-double layer_decay(const layer_rates *rates, double thickness);
+double layer_decay_rate(const layer_rates *rates, double thickness);
 /* Thickness at which Qf = scale Qw, with its numerical error; 0 if Qf(0) is below. */
 wt_status layer_fixed_point(const layer_rates *rates, double log_scale, wt_estimate *thickness,
                             wt_error *err) WT_NODISCARD;
@@ -59,16 +59,16 @@ typedef struct layer_instant {
 } layer_instant;
 
 /* Rate balance: sets the thickness, but no other member, of the points at n rising times. */
-wt_status layer_march(const layer_rates *rates, double start, const layer_instant *at, size_t n,
-                      wt_error *err) WT_NODISCARD;
+wt_status layer_integrate_thickness(const layer_rates *rates, double start, const layer_instant *at,
+                                    size_t n, wt_error *err) WT_NODISCARD;
 /* Sets the thickness of the points at n times in any order, by damage transport or by the rate
  * balance. */
-wt_status layer_history_in_order(const layer_rates *rates, double start, bool transport,
-                                 const double *time, size_t n, wt_layer_point *points,
-                                 wt_error *err) WT_NODISCARD;
+wt_status layer_history_sorted(const layer_rates *rates, double start, bool transport,
+                               const double *time, size_t n, wt_layer_point *points,
+                               wt_error *err) WT_NODISCARD;
 /* Rate balance: time from one thickness to another on the path to the balance or to the bare
  * surface; infinite if it is not on the path. */
-wt_status layer_march_time(const layer_rates *rates, double start, wt_estimate goal,
-                           wt_estimate *time, wt_error *err) WT_NODISCARD;
+wt_status layer_integrate_time(const layer_rates *rates, double start, wt_estimate goal,
+                               wt_estimate *time, wt_error *err) WT_NODISCARD;
 
 #endif

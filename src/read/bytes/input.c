@@ -60,7 +60,7 @@ static wt_status fail_io(const wt_input *in, wt_error *err, int number, const ch
 
 /* Opens a file without blocking, since a named pipe may never get a writer. An anonymous pipe, such
  * as that of a shell's <(...), is accepted. */
-static wt_status open_file(wt_input *in, const char *path, struct stat *info, wt_error *err)
+static wt_status open_input_file(wt_input *in, const char *path, struct stat *info, wt_error *err)
 {
     struct statfs system;
     in->fd = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
@@ -80,7 +80,7 @@ static wt_status open_file(wt_input *in, const char *path, struct stat *info, wt
     return WT_OK;
 }
 
-static wt_status open_standard(wt_input *in, struct stat *info, wt_error *err)
+static wt_status open_standard_input(wt_input *in, struct stat *info, wt_error *err)
 {
     /* The descriptor is duplicated, so that standard input stays open when the input is closed. */
     in->fd = fcntl(STDIN_FILENO, F_DUPFD_CLOEXEC, 0);
@@ -99,7 +99,7 @@ wt_status wt_input_open(const char *path, wt_input **input, wt_error *err)
         return status;
     const bool standard = strcmp(path, "-") == 0;
     struct stat st;
-    status = standard ? open_standard(in, &st, err) : open_file(in, path, &st, err);
+    status = standard ? open_standard_input(in, &st, err) : open_input_file(in, path, &st, err);
     if (status == WT_OK)
         status = wt_protect_input(path, err);
     if (status == WT_OK && S_ISDIR(st.st_mode)) {
@@ -135,7 +135,8 @@ wt_status wt_input_open_memory(const void *bytes, size_t length, const char *nam
     return WT_OK;
 }
 
-wt_status input_own(char *bytes, size_t length, const char *name, wt_input **input, wt_error *err)
+wt_status input_from_bytes(char *bytes, size_t length, const char *name, wt_input **input,
+                           wt_error *err)
 {
     wt_input *in = NULL;
     wt_status status = wt_input_open_memory(bytes, length, name, &in, err);
@@ -148,7 +149,7 @@ wt_status input_own(char *bytes, size_t length, const char *name, wt_input **inp
     return WT_OK;
 }
 
-wt_status input_of_file(int file, size_t size, const char *name, wt_input **input, wt_error *err)
+wt_status input_from_file(int file, size_t size, const char *name, wt_input **input, wt_error *err)
 {
     wt_input *in = NULL;
     wt_status status = input_new(name, &in, err);
@@ -167,21 +168,21 @@ wt_status input_of_file(int file, size_t size, const char *name, wt_input **inpu
     return status;
 }
 
-wt_status wt_input_sibling(const wt_input *input, wt_input **beside, wt_error *err)
+wt_status wt_input_sibling(const wt_input *input, wt_input **sibling, wt_error *err)
 {
-    *beside = NULL;
-    if (input->whole || input->expected <= SCRATCH_ABOVE)
+    *sibling = NULL;
+    if (input->whole || input->expected <= SCRATCH_THRESHOLD)
         return WT_OK;
-    wt_status status = input_new(input->name, beside, err);
+    wt_status status = input_new(input->name, sibling, err);
     if (status != WT_OK)
         return status;
-    (*beside)->expected = input->expected;
-    (*beside)->fd = fcntl(input->fd, F_DUPFD_CLOEXEC, 0);
-    if ((*beside)->fd >= 0)
+    (*sibling)->expected = input->expected;
+    (*sibling)->fd = fcntl(input->fd, F_DUPFD_CLOEXEC, 0);
+    if ((*sibling)->fd >= 0)
         return WT_OK;
     status = fail_io(input, err, errno, "cannot be opened once more");
-    wt_input_close(*beside);
-    *beside = NULL;
+    wt_input_close(*sibling);
+    *sibling = NULL;
     return status;
 }
 
@@ -197,7 +198,7 @@ void wt_input_close(wt_input *input)
     free(input);
 }
 
-void input_keep(wt_input *input, wt_input *content)
+void input_attach_content(wt_input *input, wt_input *content)
 {
     wt_input_close(input->content);
     input->content = content;
@@ -215,7 +216,7 @@ const char *wt_input_name(const wt_input *input)
     return input->name;
 }
 
-static wt_status fail_lost(const wt_input *in, wt_error *err)
+static wt_status fail_lost_bytes(const wt_input *in, wt_error *err)
 {
     wt_fail(err, WT_E_IO, "a part of it was lost when it could not be read or kept");
     wt_error_file(err, in->name);
@@ -228,7 +229,7 @@ static wt_status fill_buffer(wt_input *in, size_t want, wt_error *err)
 {
     while (!in->whole && in->length < want) {
         if (in->lost)
-            return fail_lost(in, err);
+            return fail_lost_bytes(in, err);
         if (in->length == in->capacity) {
             size_t capacity = in->capacity > 0   ? in->capacity
                               : in->expected > 0 ? in->expected + 1
@@ -247,10 +248,10 @@ static wt_status fill_buffer(wt_input *in, size_t want, wt_error *err)
             in->bytes = buffer;
             in->capacity = capacity;
         }
-        size_t room = in->capacity - in->length;
-        if (want - in->length < room && room > FIRST_READ)
-            room = want - in->length > FIRST_READ ? want - in->length : FIRST_READ;
-        ssize_t got = read(in->fd, in->buffer + in->length, room);
+        size_t space = in->capacity - in->length;
+        if (want - in->length < space && space > FIRST_READ)
+            space = want - in->length > FIRST_READ ? want - in->length : FIRST_READ;
+        ssize_t got = read(in->fd, in->buffer + in->length, space);
         if (got < 0 && errno == EINTR)
             continue;
         if (got < 0)
@@ -263,12 +264,12 @@ static wt_status fill_buffer(wt_input *in, size_t want, wt_error *err)
 }
 
 /* Copies a large pipe to a file; the bytes read so far stay in the buffer. */
-static wt_status keep_pipe(wt_input *in, wt_error *err)
+static wt_status spool_pipe(wt_input *in, wt_error *err)
 {
     static const size_t step = 4 * FIRST_READ;
-    wt_status status = fill_buffer(in, SCRATCH_ABOVE + 1, err);
+    wt_status status = fill_buffer(in, SCRATCH_THRESHOLD + 1, err);
     if (status == WT_OK && in->lost)
-        status = fail_lost(in, err);
+        status = fail_lost_bytes(in, err);
     if (status != WT_OK || in->whole || in->fd < 0)
         return status;
     const int file = scratch_open();
@@ -307,7 +308,7 @@ static wt_status keep_pipe(wt_input *in, wt_error *err)
 wt_status wt_input_size(wt_input *input, size_t *size, wt_error *err)
 {
     const unsigned char *bytes = NULL;
-    const wt_status status = input->expected == 0 ? keep_pipe(input, err) : WT_OK;
+    const wt_status status = input->expected == 0 ? spool_pipe(input, err) : WT_OK;
     if (status != WT_OK)
         return status;
     if (input->expected > 0 && !input->whole) {
@@ -317,11 +318,11 @@ wt_status wt_input_size(wt_input *input, size_t *size, wt_error *err)
     return wt_input_bytes(input, &bytes, size, err);
 }
 
-wt_status wt_input_at(wt_input *in, size_t from, void *to, size_t n, wt_error *err)
+wt_status wt_input_copy(wt_input *in, size_t from, void *to, size_t n, wt_error *err)
 {
     size_t got = 0;
-    wt_status status = in->expected == 0 ? keep_pipe(in, err) : WT_OK;
-    if (status == WT_OK && in->expected <= SCRATCH_ABOVE)
+    wt_status status = in->expected == 0 ? spool_pipe(in, err) : WT_OK;
+    if (status == WT_OK && in->expected <= SCRATCH_THRESHOLD)
         status = fill_buffer(in, SIZE_MAX, err);
     if (status != WT_OK)
         return status;
@@ -347,7 +348,7 @@ wt_status wt_input_at(wt_input *in, size_t from, void *to, size_t n, wt_error *e
     return WT_E_IO;
 }
 
-wt_status input_hdf5(wt_input *input, hdf5_bytes *bytes, wt_error *err)
+wt_status input_hdf5_bytes(wt_input *input, hdf5_bytes *bytes, wt_error *err)
 {
     *bytes = (hdf5_bytes){.file = -1};
     wt_status status = wt_input_size(input, &bytes->size, err);

@@ -15,7 +15,7 @@ size_t sample_width(sample_type type)
     return widths[type];
 }
 
-WIDE_REGISTERS static bool all_finite(const double *values, size_t n)
+WIDE_REGISTERS static bool samples_are_finite(const double *values, size_t n)
 {
     wide sum = {0.0}, x; /* sum of zeros, or NaN */
     size_t i = 0;
@@ -28,10 +28,10 @@ WIDE_REGISTERS static bool all_finite(const double *values, size_t n)
     return !isnan(simd_sum(&sum));
 }
 
-size_t samples_mend(double *values, size_t n)
+size_t samples_mark_missing(double *values, size_t n)
 {
     size_t missing = 0;
-    if (all_finite(values, n))
+    if (samples_are_finite(values, n))
         return 0;
     for (size_t i = 0; i < n; i++) {
         if (isfinite(values[i]))
@@ -44,16 +44,16 @@ size_t samples_mend(double *values, size_t n)
 
 /* One loop for each type and byte order, so that the choice is made once and not for each
  * sample. */
-#define LOOP(width, number)                                                                        \
+#define DECODE_LOOP(width, number)                                                                 \
     for (size_t i = 0; i < n; i++) {                                                               \
         const unsigned char *b = bytes + (width)*i;                                                \
         values[i] = multiplier * (double)(number) + offset;                                        \
     }
 #define DECODE(width, number, order)                                                               \
     if (big_endian)                                                                                \
-        LOOP(width, number(be##order(b)))                                                          \
+        DECODE_LOOP(width, number(be##order(b)))                                                   \
     else                                                                                           \
-        LOOP(width, number(le##order(b)))                                                          \
+        DECODE_LOOP(width, number(le##order(b)))                                                   \
     break
 
 WIDE_REGISTERS void samples_decode(sample_type type, bool big_endian, const unsigned char *bytes,

@@ -19,7 +19,7 @@ typedef enum sample_type {
 
 size_t sample_width(sample_type type); /* size of a sample [byte] */
 /* Replaces non-finite values by NaN and returns their number. */
-size_t samples_mend(double *values, size_t n);
+size_t samples_mark_missing(double *values, size_t n);
 /* Computes values[i] = multiplier * sample + offset; the values may be non-finite. The caller has
  * checked that the bytes exist. */
 void samples_decode(sample_type type, bool big_endian, const unsigned char *bytes, size_t n,

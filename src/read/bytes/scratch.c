@@ -27,16 +27,16 @@ int scratch_open(void)
 wt_status scratch_write(int file, const void *bytes, size_t n, const char *name, wt_error *err)
 {
     for (size_t done = 0; done < n;) {
-        const ssize_t put = write(file, (const char *)bytes + done, n - done);
-        if (put < 0 && errno == EINTR)
+        const ssize_t written = write(file, (const char *)bytes + done, n - done);
+        if (written < 0 && errno == EINTR)
             continue;
-        if (put < 0) {
+        if (written < 0) {
             wt_fail(err, WT_E_IO, "cannot be kept while it is read: %s", strerror(errno));
             wt_error_file(err, name);
             wt_error_advice(err, "set TMPDIR to a folder with room for all of it, unpacked");
             return WT_E_IO;
         }
-        done += (size_t)put;
+        done += (size_t)written;
     }
     return WT_OK;
 }

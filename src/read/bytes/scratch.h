@@ -9,7 +9,7 @@
 #include "weartrack/read.h"
 
 /* Data up to this size stay in memory, and so does a file that is read in parts [byte]. */
-#define SCRATCH_ABOVE ((size_t)4 * 1024 * 1024)
+#define SCRATCH_THRESHOLD ((size_t)4 * 1024 * 1024)
 
 /* Opens a file in temporary_directory(); -1 if there is no such folder. The caller then uses
  * memory. */

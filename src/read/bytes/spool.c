@@ -8,33 +8,33 @@
 #include <string.h>
 #include <unistd.h>
 
-static wt_status grow_spool(spool *to, size_t n, const char *name, wt_error *err)
+static wt_status reserve_spool(spool *to, size_t n, const char *name, wt_error *err)
 {
-    size_t room = to->room > 0 ? to->room : 1 << 16;
-    while (room - to->length < n) {
-        if (room > SIZE_MAX / 2) {
+    size_t capacity = to->capacity > 0 ? to->capacity : 1 << 16;
+    while (capacity - to->length < n) {
+        if (capacity > SIZE_MAX / 2) {
             wt_fail(err, WT_E_MEMORY, "input too large");
             wt_error_file(err, name);
             return WT_E_MEMORY;
         }
-        room *= 2;
+        capacity *= 2;
     }
-    unsigned char *const bytes = room > to->room ? realloc(to->bytes, room) : to->bytes;
+    unsigned char *const bytes = capacity > to->capacity ? realloc(to->bytes, capacity) : to->bytes;
     if (bytes == NULL) {
-        wt_fail(err, WT_E_MEMORY, "no memory for %zu bytes of input", room);
+        wt_fail(err, WT_E_MEMORY, "no memory for %zu bytes of input", capacity);
         wt_error_file(err, name);
         return WT_E_MEMORY;
     }
     to->bytes = bytes;
-    to->room = room;
+    to->capacity = capacity;
     return WT_OK;
 }
 
 wt_status spool_add(spool *to, const void *bytes, size_t n, const char *name, wt_error *err)
 {
     wt_status status = WT_OK;
-    if (!to->tried && n > SCRATCH_ABOVE - to->length) {
-        to->tried = true;
+    if (!to->has_tried_file && n > SCRATCH_THRESHOLD - to->length) {
+        to->has_tried_file = true;
         to->file = scratch_open();
         to->has_file = to->file >= 0;
         if (to->has_file)
@@ -42,27 +42,27 @@ wt_status spool_add(spool *to, const void *bytes, size_t n, const char *name, wt
         if (to->has_file) {
             free(to->bytes);
             to->bytes = NULL;
-            to->room = 0;
+            to->capacity = 0;
         }
     }
     if (status == WT_OK && to->has_file)
         status = scratch_write(to->file, bytes, n, name, err);
-    else if (status == WT_OK && (status = grow_spool(to, n, name, err)) == WT_OK && n > 0)
+    else if (status == WT_OK && (status = reserve_spool(to, n, name, err)) == WT_OK && n > 0)
         memcpy(to->bytes + to->length, bytes, n);
     to->length += status == WT_OK ? n : 0;
     return status;
 }
 
-wt_status spool_input(spool *from, const char *name, wt_input **input, wt_error *err)
+wt_status spool_to_input(spool *from, const char *name, wt_input **input, wt_error *err)
 {
-    const wt_status status = from->has_file
-                                 ? input_of_file(from->file, from->length, name, input, err)
-                                 : input_own((char *)from->bytes, from->length, name, input, err);
+    const wt_status status =
+        from->has_file ? input_from_file(from->file, from->length, name, input, err)
+                       : input_from_bytes((char *)from->bytes, from->length, name, input, err);
     *from = (spool){0};
     return status;
 }
 
-void spool_drop(spool *from)
+void spool_discard(spool *from)
 {
     if (from->has_file)
         (void)close(from->file);

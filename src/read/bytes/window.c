@@ -9,13 +9,13 @@
 #include <string.h>
 
 /* Minimum number of bytes read at once. */
-#define AHEAD ((size_t)64 * 1024)
+#define READ_AHEAD ((size_t)64 * 1024)
 
 wt_status window_open(input_window *w, wt_input *input, wt_error *err)
 {
     *w = (input_window){.input = input};
     const wt_status status = wt_input_size(input, &w->size, err);
-    return status == WT_OK && w->size <= SCRATCH_ABOVE
+    return status == WT_OK && w->size <= SCRATCH_THRESHOLD
                ? wt_input_bytes(input, &w->all, &w->size, err)
                : status;
 }
@@ -31,26 +31,26 @@ wt_status windows_open(input_window **windows, size_t n, wt_input *input, wt_err
     return status;
 }
 
-static bool make_room(input_window *w, size_t n)
+static bool reserve_window(input_window *w, size_t n)
 {
-    if (n <= w->room)
+    if (n <= w->capacity)
         return true;
     unsigned char *const bytes = realloc(w->bytes, n);
     if (bytes == NULL)
         return false;
     w->bytes = bytes;
-    w->room = n;
+    w->capacity = n;
     return true;
 }
 
 static wt_status fill_window(input_window *w, size_t at, size_t n, wt_error *err)
 {
-    const size_t left = w->size - at, more = n > AHEAD ? n : AHEAD;
+    const size_t left = w->size - at, more = n > READ_AHEAD ? n : READ_AHEAD;
     const size_t read = more < left ? more : left;
     w->n = 0;
-    if (!make_room(w, read))
+    if (!reserve_window(w, read))
         return wt_fail(err, WT_E_MEMORY, "no memory for a curve");
-    const wt_status status = wt_input_at(w->input, at, w->bytes, read, err);
+    const wt_status status = wt_input_copy(w->input, at, w->bytes, read, err);
     w->from = at;
     w->n = status == WT_OK ? read : 0;
     return status;
@@ -79,17 +79,17 @@ void window_close(input_window *w)
     *w = (input_window){0};
 }
 
-bool input_has(wt_input *input, const char *words)
+bool input_contains(wt_input *input, const char *text)
 {
-    const size_t length = strlen(words);
+    const size_t length = strlen(text);
     input_window w;
     bool found = false;
     wt_status status = window_open(&w, input, NULL);
     for (size_t at = 0; status == WT_OK && !found && w.size - at >= length;) {
         const unsigned char *bytes = NULL;
-        const size_t left = w.size - at, n = left < AHEAD ? left : AHEAD;
+        const size_t left = w.size - at, n = left < READ_AHEAD ? left : READ_AHEAD;
         status = window_bytes(&w, at, n, &bytes, NULL);
-        found = status == WT_OK && memmem(bytes, n, words, length) != NULL;
+        found = status == WT_OK && memmem(bytes, n, text, length) != NULL;
         at += n - length + 1; /* a match may cross the boundary of two pieces */
     }
     window_close(&w);

@@ -13,7 +13,7 @@ typedef struct input_window {
     size_t size;              /* size of the input */
     const unsigned char *all; /* bytes of an input that is in memory anyway, or NULL */
     unsigned char *bytes;     /* [n] bytes from offset `from` */
-    size_t from, n, room;
+    size_t from, n, capacity;
 } input_window;
 
 wt_status window_open(input_window *window, wt_input *input, wt_error *err);
@@ -26,6 +26,6 @@ wt_status window_bytes(input_window *window, size_t at, size_t n, const unsigned
 void window_close(input_window *window);
 
 /* True if the input contains this text; false if it cannot be read. */
-bool input_has(wt_input *input, const char *words);
+bool input_contains(wt_input *input, const char *text);
 
 #endif

@@ -29,7 +29,7 @@
 /* Maximum size of all names [byte]. */
 #define NAMES_MAX ((1u << 30) - 1)
 /* The directory is read in pieces of this size [byte]; no record is longer. */
-#define PIECE ((size_t)256 * 1024)
+#define DIRECTORY_PIECE ((size_t)256 * 1024)
 #define FLAG_ENCRYPTED 1u
 
 enum archive_packing { STORED, DEFLATED, ENCRYPTED, UNKNOWN };
@@ -41,13 +41,13 @@ struct zip_entry {
 };
 
 /* The position of the directory. */
-typedef struct directory {
+typedef struct zip_directory {
     wt_input *input;
     uint64_t offset, size, n;
     bool wide; /* true if n counts all records; else n has 16 bits and may overflow */
-} directory;
+} zip_directory;
 
-static wt_status damaged(wt_error *err, const char *found)
+static wt_status fail_archive(wt_error *err, const char *found)
 {
     (void)wt_fail(err, WT_E_CORRUPT, "the ZIP archive cannot be opened");
     wt_error_found(err, "%s", found);
@@ -58,20 +58,20 @@ static wt_status damaged(wt_error *err, const char *found)
 /* ---- the directory ------------------------------------------------------------------------ */
 
 /* Reads the end record of a large archive. *d is unchanged if there is none. */
-static wt_status find_end64(const zip_archive *a, size_t end, directory *d, wt_error *err)
+static wt_status find_end64(const zip_archive *a, size_t end, zip_directory *d, wt_error *err)
 {
     unsigned char record[END64_SIZE];
     if (end < LOCATOR64_SIZE)
         return WT_OK;
-    wt_status status = wt_input_at(a->input, end - LOCATOR64_SIZE, record, LOCATOR64_SIZE, err);
+    wt_status status = wt_input_copy(a->input, end - LOCATOR64_SIZE, record, LOCATOR64_SIZE, err);
     if (status != WT_OK || le32(record) != 0x07064b50)
         return status;
     const uint64_t at = le64(record + 8);
     if (at > end - LOCATOR64_SIZE || end - LOCATOR64_SIZE - at < END64_SIZE)
-        return damaged(err, "a directory outside of the file");
-    status = wt_input_at(a->input, (size_t)at, record, END64_SIZE, err);
+        return fail_archive(err, "a directory outside of the file");
+    status = wt_input_copy(a->input, (size_t)at, record, END64_SIZE, err);
     if (status == WT_OK && le32(record) != 0x06064b50)
-        return damaged(err, "no end of the directory");
+        return fail_archive(err, "no end of the directory");
     d->n = le64(record + 32);
     d->size = le64(record + 40);
     d->offset = le64(record + 48);
@@ -81,24 +81,24 @@ static wt_status find_end64(const zip_archive *a, size_t end, directory *d, wt_e
 
 /* Finds the directory. WT_E_CORRUPT if the file has none, for instance because it is truncated.
  * Bytes after its end, which a block-wise copy leaves, are ignored. */
-static wt_status find_directory(zip_archive *a, directory *d, wt_error *err)
+static wt_status find_directory(zip_archive *a, zip_directory *d, wt_error *err)
 {
     const size_t length = a->length;
     const size_t n = length < END_SIZE + COMMENT_MAX ? length : END_SIZE + COMMENT_MAX;
     unsigned char *const last = malloc(n + 1);
     if (last == NULL)
         return wt_fail(err, WT_E_MEMORY, "no memory for the archive");
-    wt_status status = wt_input_at(a->input, length - n, last, n, err);
+    wt_status status = wt_input_copy(a->input, length - n, last, n, err);
     size_t at = n < END_SIZE ? 0 : n - END_SIZE + 1;
     while (status == WT_OK && at > 0 &&
            (le32(last + at - 1) != 0x06054b50 || le16(last + at + 19) > n - (at - 1) - END_SIZE))
         at--;
     if (status == WT_OK && at == 0) {
-        a->odd = "the end of the archive is missing";
-        status = damaged(err, "no directory at its end");
+        a->defect = "the end of the archive is missing";
+        status = fail_archive(err, "no directory at its end");
     } else if (status == WT_OK) {
         const unsigned char *const end = last + at - 1;
-        *d = (directory){a->input, le32(end + 16), le32(end + 12), le16(end + 10), false};
+        *d = (zip_directory){a->input, le32(end + 16), le32(end + 12), le16(end + 10), false};
         if (d->n == UINT16_MAX || d->size == UINT32_MAX || d->offset == UINT32_MAX)
             status = find_end64(a, length - n + at - 1, d, err);
     }
@@ -106,14 +106,14 @@ static wt_status find_directory(zip_archive *a, directory *d, wt_error *err)
     if (status == WT_OK &&
         (d->offset > length || d->size > length - d->offset || d->n > d->size / CENTRAL_SIZE ||
          d->size / CENTRAL_SIZE > UINT32_MAX / 2))
-        return damaged(err, "a directory outside of the file");
+        return fail_archive(err, "a directory outside of the file");
     return status;
 }
 
 /* Reads the sizes and offsets that exceed 32 bits from the extra field. The field contains only
  * those. */
-static bool read_extra(const unsigned char *extra, size_t length, uint64_t *size, uint64_t *packed,
-                       uint64_t *offset)
+static bool read_zip64_extra(const unsigned char *extra, size_t length, uint64_t *size,
+                             uint64_t *packed, uint64_t *offset)
 {
     uint64_t *const wide[] = {size, packed, offset};
     for (size_t at = 0; at + 4 <= length;) {
@@ -134,17 +134,17 @@ static bool read_extra(const unsigned char *extra, size_t length, uint64_t *size
     return true;
 }
 
-static wt_status take_name(zip_archive *a, const unsigned char *name, size_t length, wt_error *err)
+static wt_status store_name(zip_archive *a, const unsigned char *name, size_t length, wt_error *err)
 {
     /* The name ends at its first zero byte, as for every C function. */
     const size_t n = strnlen((const char *)name, length);
-    if (a->names_length + n + 1 > a->names_room) {
-        const size_t room = 2 * a->names_room + n + 4096;
-        char *const names = room < NAMES_MAX ? realloc(a->names, room) : NULL;
+    if (a->names_length + n + 1 > a->names_capacity) {
+        const size_t new_size = 2 * a->names_capacity + n + 4096;
+        char *const names = new_size < NAMES_MAX ? realloc(a->names, new_size) : NULL;
         if (names == NULL)
             return wt_fail(err, WT_E_MEMORY, "no memory for the archive");
         a->names = names;
-        a->names_room = room;
+        a->names_capacity = new_size;
     }
     memcpy(a->names + a->names_length, name, n);
     a->names[a->names_length + n] = '\0';
@@ -152,7 +152,7 @@ static wt_status take_name(zip_archive *a, const unsigned char *name, size_t len
     return WT_OK;
 }
 
-static unsigned packing_of(unsigned flags, unsigned method)
+static unsigned entry_packing(unsigned flags, unsigned method)
 {
     return (flags & FLAG_ENCRYPTED) != 0 ? ENCRYPTED
            : method == 0                 ? STORED
@@ -160,12 +160,13 @@ static unsigned packing_of(unsigned flags, unsigned method)
                                          : UNKNOWN;
 }
 
-static wt_status take_record(zip_archive *a, const unsigned char *r, size_t name, size_t extra,
-                             wt_error *err)
+static wt_status store_record(zip_archive *a, const unsigned char *r, size_t name, size_t extra,
+                              wt_error *err)
 {
     uint64_t size = le32(r + 24), packed = le32(r + 20), offset = le32(r + 42);
-    if (!read_extra(r + CENTRAL_SIZE + name, extra, &size, &packed, &offset) || offset > a->length)
-        return damaged(err, "an entry outside of the file");
+    if (!read_zip64_extra(r + CENTRAL_SIZE + name, extra, &size, &packed, &offset) ||
+        offset > a->length)
+        return fail_archive(err, "an entry outside of the file");
     if (size > UINT32_MAX || packed > UINT32_MAX)
         size = packed = UINT32_MAX;
     a->entries[a->n] = (zip_entry){.offset = offset,
@@ -173,25 +174,25 @@ static wt_status take_record(zip_archive *a, const unsigned char *r, size_t name
                                    .size = (uint32_t)size,
                                    .sum = le32(r + 16),
                                    .name = (unsigned)a->names_length & NAMES_MAX,
-                                   .packing = packing_of(le16(r + 8), le16(r + 10)) & 3u};
-    const wt_status status = take_name(a, r + CENTRAL_SIZE, name, err);
+                                   .packing = entry_packing(le16(r + 8), le16(r + 10)) & 3u};
+    const wt_status status = store_name(a, r + CENTRAL_SIZE, name, err);
     a->n += status == WT_OK;
     return status;
 }
 
 /* True if the number of records agrees with the directory. */
-static bool all_read(const zip_archive *a, const directory *d)
+static bool has_all_records(const zip_archive *a, const zip_directory *d)
 {
     return d->wide ? a->n == d->n : a->n % (UINT16_MAX + 1) == d->n;
 }
 
 /* Reads all records of the directory, whatever count it states. */
-static wt_status read_directory(zip_archive *a, const directory *d, wt_error *err)
+static wt_status read_directory(zip_archive *a, const zip_directory *d, wt_error *err)
 {
     wt_status status = WT_OK;
     uint64_t at = 0;
     bool ended = false;
-    unsigned char *const piece = malloc(PIECE);
+    unsigned char *const piece = malloc(DIRECTORY_PIECE);
     a->entries = calloc((size_t)(d->size / CENTRAL_SIZE) + 1, sizeof *a->entries);
     if (piece == NULL || a->entries == NULL)
         status = wt_fail(err, WT_E_MEMORY, "no memory for the archive");
@@ -206,33 +207,33 @@ static wt_status read_directory(zip_archive *a, const directory *d, wt_error *er
             ended = true;
         } else if (left < whole) {
             at += used;
-            n = d->size - at < PIECE ? (size_t)(d->size - at) : PIECE;
+            n = d->size - at < DIRECTORY_PIECE ? (size_t)(d->size - at) : DIRECTORY_PIECE;
             used = 0;
-            status = wt_input_at(d->input, (size_t)(d->offset + at), piece, n, err);
+            status = wt_input_copy(d->input, (size_t)(d->offset + at), piece, n, err);
         } else if (le32(r) != 0x02014b50) {
             ended = true; /* a signature may follow the records */
         } else {
-            status = take_record(a, r, name, extra, err);
+            status = store_record(a, r, name, extra, err);
             used += whole;
         }
     }
     free(piece);
-    if (status == WT_OK && !all_read(a, d))
-        return damaged(err, "a directory that is damaged or cut off");
+    if (status == WT_OK && !has_all_records(a, d))
+        return fail_archive(err, "a directory that is damaged or cut off");
     return status;
 }
 
 /* Opens the complete entries of an archive whose end is missing. */
-static wt_status rebuild(zip_archive *a, wt_error *err)
+static wt_status rebuild_entries(zip_archive *a, wt_error *err)
 {
     const unsigned char *bytes = NULL;
     unsigned char *made = NULL;
     size_t length = 0;
-    directory d = {.wide = true};
+    zip_directory d = {.wide = true};
     wt_error ignored = WT_ERROR_INIT;
     wt_status status = wt_input_bytes(a->input, &bytes, &length, err);
     if (status == WT_OK)
-        status = archive_rebuild(bytes, length, &made, &d.size, &d.n, err);
+        status = archive_rebuild_directory(bytes, length, &made, &d.size, &d.n, err);
     if (status == WT_OK && d.n == 0)
         status = WT_E_CORRUPT; /* the missing directory is reported already */
     if (status == WT_OK)
@@ -252,7 +253,7 @@ const char *archive_name(const zip_archive *archive, size_t i)
 }
 
 /* Returns the slot of a name, or the free slot where it belongs. */
-static size_t place_of(const zip_archive *a, const char *name)
+static size_t name_slot(const zip_archive *a, const char *name)
 {
     uint64_t hash = a->seed, word;
     for (size_t n = strlen(name), i = 0; i < n; i += sizeof word) {
@@ -260,37 +261,37 @@ static size_t place_of(const zip_archive *a, const char *name)
         memcpy(&word, name + i, n - i < sizeof word ? n - i : sizeof word);
         hash = splitmix64(hash ^ word);
     }
-    size_t at = (size_t)hash & (a->n_places - 1);
-    while (a->places[at] != 0 && strcmp(archive_name(a, a->places[at] - 1), name) != 0)
-        at = (at + 1) & (a->n_places - 1);
+    size_t at = (size_t)hash & (a->n_name_slots - 1);
+    while (a->slots[at] != 0 && strcmp(archive_name(a, a->slots[at] - 1), name) != 0)
+        at = (at + 1) & (a->n_name_slots - 1);
     return at;
 }
 
-static wt_status place_names(zip_archive *a, wt_error *err)
+static wt_status index_names(zip_archive *a, wt_error *err)
 {
     /* A random seed: names chosen to collide would cost quadratic time. */
     if (getrandom(&a->seed, sizeof a->seed, GRND_NONBLOCK) != (ssize_t)sizeof a->seed)
         a->seed = (uint64_t)(uintptr_t)a;
-    a->n_places = 16;
-    while (a->n_places < 2 * a->n)
-        a->n_places *= 2;
-    a->places = calloc(a->n_places, sizeof *a->places);
-    if (a->places == NULL)
+    a->n_name_slots = 16;
+    while (a->n_name_slots < 2 * a->n)
+        a->n_name_slots *= 2;
+    a->slots = calloc(a->n_name_slots, sizeof *a->slots);
+    if (a->slots == NULL)
         return wt_fail(err, WT_E_MEMORY, "no memory for the names of the archive");
     for (size_t k = 0; k < a->n; k++) {
-        const size_t at = place_of(a, archive_name(a, k));
-        if (a->places[at] == 0)
-            a->places[at] = (uint32_t)k + 1; /* of equal names the first counts */
+        const size_t at = name_slot(a, archive_name(a, k));
+        if (a->slots[at] == 0)
+            a->slots[at] = (uint32_t)k + 1; /* of equal names the first counts */
     }
     return WT_OK;
 }
 
 bool archive_find(const zip_archive *archive, const char *name, size_t *i)
 {
-    const size_t at = place_of(archive, name);
-    if (archive->places[at] == 0)
+    const size_t at = name_slot(archive, name);
+    if (archive->slots[at] == 0)
         return false;
-    *i = archive->places[at] - 1;
+    *i = archive->slots[at] - 1;
     return true;
 }
 
@@ -298,7 +299,7 @@ bool archive_find(const zip_archive *archive, const char *name, size_t *i)
 
 wt_status archive_open(wt_input *input, zip_archive **archive, wt_error *err)
 {
-    directory d;
+    zip_directory d;
     zip_archive *const a = calloc(1, sizeof *a);
     if (a == NULL)
         return wt_fail(err, WT_E_MEMORY, "no memory for the archive");
@@ -310,17 +311,17 @@ wt_status archive_open(wt_input *input, zip_archive **archive, wt_error *err)
     if (status == WT_OK)
         status = read_directory(a, &d, err);
     if (status == WT_E_CORRUPT) {
-        if (a->odd == NULL)
-            a->odd = "the directory of the archive is damaged";
+        if (a->defect == NULL)
+            a->defect = "the directory of the archive is damaged";
         a->n = a->names_length = 0;
         free(a->entries);
         a->entries = NULL;
-        status = rebuild(a, err);
+        status = rebuild_entries(a, err);
     }
     if (status == WT_OK && a->n == 0)
         status = wt_fail(err, WT_E_CORRUPT, "the ZIP archive is empty");
     if (status == WT_OK)
-        status = place_names(a, err);
+        status = index_names(a, err);
     if (status == WT_OK)
         *archive = a;
     else
@@ -336,13 +337,13 @@ void archive_close(zip_archive *archive)
     window_close(&archive->window);
     free(archive->entries);
     free(archive->names);
-    free(archive->places);
+    free(archive->slots);
     free(archive);
 }
 
 /* ---- entries ------------------------------------------------------------------------------ */
 
-static wt_status entry_fail(const zip_archive *archive, size_t i, wt_error *err, wt_status status,
+static wt_status fail_entry(const zip_archive *archive, size_t i, wt_error *err, wt_status status,
                             const char *message)
 {
     wt_fail(err, status, "%s", message);
@@ -354,14 +355,14 @@ wt_status archive_size(const zip_archive *archive, size_t i, size_t *size, wt_er
 {
     const zip_entry *const e = &archive->entries[i];
     if (e->packing == ENCRYPTED)
-        return entry_fail(archive, i, err, WT_E_UNSUPPORTED, "archive entry is encrypted");
+        return fail_entry(archive, i, err, WT_E_UNSUPPORTED, "archive entry is encrypted");
     if (e->packing == UNKNOWN)
-        return entry_fail(archive, i, err, WT_E_UNSUPPORTED,
+        return fail_entry(archive, i, err, WT_E_UNSUPPORTED,
                           "archive entry is packed by another method than deflate");
     if (e->size == UINT32_MAX)
-        return entry_fail(archive, i, err, WT_E_UNSUPPORTED, "archive entry has 4 GiB or more");
+        return fail_entry(archive, i, err, WT_E_UNSUPPORTED, "archive entry has 4 GiB or more");
     if (e->size > (uint64_t)e->packed * MAX_RATIO + RATIO_SLACK) {
-        entry_fail(archive, i, err, WT_E_CORRUPT, "archive entry declares an impossible size");
+        fail_entry(archive, i, err, WT_E_CORRUPT, "archive entry declares an impossible size");
         wt_error_found(err, "%u bytes out of %u", (unsigned)e->size, (unsigned)e->packed);
         return WT_E_CORRUPT;
     }
@@ -369,7 +370,7 @@ wt_status archive_size(const zip_archive *archive, size_t i, size_t *size, wt_er
     return WT_OK;
 }
 
-static bool make_room(byte_buffer *buffer, size_t size)
+static bool reserve_buffer(byte_buffer *buffer, size_t size)
 {
     if (size <= buffer->capacity)
         return true;
@@ -389,36 +390,36 @@ static wt_status read_packed(zip_archive *a, size_t i, const unsigned char **pac
     const size_t offset = (size_t)e->offset, left = a->length - offset;
     const size_t whole = LOCAL_SIZE + strlen(archive_name(a, i)) + e->packed; /* header estimate */
     if (left < LOCAL_SIZE)
-        return entry_fail(a, i, err, WT_E_CORRUPT, "archive entry lies outside of the file");
+        return fail_entry(a, i, err, WT_E_CORRUPT, "archive entry lies outside of the file");
     wt_status status = window_bytes(&a->window, offset, whole < left ? whole : left, packed, err);
     if (status != WT_OK)
         return status;
     if (le32(*packed) != 0x04034b50)
-        return entry_fail(a, i, err, WT_E_CORRUPT, "archive entry cannot be opened");
+        return fail_entry(a, i, err, WT_E_CORRUPT, "archive entry cannot be opened");
     const size_t start = LOCAL_SIZE + (size_t)le16(*packed + 26) + (size_t)le16(*packed + 28);
     if (start > left || e->packed > left - start)
-        return entry_fail(a, i, err, WT_E_CORRUPT, "archive entry lies outside of the file");
+        return fail_entry(a, i, err, WT_E_CORRUPT, "archive entry lies outside of the file");
     return window_bytes(&a->window, offset + start, e->packed, packed, err);
 }
 
-static wt_status unpack(zip_archive *a, size_t i, const unsigned char *packed, byte_buffer *buffer,
-                        wt_error *err)
+static wt_status inflate_entry(zip_archive *a, size_t i, const unsigned char *packed,
+                               byte_buffer *buffer, wt_error *err)
 {
     const zip_entry *const e = &a->entries[i];
     if (a->unpacker == NULL && (a->unpacker = libdeflate_alloc_decompressor()) == NULL)
-        return entry_fail(a, i, err, WT_E_MEMORY, "no memory for an archive entry");
+        return fail_entry(a, i, err, WT_E_MEMORY, "no memory for an archive entry");
     switch (libdeflate_deflate_decompress(a->unpacker, packed, e->packed, buffer->data, e->size,
                                           NULL)) {
     case LIBDEFLATE_SUCCESS:
         return WT_OK;
     case LIBDEFLATE_SHORT_OUTPUT:
     case LIBDEFLATE_INSUFFICIENT_SPACE:
-        return entry_fail(a, i, err, WT_E_CORRUPT,
+        return fail_entry(a, i, err, WT_E_CORRUPT,
                           "archive entry is not of the size that it declares");
     case LIBDEFLATE_BAD_DATA:
         break;
     }
-    return entry_fail(a, i, err, WT_E_CORRUPT, "archive entry cannot be unpacked");
+    return fail_entry(a, i, err, WT_E_CORRUPT, "archive entry cannot be unpacked");
 }
 
 wt_status archive_read(zip_archive *archive, size_t i, size_t limit, byte_buffer *buffer,
@@ -431,23 +432,23 @@ wt_status archive_read(zip_archive *archive, size_t i, size_t limit, byte_buffer
     if (status != WT_OK)
         return status;
     if (size > limit) {
-        entry_fail(archive, i, err, WT_E_CORRUPT, "archive entry is too large for what it is");
+        fail_entry(archive, i, err, WT_E_CORRUPT, "archive entry is too large for what it is");
         wt_error_expected(err, "at most %zu bytes", limit);
         wt_error_found(err, "%zu bytes", size);
         return WT_E_CORRUPT;
     }
     if (e->packing == STORED && e->packed != e->size)
-        return entry_fail(archive, i, err, WT_E_CORRUPT,
+        return fail_entry(archive, i, err, WT_E_CORRUPT,
                           "archive entry is not of the size that it declares");
-    if (!make_room(buffer, size + 1))
-        return entry_fail(archive, i, err, WT_E_MEMORY, "no memory for an archive entry");
+    if (!reserve_buffer(buffer, size + 1))
+        return fail_entry(archive, i, err, WT_E_MEMORY, "no memory for an archive entry");
     status = read_packed(archive, i, &packed, err);
     if (status == WT_OK && e->packing == STORED)
         memcpy(buffer->data, packed, size);
     else if (status == WT_OK)
-        status = unpack(archive, i, packed, buffer, err);
+        status = inflate_entry(archive, i, packed, buffer, err);
     if (status == WT_OK && libdeflate_crc32(0, buffer->data, size) != e->sum) {
-        entry_fail(archive, i, err, WT_E_CORRUPT, "archive entry cannot be unpacked");
+        fail_entry(archive, i, err, WT_E_CORRUPT, "archive entry cannot be unpacked");
         wt_error_found(err, "a checksum that does not agree");
         return WT_E_CORRUPT;
     }

@@ -20,12 +20,12 @@ typedef struct zip_archive {
     size_t length;      /* size of the file */
     zip_entry *entries; /* [n] */
     size_t n;
-    const char *odd; /* reason why only complete entries are listed, or NULL */
-    char *names;     /* concatenated names, each with its terminating zero */
-    size_t names_length, names_room;
+    const char *defect; /* reason why only complete entries are listed, or NULL */
+    char *names;        /* concatenated names, each with its terminating zero */
+    size_t names_length, names_capacity;
     uint64_t seed;
-    uint32_t *places; /* [n_places] hash table of the names: entry + 1 */
-    size_t n_places;
+    uint32_t *slots; /* [n_name_slots] hash table of the names: entry + 1 */
+    size_t n_name_slots;
     input_window window;
     struct libdeflate_decompressor *unpacker; /* NULL before the first entry is unpacked */
 } zip_archive;
@@ -46,7 +46,8 @@ wt_status archive_read(zip_archive *archive, size_t i, size_t limit, byte_buffer
 
 /* Builds the directory of the complete entries at the beginning of `bytes`, as it would follow
  * them. *n is 0 if none is complete. The caller frees *directory. */
-wt_status archive_rebuild(const unsigned char *bytes, size_t length, unsigned char **directory,
-                          uint64_t *directory_length, uint64_t *n, wt_error *err) WT_NODISCARD;
+wt_status archive_rebuild_directory(const unsigned char *bytes, size_t length,
+                                    unsigned char **directory, uint64_t *directory_length,
+                                    uint64_t *n, wt_error *err) WT_NODISCARD;
 
 #endif

@@ -17,7 +17,7 @@ void description_free(text_description *d)
     for (line_pattern *pattern = d->patterns; pattern != NULL; pattern = pattern->next)
         regfree(&pattern->regex);
     for (size_t i = 0; i < DESCRIPTION_EXTENTS; i++)
-        description_free(d->more[i]);
+        description_free(d->loaded[i]);
     arena_free(&d->memory);
     free(d);
 }
@@ -39,9 +39,9 @@ bool description_find_name(const text_description *d, const char *name, size_t *
     return *n > 0;
 }
 
-header_value header_of(wt_quantity quantity, field_sets sets)
+header_value find_header_value(wt_quantity quantity, field_sets sets)
 {
-    static const wt_quantity held[HEADER_VALUE_FACTOR] = {
+    static const wt_quantity quantities[HEADER_VALUE_FACTOR] = {
         [HEADER_TEMPERATURE] = WT_Q_TEMPERATURE, [HEADER_SPRING_CONSTANT] = WT_Q_SPRING_CONSTANT,
         [HEADER_SENSITIVITY] = WT_Q_SENSITIVITY, [HEADER_POSITION_X] = WT_Q_POSITION_X,
         [HEADER_POSITION_Y] = WT_Q_POSITION_Y,   [HEADER_VELOCITY] = WT_Q_VELOCITY,
@@ -52,7 +52,7 @@ header_value header_of(wt_quantity quantity, field_sets sets)
         return quantity == WT_Q_LENGTH
                    ? (header_value)(HEADER_VALUE_FACTOR + (sets - FIELD_SETS_VALUE_FACTOR))
                    : HEADER_COUNT;
-    while (value < HEADER_VALUE_FACTOR && held[value] != quantity)
+    while (value < HEADER_VALUE_FACTOR && quantities[value] != quantity)
         value++;
     return value < HEADER_VALUE_FACTOR ? value : HEADER_COUNT;
 }
@@ -73,7 +73,7 @@ text_span pattern_group(text_span line, regmatch_t group)
     return (text_span){line.text + group.rm_so, (size_t)(group.rm_eo - group.rm_so)};
 }
 
-bool pattern_part(const line_pattern *pattern, text_span *line)
+bool pattern_extract(const line_pattern *pattern, text_span *line)
 {
     regmatch_t groups[2] = {{-1, -1}, {-1, -1}};
     if (!pattern_match(pattern, *line, groups, 2) || groups[1].rm_so < 0)
@@ -89,9 +89,9 @@ bool pattern_part(const line_pattern *pattern, text_span *line)
 /* A kind of data requires one quantity of each group of a row. */
 static const struct {
     unsigned kind;
-    const char *name, *words;
+    const char *name, *required_columns;
     wt_quantity_set groups[3];
-} needs[] = {
+} requirements[] = {
     {WT_KIND_FORCE,
      "force",
      "columns of height and of force or deflection",
@@ -135,43 +135,43 @@ static const struct {
      "columns of time, distance or laps, and of friction force or coefficient",
      {Q(TIME) | Q(SLIDING_DISTANCE) | Q(LAPS), Q(FRICTION_COEFFICIENT) | Q(FRICTION_FORCE)}},
 };
-enum { N_NEEDS = sizeof needs / sizeof *needs, N_GROUPS = 3 };
+enum { N_REQUIREMENTS = sizeof requirements / sizeof *requirements, N_REQUIRED_GROUPS = 3 };
 
 bool quantities_suffice(wt_quantity_set set, unsigned kinds)
 {
-    for (size_t i = 0; i < N_NEEDS; i++) {
-        bool all = (needs[i].kind & kinds) != 0;
-        for (size_t g = 0; g < N_GROUPS; g++)
-            all = all && (needs[i].groups[g] == 0 || (needs[i].groups[g] & set) != 0);
+    for (size_t i = 0; i < N_REQUIREMENTS; i++) {
+        bool all = (requirements[i].kind & kinds) != 0;
+        for (size_t g = 0; g < N_REQUIRED_GROUPS; g++)
+            all = all && (requirements[i].groups[g] == 0 || (requirements[i].groups[g] & set) != 0);
         if (all)
             return true;
     }
     return false;
 }
 
-wt_quantity_set quantities_of(unsigned kind)
+wt_quantity_set kind_quantities(unsigned kind)
 {
     wt_quantity_set set = 0;
-    for (size_t i = 0; i < N_NEEDS; i++)
-        for (size_t g = 0; g < N_GROUPS && needs[i].kind == kind; g++)
-            set |= needs[i].groups[g];
+    for (size_t i = 0; i < N_REQUIREMENTS; i++)
+        for (size_t g = 0; g < N_REQUIRED_GROUPS && requirements[i].kind == kind; g++)
+            set |= requirements[i].groups[g];
     return set;
 }
 
-static size_t kind_number(unsigned kind)
+static size_t kind_index(unsigned kind)
 {
     size_t i = 0;
-    while (i + 1 < N_NEEDS && needs[i].kind != kind)
+    while (i + 1 < N_REQUIREMENTS && requirements[i].kind != kind)
         i++;
     return i;
 }
 
-const char *quantities_needed(unsigned kind)
+const char *describe_required_columns(unsigned kind)
 {
-    return needs[kind_number(kind)].words;
+    return requirements[kind_index(kind)].required_columns;
 }
 
 const char *kind_name(unsigned kind)
 {
-    return needs[kind_number(kind)].name;
+    return requirements[kind_index(kind)].name;
 }

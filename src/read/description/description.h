@@ -14,7 +14,7 @@
 
 /* A longer line is not compared with regular expressions, which limits their cost. */
 #define PATTERN_LINE_MAX ((size_t)16384)
-#define NAME_LONGEST ((size_t)128) /* size of a normalised name [byte] */
+#define COLUMN_NAME_SIZE ((size_t)128) /* size of a normalised name [byte] */
 
 /* A part of a text; borrowed. */
 typedef struct text_span {
@@ -39,13 +39,13 @@ typedef enum cell_separator {
     SEPARATOR_FIXED
 } cell_separator;
 
-typedef enum units_where {
+typedef enum units_location {
     UNITS_ROW,
     UNITS_NAME,
     UNITS_NAME_OR_ROW,
     UNITS_LINE,
     UNITS_NONE
-} units_where;
+} units_location;
 
 typedef struct line_pattern {
     regex_t regex;
@@ -58,7 +58,7 @@ typedef struct line_pattern {
  * empty group. A zero byte ends the line. */
 bool pattern_match(const line_pattern *pattern, text_span line, regmatch_t *groups, size_t n);
 /* Shortens the line to the match of group 1; false if there is no match or the group is empty. */
-bool pattern_part(const line_pattern *pattern, text_span *line);
+bool pattern_extract(const line_pattern *pattern, text_span *line);
 text_span pattern_group(text_span line, regmatch_t group);
 
 typedef enum probe_kind { PROBE_REQUIRE, PROBE_HINT, PROBE_FORBID, PROBE_NAMES } probe_kind;
@@ -106,9 +106,9 @@ typedef enum field_sets {
 } field_sets;
 
 /* Returns the header value of a field; HEADER_COUNT if it has none. */
-header_value header_of(wt_quantity quantity, field_sets sets);
+header_value find_header_value(wt_quantity quantity, field_sets sets);
 
-#define GROUPS ((size_t)10) /* capture groups of a header line, with the whole match */
+#define REGEX_GROUPS ((size_t)10) /* capture groups of a header line, with the whole match */
 
 typedef struct header_field {
     line_pattern pattern;
@@ -127,10 +127,10 @@ typedef struct step_marker {
 } step_marker;
 
 /* A line that identifies a test whose data are not read. */
-typedef struct other_test {
+typedef struct unread_test {
     line_pattern pattern;
     char *what; /* "a creep test" */
-} other_test;
+} unread_test;
 
 typedef struct unit_alias {
     char *found, *means;
@@ -138,8 +138,8 @@ typedef struct unit_alias {
 
 typedef struct column_rule {
     wt_quantity quantity;
-    char *unit; /* NULL if the file must state it */
-    char *with; /* normalised name of a column that must exist as well, or NULL */
+    char *unit;          /* NULL if the file must state it */
+    char *required_name; /* normalised name of a column that must exist as well, or NULL */
     bool has_segment;
     wt_segment_kind segment; /* valid if has_segment */
     bool negate;
@@ -170,7 +170,8 @@ typedef struct text_description {
     arena memory; /* owns all that the members below point to */
     line_pattern *patterns;
     description_extent extent;
-    struct text_description *more[DESCRIPTION_EXTENTS]; /* parts that description_need has parsed */
+    struct text_description
+        *loaded[DESCRIPTION_EXTENTS]; /* parts that description_load has parsed */
 
     char *id, *title, *evidence, *version;
     const char *xml; /* text of the document */
@@ -197,8 +198,8 @@ typedef struct text_description {
     line_pattern *ends;
     size_t n_ends;
     bool end_required; /* true if a table without one of them is truncated */
-    other_test *others;
-    size_t n_others;
+    unread_test *unread_tests;
+    size_t n_unread_tests;
     unit_alias *aliases;
     size_t n_aliases;
     column_rule *rules;
@@ -210,7 +211,7 @@ typedef struct text_description {
     line_pattern names_line;  /* group 1 is the names row, unless the names are elsewhere */
     line_pattern names_lines; /* group 1 of each line above `names_line` is a name */
     char *names_are;          /* names of the columns if the file does not state them */
-    units_where units;
+    units_location units;
     line_pattern units_line; /* for UNITS_LINE; group 1 is the units row */
     char *row_prefix;        /* normalised */
     char **row_numbers;      /* normalised names of the column of row numbers */
@@ -244,13 +245,13 @@ wt_status description_parse_file(description_xsd *schema, const char *path,
 void description_free(text_description *description);
 
 /* Parses the head of a description embedded in the library, which is known to be valid. */
-wt_status description_of_library(const embedded_text *file, text_description **description,
-                                 wt_error *err);
+wt_status description_from_library(const embedded_text *file, text_description **description,
+                                   wt_error *err);
 /* Parses a description up to at least `extent`. An embedded description is parsed on the first
  * request, from any thread; only lack of memory can fail. The result is borrowed from
  * `description`. */
-wt_status description_need(text_description *description, description_extent extent,
-                           const text_description **known, wt_error *err);
+wt_status description_load(text_description *description, description_extent extent,
+                           const text_description **result, wt_error *err);
 
 /* Checks the description as a whole, for instance if the columns suffice for the stated kinds of
  * data. */
@@ -263,10 +264,10 @@ bool description_find_name(const text_description *description, const char *name
                            size_t *n);
 
 /* Normalises a name: lower case, no blanks, one spelling of primes and Greek letters. "E \"" and
- * "E″" become "e''"; "tan(δ)" becomes "tan(delta)". The result is cut at NAME_LONGEST. */
-void name_normalise(text_span text, char name[NAME_LONGEST]);
+ * "E″" become "e''"; "tan(δ)" becomes "tan(delta)". The result is cut at COLUMN_NAME_SIZE. */
+void name_normalise(text_span text, char name[COLUMN_NAME_SIZE]);
 /* True if the normalised text equals the name. */
-bool name_is(text_span text, const char *name);
+bool name_equals(text_span text, const char *name);
 
 /* True if the file contains no names, so that its tables begin with their first row. */
 static inline bool description_is_nameless(const text_description *d)
@@ -277,10 +278,10 @@ static inline bool description_is_nameless(const text_description *d)
 /* True if the quantities suffice for one of the kinds of data in `kinds`. */
 bool quantities_suffice(wt_quantity_set set, unsigned kinds);
 /* Returns all quantities that the kind of data requires or may use. */
-wt_quantity_set quantities_of(unsigned kind);
+wt_quantity_set kind_quantities(unsigned kind);
 /* Returns a static text with the required columns, such as "columns of frequency, storage modulus
  * and ...". */
-const char *quantities_needed(unsigned kind);
+const char *describe_required_columns(unsigned kind);
 const char *kind_name(unsigned kind); /* returns a static name such as "sweep" */
 
 #endif

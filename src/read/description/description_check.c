@@ -39,7 +39,7 @@ wt_status description_check_whole(const text_description *d, const char *name, w
         if ((d->kinds & kind) != 0 && !quantities_suffice(set, kind)) {
             wt_fail(err, WT_E_SCHEMA, "the columns do not make %s %s",
                     kind == WT_KIND_IMAGE ? "an" : "a", kind_name(kind));
-            wt_error_expected(err, "%s", quantities_needed(kind));
+            wt_error_expected(err, "%s", describe_required_columns(kind));
             return fail_element(err, name, "table");
         }
     for (size_t i = 0; i < d->n_aliases; i++)

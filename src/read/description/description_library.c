@@ -11,24 +11,24 @@
 
 /* Returns the text between a mark of the head and the next `end`. The heads have a plain form; a
  * test compares the result with that of the XML parser. */
-static char *text_after(text_description *d, const char *mark, char end)
+static char *extract_text(text_description *d, const char *mark, char end)
 {
     const char *const from = strstr(strstr(d->xml, "<format "), mark) + strlen(mark);
     return arena_text(&d->memory, from, (size_t)(strchrnul(from, end) - from));
 }
 
-wt_status description_of_library(const embedded_text *file, text_description **description,
-                                 wt_error *err)
+wt_status description_from_library(const embedded_text *file, text_description **description,
+                                   wt_error *err)
 {
     text_description *const d = calloc(1, sizeof *d);
     if (d == NULL)
         return wt_fail(err, WT_E_MEMORY, "no memory for a format description");
     d->xml = file->text;
-    d->id = text_after(d, " id=\"", '"');
-    d->version = text_after(d, " version=\"", '"');
-    d->title = text_after(d, "<title>", '<');
-    d->evidence = text_after(d, "<evidence>", '<');
-    const char *const kinds = text_after(d, " kinds=\"", '"');
+    d->id = extract_text(d, " id=\"", '"');
+    d->version = extract_text(d, " version=\"", '"');
+    d->title = extract_text(d, "<title>", '<');
+    d->evidence = extract_text(d, "<evidence>", '<');
+    const char *const kinds = extract_text(d, " kinds=\"", '"');
     if (d->memory.failed) {
         description_free(d);
         return wt_fail(err, WT_E_MEMORY, "no memory for a format description");
@@ -40,7 +40,8 @@ wt_status description_of_library(const embedded_text *file, text_description **d
 }
 
 /* Parses the document up to the description of the file content. */
-static wt_status read_detect(const text_description *d, text_description **read, wt_error *err)
+static wt_status parse_detection_part(const text_description *d, text_description **read,
+                                      wt_error *err)
 {
     const char *end = strstr(d->xml, "\n  <header>");
     char *text = NULL;
@@ -54,21 +55,21 @@ static wt_status read_detect(const text_description *d, text_description **read,
     return status;
 }
 
-wt_status description_need(text_description *d, description_extent extent,
-                           const text_description **known, wt_error *err)
+wt_status description_load(text_description *d, description_extent extent,
+                           const text_description **result, wt_error *err)
 {
     static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
     wt_status status = WT_OK;
-    *known = d;
+    *result = d;
     if (d->extent >= extent)
         return WT_OK;
     (void)pthread_mutex_lock(&lock);
-    text_description **const more = &d->more[extent];
-    if (*more == NULL && extent == DESCRIPTION_DETECT)
-        status = read_detect(d, more, err);
-    else if (*more == NULL)
-        status = parse_document(NULL, d->xml, strlen(d->xml), d->id, parse_format, more, err);
-    *known = *more;
+    text_description **const loaded = &d->loaded[extent];
+    if (*loaded == NULL && extent == DESCRIPTION_DETECT)
+        status = parse_detection_part(d, loaded, err);
+    else if (*loaded == NULL)
+        status = parse_document(NULL, d->xml, strlen(d->xml), d->id, parse_format, loaded, err);
+    *result = *loaded;
     (void)pthread_mutex_unlock(&lock);
     return status;
 }

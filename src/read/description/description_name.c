@@ -36,35 +36,35 @@ static const struct {
 };
 
 /* Returns the normalised spelling of the beginning of a text, or NULL, and the original length. */
-static const char *spelling(const char *text, size_t length, size_t *taken)
+static const char *canonical_spelling(const char *text, size_t length, size_t *used)
 {
     if ((unsigned char)*text < 0x80 && *text != '"' && *text != '`')
         return NULL;
     for (size_t s = 0; s < sizeof spellings / sizeof *spellings; s++) {
         if (*spellings[s].found != *text)
             continue;
-        *taken = strlen(spellings[s].found);
-        if (length >= *taken && memcmp(text, spellings[s].found, *taken) == 0)
+        *used = strlen(spellings[s].found);
+        if (length >= *used && memcmp(text, spellings[s].found, *used) == 0)
             return spellings[s].spelled;
     }
     return NULL;
 }
 
-void name_normalise(text_span text, char name[NAME_LONGEST])
+void name_normalise(text_span text, char name[COLUMN_NAME_SIZE])
 {
     size_t out = 0;
-    for (size_t i = 0, taken; i < text.length; i += taken) {
-        const char *piece = spelling(text.text + i, text.length - i, &taken);
+    for (size_t i = 0, used; i < text.length; i += used) {
+        const char *piece = canonical_spelling(text.text + i, text.length - i, &used);
         const size_t written = piece != NULL ? strlen(piece) : 1;
         char c = text.text[i];
         if (piece == NULL) {
-            taken = 1;
+            used = 1;
             if (c == ' ' || (c >= '\t' && c <= '\r'))
                 continue;
             c = c >= 'A' && c <= 'Z' ? (char)(c - 'A' + 'a') : c;
             piece = &c;
         }
-        if (out + written >= NAME_LONGEST)
+        if (out + written >= COLUMN_NAME_SIZE)
             break;
         memcpy(name + out, piece, written);
         out += written;
@@ -72,9 +72,9 @@ void name_normalise(text_span text, char name[NAME_LONGEST])
     name[out] = '\0';
 }
 
-bool name_is(text_span text, const char *name)
+bool name_equals(text_span text, const char *name)
 {
-    char own[NAME_LONGEST];
+    char own[COLUMN_NAME_SIZE];
     name_normalise(text, own);
     return strcmp(own, name) == 0;
 }

@@ -12,7 +12,7 @@
 
 /* ---- schema ------------------------------------------------------------------------------- */
 
-static const embedded_text *embedded_schema(void)
+static const embedded_text *find_embedded_schema(void)
 {
     const embedded_text *e = embedded_formats;
     while (e->name != NULL && strcmp(e->name, "weartrack-format.xsd") != 0)
@@ -22,10 +22,10 @@ static const embedded_text *embedded_schema(void)
 
 const char *wt_formats_schema(void)
 {
-    return embedded_schema()->text;
+    return find_embedded_schema()->text;
 }
 
-static void keep_quiet(void *user, xmlErrorPtr error)
+static void note_memory_error(void *user, xmlErrorPtr error)
 {
     (void)user;
     /* an internal error of libxml2 is also lack of memory */
@@ -35,10 +35,10 @@ static void keep_quiet(void *user, xmlErrorPtr error)
 
 wt_status description_xsd_new(description_xsd **schema, wt_error *err)
 {
-    const embedded_text *text = embedded_schema();
+    const embedded_text *text = find_embedded_schema();
     xmlSchemaParserCtxtPtr context = xmlSchemaNewMemParserCtxt(text->text, (int)text->length);
     if (context != NULL) {
-        xmlSchemaSetParserStructuredErrors(context, keep_quiet, NULL);
+        xmlSchemaSetParserStructuredErrors(context, note_memory_error, NULL);
         *schema = xmlSchemaParse(context);
         xmlSchemaFreeParserCtxt(context);
         if (*schema != NULL)
@@ -55,7 +55,7 @@ void description_xsd_free(description_xsd *schema)
 
 /* ---- document ----------------------------------------------------------------------------- */
 
-static void explain(description_parser *p, const xmlError *error, const char *otherwise)
+static void record_xml_error(description_parser *p, const xmlError *error, const char *otherwise)
 {
     char text[256];
     const char *message = error != NULL && error->message != NULL ? error->message : otherwise;
@@ -70,22 +70,22 @@ static void explain(description_parser *p, const xmlError *error, const char *ot
     wt_error_advice(p->err, "see weartrack-format(5)");
 }
 
-static void first_complaint(void *user, xmlErrorPtr error)
+static void record_first_error(void *user, xmlErrorPtr error)
 {
-    keep_quiet(NULL, error);
-    explain(user, error, "not valid");
+    note_memory_error(NULL, error);
+    record_xml_error(user, error, "not valid");
 }
 
-static void validate(description_parser *p, description_xsd *schema, xmlDocPtr document)
+static void validate_document(description_parser *p, description_xsd *schema, xmlDocPtr document)
 {
     xmlSchemaValidCtxtPtr context = xmlSchemaNewValidCtxt(schema);
     if (context == NULL) {
         parse_no_memory(p);
         return;
     }
-    xmlSchemaSetValidStructuredErrors(context, first_complaint, p);
+    xmlSchemaSetValidStructuredErrors(context, record_first_error, p);
     if (xmlSchemaValidateDoc(context, document) != 0)
-        explain(p, NULL, "the document does not follow the schema of descriptions");
+        record_xml_error(p, NULL, "the document does not follow the schema of descriptions");
     xmlSchemaFreeValidCtxt(context);
 }
 
@@ -93,14 +93,14 @@ wt_status parse_document(description_xsd *schema, const char *xml, size_t length
                          void (*parse)(description_parser *p, const xmlNode *root),
                          text_description **description, wt_error *err)
 {
-    const size_t most = (size_t)1 << 20;
+    const size_t max_length = (size_t)1 << 20;
     /* libxml2 prints encoding errors to standard error unless this thread has a handler. */
     const xmlStructuredErrorFunc previous = xmlStructuredError;
     void *const previous_context = xmlStructuredErrorContext;
     description_parser p = {.name = name, .status = WT_OK, .err = err};
     xmlParserCtxtPtr context = NULL;
     xmlDocPtr document = NULL;
-    if (length > most) {
+    if (length > max_length) {
         wt_fail(err, WT_E_SCHEMA, "too long for a format description");
         wt_error_file(err, name);
         wt_error_expected(err, "at most 1 MiB");
@@ -115,17 +115,18 @@ wt_status parse_document(description_xsd *schema, const char *xml, size_t length
         parse_no_memory(&p);
     }
     if (p.status == WT_OK) {
-        xmlSetStructuredErrorFunc(NULL, keep_quiet);
+        xmlSetStructuredErrorFunc(NULL, note_memory_error);
         document = xmlCtxtReadMemory(context, xml, (int)length, NULL, NULL,
                                      XML_PARSE_NONET | XML_PARSE_NOERROR | XML_PARSE_NOWARNING |
                                          XML_PARSE_NOCDATA);
         if (document == NULL)
-            explain(&p, xmlCtxtGetLastError(context), "not well-formed XML");
+            record_xml_error(&p, xmlCtxtGetLastError(context), "not well-formed XML");
         else if (document->intSubset != NULL)
-            explain(&p, NULL, "a document type or entities are not allowed in a description");
+            record_xml_error(&p, NULL,
+                             "a document type or entities are not allowed in a description");
     }
     if (p.status == WT_OK && schema != NULL)
-        validate(&p, schema, document);
+        validate_document(&p, schema, document);
     if (p.status == WT_OK)
         parse(&p, xmlDocGetRootElement(document));
     xmlSetStructuredErrorFunc(previous_context, previous);

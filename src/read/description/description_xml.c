@@ -13,8 +13,8 @@ void parse_no_memory(description_parser *p)
         p->status = wt_fail(p->err, WT_E_MEMORY, "no memory for a format description");
 }
 
-void parse_complain(description_parser *p, const xmlNode *node, const char *message,
-                    const char *expected, const char *found)
+void parse_fail(description_parser *p, const xmlNode *node, const char *message,
+                const char *expected, const char *found)
 {
     if (p->status != WT_OK)
         return;
@@ -71,21 +71,21 @@ char *parse_content(description_parser *p, const xmlNode *node)
 
 char *parse_normalised(description_parser *p, const char *text)
 {
-    char name[NAME_LONGEST];
+    char name[COLUMN_NAME_SIZE];
     if (text == NULL)
         return NULL;
     name_normalise((text_span){text, strlen(text)}, name);
     return parse_text(p, name, strlen(name));
 }
 
-bool parse_true(description_parser *p, const xmlNode *node, const char *name)
+bool parse_bool(description_parser *p, const xmlNode *node, const char *name)
 {
     const char *text = parse_attribute(p, node, name);
     return text != NULL && (strcmp(text, "true") == 0 || strcmp(text, "1") == 0);
 }
 
 /* The schema has checked the text, so the list is complete. */
-size_t parse_one_of(description_parser *p, const xmlNode *node, const char *name,
+size_t parse_choice(description_parser *p, const xmlNode *node, const char *name,
                     const char *const words[], size_t n, size_t absent)
 {
     const char *text = parse_attribute(p, node, name);
@@ -103,42 +103,43 @@ size_t parse_count(description_parser *p, const xmlNode *node, const char *name,
     return text != NULL ? (size_t)strtoul(text, NULL, 10) : absent;
 }
 
-bool parse_is(const xmlNode *node, const char *name)
+bool parse_is_element(const xmlNode *node, const char *name)
 {
     return node->type == XML_ELEMENT_NODE &&
            (name == NULL || strcmp((const char *)node->name, name) == 0);
 }
 
-const xmlNode *parse_next(const description_parser *p, const xmlNode *node, const xmlNode *after,
-                          const char *name)
+const xmlNode *parse_next_child(const description_parser *p, const xmlNode *node,
+                                const xmlNode *after, const char *name)
 {
     const xmlNode *c = after != NULL ? after->next : node->children;
-    while (c != NULL && !parse_is(c, name))
+    while (c != NULL && !parse_is_element(c, name))
         c = c->next;
     return p->status == WT_OK ? c : NULL;
 }
 
-size_t parse_children(const description_parser *p, const xmlNode *node, const char *name)
+size_t parse_count_children(const description_parser *p, const xmlNode *node, const char *name)
 {
     size_t n = 0;
-    for (const xmlNode *c = NULL; (c = parse_next(p, node, c, name)) != NULL;)
+    for (const xmlNode *c = NULL; (c = parse_next_child(p, node, c, name)) != NULL;)
         n++;
     return n;
 }
 
-void *parse_room(description_parser *p, const xmlNode *node, const char *name, size_t size)
+void *parse_alloc_children(description_parser *p, const xmlNode *node, const char *name,
+                           size_t size)
 {
-    return parse_alloc(p, parse_children(p, node, name), size);
+    return parse_alloc(p, parse_count_children(p, node, name), size);
 }
 
 /* ---- regular expressions ------------------------------------------------------------------ */
 
 /* Each + doubles the expression before it when it is compiled, and nested ones multiply. */
-enum { MOST_PLUSES = 16 };
+enum { MAX_PLUSES = 16 };
 
 /* Returns a construct that is not allowed, or NULL. Repeat counts, back references and nested
  * repeats make compilation or matching explode; no description needs them. */
-static const char *forbidden(const char *source)
+static const char *find_forbidden_construct(const char *source)
 {
     bool set = false;
     int pluses = 0;
@@ -159,7 +160,7 @@ static const char *forbidden(const char *source)
             if (c[1] != '\0' && strchr("*+?", c[1]) != NULL)
                 return "a repeat of a repeat, such as ++";
             pluses += *c == '+';
-            if (pluses > MOST_PLUSES)
+            if (pluses > MAX_PLUSES)
                 return "more than 16 times +; write * where it may be absent";
         }
     }
@@ -167,7 +168,7 @@ static const char *forbidden(const char *source)
 }
 
 /* Replaces \t by a tab, which an XML attribute cannot contain directly. */
-static void tabulators(char *source)
+static void expand_tab_escapes(char *source)
 {
     char *to = source;
     for (const char *from = source; *from != '\0'; from++) {
@@ -208,13 +209,13 @@ void parse_pattern(description_parser *p, const xmlNode *node, const char *name,
     char message[128];
     if (source == NULL)
         return;
-    const char *what = forbidden(source);
+    const char *what = find_forbidden_construct(source);
     if (what != NULL) {
-        parse_complain(p, node, "regular expression not accepted", "an extended POSIX expression",
-                       what);
+        parse_fail(p, node, "regular expression not accepted", "an extended POSIX expression",
+                   what);
         return;
     }
-    tabulators(source);
+    expand_tab_escapes(source);
     int code = regcomp(&pattern->regex, source, REG_EXTENDED | (groups == 0 ? REG_NOSUB : 0));
     if (code == REG_ESPACE) {
         parse_no_memory(p);
@@ -222,7 +223,7 @@ void parse_pattern(description_parser *p, const xmlNode *node, const char *name,
     }
     if (code != 0) {
         regerror(code, &pattern->regex, message, sizeof message);
-        parse_complain(p, node, message, "an extended POSIX regular expression", source);
+        parse_fail(p, node, message, "an extended POSIX regular expression", source);
         return;
     }
     pattern->compiled = true;
@@ -230,6 +231,6 @@ void parse_pattern(description_parser *p, const xmlNode *node, const char *name,
     pattern->next = p->d->patterns;
     p->d->patterns = pattern;
     if (pattern->regex.re_nsub < groups)
-        parse_complain(p, node, "regular expression without a group",
-                       "parentheses around the part that is the value", source);
+        parse_fail(p, node, "regular expression without a group",
+                   "parentheses around the part that is the value", source);
 }

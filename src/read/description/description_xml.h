@@ -16,8 +16,8 @@ typedef struct description_parser {
 
 void parse_no_memory(description_parser *p);
 /* Fails with "FILE: line 12, element column: MESSAGE; expected ...; found ...". */
-void parse_complain(description_parser *p, const xmlNode *node, const char *message,
-                    const char *expected, const char *found);
+void parse_fail(description_parser *p, const xmlNode *node, const char *message,
+                const char *expected, const char *found);
 /* Returns zeroed memory of the description; NULL, with a failure, if there is none. */
 void *parse_alloc(description_parser *p, size_t n, size_t size);
 char *parse_text(description_parser *p, const char *text, size_t length);
@@ -26,19 +26,20 @@ char *parse_attribute(description_parser *p, const xmlNode *node, const char *na
 char *parse_content(description_parser *p, const xmlNode *node);
 /* Returns the text as a normalised name; NULL for NULL. */
 char *parse_normalised(description_parser *p, const char *text);
-bool parse_true(description_parser *p, const xmlNode *node, const char *name);
+bool parse_bool(description_parser *p, const xmlNode *node, const char *name);
 /* Returns the index of an attribute value in n words; `absent` if there is no attribute. */
-size_t parse_one_of(description_parser *p, const xmlNode *node, const char *name,
+size_t parse_choice(description_parser *p, const xmlNode *node, const char *name,
                     const char *const words[], size_t n, size_t absent);
 size_t parse_count(description_parser *p, const xmlNode *node, const char *name, size_t absent);
-bool parse_is(const xmlNode *node, const char *name);
+bool parse_is_element(const xmlNode *node, const char *name);
 /* Returns the next child element with this name (NULL: any) after `after` (NULL: the first). NULL
  * at the end and after a failure. */
-const xmlNode *parse_next(const description_parser *p, const xmlNode *node, const xmlNode *after,
-                          const char *name);
-size_t parse_children(const description_parser *p, const xmlNode *node, const char *name);
+const xmlNode *parse_next_child(const description_parser *p, const xmlNode *node,
+                                const xmlNode *after, const char *name);
+size_t parse_count_children(const description_parser *p, const xmlNode *node, const char *name);
 /* Allocates as many items as `node` has children with this name. */
-void *parse_room(description_parser *p, const xmlNode *node, const char *name, size_t size);
+void *parse_alloc_children(description_parser *p, const xmlNode *node, const char *name,
+                           size_t size);
 /* Compiles an attribute as a regular expression with at least `groups` groups. */
 void parse_pattern(description_parser *p, const xmlNode *node, const char *name,
                    line_pattern *pattern, size_t groups);

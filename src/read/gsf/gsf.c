@@ -23,7 +23,7 @@ typedef struct gsf_header {
     size_t data; /* offset of the samples */
 } gsf_header;
 
-static wt_status corrupt(wt_error *err, const char *message, const char *expected)
+static wt_status fail_gsf_header(wt_error *err, const char *message, const char *expected)
 {
     wt_fail(err, WT_E_CORRUPT, "%s", message);
     wt_error_place(err, "header of the file");
@@ -31,19 +31,20 @@ static wt_status corrupt(wt_error *err, const char *message, const char *expecte
     return WT_E_CORRUPT;
 }
 
-static double value_of(const char *text, size_t n)
+static double parse_number(const char *text, size_t n)
 {
     double value = (double)NAN;
     return wt_number_parse(text, n, '.', &value) ? value : (double)NAN;
 }
 
-static size_t count_of(const char *text, size_t n)
+static size_t parse_positive_integer(const char *text, size_t n)
 {
-    const double value = value_of(text, n);
+    const double value = parse_number(text, n);
     return value >= 1 && value <= 1e9 && value == floor(value) ? (size_t)value : 0;
 }
 
-static void take_value(gsf_header *h, const char *key, size_t n_key, const char *text, size_t n)
+static void set_header_value(gsf_header *h, const char *key, size_t n_key, const char *text,
+                             size_t n)
 {
     const struct {
         const char *key;
@@ -62,16 +63,16 @@ static void take_value(gsf_header *h, const char *key, size_t n_key, const char 
         if (strlen(known[i].key) != n_key || memcmp(known[i].key, key, n_key) != 0)
             continue;
         if (known[i].count != NULL)
-            *known[i].count = count_of(text, n);
+            *known[i].count = parse_positive_integer(text, n);
         else if (known[i].number != NULL)
-            *known[i].number = value_of(text, n);
+            *known[i].number = parse_number(text, n);
         else
             snprintf(known[i].text, known[i].size, "%.*s", (int)(n < 64 ? n : 64), text);
     }
 }
 
 /* Returns a part of a line without blanks at both ends. */
-static const char *trimmed(const char *from, const char *to, size_t *n)
+static const char *trim_blanks(const char *from, const char *to, size_t *n)
 {
     while (from < to && (*from == ' ' || *from == '\t'))
         from++;
@@ -81,7 +82,7 @@ static const char *trimmed(const char *from, const char *to, size_t *n)
     return from;
 }
 
-static wt_status read_header(wt_input *input, gsf_header *h, wt_error *err)
+static wt_status read_gsf_header(wt_input *input, gsf_header *h, wt_error *err)
 {
     const unsigned char *bytes = NULL;
     size_t length = 0;
@@ -94,27 +95,30 @@ static wt_status read_header(wt_input *input, gsf_header *h, wt_error *err)
     const char *end = memchr(bytes, 0, length);
     if (end == NULL || length < sizeof first_line - 1 ||
         memcmp(text, first_line, sizeof first_line - 1) != 0)
-        return corrupt(err, "the header has no end", "lines \"key = value\", then a zero byte");
+        return fail_gsf_header(err, "the header has no end",
+                               "lines \"key = value\", then a zero byte");
     for (const char *line = text + sizeof first_line - 1; line < end;) {
         const char *next = memchr(line, '\n', (size_t)(end - line));
         const char *stop = next != NULL ? next : end;
         const char *sign = memchr(line, '=', (size_t)(stop - line));
         if (sign != NULL) {
             size_t n_key, n;
-            const char *key = trimmed(line, sign, &n_key), *value = trimmed(sign + 1, stop, &n);
-            take_value(h, key, n_key, value, n);
+            const char *key = trim_blanks(line, sign, &n_key),
+                       *value = trim_blanks(sign + 1, stop, &n);
+            set_header_value(h, key, n_key, value, n);
         }
         line = stop + 1;
     }
     h->data = ((size_t)(end - text) / 4 + 1) * 4;
     if (h->n_columns == 0 || h->n_rows == 0)
-        return corrupt(err, "the size of the image is missing", "XRes and YRes, whole numbers");
+        return fail_gsf_header(err, "the size of the image is missing",
+                               "XRes and YRes, whole numbers");
     return WT_OK;
 }
 
 /* Fills the image head. Positions count from the lower left corner; the offsets of the file point
  * downwards and are ignored. */
-static void make_head(const gsf_header *h, wt_image *head, double *factor)
+static void fill_image_head(const gsf_header *h, wt_image *head, double *factor)
 {
     *head = (wt_image){.n_columns = h->n_columns, .n_rows = h->n_rows};
     images_set_units(head, h->unit_xy, h->unit_z, h->width, h->height, factor);
@@ -132,18 +136,18 @@ static wt_status gsf_images(const file_reader *self, wt_input *input,
     double factor = 1, *values = NULL;
     (void)self;
     (void)options;
-    wt_status status = read_header(input, &h, err);
+    wt_status status = read_gsf_header(input, &h, err);
     if (status == WT_OK)
         status = window_open(&window, input, err);
     if (status == WT_OK &&
         (h.data > window.size || (window.size - h.data) / 4 / h.n_columns != h.n_rows ||
          window.size - h.data != 4 * h.n_columns * h.n_rows)) {
-        status = corrupt(err, "the size of the file contradicts its header",
-                         "four bytes for each of XRes x YRes pixels");
+        status = fail_gsf_header(err, "the size of the file contradicts its header",
+                                 "four bytes for each of XRes x YRes pixels");
         wt_error_found(err, "%zu x %zu pixels in %zu bytes", h.n_columns, h.n_rows, window.size);
     }
     if (status == WT_OK) {
-        make_head(&h, &head, &factor);
+        fill_image_head(&h, &head, &factor);
         status = images_add(&list, &head, &values, err);
     }
     for (size_t row = 0; status == WT_OK && row < h.n_rows; row++) {
@@ -155,13 +159,13 @@ static wt_status gsf_images(const file_reader *self, wt_input *input,
                            values + (h.n_rows - 1 - row) * h.n_columns);
     }
     window_close(&window);
-    return images_end(&list, status, wt_input_name(input), log, images, n_images, err);
+    return images_finish(&list, status, wt_input_name(input), log, images, n_images, err);
 }
 
 static recognition detect(const file_reader *self, file_peek *peek)
 {
     (void)self;
-    return recognised(PEEK_BEGINS(peek, first_line), 95);
+    return recognition_result(PEEK_BEGINS(peek, first_line), 95);
 }
 
 const file_reader reader_gsf = {

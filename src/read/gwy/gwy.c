@@ -14,10 +14,10 @@
 #include <string.h>
 
 /* Limit on the fields of a file, since each searches the container for its title. */
-enum { MOST_FIELDS = 1000 };
+enum { MAX_FIELDS = 1000 };
 static const char signature[] = "GWYP";
 
-static wt_status corrupt(wt_error *err, const char *place, const char *message)
+static wt_status fail_gwy(wt_error *err, const char *place, const char *message)
 {
     wt_fail(err, WT_E_CORRUPT, "%s", message);
     wt_error_place(err, "%s", place);
@@ -26,7 +26,7 @@ static wt_status corrupt(wt_error *err, const char *place, const char *message)
 }
 
 /* Parses the number N of a key "/N" that `rest` follows; false for another key. */
-static bool channel_of(const char *key, const char *rest, unsigned long *number)
+static bool parse_channel_key(const char *key, const char *rest, unsigned long *number)
 {
     char *end = NULL;
     if (key[0] != '/' || key[1] < '0' || key[1] > '9')
@@ -35,31 +35,31 @@ static bool channel_of(const char *key, const char *rest, unsigned long *number)
     return strcmp(end, rest) == 0;
 }
 
-static double length_of(gwy_bytes field, const char *key)
+static double field_length(gwy_bytes field, const char *key)
 {
     gwy_component c;
-    return gwy_find(field, key, 'd', &c) ? gwy_double(&c) : (double)NAN;
+    return gwy_find_component(field, key, 'd', &c) ? gwy_double(&c) : (double)NAN;
 }
 
 /* Marks the masked heights of a channel as missing. */
-static wt_status take_mask(wt_image *image, gwy_bytes container, unsigned long number,
-                           wt_error *err)
+static wt_status apply_mask(wt_image *image, gwy_bytes container, unsigned long number,
+                            wt_error *err)
 {
     char key[48];
     gwy_component mask, data;
     gwy_bytes field;
     const char *name = NULL;
     snprintf(key, sizeof key, "/%lu/mask", number);
-    if (!gwy_find(container, key, 'o', &mask))
+    if (!gwy_find_component(container, key, 'o', &mask))
         return WT_OK;
     const size_t n = image->n_columns * image->n_rows;
     double *set = malloc(n * sizeof *set);
     if (set == NULL)
         return wt_fail(err, WT_E_MEMORY, "no memory for a mask");
     wt_status status = WT_OK;
-    if (!gwy_object(&mask.value, &name, &field) || !gwy_find(field, "data", 'D', &data) ||
-        data.n != n)
-        status = corrupt(err, key, "a mask of another size than its field");
+    if (!gwy_read_object(&mask.value, &name, &field) ||
+        !gwy_find_component(field, "data", 'D', &data) || data.n != n)
+        status = fail_gwy(err, key, "a mask of another size than its field");
     else
         samples_decode(SAMPLE_FLOAT64, false, data.value.at, n, 1, 0, set);
     for (size_t i = 0; status == WT_OK && i < n; i++)
@@ -71,23 +71,24 @@ static wt_status take_mask(wt_image *image, gwy_bytes container, unsigned long n
     return status;
 }
 
-static wt_status add_field(image_list *list, gwy_bytes field, const char *key, const char *title,
-                           wt_error *err)
+static wt_status add_gwy_field(image_list *list, gwy_bytes field, const char *key,
+                               const char *title, wt_error *err)
 {
     gwy_component columns, rows, data;
     double factor = 1, *values = NULL;
-    if (!gwy_find(field, "xres", 'i', &columns) || !gwy_find(field, "yres", 'i', &rows) ||
-        !gwy_find(field, "data", 'D', &data))
-        return corrupt(err, key, "a field without its size or its data");
+    if (!gwy_find_component(field, "xres", 'i', &columns) ||
+        !gwy_find_component(field, "yres", 'i', &rows) ||
+        !gwy_find_component(field, "data", 'D', &data))
+        return fail_gwy(err, key, "a field without its size or its data");
     wt_image head = {.n_columns = gwy_count(&columns), .n_rows = gwy_count(&rows)};
     if (head.n_columns == 0 || head.n_rows == 0 || data.n / head.n_columns != head.n_rows ||
         data.n % head.n_columns != 0) {
-        corrupt(err, key, "the data of a field contradict its size");
+        fail_gwy(err, key, "the data of a field contradict its size");
         wt_error_found(err, "%zu x %zu pixels and %zu values", head.n_columns, head.n_rows, data.n);
         return WT_E_CORRUPT;
     }
     images_set_units(&head, gwy_unit(field, "si_unit_xy"), gwy_unit(field, "si_unit_z"),
-                     length_of(field, "xreal"), length_of(field, "yreal"), &factor);
+                     field_length(field, "xreal"), field_length(field, "yreal"), &factor);
     images_set_name(&head, title[0] != '\0' ? title : key);
     const wt_status status = images_add(list, &head, &values, err);
     for (size_t row = 0; status == WT_OK && row < head.n_rows; row++)
@@ -102,44 +103,44 @@ static wt_status add_graph(image_list *list, gwy_component *c, const char *file,
 {
     const char *name = NULL;
     gwy_bytes graph;
-    if (!gwy_object(&c->value, &name, &graph) || strcmp(name, "GwyGraphModel") != 0)
+    if (!gwy_read_object(&c->value, &name, &graph) || strcmp(name, "GwyGraphModel") != 0)
         return WT_OK;
     return gwy_add_profiles(list, graph, c->key, file, log, err);
 }
 
 /* Adds the data fields and profiles in the order of the file. */
-static wt_status add_fields(image_list *list, gwy_bytes container, bool masks_are_missing,
-                            const char *file, wt_log *log, wt_error *err)
+static wt_status add_gwy_fields(image_list *list, gwy_bytes container, bool masks_are_missing,
+                                const char *file, wt_log *log, wt_error *err)
 {
     wt_status status = WT_OK, broken = WT_OK;
     gwy_bytes rest = container;
     gwy_component c;
     unsigned long number = 0;
-    while (status == WT_OK && gwy_next(&rest, &c, &broken)) {
+    while (status == WT_OK && gwy_next_component(&rest, &c, &broken)) {
         const char *name = NULL;
         gwy_bytes field;
-        if (!masks_are_missing && c.type == 'o' && channel_of(c.key, "/mask", &number))
+        if (!masks_are_missing && c.type == 'o' && parse_channel_key(c.key, "/mask", &number))
             wt_log_add(log, WT_NOTE, file, c.key,
                        "a mask, which may mark anything, is not taken for missing heights");
-        if (list->n < MOST_FIELDS && c.type == 'o' && gwy_is_graph(c.key))
+        if (list->n < MAX_FIELDS && c.type == 'o' && gwy_is_graph(c.key))
             status = add_graph(list, &c, file, log, err);
-        if (c.type != 'o' || !channel_of(c.key, "/data", &number) ||
-            !gwy_object(&c.value, &name, &field) || strcmp(name, "GwyDataField") != 0)
+        if (c.type != 'o' || !parse_channel_key(c.key, "/data", &number) ||
+            !gwy_read_object(&c.value, &name, &field) || strcmp(name, "GwyDataField") != 0)
             continue;
-        if (list->n == MOST_FIELDS) {
-            status = wt_fail(err, WT_E_UNSUPPORTED, "more than %d fields in one file", MOST_FIELDS);
+        if (list->n == MAX_FIELDS) {
+            status = wt_fail(err, WT_E_UNSUPPORTED, "more than %d fields in one file", MAX_FIELDS);
             break;
         }
         char key[48];
         gwy_component title;
         snprintf(key, sizeof key, "/%lu/data/title", number);
-        const bool named = gwy_find(container, key, 's', &title);
-        status = add_field(list, field, c.key, named ? (const char *)title.value.at : "", err);
+        const bool named = gwy_find_component(container, key, 's', &title);
+        status = add_gwy_field(list, field, c.key, named ? (const char *)title.value.at : "", err);
         if (status == WT_OK && masks_are_missing)
-            status = take_mask(&list->images[list->n - 1], container, number, err);
+            status = apply_mask(&list->images[list->n - 1], container, number, err);
     }
     return status == WT_OK && broken != WT_OK
-               ? corrupt(err, "container", "a component goes on beyond its object")
+               ? fail_gwy(err, "container", "a component goes on beyond its object")
                : status;
 }
 
@@ -156,11 +157,12 @@ wt_status gwy_read(wt_input *input, bool masks_are_missing, wt_log *log, wt_imag
         return status;
     all = (gwy_bytes){bytes + sizeof signature - 1, bytes + length};
     if (length < sizeof signature || memcmp(bytes, signature, sizeof signature - 1) != 0 ||
-        !gwy_object(&all, &name, &container) || strcmp(name, "GwyContainer") != 0)
-        status = corrupt(err, "beginning of the file", "the file is cut, or holds no container");
+        !gwy_read_object(&all, &name, &container) || strcmp(name, "GwyContainer") != 0)
+        status = fail_gwy(err, "beginning of the file", "the file is cut, or holds no container");
     if (status == WT_OK)
-        status = add_fields(&list, container, masks_are_missing, wt_input_name(input), log, err);
-    return images_end(&list, status, wt_input_name(input), log, images, n_images, err);
+        status =
+            add_gwy_fields(&list, container, masks_are_missing, wt_input_name(input), log, err);
+    return images_finish(&list, status, wt_input_name(input), log, images, n_images, err);
 }
 
 static wt_status gwy_images(const file_reader *self, wt_input *input,
@@ -175,7 +177,7 @@ static wt_status gwy_images(const file_reader *self, wt_input *input,
 static recognition detect(const file_reader *self, file_peek *peek)
 {
     (void)self;
-    return recognised(PEEK_BEGINS(peek, signature), 95);
+    return recognition_result(PEEK_BEGINS(peek, signature), 95);
 }
 
 const file_reader reader_gwy = {

@@ -9,7 +9,7 @@
 #include <string.h>
 
 /* Tolerance of equal steps, relative to a step. It changes no spectrum noticeably. */
-static const double slight = 1e-3;
+static const double step_tolerance = 1e-3;
 
 static const char prefix[] = "/0/graph/graph/";
 
@@ -19,33 +19,33 @@ bool gwy_is_graph(const char *key)
            strspn(key + sizeof prefix - 1, "0123456789") == strlen(key + sizeof prefix - 1);
 }
 
-static bool are_steps(const double *x, size_t n)
+static bool has_equal_steps(const double *x, size_t n)
 {
     const double step = (x[n - 1] - x[0]) / (double)(n - 1);
     bool equal = step > 0 && isfinite(step);
     for (size_t i = 0; equal && i < n; i++)
-        equal = fabs(x[i] - x[0] - step * (double)i) <= slight * step;
+        equal = fabs(x[i] - x[0] - step * (double)i) <= step_tolerance * step;
     return equal;
 }
 
-static wt_status add_profile(image_list *list, gwy_bytes graph, gwy_bytes curve, const char *key,
-                             const char *file, wt_log *log, wt_error *err)
+static wt_status add_graph_profile(image_list *list, gwy_bytes graph, gwy_bytes curve,
+                                   const char *key, const char *file, wt_log *log, wt_error *err)
 {
     gwy_component x, y, title;
     double lateral = 1, vertical = 1, offset = 0, *values = NULL;
-    const bool whole = gwy_find(curve, "xdata", 'D', &x) && gwy_find(curve, "ydata", 'D', &y) &&
-                       x.n == y.n && x.n > 1;
+    const bool whole = gwy_find_component(curve, "xdata", 'D', &x) &&
+                       gwy_find_component(curve, "ydata", 'D', &y) && x.n == y.n && x.n > 1;
     const bool lengths =
         whole &&
         wt_unit_to_si(gwy_unit(graph, "x_unit"), WT_Q_LENGTH, &lateral, &offset, NULL) == WT_OK &&
         wt_unit_to_si(gwy_unit(graph, "y_unit"), WT_Q_LENGTH, &vertical, &offset, NULL) == WT_OK;
-    double *const places = lengths ? malloc(x.n * sizeof *places) : NULL;
-    if (lengths && places == NULL)
+    double *const positions = lengths ? malloc(x.n * sizeof *positions) : NULL;
+    if (lengths && positions == NULL)
         return wt_fail(err, WT_E_MEMORY, "no memory for a profile");
     if (lengths)
-        (void)samples_decode(SAMPLE_FLOAT64, false, x.value.at, x.n, lateral, 0, places);
+        (void)samples_decode(SAMPLE_FLOAT64, false, x.value.at, x.n, lateral, 0, positions);
     wt_status status = WT_OK;
-    if (!lengths || !are_steps(places, x.n)) {
+    if (!lengths || !has_equal_steps(positions, x.n)) {
         wt_log_add(log, WT_NOTE, file, key,
                    "a graph that is no profile is left out: lengths against lengths at equal "
                    "steps would be one");
@@ -54,15 +54,16 @@ static wt_status add_profile(image_list *list, gwy_bytes graph, gwy_bytes curve,
                          .n_rows = 1,
                          .unit = "m",
                          .x_unit = "m",
-                         .width = places[x.n - 1] - places[0],
-                         .x_min = places[0]};
-        images_set_name(&head, gwy_find(graph, "title", 's', &title) ? (const char *)title.value.at
-                                                                     : "profile");
+                         .width = positions[x.n - 1] - positions[0],
+                         .x_min = positions[0]};
+        images_set_name(&head, gwy_find_component(graph, "title", 's', &title)
+                                   ? (const char *)title.value.at
+                                   : "profile");
         status = images_add(list, &head, &values, err);
         if (status == WT_OK)
             (void)samples_decode(SAMPLE_FLOAT64, false, y.value.at, y.n, vertical, 0, values);
     }
-    free(places);
+    free(positions);
     return status;
 }
 
@@ -71,14 +72,14 @@ wt_status gwy_add_profiles(image_list *list, gwy_bytes graph, const char *key, c
 {
     gwy_component curves;
     wt_status status = WT_OK;
-    if (!gwy_find(graph, "curves", 'O', &curves))
+    if (!gwy_find_component(graph, "curves", 'O', &curves))
         return WT_OK;
     for (size_t i = 0; status == WT_OK && i < curves.n; i++) {
         const char *name = NULL;
         gwy_bytes curve;
-        if (!gwy_object(&curves.value, &name, &curve))
+        if (!gwy_read_object(&curves.value, &name, &curve))
             break; /* all objects were checked before */
-        status = add_profile(list, graph, curve, key, file, log, err);
+        status = add_graph_profile(list, graph, curve, key, file, log, err);
     }
     return status;
 }

@@ -7,15 +7,15 @@
 #include <math.h>
 #include <string.h>
 
-static size_t left(const gwy_bytes *b)
+static size_t bytes_left(const gwy_bytes *b)
 {
     return (size_t)(b->end - b->at);
 }
 
 /* Reads a text and its terminating zero. */
-static bool take_text(gwy_bytes *b, const char **text)
+static bool read_text(gwy_bytes *b, const char **text)
 {
-    const unsigned char *zero = left(b) > 0 ? memchr(b->at, 0, left(b)) : NULL;
+    const unsigned char *zero = bytes_left(b) > 0 ? memchr(b->at, 0, bytes_left(b)) : NULL;
     if (zero == NULL)
         return false;
     *text = (const char *)b->at;
@@ -23,19 +23,19 @@ static bool take_text(gwy_bytes *b, const char **text)
     return true;
 }
 
-static bool take_size(gwy_bytes *b, size_t *size)
+static bool read_size(gwy_bytes *b, size_t *size)
 {
-    if (left(b) < 4)
+    if (bytes_left(b) < 4)
         return false;
     *size = le32(b->at);
     b->at += 4;
     return true;
 }
 
-bool gwy_object(gwy_bytes *from, const char **name, gwy_bytes *components)
+bool gwy_read_object(gwy_bytes *from, const char **name, gwy_bytes *components)
 {
     size_t size = 0;
-    if (!take_text(from, name) || !take_size(from, &size) || size > left(from))
+    if (!read_text(from, name) || !read_size(from, &size) || size > bytes_left(from))
         return false;
     *components = (gwy_bytes){from->at, from->at + size};
     from->at += size;
@@ -43,7 +43,7 @@ bool gwy_object(gwy_bytes *from, const char **name, gwy_bytes *components)
 }
 
 /* Returns the item size of a type with items of equal size; 0 for other types [byte]. */
-static size_t width_of(char type)
+static size_t item_width(char type)
 {
     switch (type) {
     case 'b':
@@ -61,14 +61,14 @@ static size_t width_of(char type)
 
 static bool skip_item(gwy_bytes *b, char type)
 {
-    const size_t width = width_of(type);
+    const size_t width = item_width(type);
     const char *name = NULL;
     gwy_bytes inner;
     if (type == 's')
-        return take_text(b, &name);
+        return read_text(b, &name);
     if (type == 'o')
-        return gwy_object(b, &name, &inner);
-    if (width == 0 || width > left(b))
+        return gwy_read_object(b, &name, &inner);
+    if (width == 0 || width > bytes_left(b))
         return false;
     b->at += width;
     return true;
@@ -78,13 +78,13 @@ static bool skip_value(gwy_bytes *b, gwy_component *to)
 {
     const bool array = to->type >= 'A' && to->type <= 'Z';
     const char item = (char)(array ? to->type - 'A' + 'a' : to->type);
-    const size_t width = width_of(item);
+    const size_t width = item_width(item);
     to->n = 1;
-    if (array && !take_size(b, &to->n))
+    if (array && !read_size(b, &to->n))
         return false;
     to->value.at = b->at;
     if (width > 0) {
-        if (to->n > left(b) / width)
+        if (to->n > bytes_left(b) / width)
             return false;
         b->at += to->n * width;
     } else {
@@ -97,11 +97,11 @@ static bool skip_value(gwy_bytes *b, gwy_component *to)
     return true;
 }
 
-bool gwy_next(gwy_bytes *components, gwy_component *to, wt_status *status)
+bool gwy_next_component(gwy_bytes *components, gwy_component *to, wt_status *status)
 {
-    if (left(components) == 0)
+    if (bytes_left(components) == 0)
         return false;
-    if (take_text(components, &to->key) && left(components) > 0) {
+    if (read_text(components, &to->key) && bytes_left(components) > 0) {
         to->type = (char)*components->at++;
         if (skip_value(components, to))
             return true;
@@ -110,10 +110,10 @@ bool gwy_next(gwy_bytes *components, gwy_component *to, wt_status *status)
     return false;
 }
 
-bool gwy_find(gwy_bytes components, const char *key, char type, gwy_component *to)
+bool gwy_find_component(gwy_bytes components, const char *key, char type, gwy_component *to)
 {
     wt_status status = WT_OK;
-    while (gwy_next(&components, to, &status))
+    while (gwy_next_component(&components, to, &status))
         if (to->type == type && strcmp(to->key, key) == 0)
             return true;
     return false;
@@ -124,8 +124,9 @@ const char *gwy_unit(gwy_bytes components, const char *key)
     gwy_component unit, text;
     gwy_bytes inside;
     const char *name = NULL;
-    if (!gwy_find(components, key, 'o', &unit) || !gwy_object(&unit.value, &name, &inside) ||
-        !gwy_find(inside, "unitstr", 's', &text))
+    if (!gwy_find_component(components, key, 'o', &unit) ||
+        !gwy_read_object(&unit.value, &name, &inside) ||
+        !gwy_find_component(inside, "unitstr", 's', &text))
         return "";
     return (const char *)text.value.at;
 }

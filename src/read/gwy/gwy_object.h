@@ -25,11 +25,11 @@ typedef struct gwy_component {
 
 /* Reads the name and the components of the object at *from and moves *from to its end; false if it
  * is truncated. */
-bool gwy_object(gwy_bytes *from, const char **name, gwy_bytes *components);
+bool gwy_read_object(gwy_bytes *from, const char **name, gwy_bytes *components);
 /* Reads the next component; false at the end, or on damage with *status = WT_E_CORRUPT. */
-bool gwy_next(gwy_bytes *components, gwy_component *to, wt_status *status);
+bool gwy_next_component(gwy_bytes *components, gwy_component *to, wt_status *status);
 /* Finds the component with this key and type; false if there is none. */
-bool gwy_find(gwy_bytes components, const char *key, char type, gwy_component *to);
+bool gwy_find_component(gwy_bytes components, const char *key, char type, gwy_component *to);
 /* Returns the unit stored at a key, an object with a text; "" if it is absent. */
 const char *gwy_unit(gwy_bytes components, const char *key);
 double gwy_double(const gwy_component *component);

@@ -14,7 +14,7 @@
 #include <string.h>
 
 /* Returns the manufacturer of a recognised file, or NULL. Other files need --format gwyddion. */
-static const char *whose(const file_peek *peek)
+static const char *maker_name(const file_peek *peek)
 {
     if (PEEK_BEGINS(peek, "AliconaImaging"))
         return "Alicona";
@@ -27,7 +27,7 @@ static const char *whose(const file_peek *peek)
     if (PEEK_BEGINS(peek, "aISO-1.0") || PEEK_BEGINS(peek, "aBCR-1.0"))
         return "SDF, ISO 25178-71";
     /* force curves of WSxM have the same first line */
-    if (PEEK_BEGINS(peek, "WSxM file copyright") && PEEK_HOLDS(peek, "SxM Image file"))
+    if (PEEK_BEGINS(peek, "WSxM file copyright") && PEEK_CONTAINS(peek, "SxM Image file"))
         return "WSxM";
     return NULL;
 }
@@ -35,7 +35,7 @@ static const char *whose(const file_peek *peek)
 static recognition detect(const file_reader *self, file_peek *peek)
 {
     (void)self;
-    return recognised(whose(peek) != NULL, 90);
+    return recognition_result(maker_name(peek) != NULL, 90);
 }
 
 /* True if the head of a Digital Surf file states missing points: the little-endian int16 at byte
@@ -50,11 +50,11 @@ static bool surf_has_missing(const file_peek *peek)
 /* Marks the points at the lowest height as missing. Digital Surf encodes missing points as a height
  * below all others, which Gwyddion 2.62 reads as a height. If a newer version has marked missing
  * points already, nothing changes. */
-static void take_out_lowest(wt_image *image, const char *file, wt_log *log)
+static void mark_lowest_missing(wt_image *image, const char *file, wt_log *log)
 {
     const size_t n = image->n_columns * image->n_rows;
     double lowest = (double)INFINITY;
-    size_t taken = 0;
+    size_t n_marked = 0;
     for (size_t i = 0; i < n; i++) {
         if (!isfinite(image->values[i]))
             return;
@@ -63,12 +63,12 @@ static void take_out_lowest(wt_image *image, const char *file, wt_log *log)
     for (size_t i = 0; i < n; i++)
         if (image->values[i] <= lowest) {
             image->values[i] = (double)NAN;
-            taken++;
+            n_marked++;
         }
     wt_log_add(log, WT_WARNING, file, image->name,
                "the file says that heights are missing; the %zu of %zu at the lowest height, "
                "which marks them, are left out",
-               taken, n);
+               n_marked, n);
 }
 
 static wt_status peek_head(wt_input *input, file_peek *peek, wt_error *err)
@@ -78,10 +78,10 @@ static wt_status peek_head(wt_input *input, file_peek *peek, wt_error *err)
 }
 
 /* Converts the file with Gwyddion. A compressed Digital Surf file is unpacked first. */
-static wt_status convert(wt_input *input, wt_log *log, wt_input **converted, char version[64],
-                         wt_error *err)
+static wt_status convert_file(wt_input *input, wt_log *log, wt_input **converted, char version[64],
+                              wt_error *err)
 {
-    const gwyddion_limits *const limits = &gwyddion_usual_limits;
+    const gwyddion_limits *const limits = &gwyddion_default_limits;
     file_peek peek = {.name = wt_input_name(input)};
     wt_status status = peek_head(input, &peek, err);
     if (status != WT_OK || !PEEK_BEGINS(&peek, SURF_PACKED))
@@ -104,7 +104,7 @@ static wt_status read_images(const file_reader *self, wt_input *input,
     wt_error inner = WT_ERROR_INIT;
     (void)self;
     (void)options;
-    wt_status status = convert(input, log, &converted, version, err);
+    wt_status status = convert_file(input, log, &converted, version, err);
     if (status == WT_OK) {
         status = gwy_read(converted, true, log, images, n_images, &inner);
         if (status != WT_OK) {
@@ -114,16 +114,16 @@ static wt_status read_images(const file_reader *self, wt_input *input,
         }
         wt_input_close(converted);
     }
-    const wt_status seen = peek_head(input, &peek, NULL); /* the bytes may have moved */
+    const wt_status peek_status = peek_head(input, &peek, NULL); /* the bytes may have moved */
     if (status != WT_OK) {
-        const char *const maker = seen == WT_OK ? whose(&peek) : NULL;
+        const char *const maker = peek_status == WT_OK ? maker_name(&peek) : NULL;
         if (maker != NULL && (err == NULL || err->found[0] == '\0'))
             wt_error_found(err, "a topography (%s)", maker);
         return status;
     }
     wt_log_add(log, WT_NOTE, peek.name, NULL, "converted by %s", version);
-    if (seen == WT_OK && surf_has_missing(&peek))
-        take_out_lowest(&(*images)[0], peek.name, log);
+    if (peek_status == WT_OK && surf_has_missing(&peek))
+        mark_lowest_missing(&(*images)[0], peek.name, log);
     return WT_OK;
 }
 

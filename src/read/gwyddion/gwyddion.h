@@ -13,7 +13,7 @@ typedef struct gwyddion_limits {
     size_t file_size; /* size of each written file [byte] */
     size_t memory;    /* memory for data [byte] */
 } gwyddion_limits;
-extern const gwyddion_limits gwyddion_usual_limits;
+extern const gwyddion_limits gwyddion_default_limits;
 
 /* Converts a copy of the bytes to .gwy in a temporary folder, which is removed afterwards.
  * *converted has the name of the input; the caller closes it. `version` is the version text of the

@@ -14,17 +14,17 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#define RESULT "converted.gwy"
+#define CONVERTED_NAME "converted.gwy"
 
 /* A map of 4000 x 4000 points takes 2 s. An upper bound of 2^27 points is 1 GiB as written by
  * Gwyddion, and Gwyddion holds up to four copies. */
-const gwyddion_limits gwyddion_usual_limits = {
+const gwyddion_limits gwyddion_default_limits = {
     .time = 60, .cpu_time = 60, .file_size = (size_t)1 << 30, .memory = (size_t)4 << 30};
 /* limit for the version query, which is fast [s] */
 static const double VERSION_TIME = 10;
 
 /* Builds the name of the copy. Gwyddion uses only the suffix of the name. */
-static void copy_name(const char *file, char name[32])
+static void build_copy_name(const char *file, char name[32])
 {
     const char *const dot = strrchr(file, '.');
     char ending[16] = "";
@@ -57,7 +57,7 @@ static wt_status write_copy(wt_input *input, const char *folder, const char *nam
     return status;
 }
 
-static wt_status with_advice(wt_error *err)
+static wt_status add_export_advice(wt_error *err)
 {
     wt_error_advice(err,
                     "see whether Gwyddion opens the file, and save it there as .gwy; or export "
@@ -65,15 +65,15 @@ static wt_status with_advice(wt_error *err)
     return WT_E_TOOL;
 }
 
-static wt_status fails(const char *what, wt_error *err)
+static wt_status fail_tool(const char *what, wt_error *err)
 {
     wt_fail(err, WT_E_TOOL, "%s", what);
-    return with_advice(err);
+    return add_export_advice(err);
 }
 
-static wt_status check_end(const program_end *end, double limit, wt_error *err)
+static wt_status check_program_end(const program_result *end, double limit, wt_error *err)
 {
-    switch (end->how) {
+    switch (end->outcome) {
     case PROGRAM_NOT_STARTED:
         if (end->code == ENOENT)
             wt_fail(err, WT_E_TOOL,
@@ -87,23 +87,23 @@ static wt_status check_end(const program_end *end, double limit, wt_error *err)
     case PROGRAM_SIGNALLED:
         wt_fail(err, WT_E_TOOL, "Gwyddion failed on the file: it was ended by signal %d",
                 end->code);
-        return with_advice(err);
+        return add_export_advice(err);
     case PROGRAM_EXITED:
         if (end->code == 0)
             return WT_OK;
         wt_fail(err, WT_E_TOOL, "Gwyddion cannot read the file: it ended with exit status %d",
                 end->code);
-        return with_advice(err);
+        return add_export_advice(err);
     case PROGRAM_TOO_LONG:
     case PROGRAM_CANCELLED:
     default:
         wt_fail(err, WT_E_TOOL, "Gwyddion did not end within %g s", limit);
-        return with_advice(err);
+        return add_export_advice(err);
     }
 }
 
-static wt_status run(const char *folder, const char *const *arguments,
-                     const gwyddion_limits *limits, program_end *end, wt_error *err)
+static wt_status run_gwyddion(const char *folder, const char *const *arguments,
+                              const gwyddion_limits *limits, program_result *end, wt_error *err)
 {
     /* Gwyddion must not see settings of the user or a display. */
     static const char *const hidden[] = {"HOME=", "XDG_",     "DISPLAY=", "WAYLAND_", "DBUS_",
@@ -127,20 +127,20 @@ static wt_status run(const char *folder, const char *const *arguments,
 }
 
 /* Reads the converted bytes, so that the folder can be removed. Only a regular file is accepted. */
-static wt_status take_result(const char *folder, const char *name, size_t most,
-                             wt_input **converted, wt_error *err)
+static wt_status read_converted(const char *folder, const char *name, size_t max_size,
+                                wt_input **converted, wt_error *err)
 {
     struct stat known;
-    char *const path = wt_path_join(folder, RESULT), *bytes = NULL;
+    char *const path = wt_path_join(folder, CONVERTED_NAME), *bytes = NULL;
     if (path == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     wt_status status = WT_OK;
     const int file = open(path, O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
     free(path);
     if (file < 0 || fstat(file, &known) != 0 || !S_ISREG(known.st_mode) || known.st_size == 0) {
-        status = fails("Gwyddion made nothing of the file", err);
-    } else if ((size_t)known.st_size >= most) { /* it was truncated at the limit */
-        status = fails("Gwyddion made more of the file than is read", err);
+        status = fail_tool("Gwyddion made nothing of the file", err);
+    } else if ((size_t)known.st_size >= max_size) { /* it was truncated at the limit */
+        status = fail_tool("Gwyddion made more of the file than is read", err);
     } else {
         const size_t length = (size_t)known.st_size;
         size_t done = 0;
@@ -153,10 +153,10 @@ static wt_status take_result(const char *folder, const char *name, size_t most,
         if (bytes == NULL)
             status = wt_fail(err, WT_E_MEMORY, "no memory for what Gwyddion wrote");
         else if (done < length)
-            status = fails("what Gwyddion wrote cannot be read", err);
+            status = fail_tool("what Gwyddion wrote cannot be read", err);
         if (status == WT_OK) {
             bytes[length] = '\0';
-            status = input_own(bytes, length, name, converted, err);
+            status = input_from_bytes(bytes, length, name, converted, err);
             bytes = NULL;
         }
     }
@@ -166,19 +166,19 @@ static wt_status take_result(const char *folder, const char *name, size_t most,
     return status;
 }
 
-static void find_version(const char *folder, const gwyddion_limits *limits, char version[64])
+static void read_version(const char *folder, const gwyddion_limits *limits, char version[64])
 {
     static const char *const arguments[] = {"--version", NULL};
     gwyddion_limits short_time = *limits;
-    program_end end;
+    program_result end;
     if (short_time.time > VERSION_TIME)
         short_time.time = VERSION_TIME;
-    const bool known = run(folder, arguments, &short_time, &end, NULL) == WT_OK &&
-                       end.how == PROGRAM_EXITED && end.code == 0 && end.words[0] != '\0';
+    const bool known = run_gwyddion(folder, arguments, &short_time, &end, NULL) == WT_OK &&
+                       end.outcome == PROGRAM_EXITED && end.code == 0 && end.words[0] != '\0';
     if (known)
-        end.words[utf8_cut(end.words, strlen(end.words), 63)] = '\0';
+        end.words[utf8_truncated_length(end.words, strlen(end.words), 63)] = '\0';
     snprintf(version, 64, "%.63s", known ? end.words : "Gwyddion of an unknown version");
-    utf8_tidy(version);
+    utf8_sanitize(version);
 }
 
 wt_status gwyddion_convert(wt_input *input, const gwyddion_limits *limits, wt_input **converted,
@@ -186,11 +186,11 @@ wt_status gwyddion_convert(wt_input *input, const gwyddion_limits *limits, wt_in
 {
     int held = -1;
     char name[32];
-    program_end end;
+    program_result end;
     char *const place = realpath(temporary_directory(), NULL);
     if (place != NULL)
-        temporary_sweep(place);
-    char *const folder = place != NULL ? temporary_folder(place, &held) : NULL;
+        temporary_remove_abandoned(place);
+    char *const folder = place != NULL ? temporary_folder_create(place, &held) : NULL;
     if (folder == NULL || fchmod(held, 0700) != 0) {
         wt_fail(err, WT_E_IO, "no temporary folder for Gwyddion: %s", strerror(errno));
         wt_error_advice(err, "set TMPDIR to a folder with room for the height map");
@@ -199,17 +199,17 @@ wt_status gwyddion_convert(wt_input *input, const gwyddion_limits *limits, wt_in
         return WT_E_IO;
     }
     free(place);
-    copy_name(wt_input_name(input), name);
-    const char *const arguments[] = {"--convert-to-gwy=" RESULT, name, NULL};
+    build_copy_name(wt_input_name(input), name);
+    const char *const arguments[] = {"--convert-to-gwy=" CONVERTED_NAME, name, NULL};
     wt_status status = write_copy(input, folder, name, err);
     if (status == WT_OK)
-        status = run(folder, arguments, limits, &end, err);
+        status = run_gwyddion(folder, arguments, limits, &end, err);
     if (status == WT_OK)
-        status = check_end(&end, limits->time, err);
+        status = check_program_end(&end, limits->time, err);
     if (status == WT_OK)
-        status = take_result(folder, wt_input_name(input), limits->file_size, converted, err);
+        status = read_converted(folder, wt_input_name(input), limits->file_size, converted, err);
     if (status == WT_OK)
-        find_version(folder, limits, version);
+        read_version(folder, limits, version);
     temporary_remove(folder);
     close(held);
     free(folder);

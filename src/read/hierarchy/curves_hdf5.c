@@ -34,7 +34,7 @@ static hid_t open_attribute(hid_t object, const char *name, size_t *n)
     return attribute;
 }
 
-double hdf5_number(hid_t object, const char *name, size_t i)
+double hdf5_number_attribute(hid_t object, const char *name, size_t i)
 {
     double values[NUMBERS_MAX] = {(double)NAN}, value = (double)NAN;
     size_t n = 0;
@@ -49,7 +49,7 @@ double hdf5_number(hid_t object, const char *name, size_t i)
     return value;
 }
 
-bool hdf5_text(hid_t object, const char *name, char text[HDF5_TEXT])
+bool hdf5_text_attribute(hid_t object, const char *name, char text[HDF5_TEXT])
 {
     enum { WIDTH_MAX = 65536 };
     size_t n = 0;
@@ -74,15 +74,15 @@ bool hdf5_text(hid_t object, const char *name, char text[HDF5_TEXT])
     return text[0] != '\0';
 }
 
-size_t hdf5_links(hid_t group)
+size_t hdf5_link_count(hid_t group)
 {
     H5G_info_t info;
     return H5Gget_info(group, &info) >= 0 ? (size_t)info.nlinks : 0;
 }
 
-bool hdf5_link(hid_t group, size_t i, char name[HDF5_NAME])
+bool hdf5_link_name(hid_t group, size_t i, char name[HDF5_NAME])
 {
-    if (i >= hdf5_links(group) || i >= LINKS_MAX)
+    if (i >= hdf5_link_count(group) || i >= LINKS_MAX)
         return false;
     const ssize_t length =
         H5Lget_name_by_idx(group, ".", H5_INDEX_NAME, H5_ITER_INC, i, name, HDF5_NAME, H5P_DEFAULT);
@@ -119,7 +119,7 @@ hid_t hdf5_open_data(hid_t parent, const char *name)
  * unpacked for every row. */
 hid_t hdf5_open_rows(hid_t parent, const char *name)
 {
-    enum { KEPT = 1 << 20 };
+    enum { CHUNK_CACHE_SIZE = 1 << 20 };
     const hid_t data = hdf5_open_data(parent, name);
     const hid_t creation = data >= 0 ? H5Dget_create_plist(data) : -1;
     const hid_t type = data >= 0 ? H5Dget_type(data) : -1;
@@ -128,7 +128,7 @@ hid_t hdf5_open_rows(hid_t parent, const char *name)
     hid_t again = -1;
     if (width > 0 && H5Pget_layout(creation) == H5D_CHUNKED &&
         H5Pget_chunk(creation, 1, &piece) == 1 && piece < SIZE_MAX / width &&
-        piece * width > KEPT) {
+        piece * width > CHUNK_CACHE_SIZE) {
         const size_t size = (size_t)piece * width;
         const hid_t access = H5Pcreate(H5P_DATASET_ACCESS);
         hdf5_close(data); /* the cache of an open data set cannot be changed */
@@ -144,7 +144,7 @@ hid_t hdf5_open_rows(hid_t parent, const char *name)
     return again;
 }
 
-size_t hdf5_count(hid_t data, size_t size)
+size_t hdf5_value_count(hid_t data, size_t size)
 {
     const hid_t creation = H5Dget_create_plist(data);
     const hid_t space = H5Dget_space(data);
@@ -163,7 +163,7 @@ size_t hdf5_count(hid_t data, size_t size)
     return good ? (size_t)points : 0;
 }
 
-bool hdf5_rows(hid_t data, size_t from, size_t n, double *values)
+bool hdf5_read_rows(hid_t data, size_t from, size_t n, double *values)
 {
     const hsize_t start = from, count = n;
     const hid_t all = H5Dget_space(data);
@@ -176,12 +176,12 @@ bool hdf5_rows(hid_t data, size_t from, size_t n, double *values)
     return good;
 }
 
-double *hdf5_values(hid_t data, size_t size, size_t *n)
+double *hdf5_read_values(hid_t data, size_t size, size_t *n)
 {
-    const size_t count = hdf5_count(data, size);
+    const size_t count = hdf5_value_count(data, size);
     double *values = count > 0 ? calloc(count, sizeof *values) : NULL;
     *n = count > 0 ? count : *n;
-    if (values != NULL && !hdf5_rows(data, 0, count, values)) {
+    if (values != NULL && !hdf5_read_rows(data, 0, count, values)) {
         free(values);
         values = NULL;
     }
@@ -192,22 +192,23 @@ double *hdf5_values(hid_t data, size_t size, size_t *n)
 
 /* True for a file of this program: the first attributes of its root have these names, which end
  * with a zero. */
-static bool is_own(const file_peek *peek)
+static bool is_weartrack_file(const file_peek *peek)
 {
     static const char *const marks[] = {STORE_FORMAT_ATTRIBUTE, STORE_MAP_ATTRIBUTE};
     for (size_t i = 0; i < sizeof marks / sizeof *marks; i++)
-        if (peek_holds(peek, marks[i], strlen(marks[i]) + 1))
+        if (peek_contains(peek, marks[i], strlen(marks[i]) + 1))
             return true;
     return false;
 }
 
 recognition hdf5_detect(const file_reader *self, file_peek *peek)
 {
-    const char *const words = self->hdf5->words;
-    return recognised(PEEK_BEGINS(peek, HDF5_SIGNATURE) &&
-                          (peek_holds(peek, words, strlen(words)) ||
-                           (!peek->whole && !is_own(peek) && input_has(peek->input, words))),
-                      85);
+    const char *const keywords = self->hdf5->keywords;
+    return recognition_result(
+        PEEK_BEGINS(peek, HDF5_SIGNATURE) &&
+            (peek_contains(peek, keywords, strlen(keywords)) ||
+             (!peek->whole && !is_weartrack_file(peek) && input_contains(peek->input, keywords))),
+        85);
 }
 
 typedef struct text_sink {
@@ -215,7 +216,7 @@ typedef struct text_sink {
     const char *name;
 } text_sink;
 
-static wt_status take_text(void *user, const void *piece, size_t n, wt_error *err)
+static wt_status store_text(void *user, const void *piece, size_t n, wt_error *err)
 {
     text_sink *to = user;
     return spool_add(&to->text, piece, n, to->name, err);
@@ -231,7 +232,7 @@ wt_status hdf5_as_text(const file_reader *self, wt_input *input, wt_log *log, wt
     /* In the sandbox no file can be opened, so the unit database is loaded before. */
     wt_status status = wt_unit_to_si("m", WT_Q_LENGTH, &factor, &offset, err);
     if (status == WT_OK)
-        status = input_hdf5(input, &from, err);
+        status = input_hdf5_bytes(input, &from, err);
     if (status != WT_OK)
         return status;
     if (self->hdf5->note != NULL)
@@ -243,10 +244,10 @@ wt_status hdf5_as_text(const file_reader *self, wt_input *input, wt_log *log, wt
     limits.cpu_time = 2 + (unsigned)(from.size >> 20);
     status = hdf5_sandbox_start(&from, &limits, self->hdf5->print, &flow, err);
     if (status == WT_OK)
-        status = sandbox_drain(flow, take_text, &to, err);
+        status = sandbox_drain(flow, store_text, &to, err);
     sandbox_close(flow);
     if (status == WT_OK)
-        return spool_input(&to.text, to.name, text, err);
-    spool_drop(&to.text);
+        return spool_to_input(&to.text, to.name, text, err);
+    spool_discard(&to.text);
     return status;
 }

@@ -15,10 +15,10 @@ static recognition detect(const file_reader *self, file_peek *peek)
     recognition match = {.answer = ANSWER_NO};
     bool big_endian = false;
     (void)self;
-    if (ibw_is(peek->bytes, peek->length, &big_endian)) {
+    if (ibw_is_wave(peek->bytes, peek->length, &big_endian)) {
         match.answer = ANSWER_YES;
         match.score = 90;
-    } else if (peek->whole && ibw_is_old(peek->bytes, peek->length)) {
+    } else if (peek->whole && ibw_is_version_2(peek->bytes, peek->length)) {
         match.answer = ANSWER_UNSUPPORTED;
         snprintf(
             match.reason, sizeof match.reason,
@@ -30,7 +30,7 @@ static recognition detect(const file_reader *self, file_peek *peek)
 
 /* ---- metadata -------------------------------------------------------------------------------- */
 
-static void add_setpoint(const ibw_file *file, force_metadata *facts)
+static void add_setpoint(const ibw_file *file, force_metadata *metadata)
 {
     static const struct {
         const char *channel;
@@ -39,19 +39,19 @@ static void add_setpoint(const ibw_file *file, force_metadata *facts)
                  {"Deflection", WT_Q_DEFLECTION},
                  {"DeflVolts", WT_Q_DEFLECTION_VOLTAGE}};
     char channel[IBW_TEXT];
-    if (!ibw_note(file, "TriggerChannel", channel))
+    if (!ibw_note_text(file, "TriggerChannel", channel))
         return;
     for (size_t i = 0; i < sizeof known / sizeof *known; i++)
         if (strcmp(channel, known[i].channel) == 0) {
-            facts->setpoint = ibw_number(file, "TriggerPoint");
-            facts->setpoint_quantity = known[i].quantity;
+            metadata->setpoint = ibw_note_number(file, "TriggerPoint");
+            metadata->setpoint_quantity = known[i].quantity;
         }
 }
 
 /* Returns the metadata of the curve. Heights in the file increase towards the sample; the signal is
  * negated. The deflection is in metres, computed with the sensitivity of the note. The velocities
  * of the note are settings, used or not, so none is read. */
-force_metadata ibw_facts(const ibw_file *file)
+force_metadata ibw_metadata(const ibw_file *file)
 {
     static const struct {
         const char *name;
@@ -60,28 +60,29 @@ force_metadata ibw_facts(const ibw_file *file)
     } known[] = {{"ZSnsr", WT_Q_MEASURED_HEIGHT, -1},
                  {"Raw", WT_Q_HEIGHT, -1},
                  {"Defl", WT_Q_DEFLECTION, 1}};
-    force_metadata facts = {
+    force_metadata metadata = {
         .velocity = (double)NAN,
         .setpoint = (double)NAN,
-        .cantilever = {.spring_constant = force_positive(ibw_number(file, "SpringConstant")),
-                       .sensitivity = force_positive(ibw_number(file, "InvOLS"))},
+        .cantilever = {.spring_constant =
+                           force_positive_or_nan(ibw_note_number(file, "SpringConstant")),
+                       .sensitivity = force_positive_or_nan(ibw_note_number(file, "InvOLS"))},
         .offers = {WT_Q_TIME, WT_Q_HEIGHT, WT_Q_MEASURED_HEIGHT, WT_Q_FORCE, WT_Q_DEFLECTION,
                    WT_Q_DEFLECTION_VOLTAGE},
         .n_offers = 6};
     for (size_t i = 0; i < sizeof known / sizeof *known; i++)
         for (size_t c = 0; c < file->n_channels; c++)
             if (strcmp(file->channels[c].name, known[i].name) == 0)
-                force_add_signal(&facts, (force_signal){.quantity = known[i].quantity,
-                                                        .name = file->channels[c].name,
-                                                        .unit = "m",
-                                                        .to_si = {known[i].multiplier, 0},
-                                                        .channel = &file->channels[c]});
-    add_setpoint(file, &facts);
-    return facts;
+                force_add_signal(&metadata, (force_signal){.quantity = known[i].quantity,
+                                                           .name = file->channels[c].name,
+                                                           .unit = "m",
+                                                           .to_si = {known[i].multiplier, 0},
+                                                           .channel = &file->channels[c]});
+    add_setpoint(file, &metadata);
+    return metadata;
 }
 
 static wt_status describe_curve(wt_input *input, const wt_read_options *options,
-                                table_writer *facts, wt_error *err)
+                                table_writer *metadata, wt_error *err)
 {
     ibw_file file;
     ibw_segment segments[IBW_SEGMENTS];
@@ -90,35 +91,35 @@ static wt_status describe_curve(wt_input *input, const wt_read_options *options,
     static const char *const keys[] = {"ImagingMode", "Date", "Time", "TriggerChannel"};
     wt_status status = ibw_open(input, &file, err);
     if (status == WT_OK)
-        status = ibw_segments(&file, segments, &n, err);
+        status = ibw_read_segments(&file, segments, &n, err);
     if (status != WT_OK)
         return status;
-    const force_metadata read = ibw_facts(&file);
-    facts_add(facts, "curves", "", "one for each file", "1");
+    const force_metadata read = ibw_metadata(&file);
+    metadata_add(metadata, "curves", "", "one for each file", "1");
     for (size_t i = 0; i < sizeof keys / sizeof *keys; i++)
-        if (ibw_note(&file, keys[i], text))
-            facts_add(facts, keys[i], "", "note", "%s", text);
+        if (ibw_note_text(&file, keys[i], text))
+            metadata_add(metadata, keys[i], "", "note", "%s", text);
     for (size_t i = 0; i < file.n_channels; i++) {
-        const wt_quantity q = force_read_as(&read, options, &file.channels[i]);
-        facts_add(facts, file.channels[i].name, "m", "label", "%zu samples%s%s", file.n,
-                  q != WT_Q_NONE ? ", " : "", q != WT_Q_NONE ? wt_quantity_id(q) : "");
+        const wt_quantity q = force_channel_quantity(&read, options, &file.channels[i]);
+        metadata_add(metadata, file.channels[i].name, "m", "label", "%zu samples%s%s", file.n,
+                     q != WT_Q_NONE ? ", " : "", q != WT_Q_NONE ? wt_quantity_id(q) : "");
     }
     for (size_t i = 0; i < n; i++) {
         char item[32];
         snprintf(item, sizeof item, "segment %zu", i);
-        facts_add(facts, item, "", "Indexes, Direction", "%s, %zu points",
-                  wt_segment_kind_name(segments[i].kind), segments[i].n);
+        metadata_add(metadata, item, "", "Indexes, Direction", "%s, %zu points",
+                     wt_segment_kind_name(segments[i].kind), segments[i].n);
     }
-    force_describe_calibration(&read, options, "note, SpringConstant", "note, InvOLS", facts);
+    force_describe_calibration(&read, options, "note, SpringConstant", "note, InvOLS", metadata);
     return WT_OK;
 }
 
 static wt_status describe(const file_reader *self, wt_input *input, const wt_read_options *options,
-                          wt_log *log, table_writer *facts)
+                          wt_log *log, table_writer *metadata)
 {
     wt_error err = WT_ERROR_INIT;
-    const wt_status status = describe_curve(input, options, facts, &err);
-    return images_facts(self, input, options, log, facts, status, &err);
+    const wt_status status = describe_curve(input, options, metadata, &err);
+    return images_add_metadata(self, input, options, log, metadata, status, &err);
 }
 
 /* ---- curves ---------------------------------------------------------------------------------- */
@@ -126,7 +127,7 @@ static wt_status describe(const file_reader *self, wt_input *input, const wt_rea
 typedef struct ibw_source {
     wt_force_source base;
     ibw_file file;
-    force_metadata facts;
+    force_metadata metadata;
     ibw_segment segments[IBW_SEGMENTS];
     size_t n_segments;
     size_t from; /* first sample of the current segment */
@@ -154,19 +155,19 @@ static wt_status next_curve(wt_force_source *base, wt_force_curve *curve, wt_err
     if (source->done)
         return WT_END;
     source->done = true;
-    curve->x = ibw_number(&source->file, "XLVDT");
-    curve->y = ibw_number(&source->file, "YLVDT");
+    curve->x = ibw_note_number(&source->file, "XLVDT");
+    curve->y = ibw_note_number(&source->file, "YLVDT");
     for (size_t i = 0; i < source->n_segments && status == WT_OK; i++) {
         const ibw_segment *segment = &source->segments[i];
-        force_metadata facts = source->facts;
-        facts.kind = segment->kind;
-        facts.index = i;
-        facts.n_points = segment->n;
-        facts.start = source->file.interval * (double)segment->from;
-        facts.duration = source->file.interval * (double)segment->n;
+        force_metadata metadata = source->metadata;
+        metadata.kind = segment->kind;
+        metadata.index = i;
+        metadata.n_points = segment->n;
+        metadata.start = source->file.interval * (double)segment->from;
+        metadata.duration = source->file.interval * (double)segment->n;
         source->from = segment->from;
-        if (force_wants_segment(base, segment->kind))
-            status = force_add_segment(base, &facts, curve, err);
+        if (force_is_segment_requested(base, segment->kind))
+            status = force_add_segment(base, &metadata, curve, err);
     }
     return status;
 }
@@ -178,8 +179,8 @@ static wt_status open_source(wt_force_source *base, const file_reader *self, wt_
     (void)self;
     wt_status status = ibw_open(input, &source->file, err);
     if (status == WT_OK)
-        status = ibw_segments(&source->file, source->segments, &source->n_segments, err);
-    source->facts = ibw_facts(&source->file); /* has pointers to the channels of this file */
+        status = ibw_read_segments(&source->file, source->segments, &source->n_segments, err);
+    source->metadata = ibw_metadata(&source->file); /* has pointers to the channels of this file */
     base->n_curves = 1;
     return status;
 }

@@ -43,9 +43,9 @@ typedef struct ibw_segment {
 
 /* True if a wave of version 5 begins with these bytes: the sum of all 16-bit words of its headers
  * is 0. */
-bool ibw_is(const unsigned char *bytes, size_t length, bool *big_endian);
+bool ibw_is_wave(const unsigned char *bytes, size_t length, bool *big_endian);
 /* True if the bytes are a complete wave of version 2: its sizes add up to the file size. */
-bool ibw_is_old(const unsigned char *bytes, size_t length);
+bool ibw_is_version_2(const unsigned char *bytes, size_t length);
 /* Opens a wave of curves. All offsets are checked against the file size. */
 wt_status ibw_open(wt_input *input, ibw_file *file, wt_error *err) WT_NODISCARD;
 /* The grid of an image with three dimensions, the last of which is the channel; file.n = n_columns
@@ -60,11 +60,11 @@ wt_status ibw_open_image(wt_input *input, ibw_file *file, ibw_grid *grid,
 wt_status ibw_images(const file_reader *self, wt_input *input, const wt_read_options *options,
                      wt_log *log, wt_image **images, size_t *n_images, wt_error *err);
 /* Reads the value of a key of the note, cut to fit; false if it is absent. */
-bool ibw_note(const ibw_file *file, const char *key, char value[IBW_TEXT]);
-double ibw_number(const ibw_file *file, const char *key); /* NaN if it is absent */
-wt_status ibw_segments(const ibw_file *file, ibw_segment segments[IBW_SEGMENTS], size_t *n,
-                       wt_error *err) WT_NODISCARD;
+bool ibw_note_text(const ibw_file *file, const char *key, char value[IBW_TEXT]);
+double ibw_note_number(const ibw_file *file, const char *key); /* NaN if it is absent */
+wt_status ibw_read_segments(const ibw_file *file, ibw_segment segments[IBW_SEGMENTS], size_t *n,
+                            wt_error *err) WT_NODISCARD;
 /* Returns signals and calibration, which all segments share. */
-force_metadata ibw_facts(const ibw_file *file);
+force_metadata ibw_metadata(const ibw_file *file);
 
 #endif

@@ -10,7 +10,7 @@
 
 /* Returns the unit of a channel by its name, such as "HeightRetrace" or "ZSensorTrace", since the
  * wave states none. */
-static const char *unit_of(const char *name)
+static const char *channel_unit(const char *name)
 {
     static const struct {
         const char *begin, *unit;
@@ -44,7 +44,7 @@ wt_status ibw_images(const file_reader *self, wt_input *input, const wt_read_opt
                          .y_min = grid.y_min,
                          .x_unit = "m"};
         snprintf(head.name, sizeof head.name, "%s", file.channels[c].name);
-        snprintf(head.unit, sizeof head.unit, "%s", unit_of(head.name));
+        snprintf(head.unit, sizeof head.unit, "%s", channel_unit(head.name));
         status = images_add(&list, &head, &values, err);
         if (status != WT_OK)
             break;
@@ -52,5 +52,5 @@ wt_status ibw_images(const file_reader *self, wt_input *input, const wt_read_opt
                        file.bytes + file.data + sample_width(file.type) * c * file.n, file.n, 1, 0,
                        values);
     }
-    return images_end(&list, status, wt_input_name(input), log, images, n_images, err);
+    return images_finish(&list, status, wt_input_name(input), log, images, n_images, err);
 }

@@ -15,7 +15,7 @@ enum {
     WAVE_2 = 110
 };
 
-bool ibw_is(const unsigned char *bytes, size_t length, bool *big_endian)
+bool ibw_is_wave(const unsigned char *bytes, size_t length, bool *big_endian)
 {
     unsigned sum = 0;
     if (length < HEADER_5 + WAVE_5)
@@ -26,7 +26,7 @@ bool ibw_is(const unsigned char *bytes, size_t length, bool *big_endian)
     return (sum & 0xffff) == 0 && (*big_endian ? be16(bytes) : le16(bytes)) == 5;
 }
 
-bool ibw_is_old(const unsigned char *bytes, size_t length)
+bool ibw_is_version_2(const unsigned char *bytes, size_t length)
 {
     if (length < HEADER_2 + WAVE_2)
         return false;
@@ -36,18 +36,18 @@ bool ibw_is_old(const unsigned char *bytes, size_t length)
     return (big ? be16(bytes) : le16(bytes)) == 2 && HEADER_2 + wave + note == length;
 }
 
-static uint32_t number_at(const ibw_file *f, size_t at)
+static uint32_t read_uint32(const ibw_file *f, size_t at)
 {
     return f->big_endian ? be32(f->bytes + at) : le32(f->bytes + at);
 }
 
-static double read_real(const ibw_file *f, size_t at)
+static double read_double(const ibw_file *f, size_t at)
 {
     return float64(f->big_endian ? be64(f->bytes + at) : le64(f->bytes + at));
 }
 
-static wt_status fail_expected(wt_error *err, wt_status status, const char *message,
-                               const char *expected)
+static wt_status fail_wave(wt_error *err, wt_status status, const char *message,
+                           const char *expected)
 {
     wt_fail(err, status, "%s", message);
     wt_error_place(err, "header of the Igor wave");
@@ -68,8 +68,8 @@ static wt_status read_type(ibw_file *f, wt_error *err)
 {
     const unsigned type = f->big_endian ? be16(f->bytes + TYPE) : le16(f->bytes + TYPE);
     if (type != 2 && type != 4)
-        return fail_expected(err, WT_E_UNSUPPORTED, "the wave does not hold real numbers",
-                             "numbers of 32 or 64 bits");
+        return fail_wave(err, WT_E_UNSUPPORTED, "the wave does not hold real numbers",
+                         "numbers of 32 or 64 bits");
     f->type = type == 2 ? SAMPLE_FLOAT32 : SAMPLE_FLOAT64;
     return WT_OK;
 }
@@ -77,8 +77,8 @@ static wt_status read_type(ibw_file *f, wt_error *err)
 static wt_status set_sizes(ibw_file *f, size_t n, size_t channels, wt_error *err)
 {
     if (n == 0 || n > (size_t)1 << 28 || channels > IBW_CHANNELS)
-        return fail_expected(err, WT_E_CORRUPT, "impossible size of the wave",
-                             "up to 268 million samples of up to 32 channels");
+        return fail_wave(err, WT_E_CORRUPT, "impossible size of the wave",
+                         "up to 268 million samples of up to 32 channels");
     f->n = n;
     f->n_channels = channels;
     return WT_OK;
@@ -86,39 +86,39 @@ static wt_status set_sizes(ibw_file *f, size_t n, size_t channels, wt_error *err
 
 static wt_status read_shape(ibw_file *f, wt_error *err)
 {
-    const size_t channels = number_at(f, DIMENSIONS + 4);
+    const size_t channels = read_uint32(f, DIMENSIONS + 4);
     wt_status status = read_type(f, err);
-    if (status == WT_OK && (channels == 0 || number_at(f, DIMENSIONS + 8) != 0))
-        status = fail_expected(err, WT_E_EMPTY, "the wave holds no force curve",
-                               "two dimensions: samples and channels");
+    if (status == WT_OK && (channels == 0 || read_uint32(f, DIMENSIONS + 8) != 0))
+        status = fail_wave(err, WT_E_EMPTY, "the wave holds no force curve",
+                           "two dimensions: samples and channels");
     if (status == WT_OK)
-        status = set_sizes(f, number_at(f, DIMENSIONS), channels, err);
-    f->interval = read_real(f, STEPS);
+        status = set_sizes(f, read_uint32(f, DIMENSIONS), channels, err);
+    f->interval = read_double(f, STEPS);
     if (!(f->interval > 0) || !isfinite(f->interval))
         f->interval = (double)NAN;
     return status;
 }
 
-static wt_status read_grid(ibw_file *f, ibw_grid *grid, wt_error *err)
+static wt_status read_image_grid(ibw_file *f, ibw_grid *grid, wt_error *err)
 {
-    const size_t layers = number_at(f, DIMENSIONS + 8);
-    *grid = (ibw_grid){.n_columns = number_at(f, DIMENSIONS),
-                       .n_rows = number_at(f, DIMENSIONS + 4),
-                       .step_x = read_real(f, STEPS),
-                       .step_y = read_real(f, STEPS + 8),
-                       .x_min = read_real(f, STARTS),
-                       .y_min = read_real(f, STARTS + 8)};
+    const size_t layers = read_uint32(f, DIMENSIONS + 8);
+    *grid = (ibw_grid){.n_columns = read_uint32(f, DIMENSIONS),
+                       .n_rows = read_uint32(f, DIMENSIONS + 4),
+                       .step_x = read_double(f, STEPS),
+                       .step_y = read_double(f, STEPS + 8),
+                       .x_min = read_double(f, STARTS),
+                       .y_min = read_double(f, STARTS + 8)};
     const wt_status status = read_type(f, err);
     if (status != WT_OK)
         return status;
-    if (layers == 0 || number_at(f, DIMENSIONS + 12) != 0)
-        return fail_expected(err, WT_E_EMPTY, "the wave holds no image",
-                             "three dimensions: columns, lines and channels");
+    if (layers == 0 || read_uint32(f, DIMENSIONS + 12) != 0)
+        return fail_wave(err, WT_E_EMPTY, "the wave holds no image",
+                         "three dimensions: columns, lines and channels");
     /* The product of two 32-bit sizes fits. */
     return set_sizes(f, grid->n_columns * grid->n_rows, layers, err);
 }
 
-static wt_status fail_missing(wt_error *err, const char *message, const char *expected)
+static wt_status fail_damaged_wave(wt_error *err, const char *message, const char *expected)
 {
     (void)wt_fail(err, WT_E_CORRUPT, "%s", message);
     wt_error_expected(err, "%s", expected);
@@ -139,7 +139,7 @@ static bool is_label(const unsigned char *label, size_t size)
 
 /* Returns the number after a key such as "RetractStart3:" of the footer; SIZE_MAX if it is
  * absent. */
-static size_t footer_number(const char *footer, const char *key)
+static size_t find_footer_number(const char *footer, const char *key)
 {
     const char *const found = strstr(footer, key);
     return found != NULL ? (size_t)strtoul(found + strlen(key), NULL, 10) : SIZE_MAX;
@@ -149,31 +149,31 @@ static size_t footer_number(const char *footer, const char *key)
  * their positions and ends with its own length, as in " 0292 Force". */
 static wt_status check_footer(const ibw_file *f, size_t length, size_t end, wt_error *err)
 {
-    enum { TAIL = 11, FOOTER_MOST = 4096 };
-    char footer[FOOTER_MOST + 1], key[32];
+    enum { TAIL = 11, FOOTER_MAX = 4096 };
+    char footer[FOOTER_MAX + 1], key[32];
     size_t last = 0;
     if (length < end + TAIL || memcmp(f->bytes + length - 6, " Force", 6) != 0)
         return WT_OK;
     memcpy(footer, f->bytes + length - TAIL, TAIL);
     footer[5] = '\0';
     const size_t size = (size_t)strtoul(footer, NULL, 10);
-    if (size <= TAIL || size > FOOTER_MOST || size > length)
+    if (size <= TAIL || size > FOOTER_MAX || size > length)
         return WT_OK;
     memcpy(footer, f->bytes + length - size, size);
     footer[size] = '\0';
     for (int i = 1; i < 10; i++) {
         (void)snprintf(key, sizeof key, "RetractStart%d:", i);
-        const size_t at = footer_number(footer, key);
+        const size_t at = find_footer_number(footer, key);
         last = at != SIZE_MAX && at > last ? at : last;
     }
-    const size_t first = footer_number(footer, "ExtendStart1:"),
-                 n = footer_number(footer, "RetractLength:");
+    const size_t first = find_footer_number(footer, "ExtendStart1:"),
+                 n = find_footer_number(footer, "RetractLength:");
     if (first == SIZE_MAX || last == 0 || n > length)
         return WT_OK;
     if (first == end && last + n == length - size)
         return WT_OK;
-    (void)fail_missing(err, "bytes are missing inside, or there are too many",
-                       "what stands behind the wave where the footer of the file says");
+    (void)fail_damaged_wave(err, "bytes are missing inside, or there are too many",
+                            "what stands behind the wave where the footer of the file says");
     wt_error_found(err, "its end at byte %zu, not at %zu", length - size, last + n);
     return WT_E_CORRUPT;
 }
@@ -189,8 +189,9 @@ static wt_status read_labels(ibw_file *f, const unsigned char *labels, size_t si
         if (at + LABEL > size)
             continue;
         if (!is_label(labels + at, LABEL))
-            return fail_missing(err, "a label of a channel is no name: bytes are missing before it",
-                                "letters and zeros");
+            return fail_damaged_wave(err,
+                                     "a label of a channel is no name: bytes are missing before it",
+                                     "letters and zeros");
         memcpy(c->name, labels + at, LABEL);
     }
     return WT_OK;
@@ -198,29 +199,29 @@ static wt_status read_labels(ibw_file *f, const unsigned char *labels, size_t si
 
 /* Locates the parts after the samples, in their order. `dimension`: the dimension of the
  * channels. */
-static wt_status read_parts(ibw_file *f, size_t length, size_t dimension, wt_error *err)
+static wt_status locate_parts(ibw_file *f, size_t length, size_t dimension, wt_error *err)
 {
     enum { SIZES = 4, LABELS = 36, DIMENSIONS_MAX = 4, N_BEFORE = 7 };
     const size_t samples = f->n * f->n_channels * sample_width(f->type);
-    const size_t wave = number_at(f, SIZES), note = number_at(f, SIZES + 8);
+    const size_t wave = read_uint32(f, SIZES), note = read_uint32(f, SIZES + 8);
     /* The sizes of formula, note, data unit and units of the four dimensions; then come the labels
      * of each dimension. */
     static const size_t before[N_BEFORE] = {8, 12, 16, 20, 24, 28, 32};
-    const size_t labels = number_at(f, LABELS + 4 * dimension);
+    const size_t labels = read_uint32(f, LABELS + 4 * dimension);
     uint64_t end = (uint64_t)HEADER_5 + wave;
     if (wave != WAVE_5 + samples)
-        return fail_expected(err, WT_E_CORRUPT, "the sizes of the wave contradict one another",
-                             "one number for each sample of each channel");
+        return fail_wave(err, WT_E_CORRUPT, "the sizes of the wave contradict one another",
+                         "one number for each sample of each channel");
     for (size_t i = 0; i < N_BEFORE; i++) {
         if (before[i] == 12)
             f->note = (const char *)f->bytes + (end < length ? end : length);
-        end += number_at(f, before[i]);
+        end += read_uint32(f, before[i]);
     }
     for (size_t i = 0; i < dimension; i++)
-        end += number_at(f, LABELS + 4 * i);
-    uint64_t last = end + labels + number_at(f, LABELS + 4 * DIMENSIONS_MAX);
+        end += read_uint32(f, LABELS + 4 * i);
+    uint64_t last = end + labels + read_uint32(f, LABELS + 4 * DIMENSIONS_MAX);
     for (size_t i = dimension + 1; i < DIMENSIONS_MAX; i++)
-        last += number_at(f, LABELS + 4 * i);
+        last += read_uint32(f, LABELS + 4 * i);
     if (last > length) {
         wt_fail(err, WT_E_CORRUPT, "the end of the file is missing");
         wt_error_expected(err, "%llu bytes", (unsigned long long)last);
@@ -238,9 +239,9 @@ static wt_status open_wave(wt_input *input, ibw_file *file, size_t *length, wt_e
 {
     *file = (ibw_file){.name = wt_input_name(input)};
     const wt_status status = wt_input_bytes(input, &file->bytes, length, err);
-    if (status == WT_OK && !ibw_is(file->bytes, *length, &file->big_endian))
-        return fail_expected(err, WT_E_CORRUPT, "damaged header",
-                             "version 5, and a check sum that agrees");
+    if (status == WT_OK && !ibw_is_wave(file->bytes, *length, &file->big_endian))
+        return fail_wave(err, WT_E_CORRUPT, "damaged header",
+                         "version 5, and a check sum that agrees");
     return status;
 }
 
@@ -250,7 +251,7 @@ wt_status ibw_open(wt_input *input, ibw_file *file, wt_error *err)
     wt_status status = open_wave(input, file, &length, err);
     if (status == WT_OK)
         status = read_shape(file, err);
-    return status == WT_OK ? read_parts(file, length, 1, err) : status;
+    return status == WT_OK ? locate_parts(file, length, 1, err) : status;
 }
 
 wt_status ibw_open_image(wt_input *input, ibw_file *file, ibw_grid *grid, wt_error *err)
@@ -258,13 +259,13 @@ wt_status ibw_open_image(wt_input *input, ibw_file *file, ibw_grid *grid, wt_err
     size_t length = 0;
     wt_status status = open_wave(input, file, &length, err);
     if (status == WT_OK)
-        status = read_grid(file, grid, err);
-    return status == WT_OK ? read_parts(file, length, 2, err) : status;
+        status = read_image_grid(file, grid, err);
+    return status == WT_OK ? locate_parts(file, length, 2, err) : status;
 }
 
 /* ---- the note -------------------------------------------------------------------------------- */
 
-bool ibw_note(const ibw_file *file, const char *key, char value[IBW_TEXT])
+bool ibw_note_text(const ibw_file *file, const char *key, char value[IBW_TEXT])
 {
     const size_t length = strlen(key);
     size_t at = 0;
@@ -279,24 +280,24 @@ bool ibw_note(const ibw_file *file, const char *key, char value[IBW_TEXT])
         size_t from = length + 1;
         while (from < n && line[from] == ' ')
             from++;
-        const size_t taken = n - from < IBW_TEXT ? n - from : IBW_TEXT - 1;
-        memcpy(value, line + from, taken);
-        value[taken] = '\0';
+        const size_t copied = n - from < IBW_TEXT ? n - from : IBW_TEXT - 1;
+        memcpy(value, line + from, copied);
+        value[copied] = '\0';
         return true;
     }
     return false;
 }
 
-double ibw_number(const ibw_file *file, const char *key)
+double ibw_note_number(const ibw_file *file, const char *key)
 {
     char text[IBW_TEXT];
     double value;
-    return ibw_note(file, key, text) && wt_number_parse(text, strlen(text), '.', &value)
+    return ibw_note_text(file, key, text) && wt_number_parse(text, strlen(text), '.', &value)
                ? value
                : (double)NAN;
 }
 
-static wt_status bad_segments(const char *found, wt_error *err)
+static wt_status fail_segments(const char *found, wt_error *err)
 {
     wt_fail(err, WT_E_CORRUPT, "the note does not part the samples into approach and retract");
     wt_error_place(err, "note of the wave, Indexes and Direction");
@@ -307,7 +308,7 @@ static wt_status bad_segments(const char *found, wt_error *err)
 
 /* Parses the next number of a comma-separated list, in the C locale, where a comma is no decimal
  * mark. */
-static double next_number(char **text)
+static double parse_next_number(char **text)
 {
     const locale_t previous = clocale_enter();
     const double value = strtod(*text + (**text == ','), text);
@@ -317,29 +318,29 @@ static double next_number(char **text)
 
 /* Splits the samples by the keys of the note. "0,1008,2015" and "NaN,1,-1," mean an approach from 0
  * to 1008 and a retract from there to the end. */
-wt_status ibw_segments(const ibw_file *file, ibw_segment segments[IBW_SEGMENTS], size_t *n,
-                       wt_error *err)
+wt_status ibw_read_segments(const ibw_file *file, ibw_segment segments[IBW_SEGMENTS], size_t *n,
+                            wt_error *err)
 {
     char indexes[IBW_TEXT], directions[IBW_TEXT];
     *n = 0;
-    if (!ibw_note(file, "Indexes", indexes) || !ibw_note(file, "Direction", directions))
-        return bad_segments("no such lines", err);
+    if (!ibw_note_text(file, "Indexes", indexes) || !ibw_note_text(file, "Direction", directions))
+        return fail_segments("no such lines", err);
     char *index = indexes, *direction = directions;
     unsigned long from = strtoul(index, &index, 10);
-    (void)next_number(&direction);
+    (void)parse_next_number(&direction);
     while (*index == ',' && index[1] >= '0' && index[1] <= '9' && *n < IBW_SEGMENTS) {
         const unsigned long to = strtoul(index + 1, &index, 10);
-        const double way = *direction == ',' ? next_number(&direction) : (double)NAN;
+        const double sign = *direction == ',' ? parse_next_number(&direction) : (double)NAN;
         const bool last = *index != ',' || index[1] < '0' || index[1] > '9';
-        if (to <= from || to >= file->n + !last || isnan(way))
-            return bad_segments(indexes, err);
+        if (to <= from || to >= file->n + !last || isnan(sign))
+            return fail_segments(indexes, err);
         /* Each number is the first sample of a segment; the last one is the last sample. */
-        segments[(*n)++] = (ibw_segment){.kind = way > 0   ? WT_SEGMENT_APPROACH
-                                                 : way < 0 ? WT_SEGMENT_RETRACT
-                                                           : WT_SEGMENT_DWELL,
+        segments[(*n)++] = (ibw_segment){.kind = sign > 0   ? WT_SEGMENT_APPROACH
+                                                 : sign < 0 ? WT_SEGMENT_RETRACT
+                                                            : WT_SEGMENT_DWELL,
                                          .from = from,
                                          .n = to - from + last};
         from = to;
     }
-    return *n > 0 && *index != ',' ? WT_OK : bad_segments(indexes, err);
+    return *n > 0 && *index != ',' ? WT_OK : fail_segments(indexes, err);
 }

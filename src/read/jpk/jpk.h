@@ -87,9 +87,9 @@ wt_status jpk_file_open(wt_input *input, wt_log *log, jpk_file *file, wt_error *
 void jpk_file_close(jpk_file *file); /* accepts a zero-initialised file */
 /* Sets the position and the grid position of the curve of refs[ref]; unknown ones are NaN and
  * -1. */
-void jpk_file_position(jpk_file *file, size_t ref, wt_force_curve *curve);
-/* Warns if the curve has fewer segments than its header states. Call it after jpk_file_position.
- * `n`: number of segments from refs[ref] on. */
+void jpk_file_set_position(jpk_file *file, size_t ref, wt_force_curve *curve);
+/* Warns if the curve has fewer segments than its header states. Call it after
+ * jpk_file_set_position. `n`: number of segments from refs[ref] on. */
 void jpk_file_check_segments(const jpk_file *file, size_t ref, size_t n);
 
 /* ---- a segment: jpk_segment.c ------------------------------------------------------------- */
@@ -128,7 +128,7 @@ const jpk_channel *jpk_segment_channel(const jpk_segment *segment, const char *n
 
 /* Returns the metadata of a segment except for index, place and start. The result borrows the
  * segment. */
-void jpk_segment_facts(const jpk_segment *segment, force_metadata *facts);
+void jpk_segment_metadata(const jpk_segment *segment, force_metadata *metadata);
 
 /* ---- curves: jpk_force.c ------------------------------------------------------------------ */
 

@@ -34,7 +34,7 @@ static const struct {
 
 /* Computes the conversion to a slot in the SI unit of the quantity; false if the file does not
  * define it. */
-static bool chain_si(const jpk_lcd *lcd, const char *name, force_signal *signal)
+static bool chain_to_si(const jpk_lcd *lcd, const char *name, force_signal *signal)
 {
     const jpk_slot *slot = jpk_lcd_slot(lcd, name);
     force_linear *chain = &signal->to_si;
@@ -50,44 +50,44 @@ static bool chain_si(const jpk_lcd *lcd, const char *name, force_signal *signal)
 }
 
 static void add_signal(const jpk_channel *c, wt_quantity quantity, const char *slot,
-                       force_metadata *facts)
+                       force_metadata *metadata)
 {
     force_signal signal = {
         .quantity = quantity, .channel = c, .name = c->name, .unit = "", .problem = c->problem};
     if (c->understood) {
-        const bool own = slot != BASE_SLOT && *slot != '\0';
-        const char *name = slot == BASE_SLOT ? c->lcd.base : own ? slot : c->lcd.preferred;
-        const bool known = chain_si(&c->lcd, name, &signal);
-        if (!known && own)
+        const bool is_named = slot != BASE_SLOT && *slot != '\0';
+        const char *name = slot == BASE_SLOT ? c->lcd.base : is_named ? slot : c->lcd.preferred;
+        const bool known = chain_to_si(&c->lcd, name, &signal);
+        if (!known && is_named)
             return;
         signal.problem = known ? NULL : "it has no calibration";
     }
-    force_add_signal(facts, signal);
+    force_add_signal(metadata, signal);
 }
 
-static double multiplier(const force_metadata *facts, wt_quantity quantity)
+static double multiplier(const force_metadata *metadata, wt_quantity quantity)
 {
-    const force_signal *signal = force_find_signal(facts, quantity);
+    const force_signal *signal = force_find_signal(metadata, quantity);
     return signal != NULL && signal->problem == NULL ? signal->to_si.multiplier : (double)NAN;
 }
 
 /* Sets sensitivity and spring constant, which are the multipliers of the slots. */
-static void add_calibration(const jpk_lcd *lcd, force_metadata *facts)
+static void set_calibration(const jpk_lcd *lcd, force_metadata *metadata)
 {
     const jpk_slot *slot = jpk_lcd_slot(lcd, "force");
     const bool direct =
         slot != NULL && strcmp(slot->base, "distance") == 0 && strcmp(slot->unit, "N") == 0;
-    const double deflection = multiplier(facts, WT_Q_DEFLECTION);
-    const double force = multiplier(facts, WT_Q_FORCE);
-    facts->cantilever.sensitivity = deflection / multiplier(facts, WT_Q_DEFLECTION_VOLTAGE);
-    facts->cantilever.spring_constant = force / deflection;
-    if (direct && !isnan(facts->cantilever.spring_constant))
-        facts->cantilever.spring_constant = slot->scaling.multiplier;
+    const double deflection = multiplier(metadata, WT_Q_DEFLECTION);
+    const double force = multiplier(metadata, WT_Q_FORCE);
+    metadata->cantilever.sensitivity = deflection / multiplier(metadata, WT_Q_DEFLECTION_VOLTAGE);
+    metadata->cantilever.spring_constant = force / deflection;
+    if (direct && !isnan(metadata->cantilever.spring_constant))
+        metadata->cantilever.spring_constant = slot->scaling.multiplier;
 }
 
-void jpk_segment_facts(const jpk_segment *segment, force_metadata *facts)
+void jpk_segment_metadata(const jpk_segment *segment, force_metadata *metadata)
 {
-    *facts = (force_metadata){
+    *metadata = (force_metadata){
         .kind = segment->kind,
         .n_points = segment->n_points,
         .duration = segment->duration,
@@ -101,11 +101,11 @@ void jpk_segment_facts(const jpk_segment *segment, force_metadata *facts)
     for (size_t i = 0; i < sizeof sources / sizeof *sources; i++) {
         const wt_quantity q = sources[i].quantity;
         const jpk_channel *c = jpk_segment_channel(segment, sources[i].channel);
-        force_offer(facts, q);
+        force_add_offer(metadata, q);
         if (c != NULL && (c->understood || q != WT_Q_MEASURED_HEIGHT))
-            add_signal(c, q, sources[i].slot, facts);
+            add_signal(c, q, sources[i].slot, metadata);
     }
     const jpk_channel *deflection = jpk_segment_channel(segment, "vDeflection");
     if (deflection != NULL && deflection->understood)
-        add_calibration(&deflection->lcd, facts);
+        set_calibration(&deflection->lcd, metadata);
 }

@@ -5,8 +5,8 @@
 #include <string.h>
 
 /* Finds a property that files of version 0 store below "data.". */
-static const char *property_of_version(const property_list *properties, const char *prefix,
-                                       const char *key)
+static const char *find_versioned_property(const property_list *properties, const char *prefix,
+                                           const char *key)
 {
     char longer[128];
     snprintf(longer, sizeof longer, "data.%s", key);
@@ -14,7 +14,7 @@ static const char *property_of_version(const property_list *properties, const ch
     return text != NULL ? text : properties_find(properties, prefix, key);
 }
 
-static wt_status unsupported(wt_error *err, const char *what, const char *found)
+static wt_status fail_unsupported(wt_error *err, const char *what, const char *found)
 {
     wt_fail(err, WT_E_UNSUPPORTED, "%s is not supported", what);
     wt_error_found(err, "%s", found != NULL ? found : "nothing");
@@ -50,21 +50,21 @@ static wt_status read_encoding(const property_list *properties, const char *pref
         {"unsignedshort", SAMPLE_UINT16},   {"unsignedshort-limited", SAMPLE_UINT16},
         {"signedinteger", SAMPLE_INT32},    {"signedinteger-limited", SAMPLE_INT32},
         {"unsignedinteger", SAMPLE_UINT32}, {"unsignedinteger-limited", SAMPLE_UINT32}};
-    const char *type = property_of_version(properties, prefix, "type");
-    const char *encoder = property_of_version(properties, prefix, "encoder.type");
+    const char *type = find_versioned_property(properties, prefix, "type");
+    const char *encoder = find_versioned_property(properties, prefix, "encoder.type");
     if (type == NULL)
-        return unsupported(err, "channel without a data type", type);
+        return fail_unsupported(err, "channel without a data type", type);
     lcd->raster = strcmp(type, "raster-data") == 0;
     if (lcd->raster || find_encoding(types, sizeof types / sizeof *types, type, &lcd->encoding))
         return WT_OK;
     if (encoder == NULL)
-        return unsupported(err, "channel data type without encoder", type);
+        return fail_unsupported(err, "channel data type without encoder", type);
     if (!find_encoding(encoders, sizeof encoders / sizeof *encoders, encoder, &lcd->encoding))
-        return unsupported(err, "channel encoder", encoder);
+        return fail_unsupported(err, "channel encoder", encoder);
     return WT_OK;
 }
 
-static bool copy_name(char *to, size_t size, const char *from)
+static bool copy_bounded(char *to, size_t size, const char *from)
 {
     size_t n = from == NULL ? 0 : strlen(from);
     if (n >= size)
@@ -80,7 +80,7 @@ static wt_status read_scaling(const property_list *properties, const char *prefi
 {
     const char *style = properties_find(properties, prefix, "scaling.style");
     if (style != NULL && strcmp(style, "offsetmultiplier") != 0)
-        return unsupported(err, "scaling style", style);
+        return fail_unsupported(err, "scaling style", style);
     scaling->multiplier = properties_number(properties, prefix, "scaling.multiplier");
     scaling->offset = properties_number(properties, prefix, "scaling.offset");
     if (isnan(scaling->multiplier) || isnan(scaling->offset)) {
@@ -94,12 +94,12 @@ static wt_status read_scaling(const property_list *properties, const char *prefi
 static wt_status read_encoder(const property_list *properties, const char *prefix, jpk_lcd *lcd,
                               wt_error *err)
 {
-    static const char *const places[] = {"encoder.", "data.encoder."};
+    static const char *const prefixes[] = {"encoder.", "data.encoder."};
     char key[192];
     lcd->encoder = (force_linear){1, 0};
     const char *unit = properties_find(properties, prefix, "unit.unit");
     for (size_t i = 0; i < 2; i++) {
-        snprintf(key, sizeof key, "%s%s", prefix, places[i]);
+        snprintf(key, sizeof key, "%s%s", prefix, prefixes[i]);
         if (properties_find(properties, key, "scaling.multiplier") == NULL)
             continue;
         wt_status status = read_scaling(properties, key, &lcd->encoder, err);
@@ -109,8 +109,8 @@ static wt_status read_encoder(const property_list *properties, const char *prefi
         unit = own != NULL ? own : unit;
         break;
     }
-    if (!copy_name(lcd->base_unit, sizeof lcd->base_unit, unit))
-        return unsupported(err, "unit of a channel", unit);
+    if (!copy_bounded(lcd->base_unit, sizeof lcd->base_unit, unit))
+        return fail_unsupported(err, "unit of a channel", unit);
     return WT_OK;
 }
 
@@ -124,14 +124,14 @@ static wt_status read_slot(const property_list *properties, const char *prefix, 
     if (defined == NULL || strcmp(defined, "true") != 0)
         return WT_OK;
     if (lcd->n_slots == JPK_SLOTS)
-        return unsupported(err, "channel with so many calibration slots", name);
+        return fail_unsupported(err, "channel with so many calibration slots", name);
     jpk_slot *slot = &lcd->slots[lcd->n_slots];
     const char *base = properties_find(properties, key, "base-calibration-slot");
     const char *unit = properties_find(properties, key, "scaling.unit.unit");
-    if (!copy_name(slot->name, sizeof slot->name, name) ||
-        !copy_name(slot->base, sizeof slot->base, base) ||
-        !copy_name(slot->unit, sizeof slot->unit, unit))
-        return unsupported(err, "calibration slot", name);
+    if (!copy_bounded(slot->name, sizeof slot->name, name) ||
+        !copy_bounded(slot->base, sizeof slot->base, base) ||
+        !copy_bounded(slot->unit, sizeof slot->unit, unit))
+        return fail_unsupported(err, "calibration slot", name);
     wt_status status = read_scaling(properties, key, &slot->scaling, err);
     if (status == WT_OK)
         lcd->n_slots++;
@@ -150,12 +150,12 @@ wt_status jpk_lcd_read(const property_list *properties, const char *prefix, jpk_
     const char *base = properties_find(properties, prefix, "conversion-set.conversions.base");
     const char *preferred =
         properties_find(properties, prefix, "conversion-set.conversions.default");
-    if (!copy_name(lcd->base, sizeof lcd->base, base) ||
-        !copy_name(lcd->preferred, sizeof lcd->preferred, preferred != NULL ? preferred : base))
-        return unsupported(err, "calibration slot", base);
+    if (!copy_bounded(lcd->base, sizeof lcd->base, base) ||
+        !copy_bounded(lcd->preferred, sizeof lcd->preferred, preferred != NULL ? preferred : base))
+        return fail_unsupported(err, "calibration slot", base);
     const char *list = properties_find(properties, prefix, "conversion-set.conversions.list");
     char name[JPK_NAME];
-    while (status == WT_OK && property_word(&list, name, sizeof name))
+    while (status == WT_OK && property_next_word(&list, name, sizeof name))
         status = read_slot(properties, prefix, name, lcd, err);
     return status;
 }

@@ -11,7 +11,7 @@
 #include <string.h>
 
 /* Parses digits up to `stop`. Nine digits exceed the number of curves that a file can contain. */
-static bool read_number(const char **at, char stop, uint32_t *number)
+static bool parse_entry_number(const char **at, char stop, uint32_t *number)
 {
     const char *p = *at;
     uint32_t value = 0;
@@ -27,7 +27,7 @@ static bool read_number(const char **at, char stop, uint32_t *number)
     return true;
 }
 
-static bool read_word(const char **at, const char *word)
+static bool parse_literal(const char **at, const char *word)
 {
     size_t n = strlen(word);
     if (strncmp(*at, word, n) != 0)
@@ -37,17 +37,17 @@ static bool read_word(const char **at, const char *word)
 }
 
 /* Parses an entry name "[index/N/]segments/S/segment-header.properties". */
-static bool parse_name(const char *name, jpk_segment_ref *ref, bool *map)
+static bool parse_entry_name(const char *name, jpk_segment_ref *ref, bool *map)
 {
     ref->curve = 0;
-    *map = read_word(&name, "index/");
-    if (*map && !read_number(&name, '/', &ref->curve))
+    *map = parse_literal(&name, "index/");
+    if (*map && !parse_entry_number(&name, '/', &ref->curve))
         return false;
-    return read_word(&name, "segments/") && read_number(&name, '/', &ref->segment) &&
+    return parse_literal(&name, "segments/") && parse_entry_number(&name, '/', &ref->segment) &&
            strcmp(name, "segment-header.properties") == 0;
 }
 
-static int by_place(const void *a, const void *b)
+static int compare_segment_refs(const void *a, const void *b)
 {
     const jpk_segment_ref *x = a, *y = b;
     if (x->curve != y->curve)
@@ -63,7 +63,7 @@ static wt_status find_segments(jpk_file *file, wt_error *err)
     for (size_t i = 0; i < count; i++) {
         jpk_segment_ref ref = {.entry = (uint32_t)i};
         bool map = false;
-        if (!parse_name(archive_name(file->archive, i), &ref, &map))
+        if (!parse_entry_name(archive_name(file->archive, i), &ref, &map))
             continue;
         jpk_segment_ref *refs = array_grow(file->refs, file->n_refs, sizeof *refs);
         if (refs == NULL)
@@ -77,7 +77,7 @@ static wt_status find_segments(jpk_file *file, wt_error *err)
         wt_error_expected(err, "entries segments/0/segment-header.properties");
         return WT_E_EMPTY;
     }
-    qsort(file->refs, file->n_refs, sizeof *file->refs, by_place);
+    qsort(file->refs, file->n_refs, sizeof *file->refs, compare_segment_refs);
     size_t kept = 0;
     for (size_t i = 0; i < file->n_refs; i++) {
         bool new_curve = i == 0 || file->refs[i].curve != file->refs[kept - 1].curve;
@@ -95,7 +95,8 @@ static wt_status find_segments(jpk_file *file, wt_error *err)
 }
 
 /* Reads a header, which stays empty if the file has none. */
-static wt_status read_header(jpk_file *file, const char *name, property_list *header, wt_error *err)
+static wt_status read_jpk_header(jpk_file *file, const char *name, property_list *header,
+                                 wt_error *err)
 {
     size_t i = 0;
     if (!archive_find(file->archive, name, &i))
@@ -110,7 +111,7 @@ static wt_status read_header(jpk_file *file, const char *name, property_list *he
 
 /* Builds the prefix of a key of the root header, such as
  * "force-scan-map.position-pattern.grid.". */
-static bool root_key(const property_list *header, const char *rest, char *key, size_t size)
+static bool build_root_key(const property_list *header, const char *rest, char *key, size_t size)
 {
     const char *type = properties_get(header, "type");
     if (type == NULL)
@@ -119,10 +120,10 @@ static bool root_key(const property_list *header, const char *rest, char *key, s
     return n > 0 && (size_t)n < size;
 }
 
-static void read_grid(jpk_file *file)
+static void read_map_grid(jpk_file *file)
 {
     char key[192];
-    if (!root_key(&file->header, "position-pattern.", key, sizeof key))
+    if (!build_root_key(&file->header, "position-pattern.", key, sizeof key))
         return;
     double columns = properties_number(&file->header, key, "grid.ilength");
     double rows = properties_number(&file->header, key, "grid.jlength");
@@ -132,7 +133,7 @@ static void read_grid(jpk_file *file)
     }
     const char *turns = properties_find(&file->header, key, "back-and-forth");
     file->back_and_forth = turns != NULL && strcmp(turns, "true") == 0;
-    if (!root_key(&file->header, "indexes.", key, sizeof key))
+    if (!build_root_key(&file->header, "indexes.", key, sizeof key))
         return;
     double first = properties_number(&file->header, key, "min");
     double last = properties_number(&file->header, key, "max");
@@ -140,17 +141,17 @@ static void read_grid(jpk_file *file)
         file->n_expected = (size_t)(last - first) + 1;
 }
 
-static void note_oddities(const jpk_file *file)
+static void report_defects(const jpk_file *file)
 {
-    if (file->archive->odd != NULL)
+    if (file->archive->defect != NULL)
         wt_log_add(file->log, WT_LOSS, file->name, NULL, "%s; read as far as it goes",
-                   file->archive->odd);
+                   file->archive->defect);
     if (file->header.n == 0)
         wt_log_add(file->log, WT_WARNING, file->name, "header.properties",
                    "header is missing: no grid, no instrument");
     if (file->n_expected > file->n_curves)
-        wt_log_add(file->log, file->archive->odd != NULL ? WT_LOSS : WT_WARNING, file->name, NULL,
-                   "holds %zu of the %zu curves planned", file->n_curves, file->n_expected);
+        wt_log_add(file->log, file->archive->defect != NULL ? WT_LOSS : WT_WARNING, file->name,
+                   NULL, "holds %zu of the %zu curves planned", file->n_curves, file->n_expected);
 }
 
 wt_status jpk_file_open(wt_input *input, wt_log *log, jpk_file *file, wt_error *err)
@@ -160,16 +161,16 @@ wt_status jpk_file_open(wt_input *input, wt_log *log, jpk_file *file, wt_error *
     if (status == WT_OK)
         status = find_segments(file, err);
     if (status == WT_OK)
-        status = read_header(file, "header.properties", &file->header, err);
+        status = read_jpk_header(file, "header.properties", &file->header, err);
     if (status == WT_OK)
-        status = read_header(file, "shared-data/header.properties", &file->shared, err);
+        status = read_jpk_header(file, "shared-data/header.properties", &file->shared, err);
     if (status != WT_OK) {
         jpk_file_close(file);
         return status;
     }
     if (file->map)
-        read_grid(file);
-    note_oddities(file);
+        read_map_grid(file);
+    report_defects(file);
     return WT_OK;
 }
 
@@ -185,7 +186,7 @@ void jpk_file_close(jpk_file *file)
     *file = (jpk_file){0};
 }
 
-void jpk_file_position(jpk_file *file, size_t ref, wt_force_curve *curve)
+void jpk_file_set_position(jpk_file *file, size_t ref, wt_force_curve *curve)
 {
     size_t number = file->refs[ref].curve;
     const property_list *header = &file->header;
@@ -194,11 +195,11 @@ void jpk_file_position(jpk_file *file, size_t ref, wt_force_curve *curve)
         snprintf(key, sizeof key, "index/%zu/header.properties", number);
         header = &file->position;
         file->position.n = 0;
-        if (read_header(file, key, &file->position, NULL) != WT_OK || file->position.n == 0)
+        if (read_jpk_header(file, key, &file->position, NULL) != WT_OK || file->position.n == 0)
             wt_log_add(file->log, WT_WARNING, file->name, key,
                        "header of a curve cannot be read: its position is unknown");
     }
-    if (root_key(header, "header.", key, sizeof key)) {
+    if (build_root_key(header, "header.", key, sizeof key)) {
         curve->x = properties_number(header, key, "position.x");
         curve->y = properties_number(header, key, "position.y");
         /* the grid index; it differs from the curve number in an excerpt of a larger file */
@@ -209,14 +210,14 @@ void jpk_file_position(jpk_file *file, size_t ref, wt_force_curve *curve)
     if (file->map && file->position.n > 0 && (isnan(curve->x) || isnan(curve->y)))
         wt_log_add(file->log, WT_WARNING, file->name, NULL,
                    "the header of a curve says no position, as where it was cut");
-    (void)force_place(file->columns, file->rows, file->back_and_forth, number, curve);
+    (void)force_set_grid_position(file->columns, file->rows, file->back_and_forth, number, curve);
 }
 
 void jpk_file_check_segments(const jpk_file *file, size_t ref, size_t n)
 {
     const property_list *const header = file->map ? &file->position : &file->header;
     char key[192];
-    if (!root_key(header, "force-segments.", key, sizeof key))
+    if (!build_root_key(header, "force-segments.", key, sizeof key))
         return;
     const double stated = properties_number(header, key, "count");
     if (stated > (double)n)

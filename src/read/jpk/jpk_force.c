@@ -20,13 +20,13 @@ typedef struct jpk_source {
 
 /* Returns the limit on the unpacked size of an entry: a multiple of the size of its samples, with
  * an absolute maximum. */
-static size_t most_bytes(const jpk_channel *channel)
+static size_t max_entry_size(const jpk_channel *channel)
 {
-    const size_t most = (size_t)256 << 20, slack = (size_t)1 << 20, times = 16;
+    const size_t max_size = (size_t)256 << 20, slack = (size_t)1 << 20, times = 16;
     const size_t width = sample_width(channel->lcd.encoding);
-    return channel->n_points < (most - slack) / times / width
+    return channel->n_points < (max_size - slack) / times / width
                ? times * width * channel->n_points + slack
-               : most;
+               : max_size;
 }
 
 static wt_status load_channel(jpk_source *source, const jpk_channel *channel, wt_error *err)
@@ -35,7 +35,7 @@ static wt_status load_channel(jpk_source *source, const jpk_channel *channel, wt
     if (!channel->has_file)
         return wt_fail(err, WT_E_CORRUPT, "data of channel %s are missing", channel->name);
     wt_status status =
-        archive_read(file->archive, channel->entry, most_bytes(channel), &file->buffer, err);
+        archive_read(file->archive, channel->entry, max_entry_size(channel), &file->buffer, err);
     if (status == WT_OK)
         source->loaded = channel;
     return status;
@@ -71,17 +71,17 @@ static wt_status add_segment(jpk_source *source, double start, wt_force_curve *c
     if (segment->n_points == 0)
         wt_log_add(source->file.log, WT_NOTE, source->file.name, place,
                    "segment without samples left out");
-    force_metadata facts;
-    jpk_segment_facts(segment, &facts);
-    facts.index = source->ref->segment;
-    facts.place = place;
-    facts.start = start;
+    force_metadata metadata;
+    jpk_segment_metadata(segment, &metadata);
+    metadata.index = source->ref->segment;
+    metadata.place = place;
+    metadata.start = start;
     source->loaded = NULL;
-    return force_add_segment(&source->base, &facts, curve, err);
+    return force_add_segment(&source->base, &metadata, curve, err);
 }
 
-static wt_status read_curve(jpk_source *source, size_t first, size_t end, wt_force_curve *curve,
-                            wt_error *err)
+static wt_status read_jpk_curve(jpk_source *source, size_t first, size_t end, wt_force_curve *curve,
+                                wt_error *err)
 {
     jpk_file *file = &source->file;
     double start = 0;
@@ -89,9 +89,9 @@ static wt_status read_curve(jpk_source *source, size_t first, size_t end, wt_for
         const jpk_segment_ref *ref = source->ref = &file->refs[i];
         size_t before = curve->n_segments;
         wt_status status = jpk_segment_read(file, ref, &source->segment, err);
-        if (status == WT_OK && force_wants_segment(&source->base, source->segment.kind))
+        if (status == WT_OK && force_is_segment_requested(&source->base, source->segment.kind))
             status = add_segment(source, start, curve, err);
-        if (status == WT_E_CORRUPT && file->archive->odd != NULL && before > 0) {
+        if (status == WT_E_CORRUPT && file->archive->defect != NULL && before > 0) {
             curve->n_segments = before;
             wt_log_add(file->log, WT_LOSS, file->name, archive_name(file->archive, ref->entry),
                        "last curve ends early: incomplete segment left out");
@@ -118,9 +118,9 @@ static wt_status next_curve(wt_force_source *base, wt_force_curve *curve, wt_err
         end++;
     source->next = end;
     curve->index = file->refs[first].curve;
-    jpk_file_position(file, first, curve);
+    jpk_file_set_position(file, first, curve);
     jpk_file_check_segments(file, first, end - first);
-    return read_curve(source, first, end, curve, err);
+    return read_jpk_curve(source, first, end, curve, err);
 }
 
 static void seek_curve(wt_force_source *base, size_t index)

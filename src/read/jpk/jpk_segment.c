@@ -12,7 +12,7 @@
 #include <string.h>
 
 /* Parses the number N of a key "….*=N"; false for anything else. */
-static bool reference_number(const char *text, long *number)
+static bool parse_reference(const char *text, long *number)
 {
     char *end = NULL;
     if (text == NULL || *text < '0' || *text > '9')
@@ -23,13 +23,14 @@ static bool reference_number(const char *text, long *number)
 }
 
 /* Returns a property of the segment header, or of the shared header to which it refers. */
-static const char *segment_key(const jpk_file *file, const jpk_segment *segment, const char *key)
+static const char *find_segment_property(const jpk_file *file, const jpk_segment *segment,
+                                         const char *key)
 {
-    const char *own = properties_find(&segment->header, "force-segment-header.", key);
-    if (own != NULL)
-        return own;
+    const char *stated = properties_find(&segment->header, "force-segment-header.", key);
+    if (stated != NULL)
+        return stated;
     long n = 0;
-    if (!reference_number(
+    if (!parse_reference(
             properties_get(&segment->header, "force-segment-header.force-segment-header-info.*"),
             &n))
         return NULL;
@@ -39,16 +40,16 @@ static const char *segment_key(const jpk_file *file, const jpk_segment *segment,
 }
 
 /* Returns a setting of the user. Newer files store it below "settings.segment-settings.". */
-static const char *setting_of(const jpk_file *file, const jpk_segment *segment, const char *name)
+static const char *find_setting(const jpk_file *file, const jpk_segment *segment, const char *name)
 {
     char key[96];
     snprintf(key, sizeof key, "settings.segment-settings.%s", name);
-    const char *text = segment_key(file, segment, key);
+    const char *text = find_segment_property(file, segment, key);
     snprintf(key, sizeof key, "settings.%s", name);
-    return text != NULL ? text : segment_key(file, segment, key);
+    return text != NULL ? text : find_segment_property(file, segment, key);
 }
 
-static wt_segment_kind kind_of(const char *style, const char *type)
+static wt_segment_kind segment_kind_from_style(const char *style, const char *type)
 {
     if (strcmp(style, "extend") == 0)
         return WT_SEGMENT_APPROACH;
@@ -61,26 +62,26 @@ static wt_segment_kind kind_of(const char *style, const char *type)
 
 static void read_settings(const jpk_file *file, jpk_segment *segment)
 {
-    const char *style = setting_of(file, segment, "style");
-    const double duration = number_of(segment_key(file, segment, "duration"));
-    const double start = number_of(setting_of(file, segment, "z-start"));
-    const double end = number_of(setting_of(file, segment, "z-end"));
-    const double time = number_of(setting_of(file, segment, "duration"));
+    const char *style = find_setting(file, segment, "style");
+    const double duration = parse_number_or_nan(find_segment_property(file, segment, "duration"));
+    const double start = parse_number_or_nan(find_setting(file, segment, "z-start"));
+    const double end = parse_number_or_nan(find_setting(file, segment, "z-end"));
+    const double time = parse_number_or_nan(find_setting(file, segment, "duration"));
     snprintf(segment->style, sizeof segment->style, "%s", style != NULL ? style : "");
-    segment->kind =
-        kind_of(segment->style, segment_key(file, segment, "settings.segment-settings.type"));
+    segment->kind = segment_kind_from_style(
+        segment->style, find_segment_property(file, segment, "settings.segment-settings.type"));
     const bool approach = segment->kind == WT_SEGMENT_APPROACH;
-    const bool moves = approach || segment->kind == WT_SEGMENT_RETRACT;
+    const bool is_ramp = approach || segment->kind == WT_SEGMENT_RETRACT;
     segment->duration = duration >= 0 ? duration : (double)NAN;
-    segment->velocity = moves && time > 0 ? fabs(start - end) / time : (double)NAN;
+    segment->velocity = is_ramp && time > 0 ? fabs(start - end) / time : (double)NAN;
     segment->frequency = segment->kind == WT_SEGMENT_MODULATION
-                             ? number_of(setting_of(file, segment, "frequency"))
+                             ? parse_number_or_nan(find_setting(file, segment, "frequency"))
                              : (double)NAN;
     segment->setpoint_voltage =
-        approach ? number_of(setting_of(file, segment, "setpoint")) : (double)NAN;
+        approach ? parse_number_or_nan(find_setting(file, segment, "setpoint")) : (double)NAN;
 }
 
-static wt_status shared_lcd(jpk_file *file, long id, const jpk_lcd **lcd, wt_error *err)
+static wt_status find_shared_lcd(jpk_file *file, long id, const jpk_lcd **lcd, wt_error *err)
 {
     for (size_t i = 0; i < file->n_lcds; i++) {
         if (file->lcds[i].id == id) {
@@ -116,21 +117,22 @@ static wt_status read_lcd(jpk_file *file, const jpk_segment *segment, const char
     long id = 0;
     if (text == NULL)
         return jpk_lcd_read(&segment->header, prefix, lcd, err);
-    if (!reference_number(text, &id)) {
+    if (!parse_reference(text, &id)) {
         wt_fail(err, WT_E_CORRUPT, "reference to shared data is not a number");
         wt_error_found(err, "%slcd-info.*=%s", prefix, text);
         return WT_E_CORRUPT;
     }
     const jpk_lcd *shared = NULL;
-    wt_status status = shared_lcd(file, id, &shared, err);
+    wt_status status = find_shared_lcd(file, id, &shared, err);
     if (status == WT_OK)
         *lcd = *shared;
     return status;
 }
 
 /* Finds the data file and the number of complete samples in it. `folder` ends in '/'. */
-static wt_status find_data(const jpk_file *file, const jpk_segment *segment, const char *prefix,
-                           const char *folder, jpk_channel *channel, wt_error *err)
+static wt_status find_channel_data(const jpk_file *file, const jpk_segment *segment,
+                                   const char *prefix, const char *folder, jpk_channel *channel,
+                                   wt_error *err)
 {
     char name[512];
     double announced = properties_number(&segment->header, prefix, "data.num-points");
@@ -160,9 +162,9 @@ static wt_status find_data(const jpk_file *file, const jpk_segment *segment, con
     wt_status status = archive_size(file->archive, channel->entry, &size, err);
     if (status != WT_OK)
         return status;
-    size_t held = size / sample_width(channel->lcd.encoding);
+    size_t n_stored = size / sample_width(channel->lcd.encoding);
     channel->has_file = true;
-    channel->n_points = isnan(announced) || held < n ? held : n;
+    channel->n_points = isnan(announced) || n_stored < n ? n_stored : n;
     if (!isnan(announced) && size > n * sample_width(channel->lcd.encoding))
         wt_log_add(file->log, WT_WARNING, file->name, name,
                    "the channel has %zu bytes for %zu samples, which is too many: if some were "
@@ -171,8 +173,8 @@ static wt_status find_data(const jpk_file *file, const jpk_segment *segment, con
     return WT_OK;
 }
 
-static wt_status read_channel(jpk_file *file, jpk_segment *segment, const char *folder,
-                              jpk_channel *channel, wt_error *err)
+static wt_status read_jpk_channel(jpk_file *file, jpk_segment *segment, const char *folder,
+                                  jpk_channel *channel, wt_error *err)
 {
     char prefix[JPK_NAME + 16];
     wt_error problem = WT_ERROR_INIT;
@@ -185,7 +187,7 @@ static wt_status read_channel(jpk_file *file, jpk_segment *segment, const char *
         wt_error_format(&problem, channel->problem, sizeof channel->problem);
         return WT_OK;
     }
-    return find_data(file, segment, prefix, folder, channel, err);
+    return find_channel_data(file, segment, prefix, folder, channel, err);
 }
 
 static wt_status read_channels(jpk_file *file, jpk_segment *segment, const char *folder,
@@ -196,14 +198,14 @@ static wt_status read_channels(jpk_file *file, jpk_segment *segment, const char 
     segment->n_channels = 0;
     while (status == WT_OK && segment->n_channels < JPK_CHANNELS) {
         jpk_channel *channel = &segment->channels[segment->n_channels];
-        if (!property_word(&list, channel->name, sizeof channel->name))
+        if (!property_next_word(&list, channel->name, sizeof channel->name))
             break;
         segment->n_channels++;
-        /* `lcd` is large; read_channel fills it */
+        /* `lcd` is large; read_jpk_channel fills it */
         channel->has_file = false;
         channel->n_points = 0;
         channel->problem[0] = '\0';
-        status = read_channel(file, segment, folder, channel, err);
+        status = read_jpk_channel(file, segment, folder, channel, err);
     }
     if (status == WT_OK && *list != '\0')
         status = wt_fail(err, WT_E_UNSUPPORTED, "list of channels too long");
@@ -212,7 +214,7 @@ static wt_status read_channels(jpk_file *file, jpk_segment *segment, const char 
 
 /* Truncates all channels of a segment to the shortest. Only channels with a data file limit the
  * length, since a raster may state any number. */
-static void common_length(const jpk_file *file, jpk_segment *segment, const char *folder)
+static void set_common_length(const jpk_file *file, jpk_segment *segment, const char *folder)
 {
     size_t shortest = SIZE_MAX, longest = 0, raster = SIZE_MAX;
     segment->incomplete = false;
@@ -263,7 +265,7 @@ wt_status jpk_segment_read(jpk_file *file, const jpk_segment_ref *ref, jpk_segme
                    "the header of the segment lists no channels: it was cut or damaged, and "
                    "the segment is left out");
     read_settings(file, segment);
-    common_length(file, segment, folder);
+    set_common_length(file, segment, folder);
     return WT_OK;
 }
 

@@ -15,14 +15,14 @@
 /* The remaining input and the output position. A Latin-1 byte becomes at most two bytes of UTF-8.
  * An escape of six bytes becomes at most three, and a pair of twelve at most four. So twice the
  * input size plus the terminating zeros suffices. */
-typedef struct parser {
+typedef struct property_parser {
     const unsigned char *at;
     const unsigned char *end;
     char *out;
     size_t line;
-} parser;
+} property_parser;
 
-static void put_character(parser *p, uint32_t c)
+static void append_utf8(property_parser *p, uint32_t c)
 {
     if (c < 0x80) {
         *p->out++ = (char)c;
@@ -46,18 +46,18 @@ static bool is_blank(unsigned char c)
     return c == ' ' || c == '\t' || c == '\f';
 }
 
-static bool is_break(unsigned char c)
+static bool is_line_break(unsigned char c)
 {
     return c == '\n' || c == '\r';
 }
 
-static void skip_blanks(parser *p)
+static void skip_blanks(property_parser *p)
 {
     while (p->at < p->end && is_blank(*p->at))
         p->at++;
 }
 
-static void skip_break(parser *p)
+static void skip_line_break(property_parser *p)
 {
     if (p->at == p->end)
         return;
@@ -67,7 +67,7 @@ static void skip_break(parser *p)
     p->line++;
 }
 
-static bool hex4(const parser *p, const unsigned char *at, uint32_t *value)
+static bool parse_hex4(const property_parser *p, const unsigned char *at, uint32_t *value)
 {
     static const char digits[] = "0123456789abcdef";
     if (p->end - at < 4)
@@ -86,70 +86,70 @@ static bool hex4(const parser *p, const unsigned char *at, uint32_t *value)
 
 /* Parses the digits after "\u". A surrogate pair becomes one character. A lone surrogate becomes
  * the replacement character. */
-static bool unicode(parser *p)
+static bool parse_unicode_escape(property_parser *p)
 {
     uint32_t c = 0;
-    if (!hex4(p, p->at, &c) || c == 0)
+    if (!parse_hex4(p, p->at, &c) || c == 0)
         return false;
     p->at += 4;
     if (c >= 0xd800 && c < 0xe000) {
         uint32_t low = 0;
         if (c < 0xdc00 && p->end - p->at >= 6 && p->at[0] == '\\' && p->at[1] == 'u' &&
-            hex4(p, p->at + 2, &low) && low >= 0xdc00 && low < 0xe000) {
+            parse_hex4(p, p->at + 2, &low) && low >= 0xdc00 && low < 0xe000) {
             c = 0x10000 + ((c - 0xd800) << 10) + (low - 0xdc00);
             p->at += 6;
         } else {
             c = 0xfffd;
         }
     }
-    put_character(p, c);
+    append_utf8(p, c);
     return true;
 }
 
 /* Parses an escape after its backslash. */
-static bool escape(parser *p)
+static bool parse_escape(property_parser *p)
 {
     static const char letters[] = "tnrf", means[] = "\t\n\r\f";
     if (p->at == p->end)
         return true;
     unsigned char c = *p->at;
-    if (is_break(c)) {
-        skip_break(p);
+    if (is_line_break(c)) {
+        skip_line_break(p);
         skip_blanks(p);
         return true;
     }
     p->at++;
     if (c == 'u')
-        return unicode(p);
+        return parse_unicode_escape(p);
     if (c == '\0')
         return false;
     const char *letter = strchr(letters, c);
-    put_character(p, letter != NULL ? (unsigned char)means[letter - letters] : c);
+    append_utf8(p, letter != NULL ? (unsigned char)means[letter - letters] : c);
     return true;
 }
 
 /* True for an ASCII character that stands for itself and does not end a word. */
-static bool is_plain(unsigned char c, bool key)
+static bool is_plain_character(unsigned char c, bool key)
 {
     return c > ' ' ? c < 0x80 && c != '\\' && !(key && (c == '=' || c == ':')) : c == ' ' && !key;
 }
 
-static void copy_plain(parser *p, bool key)
+static void copy_plain(property_parser *p, bool key)
 {
     const unsigned char *at = p->at;
     char *out = p->out;
-    while (at < p->end && is_plain(*at, key))
+    while (at < p->end && is_plain_character(*at, key))
         *out++ = (char)*at++;
     p->at = at;
     p->out = out;
 }
 
 /* Copies a word up to the end of the line, or up to the end of the key if `key`. */
-static bool copy_word(parser *p, bool key)
+static bool copy_word(property_parser *p, bool key)
 {
     for (;;) {
         copy_plain(p, key);
-        if (p->at == p->end || is_break(*p->at))
+        if (p->at == p->end || is_line_break(*p->at))
             break;
         const unsigned char c = *p->at;
         if (key && (c == '=' || c == ':' || is_blank(c)))
@@ -158,15 +158,15 @@ static bool copy_word(parser *p, bool key)
         if (c == '\0')
             return false;
         if (c != '\\')
-            put_character(p, c);
-        else if (!escape(p))
+            append_utf8(p, c);
+        else if (!parse_escape(p))
             return false;
     }
     *p->out++ = '\0';
     return true;
 }
 
-static int by_key(const void *a, const void *b)
+static int compare_entries(const void *a, const void *b)
 {
     const property_entry *x = a, *y = b;
     int order = strcmp(x->key, y->key);
@@ -198,7 +198,7 @@ static void sort_properties(property_list *p)
 {
     if (p->n < 2)
         return;
-    qsort(p->items, p->n, sizeof *p->items, by_key);
+    qsort(p->items, p->n, sizeof *p->items, compare_entries);
     size_t kept = 0;
     for (size_t i = 0; i < p->n; i++) {
         bool again = i + 1 < p->n && strcmp(p->items[i].key, p->items[i + 1].key) == 0;
@@ -215,17 +215,17 @@ wt_status properties_parse(property_list *properties, const unsigned char *bytes
     wt_status status = reserve_properties(properties, length, err);
     if (status != WT_OK)
         return status;
-    parser p = {.at = bytes, .end = bytes + length, .out = properties->text, .line = 1};
+    property_parser p = {.at = bytes, .end = bytes + length, .out = properties->text, .line = 1};
     while (p.at < p.end) {
         skip_blanks(&p);
         if (p.at == p.end)
             break;
-        if (is_break(*p.at)) {
-            skip_break(&p);
+        if (is_line_break(*p.at)) {
+            skip_line_break(&p);
             continue;
         }
         if (*p.at == '#' || *p.at == '!') {
-            while (p.at < p.end && !is_break(*p.at))
+            while (p.at < p.end && !is_line_break(*p.at))
                 p.at++;
             continue;
         }
@@ -260,7 +260,7 @@ void properties_clear(property_list *properties)
     *properties = (property_list){0};
 }
 
-static int key_of(const void *key, const void *item)
+static int compare_key(const void *key, const void *item)
 {
     return strcmp(key, ((const property_entry *)item)->key);
 }
@@ -270,7 +270,7 @@ const char *properties_get(const property_list *properties, const char *key)
     if (properties->n == 0)
         return NULL;
     const property_entry *found =
-        bsearch(key, properties->items, properties->n, sizeof *properties->items, key_of);
+        bsearch(key, properties->items, properties->n, sizeof *properties->items, compare_key);
     return found != NULL ? found->value : NULL;
 }
 
@@ -287,10 +287,10 @@ const char *properties_find(const property_list *properties, const char *prefix,
 
 double properties_number(const property_list *properties, const char *prefix, const char *suffix)
 {
-    return number_of(properties_find(properties, prefix, suffix));
+    return parse_number_or_nan(properties_find(properties, prefix, suffix));
 }
 
-bool property_word(const char **list, char *word, size_t size)
+bool property_next_word(const char **list, char *word, size_t size)
 {
     const char *start = *list != NULL ? *list + strspn(*list, " ") : "";
     const size_t n = strcspn(start, " ");

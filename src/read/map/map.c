@@ -25,23 +25,23 @@ typedef struct map_source {
 static recognition detect(const file_reader *self, file_peek *peek)
 {
     (void)self;
-    return recognised(
-        PEEK_BEGINS(peek, HDF5_SIGNATURE) && PEEK_HOLDS(peek, STORE_MAP_ATTRIBUTE "\0"), 95);
+    return recognition_result(
+        PEEK_BEGINS(peek, HDF5_SIGNATURE) && PEEK_CONTAINS(peek, STORE_MAP_ATTRIBUTE "\0"), 95);
 }
 
 static wt_status open_map(wt_input *input, map_reader **map, wt_error *err)
 {
     wt_result *result = NULL;
     hdf5_bytes from;
-    wt_status status = input_hdf5(input, &from, err);
+    wt_status status = input_hdf5_bytes(input, &from, err);
     if (status == WT_OK)
-        status = store_read_bytes(&from, store_pass, wt_input_name(input), &result, err);
+        status = store_read_bytes(&from, store_extract, wt_input_name(input), &result, err);
     return status == WT_OK ? map_open(&from, result, map, err) : status;
 }
 
 /* ---- curves ------------------------------------------------------------------------------- */
 
-static const double *values_of(const map_source *source, wt_quantity quantity)
+static const double *segment_values(const map_source *source, wt_quantity quantity)
 {
     size_t k = 0;
     while (source->channels[k].quantity != quantity)
@@ -52,7 +52,7 @@ static const double *values_of(const map_source *source, wt_quantity quantity)
 static wt_status decode(wt_force_source *base, const force_signal *signal, force_linear scaling,
                         size_t n, double *values, wt_error *err)
 {
-    const double *const from = values_of((const map_source *)base, signal->quantity);
+    const double *const from = segment_values((const map_source *)base, signal->quantity);
     (void)err;
     for (size_t i = 0; i < n; i++)
         values[i] = scaling.multiplier * from[i] + scaling.offset;
@@ -60,7 +60,7 @@ static wt_status decode(wt_force_source *base, const force_signal *signal, force
 }
 
 /* Returns the first channel with this name. Quantities computed from one channel share its name. */
-static const void *channel_of(const map_source *source, size_t k)
+static const void *signal_channel(const map_source *source, size_t k)
 {
     size_t first = 0;
     while (strcmp(source->channels[first].name, source->channels[k].name) != 0)
@@ -68,33 +68,33 @@ static const void *channel_of(const map_source *source, size_t k)
     return &source->channels[first];
 }
 
-static void find_facts(const map_source *source, const map_segment *s,
-                       const wt_cantilever *cantilever, force_metadata *facts)
+static void collect_metadata(const map_source *source, const map_segment *s,
+                             const wt_cantilever *cantilever, force_metadata *metadata)
 {
-    *facts = (force_metadata){.kind = s->kind,
-                              .index = s->index,
-                              .n_points = s->n_points,
-                              .start = (double)NAN,
-                              .duration = s->duration,
-                              .velocity = s->velocity,
-                              .setpoint = s->setpoint,
-                              .setpoint_quantity = WT_Q_FORCE,
-                              .cantilever = *cantilever};
+    *metadata = (force_metadata){.kind = s->kind,
+                                 .index = s->index,
+                                 .n_points = s->n_points,
+                                 .start = (double)NAN,
+                                 .duration = s->duration,
+                                 .velocity = s->velocity,
+                                 .setpoint = s->setpoint,
+                                 .setpoint_quantity = WT_Q_FORCE,
+                                 .cantilever = *cantilever};
     for (size_t k = 0; k < source->n_channels; k++) {
         const map_channel *const c = &source->channels[k];
         force_signal signal = {.quantity = c->quantity,
                                .name = c->name,
                                .unit = c->unit,
                                .to_si = {1, 0},
-                               .channel = channel_of(source, k)};
-        if (!map_channel_counts(s->values + k * s->n_points, s->n_points))
+                               .channel = signal_channel(source, k)};
+        if (!map_channel_has_samples(s->values + k * s->n_points, s->n_points))
             continue;
-        force_add_signal(facts, signal);
-        force_offer(facts, c->quantity);
+        force_add_signal(metadata, signal);
+        force_add_offer(metadata, c->quantity);
     }
-    if (force_find_signal(facts, WT_Q_DEFLECTION) != NULL ||
-        force_find_signal(facts, WT_Q_DEFLECTION_VOLTAGE) != NULL)
-        force_offer(facts, WT_Q_FORCE);
+    if (force_find_signal(metadata, WT_Q_DEFLECTION) != NULL ||
+        force_find_signal(metadata, WT_Q_DEFLECTION_VOLTAGE) != NULL)
+        force_add_offer(metadata, WT_Q_FORCE);
 }
 
 static wt_status next_curve(wt_force_source *base, wt_force_curve *curve, wt_error *err)
@@ -102,14 +102,14 @@ static wt_status next_curve(wt_force_source *base, wt_force_curve *curve, wt_err
     map_source *const source = (map_source *)base;
     const map_segment *segments = NULL;
     size_t n = 0;
-    wt_status status = map_next(source->map, curve, &segments, &n, err);
+    wt_status status = map_next_curve(source->map, curve, &segments, &n, err);
     const wt_cantilever cantilever = curve->cantilever;
     for (size_t i = 0; status == WT_OK && i < n; i++) {
-        force_metadata facts;
+        force_metadata metadata;
         source->segment = &segments[i];
-        find_facts(source, &segments[i], &cantilever, &facts);
-        if (force_wants_segment(base, facts.kind))
-            status = force_add_segment(base, &facts, curve, err);
+        collect_metadata(source, &segments[i], &cantilever, &metadata);
+        if (force_is_segment_requested(base, metadata.kind))
+            status = force_add_segment(base, &metadata, curve, err);
     }
     return status;
 }
@@ -142,7 +142,7 @@ static const force_stream map_force = {.size = sizeof(map_source),
 
 /* Describes the file; the first curve represents all. */
 static wt_status describe(const file_reader *self, wt_input *input, const wt_read_options *options,
-                          wt_log *log, table_writer *facts)
+                          wt_log *log, table_writer *metadata)
 {
     map_source source = {.base = {.options = *options}};
     const map_segment *segments = NULL;
@@ -150,29 +150,29 @@ static wt_status describe(const file_reader *self, wt_input *input, const wt_rea
     size_t n = 0;
     (void)self;
     (void)log;
-    wt_status status = open_map(input, &source.map, facts->err);
+    wt_status status = open_map(input, &source.map, metadata->err);
     if (status != WT_OK)
         return status;
     source.n_channels = map_channels(source.map, &source.channels);
-    facts_add(facts, "curves", "", MAP_SAMPLES_GROUP, "%zu", map_n_curves(source.map));
+    metadata_add(metadata, "curves", "", MAP_SAMPLES_GROUP, "%zu", map_n_curves(source.map));
     wt_force_curve_reset(&curve);
-    status = map_next(source.map, &curve, &segments, &n, facts->err);
+    status = map_next_curve(source.map, &curve, &segments, &n, metadata->err);
     for (size_t i = 0; status == WT_OK && i < n; i++) {
         force_metadata read;
         char item[160];
         const map_segment *const s = &segments[i];
-        find_facts(&source, s, &curve.cantilever, &read);
+        collect_metadata(&source, s, &curve.cantilever, &read);
         if (i == 0)
             force_describe_calibration(&read, options, "force_map/curves", "force_map/curves",
-                                       facts);
+                                       metadata);
         snprintf(item, sizeof item, "segment %zu", s->index);
-        facts_add(facts, item, "", "force_map/segments", "%s, %zu points",
-                  wt_segment_kind_name(s->kind), s->n_points);
+        metadata_add(metadata, item, "", "force_map/segments", "%s, %zu points",
+                     wt_segment_kind_name(s->kind), s->n_points);
         for (size_t k = 0; k < read.n_signals; k++) {
             const force_signal *const signal = &read.signals[k];
             snprintf(item, sizeof item, "segment %zu channel %s", s->index, signal->name);
-            facts_add(facts, item, wt_quantity_unit(signal->quantity), signal->name, "%s",
-                      wt_quantity_id(signal->quantity));
+            metadata_add(metadata, item, wt_quantity_unit(signal->quantity), signal->name, "%s",
+                         wt_quantity_id(signal->quantity));
         }
     }
     map_close(source.map);

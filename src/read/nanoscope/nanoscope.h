@@ -41,7 +41,7 @@ typedef struct nanoscope_value {
     double value;              /* 24.63; NaN if absent */
 } nanoscope_value;
 
-bool nanoscope_is(const unsigned char *bytes, size_t length);
+bool nanoscope_is_header(const unsigned char *bytes, size_t length);
 wt_status nanoscope_header_read(const unsigned char *bytes, size_t length, nanoscope_header *header,
                                 wt_error *err);
 void nanoscope_header_clear(nanoscope_header *header);
@@ -51,9 +51,9 @@ size_t nanoscope_section(const nanoscope_header *header, const char *name, size_
  * ignored. */
 const char *nanoscope_get(const nanoscope_header *header, size_t section, const char *key);
 double nanoscope_number(const nanoscope_header *header, size_t section, const char *key);
-nanoscope_value nanoscope_value_of(const char *text); /* accepts NULL */
+nanoscope_value nanoscope_parse_value(const char *text); /* accepts NULL */
 /* Returns a soft scale [m/V]; NaN if there is none. */
-double nanoscope_soft(const nanoscope_header *header, const char *soft);
+double nanoscope_soft_scale(const nanoscope_header *header, const char *soft);
 
 /* ---- the curves: nanoscope_file.c -------------------------------------------------------------
  */
@@ -90,19 +90,19 @@ typedef struct nanoscope_file {
 wt_status nanoscope_file_open(wt_input *input, wt_log *log, nanoscope_file *file, wt_error *err);
 void nanoscope_file_close(nanoscope_file *file);
 /* Reads the samples of a curve as stored, valid until the next call for the channel. */
-wt_status nanoscope_stored(const nanoscope_file *file, const nanoscope_channel *channel,
-                           size_t curve, const unsigned char **stored, wt_error *err);
+wt_status nanoscope_read_curve(const nanoscope_file *file, const nanoscope_channel *channel,
+                               size_t curve, const unsigned char **stored, wt_error *err);
 /* Returns sample `i` in temporal order (approach, hold, retract) in counts; NaN if it was not
  * measured. */
-double nanoscope_count(const nanoscope_file *file, const nanoscope_channel *channel,
-                       const unsigned char *stored, size_t i);
+double nanoscope_sample(const nanoscope_file *file, const nanoscope_channel *channel,
+                        const unsigned char *stored, size_t i);
 
 /* ---- nanoscope_force.c ------------------------------------------------------------------------
  */
 
 /* Returns the metadata of segment `s` (0 approach, 1 hold, 2 retract); the signals point to the
  * file. */
-force_metadata nanoscope_facts(const nanoscope_file *file, size_t s);
+force_metadata nanoscope_metadata(const nanoscope_file *file, size_t s);
 extern const force_stream nanoscope_force;
 
 /* ---- nanoscope_image.c ------------------------------------------------------------------------

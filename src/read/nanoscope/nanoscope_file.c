@@ -10,27 +10,27 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define SCAN "Ciao scan list"
-#define FORCE "Ciao force list"
-#define BLOCK "Ciao force image list"
-#define IMAGE "Ciao image list"
+#define SECTION_SCAN "Ciao scan list"
+#define SECTION_FORCE "Ciao force list"
+#define SECTION_BLOCK "Ciao force image list"
+#define SECTION_IMAGE "Ciao image list"
 
 /* Maximum number of samples of a segment. */
-#define SAMPLES_MAX ((size_t)10000000)
+#define CURVE_SAMPLES_MAX ((size_t)10000000)
 
 /* Full scale of a 16-bit converter, to which the volts per count of the header refer. */
-static const double most_counts = 32768;
+static const double counts_max = 32768;
 
-static wt_status corrupt(wt_error *err, const char *message, const char *expected)
+static wt_status fail_block(wt_error *err, const char *message, const char *expected)
 {
     wt_fail(err, WT_E_CORRUPT, "%s", message);
-    wt_error_place(err, "\\*" BLOCK);
+    wt_error_place(err, "\\*" SECTION_BLOCK);
     wt_error_expected(err, "%s", expected);
     return WT_E_CORRUPT;
 }
 
 /* Returns integer i of a list such as "512 512"; 0 if it is absent or too large. */
-static size_t whole_number_at(const char *text, size_t i)
+static size_t list_integer(const char *text, size_t i)
 {
     for (; text != NULL; i--) {
         char *end = NULL;
@@ -44,14 +44,14 @@ static size_t whole_number_at(const char *text, size_t i)
     return 0;
 }
 
-static size_t whole_of(const nanoscope_file *f, size_t section, const char *key, size_t i)
+static size_t header_integer(const nanoscope_file *f, size_t section, const char *key, size_t i)
 {
-    return whole_number_at(nanoscope_get(&f->header, section, key), i);
+    return list_integer(nanoscope_get(&f->header, section, key), i);
 }
 
 /* ---- number of curves and sample width ------------------------------------------------------- */
 
-static size_t samples_of_curve(const nanoscope_file *f)
+static size_t curve_samples(const nanoscope_file *f)
 {
     return f->n_in + f->n_hold + f->n_out;
 }
@@ -60,7 +60,7 @@ static size_t samples_of_curve(const nanoscope_file *f)
  * be those of the curves. "Bytes/pixel" is 2 even where four bytes are stored. */
 static bool try_grid(nanoscope_file *f, size_t columns, size_t rows, size_t bytes, unsigned *width)
 {
-    const size_t samps = samples_of_curve(f);
+    const size_t samps = curve_samples(f);
     if (columns == 0 || rows == 0 || bytes / samps / rows < columns)
         return false;
     for (unsigned w = 2; w <= 4; w += 2) {
@@ -77,29 +77,29 @@ static bool try_grid(nanoscope_file *f, size_t columns, size_t rows, size_t byte
 
 static bool find_grid(nanoscope_file *f, size_t bytes, unsigned *width)
 {
-    const size_t force = nanoscope_section(&f->header, FORCE, 0);
-    const size_t scan = nanoscope_section(&f->header, SCAN, 0);
+    const size_t force = nanoscope_section(&f->header, SECTION_FORCE, 0);
+    const size_t scan = nanoscope_section(&f->header, SECTION_SCAN, 0);
     const char *context = nanoscope_get(&f->header, 0, "Start context");
-    const size_t side = whole_of(f, force, "force/line", 0);
+    const size_t side = header_integer(f, force, "force/line", 0);
     if (context != NULL && strcmp(context, "FOL") == 0)
         return try_grid(f, 1, 1, bytes, width);
     if (try_grid(f, side, side, bytes, width) ||
-        try_grid(f, whole_of(f, scan, "Samps/line", 0), whole_of(f, scan, "Lines", 0), bytes,
-                 width))
+        try_grid(f, header_integer(f, scan, "Samps/line", 0), header_integer(f, scan, "Lines", 0),
+                 bytes, width))
         return true;
     for (size_t i = 0;; i++) {
-        const size_t image = nanoscope_section(&f->header, IMAGE, i);
+        const size_t image = nanoscope_section(&f->header, SECTION_IMAGE, i);
         if (image == SIZE_MAX)
             return try_grid(f, 1, 1, bytes, width);
-        if (try_grid(f, whole_of(f, image, "Samps/line", 0),
-                     whole_of(f, image, "Number of lines", 0), bytes, width))
+        if (try_grid(f, header_integer(f, image, "Samps/line", 0),
+                     header_integer(f, image, "Number of lines", 0), bytes, width))
             return true;
     }
 }
 
 /* Sets the channel name from a text such as "[DeflectionError] "Deflection Error"": the part in
  * quotation marks. */
-static void name_channel(const char *text, nanoscope_channel *c)
+static void set_channel_name(const char *text, nanoscope_channel *c)
 {
     const char *open = text != NULL ? strchr(text, '"') : NULL;
     const char *close = open != NULL ? strchr(open + 1, '"') : NULL;
@@ -110,41 +110,43 @@ static void name_channel(const char *text, nanoscope_channel *c)
                                                                : WT_Q_NONE;
 }
 
-static wt_status read_channel(nanoscope_file *f, size_t section, wt_error *err)
+static wt_status read_channel_block(nanoscope_file *f, size_t section, wt_error *err)
 {
     nanoscope_channel c = {.width = 0};
-    const nanoscope_value scale = nanoscope_value_of(nanoscope_get(&f->header, section, "Z scale"));
-    const size_t bytes = whole_of(f, section, "Data length", 0);
-    const size_t n_in = whole_of(f, section, "Samps/line", 0);
-    const size_t n_out = whole_of(f, section, "Samps/line", 1);
+    const nanoscope_value scale =
+        nanoscope_parse_value(nanoscope_get(&f->header, section, "Z scale"));
+    const size_t bytes = header_integer(f, section, "Data length", 0);
+    const size_t n_in = header_integer(f, section, "Samps/line", 0);
+    const size_t n_out = header_integer(f, section, "Samps/line", 1);
     const size_t before = f->n_planned;
-    c.offset = whole_of(f, section, "Data offset", 0);
-    name_channel(nanoscope_get(&f->header, section, "Image Data"), &c);
-    const double soft = nanoscope_soft(&f->header, scale.soft);
+    c.offset = header_integer(f, section, "Data offset", 0);
+    set_channel_name(nanoscope_get(&f->header, section, "Image Data"), &c);
+    const double soft = nanoscope_soft_scale(&f->header, scale.soft);
     c.scale = c.quantity == WT_Q_MEASURED_HEIGHT ? scale.step * soft : scale.step;
     if (f->n_in == 0) {
         f->n_in = n_in;
         f->n_out = n_out > 0 ? n_out : n_in;
     }
-    if (n_in == 0 || n_in > SAMPLES_MAX || n_out > SAMPLES_MAX || bytes == 0 || c.offset == 0)
-        return corrupt(err, "the block of a channel is not described",
-                       "Data offset, Data length and Samps/line");
+    if (n_in == 0 || n_in > CURVE_SAMPLES_MAX || n_out > CURVE_SAMPLES_MAX || bytes == 0 ||
+        c.offset == 0)
+        return fail_block(err, "the block of a channel is not described",
+                          "Data offset, Data length and Samps/line");
     if (n_in != f->n_in || (n_out > 0 && n_out != f->n_out))
-        return corrupt(err, "channels of different length", "the same Samps/line for all");
+        return fail_block(err, "channels of different length", "the same Samps/line for all");
     if (c.quantity == WT_Q_DEFLECTION_VOLTAGE && !isfinite(soft))
         f->cantilever.sensitivity = (double)NAN;
     else if (c.quantity == WT_Q_DEFLECTION_VOLTAGE)
         f->cantilever.sensitivity = soft;
     if (!find_grid(f, bytes, &c.width)) {
         wt_fail(err, WT_E_CORRUPT, "the size of a block agrees with no number of curves");
-        wt_error_found(err, "%zu bytes for curves of %zu samples", bytes, samples_of_curve(f));
-        wt_error_place(err, "\\*" BLOCK ", Data length");
+        wt_error_found(err, "%zu bytes for curves of %zu samples", bytes, curve_samples(f));
+        wt_error_place(err, "\\*" SECTION_BLOCK ", Data length");
         wt_error_expected(err, "2 or 4 bytes for each sample of all curves");
         return WT_E_CORRUPT;
     }
     if (f->n_channels > 0 && f->n_planned != before)
-        return corrupt(err, "channels of different numbers of curves",
-                       "blocks of all channels for as many curves");
+        return fail_block(err, "channels of different numbers of curves",
+                          "blocks of all channels for as many curves");
     if (!isfinite(c.scale))
         c.quantity = WT_Q_NONE;
     f->channels[f->n_channels++] = c;
@@ -153,15 +155,15 @@ static wt_status read_channel(nanoscope_file *f, size_t section, wt_error *err)
 
 /* Warns of additional bytes. Measured files end with their last block. Inserted bytes shift the
  * data after them. */
-static void check_end(const nanoscope_file *f, wt_log *log)
+static void check_file_end(const nanoscope_file *f, wt_log *log)
 {
-    static const char *const lists[] = {BLOCK, IMAGE};
+    static const char *const lists[] = {SECTION_BLOCK, SECTION_IMAGE};
     size_t end = 0;
     for (size_t k = 0; k < 2; k++)
         for (size_t i = 0, section;
              (section = nanoscope_section(&f->header, lists[k], i)) != SIZE_MAX; i++) {
-            const size_t here =
-                whole_of(f, section, "Data offset", 0) + whole_of(f, section, "Data length", 0);
+            const size_t here = header_integer(f, section, "Data offset", 0) +
+                                header_integer(f, section, "Data length", 0);
             end = here > end ? here : end;
         }
     if (f->length > end)
@@ -172,18 +174,18 @@ static void check_end(const nanoscope_file *f, wt_log *log)
 }
 
 /* Limits the number of curves to those that are complete, if a block exceeds the file. */
-static wt_status cut_curves(nanoscope_file *f, wt_log *log, wt_error *err)
+static wt_status limit_curves(nanoscope_file *f, wt_log *log, wt_error *err)
 {
     f->n_curves = f->n_planned;
-    check_end(f, log);
+    check_file_end(f, log);
     for (size_t i = 0; i < f->n_channels; i++) {
         const nanoscope_channel *c = &f->channels[i];
-        const size_t there = c->offset < f->length ? f->length - c->offset : 0;
-        const size_t whole_curves = there / c->width / samples_of_curve(f);
+        const size_t forward = c->offset < f->length ? f->length - c->offset : 0;
+        const size_t whole_curves = forward / c->width / curve_samples(f);
         f->n_curves = whole_curves < f->n_curves ? whole_curves : f->n_curves;
     }
     if (f->n_curves == 0)
-        return corrupt(err, "the end of the file is missing", "at least one curve");
+        return fail_block(err, "the end of the file is missing", "at least one curve");
     if (f->n_curves < f->n_planned)
         wt_log_add(log, WT_LOSS, f->name, NULL,
                    "the end of the file is missing: %zu of %zu curves are there", f->n_curves,
@@ -194,70 +196,72 @@ static wt_status cut_curves(nanoscope_file *f, wt_log *log, wt_error *err)
 /* ---- motion of the piezo --------------------------------------------------------------------- */
 
 /* Returns the first of these keys in the section of the block or of the ramp. */
-static nanoscope_value ramp_value(const nanoscope_file *f, size_t block, size_t force)
+static nanoscope_value find_ramp_value(const nanoscope_file *f, size_t block, size_t force)
 {
     static const char *const keys[] = {"Ramp size", "Ramp size Zsweep", "Z scan size"};
-    nanoscope_value v = nanoscope_value_of(NULL);
+    nanoscope_value v = nanoscope_parse_value(NULL);
     for (size_t k = 0; k < sizeof keys / sizeof *keys; k++) {
-        v = nanoscope_value_of(nanoscope_get(&f->header, block, keys[k]));
+        v = nanoscope_parse_value(nanoscope_get(&f->header, block, keys[k]));
         if (!isfinite(v.value))
-            v = nanoscope_value_of(nanoscope_get(&f->header, force, keys[k]));
+            v = nanoscope_parse_value(nanoscope_get(&f->header, force, keys[k]));
         if (v.value > 0)
             return v;
     }
     return v;
 }
 
-static void read_ramp(nanoscope_file *f, size_t block)
+static void read_ramp_settings(nanoscope_file *f, size_t block)
 {
-    const size_t force = nanoscope_section(&f->header, FORCE, 0);
-    const nanoscope_value size = ramp_value(f, block, force);
-    const double sensitivity = nanoscope_soft(&f->header, size.soft);
-    const double there = force_positive(nanoscope_number(&f->header, force, "Forward vel."));
-    const double back = force_positive(nanoscope_number(&f->header, force, "Reverse vel."));
-    f->ramp = force_positive(size.value * sensitivity);
+    const size_t force = nanoscope_section(&f->header, SECTION_FORCE, 0);
+    const nanoscope_value size = find_ramp_value(f, block, force);
+    const double sensitivity = nanoscope_soft_scale(&f->header, size.soft);
+    const double forward =
+        force_positive_or_nan(nanoscope_number(&f->header, force, "Forward vel."));
+    const double back = force_positive_or_nan(nanoscope_number(&f->header, force, "Reverse vel."));
+    f->ramp = force_positive_or_nan(size.value * sensitivity);
     /* The velocities are in volts of the piezo per second. */
-    f->time_in = size.value / there;
+    f->time_in = size.value / forward;
     f->time_out = size.value / back;
     f->time_hold = f->n_hold > 0 ? nanoscope_number(&f->header, force, "Hold Time") : 0;
-    f->velocity_in = there * sensitivity;
+    f->velocity_in = forward * sensitivity;
     f->velocity_out = back * sensitivity;
     const char *mode = nanoscope_get(&f->header, force, "Trigger mode");
     const nanoscope_value trigger =
-        nanoscope_value_of(nanoscope_get(&f->header, force, "Trig threshold Deflection"));
-    f->trigger =
-        mode != NULL && strcmp(mode, "Relative") == 0 ? force_positive(trigger.value) : (double)NAN;
+        nanoscope_parse_value(nanoscope_get(&f->header, force, "Trig threshold Deflection"));
+    f->trigger = mode != NULL && strcmp(mode, "Relative") == 0
+                     ? force_positive_or_nan(trigger.value)
+                     : (double)NAN;
 }
 
 /* Reads a PeakForce capture: one period of an oscillation with any phase. Its deepest point is at
  * "Sync Distance" of "Sample Points". This is known from other programs only. */
 static void read_sinusoid(nanoscope_file *f)
 {
-    const size_t scan = nanoscope_section(&f->header, SCAN, 0);
+    const size_t scan = nanoscope_section(&f->header, SECTION_SCAN, 0);
     const char *capture = nanoscope_get(&f->header, scan, "PeakForce Capture");
     const double amplitude = nanoscope_number(&f->header, scan, "Peak Force Amplitude");
     double sync = nanoscope_number(&f->header, scan, "Sync Distance QNM");
     const double points = nanoscope_number(&f->header, scan, "Sample Points");
     const double kilohertz = nanoscope_number(&f->header, scan, "PFT Freq");
-    const double n = (double)samples_of_curve(f);
+    const double n = (double)curve_samples(f);
     if (isnan(sync))
         sync = nanoscope_number(&f->header, scan, "Sync Distance");
     if (capture == NULL || strcmp(capture, "Allow") != 0 || !(amplitude > 0) || !(points > 0) ||
         !(sync >= 0 && sync <= points) || f->n_hold > 0)
         return;
     f->sinusoid = true;
-    f->shift = (size_t)lrint(sync / points * n) % samples_of_curve(f);
+    f->shift = (size_t)lrint(sync / points * n) % curve_samples(f);
     f->ramp = 2e-9 * amplitude;
-    const double period = force_positive(1e-3 / kilohertz);
+    const double period = force_positive_or_nan(1e-3 / kilohertz);
     f->time_in = period * (double)f->n_in / n;
     f->time_out = period * (double)f->n_out / n;
     f->velocity_in = f->velocity_out = f->trigger = (double)NAN;
 }
 
 /* Reads the distance of the grid points from "2000 nm" or "2 2 ~m". */
-static void read_place(nanoscope_file *f)
+static void read_grid_pitch(nanoscope_file *f)
 {
-    const size_t scan = nanoscope_section(&f->header, SCAN, 0);
+    const size_t scan = nanoscope_section(&f->header, SECTION_SCAN, 0);
     const char *text = nanoscope_get(&f->header, scan, "Scan Size");
     const char *unit = text != NULL ? strrchr(text, ' ') : NULL;
     double factor = 1e-6, offset = 0;
@@ -266,47 +270,47 @@ static void read_place(nanoscope_file *f)
         (strcmp(unit + 1, "~m") != 0 &&
          wt_unit_to_si(unit + 1, WT_Q_LENGTH, &factor, &offset, NULL) != WT_OK))
         return;
-    f->pitch = force_positive(factor * nanoscope_number(&f->header, scan, "Scan Size") /
-                              (double)f->columns);
+    f->pitch = force_positive_or_nan(factor * nanoscope_number(&f->header, scan, "Scan Size") /
+                                     (double)f->columns);
 }
 
 /* ---- counts ------------------------------------------------------------------------------------
  */
 
 /* Returns the stored index of sample i in temporal order. */
-static size_t place_of(const nanoscope_file *f, size_t i)
+static size_t stored_index(const nanoscope_file *f, size_t i)
 {
-    const size_t n = samples_of_curve(f);
+    const size_t n = curve_samples(f);
     if (f->sinusoid)
         i = (i + f->shift + n - f->n_in) % n;
     return i < f->n_in ? f->n_in - 1 - i : i;
 }
 
-wt_status nanoscope_stored(const nanoscope_file *f, const nanoscope_channel *channel, size_t curve,
-                           const unsigned char **stored, wt_error *err)
+wt_status nanoscope_read_curve(const nanoscope_file *f, const nanoscope_channel *channel,
+                               size_t curve, const unsigned char **stored, wt_error *err)
 {
-    const size_t n = channel->width * samples_of_curve(f);
+    const size_t n = channel->width * curve_samples(f);
     return window_bytes(&f->windows[channel - f->channels], channel->offset + curve * n, n, stored,
                         err);
 }
 
-double nanoscope_count(const nanoscope_file *f, const nanoscope_channel *channel,
-                       const unsigned char *stored, size_t i)
+double nanoscope_sample(const nanoscope_file *f, const nanoscope_channel *channel,
+                        const unsigned char *stored, size_t i)
 {
-    const unsigned char *at = stored + channel->width * place_of(f, i);
+    const unsigned char *at = stored + channel->width * stored_index(f, i);
     const bool narrow = channel->width == 2;
     const double count = narrow ? (double)signed16(le16(at)) : (double)signed32(le32(at));
-    return count == (narrow ? -most_counts : -0x1p31) ? (double)NAN : count;
+    return count == (narrow ? -counts_max : -0x1p31) ? (double)NAN : count;
 }
 
 /* Returns the valid count nearest to the beginning of the approach, or to its end; NaN if there is
  * none. */
-static double end_of(const nanoscope_file *f, const nanoscope_channel *c,
-                     const unsigned char *stored, bool last)
+static double edge_count(const nanoscope_file *f, const nanoscope_channel *c,
+                         const unsigned char *stored, bool last)
 {
     double count = (double)NAN;
     for (size_t i = 0; i < f->n_in && isnan(count); i++)
-        count = nanoscope_count(f, c, stored, last ? f->n_in - 1 - i : i);
+        count = nanoscope_sample(f, c, stored, last ? f->n_in - 1 - i : i);
     return count;
 }
 
@@ -317,11 +321,11 @@ static wt_status largest_rise(const nanoscope_file *f, const nanoscope_channel *
 {
     for (size_t curve = 0; curve < f->n_curves; curve++) {
         const unsigned char *stored = NULL;
-        const wt_status status = nanoscope_stored(f, c, curve, &stored, err);
+        const wt_status status = nanoscope_read_curve(f, c, curve, &stored, err);
         if (status != WT_OK)
             return status;
-        const double end = c->scale * end_of(f, c, stored, true);
-        const double start = c->scale * end_of(f, c, stored, false);
+        const double end = c->scale * edge_count(f, c, stored, true);
+        const double start = c->scale * edge_count(f, c, stored, false);
         *largest = fmax(*largest, fmax(fabs(start), fabs(end)));
         if (fabs(end - start) > fabs(*rise))
             *rise = end - start;
@@ -343,7 +347,7 @@ static wt_status check_scale(nanoscope_file *f, wt_log *log, wt_error *err)
         const wt_status status = largest_rise(f, c, &rise, &largest, err);
         if (status != WT_OK)
             return status;
-        const double range = most_counts * c->scale;
+        const double range = counts_max * c->scale;
         if (c->width == 4 &&
             (largest > range || (f->trigger > 0 && fabs(rise) > 16 * f->trigger))) {
             c->scale /= times;
@@ -354,8 +358,8 @@ static wt_status check_scale(nanoscope_file *f, wt_log *log, wt_error *err)
                        "counts are 256 times those that the header is for");
         }
         if (largest > range)
-            return corrupt(err, "deflections are outside the range of the converter",
-                           "counts that Z scale is for");
+            return fail_block(err, "deflections are outside the range of the converter",
+                              "counts that Z scale is for");
         if (f->trigger > 0 && !(rise > f->trigger / doubtful && rise < f->trigger * doubtful))
             wt_log_add(log, WT_WARNING, f->name, c->name,
                        "the deflection rises by %.3g V where the trigger was %.3g V: the scale "
@@ -367,17 +371,17 @@ static wt_status check_scale(nanoscope_file *f, wt_log *log, wt_error *err)
 
 /* Sets the sign of the height sensors. The file does not state it; the height decreases over the
  * approach. */
-static wt_status turn_sensor(nanoscope_file *f, wt_error *err)
+static wt_status orient_sensor(nanoscope_file *f, wt_error *err)
 {
     for (size_t i = 0; i < f->n_channels; i++) {
         nanoscope_channel *c = &f->channels[i];
         if (c->quantity != WT_Q_MEASURED_HEIGHT)
             continue;
         const unsigned char *stored = NULL;
-        const wt_status status = nanoscope_stored(f, c, 0, &stored, err);
+        const wt_status status = nanoscope_read_curve(f, c, 0, &stored, err);
         if (status != WT_OK)
             return status;
-        if (end_of(f, c, stored, true) > end_of(f, c, stored, false))
+        if (edge_count(f, c, stored, true) > edge_count(f, c, stored, false))
             c->scale = -c->scale;
         if (f->scaled)
             c->scale /= 256;
@@ -388,27 +392,28 @@ static wt_status turn_sensor(nanoscope_file *f, wt_error *err)
 /* ---- opening -----------------------------------------------------------------------------------
  */
 
-static wt_status read_blocks(nanoscope_file *f, wt_error *err)
+static wt_status read_channel_blocks(nanoscope_file *f, wt_error *err)
 {
-    const size_t force = nanoscope_section(&f->header, FORCE, 0);
-    const size_t first = nanoscope_section(&f->header, BLOCK, 0);
+    const size_t force = nanoscope_section(&f->header, SECTION_FORCE, 0);
+    const size_t first = nanoscope_section(&f->header, SECTION_BLOCK, 0);
     wt_status status = WT_OK;
     if (first == SIZE_MAX) {
         wt_fail(err, WT_E_EMPTY, "the file holds no force curve");
-        wt_error_expected(err, "a section \"\\*" BLOCK "\"");
+        wt_error_expected(err, "a section \"\\*" SECTION_BLOCK "\"");
         return WT_E_EMPTY;
     }
-    f->n_hold = whole_of(f, force, "Hold Samples", 0);
-    if (f->n_hold > SAMPLES_MAX)
-        return corrupt(err, "the hold is longer than any measurement", "Hold Samples up to 10^7");
+    f->n_hold = header_integer(f, force, "Hold Samples", 0);
+    if (f->n_hold > CURVE_SAMPLES_MAX)
+        return fail_block(err, "the hold is longer than any measurement",
+                          "Hold Samples up to 10^7");
     for (size_t i = 0; i < NANOSCOPE_CHANNELS && status == WT_OK; i++) {
-        const size_t section = nanoscope_section(&f->header, BLOCK, i);
+        const size_t section = nanoscope_section(&f->header, SECTION_BLOCK, i);
         if (section == SIZE_MAX)
             break;
-        status = read_channel(f, section, err);
+        status = read_channel_block(f, section, err);
     }
     f->cantilever.spring_constant =
-        force_positive(nanoscope_number(&f->header, first, "Spring Constant"));
+        force_positive_or_nan(nanoscope_number(&f->header, first, "Spring Constant"));
     return status;
 }
 
@@ -423,23 +428,23 @@ wt_status nanoscope_file_open(wt_input *input, wt_log *log, nanoscope_file *f, w
     wt_status status = wt_input_size(input, &f->length, err);
     if (status == WT_OK)
         status = wt_input_peek(input, NANOSCOPE_HEADER_MAX, &bytes, &n, &whole, err);
-    if (status == WT_OK && !nanoscope_is(bytes, n))
-        status = corrupt(err, "damaged header", "\\*Force file list");
+    if (status == WT_OK && !nanoscope_is_header(bytes, n))
+        status = fail_block(err, "damaged header", "\\*Force file list");
     if (status == WT_OK)
         status = nanoscope_header_read(bytes, n, &f->header, err);
     if (status == WT_OK)
-        status = read_blocks(f, err);
+        status = read_channel_blocks(f, err);
     if (status == WT_OK)
         status = windows_open(&f->windows, f->n_channels, input, err);
     if (status == WT_OK)
-        status = cut_curves(f, log, err);
+        status = limit_curves(f, log, err);
     if (status == WT_OK) {
-        read_ramp(f, nanoscope_section(&f->header, BLOCK, 0));
+        read_ramp_settings(f, nanoscope_section(&f->header, SECTION_BLOCK, 0));
         read_sinusoid(f);
-        read_place(f);
+        read_grid_pitch(f);
         status = check_scale(f, log, err);
     }
-    return status == WT_OK ? turn_sensor(f, err) : status;
+    return status == WT_OK ? orient_sensor(f, err) : status;
 }
 
 void nanoscope_file_close(nanoscope_file *f)

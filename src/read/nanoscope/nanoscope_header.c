@@ -12,7 +12,7 @@
 #include <string.h>
 #include <strings.h>
 
-bool nanoscope_is(const unsigned char *bytes, size_t length)
+bool nanoscope_is_header(const unsigned char *bytes, size_t length)
 {
     static const char *const first[] = {"\\*Force file list", "\\*File list"};
     for (size_t i = 0; i < sizeof first / sizeof *first; i++)
@@ -112,21 +112,21 @@ const char *nanoscope_get(const nanoscope_header *header, size_t section, const 
 }
 
 /* Returns the number at the beginning of a text, after blanks. */
-static double leading_number(const char *text)
+static double parse_leading_number(const char *text)
 {
     double value = (double)NAN;
     text += strspn(text, " ");
-    const size_t n = number_prefix(text, strlen(text), '.');
+    const size_t n = number_prefix_length(text, strlen(text), '.');
     return n > 0 && wt_number_parse(text, n, '.', &value) ? value : (double)NAN;
 }
 
 double nanoscope_number(const nanoscope_header *header, size_t section, const char *key)
 {
     const char *text = nanoscope_get(header, section, key);
-    return text != NULL ? leading_number(text) : (double)NAN;
+    return text != NULL ? parse_leading_number(text) : (double)NAN;
 }
 
-nanoscope_value nanoscope_value_of(const char *text)
+nanoscope_value nanoscope_parse_value(const char *text)
 {
     nanoscope_value v = {.soft = "", .step = (double)NAN, .value = (double)NAN};
     if (text == NULL)
@@ -142,12 +142,12 @@ nanoscope_value nanoscope_value_of(const char *text)
     open = strchr(text, '(');
     close = open != NULL ? strchr(open, ')') : NULL;
     if (close != NULL)
-        v.step = leading_number(open + 1);
-    v.value = leading_number(close != NULL ? close + 1 : text);
+        v.step = parse_leading_number(open + 1);
+    v.value = parse_leading_number(close != NULL ? close + 1 : text);
     return v;
 }
 
-double nanoscope_soft(const nanoscope_header *header, const char *soft)
+double nanoscope_soft_scale(const nanoscope_header *header, const char *soft)
 {
     static const char *const lists[] = {"Ciao scan list", "Scanner list"};
     double factor = 1e-9, offset = 0;
@@ -163,7 +163,7 @@ double nanoscope_soft(const nanoscope_header *header, const char *soft)
         /* Software 9.2 omits the unit, which is then nm/V. */
         if (*unit != '\0' && wt_unit_to_si(unit, WT_Q_SENSITIVITY, &factor, &offset, NULL) != WT_OK)
             return (double)NAN;
-        return force_positive(factor * leading_number(text));
+        return force_positive_or_nan(factor * parse_leading_number(text));
     }
     return (double)NAN;
 }

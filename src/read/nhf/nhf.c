@@ -24,15 +24,15 @@ typedef struct nhf_segment {
     size_t n_curves, from; /* first sample of the current curve */
 } nhf_segment;
 
-typedef struct measurement {
+typedef struct nhf_measurement {
     nhf_segment segments[SEGMENTS];
     size_t n_segments, n_curves;
     wt_cantilever cantilever;
     double *x, *y; /* [n_curves], or NULL */
-} measurement;
+} nhf_measurement;
 
-static wt_status corrupt_measurement(const char *place, const char *message, const char *expected,
-                                     wt_error *err)
+static wt_status fail_measurement(const char *place, const char *message, const char *expected,
+                                  wt_error *err)
 {
     wt_fail(err, WT_E_CORRUPT, "%s", message);
     wt_error_place(err, "%s", place);
@@ -40,7 +40,7 @@ static wt_status corrupt_measurement(const char *place, const char *message, con
     return WT_E_CORRUPT;
 }
 
-static void clear_measurement(measurement *m)
+static void clear_measurement(nhf_measurement *m)
 {
     for (size_t s = 0; s < m->n_segments; s++) {
         for (size_t c = 0; c < m->segments[s].n_channels; c++)
@@ -49,34 +49,34 @@ static void clear_measurement(measurement *m)
     }
     free(m->x);
     free(m->y);
-    *m = (measurement){.n_segments = 0};
+    *m = (nhf_measurement){.n_segments = 0};
 }
 
 /* ---- segments ---------------------------------------------------------------------------------
  */
 
-static wt_segment_kind kind_of(const char *name)
+static wt_segment_kind segment_kind_from_name(const char *name)
 {
     static const struct {
         const char *word;
         wt_segment_kind kind;
-    } words[] = {{"advance", WT_SEGMENT_APPROACH}, {"approach", WT_SEGMENT_APPROACH},
-                 {"forward", WT_SEGMENT_APPROACH}, {"retract", WT_SEGMENT_RETRACT},
-                 {"backward", WT_SEGMENT_RETRACT}, {"wait", WT_SEGMENT_DWELL},
-                 {"pause", WT_SEGMENT_DWELL},      {"sweep", WT_SEGMENT_MODULATION}};
-    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
-        if (strcasestr(name, words[i].word) != NULL)
-            return words[i].kind;
+    } keywords[] = {{"advance", WT_SEGMENT_APPROACH}, {"approach", WT_SEGMENT_APPROACH},
+                    {"forward", WT_SEGMENT_APPROACH}, {"retract", WT_SEGMENT_RETRACT},
+                    {"backward", WT_SEGMENT_RETRACT}, {"wait", WT_SEGMENT_DWELL},
+                    {"pause", WT_SEGMENT_DWELL},      {"sweep", WT_SEGMENT_MODULATION}};
+    for (size_t i = 0; i < sizeof keywords / sizeof *keywords; i++)
+        if (strcasestr(name, keywords[i].word) != NULL)
+            return keywords[i].kind;
     return WT_SEGMENT_OTHER;
 }
 
 /* Returns the data set of a group whose attribute has this text; -1 if there is none. */
-static hid_t data_by(hid_t group, const char *attribute, const char *text)
+static hid_t find_data_set(hid_t group, const char *attribute, const char *text)
 {
     char name[HDF5_NAME], found[HDF5_TEXT];
-    for (size_t i = 0; hdf5_link(group, i, name); i++) {
+    for (size_t i = 0; hdf5_link_name(group, i, name); i++) {
         const hid_t data = hdf5_open_data(group, name);
-        if (data >= 0 && hdf5_text(data, attribute, found) && strcmp(found, text) == 0)
+        if (data >= 0 && hdf5_text_attribute(data, attribute, found) && strcmp(found, text) == 0)
             return data;
         hdf5_close(data);
     }
@@ -85,14 +85,14 @@ static hid_t data_by(hid_t group, const char *attribute, const char *text)
 
 /* Reads the number of samples of each curve: from the data set to which the channel refers, in
  * version 1 from a channel. Without either there is one curve. */
-static wt_status read_sizes(const nhf_file *f, hid_t group, const char *source, nhf_segment *s,
-                            const char *place, wt_error *err)
+static wt_status read_curve_sizes(const nhf_file *f, hid_t group, const char *source,
+                                  nhf_segment *s, const char *place, wt_error *err)
 {
     const size_t n = s->channels[0].n;
     double sum = 0;
-    const hid_t data = f->old ? data_by(group, "name", "number_of_datapoints_acquired")
-                              : data_by(group, "dataset_block_size_id", source);
-    s->sizes = data >= 0 ? hdf5_values(data, f->size, &s->n_curves) : NULL;
+    const hid_t data = f->old ? find_data_set(group, "name", "number_of_datapoints_acquired")
+                              : find_data_set(group, "dataset_block_size_id", source);
+    s->sizes = data >= 0 ? hdf5_read_values(data, f->size, &s->n_curves) : NULL;
     hdf5_close(data);
     if (s->sizes == NULL && (f->old || source[0] == '\0')) {
         s->sizes = calloc(1, sizeof *s->sizes);
@@ -107,94 +107,95 @@ static wt_status read_sizes(const nhf_file *f, hid_t group, const char *source, 
         sum += s->sizes[i];
     }
     if (s->sizes == NULL || !(sum <= (double)n))
-        return corrupt_measurement(place,
-                                   "the numbers of samples of the curves contradict the channel",
-                                   "whole numbers that add up to the length of the channel", err);
+        return fail_measurement(place,
+                                "the numbers of samples of the curves contradict the channel",
+                                "whole numbers that add up to the length of the channel", err);
     return WT_OK;
 }
 
-static wt_status read_segment(const nhf_file *f, hid_t group, const char *place, nhf_segment *s,
-                              wt_error *err)
+static wt_status read_nhf_segment(const nhf_file *f, hid_t group, const char *place, nhf_segment *s,
+                                  wt_error *err)
 {
     char name[HDF5_NAME], source[HDF5_TEXT] = "";
     const char *problem = NULL;
     wt_status status = WT_OK;
-    for (size_t i = 0; status == WT_OK && hdf5_link(group, i, name) && s->n_channels < CHANNELS;
-         i++) {
+    for (size_t i = 0;
+         status == WT_OK && hdf5_link_name(group, i, name) && s->n_channels < CHANNELS; i++) {
         nhf_channel *c = &s->channels[s->n_channels];
         if (nhf_channel_open(f, group, name, c, &problem)) {
             if (s->n_channels++ == 0)
-                (void)hdf5_text(c->data, "dataset_block_size_source", source);
+                (void)hdf5_text_attribute(c->data, "dataset_block_size_source", source);
             if (c->n != s->channels[0].n)
                 problem = "channels of different length";
         }
         if (problem != NULL)
-            status = corrupt_measurement(place, problem,
-                                         "a type and a linear calibration that are known", err);
+            status = fail_measurement(place, problem,
+                                      "a type and a linear calibration that are known", err);
     }
-    return status == WT_OK && s->n_channels > 0 ? read_sizes(f, group, source, s, place, err)
+    return status == WT_OK && s->n_channels > 0 ? read_curve_sizes(f, group, source, s, place, err)
                                                 : status;
 }
 
-static int by_order(const void *a, const void *b)
+static int compare_segment_order(const void *a, const void *b)
 {
     const nhf_segment *x = a, *y = b;
     return x->order < y->order ? -1 : x->order > y->order;
 }
 
-static double positive_attribute(hid_t group, const char *attribute)
+static double read_positive_attribute(hid_t group, const char *attribute)
 {
-    const double value = hdf5_number(group, attribute, 0);
+    const double value = hdf5_number_attribute(group, attribute, 0);
     return value > 0 ? value : (double)NAN;
 }
 
 /* Reads the positions of the curves: a channel of the measurement with one number for each
  * curve. */
-static void read_places(const nhf_file *f, hid_t group, measurement *m)
+static void read_positions(const nhf_file *f, hid_t group, nhf_measurement *m)
 {
     const char *key = f->old ? "name" : "signal_name";
-    double **const places[] = {&m->x, &m->y};
+    double **const positions[] = {&m->x, &m->y};
     static const char *const names[] = {"Position X", "Position Y"};
     for (size_t i = 0; i < 2; i++) {
         size_t n = 0;
-        const hid_t data = data_by(group, key, names[i]);
-        *places[i] = data >= 0 ? nhf_places_read(f, data, &n) : NULL;
+        const hid_t data = find_data_set(group, key, names[i]);
+        *positions[i] = data >= 0 ? nhf_read_positions(f, data, &n) : NULL;
         hdf5_close(data);
         if (n != m->n_curves) {
-            free(*places[i]);
-            *places[i] = NULL;
+            free(*positions[i]);
+            *positions[i] = NULL;
         }
     }
 }
 
-static wt_status read_measurement(const nhf_file *f, hid_t group, measurement *m, wt_error *err)
+static wt_status read_measurement(const nhf_file *f, hid_t group, nhf_measurement *m, wt_error *err)
 {
     char name[HDF5_NAME], title[HDF5_TEXT];
     wt_status status = WT_OK;
     m->cantilever = (wt_cantilever){
-        .spring_constant = positive_attribute(group, "spm_probe_calibration_spring_constant"),
-        .sensitivity = positive_attribute(group, "spm_probe_calibration_deflection_sensitivity")};
-    for (size_t i = 0; status == WT_OK && hdf5_link(group, i, name); i++) {
+        .spring_constant = read_positive_attribute(group, "spm_probe_calibration_spring_constant"),
+        .sensitivity =
+            read_positive_attribute(group, "spm_probe_calibration_deflection_sensitivity")};
+    for (size_t i = 0; status == WT_OK && hdf5_link_name(group, i, name); i++) {
         const hid_t inner = hdf5_open_group(group, name);
-        if (inner >= 0 && hdf5_text(inner, f->old ? "name" : "segment_name", title)) {
+        if (inner >= 0 && hdf5_text_attribute(inner, f->old ? "name" : "segment_name", title)) {
             if (m->n_segments == SEGMENTS) {
                 hdf5_close(inner);
-                return corrupt_measurement(name, "a measurement of more segments than any has",
-                                           "16 or fewer", err);
+                return fail_measurement(name, "a measurement of more segments than any has",
+                                        "16 or fewer", err);
             }
             nhf_segment *s = &m->segments[m->n_segments];
-            const double order = hdf5_number(inner, "segment_index", 0);
-            *s =
-                (nhf_segment){.kind = kind_of(title), .order = isfinite(order) ? order : (double)i};
+            const double order = hdf5_number_attribute(inner, "segment_index", 0);
+            *s = (nhf_segment){.kind = segment_kind_from_name(title),
+                               .order = isfinite(order) ? order : (double)i};
             m->n_segments++;
-            status = read_segment(f, inner, name, s, err);
+            status = read_nhf_segment(f, inner, name, s, err);
             m->n_curves = s->n_curves > m->n_curves ? s->n_curves : m->n_curves;
         }
         hdf5_close(inner);
     }
     if (status == WT_OK) {
-        qsort(m->segments, m->n_segments, sizeof *m->segments, by_order);
-        read_places(f, group, m);
+        qsort(m->segments, m->n_segments, sizeof *m->segments, compare_segment_order);
+        read_positions(f, group, m);
     }
     return status;
 }
@@ -215,21 +216,21 @@ static double height_rise(const double *values, size_t n)
 
 /* Sets the sign of the heights from the first approach, since the sign is known from other programs
  * only. */
-static wt_status turn_heights(measurement *m, wt_error *err)
+static wt_status orient_heights(nhf_measurement *m, wt_error *err)
 {
-    double way = 0;
-    for (size_t s = 0; s < m->n_segments && way == 0; s++)
+    double rise = 0;
+    for (size_t s = 0; s < m->n_segments && rise == 0; s++)
         for (size_t c = 0; c < m->segments[s].n_channels; c++) {
             nhf_channel *channel = &m->segments[s].channels[c];
             const size_t n = m->segments[s].n_curves > 0 ? (size_t)m->segments[s].sizes[0] : 0;
             if (m->segments[s].kind != WT_SEGMENT_APPROACH || channel->quantity != WT_Q_HEIGHT)
                 continue;
-            const wt_status status = nhf_channel_take(channel, 0, n, err);
+            const wt_status status = nhf_channel_read(channel, 0, n, err);
             if (status != WT_OK)
                 return status;
-            way = height_rise(channel->values, n);
+            rise = height_rise(channel->values, n);
         }
-    for (size_t s = 0; s < m->n_segments && way > 0; s++)
+    for (size_t s = 0; s < m->n_segments && rise > 0; s++)
         for (size_t c = 0; c < m->segments[s].n_channels; c++)
             if (m->segments[s].channels[c].quantity == WT_Q_HEIGHT)
                 m->segments[s].channels[c].factor *= -1;
@@ -238,7 +239,8 @@ static wt_status turn_heights(measurement *m, wt_error *err)
 
 /* Prints a curve. Each segment has its own columns and a time that begins at 0; the printed time
  * runs on through the curve. */
-static wt_status print_curve(measurement *m, size_t number, size_t curve, FILE *out, wt_error *err)
+static wt_status print_nhf_curve(nhf_measurement *m, size_t number, size_t curve, FILE *out,
+                                 wt_error *err)
 {
     double end = 0;
     bool begun = false;
@@ -251,7 +253,7 @@ static wt_status print_curve(measurement *m, size_t number, size_t curve, FILE *
                            .cantilever = m->cantilever,
                            .n_columns = s->n_channels};
         for (size_t c = 0; c < s->n_channels; c++) {
-            const wt_status status = nhf_channel_take(&s->channels[c], s->from, n, err);
+            const wt_status status = nhf_channel_read(&s->channels[c], s->from, n, err);
             if (status != WT_OK)
                 return status;
             double *const values = s->channels[c].values;
@@ -282,30 +284,32 @@ static wt_status print_curves(hid_t file, size_t size, FILE *out, wt_error *err)
     nhf_file f = {.file = file, .size = size, .calibration = -1};
     size_t number = 0;
     wt_status status = WT_OK;
-    const double version = hdf5_number(file, "nsf_file_version_major", 0);
+    const double version = hdf5_number_attribute(file, "nsf_file_version_major", 0);
     if (version != 1 && version != 2) {
         wt_fail(err, WT_E_UNSUPPORTED, "this version of Nanosurf files is not known");
         wt_error_expected(err, "nsf_file_version_major 1 or 2");
         return WT_E_UNSUPPORTED;
     }
     f.old = version == 1;
-    for (size_t i = 0; f.calibration < 0 && hdf5_link(file, i, name); i++) {
+    for (size_t i = 0; f.calibration < 0 && hdf5_link_name(file, i, name); i++) {
         const hid_t group = hdf5_open_group(file, name);
-        if (group >= 0 && hdf5_text(group, "group_type", type) && strcmp(type, "calibration") == 0)
+        if (group >= 0 && hdf5_text_attribute(group, "group_type", type) &&
+            strcmp(type, "calibration") == 0)
             f.calibration = group;
         else
             hdf5_close(group);
     }
-    for (size_t i = 0; status == WT_OK && hdf5_link(file, i, name); i++) {
-        measurement m = {.n_segments = 0};
+    for (size_t i = 0; status == WT_OK && hdf5_link_name(file, i, name); i++) {
+        nhf_measurement m = {.n_segments = 0};
         const hid_t group = hdf5_open_group(file, name);
-        if (group >= 0 && hdf5_text(group, f.old ? "measurement_type" : "group_type", type) &&
+        if (group >= 0 &&
+            hdf5_text_attribute(group, f.old ? "measurement_type" : "group_type", type) &&
             strncmp(type, "spectroscopy", 12) == 0)
             status = read_measurement(&f, group, &m, err);
         if (status == WT_OK)
-            status = turn_heights(&m, err);
+            status = orient_heights(&m, err);
         for (size_t curve = 0; status == WT_OK && curve < m.n_curves; curve++)
-            status = print_curve(&m, number++, curve, out, err);
+            status = print_nhf_curve(&m, number++, curve, out, err);
         clear_measurement(&m);
         hdf5_close(group);
     }
@@ -318,7 +322,7 @@ static wt_status print_curves(hid_t file, size_t size, FILE *out, wt_error *err)
 }
 
 static const hdf5_curves curves = {
-    .words = "nsf_file_version_major",
+    .keywords = "nsf_file_version_major",
     .print = print_curves,
     .note = "force curves of this format were not verified on a genuine file: compare one with the "
             "instrument's own software"};
@@ -330,5 +334,5 @@ const file_reader reader_nhf = {
              .verified = false,
              .evidence = "two other programs that read it; no measured file",
              .version = "1"},
-    READER_OF_HDF5_CURVES(curves),
+    HDF5_CURVES_READER(curves),
 };

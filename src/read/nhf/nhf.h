@@ -29,7 +29,7 @@ typedef struct nhf_channel {
     force_linear scaling; /* from the stored numbers to the unit of the file */
     double factor;        /* to the unit of the quantity; negative if the sign is reversed */
     double *values;       /* values of the current curve */
-    size_t room;
+    size_t capacity;
 } nhf_channel;
 
 /* Opens a channel with a known name, type and unit; the caller closes it. Returns false otherwise,
@@ -37,9 +37,9 @@ typedef struct nhf_channel {
 bool nhf_channel_open(const nhf_file *f, hid_t segment, const char *name, nhf_channel *channel,
                       const char **problem);
 /* Reads the numbers [from, from + n), which exist, into `values`, in SI units. */
-wt_status nhf_channel_take(nhf_channel *channel, size_t from, size_t n, wt_error *err);
+wt_status nhf_channel_read(nhf_channel *channel, size_t from, size_t n, wt_error *err);
 void nhf_channel_close(nhf_channel *channel);
 /* Reads lateral positions [m]; the caller frees them. NULL if the numbers are not understood. */
-double *nhf_places_read(const nhf_file *f, hid_t data, size_t *n);
+double *nhf_read_positions(const nhf_file *f, hid_t data, size_t *n);
 
 #endif

@@ -25,7 +25,7 @@ typedef struct element_type {
 
 /* Finds the type of the stored numbers. Version 2 reserves one number of each integer type for
  * missing values. */
-static bool find_type(const nhf_file *f, hid_t data, element_type *type, double *missing)
+static bool find_element_type(const nhf_file *f, hid_t data, element_type *type, double *missing)
 {
     static const element_type types[] = {
         {"int32", 0, -0x1p31, 0x1p31 - 1}, {"uint8", 1, 0, 255},
@@ -33,8 +33,8 @@ static bool find_type(const nhf_file *f, hid_t data, element_type *type, double 
         {"int16", 5, -0x1p15, 0x1p15 - 1}, {"double", 7, 0, 1},
     };
     char name[HDF5_TEXT];
-    const double number = hdf5_number(data, "dataset_element_type", 0);
-    (void)hdf5_text(data, "dataset_element_type", name);
+    const double number = hdf5_number_attribute(data, "dataset_element_type", 0);
+    (void)hdf5_text_attribute(data, "dataset_element_type", name);
     *missing = (double)NAN;
     for (size_t i = 0; i < sizeof types / sizeof *types; i++) {
         if (f->old ? number != types[i].number : strcmp(name, types[i].name) != 0)
@@ -55,7 +55,7 @@ static bool find_type(const nhf_file *f, hid_t data, element_type *type, double 
  */
 
 /* Reduces a unit such as "Meter (m)" to "m". */
-static void unit_of(char text[HDF5_TEXT])
+static void strip_unit_name(char text[HDF5_TEXT])
 {
     char *open = strchr(text, '(');
     char *close = open != NULL ? strchr(open, ')') : NULL;
@@ -65,30 +65,30 @@ static void unit_of(char text[HDF5_TEXT])
     memmove(text, open + 1, strlen(open + 1) + 1);
 }
 
-typedef struct node {
+typedef struct calibration_node {
     char source[HDF5_TEXT], sink[HDF5_TEXT], unit[HDF5_TEXT];
     force_linear to_sink;
-} node;
+} calibration_node;
 
 /* Reads a linear calibration node that starts at `from`; false for any other node. */
-static bool read_node(hid_t data, const char *from, node *to)
+static bool read_calibration_node(hid_t data, const char *from, calibration_node *to)
 {
-    char type[HDF5_TEXT], ways[HDF5_TEXT];
-    const double a = hdf5_number(data, "signal_mapping_parameters", 0);
-    const double b = hdf5_number(data, "signal_mapping_parameters", 1);
-    (void)hdf5_text(data, "signal_mapping_type", type);
-    (void)hdf5_text(data, "signal_invertibility", ways);
-    (void)hdf5_text(data, "signal_source_id", to->source);
-    (void)hdf5_text(data, "signal_sink_id", to->sink);
+    char type[HDF5_TEXT], direction[HDF5_TEXT];
+    const double a = hdf5_number_attribute(data, "signal_mapping_parameters", 0);
+    const double b = hdf5_number_attribute(data, "signal_mapping_parameters", 1);
+    (void)hdf5_text_attribute(data, "signal_mapping_type", type);
+    (void)hdf5_text_attribute(data, "signal_invertibility", direction);
+    (void)hdf5_text_attribute(data, "signal_source_id", to->source);
+    (void)hdf5_text_attribute(data, "signal_sink_id", to->sink);
     const bool forward = strcmp(to->source, from) == 0;
-    const bool right = strcmp(ways, "right") == 0, both = strcmp(ways, "two_way") == 0;
+    const bool right = strcmp(direction, "right") == 0, both = strcmp(direction, "two_way") == 0;
     if (strncmp(type, "linear", 6) != 0 || strstr(type, "interpolation") != NULL || !isfinite(a) ||
         !isfinite(b) || a == 0 || (!forward && strcmp(to->sink, from) != 0))
         return false;
     if (forward ? !right && !both : right)
         return false;
-    (void)hdf5_text(data, forward ? "signal_sink_unit" : "signal_source_unit", to->unit);
-    unit_of(to->unit);
+    (void)hdf5_text_attribute(data, forward ? "signal_sink_unit" : "signal_source_unit", to->unit);
+    strip_unit_name(to->unit);
     /* a two-way node defines the source as a function of the sink */
     to->to_sink = forward && both ? (force_linear){1 / a, -b / a} : (force_linear){a, b};
     if (!forward)
@@ -97,20 +97,22 @@ static bool read_node(hid_t data, const char *from, node *to)
 }
 
 /* Finds a path of nodes from one signal to another, without a step back to the signal before. */
-static bool walk_nodes(const nhf_file *f, const char *from, const char *before, const char *wanted,
-                       int depth, force_linear *scaling, char unit[HDF5_TEXT])
+static bool find_node_path(const nhf_file *f, const char *from, const char *before,
+                           const char *wanted, int depth, force_linear *scaling,
+                           char unit[HDF5_TEXT])
 {
     char name[HDF5_NAME];
-    for (size_t i = 0; depth < NODES_MAX && hdf5_link(f->calibration, i, name); i++) {
-        node n;
+    for (size_t i = 0; depth < NODES_MAX && hdf5_link_name(f->calibration, i, name); i++) {
+        calibration_node n;
         const hid_t data = hdf5_open_data(f->calibration, name);
-        const bool leads = data >= 0 && read_node(data, from, &n) && strcmp(n.sink, before) != 0;
+        const bool leads =
+            data >= 0 && read_calibration_node(data, from, &n) && strcmp(n.sink, before) != 0;
         hdf5_close(data);
         if (!leads)
             continue;
         force_linear rest = {1, 0};
         const bool there = strcmp(n.sink, wanted) == 0;
-        if (!there && !walk_nodes(f, n.sink, from, wanted, depth + 1, &rest, unit))
+        if (!there && !find_node_path(f, n.sink, from, wanted, depth + 1, &rest, unit))
             continue;
         if (there)
             memcpy(unit, n.unit, sizeof n.unit);
@@ -128,16 +130,18 @@ static bool walk_nodes(const nhf_file *f, const char *from, const char *before, 
 static bool find_scaling(const nhf_file *f, hid_t data, const element_type *type,
                          force_linear *scaling, char unit[HDF5_TEXT])
 {
-    char selected[HDF5_TEXT], own[HDF5_TEXT];
+    char selected[HDF5_TEXT], signal_id[HDF5_TEXT];
     const double low =
-        hdf5_number(data, f->old ? "base_calibration_min" : "signal_calibration_min", 0);
+        hdf5_number_attribute(data, f->old ? "base_calibration_min" : "signal_calibration_min", 0);
     const double high =
-        hdf5_number(data, f->old ? "base_calibration_max" : "signal_calibration_max", 0);
-    (void)hdf5_text(data, f->old ? "base_calibration_unit" : "signal_calibration_unit", unit);
-    unit_of(unit);
-    if (!f->old && hdf5_text(data, "signal_selected", selected) &&
-        hdf5_text(data, "signal_id", own) && strcmp(selected, own) != 0 && f->calibration >= 0)
-        return walk_nodes(f, own, "", selected, 0, scaling, unit);
+        hdf5_number_attribute(data, f->old ? "base_calibration_max" : "signal_calibration_max", 0);
+    (void)hdf5_text_attribute(data, f->old ? "base_calibration_unit" : "signal_calibration_unit",
+                              unit);
+    strip_unit_name(unit);
+    if (!f->old && hdf5_text_attribute(data, "signal_selected", selected) &&
+        hdf5_text_attribute(data, "signal_id", signal_id) && strcmp(selected, signal_id) != 0 &&
+        f->calibration >= 0)
+        return find_node_path(f, signal_id, "", selected, 0, scaling, unit);
     if (!(high > low))
         return false;
     const double multiplier = (high - low) / (type->maximum - type->minimum);
@@ -147,7 +151,8 @@ static bool find_scaling(const nhf_file *f, hid_t data, const element_type *type
 
 /* Finds the quantity of a channel. The unit decides if a deflection is a force, a length or a
  * voltage. */
-static bool find_quantity(const char *name, const char *unit, wt_quantity *quantity, double *factor)
+static bool find_channel_quantity(const char *name, const char *unit, wt_quantity *quantity,
+                                  double *factor)
 {
     static const struct {
         const char *name;
@@ -167,7 +172,8 @@ static bool find_quantity(const char *name, const char *unit, wt_quantity *quant
     return false;
 }
 
-static void to_units(double *values, size_t n, double missing, double factor, force_linear scaling)
+static void convert_to_units(double *values, size_t n, double missing, double factor,
+                             force_linear scaling)
 {
     for (size_t i = 0; i < n; i++)
         values[i] = values[i] == missing
@@ -175,7 +181,7 @@ static void to_units(double *values, size_t n, double missing, double factor, fo
                         : factor * (scaling.multiplier * values[i] + scaling.offset);
 }
 
-static bool is_wanted(const char *name)
+static bool is_supported_channel(const char *name)
 {
     return strcmp(name, "Deflection") == 0 || strcmp(name, "Position Z") == 0 ||
            strcmp(name, "Time") == 0;
@@ -188,37 +194,37 @@ bool nhf_channel_open(const nhf_file *f, hid_t segment, const char *name, nhf_ch
     element_type type;
     *c = (nhf_channel){.data = hdf5_open_rows(segment, name), .scaling = {1, 0}};
     const bool wanted = c->data >= 0 &&
-                        hdf5_text(c->data, f->old ? "name" : "signal_name", title) &&
-                        is_wanted(title);
+                        hdf5_text_attribute(c->data, f->old ? "name" : "signal_name", title) &&
+                        is_supported_channel(title);
     if (!wanted)
         ; /* other data sets are ignored */
-    else if (!find_type(f, c->data, &type, &c->missing) ||
+    else if (!find_element_type(f, c->data, &type, &c->missing) ||
              !find_scaling(f, c->data, &type, &c->scaling, unit))
         *problem = "the calibration of a channel is not understood";
-    else if (!find_quantity(title, unit, &c->quantity, &c->factor))
+    else if (!find_channel_quantity(title, unit, &c->quantity, &c->factor))
         *problem = "the unit of a channel is not understood";
-    else if ((c->n = hdf5_count(c->data, f->size)) == 0)
+    else if ((c->n = hdf5_value_count(c->data, f->size)) == 0)
         *problem = "the numbers of a channel cannot be read";
     if (c->n == 0)
         nhf_channel_close(c);
     return c->n > 0;
 }
 
-wt_status nhf_channel_take(nhf_channel *c, size_t from, size_t n, wt_error *err)
+wt_status nhf_channel_read(nhf_channel *c, size_t from, size_t n, wt_error *err)
 {
-    if (n > c->room) {
+    if (n > c->capacity) {
         double *const values = realloc(c->values, n * sizeof *values);
         if (values == NULL)
             return wt_fail(err, WT_E_MEMORY, "no memory for the numbers of a channel");
         c->values = values;
-        c->room = n;
+        c->capacity = n;
     }
-    if (n > 0 && !hdf5_rows(c->data, from, n, c->values)) {
+    if (n > 0 && !hdf5_read_rows(c->data, from, n, c->values)) {
         wt_fail(err, WT_E_CORRUPT, "the numbers of a channel cannot be read");
         wt_error_expected(err, "as many as the file says");
         return WT_E_CORRUPT;
     }
-    to_units(c->values, n, c->missing, c->factor, c->scaling);
+    convert_to_units(c->values, n, c->missing, c->factor, c->scaling);
     return WT_OK;
 }
 
@@ -230,7 +236,7 @@ void nhf_channel_close(nhf_channel *c)
 }
 
 /* Counts have a type and a calibration like those of a channel; a plain double is in metres. */
-double *nhf_places_read(const nhf_file *f, hid_t data, size_t *n)
+double *nhf_read_positions(const nhf_file *f, hid_t data, size_t *n)
 {
     char unit[HDF5_TEXT];
     element_type type;
@@ -240,11 +246,11 @@ double *nhf_places_read(const nhf_file *f, hid_t data, size_t *n)
     const bool whole = H5Tget_class(stored) != H5T_FLOAT;
     hdf5_close(stored);
     const bool known =
-        find_type(f, data, &type, &missing) && find_scaling(f, data, &type, &scaling, unit);
+        find_element_type(f, data, &type, &missing) && find_scaling(f, data, &type, &scaling, unit);
     if (known ? wt_unit_to_si(unit, WT_Q_LENGTH, &factor, &offset, NULL) != WT_OK : whole)
         return NULL;
-    double *values = hdf5_values(data, f->size, n);
+    double *values = hdf5_read_values(data, f->size, n);
     if (values != NULL && known)
-        to_units(values, *n, missing, factor, scaling);
+        convert_to_units(values, *n, missing, factor, scaling);
     return values;
 }

@@ -20,11 +20,11 @@ typedef struct nid_item {
     const char *value;
 } nid_item;
 
-typedef struct nid_lengths nid_lengths;
+typedef struct nid_line_lengths nid_line_lengths;
 typedef struct nid_header {
     nid_item *items; /* [n] sorted by section and key; of equal ones the first */
     size_t n;
-    nid_lengths *lengths; /* [n_lengths], read by nid_line_length */
+    nid_line_lengths *lengths; /* [n_lengths], read by nid_line_length */
     size_t n_lengths;
     char *text; /* UTF-8 */
     bool latin1;
@@ -38,15 +38,15 @@ const char *nid_get(const nid_header *header, const char *section, const char *k
 /* Returns a plain number; NaN if it is absent or no number. */
 double nid_number(const nid_header *header, const char *section, const char *key);
 /* Reads an integer from 0 to the limit; false for anything else. */
-bool nid_count(const nid_header *header, const char *section, const char *key, size_t most,
-               size_t *count);
+bool nid_integer(const nid_header *header, const char *section, const char *key, size_t max_value,
+                 size_t *count);
 /* Reads the number of samples of a line of a channel (LineDim7Points, version 3); false if it is
  * absent or not understood. */
 bool nid_line_length(const nid_header *header, const char *section, size_t line, size_t *n);
 /* Returns the number of a text such as "D[48]*[N/m]" in the SI unit of the quantity; NaN if it is
  * absent or has another unit. */
-double nid_typed(const nid_header *header, const char *section, const char *key,
-                 wt_quantity quantity);
+double nid_quantity(const nid_header *header, const char *section, const char *key,
+                    wt_quantity quantity);
 /* Copies item i of a list "a;b;c" or "a,b,c", cut to fit; false if the list is shorter. */
 bool nid_list_item(const char *list, char separator, size_t i, char *item, size_t size);
 
@@ -90,7 +90,7 @@ wt_status nid_read_images(const file_reader *self, wt_input *input, const wt_rea
 /* ---- thermal tune: nid_noise.c ------------------------------------------------------------ */
 
 /* Returns the channel of the measured spectrum; NULL if the file is no thermal tune. */
-const nid_channel *nid_tune(const nid_file *file);
+const nid_channel *nid_find_tune(const nid_file *file);
 wt_status nid_read_noise(const file_reader *self, wt_input *input, const wt_read_options *options,
                          wt_log *log, wt_noise_spectrum *spectrum, wt_error *err);
 
@@ -99,9 +99,10 @@ wt_status nid_read_noise(const file_reader *self, wt_input *input, const wt_read
 /* Number of the groups of a force curve, in temporal order. */
 #define NID_PHASES 4
 typedef struct nid_phase {
-    const char *group;    /* name of the group in the file */
-    double interval;      /* time between samples [s]; NaN if unknown */
-    force_metadata facts; /* metadata of all curves; without signals the phase is not in the file */
+    const char *group; /* name of the group in the file */
+    double interval;   /* time between samples [s]; NaN if unknown */
+    force_metadata
+        metadata; /* metadata of all curves; without signals the phase is not in the file */
 } nid_phase;
 
 typedef struct nid_spectroscopy {
@@ -112,17 +113,17 @@ typedef struct nid_spectroscopy {
 } nid_spectroscopy;
 
 /* Finds the force curves. WT_E_EMPTY if there are none. */
-wt_status nid_spectroscopy_find(const nid_file *file, nid_spectroscopy *spectroscopy,
+wt_status nid_find_spectroscopy(const nid_file *file, nid_spectroscopy *spectroscopy,
                                 wt_error *err);
 extern const force_stream nid_force;
 
 /* ---- positions of the curves: ---------------------------------------------------------------- */
 
 /* Returns the grid of a map; 0 and 0 if the file states none. */
-void nid_grid(const nid_header *header, long *columns, long *rows);
+void nid_read_grid(const nid_header *header, long *columns, long *rows);
 /* Sets the position of a curve; unknown values are NaN and -1. It warns of a position that it does
  * not understand. */
-void nid_position(const nid_header *header, size_t i, const char *name, wt_log *log,
-                  wt_force_curve *curve);
+void nid_set_position(const nid_header *header, size_t i, const char *name, wt_log *log,
+                      wt_force_curve *curve);
 
 #endif

@@ -23,8 +23,8 @@ static const char *text_or_empty(const char *text)
     return text != NULL ? text : "";
 }
 
-static wt_status bad_key(const nid_header *header, const char *section, const char *key,
-                         const char *expected, wt_error *err)
+static wt_status fail_key(const nid_header *header, const char *section, const char *key,
+                          const char *expected, wt_error *err)
 {
     const char *found = nid_get(header, section, key);
     wt_fail(err, WT_E_CORRUPT, "%s is missing or not understood", key);
@@ -40,26 +40,26 @@ static wt_status expect_value(const nid_header *header, const char *section, con
     const char *found = nid_get(header, section, key);
     if (found != NULL && strcmp(found, value) == 0)
         return WT_OK;
-    return bad_key(header, section, key, value, err);
+    return fail_key(header, section, key, value, err);
 }
 
-static wt_status read_channel(const nid_header *header, nid_channel *c, wt_error *err)
+static wt_status read_channel_header(const nid_header *header, nid_channel *c, wt_error *err)
 {
     const char *s = c->section;
     size_t bits = 0;
-    if (!nid_count(header, s, "Points", MAX_SIDE, &c->points) || c->points == 0)
-        return bad_key(header, s, "Points", "a number of samples", err);
-    if (!nid_count(header, s, "Lines", MAX_SIDE, &c->lines) || c->lines == 0)
-        return bad_key(header, s, "Lines", "a number of lines", err);
-    if (!nid_count(header, s, "SaveBits", 32, &bits) || (bits != 16 && bits != 32))
-        return bad_key(header, s, "SaveBits", "16 or 32", err);
+    if (!nid_integer(header, s, "Points", MAX_SIDE, &c->points) || c->points == 0)
+        return fail_key(header, s, "Points", "a number of samples", err);
+    if (!nid_integer(header, s, "Lines", MAX_SIDE, &c->lines) || c->lines == 0)
+        return fail_key(header, s, "Lines", "a number of lines", err);
+    if (!nid_integer(header, s, "SaveBits", 32, &bits) || (bits != 16 && bits != 32))
+        return fail_key(header, s, "SaveBits", "16 or 32", err);
     c->bits = (unsigned)bits;
     c->minimum = nid_number(header, s, "Dim2Min");
     c->range = nid_number(header, s, "Dim2Range");
     if (isnan(c->minimum) || isnan(c->range))
-        return bad_key(header, s, isnan(c->minimum) ? "Dim2Min" : "Dim2Range", "a number", err);
-    if (!nid_count(header, s, "Version", 1000, &c->version))
-        return bad_key(header, s, "Version", "a whole number", err);
+        return fail_key(header, s, isnan(c->minimum) ? "Dim2Min" : "Dim2Range", "a number", err);
+    if (!nid_integer(header, s, "Version", 1000, &c->version))
+        return fail_key(header, s, "Version", "a whole number", err);
     c->name = text_or_empty(nid_get(header, s, "Dim2Name"));
     c->unit = text_or_empty(nid_get(header, s, "Dim2Unit"));
     wt_status status = expect_value(header, s, "SaveMode", "Binary", err);
@@ -71,8 +71,8 @@ static wt_status read_channel(const nid_header *header, nid_channel *c, wt_error
 }
 
 /* Adds the channel of slot (g, c) if the file contains it, and moves *at past its block. */
-static wt_status add_channel(nid_file *file, size_t g, size_t c, const char *group_name,
-                             size_t length, size_t *at, wt_error *err)
+static wt_status add_file_channel(nid_file *file, size_t g, size_t c, const char *group_name,
+                                  size_t length, size_t *at, wt_error *err)
 {
     char key[64];
     snprintf(key, sizeof key, "Gr%zu-Ch%zu", g, c);
@@ -80,7 +80,7 @@ static wt_status add_channel(nid_file *file, size_t g, size_t c, const char *gro
     channel.section = nid_get(&file->header, "DataSet", key);
     if (channel.section == NULL)
         return WT_OK;
-    wt_status status = read_channel(&file->header, &channel, err);
+    wt_status status = read_channel_header(&file->header, &channel, err);
     if (status != WT_OK)
         return status;
     size_t width = channel.bits / 8, left = length - *at;
@@ -104,18 +104,18 @@ static wt_status add_channel(nid_file *file, size_t g, size_t c, const char *gro
 static wt_status find_channels(nid_file *file, size_t length, wt_error *err)
 {
     size_t groups = 0, at = file->header.data;
-    if (!nid_count(&file->header, "DataSet", "GroupCount", MAX_GROUPS, &groups))
-        return bad_key(&file->header, "DataSet", "GroupCount", "a number up to 256", err);
+    if (!nid_integer(&file->header, "DataSet", "GroupCount", MAX_GROUPS, &groups))
+        return fail_key(&file->header, "DataSet", "GroupCount", "a number up to 256", err);
     for (size_t g = 0; g < groups; g++) {
         char key[64];
         size_t slots = 0;
         snprintf(key, sizeof key, "Gr%zu-Count", g);
-        if (!nid_count(&file->header, "DataSet", key, MAX_SLOTS, &slots))
-            return bad_key(&file->header, "DataSet", key, "a number up to 256", err);
+        if (!nid_integer(&file->header, "DataSet", key, MAX_SLOTS, &slots))
+            return fail_key(&file->header, "DataSet", key, "a number up to 256", err);
         snprintf(key, sizeof key, "Gr%zu-Name", g);
         const char *name = text_or_empty(nid_get(&file->header, "DataSet", key));
         for (size_t c = 0; c < slots; c++) {
-            wt_status status = add_channel(file, g, c, name, length, &at, err);
+            wt_status status = add_file_channel(file, g, c, name, length, &at, err);
             if (status != WT_OK)
                 return status;
         }
@@ -200,8 +200,8 @@ const char *nid_si_unit(const char *unit, double *factor)
 
 /* Reads range and beginning of an axis in SI units; an axis with an unknown unit keeps its
  * numbers. */
-static void read_axis(const nid_header *header, const char *section, int axis, double *range,
-                      double *minimum, char *unit, size_t size)
+static void read_image_axis(const nid_header *header, const char *section, int axis, double *range,
+                            double *minimum, char *unit, size_t size)
 {
     char key[16];
     double factor = 1;
@@ -217,7 +217,7 @@ static void read_axis(const nid_header *header, const char *section, int axis, d
 
 /* Counts the lines of constant value in [first, end). They were not measured, since a scan has
  * noise. */
-static size_t flat_lines(const wt_image *image, size_t first, size_t end)
+static size_t count_flat_lines(const wt_image *image, size_t first, size_t end)
 {
     size_t n = 0;
     for (size_t line = first; line < end; line++) {
@@ -232,17 +232,17 @@ static size_t flat_lines(const wt_image *image, size_t first, size_t end)
 
 /* Warns if a scan was stopped. CurLine is the line at which the scan ended, in either direction;
  * for a complete scan it is an edge of the image. Constant lines show which lines are missing. */
-static void warn_stopped(const nid_file *file, const nid_channel *c, wt_log *log,
-                         const wt_image *image)
+static void warn_stopped_scan(const nid_file *file, const nid_channel *c, wt_log *log,
+                              const wt_image *image)
 {
     const double current = nid_number(&file->header, c->section, "CurLine");
     const size_t n = image->n_rows;
     if (!(current >= 0 && current + 1 < (double)n))
         return;
-    const size_t at = (size_t)current, above = flat_lines(image, at + 1, n),
-                 below = flat_lines(image, 0, at);
+    const size_t at = (size_t)current, above = count_flat_lines(image, at + 1, n),
+                 below = count_flat_lines(image, 0, at);
     const size_t missing = above == n - at - 1 ? above : at > 0 && below == at ? below : 0;
-    if (missing > 0 && flat_lines(image, 0, n) < n)
+    if (missing > 0 && count_flat_lines(image, 0, n) < n)
         wt_log_add(log, WT_WARNING, file->name, c->section,
                    "scan was stopped at line %zu: %zu of %zu lines were not measured", at, missing,
                    n);
@@ -260,14 +260,14 @@ static wt_status read_image(const nid_file *file, const nid_channel *c, wt_log *
     }
     snprintf(head.name, sizeof head.name, "%s: %s", c->group_name, c->name);
     snprintf(head.unit, sizeof head.unit, "%s", unit[0] != '\0' ? unit : "1");
-    read_axis(&file->header, c->section, 0, &head.width, &head.x_min, head.x_unit,
-              sizeof head.x_unit);
-    read_axis(&file->header, c->section, 1, &head.height, &head.y_min, NULL, 0);
+    read_image_axis(&file->header, c->section, 0, &head.width, &head.x_min, head.x_unit,
+                    sizeof head.x_unit);
+    read_image_axis(&file->header, c->section, 1, &head.height, &head.y_min, NULL, 0);
     wt_status status = images_add(list, &head, &values, err);
     for (size_t line = 0; status == WT_OK && line < c->lines; line++)
         status = nid_decode(file, c, line, c->points, factor, values + line * c->points, err);
     if (status == WT_OK)
-        warn_stopped(file, c, log, &list->images[list->n - 1]);
+        warn_stopped_scan(file, c, log, &list->images[list->n - 1]);
     return status;
 }
 
@@ -284,7 +284,7 @@ wt_status nid_read_images(const file_reader *self, wt_input *input, const wt_rea
     for (size_t i = 0; i < file.n && status == WT_OK; i++)
         if (!nid_is_spectroscopy(&file.channels[i]))
             status = read_image(&file, &file.channels[i], log, &list, err);
-    status = images_end(&list, status, file.name, log, images, n_images, err);
+    status = images_finish(&list, status, file.name, log, images, n_images, err);
     nid_file_close(&file);
     return status;
 }

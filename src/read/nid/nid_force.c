@@ -33,11 +33,11 @@ static const struct {
 
 /* Returns the full scale of the input with this name, as in
  * "In5=5,TipSignalDC,Deflection,m,1.393e-06,0". */
-static double full_scale(const nid_header *header, const char *name, wt_quantity quantity)
+static double input_full_scale(const nid_header *header, const char *name, wt_quantity quantity)
 {
     char key[32], item[NID_TEXT], unit[NID_TEXT];
     size_t n = 0;
-    if (!nid_count(header, SCANHEAD, "InCount", 1000, &n))
+    if (!nid_integer(header, SCANHEAD, "InCount", 1000, &n))
         return (double)NAN;
     for (size_t i = 0; i < n; i++) {
         double factor = 1, offset = 0;
@@ -49,7 +49,7 @@ static double full_scale(const nid_header *header, const char *name, wt_quantity
         if (nid_list_item(list, ',', 3, unit, sizeof unit) &&
             nid_list_item(list, ',', 4, item, sizeof item) &&
             wt_unit_to_si(unit, quantity, &factor, &offset, NULL) == WT_OK)
-            return factor * number_of(item);
+            return factor * parse_number_or_nan(item);
         return (double)NAN;
     }
     return (double)NAN;
@@ -57,7 +57,7 @@ static double full_scale(const nid_header *header, const char *name, wt_quantity
 
 static void read_phase(const nid_header *header, size_t i, nid_phase *phase)
 {
-    double time = nid_typed(header, SPECTROSCOPY, phase_names[i].time, WT_Q_TIME);
+    double time = nid_quantity(header, SPECTROSCOPY, phase_names[i].time, WT_Q_TIME);
     const char *points = nid_get(header, SPECTROSCOPY, phase_names[i].points);
     double n = (double)NAN;
     /* a number without a unit, as in "L[1024]*[]" */
@@ -65,8 +65,8 @@ static void read_phase(const nid_header *header, size_t i, nid_phase *phase)
         !wt_number_parse(points + 2, strcspn(points + 2, "]"), '.', &n))
         n = (double)NAN;
     phase->group = phase_names[i].group;
-    phase->interval = force_positive(time / n);
-    phase->facts =
+    phase->interval = force_positive_or_nan(time / n);
+    phase->metadata =
         (force_metadata){.kind = phase_names[i].kind,
                          .index = i,
                          .place = SPECTROSCOPY,
@@ -76,13 +76,13 @@ static void read_phase(const nid_header *header, size_t i, nid_phase *phase)
                                     WT_Q_DEFLECTION, WT_Q_DEFLECTION_VOLTAGE},
                          .n_offers = 6};
     if (phase_names[i].range != NULL)
-        phase->facts.velocity = force_positive(
-            fabs(nid_typed(header, SPECTROSCOPY, phase_names[i].range, WT_Q_LENGTH)) / time);
+        phase->metadata.velocity = force_positive_or_nan(
+            fabs(nid_quantity(header, SPECTROSCOPY, phase_names[i].range, WT_Q_LENGTH)) / time);
 }
 
 /* Adds the signal of a channel. The first channel of a quantity counts. The unit decides the
  * quantity of a deflection. */
-static void add_channel(const nid_channel *c, force_metadata *facts)
+static void add_channel_signal(const nid_channel *c, force_metadata *metadata)
 {
     static const struct {
         const char *name;
@@ -102,28 +102,29 @@ static void add_channel(const nid_channel *c, force_metadata *facts)
             wt_unit_to_si(c->unit, signal.quantity, &signal.to_si.multiplier, &signal.to_si.offset,
                           NULL) != WT_OK)
             continue;
-        force_add_signal(facts, signal);
+        force_add_signal(metadata, signal);
         return;
     }
 }
 
-wt_status nid_spectroscopy_find(const nid_file *file, nid_spectroscopy *s, wt_error *err)
+wt_status nid_find_spectroscopy(const nid_file *file, nid_spectroscopy *s, wt_error *err)
 {
     *s = (nid_spectroscopy){
-        .cantilever = {.spring_constant = force_positive(
-                           nid_typed(&file->header, CANTILEVER, "Prop0", WT_Q_SPRING_CONSTANT)),
-                       .sensitivity = force_positive(
-                           full_scale(&file->header, "TipSignalDC", WT_Q_DEFLECTION) /
-                           full_scale(&file->header, "TipSignalDC1", WT_Q_DEFLECTION_VOLTAGE))}};
+        .cantilever = {
+            .spring_constant = force_positive_or_nan(
+                nid_quantity(&file->header, CANTILEVER, "Prop0", WT_Q_SPRING_CONSTANT)),
+            .sensitivity = force_positive_or_nan(
+                input_full_scale(&file->header, "TipSignalDC", WT_Q_DEFLECTION) /
+                input_full_scale(&file->header, "TipSignalDC1", WT_Q_DEFLECTION_VOLTAGE))}};
     for (size_t p = 0; p < NID_PHASES; p++) {
         nid_phase *phase = &s->phases[p];
         read_phase(&file->header, p, phase);
-        phase->facts.cantilever = s->cantilever;
+        phase->metadata.cantilever = s->cantilever;
         for (size_t i = 0; i < file->n; i++)
             if (strcasecmp(file->channels[i].group_name, phase->group) == 0)
-                add_channel(&file->channels[i], &phase->facts);
-        for (size_t i = 0; i < phase->facts.n_signals; i++) {
-            const nid_channel *c = phase->facts.signals[i].channel;
+                add_channel_signal(&file->channels[i], &phase->metadata);
+        for (size_t i = 0; i < phase->metadata.n_signals; i++) {
+            const nid_channel *c = phase->metadata.signals[i].channel;
             s->n_curves = c->lines > s->n_curves ? c->lines : s->n_curves;
         }
     }
@@ -133,7 +134,7 @@ wt_status nid_spectroscopy_find(const nid_file *file, nid_spectroscopy *s, wt_er
         wt_error_found(err, "group \"%s\"", file->channels[0].group_name);
         return WT_E_EMPTY;
     }
-    nid_grid(&file->header, &s->columns, &s->rows);
+    nid_read_grid(&file->header, &s->columns, &s->rows);
     return WT_OK;
 }
 
@@ -146,8 +147,8 @@ typedef struct nid_source {
     size_t line; /* line of the current or next curve */
 } nid_source;
 
-static wt_status line_length(const nid_file *file, const nid_channel *c, size_t line, size_t *n,
-                             wt_error *err)
+static wt_status read_line_length(const nid_file *file, const nid_channel *c, size_t line,
+                                  size_t *n, wt_error *err)
 {
     char key[48];
     *n = c->points;
@@ -171,20 +172,20 @@ static wt_status line_length(const nid_file *file, const nid_channel *c, size_t 
 }
 
 /* Finds the number of samples that all channels of a phase have; they are recorded together. */
-static wt_status phase_length(const nid_source *source, const force_metadata *facts, size_t *n,
-                              wt_error *err)
+static wt_status find_phase_length(const nid_source *source, const force_metadata *metadata,
+                                   size_t *n, wt_error *err)
 {
     *n = SIZE_MAX;
-    for (size_t i = 0; i < facts->n_signals; i++) {
-        const nid_channel *c = facts->signals[i].channel;
-        size_t own = 0;
-        wt_status status = line_length(&source->file, c, source->line, &own, err);
+    for (size_t i = 0; i < metadata->n_signals; i++) {
+        const nid_channel *c = metadata->signals[i].channel;
+        size_t line_points = 0;
+        wt_status status = read_line_length(&source->file, c, source->line, &line_points, err);
         if (status != WT_OK)
             return status;
-        if (*n != SIZE_MAX && own != *n)
+        if (*n != SIZE_MAX && line_points != *n)
             wt_log_add(source->base.log, WT_LOSS, source->file.name, c->section,
                        "channels are of different length; cut to the shortest");
-        *n = own < *n ? own : *n;
+        *n = line_points < *n ? line_points : *n;
     }
     if (*n == SIZE_MAX)
         *n = 0;
@@ -204,15 +205,15 @@ static wt_status decode(wt_force_source *base, const force_signal *signal, force
 static wt_status add_phase(nid_source *source, const nid_phase *phase, double *start,
                            wt_force_curve *curve, wt_error *err)
 {
-    force_metadata facts = phase->facts;
-    wt_status status = phase_length(source, &facts, &facts.n_points, err);
-    if (status != WT_OK || facts.n_points == 0) /* an absent phase takes no time */
+    force_metadata metadata = phase->metadata;
+    wt_status status = find_phase_length(source, &metadata, &metadata.n_points, err);
+    if (status != WT_OK || metadata.n_points == 0) /* an absent phase takes no time */
         return status;
-    facts.start = *start;
-    facts.duration = (double)facts.n_points * phase->interval;
-    *start += facts.duration;
-    return force_wants_segment(&source->base, facts.kind)
-               ? force_add_segment(&source->base, &facts, curve, err)
+    metadata.start = *start;
+    metadata.duration = (double)metadata.n_points * phase->interval;
+    *start += metadata.duration;
+    return force_is_segment_requested(&source->base, metadata.kind)
+               ? force_add_segment(&source->base, &metadata, curve, err)
                : WT_OK;
 }
 
@@ -224,7 +225,7 @@ static wt_status next_curve(wt_force_source *base, wt_force_curve *curve, wt_err
     if (source->line == source->spectroscopy.n_curves)
         return WT_END;
     curve->index = source->line;
-    nid_position(&source->file.header, source->line, base->name, base->log, curve);
+    nid_set_position(&source->file.header, source->line, base->name, base->log, curve);
     for (size_t p = 0; p < NID_PHASES && status == WT_OK; p++)
         status = add_phase(source, &source->spectroscopy.phases[p], &start, curve, err);
     source->line++;
@@ -248,7 +249,7 @@ static wt_status open_source(wt_force_source *base, const file_reader *self, wt_
     (void)self;
     wt_status status = nid_file_open(input, &source->file, err);
     if (status == WT_OK)
-        status = nid_spectroscopy_find(&source->file, &source->spectroscopy, err);
+        status = nid_find_spectroscopy(&source->file, &source->spectroscopy, err);
     if (status != WT_OK)
         return status;
     wt_log_add(base->log, WT_NOTE, base->name, NULL,

@@ -13,7 +13,7 @@
 #include <string.h>
 
 /* Returns a copy in UTF-8 with a terminating zero; NULL without memory. */
-static char *to_utf8(const unsigned char *bytes, size_t n, bool latin1)
+static char *convert_to_utf8(const unsigned char *bytes, size_t n, bool latin1)
 {
     char *text = malloc(2 * n + 1);
     char *to = text;
@@ -31,7 +31,7 @@ static char *to_utf8(const unsigned char *bytes, size_t n, bool latin1)
     return text;
 }
 
-static int by_name(const void *a, const void *b)
+static int compare_items(const void *a, const void *b)
 {
     const nid_item *x = a, *y = b;
     int order = strcmp(x->section, y->section);
@@ -40,10 +40,10 @@ static int by_name(const void *a, const void *b)
 
 /* Compares items by name; equal names keep the order of the file, since all keys are in one block
  * of text. */
-static int by_name_and_place(const void *a, const void *b)
+static int compare_item_order(const void *a, const void *b)
 {
     const nid_item *x = a, *y = b;
-    int order = by_name(a, b);
+    int order = compare_items(a, b);
     return order != 0 ? order : x->key < y->key ? -1 : x->key > y->key;
 }
 
@@ -51,7 +51,7 @@ static int by_name_and_place(const void *a, const void *b)
 
 /* The numbers of samples of the lines of a section. The file has a line "LineDim7Points=400" for
  * every line of every channel, so they are stored as numbers. */
-struct nid_lengths {
+struct nid_line_lengths {
     size_t number; /* number of the section in the file */
     const char *section;
     uint32_t *points; /* [n] samples of the first lines */
@@ -60,66 +60,67 @@ struct nid_lengths {
 
 /* Parses the digits at the beginning of a text and returns their number; 0 if they might
  * overflow. */
-static size_t read_digits(const char *text, size_t n, uint32_t *value)
+static size_t parse_digits(const char *text, size_t n, uint32_t *value)
 {
-    enum { MOST_DIGITS = 9 };
+    enum { MAX_DIGITS = 9 };
     size_t i = 0;
     for (*value = 0; i < n && text[i] >= '0' && text[i] <= '9'; i++) {
-        if (i == MOST_DIGITS)
+        if (i == MAX_DIGITS)
             return 0;
         *value = 10 * *value + (uint32_t)(text[i] - '0');
     }
     return i;
 }
 
-static bool begins(const char *text, size_t n, const char *with)
+static bool has_prefix(const char *text, size_t n, const char *prefix)
 {
-    const size_t length = strlen(with);
-    return n >= length && memcmp(text, with, length) == 0;
+    const size_t length = strlen(prefix);
+    return n >= length && memcmp(text, prefix, length) == 0;
 }
 
 /* Adds the length of a line. A length out of sequence is kept as an ordinary item. */
-static bool add_length(nid_header *header, size_t section, uint32_t line, uint32_t points,
-                       bool *taken)
+static bool add_line_length(nid_header *header, size_t section, uint32_t line, uint32_t points,
+                            bool *is_consumed)
 {
-    nid_lengths *list = header->n_lengths > 0 ? &header->lengths[header->n_lengths - 1] : NULL;
+    nid_line_lengths *list = header->n_lengths > 0 ? &header->lengths[header->n_lengths - 1] : NULL;
     if (list == NULL || list->number != section) {
         list = array_grow(header->lengths, header->n_lengths, sizeof *list);
         if (list == NULL)
             return false;
         header->lengths = list;
         list += header->n_lengths++;
-        *list = (nid_lengths){.number = section, .section = ""};
+        *list = (nid_line_lengths){.number = section, .section = ""};
     }
-    *taken = line == list->n;
+    *is_consumed = line == list->n;
     uint32_t *const grown =
-        *taken ? array_grow(list->points, list->n, sizeof *grown) : list->points;
-    if (*taken && grown == NULL)
+        *is_consumed ? array_grow(list->points, list->n, sizeof *grown) : list->points;
+    if (*is_consumed && grown == NULL)
         return false;
     list->points = grown;
-    if (*taken)
+    if (*is_consumed)
         list->points[list->n++] = points;
     return true;
 }
 
 /* Parses a "LineDim" key of a channel. Its number of samples is stored; its position is not used.
  * Returns false if there is no memory. */
-static bool take_length(nid_header *header, size_t section, const char *line, size_t n, bool *taken)
+static bool parse_line_length(nid_header *header, size_t section, const char *line, size_t n,
+                              bool *is_consumed)
 {
     static const char first[] = "LineDim", last[] = "Points=";
     const size_t begin = sizeof first - 1, end = sizeof last - 1;
     uint32_t number = 0, points = 0;
-    if (!begins(line, n, first))
+    if (!has_prefix(line, n, first))
         return true;
-    const size_t digits = read_digits(line + begin, n - begin, &number);
+    const size_t digits = parse_digits(line + begin, n - begin, &number);
     const char *const key = line + begin + digits;
     const size_t left = n - begin - digits;
     if (digits == 0)
         return true;
-    *taken = begins(key, left, "Min=") || begins(key, left, "Range=");
-    if (begins(key, left, last) && left > end &&
-        read_digits(key + end, left - end, &points) == left - end)
-        return add_length(header, section, number, points, taken);
+    *is_consumed = has_prefix(key, left, "Min=") || has_prefix(key, left, "Range=");
+    if (has_prefix(key, left, last) && left > end &&
+        parse_digits(key + end, left - end, &points) == left - end)
+        return add_line_length(header, section, number, points, is_consumed);
     return true;
 }
 
@@ -132,7 +133,7 @@ bool nid_line_length(const nid_header *header, const char *section, size_t line,
             return true;
         }
     snprintf(key, sizeof key, "LineDim%zuPoints", line);
-    return nid_count(header, section, key, UINT32_MAX, n);
+    return nid_integer(header, section, key, UINT32_MAX, n);
 }
 
 /* ---- all lines ------------------------------------------------------------------------------ */
@@ -164,7 +165,7 @@ static void parse_line(nid_header *header, char *line, const char **section)
     header->items[header->n++] = (nid_item){*section, line, equals + 1};
 }
 
-static wt_status parse(nid_header *header, wt_error *err)
+static wt_status parse_items(nid_header *header, wt_error *err)
 {
     size_t lines = 1, n_sections = 0, n_named = 0;
     for (const char *p = header->text; *p != '\0'; p++)
@@ -184,10 +185,10 @@ static wt_status parse(nid_header *header, wt_error *err)
             name_section(header, ++n_sections, section, &n_named);
         line = end;
     }
-    qsort(header->items, header->n, sizeof *header->items, by_name_and_place);
+    qsort(header->items, header->n, sizeof *header->items, compare_item_order);
     size_t kept = 0;
     for (size_t i = 0; i < header->n; i++)
-        if (kept == 0 || by_name(&header->items[kept - 1], &header->items[i]) != 0)
+        if (kept == 0 || compare_items(&header->items[kept - 1], &header->items[i]) != 0)
             header->items[kept++] = header->items[i];
     header->n = kept;
     return WT_OK;
@@ -196,18 +197,18 @@ static wt_status parse(nid_header *header, wt_error *err)
 /* The lines that are parsed later. */
 typedef struct header_lines {
     unsigned char *bytes;
-    size_t n, room, n_sections;
+    size_t n, capacity, n_sections;
 } header_lines;
 
-static bool keep_line(header_lines *lines, const char *line, size_t n)
+static bool append_line(header_lines *lines, const char *line, size_t n)
 {
-    if (n > lines->room - lines->n) {
-        const size_t room = 2 * lines->room + n;
-        unsigned char *const bytes = realloc(lines->bytes, room);
+    if (n > lines->capacity - lines->n) {
+        const size_t capacity = 2 * lines->capacity + n;
+        unsigned char *const bytes = realloc(lines->bytes, capacity);
         if (bytes == NULL)
             return false;
         lines->bytes = bytes;
-        lines->room = room;
+        lines->capacity = capacity;
     }
     memcpy(lines->bytes + lines->n, line, n);
     lines->n += n;
@@ -216,8 +217,8 @@ static bool keep_line(header_lines *lines, const char *line, size_t n)
 
 /* Splits a piece into complete lines. *used is the number of bytes consumed; *end is true where the
  * data begin. */
-static wt_status take_lines(nid_header *header, header_lines *lines, const char *piece, size_t n,
-                            size_t *used, bool *end, wt_error *err)
+static wt_status split_lines(nid_header *header, header_lines *lines, const char *piece, size_t n,
+                             size_t *used, bool *end, wt_error *err)
 {
     size_t at = 0;
     const char *stop = piece;
@@ -228,7 +229,7 @@ static wt_status take_lines(nid_header *header, header_lines *lines, const char 
         if (stop == NULL)
             break;
         size_t length = (size_t)(stop - line);
-        bool taken = false;
+        bool is_consumed = false;
         at += length + 1;
         if (memchr(line, '\0', length) != NULL)
             return wt_fail(err, WT_E_CORRUPT, "the header holds zero bytes");
@@ -236,15 +237,15 @@ static wt_status take_lines(nid_header *header, header_lines *lines, const char 
         const size_t whole = length + 1;
         while (length > 0 && (line[length - 1] == '\r' || line[length - 1] == ' '))
             length--;
-        if (!take_length(header, lines->n_sections, line, length, &taken) ||
-            (!taken && !keep_line(lines, line, whole)))
+        if (!parse_line_length(header, lines->n_sections, line, length, &is_consumed) ||
+            (!is_consumed && !append_line(lines, line, whole)))
             return wt_fail(err, WT_E_MEMORY, "no memory for the header");
     }
     *used = at;
     return WT_OK;
 }
 
-static wt_status no_end(wt_error *err)
+static wt_status fail_no_end(wt_error *err)
 {
     wt_fail(err, WT_E_CORRUPT, "the header has no end");
     wt_error_expected(err, "a line that begins with #!");
@@ -252,8 +253,8 @@ static wt_status no_end(wt_error *err)
 }
 
 /* Reads the lines of the header, which may be large but has no long line. */
-static wt_status read_lines(input_window *from, nid_header *header, header_lines *lines,
-                            wt_error *err)
+static wt_status read_header_lines(input_window *from, nid_header *header, header_lines *lines,
+                                   wt_error *err)
 {
     static const size_t piece = (size_t)1 << 20;
     bool end = false;
@@ -263,12 +264,12 @@ static wt_status read_lines(input_window *from, nid_header *header, header_lines
         size_t used = 0;
         wt_status status = window_bytes(from, header->data, n, &bytes, err);
         if (status == WT_OK)
-            status = take_lines(header, lines, (const char *)bytes, n, &used, &end, err);
+            status = split_lines(header, lines, (const char *)bytes, n, &used, &end, err);
         if (status != WT_OK)
             return status;
         header->data += used;
         if (used == 0 && !end)
-            return no_end(err);
+            return fail_no_end(err);
     }
     header->data += 2;
     return WT_OK;
@@ -281,17 +282,17 @@ wt_status nid_header_read(wt_input *input, nid_header *header, wt_error *err)
     *header = (nid_header){0};
     wt_status status = window_open(&from, input, err);
     if (status == WT_OK)
-        status = read_lines(&from, header, &lines, err);
+        status = read_header_lines(&from, header, &lines, err);
     window_close(&from);
     if (status == WT_OK) {
-        header->latin1 = utf8_check((const char *)lines.bytes, lines.n) < lines.n;
-        header->text = to_utf8(lines.bytes, lines.n, header->latin1);
+        header->latin1 = utf8_valid_length((const char *)lines.bytes, lines.n) < lines.n;
+        header->text = convert_to_utf8(lines.bytes, lines.n, header->latin1);
         status =
             header->text != NULL ? WT_OK : wt_fail(err, WT_E_MEMORY, "no memory for the header");
     }
     free(lines.bytes);
     if (status == WT_OK)
-        status = parse(header, err);
+        status = parse_items(header, err);
     if (status != WT_OK)
         nid_header_clear(header);
     return status;
@@ -313,27 +314,27 @@ const char *nid_get(const nid_header *header, const char *section, const char *k
     if (header->n == 0)
         return NULL;
     const nid_item *found =
-        bsearch(&wanted, header->items, header->n, sizeof *header->items, by_name);
+        bsearch(&wanted, header->items, header->n, sizeof *header->items, compare_items);
     return found != NULL ? found->value : NULL;
 }
 
 double nid_number(const nid_header *header, const char *section, const char *key)
 {
-    return number_of(nid_get(header, section, key));
+    return parse_number_or_nan(nid_get(header, section, key));
 }
 
-bool nid_count(const nid_header *header, const char *section, const char *key, size_t most,
-               size_t *count)
+bool nid_integer(const nid_header *header, const char *section, const char *key, size_t max_value,
+                 size_t *count)
 {
     double value = nid_number(header, section, key);
-    if (!(value >= 0 && value <= (double)most) || value != floor(value))
+    if (!(value >= 0 && value <= (double)max_value) || value != floor(value))
         return false;
     *count = (size_t)value;
     return true;
 }
 
-double nid_typed(const nid_header *header, const char *section, const char *key,
-                 wt_quantity quantity)
+double nid_quantity(const nid_header *header, const char *section, const char *key,
+                    wt_quantity quantity)
 {
     const char *text = nid_get(header, section, key);
     double value = (double)NAN, factor = 1, offset = 0;

@@ -14,7 +14,7 @@ static const char info[] = "DataSet-Info";
 
 /* Reads a value such as "179.8kHz", "27.13 N/m" or a plain number, with optional blanks, in the SI
  * unit of the quantity; NaN otherwise. */
-static double value_of(const nid_header *header, const char *key, wt_quantity quantity)
+static double read_info_value(const nid_header *header, const char *key, wt_quantity quantity)
 {
     const char *text = nid_get(header, info, key);
     double value = (double)NAN;
@@ -27,34 +27,34 @@ static double value_of(const nid_header *header, const char *key, wt_quantity qu
 }
 
 /* Reads the temperature, such as "40 °C" [K]; a plain number is in degrees Celsius. */
-static double temperature_of(const nid_header *header)
+static double read_tune_temperature(const nid_header *header)
 {
     static const char key[] = "Cantilever temperature";
     const char *text = nid_get(header, info, key);
     double kelvin = (double)NAN;
     if (text != NULL && wt_quantity_parse(text, WT_Q_TEMPERATURE, &kelvin, NULL) == WT_OK)
         return kelvin;
-    return value_of(header, key, WT_Q_NONE) + WT_ZERO_CELSIUS;
+    return read_info_value(header, key, WT_Q_NONE) + WT_ZERO_CELSIUS;
 }
 
-static bool is_tune(const nid_channel *c)
+static bool is_tune_channel(const nid_channel *c)
 {
     double factor;
     return strcmp(c->group_name, "Spectrum FFT") == 0 && c->lines == 1 && c->points > 1 &&
            strcmp(nid_si_unit(c->unit, &factor), wt_quantity_unit(WT_Q_SPECTRAL_DENSITY)) == 0;
 }
 
-const nid_channel *nid_tune(const nid_file *file)
+const nid_channel *nid_find_tune(const nid_file *file)
 {
     for (size_t i = 0; i < file->n; i++)
-        if (is_tune(&file->channels[i]))
+        if (is_tune_channel(&file->channels[i]))
             return &file->channels[i];
     return NULL;
 }
 
 /* Fills the spectrum; the caller frees its memory also after a failure. */
-static wt_status read_tune(const nid_file *file, const nid_channel *c, wt_log *log,
-                           wt_noise_spectrum *spectrum, wt_error *err)
+static wt_status fill_tune_spectrum(const nid_file *file, const nid_channel *c, wt_log *log,
+                                    wt_noise_spectrum *spectrum, wt_error *err)
 {
     const nid_header *const h = &file->header;
     const double range = nid_number(h, c->section, "Dim0Range"),
@@ -78,14 +78,14 @@ static wt_status read_tune(const nid_file *file, const nid_channel *c, wt_log *l
         made.frequency[i] = first + range * (double)i / (double)(c->points - 1);
         made.density[i] *= made.density[i];
     }
-    if (status == WT_OK && samples_mend(made.density, made.n) > 0)
+    if (status == WT_OK && samples_mark_missing(made.density, made.n) > 0)
         wt_log_add(log, WT_WARNING, file->name, c->section,
                    "densities that are no finite numbers are missing");
-    spectrum->averages = value_of(h, "Averages", WT_Q_NONE);
-    spectrum->temperature = temperature_of(h);
-    spectrum->spring_constant = value_of(h, "Spring Constant:", WT_Q_SPRING_CONSTANT);
-    spectrum->resonance = value_of(h, "Frequency:", WT_Q_FREQUENCY);
-    spectrum->quality = value_of(h, "Q Factor:", WT_Q_NONE);
+    spectrum->averages = read_info_value(h, "Averages", WT_Q_NONE);
+    spectrum->temperature = read_tune_temperature(h);
+    spectrum->spring_constant = read_info_value(h, "Spring Constant:", WT_Q_SPRING_CONSTANT);
+    spectrum->resonance = read_info_value(h, "Frequency:", WT_Q_FREQUENCY);
+    spectrum->quality = read_info_value(h, "Q Factor:", WT_Q_NONE);
     spectrum->sensitivity = (double)NAN;
     return status;
 }
@@ -97,9 +97,9 @@ wt_status nid_read_noise(const file_reader *self, wt_input *input, const wt_read
     (void)options;
     nid_file file = {0};
     wt_status status = nid_file_open(input, &file, err);
-    const nid_channel *const c = status == WT_OK ? nid_tune(&file) : NULL;
+    const nid_channel *const c = status == WT_OK ? nid_find_tune(&file) : NULL;
     if (c != NULL) {
-        status = read_tune(&file, c, log, spectrum, err);
+        status = fill_tune_spectrum(&file, c, log, spectrum, err);
     } else if (status == WT_OK) {
         status = wt_fail(err, WT_E_EMPTY, "the file holds no thermal tune");
         wt_error_expected(err, "a group Spectrum FFT with an amplitude spectral density in "

@@ -19,10 +19,10 @@ typedef struct nid_map {
     long columns, rows;
 } nid_map;
 
-static double list_number(const char *list, size_t i)
+static double parse_list_number(const char *list, size_t i)
 {
     char item[NID_TEXT];
-    return nid_list_item(list, ';', i, item, sizeof item) ? number_of(item) : (double)NAN;
+    return nid_list_item(list, ';', i, item, sizeof item) ? parse_number_or_nan(item) : (double)NAN;
 }
 
 static bool read_map(const nid_header *header, nid_map *map)
@@ -30,20 +30,20 @@ static bool read_map(const nid_header *header, nid_map *map)
     const char *list = nid_get(header, MAP_SECTION, "Map0");
     if (list == NULL)
         return false;
-    double columns = list_number(list, 4), rows = list_number(list, 5);
+    double columns = parse_list_number(list, 4), rows = parse_list_number(list, 5);
     if (!(columns >= 1 && columns <= 1e6 && rows >= 1 && rows <= 1e6))
         return false;
-    *map = (nid_map){.x0 = list_number(list, 0),
-                     .x1 = list_number(list, 1),
-                     .y0 = list_number(list, 2),
-                     .y1 = list_number(list, 3),
-                     .rotation = list_number(list, 6),
+    *map = (nid_map){.x0 = parse_list_number(list, 0),
+                     .x1 = parse_list_number(list, 1),
+                     .y0 = parse_list_number(list, 2),
+                     .y1 = parse_list_number(list, 3),
+                     .rotation = parse_list_number(list, 6),
                      .columns = lround(columns),
                      .rows = lround(rows)};
     return true;
 }
 
-void nid_grid(const nid_header *header, long *columns, long *rows)
+void nid_read_grid(const nid_header *header, long *columns, long *rows)
 {
     nid_map map = {.columns = 0};
     (void)read_map(header, &map);
@@ -51,15 +51,15 @@ void nid_grid(const nid_header *header, long *columns, long *rows)
     *rows = map.rows;
 }
 
-static double interpolate(double first, double last, long i, long n)
+static double interpolate_grid(double first, double last, long i, long n)
 {
     return n > 1 ? first + (last - first) * (double)i / (double)(n - 1) : first;
 }
 
-static void from_map(const nid_map *map, size_t i, const char *name, wt_log *log,
-                     wt_force_curve *curve)
+static void set_map_position(const nid_map *map, size_t i, const char *name, wt_log *log,
+                             wt_force_curve *curve)
 {
-    if (!force_place(map->columns, map->rows, true, i, curve)) {
+    if (!force_set_grid_position(map->columns, map->rows, true, i, curve)) {
         wt_log_add(log, WT_WARNING, name, MAP_SECTION,
                    "more curves than places in the map: place unknown");
         return;
@@ -69,11 +69,11 @@ static void from_map(const nid_map *map, size_t i, const char *name, wt_log *log
                    "the map is rotated, its unit is not known: positions left out");
         return;
     }
-    curve->x = interpolate(map->x0, map->x1, curve->grid_x, map->columns);
-    curve->y = interpolate(map->y0, map->y1, curve->grid_y, map->rows);
+    curve->x = interpolate_grid(map->x0, map->x1, curve->grid_x, map->columns);
+    curve->y = interpolate_grid(map->y0, map->y1, curve->grid_y, map->rows);
 }
 
-static double axis_factor(const nid_header *header, size_t axis)
+static double read_axis_factor(const nid_header *header, size_t axis)
 {
     char unit[NID_TEXT];
     double factor = 1, offset = 0;
@@ -89,8 +89,8 @@ static double axis_factor(const nid_header *header, size_t axis)
     return factor;
 }
 
-static void from_list(const nid_header *header, size_t i, const char *name, wt_log *log,
-                      wt_force_curve *curve)
+static void set_listed_position(const nid_header *header, size_t i, const char *name, wt_log *log,
+                                wt_force_curve *curve)
 {
     char key[32], axis[NID_TEXT];
     snprintf(key, sizeof key, "Pos%zu", i);
@@ -99,7 +99,7 @@ static void from_list(const nid_header *header, size_t i, const char *name, wt_l
     for (size_t a = 0; list != NULL && axes != NULL; a++) {
         if (!nid_list_item(axes, ';', a, axis, sizeof axis))
             break;
-        double value = axis_factor(header, a) * list_number(list, a);
+        double value = read_axis_factor(header, a) * parse_list_number(list, a);
         if (strcmp(axis, "X") == 0)
             curve->x = value;
         else if (strcmp(axis, "Y") == 0)
@@ -110,12 +110,12 @@ static void from_list(const nid_header *header, size_t i, const char *name, wt_l
                    "no position for a curve that is not in the list");
 }
 
-void nid_position(const nid_header *header, size_t i, const char *name, wt_log *log,
-                  wt_force_curve *curve)
+void nid_set_position(const nid_header *header, size_t i, const char *name, wt_log *log,
+                      wt_force_curve *curve)
 {
     nid_map map;
     if (read_map(header, &map))
-        from_map(&map, i, name, log, curve);
+        set_map_position(&map, i, name, log, curve);
     else if (nid_get(header, POSITION_SECTION, "Count") != NULL)
-        from_list(header, i, name, log, curve);
+        set_listed_position(header, i, name, log, curve);
 }

@@ -20,7 +20,7 @@
 enum { COLUMNS = 3, ROWS_MIN = 10, LINE_MAX_LENGTH = 80 };
 
 /* Parses the numbers of a line and moves *line past it; false for any other line. */
-static bool read_row(const char **line, const char *end, double row[COLUMNS], bool *commas)
+static bool parse_row(const char **line, const char *end, double row[COLUMNS], bool *commas)
 {
     const char *at = *line;
     for (size_t c = 0; c < COLUMNS; c++) {
@@ -48,24 +48,25 @@ static recognition detect(const file_reader *self, file_peek *peek)
     bool commas = true;
     size_t n = 0;
     (void)self;
-    for (; read_row(&line, end, row, &commas); n++) {
+    for (; parse_row(&line, end, row, &commas); n++) {
         if (row[0] <= before || row[0] > 0 || !commas)
-            return recognised(false, 0);
+            return recognition_result(false, 0);
         before = row[0];
     }
     /* the visible part ends within a line */
-    return recognised(
+    return recognition_result(
         n >= ROWS_MIN && (line == end || (!peek->whole && end - line < LINE_MAX_LENGTH)), 60);
 }
 
-typedef struct ramp {
+typedef struct ntmdt_ramp {
     double *values; /* [COLUMNS][capacity] */
     size_t n, capacity;
-} ramp;
+} ntmdt_ramp;
 
 /* Reads the rows with heights in metres. *idle is the number of first rows that the curve did not
  * reach. */
-static wt_status read_ramp(const char *line, size_t length, ramp *r, size_t *idle, wt_error *err)
+static wt_status read_ntmdt_ramp(const char *line, size_t length, ntmdt_ramp *r, size_t *idle,
+                                 wt_error *err)
 {
     const char *end = line + length;
     double row[COLUMNS];
@@ -74,7 +75,7 @@ static wt_status read_ramp(const char *line, size_t length, ramp *r, size_t *idl
     r->values = calloc(COLUMNS * r->capacity, sizeof *r->values);
     if (r->values == NULL)
         return wt_fail(err, WT_E_MEMORY, "no memory for a curve");
-    while (r->n < r->capacity && read_row(&line, end, row, &commas)) {
+    while (r->n < r->capacity && parse_row(&line, end, row, &commas)) {
         r->values[r->n] = 1e-9 * row[0];
         for (size_t c = 1; c < COLUMNS; c++)
             r->values[c * r->capacity + r->n] = row[c];
@@ -97,7 +98,7 @@ static wt_status read_ramp(const char *line, size_t length, ramp *r, size_t *idl
 
 /* Warns of missing rows. The measured file has equal steps and ends 1e-5 of a step above 0. A
  * deviation of half a step or more means a missing row. */
-static void warn_of_gaps(const ramp *r, const char *name, wt_log *log)
+static void warn_gaps(const ntmdt_ramp *r, const char *name, wt_log *log)
 {
     double last = r->values[r->n - 1], step = last - r->values[r->n - 2];
     for (size_t i = 1; i < r->n; i++)
@@ -123,11 +124,11 @@ static wt_status as_text(const file_reader *self, wt_input *input, wt_log *log, 
     const unsigned char *bytes = NULL;
     size_t length = 0, n_text = 0, idle = 0;
     char *made = NULL;
-    ramp r = {.n = 0};
+    ntmdt_ramp r = {.n = 0};
     (void)self;
     wt_status status = wt_input_bytes(input, &bytes, &length, err);
     if (status == WT_OK)
-        status = read_ramp((const char *)bytes, length, &r, &idle, err);
+        status = read_ntmdt_ramp((const char *)bytes, length, &r, &idle, err);
     FILE *out = status == WT_OK ? open_memstream(&made, &n_text) : NULL;
     if (status == WT_OK && out == NULL)
         status = wt_fail(err, WT_E_MEMORY, "no memory for a curve");
@@ -149,14 +150,14 @@ static wt_status as_text(const file_reader *self, wt_input *input, wt_log *log, 
         wt_log_add(log, WT_WARNING, wt_input_name(input), NULL,
                    "the file does not say the unit of the deflection signal: its numbers are "
                    "taken as volts, and the sensitivity must be that of one such unit");
-        warn_of_gaps(&r, wt_input_name(input), log);
+        warn_gaps(&r, wt_input_name(input), log);
         if (idle > 0)
             wt_log_add(log, WT_NOTE, wt_input_name(input), NULL,
                        "%zu rows that repeat the first sample are left out", idle);
     }
     free(r.values);
     if (status == WT_OK)
-        return input_own(made, n_text, wt_input_name(input), text, err);
+        return input_from_bytes(made, n_text, wt_input_name(input), text, err);
     free(made);
     return status;
 }
@@ -168,7 +169,7 @@ const file_reader reader_ntmdt = {
              .verified = true,
              .evidence = "a measured file; its units are not in it",
              .version = "1"},
-    READER_OF_CURVE_TEXT(as_text),
+    CURVE_TEXT_READER(as_text),
     .detect = detect,
-    .describe = text_describe_made,
+    .describe = text_describe_converted,
 };

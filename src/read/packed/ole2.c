@@ -45,13 +45,13 @@ typedef struct compound {
     size_t folder_length, small_length, small_table_length;
 } compound;
 
-bool compound_is(const unsigned char *bytes, size_t length)
+bool compound_is_file(const unsigned char *bytes, size_t length)
 {
     static const unsigned char signature[8] = {0xd0, 0xcf, 0x11, 0xe0, 0xa1, 0xb1, 0x1a, 0xe1};
     return length >= sizeof signature && memcmp(bytes, signature, sizeof signature) == 0;
 }
 
-static wt_status damaged(wt_error *err)
+static wt_status fail_compound(wt_error *err)
 {
     wt_fail(err, WT_E_CORRUPT, "the file is damaged or its end is missing");
     wt_error_found(err, "an old Excel or Word file; a chain of its sectors leads out of it");
@@ -65,7 +65,7 @@ static wt_status no_memory(wt_error *err)
 }
 
 /* Returns the bytes of a sector; the last sector may be short. NULL if there are none. */
-static const unsigned char *sector_at(const compound *c, uint32_t i, size_t *n)
+static const unsigned char *sector_bytes(const compound *c, uint32_t i, size_t *n)
 {
     if (i >= c->n_sectors)
         return NULL;
@@ -79,7 +79,7 @@ static bool next_sector(const compound *c, uint32_t i, uint32_t *next)
 {
     const size_t per = c->sector / 4, place = 4 * (i % per);
     size_t n = 0;
-    const unsigned char *at = i / per < c->n_table ? sector_at(c, c->table[i / per], &n) : NULL;
+    const unsigned char *at = i / per < c->n_table ? sector_bytes(c, c->table[i / per], &n) : NULL;
     if (at == NULL || place + 4 > n)
         return false;
     *next = le32(at + place);
@@ -87,7 +87,7 @@ static bool next_sector(const compound *c, uint32_t i, uint32_t *next)
 }
 
 /* Finds the sectors of the table: the first ones in the header, the others in a chain. */
-static wt_status find_table(compound *c, wt_error *err)
+static wt_status read_sector_table(compound *c, wt_error *err)
 {
     const size_t per = c->sector / 4 - 1;
     uint32_t more = le32(c->bytes + HEADER_MORE);
@@ -102,15 +102,15 @@ static wt_status find_table(compound *c, wt_error *err)
     }
     while (more <= LAST_SECTOR) {
         size_t n = 0;
-        const unsigned char *at = sector_at(c, more, &n);
+        const unsigned char *at = sector_bytes(c, more, &n);
         if (at == NULL || n < c->sector)
-            return damaged(err);
+            return fail_compound(err);
         for (size_t i = 0; i < per; i++) {
             const uint32_t sector = le32(at + 4 * i);
             if (sector > LAST_SECTOR)
                 return WT_OK;
             if (c->n_table >= c->n_sectors)
-                return damaged(err);
+                return fail_compound(err);
             c->table[c->n_table++] = sector;
         }
         more = le32(at + 4 * per);
@@ -119,75 +119,75 @@ static wt_status find_table(compound *c, wt_error *err)
 }
 
 /* Reads a chain up to a maximum length, or all of it (SIZE_MAX). The caller frees *chain. */
-static wt_status read_chain(const compound *c, uint32_t sector, size_t most, unsigned char **chain,
-                            size_t *n, wt_error *err)
+static wt_status read_chain(const compound *c, uint32_t sector, size_t max_length,
+                            unsigned char **chain, size_t *n, wt_error *err)
 {
-    const size_t room = most < c->length ? most : c->length;
+    const size_t limit = max_length < c->length ? max_length : c->length;
     size_t used = 0, steps = 0;
-    unsigned char *to = malloc(room > 0 ? room : 1);
+    unsigned char *to = malloc(limit > 0 ? limit : 1);
     bool good = to != NULL;
-    while (good && used < most && sector <= LAST_SECTOR) {
+    while (good && used < max_length && sector <= LAST_SECTOR) {
         size_t length = 0;
-        const unsigned char *at = sector_at(c, sector, &length);
+        const unsigned char *at = sector_bytes(c, sector, &length);
         good = at != NULL && steps++ < c->n_sectors;
         if (!good)
             break;
-        const size_t take = length < room - used ? length : room - used;
-        memcpy(to + used, at, take);
-        used += take;
-        if (used < most)
+        const size_t step_size = length < limit - used ? length : limit - used;
+        memcpy(to + used, at, step_size);
+        used += step_size;
+        if (used < max_length)
             good = length == c->sector && next_sector(c, sector, &sector);
     }
-    good = good && (most == SIZE_MAX || used == most);
+    good = good && (max_length == SIZE_MAX || used == max_length);
     *n = used;
     if (good) {
         *chain = to;
         return WT_OK;
     }
-    const wt_status status = to == NULL ? no_memory(err) : damaged(err);
+    const wt_status status = to == NULL ? no_memory(err) : fail_compound(err);
     free(to);
     return status;
 }
 
 /* Reads a stream of small sectors, which are in the stream of the root. */
-static wt_status read_small(const compound *c, uint32_t sector, size_t most, unsigned char **chain,
-                            size_t *n, wt_error *err)
+static wt_status read_small_chain(const compound *c, uint32_t sector, size_t max_length,
+                                  unsigned char **chain, size_t *n, wt_error *err)
 {
     const size_t unit = (size_t)1 << SMALL_SHIFT;
-    if (most > c->small_length)
-        return damaged(err);
-    unsigned char *to = malloc(most > 0 ? most : 1);
+    if (max_length > c->small_length)
+        return fail_compound(err);
+    unsigned char *to = malloc(max_length > 0 ? max_length : 1);
     if (to == NULL)
         return no_memory(err);
     size_t used = 0;
-    while (used < most) {
-        const size_t left = most - used, take = left < unit ? left : unit;
-        if (sector > c->small_length / unit || sector * unit + take > c->small_length)
+    while (used < max_length) {
+        const size_t left = max_length - used, step_size = left < unit ? left : unit;
+        if (sector > c->small_length / unit || sector * unit + step_size > c->small_length)
             break;
-        memcpy(to + used, c->small + sector * unit, take);
-        used += take;
-        if (used < most && 4 * ((size_t)sector + 1) > c->small_table_length)
+        memcpy(to + used, c->small + sector * unit, step_size);
+        used += step_size;
+        if (used < max_length && 4 * ((size_t)sector + 1) > c->small_table_length)
             break;
-        if (used < most)
+        if (used < max_length)
             sector = le32(c->small_table + 4 * (size_t)sector);
     }
     *n = used;
-    if (used == most) {
+    if (used == max_length) {
         *chain = to;
         return WT_OK;
     }
     free(to);
-    return damaged(err);
+    return fail_compound(err);
 }
 
-static const unsigned char *entry_at(const compound *c, uint32_t i)
+static const unsigned char *folder_entry(const compound *c, uint32_t i)
 {
     return i < c->folder_length / ENTRY ? c->folder + i * (size_t)ENTRY : NULL;
 }
 
 /* True if the entry has this name. Names are UTF-16LE and end with a zero, which the length
  * includes. */
-static bool has_name(const unsigned char *entry, const char *name)
+static bool entry_has_name(const unsigned char *entry, const char *name)
 {
     const size_t n = strlen(name);
     if (le16(entry + ENTRY_NAME_LENGTH) != 2 * (n + 1))
@@ -205,8 +205,8 @@ static bool has_name(const unsigned char *entry, const char *name)
 
 /* Finds a stream of the root folder, whose entries are a tree. Subfolders are skipped, since an
  * embedded object has streams with the same names. *found is NULL if there is none. */
-static wt_status find_entry(const compound *c, const char *name, const unsigned char **found,
-                            wt_error *err)
+static wt_status find_stream_entry(const compound *c, const char *name, const unsigned char **found,
+                                   wt_error *err)
 {
     const size_t n = c->folder_length / ENTRY;
     uint32_t *waiting = malloc((n + 1) * sizeof *waiting);
@@ -219,8 +219,8 @@ static wt_status find_entry(const compound *c, const char *name, const unsigned 
         seen[waiting[0]] = true;
     }
     while (n_waiting > 0 && *found == NULL) {
-        const unsigned char *entry = entry_at(c, waiting[--n_waiting]);
-        if (entry[ENTRY_KIND] == KIND_STREAM && has_name(entry, name))
+        const unsigned char *entry = folder_entry(c, waiting[--n_waiting]);
+        if (entry[ENTRY_KIND] == KIND_STREAM && entry_has_name(entry, name))
             *found = entry;
         for (size_t side = ENTRY_LEFT; side <= ENTRY_RIGHT; side += ENTRY_RIGHT - ENTRY_LEFT) {
             const uint32_t i = le32(entry + side);
@@ -236,48 +236,48 @@ static wt_status find_entry(const compound *c, const char *name, const unsigned 
 }
 
 /* Returns the size of a stream. Version 3 has undefined bytes in the upper half. */
-static size_t size_of(const compound *c, const unsigned char *entry)
+static size_t entry_size(const compound *c, const unsigned char *entry)
 {
     const uint64_t size = le64(entry + ENTRY_SIZE);
-    const uint64_t said = c->sector == HEADER ? size & 0xFFFFFFFFu : size;
-    return said < SIZE_MAX ? (size_t)said : SIZE_MAX - 1;
+    const uint64_t stated = c->sector == HEADER ? size & 0xFFFFFFFFu : size;
+    return stated < SIZE_MAX ? (size_t)stated : SIZE_MAX - 1;
 }
 
-static wt_status read_entry(compound *c, const unsigned char *entry, unsigned char **stream,
-                            size_t *n, wt_error *err)
+static wt_status read_entry_stream(compound *c, const unsigned char *entry, unsigned char **stream,
+                                   size_t *n, wt_error *err)
 {
-    const size_t size = size_of(c, entry);
+    const size_t size = entry_size(c, entry);
     const uint32_t start = le32(entry + ENTRY_START);
     if (size >= le32(c->bytes + HEADER_SMALL_MOST))
         return read_chain(c, start, size, stream, n, err);
-    wt_status status = read_chain(c, le32(c->folder + ENTRY_START), size_of(c, c->folder),
+    wt_status status = read_chain(c, le32(c->folder + ENTRY_START), entry_size(c, c->folder),
                                   &c->small, &c->small_length, err);
     if (status == WT_OK)
         status = read_chain(c, le32(c->bytes + HEADER_SMALL_TABLE), SIZE_MAX, &c->small_table,
                             &c->small_table_length, err);
-    return status == WT_OK ? read_small(c, start, size, stream, n, err) : status;
+    return status == WT_OK ? read_small_chain(c, start, size, stream, n, err) : status;
 }
 
-wt_status compound_stream(const unsigned char *bytes, size_t length, const char *const *names,
-                          size_t n_names, unsigned char **stream, size_t *n, wt_error *err)
+wt_status compound_read_stream(const unsigned char *bytes, size_t length, const char *const *names,
+                               size_t n_names, unsigned char **stream, size_t *n, wt_error *err)
 {
     compound c = {.bytes = bytes, .length = length};
     const unsigned char *entry = NULL;
     if (length < HEADER)
-        return damaged(err);
+        return fail_compound(err);
     const unsigned shift = le16(bytes + HEADER_SHIFT);
     if ((shift != 9 && shift != 12) || le16(bytes + HEADER_SMALL_SHIFT) != SMALL_SHIFT)
-        return damaged(err);
+        return fail_compound(err);
     c.sector = (size_t)1 << shift;
     c.n_sectors = length > c.sector ? (length - c.sector + c.sector - 1) / c.sector : 0;
-    wt_status status = find_table(&c, err);
+    wt_status status = read_sector_table(&c, err);
     if (status == WT_OK)
         status =
             read_chain(&c, le32(bytes + HEADER_FOLDER), SIZE_MAX, &c.folder, &c.folder_length, err);
     for (size_t i = 0; i < n_names && status == WT_OK && entry == NULL; i++)
-        status = find_entry(&c, names[i], &entry, err);
+        status = find_stream_entry(&c, names[i], &entry, err);
     if (status == WT_OK)
-        status = entry != NULL ? read_entry(&c, entry, stream, n, err) : WT_E_NOT_FOUND;
+        status = entry != NULL ? read_entry_stream(&c, entry, stream, n, err) : WT_E_NOT_FOUND;
     free(c.small_table);
     free(c.small);
     free(c.folder);

@@ -8,13 +8,13 @@
 
 #include "weartrack/read.h"
 
-bool compound_is(const unsigned char *bytes, size_t length);
+bool compound_is_file(const unsigned char *bytes, size_t length);
 
 /* Reads the first stream of the root folder that has one of the names, in their order, without
  * regard to the case of ASCII letters. The caller frees *stream. Returns WT_E_NOT_FOUND without a
  * message if there is none, WT_E_CORRUPT if the file is damaged or truncated. */
-wt_status compound_stream(const unsigned char *bytes, size_t length, const char *const *names,
-                          size_t n_names, unsigned char **stream, size_t *n,
-                          wt_error *err) WT_NODISCARD;
+wt_status compound_read_stream(const unsigned char *bytes, size_t length, const char *const *names,
+                               size_t n_names, unsigned char **stream, size_t *n,
+                               wt_error *err) WT_NODISCARD;
 
 #endif

@@ -21,15 +21,15 @@ typedef struct workbook {
 } workbook;
 
 /* Limits on sheets and text, above any measurement, against files made to exhaust memory. */
-#define MOST_SHEETS ((size_t)1024)
-#define MOST_TEXT ((size_t)1 << 30)
+#define MAX_SHEETS ((size_t)1024)
+#define MAX_WORKBOOK_TEXT ((size_t)1 << 30)
 
 /* True if the bytes begin such a file. `bytes` has at least PACKED_PEEK bytes, or the whole
  * file. */
 #define PACKED_PEEK ((size_t)256)
-bool gzip_is(const unsigned char *bytes, size_t length);
-bool xlsx_is(const unsigned char *bytes, size_t length);
-bool xls_is(const unsigned char *bytes, size_t length);
+bool gzip_is_archive(const unsigned char *bytes, size_t length);
+bool xlsx_is_workbook(const unsigned char *bytes, size_t length);
+bool xls_is_workbook(const unsigned char *bytes, size_t length);
 
 /* Unpacks all members of an archive; the caller closes *content. */
 wt_status gzip_unpack(wt_input *input, wt_input **content, wt_error *err) WT_NODISCARD;
@@ -42,17 +42,17 @@ void workbook_clear(workbook *book);
 /* A text that grows up to its maximum length; it is empty if all other members are zero. */
 typedef struct sheet_text {
     char *bytes;
-    size_t length, room, most;
+    size_t length, capacity, max_length;
     size_t row, column; /* position of the next cell, from 0 */
     bool no_memory;     /* true if memory was missing; else a failure means too long a text */
 } sheet_text;
 /* Adds a cell at or below the last row; tabs and line ends in it become blanks. False if it does
  * not fit. */
-bool sheet_put(sheet_text *sheet, size_t row, size_t column, const char *text, size_t length);
+bool sheet_add_cell(sheet_text *sheet, size_t row, size_t column, const char *text, size_t length);
 /* Returns the failure of a text that does not fit. */
-wt_status sheet_refuse(const sheet_text *sheet, const char *name, wt_error *err);
+wt_status sheet_fail(const sheet_text *sheet, const char *name, wt_error *err);
 /* Returns the maximum text of the next sheet, `usual` at most. */
-size_t workbook_room(const workbook *book, size_t usual);
+size_t workbook_text_limit(const workbook *book, size_t usual);
 /* Adds a sheet: the name is copied, and the book takes ownership of the text. */
 wt_status workbook_add(workbook *book, const char *name, bool hidden, sheet_text *text,
                        wt_error *err) WT_NODISCARD;

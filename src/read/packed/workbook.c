@@ -6,30 +6,30 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define FIRST_ROOM ((size_t)4096)
+#define FIRST_CAPACITY ((size_t)4096)
 
-static bool room_for(sheet_text *sheet, size_t n)
+static bool reserve_text(sheet_text *sheet, size_t n)
 {
-    if (n > sheet->most - sheet->length)
+    if (n > sheet->max_length - sheet->length)
         return false;
-    size_t room = sheet->room > 0 ? sheet->room : FIRST_ROOM;
-    while (room < sheet->length + n)
-        room *= 2;
-    if (room == sheet->room)
+    size_t capacity = sheet->capacity > 0 ? sheet->capacity : FIRST_CAPACITY;
+    while (capacity < sheet->length + n)
+        capacity *= 2;
+    if (capacity == sheet->capacity)
         return true;
-    char *bytes = realloc(sheet->bytes, room);
+    char *bytes = realloc(sheet->bytes, capacity);
     if (bytes == NULL) {
         sheet->no_memory = true;
         return false;
     }
     sheet->bytes = bytes;
-    sheet->room = room;
+    sheet->capacity = capacity;
     return true;
 }
 
-static bool put_marks(sheet_text *sheet, char mark, size_t n)
+static bool append_marks(sheet_text *sheet, char mark, size_t n)
 {
-    if (!room_for(sheet, n))
+    if (!reserve_text(sheet, n))
         return false;
     if (n > 0)
         memset(sheet->bytes + sheet->length, mark, n);
@@ -37,20 +37,20 @@ static bool put_marks(sheet_text *sheet, char mark, size_t n)
     return true;
 }
 
-bool sheet_put(sheet_text *sheet, size_t row, size_t column, const char *text, size_t length)
+bool sheet_add_cell(sheet_text *sheet, size_t row, size_t column, const char *text, size_t length)
 {
     if (row > sheet->row) {
-        if (!put_marks(sheet, '\n', row - sheet->row))
+        if (!append_marks(sheet, '\n', row - sheet->row))
             return false;
         sheet->row = row;
         sheet->column = 0;
     }
     if (column > sheet->column) {
-        if (!put_marks(sheet, '\t', column - sheet->column))
+        if (!append_marks(sheet, '\t', column - sheet->column))
             return false;
         sheet->column = column;
     }
-    if (!room_for(sheet, length))
+    if (!reserve_text(sheet, length))
         return false;
     char *to = sheet->bytes + sheet->length;
     for (size_t i = 0; i < length; i++)
@@ -62,7 +62,7 @@ bool sheet_put(sheet_text *sheet, size_t row, size_t column, const char *text, s
     return true;
 }
 
-wt_status sheet_refuse(const sheet_text *sheet, const char *name, wt_error *err)
+wt_status sheet_fail(const sheet_text *sheet, const char *name, wt_error *err)
 {
     if (sheet->no_memory)
         return wt_fail(err, WT_E_MEMORY, "no memory for a sheet");
@@ -72,29 +72,29 @@ wt_status sheet_refuse(const sheet_text *sheet, const char *name, wt_error *err)
     return WT_E_CORRUPT;
 }
 
-size_t workbook_room(const workbook *book, size_t usual)
+size_t workbook_text_limit(const workbook *book, size_t usual)
 {
-    const size_t left = MOST_TEXT - book->length;
+    const size_t left = MAX_WORKBOOK_TEXT - book->length;
     return usual < left ? usual : left;
 }
 
 wt_status workbook_add(workbook *book, const char *name, bool hidden, sheet_text *text,
                        wt_error *err)
 {
-    if (book->n >= MOST_SHEETS) {
-        wt_fail(err, WT_E_UNSUPPORTED, "the spreadsheet has more than %zu sheets", MOST_SHEETS);
+    if (book->n >= MAX_SHEETS) {
+        wt_fail(err, WT_E_UNSUPPORTED, "the spreadsheet has more than %zu sheets", MAX_SHEETS);
         wt_error_advice(err, "save the sheet with the data as CSV");
         return WT_E_UNSUPPORTED;
     }
     book_sheet *sheets = array_grow(book->sheets, book->n, sizeof *sheets);
     char *copy = strdup(name);
-    const bool ended = put_marks(text, '\n', 1);
+    const bool ended = append_marks(text, '\n', 1);
     if (sheets != NULL)
         book->sheets = sheets;
     if (sheets == NULL || copy == NULL || !ended) {
         free(copy);
         return ended ? wt_fail(err, WT_E_MEMORY, "no memory for a sheet")
-                     : sheet_refuse(text, name, err);
+                     : sheet_fail(text, name, err);
     }
     book->sheets[book->n++] =
         (book_sheet){.name = copy, .text = text->bytes, .length = text->length, .hidden = hidden};

@@ -20,9 +20,9 @@
 
 #define MIB ((size_t)1 << 20)
 
-bool xls_is(const unsigned char *bytes, size_t length)
+bool xls_is_workbook(const unsigned char *bytes, size_t length)
 {
-    return compound_is(bytes, length);
+    return compound_is_file(bytes, length);
 }
 
 enum {
@@ -48,15 +48,15 @@ enum {
 };
 
 /* A text as a range of the pool. */
-typedef struct pooled {
+typedef struct pool_text {
     size_t at, length;
-} pooled;
+} pool_text;
 
 typedef struct xls_cell {
     size_t row, column, order; /* order: index of the record */
     bool is_text;
     double number;
-    pooled text;
+    pool_text text;
 } xls_cell;
 
 typedef struct xls_book {
@@ -65,8 +65,8 @@ typedef struct xls_book {
     unsigned version, codepage;
     iconv_t narrow, wide;
     char *pool; /* UTF-8 */
-    size_t pool_length, pool_room;
-    pooled *shared; /* [n_shared] */
+    size_t pool_length, pool_reserved;
+    pool_text *shared; /* [n_shared] */
     size_t n_shared;
     size_t pool_shared; /* part of pool_length with the shared strings */
     xls_cell *cells;    /* cells of the current sheet */
@@ -79,7 +79,7 @@ static wt_status no_memory(wt_error *err)
     return wt_fail(err, WT_E_MEMORY, "no memory for a spreadsheet");
 }
 
-static wt_status damaged(const char *what, wt_error *err)
+static wt_status fail_workbook(const char *what, wt_error *err)
 {
     wt_fail(err, WT_E_CORRUPT, "%s", what);
     wt_error_advice(err, "copy the file again; or save it as .xlsx, CSV or text");
@@ -89,17 +89,17 @@ static wt_status damaged(const char *what, wt_error *err)
 /* ---- records --------------------------------------------------------------------------------- */
 
 /* A record and its unread part. Reading continues in the CONTINUE records after it. */
-typedef struct record {
+typedef struct biff_record {
     const unsigned char *stream;
     size_t stream_length;
     unsigned id;
     size_t at, end; /* offsets in the stream */
-} record;
+} biff_record;
 
 /* Reads the header of the record at `at`; false if it is incomplete. */
-static bool record_at(const xls_book *book, size_t at, record *r)
+static bool read_record(const xls_book *book, size_t at, biff_record *r)
 {
-    *r = (record){.stream = book->stream, .stream_length = book->length};
+    *r = (biff_record){.stream = book->stream, .stream_length = book->length};
     if (at > book->length || book->length - at < 4)
         return false;
     r->id = le16(book->stream + at);
@@ -108,13 +108,13 @@ static bool record_at(const xls_book *book, size_t at, record *r)
     return r->end <= book->length;
 }
 
-static size_t left_in(const record *r)
+static size_t bytes_left(const biff_record *r)
 {
     return r->end - r->at;
 }
 
 /* Moves to the next CONTINUE record; false if there is none. */
-static bool go_on(record *r)
+static bool next_continue_record(biff_record *r)
 {
     if (r->stream_length - r->end < 4 || le16(r->stream + r->end) != R_CONTINUE)
         return false;
@@ -126,11 +126,11 @@ static bool go_on(record *r)
     return true;
 }
 
-static bool skip(record *r, size_t n)
+static bool skip_bytes(biff_record *r, size_t n)
 {
-    while (n > left_in(r)) {
-        n -= left_in(r);
-        if (!go_on(r))
+    while (n > bytes_left(r)) {
+        n -= bytes_left(r);
+        if (!next_continue_record(r))
             return false;
     }
     r->at += n;
@@ -138,11 +138,11 @@ static bool skip(record *r, size_t n)
 }
 
 /* Reads a number of up to 4 bytes, which is never split between records. */
-static bool take(record *r, size_t width, uint32_t *value)
+static bool read_uint(biff_record *r, size_t width, uint32_t *value)
 {
-    if (left_in(r) == 0 && !go_on(r))
+    if (bytes_left(r) == 0 && !next_continue_record(r))
         return false;
-    if (left_in(r) < width)
+    if (bytes_left(r) < width)
         return false;
     *value = 0;
     for (size_t i = 0; i < width; i++)
@@ -154,16 +154,16 @@ static bool take(record *r, size_t width, uint32_t *value)
 /* ---- texts ----------------------------------------------------------------------------------- */
 
 /* Reserves n bytes in the pool. A byte becomes at most 4 bytes of UTF-8 in any encoding. */
-static bool pool_room(xls_book *book, size_t n)
+static bool pool_reserved(xls_book *book, size_t n)
 {
-    if (book->pool_room - book->pool_length >= n)
+    if (book->pool_reserved - book->pool_length >= n)
         return true;
-    const size_t room = 2 * (book->pool_room + n);
-    char *pool = realloc(book->pool, room);
+    const size_t space = 2 * (book->pool_reserved + n);
+    char *pool = realloc(book->pool, space);
     if (pool == NULL)
         return false;
     book->pool = pool;
-    book->pool_room = room;
+    book->pool_reserved = space;
     return true;
 }
 
@@ -173,17 +173,17 @@ static bool pool_add(xls_book *book, iconv_t converter, const unsigned char *byt
     static const char replacement[] = "\xef\xbf\xbd";
     char *in = (char *)(uintptr_t)bytes; /* iconv does not write to its input */
     size_t left = n;
-    if (!pool_room(book, 4 * n + 4))
+    if (!pool_reserved(book, 4 * n + 4))
         return false;
     (void)iconv(converter, NULL, NULL, NULL, NULL);
     while (left > 0) {
         char *out = book->pool + book->pool_length;
-        size_t room = book->pool_room - book->pool_length;
-        const bool done = iconv(converter, &in, &left, &out, &room) != (size_t)-1;
-        book->pool_length = book->pool_room - room;
+        size_t space = book->pool_reserved - book->pool_length;
+        const bool done = iconv(converter, &in, &left, &out, &space) != (size_t)-1;
+        book->pool_length = book->pool_reserved - space;
         if (done)
             break;
-        if (errno == E2BIG || room < 4)
+        if (errno == E2BIG || space < 4)
             return false;
         memcpy(book->pool + book->pool_length, replacement, 3);
         book->pool_length += 3;
@@ -196,22 +196,22 @@ static bool pool_add(xls_book *book, iconv_t converter, const unsigned char *byt
 
 /* Reads n characters. Each continued record of BIFF8 states their width again. Returns WT_E_CORRUPT
  * without a message if they are incomplete. */
-static wt_status take_text(xls_book *book, record *r, size_t n, bool wide, pooled *text,
-                           wt_error *err)
+static wt_status read_characters(xls_book *book, biff_record *r, size_t n, bool wide,
+                                 pool_text *text, wt_error *err)
 {
-    *text = (pooled){.at = book->pool_length};
+    *text = (pool_text){.at = book->pool_length};
     while (n > 0) {
-        const size_t width = wide ? 2 : 1, fit = left_in(r) / width, now = fit < n ? fit : n;
+        const size_t width = wide ? 2 : 1, fit = bytes_left(r) / width, now = fit < n ? fit : n;
         if (now > 0 &&
             !pool_add(book, wide ? book->wide : book->narrow, r->stream + r->at, now * width))
             return no_memory(err);
         r->at += now * width;
         n -= now;
         uint32_t flags = 0;
-        if (n > 0 && (left_in(r) > 0 || !go_on(r)))
+        if (n > 0 && (bytes_left(r) > 0 || !next_continue_record(r)))
             return WT_E_CORRUPT;
         if (n > 0 && book->version == BIFF8) {
-            if (!take(r, 1, &flags))
+            if (!read_uint(r, 1, &flags))
                 return WT_E_CORRUPT;
             wide = (flags & 1) != 0;
         }
@@ -222,33 +222,36 @@ static wt_status take_text(xls_book *book, record *r, size_t n, bool wide, poole
 
 /* Reads a text with its length (of `width` bytes) and, in BIFF8, its flags, as in cells and sheet
  * names. */
-static wt_status take_counted(xls_book *book, record *r, size_t width, pooled *text, wt_error *err)
+static wt_status read_counted_text(xls_book *book, biff_record *r, size_t width, pool_text *text,
+                                   wt_error *err)
 {
     uint32_t n = 0, flags = 0;
-    wt_status status = take(r, width, &n) ? WT_OK : WT_E_CORRUPT;
-    if (status == WT_OK && book->version == BIFF8 && !take(r, 1, &flags))
+    wt_status status = read_uint(r, width, &n) ? WT_OK : WT_E_CORRUPT;
+    if (status == WT_OK && book->version == BIFF8 && !read_uint(r, 1, &flags))
         status = WT_E_CORRUPT;
     if (status == WT_OK)
-        status = take_text(book, r, n, (flags & 1) != 0, text, err);
-    return status == WT_E_CORRUPT ? damaged("a text of the spreadsheet is cut off", err) : status;
+        status = read_characters(book, r, n, (flags & 1) != 0, text, err);
+    return status == WT_E_CORRUPT ? fail_workbook("a text of the spreadsheet is cut off", err)
+                                  : status;
 }
 
 /* Reads the shared strings of BIFF8. Font runs and phonetic guides are skipped. */
-static wt_status take_shared(xls_book *book, record *r, wt_error *err)
+static wt_status read_shared_strings(xls_book *book, biff_record *r, wt_error *err)
 {
     uint32_t total = 0, n = 0;
-    wt_status status = take(r, 4, &total) && take(r, 4, &n) ? WT_OK : WT_E_CORRUPT;
+    wt_status status = read_uint(r, 4, &total) && read_uint(r, 4, &n) ? WT_OK : WT_E_CORRUPT;
     for (uint32_t i = 0; i < n && status == WT_OK; i++) {
-        uint32_t length = 0, flags = 0, runs = 0, aside = 0;
-        pooled text;
-        if (!take(r, 2, &length) || !take(r, 1, &flags) ||
-            ((flags & 8) != 0 && !take(r, 2, &runs)) || ((flags & 4) != 0 && !take(r, 4, &aside)))
+        uint32_t length = 0, flags = 0, runs = 0, phonetic = 0;
+        pool_text text;
+        if (!read_uint(r, 2, &length) || !read_uint(r, 1, &flags) ||
+            ((flags & 8) != 0 && !read_uint(r, 2, &runs)) ||
+            ((flags & 4) != 0 && !read_uint(r, 4, &phonetic)))
             status = WT_E_CORRUPT;
         if (status == WT_OK)
-            status = take_text(book, r, length, (flags & 1) != 0, &text, err);
-        if (status == WT_OK && !skip(r, 4 * (size_t)runs + aside))
+            status = read_characters(book, r, length, (flags & 1) != 0, &text, err);
+        if (status == WT_OK && !skip_bytes(r, 4 * (size_t)runs + phonetic))
             status = WT_E_CORRUPT;
-        pooled *shared =
+        pool_text *shared =
             status == WT_OK ? array_grow(book->shared, book->n_shared, sizeof text) : NULL;
         if (status == WT_OK && shared == NULL)
             status = no_memory(err);
@@ -257,7 +260,7 @@ static wt_status take_shared(xls_book *book, record *r, wt_error *err)
         book->shared = shared;
         book->shared[book->n_shared++] = text;
     }
-    return status == WT_E_CORRUPT ? damaged("the texts of the spreadsheet are cut off", err)
+    return status == WT_E_CORRUPT ? fail_workbook("the texts of the spreadsheet are cut off", err)
                                   : status;
 }
 
@@ -276,19 +279,19 @@ static wt_status add_cell(xls_book *book, xls_cell cell, wt_error *err)
 
 /* Decodes a number of 30 bits: an integer or the upper bits of a double, optionally divided by
  * 100. */
-static double packed_number(uint32_t rk)
+static double decode_packed_number(uint32_t rk)
 {
     const double value = (rk & 2) != 0 ? (double)(signed32(rk & ~(uint32_t)3) / 4)
                                        : float64((uint64_t)(rk & ~(uint32_t)3) << 32);
     return (rk & 1) != 0 ? value / 100.0 : value;
 }
 
-static wt_status add_packed(xls_book *book, xls_cell cell, const unsigned char *at, size_t n,
-                            wt_error *err)
+static wt_status add_packed_cells(xls_book *book, xls_cell cell, const unsigned char *at, size_t n,
+                                  wt_error *err)
 {
     wt_status status = WT_OK;
     for (size_t i = 0; i < n && status == WT_OK; i++) {
-        cell.number = packed_number(le32(at + 6 * i + 2));
+        cell.number = decode_packed_number(le32(at + 6 * i + 2));
         status = add_cell(book, cell, err);
         cell.column++;
     }
@@ -299,10 +302,10 @@ static wt_status add_packed(xls_book *book, xls_cell cell, const unsigned char *
 static wt_status add_formula(xls_book *book, xls_cell cell, const unsigned char *result, bool *text,
                              wt_error *err)
 {
-    enum { OF_TEXT = 0, OF_TRUTH = 1 };
+    enum { RESULT_TEXT = 0, RESULT_BOOLEAN = 1 };
     const bool is_number = le16(result + 6) != 0xFFFF;
-    *text = !is_number && result[0] == OF_TEXT;
-    if (!is_number && result[0] != OF_TRUTH)
+    *text = !is_number && result[0] == RESULT_TEXT;
+    if (!is_number && result[0] != RESULT_BOOLEAN)
         return WT_OK; /* an error value, or an empty result */
     cell.number = is_number ? float64(le64(result)) : result[2];
     return add_cell(book, cell, err);
@@ -310,7 +313,7 @@ static wt_status add_formula(xls_book *book, xls_cell cell, const unsigned char 
 
 /* Returns the minimum size of a cell record without row, column and format; 0 for any other record
  * [byte]. */
-static size_t cell_bytes(unsigned id)
+static size_t min_cell_size(unsigned id)
 {
     switch (id) {
     case R_NUMBER:
@@ -331,12 +334,12 @@ static size_t cell_bytes(unsigned id)
 
 /* Reads a cell record. *formula is the cell whose text a STRING record contains; its row is
  * SIZE_MAX if there is none. */
-static wt_status take_cell(xls_book *book, record *r, xls_cell *formula, wt_error *err)
+static wt_status read_cell(xls_book *book, biff_record *r, xls_cell *formula, wt_error *err)
 {
     const unsigned char *at = r->stream + r->at;
-    const size_t need = cell_bytes(r->id);
-    if (need > 0 && left_in(r) < 6 + need)
-        return damaged("a cell of the spreadsheet is cut off", err);
+    const size_t need = min_cell_size(r->id);
+    if (need > 0 && bytes_left(r) < 6 + need)
+        return fail_workbook("a cell of the spreadsheet is cut off", err);
     xls_cell cell = {.row = 0};
     wt_status status = WT_OK;
     bool text = false;
@@ -347,9 +350,9 @@ static wt_status take_cell(xls_book *book, record *r, xls_cell *formula, wt_erro
         cell.number = float64(le64(at + 6));
         return add_cell(book, cell, err);
     case R_RK:
-        return add_packed(book, cell, at + 4, 1, err);
+        return add_packed_cells(book, cell, at + 4, 1, err);
     case R_MULRK:
-        return add_packed(book, cell, at + 4, (left_in(r) - 6) / 6, err);
+        return add_packed_cells(book, cell, at + 4, (bytes_left(r) - 6) / 6, err);
     case R_BOOLERR:
         cell.number = at[6];
         return at[7] == 0 ? add_cell(book, cell, err) : WT_OK;
@@ -360,7 +363,7 @@ static wt_status take_cell(xls_book *book, record *r, xls_cell *formula, wt_erro
         return status;
     case R_LABELSST:
         if (le32(at + 6) >= book->n_shared)
-            return damaged("a cell names a text that is not there", err);
+            return fail_workbook("a cell names a text that is not there", err);
         cell.text = book->shared[le32(at + 6)];
         cell.is_text = true;
         return add_cell(book, cell, err);
@@ -378,11 +381,11 @@ static wt_status take_cell(xls_book *book, record *r, xls_cell *formula, wt_erro
         return WT_OK;
     }
     cell.is_text = true;
-    status = take_counted(book, r, 2, &cell.text, err);
+    status = read_counted_text(book, r, 2, &cell.text, err);
     return status == WT_OK ? add_cell(book, cell, err) : status;
 }
 
-static int by_place(const void *a, const void *b)
+static int compare_cell_positions(const void *a, const void *b)
 {
     const xls_cell *x = a, *y = b;
     if (x->row != y->row)
@@ -392,42 +395,43 @@ static int by_place(const void *a, const void *b)
     return x->order < y->order ? -1 : x->order > y->order;
 }
 
-static bool put_cell(const xls_book *book, const xls_cell *cell, sheet_text *text)
+static bool write_cell(const xls_book *book, const xls_cell *cell, sheet_text *text)
 {
     char number[40];
     if (cell->is_text)
-        return cell->text.length == 0 || sheet_put(text, cell->row, cell->column,
-                                                   book->pool + cell->text.at, cell->text.length);
+        return cell->text.length == 0 ||
+               sheet_add_cell(text, cell->row, cell->column, book->pool + cell->text.at,
+                              cell->text.length);
     int n = clocale_print(number, sizeof number, "%.15g", cell->number);
     if (strtod(number, NULL) < cell->number || strtod(number, NULL) > cell->number)
         n = clocale_print(number, sizeof number, "%.17g", cell->number);
-    return sheet_put(text, cell->row, cell->column, number, (size_t)n);
+    return sheet_add_cell(text, cell->row, cell->column, number, (size_t)n);
 }
 
 /* Writes the cells sorted by row and column, since not every program stores them so. Of two cells
  * at one position the later one counts, as in Excel. */
-static wt_status put_cells(xls_book *book, const char *name, sheet_text *text, wt_error *err)
+static wt_status write_cells(xls_book *book, const char *name, sheet_text *text, wt_error *err)
 {
-    bool room = true;
+    bool space = true;
     if (book->n_cells > 1)
-        qsort(book->cells, book->n_cells, sizeof *book->cells, by_place);
+        qsort(book->cells, book->n_cells, sizeof *book->cells, compare_cell_positions);
     const locale_t previous = clocale_enter();
-    for (size_t i = 0; i < book->n_cells && room; i++) {
+    for (size_t i = 0; i < book->n_cells && space; i++) {
         const xls_cell *cell = &book->cells[i], *next = cell + 1;
         const bool again =
             i + 1 < book->n_cells && next->row == cell->row && next->column == cell->column;
-        room = again || put_cell(book, cell, text);
+        space = again || write_cell(book, cell, text);
     }
     clocale_leave(previous);
-    return room ? WT_OK : sheet_refuse(text, name, err);
+    return space ? WT_OK : sheet_fail(text, name, err);
 }
 
 /* ---- sheets ---------------------------------------------------------------------------------- */
 
 /* Reads the cells of the sheet at `at`. Embedded charts are nested sheets and are skipped. */
-static wt_status read_cells(xls_book *book, size_t at, wt_error *err)
+static wt_status read_sheet_cells(xls_book *book, size_t at, wt_error *err)
 {
-    record r;
+    biff_record r;
     size_t depth = 0;
     xls_cell formula = {.row = SIZE_MAX};
     wt_status status = WT_OK;
@@ -436,36 +440,37 @@ static wt_status read_cells(xls_book *book, size_t at, wt_error *err)
     book->n_cells = 0;
     book->pool_length = book->pool_shared;
     do {
-        if (!record_at(book, at, &r) || (depth == 0 && r.id != R_BOF))
-            return damaged("a sheet of the spreadsheet is cut off", err);
+        if (!read_record(book, at, &r) || (depth == 0 && r.id != R_BOF))
+            return fail_workbook("a sheet of the spreadsheet is cut off", err);
         /* overlapping sheets would expand without end */
         book->used += r.end - at;
         if (book->used > book->length)
-            return damaged("sheets of the spreadsheet overlap", err);
+            return fail_workbook("sheets of the spreadsheet overlap", err);
         at = r.end;
         depth += r.id == R_BOF;
         if (depth == 1)
-            status = take_cell(book, &r, &formula, err);
+            status = read_cell(book, &r, &formula, err);
         depth -= r.id == R_EOF;
     } while (depth > 0 && status == WT_OK);
     return status;
 }
 
 /* Adds the sheet of a BOUNDSHEET record. Only worksheets have cells. */
-static wt_status add_sheet(xls_book *book, record *r, size_t most, workbook *made, wt_error *err)
+static wt_status add_sheet(xls_book *book, biff_record *r, size_t max_length, workbook *made,
+                           wt_error *err)
 {
     uint32_t place = 0, hidden = 0, kind = 0;
-    pooled name;
-    if (!take(r, 4, &place) || !take(r, 1, &hidden) || !take(r, 1, &kind))
-        return damaged("a sheet of the spreadsheet has no place in it", err);
-    wt_status status = take_counted(book, r, 1, &name, err);
+    pool_text name;
+    if (!read_uint(r, 4, &place) || !read_uint(r, 1, &hidden) || !read_uint(r, 1, &kind))
+        return fail_workbook("a sheet of the spreadsheet has no place in it", err);
+    wt_status status = read_counted_text(book, r, 1, &name, err);
     if (status != WT_OK || kind != 0)
         return status;
     char *copy = strndup(name.length > 0 ? book->pool + name.at : "", name.length);
-    sheet_text text = {.most = workbook_room(made, most)};
-    status = copy != NULL ? read_cells(book, place, err) : no_memory(err);
+    sheet_text text = {.max_length = workbook_text_limit(made, max_length)};
+    status = copy != NULL ? read_sheet_cells(book, place, err) : no_memory(err);
     if (status == WT_OK)
-        status = put_cells(book, copy, &text, err);
+        status = write_cells(book, copy, &text, err);
     if (status == WT_OK)
         status = workbook_add(made, copy, (hidden & 3) != 0, &text, err);
     free(text.bytes);
@@ -493,34 +498,34 @@ static wt_status open_converters(xls_book *book, wt_error *err)
 
 /* Reads the global records: first the encodings and shared strings (`made` is NULL), then the
  * sheets. */
-static wt_status read_globals(xls_book *book, size_t most, workbook *made, wt_error *err)
+static wt_status read_globals(xls_book *book, size_t max_length, workbook *made, wt_error *err)
 {
-    record r;
+    biff_record r;
     size_t at = 0;
     wt_status status = WT_OK;
     for (r.id = 0; r.id != R_EOF && status == WT_OK; at = r.end) {
-        if (!record_at(book, at, &r))
-            return damaged("the spreadsheet is cut off", err);
+        if (!read_record(book, at, &r))
+            return fail_workbook("the spreadsheet is cut off", err);
         if (r.id == R_FILEPASS) {
             wt_fail(err, WT_E_UNSUPPORTED, "the spreadsheet is protected by a password");
             wt_error_advice(err, "save it without one");
             return WT_E_UNSUPPORTED;
         }
-        if (r.id == R_CODEPAGE && left_in(&r) >= 2)
+        if (r.id == R_CODEPAGE && bytes_left(&r) >= 2)
             book->codepage = le16(r.stream + r.at);
         if (r.id == R_SST && made == NULL)
             status = open_converters(book, err);
         if (r.id == R_SST && made == NULL && status == WT_OK)
-            status = take_shared(book, &r, err);
+            status = read_shared_strings(book, &r, err);
         if (r.id == R_BOUNDSHEET && made != NULL)
-            status = add_sheet(book, &r, most, made, err);
+            status = add_sheet(book, &r, max_length, made, err);
     }
     if (made == NULL)
         book->pool_shared = book->pool_length;
     return status == WT_OK ? open_converters(book, err) : status;
 }
 
-static wt_status unknown_book(const char *found, wt_error *err)
+static wt_status fail_unknown_book(const char *found, wt_error *err)
 {
     wt_fail(err, WT_E_FORMAT, "no spreadsheet that can be read");
     wt_error_found(err, "%s", found);
@@ -528,16 +533,16 @@ static wt_status unknown_book(const char *found, wt_error *err)
     return WT_E_FORMAT;
 }
 
-static wt_status read_book(xls_book *book, size_t most, workbook *made, wt_error *err)
+static wt_status read_workbook(xls_book *book, size_t max_length, workbook *made, wt_error *err)
 {
-    record r;
-    if (!record_at(book, 0, &r) || r.id != R_BOF || left_in(&r) < 4)
-        return unknown_book("a stream that is no Excel file", err);
+    biff_record r;
+    if (!read_record(book, 0, &r) || r.id != R_BOF || bytes_left(&r) < 4)
+        return fail_unknown_book("a stream that is no Excel file", err);
     book->version = le16(r.stream + r.at);
     if (book->version != BIFF5 && book->version != BIFF8)
-        return unknown_book("an Excel file from before 1993", err);
-    wt_status status = read_globals(book, most, NULL, err);
-    return status == WT_OK ? read_globals(book, most, made, err) : status;
+        return fail_unknown_book("an Excel file from before 1993", err);
+    wt_status status = read_globals(book, max_length, NULL, err);
+    return status == WT_OK ? read_globals(book, max_length, made, err) : status;
 }
 
 static void close_converter(iconv_t converter)
@@ -555,12 +560,12 @@ wt_status xls_read(wt_input *input, workbook *made, wt_error *err)
     xls_book book = {.codepage = CODEPAGE_USUAL, .narrow = (iconv_t)-1, .wide = (iconv_t)-1};
     wt_status status = wt_input_bytes(input, &bytes, &length, err);
     if (status == WT_OK)
-        status =
-            compound_stream(bytes, length, names, COUNT_OF(names), &book.stream, &book.length, err);
+        status = compound_read_stream(bytes, length, names, COUNT_OF(names), &book.stream,
+                                      &book.length, err);
     if (status == WT_E_NOT_FOUND)
-        status = unknown_book("an old Office file without a spreadsheet", err);
+        status = fail_unknown_book("an old Office file without a spreadsheet", err);
     if (status == WT_OK)
-        status = read_book(&book, 16 * MIB + 8 * length, made, err);
+        status = read_workbook(&book, 16 * MIB + 8 * length, made, err);
     close_converter(book.narrow);
     close_converter(book.wide);
     free(book.cells);

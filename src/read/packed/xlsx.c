@@ -13,11 +13,11 @@
 #include <string.h>
 
 #define MIB ((size_t)1 << 20)
-#define MOST_ENTRY (512 * MIB)
+#define MAX_ENTRY_SIZE (512 * MIB)
 /* Limits of the programs that write the format; ECMA-376 has none. */
-enum { MOST_COLUMNS = 16384, MOST_ROWS = 1048576 };
+enum { MAX_COLUMNS = 16384, MAX_ROWS = 1048576 };
 
-bool xlsx_is(const unsigned char *bytes, size_t length)
+bool xlsx_is_workbook(const unsigned char *bytes, size_t length)
 {
     /* the name of the first entry follows its header of 30 bytes */
     static const char *const first[] = {"[Content_Types].xml", "_rels/", "docProps/", "xl/"};
@@ -33,28 +33,28 @@ bool xlsx_is(const unsigned char *bytes, size_t length)
 
 /* ---- XML of an entry ------------------------------------------------------------------------- */
 
-typedef struct part {
+typedef struct xml_part {
     const char *name; /* name of the entry */
     byte_buffer bytes;
     xmlTextReader *xml;
-} part;
+} xml_part;
 
-static void part_close(part *p)
+static void part_close(xml_part *p)
 {
     if (p->xml != NULL)
         xmlFreeTextReader(p->xml);
     free(p->bytes.data);
-    *p = (part){.name = NULL};
+    *p = (xml_part){.name = NULL};
 }
 
 /* Opens an entry; WT_END if there is none. */
-static wt_status part_open(zip_archive *zip, const char *name, part *p, wt_error *err)
+static wt_status part_open(zip_archive *zip, const char *name, xml_part *p, wt_error *err)
 {
     size_t i = 0;
-    *p = (part){.name = name};
+    *p = (xml_part){.name = name};
     if (!archive_find(zip, name, &i))
         return WT_END;
-    wt_status status = archive_read(zip, i, MOST_ENTRY, &p->bytes, err);
+    wt_status status = archive_read(zip, i, MAX_ENTRY_SIZE, &p->bytes, err);
     if (status == WT_OK && p->bytes.length > INT_MAX)
         status = wt_fail(err, WT_E_UNSUPPORTED, "a part of the spreadsheet is too large");
     if (status == WT_OK) {
@@ -68,7 +68,7 @@ static wt_status part_open(zip_archive *zip, const char *name, part *p, wt_error
     return status;
 }
 
-static wt_status damaged(const part *p, wt_error *err, const char *what)
+static wt_status fail_part(const xml_part *p, wt_error *err, const char *what)
 {
     wt_fail(err, WT_E_CORRUPT, "%s", what);
     wt_error_place(err, "%s", p->name);
@@ -78,26 +78,26 @@ static wt_status damaged(const part *p, wt_error *err, const char *what)
 
 /* Moves to the next node; WT_END after the last one. A document type is refused, since it could
  * define entities. */
-static wt_status part_next(const part *p, wt_error *err)
+static wt_status part_next(const xml_part *p, wt_error *err)
 {
     const int more = xmlTextReaderRead(p->xml);
     if (more == 0)
         return WT_END;
     if (more < 0)
-        return damaged(p, err, "a part of the spreadsheet is not well-formed XML");
+        return fail_part(p, err, "a part of the spreadsheet is not well-formed XML");
     const int type = xmlTextReaderNodeType(p->xml);
     if (type == XML_READER_TYPE_DOCUMENT_TYPE || type == XML_READER_TYPE_ENTITY_REFERENCE)
-        return damaged(p, err, "a part of the spreadsheet defines entities");
+        return fail_part(p, err, "a part of the spreadsheet defines entities");
     return WT_OK;
 }
 
-static bool name_begins(const part *p, const char *name)
+static bool is_element_start(const xml_part *p, const char *name)
 {
     return xmlTextReaderNodeType(p->xml) == XML_READER_TYPE_ELEMENT &&
            strcmp((const char *)xmlTextReaderConstLocalName(p->xml), name) == 0;
 }
 
-static bool name_ends(const part *p, const char *name)
+static bool is_element_end(const xml_part *p, const char *name)
 {
     const int type = xmlTextReaderNodeType(p->xml);
     return (type == XML_READER_TYPE_END_ELEMENT ||
@@ -105,7 +105,7 @@ static bool name_ends(const part *p, const char *name)
            strcmp((const char *)xmlTextReaderConstLocalName(p->xml), name) == 0;
 }
 
-static const char *characters(const part *p)
+static const char *node_text(const xml_part *p)
 {
     const int type = xmlTextReaderNodeType(p->xml);
     if (type != XML_READER_TYPE_TEXT && type != XML_READER_TYPE_CDATA &&
@@ -115,7 +115,7 @@ static const char *characters(const part *p)
 }
 
 /* Returns a copy of the attribute with this local name; NULL if it is absent. */
-static char *attribute(const part *p, const char *name)
+static char *copy_attribute(const xml_part *p, const char *name)
 {
     char *copy = NULL;
     int more = xmlTextReaderMoveToFirstAttribute(p->xml);
@@ -131,37 +131,37 @@ static char *attribute(const part *p, const char *name)
 /* ---- texts ----------------------------------------------------------------------------------- */
 
 /* Concatenated texts. */
-typedef struct texts {
+typedef struct string_pool {
     char *bytes;
-    size_t length, room;
+    size_t length, capacity;
     size_t *end; /* end of each text */
     size_t n;
-} texts;
+} string_pool;
 
-static void texts_clear(texts *t)
+static void string_pool_clear(string_pool *t)
 {
     free(t->bytes);
     free(t->end);
-    *t = (texts){.bytes = NULL};
+    *t = (string_pool){.bytes = NULL};
 }
 
-static bool texts_append(texts *t, const char *piece)
+static bool string_pool_append(string_pool *t, const char *piece)
 {
     const size_t n = strlen(piece);
-    if (t->room - t->length < n) {
-        const size_t room = 2 * (t->room + n);
-        char *bytes = realloc(t->bytes, room);
+    if (t->capacity - t->length < n) {
+        const size_t capacity = 2 * (t->capacity + n);
+        char *bytes = realloc(t->bytes, capacity);
         if (bytes == NULL)
             return false;
         t->bytes = bytes;
-        t->room = room;
+        t->capacity = capacity;
     }
     memcpy(t->bytes + t->length, piece, n);
     t->length += n;
     return true;
 }
 
-static bool texts_end(texts *t)
+static bool string_pool_end_text(string_pool *t)
 {
     size_t *end = array_grow(t->end, t->n, sizeof *end);
     if (end == NULL)
@@ -177,26 +177,26 @@ static wt_status no_memory(wt_error *err)
 }
 
 /* Reads the shared strings; phonetic guides (rPh) are skipped. */
-static wt_status read_strings(zip_archive *zip, texts *strings, wt_error *err)
+static wt_status read_string_table(zip_archive *zip, string_pool *strings, wt_error *err)
 {
-    part p;
-    bool in_text = false, aside = false;
+    xml_part p;
+    bool in_text = false, is_phonetic = false;
     wt_status status = part_open(zip, "xl/sharedStrings.xml", &p, err);
     if (status == WT_END)
         return WT_OK;
     while (status == WT_OK && (status = part_next(&p, err)) == WT_OK) {
-        const char *piece = characters(&p);
-        if (piece != NULL && in_text && !aside && !texts_append(strings, piece))
+        const char *piece = node_text(&p);
+        if (piece != NULL && in_text && !is_phonetic && !string_pool_append(strings, piece))
             status = no_memory(err);
-        if (name_begins(&p, "rPh"))
-            aside = true;
-        if (name_ends(&p, "rPh"))
-            aside = false;
-        if (name_begins(&p, "t"))
+        if (is_element_start(&p, "rPh"))
+            is_phonetic = true;
+        if (is_element_end(&p, "rPh"))
+            is_phonetic = false;
+        if (is_element_start(&p, "t"))
             in_text = true;
-        if (name_ends(&p, "t"))
+        if (is_element_end(&p, "t"))
             in_text = false;
-        if (name_ends(&p, "si") && !texts_end(strings))
+        if (is_element_end(&p, "si") && !string_pool_end_text(strings))
             status = no_memory(err);
     }
     part_close(&p);
@@ -205,66 +205,66 @@ static wt_status read_strings(zip_archive *zip, texts *strings, wt_error *err)
 
 /* ---- cells ----------------------------------------------------------------------------------- */
 
-typedef enum cell_kind { CELL_VALUE, CELL_SHARED, CELL_INLINE, CELL_NOTHING } cell_kind;
+typedef enum xlsx_cell_kind { CELL_VALUE, CELL_SHARED, CELL_INLINE, CELL_NOTHING } xlsx_cell_kind;
 
 /* The state of the current cell. */
-typedef struct cell {
+typedef struct sheet_cell {
     size_t row, column;
-    cell_kind kind;
-    texts text; /* characters read so far */
+    xlsx_cell_kind kind;
+    string_pool text; /* characters read so far */
     bool in_text;
-} cell;
+} sheet_cell;
 
 /* Parses the column of a reference: "BC12" is column 54. The row is taken from the row element.
  * False for no reference. */
-static bool parse_column(const char *reference, size_t *column)
+static bool parse_column_letters(const char *reference, size_t *column)
 {
     size_t c = 0;
     const char *at = reference;
-    for (; *at >= 'A' && *at <= 'Z' && c <= MOST_COLUMNS; at++)
+    for (; *at >= 'A' && *at <= 'Z' && c <= MAX_COLUMNS; at++)
         c = 26 * c + (size_t)(*at - 'A') + 1;
-    if (at == reference || c > MOST_COLUMNS)
+    if (at == reference || c > MAX_COLUMNS)
         return false;
     *column = c - 1;
     return true;
 }
 
-static bool parse_count(const char *text, size_t most, size_t *count)
+static bool parse_index(const char *text, size_t max_length, size_t *count)
 {
     char *end = NULL;
     if (*text < '0' || *text > '9')
         return false;
     const unsigned long long n = strtoull(text, &end, 10);
-    if (*end != '\0' || n > most)
+    if (*end != '\0' || n > max_length)
         return false;
     *count = (size_t)n;
     return true;
 }
 
-static wt_status begin_row(const part *p, cell *c, wt_error *err)
+static wt_status begin_sheet_row(const xml_part *p, sheet_cell *c, wt_error *err)
 {
-    char *number = attribute(p, "r");
+    char *number = copy_attribute(p, "r");
     size_t row = c->row + 2; /* counted from 1, after the last one; SIZE_MAX + 2 is 1 */
-    bool good = number == NULL || parse_count(number, MOST_ROWS, &row);
+    bool good = number == NULL || parse_index(number, MAX_ROWS, &row);
     free(number);
-    good = good && row >= 1 && row <= MOST_ROWS && (c->row == SIZE_MAX || row - 1 > c->row);
+    good = good && row >= 1 && row <= MAX_ROWS && (c->row == SIZE_MAX || row - 1 > c->row);
     if (!good)
-        return damaged(p, err, "the rows of a sheet are not numbered one after the other");
+        return fail_part(p, err, "the rows of a sheet are not numbered one after the other");
     c->row = row - 1;
     c->column = SIZE_MAX;
     return WT_OK;
 }
 
-static wt_status begin_cell(const part *p, cell *c, wt_error *err)
+static wt_status begin_sheet_cell(const xml_part *p, sheet_cell *c, wt_error *err)
 {
     static const struct {
         const char *type;
-        cell_kind kind;
+        xlsx_cell_kind kind;
     } kinds[] = {{"s", CELL_SHARED}, {"inlineStr", CELL_INLINE}, {"e", CELL_NOTHING}};
-    char *reference = attribute(p, "r"), *type = attribute(p, "t");
+    char *reference = copy_attribute(p, "r"), *type = copy_attribute(p, "t");
     size_t column = c->column + 1;
-    const bool good = (reference == NULL || parse_column(reference, &column)) &&
-                      column < MOST_COLUMNS && (c->column == SIZE_MAX || column > c->column) &&
+    const bool good = (reference == NULL || parse_column_letters(reference, &column)) &&
+                      column < MAX_COLUMNS && (c->column == SIZE_MAX || column > c->column) &&
                       c->row != SIZE_MAX;
     c->kind = CELL_VALUE;
     for (size_t i = 0; i < COUNT_OF(kinds) && type != NULL; i++)
@@ -273,14 +273,14 @@ static wt_status begin_cell(const part *p, cell *c, wt_error *err)
     free(reference);
     free(type);
     if (!good)
-        return damaged(p, err, "the cells of a row do not stand one after the other");
+        return fail_part(p, err, "the cells of a row do not stand one after the other");
     c->column = column;
     c->text.length = 0;
     return WT_OK;
 }
 
-static wt_status end_cell(const part *p, cell *c, const texts *strings, sheet_text *out,
-                          wt_error *err)
+static wt_status end_sheet_cell(const xml_part *p, sheet_cell *c, const string_pool *strings,
+                                sheet_text *out, wt_error *err)
 {
     const char *text = c->text.bytes;
     size_t length = c->text.length;
@@ -288,50 +288,50 @@ static wt_status end_cell(const part *p, cell *c, const texts *strings, sheet_te
         return WT_OK;
     if (c->kind == CELL_SHARED) {
         size_t i = 0;
-        if (!texts_append(&c->text, "") || length >= 20)
-            return damaged(p, err, "a cell names no text");
+        if (!string_pool_append(&c->text, "") || length >= 20)
+            return fail_part(p, err, "a cell names no text");
         char number[20];
         memcpy(number, text, length);
         number[length] = '\0';
-        if (!parse_count(number, SIZE_MAX / 2, &i) || i >= strings->n)
-            return damaged(p, err, "a cell names a text that is not there");
+        if (!parse_index(number, SIZE_MAX / 2, &i) || i >= strings->n)
+            return fail_part(p, err, "a cell names a text that is not there");
         const size_t from = i > 0 ? strings->end[i - 1] : 0;
         text = strings->bytes + from;
         length = strings->end[i] - from;
     }
-    return length == 0 || sheet_put(out, c->row, c->column, text, length)
+    return length == 0 || sheet_add_cell(out, c->row, c->column, text, length)
                ? WT_OK
-               : sheet_refuse(out, p->name, err);
+               : sheet_fail(out, p->name, err);
 }
 
 /* Processes one node of a sheet. */
-static wt_status read_node(const part *p, cell *c, const texts *strings, sheet_text *out,
-                           wt_error *err)
+static wt_status read_sheet_node(const xml_part *p, sheet_cell *c, const string_pool *strings,
+                                 sheet_text *out, wt_error *err)
 {
     wt_status status = WT_OK;
     const char *mark = c->kind == CELL_INLINE ? "t" : "v";
-    const char *piece = characters(p);
-    if (piece != NULL && c->in_text && !texts_append(&c->text, piece))
+    const char *piece = node_text(p);
+    if (piece != NULL && c->in_text && !string_pool_append(&c->text, piece))
         return no_memory(err);
-    if (name_begins(p, "row"))
-        status = begin_row(p, c, err);
-    else if (name_begins(p, "c"))
-        status = begin_cell(p, c, err);
-    else if (name_begins(p, mark))
+    if (is_element_start(p, "row"))
+        status = begin_sheet_row(p, c, err);
+    else if (is_element_start(p, "c"))
+        status = begin_sheet_cell(p, c, err);
+    else if (is_element_start(p, mark))
         c->in_text = true;
-    if (status == WT_OK && name_ends(p, mark))
+    if (status == WT_OK && is_element_end(p, mark))
         c->in_text = false;
-    if (status == WT_OK && name_ends(p, "c"))
-        status = end_cell(p, c, strings, out, err);
+    if (status == WT_OK && is_element_end(p, "c"))
+        status = end_sheet_cell(p, c, strings, out, err);
     return status;
 }
 
 /* Reads a sheet; WT_END for a chart, which has no rows. */
-static wt_status read_sheet(zip_archive *zip, const char *entry, const texts *strings,
+static wt_status read_sheet(zip_archive *zip, const char *entry, const string_pool *strings,
                             const workbook *book, sheet_text *out, wt_error *err)
 {
-    part p;
-    cell c = {.row = SIZE_MAX, .column = SIZE_MAX};
+    xml_part p;
+    sheet_cell c = {.row = SIZE_MAX, .column = SIZE_MAX};
     bool is_sheet = false;
     wt_status status = part_open(zip, entry, &p, err);
     if (status == WT_END) {
@@ -340,12 +340,13 @@ static wt_status read_sheet(zip_archive *zip, const char *entry, const texts *st
         return WT_E_CORRUPT;
     }
     if (status == WT_OK)
-        out->most = workbook_room(book, 16 * MIB + 4 * (p.bytes.length + strings->length));
+        out->max_length =
+            workbook_text_limit(book, 16 * MIB + 4 * (p.bytes.length + strings->length));
     while (status == WT_OK && (status = part_next(&p, err)) == WT_OK) {
-        is_sheet = is_sheet || name_begins(&p, "worksheet");
-        status = read_node(&p, &c, strings, out, err);
+        is_sheet = is_sheet || is_element_start(&p, "worksheet");
+        status = read_sheet_node(&p, &c, strings, out, err);
     }
-    texts_clear(&c.text);
+    string_pool_clear(&c.text);
     part_close(&p);
     return status == WT_END && is_sheet ? WT_OK : status;
 }
@@ -353,19 +354,20 @@ static wt_status read_sheet(zip_archive *zip, const char *entry, const texts *st
 /* ---- the book -------------------------------------------------------------------------------- */
 
 /* Reads the relations of the workbook as pairs of id and entry. */
-static wt_status read_relations(zip_archive *zip, texts *relations, wt_error *err)
+static wt_status read_relations(zip_archive *zip, string_pool *relations, wt_error *err)
 {
-    part p;
+    xml_part p;
     wt_status status = part_open(zip, "xl/_rels/workbook.xml.rels", &p, err);
     while (status == WT_OK && (status = part_next(&p, err)) == WT_OK) {
-        if (!name_begins(&p, "Relationship"))
+        if (!is_element_start(&p, "Relationship"))
             continue;
-        char *id = attribute(&p, "Id"), *target = attribute(&p, "Target");
+        char *id = copy_attribute(&p, "Id"), *target = copy_attribute(&p, "Target");
         const bool absolute = target != NULL && target[0] == '/';
         if (id != NULL && target != NULL &&
-            !(texts_append(relations, id) && texts_end(relations) &&
-              texts_append(relations, absolute ? "" : "xl/") &&
-              texts_append(relations, absolute ? target + 1 : target) && texts_end(relations)))
+            !(string_pool_append(relations, id) && string_pool_end_text(relations) &&
+              string_pool_append(relations, absolute ? "" : "xl/") &&
+              string_pool_append(relations, absolute ? target + 1 : target) &&
+              string_pool_end_text(relations)))
             status = no_memory(err);
         free(id);
         free(target);
@@ -375,7 +377,7 @@ static wt_status read_relations(zip_archive *zip, texts *relations, wt_error *er
 }
 
 /* Returns a copy of the entry of a relation; NULL if there is none or no memory. */
-static char *find_entry(const texts *relations, const char *id)
+static char *find_relation_entry(const string_pool *relations, const char *id)
 {
     const size_t length = strlen(id);
     for (size_t i = 0; i + 1 < relations->n; i += 2) {
@@ -386,17 +388,18 @@ static char *find_entry(const texts *relations, const char *id)
     return NULL;
 }
 
-static wt_status add_sheet(zip_archive *zip, const part *p, const texts *relations,
-                           const texts *strings, workbook *book, wt_error *err)
+static wt_status add_sheet(zip_archive *zip, const xml_part *p, const string_pool *relations,
+                           const string_pool *strings, workbook *book, wt_error *err)
 {
-    char *name = attribute(p, "name"), *id = attribute(p, "id"), *state = attribute(p, "state");
-    char *entry = id != NULL ? find_entry(relations, id) : NULL;
+    char *name = copy_attribute(p, "name"), *id = copy_attribute(p, "id"),
+         *state = copy_attribute(p, "state");
+    char *entry = id != NULL ? find_relation_entry(relations, id) : NULL;
     sheet_text text = {.bytes = NULL};
     wt_status status = WT_OK;
     if (name == NULL || id == NULL)
-        status = damaged(p, err, "a sheet has no name, or no place");
+        status = fail_part(p, err, "a sheet has no name, or no place");
     if (status == WT_OK && entry == NULL)
-        status = damaged(p, err, "a sheet has no place in the file");
+        status = fail_part(p, err, "a sheet has no place in the file");
     if (status == WT_OK)
         status = read_sheet(zip, entry, strings, book, &text, err);
     if (status == WT_OK)
@@ -413,11 +416,11 @@ static wt_status add_sheet(zip_archive *zip, const part *p, const texts *relatio
 wt_status xlsx_read(wt_input *input, workbook *book, wt_error *err)
 {
     zip_archive *zip = NULL;
-    texts strings = {.bytes = NULL}, relations = {.bytes = NULL};
-    part p = {.name = NULL};
+    string_pool strings = {.bytes = NULL}, relations = {.bytes = NULL};
+    xml_part p = {.name = NULL};
     wt_status status = archive_open(input, &zip, err);
-    if (status == WT_OK && zip->odd != NULL)
-        status = wt_fail(err, WT_E_CORRUPT, "spreadsheet: %s", zip->odd);
+    if (status == WT_OK && zip->defect != NULL)
+        status = wt_fail(err, WT_E_CORRUPT, "spreadsheet: %s", zip->defect);
     if (status == WT_OK)
         status = part_open(zip, "xl/workbook.xml", &p, err);
     if (status == WT_END) {
@@ -426,16 +429,16 @@ wt_status xlsx_read(wt_input *input, workbook *book, wt_error *err)
         wt_error_advice(err, "give the file that the instrument exported, as text or CSV");
     }
     if (status == WT_OK)
-        status = read_strings(zip, &strings, err);
+        status = read_string_table(zip, &strings, err);
     if (status == WT_OK)
         status = read_relations(zip, &relations, err);
     while (status == WT_OK && (status = part_next(&p, err)) == WT_OK)
-        if (name_begins(&p, "sheet"))
+        if (is_element_start(&p, "sheet"))
             status = add_sheet(zip, &p, &relations, &strings, book, err);
     status = status == WT_END ? WT_OK : status;
     part_close(&p);
-    texts_clear(&relations);
-    texts_clear(&strings);
+    string_pool_clear(&relations);
+    string_pool_clear(&strings);
     archive_close(zip);
     if (status != WT_OK)
         workbook_clear(book);

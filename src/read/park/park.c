@@ -61,19 +61,19 @@ typedef struct park_file {
 /* The position of the bytes of a tag. */
 typedef struct park_tag {
     size_t from, n;
-    bool there;
+    bool is_present;
 } park_tag;
 
 /* Reads a tag. A tag that exceeds the file is marked as absent. */
-static void take_entry(const unsigned char *entry, size_t at, size_t length, park_tag *tag)
+static void read_tag(const unsigned char *entry, size_t at, size_t length, park_tag *tag)
 {
     static const unsigned char widths[] = {0, 1, 1, 2, 4, 8, 1, 1, 2, 4, 8, 4, 8};
     const size_t type = le16(entry + 2), count = le32(entry + 4);
-    if (tag->n > 0 || tag->there || type >= sizeof widths)
+    if (tag->n > 0 || tag->is_present || type >= sizeof widths)
         return;
     tag->n = widths[type] * count;
     tag->from = tag->n <= 4 ? at + 8 : le32(entry + 8);
-    tag->there = tag->from <= length && tag->n <= length - tag->from;
+    tag->is_present = tag->from <= length && tag->n <= length - tag->from;
 }
 
 /* The tags of Park in the directory of the file. */
@@ -83,25 +83,25 @@ typedef struct park_tags {
 } park_tags;
 
 /* Reads a list of 32-bit numbers, one for each strip. Other types do not occur. */
-static wt_status take_strips(input_window *w, const park_tag *tag, uint32_t list[STRIPS],
+static wt_status read_strips(input_window *w, const park_tag *tag, uint32_t list[STRIPS],
                              wt_error *err)
 {
     const unsigned char *bytes = NULL;
     const size_t n = tag->n / 4 < STRIPS ? tag->n / 4 : STRIPS;
     const wt_status status =
-        n > 0 && tag->there ? window_bytes(w, tag->from, 4 * n, &bytes, err) : WT_OK;
+        n > 0 && tag->is_present ? window_bytes(w, tag->from, 4 * n, &bytes, err) : WT_OK;
     for (size_t i = 0; i < STRIPS; i++)
         list[i] = bytes != NULL && i < n ? le32(bytes + 4 * i) : 0;
     return status;
 }
 
 /* Extends the end of the data by the strips of the preview picture, which are last in the file. */
-static wt_status find_end(input_window *w, park_tags *tags, wt_error *err)
+static wt_status extend_end(input_window *w, park_tags *tags, wt_error *err)
 {
     uint32_t from[STRIPS], sizes[STRIPS];
-    wt_status status = take_strips(w, &tags->strips, from, err);
+    wt_status status = read_strips(w, &tags->strips, from, err);
     if (status == WT_OK)
-        status = take_strips(w, &tags->strip_sizes, sizes, err);
+        status = read_strips(w, &tags->strip_sizes, sizes, err);
     for (size_t i = 0; status == WT_OK && i < STRIPS; i++)
         if (from[i] > 0 && (size_t)from[i] + sizes[i] > tags->end)
             tags->end = (size_t)from[i] + sizes[i];
@@ -109,7 +109,7 @@ static wt_status find_end(input_window *w, park_tags *tags, wt_error *err)
 }
 
 /* Checks that the file contains all data that the directory names. */
-static wt_status check_end(const input_window *w, const park_tags *tags, wt_error *err)
+static wt_status check_directory_end(const input_window *w, const park_tags *tags, wt_error *err)
 {
     if (tags->end <= w->size)
         return WT_OK;
@@ -122,7 +122,7 @@ static wt_status check_end(const input_window *w, const park_tags *tags, wt_erro
     return WT_E_CORRUPT;
 }
 
-static void warn_of_more(size_t size, size_t end, const char *name, wt_log *log)
+static void warn_extra_bytes(size_t size, size_t end, const char *name, wt_log *log)
 {
     if (size > end)
         wt_log_add(log, WT_WARNING, name, NULL,
@@ -149,36 +149,36 @@ static wt_status find_tags(input_window *w, park_tags *tags, wt_error *err)
         const unsigned char *const entry = bytes + ENTRY * i;
         const size_t place = at + 2 + ENTRY * i;
         if (le16(entry) == TAG_MAGIC && le32(entry + 8) == magic)
-            take_entry(entry, place, w->size, &tags->magic);
+            read_tag(entry, place, w->size, &tags->magic);
         else if (le16(entry) == TAG_SPECTROSCOPY)
-            take_entry(entry, place, w->size, &tags->header);
+            read_tag(entry, place, w->size, &tags->header);
         else if (le16(entry) == TAG_SAMPLES)
-            take_entry(entry, place, w->size, &tags->samples);
+            read_tag(entry, place, w->size, &tags->samples);
         else if (le16(entry) == TAG_PICTURE)
-            take_entry(entry, place, w->size, &tags->picture);
+            read_tag(entry, place, w->size, &tags->picture);
         else if (le16(entry) == TAG_PICTURE_HEADER)
-            take_entry(entry, place, w->size, &tags->picture_header);
+            read_tag(entry, place, w->size, &tags->picture_header);
         else if (le16(entry) == TAG_STRIPS && le16(entry + 2) == LONG_TYPE)
-            take_entry(entry, place, w->size, &tags->strips);
+            read_tag(entry, place, w->size, &tags->strips);
         else if (le16(entry) == TAG_STRIP_SIZES && le16(entry + 2) == LONG_TYPE)
-            take_entry(entry, place, w->size, &tags->strip_sizes);
+            read_tag(entry, place, w->size, &tags->strip_sizes);
     }
     const park_tag *const all[] = {&tags->header,         &tags->samples, &tags->picture,
                                    &tags->picture_header, &tags->strips,  &tags->strip_sizes};
     for (size_t i = 0; i < sizeof all / sizeof *all; i++)
         if (all[i]->from + all[i]->n > tags->end)
             tags->end = all[i]->from + all[i]->n;
-    return status == WT_OK ? find_end(w, tags, err) : status;
+    return status == WT_OK ? extend_end(w, tags, err) : status;
 }
 
 /* True for a TIFF file of Park. */
-static bool is_park(const park_tags *tags)
+static bool has_park_tags(const park_tags *tags)
 {
-    return tags->magic.there && tags->magic.n == 4;
+    return tags->magic.is_present && tags->magic.n == 4;
 }
 
 /* Reads a UTF-16 name that is ASCII except for the two micro signs. */
-static void read_name(const unsigned char *from, char *to, size_t size)
+static void read_utf16_name(const unsigned char *from, char *to, size_t size)
 {
     size_t n = 0;
     for (; n + 1 < size && le16(from + 2 * n) != 0; n++) {
@@ -189,7 +189,7 @@ static void read_name(const unsigned char *from, char *to, size_t size)
     to[n] = '\0';
 }
 
-static void read_channel(const unsigned char *slot, size_t number, park_channel *c)
+static void read_channel_slot(const unsigned char *slot, size_t number, park_channel *c)
 {
     static const struct {
         const char *name;
@@ -201,8 +201,8 @@ static void read_channel(const unsigned char *slot, size_t number, park_channel 
                  {"Time Stamp", WT_Q_TIME}};
     double offset = 0;
     *c = (park_channel){.number = number, .gain = float64(le64(slot + SLOT_GAIN))};
-    read_name(slot, c->name, sizeof c->name);
-    read_name(slot + SLOT_UNIT, c->unit, sizeof c->unit);
+    read_utf16_name(slot, c->name, sizeof c->name);
+    read_utf16_name(slot + SLOT_UNIT, c->unit, sizeof c->unit);
     for (size_t i = 0; i < sizeof known / sizeof *known; i++)
         if (strcmp(c->name, known[i].name) == 0 && isfinite(c->gain) &&
             wt_unit_to_si(strcmp(c->unit, "usec") == 0 ? "us" : c->unit, known[i].quantity,
@@ -210,20 +210,20 @@ static void read_channel(const unsigned char *slot, size_t number, park_channel 
             c->quantity = known[i].quantity;
 }
 
-static wt_status fail_expected(wt_error *err, wt_status status, const char *message,
-                               const char *expected)
+static wt_status fail_park(wt_error *err, wt_status status, const char *message,
+                           const char *expected)
 {
     wt_fail(err, status, "%s", message);
     wt_error_expected(err, "%s", expected);
     return status;
 }
 
-static wt_status read_header(park_file *f, const park_tags *tags, wt_error *err)
+static wt_status read_park_header(park_file *f, const park_tags *tags, wt_error *err)
 {
     const unsigned char *header = NULL;
     const size_t block = tags->samples.n;
-    if (tags->header.n < HEADER || !tags->samples.there)
-        return fail_expected(err, WT_E_CORRUPT, "the block of samples is missing", "the tag 50439");
+    if (tags->header.n < HEADER || !tags->samples.is_present)
+        return fail_park(err, WT_E_CORRUPT, "the block of samples is missing", "the tag 50439");
     const wt_status status = window_bytes(&f->window, tags->header.from, HEADER, &header, err);
     if (status != WT_OK)
         return status;
@@ -234,18 +234,18 @@ static wt_status read_header(park_file *f, const park_tags *tags, wt_error *err)
     if (f->n_channels == 0 || f->n_channels > CHANNELS || f->n_samples < 2 || f->n_curves == 0 ||
         block / 4 / f->n_channels / f->n_samples != f->n_curves ||
         block != 4 * f->n_channels * f->n_samples * f->n_curves) {
-        fail_expected(err, WT_E_CORRUPT, "the sizes of the block contradict one another",
-                      "four bytes for each sample");
+        fail_park(err, WT_E_CORRUPT, "the sizes of the block contradict one another",
+                  "four bytes for each sample");
         wt_error_found(err, "%zu bytes for %zu curves of %zu channels of %zu samples", block,
                        f->n_curves, f->n_channels, f->n_samples);
         return WT_E_CORRUPT;
     }
     for (size_t c = 0; c < f->n_channels; c++)
-        read_channel(header + SLOT * c, c, &f->channels[c]);
+        read_channel_slot(header + SLOT * c, c, &f->channels[c]);
     return WT_OK;
 }
 
-static wt_status open_file(wt_input *input, park_file *f, wt_error *err)
+static wt_status open_park_file(wt_input *input, park_file *f, wt_error *err)
 {
     park_tags tags = {.magic = {.n = 0}};
     *f = (park_file){.name = wt_input_name(input)};
@@ -254,40 +254,40 @@ static wt_status open_file(wt_input *input, park_file *f, wt_error *err)
         status = find_tags(&f->window, &tags, err);
     if (status != WT_OK)
         return status;
-    if (!is_park(&tags))
-        return fail_expected(err, WT_E_CORRUPT, "damaged directory of tags",
-                             "a TIFF file of Park Systems");
-    status = check_end(&f->window, &tags, err);
+    if (!has_park_tags(&tags))
+        return fail_park(err, WT_E_CORRUPT, "damaged directory of tags",
+                         "a TIFF file of Park Systems");
+    status = check_directory_end(&f->window, &tags, err);
     f->end = tags.end;
     if (status != WT_OK)
         return status;
-    if (!tags.header.there)
-        return fail_expected(err, WT_E_EMPTY, "the picture holds no force curve",
-                             "the tag 50438 of spectroscopy");
-    return read_header(f, &tags, err);
+    if (!tags.header.is_present)
+        return fail_park(err, WT_E_EMPTY, "the picture holds no force curve",
+                         "the tag 50438 of spectroscopy");
+    return read_park_header(f, &tags, err);
 }
 
 /* Reads the samples of a curve into f->curve. */
-static wt_status take_curve(park_file *f, size_t curve, wt_error *err)
+static wt_status load_curve(park_file *f, size_t curve, wt_error *err)
 {
     const size_t size = 4 * f->n_channels * f->n_samples;
     return window_bytes(&f->window, f->data + curve * size, size, &f->curve, err);
 }
 
 /* Returns the samples of a channel of the current curve. */
-static const unsigned char *samples_of(const park_file *f, const park_channel *c, size_t from)
+static const unsigned char *channel_samples(const park_file *f, const park_channel *c, size_t from)
 {
     return f->curve + 4 * (c->number * f->n_samples + from);
 }
 
 /* Counts the samples from `from`, at most n, before the time stops increasing. */
-static size_t n_measured(const park_file *f, size_t from, size_t n)
+static size_t count_measured(const park_file *f, size_t from, size_t n)
 {
     for (size_t i = 0; i < f->n_channels; i++) {
         const park_channel *c = &f->channels[i];
         if (c->quantity != WT_Q_TIME)
             continue;
-        const unsigned char *time = samples_of(f, c, from);
+        const unsigned char *time = channel_samples(f, c, from);
         size_t valid = 1;
         while (valid < n && float32(le32(time + 4 * valid)) > float32(le32(time + 4 * valid - 4)))
             valid++;
@@ -300,20 +300,20 @@ static size_t n_measured(const park_file *f, size_t from, size_t n)
  * have. */
 static bool is_constant(const park_file *f, const park_channel *c)
 {
-    const unsigned char *values = samples_of(f, c, 0);
+    const unsigned char *values = channel_samples(f, c, 0);
     for (size_t i = 1; i < f->n_samples; i++)
         if (memcmp(values, values + 4 * i, 4) != 0)
             return false;
     return true;
 }
 
-static force_metadata facts_of(const park_file *f, size_t half)
+static force_metadata half_metadata(const park_file *f, size_t half)
 {
     const size_t n = f->n_samples / 2;
-    force_metadata facts = {
+    force_metadata metadata = {
         .kind = half == 0 ? WT_SEGMENT_APPROACH : WT_SEGMENT_RETRACT,
         .index = half,
-        .n_points = n_measured(f, half * n, n),
+        .n_points = count_measured(f, half * n, n),
         .duration = (double)NAN,
         .velocity = (double)NAN,
         .setpoint = (double)NAN,
@@ -325,13 +325,13 @@ static force_metadata facts_of(const park_file *f, size_t half)
         const park_channel *c = &f->channels[i];
         if (c->quantity == WT_Q_NONE || (c->quantity == WT_Q_MEASURED_HEIGHT && is_constant(f, c)))
             continue;
-        force_add_signal(&facts, (force_signal){.quantity = c->quantity,
-                                                .name = c->name,
-                                                .unit = c->unit,
-                                                .to_si = {c->gain * c->factor, 0},
-                                                .channel = c});
+        force_add_signal(&metadata, (force_signal){.quantity = c->quantity,
+                                                   .name = c->name,
+                                                   .unit = c->unit,
+                                                   .to_si = {c->gain * c->factor, 0},
+                                                   .channel = c});
     }
-    return facts;
+    return metadata;
 }
 
 /* ---- curves ---------------------------------------------------------------------------------- */
@@ -347,7 +347,7 @@ static wt_status decode(wt_force_source *base, const force_signal *signal, force
 {
     const park_source *s = (const park_source *)base;
     (void)err;
-    samples_decode(SAMPLE_FLOAT32, false, samples_of(&s->file, signal->channel, s->from), n,
+    samples_decode(SAMPLE_FLOAT32, false, channel_samples(&s->file, signal->channel, s->from), n,
                    scaling.multiplier, scaling.offset, values);
     return WT_OK;
 }
@@ -359,12 +359,12 @@ static wt_status next_curve(wt_force_source *base, wt_force_curve *curve, wt_err
     if (s->curve == s->file.n_curves)
         return WT_END;
     curve->index = s->curve;
-    status = take_curve(&s->file, s->curve, err);
+    status = load_curve(&s->file, s->curve, err);
     for (size_t half = 0; half < 2 && status == WT_OK; half++) {
-        const force_metadata facts = facts_of(&s->file, half);
+        const force_metadata metadata = half_metadata(&s->file, half);
         s->from = half * (s->file.n_samples / 2);
-        if (force_wants_segment(base, facts.kind))
-            status = force_add_segment(base, &facts, curve, err);
+        if (force_is_segment_requested(base, metadata.kind))
+            status = force_add_segment(base, &metadata, curve, err);
     }
     s->curve++;
     return status;
@@ -375,7 +375,7 @@ static wt_status open_source(wt_force_source *base, const file_reader *self, wt_
 {
     park_file *f = &((park_source *)base)->file;
     (void)self;
-    wt_status status = open_file(input, f, err);
+    wt_status status = open_park_file(input, f, err);
     bool timed = false;
     for (size_t i = 0; i < f->n_channels && i < CHANNELS; i++)
         timed = timed || f->channels[i].quantity == WT_Q_TIME;
@@ -384,7 +384,7 @@ static wt_status open_source(wt_force_source *base, const file_reader *self, wt_
                    "no channel Time Stamp: samples that were not measured cannot be told from "
                    "those that were");
     if (status == WT_OK)
-        warn_of_more(f->window.size, f->end, base->name, base->log);
+        warn_extra_bytes(f->window.size, f->end, base->name, base->log);
     base->n_curves = f->n_curves;
     return status;
 }
@@ -423,7 +423,7 @@ enum {
     PICTURE_TYPE = 348 /* since version 2; 16-bit samples before */
 };
 
-static double float_at(const unsigned char *bytes)
+static double read_float64(const unsigned char *bytes)
 {
     return float64(le64(bytes));
 }
@@ -442,22 +442,22 @@ static wt_status read_picture_header(const unsigned char *header, const park_tag
     if (number >= sizeof types / sizeof *types || head->n_columns == 0 || head->n_rows == 0 ||
         size / sample_width(*type) / head->n_columns != head->n_rows ||
         size != sample_width(*type) * head->n_columns * head->n_rows) {
-        fail_expected(err, WT_E_CORRUPT, "the size of the picture contradicts its header",
-                      "16 bits, 32 bits or a float for each pixel");
+        fail_park(err, WT_E_CORRUPT, "the size of the picture contradicts its header",
+                  "16 bits, 32 bits or a float for each pixel");
         wt_error_found(err, "%zu bytes for %zu x %zu pixels of type %zu", size, head->n_columns,
                        head->n_rows, number);
         return WT_E_CORRUPT;
     }
-    read_name(header + PICTURE_NAME, head->name, 33);
-    images_set_size(head, 1e-6 * float_at(header + PICTURE_WIDTH),
-                    1e-6 * float_at(header + PICTURE_HEIGHT));
+    read_utf16_name(header + PICTURE_NAME, head->name, 33);
+    images_set_size(head, 1e-6 * read_float64(header + PICTURE_WIDTH),
+                    1e-6 * read_float64(header + PICTURE_HEIGHT));
     return WT_OK;
 }
 
 /* Reads the picture, with lines from the bottom upwards. A value is gain * (scale * sample +
  * offset) in the unit. */
-static wt_status read_picture(input_window *w, const park_tags *tags, image_list *list,
-                              wt_error *err)
+static wt_status read_park_image(input_window *w, const park_tags *tags, image_list *list,
+                                 wt_error *err)
 {
     const unsigned char *header = NULL, *data = NULL;
     const size_t n = tags->picture_header.n < PICTURE_TYPE + 4 ? PICTURE_LEAST : PICTURE_TYPE + 4;
@@ -470,13 +470,13 @@ static wt_status read_picture(input_window *w, const park_tags *tags, image_list
         status = read_picture_header(header, tags, &head, &type, err);
     if (status != WT_OK)
         return status;
-    read_name(header + PICTURE_UNIT, unit, sizeof unit);
+    read_utf16_name(header + PICTURE_UNIT, unit, sizeof unit);
     const bool length = wt_unit_to_si(unit, WT_Q_LENGTH, &factor, &zero, NULL) == WT_OK;
     snprintf(head.unit, sizeof head.unit, "%s", length ? "m" : unit[0] != '\0' ? unit : "1");
-    const double given = float_at(header + PICTURE_SCALE),
-                 gain = float_at(header + PICTURE_GAIN) * (length ? factor : 1),
+    const double given = read_float64(header + PICTURE_SCALE),
+                 gain = read_float64(header + PICTURE_GAIN) * (length ? factor : 1),
                  scale = gain * (given == 0 ? 1 : given),
-                 offset = gain * float_at(header + PICTURE_OFFSET);
+                 offset = gain * read_float64(header + PICTURE_OFFSET);
     status = images_add(list, &head, &values, err);
     if (status == WT_OK)
         status = window_bytes(w, tags->picture.from, tags->picture.n, &data, err);
@@ -497,23 +497,23 @@ static wt_status park_images(const file_reader *self, wt_input *input,
     wt_status status = window_open(&window, input, err);
     if (status == WT_OK)
         status = find_tags(&window, &tags, err);
-    if (status == WT_OK && !is_park(&tags))
-        status = fail_expected(err, WT_E_CORRUPT, "damaged directory of tags",
-                               "a TIFF file of Park Systems");
+    if (status == WT_OK && !has_park_tags(&tags))
+        status = fail_park(err, WT_E_CORRUPT, "damaged directory of tags",
+                           "a TIFF file of Park Systems");
     if (status == WT_OK)
-        status = check_end(&window, &tags, err);
-    if (status == WT_OK && !(tags.picture.there && tags.picture_header.there))
-        status = fail_expected(err, WT_E_EMPTY, "the file holds no picture of measured values",
-                               "the tags 50434 and 50435");
+        status = check_directory_end(&window, &tags, err);
+    if (status == WT_OK && !(tags.picture.is_present && tags.picture_header.is_present))
+        status = fail_park(err, WT_E_EMPTY, "the file holds no picture of measured values",
+                           "the tags 50434 and 50435");
     if (status == WT_OK && tags.picture_header.n < PICTURE_LEAST)
-        status = fail_expected(err, WT_E_CORRUPT, "the header of the picture is cut off",
-                               "260 bytes or more");
+        status = fail_park(err, WT_E_CORRUPT, "the header of the picture is cut off",
+                           "260 bytes or more");
     if (status == WT_OK)
-        status = read_picture(&window, &tags, &list, err);
+        status = read_park_image(&window, &tags, &list, err);
     if (status == WT_OK)
-        warn_of_more(window.size, tags.end, wt_input_name(input), log);
+        warn_extra_bytes(window.size, tags.end, wt_input_name(input), log);
     window_close(&window);
-    return images_end(&list, status, wt_input_name(input), log, images, n_images, err);
+    return images_finish(&list, status, wt_input_name(input), log, images, n_images, err);
 }
 
 /* ---- the descriptor -------------------------------------------------------------------------- */
@@ -533,7 +533,7 @@ static recognition detect(const file_reader *self, file_peek *peek)
     window_close(&window);
     if (status == WT_E_MEMORY) {
         match.answer = ANSWER_NO_MEMORY;
-    } else if (is_park(&tags)) {
+    } else if (has_park_tags(&tags)) {
         match.answer = ANSWER_YES;
         match.score = 90;
     }
@@ -541,43 +541,43 @@ static recognition detect(const file_reader *self, file_peek *peek)
 }
 
 static wt_status describe_curves(wt_input *input, const wt_read_options *options,
-                                 table_writer *facts, wt_error *err)
+                                 table_writer *metadata, wt_error *err)
 {
     park_file file;
-    wt_status status = open_file(input, &file, err);
+    wt_status status = open_park_file(input, &file, err);
     if (status == WT_OK)
-        status = take_curve(&file, 0, err);
+        status = load_curve(&file, 0, err);
     if (status != WT_OK) {
         window_close(&file.window);
         return status;
     }
-    facts_add(facts, "curves", "", "points", "%zu", file.n_curves);
+    metadata_add(metadata, "curves", "", "points", "%zu", file.n_curves);
     for (size_t half = 0; half < 2; half++) {
-        const force_metadata read = facts_of(&file, half);
-        facts_add(facts, half == 0 ? "segment 0" : "segment 1", "", "Time Stamp",
-                  "%s, %zu points of the first curve measured, %zu stored",
-                  wt_segment_kind_name(read.kind), read.n_points, file.n_samples / 2);
+        const force_metadata read = half_metadata(&file, half);
+        metadata_add(metadata, half == 0 ? "segment 0" : "segment 1", "", "Time Stamp",
+                     "%s, %zu points of the first curve measured, %zu stored",
+                     wt_segment_kind_name(read.kind), read.n_points, file.n_samples / 2);
     }
-    const force_metadata read = facts_of(&file, 0);
+    const force_metadata read = half_metadata(&file, 0);
     for (size_t i = 0; i < file.n_channels; i++) {
         const park_channel *c = &file.channels[i];
-        const wt_quantity q = force_read_as(&read, options, c);
-        facts_add(facts, c->name, c->unit, "", "%s",
-                  q != WT_Q_NONE                        ? wt_quantity_id(q)
-                  : c->quantity == WT_Q_MEASURED_HEIGHT ? "constant: no sensor; not read"
-                                                        : "not read");
+        const wt_quantity q = force_channel_quantity(&read, options, c);
+        metadata_add(metadata, c->name, c->unit, "", "%s",
+                     q != WT_Q_NONE                        ? wt_quantity_id(q)
+                     : c->quantity == WT_Q_MEASURED_HEIGHT ? "constant: no sensor; not read"
+                                                           : "not read");
     }
-    force_describe_calibration(&read, options, "", "", facts);
+    force_describe_calibration(&read, options, "", "", metadata);
     window_close(&file.window);
     return WT_OK;
 }
 
 static wt_status describe(const file_reader *self, wt_input *input, const wt_read_options *options,
-                          wt_log *log, table_writer *facts)
+                          wt_log *log, table_writer *metadata)
 {
     wt_error err = WT_ERROR_INIT;
-    const wt_status status = describe_curves(input, options, facts, &err);
-    return images_facts(self, input, options, log, facts, status, &err);
+    const wt_status status = describe_curves(input, options, metadata, &err);
+    return images_add_metadata(self, input, options, log, metadata, status, &err);
 }
 
 const file_reader reader_park = {

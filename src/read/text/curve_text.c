@@ -3,19 +3,19 @@
 
 #include <math.h>
 
-static void put_number(FILE *out, double value)
+static void write_number(FILE *out, double value)
 {
     char text[32];
     wt_number_format(value, text);
     fputs(isfinite(value) ? text : "nan", out);
 }
 
-static void put_key(FILE *out, const char *key, double value, wt_quantity quantity)
+static void write_key(FILE *out, const char *key, double value, wt_quantity quantity)
 {
     if (!isfinite(value))
         return;
     fprintf(out, "## %s: ", key);
-    put_number(out, value);
+    write_number(out, value);
     fprintf(out, " unit=%s\n", wt_quantity_unit(quantity));
 }
 
@@ -31,10 +31,10 @@ void curve_text_names(FILE *out, const curve_text *curve)
 void curve_text_begin(FILE *out, const curve_text *curve)
 {
     fprintf(out, "## table: force_curve/%zu\n", curve->number);
-    put_key(out, "position_x", curve->x, WT_Q_POSITION_X);
-    put_key(out, "position_y", curve->y, WT_Q_POSITION_Y);
-    put_key(out, "spring_constant", curve->cantilever.spring_constant, WT_Q_SPRING_CONSTANT);
-    put_key(out, "sensitivity", curve->cantilever.sensitivity, WT_Q_SENSITIVITY);
+    write_key(out, "position_x", curve->x, WT_Q_POSITION_X);
+    write_key(out, "position_y", curve->y, WT_Q_POSITION_Y);
+    write_key(out, "spring_constant", curve->cantilever.spring_constant, WT_Q_SPRING_CONSTANT);
+    write_key(out, "sensitivity", curve->cantilever.sensitivity, WT_Q_SENSITIVITY);
     curve_text_names(out, curve);
 }
 
@@ -46,7 +46,7 @@ void curve_text_rows(FILE *out, const curve_text *curve, wt_segment_kind kind, s
         fputs(wt_segment_kind_name(kind), out);
         for (size_t c = 0; c < curve->n_columns; c++) {
             fputc('\t', out);
-            put_number(out, curve->columns[c].values[row]);
+            write_number(out, curve->columns[c].values[row]);
         }
         fputc('\n', out);
     }

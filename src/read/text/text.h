@@ -19,19 +19,19 @@ typedef struct text_lines {
     char *text;
     text_span *lines; /* each line ends with a zero byte */
     size_t n;
-    const char *encoding; /* text such as "UTF-16LE with byte order mark" */
-    size_t n_replaced;    /* number of invalid byte sequences, which became U+FFFD */
-    bool odd_byte;        /* true if half a UTF-16 character at the end was dropped */
-    line_end end;         /* of the last line; CR alone is half an end if others have CR LF */
+    const char *encoding;    /* text such as "UTF-16LE with byte order mark" */
+    size_t n_replaced;       /* number of invalid byte sequences, which became U+FFFD */
+    bool has_half_character; /* true if half a UTF-16 character at the end was dropped */
+    line_end end;            /* of the last line; CR alone is half an end if others have CR LF */
 } text_lines;
 
 wt_status lines_decode(const unsigned char *bytes, size_t length, text_encoding encoding,
                        text_lines *lines, wt_error *err);
 /* Decodes a later piece of UTF-8 text, which has no byte order mark. */
-wt_status lines_decode_more(const unsigned char *bytes, size_t length, text_lines *lines,
+wt_status lines_decode_next(const unsigned char *bytes, size_t length, text_lines *lines,
                             wt_error *err);
 /* Returns a text for the encoding that lines_decode will use. */
-const char *lines_encoding(const unsigned char *bytes, size_t length, text_encoding encoding);
+const char *lines_encoding_name(const unsigned char *bytes, size_t length, text_encoding encoding);
 void lines_free(text_lines *lines);
 /* Removes the comment mark at the beginning; false if there is none. */
 bool line_uncomment(const text_description *description, text_span *line);
@@ -45,7 +45,7 @@ typedef struct text_feed {
     size_t at, size;        /* position and size of the input */
     bool began;
     unsigned char *buffer;
-    size_t room;
+    size_t buffer_size;
     struct feed_piece *first, *last;
     size_t n;          /* number of lines read, with the dropped ones */
     const char *words; /* encoding and replaced bytes, as in text_lines */
@@ -59,7 +59,7 @@ wt_status feed_line(text_feed *feed, size_t i, text_span *line, wt_error *err);
 /* Returns the end of line i, the last one requested. */
 line_end feed_line_end(const text_feed *feed, size_t i);
 /* Drops the lines before line i. */
-void feed_drop(text_feed *feed, size_t i);
+void feed_discard(text_feed *feed, size_t i);
 void feed_free(text_feed *feed);
 
 /* ---- cells -------------------------------------------------------------------------------- */
@@ -74,18 +74,18 @@ const char *separator_name(cell_separator separator); /* static name such as "ta
 /* Splits a line; SEPARATOR_AUTO is not allowed here. Returns false if memory is missing. */
 bool cells_split(text_cells *cells, text_span line, cell_separator separator,
                  const text_description *description);
-bool cells_blank(const text_cells *cells);
-bool cell_is(text_span cell, const char *text);
+bool cells_are_blank(const text_cells *cells);
+bool cell_equals(text_span cell, const char *text);
 
 typedef enum cell_kind { CELL_NUMBER, CELL_MISSING, CELL_NOT_FINITE, CELL_TEXT } cell_kind;
 /* Classifies a cell: a number; a missing value ("", "--", 1e99 or a text of the description); an
  * unlisted "nan" or "inf"; or another text. *value is NaN unless it is a number. */
-cell_kind cell_read(text_span cell, char decimal, const text_description *description,
-                    double *value);
+cell_kind cell_parse(text_span cell, char decimal, const text_description *description,
+                     double *value);
 /* Copies a text for messages and tables, without control characters, cut at a whole character. */
 void text_copy(char *to, size_t size, text_span text);
 /* Adds the numbers of cells with a decimal comma and with a decimal point. */
-void cells_count_marks(const text_cells *cells, size_t *commas, size_t *points);
+void cells_count_decimal_marks(const text_cells *cells, size_t *commas, size_t *points);
 
 /* ---- tables ------------------------------------------------------------------------------- */
 
@@ -96,11 +96,11 @@ typedef enum column_problem {
     COLUMN_UNCLEAR   /* the column that decides the meaning is absent */
 } column_problem;
 
-#define MODULI_OF_TENSION                                                                          \
+#define TENSION_MODULI                                                                             \
     (WT_Q_BIT(WT_Q_STORAGE_MODULUS) | WT_Q_BIT(WT_Q_LOSS_MODULUS) |                                \
      WT_Q_BIT(WT_Q_COMPLEX_MODULUS) | WT_Q_BIT(WT_Q_RELAXATION_MODULUS) |                          \
      WT_Q_BIT(WT_Q_CREEP_COMPLIANCE))
-#define MODULI_OF_SHEAR                                                                            \
+#define SHEAR_MODULI                                                                               \
     (WT_Q_BIT(WT_Q_SHEAR_STORAGE_MODULUS) | WT_Q_BIT(WT_Q_SHEAR_LOSS_MODULUS) |                    \
      WT_Q_BIT(WT_Q_SHEAR_COMPLEX_MODULUS) | WT_Q_BIT(WT_Q_SHEAR_RELAXATION_MODULUS) |              \
      WT_Q_BIT(WT_Q_SHEAR_CREEP_COMPLIANCE))
@@ -174,11 +174,11 @@ typedef struct text_file {
     wt_quantity_set quantities; /* quantities of those tables */
     field_value *values;        /* [n_fields] last value of each field of the description */
     text_list unknown;          /* names of columns without a rule, each once */
-    bool moduli_again;          /* true if a table has a modulus twice under one name */
+    bool has_repeated_moduli;   /* true if a table has a modulus twice under one name */
     text_list steps;            /* titles of steps without a table */
     text_list samples;          /* names of samples, each once */
     arena memory;               /* memory of the lists and the values */
-    arena of_tables;            /* memory of the columns */
+    arena table_memory;         /* memory of the columns */
 } text_file;
 
 /* Runs the description of the reader over the input. The names row of a table must suffice for one
@@ -193,7 +193,8 @@ void text_file_free(text_file *file);
 typedef struct text_parts text_parts;
 /* Chooses the piece size [byte]. It is SIZE_MAX (a single part) for a small file, or if lines of
  * the description depend on distant lines. */
-wt_status text_piece(text_description *description, wt_input *input, size_t *piece, wt_error *err);
+wt_status text_choose_piece(text_description *description, wt_input *input, size_t *piece,
+                            wt_error *err);
 /* Begins the parts. The input must be text already; `as_text` of the reader is not called. */
 wt_status text_parts_begin(const file_reader *reader, wt_input *input, size_t piece, unsigned kinds,
                            const wt_read_options *options, wt_log *log, text_parts **parts,
@@ -205,15 +206,15 @@ const text_file *text_parts_file(const text_parts *parts);
 void text_parts_free(text_parts *parts);
 
 /* Adds a copy of a text, unless the list has reached its maximum length. */
-wt_status text_list_add(text_file *file, text_list *list, size_t most, text_span text,
+wt_status text_list_add(text_file *file, text_list *list, size_t max_items, text_span text,
                         wt_error *err);
 /* The position of a line for messages, such as "line 12". */
-typedef struct text_place {
+typedef struct line_place_text {
     char words[32];
-} text_place;
-text_place line_place(size_t line);
+} line_place_text;
+line_place_text format_line_place(size_t line);
 /* True if the description states this kind of data and the tables have its columns. */
-bool text_has(const text_file *file, unsigned kind);
+bool text_has_kind(const text_file *file, unsigned kind);
 /* Returns the column of a quantity, or NULL; segment < 0 accepts any segment. */
 const text_column *text_table_column(const text_table *table, wt_quantity quantity, int segment);
 /* Returns the value of a column in a row. */
@@ -224,7 +225,7 @@ wt_status text_table_require(const text_table *table, unsigned kind, wt_error *e
 /* Fails with the problem of a column of one of the quantities, if there is one. */
 wt_status text_table_problem(const text_table *table, wt_quantity_set quantities, wt_error *err);
 /* Lists the names of unknown columns, with commas; cut with "..." if they do not fit. */
-void text_unknown(const text_file *file, char *names, size_t size);
+void text_format_unknown(const text_file *file, char *names, size_t size);
 /* Logs the unused columns and warns of assumptions about others. */
 void text_log_columns(const text_file *file, wt_log *log);
 /* Parts of text_log_columns: unused columns of the whole file, and assumptions about the tables of
@@ -246,15 +247,15 @@ typedef struct names_row {
 } names_row;
 
 /* The possible meanings of a name: a range of the description's `names`. */
-typedef struct known_name {
+typedef struct name_match {
     size_t first, n;
     text_span unit; /* unit within the name, or empty */
-} known_name;
+} name_match;
 /* True if the description knows the name of a cell. */
-bool names_known(const text_description *description, text_span cell, known_name *known);
+bool find_column_name(const text_description *description, text_span cell, name_match *known);
 
 /* Reduces a line to the part with the names; false if it cannot be a names row. */
-bool names_part(const text_description *description, text_span *line);
+bool names_extract(const text_description *description, text_span *line);
 /* Splits `line`; true if its cells name enough columns for one of `kinds`. An automatic separator
  * is the one with most known names. False also if memory is missing (no_memory). */
 bool names_match(names_row *names, const text_description *description, text_span line,
@@ -262,14 +263,14 @@ bool names_match(names_row *names, const text_description *description, text_spa
 /* For a description without names in its files: true if the line is a row of numbers; it also
  * finds the separator. A matrix gets a name for each cell. False also if memory is missing
  * (no_memory). */
-bool names_of_row(names_row *names, const text_description *description, text_span line,
-                  cell_separator separator);
+bool names_match_row(names_row *names, const text_description *description, text_span line,
+                     cell_separator separator);
 /* Fills columns, quantities and problems of the table. Names that are not understood are added to
  * file->unknown. */
 wt_status names_resolve(const names_row *names, text_file *file, text_table *table,
                         const wt_read_options *options, wt_error *err);
 /* True if a name contains its unit ("f (Hz)", "E' / MPa", "f/Hz", "q[1/m]"). It splits them. */
-bool name_unit(text_span *name, text_span *unit);
+bool split_name_unit(text_span *name, text_span *unit);
 void names_free(names_row *names);
 
 /* ---- results ------------------------------------------------------------------------------ */
@@ -280,10 +281,10 @@ void text_peek_free(struct text_peek *peek);
 
 extern const struct force_stream text_force;
 /* Members of a reader whose file is converted to a text stream by `made`. */
-#define READER_OF_CURVE_TEXT(made) .runs = "weartrack-stream", .as_text = made, .force = &text_force
+#define CURVE_TEXT_READER(made) .runs = "weartrack-stream", .as_text = made, .force = &text_force
 /* Variant of text_force that does not read the file first, so the number of curves is unknown. It
  * does not support a reader with as_text. */
-extern const struct force_stream text_force_first;
+extern const struct force_stream text_force_streamed;
 /* Warns if equal steps of time or height are interrupted within the rows [first, end) of a segment
  * (negative: no segment). */
 void text_check_steps(const text_file *file, const text_table *t, int segment, size_t first,
@@ -303,13 +304,14 @@ wt_status text_read_noise(const file_reader *self, wt_input *input, const wt_rea
 wt_status text_read_record(const file_reader *self, wt_input *input, const wt_read_options *options,
                            wt_log *log, wt_record *record, wt_error *err);
 wt_status text_describe(const file_reader *self, wt_input *input, const wt_read_options *options,
-                        wt_log *log, table_writer *facts);
+                        wt_log *log, table_writer *metadata);
 /* Variant of text_describe for a reader with `as_text`, which converts the file once. */
-wt_status text_describe_made(const file_reader *self, wt_input *input,
-                             const wt_read_options *options, wt_log *log, table_writer *facts);
+wt_status text_describe_converted(const file_reader *self, wt_input *input,
+                                  const wt_read_options *options, wt_log *log,
+                                  table_writer *metadata);
 
 /* Appends the sweeps of a scanned file to `sweep`. */
-wt_status text_sweep(const text_file *file, const wt_read_options *options, wt_log *log,
-                     wt_sweep *sweep, wt_error *err);
+wt_status text_build_sweep(const text_file *file, const wt_read_options *options, wt_log *log,
+                           wt_sweep *sweep, wt_error *err);
 
 #endif

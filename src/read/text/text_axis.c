@@ -7,28 +7,28 @@
 #include <math.h>
 
 /* Tolerance relative to a step; it changes no slope or spectrum noticeably. */
-static const double slight = 1e-3;
+static const double step_tolerance = 1e-3;
 /* Maximum number of grid positions for each point. */
-enum { PLACES_PER_POINT = 4 };
+enum { POSITIONS_PER_POINT = 4 };
 
 /* Maximum number of decimals of a position in its unit. With more decimals, rounding does not
  * matter. */
 enum { DECIMALS_MAX = 9 };
 /* Tolerance of a decimal after a conversion of units. */
-static const double left_of_decimal = 1e-4;
+static const double decimal_tolerance = 1e-4;
 /* Maximum rounding relative to a step. Above it, rounded positions give no evidence of equal
  * steps. */
-static const double coarsest = 0.65;
+static const double rounding_max = 0.65;
 
 /* Returns the value of the last written decimal; 0 if there are too many. */
-static double quantum_of(const double *places, size_t n, double factor)
+static double find_rounding_quantum(const double *positions, size_t n, double factor)
 {
     double scale = 1;
     for (int k = 0; k <= DECIMALS_MAX; k++, scale *= 10) {
         size_t i = 0;
         while (i < n) {
-            const double x = scale * places[i] / factor;
-            if (!(fabs(x - round(x)) <= left_of_decimal))
+            const double x = scale * positions[i] / factor;
+            if (!(fabs(x - round(x)) <= decimal_tolerance))
                 break;
             i++;
         }
@@ -39,11 +39,12 @@ static double quantum_of(const double *places, size_t n, double factor)
 }
 
 /* Returns the largest distance of the positions from those of the axis. */
-static double deviation_from(const text_axis *axis, const double *places, size_t n, size_t *worst)
+static double largest_deviation(const text_axis *axis, const double *positions, size_t n,
+                                size_t *worst)
 {
     double most = 0;
     for (size_t i = 0; i < n; i++) {
-        const double at = (places[i] - axis->first) / axis->step;
+        const double at = (positions[i] - axis->first) / axis->step;
         const double to = axis->n == n ? (double)i : round(at);
         const double deviation = fabs(at - to) * axis->step;
         if (deviation > most) {
@@ -55,41 +56,44 @@ static double deviation_from(const text_axis *axis, const double *places, size_t
 }
 
 /* Finds an axis with gaps, whose step is close to the smallest difference. */
-static bool axis_with_holes(const double *places, size_t n, text_axis *axis)
+static bool find_axis_with_gaps(const double *positions, size_t n, text_axis *axis)
 {
-    const double length = places[n - 1] - places[0];
+    const double length = positions[n - 1] - positions[0];
     double least = length;
     size_t worst = 0;
     for (size_t i = 1; i < n; i++)
-        least = fmin(least, places[i] - places[i - 1]);
+        least = fmin(least, positions[i] - positions[i - 1]);
     const double steps = round(length / least);
-    if (!(steps < (double)(PLACES_PER_POINT * n)))
+    if (!(steps < (double)(POSITIONS_PER_POINT * n)))
         return false;
-    *axis = (text_axis){places[0], length / steps, (size_t)steps + 1, 0};
-    return axis->n > n && deviation_from(axis, places, n, &worst) <= slight * axis->step;
+    *axis = (text_axis){positions[0], length / steps, (size_t)steps + 1, 0};
+    return axis->n > n &&
+           largest_deviation(axis, positions, n, &worst) <= step_tolerance * axis->step;
 }
 
-bool axis_find(const double *places, size_t n, double factor, bool holes, text_axis *axis,
+bool axis_find(const double *positions, size_t n, double factor, bool allows_gaps, text_axis *axis,
                size_t *worst)
 {
     *worst = 0;
     if (n < 2)
         return false;
-    const text_axis equal = {places[0], (places[n - 1] - places[0]) / (double)(n - 1), n, 0};
-    const double deviation = deviation_from(&equal, places, n, worst);
+    const text_axis equal = {positions[0], (positions[n - 1] - positions[0]) / (double)(n - 1), n,
+                             0};
+    const double deviation = largest_deviation(&equal, positions, n, worst);
     *axis = equal;
-    if (deviation <= slight * equal.step)
+    if (deviation <= step_tolerance * equal.step)
         return true;
-    if (holes && axis_with_holes(places, n, axis))
+    if (allows_gaps && find_axis_with_gaps(positions, n, axis))
         return true;
-    const double quantum = quantum_of(places, n, fabs(factor));
+    const double quantum = find_rounding_quantum(positions, n, fabs(factor));
     *axis = equal;
     axis->rounded = quantum;
     /* each end and the position itself are rounded by half of the quantum */
-    return quantum > 0 && quantum <= coarsest * equal.step && deviation <= (1 + slight) * quantum;
+    return quantum > 0 && quantum <= rounding_max * equal.step &&
+           deviation <= (1 + step_tolerance) * quantum;
 }
 
-size_t axis_index(const text_axis *axis, double place)
+size_t axis_index(const text_axis *axis, double position)
 {
-    return (size_t)fmax(0, round((place - axis->first) / axis->step));
+    return (size_t)fmax(0, round((position - axis->first) / axis->step));
 }

@@ -12,9 +12,9 @@ typedef struct text_axis {
 
 /* Finds the axis of increasing positions; `factor` is their unit. The last flag allows gaps.
  * Returns false if the steps are not equal; *worst is the position that deviates most. */
-bool axis_find(const double *places, size_t n, double factor, bool holes, text_axis *axis,
+bool axis_find(const double *positions, size_t n, double factor, bool allows_gaps, text_axis *axis,
                size_t *worst);
 /* Returns the index of a position, which must be one of those that define the axis. */
-size_t axis_index(const text_axis *axis, double place);
+size_t axis_index(const text_axis *axis, double position);
 
 #endif

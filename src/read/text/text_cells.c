@@ -35,7 +35,7 @@ static void trim_cell(text_span *cell)
         cell->length--;
 }
 
-static bool append_characters(text_cells *cells, const char *text, size_t length)
+static bool append_cell(text_cells *cells, const char *text, size_t length)
 {
     if (cells->n == cells->capacity) {
         size_t capacity = cells->capacity > 0 ? 2 * cells->capacity : 32;
@@ -60,7 +60,7 @@ static bool append_characters(text_cells *cells, const char *text, size_t length
 
 /* Returns the end of the cell at `from`. A separator inside quotes is ignored. A single quotation
  * mark (E" is the loss modulus) is an ordinary character. */
-static size_t cell_end(const char *line, size_t from, size_t length, char mark)
+static size_t find_cell_end(const char *line, size_t from, size_t length, char mark)
 {
     size_t i = from;
     while (i < length && line[i] == ' ')
@@ -79,11 +79,11 @@ static size_t cell_end(const char *line, size_t from, size_t length, char mark)
     return end != NULL ? (size_t)(end - line) : length;
 }
 
-static bool split_at(text_cells *cells, const char *line, size_t length, char mark)
+static bool split_separated(text_cells *cells, const char *line, size_t length, char mark)
 {
     for (size_t from = 0;;) {
-        size_t end = cell_end(line, from, length, mark);
-        if (!append_characters(cells, line + from, end - from))
+        size_t end = find_cell_end(line, from, length, mark);
+        if (!append_cell(cells, line + from, end - from))
             return false;
         if (end >= length)
             return true;
@@ -92,7 +92,7 @@ static bool split_at(text_cells *cells, const char *line, size_t length, char ma
 }
 
 /* Returns the end of a quoted cell at `from`, if a blank or the line end follows; 0 otherwise. */
-static size_t quoted_end(const char *line, size_t from, size_t length)
+static size_t find_quoted_end(const char *line, size_t from, size_t length)
 {
     const char mark = line[from];
     if (mark != '\'' && mark != '"')
@@ -108,16 +108,16 @@ static bool split_whitespace(text_cells *cells, const char *line, size_t length)
         while (i < length && is_blank(line[i]))
             i++;
         size_t from = i;
-        const size_t quoted = i < length ? quoted_end(line, i, length) : 0;
+        const size_t quoted = i < length ? find_quoted_end(line, i, length) : 0;
         if (quoted > 0) {
-            if (!append_characters(cells, line + from + 1, quoted - from - 2))
+            if (!append_cell(cells, line + from + 1, quoted - from - 2))
                 return false;
             i = quoted;
             continue;
         }
         while (i < length && !is_blank(line[i]))
             i++;
-        if (i > from && !append_characters(cells, line + from, i - from))
+        if (i > from && !append_cell(cells, line + from, i - from))
             return false;
     }
     return true;
@@ -136,7 +136,7 @@ static bool split_fixed(text_cells *cells, const char *line, size_t length,
             while (i < length && ((unsigned char)line[i] & 0xc0u) == 0x80u)
                 i++;
         }
-        if (!append_characters(cells, line + from, i - from))
+        if (!append_cell(cells, line + from, i - from))
             return false;
         column++;
     }
@@ -150,11 +150,11 @@ bool cells_split(text_cells *cells, text_span line, cell_separator separator,
     cells->n = 0;
     switch (separator) {
     case SEPARATOR_TAB:
-        return split_at(cells, line.text, length, '\t');
+        return split_separated(cells, line.text, length, '\t');
     case SEPARATOR_SEMICOLON:
-        return split_at(cells, line.text, length, ';');
+        return split_separated(cells, line.text, length, ';');
     case SEPARATOR_COMMA:
-        return split_at(cells, line.text, length, ',');
+        return split_separated(cells, line.text, length, ',');
     case SEPARATOR_FIXED:
         return split_fixed(cells, line.text, length, description);
     default:
@@ -162,7 +162,7 @@ bool cells_split(text_cells *cells, text_span line, cell_separator separator,
     }
 }
 
-bool cells_blank(const text_cells *cells)
+bool cells_are_blank(const text_cells *cells)
 {
     for (size_t i = 0; i < cells->n; i++)
         if (cells->cells[i].length > 0)
@@ -170,12 +170,12 @@ bool cells_blank(const text_cells *cells)
     return true;
 }
 
-bool cell_is(text_span cell, const char *text)
+bool cell_equals(text_span cell, const char *text)
 {
     return strlen(text) == cell.length && memcmp(text, cell.text, cell.length) == 0;
 }
 
-static bool is_word(text_span cell, const char *const words[], size_t n)
+static bool is_listed_word(text_span cell, const char *const words[], size_t n)
 {
     for (size_t i = 0; i < n; i++)
         if (strlen(words[i]) == cell.length && strncasecmp(words[i], cell.text, cell.length) == 0)
@@ -186,13 +186,13 @@ static bool is_word(text_span cell, const char *const words[], size_t n)
 static bool is_declared_missing(text_span cell, const text_description *d)
 {
     for (size_t i = 0; i < d->n_missing; i++)
-        if (cell_is(cell, d->missing[i]))
+        if (cell_equals(cell, d->missing[i]))
             return true;
     return false;
 }
 
-cell_kind cell_read(text_span cell, char decimal, const text_description *description,
-                    double *value)
+cell_kind cell_parse(text_span cell, char decimal, const text_description *description,
+                     double *value)
 {
     *value = (double)NAN;
     if (cell.length > 0 && wt_number_parse(cell.text, cell.length, decimal, value)) {
@@ -206,29 +206,29 @@ cell_kind cell_read(text_span cell, char decimal, const text_description *descri
     static const char *const none[] = {"-", "--", "---", "n/a", "na", "#n/a"};
     static const char *const not_finite[] = {"nan",  "inf",     "-inf",   "+inf",
                                              "-nan", "1.#qnan", "1.#inf", "-1.#ind"};
-    if (cell.length == 0 || is_word(cell, none, COUNT_OF(none)) ||
+    if (cell.length == 0 || is_listed_word(cell, none, COUNT_OF(none)) ||
         is_declared_missing(cell, description))
         return CELL_MISSING;
-    return is_word(cell, not_finite, COUNT_OF(not_finite)) ? CELL_NOT_FINITE : CELL_TEXT;
+    return is_listed_word(cell, not_finite, COUNT_OF(not_finite)) ? CELL_NOT_FINITE : CELL_TEXT;
 }
 
 void text_copy(char *to, size_t size, text_span text)
 {
-    const size_t n = utf8_cut(text.text, text.length, size - 1);
+    const size_t n = utf8_truncated_length(text.text, text.length, size - 1);
     memcpy(to, text.text, n);
     to[n] = '\0';
-    utf8_tidy(to);
+    utf8_sanitize(to);
 }
 
-void cells_count_marks(const text_cells *cells, size_t *commas, size_t *points)
+void cells_count_decimal_marks(const text_cells *cells, size_t *commas, size_t *points)
 {
     for (size_t i = 0; i < cells->n; i++) {
         const text_span cell = cells->cells[i];
         const char *comma = memchr(cell.text, ',', cell.length);
         const char *point = memchr(cell.text, '.', cell.length);
         if (comma != NULL && point == NULL)
-            *commas += number_prefix(cell.text, cell.length, ',') == cell.length;
+            *commas += number_prefix_length(cell.text, cell.length, ',') == cell.length;
         else if (point != NULL && comma == NULL)
-            *points += number_prefix(cell.text, cell.length, '.') == cell.length;
+            *points += number_prefix_length(cell.text, cell.length, '.') == cell.length;
     }
 }

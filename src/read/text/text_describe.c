@@ -16,58 +16,60 @@
 #define TABLES_SHOWN ((size_t)4)
 
 /* The file and how it is read. */
-typedef struct text_reading {
+typedef struct describe_context {
     const file_reader *self;
     wt_input *input;
     const wt_read_options *options;
     unsigned kinds;
     size_t piece;
     size_t n_curves; /* number of curves, if the text is read part by part */
-} text_reading;
+} describe_context;
 
 /* Selects the stream of curves. A text that is read part by part was read to its end before. */
-static const force_stream *stream_of(const text_reading *r)
+static const force_stream *select_stream(const describe_context *r)
 {
-    return r->piece == SIZE_MAX ? r->self->force : &text_force_first;
+    return r->piece == SIZE_MAX ? r->self->force : &text_force_streamed;
 }
 
-static wt_status begin_parts(const text_reading *r, wt_log *log, text_parts **parts, wt_error *err)
+static wt_status begin_parts(const describe_context *r, wt_log *log, text_parts **parts,
+                             wt_error *err)
 {
     return text_parts_begin(r->self, r->input, r->piece, r->kinds, r->options, log, parts, err);
 }
 
-static void add_header(const text_file *file, table_writer *facts)
+static void describe_header(const text_file *file, table_writer *metadata)
 {
     for (size_t i = 0; i < file->description->n_fields; i++)
         if (file->values[i].line > 0)
-            facts_add(facts, file->description->fields[i].name, file->values[i].unit,
-                      line_place(file->values[i].line).words, "%s", file->values[i].text);
+            metadata_add(metadata, file->description->fields[i].name, file->values[i].unit,
+                         format_line_place(file->values[i].line).words, "%s", file->values[i].text);
 }
 
-static void add_column(const text_table *t, const text_column *c, table_writer *facts)
+static void describe_column(const text_table *t, const text_column *c, table_writer *metadata)
 {
     char item[96];
-    const text_place place = line_place(t->names_line);
+    const line_place_text place = format_line_place(t->names_line);
     const char *source = place.words;
     const wt_quantity q = c->rule->quantity;
     const char *id = wt_quantity_id(q);
     snprintf(item, sizeof item, "column \"%s\"", c->name);
     switch (c->problem) {
     case COLUMN_GOOD:
-        facts_add(facts, item, c->unit, source, "%s, %s -> %s%s%s", id,
-                  c->unit[0] != '\0' ? c->unit : "no unit", wt_quantity_unit(q),
-                  c->rule->has_segment ? ", " : "",
-                  c->rule->has_segment ? wt_segment_kind_name(c->rule->segment) : "");
+        metadata_add(metadata, item, c->unit, source, "%s, %s -> %s%s%s", id,
+                     c->unit[0] != '\0' ? c->unit : "no unit", wt_quantity_unit(q),
+                     c->rule->has_segment ? ", " : "",
+                     c->rule->has_segment ? wt_segment_kind_name(c->rule->segment) : "");
         break;
     case COLUMN_NO_UNIT:
-        facts_add(facts, item, c->unit, source,
-                  "%s, but its unit is not said: give --units \"%s=...\"", id, c->name);
+        metadata_add(metadata, item, c->unit, source,
+                     "%s, but its unit is not said: give --units \"%s=...\"", id, c->name);
         break;
     case COLUMN_BAD_UNIT:
-        facts_add(facts, item, c->unit, source, "unit \"%s\" does not fit %s", c->unit, id);
+        metadata_add(metadata, item, c->unit, source, "unit \"%s\" does not fit %s", c->unit, id);
         break;
     default:
-        facts_add(facts, item, c->unit, source, "not clear without a column \"%s\"", c->rule->with);
+        metadata_add(metadata, item, c->unit, source, "not clear without a column \"%s\"",
+                     c->rule->required_name);
         break;
     }
 }
@@ -78,15 +80,16 @@ typedef struct first_table {
     wt_quantity_set quantities;
 } first_table;
 
-static void add_table(const text_file *file, size_t of_file, size_t number, first_table *first,
-                      table_writer *facts)
+static void describe_table(const text_file *file, size_t of_file, size_t number, first_table *first,
+                           table_writer *metadata)
 {
     const text_table *const t = &file->tables[of_file];
     char item[32];
     snprintf(item, sizeof item, "table %zu", number + 1);
-    facts_add(facts, item, "", line_place(t->names_line).words,
-              "%s%s%zu rows, separator %s, decimal %s", t->title, t->title[0] != '\0' ? ": " : "",
-              t->n_rows, separator_name(t->separator), t->decimal == ',' ? "comma" : "point");
+    metadata_add(metadata, item, "", format_line_place(t->names_line).words,
+                 "%s%s%zu rows, separator %s, decimal %s", t->title,
+                 t->title[0] != '\0' ? ": " : "", t->n_rows, separator_name(t->separator),
+                 t->decimal == ',' ? "comma" : "point");
     if (number == 0)
         *first = (first_table){t->n_columns, t->quantities};
     else if (t->n_columns == first->n_columns && t->quantities == first->quantities &&
@@ -94,139 +97,143 @@ static void add_table(const text_file *file, size_t of_file, size_t number, firs
         return;
     /* the columns of a matrix are equal */
     for (size_t i = 0; i < t->n_columns && (i == 0 || !file->description->matrix); i++)
-        add_column(t, &t->columns[i], facts);
+        describe_column(t, &t->columns[i], metadata);
     for (size_t i = 0; i < t->n_problems; i++)
-        add_column(t, &t->problems[i], facts);
+        describe_column(t, &t->problems[i], metadata);
 }
 
-static void add_problem(wt_error *problem, table_writer *facts)
+static void describe_problem(wt_error *problem, table_writer *metadata)
 {
     char text[1024], place[sizeof problem->place];
     memcpy(place, problem->place, sizeof place);
     problem->file[0] = problem->place[0] = '\0'; /* shown in other columns */
     wt_error_format(problem, text, sizeof text);
-    facts_add(facts, "not readable as it is", "", place, "%s", text);
+    metadata_add(metadata, "not readable as it is", "", place, "%s", text);
 }
 
-static void add_sweep(const text_file *file, const wt_read_options *options, wt_log *log,
-                      table_writer *facts)
+static void describe_sweep(const text_file *file, const wt_read_options *options, wt_log *log,
+                           table_writer *metadata)
 {
     wt_sweep sweep = {.n_isotherms = 0};
     wt_error problem = WT_ERROR_INIT;
-    if (text_sweep(file, options, log, &sweep, &problem) != WT_OK) {
-        add_problem(&problem, facts);
+    if (text_build_sweep(file, options, log, &sweep, &problem) != WT_OK) {
+        describe_problem(&problem, metadata);
         return;
     }
-    facts_add(facts, "deformation", "", "", "%s",
-              sweep.deformation == WT_TENSION ? "tension (E)" : "shear (G)");
+    metadata_add(metadata, "deformation", "", "", "%s",
+                 sweep.deformation == WT_TENSION ? "tension (E)" : "shear (G)");
     const bool step = sweep.loading != WT_OSCILLATION;
     if (step)
-        facts_add(facts, "loading", "", "", "%s",
-                  sweep.loading == WT_CREEP ? "creep" : "stress relaxation");
-    facts_add(facts, "isotherms", "", "", "%zu", sweep.n_isotherms);
+        metadata_add(metadata, "loading", "", "", "%s",
+                     sweep.loading == WT_CREEP ? "creep" : "stress relaxation");
+    metadata_add(metadata, "isotherms", "", "", "%zu", sweep.n_isotherms);
     for (size_t i = 0; i < sweep.n_isotherms; i++) {
         const wt_isotherm *s = &sweep.isotherms[i];
         const double first = s->angular_frequency[0], last = s->angular_frequency[s->n - 1];
-        facts_add(facts, "isotherm", "", s->source, "%.2f degC, %zu points, %.4g to %.4g %s",
-                  s->temperature - WT_ZERO_CELSIUS, s->n, step ? 1 / last : first,
-                  step ? 1 / first : last, step ? "s" : "rad/s");
+        metadata_add(metadata, "isotherm", "", s->source, "%.2f degC, %zu points, %.4g to %.4g %s",
+                     s->temperature - WT_ZERO_CELSIUS, s->n, step ? 1 / last : first,
+                     step ? 1 / first : last, step ? "s" : "rad/s");
     }
     if (sweep.n_ramps > 0)
-        facts_add(facts, "temperature sweeps", "", "", "%zu", sweep.n_ramps);
+        metadata_add(metadata, "temperature sweeps", "", "", "%zu", sweep.n_ramps);
     for (size_t i = 0; i < sweep.n_ramps; i++) {
         const wt_ramp *r = &sweep.ramps[i];
-        facts_add(facts, "temperature sweep", "", r->source,
-                  "%.4g rad/s, %zu points, %.2f to %.2f degC", r->angular_frequency, r->n,
-                  r->temperature[0] - WT_ZERO_CELSIUS, r->temperature[r->n - 1] - WT_ZERO_CELSIUS);
+        metadata_add(metadata, "temperature sweep", "", r->source,
+                     "%.4g rad/s, %zu points, %.2f to %.2f degC", r->angular_frequency, r->n,
+                     r->temperature[0] - WT_ZERO_CELSIUS,
+                     r->temperature[r->n - 1] - WT_ZERO_CELSIUS);
     }
     if (sweep.n_strain_sweeps > 0)
-        facts_add(facts, "strain sweeps", "", "", "%zu", sweep.n_strain_sweeps);
+        metadata_add(metadata, "strain sweeps", "", "", "%zu", sweep.n_strain_sweeps);
     for (size_t i = 0; i < sweep.n_strain_sweeps; i++) {
         const wt_strain_sweep *r = &sweep.strain_sweeps[i];
         char at[32] = "temperature not known";
         if (!isnan(r->temperature))
             clocale_print(at, sizeof at, "%.2f degC", r->temperature - WT_ZERO_CELSIUS);
-        facts_add(facts, "strain sweep", "", r->source,
-                  "%s, %.4g rad/s, %zu points, amplitude %s %%", at, r->angular_frequency, r->n,
-                  format_range(100 * r->strain[0], 100 * r->strain[r->n - 1], 3).text);
+        metadata_add(metadata, "strain sweep", "", r->source,
+                     "%s, %.4g rad/s, %zu points, amplitude %s %%", at, r->angular_frequency, r->n,
+                     format_range(100 * r->strain[0], 100 * r->strain[r->n - 1], 3).text);
     }
     wt_sweep_clear(&sweep);
 }
 
-static void add_curve(const wt_force_curve *curve, table_writer *facts)
+static void describe_curve(const wt_force_curve *curve, table_writer *metadata)
 {
     char item[64];
     for (size_t i = 0; i < curve->n_segments; i++) {
         const wt_segment *s = &curve->segments[i];
         snprintf(item, sizeof item, "curve %zu, segment %zu", curve->index, s->index);
-        facts_add(facts, item, "", "", "%s, %zu points", wt_segment_kind_name(s->kind),
-                  s->n_points);
+        metadata_add(metadata, item, "", "", "%s, %zu points", wt_segment_kind_name(s->kind),
+                     s->n_points);
     }
 }
 
 /* Describes the curves without forces, which may need an unknown calibration. */
-static void add_curves(const text_reading *r, table_writer *facts)
+static void describe_curves(const describe_context *r, table_writer *metadata)
 {
     wt_force_source *source = NULL;
     wt_force_curve curve = {.n_segments = 0};
     wt_error problem = WT_ERROR_INIT;
     wt_read_options bare = *r->options;
     bare.want &= ~WT_Q_BIT(WT_Q_FORCE);
-    if (force_open(stream_of(r), r->self, r->input, &bare, NULL, &source, &problem) != WT_OK) {
-        add_problem(&problem, facts);
+    if (force_open(select_stream(r), r->self, r->input, &bare, NULL, &source, &problem) != WT_OK) {
+        describe_problem(&problem, metadata);
         return;
     }
-    facts_add(facts, "curves", "", "", "%zu",
-              r->piece == SIZE_MAX ? wt_force_count(source) : r->n_curves);
+    metadata_add(metadata, "curves", "", "", "%zu",
+                 r->piece == SIZE_MAX ? wt_force_count(source) : r->n_curves);
     for (size_t i = 0; i < TABLES_SHOWN; i++) {
         const wt_status got = wt_force_next(source, &curve, &problem);
         if (got != WT_OK && got != WT_END)
-            add_problem(&problem, facts);
+            describe_problem(&problem, metadata);
         if (got != WT_OK)
             break;
-        add_curve(&curve, facts);
+        describe_curve(&curve, metadata);
         if (i > 0)
             continue;
-        facts_number(facts, "spring constant", curve.cantilever.spring_constant, "N/m", "");
-        facts_number(facts, "sensitivity", curve.cantilever.sensitivity, "m/V", "");
+        metadata_add_number(metadata, "spring constant", curve.cantilever.spring_constant, "N/m",
+                            "");
+        metadata_add_number(metadata, "sensitivity", curve.cantilever.sensitivity, "m/V", "");
     }
     wt_force_curve_clear(&curve);
     wt_force_close(source);
 }
 
-static void add_force(const text_reading *r, table_writer *facts)
+static void describe_force(const describe_context *r, table_writer *metadata)
 {
     wt_force_source *source = NULL;
     wt_force_curve curve = {.n_segments = 0};
     wt_error problem = WT_ERROR_INIT;
     wt_read_options force_only = *r->options;
     force_only.want = WT_Q_BIT(WT_Q_FORCE);
-    add_curves(r, facts);
-    if (force_open(stream_of(r), r->self, r->input, &force_only, NULL, &source, &problem) != WT_OK)
+    describe_curves(r, metadata);
+    if (force_open(select_stream(r), r->self, r->input, &force_only, NULL, &source, &problem) !=
+        WT_OK)
         return;
     if (wt_force_next(source, &curve, &problem) == WT_E_MISSING)
-        add_problem(&problem, facts);
+        describe_problem(&problem, metadata);
     wt_force_curve_clear(&curve);
     wt_force_close(source);
 }
 
-static void add_spectrum(const file_reader *self, wt_input *input, const wt_read_options *options,
-                         table_writer *facts)
+static void describe_spectrum(const file_reader *self, wt_input *input,
+                              const wt_read_options *options, table_writer *metadata)
 {
     wt_power_spectrum spectrum = {.n = 0};
     wt_error problem = WT_ERROR_INIT;
     if (text_read_spectrum(self, input, options, NULL, &spectrum, &problem) != WT_OK) {
-        add_problem(&problem, facts);
+        describe_problem(&problem, metadata);
         return;
     }
-    facts_add(facts, "power spectrum", "", "", "%s, %zu points, %.4g to %.4g rad/m",
-              spectrum.kind == WT_SPECTRUM_2D ? "two-dimensional" : "one-dimensional", spectrum.n,
-              spectrum.wavenumber[0], spectrum.wavenumber[spectrum.n - 1]);
+    metadata_add(metadata, "power spectrum", "", "", "%s, %zu points, %.4g to %.4g rad/m",
+                 spectrum.kind == WT_SPECTRUM_2D ? "two-dimensional" : "one-dimensional",
+                 spectrum.n, spectrum.wavenumber[0], spectrum.wavenumber[spectrum.n - 1]);
     wt_power_spectrum_clear(&spectrum);
 }
 
 /* Describes the first tables. The text is read again if they are no longer in memory. */
-static wt_status add_tables(const text_reading *r, const text_parts *parts, table_writer *facts)
+static wt_status describe_tables(const describe_context *r, const text_parts *parts,
+                                 table_writer *metadata)
 {
     const text_file *file = text_parts_file(parts);
     text_parts *again = NULL;
@@ -234,86 +241,87 @@ static wt_status add_tables(const text_reading *r, const text_parts *parts, tabl
     size_t n = 0;
     wt_status status = WT_OK;
     if (file->n_tables < file->n_seen) {
-        status = begin_parts(r, NULL, &again, facts->err);
+        status = begin_parts(r, NULL, &again, metadata->err);
         if (status == WT_OK) {
             file = text_parts_file(again);
-            status = text_parts_next(again, facts->err);
+            status = text_parts_next(again, metadata->err);
         }
     }
     while (status == WT_OK && n < TABLES_SHOWN) {
         for (size_t i = 0; i < file->n_tables && n < TABLES_SHOWN; i++, n++)
-            add_table(file, i, n, &first, facts);
-        status = again != NULL && n < TABLES_SHOWN ? text_parts_next(again, facts->err) : WT_END;
+            describe_table(file, i, n, &first, metadata);
+        status = again != NULL && n < TABLES_SHOWN ? text_parts_next(again, metadata->err) : WT_END;
     }
     text_parts_free(again);
     return status == WT_END ? WT_OK : status;
 }
 
-static wt_status add_layout(const text_reading *r, const text_parts *parts, table_writer *facts)
+static wt_status describe_layout(const describe_context *r, const text_parts *parts,
+                                 table_writer *metadata)
 {
     const text_file *file = text_parts_file(parts);
-    facts_add(facts, "encoding", "", "", "%s", file->feed->words);
-    add_header(file, facts);
-    facts_add(facts, "tables", "", "", "%zu", file->n_seen);
-    const wt_status status = add_tables(r, parts, facts);
+    metadata_add(metadata, "encoding", "", "", "%s", file->feed->words);
+    describe_header(file, metadata);
+    metadata_add(metadata, "tables", "", "", "%zu", file->n_seen);
+    const wt_status status = describe_tables(r, parts, metadata);
     for (size_t i = 0; i < file->steps.n; i++)
-        facts_add(facts, "step without a table that is understood", "", "", "%s",
-                  file->steps.items[i]);
+        metadata_add(metadata, "step without a table that is understood", "", "", "%s",
+                     file->steps.items[i]);
     if (file->unknown.n > 0) {
         char names[4096];
-        text_unknown(file, names, sizeof names);
-        facts_add(facts, "columns not used", "", "", "%s", names);
+        text_format_unknown(file, names, sizeof names);
+        metadata_add(metadata, "columns not used", "", "", "%s", names);
     }
     return status;
 }
 
-static void add_noise(const file_reader *self, wt_input *input, const wt_read_options *options,
-                      table_writer *facts)
+static void describe_noise(const file_reader *self, wt_input *input, const wt_read_options *options,
+                           table_writer *metadata)
 {
     wt_noise_spectrum noise = {.n = 0};
     wt_error problem = WT_ERROR_INIT;
     if (text_read_noise(self, input, options, NULL, &noise, &problem) == WT_OK)
-        facts_add(facts, "thermal noise", "", "", "%zu points, %.4g to %.4g Hz, of %s", noise.n,
-                  noise.frequency[0], noise.frequency[noise.n - 1],
-                  noise.volts ? "the detector" : "the deflection");
+        metadata_add(metadata, "thermal noise", "", "", "%zu points, %.4g to %.4g Hz, of %s",
+                     noise.n, noise.frequency[0], noise.frequency[noise.n - 1],
+                     noise.volts ? "the detector" : "the deflection");
     else
-        add_problem(&problem, facts);
+        describe_problem(&problem, metadata);
     wt_noise_spectrum_clear(&noise);
 }
 
-static void add_record(const file_reader *self, wt_input *input, const wt_read_options *options,
-                       table_writer *facts)
+static void describe_record(const file_reader *self, wt_input *input,
+                            const wt_read_options *options, table_writer *metadata)
 {
     wt_record record = {.n = 0};
     wt_error problem = WT_ERROR_INIT;
     if (text_read_record(self, input, options, NULL, &record, &problem) == WT_OK)
-        facts_add(facts, "record of friction", "", "", "%zu samples in %zu step%s", record.n,
-                  record.step[record.n - 1] + 1, record.step[record.n - 1] == 0 ? "" : "s");
+        metadata_add(metadata, "record of friction", "", "", "%zu samples in %zu step%s", record.n,
+                     record.step[record.n - 1] + 1, record.step[record.n - 1] == 0 ? "" : "s");
     else
-        add_problem(&problem, facts);
+        describe_problem(&problem, metadata);
     wt_record_clear(&record);
 }
 
 /* Describes the sweep of all tables, which are read again if they are no longer in memory. */
-static wt_status add_sweep_of(const text_reading *r, const text_file *file, wt_log *log,
-                              table_writer *facts)
+static wt_status describe_whole_sweep(const describe_context *r, const text_file *file, wt_log *log,
+                                      table_writer *metadata)
 {
     text_file whole = {0};
     if (file->n_tables == file->n_seen) {
-        add_sweep(file, r->options, log, facts);
+        describe_sweep(file, r->options, log, metadata);
         return WT_OK;
     }
     const wt_status status =
-        text_scan(r->self, r->input, r->kinds, r->options, NULL, &whole, facts->err);
+        text_scan(r->self, r->input, r->kinds, r->options, NULL, &whole, metadata->err);
     if (status == WT_OK)
-        add_sweep(&whole, r->options, log, facts);
+        describe_sweep(&whole, r->options, log, metadata);
     text_file_free(&whole);
     return status;
 }
 
 /* Describes layout and sweep. *has receives the kinds of data that remain to be described. */
-static wt_status describe_parts(text_reading *r, text_parts *parts, wt_log *log, unsigned *has,
-                                table_writer *facts)
+static wt_status describe_parts(describe_context *r, text_parts *parts, wt_log *log, unsigned *has,
+                                table_writer *metadata)
 {
     static const unsigned others[] = {WT_KIND_FORCE, WT_KIND_IMAGE, WT_KIND_SPECTRUM, WT_KIND_NOISE,
                                       WT_KIND_RECORD};
@@ -323,59 +331,60 @@ static wt_status describe_parts(text_reading *r, text_parts *parts, wt_log *log,
     while ((status = text_parts_next(parts, &problem)) == WT_OK)
         r->n_curves += text_count_curves(file, WT_KIND_FORCE);
     if (status != WT_END) {
-        add_problem(&problem, facts);
+        describe_problem(&problem, metadata);
         return WT_OK;
     }
-    status = add_layout(r, parts, facts);
+    status = describe_layout(r, parts, metadata);
     if (status == WT_OK && file->n_seen == 0) {
         (void)text_fail_empty(file, "table that is understood", &problem);
-        add_problem(&problem, facts);
+        describe_problem(&problem, metadata);
     }
-    if (status == WT_OK && text_has(file, WT_KIND_SWEEP) && file->n_seen > 0)
-        status = add_sweep_of(r, file, log, facts);
+    if (status == WT_OK && text_has_kind(file, WT_KIND_SWEEP) && file->n_seen > 0)
+        status = describe_whole_sweep(r, file, log, metadata);
     for (size_t i = 0; i < sizeof others / sizeof *others; i++)
-        *has |= text_has(file, others[i]) ? others[i] : 0;
+        *has |= text_has_kind(file, others[i]) ? others[i] : 0;
     return status;
 }
 
 wt_status text_describe(const file_reader *self, wt_input *input, const wt_read_options *options,
-                        wt_log *log, table_writer *facts)
+                        wt_log *log, table_writer *metadata)
 {
     text_description *const description = self->description;
-    text_reading r = {self, input, options, description->kinds, SIZE_MAX, 0};
+    describe_context r = {self, input, options, description->kinds, SIZE_MAX, 0};
     text_parts *parts = NULL;
     unsigned has = 0;
-    facts_add(facts, "description version", "", "", "%s", description->version);
-    wt_status status = text_piece(description, input, &r.piece, facts->err);
+    metadata_add(metadata, "description version", "", "", "%s", description->version);
+    wt_status status = text_choose_piece(description, input, &r.piece, metadata->err);
     if (status == WT_OK)
-        status = begin_parts(&r, log, &parts, facts->err);
+        status = begin_parts(&r, log, &parts, metadata->err);
     if (status == WT_OK)
-        status = describe_parts(&r, parts, log, &has, facts);
+        status = describe_parts(&r, parts, log, &has, metadata);
     text_parts_free(parts);
     if (status != WT_OK)
         return status;
     if ((has & WT_KIND_FORCE) != 0)
-        add_force(&r, facts);
+        describe_force(&r, metadata);
     if ((has & WT_KIND_IMAGE) != 0)
-        status = images_facts(self, input, options, NULL, facts, WT_OK, NULL);
+        status = images_add_metadata(self, input, options, NULL, metadata, WT_OK, NULL);
     if ((has & WT_KIND_SPECTRUM) != 0)
-        add_spectrum(self, input, options, facts);
+        describe_spectrum(self, input, options, metadata);
     if ((has & WT_KIND_NOISE) != 0)
-        add_noise(self, input, options, facts);
+        describe_noise(self, input, options, metadata);
     if ((has & WT_KIND_RECORD) != 0)
-        add_record(self, input, options, facts);
+        describe_record(self, input, options, metadata);
     return status;
 }
 
-wt_status text_describe_made(const file_reader *self, wt_input *input,
-                             const wt_read_options *options, wt_log *log, table_writer *facts)
+wt_status text_describe_converted(const file_reader *self, wt_input *input,
+                                  const wt_read_options *options, wt_log *log,
+                                  table_writer *metadata)
 {
     wt_input *text = NULL;
-    file_reader of_text = *self;
-    of_text.as_text = NULL;
-    wt_status status = self->as_text(self, input, NULL, &text, facts->err);
+    file_reader text_reader_only = *self;
+    text_reader_only.as_text = NULL;
+    wt_status status = self->as_text(self, input, NULL, &text, metadata->err);
     if (status == WT_OK)
-        status = text_describe(&of_text, text, options, log, facts);
+        status = text_describe(&text_reader_only, text, options, log, metadata);
     wt_input_close(text);
     return status;
 }

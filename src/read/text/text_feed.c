@@ -12,7 +12,7 @@ typedef struct feed_piece {
 
 /* Returns the end of the last complete line. A CR at the end of the bytes is not complete, since an
  * LF may follow. */
-static size_t whole_lines(const unsigned char *bytes, size_t n)
+static size_t complete_length(const unsigned char *bytes, size_t n)
 {
     for (size_t end = n; end > 0; end--)
         if (bytes[end - 1] == '\n' || (bytes[end - 1] == '\r' && end < n))
@@ -27,7 +27,7 @@ static wt_status add_bytes(text_feed *feed, const unsigned char *bytes, size_t n
         return wt_fail(err, WT_E_MEMORY, "no memory for the text of the file");
     const wt_status status = feed->at == 0
                                  ? lines_decode(bytes, n, feed->encoding, &piece->lines, err)
-                                 : lines_decode_more(bytes, n, &piece->lines, err);
+                                 : lines_decode_next(bytes, n, &piece->lines, err);
     if (status != WT_OK) {
         free(piece);
         return status;
@@ -47,7 +47,7 @@ static wt_status add_bytes(text_feed *feed, const unsigned char *bytes, size_t n
     return WT_OK;
 }
 
-static wt_status read_all(text_feed *feed, wt_error *err)
+static wt_status read_whole_input(text_feed *feed, wt_error *err)
 {
     const unsigned char *bytes = NULL;
     const wt_status status = wt_input_bytes(feed->input, &bytes, &feed->size, err);
@@ -55,22 +55,22 @@ static wt_status read_all(text_feed *feed, wt_error *err)
 }
 
 /* Reads the next piece, which grows for a line that is longer than a piece. */
-static wt_status read_piece(text_feed *feed, wt_error *err)
+static wt_status read_next_piece(text_feed *feed, wt_error *err)
 {
     const size_t left = feed->size - feed->at;
     for (size_t n = feed->piece;; n = n > SIZE_MAX / 2 ? SIZE_MAX : 2 * n) {
         n = n < left ? n : left;
-        if (n > feed->room) {
+        if (n > feed->buffer_size) {
             unsigned char *const buffer = realloc(feed->buffer, n);
             if (buffer == NULL)
                 return wt_fail(err, WT_E_MEMORY, "no memory for the text of the file");
             feed->buffer = buffer;
-            feed->room = n;
+            feed->buffer_size = n;
         }
-        const wt_status status = wt_input_at(feed->input, feed->at, feed->buffer, n, err);
+        const wt_status status = wt_input_copy(feed->input, feed->at, feed->buffer, n, err);
         if (status != WT_OK)
             return status;
-        const size_t whole = n == left ? n : whole_lines(feed->buffer, n);
+        const size_t whole = n == left ? n : complete_length(feed->buffer, n);
         if (whole > 0)
             return add_bytes(feed, feed->buffer, whole, err);
     }
@@ -80,12 +80,12 @@ static wt_status read_more(text_feed *feed, wt_error *err)
 {
     wt_status status = WT_OK;
     if (!feed->began && feed->piece == SIZE_MAX)
-        status = read_all(feed, err);
+        status = read_whole_input(feed, err);
     else if (!feed->began)
         status = wt_input_size(feed->input, &feed->size, err);
     feed->began = status == WT_OK;
     if (status == WT_OK && feed->at < feed->size)
-        status = read_piece(feed, err);
+        status = read_next_piece(feed, err);
     return status;
 }
 
@@ -110,7 +110,7 @@ line_end feed_line_end(const text_feed *feed, size_t i)
     return i + 1 == feed->n && feed->at == feed->size ? feed->end : END_WHOLE;
 }
 
-static void drop_first(text_feed *feed)
+static void discard_first(text_feed *feed)
 {
     feed_piece *const piece = feed->first;
     feed->first = piece->next;
@@ -120,16 +120,16 @@ static void drop_first(text_feed *feed)
     free(piece);
 }
 
-void feed_drop(text_feed *feed, size_t i)
+void feed_discard(text_feed *feed, size_t i)
 {
     while (feed->first != NULL && i - feed->first->first >= feed->first->lines.n)
-        drop_first(feed);
+        discard_first(feed);
 }
 
 void feed_free(text_feed *feed)
 {
     while (feed != NULL && feed->first != NULL)
-        drop_first(feed);
+        discard_first(feed);
     if (feed != NULL)
         free(feed->buffer);
     free(feed);

@@ -14,9 +14,9 @@
 static const double least_return = 0.1;
 
 /* The rows [first, end) of a table. */
-typedef struct span {
+typedef struct row_span {
     size_t table, first, end;
-} span;
+} row_span;
 
 typedef struct text_source {
     wt_force_source base;
@@ -24,8 +24,8 @@ typedef struct text_source {
     text_parts *parts;
     const text_file *file; /* current part */
     wt_error broken;       /* failure that ends the curves early */
-    span next;             /* beginning of the next curve */
-    span rows;             /* rows of the current segment */
+    row_span next;         /* beginning of the next curve */
+    row_span rows;         /* rows of the current segment */
     size_t index;
 } text_source;
 
@@ -47,82 +47,84 @@ static wt_status decode(wt_force_source *base, const force_signal *signal, force
 
 /* Adds the requested columns of a segment kind, and the force, which is computed from the columns
  * of the table. */
-static void find_signals(const text_source *s, const text_table *t, wt_segment_kind kind,
-                         force_metadata *facts)
+static void add_signals(const text_source *s, const text_table *t, wt_segment_kind kind,
+                        force_metadata *metadata)
 {
     const wt_quantity_set bending =
         WT_Q_BIT(WT_Q_FORCE) | WT_Q_BIT(WT_Q_DEFLECTION) | WT_Q_BIT(WT_Q_DEFLECTION_VOLTAGE);
     const wt_quantity_set want = s->base.options.want;
     const wt_quantity_set use = (want & WT_Q_BIT(WT_Q_FORCE)) != 0 ? want | bending : want;
-    force_offer(facts, WT_Q_FORCE);
+    force_add_offer(metadata, WT_Q_FORCE);
     for (size_t i = 0; i < t->n_columns; i++) {
         const text_column *c = &t->columns[i];
         const wt_quantity q = c->rule->quantity;
         if ((c->rule->has_segment && c->rule->segment != kind) || (use & WT_Q_BIT(q)) == 0)
             continue;
         force_add_signal(
-            facts,
+            metadata,
             (force_signal){
                 .quantity = q, .name = c->name, .unit = c->unit, .to_si = {1, 0}, .channel = c});
-        force_offer(facts, q);
+        force_add_offer(metadata, q);
     }
 }
 
 /* Drops rows at the end in which every channel is empty; they belong to the longer segment of a
  * column pair. */
-static void drop_empty_rows(const text_table *t, const force_metadata *facts, span *rows)
+static void drop_empty_rows(const text_table *t, const force_metadata *metadata, row_span *rows)
 {
     for (; rows->end > rows->first; rows->end--)
-        for (size_t i = 0; i < facts->n_signals; i++)
-            if (!isnan(text_table_value(t, rows->end - 1, facts->signals[i].channel)))
+        for (size_t i = 0; i < metadata->n_signals; i++)
+            if (!isnan(text_table_value(t, rows->end - 1, metadata->signals[i].channel)))
                 return;
 }
 
 /* Returns the duration of the header, else that of the time column, which ends one interval earlier
  * [s]. */
-static double duration_of(const text_table *t, wt_segment_kind kind, span rows)
+static double segment_duration(const text_table *t, wt_segment_kind kind, row_span rows)
 {
     const double n = (double)(rows.end - rows.first);
     const text_column *time = text_table_column(t, WT_Q_TIME, (int)kind);
-    const double said = header_number(t, HEADER_DURATION);
-    if (!isnan(said) || time == NULL || n < 2)
-        return said;
+    const double stated = header_number(t, HEADER_DURATION);
+    if (!isnan(stated) || time == NULL || n < 2)
+        return stated;
     return (text_table_value(t, rows.end - 1, time) - text_table_value(t, rows.first, time)) * n /
            (n - 1);
 }
 
-static wt_status add_segment(text_source *s, wt_force_curve *curve, wt_segment_kind kind, span rows,
-                             wt_error *err)
+static wt_status add_segment(text_source *s, wt_force_curve *curve, wt_segment_kind kind,
+                             row_span rows, wt_error *err)
 {
     const text_table *t = &s->file->tables[rows.table];
     char place[40];
     snprintf(place, sizeof place, "table at line %zu", t->names_line);
-    force_metadata facts = {
+    force_metadata metadata = {
         .kind = kind,
         .index = curve->n_segments,
         .place = place,
         .velocity = header_number(t, HEADER_VELOCITY),
         .setpoint = header_number(t, HEADER_SETPOINT),
         .setpoint_quantity = WT_Q_FORCE,
-        .cantilever = {.spring_constant = force_positive(header_number(t, HEADER_SPRING_CONSTANT)),
-                       .sensitivity = force_positive(header_number(t, HEADER_SENSITIVITY))}};
-    if (!force_wants_segment(&s->base, kind))
+        .cantilever = {.spring_constant =
+                           force_positive_or_nan(header_number(t, HEADER_SPRING_CONSTANT)),
+                       .sensitivity = force_positive_or_nan(header_number(t, HEADER_SENSITIVITY))}};
+    if (!force_is_segment_requested(&s->base, kind))
         return WT_OK;
-    find_signals(s, t, kind, &facts);
-    drop_empty_rows(t, &facts, &rows);
-    facts.n_points = rows.end - rows.first;
-    facts.duration = duration_of(t, kind, rows);
+    add_signals(s, t, kind, &metadata);
+    drop_empty_rows(t, &metadata, &rows);
+    metadata.n_points = rows.end - rows.first;
+    metadata.duration = segment_duration(t, kind, rows);
     s->rows = rows;
     text_check_steps(s->file, t, (int)kind, rows.first, rows.end, s->base.log);
-    return force_add_segment(&s->base, &facts, curve, err);
+    return force_add_segment(&s->base, &metadata, curve, err);
 }
 
 /* Splits approach and retract at the row with the height farthest from its start. */
-static wt_status add_turning(text_source *s, wt_force_curve *curve, span rows, wt_error *err)
+static wt_status add_turning_segments(text_source *s, wt_force_curve *curve, row_span rows,
+                                      wt_error *err)
 {
     const text_table *t = &s->file->tables[rows.table];
     const text_column *height = text_table_column(t, WT_Q_MEASURED_HEIGHT, -1);
-    span approach = rows, retract = rows;
+    row_span approach = rows, retract = rows;
     double farthest = 0;
     if (height == NULL)
         height = text_table_column(t, WT_Q_HEIGHT, -1);
@@ -153,7 +155,8 @@ static wt_status add_turning(text_source *s, wt_force_curve *curve, span rows, w
 }
 
 /* Adds the segments of rows of one table and kind. */
-static wt_status add_rows(text_source *s, wt_force_curve *curve, span rows, wt_error *err)
+static wt_status add_row_segments(text_source *s, wt_force_curve *curve, row_span rows,
+                                  wt_error *err)
 {
     const text_table *t = &s->file->tables[rows.table];
     wt_status status = WT_OK;
@@ -171,18 +174,18 @@ static wt_status add_rows(text_source *s, wt_force_curve *curve, span rows, wt_e
     if (t->kinds[rows.first] != ROW_KIND_NONE)
         return add_segment(s, curve, (wt_segment_kind)t->kinds[rows.first], rows, err);
     if (s->file->description->turning_point)
-        return add_turning(s, curve, rows, err);
+        return add_turning_segments(s, curve, rows, err);
     return add_segment(s, curve, WT_SEGMENT_APPROACH, rows, err);
 }
 
 /* Reads the part with the next curve. The file was read to its end when it was opened. If it now
  * ends differently, it has changed, and all further curves fail. */
-static wt_status next_part(text_source *s, wt_error *err)
+static wt_status advance_part(text_source *s, wt_error *err)
 {
     const bool left = s->index < s->base.n_curves;
     wt_status status = s->broken.status;
     while (status == WT_OK && s->next.table >= s->file->n_tables) {
-        s->next = (span){.table = 0};
+        s->next = (row_span){.table = 0};
         status = left ? text_parts_next(s->parts, &s->broken) : WT_END;
     }
     if (status == WT_END && left && s->base.n_curves != SIZE_MAX) {
@@ -195,11 +198,11 @@ static wt_status next_part(text_source *s, wt_error *err)
 }
 
 /* Reads the next curve, which is the block of rows with one block number. */
-static wt_status text_next(wt_force_source *source, wt_force_curve *curve, wt_error *err)
+static wt_status text_force_next(wt_force_source *source, wt_force_curve *curve, wt_error *err)
 {
     text_source *s = (text_source *)source;
     const text_file *file = s->file;
-    wt_status status = next_part(s, err);
+    wt_status status = advance_part(s, err);
     if (status == WT_END)
         return status;
     curve->index = s->index++;
@@ -211,7 +214,7 @@ static wt_status text_next(wt_force_source *source, wt_force_curve *curve, wt_er
     curve->y = header_number(t, HEADER_POSITION_Y);
     while (s->next.table < file->n_tables) {
         t = &file->tables[s->next.table];
-        span rows = s->next;
+        row_span rows = s->next;
         if (t->blocks[rows.first] != block)
             break;
         for (rows.end = rows.first + 1; rows.end < t->n_rows; rows.end++)
@@ -220,15 +223,15 @@ static wt_status text_next(wt_force_source *source, wt_force_curve *curve, wt_er
         if (status == WT_OK)
             status = text_table_require(t, WT_KIND_FORCE, err);
         if (status == WT_OK)
-            status = add_rows(s, curve, rows, err);
+            status = add_row_segments(s, curve, rows, err);
         s->next.first = rows.end;
         if (rows.end == t->n_rows)
-            s->next = (span){.table = s->next.table + 1};
+            s->next = (row_span){.table = s->next.table + 1};
     }
     return status;
 }
 
-static void text_close(wt_force_source *source)
+static void text_force_close(wt_force_source *source)
 {
     text_source *s = (text_source *)source;
     text_parts_free(s->parts);
@@ -249,8 +252,8 @@ size_t text_count_curves(const text_file *file, unsigned kinds)
     return n;
 }
 
-static wt_status begin_text(text_source *s, const file_reader *self, wt_input *text, size_t piece,
-                            wt_log *log, wt_error *err)
+static wt_status begin_text_parts(text_source *s, const file_reader *self, wt_input *text,
+                                  size_t piece, wt_log *log, wt_error *err)
 {
     text_parts_free(s->parts);
     s->parts = NULL;
@@ -262,7 +265,7 @@ static wt_status begin_text(text_source *s, const file_reader *self, wt_input *t
 }
 
 /* Reads all parts, so that a defect of the file is reported before its first curve. */
-static wt_status read_through(text_source *s, wt_error *err)
+static wt_status scan_all_parts(text_source *s, wt_error *err)
 {
     wt_status status = WT_OK;
     while ((status = text_parts_next(s->parts, err)) == WT_OK) {
@@ -277,8 +280,8 @@ static wt_status read_through(text_source *s, wt_error *err)
     return WT_OK;
 }
 
-static wt_status text_open(wt_force_source *source, const file_reader *self, wt_input *input,
-                           wt_error *err)
+static wt_status text_force_open(wt_force_source *source, const file_reader *self, wt_input *input,
+                                 wt_error *err)
 {
     text_source *s = (text_source *)source;
     size_t piece = 0;
@@ -286,35 +289,35 @@ static wt_status text_open(wt_force_source *source, const file_reader *self, wt_
         self->as_text != NULL ? self->as_text(self, input, source->log, &s->text, err) : WT_OK;
     wt_input *const text = s->text != NULL ? s->text : input;
     if (status == WT_OK)
-        status = text_piece(self->description, text, &piece, err);
+        status = text_choose_piece(self->description, text, &piece, err);
     if (status == WT_OK)
-        status = begin_text(s, self, text, piece, source->log, err);
+        status = begin_text_parts(s, self, text, piece, source->log, err);
     if (status == WT_OK)
-        status = read_through(s, err);
+        status = scan_all_parts(s, err);
     /* if some tables are no longer in memory, they are read again without messages */
     if (status == WT_OK && s->file->n_tables < s->file->n_seen)
-        status = begin_text(s, self, text, piece, NULL, err);
+        status = begin_text_parts(s, self, text, piece, NULL, err);
     return status;
 }
 
-static wt_status open_first(wt_force_source *source, const file_reader *self, wt_input *input,
-                            wt_error *err)
+static wt_status text_force_open_streamed(wt_force_source *source, const file_reader *self,
+                                          wt_input *input, wt_error *err)
 {
     text_source *s = (text_source *)source;
     size_t piece = 0;
-    wt_status status = text_piece(self->description, input, &piece, err);
+    wt_status status = text_choose_piece(self->description, input, &piece, err);
     s->base.n_curves = SIZE_MAX;
-    return status == WT_OK ? begin_text(s, self, input, piece, source->log, err) : status;
+    return status == WT_OK ? begin_text_parts(s, self, input, piece, source->log, err) : status;
 }
 
-const force_stream text_force_first = {.size = sizeof(text_source),
-                                       .open = open_first,
-                                       .next = text_next,
-                                       .decode = decode,
-                                       .close = text_close};
+const force_stream text_force_streamed = {.size = sizeof(text_source),
+                                          .open = text_force_open_streamed,
+                                          .next = text_force_next,
+                                          .decode = decode,
+                                          .close = text_force_close};
 
 const force_stream text_force = {.size = sizeof(text_source),
-                                 .open = text_open,
-                                 .next = text_next,
+                                 .open = text_force_open,
+                                 .next = text_force_next,
                                  .decode = decode,
-                                 .close = text_close};
+                                 .close = text_force_close};

@@ -9,10 +9,10 @@
 #include <math.h>
 
 /* Number of steps that define the usual step, and the minimum for a check. */
-enum { FIRST = 5, STEPS_LEAST = 20 };
+enum { FIRST = 5, STEPS_MIN = 20 };
 /* Limits relative to the usual step. Equal steps have at least three digits. A missing row doubles
  * a step; a repeated row or a wrong number gives a step near zero or of another size. */
-static const double equal = 0.01, gap_least = 1.5, wrong_most = 0.5;
+static const double equal = 0.01, gap_min = 1.5, wrong_max = 0.5;
 /* Maximum number of wrong steps; with more the steps are not equal. A moved part causes three, an
  * exchange of two parts four. */
 enum { WRONG_MAX = 4 };
@@ -25,7 +25,8 @@ typedef struct broken_steps {
 
 /* Finds breaks in otherwise equal steps. A ramp of two rates, scattered steps and a noisy height
  * have none. The first and the last step may be incomplete. */
-static broken_steps find_breaks(const text_table *t, size_t first, size_t end, const text_column *c)
+static broken_steps find_step_breaks(const text_table *t, size_t first, size_t end,
+                                     const text_column *c)
 {
     static const broken_steps none = {0, 0, 0};
     double start[FIRST];
@@ -38,8 +39,8 @@ static broken_steps find_breaks(const text_table *t, size_t first, size_t end, c
         const double steps =
             (text_table_value(t, row, c) - text_table_value(t, row - 1, c)) / usual;
         const bool even = fabs(steps - 1) <= equal, inner = row > first + 1 && row + 1 < end;
-        const bool gap = steps >= gap_least && !after_gap && inner;
-        const bool wrong = !gap && (steps >= gap_least || steps <= wrong_most) && inner;
+        const bool gap = steps >= gap_min && !after_gap && inner;
+        const bool wrong = !gap && (steps >= gap_min || steps <= wrong_max) && inner;
         if (!isfinite(steps) || (!even && !gap && !wrong))
             return none;
         found.gaps += gap;
@@ -56,12 +57,12 @@ void text_check_steps(const text_file *file, const text_table *t, int segment, s
     static const wt_quantity even[] = {WT_Q_TIME, WT_Q_HEIGHT, WT_Q_MEASURED_HEIGHT};
     for (size_t i = 0; i < COUNT_OF(even); i++) {
         const text_column *const c = text_table_column(t, even[i], segment);
-        const broken_steps broken = c != NULL && end > first + STEPS_LEAST
-                                        ? find_breaks(t, first, end, c)
+        const broken_steps broken = c != NULL && end > first + STEPS_MIN
+                                        ? find_step_breaks(t, first, end, c)
                                         : (broken_steps){0, 0, 0};
         if (broken.first == 0)
             continue;
-        const text_place place = line_place(t->row_lines[broken.first]);
+        const line_place_text place = format_line_place(t->row_lines[broken.first]);
         if (broken.wrong == 0)
             wt_log_add(log, WT_WARNING, file->name, place.words,
                        "the equal steps of %s have %zu gap%s from here on: are rows missing?",

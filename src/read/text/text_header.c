@@ -14,17 +14,17 @@
 #define STEPS_MAX ((size_t)64)
 
 /* Without any row the table is one that is not read. */
-void scan_check_rows(text_scanner *s)
+void scan_check_row_count(text_scanner *s)
 {
-    if (s->n_rows > 0 && s->n_rows < s->n_said)
+    if (s->n_rows > 0 && s->n_rows < s->n_declared)
         wt_log_add(s->log, WT_WARNING, s->file->name, NULL,
                    "the file says %zu rows, but only %zu are there: the others are missing, "
                    "as in a file that was cut off",
-                   s->n_said, s->n_rows);
-    s->n_said = s->n_rows = 0;
+                   s->n_declared, s->n_rows);
+    s->n_declared = s->n_rows = 0;
 }
 
-static void set_declared(text_scanner *s, field_sets sets, text_span text)
+static void apply_field(text_scanner *s, field_sets sets, text_span text)
 {
     static const struct {
         const char *word;
@@ -35,33 +35,33 @@ static void set_declared(text_scanner *s, field_sets sets, text_span text)
                       {"blank", SEPARATOR_WHITESPACE}, {"whitespace", SEPARATOR_WHITESPACE}};
     double number = 0;
     if (sets == FIELD_SETS_ROWS) {
-        scan_check_rows(s);
+        scan_check_row_count(s);
         if (wt_number_parse(text.text, text.length, '.', &number) && number > 0 && number < 1e15)
-            s->n_said = (size_t)number;
+            s->n_declared = (size_t)number;
     } else if (sets == FIELD_SETS_DECIMAL) {
-        if (name_is(text, "comma") || name_is(text, ","))
+        if (name_equals(text, "comma") || name_equals(text, ","))
             s->decimal = ',';
-        else if (name_is(text, "point") || name_is(text, "dot") || name_is(text, "."))
+        else if (name_equals(text, "point") || name_equals(text, "dot") || name_equals(text, "."))
             s->decimal = '.';
-    } else if (sets == FIELD_SETS_SAMPLE && !s->sample_is_told) {
-        s->sample = scan_sample(s, text);
-        s->sample_is_told = s->sample != NO_SAMPLE;
+    } else if (sets == FIELD_SETS_SAMPLE && !s->has_sample_name) {
+        s->sample = scan_find_sample(s, text);
+        s->has_sample_name = s->sample != NO_SAMPLE;
     } else if (sets == FIELD_SETS_TITLE) {
         text_copy(s->title, sizeof s->title, text);
     } else if (sets == FIELD_SETS_VALUE_UNIT) {
         text_copy(s->names.value_unit, sizeof s->names.value_unit, text);
     } else if (sets == FIELD_SETS_SEPARATOR) {
         for (size_t i = 0; i < sizeof separators / sizeof *separators; i++)
-            if (name_is(text, separators[i].word))
+            if (name_equals(text, separators[i].word))
                 s->separator = separators[i].separator;
     }
 }
 
 /* Parses the number of a field in SI units; false, with a message, for another text. */
-static bool field_number(const text_scanner *s, const header_field *field, text_span text,
-                         const field_value *value, double *number)
+static bool parse_field_number(const text_scanner *s, const header_field *field, text_span text,
+                               const field_value *value, double *number)
 {
-    const text_place place = line_place(value->line);
+    const line_place_text place = format_line_place(value->line);
     const char *unit = value->unit;
     double factor, offset;
     for (size_t i = 0; i < s->d->n_aliases; i++)
@@ -83,12 +83,12 @@ static bool field_number(const text_scanner *s, const header_field *field, text_
     return true;
 }
 
-static void set_field(text_scanner *s, size_t f, const regmatch_t groups[GROUPS])
+static void set_field(text_scanner *s, size_t f, const regmatch_t groups[REGEX_GROUPS])
 {
     const header_field *field = &s->d->fields[f];
     field_value *value = &s->file->values[f];
     const text_span text = pattern_group(s->line, groups[field->group]);
-    const size_t kept = utf8_cut(text.text, text.length, 200);
+    const size_t kept = utf8_truncated_length(text.text, text.length, 200);
     double number;
     memcpy(value->text, text.text, kept);
     value->text[kept] = '\0';
@@ -99,23 +99,23 @@ static void set_field(text_scanner *s, size_t f, const regmatch_t groups[GROUPS]
                   pattern_group(s->line, groups[field->unit_group]));
     else if (field->unit != NULL)
         snprintf(value->unit, sizeof value->unit, "%s", field->unit);
-    set_declared(s, field->sets, text);
-    if (field->quantity == WT_Q_NONE || !field_number(s, field, text, value, &number))
+    apply_field(s, field->sets, text);
+    if (field->quantity == WT_Q_NONE || !parse_field_number(s, field, text, value, &number))
         return;
-    const header_value h = header_of(field->quantity, field->sets);
+    const header_value h = find_header_value(field->quantity, field->sets);
     if (h < HEADER_COUNT) {
         s->header.value[h] = number;
         s->header.fallback[h] = field->fallback;
     }
 }
 
-void scan_fields(text_scanner *s)
+void scan_header_fields(text_scanner *s)
 {
     for (size_t f = 0; f < s->d->n_fields; f++) {
-        regmatch_t groups[GROUPS];
-        for (size_t g = 0; g < GROUPS; g++)
+        regmatch_t groups[REGEX_GROUPS];
+        for (size_t g = 0; g < REGEX_GROUPS; g++)
             groups[g].rm_so = groups[g].rm_eo = -1;
-        if (pattern_match(&s->d->fields[f].pattern, s->line, groups, GROUPS) &&
+        if (pattern_match(&s->d->fields[f].pattern, s->line, groups, REGEX_GROUPS) &&
             groups[s->d->fields[f].group].rm_so >= 0)
             set_field(s, f, groups);
     }
@@ -129,10 +129,10 @@ void scan_finish_step(text_scanner *s)
                                   (text_span){title, strlen(title)}, s->err);
 }
 
-static void begin_step(text_scanner *s, const step_marker *step, const regmatch_t *title)
+static void start_step(text_scanner *s, const step_marker *step, const regmatch_t *title)
 {
     scan_finish_step(s);
-    cut_check_end(s);
+    truncation_check_table_end(s);
     s->unclosed = s->d->end_required;
     s->state = SCAN_HEADER;
     s->step_line = s->i + 1;
@@ -144,14 +144,14 @@ static void begin_step(text_scanner *s, const step_marker *step, const regmatch_
     s->block++;
 }
 
-bool scan_marks(text_scanner *s)
+bool scan_match_markers(text_scanner *s)
 {
     const text_description *d = s->d;
     for (size_t i = 0; i < d->n_steps; i++) {
         regmatch_t groups[2] = {{-1, -1}, {-1, -1}};
         const step_marker *step = &d->steps[i];
         if (pattern_match(&step->pattern, s->line, groups, step->title_next ? 0 : 2)) {
-            begin_step(s, step, &groups[1]);
+            start_step(s, step, &groups[1]);
             return true;
         }
     }

@@ -8,13 +8,13 @@
 #include "read/text/text_scanner.h"
 
 /* Reads the header values of the line. */
-void scan_fields(text_scanner *s);
+void scan_header_fields(text_scanner *s);
 /* True if the line is a marker of a step, an end or a segment. */
-bool scan_marks(text_scanner *s);
+bool scan_match_markers(text_scanner *s);
 /* Stores the title of a step without a names row. */
 void scan_finish_step(text_scanner *s);
 
 /* Warns if fewer rows exist than the header states, and resets the counts. */
-void scan_check_rows(text_scanner *s);
+void scan_check_row_count(text_scanner *s);
 
 #endif

@@ -11,15 +11,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-typedef struct imaging {
+typedef struct image_builder {
     const text_file *file;
     const text_table *table;
     wt_log *log;
     image_list *list;
     wt_error *err;
-} imaging;
+} image_builder;
 
-static void name_image(const imaging *m, wt_image *head, const char *otherwise)
+static void name_image(const image_builder *m, wt_image *head, const char *otherwise)
 {
     images_set_name(head, m->table->title[0] != '\0' ? m->table->title : otherwise);
     snprintf(head->unit, sizeof head->unit, "m");
@@ -29,12 +29,12 @@ static void name_image(const imaging *m, wt_image *head, const char *otherwise)
 /* ---- matrix ---------------------------------------------------------------------------------- */
 
 /* Adds a matrix; its first line is the upper edge. */
-static wt_status add_matrix(const imaging *m)
+static wt_status add_matrix_image(const image_builder *m)
 {
     const text_table *const t = m->table;
-    const double *const said = t->header.value;
-    const double factor = isnan(said[HEADER_VALUE_FACTOR]) ? 1 : said[HEADER_VALUE_FACTOR];
-    const double pixel = said[HEADER_PIXEL_SIZE];
+    const double *const stated = t->header.value;
+    const double factor = isnan(stated[HEADER_VALUE_FACTOR]) ? 1 : stated[HEADER_VALUE_FACTOR];
+    const double pixel = stated[HEADER_PIXEL_SIZE];
     wt_image head = {.n_columns = t->n_columns, .n_rows = t->n_rows};
     double *values = NULL;
     wt_status status = text_table_problem(t, WT_Q_BIT(WT_Q_SURFACE_HEIGHT), m->err);
@@ -42,7 +42,7 @@ static wt_status add_matrix(const imaging *m)
         return status;
     name_image(m, &head, "matrix");
     if (isnan(pixel))
-        images_set_size(&head, said[HEADER_WIDTH], said[HEADER_HEIGHT]);
+        images_set_size(&head, stated[HEADER_WIDTH], stated[HEADER_HEIGHT]);
     else
         images_set_size(&head, pixel * (double)t->n_columns, pixel * (double)t->n_rows);
     status = images_add(m->list, &head, &values, m->err);
@@ -55,7 +55,8 @@ static wt_status add_matrix(const imaging *m)
 
 /* ---- columns --------------------------------------------------------------------------------- */
 
-static wt_status no_steps(const imaging *m, const char *of, size_t row, wt_status status)
+static wt_status fail_unequal_steps(const image_builder *m, const char *of, size_t row,
+                                    wt_status status)
 {
     wt_fail(m->err, status, "the places in column \"%s\" are no equal steps", of);
     wt_error_place(m->err, "line %zu", m->table->row_lines[row]);
@@ -64,7 +65,7 @@ static wt_status no_steps(const imaging *m, const char *of, size_t row, wt_statu
     return status;
 }
 
-static wt_status no_place(const imaging *m, const text_column *column, size_t row)
+static wt_status fail_no_position(const image_builder *m, const text_column *column, size_t row)
 {
     wt_fail(m->err, WT_E_CORRUPT, "a row without its place");
     wt_error_place(m->err, "line %zu, column \"%s\"", m->table->row_lines[row], column->name);
@@ -72,7 +73,8 @@ static wt_status no_place(const imaging *m, const text_column *column, size_t ro
     return WT_E_CORRUPT;
 }
 
-static void say_rounded(const imaging *m, const text_column *column, const text_axis *axis)
+static void report_rounding(const image_builder *m, const text_column *column,
+                            const text_axis *axis)
 {
     char rounded[32], step[32];
     if (!(axis->rounded > 0))
@@ -85,28 +87,29 @@ static void say_rounded(const imaging *m, const text_column *column, const text_
 }
 
 /* Adds a profile; one with decreasing positions is reversed. */
-static wt_status add_profile(const imaging *m, const text_column *x, const text_column *z)
+static wt_status add_profile_image(const image_builder *m, const text_column *x,
+                                   const text_column *z)
 {
     const text_table *const t = m->table;
     const size_t n = t->n_rows;
     text_axis axis;
     size_t worst = 0;
     wt_status status = WT_OK;
-    double *const places = malloc(n * sizeof *places), *values = NULL;
-    if (places == NULL)
+    double *const positions = malloc(n * sizeof *positions), *values = NULL;
+    if (positions == NULL)
         return wt_fail(m->err, WT_E_MEMORY, "no memory for a profile");
     const bool falls = text_table_value(t, 0, x) > text_table_value(t, n - 1, x);
     for (size_t i = 0; status == WT_OK && i < n; i++) {
         const size_t row = falls ? n - 1 - i : i;
-        places[i] = text_table_value(t, row, x);
-        if (!isfinite(places[i]))
-            status = no_place(m, x, row);
-        else if (i > 0 && !(places[i] > places[i - 1]))
-            status = no_steps(m, x->name, row, WT_E_RANGE);
+        positions[i] = text_table_value(t, row, x);
+        if (!isfinite(positions[i]))
+            status = fail_no_position(m, x, row);
+        else if (i > 0 && !(positions[i] > positions[i - 1]))
+            status = fail_unequal_steps(m, x->name, row, WT_E_RANGE);
     }
-    if (status == WT_OK && !axis_find(places, n, x->factor, false, &axis, &worst))
-        status = no_steps(m, x->name, falls ? n - 1 - worst : worst, WT_E_RANGE);
-    free(places);
+    if (status == WT_OK && !axis_find(positions, n, x->factor, false, &axis, &worst))
+        status = fail_unequal_steps(m, x->name, falls ? n - 1 - worst : worst, WT_E_RANGE);
+    free(positions);
     if (status != WT_OK)
         return status;
     wt_image head = {
@@ -116,71 +119,72 @@ static wt_status add_profile(const imaging *m, const text_column *x, const text_
     for (size_t i = 0; status == WT_OK && i < n; i++)
         values[i] = text_table_value(t, falls ? n - 1 - i : i, z);
     if (status == WT_OK)
-        say_rounded(m, x, &axis);
+        report_rounding(m, x, &axis);
     return status;
 }
 
 /* Finds the axis of the distinct positions of a column. */
-static wt_status column_axis(const imaging *m, const text_column *column, text_axis *axis)
+static wt_status find_column_axis(const image_builder *m, const text_column *column,
+                                  text_axis *axis)
 {
     const text_table *const t = m->table;
-    double *const places = malloc(t->n_rows * sizeof *places);
+    double *const positions = malloc(t->n_rows * sizeof *positions);
     size_t n = 0, worst = 0;
     wt_status status = WT_OK;
-    if (places == NULL)
+    if (positions == NULL)
         return wt_fail(m->err, WT_E_MEMORY, "no memory for the places of a grid");
     for (size_t row = 0; status == WT_OK && row < t->n_rows; row++) {
-        places[row] = text_table_value(t, row, column);
-        if (!isfinite(places[row]))
-            status = no_place(m, column, row);
+        positions[row] = text_table_value(t, row, column);
+        if (!isfinite(positions[row]))
+            status = fail_no_position(m, column, row);
     }
-    numbers_sort(places, t->n_rows);
+    numbers_sort(positions, t->n_rows);
     for (size_t i = 0; i < t->n_rows; i++)
-        if (n == 0 || places[i] > places[n - 1])
-            places[n++] = places[i];
+        if (n == 0 || positions[i] > positions[n - 1])
+            positions[n++] = positions[i];
     if (status == WT_OK && n == 1)
-        *axis = (text_axis){places[0], 1, 1, 0};
-    else if (status == WT_OK && !axis_find(places, n, column->factor, true, axis, &worst))
-        status = no_steps(m, column->name, 0, WT_E_RANGE);
-    free(places);
+        *axis = (text_axis){positions[0], 1, 1, 0};
+    else if (status == WT_OK && !axis_find(positions, n, column->factor, true, axis, &worst))
+        status = fail_unequal_steps(m, column->name, 0, WT_E_RANGE);
+    free(positions);
     if (status == WT_OK)
-        say_rounded(m, column, axis);
+        report_rounding(m, column, axis);
     return status;
 }
 
-static wt_status fill_grid(const imaging *m, const text_column *const of[3], const text_axis *x,
-                           const text_axis *y, double *values)
+static wt_status fill_grid(const image_builder *m, const text_column *const of[3],
+                           const text_axis *x, const text_axis *y, double *values)
 {
     const text_table *const t = m->table;
     const size_t n = x->n * y->n;
-    unsigned char *const taken = calloc(n, 1);
+    unsigned char *const filled = calloc(n, 1);
     wt_status status = WT_OK;
-    if (taken == NULL)
+    if (filled == NULL)
         return wt_fail(m->err, WT_E_MEMORY, "no memory for a grid");
     for (size_t i = 0; i < n; i++)
         values[i] = (double)NAN;
     for (size_t row = 0; status == WT_OK && row < t->n_rows; row++) {
         const size_t at = axis_index(y, text_table_value(t, row, of[1])) * x->n +
                           axis_index(x, text_table_value(t, row, of[0]));
-        if (taken[at] != 0) {
+        if (filled[at] != 0) {
             status = wt_fail(m->err, WT_E_CORRUPT, "a point of the grid stands twice");
             wt_error_place(m->err, "line %zu", t->row_lines[row]);
             wt_error_expected(m->err, "one height for each place");
         }
-        taken[at] = 1;
+        filled[at] = 1;
         values[at] = text_table_value(t, row, of[2]);
     }
-    free(taken);
+    free(filled);
     return status;
 }
 
-static wt_status add_grid(const imaging *m, const text_column *const of[3])
+static wt_status add_grid_image(const image_builder *m, const text_column *const of[3])
 {
     text_axis x, y;
     double *values = NULL;
-    wt_status status = column_axis(m, of[0], &x);
+    wt_status status = find_column_axis(m, of[0], &x);
     if (status == WT_OK)
-        status = column_axis(m, of[1], &y);
+        status = find_column_axis(m, of[1], &y);
     if (status != WT_OK)
         return status;
     /* scattered points would give a grid line and column for each point */
@@ -203,14 +207,14 @@ static wt_status add_grid(const imaging *m, const text_column *const of[3])
     return status == WT_OK ? fill_grid(m, of, &x, &y, values) : status;
 }
 
-static wt_status add_table(const imaging *m)
+static wt_status add_table_image(const image_builder *m)
 {
     const text_table *const t = m->table;
     if (m->file->description->matrix)
-        return add_matrix(m);
-    const wt_quantity_set of_image =
+        return add_matrix_image(m);
+    const wt_quantity_set image_quantities =
         WT_Q_BIT(WT_Q_POSITION_X) | WT_Q_BIT(WT_Q_POSITION_Y) | WT_Q_BIT(WT_Q_SURFACE_HEIGHT);
-    wt_status status = text_table_problem(t, of_image, m->err);
+    wt_status status = text_table_problem(t, image_quantities, m->err);
     if (status == WT_OK)
         status = text_table_require(t, WT_KIND_IMAGE, m->err);
     if (status != WT_OK)
@@ -218,15 +222,15 @@ static wt_status add_table(const imaging *m)
     const text_column *const of[3] = {text_table_column(t, WT_Q_POSITION_X, -1),
                                       text_table_column(t, WT_Q_POSITION_Y, -1),
                                       text_table_column(t, WT_Q_SURFACE_HEIGHT, -1)};
-    return of[1] != NULL ? add_grid(m, of) : add_profile(m, of[0], of[2]);
+    return of[1] != NULL ? add_grid_image(m, of) : add_profile_image(m, of[0], of[2]);
 }
 
 /* True for an image of another quantity in a file of several images; it is skipped with a note. */
-static bool left_out(const imaging *m, wt_status status)
+static bool is_skipped(const image_builder *m, wt_status status)
 {
     if (status != WT_E_UNIT || m->file->n_tables < 2)
         return false;
-    wt_log_add(m->log, WT_NOTE, m->file->name, line_place(m->table->names_line).words,
+    wt_log_add(m->log, WT_NOTE, m->file->name, format_line_place(m->table->names_line).words,
                "an image of no heights is left out");
     return true;
 }
@@ -241,14 +245,14 @@ wt_status text_read_images(const file_reader *self, wt_input *input, const wt_re
         return status;
     text_log_columns(&file, log);
     for (size_t i = 0; status == WT_OK && i < file.n_tables; i++) {
-        const imaging m = {&file, &file.tables[i], log, &list, err};
-        status = add_table(&m);
-        if (left_out(&m, status))
+        const image_builder m = {&file, &file.tables[i], log, &list, err};
+        status = add_table_image(&m);
+        if (is_skipped(&m, status))
             status = WT_OK;
     }
     if (status == WT_OK && file.n_tables == 0)
         status = text_fail_empty(&file, "height map or profile", err);
-    status = images_end(&list, status, wt_input_name(input), log, images, n_images, err);
+    status = images_finish(&list, status, wt_input_name(input), log, images, n_images, err);
     text_file_free(&file);
     return status;
 }

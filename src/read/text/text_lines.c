@@ -53,12 +53,12 @@ static encoding_choice choose_encoding(const unsigned char *bytes, size_t length
     }
     if (encoding == ENCODING_LATIN_1)
         return (encoding_choice){"Latin-1", "ISO-8859-1", 0, false};
-    if (any && utf8_check((const char *)bytes, length) < length)
+    if (any && utf8_valid_length((const char *)bytes, length) < length)
         return (encoding_choice){"Latin-1", "ISO-8859-1", 0, false};
     return (encoding_choice){"UTF-8", NULL, 0, false};
 }
 
-const char *lines_encoding(const unsigned char *bytes, size_t length, text_encoding encoding)
+const char *lines_encoding_name(const unsigned char *bytes, size_t length, text_encoding encoding)
 {
     return choose_encoding(bytes, length, encoding).words;
 }
@@ -66,9 +66,10 @@ const char *lines_encoding(const unsigned char *bytes, size_t length, text_encod
 static const char replacement[] = "\xef\xbf\xbd";
 
 /* Copies a text that should be UTF-8; each invalid byte becomes U+FFFD. */
-static char *clean_utf_8(const char *bytes, size_t length, size_t *n_out, size_t *n_replaced)
+static char *replace_invalid_utf8(const char *bytes, size_t length, size_t *n_out,
+                                  size_t *n_replaced)
 {
-    const size_t good = utf8_check(bytes, length);
+    const size_t good = utf8_valid_length(bytes, length);
     if (length > (SIZE_MAX - 1) / 3)
         return NULL;
     char *text = malloc((good == length ? length : 3 * length) + 1);
@@ -78,7 +79,7 @@ static char *clean_utf_8(const char *bytes, size_t length, size_t *n_out, size_t
         memcpy(text, bytes, good);
     size_t out = good;
     for (size_t i = good; i < length;) {
-        size_t n = utf8_character(bytes + i, length - i);
+        size_t n = utf8_character_length(bytes + i, length - i);
         memcpy(text + out, n > 0 ? bytes + i : replacement, n > 0 ? n : 3);
         out += n > 0 ? n : 3;
         *n_replaced += n == 0;
@@ -89,8 +90,8 @@ static char *clean_utf_8(const char *bytes, size_t length, size_t *n_out, size_t
 }
 
 /* Converts a text to UTF-8; NULL without memory or if the system cannot convert. */
-static char *text_to_utf8(const encoding_choice *c, const unsigned char *bytes, size_t length,
-                          size_t *n_out, size_t *n_replaced)
+static char *convert_to_utf8(const encoding_choice *c, const unsigned char *bytes, size_t length,
+                             size_t *n_out, size_t *n_replaced)
 {
     const size_t unit = c->utf_16 ? 2 : 1;
     /* two bytes of UTF-16 become at most three bytes, one byte of Latin-1 at most two */
@@ -103,17 +104,17 @@ static char *text_to_utf8(const encoding_choice *c, const unsigned char *bytes, 
         resource_error_note(errno);
     bool good = text != NULL && converter != (iconv_t)-1;
     char *in = (char *)(uintptr_t)bytes; /* iconv does not write to its input */
-    size_t left = length, room = capacity - 1;
+    size_t left = length, space = capacity - 1;
     char *out = text;
     while (good && left >= unit) {
-        if (iconv(converter, &in, &left, &out, &room) != (size_t)-1)
+        if (iconv(converter, &in, &left, &out, &space) != (size_t)-1)
             break;
-        good = errno != E2BIG && room >= 3;
+        good = errno != E2BIG && space >= 3;
         if (!good)
             break;
         memcpy(out, replacement, 3);
         out += 3;
-        room -= 3;
+        space -= 3;
         in += unit;
         left -= unit;
         (*n_replaced)++;
@@ -129,13 +130,13 @@ static char *text_to_utf8(const encoding_choice *c, const unsigned char *bytes, 
 }
 
 /* True if only the DOS end mark, which is no line, is left. */
-static bool only_end_mark(const char *text, size_t length)
+static bool is_end_mark(const char *text, size_t length)
 {
     return length == 0 || (length == 1 && text[0] == '\x1a');
 }
 
 /* Splits the text into lines at CR LF, LF and CR; the line end becomes a zero byte. */
-static bool find_lines(text_lines *lines, size_t length)
+static bool split_lines(text_lines *lines, size_t length)
 {
     size_t n = 1, pairs = 0;
     for (size_t i = 0; i < length; i++)
@@ -158,31 +159,31 @@ static bool find_lines(text_lines *lines, size_t length)
         start = i + 1;
     }
     lines->text[length] = '\0';
-    if (!only_end_mark(lines->text + start, length - start))
+    if (!is_end_mark(lines->text + start, length - start))
         lines->end = END_NONE;
     if (start < length)
         lines->lines[lines->n++] = (text_span){lines->text + start, length - start};
     return true;
 }
 
-static wt_status decode(const encoding_choice *c, const unsigned char *bytes, size_t length,
-                        text_lines *lines, wt_error *err)
+static wt_status decode_lines(const encoding_choice *c, const unsigned char *bytes, size_t length,
+                              text_lines *lines, wt_error *err)
 {
     text_lines made = {.encoding = c->words};
     size_t n = 0;
     bytes = c->mark > 0 ? bytes + c->mark : bytes;
     length -= c->mark;
-    made.odd_byte = c->utf_16 && length % 2 == 1;
-    length -= made.odd_byte;
+    made.has_half_character = c->utf_16 && length % 2 == 1;
+    length -= made.has_half_character;
     if (c->iconv == NULL)
-        made.text = clean_utf_8((const char *)bytes, length, &n, &made.n_replaced);
+        made.text = replace_invalid_utf8((const char *)bytes, length, &n, &made.n_replaced);
     else
-        made.text = text_to_utf8(c, bytes, length, &n, &made.n_replaced);
-    if (made.text == NULL || !find_lines(&made, n)) {
+        made.text = convert_to_utf8(c, bytes, length, &n, &made.n_replaced);
+    if (made.text == NULL || !split_lines(&made, n)) {
         lines_free(&made);
         return wt_fail(err, WT_E_MEMORY, "no memory for the text of the file");
     }
-    if (made.odd_byte && made.end == END_WHOLE)
+    if (made.has_half_character && made.end == END_WHOLE)
         made.end = END_HALF;
     *lines = made;
     return WT_OK;
@@ -192,14 +193,14 @@ wt_status lines_decode(const unsigned char *bytes, size_t length, text_encoding 
                        text_lines *lines, wt_error *err)
 {
     const encoding_choice c = choose_encoding(bytes, length, encoding);
-    return decode(&c, bytes, length, lines, err);
+    return decode_lines(&c, bytes, length, lines, err);
 }
 
-wt_status lines_decode_more(const unsigned char *bytes, size_t length, text_lines *lines,
+wt_status lines_decode_next(const unsigned char *bytes, size_t length, text_lines *lines,
                             wt_error *err)
 {
     const encoding_choice plain = {.words = "UTF-8"};
-    return decode(&plain, bytes, length, lines, err);
+    return decode_lines(&plain, bytes, length, lines, err);
 }
 
 void lines_free(text_lines *lines)

@@ -10,9 +10,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-typedef struct point {
+typedef struct noise_point {
     double frequency, density;
-} point;
+} noise_point;
 
 /* The possible densities of a table; the first that exists is used. */
 static const struct {
@@ -24,8 +24,8 @@ static const struct {
                  {WT_Q_VOLTAGE_DENSITY, true, true}};
 
 /* Collects the points; rows without a valid frequency are skipped with a warning. */
-static wt_status collect_points(const text_file *file, wt_log *log, point *points,
-                                wt_noise_spectrum *spectrum, wt_error *err)
+static wt_status collect_noise_points(const text_file *file, wt_log *log, noise_point *points,
+                                      wt_noise_spectrum *spectrum, wt_error *err)
 {
     const text_table *const t = &file->tables[0];
     size_t n_left_out = 0, line = 0;
@@ -39,7 +39,7 @@ static wt_status collect_points(const text_file *file, wt_log *log, point *point
     spectrum->volts = densities[d].volts;
     spectrum->amplitudes = densities[d].amplitude;
     for (size_t r = 0; r < t->n_rows; r++) {
-        point p = {text_table_value(t, r, frequency), text_table_value(t, r, density)};
+        noise_point p = {text_table_value(t, r, frequency), text_table_value(t, r, density)};
         if (p.density < 0) {
             wt_fail(err, WT_E_CORRUPT, "a density below 0");
             wt_error_place(err, "line %zu", t->row_lines[r]);
@@ -56,7 +56,7 @@ static wt_status collect_points(const text_file *file, wt_log *log, point *point
         line = n_left_out++ == 0 ? t->row_lines[r] : line;
     }
     if (n_left_out > 0)
-        wt_log_add(log, WT_WARNING, file->name, line_place(line).words,
+        wt_log_add(log, WT_WARNING, file->name, format_line_place(line).words,
                    "%zu row%s without a frequency of 0 or more left out, this the first",
                    n_left_out, n_left_out == 1 ? "" : "s");
     spectrum->temperature = t->header.value[HEADER_TEMPERATURE];
@@ -66,7 +66,8 @@ static wt_status collect_points(const text_file *file, wt_log *log, point *point
     return WT_OK;
 }
 
-static wt_status fill_sorted(point *points, wt_noise_spectrum *spectrum, wt_error *err)
+static wt_status fill_sorted_spectrum(noise_point *points, wt_noise_spectrum *spectrum,
+                                      wt_error *err)
 {
     const size_t n = spectrum->n;
     qsort(points, n, sizeof *points, numbers_compare);
@@ -99,16 +100,16 @@ wt_status text_read_noise(const file_reader *self, wt_input *input, const wt_rea
         status = wt_fail(err, WT_E_AMBIGUOUS, "several spectra in one file");
         wt_error_advice(err, "part the file");
     }
-    point *points =
+    noise_point *points =
         file.n_tables == 1 ? malloc((file.tables[0].n_rows + 1) * sizeof *points) : NULL;
     if (status == WT_OK && file.n_tables == 1 && points == NULL)
         status = wt_fail(err, WT_E_MEMORY, "no memory for the spectrum");
     if (status == WT_OK && points != NULL)
-        status = collect_points(&file, log, points, spectrum, err);
+        status = collect_noise_points(&file, log, points, spectrum, err);
     if (status == WT_OK && spectrum->n < 2)
         status = text_fail_empty(&file, "spectrum of thermal noise", err);
     if (status == WT_OK)
-        status = fill_sorted(points, spectrum, err);
+        status = fill_sorted_spectrum(points, spectrum, err);
     free(points);
     text_file_free(&file);
     return status;

@@ -9,13 +9,13 @@
 #include <string.h>
 
 /* Piece size for larger files [byte]. */
-#define PIECE ((size_t)1 << 20)
+#define TEXT_PIECE ((size_t)1 << 20)
 
 struct text_parts {
     text_scanner s;
     text_file file;
-    wt_read_options options; /* its texts are borrowed */
-    wt_unit_use *given;      /* [n_units] use of the units of the user */
+    wt_read_options options;  /* its texts are borrowed */
+    wt_unit_usage *unit_uses; /* [n_units] use of the units of the user */
 };
 
 static void free_table(text_table *t)
@@ -40,7 +40,7 @@ static void drop_empty_tables(text_file *file)
     file->n_tables = kept;
 }
 
-static void log_text(const text_file *file, wt_log *log)
+static void warn_replaced_bytes(const text_file *file, wt_log *log)
 {
     const text_feed *feed = file->feed;
     if (feed->n_replaced > 0)
@@ -49,11 +49,12 @@ static void log_text(const text_file *file, wt_log *log)
 }
 
 /* Records if columns with this name use the unit of the user. */
-static void use_unit(const text_column *columns, size_t n, const char *name, wt_unit_use *use)
+static void record_column_use(const text_column *columns, size_t n, const char *name,
+                              wt_unit_usage *use)
 {
     for (size_t i = 0; i < n; i++) {
         const text_column *const c = &columns[i];
-        if (!name_is((text_span){c->name, strlen(c->name)}, name))
+        if (!name_equals((text_span){c->name, strlen(c->name)}, name))
             continue;
         if (c->overruled == NULL) {
             use->used = true;
@@ -65,39 +66,39 @@ static void use_unit(const text_column *columns, size_t n, const char *name, wt_
 }
 
 /* Records which columns of the part have a unit of the user. */
-static void find_given_units(text_parts *p)
+static void record_unit_use(text_parts *p)
 {
     const text_file *file = &p->file;
     for (size_t u = 0; u < p->options.n_units; u++) {
-        char name[NAME_LONGEST];
+        char name[COLUMN_NAME_SIZE];
         const char *const unit = p->options.units[u], *const equal = strrchr(unit, '=');
         if (equal == NULL)
             continue;
         name_normalise((text_span){unit, (size_t)(equal - unit)}, name);
         for (size_t i = 0; i < file->n_tables; i++) {
             const text_table *const t = &file->tables[i];
-            use_unit(t->columns, t->n_columns, name, &p->given[u]);
-            use_unit(t->problems, t->n_problems, name, &p->given[u]);
+            record_column_use(t->columns, t->n_columns, name, &p->unit_uses[u]);
+            record_column_use(t->problems, t->n_problems, name, &p->unit_uses[u]);
         }
     }
 }
 
 /* Merges the use of a unit into that of all files, which threads share. The first file that
  * overrules the unit stores its own one, which is read after all files. */
-static void tell_use(const wt_unit_use *given, wt_unit_use *all)
+static void merge_unit_use(const wt_unit_usage *unit_uses, wt_unit_usage *all)
 {
-    if (given->used)
+    if (unit_uses->used)
         __atomic_store_n(&all->used, true, __ATOMIC_RELAXED);
-    if (given->overruled && !__atomic_exchange_n(&all->overruled, true, __ATOMIC_RELAXED))
-        memcpy(all->stated, given->stated, sizeof all->stated);
+    if (unit_uses->overruled && !__atomic_exchange_n(&all->overruled, true, __ATOMIC_RELAXED))
+        memcpy(all->stated, unit_uses->stated, sizeof all->stated);
 }
 
 /* Checks the units of the user. A unit for an absent column is probably misspelled. A unit that
  * contradicts the file was meant for another file. */
-static wt_status check_given_units(const text_parts *p, wt_error *err)
+static wt_status check_unit_options(const text_parts *p, wt_error *err)
 {
     for (size_t u = 0; u < p->options.n_units; u++) {
-        const wt_unit_use *const given = &p->given[u];
+        const wt_unit_usage *const unit_uses = &p->unit_uses[u];
         const char *const unit = p->options.units[u], *const equal = strrchr(unit, '=');
         if (equal == NULL || equal == unit || equal[1] == '\0') {
             wt_fail(err, WT_E_ARG, "a unit is not given as NAME=UNIT");
@@ -105,14 +106,14 @@ static wt_status check_given_units(const text_parts *p, wt_error *err)
             wt_error_advice(err, "for example --units \"E'=MPa\"");
             return WT_E_ARG;
         }
-        if (p->options.unit_use != NULL)
-            tell_use(given, &p->options.unit_use[u]);
-        else if (given->overruled)
+        if (p->options.unit_usage != NULL)
+            merge_unit_use(unit_uses, &p->options.unit_usage[u]);
+        else if (unit_uses->overruled)
             wt_log_add(p->s.log, WT_WARNING, p->file.name, NULL,
                        "column \"%.*s\" is in \"%s\", as the file or its format says; the "
                        "unit given, \"%s\", does not apply to it",
-                       (int)(equal - unit), unit, given->stated, equal + 1);
-        else if (!given->used)
+                       (int)(equal - unit), unit, unit_uses->stated, equal + 1);
+        else if (!unit_uses->used)
             wt_log_add(p->s.log, WT_WARNING, p->file.name, NULL,
                        "a unit is given for \"%.*s\", but there is no such column",
                        (int)(equal - unit), unit);
@@ -123,23 +124,24 @@ static wt_status check_given_units(const text_parts *p, wt_error *err)
 /* ---- parts -------------------------------------------------------------------------------- */
 
 /* True if rows depend only on their names row, and steps separate the blocks. */
-static bool can_part(const text_description *d)
+static bool can_split(const text_description *d)
 {
     return d->n_steps > 0 && d->encoding == ENCODING_UTF_8 && d->units == UNITS_NAME &&
-           d->n_others == 0;
+           d->n_unread_tests == 0;
 }
 
-wt_status text_piece(text_description *description, wt_input *input, size_t *piece, wt_error *err)
+wt_status text_choose_piece(text_description *description, wt_input *input, size_t *piece,
+                            wt_error *err)
 {
     const text_description *d = NULL;
     size_t size = 0;
     *piece = SIZE_MAX;
-    wt_status status = description_need(description, DESCRIPTION_WHOLE, &d, err);
-    if (status != WT_OK || !can_part(d))
+    wt_status status = description_load(description, DESCRIPTION_WHOLE, &d, err);
+    if (status != WT_OK || !can_split(d))
         return status;
     status = wt_input_size(input, &size, err);
-    if (status == WT_OK && size > PIECE)
-        *piece = PIECE;
+    if (status == WT_OK && size > TEXT_PIECE)
+        *piece = TEXT_PIECE;
     return status;
 }
 
@@ -148,7 +150,7 @@ wt_status text_parts_begin(const file_reader *reader, wt_input *input, size_t pi
                            wt_error *err)
 {
     const text_description *d = NULL;
-    const wt_status status = description_need(reader->description, DESCRIPTION_WHOLE, &d, err);
+    const wt_status status = description_load(reader->description, DESCRIPTION_WHOLE, &d, err);
     if (status != WT_OK)
         return status;
     text_parts *const p = calloc(1, sizeof *p);
@@ -158,7 +160,7 @@ wt_status text_parts_begin(const file_reader *reader, wt_input *input, size_t pi
     p->file = (text_file){.description = d, .name = wt_input_name(input)};
     p->file.feed = calloc(1, sizeof *p->file.feed);
     p->file.values = arena_alloc(&p->file.memory, d->n_fields, sizeof *p->file.values);
-    p->given = arena_alloc(&p->file.memory, options->n_units, sizeof *p->given);
+    p->unit_uses = arena_alloc(&p->file.memory, options->n_units, sizeof *p->unit_uses);
     if (p->file.feed == NULL || p->file.memory.failed) {
         text_parts_free(p);
         return wt_fail(err, WT_E_MEMORY, "no memory for the tables of the file");
@@ -178,32 +180,32 @@ wt_status text_parts_begin(const file_reader *reader, wt_input *input, size_t pi
     return WT_OK;
 }
 
-static void drop_tables(text_parts *p)
+static void free_tables(text_parts *p)
 {
     for (size_t i = 0; i < p->file.n_tables; i++)
         free_table(&p->file.tables[i]);
     p->file.n_tables = 0;
-    arena_free(&p->file.of_tables);
+    arena_free(&p->file.table_memory);
     p->s.table = NULL;
 }
 
 /* Scans the next part, which may have no table. */
-static wt_status next_part(text_parts *p, wt_error *err)
+static wt_status scan_next_part(text_parts *p, wt_error *err)
 {
     text_file *const file = &p->file;
-    drop_tables(p);
+    free_tables(p);
     p->s.err = err;
-    scan_walk(&p->s);
+    scan_lines(&p->s);
     if (p->s.status != WT_OK)
         return p->s.status;
-    find_given_units(p);
-    const wt_status status = p->s.ended ? check_given_units(p, err) : WT_OK;
+    record_unit_use(p);
+    const wt_status status = p->s.ended ? check_unit_options(p, err) : WT_OK;
     drop_empty_tables(file);
     file->n_seen += file->n_tables;
     for (size_t i = 0; i < file->n_tables; i++)
         file->quantities |= file->tables[i].quantities;
     if (status == WT_OK && p->s.ended)
-        log_text(file, p->s.log);
+        warn_replaced_bytes(file, p->s.log);
     return status;
 }
 
@@ -211,7 +213,7 @@ wt_status text_parts_next(text_parts *p, wt_error *err)
 {
     wt_status status = p->s.ended ? WT_END : WT_OK;
     while (status == WT_OK) {
-        status = next_part(p, err);
+        status = scan_next_part(p, err);
         if (status != WT_OK) {
             p->s.ended = true;
             wt_error_file(err, p->file.name);
@@ -268,7 +270,7 @@ void text_file_free(text_file *file)
         free_table(&file->tables[i]);
     free(file->tables);
     arena_free(&file->memory);
-    arena_free(&file->of_tables);
+    arena_free(&file->table_memory);
     feed_free(file->feed);
     *file = (text_file){0};
 }

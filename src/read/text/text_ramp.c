@@ -10,7 +10,7 @@
 
 /* Minimum number of points and temperature range [K] of a temperature sweep. A reversal by more
  * than `turn` [K] ends it. */
-enum { FEWEST = 5 };
+enum { POINTS_MIN = 5 };
 static const double least_span = 5, turn = 2;
 /* Minimum share of the temperature change that occurs within a cycle of frequencies. It is near 0
  * for isotherms and above one half in a ramp. */
@@ -18,32 +18,32 @@ static const double least_drift = 0.25;
 
 /* Adds a temperature sweep. With `turns` there was heating and cooling, and the source states the
  * direction. */
-static wt_status add_ramp(sweep_builder *b, const size_t *rows, size_t n, bool turns)
+static wt_status add_temperature_sweep(sweep_builder *b, const size_t *rows, size_t n, bool turns)
 {
     static const char *const way[] = {" (heated)", " (cooled)"};
-    wt_ramp *ramp = wt_sweep_add_ramp(b->sweep, n, sweep_arrays(&b->c));
+    wt_ramp *ramp = wt_sweep_add_ramp(b->sweep, n, sweep_optional_arrays(&b->c));
     if (ramp == NULL)
         return wt_fail(b->err, WT_E_MEMORY, "no memory for a temperature sweep");
     double sum = 0;
     for (size_t i = 0; i < n; i++) {
         ramp->temperature[i] = sweep_temperature(b, rows[i]);
-        ramp->storage_modulus[i] = sweep_storage(b, rows[i]);
-        ramp->loss_modulus[i] = sweep_loss(b, rows[i]);
+        ramp->storage_modulus[i] = sweep_storage_modulus(b, rows[i]);
+        ramp->loss_modulus[i] = sweep_loss_modulus(b, rows[i]);
         if (ramp->strain != NULL)
             ramp->strain[i] = text_table_value(b->table, rows[i], b->c.strain);
         if (ramp->loss_factor != NULL)
-            ramp->loss_factor[i] = sweep_factor(b, rows[i]);
-        sum += sweep_angular(b, rows[i]);
+            ramp->loss_factor[i] = sweep_loss_factor(b, rows[i]);
+        sum += sweep_angular_frequency(b, rows[i]);
     }
     ramp->angular_frequency = sum / (double)n;
-    sweep_source(b, ramp->source, sizeof ramp->source - sizeof " (heated)");
+    sweep_format_source(b, ramp->source, sizeof ramp->source - sizeof " (heated)");
     if (turns)
         strcat(ramp->source, way[ramp->temperature[0] > ramp->temperature[n - 1]]);
     return WT_OK;
 }
 
 /* Returns the first row after which the temperature reverses, or n. */
-static size_t turning_point(const sweep_builder *b, const size_t *rows, size_t first, size_t n)
+static size_t find_turning_point(const sweep_builder *b, const size_t *rows, size_t first, size_t n)
 {
     size_t warmest = first, coldest = first;
     for (size_t i = first + 1; i < n; i++) {
@@ -60,15 +60,16 @@ static size_t turning_point(const sweep_builder *b, const size_t *rows, size_t f
     return n;
 }
 
-static bool is_ramp(const sweep_builder *b, const size_t *rows, size_t n)
+static bool is_temperature_sweep(const sweep_builder *b, const size_t *rows, size_t n)
 {
-    return n >= FEWEST &&
+    return n >= POINTS_MIN &&
            fabs(sweep_temperature(b, rows[n - 1]) - sweep_temperature(b, rows[0])) >= least_span;
 }
 
 /* Adds the sweeps of rows of one frequency, split where the temperature reverses. The last argument
  * is true if there was a sweep. */
-static wt_status add_ramps(sweep_builder *b, const size_t *all, size_t n_all, bool *taken)
+static wt_status add_temperature_sweeps(sweep_builder *b, const size_t *all, size_t n_all,
+                                        bool *is_sweep)
 {
     size_t *const rows = b->rows; /* `all` may be the same array */
     wt_status status = WT_OK;
@@ -77,36 +78,36 @@ static wt_status add_ramps(sweep_builder *b, const size_t *all, size_t n_all, bo
         if (sweep_temperature(b, all[i]) > 0)
             rows[n++] = all[i];
     for (size_t first = 0, end; first < n && status == WT_OK; first = end) {
-        end = turning_point(b, rows, first, n);
-        if (!is_ramp(b, rows + first, end - first))
+        end = find_turning_point(b, rows, first, n);
+        if (!is_temperature_sweep(b, rows + first, end - first))
             continue;
-        status = add_ramp(b, rows + first, end - first, first > 0 || end < n);
+        status = add_temperature_sweep(b, rows + first, end - first, first > 0 || end < n);
         used += end - first;
     }
-    *taken = used > 0;
-    if (*taken && n < n_all)
-        wt_log_add(b->log, WT_WARNING, b->file->name, line_place(b->table->names_line).words,
+    *is_sweep = used > 0;
+    if (*is_sweep && n < n_all)
+        wt_log_add(b->log, WT_WARNING, b->file->name, format_line_place(b->table->names_line).words,
                    "%zu points at %g rad/s without a temperature above absolute zero left out",
-                   n_all - n, sweep_angular(b, rows[0]));
-    if (*taken && used < n)
-        wt_log_add(b->log, WT_NOTE, b->file->name, line_place(b->table->names_line).words,
+                   n_all - n, sweep_angular_frequency(b, rows[0]));
+    if (*is_sweep && used < n)
+        wt_log_add(b->log, WT_NOTE, b->file->name, format_line_place(b->table->names_line).words,
                    "%zu points beside the temperature sweeps at %g rad/s left out", n - used,
-                   sweep_angular(b, rows[0]));
+                   sweep_angular_frequency(b, rows[0]));
     return status;
 }
 
 /* Extracts the sweeps of consecutive rows with the same frequency. */
-static wt_status take_runs(sweep_builder *b, size_t *rows, size_t *n)
+static wt_status extract_runs(sweep_builder *b, size_t *rows, size_t *n)
 {
     size_t kept = 0;
     wt_status status = WT_OK;
     for (size_t first = 0, end; first < *n && status == WT_OK; first = end) {
-        bool taken = false;
-        for (end = first + 1; end < *n && sweep_way(b, rows[first], rows[end]) == 0;)
+        bool is_sweep = false;
+        for (end = first + 1; end < *n && sweep_direction(b, rows[first], rows[end]) == 0;)
             end++;
-        if (end - first >= FEWEST)
-            status = add_ramps(b, rows + first, end - first, &taken);
-        for (size_t i = first; i < end && !taken; i++)
+        if (end - first >= POINTS_MIN)
+            status = add_temperature_sweeps(b, rows + first, end - first, &is_sweep);
+        for (size_t i = first; i < end && !is_sweep; i++)
             rows[kept++] = rows[i];
     }
     *n = kept;
@@ -121,13 +122,13 @@ static double temperature_step(const sweep_builder *b, size_t row, size_t other)
 }
 
 /* True if the temperature keeps changing during the cycles of frequencies. */
-static bool moves_on(const sweep_builder *b, const size_t *rows, size_t n)
+static bool temperature_drifts(const sweep_builder *b, const size_t *rows, size_t n)
 {
     double within = 0, between = 0;
     size_t first = 0, turns = 1;
     int direction = 0;
     for (size_t i = 1; i < n; i++) {
-        const int way = sweep_way(b, rows[i - 1], rows[i]);
+        const int way = sweep_direction(b, rows[i - 1], rows[i]);
         if (way * direction >= 0) {
             direction = way != 0 ? way : direction;
             continue;
@@ -138,40 +139,41 @@ static bool moves_on(const sweep_builder *b, const size_t *rows, size_t n)
         direction = 0;
         turns++;
     }
-    return turns >= FEWEST && between >= least_span && within > least_drift * between;
+    return turns >= POINTS_MIN && between >= least_span && within > least_drift * between;
 }
 
 /* Extracts the sweeps of cycled frequencies, one for each frequency. `chosen` has space for n
  * rows. */
-static wt_status take_turns(sweep_builder *b, size_t *rows, size_t *n, size_t *chosen)
+static wt_status extract_interleaved(sweep_builder *b, size_t *rows, size_t *n, size_t *chosen)
 {
     wt_status status = WT_OK;
-    if (!moves_on(b, rows, *n))
+    if (!temperature_drifts(b, rows, *n))
         return WT_OK;
     while (*n > 0 && status == WT_OK) {
         const size_t like = rows[0];
         size_t kept = 0, n_chosen = 0;
-        bool taken = false;
+        bool is_sweep = false;
         for (size_t i = 0; i < *n; i++) {
-            if (sweep_way(b, like, rows[i]) == 0)
+            if (sweep_direction(b, like, rows[i]) == 0)
                 chosen[n_chosen++] = rows[i];
             else
                 rows[kept++] = rows[i];
         }
         *n = kept;
-        status = add_ramps(b, chosen, n_chosen, &taken);
-        if (!taken)
-            wt_log_add(b->log, WT_WARNING, b->file->name, line_place(b->table->names_line).words,
+        status = add_temperature_sweeps(b, chosen, n_chosen, &is_sweep);
+        if (!is_sweep)
+            wt_log_add(b->log, WT_WARNING, b->file->name,
+                       format_line_place(b->table->names_line).words,
                        "%zu points at %g rad/s make no temperature sweep and are left out",
-                       n_chosen, sweep_angular(b, like));
+                       n_chosen, sweep_angular_frequency(b, like));
     }
     return status;
 }
 
-wt_status ramps_take(sweep_builder *b, size_t *rows, size_t *n)
+wt_status extract_ramps(sweep_builder *b, size_t *rows, size_t *n)
 {
     if (b->c.temperature == NULL)
         return WT_OK;
-    const wt_status status = take_runs(b, rows, n);
-    return status == WT_OK ? take_turns(b, rows, n, b->rows) : status;
+    const wt_status status = extract_runs(b, rows, n);
+    return status == WT_OK ? extract_interleaved(b, rows, n, b->rows) : status;
 }

@@ -31,8 +31,8 @@ static bool is_binary(const file_peek *peek)
     return 10 * zeros > 6 * n || 20 * controls > n;
 }
 
-static probe_result look_for(const text_description *d, const text_probe *probe,
-                             const text_lines *lines, bool whole)
+static probe_result run_probe(const text_description *d, const text_probe *probe,
+                              const text_lines *lines, bool whole)
 {
     /* the last line of a part may be incomplete */
     const size_t complete = whole || lines->n == 0 ? lines->n : lines->n - 1;
@@ -41,8 +41,8 @@ static probe_result look_for(const text_description *d, const text_probe *probe,
     for (size_t i = 0; i < complete && i < probe->within && !found; i++) {
         text_span line = lines->lines[i];
         if (probe->kind == PROBE_NAMES)
-            found =
-                names_part(d, &line) && names_match(&names, d, line, d->names_separator, d->kinds);
+            found = names_extract(d, &line) &&
+                    names_match(&names, d, line, d->names_separator, d->kinds);
         else if (probe->text != NULL)
             found = strstr(line.text, probe->text) != NULL;
         else
@@ -63,12 +63,12 @@ struct text_peek {
     bool is_text;
     bool whole;    /* true if no more bytes will be shown */
     size_t length; /* length up to a line end, so that no character is split */
-    const text_lines *as[ENCODING_COUNT]; /* decoded text of each encoding, in `lines` */
+    const text_lines *by_encoding[ENCODING_COUNT]; /* decoded text of each encoding, in `lines` */
     text_lines lines[ENCODING_COUNT];
     size_t n_lines;
 };
 
-static struct text_peek *peek_open(const file_peek *peek)
+static struct text_peek *text_peek_new(const file_peek *peek)
 {
     struct text_peek *t = calloc(1, sizeof *t);
     if (t == NULL)
@@ -93,18 +93,18 @@ void text_peek_free(struct text_peek *peek)
 
 /* Returns the decoded lines, which all descriptions with the same encoding share. *lines is NULL if
  * the bytes are not text. */
-static wt_status peek_lines(file_peek *peek, text_encoding encoding, const text_lines **lines)
+static wt_status text_peek_lines(file_peek *peek, text_encoding encoding, const text_lines **lines)
 {
     *lines = NULL;
     if (peek->text == NULL)
-        peek->text = peek_open(peek);
+        peek->text = text_peek_new(peek);
     struct text_peek *t = peek->text;
     if (t == NULL)
         return WT_E_MEMORY;
-    *lines = t->as[encoding];
+    *lines = t->by_encoding[encoding];
     if (!t->is_text || *lines != NULL)
         return WT_OK;
-    const char *words = lines_encoding(peek->bytes, t->length, encoding);
+    const char *words = lines_encoding_name(peek->bytes, t->length, encoding);
     size_t i = 0;
     while (i < t->n_lines && strcmp(t->lines[i].encoding, words) != 0)
         i++;
@@ -114,7 +114,7 @@ static wt_status peek_lines(file_peek *peek, text_encoding encoding, const text_
             return status;
         t->n_lines++;
     }
-    *lines = t->as[encoding] = &t->lines[i];
+    *lines = t->by_encoding[encoding] = &t->lines[i];
     return WT_OK;
 }
 
@@ -126,8 +126,8 @@ static recognition detect(const file_reader *self, file_peek *peek)
     const text_lines *lines = NULL;
     recognition answer = {.answer = ANSWER_NO};
     bool more = false;
-    if (description_need(self->description, DESCRIPTION_DETECT, &d, NULL) != WT_OK ||
-        peek_lines(peek, d->encoding, &lines) == WT_E_MEMORY)
+    if (description_load(self->description, DESCRIPTION_DETECT, &d, NULL) != WT_OK ||
+        text_peek_lines(peek, d->encoding, &lines) == WT_E_MEMORY)
         answer.answer = ANSWER_NO_MEMORY;
     if (lines == NULL)
         return answer;
@@ -136,11 +136,11 @@ static recognition detect(const file_reader *self, file_peek *peek)
         const text_probe *probe = &d->probes[i];
         const text_description *named = d;
         if (probe->kind == PROBE_NAMES &&
-            description_need(self->description, DESCRIPTION_WHOLE, &named, NULL) != WT_OK) {
+            description_load(self->description, DESCRIPTION_WHOLE, &named, NULL) != WT_OK) {
             answer.answer = ANSWER_NO_MEMORY;
             return answer;
         }
-        switch (look_for(named, probe, lines, peek->text->whole)) {
+        switch (run_probe(named, probe, lines, peek->text->whole)) {
         case PROBE_FOUND:
             if (probe->kind == PROBE_FORBID)
                 return answer;

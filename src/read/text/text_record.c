@@ -27,13 +27,13 @@ static const struct {
     [WT_RECORD_WEAR_DEPTH] = {WT_Q_WEAR_DEPTH, HEADER_COUNT},
 };
 
-static double header_value_of(const text_table *t, int channel)
+static double channel_header_value(const text_table *t, int channel)
 {
     const header_value h = sources[channel].header;
     return h < HEADER_COUNT ? t->header.value[h] : (double)NAN;
 }
 
-static wt_status make_room(const text_file *file, wt_record *record, wt_error *err)
+static wt_status allocate_record(const text_file *file, wt_record *record, wt_error *err)
 {
     size_t rows = 0;
     bool whole = true;
@@ -44,7 +44,7 @@ static wt_status make_room(const text_file *file, wt_record *record, wt_error *e
         for (size_t i = 0; i < file->n_tables && record->channel[c] == NULL; i++) {
             const text_table *t = &file->tables[i];
             if (text_table_column(t, sources[c].quantity, -1) == NULL &&
-                isnan(header_value_of(t, c)))
+                isnan(channel_header_value(t, c)))
                 continue;
             record->channel[c] = malloc((rows + 1) * sizeof *record->channel[c]);
             whole = whole && record->channel[c] != NULL;
@@ -53,7 +53,7 @@ static wt_status make_room(const text_file *file, wt_record *record, wt_error *e
                                          : wt_fail(err, WT_E_MEMORY, "no memory for the record");
 }
 
-static bool is_known(const wt_record *record, wt_record_channel c, size_t i)
+static bool has_value(const wt_record *record, wt_record_channel c, size_t i)
 {
     return record->channel[c] != NULL && isfinite(record->channel[c][i]);
 }
@@ -61,14 +61,15 @@ static bool is_known(const wt_record *record, wt_record_channel c, size_t i)
 /* True for a row with friction, and with time and laps where these are recorded. */
 static bool is_sample(const wt_record *record, size_t i)
 {
-    return (is_known(record, WT_RECORD_COEFFICIENT, i) ||
-            is_known(record, WT_RECORD_FRICTION_FORCE, i)) &&
-           (record->channel[WT_RECORD_TIME] == NULL || is_known(record, WT_RECORD_TIME, i)) &&
-           (record->channel[WT_RECORD_LAPS] == NULL || is_known(record, WT_RECORD_LAPS, i));
+    return (has_value(record, WT_RECORD_COEFFICIENT, i) ||
+            has_value(record, WT_RECORD_FRICTION_FORCE, i)) &&
+           (record->channel[WT_RECORD_TIME] == NULL || has_value(record, WT_RECORD_TIME, i)) &&
+           (record->channel[WT_RECORD_LAPS] == NULL || has_value(record, WT_RECORD_LAPS, i));
 }
 
 /* Adds the samples of a table. Other rows are skipped and counted in *n_left_out. */
-static void add_table(const text_table *t, wt_record *record, size_t *step, size_t *n_left_out)
+static void add_table_samples(const text_table *t, wt_record *record, size_t *step,
+                              size_t *n_left_out)
 {
     const text_column *column[WT_RECORD_CHANNELS];
     for (int c = 0; c < WT_RECORD_CHANNELS; c++)
@@ -76,8 +77,9 @@ static void add_table(const text_table *t, wt_record *record, size_t *step, size
     for (size_t r = 0; r < t->n_rows; r++) {
         for (int c = 0; c < WT_RECORD_CHANNELS; c++)
             if (record->channel[c] != NULL)
-                record->channel[c][record->n] =
-                    column[c] != NULL ? text_table_value(t, r, column[c]) : header_value_of(t, c);
+                record->channel[c][record->n] = column[c] != NULL
+                                                    ? text_table_value(t, r, column[c])
+                                                    : channel_header_value(t, c);
         *step += r > 0 && t->blocks[r] != t->blocks[r - 1];
         record->step[record->n] = *step;
         if (is_sample(record, record->n))
@@ -89,8 +91,8 @@ static void add_table(const text_table *t, wt_record *record, size_t *step, size
 
 /* Makes time, distance or laps continue from step to step where they restart. Time and laps must
  * not decrease within a step; a measured distance may scatter. */
-static wt_status run_on(const text_file *file, wt_record *record, wt_record_channel c,
-                        const char *what, wt_error *err)
+static wt_status make_continuous(const text_file *file, wt_record *record, wt_record_channel c,
+                                 const char *what, wt_error *err)
 {
     double *const x = record->channel[c];
     double shift = 0, last = (double)NAN;
@@ -112,7 +114,7 @@ static wt_status run_on(const text_file *file, wt_record *record, wt_record_chan
 }
 
 /* Reverses the sign of the normal force if it is negative under load, as for many instruments. */
-static void turn_load(const text_file *file, wt_record *record, wt_log *log)
+static void orient_load(const text_file *file, wt_record *record, wt_log *log)
 {
     double *const load = record->channel[WT_RECORD_NORMAL_FORCE];
     size_t negative = 0, positive = 0;
@@ -129,7 +131,7 @@ static void turn_load(const text_file *file, wt_record *record, wt_log *log)
 }
 
 /* Warns of unread columns. Without an optional column the record is valid but incomplete. */
-static void log_problems(const text_file *file, const text_table *t, wt_log *log)
+static void warn_unread_columns(const text_file *file, const text_table *t, wt_log *log)
 {
     for (size_t i = 0; i < t->n_problems; i++) {
         const text_column *const c = &t->problems[i];
@@ -146,7 +148,7 @@ static void log_problems(const text_file *file, const text_table *t, wt_log *log
     }
 }
 
-static wt_status fill(const text_file *file, wt_record *record, wt_log *log, wt_error *err)
+static wt_status fill_record(const text_file *file, wt_record *record, wt_log *log, wt_error *err)
 {
     size_t step = 0, left_out = 0;
     wt_status status = WT_OK;
@@ -155,8 +157,8 @@ static wt_status fill(const text_file *file, wt_record *record, wt_log *log, wt_
         const size_t before = record->n;
         status = text_table_require(t, WT_KIND_RECORD, err);
         if (status == WT_OK)
-            add_table(t, record, &step, &left_out);
-        log_problems(file, t, log);
+            add_table_samples(t, record, &step, &left_out);
+        warn_unread_columns(file, t, log);
         if (isnan(record->radius))
             record->radius = t->header.value[HEADER_RADIUS];
         step += record->n > before;
@@ -192,17 +194,17 @@ wt_status text_read_record(const file_reader *self, wt_input *input, const wt_re
     if (status != WT_OK)
         return status;
     text_log_columns(&file, log);
-    status = make_room(&file, &made, err);
+    status = allocate_record(&file, &made, err);
     if (status == WT_OK)
-        status = fill(&file, &made, log, err);
+        status = fill_record(&file, &made, log, err);
     if (status == WT_OK)
-        status = run_on(&file, &made, WT_RECORD_TIME, "time", err);
+        status = make_continuous(&file, &made, WT_RECORD_TIME, "time", err);
     if (status == WT_OK)
-        status = run_on(&file, &made, WT_RECORD_DISTANCE, "distance", err);
+        status = make_continuous(&file, &made, WT_RECORD_DISTANCE, "distance", err);
     if (status == WT_OK)
-        status = run_on(&file, &made, WT_RECORD_LAPS, "the number of laps", err);
+        status = make_continuous(&file, &made, WT_RECORD_LAPS, "the number of laps", err);
     if (status == WT_OK) {
-        turn_load(&file, &made, log);
+        orient_load(&file, &made, log);
         check_steps(&file, log);
         *record = made;
     } else {

@@ -44,7 +44,7 @@ static size_t hash_cell(const text_cells *cells, size_t i, size_t hash)
 }
 
 /* Begins a new block where a group or curve cell changes. */
-static void follow_groups(text_scanner *s)
+static void update_block(text_scanner *s)
 {
     const text_table *t = s->table;
     size_t hash = (size_t)1469598103934665603u;
@@ -57,10 +57,10 @@ static void follow_groups(text_scanner *s)
     s->has_group = true;
 }
 
-size_t scan_sample(text_scanner *s, text_span name)
+size_t scan_find_sample(text_scanner *s, text_span name)
 {
     text_list *const list = &s->file->samples;
-    char text[NAME_LONGEST];
+    char text[COLUMN_NAME_SIZE];
     while (name.length > 0 && strchr(" \t\r", name.text[name.length - 1]) != NULL)
         name.length--;
     text_copy(text, sizeof text, name);
@@ -76,35 +76,35 @@ size_t scan_sample(text_scanner *s, text_span name)
 }
 
 /* Returns the sample of the row. The sample of the previous row is tested first. */
-static size_t row_sample(text_scanner *s)
+static size_t find_row_sample(text_scanner *s)
 {
     const text_table *t = s->table;
     const size_t i = t->sample_cell;
     if (i >= s->row.n || s->row.cells[i].length == 0)
         return s->sample;
     const size_t last = t->n_rows > 0 ? t->samples[t->n_rows - 1] : NO_SAMPLE;
-    if (last != NO_SAMPLE && cell_is(s->row.cells[i], s->file->samples.items[last]))
+    if (last != NO_SAMPLE && cell_equals(s->row.cells[i], s->file->samples.items[last]))
         return last;
-    return scan_sample(s, s->row.cells[i]);
+    return scan_find_sample(s, s->row.cells[i]);
 }
 
-static unsigned char segment_kind(const text_scanner *s)
+static unsigned char row_segment_kind(const text_scanner *s)
 {
     const size_t i = s->table->segment_cell;
     if (i == SIZE_MAX || i >= s->row.n)
         return s->kind;
     const text_span cell = s->row.cells[i];
     for (size_t v = 0; v < s->d->n_values; v++)
-        if (cell_is(cell, s->d->values[v].text))
+        if (cell_equals(cell, s->d->values[v].text))
             return (unsigned char)s->d->values[v].kind;
     return WT_SEGMENT_OTHER;
 }
 
-static void warn_of_cell(text_scanner *s, const text_column *column)
+static void warn_ignored_cell(text_scanner *s, const text_column *column)
 {
     char found[16];
     text_copy(found, sizeof found, s->row.cells[column->cell]);
-    wt_log_add(s->log, WT_WARNING, s->file->name, line_place(s->i + 1).words,
+    wt_log_add(s->log, WT_WARNING, s->file->name, format_line_place(s->i + 1).words,
                "\"%s\" in column %zu (%s) is no value and is left out", found, column->cell + 1,
                column->name);
 }
@@ -120,19 +120,19 @@ row_quality scan_read_row(text_scanner *s, size_t *bad)
         values[c] = (double)NAN;
         if (column->cell >= s->row.n)
             continue;
-        switch (cell_read(s->row.cells[column->cell], t->decimal, s->d, &value)) {
+        switch (cell_parse(s->row.cells[column->cell], t->decimal, s->d, &value)) {
         case CELL_NUMBER:
             values[c] = column->factor * value + column->offset;
             numbers++;
             if (!isfinite(values[c])) { /* overflow in SI units */
                 values[c] = (double)NAN;
-                warn_of_cell(s, column);
+                warn_ignored_cell(s, column);
             }
             break;
         case CELL_MISSING:
             break;
         case CELL_NOT_FINITE:
-            warn_of_cell(s, column);
+            warn_ignored_cell(s, column);
             break;
         case CELL_TEXT:
             if (texts++ == 0)
@@ -145,7 +145,7 @@ row_quality scan_read_row(text_scanner *s, size_t *bad)
     return numbers > 0 || s->row.n >= t->n_names ? ROW_GOOD : ROW_TEXT;
 }
 
-void scan_bad_row(text_scanner *s, size_t bad)
+void scan_fail_row(text_scanner *s, size_t bad)
 {
     char found[64];
     const text_table *t = s->table;
@@ -166,14 +166,14 @@ void scan_bad_row(text_scanner *s, size_t bad)
 
 /* Warns of a gap in the row numbers; a restart is allowed. The message is constant, so that the log
  * merges repetitions. */
-static void watch_number(text_scanner *s)
+static void check_row_number(text_scanner *s)
 {
     const text_table *const t = s->table;
     double number = (double)NAN;
     if (t->number_cell < s->row.n)
-        (void)cell_read(s->row.cells[t->number_cell], t->decimal, s->d, &number);
+        (void)cell_parse(s->row.cells[t->number_cell], t->decimal, s->d, &number);
     if (number > s->last_number + 1)
-        wt_log_add(s->log, WT_WARNING, s->file->name, line_place(s->i + 1).words,
+        wt_log_add(s->log, WT_WARNING, s->file->name, format_line_place(s->i + 1).words,
                    "the number of a row is not the next one: are rows missing before it?");
     s->last_number = number;
 }
@@ -181,17 +181,17 @@ static void watch_number(text_scanner *s)
 void scan_add_row(text_scanner *s)
 {
     text_table *t = s->table;
-    cut_watch(s);
-    watch_number(s);
-    follow_groups(s);
+    truncation_track_row(s);
+    check_row_number(s);
+    update_block(s);
     if (!s->snapshot) {
         t->header = s->header;
         s->snapshot = true;
     }
     t->blocks[t->n_rows] = s->block;
-    t->kinds[t->n_rows] = segment_kind(s);
+    t->kinds[t->n_rows] = row_segment_kind(s);
     t->row_lines[t->n_rows] = s->i + 1;
-    t->samples[t->n_rows] = row_sample(s);
+    t->samples[t->n_rows] = find_row_sample(s);
     t->n_rows++;
     s->n_rows++;
     s->blank = false;

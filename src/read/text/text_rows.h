@@ -18,8 +18,8 @@ row_quality scan_read_row(text_scanner *s, size_t *bad);
 void scan_add_row(text_scanner *s);
 /* Returns the index of a name in the list of samples and adds it if necessary. NO_SAMPLE for a
  * blank name, a full list or a failure. */
-size_t scan_sample(text_scanner *s, text_span name);
+size_t scan_find_sample(text_scanner *s, text_span name);
 /* Fails for an unreadable row. */
-void scan_bad_row(text_scanner *s, size_t bad);
+void scan_fail_row(text_scanner *s, size_t bad);
 
 #endif

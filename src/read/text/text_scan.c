@@ -15,7 +15,7 @@
 #define TABLES_MAX ((size_t)100000)
 
 /* Returns line i; false after the last line and on failure. */
-static bool line_at(text_scanner *s, size_t i, text_span *line)
+static bool read_line(text_scanner *s, size_t i, text_span *line)
 {
     if (s->status != WT_OK)
         return false;
@@ -48,16 +48,15 @@ static void new_table(text_scanner *s)
     memcpy(s->table->title, s->title, sizeof s->title);
     s->step_has_table = true;
     s->has_group = false;
-    s->sample_is_told = false;
+    s->has_sample_name = false;
     s->snapshot = false;
     s->blank = false;
-    s->last = (last_cells){0};
+    s->last = (last_cell_stats){0};
     s->last_number = (double)NAN;
     s->unclosed = s->d->end_required;
 }
 
-static bool split_cells(text_scanner *s, text_cells *cells, text_span line,
-                        cell_separator separator)
+static bool split_line(text_scanner *s, text_cells *cells, text_span line, cell_separator separator)
 {
     if (cells_split(cells, line, separator, s->d))
         return true;
@@ -66,16 +65,16 @@ static bool split_cells(text_scanner *s, text_cells *cells, text_span line,
 }
 
 /* True if the row may contain units; a number in a known column excludes it. */
-static bool units_row(text_scanner *s, const text_cells *cells)
+static bool is_units_row(text_scanner *s, const text_cells *cells)
 {
     const text_description *d = s->d;
-    if (d->row_prefix != NULL && cells->n > 0 && name_is(cells->cells[0], d->row_prefix))
+    if (d->row_prefix != NULL && cells->n > 0 && name_equals(cells->cells[0], d->row_prefix))
         return false;
     for (size_t i = 0; i < cells->n && i < s->names.names.n; i++) {
         const text_span cell = cells->cells[i];
-        known_name known;
+        name_match known;
         double value;
-        if (names_known(d, s->names.names.cells[i], &known) &&
+        if (find_column_name(d, s->names.names.cells[i], &known) &&
             (wt_number_parse(cell.text, cell.length, '.', &value) ||
              wt_number_parse(cell.text, cell.length, ',', &value)))
             return false;
@@ -86,8 +85,8 @@ static bool units_row(text_scanner *s, const text_cells *cells)
 static bool names_have_units(const text_scanner *s)
 {
     for (size_t i = 0; i < s->names.names.n; i++) {
-        known_name known;
-        if (names_known(s->d, s->names.names.cells[i], &known) && known.unit.length > 0)
+        name_match known;
+        if (find_column_name(s->d, s->names.names.cells[i], &known) && known.unit.length > 0)
             return true;
     }
     return false;
@@ -99,14 +98,14 @@ static void find_units(text_scanner *s)
     text_span line;
     if (s->d->units == UNITS_NAME_OR_ROW && names_have_units(s))
         return;
-    for (size_t i = s->i + 1; i <= s->i + 4 && line_at(s, i, &line); i++) {
+    for (size_t i = s->i + 1; i <= s->i + 4 && read_line(s, i, &line); i++) {
         if (s->comment_names)
             (void)line_uncomment(s->d, &line);
-        if (!split_cells(s, &s->names.units, line, s->names.separator))
+        if (!split_line(s, &s->names.units, line, s->names.separator))
             return;
-        if (cells_blank(&s->names.units))
+        if (cells_are_blank(&s->names.units))
             continue;
-        if (units_row(s, &s->names.units)) {
+        if (is_units_row(s, &s->names.units)) {
             s->i = i;
             return;
         }
@@ -133,10 +132,10 @@ static char choose_decimal(text_scanner *s)
     /* In rows separated by commas, a comma within a cell is quoted. The first row may be the names
      * row. */
     for (size_t i = s->i + !description_is_nameless(s->d);
-         i < s->i + 101 && commas + points < 64 && line_at(s, i, &line); i++) {
-        if (!split_cells(s, &s->row, line, s->table->separator))
+         i < s->i + 101 && commas + points < 64 && read_line(s, i, &line); i++) {
+        if (!split_line(s, &s->row, line, s->table->separator))
             return '.';
-        cells_count_marks(&s->row, &commas, &points);
+        cells_count_decimal_marks(&s->row, &commas, &points);
     }
     return commas > points ? ',' : '.';
 }
@@ -154,10 +153,10 @@ static void begin_rows(text_scanner *s)
 
 /* Collects names that are listed one per line, up to the line above the rows. If one name does not
  * fit, none is used, since later names would shift to other columns. */
-static bool gathered_names(text_scanner *s, text_span *line)
+static bool collect_names(text_scanner *s, text_span *line)
 {
     text_span name = *line;
-    if (pattern_part(&s->d->names_lines, &name)) {
+    if (pattern_extract(&s->d->names_lines, &name)) {
         if (s->n_gathered + name.length + 1 < sizeof s->gathered) {
             s->gathered[s->n_gathered] = '\t';
             s->n_gathered += s->n_gathered > 0;
@@ -176,13 +175,13 @@ static bool gathered_names(text_scanner *s, text_span *line)
     return all;
 }
 
-static void table_line(text_scanner *s);
+static void scan_table_line(text_scanner *s);
 
 /* Opens a table if the line is its first row and the file has no names. */
 static bool match_row(text_scanner *s)
 {
     if (s->comment || s->state != SCAN_HEADER ||
-        !names_of_row(&s->names, s->d, s->line, s->separator)) {
+        !names_match_row(&s->names, s->d, s->line, s->separator)) {
         if (s->names.no_memory)
             scan_no_memory(s);
         return false;
@@ -191,7 +190,7 @@ static bool match_row(text_scanner *s)
     if (s->status == WT_OK)
         begin_rows(s);
     if (s->status == WT_OK)
-        table_line(s);
+        scan_table_line(s);
     return true;
 }
 
@@ -204,7 +203,7 @@ static bool match_names(text_scanner *s)
         return match_row(s);
     const cell_separator separator =
         d->names_separator != SEPARATOR_AUTO ? d->names_separator : s->separator;
-    if (!(d->names_lines.compiled ? gathered_names(s, &line) : names_part(d, &line)) ||
+    if (!(d->names_lines.compiled ? collect_names(s, &line) : names_extract(d, &line)) ||
         !names_match(&s->names, d, line, separator, s->kinds)) {
         if (s->names.no_memory)
             scan_no_memory(s);
@@ -223,21 +222,21 @@ static bool match_names(text_scanner *s)
 
 /* ---- the scan -------------------------------------------------------------------------------- */
 
-static void header_line(text_scanner *s)
+static void scan_header_line(text_scanner *s)
 {
     if (s->title_next && !s->comment) {
         text_copy(s->title, sizeof s->title, s->line);
         s->title_next = false;
         return;
     }
-    const bool mark = scan_marks(s);
-    scan_fields(s);
+    const bool mark = scan_match_markers(s);
+    scan_header_fields(s);
     if (s->status == WT_OK && !mark)
         (void)match_names(s);
 }
 
 /* Warns of rows after the end of a table, which would be lost otherwise. */
-static void watch_orphan(text_scanner *s)
+static void warn_orphan_row(text_scanner *s)
 {
     size_t bad = 0;
     text_table *t = s->table;
@@ -245,71 +244,72 @@ static void watch_orphan(text_scanner *s)
         s->step_line != t->step_line)
         return;
     if (scan_split_row(s) && s->row.n >= t->n_names && scan_read_row(s, &bad) == ROW_GOOD)
-        wt_log_add(s->log, WT_WARNING, s->file->name, line_place(s->i + 1).words,
+        wt_log_add(s->log, WT_WARNING, s->file->name, format_line_place(s->i + 1).words,
                    "row of numbers after the end of its table, not read");
 }
 
 /* True if no table row follows, only text such as a signature or remarks. It is called once for
  * each table. */
-static bool rest_is_words(text_scanner *s)
+static bool rest_is_text(text_scanner *s)
 {
     const text_span line = s->line;
     bool words = true;
-    for (size_t i = s->i + 1; words && line_at(s, i, &s->line); i++) {
+    for (size_t i = s->i + 1; words && read_line(s, i, &s->line); i++) {
         size_t bad = 0;
-        words = scan_split_row(s) && (cells_blank(&s->row) || scan_read_row(s, &bad) == ROW_TEXT);
+        words =
+            scan_split_row(s) && (cells_are_blank(&s->row) || scan_read_row(s, &bad) == ROW_TEXT);
     }
     s->line = line;
     return scan_split_row(s) && words;
 }
 
-static void leave_rest(text_scanner *s)
+static void skip_rest(text_scanner *s)
 {
     char found[48];
     text_copy(found, sizeof found, s->line);
-    wt_log_add(s->log, WT_WARNING, s->file->name, line_place(s->i + 1).words,
+    wt_log_add(s->log, WT_WARNING, s->file->name, format_line_place(s->i + 1).words,
                "the lines from here on are no rows of the table and are left out: \"%s\"", found);
     s->state = SCAN_HEADER;
-    header_line(s);
+    scan_header_line(s);
 }
 
-static void table_line(text_scanner *s)
+static void scan_table_line(text_scanner *s)
 {
     const text_description *d = s->d;
     const text_table *t = s->table;
     size_t bad = SIZE_MAX;
     if (!scan_split_row(s))
         return;
-    if (cells_blank(&s->row)) {
+    if (cells_are_blank(&s->row)) {
         s->block += d->blank_is_block && t->n_rows > 0 && !s->blank;
         s->blank = true;
         return;
     }
-    if (d->row_prefix != NULL && !name_is(s->row.cells[0], d->row_prefix)) {
-        header_line(s);
+    if (d->row_prefix != NULL && !name_equals(s->row.cells[0], d->row_prefix)) {
+        scan_header_line(s);
         return;
     }
-    if (d->row_prefix == NULL && scan_marks(s)) {
-        scan_fields(s);
+    if (d->row_prefix == NULL && scan_match_markers(s)) {
+        scan_header_fields(s);
         return;
     }
     const row_quality row = scan_read_row(s, &bad);
     const line_end end = feed_line_end(s->file->feed, s->i);
-    if (end == END_NONE && (row != ROW_GOOD || !cut_is_whole(s))) {
-        s->cut = CUT_ROW_DROPPED;
+    if (end == END_NONE && (row != ROW_GOOD || !truncation_row_is_complete(s))) {
+        s->last_row = LAST_ROW_DROPPED;
     } else if (row == ROW_GOOD) {
-        s->cut = end == END_NONE ? CUT_ROW_KEPT : CUT_NO_ROW;
+        s->last_row = end == END_NONE ? LAST_ROW_KEPT : LAST_ROW_NONE;
         scan_add_row(s);
     } else if (!match_names(s) && s->status == WT_OK) {
         if (row == ROW_TEXT && !s->blank && t->n_rows > 0 && d->row_prefix == NULL &&
-            rest_is_words(s))
-            leave_rest(s);
+            rest_is_text(s))
+            skip_rest(s);
         else if (!s->blank || (row == ROW_BROKEN && s->row.n == t->n_names) ||
                  d->row_prefix != NULL) {
-            scan_bad_row(s, bad);
+            scan_fail_row(s, bad);
         } else {
             s->state = SCAN_HEADER;
-            header_line(s);
+            scan_header_line(s);
         }
     }
 }
@@ -317,36 +317,36 @@ static void table_line(text_scanner *s)
 static void units_line(text_scanner *s)
 {
     text_span units = s->line;
-    if (pattern_part(&s->d->units_line, &units)) {
-        if (split_cells(s, &s->names.units, units, s->names.separator))
+    if (pattern_extract(&s->d->units_line, &units)) {
+        if (split_line(s, &s->names.units, units, s->names.separator))
             begin_rows(s);
     } else if (s->comment) {
-        header_line(s);
+        scan_header_line(s);
     } else if (s->line.length > 0) {
         begin_rows(s);
         if (s->status == WT_OK)
-            table_line(s);
+            scan_table_line(s);
     }
 }
 
-void scan_walk(text_scanner *s)
+void scan_lines(text_scanner *s)
 {
-    for (; line_at(s, s->i, &s->line); s->i++) {
+    for (; read_line(s, s->i, &s->line); s->i++) {
         text_span rest = s->line;
         s->last_is_short = s->last_is_short && s->line.length == 0;
         s->comment = line_uncomment(s->d, &rest);
         if (s->state == SCAN_UNITS) {
             units_line(s);
         } else if (s->state == SCAN_ROWS && !s->comment) {
-            table_line(s);
+            scan_table_line(s);
         } else {
-            header_line(s);
+            scan_header_line(s);
             if (s->state == SCAN_HEADER && s->status == WT_OK && !s->comment)
-                watch_orphan(s);
+                warn_orphan_row(s);
         }
         if (!s->halts)
             continue;
-        feed_drop(s->file->feed, s->i);
+        feed_discard(s->file->feed, s->i);
         if (s->step_line == s->i + 1 && s->table != NULL && s->status == WT_OK) {
             s->i++;
             return;
@@ -354,9 +354,9 @@ void scan_walk(text_scanner *s)
     }
     s->ended = true;
     if (s->status == WT_OK)
-        cut_finish(s);
+        truncation_report(s);
     if (s->status == WT_OK)
         scan_finish_step(s);
     if (s->status == WT_OK)
-        scan_check_rows(s);
+        scan_check_row_count(s);
 }

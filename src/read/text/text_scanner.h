@@ -15,7 +15,7 @@ typedef enum scan_state {
 } scan_state;
 
 /* The format of the last cells of the rows of a table. */
-typedef struct last_cells {
+typedef struct last_cell_stats {
     size_t n;                        /* number of rows with a non-empty last cell */
     size_t cells_min;                /* minimum number of cells in a row */
     size_t short_rows;               /* number of rows without a cell for every column */
@@ -23,9 +23,9 @@ typedef struct last_cells {
     size_t shortest, longest;        /* length [byte] */
     size_t digits_min, exponent_min; /* minimum digits of mantissa and exponent */
     bool points, exponents;          /* true if one has a decimal point, an exponent */
-} last_cells;
+} last_cell_stats;
 
-typedef enum cut_row { CUT_NO_ROW, CUT_ROW_KEPT, CUT_ROW_DROPPED } cut_row;
+typedef enum last_row_state { LAST_ROW_NONE, LAST_ROW_KEPT, LAST_ROW_DROPPED } last_row_state;
 
 typedef struct text_scanner {
     text_file *file;
@@ -60,28 +60,28 @@ typedef struct text_scanner {
     size_t block;
     size_t group_hash; /* hash of the cells whose change begins a block */
     bool has_group;
-    size_t n_said, n_rows; /* rows that the header states (0: none), and rows read since */
-    size_t sample;         /* sample of the header, or NO_SAMPLE */
-    bool sample_is_told;   /* true if the header named the sample since the last table */
-    last_cells last;       /* formats in the table */
-    double last_number;    /* number of the previous row; NaN if absent */
-    bool last_is_short;    /* true if the previous line was the first incomplete row */
-    cut_row cut;           /* treatment of a last line without a line end */
-    bool unclosed;         /* true if a step or table lacks its required end line */
+    size_t n_declared, n_rows; /* rows that the header states (0: none), and rows read since */
+    size_t sample;             /* sample of the header, or NO_SAMPLE */
+    bool has_sample_name;      /* true if the header named the sample since the last table */
+    last_cell_stats last;      /* formats in the table */
+    double last_number;        /* number of the previous row; NaN if absent */
+    bool last_is_short;        /* true if the previous line was the first incomplete row */
+    last_row_state last_row;   /* treatment of a last line without a line end */
+    bool unclosed;             /* true if a step or table lacks its required end line */
 } text_scanner;
 
 /* Scans from line s->i to the end. If the scan stops at steps, it ends after a line that begins a
  * step after a table. */
-void scan_walk(text_scanner *s);
+void scan_lines(text_scanner *s);
 
 /* Records the format of the row that was read. */
-void cut_watch(text_scanner *s);
+void truncation_track_row(text_scanner *s);
 /* True if the row of a last line without a line end is as complete as the rows before it. */
-bool cut_is_whole(const text_scanner *s);
+bool truncation_row_is_complete(const text_scanner *s);
 /* Checks that a table or step ends as required. */
-void cut_check_end(text_scanner *s);
+void truncation_check_table_end(text_scanner *s);
 /* Reports signs of truncation after all lines are read, and drops an incomplete last row. */
-void cut_finish(text_scanner *s);
+void truncation_report(text_scanner *s);
 
 static inline void scan_no_memory(text_scanner *s)
 {

@@ -10,15 +10,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-typedef struct point {
+typedef struct spectrum_point {
     double wavenumber, density;
-} point;
+} spectrum_point;
 
 /* The classes of a row. Wavenumber 0 of an averaged spectrum is the mean height and is skipped. Any
  * other invalid row would leave an invisible gap, so it is an error. */
-typedef enum row_use { ROW_POINT, ROW_EMPTY, ROW_MEAN, ROW_BAD } row_use;
+typedef enum row_class { ROW_POINT, ROW_EMPTY, ROW_MEAN, ROW_BAD } row_class;
 
-static row_use use_of(point p)
+static row_class classify_row(spectrum_point p)
 {
     if (isnan(p.wavenumber) && isnan(p.density))
         return ROW_EMPTY;
@@ -27,7 +27,7 @@ static row_use use_of(point p)
     return p.wavenumber > 0 && !isnan(p.density) ? ROW_POINT : ROW_BAD;
 }
 
-static wt_status bad_row(const text_table *t, size_t row, point p, wt_error *err)
+static wt_status fail_row(const text_table *t, size_t row, spectrum_point p, wt_error *err)
 {
     wt_fail(err, WT_E_CORRUPT, "a row of the spectrum is no point of it");
     wt_error_place(err, "line %zu", t->row_lines[row]);
@@ -37,8 +37,8 @@ static wt_status bad_row(const text_table *t, size_t row, point p, wt_error *err
     return WT_E_CORRUPT;
 }
 
-static wt_status collect_points(const text_file *file, point *points, size_t *n,
-                                wt_spectrum_kind *kind, wt_log *log, wt_error *err)
+static wt_status collect_spectrum_points(const text_file *file, spectrum_point *points, size_t *n,
+                                         wt_spectrum_kind *kind, wt_log *log, wt_error *err)
 {
     for (size_t i = 0; i < file->n_tables; i++) {
         const text_table *t = &file->tables[i];
@@ -58,20 +58,20 @@ static wt_status collect_points(const text_file *file, point *points, size_t *n,
         }
         *kind = this_kind;
         for (size_t r = 0; r < t->n_rows; r++) {
-            point p = {text_table_value(t, r, q), text_table_value(t, r, c)};
-            switch (use_of(p)) {
+            spectrum_point p = {text_table_value(t, r, q), text_table_value(t, r, c)};
+            switch (classify_row(p)) {
             case ROW_POINT:
                 points[(*n)++] = p;
                 break;
             case ROW_EMPTY:
                 break;
             case ROW_MEAN:
-                wt_log_add(log, WT_WARNING, file->name, line_place(t->row_lines[r]).words,
+                wt_log_add(log, WT_WARNING, file->name, format_line_place(t->row_lines[r]).words,
                            "wavenumber 0 is the mean of the surface, no wave; its density is "
                            "left out");
                 break;
             case ROW_BAD:
-                return bad_row(t, r, p, err);
+                return fail_row(t, r, p, err);
             }
         }
     }
@@ -91,19 +91,19 @@ wt_status text_read_spectrum(const file_reader *self, wt_input *input,
     text_log_columns(&file, log);
     for (size_t i = 0; i < file.n_tables; i++)
         rows += file.tables[i].n_rows;
-    point *points = malloc((rows + 1) * sizeof *points);
+    spectrum_point *points = malloc((rows + 1) * sizeof *points);
     made.wavenumber = malloc((rows + 1) * sizeof *made.wavenumber);
     made.density = malloc((rows + 1) * sizeof *made.density);
     if (points == NULL || made.wavenumber == NULL || made.density == NULL)
         status = wt_fail(err, WT_E_MEMORY, "no memory for the spectrum");
     if (status == WT_OK)
-        status = collect_points(&file, points, &n, &made.kind, log, err);
+        status = collect_spectrum_points(&file, points, &n, &made.kind, log, err);
     if (status == WT_OK && n < 2)
         status = text_fail_empty(&file, "power spectrum", err);
     if (status == WT_OK)
         qsort(points, n, sizeof *points, numbers_compare);
     for (made.n = 0; status == WT_OK && made.n < n; made.n++) {
-        const point *const p = &points[made.n];
+        const spectrum_point *const p = &points[made.n];
         if (made.n > 0 && !(p->wavenumber > p[-1].wavenumber)) {
             status = wt_fail(err, WT_E_CORRUPT, "a wavenumber stands twice");
             wt_error_expected(err, "one density for each wavenumber");

@@ -11,14 +11,14 @@
 #include <string.h>
 
 /* Maximum number of decades that an instrument sweeps at one temperature. */
-static const double most_decades = 7;
+static const double decades_max = 7;
 
 /* Warns of a master curve of another program, which looks like one isotherm. */
-static void warn_of_shifted(const sweep_builder *b, double low, double high)
+static void warn_shifted(const sweep_builder *b, double low, double high)
 {
     const double decades = log10(high / low);
-    if (decades > most_decades)
-        wt_log_add(b->log, WT_WARNING, b->file->name, line_place(b->table->names_line).words,
+    if (decades > decades_max)
+        wt_log_add(b->log, WT_WARNING, b->file->name, format_line_place(b->table->names_line).words,
                    "%s over %.1f decades at one temperature: this looks like a "
                    "master curve that was shifted already; export the measured isotherms",
                    b->c.step != NULL ? "times" : "frequencies", decades);
@@ -30,40 +30,40 @@ static void name_isotherm(const sweep_builder *b, wt_isotherm *isotherm)
     char amplitude[24] = "";
     if (b->amplitudes && isotherm->strain != NULL)
         clocale_print(amplitude, sizeof amplitude, " (%.3g %%)", 100 * isotherm->strain[0]);
-    sweep_source(b, isotherm->source, sizeof isotherm->source - strlen(amplitude));
+    sweep_format_source(b, isotherm->source, sizeof isotherm->source - strlen(amplitude));
     strcat(isotherm->source, amplitude);
 }
 
 /* Creates an isotherm from the collected rows, if the frequency varies. */
-static wt_status end_isotherm(sweep_builder *b)
+static wt_status finish_isotherm(sweep_builder *b)
 {
     double low = (double)INFINITY, high = 0;
     const char *title = b->table->title;
     for (size_t i = 0; i < b->n; i++) {
-        low = fmin(low, sweep_angular(b, b->rows[i]));
-        high = fmax(high, sweep_angular(b, b->rows[i]));
+        low = fmin(low, sweep_angular_frequency(b, b->rows[i]));
+        high = fmax(high, sweep_angular_frequency(b, b->rows[i]));
     }
     if (b->n == 0)
         return WT_OK;
     if (!(high > low * (1 + SAME_FREQUENCY))) {
-        wt_log_add(b->log, WT_NOTE, b->file->name, line_place(b->table->names_line).words,
+        wt_log_add(b->log, WT_NOTE, b->file->name, format_line_place(b->table->names_line).words,
                    "%s%s%zu points at one %s, left out", title, title[0] != '\0' ? ": " : "", b->n,
                    b->c.step != NULL ? "time" : "frequency: not a frequency sweep");
         b->n = 0;
         return WT_OK;
     }
-    warn_of_shifted(b, low, high);
-    wt_isotherm *isotherm = wt_sweep_add(b->sweep, b->n, sweep_arrays(&b->c));
+    warn_shifted(b, low, high);
+    wt_isotherm *isotherm = wt_sweep_add(b->sweep, b->n, sweep_optional_arrays(&b->c));
     if (isotherm == NULL)
         return wt_fail(b->err, WT_E_MEMORY, "no memory for an isotherm");
     for (size_t i = 0; i < b->n; i++) {
-        isotherm->angular_frequency[i] = sweep_angular(b, b->rows[i]);
-        isotherm->storage_modulus[i] = sweep_storage(b, b->rows[i]);
-        isotherm->loss_modulus[i] = sweep_loss(b, b->rows[i]);
+        isotherm->angular_frequency[i] = sweep_angular_frequency(b, b->rows[i]);
+        isotherm->storage_modulus[i] = sweep_storage_modulus(b, b->rows[i]);
+        isotherm->loss_modulus[i] = sweep_loss_modulus(b, b->rows[i]);
         if (b->c.strain != NULL)
             isotherm->strain[i] = text_table_value(b->table, b->rows[i], b->c.strain);
         if (isotherm->loss_factor != NULL)
-            isotherm->loss_factor[i] = sweep_factor(b, b->rows[i]);
+            isotherm->loss_factor[i] = sweep_loss_factor(b, b->rows[i]);
     }
     name_isotherm(b, isotherm);
     wt_status status =
@@ -73,7 +73,7 @@ static wt_status end_isotherm(sweep_builder *b)
 }
 
 /* True if a row has the block and temperature of the previous one. */
-static bool goes_on(const sweep_builder *b, size_t last, size_t row)
+static bool is_same_isotherm(const sweep_builder *b, size_t last, size_t row)
 {
     const double jump = b->file->description->temperature_jump;
     return b->table->blocks[row] == b->table->blocks[last] &&
@@ -90,9 +90,9 @@ static wt_status split_rows(sweep_builder *b, const size_t *rows, size_t n)
     for (size_t i = 0; i < n && status == WT_OK; i++) {
         if (b->n > 0) {
             const size_t row = rows[i], last = b->rows[b->n - 1];
-            const int way = sweep_way(b, last, row);
-            if (way * direction < 0 || !goes_on(b, last, row)) {
-                status = end_isotherm(b);
+            const int way = sweep_direction(b, last, row);
+            if (way * direction < 0 || !is_same_isotherm(b, last, row)) {
+                status = finish_isotherm(b);
                 direction = 0;
             } else if (way != 0) {
                 direction = way;
@@ -100,13 +100,13 @@ static wt_status split_rows(sweep_builder *b, const size_t *rows, size_t n)
         }
         b->rows[b->n++] = rows[i];
     }
-    return status == WT_OK ? end_isotherm(b) : status;
+    return status == WT_OK ? finish_isotherm(b) : status;
 }
 
 /* Maximum ratio of amplitudes with the same set value. */
 static const double same_amplitude = 1.5;
 
-static bool other_amplitude(const sweep_builder *b, size_t row, size_t other)
+static bool has_other_amplitude(const sweep_builder *b, size_t row, size_t other)
 {
     const double ratio = text_table_value(b->table, row, b->c.strain) /
                          text_table_value(b->table, other, b->c.strain);
@@ -115,22 +115,23 @@ static bool other_amplitude(const sweep_builder *b, size_t row, size_t other)
 
 /* Groups the rows by amplitude if several amplitudes alternate at each frequency. The frequency
  * then reverses between the groups. */
-static void part_amplitudes(sweep_builder *b, size_t *rows, size_t n)
+static void group_amplitudes(sweep_builder *b, size_t *rows, size_t n)
 {
     bool turns = false;
     for (size_t i = 1; i < n && !turns; i++)
         turns = b->table->blocks[rows[i]] == b->table->blocks[rows[i - 1]] &&
-                sweep_way(b, rows[i - 1], rows[i]) == 0 && other_amplitude(b, rows[i], rows[i - 1]);
+                sweep_direction(b, rows[i - 1], rows[i]) == 0 &&
+                has_other_amplitude(b, rows[i], rows[i - 1]);
     b->amplitudes = turns;
     for (size_t first = 0, end, done; turns && first < n; first = done) {
         /* a block at one temperature */
-        for (end = first + 1; end < n && goes_on(b, rows[end - 1], rows[end]);)
+        for (end = first + 1; end < n && is_same_isotherm(b, rows[end - 1], rows[end]);)
             end++;
         const size_t like = rows[first];
         size_t n_others = 0;
         done = first;
         for (size_t i = first; i < end; i++)
-            if (other_amplitude(b, rows[i], like))
+            if (has_other_amplitude(b, rows[i], like))
                 b->rows[n_others++] = rows[i];
             else
                 rows[done++] = rows[i];
@@ -142,11 +143,11 @@ static void part_amplitudes(sweep_builder *b, size_t *rows, size_t n)
 static wt_status split_sample(sweep_builder *b, size_t *rows, size_t n)
 {
     const bool swept = b->c.step == NULL;
-    wt_status status = swept ? strain_sweeps_take(b, rows, &n) : WT_OK;
+    wt_status status = swept ? extract_strain_sweeps(b, rows, &n) : WT_OK;
     if (status == WT_OK && swept)
-        status = ramps_take(b, rows, &n);
+        status = extract_ramps(b, rows, &n);
     if (status == WT_OK && swept && b->c.strain != NULL)
-        part_amplitudes(b, rows, n);
+        group_amplitudes(b, rows, n);
     return status == WT_OK ? split_rows(b, rows, n) : status;
 }
 
@@ -170,7 +171,7 @@ static wt_status name_sample(const sweep_builder *b, const wt_sweep *from)
 
 /* Ignores a sample column of numbers that nearly all differ, or of too many names; it counts
  * something. */
-static void drop_counts(const sweep_builder *b)
+static void ignore_count_column(const sweep_builder *b)
 {
     const text_table *t = b->table;
     const text_list *names = &b->file->samples;
@@ -189,7 +190,7 @@ static void drop_counts(const sweep_builder *b)
     const bool counts = numbers && n > 1 && 4 * n > 3 * t->n_rows;
     if (t->sample_cell == SIZE_MAX || !(counts || names->n >= SAMPLES_MAX))
         return;
-    wt_log_add(b->log, WT_WARNING, b->file->name, line_place(t->names_line).words,
+    wt_log_add(b->log, WT_WARNING, b->file->name, format_line_place(t->names_line).words,
                "column %zu, which would name the sample, %s: left out", t->sample_cell + 1,
                counts ? "is different in every row" : "has too many names");
     for (size_t row = 0; row < t->n_rows; row++)
@@ -200,17 +201,17 @@ static wt_status split_table(sweep_builder *b)
 {
     const text_table *t = b->table;
     size_t *rows = malloc((t->n_rows + 1) * sizeof *rows), n = 0;
-    size_t *of_one = malloc((t->n_rows + 1) * sizeof *of_one);
-    wt_status status = rows == NULL || of_one == NULL
+    size_t *sample_rows = malloc((t->n_rows + 1) * sizeof *sample_rows);
+    wt_status status = rows == NULL || sample_rows == NULL
                            ? wt_fail(b->err, WT_E_MEMORY, "no memory for an isotherm")
                            : WT_OK;
     if (status == WT_OK)
-        drop_counts(b);
+        ignore_count_column(b);
     for (size_t row = 0; status == WT_OK && row < t->n_rows; row++)
-        if (sweep_is_point(b, row))
+        if (sweep_is_valid_row(b, row))
             rows[n++] = row;
     if (status == WT_OK && n < t->n_rows)
-        wt_log_add(b->log, WT_NOTE, b->file->name, line_place(t->names_line).words,
+        wt_log_add(b->log, WT_NOTE, b->file->name, format_line_place(t->names_line).words,
                    "%zu rows without a positive frequency or without a modulus left out",
                    t->n_rows - n);
     while (status == WT_OK && n > 0) {
@@ -219,26 +220,26 @@ static wt_status split_table(sweep_builder *b)
         b->sample = t->samples[rows[0]];
         for (size_t i = 0; i < n; i++)
             if (t->samples[rows[i]] == b->sample)
-                of_one[taken++] = rows[i];
+                sample_rows[taken++] = rows[i];
             else
                 rows[kept++] = rows[i];
         n = kept;
-        status = split_sample(b, of_one, taken);
+        status = split_sample(b, sample_rows, taken);
         if (status == WT_OK)
             status = name_sample(b, &before);
     }
-    free(of_one);
+    free(sample_rows);
     free(rows);
     return status;
 }
 
-static size_t n_sweeps(const wt_sweep *s)
+static size_t count_sweeps(const wt_sweep *s)
 {
     return s->n_isotherms + s->n_ramps + s->n_strain_sweeps;
 }
 
 /* Notes which moduli were measured and which are derived. */
-static void say_what_follows(const sweep_builder *b)
+static void report_derived_moduli(const sweep_builder *b)
 {
     const sweep_columns *c = &b->c;
     if (c->step != NULL)
@@ -261,12 +262,12 @@ static void say_what_follows(const sweep_builder *b)
 /* Fails if the user contradicts the deformation that the column names state. */
 static wt_status check_deformation(const sweep_builder *b)
 {
-    const wt_read_deformation said = b->options->deformation;
-    if (said != WT_DEFORMATION_OF_FILE &&
-        (said == WT_DEFORMATION_SHEAR) != (b->c.deformation == WT_SHEAR)) {
+    const wt_read_deformation stated = b->options->deformation;
+    if (stated != WT_DEFORMATION_FROM_FILE &&
+        (stated == WT_DEFORMATION_SHEAR) != (b->c.deformation == WT_SHEAR)) {
         wt_fail(b->err, WT_E_UNIT, "the file says that its moduli are of %s, not of %s",
                 b->c.deformation == WT_SHEAR ? "shear" : "tension or bending",
-                said == WT_DEFORMATION_SHEAR ? "shear" : "tension or bending");
+                stated == WT_DEFORMATION_SHEAR ? "shear" : "tension or bending");
         wt_error_place(b->err, "line %zu", b->table->names_line);
         const text_column *const column = b->c.storage != NULL     ? b->c.storage
                                           : b->c.magnitude != NULL ? b->c.magnitude
@@ -279,7 +280,7 @@ static wt_status check_deformation(const sweep_builder *b)
 }
 
 /* Fails for sweeps of different loading, since a master curve needs one kind. */
-static wt_status fail_mixed(wt_loading before, wt_loading now, wt_error *err)
+static wt_status fail_mixed_loading(wt_loading before, wt_loading now, wt_error *err)
 {
     static const char *const words[] = {[WT_OSCILLATION] = "oscillation",
                                         [WT_RELAXATION] = "stress relaxation",
@@ -290,7 +291,7 @@ static wt_status fail_mixed(wt_loading before, wt_loading now, wt_error *err)
     return WT_E_UNIT;
 }
 
-static wt_status read_table(sweep_builder *b)
+static wt_status read_sweep_table(sweep_builder *b)
 {
     wt_status status = text_table_require(b->table, WT_KIND_SWEEP, b->err);
     if (status != WT_OK)
@@ -299,13 +300,13 @@ static wt_status read_table(sweep_builder *b)
     if ((b->c.step != NULL) != b->steps)
         return WT_OK;
     if (b->c.frequency == NULL && b->c.step == NULL && isnan(b->options->frequency)) {
-        b->lacks_frequency = true;
+        b->is_frequency_missing = true;
         return text_table_problem(
             b->table, WT_Q_BIT(WT_Q_FREQUENCY) | WT_Q_BIT(WT_Q_ANGULAR_FREQUENCY), b->err);
     }
-    if (n_sweeps(b->sweep) > 0 && b->c.loading != b->sweep->loading)
-        return fail_mixed(b->sweep->loading, b->c.loading, b->err);
-    if (n_sweeps(b->sweep) > 0 && b->c.deformation != b->sweep->deformation) {
+    if (count_sweeps(b->sweep) > 0 && b->c.loading != b->sweep->loading)
+        return fail_mixed_loading(b->sweep->loading, b->c.loading, b->err);
+    if (count_sweeps(b->sweep) > 0 && b->c.deformation != b->sweep->deformation) {
         wt_fail(b->err, WT_E_UNIT, "tension and shear in one sweep");
         wt_error_place(b->err, "line %zu", b->table->names_line);
         wt_error_expected(b->err, "the moduli of one deformation, E or G");
@@ -316,7 +317,7 @@ static wt_status read_table(sweep_builder *b)
         return status;
     b->sweep->deformation = b->c.deformation;
     b->sweep->loading = b->c.loading;
-    say_what_follows(b);
+    report_derived_moduli(b);
     b->rows = malloc((b->table->n_rows + 1) * sizeof *b->rows);
     if (b->rows == NULL)
         return wt_fail(b->err, WT_E_MEMORY, "no memory for an isotherm");
@@ -330,14 +331,14 @@ static wt_status read_table(sweep_builder *b)
 static wt_status move_sweeps(wt_sweep *to, wt_sweep *from, wt_error *err)
 {
     const size_t n = to->n_isotherms, n_ramps = to->n_ramps, n_strain = to->n_strain_sweeps;
-    if (n_sweeps(to) > 0 && to->deformation != from->deformation) {
+    if (count_sweeps(to) > 0 && to->deformation != from->deformation) {
         wt_fail(err, WT_E_UNIT, "tension and shear in one sweep");
         wt_error_expected(err, "a file with moduli of %s like those before it",
                           to->deformation == WT_TENSION ? "tension (E)" : "shear (G)");
         return WT_E_UNIT;
     }
-    if (n_sweeps(to) > 0 && to->loading != from->loading)
-        return fail_mixed(to->loading, from->loading, err);
+    if (count_sweeps(to) > 0 && to->loading != from->loading)
+        return fail_mixed_loading(to->loading, from->loading, err);
     wt_isotherm *isotherms =
         realloc(to->isotherms, (n + from->n_isotherms + 1) * sizeof *to->isotherms);
     to->isotherms = isotherms != NULL ? isotherms : to->isotherms;
@@ -364,15 +365,15 @@ static wt_status move_sweeps(wt_sweep *to, wt_sweep *from, wt_error *err)
     return WT_OK;
 }
 
-wt_status text_sweep(const text_file *file, const wt_read_options *options, wt_log *log,
-                     wt_sweep *sweep, wt_error *err)
+wt_status text_build_sweep(const text_file *file, const wt_read_options *options, wt_log *log,
+                           wt_sweep *sweep, wt_error *err)
 {
     wt_sweep made = {.n_isotherms = 0};
     wt_status status = WT_OK;
     const text_table *lacking = NULL;
     size_t n_steps = 0;
     /* tests of relaxation or creep are read only if the file has no sweep */
-    for (int pass = 0; pass < 2 && n_sweeps(&made) == 0; pass++)
+    for (int pass = 0; pass < 2 && count_sweeps(&made) == 0; pass++)
         for (size_t i = 0; i < file->n_tables && status == WT_OK; i++) {
             sweep_builder b = {.file = file,
                                .table = &file->tables[i],
@@ -381,9 +382,9 @@ wt_status text_sweep(const text_file *file, const wt_read_options *options, wt_l
                                .sweep = &made,
                                .steps = pass == 1,
                                .err = err};
-            status = read_table(&b);
+            status = read_sweep_table(&b);
             n_steps += pass == 0 && b.c.step != NULL;
-            lacking = b.lacks_frequency ? b.table : lacking;
+            lacking = b.is_frequency_missing ? b.table : lacking;
         }
     if (n_steps > 0 && made.loading == WT_OSCILLATION)
         wt_log_add(log, WT_NOTE, file->name, NULL,
@@ -394,13 +395,13 @@ wt_status text_sweep(const text_file *file, const wt_read_options *options, wt_l
     for (size_t i = 0; i < file->steps.n; i++)
         wt_log_add(log, WT_NOTE, file->name, NULL, "step without a frequency sweep: %s",
                    file->steps.items[i]);
-    if (status == WT_OK && n_sweeps(&made) == 0 && lacking != NULL) {
+    if (status == WT_OK && count_sweeps(&made) == 0 && lacking != NULL) {
         status = wt_fail(err, WT_E_MISSING, "no frequency");
         wt_error_place(err, "table at line %zu", lacking->names_line);
         wt_error_expected(err, "a column of frequency");
         wt_error_advice(err, "give the one of all points with --frequency 10Hz");
     }
-    if (status == WT_OK && n_sweeps(&made) == 0)
+    if (status == WT_OK && count_sweeps(&made) == 0)
         status = text_fail_empty(file, "sweep of frequency, temperature or strain", err);
     if (status == WT_OK)
         status = move_sweeps(sweep, &made, err);
@@ -416,7 +417,7 @@ wt_status text_read_sweep(const file_reader *self, wt_input *input, const wt_rea
     if (status != WT_OK)
         return status;
     text_log_columns(&file, log);
-    status = text_sweep(&file, options, log, sweep, err);
+    status = text_build_sweep(&file, options, log, sweep, err);
     text_file_free(&file);
     return status;
 }

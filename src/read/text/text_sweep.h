@@ -30,30 +30,30 @@ typedef struct sweep_builder {
     wt_sweep *sweep;
     size_t *rows; /* [n] rows of the current isotherm or temperature sweep */
     size_t n;
-    bool steps;           /* true to read only tables of relaxation or creep, else only others */
-    bool lacks_frequency; /* true if neither the table nor the user states a frequency */
+    bool steps; /* true to read only tables of relaxation or creep, else only others */
+    bool is_frequency_missing; /* true if neither the table nor the user states a frequency */
     bool amplitudes; /* true if amplitudes alternate, so that isotherms are named by amplitude */
     size_t sample;   /* sample of the rows, or NO_SAMPLE */
     wt_error *err;
 } sweep_builder;
 
 /* ---- text_sweep_row.c */
-sweep_columns sweep_find_columns(const text_table *table, wt_read_deformation said);
+sweep_columns sweep_find_columns(const text_table *table, wt_read_deformation stated);
 /* Returns the optional arrays of the sweeps of a table, for wt_sweep_add. */
-unsigned sweep_arrays(const sweep_columns *c);
+unsigned sweep_optional_arrays(const sweep_columns *c);
 /* Values of a row in SI units; NaN if the column is absent. */
-double sweep_factor(const sweep_builder *b, size_t row);
-double sweep_angular(const sweep_builder *b, size_t row);
-double sweep_storage(const sweep_builder *b, size_t row);
-double sweep_loss(const sweep_builder *b, size_t row);
+double sweep_loss_factor(const sweep_builder *b, size_t row);
+double sweep_angular_frequency(const sweep_builder *b, size_t row);
+double sweep_storage_modulus(const sweep_builder *b, size_t row);
+double sweep_loss_modulus(const sweep_builder *b, size_t row);
 double sweep_temperature(const sweep_builder *b, size_t row);
 /* Returns 1 if the frequency increases from one row to another, -1 if it decreases, 0 if it is the
  * same. */
-int sweep_way(const sweep_builder *b, size_t from, size_t to);
+int sweep_direction(const sweep_builder *b, size_t from, size_t to);
 /* True if the row has a frequency and all quantities that the table provides. */
-bool sweep_is_point(const sweep_builder *b, size_t row);
+bool sweep_is_valid_row(const sweep_builder *b, size_t row);
 /* Formats the source as "FILE, TITLE OF THE STEP". */
-void sweep_source(const sweep_builder *b, char *source, size_t size);
+void sweep_format_source(const sweep_builder *b, char *source, size_t size);
 /* Sets the temperature of the rows in `b->rows` [K]: mean and standard deviation of the column, or
  * the value of the header or the user. */
 wt_status sweep_set_temperature(const sweep_builder *b, double *temperature, double *spread);
@@ -62,10 +62,10 @@ wt_status sweep_set_temperature(const sweep_builder *b, double *temperature, dou
 wt_status sweep_check_table(const text_file *file, text_table *table, wt_log *log, wt_error *err);
 
 /* ---- text_strain.c: removes the rows of strain sweeps from `rows` and adds these sweeps. ----- */
-wt_status strain_sweeps_take(sweep_builder *b, size_t *rows, size_t *n);
+wt_status extract_strain_sweeps(sweep_builder *b, size_t *rows, size_t *n);
 
 /* ---- text_ramp.c: removes the rows of temperature sweeps from `rows` and adds these sweeps. ---
  */
-wt_status ramps_take(sweep_builder *b, size_t *rows, size_t *n);
+wt_status extract_ramps(sweep_builder *b, size_t *rows, size_t *n);
 
 #endif

@@ -9,7 +9,7 @@
 
 /* Finds the columns of relaxation or creep. A table with a frequency is an oscillation in any
  * case. */
-static void find_step(const text_table *t, bool tension, sweep_columns *c)
+static void find_step_columns(const text_table *t, bool tension, sweep_columns *c)
 {
     const text_column *const modulus =
         text_table_column(t, tension ? WT_Q_RELAXATION_MODULUS : WT_Q_SHEAR_RELAXATION_MODULUS, -1);
@@ -24,12 +24,12 @@ static void find_step(const text_table *t, bool tension, sweep_columns *c)
     c->strain = c->factor = NULL; /* a creep strain is no amplitude */
 }
 
-sweep_columns sweep_find_columns(const text_table *t, wt_read_deformation said)
+sweep_columns sweep_find_columns(const text_table *t, wt_read_deformation stated)
 {
     sweep_columns c = {.to_angular = 1};
     /* a loss factor alone fits either deformation */
-    const bool tension = (t->quantities & MODULI_OF_TENSION) != 0 ||
-                         ((t->quantities & MODULI_OF_SHEAR) == 0 && said != WT_DEFORMATION_SHEAR);
+    const bool tension = (t->quantities & TENSION_MODULI) != 0 ||
+                         ((t->quantities & SHEAR_MODULI) == 0 && stated != WT_DEFORMATION_SHEAR);
     c.deformation = tension ? WT_TENSION : WT_SHEAR;
     c.frequency = text_table_column(t, WT_Q_ANGULAR_FREQUENCY, -1);
     if (c.frequency == NULL) {
@@ -48,11 +48,11 @@ sweep_columns sweep_find_columns(const text_table *t, wt_read_deformation said)
     const bool two = (c.loss != NULL) + (c.factor != NULL) + (c.magnitude != NULL) >= 2;
     c.has_storage = c.storage != NULL || two;
     c.has_loss = c.loss != NULL || (c.has_storage && c.factor != NULL);
-    find_step(t, tension, &c);
+    find_step_columns(t, tension, &c);
     return c;
 }
 
-double sweep_angular(const sweep_builder *b, size_t row)
+double sweep_angular_frequency(const sweep_builder *b, size_t row)
 {
     if (b->c.step != NULL)
         return 1 / text_table_value(b->table, row, b->c.time);
@@ -61,12 +61,12 @@ double sweep_angular(const sweep_builder *b, size_t row)
     return b->c.to_angular * text_table_value(b->table, row, b->c.frequency);
 }
 
-double sweep_factor(const sweep_builder *b, size_t row)
+double sweep_loss_factor(const sweep_builder *b, size_t row)
 {
     return b->c.factor != NULL ? text_table_value(b->table, row, b->c.factor) : (double)NAN;
 }
 
-double sweep_storage(const sweep_builder *b, size_t row)
+double sweep_storage_modulus(const sweep_builder *b, size_t row)
 {
     if (!b->c.has_storage)
         return (double)NAN;
@@ -77,30 +77,30 @@ double sweep_storage(const sweep_builder *b, size_t row)
     if (b->c.storage != NULL)
         return text_table_value(b->table, row, b->c.storage);
     if (b->c.magnitude == NULL) {
-        const double ratio = text_table_value(b->table, row, b->c.loss) / sweep_factor(b, row);
+        const double ratio = text_table_value(b->table, row, b->c.loss) / sweep_loss_factor(b, row);
         return isfinite(ratio) ? ratio : (double)NAN;
     }
     const double magnitude = text_table_value(b->table, row, b->c.magnitude);
     if (b->c.factor != NULL)
-        return magnitude / hypot(1.0, sweep_factor(b, row));
+        return magnitude / hypot(1.0, sweep_loss_factor(b, row));
     const double lost = text_table_value(b->table, row, b->c.loss);
     return sqrt((magnitude - lost) * (magnitude + lost));
 }
 
-double sweep_loss(const sweep_builder *b, size_t row)
+double sweep_loss_modulus(const sweep_builder *b, size_t row)
 {
     if (!b->c.has_loss)
         return (double)NAN;
     if (b->c.loss != NULL)
         return text_table_value(b->table, row, b->c.loss);
-    return sweep_storage(b, row) * sweep_factor(b, row);
+    return sweep_storage_modulus(b, row) * sweep_loss_factor(b, row);
 }
 
-unsigned sweep_arrays(const sweep_columns *c)
+unsigned sweep_optional_arrays(const sweep_columns *c)
 {
     const bool alone = c->factor != NULL && !c->has_storage && !c->has_loss;
-    return (c->strain != NULL ? (unsigned)WT_WITH_STRAIN : 0) |
-           (alone ? (unsigned)WT_WITH_LOSS_FACTOR : 0);
+    return (c->strain != NULL ? (unsigned)WT_SWEEP_HAS_STRAIN : 0) |
+           (alone ? (unsigned)WT_SWEEP_HAS_LOSS_FACTOR : 0);
 }
 
 double sweep_temperature(const sweep_builder *b, size_t row)
@@ -109,28 +109,29 @@ double sweep_temperature(const sweep_builder *b, size_t row)
                                     : (double)NAN;
 }
 
-int sweep_way(const sweep_builder *b, size_t from, size_t to)
+int sweep_direction(const sweep_builder *b, size_t from, size_t to)
 {
-    const double ratio = sweep_angular(b, to) / sweep_angular(b, from);
+    const double ratio = sweep_angular_frequency(b, to) / sweep_angular_frequency(b, from);
     return ratio > 1 + SAME_FREQUENCY ? 1 : ratio < 1 / (1 + SAME_FREQUENCY) ? -1 : 0;
 }
 
-bool sweep_is_point(const sweep_builder *b, size_t row)
+bool sweep_is_valid_row(const sweep_builder *b, size_t row)
 {
     const sweep_columns *c = &b->c;
     /* some programs separate segments by rows of negative time */
     const bool marker = c->time != NULL && text_table_value(b->table, row, c->time) < 0;
     const bool alone = !c->has_storage && !c->has_loss;
     /* the step itself is at time 0 without creep, so neither value is finite */
-    return !marker && sweep_angular(b, row) > 0 && isfinite(sweep_angular(b, row)) &&
-           (!c->has_storage || isfinite(sweep_storage(b, row))) &&
-           (!c->has_loss || isfinite(sweep_loss(b, row))) &&
-           (!alone || isfinite(sweep_factor(b, row)));
+    return !marker && sweep_angular_frequency(b, row) > 0 &&
+           isfinite(sweep_angular_frequency(b, row)) &&
+           (!c->has_storage || isfinite(sweep_storage_modulus(b, row))) &&
+           (!c->has_loss || isfinite(sweep_loss_modulus(b, row))) &&
+           (!alone || isfinite(sweep_loss_factor(b, row)));
 }
 
 /* Formats the source as "FILE, TITLE OF THE STEP". The title distinguishes the isotherms, so a long
  * file name is cut. */
-void sweep_source(const sweep_builder *b, char *source, size_t size)
+void sweep_format_source(const sweep_builder *b, char *source, size_t size)
 {
     const text_table *t = b->table;
     const char *name = wt_path_base(b->file->name);
@@ -160,12 +161,12 @@ static size_t number_length(const char *text)
 }
 
 /* True if the name matches the pattern. *value is the number at "#", which is read as a whole. */
-static bool match_name(const char *pattern, const char *name, double *value)
+static bool match_file_name(const char *pattern, const char *name, double *value)
 {
     for (; *pattern != '\0'; pattern++, name++) {
         if (*pattern == '*') {
             for (;; name++) {
-                if (match_name(pattern + 1, name, value))
+                if (match_file_name(pattern + 1, name, value))
                     return true;
                 if (*name == '\0')
                     return false;
@@ -175,7 +176,7 @@ static bool match_name(const char *pattern, const char *name, double *value)
             const size_t n = number_length(name);
             const char mark = memchr(name, ',', n) != NULL ? ',' : '.';
             return n > 0 && wt_number_parse(name, n, mark, value) &&
-                   match_name(pattern + 1, name + n, &(double){0});
+                   match_file_name(pattern + 1, name + n, &(double){0});
         }
         if (*pattern != *name)
             return false;
@@ -186,7 +187,7 @@ static bool match_name(const char *pattern, const char *name, double *value)
 static wt_status temperature_in_name(const sweep_builder *b, double *temperature)
 {
     const char *pattern = b->options->temperature_in_name, *name = wt_path_base(b->file->name);
-    if (!match_name(pattern, name, temperature)) {
+    if (!match_file_name(pattern, name, temperature)) {
         wt_fail(b->err, WT_E_MISSING, "no temperature in the name of the file");
         wt_error_expected(b->err, "a name like \"%s\"", pattern);
         wt_error_found(b->err, "\"%s\"", name);
@@ -225,7 +226,7 @@ wt_status sweep_set_temperature(const sweep_builder *b, double *temperature, dou
         const wt_status status = temperature_in_name(b, temperature);
         if (status != WT_OK)
             return status;
-    } else if (!isnan(b->options->temperature) || b->options->any_temperature) {
+    } else if (!isnan(b->options->temperature) || b->options->allow_missing_temperature) {
         *temperature = b->options->temperature;
     } else {
         wt_status status = text_table_problem(b->table, WT_Q_BIT(WT_Q_TEMPERATURE), b->err);

@@ -6,13 +6,13 @@
 
 #include <string.h>
 
-wt_status text_list_add(text_file *file, text_list *list, size_t most, text_span text,
+wt_status text_list_add(text_file *file, text_list *list, size_t max_items, text_span text,
                         wt_error *err)
 {
-    if (list->n >= most)
+    if (list->n >= max_items)
         return WT_OK;
     if (list->items == NULL)
-        list->items = arena_alloc(&file->memory, most, sizeof *list->items);
+        list->items = arena_alloc(&file->memory, max_items, sizeof *list->items);
     char *copy = list->items != NULL ? arena_text(&file->memory, text.text, text.length) : NULL;
     if (copy == NULL)
         return wt_fail(err, WT_E_MEMORY, "no memory for the names in the file");
@@ -20,14 +20,14 @@ wt_status text_list_add(text_file *file, text_list *list, size_t most, text_span
     return WT_OK;
 }
 
-text_place line_place(size_t line)
+line_place_text format_line_place(size_t line)
 {
-    text_place place;
+    line_place_text place;
     snprintf(place.words, sizeof place.words, "line %zu", line);
     return place;
 }
 
-bool text_has(const text_file *file, unsigned kind)
+bool text_has_kind(const text_file *file, unsigned kind)
 {
     const unsigned kinds = file->description->kinds;
     const bool many = (kinds & (kinds - 1)) != 0;
@@ -86,7 +86,7 @@ static const char *likely_units(wt_quantity quantity)
 }
 
 /* Fails with all columns without a unit at once, so that the user can state them together. */
-static wt_status without_units(const text_table *table, wt_quantity_set lacking, wt_error *err)
+static wt_status fail_missing_units(const text_table *table, wt_quantity_set lacking, wt_error *err)
 {
     char names[120] = "", options[200] = "", likely[200] = "";
     size_t n = 0, n_names = 0, n_options = 0, n_likely = 0;
@@ -122,7 +122,7 @@ wt_status text_table_problem(const text_table *table, wt_quantity_set quantities
         wt_status status = WT_E_UNIT;
         switch (c->problem) {
         case COLUMN_NO_UNIT:
-            status = without_units(table, quantities & ~table->quantities, err);
+            status = fail_missing_units(table, quantities & ~table->quantities, err);
             wt_error_expected(err, "a unit of %s", wt_quantity_id(q));
             break;
         case COLUMN_BAD_UNIT:
@@ -135,7 +135,8 @@ wt_status text_table_problem(const text_table *table, wt_quantity_set quantities
         default:
             status = WT_E_MISSING;
             wt_fail(err, status, "column \"%s\" may be tension or shear", c->name);
-            wt_error_expected(err, "a column that tells which, such as \"%s\"", c->rule->with);
+            wt_error_expected(err, "a column that tells which, such as \"%s\"",
+                              c->rule->required_name);
             wt_error_advice(err, "export that column too, or say it with --deformation tension or "
                                  "--deformation shear");
             break;
@@ -148,7 +149,7 @@ wt_status text_table_problem(const text_table *table, wt_quantity_set quantities
 
 /* Returns the moduli that a sweep can lack, but not if the file has such a column that is not
  * understood. */
-static wt_quantity_set not_to_lose(const text_table *table)
+static wt_quantity_set unread_moduli(const text_table *table)
 {
     static const wt_quantity_set pairs[] = {
         WT_Q_BIT(WT_Q_STORAGE_MODULUS) | WT_Q_BIT(WT_Q_SHEAR_STORAGE_MODULUS),
@@ -163,19 +164,19 @@ wt_status text_table_require(const text_table *table, unsigned kind, wt_error *e
 {
     const bool suffices = quantities_suffice(table->quantities, kind);
     wt_status status = text_table_problem(
-        table, suffices ? not_to_lose(table) : quantities_of(kind) & ~WT_Q_BIT(WT_Q_LOSS_FACTOR),
-        err);
+        table,
+        suffices ? unread_moduli(table) : kind_quantities(kind) & ~WT_Q_BIT(WT_Q_LOSS_FACTOR), err);
     if (suffices)
         return status;
     if (status != WT_OK)
         return status;
     wt_fail(err, WT_E_MISSING, "columns are missing");
     wt_error_place(err, "line %zu", table->names_line);
-    wt_error_expected(err, "%s", quantities_needed(kind));
+    wt_error_expected(err, "%s", describe_required_columns(kind));
     return WT_E_MISSING;
 }
 
-void text_unknown(const text_file *file, char *names, size_t size)
+void text_format_unknown(const text_file *file, char *names, size_t size)
 {
     size_t used = 0;
     names[0] = '\0';
@@ -204,10 +205,10 @@ void text_log_assumed(const text_file *file, wt_log *log)
 void text_log_unknown(const text_file *file, wt_log *log)
 {
     char names[256];
-    text_unknown(file, names, sizeof names);
+    text_format_unknown(file, names, sizeof names);
     if (file->unknown.n > 0)
         wt_log_add(log, WT_NOTE, file->name, NULL, "columns not used: %s", names);
-    if (file->moduli_again)
+    if (file->has_repeated_moduli)
         wt_log_add(log, WT_WARNING, file->name, NULL,
                    "a modulus has several columns of one name: only the first is read; of a "
                    "table with columns for each temperature make one for each of them");
@@ -220,20 +221,20 @@ void text_log_columns(const text_file *file, wt_log *log)
 }
 
 /* Returns the first unread test of the description that the file contains, or NULL. */
-static const char *other_test_of(const text_file *file)
+static const char *find_unread_test(const text_file *file)
 {
     const text_description *d = file->description;
     text_span line;
-    for (size_t k = 0; k < d->n_others; k++)
+    for (size_t k = 0; k < d->n_unread_tests; k++)
         for (size_t i = 0; feed_line(file->feed, i, &line, NULL) == WT_OK; i++)
-            if (pattern_match(&d->others[k].pattern, line, NULL, 0))
-                return d->others[k].what;
+            if (pattern_match(&d->unread_tests[k].pattern, line, NULL, 0))
+                return d->unread_tests[k].what;
     return NULL;
 }
 
 wt_status text_fail_empty(const text_file *file, const char *what, wt_error *err)
 {
-    const char *const other = other_test_of(file);
+    const char *const other = find_unread_test(file);
     char steps[160] = "";
     size_t used = 0;
     for (size_t i = 0; i < file->steps.n && used < sizeof steps; i++) {

@@ -13,10 +13,11 @@ typedef struct cell_form {
     size_t length, digits, exponent_digits;
 } cell_form;
 
-static cell_form form_of(text_span cell, char decimal)
+static cell_form parse_cell_form(text_span cell, char decimal)
 {
     cell_form form = {.length = cell.length};
-    form.number = cell.length > 0 && number_prefix(cell.text, cell.length, decimal) == cell.length;
+    form.number =
+        cell.length > 0 && number_prefix_length(cell.text, cell.length, decimal) == cell.length;
     for (size_t i = 0; form.number && i < cell.length; i++) {
         const char c = cell.text[i];
         if (c >= '0' && c <= '9')
@@ -27,13 +28,13 @@ static cell_form form_of(text_span cell, char decimal)
     return form;
 }
 
-static size_t least(size_t a, size_t b)
+static size_t min_size(size_t a, size_t b)
 {
     return a < b ? a : b;
 }
 
 /* True if the row has no cell for a column that is read. */
-static bool lacks_cells(const text_scanner *s)
+static bool has_missing_cells(const text_scanner *s)
 {
     const text_table *const t = s->table;
     size_t last = 0;
@@ -42,28 +43,28 @@ static bool lacks_cells(const text_scanner *s)
     return s->row.n <= last;
 }
 
-void cut_watch(text_scanner *s)
+void truncation_track_row(text_scanner *s)
 {
-    last_cells *const l = &s->last;
-    const bool lacks = lacks_cells(s);
+    last_cell_stats *const l = &s->last;
+    const bool is_short = has_missing_cells(s);
     const text_span cell = s->row.n > 0 ? s->row.cells[s->row.n - 1] : (text_span){"", 0};
-    const cell_form form = form_of(cell, s->table->decimal);
-    s->last_is_short = lacks && l->short_rows == 0 && s->table->n_rows > 0;
-    l->short_rows += lacks;
-    if (lacks)
-        wt_log_add(s->log, WT_NOTE, s->file->name, line_place(s->i + 1).words,
+    const cell_form form = parse_cell_form(cell, s->table->decimal);
+    s->last_is_short = is_short && l->short_rows == 0 && s->table->n_rows > 0;
+    l->short_rows += is_short;
+    if (is_short)
+        wt_log_add(s->log, WT_NOTE, s->file->name, format_line_place(s->i + 1).words,
                    "row with fewer cells than columns; the missing ones are empty");
-    l->cells_min = s->table->n_rows == 0 ? s->row.n : least(l->cells_min, s->row.n);
+    l->cells_min = s->table->n_rows == 0 ? s->row.n : min_size(l->cells_min, s->row.n);
     l->empty = l->empty || cell.length == 0;
     if (cell.length == 0)
         return;
     const bool first = l->n++ == 0;
-    l->shortest = first ? form.length : least(l->shortest, form.length);
+    l->shortest = first ? form.length : min_size(l->shortest, form.length);
     l->longest = form.length > l->longest ? form.length : l->longest;
-    l->digits_min = first ? form.digits : least(l->digits_min, form.digits);
+    l->digits_min = first ? form.digits : min_size(l->digits_min, form.digits);
     if (form.exponent)
         l->exponent_min =
-            l->exponents ? least(l->exponent_min, form.exponent_digits) : form.exponent_digits;
+            l->exponents ? min_size(l->exponent_min, form.exponent_digits) : form.exponent_digits;
     l->points = l->points || form.point;
     l->exponents = l->exponents || form.exponent;
 }
@@ -71,15 +72,15 @@ void cut_watch(text_scanner *s)
 /* A truncated number is shorter than the others, or lacks its decimal point or exponent. A number
  * without a point may have lost a digit if the lengths vary, and is not accepted. With a point only
  * decimals may be lost. */
-bool cut_is_whole(const text_scanner *s)
+bool truncation_row_is_complete(const text_scanner *s)
 {
-    const last_cells *const l = &s->last;
+    const last_cell_stats *const l = &s->last;
     if (s->table->n_rows == 0)
-        return !lacks_cells(s);
+        return !has_missing_cells(s);
     if (s->row.n < l->cells_min || s->row.n == 0)
         return false;
     const text_span cell = s->row.cells[s->row.n - 1];
-    const cell_form form = form_of(cell, s->table->decimal);
+    const cell_form form = parse_cell_form(cell, s->table->decimal);
     if (cell.length == 0 || l->n == 0)
         return l->empty;
     if (form.length < l->shortest)
@@ -92,25 +93,25 @@ bool cut_is_whole(const text_scanner *s)
            (!l->exponents || (form.exponent && form.exponent_digits >= l->exponent_min));
 }
 
-void cut_check_end(text_scanner *s)
+void truncation_check_table_end(text_scanner *s)
 {
     if (s->unclosed)
-        wt_log_add(s->log, WT_WARNING, s->file->name, line_place(s->i).words,
+        wt_log_add(s->log, WT_WARNING, s->file->name, format_line_place(s->i).words,
                    "the line that ends a table is not there: the file was cut off, and rows "
                    "are missing");
     s->unclosed = false;
 }
 
-void cut_finish(text_scanner *s)
+void truncation_report(text_scanner *s)
 {
-    const text_place place = line_place(s->i);
+    const line_place_text place = format_line_place(s->i);
     const line_end end = s->i > 0 ? feed_line_end(s->file->feed, s->i - 1) : END_WHOLE;
     if (end == END_HALF) {
         wt_log_add(s->log, WT_WARNING, s->file->name, place.words,
                    "the last line has half a line end: the file was cut off there, and what "
                    "follows is missing");
     } else if (end == END_NONE) {
-        if (s->cut == CUT_ROW_DROPPED)
+        if (s->last_row == LAST_ROW_DROPPED)
             wt_log_add(s->log, WT_WARNING, s->file->name, place.words,
                        "the last line has no line end and is no whole row: the file was cut "
                        "off; the row is left out, and rows may be missing behind it");
@@ -118,8 +119,8 @@ void cut_finish(text_scanner *s)
             wt_log_add(s->log, WT_WARNING, s->file->name, place.words,
                        "the last line has no line end: if the file was cut off there, %s "
                        "missing; if it is whole, a line end put behind it says so",
-                       s->cut == CUT_ROW_KEPT ? "rows, or digits of its last number, are"
-                                              : "what follows is");
+                       s->last_row == LAST_ROW_KEPT ? "rows, or digits of its last number, are"
+                                                    : "what follows is");
     } else if (s->last_is_short) {
         s->table->n_rows--;
         s->n_rows -= s->n_rows > 0;
@@ -127,5 +128,5 @@ void cut_finish(text_scanner *s)
                    "the last row has fewer cells than all others: the file was cut off; the "
                    "row is left out, and rows may be missing behind it");
     }
-    cut_check_end(s);
+    truncation_check_table_end(s);
 }

@@ -15,14 +15,15 @@
 static recognition detect(const file_reader *self, file_peek *peek)
 {
     (void)self;
-    return recognised(PEEK_BEGINS(peek, HDF5_SIGNATURE) && PEEK_HOLDS(peek, "weartrack") &&
-                          !PEEK_HOLDS(peek, STORE_MAP_ATTRIBUTE "\0"),
-                      90);
+    return recognition_result(PEEK_BEGINS(peek, HDF5_SIGNATURE) &&
+                                  PEEK_CONTAINS(peek, "weartrack") &&
+                                  !PEEK_CONTAINS(peek, STORE_MAP_ATTRIBUTE "\0"),
+                              90);
 }
 
 /* True for a table of measured data. Results such as a master curve have columns of the same names.
  * If a file has a measured spectrum, its table "roughness" repeats it. */
-static bool is_measured(const wt_result *result, const char *name)
+static bool is_measurement(const wt_result *result, const char *name)
 {
     if (strcmp(name, "roughness") == 0 && wt_result_find(result, "power_spectrum") != NULL)
         return false;
@@ -35,13 +36,13 @@ static bool is_measured(const wt_result *result, const char *name)
 }
 
 /* Warns of tables that are not read. Tables about the file itself are no loss. */
-static void warn_of_others(wt_log *log, const char *name, const wt_result *result)
+static void warn_skipped_tables(wt_log *log, const char *name, const wt_result *result)
 {
     char names[160] = "";
     size_t n = 0, used = 0;
     for (size_t i = 0; i < wt_result_n_tables(result); i++) {
         const char *table = wt_table_name(wt_result_table(result, i));
-        if (is_measured(result, table) || strcmp(table, "notes") == 0 ||
+        if (is_measurement(result, table) || strcmp(table, "notes") == 0 ||
             strcmp(table, "failures") == 0)
             continue;
         n++;
@@ -56,7 +57,7 @@ static void warn_of_others(wt_log *log, const char *name, const wt_result *resul
                    n, names, used < sizeof names ? "" : "...");
 }
 
-static wt_status read_result(wt_input *input, wt_result **result, wt_error *err)
+static wt_status read_stored_result(wt_input *input, wt_result **result, wt_error *err)
 {
     const unsigned char *bytes = NULL;
     size_t length = 0;
@@ -74,7 +75,7 @@ static wt_status as_text(const file_reader *self, wt_input *input, wt_log *log, 
     char *bytes = NULL;
     size_t length = 0, n_measured = 0;
     (void)self;
-    wt_status status = read_result(input, &result, err);
+    wt_status status = read_stored_result(input, &result, err);
     if (status != WT_OK)
         return status;
     stream = open_memstream(&bytes, &length);
@@ -82,7 +83,7 @@ static wt_status as_text(const file_reader *self, wt_input *input, wt_log *log, 
         status = wt_fail(err, WT_E_MEMORY, "no memory for the tables of the file");
     for (size_t i = 0; i < wt_result_n_tables(result) && status == WT_OK; i++) {
         const wt_table *table = wt_result_table(result, i);
-        if (!is_measured(result, wt_table_name(table)))
+        if (!is_measurement(result, wt_table_name(table)))
             continue;
         n_measured++;
         status = wt_stream_write(stream, table, NULL, err);
@@ -98,31 +99,31 @@ static wt_status as_text(const file_reader *self, wt_input *input, wt_log *log, 
                            wt_table_name(wt_result_table(result, 0)));
     }
     if (status == WT_OK)
-        warn_of_others(log, wt_input_name(input), result);
+        warn_skipped_tables(log, wt_input_name(input), result);
     wt_result_free(result);
     if (status == WT_OK)
-        return input_own(bytes, length, wt_input_name(input), text, err);
+        return input_from_bytes(bytes, length, wt_input_name(input), text, err);
     free(bytes);
     return status;
 }
 
 static wt_status describe(const file_reader *self, wt_input *input, const wt_read_options *options,
-                          wt_log *log, table_writer *facts)
+                          wt_log *log, table_writer *metadata)
 {
     wt_result *result = NULL;
     bool measured = false;
-    wt_status status = read_result(input, &result, facts->err);
+    wt_status status = read_stored_result(input, &result, metadata->err);
     if (status != WT_OK)
         return status;
     for (size_t i = 0; i < wt_result_n_tables(result); i++) {
         const wt_table *table = wt_result_table(result, i);
         char item[128];
         snprintf(item, sizeof item, "table %s", wt_table_name(table));
-        facts_add(facts, item, "", "", "%zu rows", wt_table_n_rows(table));
-        measured = measured || is_measured(result, wt_table_name(table));
+        metadata_add(metadata, item, "", "", "%zu rows", wt_table_n_rows(table));
+        measured = measured || is_measurement(result, wt_table_name(table));
     }
     wt_result_free(result);
-    return measured ? text_describe_made(self, input, options, log, facts) : WT_OK;
+    return measured ? text_describe_converted(self, input, options, log, metadata) : WT_OK;
 }
 
 const file_reader reader_stored = {
@@ -132,7 +133,7 @@ const file_reader reader_stored = {
              .verified = true,
              .evidence = "the HDF5 file that this program writes",
              .version = "1"},
-    READER_OF_CURVE_TEXT(as_text),
+    CURVE_TEXT_READER(as_text),
     .detect = detect,
     .read_sweep = text_read_sweep,
     .read_images = text_read_images,

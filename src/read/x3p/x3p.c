@@ -48,7 +48,7 @@ static bool find_document(x3p_file *f, size_t *at)
     return false;
 }
 
-static wt_status read_document(x3p_file *f, wt_error *err)
+static wt_status read_main_document(x3p_file *f, wt_error *err)
 {
     size_t at = 0;
     if (!find_document(f, &at)) {
@@ -63,7 +63,7 @@ static wt_status read_document(x3p_file *f, wt_error *err)
 }
 
 /* Reads an entry that the document names, relative to its folder. */
-static wt_status read_entry(x3p_file *f, const char *link, size_t length, wt_error *err)
+static wt_status read_linked_entry(x3p_file *f, const char *link, size_t length, wt_error *err)
 {
     char name[sizeof f->folder + X3P_LINK];
     size_t at = 0;
@@ -130,7 +130,7 @@ static wt_status fill_layers(x3p_file *f, const image_list *list, wt_error *err)
                  offset = whole && !isnan(z->offset) ? z->offset : 0;
     const size_t n = d->size[0] * d->size[1], width = sample_width(z->type);
     if (d->points[0] != '\0') {
-        wt_status status = read_entry(f, d->points, n * d->size[2] * width, err);
+        wt_status status = read_linked_entry(f, d->points, n * d->size[2] * width, err);
         if (status == WT_OK)
             status = check_md5(f, err);
         if (status != WT_OK)
@@ -155,13 +155,13 @@ static wt_status fill_layers(x3p_file *f, const image_list *list, wt_error *err)
 }
 
 /* Marks invalid heights as missing: one bit for each height, the lowest bit first. */
-static wt_status leave_out_invalid(x3p_file *f, const image_list *list, wt_error *err)
+static wt_status mark_invalid_heights(x3p_file *f, const image_list *list, wt_error *err)
 {
     const x3p_document *d = &f->document;
     const size_t n = d->size[0] * d->size[1];
     if (d->valid[0] == '\0')
         return WT_OK;
-    const wt_status status = read_entry(f, d->valid, (n * d->size[2] + 7) / 8, err);
+    const wt_status status = read_linked_entry(f, d->valid, (n * d->size[2] + 7) / 8, err);
     for (size_t layer = 0; status == WT_OK && layer < list->n; layer++)
         for (size_t i = 0; i < n; i++) {
             const size_t bit = layer * n + i;
@@ -183,7 +183,7 @@ static wt_status x3p_images(const file_reader *self, wt_input *input,
     (void)options;
     wt_status status = archive_open(input, &f.archive, err);
     if (status == WT_OK)
-        status = read_document(&f, err);
+        status = read_main_document(&f, err);
     const x3p_document *d = &f.document;
     /* checked before any product is computed */
     if (status == WT_OK && (d->size[1] > DATA_MAX / 8 / d->size[0] ||
@@ -195,11 +195,11 @@ static wt_status x3p_images(const file_reader *self, wt_input *input,
     if (status == WT_OK)
         status = fill_layers(&f, &list, err);
     if (status == WT_OK)
-        status = leave_out_invalid(&f, &list, err);
+        status = mark_invalid_heights(&f, &list, err);
     x3p_document_clear(&f.document);
     free(f.data.data);
     archive_close(f.archive);
-    return images_end(&list, status, wt_input_name(input), log, images, n_images, err);
+    return images_finish(&list, status, wt_input_name(input), log, images, n_images, err);
 }
 
 /* Entry names are not packed in the archive. Spreadsheets have none of these names. */
@@ -207,11 +207,11 @@ static recognition detect(const file_reader *self, file_peek *peek)
 {
     (void)self;
     if (!PEEK_BEGINS(peek, "PK\3\4"))
-        return recognised(false, 0);
-    return recognised(
-        input_has(peek->input, document_name) &&
-            (input_has(peek->input, "md5checksum.hex") || input_has(peek->input, "bindata/")),
-        95);
+        return recognition_result(false, 0);
+    return recognition_result(input_contains(peek->input, document_name) &&
+                                  (input_contains(peek->input, "md5checksum.hex") ||
+                                   input_contains(peek->input, "bindata/")),
+                              95);
 }
 
 const file_reader reader_x3p = {

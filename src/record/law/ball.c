@@ -4,7 +4,8 @@
 
 #include <math.h>
 
-wt_ball_contact wt_ball_contact_of(double load, double radius, double modulus, double poisson_ratio)
+wt_ball_contact wt_ball_contact_compute(double load, double radius, double modulus,
+                                        double poisson_ratio)
 {
     const double a = cbrt(0.75 * load * radius * (1 - poisson_ratio * poisson_ratio) / modulus);
     return (wt_ball_contact){a, load / (M_PI * a * a)};

@@ -17,17 +17,17 @@
 /* ---- curve ----------------------------------------------------------------------------------- */
 
 /* Counts the distinct velocities and returns their range. */
-static wt_status count_places(const agreement_data *d, size_t *n, double ends[2], wt_error *err)
+static wt_status count_velocities(const agreement_data *d, size_t *n, double ends[2], wt_error *err)
 {
     double *const sorted = malloc((d->n + 1) * sizeof *sorted);
     if (sorted == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
-    memcpy(sorted, d->place, d->n * sizeof *sorted);
+    memcpy(sorted, d->log_velocity, d->n * sizeof *sorted);
     numbers_sort(sorted, d->n);
     double last = sorted[0];
     *n = 1;
     for (size_t i = 1; i < d->n; i++)
-        if (sorted[i] - last > AGREEMENT_APART) {
+        if (sorted[i] - last > AGREEMENT_MIN_SEPARATION) {
             ++*n;
             last = sorted[i];
         }
@@ -38,15 +38,15 @@ static wt_status count_places(const agreement_data *d, size_t *n, double ends[2]
 }
 
 /* Term k of the curve at a logarithm of the velocity. */
-static double term(const agreement *a, double place, size_t k)
+static double curve_term(const agreement *a, double log_velocity, size_t k)
 {
-    const double u = (place - a->centre) / a->span;
+    const double u = (log_velocity - a->centre) / a->span;
     return k == 0 ? 1 : k == 1 ? u : u * u;
 }
 
 /* Computes the rows of `weight` for a scatter: (X W X)^-1 X W. False if the velocities do not
  * determine all terms. */
-static bool find_weights(const agreement_data *d, agreement *a, double scatter)
+static bool find_curve_weights(const agreement_data *d, agreement *a, double scatter)
 {
     /* A term is undetermined by rounding if less than this part of it is independent of the
      * others. */
@@ -56,13 +56,13 @@ static bool find_weights(const agreement_data *d, agreement *a, double scatter)
     for (size_t i = 0; i < d->n; i++)
         for (size_t k = 0; k < p; k++)
             for (size_t l = 0; l <= k; l++)
-                normal[k * p + l] +=
-                    a->at[k * d->n + i] * a->at[l * d->n + i] / (d->own[i] + scatter);
+                normal[k * p + l] += a->at[k * d->n + i] * a->at[l * d->n + i] /
+                                     (d->measurement_variance[i] + scatter);
     for (size_t i = 0; i < d->n; i++) {
         double factor[AGREEMENT_TERMS * AGREEMENT_TERMS], x[AGREEMENT_TERMS];
         memcpy(factor, normal, sizeof normal);
         for (size_t k = 0; k < p; k++)
-            x[k] = a->at[k * d->n + i] / (d->own[i] + scatter);
+            x[k] = a->at[k * d->n + i] / (d->measurement_variance[i] + scatter);
         if (!cholesky_solve(factor, p, p, least, x))
             return false;
         for (size_t k = 0; k < p; k++)
@@ -71,7 +71,7 @@ static bool find_weights(const agreement_data *d, agreement *a, double scatter)
     return true;
 }
 
-static void find_smooth(const agreement_data *d, agreement *a)
+static void find_curve(const agreement_data *d, agreement *a)
 {
     for (size_t k = 0; k < a->terms; k++) {
         a->coefficient[k] = 0;
@@ -79,35 +79,38 @@ static void find_smooth(const agreement_data *d, agreement *a)
             a->coefficient[k] += a->weight[k * d->n + i] * d->value[i];
     }
     for (size_t i = 0; i < d->n; i++) {
-        a->smooth[i] = 0;
+        a->fitted_value[i] = 0;
         for (size_t k = 0; k < a->terms; k++)
-            a->smooth[i] += a->coefficient[k] * a->at[k * d->n + i];
+            a->fitted_value[i] += a->coefficient[k] * a->at[k * d->n + i];
     }
 }
 
 /* Variance of the residual at step i due to the prediction. `row`: [n] scratch. */
-static double residual_of_common(const agreement_data *d, const agreement *a, size_t i, double *row)
+static double residual_prediction_variance(const agreement_data *d, const agreement *a, size_t i,
+                                           double *row)
 {
     double sum = 0;
-    agreement_row(a, i, row);
+    agreement_weights(a, i, row);
     for (size_t k = 0; k < d->n; k++)
         row[k] = (k == i ? 1 : 0) - row[k];
     for (size_t k = 0; k < d->n; k++)
         for (size_t l = 0; l < d->n; l++)
-            sum += row[k] * d->common[k * d->n + l] * row[l];
+            sum += row[k] * d->prediction_covariance[k * d->n + l] * row[l];
     return fmax(sum, 0);
 }
 
 /* Weighted residual squares over their expectation, less 1. A value below 0 needs no further
  * scatter. `shape`: variance of each residual due to the prediction. */
-static double surplus(const agreement_data *d, agreement *a, double scatter, const double *shape)
+static double excess_chi_squared(const agreement_data *d, agreement *a, double scatter,
+                                 const double *shape)
 {
     double sum = 0, expected = (double)(d->n - a->terms);
-    if (!find_weights(d, a, scatter))
+    if (!find_curve_weights(d, a, scatter))
         return -1;
-    find_smooth(d, a);
+    find_curve(d, a);
     for (size_t i = 0; i < d->n; i++) {
-        const double left = d->value[i] - a->smooth[i], variance = d->own[i] + scatter;
+        const double left = d->value[i] - a->fitted_value[i],
+                     variance = d->measurement_variance[i] + scatter;
         sum += left * left / variance;
         expected += shape[i] / variance;
     }
@@ -117,17 +120,17 @@ static double surplus(const agreement_data *d, agreement *a, double scatter, con
 /* Bisections of an interval that starts at the sum of squares, to 1e-12 of it. */
 enum { HALVINGS = 40 };
 
-static void find_scatter(const agreement_data *d, agreement *a, const double *shape)
+static void find_excess_scatter(const agreement_data *d, agreement *a, const double *shape)
 {
     double low = 0, high = 0;
     a->scatter = 0;
-    if (d->n == a->terms || surplus(d, a, 0, shape) <= 0)
+    if (d->n == a->terms || excess_chi_squared(d, a, 0, shape) <= 0)
         return;
     for (size_t i = 0; i < d->n; i++)
-        high += (d->value[i] - a->smooth[i]) * (d->value[i] - a->smooth[i]);
+        high += (d->value[i] - a->fitted_value[i]) * (d->value[i] - a->fitted_value[i]);
     for (int i = 0; i < HALVINGS; i++) {
         const double middle = 0.5 * (low + high);
-        if (surplus(d, a, middle, shape) > 0)
+        if (excess_chi_squared(d, a, middle, shape) > 0)
             low = middle;
         else
             high = middle;
@@ -136,35 +139,35 @@ static void find_scatter(const agreement_data *d, agreement *a, const double *sh
 }
 
 /* Standard errors of the curve at all steps. `row`: [n] scratch. */
-static void find_errors(const agreement_data *d, agreement *a, double *row)
+static void find_curve_errors(const agreement_data *d, agreement *a, double *row)
 {
     for (size_t i = 0; i < d->n; i++) {
         double variance = 0, scatter = 0;
-        agreement_row(a, i, row);
+        agreement_weights(a, i, row);
         for (size_t k = 0; k < d->n; k++) {
             scatter += row[k] * row[k] * a->scatter;
-            variance += row[k] * row[k] * (d->own[k] + a->scatter);
+            variance += row[k] * row[k] * (d->measurement_variance[k] + a->scatter);
             for (size_t l = 0; l < d->n; l++)
-                variance += row[k] * d->common[k * d->n + l] * row[l];
+                variance += row[k] * d->prediction_covariance[k * d->n + l] * row[l];
         }
         a->error[i] = sqrt(variance);
         a->df[i] = agreement_df(variance, scatter, a->scatter_df);
     }
 }
 
-static wt_status allocate(const agreement_data *d, agreement *a, wt_error *err)
+static wt_status alloc_agreement(const agreement_data *d, agreement *a, wt_error *err)
 {
     a->weight = calloc(a->terms * d->n, sizeof *a->weight);
-    a->smooth = calloc(d->n, sizeof *a->smooth);
+    a->fitted_value = calloc(d->n, sizeof *a->fitted_value);
     a->error = calloc(d->n, sizeof *a->error);
     a->df = calloc(d->n, sizeof *a->df);
     a->at = calloc(a->terms * d->n, sizeof *a->at);
-    if (a->at == NULL || a->weight == NULL || a->smooth == NULL || a->error == NULL ||
+    if (a->at == NULL || a->weight == NULL || a->fitted_value == NULL || a->error == NULL ||
         a->df == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     for (size_t k = 0; k < a->terms; k++)
         for (size_t i = 0; i < d->n; i++)
-            a->at[k * d->n + i] = term(a, d->place[i], k);
+            a->at[k * d->n + i] = curve_term(a, d->log_velocity[i], k);
     return WT_OK;
 }
 
@@ -175,7 +178,7 @@ wt_status agreement_fit(const agreement_data *data, size_t most_terms, agreement
     double ends[2] = {0, 0};
     if (data->n == 0)
         return wt_fail(err, WT_E_EMPTY, "no step to be compared");
-    wt_status status = count_places(data, &places, ends, err);
+    wt_status status = count_velocities(data, &places, ends, err);
     if (status != WT_OK)
         return status;
     a->terms = places < 3 ? 1 : places < 5 ? 2 : AGREEMENT_TERMS;
@@ -186,15 +189,15 @@ wt_status agreement_fit(const agreement_data *data, size_t most_terms, agreement
     a->scatter_df = (double)(data->n - a->terms);
     double *const shape = calloc(data->n, sizeof *shape), *const row = calloc(data->n, sizeof *row);
     status = shape == NULL || row == NULL ? wt_fail(err, WT_E_MEMORY, "out of memory")
-                                          : allocate(data, a, err);
-    if (status == WT_OK && !find_weights(data, a, 0))
+                                          : alloc_agreement(data, a, err);
+    if (status == WT_OK && !find_curve_weights(data, a, 0))
         status = wt_fail(err, WT_E_INTERNAL, "the velocities do not tell a curve");
     for (size_t i = 0; status == WT_OK && i < data->n; i++)
-        shape[i] = residual_of_common(data, a, i, row);
+        shape[i] = residual_prediction_variance(data, a, i, row);
     if (status == WT_OK) {
-        find_scatter(data, a, shape);
-        (void)surplus(data, a, a->scatter, shape); /* weights for this scatter */
-        find_errors(data, a, row);
+        find_excess_scatter(data, a, shape);
+        (void)excess_chi_squared(data, a, a->scatter, shape); /* weights for this scatter */
+        find_curve_errors(data, a, row);
     }
     free(shape);
     free(row);
@@ -205,13 +208,13 @@ void agreement_clear(agreement *a)
 {
     free(a->at);
     free(a->weight);
-    free(a->smooth);
+    free(a->fitted_value);
     free(a->error);
     free(a->df);
     *a = (agreement){.n = 0};
 }
 
-void agreement_row(const agreement *a, size_t i, double *row)
+void agreement_weights(const agreement *a, size_t i, double *row)
 {
     for (size_t k = 0; k < a->n; k++) {
         row[k] = 0;
@@ -234,7 +237,7 @@ double agreement_df(double variance, double scatter, double df)
 }
 
 /* Quantile of an interval that holds at all steps simultaneously. */
-static double simultaneous(const agreement *a, double df)
+static double simultaneous_quantile(const agreement *a, double df)
 {
     const double terms = (double)a->terms, each = 0.05 / (2 * (double)a->n);
     const double scheffe = isfinite(df) ? sqrt(terms * gsl_cdf_fdist_Pinv(0.95, terms, df))
@@ -244,32 +247,32 @@ static double simultaneous(const agreement *a, double df)
     return fmin(scheffe, bonferroni);
 }
 
-void agreement_ends(const agreement *a, size_t i, bool at_once, double ends[2])
+void agreement_interval(const agreement *a, size_t i, bool at_once, double ends[2])
 {
     const double half =
-        (at_once ? simultaneous(a, a->df[i]) : agreement_quantile(a->df[i])) * a->error[i];
-    ends[0] = a->smooth[i] - half;
-    ends[1] = a->smooth[i] + half;
+        (at_once ? simultaneous_quantile(a, a->df[i]) : agreement_quantile(a->df[i])) * a->error[i];
+    ends[0] = a->fitted_value[i] - half;
+    ends[1] = a->fitted_value[i] + half;
 }
 
 void agreement_assess(agreement *a, double margin)
 {
     double farthest = -(double)INFINITY, beyond = 0;
     a->verdict = AGREEMENT_YES;
-    a->where = 0;
+    a->deciding_step = 0;
     for (size_t i = 0; i < a->n; i++) {
-        const double off = fabs(a->smooth[i]),
+        const double off = fabs(a->fitted_value[i]),
                      reach = off + agreement_quantile(a->df[i]) * a->error[i],
-                     least = off - simultaneous(a, a->df[i]) * a->error[i] - margin;
+                     least = off - simultaneous_quantile(a, a->df[i]) * a->error[i] - margin;
         if (least > beyond) {
             a->verdict = AGREEMENT_NO;
-            a->where = i;
+            a->deciding_step = i;
             beyond = least;
         }
         if (a->verdict != AGREEMENT_NO && reach > farthest) {
             farthest = reach;
-            a->where = i;
-            a->verdict = reach > margin ? AGREEMENT_OPEN : AGREEMENT_YES;
+            a->deciding_step = i;
+            a->verdict = reach > margin ? AGREEMENT_INCONCLUSIVE : AGREEMENT_YES;
         }
     }
 }
@@ -277,15 +280,16 @@ void agreement_assess(agreement *a, double margin)
 /* ---- likelihood ------------------------------------------------------------------------------ */
 
 /* Covariance of all values. NULL if out of memory. */
-static gsl_matrix *covariance(const agreement_data *d, double scatter)
+static gsl_matrix *total_covariance(const agreement_data *d, double scatter)
 {
     gsl_matrix *const v = gsl_matrix_alloc(d->n, d->n);
     for (size_t i = 0; v != NULL && i < d->n; i++)
         for (size_t k = 0; k < d->n; k++) {
-            const double apart = (d->place[i] - d->place[k]) / AGREEMENT_LENGTH;
+            const double apart = (d->log_velocity[i] - d->log_velocity[k]) / AGREEMENT_LENGTH;
             gsl_matrix_set(v, i, k,
-                           d->common[i * d->n + k] + d->allowed * exp(-0.5 * apart * apart) +
-                               (i == k ? d->own[i] + scatter : 0));
+                           d->prediction_covariance[i * d->n + k] +
+                               d->allowed * exp(-0.5 * apart * apart) +
+                               (i == k ? d->measurement_variance[i] + scatter : 0));
         }
     return v;
 }
@@ -294,7 +298,7 @@ wt_status agreement_likelihood(const agreement_data *d, double scatter, double *
                                wt_error *err)
 {
     const double of_each = log(2 * M_PI);
-    gsl_matrix *const v = covariance(d, scatter);
+    gsl_matrix *const v = total_covariance(d, scatter);
     double *const x = malloc((d->n + 1) * sizeof *x);
     const wt_status status =
         v == NULL || x == NULL ? wt_fail(err, WT_E_MEMORY, "out of memory") : WT_OK;
@@ -315,7 +319,7 @@ wt_status agreement_likelihood(const agreement_data *d, double scatter, double *
 wt_status agreement_solve(const agreement_data *d, double scatter, const double *b, double *x,
                           wt_error *err)
 {
-    gsl_matrix *const v = covariance(d, scatter);
+    gsl_matrix *const v = total_covariance(d, scatter);
     if (v == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     const bool good = dense_factor(v);

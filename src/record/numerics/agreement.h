@@ -13,18 +13,18 @@
 /* Steps of a measurement, with variances and covariances of the compared value. */
 typedef struct agreement_data {
     size_t n;
-    const double *place;  /* [n] log10 of the velocity */
-    const double *value;  /* [n] ln(measured/predicted), or another difference */
-    const double *own;    /* [n] variance due to the measurement alone */
-    const double *common; /* [n * n] covariance due to the prediction */
-    double allowed;       /* variance of the model discrepancy, smooth over the velocity; for the
-                             likelihood alone */
+    const double *log_velocity;          /* [n] log10 of the velocity */
+    const double *value;                 /* [n] ln(measured/predicted), or another difference */
+    const double *measurement_variance;  /* [n] variance due to the measurement alone */
+    const double *prediction_covariance; /* [n * n] covariance due to the prediction */
+    double allowed; /* variance of the model discrepancy, smooth over the velocity; for the
+                       likelihood alone */
 } agreement_data;
 
 typedef enum agreement_verdict {
-    AGREEMENT_OPEN, /* the intervals reach beyond the margin but not entirely */
-    AGREEMENT_YES,  /* all 95 % intervals are within the margin */
-    AGREEMENT_NO    /* a simultaneous 95 % interval is entirely beyond the margin */
+    AGREEMENT_INCONCLUSIVE, /* the intervals reach beyond the margin but not entirely */
+    AGREEMENT_YES,          /* all 95 % intervals are within the margin */
+    AGREEMENT_NO            /* a simultaneous 95 % interval is entirely beyond the margin */
 } agreement_verdict;
 
 /* The curve is a constant, a line from three velocities on, and a parabola from five on. The number
@@ -41,14 +41,14 @@ typedef struct agreement {
     double scatter;                      /* variance between steps in excess of the measurement
                                             variance */
     double scatter_df;                   /* its degrees of freedom */
-    double *smooth, *error, *df;         /* [n] curve at the steps, its standard error and
-                                            degrees of freedom */
+    double *fitted_value, *error, *df;   /* [n] curve at the steps, its standard error and
+                                      degrees of freedom */
     agreement_verdict verdict;
-    size_t where; /* step that decides the verdict */
+    size_t deciding_step; /* step that decides the verdict */
 } agreement;
 
 /* Smallest separation of distinct velocities. */
-#define AGREEMENT_APART 0.05 /* [decade] a tribometer controls its velocity to 10 % */
+#define AGREEMENT_MIN_SEPARATION 0.05 /* [decade] a tribometer controls its velocity to 10 % */
 
 /* Fits by least squares, weighted by the errors of the measurement. Excess scatter between the
  * steps is added (Mandel and Paule). The standard errors include the covariance of the prediction.
@@ -62,10 +62,10 @@ void agreement_assess(agreement *a, double margin);
 void agreement_clear(agreement *a);
 
 /* Returns the limits of the curve at step i: pointwise 95 %, or simultaneous for all steps. */
-void agreement_ends(const agreement *a, size_t i, bool at_once, double ends[2]);
+void agreement_interval(const agreement *a, size_t i, bool at_once, double ends[2]);
 
 /* Returns the weights of the curve at step i, which is the sum of row[k] value[k]. row: [n]. */
-void agreement_row(const agreement *a, size_t i, double *row);
+void agreement_weights(const agreement *a, size_t i, double *row);
 /* Half width of a 95 % interval in standard errors: Student's t, or normal if `df` is INFINITY. */
 double agreement_quantile(double df);
 /* Degrees of freedom of a variance whose part `scatter` has df degrees of freedom (Welch and

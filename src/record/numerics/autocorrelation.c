@@ -19,11 +19,11 @@ static const double shares[SCATTER_SHARES] = {0, 0.02, 0.05, 0.1, 0.2, 0.4, 0.6,
 static const struct {
     double longest, likely[SCATTER_SHARES];
 } expected[] = {
-    [SCATTER_UNDER_CHANGE] = {0.25, {9, 1, 1, 1, 1, 1, 1, 1, 1, 1}},
-    [SCATTER_OF_MEAN] = {1, {4000, 3, 12, 42, 148, 296, 297, 173, 29, 1000}},
+    [SCATTER_FOR_CHANGE] = {0.25, {9, 1, 1, 1, 1, 1, 1, 1, 1, 1}},
+    [SCATTER_FOR_MEAN] = {1, {4000, 3, 12, 42, 148, 296, 297, 173, 29, 1000}},
 };
 
-scatter_law scatter_law_of(scatter_use use, size_t i, size_t n)
+scatter_law scatter_law_at(scatter_purpose use, size_t i, size_t n)
 {
     const double most = fmax(expected[use].longest * (double)n, 2 * shortest),
                  part = (double)(i / SCATTER_SHARES) / (SCATTER_LENGTHS - 1);
@@ -31,7 +31,7 @@ scatter_law scatter_law_of(scatter_use use, size_t i, size_t n)
     return (scatter_law){exp(-1 / length), shares[i % SCATTER_SHARES]};
 }
 
-double scatter_prior(scatter_use use, size_t i)
+double scatter_prior(scatter_purpose use, size_t i)
 {
     const double *const likely = expected[use].likely;
     double all = 0;
@@ -82,7 +82,8 @@ scatter_fit scatter_solve(const scatter_sums *s, bool line)
 }
 
 /* log_unit: ln of the squared unit of the second column. */
-static double likelihood_of(const scatter_sums *s, bool line, double least, double log_unit)
+static double marginal_log_likelihood(const scatter_sums *s, bool line, double least,
+                                      double log_unit)
 {
     const scatter_fit f = scatter_solve(s, line);
     const double df = (double)s->n - (line ? 2 : 1);
@@ -95,15 +96,15 @@ double scatter_likelihood(const scatter_sums *s, bool line, double least)
 {
     /* the slope is taken over the whole series, so that its unit does not depend on the number of
      * points */
-    return likelihood_of(s, line, least, line ? 2 * log((double)s->n) : 0);
+    return marginal_log_likelihood(s, line, least, line ? 2 * log((double)s->n) : 0);
 }
 
 double scatter_profile_likelihood(const scatter_sums *s, double least)
 {
-    return likelihood_of(s, true, least, 0);
+    return marginal_log_likelihood(s, true, least, 0);
 }
 
-double scatter_of_mean(scatter_law law, size_t n)
+double scatter_mean_variance(scatter_law law, size_t n)
 {
     const double r = law.memory, m = (double)n;
     const double slow =
@@ -111,14 +112,14 @@ double scatter_of_mean(scatter_law law, size_t n)
     return law.share * slow + (1 - law.share) / m;
 }
 
-bool scatter_parts_of(const double *y, size_t n, scatter_parts *parts, double **room)
+bool scatter_batch(const double *y, size_t n, scatter_batches *parts, double **room)
 {
-    const size_t length = (n + SCATTER_MOST - 1) / SCATTER_MOST;
-    *parts = (scatter_parts){y, n, 1, 0};
+    const size_t length = (n + SCATTER_MAX_BATCHES - 1) / SCATTER_MAX_BATCHES;
+    *parts = (scatter_batches){y, n, 1, 0};
     *room = NULL;
     if (length <= 1)
         return true;
-    *parts = (scatter_parts){NULL, n / length, length, n % length};
+    *parts = (scatter_batches){NULL, n / length, length, n % length};
     parts->y = *room = calloc(parts->n, sizeof **room);
     for (size_t i = 0; *room != NULL && i < parts->n * length; i++)
         (*room)[i / length] += y[parts->rest + i] / (double)length;
@@ -168,7 +169,7 @@ static double mixture_width(const t_mixture *m)
     return 2 * sqrt(sum);
 }
 
-static double mixture_below(const t_mixture *m, double x)
+static double mixture_distribution(const t_mixture *m, double x)
 {
     double sum = 0;
     for (size_t i = 0; i < m->n; i++)
@@ -185,13 +186,13 @@ double mixture_quantile(const t_mixture *m, double p)
     double step = mixture_width(m);
     step = step > 0 ? step : fabs(centre) + 1;
     double low = centre - step, high = centre + step;
-    for (int i = 0; i < DOUBLINGS && mixture_below(m, low) > p; i++)
+    for (int i = 0; i < DOUBLINGS && mixture_distribution(m, low) > p; i++)
         low = centre - (step *= 2);
-    for (int i = 0; i < DOUBLINGS && mixture_below(m, high) < p; i++)
+    for (int i = 0; i < DOUBLINGS && mixture_distribution(m, high) < p; i++)
         high = centre + (step *= 2);
     for (int i = 0; i < HALVINGS && low < high; i++) {
         const double middle = 0.5 * (low + high);
-        if (mixture_below(m, middle) < p)
+        if (mixture_distribution(m, middle) < p)
             low = middle;
         else
             high = middle;

@@ -10,7 +10,7 @@
 
 /* Lower bound of the residual of a point, relative to the standard deviation of the series: the
  * last of four written digits. */
-#define SCATTER_DIGITS 1e-4
+#define SCATTER_RESOLUTION 1e-4
 
 /* One law of unit variance. */
 typedef struct scatter_law {
@@ -21,20 +21,20 @@ typedef struct scatter_law {
 /* Purpose of the laws. In the search for a change their length is limited to a quarter of the
  * series: longer correlations are the change itself. For the error of a mean they reach the whole
  * length. */
-typedef enum scatter_use { SCATTER_UNDER_CHANGE, SCATTER_OF_MEAN } scatter_use;
+typedef enum scatter_purpose { SCATTER_FOR_CHANGE, SCATTER_FOR_MEAN } scatter_purpose;
 
 /* Laws of a series of n points. The lengths go from half a step (shorter scatter is white) to the
  * longest in equal ratios. The shares are denser near 0 and 1. */
 enum { SCATTER_LENGTHS = 16, SCATTER_SHARES = 10 };
 enum { SCATTER_LAWS = SCATTER_LENGTHS * SCATTER_SHARES };
-scatter_law scatter_law_of(scatter_use use, size_t i, size_t n);
+scatter_law scatter_law_at(scatter_purpose use, size_t i, size_t n);
 /* ln of the prior probability of a law. All lengths are equally probable. White scatter is one law
  * for all lengths and has a weight of one half or more. Equal weights of all grid points would give
  * it 10 %. Small slow shares over most of the series cannot be refuted and would make the error of
  * the mean 1/3 too large. Small shares therefore have little weight for a mean. Nearly all slow has
  * little weight, too: it fits as well as equal parts with a shorter length, and its error is twice
  * as large. */
-double scatter_prior(scatter_use use, size_t i);
+double scatter_prior(scatter_purpose use, size_t i);
 
 /* Sums of generalised least squares over successive points, from either end. V is the covariance of
  * unit variance. The columns of X are 1 and the number of the point. */
@@ -64,27 +64,28 @@ double scatter_likelihood(const scatter_sums *s, bool line, double least);
 /* Variant with a constant and the other column. */
 double scatter_profile_likelihood(const scatter_sums *s, double least);
 /* Variance of the plain mean of n points per unit variance. */
-double scatter_of_mean(scatter_law law, size_t n);
+double scatter_mean_variance(scatter_law law, size_t n);
 
 /* Longer series are replaced by means of equal batches, which bounds the work. Points that do not
  * fill a batch are skipped at the start. */
-enum { SCATTER_MOST = 4000 };
-typedef struct scatter_parts {
+enum { SCATTER_MAX_BATCHES = 4000 };
+typedef struct scatter_batches {
     const double *y;        /* [n] */
     size_t n, length, rest; /* points in a batch; points skipped */
-} scatter_parts;
+} scatter_batches;
 /* *room is freed by the caller; NULL if the series is used directly. False if out of memory. */
-bool scatter_parts_of(const double *y, size_t n, scatter_parts *parts, double **room);
+bool scatter_batch(const double *y, size_t n, scatter_batches *parts, double **room);
 
 /* ln(exp a + exp b). Either may be -INFINITY. */
 double log_add(double a, double b);
 
 /* Weighted mixture of Student's t distributions: several laws of the scatter, each about a constant
  * and about a line. */
-enum { MIXTURE_MOST = 2 * SCATTER_LAWS };
+enum { MIXTURE_MAX_TERMS = 2 * SCATTER_LAWS };
 typedef struct t_mixture {
     size_t n;
-    double df[MIXTURE_MOST], log_weight[MIXTURE_MOST], centre[MIXTURE_MOST], scale[MIXTURE_MOST];
+    double df[MIXTURE_MAX_TERMS], log_weight[MIXTURE_MAX_TERMS], centre[MIXTURE_MAX_TERMS],
+        scale[MIXTURE_MAX_TERMS];
 } t_mixture;
 void mixture_add(t_mixture *m, double log_weight, double df, double centre, double scale);
 /* Scales the weights to a sum of 1. */

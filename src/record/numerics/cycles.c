@@ -29,15 +29,15 @@ static bool has_both_signs(const double *x, size_t n)
     return 10 * below > n && 10 * above > n; /* 10 % exceeds scatter about 0 */
 }
 
-static double load_of(const wt_record *record, double load, size_t i)
+static double sample_load(const wt_record *record, double load, size_t i)
 {
     const double *const measured = record->channel[WT_RECORD_NORMAL_FORCE];
     return measured != NULL ? measured[i] : load;
 }
 
 /* The coefficient of the file is used unless it lost the sign that the force has. */
-static wt_status friction_of(const wt_record *record, double load, double *friction,
-                             wt_cycles *cycles, wt_error *err)
+static wt_status sample_friction(const wt_record *record, double load, double *friction,
+                                 wt_cycles *cycles, wt_error *err)
 {
     const double *const given = record->channel[WT_RECORD_COEFFICIENT],
                         *const force = record->channel[WT_RECORD_FRICTION_FORCE];
@@ -53,7 +53,7 @@ static wt_status friction_of(const wt_record *record, double load, double *frict
         return status;
     }
     for (size_t i = 0; i < record->n; i++) {
-        const double normal = load_of(record, load, i),
+        const double normal = sample_load(record, load, i),
                      ratio = force != NULL && normal > 0 ? force[i] / normal : (double)NAN;
         friction[i] = by_force ? ratio : given[i];
         cycles->n_unloaded += by_force && normal <= 0;
@@ -66,7 +66,7 @@ static wt_status friction_of(const wt_record *record, double load, double *frict
 /* ---- selection of cycles --------------------------------------------------------------------- */
 
 /* Returns the first channel that increases through the record. */
-static const double *running(const wt_record *record)
+static const double *progress_channel(const wt_record *record)
 {
     static const wt_record_channel order[] = {WT_RECORD_TIME, WT_RECORD_DISTANCE, WT_RECORD_LAPS};
     for (size_t i = 0; i < COUNT_OF(order); i++)
@@ -75,7 +75,7 @@ static const double *running(const wt_record *record)
     return NULL;
 }
 
-static double lap_of(const wt_record *record, double radius, size_t i)
+static double lap_position(const wt_record *record, double radius, size_t i)
 {
     const double *const laps = record->channel[WT_RECORD_LAPS],
                         *const distance = record->channel[WT_RECORD_DISTANCE];
@@ -94,13 +94,15 @@ static bool same_step(const wt_record *record, size_t i)
 static void find_laps(const wt_record *record, double radius, cycle_spans *spans)
 {
     for (size_t first = 0, end; first < record->n; first = end) {
-        const double lap = floor(lap_of(record, radius, first));
-        for (end = first + 1; same_step(record, end) && floor(lap_of(record, radius, end)) <= lap;)
+        const double lap = floor(lap_position(record, radius, first));
+        for (end = first + 1;
+             same_step(record, end) && floor(lap_position(record, radius, end)) <= lap;)
             end++;
-        const double spacing =
-            end > first + 1 ? lap_of(record, radius, first + 1) - lap_of(record, radius, first) : 0;
+        const double spacing = end > first + 1 ? lap_position(record, radius, first + 1) -
+                                                     lap_position(record, radius, first)
+                                               : 0;
         const bool begins = (first > 0 && same_step(record, first)) ||
-                            lap_of(record, radius, first) - lap <= 1.5 * spacing;
+                            lap_position(record, radius, first) - lap <= 1.5 * spacing;
         if (begins && same_step(record, end) && !isnan(lap))
             spans->span[spans->n++] = (cycle_span){first, first, end};
     }
@@ -108,7 +110,7 @@ static void find_laps(const wt_record *record, double radius, cycle_spans *spans
 
 /* Returns a span that holds at least one sample: longer than all sampling intervals except pauses.
  * `steps`: [n] scratch. */
-static double span_of(const double *x, size_t n, double *steps)
+static double choose_span(const double *x, size_t n, double *steps)
 {
     const double all = x[n - 1] - x[0];
     double sum = 0;
@@ -121,10 +123,10 @@ static double span_of(const double *x, size_t n, double *steps)
     return fmax(steps[i], all / most_spans);
 }
 
-static void find_spans(const wt_record *record, double *room, cycle_spans *spans)
+static void find_time_spans(const wt_record *record, double *room, cycle_spans *spans)
 {
-    const double *const x = running(record);
-    const double width = record->n > 1 ? span_of(x, record->n, room) : 1;
+    const double *const x = progress_channel(record);
+    const double width = record->n > 1 ? choose_span(x, record->n, room) : 1;
     for (size_t first = 0, end; first < record->n; first = end) {
         /* the tolerance keeps equal sampling intervals from rounding to either side */
         for (end = first + 1; same_step(record, end) && !(x[end] - x[first] > 0.999 * width);)
@@ -133,8 +135,8 @@ static void find_spans(const wt_record *record, double *room, cycle_spans *spans
     }
 }
 
-static void find_kind(const wt_record *record, wt_cycle_kind kind, double radius,
-                      const double *friction, double *room, cycle_spans *spans)
+static void find_cycles(const wt_record *record, wt_cycle_kind kind, double radius,
+                        const double *friction, double *room, cycle_spans *spans)
 {
     spans->n = 0;
     switch (kind) {
@@ -145,7 +147,7 @@ static void find_kind(const wt_record *record, wt_cycle_kind kind, double radius
         find_laps(record, radius, spans);
         break;
     case WT_CYCLE_TIME:
-        find_spans(record, room, spans);
+        find_time_spans(record, room, spans);
         break;
     default:
         for (; spans->n < record->n; spans->n++)
@@ -153,15 +155,15 @@ static void find_kind(const wt_record *record, wt_cycle_kind kind, double radius
     }
 }
 
-static wt_status choose(const wt_record *record, wt_cycle_kind wanted, double radius,
-                        const double *friction, double *room, cycle_spans *spans,
-                        wt_cycle_kind *kind, wt_error *err)
+static wt_status choose_cycles(const wt_record *record, wt_cycle_kind wanted, double radius,
+                               const double *friction, double *room, cycle_spans *spans,
+                               wt_cycle_kind *kind, wt_error *err)
 {
     enum { FEWEST = 3 }; /* fewer are not a series */
     for (*kind = WT_CYCLE_STROKE; *kind <= WT_CYCLE_SAMPLE; ++*kind) {
         if (wanted != WT_CYCLE_AUTO && *kind != wanted)
             continue;
-        find_kind(record, *kind, radius, friction, room, spans);
+        find_cycles(record, *kind, radius, friction, room, spans);
         if (spans->n >= FEWEST || *kind == WT_CYCLE_SAMPLE ||
             (*kind == WT_CYCLE_TIME && spans->n > 0))
             return WT_OK;
@@ -176,7 +178,7 @@ static wt_status choose(const wt_record *record, wt_cycle_kind wanted, double ra
 
 /* Friction of sliding exists only during motion: the function trims samples at rest from a cycle.
  * Strokes come to rest at their turning points. */
-static cycle_span sliding_part(const wt_record *record, wt_cycle_kind kind, cycle_span s)
+static cycle_span sliding_span(const wt_record *record, wt_cycle_kind kind, cycle_span s)
 {
     const double *const x = record->channel[WT_RECORD_VELOCITY] != NULL
                                 ? record->channel[WT_RECORD_VELOCITY]
@@ -195,7 +197,7 @@ static cycle_span sliding_part(const wt_record *record, wt_cycle_kind kind, cycl
 
 /* ---- means ----------------------------------------------------------------------------------- */
 
-static double mean_of(const double *x, cycle_span s)
+static double span_mean(const double *x, cycle_span s)
 {
     double sum = 0, n = 0;
     for (size_t i = s.first; x != NULL && i < s.end; i++)
@@ -206,7 +208,7 @@ static double mean_of(const double *x, cycle_span s)
     return n > 0 ? sum / n : (double)NAN;
 }
 
-static double deviation_of(const double *x, cycle_span s, double mean)
+static double standard_deviation_in_span(const double *x, cycle_span s, double mean)
 {
     double sum = 0, n = 0;
     for (size_t i = s.first; i < s.end; i++)
@@ -219,14 +221,14 @@ static double deviation_of(const double *x, cycle_span s, double mean)
 
 /* The span ends at the first sample of the next cycle, so that a cycle of one sample has a
  * duration. */
-static size_t end_of(const wt_record *record, cycle_span s)
+static size_t span_end(const wt_record *record, cycle_span s)
 {
     return same_step(record, s.end) ? s.end : s.end - 1;
 }
 
-static double span_over(const double *x, const wt_record *record, cycle_span s)
+static double span_difference(const double *x, const wt_record *record, cycle_span s)
 {
-    return x != NULL ? x[end_of(record, s)] - x[s.first] : (double)NAN;
+    return x != NULL ? x[span_end(record, s)] - x[s.first] : (double)NAN;
 }
 
 /* For strokes the mean of a quantity that changes its sign with the direction is that of its
@@ -235,7 +237,7 @@ static double mean_speed(const double *x, cycle_span s, wt_cycle_kind kind)
 {
     double sum = 0, n = 0;
     if (kind != WT_CYCLE_STROKE)
-        return fabs(mean_of(x, s));
+        return fabs(span_mean(x, s));
     for (size_t i = s.first; x != NULL && i < s.end; i++)
         if (!isnan(x[i])) {
             sum += fabs(x[i]);
@@ -245,7 +247,7 @@ static double mean_speed(const double *x, cycle_span s, wt_cycle_kind kind)
 }
 
 /* Length of a double stroke. */
-static double path_of_strokes(const double *position, cycle_span s)
+static double double_stroke_path(const double *position, cycle_span s)
 {
     double low = (double)INFINITY, high = -(double)INFINITY;
     for (size_t i = s.first; position != NULL && i < s.end; i++) {
@@ -255,8 +257,8 @@ static double path_of_strokes(const double *position, cycle_span s)
     return high >= low ? 2 * (high - low) : (double)NAN;
 }
 
-static double velocity_of(const wt_record *record, double radius, cycle_span s, wt_cycle_kind kind,
-                          const wt_cycle *c)
+static double cycle_velocity(const wt_record *record, double radius, cycle_span s,
+                             wt_cycle_kind kind, const wt_cycle *c)
 {
     const double measured = mean_speed(record->channel[WT_RECORD_VELOCITY], s, kind),
                  rotation = c->rotation * radius;
@@ -264,9 +266,9 @@ static double velocity_of(const wt_record *record, double radius, cycle_span s, 
         return measured;
     if (!isnan(rotation))
         return rotation;
-    double path = span_over(record->channel[WT_RECORD_DISTANCE], record, s);
+    double path = span_difference(record->channel[WT_RECORD_DISTANCE], record, s);
     if (isnan(path) && kind == WT_CYCLE_STROKE)
-        path = path_of_strokes(record->channel[WT_RECORD_POSITION], s);
+        path = double_stroke_path(record->channel[WT_RECORD_POSITION], s);
     return c->duration > 0 ? path / c->duration : (double)NAN;
 }
 
@@ -274,15 +276,15 @@ static void set_friction(const wt_record *record, const double *friction, wt_cyc
                          cycle_span s, wt_cycle *c)
 {
     c->zero = (double)NAN;
-    c->coefficient = mean_of(friction, s);
-    c->deviation = deviation_of(friction, s, c->coefficient);
+    c->coefficient = span_mean(friction, s);
+    c->deviation = standard_deviation_in_span(friction, s, c->coefficient);
     if (kind != WT_CYCLE_STROKE)
         return;
     const stroke_means m = strokes_mean(record, friction, s);
     const double n = (double)(s.turn - s.first), k = (double)(s.end - s.turn);
     const cycle_span there = {s.first, s.first, s.turn}, back = {s.turn, s.turn, s.end};
-    c->deviation = sqrt((n * pow(deviation_of(friction, there, m.there), 2) +
-                         k * pow(deviation_of(friction, back, m.back), 2)) /
+    c->deviation = sqrt((n * pow(standard_deviation_in_span(friction, there, m.there), 2) +
+                         k * pow(standard_deviation_in_span(friction, back, m.back), 2)) /
                         (n + k));
     c->coefficient = 0.5 * (fabs(m.there) + fabs(m.back));
     if (m.there * m.back > 0)
@@ -292,12 +294,12 @@ static void set_friction(const wt_record *record, const double *friction, wt_cyc
 }
 
 /* Measured or stated normal force, else the friction force over the coefficient of the file. */
-static double normal_force_of(const wt_record *record, double load, cycle_span s)
+static double mean_normal_force(const wt_record *record, double load, cycle_span s)
 {
     const double *const mu = record->channel[WT_RECORD_COEFFICIENT],
                         *const force = record->channel[WT_RECORD_FRICTION_FORCE];
     if (record->channel[WT_RECORD_NORMAL_FORCE] != NULL)
-        return mean_of(record->channel[WT_RECORD_NORMAL_FORCE], s);
+        return span_mean(record->channel[WT_RECORD_NORMAL_FORCE], s);
     if (!isnan(load) || mu == NULL || force == NULL)
         return load;
     double forces = 0, coefficients = 0;
@@ -315,20 +317,20 @@ static void set_cycle(const wt_record *record, double radius, double load, cycle
     c->first = s.first;
     c->n = s.end - s.first;
     c->step = record->step[s.first];
-    c->time = mean_of(channel[WT_RECORD_TIME], s);
-    c->distance = mean_of(channel[WT_RECORD_DISTANCE], s);
-    c->laps = mean_of(channel[WT_RECORD_LAPS], s);
-    c->normal_force = normal_force_of(record, load, s);
-    c->duration = span_over(channel[WT_RECORD_TIME], record, s);
+    c->time = span_mean(channel[WT_RECORD_TIME], s);
+    c->distance = span_mean(channel[WT_RECORD_DISTANCE], s);
+    c->laps = span_mean(channel[WT_RECORD_LAPS], s);
+    c->normal_force = mean_normal_force(record, load, s);
+    c->duration = span_difference(channel[WT_RECORD_TIME], record, s);
     c->rotation = mean_speed(channel[WT_RECORD_ROTATION], s, kind);
-    c->velocity = velocity_of(record, radius, s, kind, c);
-    c->pressure = mean_of(channel[WT_RECORD_PRESSURE], s);
-    c->temperature = mean_of(channel[WT_RECORD_TEMPERATURE], s);
-    c->wear_depth = mean_of(channel[WT_RECORD_WEAR_DEPTH], s);
+    c->velocity = cycle_velocity(record, radius, s, kind, c);
+    c->pressure = span_mean(channel[WT_RECORD_PRESSURE], s);
+    c->temperature = span_mean(channel[WT_RECORD_TEMPERATURE], s);
+    c->wear_depth = span_mean(channel[WT_RECORD_WEAR_DEPTH], s);
 }
 
 /* The sign of friction is that of a direction. Each step is made positive on average. */
-static void turn_steps(wt_cycles *cycles)
+static void make_step_friction_positive(wt_cycles *cycles)
 {
     for (size_t first = 0, end; first < cycles->n; first = end) {
         double sum = 0;
@@ -340,12 +342,12 @@ static void turn_steps(wt_cycles *cycles)
     }
 }
 
-static void fill(const wt_record *record, double radius, double load, const double *friction,
-                 const cycle_spans *spans, double *room, wt_cycles *cycles)
+static void fill_cycles(const wt_record *record, double radius, double load, const double *friction,
+                        const cycle_spans *spans, double *room, wt_cycles *cycles)
 {
     for (size_t k = 0; k < spans->n; k++) {
         wt_cycle *const c = &cycles->cycle[cycles->n];
-        const cycle_span s = sliding_part(record, cycles->kind, spans->span[k]);
+        const cycle_span s = sliding_span(record, cycles->kind, spans->span[k]);
         set_friction(record, friction, cycles->kind, s, c);
         set_cycle(record, radius, load, s, cycles->kind, c);
         if (isnan(c->coefficient))
@@ -353,13 +355,13 @@ static void fill(const wt_record *record, double radius, double load, const doub
         cycles->has_zero = cycles->has_zero || !isnan(c->zero);
         room[cycles->n++] = (double)c->n;
     }
-    turn_steps(cycles);
+    make_step_friction_positive(cycles);
     numbers_sort(room, cycles->n);
     cycles->samples = cycles->n > 0 ? room[cycles->n / 2] : 0;
 }
 
-wt_status wt_cycles_make(const wt_record *record, wt_cycle_kind kind, double radius, double load,
-                         wt_cycles *cycles, wt_error *err)
+wt_status wt_cycles_compute(const wt_record *record, wt_cycle_kind kind, double radius, double load,
+                            wt_cycles *cycles, wt_error *err)
 {
     *cycles = (wt_cycles){.difference = (double)NAN};
     if (record == NULL || record->n == 0)
@@ -372,15 +374,15 @@ wt_status wt_cycles_make(const wt_record *record, wt_cycle_kind kind, double rad
                            ? WT_OK
                            : wt_fail(err, WT_E_MEMORY, "out of memory");
     if (status == WT_OK)
-        status = friction_of(record, load, friction, &made, err);
+        status = sample_friction(record, load, friction, &made, err);
     if (status == WT_OK)
-        status = choose(record, kind, radius, friction, room, &spans, &made.kind, err);
+        status = choose_cycles(record, kind, radius, friction, room, &spans, &made.kind, err);
     if (status == WT_OK) {
         made.cycle = calloc(spans.n + 1, sizeof *made.cycle);
         status = made.cycle != NULL ? WT_OK : wt_fail(err, WT_E_MEMORY, "out of memory");
     }
     if (status == WT_OK) {
-        fill(record, radius, load, friction, &spans, room, &made);
+        fill_cycles(record, radius, load, friction, &spans, room, &made);
         made.friction = friction;
         *cycles = made;
     } else {

@@ -48,10 +48,10 @@ typedef struct pause_search {
     double *room; /* [n] */
 } pause_search;
 
-typedef struct level {
+typedef struct motion_level {
     size_t first, next;    /* samples at which the level is reached and left */
     double time, progress; /* up to the next level */
-} level;
+} motion_level;
 
 /* ---- unidirectional motion ------------------------------------------------------------------- */
 
@@ -67,7 +67,7 @@ static double largest_fall(const double *x, size_t n)
 
 /* Groups samples at one position into levels. A measured distance scatters by as much as it
  * falls. */
-static size_t find_levels(const pause_search *s, level *levels)
+static size_t find_levels(const pause_search *s, motion_level *levels)
 {
     const double same = 2 * largest_fall(s->moved, s->n);
     size_t n = 0;
@@ -75,14 +75,14 @@ static size_t find_levels(const pause_search *s, level *levels)
         for (next = first + 1; next + 1 < s->n && !(fabs(s->moved[next] - s->moved[first]) > same);
              next++)
             ;
-        levels[n++] = (level){first, next, s->time[next] - s->time[first],
-                              fabs(s->moved[next] - s->moved[first])};
+        levels[n++] = (motion_level){first, next, s->time[next] - s->time[first],
+                                     fabs(s->moved[next] - s->moved[first])};
     }
     return n;
 }
 
 /* Median time per progress of the levels on one side. NaN if there are none. */
-static double slowness_of(const level *levels, size_t n)
+static double median_slowness(const motion_level *levels, size_t n)
 {
     double slow[BESIDE];
     size_t known = 0;
@@ -92,15 +92,15 @@ static double slowness_of(const level *levels, size_t n)
     return known > 0 ? numbers_median(slow, known) : (double)NAN;
 }
 
-static void find_in_levels(pause_search *s, level *levels)
+static void find_pauses_in_levels(pause_search *s, motion_level *levels)
 {
     const size_t n = find_levels(s, levels);
     const double least = least_part * (s->time[s->n - 1] - s->time[0]);
     for (size_t k = 1; k + 1 < n; k++) {
-        const level *const l = &levels[k];
-        const double before = slowness_of(levels + (k > BESIDE ? k - BESIDE : 0),
-                                          k > BESIDE ? BESIDE : k),
-                     behind = slowness_of(l + 1, n - k - 1),
+        const motion_level *const l = &levels[k];
+        const double before = median_slowness(levels + (k > BESIDE ? k - BESIDE : 0),
+                                              k > BESIDE ? BESIDE : k),
+                     behind = median_slowness(l + 1, n - k - 1),
                      expected = l->progress * fmax(before, behind);
         if (isnan(before + behind) || !(l->time > outstanding * expected) ||
             !(l->time - expected > least))
@@ -115,7 +115,7 @@ static void find_in_levels(pause_search *s, level *levels)
 
 /* Mean time between turning points. It counts strokes from one outer quarter of the range to the
  * other: the path itself would include the noise of every sample. */
-static double time_of_stroke(const pause_search *s, double low, double high)
+static double mean_stroke_time(const pause_search *s, double low, double high)
 {
     const double quarter = 0.25 * (high - low);
     size_t strokes = 0;
@@ -130,7 +130,7 @@ static double time_of_stroke(const pause_search *s, double low, double high)
 
 /* Restricts samples near one position to the rest itself. Before and after, the slider was
  * moving. */
-static void trim(const pause_search *s, size_t *first, size_t *next)
+static void trim_rest(const pause_search *s, size_t *first, size_t *next)
 {
     const size_t n = *next - *first;
     memcpy(s->room, s->moved + *first, n * sizeof *s->room);
@@ -144,10 +144,10 @@ static void trim(const pause_search *s, size_t *first, size_t *next)
         --*next;
 }
 
-static void find_standing(pause_search *s, double low, double high)
+static void find_rests(pause_search *s, double low, double high)
 {
     const double least = fmax(least_part * (s->time[s->n - 1] - s->time[0]),
-                              least_of_stroke * time_of_stroke(s, low, high));
+                              least_of_stroke * mean_stroke_time(s, low, high));
     for (size_t first = 0, next; first < s->n; first = next) {
         for (next = first + 1;
              next < s->n && fabs(s->moved[next] - s->moved[first]) <= standing * (high - low);
@@ -156,7 +156,7 @@ static void find_standing(pause_search *s, double low, double high)
         size_t from = first, to = next;
         if (first == 0 || next == s->n || !(s->time[next - 1] - s->time[first] > least))
             continue;
-        trim(s, &from, &to);
+        trim_rest(s, &from, &to);
         s->cut[to] = s->time[to - 1] - s->time[from];
         for (size_t i = from + 1; i < to; i++)
             s->rest[i] = true;
@@ -167,7 +167,7 @@ static void find_standing(pause_search *s, double low, double high)
 
 /* Sets a speed to zero where it is noise: runs far below the largest speed whose mean does not
  * exceed their scatter. */
-static void quieten(double *speed, size_t n)
+static void suppress_speed_noise(double *speed, size_t n)
 {
     double fastest = 0;
     for (size_t i = 0; i < n; i++)
@@ -186,7 +186,7 @@ static void quieten(double *speed, size_t n)
     }
 }
 
-static bool is_whole(const double *x, size_t n)
+static bool is_complete_channel(const double *x, size_t n)
 {
     for (size_t i = 0; x != NULL && i < n; i++)
         if (isnan(x[i]))
@@ -195,9 +195,9 @@ static bool is_whole(const double *x, size_t n)
 }
 
 /* Integrates a speed, which holds over the interval before its sample. */
-static void way_of(double *speed, const double *time, size_t n, double *way)
+static void integrate_speed(double *speed, const double *time, size_t n, double *way)
 {
-    quieten(speed, n);
+    suppress_speed_noise(speed, n);
     way[0] = 0;
     for (size_t i = 1; i < n; i++)
         way[i] = way[i - 1] + speed[i] * (time[i] - time[i - 1]);
@@ -205,8 +205,8 @@ static void way_of(double *speed, const double *time, size_t n, double *way)
 
 /* Copies the motion of a channel from sample `first` on. WT_RECORD_CHANNELS stands for the sample
  * number. False if the record lacks the channel. */
-static bool motion_of(const wt_record *record, wt_record_channel c, size_t first, size_t n,
-                      double *moved, double *room)
+static bool channel_motion(const wt_record *record, wt_record_channel c, size_t first, size_t n,
+                           double *moved, double *room)
 {
     const double *const x =
         c < WT_RECORD_CHANNELS && record->channel[c] != NULL ? record->channel[c] + first : NULL;
@@ -214,11 +214,11 @@ static bool motion_of(const wt_record *record, wt_record_channel c, size_t first
         moved[i] = (double)i;
     if (c == WT_RECORD_CHANNELS)
         return true;
-    if (!is_whole(x, n))
+    if (!is_complete_channel(x, n))
         return false;
     memcpy(room, x, n * sizeof *room);
     if (c == WT_RECORD_VELOCITY || c == WT_RECORD_ROTATION)
-        way_of(room, record->channel[WT_RECORD_TIME] + first, n, moved);
+        integrate_speed(room, record->channel[WT_RECORD_TIME] + first, n, moved);
     else
         memcpy(moved, room, n * sizeof *moved);
     for (size_t i = 0; i < n; i++) /* the sign is that of a direction */
@@ -230,15 +230,15 @@ static bool motion_of(const wt_record *record, wt_record_channel c, size_t first
 /* ---- record ---------------------------------------------------------------------------------- */
 
 /* Scratch arrays with one element per sample. */
-typedef struct pause_room {
+typedef struct pause_buffers {
     double *moved, *room;
     double *cut, *paused; /* [s] before a sample: pauses of this channel, pauses of all channels */
     bool *rest;
-    level *levels;
-} pause_room;
+    motion_level *levels;
+} pause_buffers;
 
-static void find_in_step(const wt_record *record, wt_record_channel c, size_t first, size_t n,
-                         const pause_room *r)
+static void find_pauses_in_step(const wt_record *record, wt_record_channel c, size_t first,
+                                size_t n, const pause_buffers *r)
 {
     pause_search s = {record->channel[WT_RECORD_TIME] + first,
                       r->moved,
@@ -246,7 +246,7 @@ static void find_in_step(const wt_record *record, wt_record_channel c, size_t fi
                       r->cut + first,
                       r->rest + first,
                       r->room};
-    if (!motion_of(record, c, first, n, r->moved, r->room))
+    if (!channel_motion(record, c, first, n, r->moved, r->room))
         return;
     double low = r->moved[0], high = r->moved[0];
     for (size_t i = 0; i < n; i++) {
@@ -256,13 +256,13 @@ static void find_in_step(const wt_record *record, wt_record_channel c, size_t fi
     if (!(high > low))
         return;
     if (largest_fall(r->moved, n) > there_and_back * (high - low))
-        find_standing(&s, low, high);
+        find_rests(&s, low, high);
     else
-        find_in_levels(&s, r->levels);
+        find_pauses_in_levels(&s, r->levels);
 }
 
 /* Restores the time of many equal gaps, which belong to the recorder. Returns their number. */
-static size_t take_back(const wt_record *record, double *cut)
+static size_t restore_recorder_gaps(const wt_record *record, double *cut)
 {
     double least = (double)INFINITY, most = 0;
     size_t n = 0;
@@ -279,7 +279,7 @@ static size_t take_back(const wt_record *record, double *cut)
 }
 
 /* Removes the samples at rest and renumbers the others. */
-static void keep(wt_record *record, const pause_room *r)
+static void remove_rests(wt_record *record, const pause_buffers *r)
 {
     static const wt_record_channel running[] = {WT_RECORD_TIME, WT_RECORD_DISTANCE, WT_RECORD_LAPS};
     double *const *const channel = record->channel;
@@ -308,21 +308,22 @@ static void keep(wt_record *record, const pause_room *r)
     record->n = to;
 }
 
-static void find_by(wt_record *record, wt_record_channel c, const pause_room *r, size_t *alike)
+static void find_pauses_by_channel(wt_record *record, wt_record_channel c, const pause_buffers *r,
+                                   size_t *alike)
 {
     memset(r->cut, 0, record->n * sizeof *r->cut);
     memset(r->rest, 0, record->n * sizeof *r->rest);
     for (size_t first = 0, end; first < record->n; first = end) {
         for (end = first + 1; end < record->n && record->step[end] == record->step[first]; end++)
             ;
-        find_in_step(record, c, first, end - first, r);
+        find_pauses_in_step(record, c, first, end - first, r);
     }
     if (c == WT_RECORD_CHANNELS)
-        *alike = take_back(record, r->cut);
-    keep(record, r);
+        *alike = restore_recorder_gaps(record, r->cut);
+    remove_rests(record, r);
 }
 
-static wt_status text_append(const wt_record *record, const double *paused, record_pauses *pauses,
+static wt_status list_pauses(const wt_record *record, const double *paused, record_pauses *pauses,
                              wt_error *err)
 {
     for (size_t i = 0; i < record->n; i++) {
@@ -337,7 +338,7 @@ static wt_status text_append(const wt_record *record, const double *paused, reco
     return WT_OK;
 }
 
-wt_status record_leave_out_pauses(wt_record *record, record_pauses *pauses, wt_error *err)
+wt_status record_remove_pauses(wt_record *record, record_pauses *pauses, wt_error *err)
 {
     /* the finest channel first; time alone last, without a progressive channel */
     static const wt_record_channel order[] = {WT_RECORD_DISTANCE, WT_RECORD_VELOCITY,
@@ -348,19 +349,19 @@ wt_status record_leave_out_pauses(wt_record *record, record_pauses *pauses, wt_e
     *pauses = (record_pauses){.n = 0};
     if (record->channel[WT_RECORD_TIME] == NULL || n < 2)
         return WT_OK;
-    const pause_room r = {arena_numbers(&memory, n),
-                          arena_numbers(&memory, n),
-                          arena_numbers(&memory, n),
-                          arena_numbers(&memory, n),
-                          arena_alloc(&memory, n, sizeof(bool)),
-                          arena_alloc(&memory, n, sizeof(level))};
+    const pause_buffers r = {arena_numbers(&memory, n),
+                             arena_numbers(&memory, n),
+                             arena_numbers(&memory, n),
+                             arena_numbers(&memory, n),
+                             arena_alloc(&memory, n, sizeof(bool)),
+                             arena_alloc(&memory, n, sizeof(motion_level))};
     wt_status status = memory.failed ? wt_fail(err, WT_E_MEMORY, "out of memory") : WT_OK;
     for (size_t i = 0; status == WT_OK && i < COUNT_OF(order); i++)
         if (order[i] != WT_RECORD_CHANNELS || (record->channel[WT_RECORD_DISTANCE] == NULL &&
                                                record->channel[WT_RECORD_LAPS] == NULL))
-            find_by(record, order[i], &r, &pauses->alike);
+            find_pauses_by_channel(record, order[i], &r, &pauses->alike);
     if (status == WT_OK)
-        status = text_append(record, r.paused, pauses, err);
+        status = list_pauses(record, r.paused, pauses, err);
     arena_free(&memory);
     return status;
 }

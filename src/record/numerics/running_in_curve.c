@@ -11,7 +11,7 @@
 
 /* ---- curve ----------------------------------------------------------------------------------- */
 
-double running_in_curve_at(const course *c, double log_time)
+double running_in_curve_at(const running_in_curve *c, double log_time)
 {
     const double place = (log_time - c->log_first) / c->log_step;
     if (!(place > 0))
@@ -23,7 +23,7 @@ double running_in_curve_at(const course *c, double log_time)
     return c->value[i] + part * (c->value[i + 1] - c->value[i]);
 }
 
-double running_in_curve_height(const course *c)
+double running_in_curve_height(const running_in_curve *c)
 {
     double most = 0;
     for (size_t i = 0; i < c->n; i++)
@@ -31,7 +31,7 @@ double running_in_curve_height(const course *c)
     return most;
 }
 
-double running_in_curve_settled(const course *c, double share)
+double running_in_curve_settling_time(const running_in_curve *c, double share)
 {
     const double limit = share * running_in_curve_height(c);
     for (size_t i = c->n; limit > 0 && i-- > 0;)
@@ -45,7 +45,7 @@ double running_in_curve_settled(const course *c, double share)
     return (double)NAN;
 }
 
-wt_status running_in_series_new(size_t n, running_in_series *s, wt_error *err)
+wt_status running_in_series_alloc(size_t n, running_in_series *s, wt_error *err)
 {
     *s = (running_in_series){.n = n,
                              .end = calloc(n + 1, sizeof *s->end),
@@ -65,58 +65,59 @@ void running_in_series_clear(running_in_series *s)
 
 /* Integral of a curve from the start. Means computed from it are exact in the first cycles, too, in
  * which most of a curve may pass. */
-typedef struct course_sums {
-    const course *c;
+typedef struct curve_integral {
+    const running_in_curve *c;
     double *time, *sum; /* [n] times [s], and the integral up to them; NULL if out of memory */
-} course_sums;
+} curve_integral;
 
 /* Integral within interval i, in which the curve is linear in the logarithm of time. */
-static double piece(const course *c, size_t i, double from, double to)
+static double integrate_interval(const running_in_curve *c, size_t i, double from, double to)
 {
     const double rise = (c->value[i + 1] - c->value[i]) / c->log_step;
     return (c->value[i] - rise) * (to - from) + rise * to * log(to / from);
 }
 
-static course_sums course_sums_make(const course *c, arena *memory)
+static curve_integral curve_integral_compute(const running_in_curve *c, arena *memory)
 {
-    const course_sums m = {c, arena_numbers(memory, c->n), arena_numbers(memory, c->n)};
+    const curve_integral m = {c, arena_numbers(memory, c->n), arena_numbers(memory, c->n)};
     if (memory->failed)
         return m;
     for (size_t i = 0; i < c->n; i++) {
         m.time[i] = exp(c->log_first + (double)i * c->log_step);
         m.sum[i] = i == 0 ? c->value[0] * m.time[0]
-                          : m.sum[i - 1] + piece(c, i - 1, m.time[i - 1], m.time[i]);
+                          : m.sum[i - 1] + integrate_interval(c, i - 1, m.time[i - 1], m.time[i]);
     }
     return m;
 }
 
-static double course_sum(const course_sums *m, double time)
+static double curve_integral_at(const curve_integral *m, double time)
 {
-    const course *const c = m->c;
+    const running_in_curve *const c = m->c;
     const double place = (log(time) - c->log_first) / c->log_step;
     if (!(place > 0))
         return c->value[0] * time;
     if (place >= (double)(c->n - 1))
         return m->sum[c->n - 1];
     const size_t i = (size_t)place;
-    return m->sum[i] + piece(c, i, m->time[i], time);
+    return m->sum[i] + integrate_interval(c, i, m->time[i], time);
 }
 
 /* Mean of the curve over its height in each interval of the series. column: [n]. */
-static void fill_column(const running_in_series *s, const course_sums *m, double height,
+static void fill_column(const running_in_series *s, const curve_integral *m, double height,
                         double log_factor, double *column)
 {
     const double faster = exp(-log_factor);
-    double begin = faster * s->begin, before = course_sum(m, begin);
+    double begin = faster * s->begin, before = curve_integral_at(m, begin);
     for (size_t i = 0; i < s->n; i++) {
-        const double end = faster * s->end[i], sum = course_sum(m, end);
+        const double end = faster * s->end[i], sum = curve_integral_at(m, end);
         column[i] = (sum - before) / ((end - begin) * height);
         begin = end;
         before = sum;
     }
 }
 
-static scatter_sums sum_up(const running_in_series *s, const double *column, scatter_law law)
+static scatter_sums curve_scatter_sums(const running_in_series *s, const double *column,
+                                       scatter_law law)
 {
     scatter_sums sums = scatter_begin(law);
     for (size_t i = 0; i < s->n; i++)
@@ -124,7 +125,7 @@ static scatter_sums sum_up(const running_in_series *s, const double *column, sca
     return sums;
 }
 
-static double level_of(const scatter_sums *s, double coefficient)
+static double curve_level(const scatter_sums *s, double coefficient)
 {
     return (s->product[3] - coefficient * s->product[1]) / s->product[0];
 }
@@ -133,57 +134,58 @@ static double level_of(const scatter_sums *s, double coefficient)
 static const double finest = 1e-4;
 static const double golden = 0.6180339887498949; /* ratio of the golden section */
 
-typedef struct place_search {
+typedef struct factor_search {
     const running_in_series *s;
-    course_sums sums;
+    curve_integral sums;
     double height, *column;
     scatter_law law;
-} place_search;
+} factor_search;
 
-static double likelihood_at(const place_search *p, double log_factor)
+static double profile_likelihood(const factor_search *p, double log_factor)
 {
     fill_column(p->s, &p->sums, p->height, log_factor, p->column);
-    const scatter_sums sums = sum_up(p->s, p->column, p->law);
+    const scatter_sums sums = curve_scatter_sums(p->s, p->column, p->law);
     return -log(scatter_solve(&sums, true).squares);
 }
 
-static double search(const place_search *p, double low, double high)
+static double search_factor(const factor_search *p, double low, double high)
 {
     double a = high - golden * (high - low), b = low + golden * (high - low),
-           at_a = likelihood_at(p, a), at_b = likelihood_at(p, b);
+           at_a = profile_likelihood(p, a), at_b = profile_likelihood(p, b);
     while (high - low > finest) {
         if (at_a > at_b) {
             high = b;
             b = a;
             at_b = at_a;
             a = high - golden * (high - low);
-            at_a = likelihood_at(p, a);
+            at_a = profile_likelihood(p, a);
         } else {
             low = a;
             a = b;
             at_a = at_b;
             b = low + golden * (high - low);
-            at_b = likelihood_at(p, b);
+            at_b = profile_likelihood(p, b);
         }
     }
     return 0.5 * (low + high);
 }
 
-running_in_optimum running_in_optimum_find(const running_in_series *s, const course *c,
+running_in_optimum running_in_optimum_find(const running_in_series *s, const running_in_curve *c,
                                            scatter_law law, double around, double within)
 {
     const double none = (double)NAN;
     running_in_optimum place = {none, none, none};
     arena memory = {0};
-    place_search p = {s, course_sums_make(c, &memory), running_in_curve_height(c),
-                      arena_numbers(&memory, s->n), law};
+    factor_search p = {s, curve_integral_compute(c, &memory), running_in_curve_height(c),
+                       arena_numbers(&memory, s->n), law};
     if (!memory.failed && p.height > 0 && isfinite(p.height) && isfinite(around)) {
-        place.log_factor = within > 0 ? search(&p, around - within, around + within) : around;
+        place.log_factor =
+            within > 0 ? search_factor(&p, around - within, around + within) : around;
         fill_column(s, &p.sums, p.height, place.log_factor, p.column);
-        const scatter_sums sums = sum_up(s, p.column, law);
+        const scatter_sums sums = curve_scatter_sums(s, p.column, law);
         const double coefficient = scatter_solve(&sums, true).coefficient;
         place.ratio = coefficient / p.height;
-        place.level = level_of(&sums, coefficient);
+        place.level = curve_level(&sums, coefficient);
     }
     arena_free(&memory);
     return place;
@@ -204,7 +206,7 @@ static const double tail = 0.025; /* on each side of a 95 % interval */
 /* One series with its curve. */
 typedef struct member {
     const running_in_series *s;
-    course_sums sums;
+    curve_integral sums;
     double height, variance, least, settled;
     double *column;                  /* [n] */
     bool kept[SCATTER_LAWS];         /* laws that are not excluded */
@@ -218,16 +220,16 @@ typedef struct law_sum {
     double weight, ratio, square; /* weight as a logarithm; the others are weighted means */
 } law_sum;
 
-typedef struct scan {
+typedef struct factor_scan {
     member *of; /* [n_of] */
     size_t n_of;
     law_sum *each;               /* [n_of] for one factor */
     size_t n;                    /* number of factors so far */
     double *log_factor, *weight; /* [n] ln of the likelihood over all laws */
     double *ratio, *square;      /* [n] mean and mean square of the ratio over the laws */
-} scan;
+} factor_scan;
 
-static void add_law(law_sum *sum, double weight, double ratio, double variance)
+static void add_curve_law(law_sum *sum, double weight, double ratio, double variance)
 {
     const double all = log_add(sum->weight, weight), old = exp(sum->weight - all),
                  now = exp(weight - all);
@@ -236,7 +238,7 @@ static void add_law(law_sum *sum, double weight, double ratio, double variance)
 }
 
 /* `first`: stores the likelihood of each law. */
-static law_sum try_member(member *t, double log_factor, bool first)
+static law_sum evaluate_member(member *t, double log_factor, bool first)
 {
     law_sum sum = {-(double)INFINITY, 0, 0};
     const double df = (double)t->s->n - 2;
@@ -245,24 +247,24 @@ static law_sum try_member(member *t, double log_factor, bool first)
         if (!t->kept[i])
             continue;
         const scatter_sums s =
-            sum_up(t->s, t->column, scatter_law_of(SCATTER_UNDER_CHANGE, i, t->s->n));
+            curve_scatter_sums(t->s, t->column, scatter_law_at(SCATTER_FOR_CHANGE, i, t->s->n));
         const scatter_fit f = scatter_solve(&s, true);
         const double scatter = fmax(f.squares / df, t->least);
         /* The prior admits changes of the order of the total scatter. Without it, a curve outside
          * the series would be as probable as it is unconstrained. */
-        const double l = scatter_prior(SCATTER_UNDER_CHANGE, i) +
+        const double l = scatter_prior(SCATTER_FOR_CHANGE, i) +
                          scatter_profile_likelihood(&s, t->least) -
                          0.5 * log1p(f.variance * scatter / t->variance);
         if (!isfinite(l)) /* the curve does not pass within the series */
             continue;
         const double variance = scatter * f.variance * df / (df - 2); /* of Student's t */
-        add_law(&sum, l, f.coefficient / t->height, variance / (t->height * t->height));
+        add_curve_law(&sum, l, f.coefficient / t->height, variance / (t->height * t->height));
         if (first)
             t->likelihood[i] = fmax(t->likelihood[i], l);
         if (l > t->best) {
             t->best = l;
             t->best_law = s.law;
-            t->best_level = level_of(&s, f.coefficient);
+            t->best_level = curve_level(&s, f.coefficient);
             t->best_scatter = scatter;
         }
     }
@@ -271,7 +273,7 @@ static law_sum try_member(member *t, double log_factor, bool first)
 
 /* Prior variance of the change, in the unit of the first series. It is that of the series with the
  * least scatter. */
-static double possible_of(const scan *t)
+static double change_prior_variance(const factor_scan *t)
 {
     double least = (double)INFINITY;
     for (size_t i = 0; i < t->n_of; i++) {
@@ -282,7 +284,7 @@ static double possible_of(const scan *t)
 }
 
 /* ln of the likelihoods of a series about a constant, over its laws. */
-static double null_of(const member *m)
+static double constant_log_likelihood(const member *m)
 {
     double none = -(double)INFINITY;
     for (size_t i = 0; i < SCATTER_LAWS; i++)
@@ -293,7 +295,7 @@ static double null_of(const member *m)
 /* Combines the series, which share the ratio and have a scatter each. The ratio of each series is
  * treated as normal. The prior of the change counts once. A series that does not contain the curve
  * contributes like a constant, unless it is the only one. */
-static law_sum join(const scan *t)
+static law_sum combine_members(const factor_scan *t)
 {
     double precision = 0, mean = 0, squares = 0, weight = 0;
     if (t->n_of == 1)
@@ -304,7 +306,7 @@ static law_sum join(const scan *t)
         const double variance = each->square - each->ratio * each->ratio,
                      changes = variance * m->height * m->height, unit = t->of[0].height;
         if (!isfinite(each->weight) || !(variance > 0)) {
-            weight += null_of(m);
+            weight += constant_log_likelihood(m);
             continue;
         }
         weight += each->weight + 0.5 * log1p(changes / m->variance) - log(m->height / unit) -
@@ -317,18 +319,18 @@ static law_sum join(const scan *t)
     if (!(precision > 0))
         return (law_sum){-(double)INFINITY, 0, 0};
     const double variance = 1 / precision, changes = variance * t->of[0].height * t->of[0].height;
-    weight += 0.5 * (log(2 * M_PI * changes) - squares - log1p(changes / possible_of(t)));
+    weight += 0.5 * (log(2 * M_PI * changes) - squares - log1p(changes / change_prior_variance(t)));
     return (law_sum){weight, mean, mean * mean + variance};
 }
 
-static law_sum try_factor(scan *t, double log_factor, bool first)
+static law_sum evaluate_factor(factor_scan *t, double log_factor, bool first)
 {
     for (size_t i = 0; i < t->n_of; i++)
-        t->each[i] = try_member(&t->of[i], log_factor, first);
-    return join(t);
+        t->each[i] = evaluate_member(&t->of[i], log_factor, first);
+    return combine_members(t);
 }
 
-static void keep_factor(scan *t, double log_factor, law_sum sum)
+static void store_factor(factor_scan *t, double log_factor, law_sum sum)
 {
     t->log_factor[t->n] = log_factor;
     t->weight[t->n] = sum.weight;
@@ -337,24 +339,24 @@ static void keep_factor(scan *t, double log_factor, law_sum sum)
 }
 
 /* Evaluates factors in equal steps from low to high. */
-static void try_factors(scan *t, double low, double high, size_t n, bool first)
+static void evaluate_factors(factor_scan *t, double low, double high, size_t n, bool first)
 {
     t->n = 0;
     for (size_t i = 0; i < n; i++) {
         const double at = low + (high - low) * (double)i / (double)(n - 1);
-        keep_factor(t, at, try_factor(t, at, first));
+        store_factor(t, at, evaluate_factor(t, at, first));
     }
 }
 
 /* Excludes laws that are less likely than the best by a factor of e^-deep. */
-static void drop_laws(member *m)
+static void exclude_unlikely_laws(member *m)
 {
     for (size_t i = 0; i < SCATTER_LAWS; i++)
         m->kept[i] = m->likelihood[i] > m->best - deep;
 }
 
 /* Limits of the factor: from the smallest to the largest one that any of the series can show. */
-static void limits_of(const scan *t, double limit[2])
+static void factor_limits(const factor_scan *t, double limit[2])
 {
     limit[0] = (double)INFINITY;
     limit[1] = -(double)INFINITY;
@@ -367,30 +369,30 @@ static void limits_of(const scan *t, double limit[2])
     }
 }
 
-static void scan_coarsely(scan *t, const double limit[2])
+static void scan_coarsely(factor_scan *t, const double limit[2])
 {
     const size_t n = (size_t)fmin(fmax(ceil((limit[1] - limit[0]) / coarse), 2), COARSE_MOST);
-    try_factors(t, limit[0], limit[1], n, true);
+    evaluate_factors(t, limit[0], limit[1], n, true);
     for (size_t i = 0; i < t->n_of; i++)
-        drop_laws(&t->of[i]);
+        exclude_unlikely_laws(&t->of[i]);
 }
 
 /* ln of the odds of the curve, with any factor, over constants. */
-static double log_odds(const scan *t)
+static double log_odds(const factor_scan *t)
 {
     double any = -(double)INFINITY, none = 0;
     for (size_t i = 0; i < t->n; i++)
         any = log_add(any, t->weight[i]);
     for (size_t i = 0; i < t->n_of; i++)
-        none += null_of(&t->of[i]);
-    return any - log((double)t->n) - none - 0.5 * log(2 * M_PI * possible_of(t));
+        none += constant_log_likelihood(&t->of[i]);
+    return any - log((double)t->n) - none - 0.5 * log(2 * M_PI * change_prior_variance(t));
 }
 
 /* Repeats the scan where the likelihood is large, until it covers many factors. A precise series
  * determines the factor to less than a step. */
 enum { MANY = FINE / 2, SCANS = 5 };
 
-static size_t scan_finely(scan *t, const double limit[2])
+static size_t scan_finely(factor_scan *t, const double limit[2])
 {
     const double step = t->log_factor[1] - t->log_factor[0];
     double largest = -(double)INFINITY, low = limit[1], high = limit[0];
@@ -402,7 +404,7 @@ static size_t scan_finely(scan *t, const double limit[2])
             low = fmin(low, t->log_factor[i] - step);
             high = fmax(high, t->log_factor[i] + step);
         }
-    try_factors(t, fmax(low, limit[0]), fmin(high, limit[1]), FINE, false);
+    evaluate_factors(t, fmax(low, limit[0]), fmin(high, limit[1]), FINE, false);
     for (size_t i = 0; i < t->n; i++)
         n += t->weight[i] > largest - deep;
     return n;
@@ -412,7 +414,7 @@ static size_t scan_finely(scan *t, const double limit[2])
 
 /* Normalises the weights. `expected` > 0: standard deviation of the normal prior of the factor;
  * else the prior is uniform. */
-static void weigh(scan *t, double expected)
+static void normalise_weights(factor_scan *t, double expected)
 {
     double all = -(double)INFINITY;
     for (size_t i = 0; i < t->n; i++) {
@@ -424,7 +426,7 @@ static void weigh(scan *t, double expected)
         t->weight[i] = exp(t->weight[i] - all);
 }
 
-static void append_ratio(const scan *t, running_in_curve_fit *fit)
+static void set_ratio(const factor_scan *t, running_in_curve_fit *fit)
 {
     double mean = 0, square = 0;
     for (size_t i = 0; i < t->n; i++) {
@@ -436,7 +438,7 @@ static void append_ratio(const scan *t, running_in_curve_fit *fit)
 }
 
 /* Quantile of the weights. */
-static double quantile(const scan *t, double share)
+static double factor_quantile(const factor_scan *t, double share)
 {
     double below = 0;
     for (size_t i = 0; i < t->n; i++) {
@@ -450,7 +452,7 @@ static double quantile(const scan *t, double share)
 }
 
 /* True if no series lasts until the curve settles. */
-static bool is_beyond(const scan *t, double log_factor)
+static bool is_after_end(const factor_scan *t, double log_factor)
 {
     for (size_t i = 0; i < t->n_of; i++)
         if (exp(log_factor) * t->of[i].settled <= t->of[i].s->end[t->of[i].s->n - 1])
@@ -458,7 +460,7 @@ static bool is_beyond(const scan *t, double log_factor)
     return true;
 }
 
-static bool is_within(const scan *t, double log_factor)
+static bool is_within_first_means(const factor_scan *t, double log_factor)
 {
     for (size_t i = 0; i < t->n_of; i++)
         if (exp(log_factor) * t->of[i].settled >= fewest_means * t->of[i].s->end[0])
@@ -466,45 +468,45 @@ static bool is_within(const scan *t, double log_factor)
     return true;
 }
 
-static void tell_factor(const scan *t, running_in_curve_fit *fit)
+static void set_factor(const factor_scan *t, running_in_curve_fit *fit)
 {
     double beyond = 0, within = 0, mean = 0, square = 0;
     for (size_t i = 0; i < t->n; i++) {
-        beyond += is_beyond(t, t->log_factor[i]) ? t->weight[i] : 0;
-        within += is_within(t, t->log_factor[i]) ? t->weight[i] : 0;
+        beyond += is_after_end(t, t->log_factor[i]) ? t->weight[i] : 0;
+        within += is_within_first_means(t, t->log_factor[i]) ? t->weight[i] : 0;
         mean += t->weight[i] * t->log_factor[i];
         square += t->weight[i] * t->log_factor[i] * t->log_factor[i];
     }
     fit->log_factor = mean;
     fit->error = sqrt(fmax(square - mean * mean, 0));
-    fit->low = within > tail ? (double)NAN : quantile(t, tail);
-    fit->high = beyond > tail ? (double)NAN : quantile(t, 1 - tail);
+    fit->low = within > tail ? (double)NAN : factor_quantile(t, tail);
+    fit->high = beyond > tail ? (double)NAN : factor_quantile(t, 1 - tail);
 }
 
-static void find(scan *t, double expected, running_in_curve_fit *fit)
+static void find_curve_fit(factor_scan *t, double expected, running_in_curve_fit *fit)
 {
     double limit[2];
-    limits_of(t, limit);
+    factor_limits(t, limit);
     scan_coarsely(t, limit);
     fit->log_odds = log_odds(t);
-    fit->seen = fit->log_odds > log(COURSE_ODDS);
+    fit->seen = fit->log_odds > log(RUNNING_IN_CURVE_MIN_ODDS);
     if (fit->seen) {
         for (int i = 0; i < SCANS && scan_finely(t, limit) < MANY; i++)
             continue;
-        weigh(t, 0);
-        tell_factor(t, fit);
+        normalise_weights(t, 0);
+        set_factor(t, fit);
     } else {
         const double wide = NORMAL_95 * expected;
-        try_factors(t, -wide, wide, FINE, false);
-        weigh(t, expected);
+        evaluate_factors(t, -wide, wide, FINE, false);
+        normalise_weights(t, expected);
     }
-    append_ratio(t, fit);
+    set_ratio(t, fit);
     fit->law = t->of[0].best_law;
     fit->level = t->of[0].best_level;
     fit->scatter = t->of[0].best_scatter;
 }
 
-static double variance_of(const running_in_series *s)
+static double series_variance(const running_in_series *s)
 {
     double mean = 0, sum = 0;
     for (size_t i = 0; i < s->n; i++)
@@ -518,48 +520,49 @@ static wt_status begin(const running_in_curve_pair *of, double settled_share, ar
                        member *m, wt_error *err)
 {
     const running_in_series *const s = of->series;
-    *m = (member){.s = s, .variance = variance_of(s), .best = -(double)INFINITY};
-    m->height = running_in_curve_height(of->course);
-    m->settled = running_in_curve_settled(of->course, settled_share);
-    m->least = SCATTER_DIGITS * SCATTER_DIGITS * m->variance;
-    if (s->n < COURSE_FEWEST || !(m->variance > 0))
+    *m = (member){.s = s, .variance = series_variance(s), .best = -(double)INFINITY};
+    m->height = running_in_curve_height(of->running_in_curve);
+    m->settled = running_in_curve_settling_time(of->running_in_curve, settled_share);
+    m->least = SCATTER_RESOLUTION * SCATTER_RESOLUTION * m->variance;
+    if (s->n < RUNNING_IN_CURVE_MIN_MEANS || !(m->variance > 0))
         return wt_fail(err, WT_E_RANGE, "too few cycles, or they do not scatter");
     if (!(m->height > 0) || !(m->settled > 0))
         return wt_fail(err, WT_E_RANGE, "friction is predicted not to change");
-    m->sums = course_sums_make(of->course, memory);
+    m->sums = curve_integral_compute(of->running_in_curve, memory);
     m->column = arena_numbers(memory, s->n);
     if (memory->failed)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     for (size_t i = 0; i < SCATTER_LAWS; i++) {
-        scatter_sums sums = scatter_begin(scatter_law_of(SCATTER_UNDER_CHANGE, i, s->n));
+        scatter_sums sums = scatter_begin(scatter_law_at(SCATTER_FOR_CHANGE, i, s->n));
         for (size_t k = 0; k < s->n; k++)
             scatter_add(&sums, s->friction[k]);
         m->null[i] =
-            scatter_prior(SCATTER_UNDER_CHANGE, i) + scatter_likelihood(&sums, false, m->least);
+            scatter_prior(SCATTER_FOR_CHANGE, i) + scatter_likelihood(&sums, false, m->least);
         m->likelihood[i] = -(double)INFINITY;
         m->kept[i] = true;
     }
     return WT_OK;
 }
 
-wt_status running_in_curve_fit_make(const running_in_curve_pair *of, size_t n, double settled_share,
-                                    double expected, running_in_curve_fit *fit, wt_error *err)
+wt_status running_in_curve_fit_compute(const running_in_curve_pair *of, size_t n,
+                                       double settled_share, double expected,
+                                       running_in_curve_fit *fit, wt_error *err)
 {
     const double none = (double)NAN;
     arena memory = {0};
-    scan t = {.of = arena_alloc(&memory, n, sizeof *t.of),
-              .n_of = n,
-              .each = arena_alloc(&memory, n, sizeof *t.each),
-              .log_factor = arena_numbers(&memory, COARSE_MOST),
-              .weight = arena_numbers(&memory, COARSE_MOST),
-              .ratio = arena_numbers(&memory, COARSE_MOST),
-              .square = arena_numbers(&memory, COARSE_MOST)};
+    factor_scan t = {.of = arena_alloc(&memory, n, sizeof *t.of),
+                     .n_of = n,
+                     .each = arena_alloc(&memory, n, sizeof *t.each),
+                     .log_factor = arena_numbers(&memory, COARSE_MOST),
+                     .weight = arena_numbers(&memory, COARSE_MOST),
+                     .ratio = arena_numbers(&memory, COARSE_MOST),
+                     .square = arena_numbers(&memory, COARSE_MOST)};
     *fit = (running_in_curve_fit){.log_factor = none, .error = none, .low = none, .high = none};
     wt_status status = memory.failed ? wt_fail(err, WT_E_MEMORY, "out of memory") : WT_OK;
     for (size_t i = 0; status == WT_OK && i < n; i++)
         status = begin(&of[i], settled_share, &memory, &t.of[i], err);
     if (status == WT_OK)
-        find(&t, expected, fit);
+        find_curve_fit(&t, expected, fit);
     arena_free(&memory);
     return status;
 }

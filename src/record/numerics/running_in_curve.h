@@ -10,17 +10,17 @@
 
 /* Friction less final friction at times in equal ratios. It is constant before the first time, and
  * zero after the last. */
-typedef struct course {
+typedef struct running_in_curve {
     size_t n;
     double log_first, log_step; /* of the times [s] */
     const double *value;        /* [n] */
-} course;
-double running_in_curve_at(const course *c, double log_time);
+} running_in_curve;
+double running_in_curve_at(const running_in_curve *c, double log_time);
 /* Returns the largest remaining change at any time. */
-double running_in_curve_height(const course *c);
+double running_in_curve_height(const running_in_curve *c);
 /* Returns the last time at which `share` of the height remains. NaN if the times do not include
  * it. */
-double running_in_curve_settled(const course *c, double share);
+double running_in_curve_settling_time(const running_in_curve *c, double share);
 
 /* Means over equal numbers of cycles. */
 typedef struct running_in_series {
@@ -29,20 +29,21 @@ typedef struct running_in_series {
     double *end;      /* [n] ends from the start on [s]; each begins where the previous one ends */
     double *friction; /* [n] */
 } running_in_series;
-wt_status running_in_series_new(size_t n, running_in_series *s, wt_error *err) WT_NODISCARD;
+wt_status running_in_series_alloc(size_t n, running_in_series *s, wt_error *err) WT_NODISCARD;
 void running_in_series_clear(running_in_series *s);
 
 typedef struct running_in_curve_pair {
     const running_in_series *series;
-    const course *course; /* predicted for this series */
+    const running_in_curve *running_in_curve; /* predicted for this series */
 } running_in_curve_pair;
 
 /* Model: friction = level + ratio x curve(time / factor), with slow and white scatter of one law.
  * The likelihood is averaged over laws and, except for the factor itself, over factors. Several
  * series share factor and ratio, and have a level and a law each. */
-#define COURSE_ODDS 20 /* as for the running-in: at most one false alarm in twenty */
+#define RUNNING_IN_CURVE_MIN_ODDS 20 /* as for the running-in: at most one false alarm in twenty   \
+                                      */
 typedef struct running_in_curve_fit {
-    bool seen;         /* odds over a constant above COURSE_ODDS */
+    bool seen;         /* odds over a constant above RUNNING_IN_CURVE_MIN_ODDS */
     double log_odds;   /* ln of the odds */
     double log_factor; /* mean; NaN unless seen */
     double error;      /* standard deviation */
@@ -54,17 +55,17 @@ typedef struct running_in_curve_fit {
 } running_in_curve_fit;
 
 /* `expected`: prior standard deviation of the logarithm of the factor. It determines the ratio if
- * no curve is seen. Returns WT_E_RANGE for fewer than COURSE_FEWEST means. */
-enum { COURSE_FEWEST = 16 };
-wt_status running_in_curve_fit_make(const running_in_curve_pair *of, size_t n, double settled_share,
-                                    double expected, running_in_curve_fit *fit,
-                                    wt_error *err) WT_NODISCARD;
+ * no curve is seen. Returns WT_E_RANGE for fewer than RUNNING_IN_CURVE_MIN_MEANS means. */
+enum { RUNNING_IN_CURVE_MIN_MEANS = 16 };
+wt_status running_in_curve_fit_compute(const running_in_curve_pair *of, size_t n,
+                                       double settled_share, double expected,
+                                       running_in_curve_fit *fit, wt_error *err) WT_NODISCARD;
 /* Most probable factor and ratio of another curve with one law. The factor is searched within
  * `within` about `around`; if `within` is 0 it is fixed at `around`. */
 typedef struct running_in_optimum {
     double log_factor, ratio, level;
 } running_in_optimum;
-running_in_optimum running_in_optimum_find(const running_in_series *s, const course *c,
+running_in_optimum running_in_optimum_find(const running_in_series *s, const running_in_curve *c,
                                            scatter_law law, double around, double within);
 
 #endif

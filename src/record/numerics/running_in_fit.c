@@ -40,10 +40,10 @@ static double total_variance(const double *y, size_t n)
 }
 
 /* Evaluates all change points at once, since the scatter is the same from either end. */
-static void add_law(likelihoods *l, const double *y, size_t i)
+static void add_change_law(likelihoods *l, const double *y, size_t i)
 {
-    const scatter_law law = scatter_law_of(SCATTER_UNDER_CHANGE, i, l->n);
-    const double prior = scatter_prior(SCATTER_UNDER_CHANGE, i);
+    const scatter_law law = scatter_law_at(SCATTER_FOR_CHANGE, i, l->n);
+    const double prior = scatter_prior(SCATTER_FOR_CHANGE, i);
     scatter_sums s = scatter_begin(law);
     for (size_t k = 1; k <= l->n; k++) {
         scatter_add(&s, y[k - 1]);
@@ -58,7 +58,7 @@ static void add_law(likelihoods *l, const double *y, size_t i)
     }
 }
 
-static void interval_of(const double *log_weight, size_t first, size_t end, wt_running_in *r)
+static void change_interval(const double *log_weight, size_t first, size_t end, wt_running_in *r)
 {
     double all = -(double)INFINITY, below = 0;
     bool low = false, middle = false;
@@ -79,14 +79,14 @@ static void interval_of(const double *log_weight, size_t first, size_t end, wt_r
     }
     /* standard error of the normal law with this interval: the tails may be long and light */
     r->end.standard_error = (r->end.high - r->end.low) / (2 * NORMAL_95);
-    r->steady_from = (size_t)r->end.high;
+    r->steady_start = (size_t)r->end.high;
 }
 
 /* ln of the odds of a running-in at any point over none. It has one line and one scatter more. The
  * prior admits coefficients within the scatter of the series. The law of the scatter is averaged
  * over. */
-static double log_odds(const likelihoods *l, const double *log_weight, size_t first, size_t end,
-                       double variance)
+static double change_log_odds(const likelihoods *l, const double *log_weight, size_t first,
+                              size_t end, double variance)
 {
     double any = -(double)INFINITY;
     for (size_t k = first; k < end; k++)
@@ -95,27 +95,27 @@ static double log_odds(const likelihoods *l, const double *log_weight, size_t fi
            log(2 * scatter_range);
 }
 
-static void judge(const likelihoods *l, double variance, wt_running_in *r)
+static void assess_running_in(const likelihoods *l, double variance, wt_running_in *r)
 {
     const size_t behind = (size_t)fmax(FEWEST_BEHIND, ceil(least_behind * (double)l->n));
     const size_t first = FEWEST_BEFORE, end = l->n - behind + 1;
     for (size_t k = first; k < end; k++)
         l->before[k] += l->behind[k];
-    if (log_odds(l, l->before, first, end, variance) < log(least_odds)) {
+    if (change_log_odds(l, l->before, first, end, variance) < log(least_odds)) {
         r->why_not = "no running-in stands out of the scatter";
         return;
     }
-    interval_of(l->before, first, end, r);
-    if (r->steady_from + 1 < end) {
+    change_interval(l->before, first, end, r);
+    if (r->steady_start + 1 < end) {
         r->seen = true;
         return;
     }
     *r = (wt_running_in){.end = {(double)NAN, (double)NAN, (double)NAN, (double)NAN},
-                         .steady_from = l->n - behind,
+                         .steady_start = l->n - behind,
                          .why_not = "it does not become steady before the last tenth"};
 }
 
-static wt_status find(const double *y, size_t n, wt_running_in *r, wt_error *err)
+static wt_status find_running_in(const double *y, size_t n, wt_running_in *r, wt_error *err)
 {
     arena memory = {0};
     const double variance = total_variance(y, n);
@@ -126,7 +126,7 @@ static wt_status find(const double *y, size_t n, wt_running_in *r, wt_error *err
         return WT_OK;
     }
     likelihoods l = {n, arena_numbers(&memory, n + 1), arena_numbers(&memory, n + 1),
-                     SCATTER_DIGITS * SCATTER_DIGITS * variance};
+                     SCATTER_RESOLUTION * SCATTER_RESOLUTION * variance};
     if (memory.failed) {
         arena_free(&memory);
         return wt_fail(err, WT_E_MEMORY, "out of memory");
@@ -134,37 +134,37 @@ static wt_status find(const double *y, size_t n, wt_running_in *r, wt_error *err
     for (size_t k = 0; k <= n; k++)
         l.before[k] = l.behind[k] = -(double)INFINITY;
     for (size_t i = 0; i < SCATTER_LAWS; i++)
-        add_law(&l, y, i);
+        add_change_law(&l, y, i);
     r->why_not = "";
-    judge(&l, variance, r);
+    assess_running_in(&l, variance, r);
     arena_free(&memory);
     return WT_OK;
 }
 
 /* Converts batches to points. A change within a batch shows at either of its ends. */
-static void tell_in_points(const scatter_parts *parts, wt_running_in *r)
+static void convert_parts_to_points(const scatter_batches *parts, wt_running_in *r)
 {
     const double length = (double)parts->length, rest = (double)parts->rest;
-    if (parts->length == 1 || r->steady_from == 0)
+    if (parts->length == 1 || r->steady_start == 0)
         return;
-    r->steady_from = parts->rest + parts->length * r->steady_from;
+    r->steady_start = parts->rest + parts->length * r->steady_start;
     r->end.value = rest + length * r->end.value;
     r->end.low = rest + length * (r->end.low - 1) + 1;
     r->end.high = rest + length * (r->end.high + 1) - 1;
     r->end.standard_error = (r->end.high - r->end.low) / (2 * NORMAL_95);
-    r->steady_from = r->seen ? (size_t)r->end.high : r->steady_from;
+    r->steady_start = r->seen ? (size_t)r->end.high : r->steady_start;
 }
 
 wt_status wt_running_in_find(const double *y, size_t n, wt_running_in *running_in, wt_error *err)
 {
-    scatter_parts parts;
+    scatter_batches parts;
     double *room;
     *running_in = (wt_running_in){.end = {(double)NAN, (double)NAN, (double)NAN, (double)NAN},
                                   .why_not = "too few cycles"};
-    if (!scatter_parts_of(y, n, &parts, &room))
+    if (!scatter_batch(y, n, &parts, &room))
         return wt_fail(err, WT_E_MEMORY, "out of memory");
-    const wt_status status = find(parts.y, parts.n, running_in, err);
-    tell_in_points(&parts, running_in);
+    const wt_status status = find_running_in(parts.y, parts.n, running_in, err);
+    convert_parts_to_points(&parts, running_in);
     free(room);
     return status;
 }

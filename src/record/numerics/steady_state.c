@@ -22,30 +22,30 @@ static const double least_independent = 8;
  * it. */
 static const double drift_odds = 0.1, whole_change = 12;
 
-static wt_interval interval_of(const t_mixture *m)
+static wt_interval mixture_interval(const t_mixture *m)
 {
     const double low = mixture_quantile(m, tail), high = mixture_quantile(m, 1 - tail);
     return (wt_interval){mixture_mean(m), (high - low) / (2 * NORMAL_95), low, high};
 }
 
 /* Interval of laws with one centre, which is symmetric. */
-static wt_interval interval_about(const t_mixture *m, double centre)
+static wt_interval symmetric_interval(const t_mixture *m, double centre)
 {
     const double high = mixture_quantile(m, 1 - tail);
     return (wt_interval){centre, (high - centre) / NORMAL_95, 2 * centre - high, high};
 }
 
 /* Adds one law, about a constant and about a line: a drift is not scatter. */
-static void add_law(const scatter_parts *parts, moments m, size_t i, t_mixture *mean,
-                    t_mixture *drift)
+static void add_steady_law(const scatter_batches *parts, moments m, size_t i, t_mixture *mean,
+                           t_mixture *drift)
 {
-    const double least = SCATTER_DIGITS * SCATTER_DIGITS * m.variance, n = (double)parts->n,
-                 length = (double)parts->length, prior = scatter_prior(SCATTER_OF_MEAN, i);
-    scatter_sums s = scatter_begin(scatter_law_of(SCATTER_OF_MEAN, i, parts->n));
+    const double least = SCATTER_RESOLUTION * SCATTER_RESOLUTION * m.variance, n = (double)parts->n,
+                 length = (double)parts->length, prior = scatter_prior(SCATTER_FOR_MEAN, i);
+    scatter_sums s = scatter_begin(scatter_law_at(SCATTER_FOR_MEAN, i, parts->n));
     for (size_t k = 0; k < parts->n; k++)
         scatter_add(&s, parts->y[k] - m.mean);
     const scatter_fit constant = scatter_solve(&s, false), line = scatter_solve(&s, true);
-    const double of_mean = scatter_of_mean(s.law, parts->n),
+    const double of_mean = scatter_mean_variance(s.law, parts->n),
                  about_constant = fmax(constant.squares / (n - 1), least),
                  about_line = fmax(line.squares / (n - 2), least),
                  line_weight = prior + scatter_likelihood(&s, true, least);
@@ -59,15 +59,15 @@ static void add_law(const scatter_parts *parts, moments m, size_t i, t_mixture *
 }
 
 /* Mean, drift and correlation averaged over all laws with their probabilities. */
-static void average_laws(const scatter_parts *parts, moments m, wt_steady *steady)
+static void average_laws(const scatter_batches *parts, moments m, wt_steady *steady)
 {
     t_mixture mean = {.n = 0}, drift = {.n = 0};
     for (size_t i = 0; i < SCATTER_LAWS; i++)
-        add_law(parts, m, i, &mean, &drift);
+        add_steady_law(parts, m, i, &mean, &drift);
     mixture_normalise(&mean);
     mixture_normalise(&drift);
-    steady->mean = interval_about(&mean, m.mean);
-    steady->drift = interval_of(&drift);
+    steady->mean = symmetric_interval(&mean, m.mean);
+    steady->drift = mixture_interval(&drift);
     steady->correlation = 0;
     for (size_t i = 0; i < mean.n; i++)
         steady->correlation +=
@@ -91,7 +91,7 @@ wt_status wt_steady_mean(const double *y, size_t n, wt_steady *steady, wt_error 
                           .note = "too few cycles for an error"};
     if (n == 0)
         return wt_fail(err, WT_E_ARG, "a mean of nothing");
-    const moments m = moments_of(y, n);
+    const moments m = sample_moments(y, n);
     steady->mean.value = m.mean;
     steady->deviation = sqrt(m.variance);
     steady->min = steady->max = y[0];
@@ -103,9 +103,9 @@ wt_status wt_steady_mean(const double *y, size_t n, wt_steady *steady, wt_error 
         steady->note = "the cycles do not scatter, which tells no error";
     if (n < FEWEST || !(steady->deviation > rounding * fabs(m.mean)))
         return WT_OK;
-    scatter_parts parts;
+    scatter_batches parts;
     double *room;
-    if (!scatter_parts_of(y, n, &parts, &room))
+    if (!scatter_batch(y, n, &parts, &room))
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     average_laws(&parts, m, steady);
     free(room);

@@ -18,7 +18,7 @@ enum { FEWEST = 10 }; /* slips that determine a mean and its scatter */
 
 /* Standard deviation of white scatter by the median of second differences, few of which are slips.
  * Their variance is 6 times larger. The median of |x| is 0.6745 standard deviations. */
-static double scatter_of(const double *y, size_t n, double *room)
+static double noise_deviation(const double *y, size_t n, double *room)
 {
     for (size_t i = 0; i + 2 < n; i++)
         room[i] = fabs(y[i] - 2 * y[i + 1] + y[i + 2]);
@@ -73,7 +73,7 @@ wt_status wt_stick_slip_find(const double *y, size_t n, wt_stick_slip *slips, wt
     double *const room = arena_numbers(&memory, n);
     wt_status status = memory.failed ? wt_fail(err, WT_E_MEMORY, "out of memory") : WT_OK;
     if (status == WT_OK) {
-        const double scatter = scatter_of(y, n, room);
+        const double scatter = noise_deviation(y, n, room);
         const slip_sums s = find_falls(y, n, outstanding * scatter);
         if (s.n >= FEWEST && s.rise > least_ratio * s.fall)
             *slips = (wt_stick_slip){(size_t)s.n, s.mean, sqrt(s.squares / (s.n - 1) / s.n)};

@@ -8,20 +8,20 @@
 /* Smallest return motion as a fraction of the stroke. Smaller ones are scatter of the sensor. */
 static const double least_way = 0.25;
 /* Fraction of the stroke skipped at either end, where motion and friction reverse. */
-static const double ends = 0.1;
+static const double end_share = 0.1;
 /* Smallest ratio of the smaller to the larger level of a friction that changes sign with the
  * strokes. */
 static const double least_side = 0.2;
 
 /* Turning points of a signal with hysteresis. NaN is skipped. */
-typedef struct turning {
+typedef struct turn_detector {
     double low, high; /* extremes since the last turn */
     size_t at_low, at_high;
-    int way; /* 1 up, -1 down, 0 unknown */
-} turning;
+    int direction; /* 1 up, -1 down, 0 unknown */
+} turn_detector;
 
 /* True at a turn; *at is then the sample of the extreme. */
-static bool turns(turning *t, double value, size_t i, double hysteresis, size_t *at)
+static bool detect_turn(turn_detector *t, double value, size_t i, double hysteresis, size_t *at)
 {
     if (isnan(value))
         return false;
@@ -33,31 +33,31 @@ static bool turns(turning *t, double value, size_t i, double hysteresis, size_t 
         t->low = value;
         t->at_low = i;
     }
-    if (t->way >= 0 && t->high - value > hysteresis) {
+    if (t->direction >= 0 && t->high - value > hysteresis) {
         *at = t->at_high;
         t->low = value;
         t->at_low = i;
-        const bool turned = t->way > 0;
-        t->way = -1;
+        const bool turned = t->direction > 0;
+        t->direction = -1;
         return turned;
     }
-    if (t->way <= 0 && value - t->low > hysteresis) {
+    if (t->direction <= 0 && value - t->low > hysteresis) {
         *at = t->at_low;
         t->high = value;
         t->at_high = i;
-        const bool turned = t->way < 0;
-        t->way = 1;
+        const bool turned = t->direction < 0;
+        t->direction = 1;
         return turned;
     }
     return false;
 }
 
 /* Levels of a signal: its means below and above the middle of its range. */
-typedef struct sides {
+typedef struct signal_range {
     double low, high;
-} sides;
+} signal_range;
 
-static sides sides_of(const double *x, size_t n)
+static signal_range signal_levels(const double *x, size_t n)
 {
     double low = (double)INFINITY, high = -(double)INFINITY, sum[2] = {0, 0}, count[2] = {0, 0};
     for (size_t i = 0; i < n; i++) {
@@ -70,7 +70,7 @@ static sides sides_of(const double *x, size_t n)
             sum[side] += x[i];
             count[side]++;
         }
-    return (sides){sum[0] / count[0], sum[1] / count[1]};
+    return (signal_range){sum[0] / count[0], sum[1] / count[1]};
 }
 
 /* Returns the signal whose turns are those of the stroke, and its hysteresis. NULL if there is
@@ -79,9 +79,9 @@ static const double *turning_signal(const wt_record *record, const double *frict
                                     double *hysteresis)
 {
     const double *const position = record->channel[WT_RECORD_POSITION];
-    const sides f = sides_of(friction, record->n);
+    const signal_range f = signal_levels(friction, record->n);
     if (position != NULL) {
-        const sides p = sides_of(position, record->n);
+        const signal_range p = signal_levels(position, record->n);
         *hysteresis = least_way * (p.high - p.low);
         return p.high > p.low ? position : NULL;
     }
@@ -104,16 +104,16 @@ void strokes_find(const wt_record *record, const double *friction, cycle_spans *
     double hysteresis;
     const double *const signal = turning_signal(record, friction, &hysteresis);
     const bool leaps = signal == friction;
-    turning t = {0};
+    turn_detector t = {0};
     size_t turn[2] = {0, 0}, n_turns = 0;
     spans->n = 0;
     for (size_t i = 0; signal != NULL && i < record->n; i++) {
         size_t at;
         if (i == 0 || record->step[i] != record->step[i - 1]) {
-            t = (turning){signal[i], signal[i], i, i, 0};
+            t = (turn_detector){signal[i], signal[i], i, i, 0};
             n_turns = 0;
         }
-        if (!turns(&t, signal[i], i, hysteresis, &at))
+        if (!detect_turn(&t, signal[i], i, hysteresis, &at))
             continue;
         at = turn_at(signal, leaps, at, i);
         if (n_turns == 2) {
@@ -135,7 +135,7 @@ static double middle_mean(const double *position, const double *friction, size_t
         low = fmin(low, at);
         high = fmax(high, at);
     }
-    const double cut = ends * (high - low);
+    const double cut = end_share * (high - low);
     for (size_t i = first; i < end; i++) {
         const double at = position != NULL ? position[i] : (double)i;
         if (at < low + cut || at > high - cut || isnan(friction[i]))

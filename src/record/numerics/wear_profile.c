@@ -19,8 +19,8 @@ static double area_above(double width, double a, double b)
 
 /* Standard error of the area below the base line. The error of the line follows from the slow
  * scatter of the outer quarters. Within the track the samples scatter, too. */
-static wt_status find_error(const double *r, size_t n, size_t quarter, const double *x,
-                            wt_track *track, wt_error *err)
+static wt_status find_area_error(const double *r, size_t n, size_t quarter, const double *x,
+                                 wt_track *track, wt_error *err)
 {
     wt_steady left, right;
     wt_status status = wt_steady_mean(r, quarter, &left, err);
@@ -36,8 +36,8 @@ static wt_status find_error(const double *r, size_t n, size_t quarter, const dou
     return WT_OK;
 }
 
-static wt_status measure(const double *x, const double *r, size_t n, size_t quarter,
-                         wt_track *track, wt_error *err)
+static wt_status measure_track(const double *x, const double *r, size_t n, size_t quarter,
+                               wt_track *track, wt_error *err)
 {
     size_t first = n, last = 0;
     for (size_t i = 0; i < n; i++) {
@@ -62,7 +62,7 @@ static wt_status measure(const double *x, const double *r, size_t n, size_t quar
         track->area.value += area_above(x[i + 1] - x[i], -r[i], -r[i + 1]);
         track->ridges += area_above(x[i + 1] - x[i], r[i], r[i + 1]);
     }
-    return find_error(r, n, quarter, x, track, err);
+    return find_area_error(r, n, quarter, x, track, err);
 }
 
 wt_status wt_track_find(const double *x, const double *z, size_t n, wt_track *track, wt_error *err)
@@ -99,7 +99,7 @@ wt_status wt_track_find(const double *x, const double *z, size_t n, wt_track *tr
         track->scatter = sqrt(squares / (double)(2 * quarter - 1));
         for (size_t i = 0; i < n; i++)
             r[i] = z[i] - track->intercept - track->slope * x[i];
-        status = measure(x, r, n, quarter, track, err);
+        status = measure_track(x, r, n, quarter, track, err);
     }
     arena_free(&memory);
     return status;

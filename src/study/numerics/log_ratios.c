@@ -7,7 +7,7 @@
 #include <math.h>
 
 /* Contribution to the denominator of Satterthwaite's degrees of freedom; 0 for a normal error. */
-static double freedom_part(const wt_log_ratio *ratio)
+static double df_component(const wt_log_ratio *ratio)
 {
     const double variance = ratio->standard_error * ratio->standard_error;
     return isnan(ratio->df) ? 0 : variance * variance / ratio->df;
@@ -20,7 +20,7 @@ wt_log_ratio_difference wt_log_ratio_compare(const wt_log_ratio *a, const wt_log
     const double error = hypot(a->standard_error, b->standard_error);
     if (!isfinite(d.value) || !(error > 0) || !isfinite(error))
         return d;
-    const double part = freedom_part(a) + freedom_part(b), t = fabs(d.value) / error;
+    const double part = df_component(a) + df_component(b), t = fabs(d.value) / error;
     if (part > 0)
         d.df = error * error * error * error / part;
     const double reach = error * students_t_quantile(part > 0 ? d.df : (double)INFINITY);

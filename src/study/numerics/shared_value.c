@@ -28,8 +28,8 @@ typedef struct shared_work {
 } shared_work;
 
 /* Fills the covariance matrix with a fraction of the possible covariances. */
-static void fill(const wt_log_ratio *of, const double *covariance, double part, size_t n,
-                 double *to)
+static void fill_covariance(const wt_log_ratio *of, const double *covariance, double part, size_t n,
+                            double *to)
 {
     for (size_t i = 0; i < n; i++)
         for (size_t k = 0; k < n; k++)
@@ -38,7 +38,7 @@ static void fill(const wt_log_ratio *of, const double *covariance, double part, 
                                                  : 0;
 }
 
-static double least_freedom(const wt_log_ratio *of, size_t n)
+static double min_df(const wt_log_ratio *of, size_t n)
 {
     double least = (double)INFINITY;
     for (size_t i = 0; i < n; i++)
@@ -46,9 +46,9 @@ static double least_freedom(const wt_log_ratio *of, size_t n)
     return least;
 }
 
-static void find_weights(const wt_log_ratio *of, shared_work *w)
+static void find_mean_weights(const wt_log_ratio *of, shared_work *w)
 {
-    const bool plain = least_freedom(of, w->n) < few;
+    const bool plain = min_df(of, w->n) < few;
     double sum = 0;
     for (size_t i = 0; i < w->n; i++)
         sum += w->weight[i] = plain ? 1 : 1 / (of[i].standard_error * of[i].standard_error);
@@ -57,7 +57,7 @@ static void find_weights(const wt_log_ratio *of, shared_work *w)
 }
 
 /* Variance of the weighted mean (less = n), or of value `less` minus the mean. */
-static double variance_of(const shared_work *w, const double *covariance, size_t less)
+static double difference_variance(const shared_work *w, const double *covariance, size_t less)
 {
     double sum = 0;
     for (size_t i = 0; i < w->n; i++)
@@ -69,7 +69,7 @@ static double variance_of(const shared_work *w, const double *covariance, size_t
 
 /* Chi-squared about the best value with the covariance in w->factor. False if it is not positive
  * definite. */
-static bool find_chi_squared(const wt_log_ratio *of, shared_work *w, double *to)
+static bool compute_chi_squared(const wt_log_ratio *of, shared_work *w, double *to)
 {
     const size_t n = w->n;
     double *const one = w->solved, *const value = w->solved + n;
@@ -97,23 +97,23 @@ static bool find_chi_squared(const wt_log_ratio *of, shared_work *w, double *to)
 /* Smaller chi-squared of zero and full covariance. With full covariance, differences of values may
  * be exactly known. Pairwise covariances (a with b, b with c, not a with c) may not form a
  * covariance matrix. The largest admissible fraction is used then. */
-static double least_chi_squared(const wt_log_ratio *of, const double *covariance, shared_work *w)
+static double min_chi_squared(const wt_log_ratio *of, const double *covariance, shared_work *w)
 {
     const double whole = 1 - 1e-6, least = 1.0 / 64; /* accuracy of a covariance; smallest
                                                         fraction tried */
     double apart = 0, common = 0;
-    fill(of, NULL, 0, w->n, w->factor);
-    (void)find_chi_squared(of, w, &apart);
+    fill_covariance(of, NULL, 0, w->n, w->factor);
+    (void)compute_chi_squared(of, w, &apart);
     for (double part = whole; covariance != NULL && part > least; part /= 2) {
-        fill(of, covariance, part, w->n, w->factor);
-        if (find_chi_squared(of, w, &common))
+        fill_covariance(of, covariance, part, w->n, w->factor);
+        if (compute_chi_squared(of, w, &common))
             return fmin(apart, common);
     }
     return apart;
 }
 
 /* Welch's test; its weights are those of the errors. */
-static void test(const wt_log_ratio *of, const shared_work *w, shared_value *to)
+static void test_shared_value(const wt_log_ratio *of, const shared_work *w, shared_value *to)
 {
     const double k = (double)w->n;
     double spread = 0, sum = 0;
@@ -132,7 +132,7 @@ static void test(const wt_log_ratio *of, const shared_work *w, shared_value *to)
             : gsl_cdf_chisq_Q(to->chi_squared, to->df);
 }
 
-static double quantile(double tail, double df)
+static double error_quantile(double tail, double df)
 {
     return isnan(df) ? gsl_cdf_ugaussian_Qinv(tail) : gsl_cdf_tdist_Qinv(tail, df);
 }
@@ -141,8 +141,9 @@ static double quantile(double tail, double df)
  * freedom. */
 static void find_interval(const wt_log_ratio *of, const shared_work *w, shared_value *to)
 {
-    const double variance = fmax(variance_of(w, w->apart, w->n), variance_of(w, w->common, w->n));
-    double df = least_freedom(of, w->n), estimated = 0, freedom = 0;
+    const double variance =
+        fmax(difference_variance(w, w->apart, w->n), difference_variance(w, w->common, w->n));
+    double df = min_df(of, w->n), estimated = 0, freedom = 0;
     const bool plain = df < few;
     for (size_t i = 0; i < w->n; i++)
         if (!isnan(of[i].df)) {
@@ -153,15 +154,15 @@ static void find_interval(const wt_log_ratio *of, const shared_work *w, shared_v
     if (plain)
         df = variance * variance / freedom;
     to->error = sqrt(variance * (plain ? 1 : 1 + estimated));
-    const double half = to->error * quantile(outside / 2, isinf(df) ? (double)NAN : df);
+    const double half = to->error * error_quantile(outside / 2, isinf(df) ? (double)NAN : df);
     to->low = to->value - half;
     to->high = to->value + half;
 }
 
 /* Satterthwaite's degrees of freedom of value i minus the mean. */
-static double deviation_freedom(const wt_log_ratio *of, const shared_work *w, size_t i)
+static double deviation_df(const wt_log_ratio *of, const shared_work *w, size_t i)
 {
-    const double variance = variance_of(w, w->apart, i);
+    const double variance = difference_variance(w, w->apart, i);
     double freedom = 0;
     for (size_t k = 0; k < w->n; k++)
         if (!isnan(of[k].df)) {
@@ -171,26 +172,27 @@ static double deviation_freedom(const wt_log_ratio *of, const shared_work *w, si
     return freedom > 0 ? variance * variance / freedom : (double)NAN;
 }
 
-static void fit(const wt_log_ratio *of, const double *covariance, shared_work *w, shared_value *to,
-                shared_deviation *deviation)
+static void fit_shared_value(const wt_log_ratio *of, const double *covariance, shared_work *w,
+                             shared_value *to, shared_deviation *deviation)
 {
     const size_t n = w->n;
     *to = (shared_value){.value = 0};
-    fill(of, NULL, 0, n, w->apart);
-    fill(of, covariance, 1, n, w->common);
-    find_weights(of, w);
+    fill_covariance(of, NULL, 0, n, w->apart);
+    fill_covariance(of, covariance, 1, n, w->common);
+    find_mean_weights(of, w);
     for (size_t i = 0; i < n; i++)
         to->value += w->weight[i] * of[i].value;
     find_interval(of, w, to);
     for (size_t i = 0; i < n; i++) {
         const double d = of[i].value - to->value,
-                     variance = fmax(variance_of(w, w->apart, i), variance_of(w, w->common, i)),
-                     half = quantile(outside / 2 / (double)n, deviation_freedom(of, w, i)) *
+                     variance = fmax(difference_variance(w, w->apart, i),
+                                     difference_variance(w, w->common, i)),
+                     half = error_quantile(outside / 2 / (double)n, deviation_df(of, w, i)) *
                             sqrt(variance);
         deviation[i] = (shared_deviation){d, d - half, d + half};
     }
-    to->chi_squared = least_chi_squared(of, covariance, w);
-    test(of, w, to);
+    to->chi_squared = min_chi_squared(of, covariance, w);
+    test_shared_value(of, w, to);
 }
 
 wt_status shared_value_fit(const wt_log_ratio *of, const double *covariance, size_t n,
@@ -207,7 +209,7 @@ wt_status shared_value_fit(const wt_log_ratio *of, const double *covariance, siz
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     double *const squares = numbers + 3 * n;
     shared_work w = {n, numbers, squares, squares + n * n, squares + 2 * n * n, numbers + n};
-    fit(of, covariance, &w, to, deviation);
+    fit_shared_value(of, covariance, &w, to, deviation);
     free(numbers);
     return WT_OK;
 }

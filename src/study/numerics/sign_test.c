@@ -15,7 +15,7 @@ typedef struct spot_sign {
     double value;
 } spot_sign;
 
-static int by_spot(const void *a, const void *b)
+static int compare_spot_signs(const void *a, const void *b)
 {
     const spot_sign *x = a, *y = b;
     if (x->spot != y->spot)
@@ -34,18 +34,18 @@ static moments spot_moments(const double *values, const long *spots, size_t n, a
     for (size_t i = 0; i < n; i++)
         if (isfinite(values[i]))
             signs[kept++] = (spot_sign){spots != NULL ? spots[i] : (long)i, values[i]};
-    qsort(signs, kept, sizeof *signs, by_spot);
+    qsort(signs, kept, sizeof *signs, compare_spot_signs);
     for (size_t from = 0, to; from < kept; from = to) {
         double sum = 0;
         for (to = from; to < kept && signs[to].spot == signs[from].spot; to++)
             sum += signs[to].value;
         means[units++] = sum / (double)(to - from);
     }
-    return moments_of(means, units);
+    return sample_moments(means, units);
 }
 
-wt_status wt_compare_signs(const double *const values[2], const long *const spots[2],
-                           const size_t n[2], wt_sign_comparison *signs, wt_error *err)
+wt_status wt_compare_means(const double *const values[2], const long *const spots[2],
+                           const size_t n[2], wt_mean_comparison *signs, wt_error *err)
 {
     arena memory = {0};
     moments m[2];
@@ -59,18 +59,18 @@ wt_status wt_compare_signs(const double *const values[2], const long *const spot
                              {sqrt(m[1].variance / m[1].n), m[1].n - 1}};
     const t_error welch = t_error_sum(parts, COUNT_OF(parts));
     const double unknown = (double)NAN;
-    *signs = (wt_sign_comparison){
+    *signs = (wt_mean_comparison){
         {m[0].n > 0 ? m[0].mean : unknown, m[1].n > 0 ? m[1].mean : unknown}, {unknown, unknown}};
     if (!(fmin(m[0].n, m[1].n) > 1))
         return WT_OK;
     const double difference = m[1].mean - m[0].mean;
     if (!(welch.error > 0)) { /* without scatter the means are equal or different */
-        signs->larger_chance[1] = difference > 0 ? 0 : 1;
-        signs->larger_chance[0] = difference < 0 ? 0 : 1;
+        signs->larger_p[1] = difference > 0 ? 0 : 1;
+        signs->larger_p[0] = difference < 0 ? 0 : 1;
         return WT_OK;
     }
-    signs->larger_chance[1] = gsl_cdf_tdist_Q(difference / welch.error, welch.df);
-    signs->larger_chance[0] = gsl_cdf_tdist_P(difference / welch.error, welch.df);
+    signs->larger_p[1] = gsl_cdf_tdist_Q(difference / welch.error, welch.df);
+    signs->larger_p[0] = gsl_cdf_tdist_P(difference / welch.error, welch.df);
     return WT_OK;
 }
 

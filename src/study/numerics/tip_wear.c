@@ -18,7 +18,7 @@ typedef struct worn_curve {
 } worn_curve;
 
 /* Returns the residual sum of squares with the contact point late by `shift`, and the modulus. */
-static double squares_left(const worn_curve *c, double shift, double *modulus)
+static double wear_residual_squares(const worn_curve *c, double shift, double *modulus)
 {
     double at[NODES], g[NODES], gg = 0, gf = 0, ff = 0;
     for (int i = 0; i < NODES; i++)
@@ -55,23 +55,24 @@ wt_status wt_tip_wear_fit(const wt_tip *tip, double radius, double depth, double
     }
     double low = -depth / 2, high = depth / 2, modulus;
     double a = low + section * (high - low), b = high - section * (high - low);
-    double of_a = squares_left(&c, a, &modulus), of_b = squares_left(&c, b, &modulus);
+    double of_a = wear_residual_squares(&c, a, &modulus),
+           of_b = wear_residual_squares(&c, b, &modulus);
     for (int step = 0; step < STEPS; step++) {
         if (of_a < of_b) {
             high = b;
             b = a;
             of_b = of_a;
             a = low + section * (high - low);
-            of_a = squares_left(&c, a, &modulus);
+            of_a = wear_residual_squares(&c, a, &modulus);
         } else {
             low = a;
             a = b;
             of_a = of_b;
             b = high - section * (high - low);
-            of_b = squares_left(&c, b, &modulus);
+            of_b = wear_residual_squares(&c, b, &modulus);
         }
     }
-    const double left = squares_left(&c, 0.5 * (low + high), &modulus);
+    const double left = wear_residual_squares(&c, 0.5 * (low + high), &modulus);
     *fit = (wt_tip_wear){log(modulus), sqrt(left / samples) / largest};
     wt_contact_table_free(table);
     return WT_OK;

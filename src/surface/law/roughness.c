@@ -17,13 +17,13 @@ void wt_roughness_free(wt_roughness *roughness)
 
 /* Integrates q^(m+1) C d(ln q) over [from, to], where C is smooth. Gauss-Legendre quadrature
  * with 8 nodes uses segments so short that a power law is exact to rounding. */
-static double moment_piece(const wt_roughness *roughness, int m, double from, double to)
+static double segment_moment(const wt_roughness *roughness, int m, double from, double to)
 {
     const double length = log1p((to - from) / from);
-    const size_t pieces = 1 + (size_t)(length / 0.25);
-    const double half = length / (2 * (double)pieces);
+    const size_t segments = 1 + (size_t)(length / 0.25);
+    const double half = length / (2 * (double)segments);
     double sum = 0;
-    for (size_t p = 0; p < pieces; p++) {
+    for (size_t p = 0; p < segments; p++) {
         const double middle = (2 * (double)p + 1) * half;
         double q[8], c[8];
         for (size_t i = 0; i < 4; i++) {
@@ -47,10 +47,10 @@ double roughness_moment(const wt_roughness *roughness, int m, double q)
     double from = roughness->q0;
     double sum = 0;
     for (size_t i = 0; i < n && breaks[i] < q; i++) {
-        sum += moment_piece(roughness, m, from, breaks[i]);
+        sum += segment_moment(roughness, m, from, breaks[i]);
         from = breaks[i];
     }
-    return sum + moment_piece(roughness, m, from, q);
+    return sum + segment_moment(roughness, m, from, q);
 }
 
 double wt_roughness_rms_height(const wt_roughness *roughness)

@@ -40,7 +40,7 @@ static const double *power_breaks(const wt_roughness *roughness, size_t *n)
 }
 
 /* Integrates q^m C from knot k to q. */
-static double moment_in(const power_data *d, int m, size_t k, double q)
+static double segment_moment(const power_data *d, int m, size_t k, double q)
 {
     const double from = d->knot[k];
     const double length = log1p((q - from) / from);
@@ -53,7 +53,7 @@ static double power_moment(const wt_roughness *roughness, int m, double q)
 {
     const power_data *d = roughness->data;
     const size_t k = gsl_interp_bsearch(d->knot, q, 0, d->n);
-    return d->below[m == 3][k] + moment_in(d, m, k, fmin(q, d->knot[d->n]));
+    return d->below[m == 3][k] + segment_moment(d, m, k, fmin(q, d->knot[d->n]));
 }
 
 static void power_free(wt_roughness *roughness)
@@ -80,31 +80,32 @@ static const wt_roughness_law table_law = {
 };
 
 static wt_status power_new(const wt_roughness_law *law, const double *knot, const double *density,
-                           const double *slope, size_t pieces, wt_roughness **roughness,
+                           const double *slope, size_t segments, wt_roughness **roughness,
                            wt_error *err)
 {
     wt_roughness *made = malloc(sizeof *made);
-    power_data *d = malloc(sizeof *d + (5 * pieces + 1) * sizeof d->numbers[0]);
+    power_data *d = malloc(sizeof *d + (5 * segments + 1) * sizeof d->numbers[0]);
     if (made == NULL || d == NULL) {
         free(d);
         free(made);
         return wt_fail(err, WT_E_MEMORY, "out of memory for a power spectrum");
     }
-    d->n = pieces;
+    d->n = segments;
     d->knot = d->numbers;
-    d->density = d->knot + pieces + 1;
-    d->slope = d->density + pieces;
-    d->below[0] = d->slope + pieces;
-    d->below[1] = d->below[0] + pieces;
-    memcpy(d->knot, knot, (pieces + 1) * sizeof *knot);
-    memcpy(d->density, density, pieces * sizeof *density);
-    memcpy(d->slope, slope, pieces * sizeof *slope);
+    d->density = d->knot + segments + 1;
+    d->slope = d->density + segments;
+    d->below[0] = d->slope + segments;
+    d->below[1] = d->below[0] + segments;
+    memcpy(d->knot, knot, (segments + 1) * sizeof *knot);
+    memcpy(d->density, density, segments * sizeof *density);
+    memcpy(d->slope, slope, segments * sizeof *slope);
     for (size_t i = 0; i < 2; i++) {
         d->below[i][0] = 0;
-        for (size_t k = 0; k + 1 < pieces; k++)
-            d->below[i][k + 1] = d->below[i][k] + moment_in(d, i == 0 ? 1 : 3, k, d->knot[k + 1]);
+        for (size_t k = 0; k + 1 < segments; k++)
+            d->below[i][k + 1] =
+                d->below[i][k] + segment_moment(d, i == 0 ? 1 : 3, k, d->knot[k + 1]);
     }
-    *made = (wt_roughness){.law = law, .q0 = knot[0], .q1 = knot[pieces], .data = d};
+    *made = (wt_roughness){.law = law, .q0 = knot[0], .q1 = knot[segments], .data = d};
     *roughness = made;
     return WT_OK;
 }

@@ -11,13 +11,13 @@
 static const int power_x[FORM_TERMS] = {0, 1, 0, 2, 1, 0}, power_y[FORM_TERMS] = {0, 0, 1, 0, 1, 2};
 enum { HIGHEST = 4 }; /* highest power in a product of two terms */
 
-static double coordinate(size_t i, size_t n)
+static double normalised_coordinate(size_t i, size_t n)
 {
     return n > 1 ? (2 * (double)i + 1 - (double)n) / (double)n : 0;
 }
 
 /* Lists the terms of the form. A profile has no terms in y. */
-static size_t terms_of(unsigned degree, bool profile, size_t terms[FORM_TERMS])
+static size_t select_form_terms(unsigned degree, bool profile, size_t terms[FORM_TERMS])
 {
     size_t n = 0;
     for (size_t t = 0; t < FORM_TERMS; t++)
@@ -38,7 +38,7 @@ static row_sums sum_row(const double *z, size_t nx)
     for (size_t i = 0; i < nx; i++) {
         if (!isfinite(z[i]))
             continue;
-        const double x = coordinate(i, nx), x2 = x * x;
+        const double x = normalised_coordinate(i, nx), x2 = x * x;
         s.n++;
         s.x[1] += x;
         s.x[2] += x2;
@@ -52,38 +52,38 @@ static row_sums sum_row(const double *z, size_t nx)
     return s;
 }
 
-static double power(double y, int n)
+static double integer_power(double y, int n)
 {
     return n == 0 ? 1 : n == 1 ? y : n == 2 ? y * y : n == 3 ? y * y * y : y * y * y * y;
 }
 
-static void take_off(double *z, size_t nx, size_t ny, const double c[FORM_TERMS])
+static void subtract_form(double *z, size_t nx, size_t ny, const double c[FORM_TERMS])
 {
     for (size_t j = 0; j < ny; j++) {
-        const double y = coordinate(j, ny);
+        const double y = normalised_coordinate(j, ny);
         const double a = c[0] + y * (c[2] + y * c[5]), b = c[1] + y * c[4];
         for (size_t i = 0; i < nx; i++) {
-            const double x = coordinate(i, nx);
+            const double x = normalised_coordinate(i, nx);
             z[j * nx + i] -= a + x * (b + x * c[3]);
         }
     }
 }
 
-wt_status surface_form_remove(double *z, size_t nx, size_t ny, unsigned degree,
+wt_status surface_remove_form(double *z, size_t nx, size_t ny, unsigned degree,
                               double coefficients[FORM_TERMS], wt_error *err)
 {
     size_t terms[FORM_TERMS], n_points = 0;
     double m[FORM_TERMS][FORM_TERMS] = {{0}}, v[FORM_TERMS] = {0};
-    const size_t n = terms_of(degree, ny == 1, terms);
+    const size_t n = select_form_terms(degree, ny == 1, terms);
     for (size_t j = 0; j < ny; j++) {
         const row_sums s = sum_row(z + j * nx, nx);
-        const double y = coordinate(j, ny);
+        const double y = normalised_coordinate(j, ny);
         n_points += s.n;
         for (size_t a = 0; a < n; a++) {
             const int xa = power_x[terms[a]], ya = power_y[terms[a]];
-            v[a] += power(y, ya) * s.z[xa];
+            v[a] += integer_power(y, ya) * s.z[xa];
             for (size_t b = 0; b <= a; b++)
-                m[a][b] += power(y, ya + power_y[terms[b]]) * s.x[xa + power_x[terms[b]]];
+                m[a][b] += integer_power(y, ya + power_y[terms[b]]) * s.x[xa + power_x[terms[b]]];
         }
     }
     for (size_t t = 0; t < FORM_TERMS; t++)
@@ -98,6 +98,6 @@ wt_status surface_form_remove(double *z, size_t nx, size_t ny, unsigned degree,
     }
     for (size_t a = 0; a < n; a++)
         coefficients[terms[a]] = v[a];
-    take_off(z, nx, ny, coefficients);
+    subtract_form(z, nx, ny, coefficients);
     return WT_OK;
 }

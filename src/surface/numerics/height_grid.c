@@ -5,70 +5,70 @@
 #include <math.h>
 
 /* Running sum and number of values. */
-typedef struct mean {
+typedef struct running_mean {
     double sum, n;
-} mean;
+} running_mean;
 
-static void add(mean *m, double value)
+static void mean_add(running_mean *m, double value)
 {
     m->sum += value;
     m->n++;
 }
 
-static double value_of(mean m)
+static double mean_value(running_mean m)
 {
     return m.n > 0 ? m.sum / m.n : (double)NAN;
 }
 
-static void find_amplitudes(const double *z, size_t n, wt_surface_heights *to)
+static void compute_amplitudes(const double *z, size_t n, wt_surface_heights *to)
 {
-    mean height = {0, 0}, absolute = {0, 0}, power[3] = {{0, 0}, {0, 0}, {0, 0}};
+    running_mean height = {0, 0}, absolute = {0, 0}, power[3] = {{0, 0}, {0, 0}, {0, 0}};
     double low = (double)INFINITY, high = -(double)INFINITY;
     for (size_t i = 0; i < n; i++)
         if (isfinite(z[i]))
-            add(&height, z[i]);
-    const double middle = value_of(height);
+            mean_add(&height, z[i]);
+    const double middle = mean_value(height);
     for (size_t i = 0; i < n; i++) {
         if (!isfinite(z[i]))
             continue;
         const double d = z[i] - middle, d2 = d * d;
-        add(&absolute, fabs(d));
-        add(&power[0], d2);
-        add(&power[1], d2 * d);
-        add(&power[2], d2 * d2);
+        mean_add(&absolute, fabs(d));
+        mean_add(&power[0], d2);
+        mean_add(&power[1], d2 * d);
+        mean_add(&power[2], d2 * d2);
         low = fmin(low, d);
         high = fmax(high, d);
     }
     to->n = n;
     to->missing = n - (size_t)height.n;
-    to->rms = sqrt(value_of(power[0]));
-    to->mean_deviation = value_of(absolute);
+    to->rms = sqrt(mean_value(power[0]));
+    to->mean_deviation = mean_value(absolute);
     to->peak_to_valley = high - low;
-    to->skewness = value_of(power[1]) / (to->rms * to->rms * to->rms);
-    to->kurtosis = value_of(power[2]) / (to->rms * to->rms * to->rms * to->rms);
+    to->skewness = mean_value(power[1]) / (to->rms * to->rms * to->rms);
+    to->kurtosis = mean_value(power[2]) / (to->rms * to->rms * to->rms * to->rms);
 }
 
-void surface_heights_find(const wt_height_map *map, wt_surface_heights *to)
+void surface_height_statistics(const wt_height_map *map, wt_surface_heights *to)
 {
     const size_t nx = map->nx, ny = map->ny;
-    mean along_x = {0, 0}, along_y = {0, 0}, excess = {0, 0};
-    find_amplitudes(map->z, nx * ny, to);
+    running_mean along_x = {0, 0}, along_y = {0, 0}, excess = {0, 0};
+    compute_amplitudes(map->z, nx * ny, to);
     for (size_t j = 0; j < ny; j++)
         for (size_t i = 0; i < nx; i++) {
             const double *z = map->z + j * nx + i;
             const double sx = i + 1 < nx ? (z[1] - z[0]) / map->dx : (double)NAN;
             const double sy = j + 1 < ny ? (z[nx] - z[0]) / map->dy : (double)NAN;
             if (isfinite(sx))
-                add(&along_x, sx * sx);
+                mean_add(&along_x, sx * sx);
             if (isfinite(sy))
-                add(&along_y, sy * sy);
+                mean_add(&along_y, sy * sy);
             if (isfinite(sx) && isfinite(sy))
-                add(&excess, sqrt(1 + sx * sx + sy * sy) - 1);
+                mean_add(&excess, sqrt(1 + sx * sx + sy * sy) - 1);
         }
-    to->slope_x = sqrt(value_of(along_x));
-    to->slope_y = sqrt(value_of(along_y));
+    to->slope_x = sqrt(mean_value(along_x));
+    to->slope_y = sqrt(mean_value(along_y));
     to->rms_slope = ny > 1 ? hypot(to->slope_x, to->slope_y) : to->slope_x;
-    to->area_excess = value_of(excess);
+    to->area_excess = mean_value(excess);
 }
 
 /* Returns the most negative curvature of the peaks [1/m], from second differences over 2 l

@@ -5,7 +5,7 @@
 
 #include "weartrack/fit.h"
 
-void surface_heights_find(const wt_height_map *map, wt_surface_heights *to);
+void surface_height_statistics(const wt_height_map *map, wt_surface_heights *to);
 /* Returns a wavenumber [rad/m]. Its wavelength is the shortest second difference that stays
  * below half the curvature of the tip. It is 0 if none does. radius [m]. */
 double surface_tip_limit(const wt_height_map *map, double radius);

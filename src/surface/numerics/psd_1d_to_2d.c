@@ -6,14 +6,15 @@
 
 /* Width of a quadrature subinterval. cosh^(p - 1) is singular at i pi/2, so ten points are exact
  * to rounding for the slopes of spectra (tested to p = -8). */
-static const double panel = 0.5;
+static const double subinterval_width = 0.5;
 /* Beyond this limit cosh^(p - 1) is below rounding even for the flattest allowed slope, -1. */
-static const double no_more = 20;
+static const double cosh_limit = 20;
 
 /* Integrates cosh^power t from a to b. */
-static double integral(const gsl_integration_glfixed_table *rule, double a, double b, double power)
+static double cosh_power_integral(const gsl_integration_glfixed_table *rule, double a, double b,
+                                  double power)
 {
-    const double n = fmax(1, ceil((b - a) / panel)), width = (b - a) / n;
+    const double n = fmax(1, ceil((b - a) / subinterval_width)), width = (b - a) / n;
     double sum = 0, t, weight;
     for (double i = 0; i < n; i++)
         for (size_t k = 0; k < rule->n; k++) {
@@ -23,8 +24,8 @@ static double integral(const gsl_integration_glfixed_table *rule, double a, doub
     return sum;
 }
 
-double surface_invert(const double *q, const double *c1, size_t n, bool goes_on, double at,
-                      const gsl_integration_glfixed_table *rule)
+double surface_invert_profile(const double *q, const double *c1, size_t n, bool extrapolate,
+                              double at, const gsl_integration_glfixed_table *rule)
 {
     double sum = 0, p = 0;
     if (n < 2 || !(at >= q[0]))
@@ -35,14 +36,16 @@ double surface_invert(const double *q, const double *c1, size_t n, bool goes_on,
             continue;
         /* substitution k = at cosh t */
         sum += p * c1[i] * pow(at / q[i], p) *
-               integral(rule, q[i] > at ? acosh(q[i] / at) : 0, acosh(q[i + 1] / at), p - 1);
+               cosh_power_integral(rule, q[i] > at ? acosh(q[i] / at) : 0, acosh(q[i + 1] / at),
+                                   p - 1);
     }
     const double end = q[n - 1];
-    if (goes_on && !(p <= -1))
+    if (extrapolate && !(p <= -1))
         return (double)NAN;
-    if (goes_on) {
+    if (extrapolate) {
         const double from = end > at ? acosh(end / at) : 0;
-        sum += p * c1[n - 1] * pow(at / end, p) * integral(rule, from, from + no_more, p - 1);
+        sum += p * c1[n - 1] * pow(at / end, p) *
+               cosh_power_integral(rule, from, from + cosh_limit, p - 1);
     } else {
         sum -= at < end ? c1[n - 1] / sqrt((end / at) * (end / at) - 1) : (double)NAN;
     }

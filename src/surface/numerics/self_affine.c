@@ -17,16 +17,16 @@
 
 enum { LN_C0, LN_ROLL_OFF, HURST, CONSTANTS };
 
-typedef struct law_fit {
+typedef struct affine_fit_work {
     double *x, *y, *weight; /* [n] ln q, ln C without its bias, 1 / variance */
     size_t n;
     double *places;  /* [n * n_sizes] place weights of each point by scan size, or NULL */
     double c, power; /* ln C0 and -2 (1 + H) at the last tested roll-off */
     double c_variance, power_variance; /* variances at that roll-off */
-} law_fit;
+} affine_fit_work;
 
 /* Fits by least squares for a roll-off at x = r. Returns chi-squared. */
-static double chi_squared(law_fit *f, double r)
+static double chi_squared(affine_fit_work *f, double r)
 {
     double s = 0, sx = 0, sy = 0, sxx = 0, sxy = 0, chi = 0;
     for (size_t i = 0; i < f->n; i++) {
@@ -49,20 +49,20 @@ static double chi_squared(law_fit *f, double r)
     return chi;
 }
 
-static double less_chi_squared(double r, void *user)
+static double negative_chi_squared(double r, void *user)
 {
     return -chi_squared(user, r);
 }
 
 /* Finds the best roll-off. chi-squared has a kink at each point, so each interval is searched
  * separately. At least two points lie above the roll-off, to determine the slope. */
-static double find_roll_off(law_fit *f, double *best)
+static double find_roll_off(affine_fit_work *f, double *best)
 {
     enum { SECTIONS = 40 }; /* to 1e-8 of the distance of two points */
     double at = f->x[0];
     *best = chi_squared(f, at);
     for (size_t i = 0; i + 3 < f->n; i++) {
-        const double r = root_maximum(less_chi_squared, f, f->x[i], f->x[i + 1], SECTIONS);
+        const double r = root_maximum(negative_chi_squared, f, f->x[i], f->x[i + 1], SECTIONS);
         const double chi = chi_squared(f, r);
         if (chi < *best) {
             *best = chi;
@@ -74,7 +74,7 @@ static double find_roll_off(law_fit *f, double *best)
 
 /* The law linearised at its best constants: J^T W J, in the order of `fitted`. */
 typedef struct linear_law {
-    const law_fit *f;
+    const affine_fit_work *f;
     double r;
     size_t n; /* 3, or 2 without a roll-off */
     double normal[CONSTANTS][CONSTANTS];
@@ -83,25 +83,25 @@ typedef struct linear_law {
 static const size_t fitted[CONSTANTS] = {LN_C0, HURST, LN_ROLL_OFF};
 
 /* Returns the derivative of a point by a constant. */
-static double slope_of(const linear_law *l, size_t i, size_t constant)
+static double point_derivative(const linear_law *l, size_t i, size_t constant)
 {
     const double x = l->f->x[i] - l->r;
     return constant == LN_C0 ? 1 : !(x > 0) ? 0 : constant == HURST ? -2 * x : -l->f->power;
 }
 
-static linear_law linear_about(const law_fit *f, double r, bool rolls_off)
+static linear_law linearise_law(const affine_fit_work *f, double r, bool rolls_off)
 {
     linear_law l = {.f = f, .r = r, .n = rolls_off ? 3 : 2};
     for (size_t i = 0; i < f->n; i++)
         for (size_t a = 0; a < l.n; a++)
             for (size_t b = 0; b < l.n; b++)
-                l.normal[a][b] +=
-                    f->weight[i] * slope_of(&l, i, fitted[a]) * slope_of(&l, i, fitted[b]);
+                l.normal[a][b] += f->weight[i] * point_derivative(&l, i, fitted[a]) *
+                                  point_derivative(&l, i, fitted[b]);
     return l;
 }
 
 /* Replaces e by (J^T W J)^-1 e, in the order of `fitted`. */
-static bool solve_linear(const linear_law *l, double e[CONSTANTS])
+static bool solve_normal(const linear_law *l, double e[CONSTANTS])
 {
     double m[CONSTANTS][CONSTANTS];
     for (size_t a = 0; a < l->n; a++)
@@ -114,7 +114,7 @@ static bool solve_linear(const linear_law *l, double e[CONSTANTS])
  * 95 %. It is 1 unless the misfit, with its few degrees of freedom, is larger. The misfit of the
  * law is thus always included. A misfit of at least 1 together with Student's t contained 98.7 %
  * for a correct law. */
-static double widened(double misfit, double freedom)
+static double variance_factor(double misfit, double freedom)
 {
     gsl_quiet();
     const double t = students_t_quantile(freedom) / NORMAL_95;
@@ -122,12 +122,12 @@ static double widened(double misfit, double freedom)
 }
 
 /* Computes (J^T W J)^-1 times a factor. */
-static bool find_covariance(const linear_law *l, double times, double to[CONSTANTS][CONSTANTS])
+static bool find_law_covariance(const linear_law *l, double scale, double to[CONSTANTS][CONSTANTS])
 {
     for (size_t c = 0; c < l->n; c++) {
         double e[CONSTANTS] = {0};
-        e[c] = times;
-        if (!solve_linear(l, e))
+        e[c] = scale;
+        if (!solve_normal(l, e))
             return false;
         for (size_t a = 0; a < l->n; a++)
             to[fitted[a]][fitted[c]] = e[a];
@@ -135,15 +135,15 @@ static bool find_covariance(const linear_law *l, double times, double to[CONSTAN
     return true;
 }
 
-typedef struct value_span {
+typedef struct constant_range {
     double low, high;
-} value_span;
+} constant_range;
 
-typedef struct law_spans {
-    value_span of[CONSTANTS];
-} law_spans;
+typedef struct law_ranges {
+    constant_range of[CONSTANTS];
+} law_ranges;
 
-static void widen(value_span *span, double low, double high)
+static void extend_range(constant_range *span, double low, double high)
 {
     span->low = fmin(span->low, low);
     span->high = fmax(span->high, high);
@@ -152,28 +152,28 @@ static void widen(value_span *span, double low, double high)
 /* Finds the ranges of the constants of all laws within 1.96 standard errors of the best one. The
  * kink at the roll-off makes chi-squared not parabolic. Intervals from its curvature contained
  * c0 and the roll-off of stitched scans in 89 and 91 % only. */
-static law_spans find_spans(law_fit *f, double best, bool rolls_off, double wider)
+static law_ranges find_ranges(affine_fit_work *f, double best, bool rolls_off, double wider)
 {
     enum { ROLL_OFFS = 2000 }; /* a tenth of the smallest error of the roll-off */
     const double none = (double)INFINITY, first = f->x[0],
                  step = (f->x[f->n - 3] - first) / ROLL_OFFS,
                  most = chi_squared(f, best) + NORMAL_95 * NORMAL_95 * wider;
-    law_spans spans = {{{none, -none}, {none, -none}, {none, -none}}};
+    law_ranges spans = {{{none, -none}, {none, -none}, {none, -none}}};
     for (int i = -1; i <= (rolls_off ? ROLL_OFFS : -1); i++) {
-        const double r = i < 0 ? best : first + step * i, room = most - chi_squared(f, r);
-        if (room < 0)
+        const double r = i < 0 ? best : first + step * i, slack = most - chi_squared(f, r);
+        if (slack < 0)
             continue;
-        const double c = sqrt(room * f->c_variance), h = sqrt(room * f->power_variance) / 2,
+        const double c = sqrt(slack * f->c_variance), h = sqrt(slack * f->power_variance) / 2,
                      hurst = -f->power / 2 - 1;
-        widen(&spans.of[LN_C0], f->c - c, f->c + c);
-        widen(&spans.of[LN_ROLL_OFF], r, r);
-        widen(&spans.of[HURST], hurst - h, hurst + h);
+        extend_range(&spans.of[LN_C0], f->c - c, f->c + c);
+        extend_range(&spans.of[LN_ROLL_OFF], r, r);
+        extend_range(&spans.of[HURST], hurst - h, hurst + h);
     }
     (void)chi_squared(f, best);
     return spans;
 }
 
-static wt_interval of_span(double value, value_span span, bool logarithm)
+static wt_interval range_interval(double value, constant_range span, bool logarithm)
 {
     const double half = (span.high - span.low) / 2 / NORMAL_95;
     if (!logarithm)
@@ -186,7 +186,7 @@ static wt_interval of_span(double value, value_span span, bool logarithm)
 static bool find_place_covariance(const linear_law *l, const wt_surface_spectrum *s,
                                   double to[CONSTANTS][CONSTANTS])
 {
-    const law_fit *const f = l->f;
+    const affine_fit_work *const f = l->f;
     if (f->places == NULL) {
         const double error = s->place_error > 0 ? s->place_error : 0;
         to[LN_C0][LN_C0] = error * error;
@@ -196,9 +196,9 @@ static bool find_place_covariance(const linear_law *l, const wt_surface_spectrum
         double e[CONSTANTS] = {0};
         for (size_t k = 0; k < f->n; k++)
             for (size_t a = 0; a < l->n; a++)
-                e[a] += f->weight[k] * slope_of(l, k, fitted[a]) * s->place_reach *
+                e[a] += f->weight[k] * point_derivative(l, k, fitted[a]) * s->place_reach *
                         f->places[k * s->n_sizes + size];
-        if (!solve_linear(l, e))
+        if (!solve_normal(l, e))
             return false;
         for (size_t a = 0; a < l->n; a++)
             for (size_t b = 0; b < l->n; b++)
@@ -207,15 +207,15 @@ static bool find_place_covariance(const linear_law *l, const wt_surface_spectrum
     return true;
 }
 
-static value_span with_places(value_span span, double value, double error)
+static constant_range add_place_error(constant_range span, double value, double error)
 {
-    return (value_span){value - hypot(value - span.low, error),
-                        value + hypot(span.high - value, error)};
+    return (constant_range){value - hypot(value - span.low, error),
+                            value + hypot(span.high - value, error)};
 }
 
-static void fill_law(law_fit *f, double r, double wider, wt_self_affine *to)
+static void fill_self_affine(affine_fit_work *f, double r, double wider, wt_self_affine *to)
 {
-    law_spans spans = find_spans(f, r, to->rolls_off, wider);
+    law_ranges spans = find_ranges(f, r, to->rolls_off, wider);
     const double hurst = -f->power / 2 - 1;
     for (size_t a = 0; a < CONSTANTS; a++)
         for (size_t b = 0; b < CONSTANTS; b++)
@@ -223,17 +223,17 @@ static void fill_law(law_fit *f, double r, double wider, wt_self_affine *to)
     const double best[CONSTANTS] = {[LN_C0] = f->c, [LN_ROLL_OFF] = r, [HURST] = hurst};
     for (size_t a = 0; a < CONSTANTS; a++)
         spans.of[a] =
-            with_places(spans.of[a], best[a], NORMAL_95 * sqrt(to->place_covariance[a][a]));
-    to->c0 = of_span(f->c, spans.of[LN_C0], true);
-    to->roll_off = of_span(r, spans.of[LN_ROLL_OFF], true);
-    to->hurst = of_span(hurst, spans.of[HURST], false);
+            add_place_error(spans.of[a], best[a], NORMAL_95 * sqrt(to->place_covariance[a][a]));
+    to->c0 = range_interval(f->c, spans.of[LN_C0], true);
+    to->roll_off = range_interval(r, spans.of[LN_ROLL_OFF], true);
+    to->hurst = range_interval(hurst, spans.of[HURST], false);
 }
 
 wt_status wt_self_affine_fit(const wt_surface_spectrum *spectrum, wt_self_affine *law,
                              wt_error *err)
 {
     *law = (wt_self_affine){.found = false};
-    law_fit f = {.x = malloc((3 + spectrum->n_sizes) * (spectrum->n + 1) * sizeof *f.x)};
+    affine_fit_work f = {.x = malloc((3 + spectrum->n_sizes) * (spectrum->n + 1) * sizeof *f.x)};
     if (f.x == NULL)
         return wt_fail(err, WT_E_MEMORY, "no memory for a self-affine law");
     f.y = f.x + spectrum->n;
@@ -260,12 +260,12 @@ wt_status wt_self_affine_fit(const wt_surface_spectrum *spectrum, wt_self_affine
                      left = law->rolls_off ? freedom : freedom + 1;
         law->n = f.n;
         law->misfit = chi_squared(&f, at) / left;
-        const double wider = widened(law->misfit, left);
-        const linear_law linear = linear_about(&f, at, law->rolls_off);
-        law->found = f.power < 0 && find_covariance(&linear, wider, law->covariance) &&
+        const double wider = variance_factor(law->misfit, left);
+        const linear_law linear = linearise_law(&f, at, law->rolls_off);
+        law->found = f.power < 0 && find_law_covariance(&linear, wider, law->covariance) &&
                      find_place_covariance(&linear, spectrum, law->place_covariance);
         if (law->found)
-            fill_law(&f, at, wider, law);
+            fill_self_affine(&f, at, wider, law);
     }
     free(f.x);
     return WT_OK;
@@ -296,24 +296,24 @@ double wt_self_affine_log_error(const wt_self_affine *law, double wavenumber, bo
 
 /* ---- cutoff at a slope ----------------------------------------------------------------------- */
 
-typedef struct slope_root {
+typedef struct slope_search {
     const wt_roughness *roughness;
     double square;
-} slope_root;
+} slope_search;
 
-static double slope_above(double ln_q, void *user)
+static double slope_excess(double ln_q, void *user)
 {
-    const slope_root *const s = user;
+    const slope_search *const s = user;
     return 2 * M_PI * roughness_moment(s->roughness, 3, exp(ln_q)) - s->square;
 }
 
-double wt_roughness_slope_end(const wt_roughness *roughness, double slope)
+double wt_roughness_slope_wavenumber(const wt_roughness *roughness, double slope)
 {
-    slope_root s = {roughness, slope * slope};
+    slope_search s = {roughness, slope * slope};
     double end = (double)NAN;
     const double low = log(roughness->q0), high = log(roughness->q1);
-    if (!(slope > 0) || !(slope_above(high, &s) >= 0) ||
-        root_find(slope_above, &s, low, high, 0, &end, NULL) != WT_OK)
+    if (!(slope > 0) || !(slope_excess(high, &s) >= 0) ||
+        root_find(slope_excess, &s, low, high, 0, &end, NULL) != WT_OK)
         return (double)NAN;
     return exp(end);
 }

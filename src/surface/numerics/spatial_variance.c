@@ -8,50 +8,51 @@
 
 /* Weights of the scans in the bins. */
 typedef struct place_weights {
-    const double *of; /* [n_bins * n] */
+    const double *weight; /* [n_bins * n] */
     size_t n_bins, n;
 } place_weights;
 
-static bool same_parts(const place_weights *w, size_t a, size_t b)
+static bool have_equal_weights(const place_weights *w, size_t a, size_t b)
 {
     for (size_t k = 0; k < w->n_bins; k++)
-        if (w->of[k * w->n + a] != w->of[k * w->n + b])
+        if (w->weight[k * w->n + a] != w->weight[k * w->n + b])
             return false;
     return true;
 }
 
 /* Returns the first bin in which the scan has a weight. */
-static size_t first_bin(const place_weights *w, size_t scan)
+static size_t first_weighted_bin(const place_weights *w, size_t scan)
 {
     size_t k = 0;
-    while (k < w->n_bins && !(w->of[k * w->n + scan] > 0))
+    while (k < w->n_bins && !(w->weight[k * w->n + scan] > 0))
         k++;
     return k;
 }
 
 /* Lists the first scan of each size, longest waves first, and returns the number of sizes. */
-static size_t find_sizes(const place_weights *w, size_t *first)
+static size_t find_scan_sizes(const place_weights *w, size_t *first)
 {
     size_t n = 0;
     for (size_t i = 0; i < w->n; i++) {
         size_t at = 0;
-        while (at < n && !same_parts(w, first[at], i))
+        while (at < n && !have_equal_weights(w, first[at], i))
             at++;
         if (at < n)
             continue;
-        for (at = n++; at > 0 && first_bin(w, first[at - 1]) > first_bin(w, i); at--)
+        for (at = n++; at > 0 && first_weighted_bin(w, first[at - 1]) > first_weighted_bin(w, i);
+             at--)
             first[at] = first[at - 1];
         first[at] = i;
     }
     return n;
 }
 
-wt_status surface_places_take(const double *weights, size_t n_scans, wt_surface_spectrum *to,
-                              wt_error *err)
+wt_status surface_set_place_weights(const double *weights, size_t n_scans, wt_surface_spectrum *to,
+                                    wt_error *err)
 {
     const place_weights w = {weights, to->n, n_scans};
     size_t *first = malloc((n_scans + 1) * sizeof *first);
-    const size_t n = first != NULL ? find_sizes(&w, first) : 0;
+    const size_t n = first != NULL ? find_scan_sizes(&w, first) : 0;
     to->place_part = first != NULL ? calloc(to->n * n + 1, sizeof *to->place_part) : NULL;
     if (to->place_part == NULL) {
         free(first);
@@ -62,7 +63,7 @@ wt_status surface_places_take(const double *weights, size_t n_scans, wt_surface_
         for (size_t size = 0; size < n; size++) {
             double square = 0;
             for (size_t i = 0; i < n_scans; i++)
-                if (same_parts(&w, first[size], i))
+                if (have_equal_weights(&w, first[size], i))
                     square += weights[k * n_scans + i] * weights[k * n_scans + i];
             to->place_part[k * n + size] = sqrt(square);
         }
@@ -70,17 +71,17 @@ wt_status surface_places_take(const double *weights, size_t n_scans, wt_surface_
     return WT_OK;
 }
 
-double surface_places_of(const wt_surface_spectrum *s, size_t bin, size_t size)
+double surface_place_weight(const wt_surface_spectrum *s, size_t bin, size_t size)
 {
     return s->place_part[bin * s->n_sizes + size];
 }
 
-double surface_places_part(const wt_surface_spectrum *s, size_t bin)
+double surface_total_place_weight(const wt_surface_spectrum *s, size_t bin)
 {
     double square = 0;
     if (s->n_sizes == 0)
         return 1 / sqrt((double)s->bins[bin].scans);
     for (size_t size = 0; size < s->n_sizes; size++)
-        square += pow(surface_places_of(s, bin, size), 2);
+        square += pow(surface_place_weight(s, bin, size), 2);
     return sqrt(square);
 }

@@ -13,16 +13,16 @@
 #include <stdlib.h>
 
 /* Working data of the combination; all spectra have the same bin edges. */
-typedef struct joining {
+typedef struct stitching_work {
     const wt_surface_spectrum *const *spectra;
     size_t n;
     int first, last;
     double *offset; /* [n] deviation of ln C of a scan from the mean */
     double *weight; /* [n] weight of the offset */
     size_t *group;  /* [n] first scan that is linked by shared bins */
-} joining;
+} stitching_work;
 
-static const wt_spectrum_bin *bin_with(const wt_surface_spectrum *s, int index)
+static const wt_spectrum_bin *find_reliable_bin(const wt_surface_spectrum *s, int index)
 {
     for (size_t k = 0; k < s->n; k++)
         if (s->bins[k].index == index)
@@ -30,7 +30,7 @@ static const wt_spectrum_bin *bin_with(const wt_surface_spectrum *s, int index)
     return NULL;
 }
 
-static double log_density(const wt_spectrum_bin *b)
+static double bin_log_density(const wt_spectrum_bin *b)
 {
     return log(b->density) - surface_log_bias(b->freedom);
 }
@@ -38,15 +38,15 @@ static double log_density(const wt_spectrum_bin *b)
 /* ---- scatter from place to place ------------------------------------------------------------- */
 
 /* Computes the mean of a bin without the offsets. Returns the number of scans in it. */
-static size_t mean_without(const joining *j, int index, double *mean)
+static size_t offset_free_mean(const stitching_work *j, int index, double *mean)
 {
     double sum = 0, weights = 0;
     size_t n = 0;
     for (size_t i = 0; i < j->n; i++) {
-        const wt_spectrum_bin *b = bin_with(j->spectra[i], index);
+        const wt_spectrum_bin *b = find_reliable_bin(j->spectra[i], index);
         if (b == NULL)
             continue;
-        sum += b->freedom * (log_density(b) - j->offset[i]);
+        sum += b->freedom * (bin_log_density(b) - j->offset[i]);
         weights += b->freedom;
         n++;
     }
@@ -55,7 +55,7 @@ static size_t mean_without(const joining *j, int index, double *mean)
 }
 
 /* Improves the offsets by one step and returns the largest change. */
-static double refine_offsets(joining *j, double *sum)
+static double refine_offsets(stitching_work *j, double *sum)
 {
     double middle = 0, change = 0;
     size_t known = 0;
@@ -63,13 +63,13 @@ static double refine_offsets(joining *j, double *sum)
         sum[i] = j->weight[i] = 0;
     for (int index = j->first; index <= j->last; index++) {
         double mean;
-        if (mean_without(j, index, &mean) < 2)
+        if (offset_free_mean(j, index, &mean) < 2)
             continue;
         for (size_t i = 0; i < j->n; i++) {
-            const wt_spectrum_bin *b = bin_with(j->spectra[i], index);
+            const wt_spectrum_bin *b = find_reliable_bin(j->spectra[i], index);
             if (b == NULL)
                 continue;
-            sum[i] += (log_density(b) - mean) / surface_log_variance(b->freedom);
+            sum[i] += (bin_log_density(b) - mean) / surface_log_variance(b->freedom);
             j->weight[i] += 1 / surface_log_variance(b->freedom);
         }
     }
@@ -88,7 +88,7 @@ static double refine_offsets(joining *j, double *sum)
 }
 
 /* Groups the scans by shared bins. Scans without a shared bin cannot be compared. */
-static void find_groups(joining *j)
+static void find_linked_groups(stitching_work *j)
 {
     bool changed = true;
     for (size_t i = 0; i < j->n; i++)
@@ -98,10 +98,10 @@ static void find_groups(joining *j)
         for (int index = j->first; index <= j->last; index++) {
             size_t least = j->n;
             for (size_t i = 0; i < j->n; i++)
-                if (bin_with(j->spectra[i], index) != NULL && j->group[i] < least)
+                if (find_reliable_bin(j->spectra[i], index) != NULL && j->group[i] < least)
                     least = j->group[i];
             for (size_t i = 0; i < j->n; i++)
-                if (bin_with(j->spectra[i], index) != NULL && j->group[i] > least) {
+                if (find_reliable_bin(j->spectra[i], index) != NULL && j->group[i] > least) {
                     j->group[i] = least;
                     changed = true;
                 }
@@ -111,7 +111,8 @@ static void find_groups(joining *j)
 
 /* Adds the squares of the offsets of a group about their mean and the variance of their mode
  * scatter. Returns the number of scans. */
-static size_t add_group(const joining *j, size_t group, double *squares, double *noise)
+static size_t add_group_squares(const stitching_work *j, size_t group, double *squares,
+                                double *noise)
 {
     double sum = 0, square = 0;
     size_t n = 0;
@@ -130,7 +131,7 @@ static size_t add_group(const joining *j, size_t group, double *squares, double 
 /* Returns the share of the mode scatter that an interval subtracts: the lower third of its
  * distribution. With all of it, two places with twice the mode scatter are contained in 87 % and
  * three in 91 %. With this share two to ten places are contained in 93 to 98 %. */
-static double sure_part(double freedom)
+static double noise_share(double freedom)
 {
     gsl_quiet();
     return gsl_cdf_chisq_Pinv(1.0 / 3, freedom) / freedom;
@@ -138,7 +139,7 @@ static double sure_part(double freedom)
 
 /* Estimates the place scatter: variance of the offsets of linked scans minus the variance of
  * their mode scatter. */
-static void find_places(joining *j, wt_surface_spectrum *to, double *scratch)
+static void estimate_place_scatter(stitching_work *j, wt_surface_spectrum *to, double *scratch)
 {
     enum { STEPS = 200 };        /* each step reduces the change */
     const double settled = 1e-6; /* in ln C, far below its scatter */
@@ -146,9 +147,9 @@ static void find_places(joining *j, wt_surface_spectrum *to, double *scratch)
     size_t n = 0, groups = 0;
     for (int step = 0; step < STEPS && refine_offsets(j, scratch) > settled; step++)
         ;
-    find_groups(j);
+    find_linked_groups(j);
     for (size_t i = 0; i < j->n; i++) {
-        const size_t members = j->group[i] == i ? add_group(j, i, &squares, &noise) : 0;
+        const size_t members = j->group[i] == i ? add_group_squares(j, i, &squares, &noise) : 0;
         n += members;
         groups += members > 0 ? 1 : 0;
     }
@@ -157,8 +158,8 @@ static void find_places(joining *j, wt_surface_spectrum *to, double *scratch)
         return;
     const double freedom = (double)(n - groups), all = squares / freedom, modes = noise / (double)n;
     to->place_scatter = sqrt(fmax(0, all - modes));
-    to->place_reach =
-        students_t_quantile(freedom) / NORMAL_95 * sqrt(fmax(0, all - sure_part(freedom) * modes));
+    to->place_reach = students_t_quantile(freedom) / NORMAL_95 *
+                      sqrt(fmax(0, all - noise_share(freedom) * modes));
 }
 
 /* Computes the place error of the mean. A bin of one size has only the places of that size. A
@@ -167,7 +168,7 @@ static void find_place_error(wt_surface_spectrum *to)
 {
     double sum = 0;
     for (size_t k = 0; k < to->n; k++) {
-        const double part = surface_places_part(to, k);
+        const double part = surface_total_place_weight(to, k);
         sum += part * part;
     }
     to->place_error = to->place_reach * sqrt(sum / (double)to->n);
@@ -176,7 +177,7 @@ static void find_place_error(wt_surface_spectrum *to)
 /* ---- bins ------------------------------------------------------------------------------------ */
 
 /* Adds the directional sums, weighted by the number of modes. */
-static void add_directions(const wt_spectrum_bin *b, wt_spectrum_bin *to)
+static void add_direction_sums(const wt_spectrum_bin *b, wt_spectrum_bin *to)
 {
     const double w = (double)b->n;
     to->cosine += w * b->cosine;
@@ -192,13 +193,13 @@ static void add_directions(const wt_spectrum_bin *b, wt_spectrum_bin *to)
 
 /* Averages ln q and ln C with the number of modes as weight. The mean of logarithms is biased
  * low for few modes, which is corrected. */
-static bool join_bin(const joining *j, int index, wt_spectrum_bin *to)
+static bool join_bin(const stitching_work *j, int index, wt_spectrum_bin *to)
 {
     double n = 0, freedom = 0, ln_q = 0, ln_c = 0, q = 0, bias = 0, variance = 0, shared = 0,
            deviation = 0;
     *to = (wt_spectrum_bin){.index = index, .reliable = true};
     for (size_t i = 0; i < j->n; i++) {
-        const wt_spectrum_bin *b = bin_with(j->spectra[i], index);
+        const wt_spectrum_bin *b = find_reliable_bin(j->spectra[i], index);
         if (b == NULL)
             continue;
         const double w = (double)b->n;
@@ -210,7 +211,7 @@ static bool join_bin(const joining *j, int index, wt_spectrum_bin *to)
         bias += w * surface_log_bias(b->freedom);
         variance += w * w * surface_log_variance(b->freedom);
         shared += w * w * surface_log_variance(b->shared_freedom);
-        add_directions(b, to);
+        add_direction_sums(b, to);
         to->n += b->n;
         to->scans += b->scans;
         deviation += w * (b->deviation / b->density) * (b->deviation / b->density);
@@ -222,9 +223,9 @@ static bool join_bin(const joining *j, int index, wt_spectrum_bin *to)
     to->wavenumber = exp(ln_q / n);
     to->mean_wavenumber = q / n;
     to->density = exp(ln_c / n + (one ? 0 : surface_log_bias(freedom) - bias / n));
-    to->freedom = one ? freedom : surface_freedom_of(variance / (n * n));
+    to->freedom = one ? freedom : surface_variance_freedom(variance / (n * n));
     to->deviation = to->density * sqrt(deviation / n);
-    to->shared_freedom = surface_freedom_of(shared / (n * n));
+    to->shared_freedom = surface_variance_freedom(shared / (n * n));
     to->cosine /= n;
     to->sine /= n;
     to->cosine_fourth /= n;
@@ -234,11 +235,11 @@ static bool join_bin(const joining *j, int index, wt_spectrum_bin *to)
 }
 
 /* Stores the weights of the scans in the bin. */
-static void weigh_places(const joining *j, int index, double *weight)
+static void set_scan_weights(const stitching_work *j, int index, double *weight)
 {
     double n = 0;
     for (size_t i = 0; i < j->n; i++) {
-        const wt_spectrum_bin *b = bin_with(j->spectra[i], index);
+        const wt_spectrum_bin *b = find_reliable_bin(j->spectra[i], index);
         weight[i] = b != NULL ? (double)b->n : 0;
         n += weight[i];
     }
@@ -246,7 +247,7 @@ static void weigh_places(const joining *j, int index, double *weight)
         weight[i] /= n;
 }
 
-static void find_span(joining *j, wt_surface_spectrum *to)
+static void find_bin_range(stitching_work *j, wt_surface_spectrum *to)
 {
     j->first = INT_MAX;
     j->last = INT_MIN;
@@ -267,14 +268,14 @@ static void find_span(joining *j, wt_surface_spectrum *to)
     }
 }
 
-wt_status wt_surface_join(const wt_surface_spectrum *const *spectra, size_t n,
-                          wt_surface_spectrum *joined, wt_error *err)
+wt_status wt_surface_combine(const wt_surface_spectrum *const *spectra, size_t n,
+                             wt_surface_spectrum *joined, wt_error *err)
 {
     if (spectra == NULL || n == 0 || joined == NULL)
         return wt_fail(err, WT_E_ARG, "no spectra");
-    joining j = {.spectra = spectra, .n = n};
+    stitching_work j = {.spectra = spectra, .n = n};
     wt_surface_spectrum made = {.kind = spectra[0]->kind};
-    find_span(&j, &made);
+    find_bin_range(&j, &made);
     if (j.first > j.last) {
         wt_fail(err, WT_E_EMPTY, "no wavenumbers are reliable");
         wt_error_advice(err, "measure with more points, over a larger area, or with a sharper tip");
@@ -289,11 +290,11 @@ wt_status wt_surface_join(const wt_surface_spectrum *const *spectra, size_t n,
         status = wt_fail(err, WT_E_MEMORY, "no memory for a spectrum");
     if (status == WT_OK) {
         j.weight = j.offset + n;
-        find_places(&j, &made, j.offset + 2 * n);
+        estimate_place_scatter(&j, &made, j.offset + 2 * n);
         for (int index = j.first; index <= j.last; index++)
             if (join_bin(&j, index, &made.bins[made.n]))
-                weigh_places(&j, index, weights + made.n++ * n);
-        status = surface_places_take(weights, n, &made, err);
+                set_scan_weights(&j, index, weights + made.n++ * n);
+        status = surface_set_place_weights(weights, n, &made, err);
     }
     if (status == WT_OK) {
         find_place_error(&made);
@@ -312,8 +313,8 @@ wt_interval wt_surface_density(const wt_surface_spectrum *spectrum, size_t bin)
     const wt_spectrum_bin *b = &spectrum->bins[bin];
     double freedom = b->freedom;
     if (spectrum->place_error > 0) {
-        const double place = spectrum->place_reach * surface_places_part(spectrum, bin);
-        freedom = surface_freedom_of(surface_log_variance(freedom) + place * place);
+        const double place = spectrum->place_reach * surface_total_place_weight(spectrum, bin);
+        freedom = surface_variance_freedom(surface_log_variance(freedom) + place * place);
     }
     return surface_interval(b->density, freedom);
 }

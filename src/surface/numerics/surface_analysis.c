@@ -34,17 +34,17 @@ void wt_surface_spectrum_clear(wt_surface_spectrum *spectrum)
     *spectrum = (wt_surface_spectrum){.n = 0};
 }
 
-static double edge(int index, double side)
+static double bin_edge(int index, double side)
 {
     return pow(10, (index + side) / 10);
 }
 
 /* Returns the slope of ln C against ln q at a bin, from it and two bins on each side. */
-static double slope_about(const wt_surface_spectrum *s, size_t at)
+static double local_slope(const wt_surface_spectrum *s, size_t at)
 {
-    enum { BESIDE = 2 }; /* over four bins the scatter changes the slope little */
+    enum { NEIGHBOURS = 2 }; /* over four bins the scatter changes the slope little */
     double n = 0, x = 0, y = 0, xx = 0, xy = 0;
-    for (size_t k = at > BESIDE ? at - BESIDE : 0; k < s->n && k <= at + BESIDE; k++) {
+    for (size_t k = at > NEIGHBOURS ? at - NEIGHBOURS : 0; k < s->n && k <= at + NEIGHBOURS; k++) {
         const double w = s->bins[k].freedom, u = log(s->bins[k].wavenumber),
                      v = log(s->bins[k].density);
         if (!(s->bins[k].density > 0))
@@ -75,7 +75,7 @@ static double window_variance(wt_surface_window window)
 
 /* Returns the relative leakage of a window for C = q^p, to second order, with m waves in the
  * length of the map. From one half on the law is meaningless for so few waves. */
-static double leak_of(const wt_height_map *map, double variance, double p, double q)
+static double window_leakage(const wt_height_map *map, double variance, double p, double q)
 {
     const double m = q * (double)map->nx * map->dx / (2 * M_PI);
     if (map->ny == 1)
@@ -87,8 +87,8 @@ static double leak_of(const wt_height_map *map, double variance, double p, doubl
 /* Corrects the mean of a bin for a steep spectrum. C = q^p exceeds its value at the geometric
  * mean by exp(p^2 width^2 / 2). The variation within the bin reduces the degrees of freedom. The
  * window adds leakage. */
-static wt_status take_off_slope(const wt_height_map *map, wt_surface_window window,
-                                wt_surface_spectrum *s, wt_error *err)
+static wt_status correct_steep_bins(const wt_height_map *map, wt_surface_window window,
+                                    wt_surface_spectrum *s, wt_error *err)
 {
     const double most = 0.6; /* leakage at two waves and the slope of rough surfaces */
     const double variance = window_variance(window);
@@ -96,11 +96,12 @@ static wt_status take_off_slope(const wt_height_map *map, wt_surface_window wind
     if (slope == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     for (size_t k = 0; k < s->n; k++)
-        slope[k] = slope_about(s, k);
+        slope[k] = local_slope(s, k);
     for (size_t k = 0; k < s->n; k++) {
         wt_spectrum_bin *b = &s->bins[k];
         const double above = slope[k] * b->width;
-        const double leak = fmin(most, fmax(0, leak_of(map, variance, slope[k], b->wavenumber)));
+        const double leak =
+            fmin(most, fmax(0, window_leakage(map, variance, slope[k], b->wavenumber)));
         b->density *= exp(-above * above / 2) / (1 + leak);
         b->deviation *= exp(-above * above / 2) / (1 + leak);
         b->freedom *= exp(-above * above);
@@ -116,12 +117,12 @@ static void mark_reliable(wt_surface_spectrum *s)
     for (size_t k = 0; k < s->n; k++) {
         wt_spectrum_bin *b = &s->bins[k];
         b->scans = 1;
-        b->reliable = edge(b->index, -0.5) >= s->from && edge(b->index, 0.5) <= s->to &&
+        b->reliable = bin_edge(b->index, -0.5) >= s->from && bin_edge(b->index, 0.5) <= s->to &&
                       b->density > 0 && isfinite(b->density);
     }
 }
 
-static wt_status check_map(const wt_height_map *map, wt_error *err)
+static wt_status check_grid(const wt_height_map *map, wt_error *err)
 {
     const bool profile = map->ny == 1;
     if (map->nx < LEAST_POINTS || (!profile && map->ny < LEAST_POINTS)) {
@@ -135,7 +136,8 @@ static wt_status check_map(const wt_height_map *map, wt_error *err)
     return WT_OK;
 }
 
-static wt_status check_heights(const wt_surface_heights *h, double largest_missing, wt_error *err)
+static wt_status check_height_statistics(const wt_surface_heights *h, double largest_missing,
+                                         wt_error *err)
 {
     const double share = (double)h->missing / (double)h->n;
     if (share > largest_missing) {
@@ -150,8 +152,8 @@ static wt_status check_heights(const wt_surface_heights *h, double largest_missi
     return WT_OK;
 }
 
-static void find_range(const wt_height_map *map, const wt_surface_options *o,
-                       wt_surface_spectrum *to)
+static void find_reliable_range(const wt_height_map *map, const wt_surface_options *o,
+                                wt_surface_spectrum *to)
 {
     const bool profile = map->ny == 1;
     const double length_x = (double)map->nx * map->dx, length_y = (double)map->ny * map->dy;
@@ -176,7 +178,7 @@ wt_status wt_surface_analyse(const wt_height_map *map, const wt_surface_options 
         return wt_fail(err, WT_E_ARG, "no heights");
     const bool profile = map->ny == 1;
     double form[FORM_TERMS];
-    wt_status status = check_map(map, err);
+    wt_status status = check_grid(map, err);
     if (status != WT_OK)
         return status;
     double *z = malloc(map->nx * map->ny * sizeof *z);
@@ -186,17 +188,17 @@ wt_status wt_surface_analyse(const wt_height_map *map, const wt_surface_options 
     const wt_height_map less = {z, map->nx, map->ny, map->dx, map->dy};
     wt_surface_spectrum made = {
         .place_scatter = (double)NAN, .place_reach = (double)NAN, .place_error = (double)NAN};
-    status = surface_form_remove(z, map->nx, map->ny, (unsigned)options->form, form, err);
+    status = surface_remove_form(z, map->nx, map->ny, (unsigned)options->form, form, err);
     if (status == WT_OK) {
-        surface_heights_find(&less, heights);
-        status = check_heights(heights, options->largest_missing, err);
+        surface_height_statistics(&less, heights);
+        status = check_height_statistics(heights, options->largest_missing, err);
     }
     if (status == WT_OK)
-        status = surface_fill(z, map->nx, map->ny, err);
+        status = surface_fill_missing(z, map->nx, map->ny, err);
     if (status == WT_OK) {
         const double coarse = profile ? map->dx : fmax(map->dx, map->dy);
         const double length = (double)map->nx * map->dx;
-        find_range(&less, options, &made);
+        find_reliable_range(&less, options, &made);
         const surface_bins bins = {
             1, 2 * M_PI / (profile ? length : fmax(length, (double)map->ny * map->dy)),
             M_PI / coarse};
@@ -204,7 +206,7 @@ wt_status wt_surface_analyse(const wt_height_map *map, const wt_surface_options 
     }
     free(z);
     if (status == WT_OK)
-        status = take_off_slope(&less, options->window, &made, err);
+        status = correct_steep_bins(&less, options->window, &made, err);
     if (status == WT_OK) {
         mark_reliable(&made);
         *spectrum = made;

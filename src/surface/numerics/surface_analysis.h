@@ -14,11 +14,11 @@ enum { FORM_TERMS = 6 };
 /* Subtracts the polynomial of that degree, fitted to the finite heights by least squares. A
  * profile has terms in x only. `coefficients` of the terms above, 0 if absent. Returns
  * WT_E_EMPTY with fewer heights than terms. */
-wt_status surface_form_remove(double *z, size_t nx, size_t ny, unsigned degree,
+wt_status surface_remove_form(double *z, size_t nx, size_t ny, unsigned degree,
                               double coefficients[FORM_TERMS], wt_error *err) WT_NODISCARD;
 /* Fills missing heights by the membrane over their neighbours: the five-point Laplace equation
  * with zero slope across the edges. */
-wt_status surface_fill(double *z, size_t nx, size_t ny, wt_error *err) WT_NODISCARD;
+wt_status surface_fill_missing(double *z, size_t nx, size_t ny, wt_error *err) WT_NODISCARD;
 
 /* ---- spectra: surface_transform.c ------------------------------------------------------------ */
 
@@ -39,7 +39,7 @@ wt_status surface_transform(const wt_height_map *map, wt_surface_window window, 
  * freedom for a given variance. */
 double surface_log_bias(double freedom);
 double surface_log_variance(double freedom);
-double surface_freedom_of(double variance);
+double surface_variance_freedom(double variance);
 /* Returns the 95 % interval of the true value for a mean. */
 wt_interval surface_interval(double mean, double freedom);
 
@@ -47,20 +47,20 @@ wt_interval surface_interval(double mean, double freedom);
 
 /* Finds the scan sizes and their weights from the weights of the scans in each bin of `to`,
  * [n_scans] for each bin. */
-wt_status surface_places_take(const double *weights, size_t n_scans, wt_surface_spectrum *to,
-                              wt_error *err) WT_NODISCARD;
+wt_status surface_set_place_weights(const double *weights, size_t n_scans, wt_surface_spectrum *to,
+                                    wt_error *err) WT_NODISCARD;
 /* Standard error of ln C of a bin due to the places of one size, or of all sizes, divided by
  * place_reach. Without stored weights all scans count equally. */
-double surface_places_of(const wt_surface_spectrum *s, size_t bin, size_t size);
-double surface_places_part(const wt_surface_spectrum *s, size_t bin);
+double surface_place_weight(const wt_surface_spectrum *s, size_t bin, size_t size);
+double surface_total_place_weight(const wt_surface_spectrum *s, size_t bin);
 
 /* ---- C from C1: psd_1d_to_2d.c --------------------------------------------------------------- */
 
 /* Returns C(q) = -(1/pi) int_q^inf C1'(k) / sqrt(k^2 - q^2) dk for log-log linear C1 between n
- * >= 2 knots. Above the last knot the last slope continues (`goes_on`) or C1 is 0. NaN below the
- * first knot, or if a continued slope is not below -1. */
-double surface_invert(const double *q, const double *c1, size_t n, bool goes_on, double at,
-                      const gsl_integration_glfixed_table *rule);
+ * >= 2 knots. Above the last knot the last slope continues (`extrapolate`) or C1 is 0. NaN below
+ * the first knot, or if a continued slope is not below -1. */
+double surface_invert_profile(const double *q, const double *c1, size_t n, bool extrapolate,
+                              double at, const gsl_integration_glfixed_table *rule);
 enum {
     INVERSION_POINTS = 10
 }; /* points of the quadrature rule; psd_1d_to_2d.c states the reason */

@@ -5,7 +5,7 @@
 #include <math.h>
 
 /* Standard error of an unknown direction: uniform over a turn divided by the order. */
-static double unknown_direction(double order)
+static double uniform_direction_error(double order)
 {
     return 2 * M_PI / order / sqrt(12);
 }
@@ -36,7 +36,7 @@ static direction_sums sum_directions(const wt_surface_spectrum *spectrum)
     return s;
 }
 
-wt_surface_anisotropy wt_surface_directions(const wt_surface_spectrum *spectrum, unsigned order)
+wt_surface_anisotropy wt_surface_anisotropy_fit(const wt_surface_spectrum *spectrum, unsigned order)
 {
     const double nan = (double)NAN, turns = (double)order;
     const direction_sums s = sum_directions(spectrum);
@@ -48,14 +48,14 @@ wt_surface_anisotropy wt_surface_directions(const wt_surface_spectrum *spectrum,
     /* The anisotropy itself adds to the scatter of the modes and is removed. The mean square of
      * a mode over its squared mean is (1 + scatter^2) (1 + a^2/2 + b^2/2). */
     const double all = s.square / s.n, turned = 1 + (second * second + fourth * fourth) / 2;
-    const double own = fmax(0, (all + 1) / turned - 1) / all;
+    const double mode_share = fmax(0, (all + 1) / turned - 1) / all;
     const double scatter = sqrt(s.variance) / s.n;
     return (wt_surface_anisotropy){
         .amplitude = amplitude,
         .direction =
             (order == 2 ? atan2(s.sine, s.cosine) : atan2(s.sine_fourth, s.cosine_fourth)) / turns,
-        .amplitude_error = scatter * sqrt(own),
-        .direction_error = fmin(unknown_direction(turns), scatter / (turns * amplitude)),
+        .amplitude_error = scatter * sqrt(mode_share),
+        .direction_error = fmin(uniform_direction_error(turns), scatter / (turns * amplitude)),
         .chance = exp(-square * s.n * s.n / (2 * s.variance))};
 }
 

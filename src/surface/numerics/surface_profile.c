@@ -10,25 +10,25 @@
 static const double largest_variance = 0.5;
 
 /* Returns the relative variance of C at a knot due to the scatter of all knots of C1. */
-static double variance_at(const wt_surface_spectrum *p, const double *q, double *c1, size_t at,
-                          double c, const gsl_integration_glfixed_table *rule)
+static double relative_variance(const wt_surface_spectrum *p, const double *q, double *c1,
+                                size_t at, double c, const gsl_integration_glfixed_table *rule)
 {
     const double step = 1e-4; /* step in ln C1; the inversion is smooth in it */
     double sum = 0;
     for (size_t k = 0; k < p->n; k++) {
-        const double was = c1[k];
-        c1[k] = was * exp(step);
-        const double high = surface_invert(q, c1, p->n, true, q[at], rule);
-        c1[k] = was * exp(-step);
-        const double low = surface_invert(q, c1, p->n, true, q[at], rule);
-        c1[k] = was;
+        const double unperturbed = c1[k];
+        c1[k] = unperturbed * exp(step);
+        const double high = surface_invert_profile(q, c1, p->n, true, q[at], rule);
+        c1[k] = unperturbed * exp(-step);
+        const double low = surface_invert_profile(q, c1, p->n, true, q[at], rule);
+        c1[k] = unperturbed;
         const double slope = (high - low) / (2 * step * c);
         sum += slope * slope * surface_log_variance(p->bins[k].freedom);
     }
     return sum;
 }
 
-static wt_status fail_flat(wt_error *err)
+static wt_status fail_flat_spectrum(wt_error *err)
 {
     wt_fail(err, WT_E_RANGE, "the spectrum of the profile does not fall at its end");
     wt_error_expected(err, "a slope of ln C1 against ln q below -1 there");
@@ -38,8 +38,8 @@ static wt_status fail_flat(wt_error *err)
     return WT_E_RANGE;
 }
 
-wt_status wt_surface_of_profile(const double *wavenumber, const double *c1, size_t n, double *c,
-                                wt_error *err)
+wt_status wt_surface_from_profile(const double *wavenumber, const double *c1, size_t n, double *c,
+                                  wt_error *err)
 {
     if (wavenumber == NULL || c1 == NULL || c == NULL || n < 2)
         return wt_fail(err, WT_E_ARG, "no spectrum of a profile");
@@ -53,10 +53,10 @@ wt_status wt_surface_of_profile(const double *wavenumber, const double *c1, size
     if (rule == NULL)
         return wt_fail(err, WT_E_MEMORY, "no memory for a spectrum");
     wt_status status = WT_OK;
-    if (isnan(surface_invert(wavenumber, c1, n, true, wavenumber[0], rule)))
-        status = fail_flat(err);
+    if (isnan(surface_invert_profile(wavenumber, c1, n, true, wavenumber[0], rule)))
+        status = fail_flat_spectrum(err);
     for (size_t k = 0; status == WT_OK && k < n; k++) {
-        c[k] = surface_invert(wavenumber, c1, n, true, wavenumber[k], rule);
+        c[k] = surface_invert_profile(wavenumber, c1, n, true, wavenumber[k], rule);
         if (c[k] > 0)
             continue;
         status = wt_fail(err, WT_E_RANGE,
@@ -88,11 +88,12 @@ wt_status wt_surface_invert(const wt_surface_spectrum *profile, wt_surface_spect
         q[k] = profile->bins[k].wavenumber;
         c1[k] = profile->bins[k].density;
     }
-    if (status == WT_OK && isnan(surface_invert(q, c1, profile->n, true, q[0], rule)))
-        status = fail_flat(err);
+    if (status == WT_OK && isnan(surface_invert_profile(q, c1, profile->n, true, q[0], rule)))
+        status = fail_flat_spectrum(err);
     for (size_t k = 0; status == WT_OK && k < profile->n; k++) {
-        const double c = surface_invert(q, c1, profile->n, true, q[k], rule);
-        const double variance = c > 0 ? variance_at(profile, q, c1, k, c, rule) : (double)INFINITY;
+        const double c = surface_invert_profile(q, c1, profile->n, true, q[k], rule);
+        const double variance =
+            c > 0 ? relative_variance(profile, q, c1, k, c, rule) : (double)INFINITY;
         if (!(variance < largest_variance))
             continue;
         wt_spectrum_bin *b = &made.bins[made.n++];
@@ -101,8 +102,8 @@ wt_status wt_surface_invert(const wt_surface_spectrum *profile, wt_surface_spect
         b->deviation = b->cosine = b->sine = b->cosine_fourth = b->sine_fourth = (double)NAN;
         for (size_t s = 0; s < WT_SURFACE_SECTORS; s++)
             b->sector_modes[s] = b->sector_sum[s] = 0;
-        b->shared_freedom *= surface_freedom_of(variance) / b->freedom;
-        b->freedom = surface_freedom_of(variance);
+        b->shared_freedom *= surface_variance_freedom(variance) / b->freedom;
+        b->freedom = surface_variance_freedom(variance);
     }
     if (status == WT_OK && made.n < 2) {
         status =

@@ -12,7 +12,7 @@
 #include <math.h>
 
 /* Below one degree of freedom the place error dominates, which is normal in ln C. */
-static const double least_freedom = 1;
+static const double min_df = 1;
 
 double surface_log_bias(double freedom)
 {
@@ -26,7 +26,7 @@ double surface_log_variance(double freedom)
 
 /* Uses Newton's method in ln x on ln of the trigamma function, which is nearly straight: its
  * slope is between -2 and -1. */
-double surface_freedom_of(double variance)
+double surface_variance_freedom(double variance)
 {
     double x = variance > 1 ? 1 / sqrt(variance) : 1 / variance + 0.5;
     for (int i = 0; i < 8; i++) {
@@ -40,7 +40,7 @@ wt_interval surface_interval(double mean, double freedom)
 {
     wt_interval i = {.value = mean};
     gsl_quiet();
-    if (freedom >= least_freedom) {
+    if (freedom >= min_df) {
         i.low = mean * freedom / gsl_cdf_chisq_Qinv(0.025, freedom);
         i.high = mean * freedom / gsl_cdf_chisq_Pinv(0.025, freedom);
     } else {

@@ -15,7 +15,7 @@ enum {
 
 /* ---- windows --------------------------------------------------------------------------------- */
 
-static double window_at(wt_surface_window window, size_t i, size_t n)
+static double window_value(wt_surface_window window, size_t i, size_t n)
 {
     const double t = (2 * (double)i + 1 - (double)n) / (double)n;
     switch (window) {
@@ -46,11 +46,11 @@ static double window_correlation(wt_surface_window window)
 
 /* Creates the window over one direction [n] and returns the mean of its square. The caller frees
  * it. */
-static double *make_window(wt_surface_window window, size_t n, double *mean_square)
+static double *window_new(wt_surface_window window, size_t n, double *mean_square)
 {
     double *w = malloc(n * sizeof *w), sum = 0;
     for (size_t i = 0; w != NULL && i < n; i++) {
-        w[i] = window_at(window, i, n);
+        w[i] = window_value(window, i, n);
         sum += w[i] * w[i];
     }
     *mean_square = sum / (double)n;
@@ -70,7 +70,7 @@ static pthread_mutex_t planning =
     PTHREAD_MUTEX_INITIALIZER; /* the FFTW planner is not thread-safe */
 
 /* Transforms rows and columns, or each row separately. */
-static wt_status run(const transform *t, bool lines, wt_error *err)
+static wt_status execute_transform(const transform *t, bool lines, wt_error *err)
 {
     fftw_complex *out = (fftw_complex *)t->row;
     const int nx = (int)t->nx, ny = (int)t->ny, stride = (int)t->stride;
@@ -90,12 +90,12 @@ static wt_status run(const transform *t, bool lines, wt_error *err)
 }
 
 /* C = (dx dy)^2 |DFT(w h)|^2 / ((2 pi)^2 Lx Ly <w^2>), C1 = dx^2 |DFT(w h)|^2 / (2 pi L <w^2>). */
-static wt_status make_transform(const wt_height_map *map, wt_surface_window window, bool lines,
-                                transform *t, wt_error *err)
+static wt_status windowed_transform(const wt_height_map *map, wt_surface_window window, bool lines,
+                                    transform *t, wt_error *err)
 {
     double square_x = 1, square_y = 1;
-    double *wx = make_window(window, map->nx, &square_x);
-    double *wy = make_window(lines ? WT_WINDOW_NONE : window, map->ny, &square_y);
+    double *wx = window_new(window, map->nx, &square_x);
+    double *wy = window_new(lines ? WT_WINDOW_NONE : window, map->ny, &square_y);
     *t = (transform){.nx = map->nx, .ny = map->ny, .stride = 2 * (map->nx / 2 + 1)};
     /* fftw_malloc would abort the process when memory is exhausted. */
     t->row = malloc(t->ny * t->stride * sizeof *t->row);
@@ -107,7 +107,7 @@ static wt_status make_transform(const wt_height_map *map, wt_surface_window wind
         for (size_t i = 0; i < t->nx; i++)
             t->row[j * t->stride + i] = wx[i] * wy[j] * map->z[j * t->nx + i];
     if (status == WT_OK)
-        status = run(t, lines, err);
+        status = execute_transform(t, lines, err);
     t->density = map->dx / (2 * M_PI * (double)map->nx * square_x);
     if (!lines)
         t->density *= map->dy / (2 * M_PI * (double)map->ny * square_y);
@@ -120,7 +120,7 @@ static wt_status make_transform(const wt_height_map *map, wt_surface_window wind
     return status;
 }
 
-static double density_at(const transform *t, size_t i, size_t j)
+static double mode_density(const transform *t, size_t i, size_t j)
 {
     const double *a = t->row + j * t->stride + 2 * i;
     return t->density * (a[0] * a[0] + a[1] * a[1]);
@@ -137,73 +137,75 @@ typedef struct mode_sums {
 } mode_sums;
 
 typedef struct binning {
-    const surface_bins *of;
+    const surface_bins *limits;
     int first; /* index of the first bin */
     size_t n;
     mode_sums *sums;
 } binning;
 
-static int bin_of(const surface_bins *of, double q)
+static int bin_index(const surface_bins *limits, double q)
 {
-    return (int)floor(PER_DECADE * log10(q / of->reference) + 0.5);
+    return (int)floor(PER_DECADE * log10(q / limits->reference) + 0.5);
 }
 
-static wt_status make_bins(const surface_bins *of, binning *b, wt_error *err)
+static wt_status binning_new(const surface_bins *limits, binning *b, wt_error *err)
 {
-    *b = (binning){.of = of, .first = bin_of(of, of->low)};
-    b->n = of->high >= of->low ? (size_t)(bin_of(of, of->high) - b->first) + 1 : 0;
+    *b = (binning){.limits = limits, .first = bin_index(limits, limits->low)};
+    b->n =
+        limits->high >= limits->low ? (size_t)(bin_index(limits, limits->high) - b->first) + 1 : 0;
     b->sums = calloc(b->n + 1, sizeof *b->sums);
     return b->sums != NULL ? WT_OK : wt_fail(err, WT_E_MEMORY, "no memory for bins");
 }
 
 /* Returns the bin of a mode, or -1 outside the limits. Modes of the lattice lie on the limits up
  * to rounding. */
-static int place_of(const binning *b, double q)
+static int mode_bin(const binning *b, double q)
 {
-    if (q < b->of->low * (1 - 4 * DBL_EPSILON) || q > b->of->high * (1 + 4 * DBL_EPSILON))
+    if (q < b->limits->low * (1 - 4 * DBL_EPSILON) || q > b->limits->high * (1 + 4 * DBL_EPSILON))
         return -1;
-    const int k = bin_of(b->of, q) - b->first;
+    const int k = bin_index(b->limits, q) - b->first;
     return k >= 0 && (size_t)k < b->n ? k : -1;
 }
 
 /* Adds the directional sums. The double angle of the direction has this cosine and sine. */
-static void add_direction(mode_sums *s, double cosine, double sine, double c, double times)
+static void add_mode_direction(mode_sums *s, double cosine, double sine, double c,
+                               double multiplicity)
 {
     const double cosine_fourth = 2 * cosine * cosine - 1, sine_fourth = 2 * sine * cosine;
     const double sector = atan2(sine, cosine) / 2 * WT_SURFACE_SECTORS / M_PI;
     const size_t k = (size_t)(floor(sector + 0.5) + WT_SURFACE_SECTORS) % WT_SURFACE_SECTORS;
-    s->cosine += times * cosine;
-    s->sine += times * sine;
-    s->c_cosine += times * c * cosine;
-    s->c_sine += times * c * sine;
-    s->cosine_fourth += times * cosine_fourth;
-    s->sine_fourth += times * sine_fourth;
-    s->c_cosine_fourth += times * c * cosine_fourth;
-    s->c_sine_fourth += times * c * sine_fourth;
-    s->sector_n[k] += times;
-    s->sector_c[k] += times * c;
+    s->cosine += multiplicity * cosine;
+    s->sine += multiplicity * sine;
+    s->c_cosine += multiplicity * c * cosine;
+    s->c_sine += multiplicity * c * sine;
+    s->cosine_fourth += multiplicity * cosine_fourth;
+    s->sine_fourth += multiplicity * sine_fourth;
+    s->c_cosine_fourth += multiplicity * c * cosine_fourth;
+    s->c_sine_fourth += multiplicity * c * sine_fourth;
+    s->sector_n[k] += multiplicity;
+    s->sector_c[k] += multiplicity * c;
 }
 
 /* Adds a mode that represents one or two modes of the full plane. */
-static void add_mode(const binning *b, double qx, double qy, double c, double times)
+static void add_mode(const binning *b, double qx, double qy, double c, double multiplicity)
 {
     const double q = hypot(qx, qy);
-    const int k = place_of(b, q);
+    const int k = mode_bin(b, q);
     if (k < 0)
         return;
     mode_sums *s = &b->sums[k];
     /* relative to the lower edge, which reduces cancellation */
-    const double ln_q = log(q / b->of->reference) - (k + b->first - 0.5) * M_LN10 / PER_DECADE;
+    const double ln_q = log(q / b->limits->reference) - (k + b->first - 0.5) * M_LN10 / PER_DECADE;
     const double cosine = (qx * qx - qy * qy) / (q * q), sine = 2 * qx * qy / (q * q);
     if (s->n == 0)
         s->first = c;
-    s->n += times;
-    s->q += times * q;
-    s->ln_q += times * ln_q;
-    s->ln_q2 += times * ln_q * ln_q;
-    s->c += times * (c - s->first);
-    s->square += times * (c - s->first) * (c - s->first);
-    add_direction(s, cosine, sine, c, times);
+    s->n += multiplicity;
+    s->q += multiplicity * q;
+    s->ln_q += multiplicity * ln_q;
+    s->ln_q2 += multiplicity * ln_q * ln_q;
+    s->c += multiplicity * (c - s->first);
+    s->square += multiplicity * (c - s->first) * (c - s->first);
+    add_mode_direction(s, cosine, sine, c, multiplicity);
 }
 
 /* ---- number of independent modes ------------------------------------------------------------- */
@@ -214,7 +216,7 @@ enum { REACH = sizeof hann_neighbours / sizeof *hann_neighbours - 1 };
 /* In larger bins nearly all neighbours of a mode lie in the same bin. */
 static const double few_modes = 20000;
 
-static double square_of(int apart)
+static double squared_correlation(int apart)
 {
     const double r = hann_neighbours[apart < 0 ? -apart : apart];
     return r * r;
@@ -224,11 +226,13 @@ static double square_of(int apart)
  * neighbours along q and those across within the width of the sector. */
 static double sector_tie(const wt_height_map *map, wt_surface_window window, double q)
 {
-    const double along = window_correlation(window), two = square_of(1) + square_of(2);
+    const double along = window_correlation(window),
+                 two = squared_correlation(1) + squared_correlation(2);
     const double step = 2 * M_PI / sqrt((double)map->nx * map->dx * (double)map->ny * map->dy);
     const double wide = q / step * M_PI / WT_SURFACE_SECTORS;
-    const double within =
-        (square_of(1) * fmax(0, 1 - 1 / wide) + square_of(2) * fmax(0, 1 - 2 / wide)) / two;
+    const double within = (squared_correlation(1) * fmax(0, 1 - 1 / wide) +
+                           squared_correlation(2) * fmax(0, 1 - 2 / wide)) /
+                          two;
     return along * (1 + (along - 1) * within);
 }
 
@@ -246,23 +250,24 @@ static int grid_bin(const mode_grid *g, int i, int j)
         ->bin[(size_t)(j + g->reach_y) * (size_t)(2 * g->reach_x + 1) + (size_t)(i + g->reach_x)];
 }
 
-static double pairs_of(const mode_grid *g, int i, int j, int bin, int reach_y)
+static double mode_pair_sum(const mode_grid *g, int i, int j, int bin, int reach_y)
 {
     double sum = 0;
     for (int v = -reach_y; v <= reach_y; v++)
         for (int u = -REACH; u <= REACH; u++)
             if (grid_bin(g, i + u, j + v) == bin)
-                sum += square_of(u) * square_of(v);
+                sum += squared_correlation(u) * squared_correlation(v);
     return sum;
 }
 
 /* Counts the pairs in bins of few modes, whose neighbours are often in other bins. */
-static wt_status count_pairs(const wt_height_map *map, bool lines, const binning *b, wt_error *err)
+static wt_status count_correlated_pairs(const wt_height_map *map, bool lines, const binning *b,
+                                        wt_error *err)
 {
     double most = 0;
     for (size_t k = 0; k < b->n; k++)
         if (b->sums[k].n > 0 && b->sums[k].n <= few_modes)
-            most = b->of->reference * pow(10, (b->first + (int)k + 0.5) / PER_DECADE);
+            most = b->limits->reference * pow(10, (b->first + (int)k + 0.5) / PER_DECADE);
     const double step_x = 2 * M_PI / ((double)map->nx * map->dx),
                  step_y = lines ? 1 : 2 * M_PI / ((double)map->ny * map->dy);
     mode_grid g = {.reach_x = (int)fmin(most / step_x, (double)map->nx / 2),
@@ -273,12 +278,12 @@ static wt_status count_pairs(const wt_height_map *map, bool lines, const binning
         return wt_fail(err, WT_E_MEMORY, "no memory for modes");
     for (size_t n = 0; n < columns * rows; n++) {
         const int i = (int)(n % columns) - g.reach_x, j = (int)(n / columns) - g.reach_y;
-        g.bin[n] = (short)place_of(b, hypot(step_x * i, step_y * j));
+        g.bin[n] = (short)mode_bin(b, hypot(step_x * i, step_y * j));
     }
     for (size_t n = 0; n < columns * rows; n++) {
         const int i = (int)(n % columns) - g.reach_x, j = (int)(n / columns) - g.reach_y;
         if (g.bin[n] >= 0 && b->sums[g.bin[n]].n <= few_modes)
-            b->sums[g.bin[n]].pairs += pairs_of(&g, i, j, g.bin[n], lines ? 0 : REACH);
+            b->sums[g.bin[n]].pairs += mode_pair_sum(&g, i, j, g.bin[n], lines ? 0 : REACH);
     }
     free(g.bin);
     return WT_OK;
@@ -288,7 +293,7 @@ static wt_status count_pairs(const wt_height_map *map, bool lines, const binning
 
 /* Returns the degrees of freedom of a mean of modes: two for each independent mode. -q is not
  * independent of q. */
-static double freedom_of(const mode_sums *s, size_t n_lines, double correlation)
+static double mean_freedom(const mode_sums *s, size_t n_lines, double correlation)
 {
     /* the lines count as one, and the pairs were counted for one line */
     return s->pairs > 0
@@ -325,7 +330,7 @@ static wt_spectrum_bin finish_bin(const mode_sums *s, int index, double referenc
 
 /* Returns the multiplicity of a mode. With an even number of points the mode n/2 occurs once, as
  * mode 0 does. */
-static double times_of(size_t i, size_t n)
+static double mode_multiplicity(size_t i, size_t n)
 {
     return i == 0 || 2 * i == n ? 1 : 2;
 }
@@ -337,7 +342,7 @@ static void bin_plane(const transform *t, const wt_height_map *map, const binnin
     for (size_t j = 0; j < t->ny; j++) {
         const double qy = step_y * (2 * j < t->ny ? (double)j : (double)j - (double)t->ny);
         for (size_t i = j == 0 ? 1 : 0; i <= t->nx / 2; i++)
-            add_mode(b, step_x * (double)i, qy, density_at(t, i, j), times_of(i, t->nx));
+            add_mode(b, step_x * (double)i, qy, mode_density(t, i, j), mode_multiplicity(i, t->nx));
     }
 }
 
@@ -347,7 +352,7 @@ static void bin_lines(const transform *t, const wt_height_map *map, const binnin
     const double step = 2 * M_PI / ((double)t->nx * map->dx);
     for (size_t j = 0; j < t->ny; j++)
         for (size_t i = 1; i <= t->nx / 2; i++)
-            add_mode(b, step * (double)i, 0, density_at(t, i, j), times_of(i, t->nx));
+            add_mode(b, step * (double)i, 0, mode_density(t, i, j), mode_multiplicity(i, t->nx));
 }
 
 wt_status surface_transform(const wt_height_map *map, wt_surface_window window, bool lines,
@@ -356,9 +361,9 @@ wt_status surface_transform(const wt_height_map *map, wt_surface_window window, 
     transform t = {.row = NULL};
     binning b = {.n = 0};
     const double one = window_correlation(window), correlation = lines ? one : one * one;
-    wt_status status = make_bins(bins, &b, err);
+    wt_status status = binning_new(bins, &b, err);
     if (status == WT_OK)
-        status = make_transform(map, window, lines, &t, err);
+        status = windowed_transform(map, window, lines, &t, err);
     to->kind = lines ? WT_SPECTRUM_1D : WT_SPECTRUM_2D;
     to->n = 0;
     to->bins = status == WT_OK ? calloc(b.n + 1, sizeof *to->bins) : NULL;
@@ -367,14 +372,14 @@ wt_status surface_transform(const wt_height_map *map, wt_surface_window window, 
     if (status == WT_OK) {
         (lines ? bin_lines : bin_plane)(&t, map, &b);
         if (window == WT_WINDOW_HANN)
-            status = count_pairs(map, lines, &b, err);
+            status = count_correlated_pairs(map, lines, &b, err);
         for (size_t k = 0; k < b.n; k++) {
             if (!(b.sums[k].n > 1))
                 continue;
             wt_spectrum_bin *bin = &to->bins[to->n++];
             *bin =
                 finish_bin(&b.sums[k], b.first + (int)k, bins->reference,
-                           freedom_of(&b.sums[k], lines ? map->ny : 1, correlation), correlation);
+                           mean_freedom(&b.sums[k], lines ? map->ny : 1, correlation), correlation);
             bin->sector_tie = sector_tie(map, window, bin->wavenumber);
         }
     }

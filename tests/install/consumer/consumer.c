@@ -78,8 +78,8 @@ static wt_status layer(double *thickness, wt_error *err)
     parameters.specific_wear_rate = 1e-12;
     parameters.pressure = 4e5;
     parameters.velocity = 0.1;
-    wt_layer_balance balance;
-    wt_status status = wt_layer_balance_compute(&source, &parameters, &balance, err);
+    wt_layer_steady_state balance;
+    wt_status status = wt_layer_steady_state_compute(&source, &parameters, &balance, err);
     if (status == WT_OK)
         *thickness = balance.thickness.value;
     return status;
