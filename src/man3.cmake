@@ -88,10 +88,10 @@ function(write_report_page header)
   endforeach()
   flush()
   string(TOUPPER "weartrack-${name}" title)
-  string(APPEND page ".SH SEE ALSO\n.BR weartrack (1),\n.BR weartrack\\-base (3)\n")
+  string(APPEND page ".SH SEE ALSO\n.BR weartrack (1),\n.BR weartrack\\-core (3)\n")
   set(head ".\\\" From ${name}.h by the build. SPDX-License-Identifier: GPL-3.0-or-later\n.TH ${title} 3 \"\" \"weartrack ${VERSION}\" \"libweartrack\"\n")
-  string(REGEX REPLACE "^\\.PP\nweartrack \\\\- ([a-z]+) room: *([^\n]*)\n"
-         ".SH NAME\nweartrack\\\\-${name} \\\\- the \\1 room of libweartrack\n.SH SYNOPSIS\n.nf\n#include <weartrack/${name}.h>\n.fi\n.SH DESCRIPTION\n\\2\n" page "${page}")
+  string(REGEX REPLACE "^\\.PP\nweartrack \\\\- ([a-z]+): *([^\n]*)\n"
+         ".SH NAME\nweartrack\\\\-${name} \\\\- public header \\1.h of libweartrack\n.SH SYNOPSIS\n.nf\n#include <weartrack/${name}.h>\n.fi\n.SH DESCRIPTION\n\\2\n" page "${page}")
   string(REPLACE "@SEMICOLON@" ";" page "${head}${page}")
   string(REPLACE "@OPEN@" "[" page "${page}")
   string(REPLACE "@CLOSE@" "]" page "${page}")

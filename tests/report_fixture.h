@@ -5,7 +5,7 @@
 #define WT_TESTS_REPORT_FIXTURE_H
 
 #include "core/table/registry.h"
-#include "weartrack/flow.h"
+#include "weartrack/case.h"
 
 #include <math.h>
 #include <stdlib.h>

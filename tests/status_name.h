@@ -3,7 +3,7 @@
 #ifndef WT_TESTS_STATUS_NAME_H
 #define WT_TESTS_STATUS_NAME_H
 
-#include "weartrack/base.h"
+#include "weartrack/core.h"
 
 static inline const char *status_name(wt_status status)
 {

@@ -5,13 +5,13 @@
 #ifndef WEARTRACK_READ_H
 #define WEARTRACK_READ_H
 
-#include "weartrack/data.h"
+#include "weartrack/core.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 
-/* ---- input -------------------------------------------------------------------------------- */
+/* ---- input ---------------------------------------------------------------------------------- */
 
 /* Input bytes. A file is read into memory only as far as needed; a pipe is buffered. Detection and
  * readers unpack gzip archives and spreadsheets and read a ZIP archive of force-curve files as one
@@ -42,7 +42,7 @@ WT_API wt_status wt_input_sibling(const wt_input *input, wt_input **beside,
 WT_API wt_status wt_input_peek(wt_input *input, size_t want, const unsigned char **bytes,
                                size_t *length, bool *whole, wt_error *err) WT_NODISCARD;
 
-/* ---- formats ------------------------------------------------------------------------------ */
+/* ---- formats -------------------------------------------------------------------------------- */
 
 #define WT_KIND_FORCE 1u    /* force curves */
 #define WT_KIND_SWEEP 2u    /* DMA sweeps */
@@ -87,7 +87,7 @@ WT_API wt_status wt_format_detect(const wt_formats *formats, wt_input *input,
                                   const struct wt_read_options *options, unsigned kinds,
                                   const wt_format_info **info, wt_error *err) WT_NODISCARD;
 
-/* ---- options ------------------------------------------------------------------------------ */
+/* ---- options -------------------------------------------------------------------------------- */
 
 /* Deformation of moduli whose names do not state it, such as "storage modulus". Bending moduli are
  * tensile moduli. */
@@ -153,7 +153,7 @@ typedef struct wt_read_options {
 WT_API wt_read_options wt_read_defaults(void); /* Reads everything, replaces nothing. */
 WT_API const wt_params *wt_read_params(void);
 
-/* ---- reading ------------------------------------------------------------------------------ */
+/* ---- reading -------------------------------------------------------------------------------- */
 
 /* Stream of force curves: memory does not grow with the map. Samples are in order of time, which
  * continues from segment to segment. Forces are positive when the tip is repelled. Heights keep the
@@ -196,7 +196,7 @@ WT_API wt_status wt_input_describe(const wt_formats *formats, wt_input *input,
                                    const wt_read_options *options, wt_log *log, wt_table **facts,
                                    wt_error *err) WT_NODISCARD;
 
-/* ---- descriptions ------------------------------------------------------------------------- */
+/* ---- descriptions --------------------------------------------------------------------------- */
 
 /* Checks one description (schema, then further rules). If sample is not NULL, it also reads that
  * file. `report` receives rows of (column, quantity, unit, first value, ...) of the recognised

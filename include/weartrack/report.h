@@ -5,7 +5,7 @@
 #ifndef WEARTRACK_REPORT_H
 #define WEARTRACK_REPORT_H
 
-#include "weartrack/data.h"
+#include "weartrack/core.h"
 
 #ifdef __cplusplus
 extern "C" {

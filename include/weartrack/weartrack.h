@@ -2,13 +2,17 @@
 #ifndef WEARTRACK_WEARTRACK_H
 #define WEARTRACK_WEARTRACK_H
 
-#include "weartrack/base.h"
-#include "weartrack/data.h"
-#include "weartrack/fit.h"
-#include "weartrack/flow.h"
-#include "weartrack/kernel.h"
-#include "weartrack/model.h"
+#include "weartrack/case.h"
+#include "weartrack/core.h"
+#include "weartrack/dma.h"
+#include "weartrack/friction.h"
+#include "weartrack/indentation.h"
+#include "weartrack/job.h"
+#include "weartrack/layer.h"
 #include "weartrack/read.h"
+#include "weartrack/record.h"
 #include "weartrack/report.h"
+#include "weartrack/study.h"
+#include "weartrack/surface.h"
 
 #endif

@@ -5,8 +5,7 @@
 
 #include "case/resources.h"
 #include "core/base/arena.h"
-#include "weartrack/flow.h"
-#include "weartrack/report.h"
+#include "weartrack/case.h"
 
 /* Input files of one role, such as the bulk curves. */
 typedef struct case_files {

@@ -3,7 +3,7 @@
 #ifndef WT_DMA_LAW_PARSE_H
 #define WT_DMA_LAW_PARSE_H
 
-#include "weartrack/flow.h"
+#include "weartrack/core.h"
 
 /* Description of a law: prefix, names and parameters. */
 typedef struct flow_law_text {

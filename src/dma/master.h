@@ -3,7 +3,7 @@
 #ifndef WT_DMA_MASTER_H
 #define WT_DMA_MASTER_H
 
-#include "weartrack/flow.h"
+#include "weartrack/dma.h"
 
 wt_status flow_spectrum_table(const wt_master *m, wt_table **table, wt_error *err) WT_NODISCARD;
 wt_status flow_reduced_table(const wt_master *m, const wt_master_job *job, const wt_job *work,

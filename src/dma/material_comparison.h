@@ -3,7 +3,7 @@
 #ifndef WT_DMA_MATERIAL_COMPARISON_H
 #define WT_DMA_MATERIAL_COMPARISON_H
 
-#include "weartrack/flow.h"
+#include "weartrack/dma.h"
 
 enum { MATERIALS_E1, MATERIALS_E2, MATERIALS_TAN, MATERIALS_QUANTITIES };
 

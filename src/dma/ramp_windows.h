@@ -3,7 +3,7 @@
 #ifndef WT_DMA_RAMP_WINDOWS_H
 #define WT_DMA_RAMP_WINDOWS_H
 
-#include "weartrack/fit.h"
+#include "weartrack/dma.h"
 
 /* Converts the temperature sweeps to isotherms, adds them to `sweep` and fits all isotherms. A
  * stated law (kind not NONE) also fixes the shifts. Without one, a single frequency returns

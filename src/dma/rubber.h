@@ -4,6 +4,7 @@
 #define WT_DMA_RUBBER_H
 
 #include "job/inputs.h"
+#include "weartrack/dma.h"
 
 /* Computes the series of a rubber at a temperature [K] in Young's moduli [Pa]. The caller clears
  * `prony`, also on failure. */

@@ -1,7 +1,7 @@
 /* Creates the rubber from the tables of the DMA job, with the draws that contain its
  * uncertainty. The tables may come from an untrusted file.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "weartrack/flow.h"
+#include "weartrack/dma.h"
 
 #include "core/table/registry.h"
 

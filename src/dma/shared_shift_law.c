@@ -1,6 +1,7 @@
 /* The job of a shared shift law of several samples: its table and the verdict.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "job/inputs.h"
+#include "weartrack/dma.h"
 
 #include "core/base/clocale.h"
 #include "core/table/table_rows.h"

@@ -3,7 +3,7 @@
 #ifndef WT_DMA_STRAIN_SOFTENING_H
 #define WT_DMA_STRAIN_SOFTENING_H
 
-#include "weartrack/flow.h"
+#include "weartrack/dma.h"
 
 /* Returns true if at least one point has a standard error. */
 bool strain_softening_has_errors(const wt_strain_softening *softening);

@@ -5,6 +5,7 @@
 #define WT_DMA_SWEEP_INPUT_H
 
 #include "job/inputs.h"
+#include "weartrack/dma.h"
 
 /* Returns "shear" or "tension" for a table key. */
 const char *flow_deformation_name(wt_deformation deformation);

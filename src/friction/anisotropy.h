@@ -3,7 +3,7 @@
 #ifndef WT_FRICTION_ANISOTROPY_H
 #define WT_FRICTION_ANISOTROPY_H
 
-#include "weartrack/kernel.h"
+#include "weartrack/surface.h"
 
 /* Writes the terms of the anisotropy, with phi measured from the velocity. The text is "" without
  * an anisotropy. */

@@ -4,6 +4,7 @@
 #define WT_FRICTION_COUNTER_SURFACE_H
 
 #include "job/inputs.h"
+#include "weartrack/friction.h"
 
 wt_surface flow_surface_defaults(void); /* all values unset */
 /* Parameters of a self-affine law and of a measured spectrum, as members of a wt_surface. */

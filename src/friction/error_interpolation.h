@@ -4,7 +4,7 @@
 #ifndef WT_FRICTION_ERROR_INTERPOLATION_H
 #define WT_FRICTION_ERROR_INTERPOLATION_H
 
-#include "weartrack/base.h"
+#include "weartrack/core.h"
 
 /* Up to this number of velocities, the replicates are computed at each. A longer list uses this
  * number of nodes, equally spaced in ln v. Over 20 decades the spacing h is 0.05. Linear

@@ -3,7 +3,7 @@
 #ifndef WT_FRICTION_FLASH_H
 #define WT_FRICTION_FLASH_H
 
-#include "weartrack/flow.h"
+#include "weartrack/friction.h"
 
 /* Writes the model, and the velocities with no solution or with two. The text is "" without a flash
  * temperature. */

@@ -4,7 +4,7 @@
 #ifndef WT_FRICTION_LAYER_OBSERVATION_H
 #define WT_FRICTION_LAYER_OBSERVATION_H
 
-#include "weartrack/flow.h"
+#include "weartrack/friction.h"
 
 /* Checks the parameters and their combination. NULL stands for no stated layer. */
 wt_status sliding_layer_check(const wt_layer_observation *observation, wt_error *err) WT_NODISCARD;

@@ -6,7 +6,7 @@
 #define WT_FRICTION_MATERIAL_CACHE_H
 
 #include "friction/numerics/angular.h"
-#include "weartrack/flow.h"
+#include "weartrack/friction.h"
 
 /* Relative numerical tolerance of replicates: far below their scatter, which is some per cent. */
 #define REPLICATE_TOLERANCE 1e-5

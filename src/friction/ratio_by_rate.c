@@ -1,7 +1,7 @@
 /* Modulus ratio of track and bulk at several indentation rates as a power of the frequency. The
  * frequency of a rate is the equivalent frequency of its curves, as in the comparison with DMA.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "weartrack/flow.h"
+#include "weartrack/friction.h"
 
 #include "core/math/normal_quantile.h"
 #include "core/math/students_t.h"

@@ -93,11 +93,6 @@ double flow_reference_velocity(const wt_sliding *sliding)
                                               : sliding->reference_velocity;
 }
 
-double flow_layer_velocity(const wt_sliding *sliding, const wt_layer_job *layer)
-{
-    return isnan(layer->velocity) ? flow_reference_velocity(sliding) : layer->velocity;
-}
-
 /* Creates the workspace with the strain softening of the replicate. */
 static wt_status create_workspace(const wt_sliding *sliding, wt_friction_options options,
                                   uint64_t seed, size_t replicate, sliding_contact *c,

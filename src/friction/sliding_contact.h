@@ -6,6 +6,7 @@
 
 #include "friction/layer_observation.h"
 #include "friction/material_cache.h"
+#include "weartrack/layer.h"
 
 typedef struct sliding_contact {
     double pressure, shear_stress;
@@ -24,8 +25,6 @@ wt_status flow_sliding_check(const wt_sliding *sliding, const wt_job *work,
                              wt_error *err) WT_NODISCARD;
 /* Reference velocity: as stated, else the middle of the list. */
 double flow_reference_velocity(const wt_sliding *sliding);
-/* Velocity at which the track was worn. */
-double flow_layer_velocity(const wt_sliding *sliding, const wt_layer_job *layer);
 /* Draws replicate `replicate` and prepares the kernel. WT_NO_REPLICATE, with a NULL cache, gives
  * the stated values. A replicate uses one thread and the tolerance of replicates, because many run
  * in parallel. */

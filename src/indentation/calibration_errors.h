@@ -6,7 +6,7 @@
 
 #include "core/table/registry.h"
 #include "indentation/numerics/curve.h"
-#include "weartrack/flow.h"
+#include "weartrack/indentation.h"
 
 /* Largest number of curves of a group that are fitted again. */
 enum { COMMON_CURVES = 8 };

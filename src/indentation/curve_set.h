@@ -3,7 +3,7 @@
 #ifndef WT_INDENTATION_CURVE_SET_H
 #define WT_INDENTATION_CURVE_SET_H
 
-#include "weartrack/flow.h"
+#include "weartrack/indentation.h"
 
 /* curve_set_begin must precede the first curve. curve_set_add then receives every accepted curve
  * with its fit. Too many samples, or a law that the simulation does not support, make the set

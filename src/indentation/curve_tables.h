@@ -4,7 +4,7 @@
 #define WT_INDENTATION_CURVE_TABLES_H
 
 #include "core/table/registry.h"
-#include "weartrack/flow.h"
+#include "weartrack/indentation.h"
 
 /* Adds the results of one curve as a row. `deep` has its data on the modulus against depth. */
 void flow_indentation_row_add(table_writer *t, const wt_indent_job *job, const char *file,

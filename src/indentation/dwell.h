@@ -4,7 +4,7 @@
 #ifndef WT_INDENTATION_DWELL_H
 #define WT_INDENTATION_DWELL_H
 
-#include "weartrack/flow.h"
+#include "weartrack/indentation.h"
 
 /* Mean at one frequency over curves, or over files if there are three or more. The interval
  * includes the scatter and the systematic error. The interval of a single curve includes its own

@@ -3,7 +3,7 @@
 #ifndef WT_INDENTATION_FITTED_FORCE_H
 #define WT_INDENTATION_FITTED_FORCE_H
 
-#include "weartrack/flow.h"
+#include "weartrack/indentation.h"
 
 /* Computes the fitted forces of the n samples of the approach in contact. `delta` and the order are
  * those of wt_indent_plot_points. time (scratch), model: [n_points of the approach]. */

@@ -5,6 +5,7 @@
 
 #include "core/table/registry.h"
 #include "job/inputs.h"
+#include "weartrack/indentation.h"
 
 /* Creates the contact table of a tip for depths from 10 pm to 0.1 mm. */
 wt_status indent_contact_table(const wt_tip *tip, wt_contact_table **table,

@@ -5,6 +5,7 @@
 
 #include "core/table/registry.h"
 #include "job/inputs.h"
+#include "weartrack/indentation.h"
 
 typedef enum choice_kind {
     CHOICE_EXCLUDE,

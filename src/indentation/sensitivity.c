@@ -7,6 +7,7 @@
 #include "job/cost.h"
 #include "job/inputs.h"
 #include "job/outliers.h"
+#include "weartrack/indentation.h"
 
 #include "core/base/array.h"
 #include "core/data/force_curve.h"

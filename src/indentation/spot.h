@@ -4,7 +4,7 @@
 #define WT_INDENTATION_SPOT_H
 
 #include "indentation/numerics/height_image.h"
-#include "weartrack/flow.h"
+#include "weartrack/indentation.h"
 
 typedef struct spot {
     double x, y;           /* from the first pixel [m] */

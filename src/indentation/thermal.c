@@ -5,6 +5,7 @@
 #include "core/math/normal_quantile.h"
 #include "job/cost.h"
 #include "job/inputs.h"
+#include "weartrack/indentation.h"
 
 #include "core/table/registry.h"
 

@@ -3,7 +3,7 @@
 #ifndef WT_JOB_COST_H
 #define WT_JOB_COST_H
 
-#include "weartrack/flow.h"
+#include "weartrack/job.h"
 
 /* Report of a job at its end; 0 for unknown numbers. Jobs within a job do not report. */
 typedef struct cost_summary {

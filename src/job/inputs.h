@@ -4,7 +4,7 @@
 #define WT_JOB_INPUTS_H
 
 #include "core/base/shared_params.h"
-#include "weartrack/flow.h"
+#include "weartrack/job.h"
 
 /* Parameters of a job that a run also has. */
 #define JOB_ROWS(type)                                                                             \

@@ -1,6 +1,7 @@
 /* Random draws for stated errors: a hash of seed, replicate and purpose, then the Box-Muller
  * transform. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "job/random_draws.h"
+#include "weartrack/job.h"
 
 #include "core/math/splitmix64.h"
 #include "core/math/students_t.h"

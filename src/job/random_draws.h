@@ -4,7 +4,7 @@
 #ifndef WT_JOB_RANDOM_DRAWS_H
 #define WT_JOB_RANDOM_DRAWS_H
 
-#include "weartrack/flow.h"
+#include "weartrack/core.h"
 
 /* Purpose of a draw. */
 typedef enum flow_draw {

@@ -1,5 +1,5 @@
 /* Reads tables of an earlier call as input. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "weartrack/flow.h"
+#include "weartrack/job.h"
 
 #include <string.h>
 

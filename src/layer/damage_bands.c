@@ -130,7 +130,7 @@ static wt_status parse_loads(bands_task *task, const wt_layer_job *job, wt_error
 /* Sets the range of velocities, for the materials of the replicates. */
 static void set_velocity_range(bands_task *task, const wt_sliding *sliding)
 {
-    const double sliding_velocity = flow_layer_velocity(sliding, &task->draws.stated);
+    const double sliding_velocity = layer_sliding_velocity(sliding, &task->draws.stated);
     double *const v = task->velocity;
     v[0] = v[1] = sliding_velocity;
     for (size_t i = 0; i < task->n; i++)

@@ -41,7 +41,7 @@ wt_status wt_energy_density_compute(const wt_sliding *sliding, const wt_layer_jo
         status = wt_layer_job_check(job, err);
     if (status == WT_OK)
         status = sliding_contact_create(sliding, &own, WT_NO_REPLICATE, NULL, none, &c, err);
-    const double velocity = status == WT_OK ? flow_layer_velocity(sliding, job) : 0;
+    const double velocity = status == WT_OK ? layer_sliding_velocity(sliding, job) : 0;
     if (status == WT_OK)
         status = layer_energy_compute(sliding, job, &c, velocity, none, &energy, err);
     sliding_contact_clear(&c);

@@ -373,7 +373,7 @@ wt_status wt_layer_steady_states_compute(const wt_sliding *sliding, const wt_lay
         status = compute_balances(&task.centre, err);
     if (status == WT_OK) {
         const wt_layer_feedback *loop = &task.centre.loop;
-        task.draws.replicates.velocity = flow_layer_velocity(sliding, job);
+        task.draws.replicates.velocity = layer_sliding_velocity(sliding, job);
         status = replicates_draw(&task.draws.replicates,
                                  N_NUMBERS + N_AT * (loop->n_roots + loop->n_folds),
                                  balances_replicate, &task, err);

@@ -286,7 +286,7 @@ wt_status wt_layer_thickness_compute(const wt_sliding *sliding, const wt_layer_j
     layer_task task = {.sliding = sliding,
                        .job = job,
                        .work = work,
-                       .velocity = flow_layer_velocity(sliding, job),
+                       .velocity = layer_sliding_velocity(sliding, job),
                        .replicates = replicates_create(sliding, work, "layer")};
     task.replicates.velocity = task.velocity;
     layer_run centre = {.points = NULL};

@@ -13,6 +13,8 @@ typedef struct layer_energy {
     wt_friction_point point;              /* friction, if requested */
 } layer_energy;
 
+/* Velocity at which the track was worn. */
+double layer_sliding_velocity(const wt_sliding *sliding, const wt_layer_job *layer);
 /* True if a job needs friction and contact area in addition to the energy. */
 bool layer_needs_area(const wt_layer_job *job);
 /* Computes the energy; the caller clears it. Returns WT_E_MISSING if shearing contributes and its

@@ -3,7 +3,7 @@
 #ifndef WT_LAYER_LAYER_LOADS_H
 #define WT_LAYER_LAYER_LOADS_H
 
-#include "weartrack/flow.h"
+#include "weartrack/layer.h"
 
 /* NaN for the value of the sliding; an unset time of the last load means that it does not end. */
 typedef struct layer_load {

@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/base/shared_params.h"
 #include "layer/layer_loads.h"
-#include "weartrack/flow.h"
+#include "weartrack/layer.h"
 
 #include <math.h>
 #include <stdio.h>

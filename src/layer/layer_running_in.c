@@ -272,7 +272,7 @@ static wt_status make_table(running_task *task, wt_table **table, wt_error *err)
     add_running_in_rows(task, &t);
     describe_shear(task);
     layer_draws_describe(&task->draws, task->errors, sizeof task->errors);
-    TABLE_SET(running_in, &t, flow_layer_velocity(values->sliding, values->job),
+    TABLE_SET(running_in, &t, layer_sliding_velocity(values->sliding, values->job),
               layer_draws_modulus_ratio(&task->draws),
               estimate_with_errors(layer_friction_coefficient(&r->bare), e[BARE],
                                    coefficient_error(&r->bare)),
@@ -324,7 +324,7 @@ wt_status wt_running_in_compute(const wt_sliding *sliding, const wt_layer_job *j
         layer_draws_init(&task.draws, sliding, job, known, work, "running-in", true, err);
     if (status == WT_OK)
         status = choose_running_in_times(&task, err);
-    task.draws.replicates.velocity = status == WT_OK ? flow_layer_velocity(sliding, job) : 0;
+    task.draws.replicates.velocity = status == WT_OK ? layer_sliding_velocity(sliding, job) : 0;
     task.centre = (running_in_run){.context = &task.draws.values, .time = task.time, .n = task.n};
     if (status == WT_OK)
         status = compute_run(&task.centre, 0, err);

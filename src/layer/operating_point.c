@@ -6,6 +6,11 @@
 
 #include <math.h>
 
+double layer_sliding_velocity(const wt_sliding *sliding, const wt_layer_job *layer)
+{
+    return isnan(layer->velocity) ? flow_reference_velocity(sliding) : layer->velocity;
+}
+
 operating_point operating_point_default(void)
 {
     return (operating_point){.pressure = (double)NAN,
@@ -34,7 +39,7 @@ static wt_sliding sliding_at_conditions(const layer_context *context, operating_
                                         double *velocity)
 {
     wt_sliding s = *context->sliding;
-    *velocity = isnan(conditions.velocity) ? flow_layer_velocity(context->sliding, context->job)
+    *velocity = isnan(conditions.velocity) ? layer_sliding_velocity(context->sliding, context->job)
                                            : conditions.velocity;
     s.velocity = velocity;
     s.n_velocity = 1;

@@ -6,7 +6,7 @@
 #define WT_READ_READ_PARAMS_H
 
 #include "core/base/param.h"
-#include "weartrack/read.h"
+#include "weartrack/core.h"
 
 /* Rows of the parameter table for the calibration of the cantilever. `where`: flags of the row.
  * `test`: check of the member, or NULL. */

@@ -7,6 +7,7 @@
 #include "friction/replicates.h"
 #include "record/measured_friction.h"
 #include "record/numerics/running_in_curve.h"
+#include "weartrack/layer.h"
 
 /* Numbers of one draw that precede its friction in time. */
 typedef enum growth_quantity {

@@ -4,7 +4,7 @@
 #define WT_RECORD_MEASURED_FRICTION_H
 
 #include "core/table/registry.h"
-#include "weartrack/flow.h"
+#include "weartrack/friction.h"
 
 /* The conditions are those of the record. The case replaces conditions that the record does not
  * state. */

@@ -4,6 +4,7 @@
 #define WT_RECORD_RECORD_H
 
 #include "job/inputs.h"
+#include "weartrack/record.h"
 
 #include "core/table/registry.h"
 

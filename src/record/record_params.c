@@ -1,7 +1,7 @@
 /* Parameters of friction records.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/base/param.h"
-#include "weartrack/flow.h"
+#include "weartrack/record.h"
 
 /* Poisson's ratio of filled rubber well above its glass transition. */
 static const double incompressible = 0.5;

@@ -6,6 +6,7 @@
 #include "core/base/range_text.h"
 #include "record/model_variant.h"
 #include "study/case_override.h"
+#include "weartrack/record.h"
 
 /* Mean of the fit over all steps. */
 typedef struct mean_ratio {

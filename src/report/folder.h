@@ -5,7 +5,7 @@
 #ifndef WT_REPORT_FOLDER_H
 #define WT_REPORT_FOLDER_H
 
-#include "weartrack/base.h"
+#include "weartrack/core.h"
 
 /* Mark of weartrack in index.html; the version may follow. */
 #define REPORT_MARK "<meta name=\"generator\" content=\"weartrack"

@@ -4,7 +4,7 @@
 #ifndef WT_REPORT_GNUPLOT_H
 #define WT_REPORT_GNUPLOT_H
 
-#include "weartrack/base.h"
+#include "weartrack/core.h"
 
 /* Largest size of a picture of a report [byte]. */
 #define GNUPLOT_PICTURE_LIMIT ((size_t)64 << 20)

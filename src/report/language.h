@@ -5,7 +5,7 @@
 #ifndef WT_REPORT_LANGUAGE_H
 #define WT_REPORT_LANGUAGE_H
 
-#include "weartrack/base.h"
+#include "weartrack/core.h"
 
 typedef struct translation {
     const char *english, *words;

@@ -5,7 +5,7 @@
 #define WT_STUDY_ACCURACY_H
 
 #include "core/table/table_rows.h"
-#include "weartrack/flow.h"
+#include "weartrack/study.h"
 
 #include <math.h>
 

@@ -4,7 +4,7 @@
 #ifndef WT_STUDY_CASE_OVERRIDE_H
 #define WT_STUDY_CASE_OVERRIDE_H
 
-#include "weartrack/flow.h"
+#include "weartrack/layer.h"
 
 /* Relative sensitivities of the hysteresis friction, d ln mu / d ln x. */
 enum { SENSITIVITIES = 4 };

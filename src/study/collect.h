@@ -4,7 +4,7 @@
 #define WT_STUDY_COLLECT_H
 
 #include "core/table/result_value.h"
-#include "weartrack/flow.h"
+#include "weartrack/study.h"
 
 /* Results of one case; the texts are borrowed from its result. */
 typedef struct collected_case {

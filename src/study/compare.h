@@ -4,7 +4,7 @@
 #ifndef WT_STUDY_COMPARE_H
 #define WT_STUDY_COMPARE_H
 
-#include "weartrack/flow.h"
+#include "weartrack/study.h"
 
 #include "core/table/registry.h"
 

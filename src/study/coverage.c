@@ -10,6 +10,7 @@
 #include "job/random_draws.h"
 #include "study/coverage_share.h"
 #include "study/parametric_bootstrap.h"
+#include "weartrack/study.h"
 
 #include "core/base/param.h"
 #include "core/math/normal_quantile.h"

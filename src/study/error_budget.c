@@ -4,6 +4,7 @@
 #include "dma/strain_softening.h"
 #include "job/cost.h"
 #include "study/case_override.h"
+#include "weartrack/study.h"
 
 #include "core/base/array.h"
 #include "core/base/clocale.h"

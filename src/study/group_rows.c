@@ -1,6 +1,6 @@
 /* Conversion of the accepted rows of an indentation table to a group.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "weartrack/flow.h"
+#include "weartrack/study.h"
 
 #include "core/base/array.h"
 #include "core/math/splitmix64.h"

@@ -5,7 +5,8 @@
 #ifndef WT_STUDY_TEXTBOOK_METHODS_H
 #define WT_STUDY_TEXTBOOK_METHODS_H
 
-#include "weartrack/model.h"
+#include "weartrack/dma.h"
+#include "weartrack/surface.h"
 
 typedef struct textbook_friction {
     double stress_variance, area_ratio, hysteresis;

@@ -5,7 +5,7 @@
 #define WT_STUDY_TRACK_LAYER_H
 
 #include "indentation/law/tip.h"
-#include "weartrack/flow.h"
+#include "weartrack/indentation.h"
 
 /* Thickness from another source; the value is NaN if there is none. */
 typedef struct alternative_thickness {

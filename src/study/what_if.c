@@ -4,6 +4,7 @@
 #include "study/what_if.h"
 #include "friction/sliding_contact.h"
 #include "job/cost.h"
+#include "weartrack/study.h"
 
 #include "core/base/array.h"
 #include "core/base/clocale.h"

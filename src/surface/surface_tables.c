@@ -6,7 +6,7 @@
 #include "core/math/normal_quantile.h"
 #include "core/table/table_rows.h"
 #include "surface/numerics/surface_analysis.h"
-#include "weartrack/kernel.h"
+#include "weartrack/surface.h"
 
 #include <math.h>
 #include <string.h>

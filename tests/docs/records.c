@@ -15,7 +15,7 @@
 #include "core/table/registry.h"
 #include "indentation/law/tip.h"
 #include "params/sections.h"
-#include "weartrack/report.h"
+#include "weartrack/case.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,6 +1,6 @@
 /* Any text as the parameters of a self-affine surface: one that is taken has a spectrum of finite
  * densities. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "weartrack/flow.h"
+#include "weartrack/friction.h"
 
 #include <math.h>
 #include <stdint.h>

@@ -1,6 +1,6 @@
 /* Any bytes to the reader of the text stream; what it accepts is written and must be read again
  * as the same bytes. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "weartrack/data.h"
+#include "weartrack/core.h"
 
 #include <stdint.h>
 #include <stdlib.h>

@@ -1,6 +1,6 @@
 /* Any text as a tip: what is taken passes the check and has a table of forces, or the error says
  * why not. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "weartrack/model.h"
+#include "weartrack/indentation.h"
 
 #include <math.h>
 #include <stdint.h>

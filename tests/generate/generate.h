@@ -2,7 +2,8 @@
 #ifndef TESTS_GENERATE_GENERATE_H
 #define TESTS_GENERATE_GENERATE_H
 
-#include "weartrack/flow.h"
+#include "weartrack/dma.h"
+#include "weartrack/indentation.h"
 
 /* Rubber: a Prony series in shear at 20 degC, WLF, moduli proportional to the temperature. */
 #define TRUTH_REFERENCE 293.15

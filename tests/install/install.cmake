@@ -1,6 +1,6 @@
 # Installs into an empty prefix, moves it, builds and runs a small consumer with the CMake package
 # and with pkg-config, and runs the installed command. Library, CMake package and .pc file hold what
-# the head of base.h promises.
+# the head of core.h promises.
 # Run: cmake -DBUILD=.. -DSOURCE=.. -DWORK=.. -DCC=.. -DREADELF=.. -DVERSION=.. -DCFLAGS=..
 #            -DGENERATOR=.. -P install.cmake
 # SPDX-License-Identifier: GPL-3.0-or-later
@@ -23,10 +23,10 @@ file(RENAME ${WORK}/first ${WORK}/moved)
 set(prefix ${WORK}/moved)
 
 file(GLOB_RECURSE installed RELATIVE ${prefix} "${prefix}/*")
-foreach(pattern IN ITEMS "^bin/weartrack$" "^lib/.*libweartrack\\.so" "^include/weartrack/base\\.h$"
+foreach(pattern IN ITEMS "^bin/weartrack$" "^lib/.*libweartrack\\.so" "^include/weartrack/core\\.h$"
         "^include/weartrack/weartrack\\.h$" "weartrack\\.pc$" "weartrack-config\\.cmake$"
         "share/man/man1/weartrack\\.1$" "share/man/man1/weartrack-run\\.1$"
-        "share/man/man5/weartrack-case\\.5$" "share/man/man7/weartrack-tutorial\\.7$" "share/man/man3/weartrack-kernel\\.3$"
+        "share/man/man5/weartrack-case\\.5$" "share/man/man7/weartrack-tutorial\\.7$" "share/man/man3/weartrack-friction\\.3$"
         "share/man/man3/wt_friction_compute\\.3$" "share/bash-completion/completions/weartrack$"
         "share/zsh/site-functions/_weartrack$" "share/weartrack/formats/.*\\.xml$"
         "share/weartrack/formats/weartrack-format\\.xsd$"

@@ -4,7 +4,8 @@
 #define WT_TESTS_FRICTION_SCENE_H
 
 #include "numeric/cases.h"
-#include "weartrack/kernel.h"
+#include "weartrack/dma.h"
+#include "weartrack/surface.h"
 
 #include <math.h>
 

@@ -6,7 +6,7 @@
  *   heat_checks [SCENES [SEED]] */
 #include "numeric/drawn_numbers.h"
 
-#include "weartrack/kernel.h"
+#include "weartrack/friction.h"
 
 #include <stdbool.h>
 #include <stdio.h>

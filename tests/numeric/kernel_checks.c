@@ -13,7 +13,7 @@
 #include "numeric/drawn_numbers.h"
 #include "numeric/friction_truth.h"
 
-#include "weartrack/kernel.h"
+#include "weartrack/friction.h"
 
 #include <float.h>
 #include <time.h>

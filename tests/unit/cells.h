@@ -5,7 +5,7 @@
 
 #include "near.h"
 
-#include "weartrack/data.h"
+#include "weartrack/core.h"
 
 #include <string.h>
 

@@ -4,7 +4,7 @@
 #ifndef WT_TESTS_DMA_DATA_H
 #define WT_TESTS_DMA_DATA_H
 
-#include "weartrack/model.h"
+#include "weartrack/dma.h"
 
 #include <math.h>
 #include <stdint.h>

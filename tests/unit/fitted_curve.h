@@ -8,7 +8,7 @@
 #include "near.h"
 #include "synthetic_curve.h"
 
-#include "weartrack/fit.h"
+#include "weartrack/indentation.h"
 
 static curve_data data;
 static wt_indent_workspace *workspace;

@@ -5,6 +5,7 @@
 
 #include "cells.h"
 #include "sliding.h"
+#include "weartrack/layer.h"
 
 #include <stdlib.h>
 #include <string.h>

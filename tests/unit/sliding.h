@@ -3,7 +3,7 @@
 #ifndef WT_TESTS_SLIDING_H
 #define WT_TESTS_SLIDING_H
 
-#include "weartrack/flow.h"
+#include "weartrack/friction.h"
 
 static wt_rubber rubber;
 static wt_surface surface;

@@ -6,7 +6,7 @@
 #include "truth.h"
 
 #include "indentation/numerics/height_image.h"
-#include "weartrack/flow.h"
+#include "weartrack/indentation.h"
 #include "writers/nid_writer.h"
 
 enum { N = 128, WAVES = 40 };

@@ -6,7 +6,7 @@
 #ifndef WT_TESTS_SYNTHETIC_CURVE_H
 #define WT_TESTS_SYNTHETIC_CURVE_H
 
-#include "weartrack/model.h"
+#include "weartrack/indentation.h"
 
 #include <math.h>
 #include <stdint.h>

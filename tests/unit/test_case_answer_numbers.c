@@ -4,7 +4,7 @@
 
 #include "case/answer/format_number.h"
 #include "core/base/range_text.h"
-#include "weartrack/fit.h"
+#include "weartrack/indentation.h"
 
 #include <math.h>
 #include <string.h>

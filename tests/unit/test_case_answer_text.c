@@ -5,7 +5,7 @@
 
 #include "case/answer/format_number.h"
 #include "case/case.h"
-#include "weartrack/flow.h"
+#include "weartrack/case.h"
 
 static wt_case *bundled;
 static wt_result *result;

@@ -3,7 +3,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "truth.h"
 
-#include "weartrack/flow.h"
+#include "weartrack/case.h"
 
 #include <ctype.h>
 #include <sys/stat.h>

@@ -3,7 +3,7 @@
 
 #include "case/case.h"
 #include "cells.h"
-#include "weartrack/flow.h"
+#include "weartrack/case.h"
 
 #include <string.h>
 

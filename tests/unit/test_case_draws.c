@@ -4,7 +4,7 @@
 #include "sliding.h"
 #include "truth.h"
 
-#include "weartrack/flow.h"
+#include "weartrack/layer.h"
 
 enum { REPLICATES = 150, MAX_KNOBS = 8 };
 

@@ -4,7 +4,7 @@
 #include "near.h"
 
 #include "synthetic_curve.h"
-#include "weartrack/fit.h"
+#include "weartrack/indentation.h"
 
 #include <math.h>
 #include <sys/wait.h>

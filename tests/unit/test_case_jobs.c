@@ -6,7 +6,7 @@
 
 #include "core/base/array.h"
 #include "job/random_draws.h"
-#include "weartrack/flow.h"
+#include "weartrack/study.h"
 #include "writers/jpk_writer.h"
 
 #include <stdlib.h>

@@ -14,8 +14,7 @@
 #include "indentation/numerics/curve.h"
 #include "layer/numerics/layer_kernel.h"
 #include "read/bytes/samples.h"
-#include "weartrack/flow.h"
-#include "weartrack/report.h"
+#include "weartrack/case.h"
 
 #include <fcntl.h>
 #include <stdarg.h>

@@ -5,7 +5,7 @@
 #include "cells.h"
 
 #include "core/base/array.h"
-#include "weartrack/flow.h"
+#include "weartrack/case.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -3,7 +3,7 @@
 
 #include "case/plan/stages.h"
 #include "cells.h"
-#include "weartrack/flow.h"
+#include "weartrack/case.h"
 
 #include <stdlib.h>
 #include <string.h>

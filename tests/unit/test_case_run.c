@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 
 #include "cells.h"
-#include "weartrack/flow.h"
+#include "weartrack/case.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -7,7 +7,7 @@
 #include "case/case.h"
 #include "core/base/array.h"
 #include "core/table/registry.h"
-#include "weartrack/flow.h"
+#include "weartrack/case.h"
 #include "writers/jpk_writer.h"
 #include "writers/nid_writer.h"
 

@@ -2,7 +2,7 @@
 #include "near.h"
 
 #include "core/data/force_curve.h"
-#include "weartrack/data.h"
+#include "weartrack/core.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -3,7 +3,7 @@
 
 #include "case/answer/format_number.h"
 #include "core/table/registry.h"
-#include "weartrack/flow.h"
+#include "weartrack/study.h"
 
 #include <locale.h>
 #include <stdlib.h>

@@ -1,6 +1,6 @@
 /* A table as an SQLite database, read back by SQLite. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "near.h"
-#include "weartrack/data.h"
+#include "weartrack/core.h"
 
 #include <math.h>
 #include <sqlite3.h>

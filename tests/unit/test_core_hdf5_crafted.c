@@ -3,7 +3,7 @@
 #include "near.h"
 
 #include "core/store/hdf5_sandbox.h"
-#include "weartrack/data.h"
+#include "weartrack/core.h"
 #include "writers/hdf5_damage.h"
 
 #include <hdf5.h>

@@ -1,6 +1,6 @@
 /* Work on several threads. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "near.h"
-#include "weartrack/base.h"
+#include "weartrack/core.h"
 
 #include <stdatomic.h>
 #include <string.h>

@@ -1,7 +1,7 @@
 /* The HDF5 store: round trip, same bytes, damaged files. SPDX-License-Identifier:
  * GPL-3.0-or-later */
 #include "near.h"
-#include "weartrack/data.h"
+#include "weartrack/core.h"
 
 #include <hdf5.h>
 #include <math.h>

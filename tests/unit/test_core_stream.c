@@ -1,7 +1,7 @@
 /* The text stream: round trip, and what is refused. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "near.h"
 #include "status_name.h"
-#include "weartrack/data.h"
+#include "weartrack/core.h"
 
 #include <locale.h>
 #include <stdio.h>

@@ -2,7 +2,7 @@
 #include "core/base/spell_suggest.h"
 #include "core/base/utf8.h"
 #include "near.h"
-#include "weartrack/base.h"
+#include "weartrack/core.h"
 
 #include <float.h>
 #include <locale.h>

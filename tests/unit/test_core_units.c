@@ -4,7 +4,7 @@
 #include "core/base/resource_error.h"
 #include "core/base/unit_known.h"
 #include "near.h"
-#include "weartrack/base.h"
+#include "weartrack/core.h"
 
 #include <locale.h>
 #include <pthread.h>

@@ -3,7 +3,7 @@
  * it was made from, at the reference and, by the shift of that program, at other temperatures. */
 #include "cells.h"
 
-#include "weartrack/flow.h"
+#include "weartrack/dma.h"
 
 #include <ctype.h>
 #include <locale.h>

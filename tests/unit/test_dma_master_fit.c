@@ -4,7 +4,7 @@
 #include "counted.h"
 #include "dma/numerics/shift_law.h"
 #include "near.h"
-#include "weartrack/fit.h"
+#include "weartrack/dma.h"
 
 #include "dma_data.h"
 

@@ -3,7 +3,7 @@
 
 #include "dma/law/material_transverse.h"
 #include "friction/numerics/angular_panels.h"
-#include "weartrack/model.h"
+#include "weartrack/dma.h"
 
 #include <float.h>
 #include <stdio.h>

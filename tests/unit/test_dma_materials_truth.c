@@ -5,7 +5,7 @@
 #include "truth.h"
 
 #include "dma_data.h"
-#include "weartrack/flow.h"
+#include "weartrack/dma.h"
 
 enum { ISOTHERMS = 9, POINTS = 13, QUANTITIES = 3 };
 

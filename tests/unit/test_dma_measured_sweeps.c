@@ -2,7 +2,7 @@
  * published law, a soft polymer with compliance-limited points, a filled damping rubber, and two
  * thermoplastics for which superposition fails. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "near.h"
-#include "weartrack/fit.h"
+#include "weartrack/dma.h"
 
 #include "dma_data.h"
 

@@ -3,7 +3,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "counted.h"
 #include "near.h"
-#include "weartrack/fit.h"
+#include "weartrack/dma.h"
 
 #include "dma/numerics/gaussian_process.h"
 #include "dma_data.h"

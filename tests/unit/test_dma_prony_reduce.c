@@ -2,7 +2,7 @@
  * spectrum is that of two Cole-Cole processes in closed form. */
 #include "near.h"
 
-#include "weartrack/fit.h"
+#include "weartrack/dma.h"
 
 #include <stdlib.h>
 

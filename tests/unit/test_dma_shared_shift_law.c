@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "truth.h"
 
-#include "weartrack/flow.h"
+#include "weartrack/dma.h"
 
 /* log10 aT = -9 (T - 20) / (90 + T) and -12 (T - 20) / (120 + T), T in degrees Celsius. */
 static const char file[] = WT_SOURCE_DIR "/fixtures/dma/two_materials.csv";

@@ -5,7 +5,7 @@
 #include "near.h"
 
 #include "dma_data.h"
-#include "weartrack/fit.h"
+#include "weartrack/dma.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -3,7 +3,7 @@
  * isotherms). SPDX-License-Identifier: GPL-3.0-or-later */
 #include "counted.h"
 #include "near.h"
-#include "weartrack/fit.h"
+#include "weartrack/dma.h"
 
 #include "dma/numerics/isotherm.h"
 #include "dma_data.h"

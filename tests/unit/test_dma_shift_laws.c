@@ -1,7 +1,7 @@
 /* Shift laws against the table tests/numeric/wlf.txt, and their invariants.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "near.h"
-#include "weartrack/model.h"
+#include "weartrack/dma.h"
 
 #include <stdio.h>
 #include <stdlib.h>

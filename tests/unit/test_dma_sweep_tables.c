@@ -4,7 +4,7 @@
 #include "all_formats.h"
 #include "truth.h"
 
-#include "weartrack/flow.h"
+#include "weartrack/case.h"
 
 enum { FILES = 2, POINTS = 51, STRAINS = 29 };
 static const double at_hertz[FILES] = {10, 1}; /* the faster one first */

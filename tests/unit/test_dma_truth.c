@@ -4,7 +4,7 @@
 #include "truth.h"
 
 #include "dma_data.h"
-#include "weartrack/flow.h"
+#include "weartrack/dma.h"
 
 enum { ISOTHERMS = 11, POINTS = 16 };
 

@@ -3,7 +3,7 @@
 #include "near.h"
 
 #include "dma_data.h"
-#include "weartrack/fit.h"
+#include "weartrack/dma.h"
 
 #include <complex.h>
 #include <stdlib.h>

@@ -4,7 +4,7 @@
 
 #include "friction/numerics/angular_weight.h"
 #include "numeric/friction_scene.h"
-#include "weartrack/kernel.h"
+#include "weartrack/friction.h"
 
 #include <float.h>
 

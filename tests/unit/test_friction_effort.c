@@ -1,7 +1,7 @@
 /* What friction costs: nodes by tolerance, and evaluations of a closed form by its terms. */
 #include "near.h"
 
-#include "weartrack/kernel.h"
+#include "weartrack/friction.h"
 
 #include <stdlib.h>
 

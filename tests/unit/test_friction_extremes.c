@@ -1,13 +1,13 @@
 /* Extreme materials, surfaces, velocities and pressures, drawn at random: the true error of
  * friction lies within the stated one. The truth is that of friction_truth.h.
  *
- * With an argument that many other scenes are drawn: test_friction_extremes CASES [SEED [FIRST]], and
- * those before FIRST are left out. */
+ * With an argument that many other scenes are drawn: test_friction_extremes CASES [SEED [FIRST]],
+ * and those before FIRST are left out. */
 #include "near.h"
 
 #include "numeric/drawn_numbers.h"
 #include "numeric/friction_truth.h"
-#include "weartrack/kernel.h"
+#include "weartrack/friction.h"
 
 #include <float.h>
 #include <stdlib.h>

@@ -5,7 +5,7 @@
 #include "friction/numerics/area_law.h"
 #include "friction/numerics/persson_contact.h"
 #include "numeric/friction_scene.h"
-#include "weartrack/kernel.h"
+#include "weartrack/layer.h"
 
 typedef struct rig {
     numeric_case c;

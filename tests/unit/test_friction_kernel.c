@@ -3,7 +3,7 @@
 
 #include "friction/numerics/persson_contact.h"
 #include "numeric/friction_scene.h"
-#include "weartrack/kernel.h"
+#include "weartrack/friction.h"
 
 #include <float.h>
 

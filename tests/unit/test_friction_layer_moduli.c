@@ -4,7 +4,7 @@
 #include "near.h"
 
 #include "friction/numerics/layered_moduli.h"
-#include "weartrack/kernel.h"
+#include "weartrack/friction.h"
 
 #include <complex.h>
 

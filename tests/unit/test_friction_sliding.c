@@ -3,6 +3,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "sliding.h"
 #include "truth.h"
+#include "weartrack/layer.h"
 
 enum { VELOCITIES = 5 };
 static const double velocity[VELOCITIES] = {0.01, 0.03, 0.1, 0.3, 1};

@@ -5,7 +5,7 @@
 #include "sliding.h"
 
 #include "core/table/registry.h"
-#include "weartrack/flow.h"
+#include "weartrack/case.h"
 
 #include <stdlib.h>
 #include <string.h>

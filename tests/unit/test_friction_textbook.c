@@ -3,7 +3,7 @@
 
 #include "numeric/friction_scene.h"
 #include "study/textbook_methods.c"
-#include "weartrack/kernel.h"
+#include "weartrack/friction.h"
 
 static void kernel_against_textbook(void **state)
 {

@@ -3,7 +3,7 @@
 #include "cells.h"
 #include "sliding.h"
 
-#include "weartrack/flow.h"
+#include "weartrack/case.h"
 
 #include <string.h>
 

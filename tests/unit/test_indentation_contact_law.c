@@ -4,7 +4,7 @@
  */
 #include "near.h"
 
-#include "weartrack/model.h"
+#include "weartrack/indentation.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -6,7 +6,7 @@
 #include "synthetic_curve.h"
 
 #include "indentation/curve_set.h"
-#include "weartrack/fit.h"
+#include "weartrack/indentation.h"
 
 #include <string.h>
 

@@ -6,7 +6,7 @@
 
 #include "dma_data.h"
 #include "indentation/numerics/relaxation.h"
-#include "weartrack/flow.h"
+#include "weartrack/indentation.h"
 #include "writers/jpk_writer.h"
 
 #include <math.h>

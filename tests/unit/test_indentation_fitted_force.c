@@ -5,7 +5,7 @@
 #include "synthetic_curve.h"
 
 #include "indentation/law/adhesion.h"
-#include "weartrack/flow.h"
+#include "weartrack/indentation.h"
 
 #include <string.h>
 #include <unistd.h>

@@ -4,7 +4,7 @@
  */
 #include "near.h"
 
-#include "weartrack/fit.h"
+#include "weartrack/study.h"
 
 #include <stdio.h>
 #include <stdlib.h>

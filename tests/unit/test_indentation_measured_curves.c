@@ -6,8 +6,7 @@
  */
 #include "near.h"
 
-#include "weartrack/fit.h"
-#include "weartrack/read.h"
+#include "weartrack/indentation.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -12,7 +12,7 @@
 #include "near.h"
 
 #include "indentation/numerics/curve.h"
-#include "weartrack/read.h"
+#include "weartrack/indentation.h"
 
 #include <stdio.h>
 #include <stdlib.h>

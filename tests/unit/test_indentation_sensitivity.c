@@ -5,7 +5,7 @@
 #include "cells.h"
 
 #include "dma_data.h"
-#include "weartrack/flow.h"
+#include "weartrack/indentation.h"
 #include "writers/curve_hdf5_writer.h"
 #include "writers/jpk_writer.h"
 

@@ -4,7 +4,7 @@
 #include "all_formats.h"
 #include "near.h"
 
-#include "weartrack/flow.h"
+#include "weartrack/indentation.h"
 #include "writers/nid_writer.h"
 
 #include <math.h>

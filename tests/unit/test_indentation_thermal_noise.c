@@ -3,7 +3,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "counted.h"
 #include "near.h"
-#include "weartrack/fit.h"
+#include "weartrack/indentation.h"
 
 #include "dma_data.h"
 

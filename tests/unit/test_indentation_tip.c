@@ -8,7 +8,7 @@
 #include "indentation/law/tip.h"
 #include "status_name.h"
 
-#include "weartrack/model.h"
+#include "weartrack/indentation.h"
 
 #include <string.h>
 

@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "truth.h"
 
-#include "weartrack/flow.h"
+#include "weartrack/study.h"
 
 #define SNAP 40e-9
 

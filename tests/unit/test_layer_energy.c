@@ -4,7 +4,7 @@
 #include "core/math/vector_exp.h"
 #include "friction/numerics/persson_contact.h"
 #include "layer/numerics/energy_density_kernel.h"
-#include "weartrack/kernel.h"
+#include "weartrack/layer.h"
 
 #include <float.h>
 

@@ -3,7 +3,7 @@
 
 #include "layer/numerics/layer_kernel.h"
 #include "numeric/cases.h"
-#include "weartrack/kernel.h"
+#include "weartrack/layer.h"
 
 #include <float.h>
 

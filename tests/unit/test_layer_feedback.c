@@ -3,7 +3,7 @@
 #include "near.h"
 
 #include "numeric/cases.h"
-#include "weartrack/kernel.h"
+#include "weartrack/layer.h"
 
 typedef struct rig {
     wt_material *material, *own; /* of the layer; NULL: a ratio */

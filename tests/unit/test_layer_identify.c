@@ -2,7 +2,7 @@
  * were worked out otherwise to eleven digits. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "near.h"
 
-#include "weartrack/kernel.h"
+#include "weartrack/layer.h"
 
 #include <math.h>
 #include <string.h>

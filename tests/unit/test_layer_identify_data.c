@@ -4,7 +4,7 @@
 #include "near.h"
 
 #include "numeric/friction_scene.h"
-#include "weartrack/kernel.h"
+#include "weartrack/record.h"
 
 #include <stdlib.h>
 

@@ -4,7 +4,7 @@
 #include "friction/numerics/persson_contact.h"
 #include "layer/numerics/energy_density_kernel.h"
 #include "numeric/cases.h"
-#include "weartrack/kernel.h"
+#include "weartrack/layer.h"
 
 #include <float.h>
 #include <gsl/gsl_integration.h>

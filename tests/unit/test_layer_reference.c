@@ -3,7 +3,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "near.h"
 
-#include "weartrack/kernel.h"
+#include "weartrack/layer.h"
 
 #include <stdbool.h>
 #include <stdio.h>

@@ -5,8 +5,8 @@
 
 #include "core/math/students_t.h"
 #include "numeric/cases.h"
-#include "weartrack/fit.h"
-#include "weartrack/kernel.h"
+#include "weartrack/record.h"
+#include "weartrack/study.h"
 
 #define DIGITS 1e-12
 

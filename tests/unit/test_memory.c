@@ -7,8 +7,7 @@
 
 #include "core/store/store.h"
 #include "dma_data.h"
-#include "weartrack/flow.h"
-#include "weartrack/report.h"
+#include "weartrack/case.h"
 
 #include <execinfo.h>
 #include <pthread.h>

@@ -5,7 +5,7 @@
 #include "near.h"
 #include "truth.h"
 
-#include "weartrack/flow.h"
+#include "weartrack/record.h"
 
 #include <math.h>
 #include <stdlib.h>

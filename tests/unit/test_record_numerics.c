@@ -4,8 +4,7 @@
 #include "near.h"
 #include "record/numerics/autocorrelation.h"
 #include "record/numerics/pauses.h"
-#include "weartrack/fit.h"
-#include "weartrack/read.h"
+#include "weartrack/record.h"
 
 #include <stdio.h>
 #include <stdlib.h>

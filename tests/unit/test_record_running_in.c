@@ -5,7 +5,7 @@
 
 #include "core/math/normal_quantile.h"
 #include "record/running_in_validation.h"
-#include "weartrack/flow.h"
+#include "weartrack/case.h"
 
 #include <math.h>
 #include <stdio.h>

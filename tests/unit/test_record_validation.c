@@ -5,7 +5,8 @@
 #include "truth.h"
 
 #include "core/table/registry.h"
-#include "weartrack/flow.h"
+#include "weartrack/record.h"
+#include "weartrack/study.h"
 
 #include <math.h>
 #include <string.h>

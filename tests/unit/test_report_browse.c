@@ -4,7 +4,7 @@
 #include "cells.h"
 
 #include "report/browse.h"
-#include "weartrack/flow.h"
+#include "weartrack/indentation.h"
 #include "weartrack/report.h"
 
 #include <stdlib.h>

@@ -3,6 +3,7 @@
 #include "cells.h"
 #include "sliding.h"
 #include "truth.h"
+#include "weartrack/study.h"
 
 #include "job/random_draws.h"
 #include "study/coverage_share.h"

@@ -2,6 +2,7 @@
 #include "cells.h"
 #include "near.h"
 #include "sliding.h"
+#include "weartrack/case.h"
 
 #include <math.h>
 #include <string.h>

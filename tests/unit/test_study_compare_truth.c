@@ -5,7 +5,7 @@
 
 #include "core/table/registry.h"
 #include "study/compare.h"
-#include "weartrack/flow.h"
+#include "weartrack/case.h"
 
 enum { SPOTS = 3, RATES = 2 };
 

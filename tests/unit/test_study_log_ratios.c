@@ -5,7 +5,7 @@
  */
 #include "near.h"
 
-#include "weartrack/fit.h"
+#include "weartrack/study.h"
 
 #include <math.h>
 

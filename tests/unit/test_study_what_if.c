@@ -5,7 +5,7 @@
 #include "truth.h"
 
 #include "core/table/result_value.h"
-#include "weartrack/flow.h"
+#include "weartrack/study.h"
 
 static wt_layer_observation known;
 static wt_layer_job layer;

@@ -8,7 +8,7 @@
 #include "friction/counter_surface.h"
 #include "job/random_draws.h"
 #include "truth.h"
-#include "weartrack/flow.h"
+#include "weartrack/case.h"
 
 #include <string.h>
 #include <unistd.h>

@@ -6,7 +6,7 @@
 
 #include "near.h"
 
-#include "weartrack/data.h"
+#include "weartrack/core.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -6,7 +6,7 @@
 #include "core/base/number.h"
 #include "core/base/range_text.h"
 #include "core/math/normal_quantile.h"
-#include "weartrack/fit.h"
+#include "weartrack/indentation.h"
 
 #include <math.h>
 #include <stdarg.h>

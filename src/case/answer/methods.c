@@ -8,7 +8,7 @@
 #include "core/base/array.h"
 #include "core/base/number.h"
 #include "core/table/table_rows.h"
-#include "weartrack/flow.h"
+#include "weartrack/case.h"
 
 /* A method belongs to every result that has its table, if `used` agrees. */
 typedef struct method {

@@ -3,7 +3,7 @@
 #include "case/answer/format_number.h"
 #include "core/base/array.h"
 #include "core/table/registry.h"
-#include "weartrack/flow.h"
+#include "weartrack/case.h"
 
 #include <math.h>
 #include <string.h>

@@ -4,7 +4,7 @@
 
 #include "core/base/clocale.h"
 #include "core/table/registry.h"
-#include "weartrack/flow.h"
+#include "weartrack/case.h"
 
 #include <math.h>
 #include <string.h>

@@ -3,7 +3,7 @@
 #ifndef WT_CORE_BASE_CLOCALE_H
 #define WT_CORE_BASE_CLOCALE_H
 
-#include "weartrack/base.h"
+#include "weartrack/core.h"
 
 #include <locale.h>
 #include <stdarg.h>

@@ -1,6 +1,6 @@
 /* Formats values with an SI prefix for people to read. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/base/clocale.h"
-#include "weartrack/base.h"
+#include "weartrack/core.h"
 
 #include <math.h>
 #include <stdlib.h>

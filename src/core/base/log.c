@@ -3,7 +3,7 @@
 #include "core/base/array.h"
 #include "core/base/clocale.h"
 #include "core/base/utf8.h"
-#include "weartrack/base.h"
+#include "weartrack/core.h"
 
 #include <search.h>
 #include <stdarg.h>

@@ -2,7 +2,7 @@
  * GPL-3.0-or-later */
 #include "core/base/number.h"
 #include "core/base/clocale.h"
-#include "weartrack/base.h"
+#include "weartrack/core.h"
 
 #include <float.h>
 #include <math.h>

@@ -11,7 +11,7 @@
 #ifndef WT_CORE_BASE_PARAM_H
 #define WT_CORE_BASE_PARAM_H
 
-#include "weartrack/base.h"
+#include "weartrack/core.h"
 
 #include <math.h>
 

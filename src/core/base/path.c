@@ -1,5 +1,5 @@
 /* Functions for paths as text. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "weartrack/base.h"
+#include "weartrack/core.h"
 
 #include <stdlib.h>
 #include <string.h>

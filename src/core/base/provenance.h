@@ -2,7 +2,7 @@
 #ifndef WT_CORE_BASE_PROVENANCE_H
 #define WT_CORE_BASE_PROVENANCE_H
 
-#include "weartrack/base.h"
+#include "weartrack/core.h"
 
 /* Sets version and command from the texts of wt_provenance_version and wt_provenance_command,
  * separated by a line feed. */

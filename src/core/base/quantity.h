@@ -3,7 +3,7 @@
 #ifndef WT_CORE_BASE_QUANTITY_H
 #define WT_CORE_BASE_QUANTITY_H
 
-#include "weartrack/base.h"
+#include "weartrack/core.h"
 
 /* Exact since the SI of 2019. */
 #define GAS_CONSTANT 8.31446261815324  /* J/(mol K) */

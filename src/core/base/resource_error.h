@@ -5,7 +5,7 @@
 #ifndef WT_CORE_BASE_RESOURCE_ERROR_H
 #define WT_CORE_BASE_RESOURCE_ERROR_H
 
-#include "weartrack/base.h"
+#include "weartrack/core.h"
 
 /* Advice for a file that cannot be opened because of a lack of descriptors (EMFILE, ENFILE). */
 #define MORE_FILES_ADVICE                                                                          \

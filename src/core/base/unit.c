@@ -6,7 +6,7 @@
 #include "core/base/resource_error.h"
 #include "core/base/unit_known.h"
 #include "core/base/utf8.h"
-#include "weartrack/base.h"
+#include "weartrack/core.h"
 
 #include <errno.h>
 #include <math.h>

@@ -3,7 +3,7 @@
 #include "core/base/unit_known.h"
 
 #include "core/base/array.h"
-#include "weartrack/base.h"
+#include "weartrack/core.h"
 
 #include <string.h>
 

@@ -1,5 +1,5 @@
 /* Returns the version of the library. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "weartrack/base.h"
+#include "weartrack/core.h"
 
 #define STRINGIFY(x) #x
 #define STRINGIFY_VALUE(x) STRINGIFY(x)

@@ -8,7 +8,7 @@
 #ifndef WT_CORE_DATA_FORCE_CURVE_H
 #define WT_CORE_DATA_FORCE_CURVE_H
 
-#include "weartrack/data.h"
+#include "weartrack/core.h"
 
 /* Returns the factor that converts a signal of the quantity `from` to the quantity `to`; both are a
  * deflection voltage, a deflection or a force. The instrument computed the signal with the

@@ -1,6 +1,6 @@
 /* Memory of images, and their conversion to height maps. SPDX-License-Identifier:
  * GPL-3.0-or-later */
-#include "weartrack/data.h"
+#include "weartrack/core.h"
 
 #include <math.h>
 #include <stdlib.h>

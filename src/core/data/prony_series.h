@@ -2,7 +2,7 @@
 #ifndef WT_CORE_DATA_PRONY_SERIES_H
 #define WT_CORE_DATA_PRONY_SERIES_H
 
-#include "weartrack/data.h"
+#include "weartrack/core.h"
 
 wt_status prony_copy(const wt_prony *from, wt_prony *to, wt_error *err) WT_NODISCARD;
 

@@ -1,5 +1,5 @@
 /* Memory of friction records. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "weartrack/data.h"
+#include "weartrack/core.h"
 
 #include <stdlib.h>
 

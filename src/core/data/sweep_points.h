@@ -3,7 +3,7 @@
 #ifndef WT_CORE_DATA_SWEEP_POINTS_H
 #define WT_CORE_DATA_SWEEP_POINTS_H
 
-#include "weartrack/data.h"
+#include "weartrack/core.h"
 
 /* Index of an array: the swept variable is first. A missing array is NULL. */
 enum {

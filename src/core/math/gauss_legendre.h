@@ -4,7 +4,7 @@
 #ifndef WT_CORE_MATH_GAUSS_LEGENDRE_H
 #define WT_CORE_MATH_GAUSS_LEGENDRE_H
 
-#include "weartrack/base.h"
+#include "weartrack/core.h"
 
 /* Rule on [-1, 1]. */
 typedef struct gauss_rule {

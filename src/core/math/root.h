@@ -4,7 +4,7 @@
 #ifndef WT_CORE_MATH_ROOT_H
 #define WT_CORE_MATH_ROOT_H
 
-#include "weartrack/base.h"
+#include "weartrack/core.h"
 
 #include <stdbool.h>
 

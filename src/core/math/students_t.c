@@ -5,7 +5,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/math/students_t.h"
 #include "core/base/array.h"
-#include "weartrack/base.h"
+#include "weartrack/core.h"
 
 #include <gsl/gsl_cdf.h>
 #include <math.h>

@@ -2,7 +2,7 @@
  * number is an empty cell, or null. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/base/json.h"
 #include "core/store/export_sqlite.h"
-#include "weartrack/data.h"
+#include "weartrack/core.h"
 
 #include <errno.h>
 #include <math.h>

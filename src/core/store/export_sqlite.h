@@ -2,7 +2,7 @@
 #ifndef WT_CORE_STORE_EXPORT_SQLITE_H
 #define WT_CORE_STORE_EXPORT_SQLITE_H
 
-#include "weartrack/data.h"
+#include "weartrack/core.h"
 
 /* Writes the table under its name. The table "weartrack_columns" describes its columns, and
  * "weartrack_keys" has its keys. With `blocks` the first column is the block number. */

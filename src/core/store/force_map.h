@@ -5,7 +5,7 @@
 #define WT_CORE_STORE_FORCE_MAP_H
 
 #include "core/store/hdf5_bytes.h"
-#include "weartrack/data.h"
+#include "weartrack/core.h"
 
 #define MAP_SAMPLES_GROUP "force_map/samples"
 /* Number of samples of an array that are written, read and transmitted together. */

@@ -1,6 +1,7 @@
 /* Output files that appear only when they are complete. SPDX-License-Identifier:
  * GPL-3.0-or-later */
 #include "core/system/temporary.h"
+#include "weartrack/core.h"
 
 #include <errno.h>
 #include <fcntl.h>

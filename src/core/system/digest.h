@@ -2,7 +2,7 @@
 #ifndef WT_CORE_SYSTEM_DIGEST_H
 #define WT_CORE_SYSTEM_DIGEST_H
 
-#include "weartrack/base.h"
+#include "weartrack/core.h"
 
 /* Copies the bytes [from, from + n) of the data. */
 typedef wt_status digest_source(void *user, size_t from, void *to, size_t n, wt_error *err);

@@ -1,7 +1,7 @@
 /* Prevents that an input file, or a file of another program, is overwritten.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/system/file_signatures.h"
-#include "weartrack/base.h"
+#include "weartrack/core.h"
 
 #include <pthread.h>
 #include <stdio.h>

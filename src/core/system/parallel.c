@@ -1,5 +1,5 @@
 /* Processes independent items on several threads. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "weartrack/base.h"
+#include "weartrack/core.h"
 
 #include <pthread.h>
 #include <sched.h>

@@ -13,12 +13,12 @@
  *
  * The sandbox does not prevent that a malicious file runs code in the process. Such code can only
  * produce wrong output. Without a system-call filter or /proc some protections are missing;
- * wt_sandbox_limitations (weartrack/base.h) reports them. SPDX-License-Identifier: GPL-3.0-or-later
+ * wt_sandbox_limitations (weartrack/core.h) reports them. SPDX-License-Identifier: GPL-3.0-or-later
  */
 #ifndef WT_CORE_SYSTEM_SANDBOX_H
 #define WT_CORE_SYSTEM_SANDBOX_H
 
-#include "weartrack/base.h"
+#include "weartrack/core.h"
 
 #include <stdio.h>
 

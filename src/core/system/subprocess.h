@@ -4,7 +4,7 @@
 #ifndef WT_CORE_SYSTEM_SUBPROCESS_H
 #define WT_CORE_SYSTEM_SUBPROCESS_H
 
-#include "weartrack/base.h"
+#include "weartrack/core.h"
 
 typedef struct program_call {
     const char *program;          /* a name looked up in PATH, or a path */

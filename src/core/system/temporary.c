@@ -1,5 +1,6 @@
 /* Temporary files and folders. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/system/temporary.h"
+#include "weartrack/core.h"
 
 #include <dirent.h>
 #include <errno.h>

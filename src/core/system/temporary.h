@@ -4,8 +4,6 @@
 #ifndef WT_CORE_SYSTEM_TEMPORARY_H
 #define WT_CORE_SYSTEM_TEMPORARY_H
 
-#include "weartrack/base.h"
-
 /* Returns the folder for files that are not part of an output: TMPDIR or /tmp; borrowed. */
 const char *temporary_directory(void);
 /* Returns a new name in `folder`. It begins with a dot, so that no pattern matches it. NULL with

@@ -1,5 +1,5 @@
 /* Wall time and processor time. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "weartrack/base.h"
+#include "weartrack/core.h"
 
 #include <time.h>
 

@@ -5,7 +5,7 @@
 #ifndef WT_CORE_TABLE_FORMER_NAMES_H
 #define WT_CORE_TABLE_FORMER_NAMES_H
 
-#include "weartrack/data.h"
+#include "weartrack/core.h"
 
 /* Returns the name of today of a table; the same name if it did not change. */
 const char *table_current_name(const char *name);

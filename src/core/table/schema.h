@@ -3,7 +3,7 @@
 #ifndef WT_CORE_TABLE_SCHEMA_H
 #define WT_CORE_TABLE_SCHEMA_H
 
-#include "weartrack/data.h"
+#include "weartrack/core.h"
 
 /* A set of columns or keys is a 64-bit number. */
 enum { SCHEMA_FIELDS_MAX = 64 };

@@ -2,7 +2,7 @@
 #ifndef WT_CORE_TABLE_TABLE_H
 #define WT_CORE_TABLE_TABLE_H
 
-#include "weartrack/data.h"
+#include "weartrack/core.h"
 
 /* Limits that no table reaches. Names are searched linearly, and files are not trusted. */
 enum { TABLE_COLUMNS_MAX = 2048, TABLE_KEYS_MAX = 2048, RESULT_TABLES_MAX = 2048 };

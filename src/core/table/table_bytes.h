@@ -3,7 +3,7 @@
 #ifndef WT_CORE_TABLE_TABLE_BYTES_H
 #define WT_CORE_TABLE_TABLE_BYTES_H
 
-#include "weartrack/data.h"
+#include "weartrack/core.h"
 
 /* Writes a table. WT_E_ARG for a table without columns or with an invalid name. */
 wt_status table_bytes_write(FILE *out, const wt_table *table, wt_error *err) WT_NODISCARD;

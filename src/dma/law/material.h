@@ -4,7 +4,7 @@
 #define WT_DMA_LAW_MATERIAL_H
 
 #include "core/base/param.h"
-#include "weartrack/model.h"
+#include "weartrack/dma.h"
 
 /* Parameter row of the Poisson ratio for any structure that has one. */
 #define POISSON_RATIO(type)                                                                        \

@@ -2,7 +2,7 @@
 #ifndef WT_DMA_LAW_PRONY_LAW_H
 #define WT_DMA_LAW_PRONY_LAW_H
 
-#include "weartrack/data.h"
+#include "weartrack/core.h"
 
 /* Above this value of z = omega tau the code uses z^2 for 1 + z^2 and does not compute z^2,
  * which could overflow. Any number between 1/DBL_EPSILON and the root of the largest double is

@@ -3,7 +3,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
 #include "core/base/param.h"
-#include "weartrack/kernel.h"
+#include "weartrack/dma.h"
 
 #include <math.h>
 

@@ -1,5 +1,5 @@
 /* Shift laws: Williams-Landel-Ferry and Arrhenius. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "weartrack/model.h"
+#include "weartrack/dma.h"
 
 #include "core/base/quantity.h"
 

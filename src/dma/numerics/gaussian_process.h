@@ -5,7 +5,7 @@
 #define WT_DMA_NUMERICS_GAUSSIAN_PROCESS_H
 
 #include "core/base/arena.h"
-#include "weartrack/fit.h"
+#include "weartrack/core.h"
 
 /* Coefficients of the parabola, maximum and minimum number of points. More points are merged,
  * because the time grows with the cube of their number. A mean of neighbours preserves all

@@ -5,7 +5,7 @@
 #define WT_DMA_NUMERICS_ISOTHERM_H
 
 #include "core/base/arena.h"
-#include "weartrack/fit.h"
+#include "weartrack/dma.h"
 
 enum { STORAGE, LOSS, MODULI };
 

@@ -3,7 +3,7 @@
 #ifndef WT_DMA_NUMERICS_KRAUS_REGION_H
 #define WT_DMA_NUMERICS_KRAUS_REGION_H
 
-#include "weartrack/fit.h"
+#include "weartrack/dma.h"
 
 typedef struct payne_points {
     size_t n;

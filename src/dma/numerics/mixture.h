@@ -2,7 +2,7 @@
 #ifndef WT_DMA_NUMERICS_MIXTURE_H
 #define WT_DMA_NUMERICS_MIXTURE_H
 
-#include "weartrack/fit.h"
+#include "weartrack/core.h"
 
 typedef struct mixture_component {
     double weight, mean, deviation;

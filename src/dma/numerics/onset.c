@@ -1,6 +1,7 @@
 /* Finds the onset temperature of the fall of the storage modulus.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dma/numerics/gaussian_process.h"
+#include "weartrack/dma.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,6 +1,7 @@
 /* Finds the peaks of a curve and interpolates between its points.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dma/numerics/gaussian_process.h"
+#include "weartrack/dma.h"
 
 #include "core/math/normal_quantile.h"
 #include "core/math/root.h"

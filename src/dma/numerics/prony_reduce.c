@@ -9,7 +9,7 @@
 #include "core/base/param.h"
 #include "core/math/arena_gsl.h"
 #include "dma/law/prony_law.h"
-#include "weartrack/fit.h"
+#include "weartrack/dma.h"
 
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_linalg.h>

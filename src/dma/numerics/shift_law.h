@@ -3,7 +3,7 @@
 #ifndef WT_DMA_NUMERICS_SHIFT_LAW_H
 #define WT_DMA_NUMERICS_SHIFT_LAW_H
 
-#include "weartrack/fit.h"
+#include "weartrack/dma.h"
 
 #include <gsl/gsl_matrix.h>
 

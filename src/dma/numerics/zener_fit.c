@@ -3,7 +3,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/math/gsl_quiet.h"
 #include "dma/law/prony_law.h"
-#include "weartrack/fit.h"
+#include "weartrack/dma.h"
 
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_linalg.h>

@@ -7,7 +7,7 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
-#include "weartrack/model.h"
+#include "weartrack/friction.h"
 
 #include <float.h>
 #include <math.h>

@@ -3,7 +3,7 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
-#include "weartrack/model.h"
+#include "weartrack/friction.h"
 
 #include "core/base/quantity.h"
 

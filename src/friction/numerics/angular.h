@@ -13,7 +13,7 @@
 
 #include "core/base/arena.h"
 #include "friction/numerics/angular_weight.h"
-#include "weartrack/model.h"
+#include "weartrack/dma.h"
 
 typedef struct angular_law angular_law;
 

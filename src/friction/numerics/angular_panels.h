@@ -10,7 +10,7 @@
 
 #include "core/math/gauss_legendre.h"
 #include "friction/numerics/angular_weight.h"
-#include "weartrack/model.h"
+#include "weartrack/dma.h"
 
 enum { SUBINTERVAL_NODES = 10 }; /* see `max_width` in angular_subintervals.c */
 

@@ -13,7 +13,7 @@
 #ifndef WT_FRICTION_NUMERICS_ANGULAR_WEIGHT_H
 #define WT_FRICTION_NUMERICS_ANGULAR_WEIGHT_H
 
-#include "weartrack/kernel.h"
+#include "weartrack/surface.h"
 
 /* Number of powers of cos^2 phi, and of terms of the series far below w: 4^-m falls to 1e-16 within
  * it. */

@@ -13,7 +13,7 @@
 #ifndef WT_FRICTION_NUMERICS_AREA_LAW_H
 #define WT_FRICTION_NUMERICS_AREA_LAW_H
 
-#include "weartrack/kernel.h"
+#include "weartrack/friction.h"
 
 typedef struct area_law area_law;
 

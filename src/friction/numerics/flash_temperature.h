@@ -16,7 +16,7 @@
 
 #include "core/base/arena.h"
 #include "core/math/gauss_legendre.h"
-#include "weartrack/kernel.h"
+#include "weartrack/friction.h"
 
 /* T(q) = T0 + constant + sum of amount[j] 4 q^2 / (k^2 + 4 q^2) over the k of a lattice. */
 typedef struct heat_profile {

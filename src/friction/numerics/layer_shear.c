@@ -2,7 +2,7 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
-#include "weartrack/kernel.h"
+#include "weartrack/friction.h"
 
 #include <math.h>
 

@@ -8,7 +8,7 @@
 #define WT_FRICTION_NUMERICS_LAYERED_MODULI_H
 
 #include "friction/numerics/angular_weight.h"
-#include "weartrack/kernel.h"
+#include "weartrack/friction.h"
 
 /* Size of the quadrature over the angle. */
 enum { ANGLE_NODES = 144, ANGLE_LEVELS = 2 }; /* levels: all nodes, every second node */

@@ -11,7 +11,8 @@
 #define WT_FRICTION_NUMERICS_SOFTENING_CONTACT_H
 
 #include "core/base/arena.h"
-#include "weartrack/kernel.h"
+#include "weartrack/dma.h"
+#include "weartrack/surface.h"
 
 typedef struct strain_law {
     const wt_roughness *roughness;

@@ -13,7 +13,7 @@
 #include "core/base/arena.h"
 #include "core/math/gauss_legendre.h"
 #include "friction/numerics/softening_contact.h"
-#include "weartrack/kernel.h"
+#include "weartrack/friction.h"
 
 typedef enum subinterval_map {
     MAP_LINEAR,     /* t = s */

@@ -5,7 +5,7 @@
 #ifndef WT_INDENTATION_LAW_ADHESION_H
 #define WT_INDENTATION_LAW_ADHESION_H
 
-#include "weartrack/model.h"
+#include "weartrack/indentation.h"
 
 /* True if the law applies. A punch has no smaller contact from which it grows, and a thin sample
  * has no such law. */

@@ -8,7 +8,7 @@
 #ifndef WT_INDENTATION_LAW_HEREDITARY_H
 #define WT_INDENTATION_LAW_HEREDITARY_H
 
-#include "weartrack/model.h"
+#include "weartrack/indentation.h"
 
 /* Prony series prepared for the steps of one motion. */
 typedef struct hereditary {

@@ -6,7 +6,7 @@
 #define WT_INDENTATION_LAW_TIP_H
 
 #include "core/base/param.h"
-#include "weartrack/model.h"
+#include "weartrack/indentation.h"
 
 /* Dimensions of the short text form with their limits. tip_text.c defines the dimensions of each
  * shape, and wt_tip_check their combinations. */

@@ -6,7 +6,7 @@
 #include "core/base/array.h"
 #include "core/base/clocale.h"
 #include "core/base/param.h"
-#include "weartrack/fit.h"
+#include "weartrack/indentation.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -12,7 +12,7 @@
 
 #include "core/math/simd.h"
 #include "indentation/law/hereditary.h"
-#include "weartrack/fit.h"
+#include "weartrack/indentation.h"
 
 #include <gsl/gsl_min.h>
 #include <math.h>

@@ -5,7 +5,7 @@
 
 #include "core/base/arena.h"
 #include "core/math/students_t.h"
-#include "weartrack/fit.h"
+#include "weartrack/indentation.h"
 
 typedef struct compare_units {
     double *value[2]; /* [n] ln E of the units of bulk and track at one rate */

@@ -4,7 +4,7 @@
 #ifndef WT_INDENTATION_NUMERICS_HEIGHT_IMAGE_H
 #define WT_INDENTATION_NUMERICS_HEIGHT_IMAGE_H
 
-#include "weartrack/data.h"
+#include "weartrack/core.h"
 
 #include <stdbool.h>
 #include <stddef.h>

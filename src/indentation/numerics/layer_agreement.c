@@ -4,7 +4,7 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
-#include "weartrack/fit.h"
+#include "weartrack/indentation.h"
 
 #include <gsl/gsl_cdf.h>
 #include <math.h>

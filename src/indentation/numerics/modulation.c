@@ -10,7 +10,7 @@
 #include "core/math/arena_gsl.h"
 #include "core/math/gsl_quiet.h"
 #include "core/math/root.h"
-#include "weartrack/fit.h"
+#include "weartrack/indentation.h"
 
 #include <complex.h>
 #include <gsl/gsl_fft_real.h>

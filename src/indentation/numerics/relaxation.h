@@ -4,7 +4,7 @@
 #define WT_INDENTATION_NUMERICS_RELAXATION_H
 
 #include "core/math/arena_gsl.h"
-#include "weartrack/fit.h"
+#include "weartrack/indentation.h"
 
 /* Means in the order of time: baseline, contact of the approach, dwell, retract far from contact.
  * Times begin at the first sample. */

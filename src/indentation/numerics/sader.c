@@ -6,7 +6,7 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
-#include "weartrack/fit.h"
+#include "weartrack/indentation.h"
 
 #include <complex.h>
 #include <math.h>

@@ -7,7 +7,7 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
-#include "weartrack/fit.h"
+#include "weartrack/indentation.h"
 
 #include "core/base/array.h"
 #include "core/math/cholesky.h"

@@ -4,7 +4,7 @@
 #ifndef WT_LAYER_NUMERICS_CORRELATED_PAIR_H
 #define WT_LAYER_NUMERICS_CORRELATED_PAIR_H
 
-#include "weartrack/fit.h"
+#include "weartrack/core.h"
 
 #include <stdbool.h>
 #include <stddef.h>

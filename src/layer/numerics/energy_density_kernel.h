@@ -6,7 +6,7 @@
 #ifndef WT_LAYER_NUMERICS_ENERGY_DENSITY_KERNEL_H
 #define WT_LAYER_NUMERICS_ENERGY_DENSITY_KERNEL_H
 
-#include "weartrack/kernel.h"
+#include "weartrack/layer.h"
 
 #include <math.h>
 

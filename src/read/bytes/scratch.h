@@ -6,7 +6,7 @@
 #ifndef WT_READ_SCRATCH_H
 #define WT_READ_SCRATCH_H
 
-#include "weartrack/read.h"
+#include "weartrack/core.h"
 
 /* Data up to this size stay in memory, and so does a file that is read in parts [byte]. */
 #define SCRATCH_THRESHOLD ((size_t)4 * 1024 * 1024)

@@ -6,7 +6,7 @@
 #ifndef WT_READ_GWY_OBJECT_H
 #define WT_READ_GWY_OBJECT_H
 
-#include "weartrack/base.h"
+#include "weartrack/core.h"
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -5,7 +5,7 @@
 #ifndef WT_READ_PROPERTIES_H
 #define WT_READ_PROPERTIES_H
 
-#include "weartrack/base.h"
+#include "weartrack/core.h"
 
 typedef struct property_entry {
     const char *key;

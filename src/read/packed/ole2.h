@@ -6,7 +6,7 @@
 #ifndef WT_READ_PACKED_OLE2_H
 #define WT_READ_PACKED_OLE2_H
 
-#include "weartrack/read.h"
+#include "weartrack/core.h"
 
 bool compound_is_file(const unsigned char *bytes, size_t length);
 

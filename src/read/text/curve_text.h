@@ -7,7 +7,7 @@
 #ifndef WT_READ_CURVE_TEXT_H
 #define WT_READ_CURVE_TEXT_H
 
-#include "weartrack/data.h"
+#include "weartrack/core.h"
 
 #include <stdio.h>
 

@@ -2,7 +2,7 @@
 #ifndef WT_READ_TEXT_AXIS_H
 #define WT_READ_TEXT_AXIS_H
 
-#include "weartrack/base.h"
+#include "weartrack/core.h"
 
 typedef struct text_axis {
     double first, step; /* step > 0 */

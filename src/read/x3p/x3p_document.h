@@ -6,7 +6,7 @@
 #define WT_READ_X3P_DOCUMENT_H
 
 #include "read/bytes/samples.h"
-#include "weartrack/base.h"
+#include "weartrack/core.h"
 
 typedef struct x3p_axis {
     bool incremental;

@@ -1,6 +1,6 @@
 /* Hertzian contact of a ball: nominal pressure, load and duty of a point of the track.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "weartrack/model.h"
+#include "weartrack/record.h"
 
 #include <math.h>
 

@@ -5,7 +5,7 @@
 #ifndef WT_RECORD_NUMERICS_AGREEMENT_H
 #define WT_RECORD_NUMERICS_AGREEMENT_H
 
-#include "weartrack/base.h"
+#include "weartrack/core.h"
 
 #include <stdbool.h>
 #include <stddef.h>

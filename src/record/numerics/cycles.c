@@ -2,6 +2,7 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "record/numerics/cycles.h"
+#include "weartrack/record.h"
 
 #include "core/base/array.h"
 

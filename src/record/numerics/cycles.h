@@ -4,7 +4,7 @@
 #ifndef WT_RECORD_NUMERICS_CYCLES_H
 #define WT_RECORD_NUMERICS_CYCLES_H
 
-#include "weartrack/fit.h"
+#include "weartrack/core.h"
 
 /* Samples of one cycle. `turn`: first sample of the return stroke of a double stroke. */
 typedef struct cycle_span {

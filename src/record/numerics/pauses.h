@@ -5,7 +5,7 @@
 #ifndef WT_RECORD_NUMERICS_PAUSES_H
 #define WT_RECORD_NUMERICS_PAUSES_H
 
-#include "weartrack/data.h"
+#include "weartrack/core.h"
 
 typedef struct record_pause {
     size_t before; /* sample that follows the pause, counted without removed samples */

@@ -6,7 +6,7 @@
 #define WT_RECORD_NUMERICS_RUNNING_IN_CURVE_H
 
 #include "record/numerics/autocorrelation.h"
-#include "weartrack/base.h"
+#include "weartrack/core.h"
 
 /* Friction less final friction at times in equal ratios. It is constant before the first time, and
  * zero after the last. */
@@ -40,8 +40,9 @@ typedef struct running_in_curve_pair {
 /* Model: friction = level + ratio x curve(time / factor), with slow and white scatter of one law.
  * The likelihood is averaged over laws and, except for the factor itself, over factors. Several
  * series share factor and ratio, and have a level and a law each. */
-#define RUNNING_IN_CURVE_MIN_ODDS 20 /* as for the running-in: at most one false alarm in twenty   \
-                                      */
+#define RUNNING_IN_CURVE_MIN_ODDS                                                                  \
+    20 /* as for the running-in: at most one false alarm in twenty                                 \
+        */
 typedef struct running_in_curve_fit {
     bool seen;         /* odds over a constant above RUNNING_IN_CURVE_MIN_ODDS */
     double log_odds;   /* ln of the odds */

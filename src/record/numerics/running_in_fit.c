@@ -7,7 +7,7 @@
 
 #include "core/base/arena.h"
 #include "core/math/normal_quantile.h"
-#include "weartrack/fit.h"
+#include "weartrack/record.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -5,7 +5,7 @@
 
 #include "core/math/normal_quantile.h"
 #include "core/math/students_t.h"
-#include "weartrack/fit.h"
+#include "weartrack/record.h"
 
 #include <math.h>
 #include <stdlib.h>

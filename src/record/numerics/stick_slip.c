@@ -1,7 +1,7 @@
 /* Detection of stick-slip in the samples of a friction record.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "weartrack/fit.h"
+#include "weartrack/record.h"
 
 #include "core/base/arena.h"
 #include "core/base/array.h"

@@ -1,7 +1,7 @@
 /* Published rules for the truncation of the beginning of a series.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "weartrack/fit.h"
+#include "weartrack/record.h"
 
 #include <math.h>
 

@@ -1,7 +1,7 @@
 /* Wear track in a profile across it.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "weartrack/fit.h"
+#include "weartrack/record.h"
 
 #include "core/base/arena.h"
 

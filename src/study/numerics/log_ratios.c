@@ -1,7 +1,7 @@
 /* Comparison of two ratios of moduli.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/math/students_t.h"
-#include "weartrack/fit.h"
+#include "weartrack/study.h"
 
 #include <gsl/gsl_cdf.h>
 #include <math.h>

@@ -3,7 +3,7 @@
 #ifndef WT_STUDY_NUMERICS_SHARED_VALUE_H
 #define WT_STUDY_NUMERICS_SHARED_VALUE_H
 
-#include "weartrack/fit.h"
+#include "weartrack/study.h"
 
 /* Weighted mean of several values, with a test of their scatter against their errors. */
 typedef struct shared_value {

@@ -4,7 +4,7 @@
 #include "core/base/arena.h"
 #include "core/base/array.h"
 #include "core/math/students_t.h"
-#include "weartrack/fit.h"
+#include "weartrack/study.h"
 
 #include <gsl/gsl_cdf.h>
 #include <math.h>

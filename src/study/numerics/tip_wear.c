@@ -1,7 +1,7 @@
 /* Effect of a worn tip on the modulus: the force curve of the worn tip is fitted by the law of the
  * stated tip with modulus and contact point.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "weartrack/fit.h"
+#include "weartrack/study.h"
 
 #include <math.h>
 

@@ -3,6 +3,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
 #include "surface/law/anisotropy.h"
+#include "weartrack/surface.h"
 
 #include <float.h>
 #include <math.h>

@@ -5,7 +5,7 @@
 #ifndef WT_SURFACE_LAW_ANISOTROPY_H
 #define WT_SURFACE_LAW_ANISOTROPY_H
 
-#include "weartrack/kernel.h"
+#include "weartrack/core.h"
 
 #include <stddef.h>
 

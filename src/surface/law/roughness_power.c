@@ -1,7 +1,7 @@
 /* Power spectra of piecewise power laws: self-affine with a roll-off, and log-log tables.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/base/param.h"
-#include "weartrack/model.h"
+#include "weartrack/surface.h"
 
 #include <gsl/gsl_interp.h>
 #include <math.h>

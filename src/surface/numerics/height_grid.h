@@ -3,7 +3,7 @@
 #ifndef WT_SURFACE_NUMERICS_HEIGHT_GRID_H
 #define WT_SURFACE_NUMERICS_HEIGHT_GRID_H
 
-#include "weartrack/fit.h"
+#include "weartrack/surface.h"
 
 void surface_height_statistics(const wt_height_map *map, wt_surface_heights *to);
 /* Returns a wavenumber [rad/m]. Its wavelength is the shortest second difference that stays

@@ -3,7 +3,7 @@
 #ifndef WT_SURFACE_NUMERICS_SURFACE_ANALYSIS_H
 #define WT_SURFACE_NUMERICS_SURFACE_ANALYSIS_H
 
-#include "weartrack/fit.h"
+#include "weartrack/surface.h"
 
 #include <gsl/gsl_integration.h>
 

@@ -1,17 +1,79 @@
-/* weartrack - fit: from force curves to moduli and their comparison; from DMA sweeps to shift
- * factors, shift law, master curve and Prony series; friction records, calibration and surfaces.
+/* weartrack - indentation: force curves to moduli. Tips and contact laws; fits of one curve and of
+ * groups; dwells, images of a spot, deflection sensitivity and spring constant of the cantilever.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef WEARTRACK_FIT_H
-#define WEARTRACK_FIT_H
+#ifndef WEARTRACK_INDENTATION_H
+#define WEARTRACK_INDENTATION_H
 
-#include "weartrack/model.h"
+#include "weartrack/job.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 
-/* ---- one force curve: baseline, contact point, modulus --------------------------------------- */
+/* ---- tips and contact: F = E/(1-nu^2) G(delta) ---------------------------------------------- */
+
+/* Sneddon, Int. J. Eng. Sci. 3 (1965) 47; pyramid: Rico et al., Phys. Rev. E 72 (2005) 021914. */
+typedef enum wt_tip_shape {
+    WT_TIP_BLUNTED_PYRAMID, /* n-sided pyramid with a parabolic cap */
+    WT_TIP_PARABOLOID,      /* Hertz: G = 4/3 sqrt(R) delta^1.5; a sphere for delta << R */
+    WT_TIP_CONE,            /* Sneddon: G = 2/pi tan(theta) delta^2 */
+    WT_TIP_SPHERE,          /* Sneddon: delta = a atanh(a/R), G = (a^2 + R^2) atanh(a/R) - a R */
+    WT_TIP_PUNCH            /* flat end of radius R: G = 2 R delta */
+} wt_tip_shape;
+/* All laws assume linear elasticity without friction. The fit rejects a modulus of a sphere,
+ * paraboloid or punch deeper than its radius. The sharp pyramid (b = 0) averages over its faces: G
+ * = c tan(theta) delta^2 with c = 2/(pi m), 0.7071 for four sides and 0.7698 for three.
+ * Three-dimensional solutions give 0.738 and 0.882, so that E is 4 and 15 % too high. */
+
+typedef struct wt_tip {
+    wt_tip_shape shape;
+    unsigned sides;           /* sides of the pyramid, >= 3; 0 = blunted cone (m = 1) */
+    double half_angle;        /* axis to FACE [rad] */
+    double radius;            /* radius of cap, sphere or punch [m]; 0 only if b is 0 */
+    double transition_radius; /* radius b where the cap meets the faces [m]; 0 = sharp */
+    double sample_thickness; /* thickness of rubber on a rigid base [m]; 0 (default) = half-space */
+    bool unbonded;           /* the rubber slides on that base */
+    double half_angle_error; /* standard errors [rad] and [m]; 0 (default) = not stated. The laws do
+                                not */
+    double radius_error;     /* use them: they are common to all curves of a group */
+} wt_tip;
+
+/* Returns b = R cos(theta), for a sphere tangent to the faces (the default of common AFM programs).
+ */
+WT_API double wt_tip_tangent_transition(double radius, double half_angle);
+/* Checks a tip. WT_E_RANGE states the problem: not finite, radius <= 0, angle outside (0, 90)
+ * degrees, or a transition radius that makes the cap concave (b/R > m cot(theta)). */
+WT_API wt_status wt_tip_check(const wt_tip *tip, wt_error *err) WT_NODISCARD;
+/* Parses a tip: "pyramid:half-angle=35deg,radius=20nm[,sides=4][,transition=12nm]",
+ * "sphere:radius=5um", "cone:half-angle=20deg[,radius=20nm][,transition=12nm]" (a blunted cone with
+ * a radius), "paraboloid:radius=5um", "punch:radius=2um".
+ * The default transition radius is the tangent one; radius=0nm is a sharp pyramid. Half-angle and
+ * radius may have a standard error, "radius=20nm+-15%". WT_E_ARG or WT_E_UNIT for the spelling,
+ * else as wt_tip_check. `tip` is unchanged on failure. */
+WT_API wt_status wt_tip_parse(const char *text, wt_tip *tip, wt_error *err) WT_NODISCARD;
+/* Formats the tip with all its numbers, b included. Returns the length as snprintf does. `tip` must
+ * have passed wt_tip_check. */
+WT_API size_t wt_tip_describe(const wt_tip *tip, char *buffer, size_t size);
+
+/* Computes G(delta) [m^2] and dG/ddelta = 2a [m] for delta >= 0 (0 and 0 for delta <= 0). Rico et
+ * al., Phys. Rev. E 72 (2005) 021914, in a form without cancellation. Relative error below 1e-12.
+ * For a thin sample G includes the base, for Poisson's ratio 0.5 if bonded. It then differs from
+ * the exact solution by typically 0.4 %, at most 2.5 %, up to a contact radius of one thickness. */
+WT_API void wt_contact_function(const wt_tip *tip, double delta, double *g, double *slope);
+
+/* Tabulated G and slope for fast evaluation. One table of a tip serves all curves and threads. It
+ * is piecewise quintic beyond the switch depth b^2/R and exact elsewhere. The relative error is
+ * below 1e-11 in [delta_min, delta_max]; outside, the direct function is used. WT_E_RANGE as
+ * wt_tip_check, and unless 0 < delta_min < delta_max. */
+typedef struct wt_contact_table wt_contact_table;
+WT_API wt_status wt_contact_table_new(const wt_tip *tip, double delta_min, double delta_max,
+                                      wt_contact_table **table, wt_error *err) WT_NODISCARD;
+WT_API void wt_contact_table_free(wt_contact_table *table);
+WT_API void wt_contact_table_eval(const wt_contact_table *table, const double *delta, size_t n,
+                                  double *g, double *slope); /* slope may be NULL */
+
+/* ---- one force curve: baseline, contact point, modulus -------------------------------------- */
 
 /* Verdict on a curve: enumerator, identifier, text. Accepted and doubtful curves have a usable
  * modulus. The tests run in about this order; the first that applies is reported with its numbers:
@@ -226,6 +288,8 @@ WT_API size_t wt_indent_plot_points(const wt_indent_fit *fit, const double *heig
                                     const double *force, size_t n, double spring_constant,
                                     double *delta, double *out_force);
 
+/* ---- curves of one tip: misfit and modulus against depth ------------------------------------ */
+
 /* Mean residual of curves of one tip and depth against the scatter between curves. It reveals lack
  * of fit that is hidden in the noise of one curve. */
 typedef struct wt_pooled_misfit {
@@ -287,6 +351,8 @@ WT_API wt_status wt_modulus_profile_fit(const wt_contact_table *table, double po
                                         const wt_curve_residuals *curve, size_t n,
                                         wt_modulus_profile *depth, wt_error *err) WT_NODISCARD;
 
+/* ---- curves of the track: thickness of a layer ---------------------------------------------- */
+
 /* Thickness of a layer in the track from the curves alone. A thickness is allowed if the curves
  * change with depth as those of a layer of this thickness on the bulk, with the measured ratio of
  * the moduli. The change of the bulk curves is subtracted, so that effects of tip, loss or piezo
@@ -340,7 +406,7 @@ typedef struct wt_layer_agreement {
 /* Compares the profile with an independent thickness [m] and its 95 % interval. */
 WT_API wt_layer_agreement wt_layer_compare(const wt_layer_profile *profile, wt_interval other);
 
-/* ---- groups and their comparison ------------------------------------------------------------- */
+/* ---- groups and their comparison ------------------------------------------------------------ */
 
 /* One group of moduli, accepted curves only. spot[i] numbers the position on the sample, as curves
  * on one spot are not independent. NULL = each curve is its own spot, which the result states. */
@@ -406,28 +472,6 @@ typedef struct wt_comparison {
     double interaction_p;    /* p value for equal slopes of the two groups; NaN if unknown */
 } wt_comparison;
 
-/* Comparison of the means of a further property of the curves (such as adhesion). */
-typedef struct wt_mean_comparison {
-    double mean[2];     /* mean of the spots; NaN: no values */
-    double larger_p[2]; /* one-sided p value (Welch) that this group is larger than the other;
-                                NaN with fewer than two spots in a group */
-} wt_mean_comparison;
-/* values: [n] one per curve; values that are not finite are excluded. spots: [n], NULL: each curve
- * is a unit. */
-WT_API wt_status wt_compare_means(const double *const values[2], const long *const spots[2],
-                                  const size_t n[2], wt_mean_comparison *signs,
-                                  wt_error *err) WT_NODISCARD;
-/* Returns the combined p value of two independent tests (Fisher 1932). If one is NaN, it returns
- * the other. */
-WT_API double wt_combined_p_value(double a, double b);
-/* Effect of tip wear: a curve of a pyramid or cone with another cap radius [m], fitted by the law
- * of the stated tip. depth [m]; bending: cantilever deflection at that depth [m]. Result: ln of the
- * fitted over the true modulus, and the root mean square residual over the largest force. */
-typedef struct wt_tip_wear {
-    double log_modulus, misfit;
-} wt_tip_wear;
-WT_API wt_status wt_tip_wear_fit(const wt_tip *stated, double radius, double depth, double bending,
-                                 wt_tip_wear *fit, wt_error *err) WT_NODISCARD;
 /* Summarises a group. WT_E_EMPTY for n = 0, WT_E_RANGE for a modulus that is not positive. The
  * interval of one unit is NaN. */
 WT_API wt_status wt_group_summarise(const wt_group *group, wt_group_summary *summary,
@@ -444,19 +488,7 @@ WT_API wt_status wt_compare_moduli(const wt_group *bulk, const wt_group *track,
 /* Returns the smallest number of spots in each group that detects a difference `log_ratio` of ln E
  * with a power of 80 % when spots scatter by `scatter`; 0 if 1000 are not enough. */
 WT_API size_t wt_required_spots(double log_ratio, double scatter);
-/* Logarithm of a ratio with its error. */
-typedef struct wt_log_ratio {
-    double value, standard_error;
-    double df; /* degrees of freedom of the error; NaN: normal */
-} wt_log_ratio;
-/* Difference a - b of two independent log ratios (Welch, Satterthwaite as above). Undetermined
- * values are NaN. */
-typedef struct wt_log_ratio_difference {
-    double value, low, high; /* with its 95 % interval */
-    double df;               /* NaN: normal error */
-    double p;                /* two-sided, for no difference */
-} wt_log_ratio_difference;
-WT_API wt_log_ratio_difference wt_log_ratio_compare(const wt_log_ratio *a, const wt_log_ratio *b);
+
 /* Adjusts n p values by Holm's correction (Scand. J. Stat. 6 (1979) 65); adjusted: [n]. NaN values
  * stay and are not counted. */
 WT_API void wt_holm_adjust(const double *p, size_t n, double *adjusted);
@@ -464,83 +496,118 @@ WT_API void wt_holm_adjust(const double *p, size_t n, double *adjusted);
  * exp(psi(p+1))/t (2.52/t for p = 2, 2.02/t for p = 1.5). NaN for t <= 0. */
 WT_API double wt_equivalent_frequency(double load_time, double force_exponent);
 
-/* ---- peaks and values of a curve against temperature --------------------------------------- */
+/* ---- indentation of a group ----------------------------------------------------------------- */
 
-/* Maximum of a curve of scattered points. The errors are due to the scatter of the points, not to
- * the thermometer. */
-typedef struct wt_peak {
-    bool found;
-    wt_interval at,
-        height;          /* NaN if not found; bounds that too few points determine are NaN, too */
-    size_t n;            /* points used */
-    double misfit;       /* root mean square deviation from the curve, relative to the height */
-    const char *why_not; /* "" or the reason why it is not found or not bounded; static */
-} wt_peak;
-/* Finds the peak; x increasing, y > 0. The curve is a parabola of ln y plus a Gaussian process,
- * down to half the height. With `points` > 0 it is a plain parabola of y through so many points
- * about the largest. A largest point that is one of the outer two on a side is no peak. */
-WT_API wt_status wt_peak_find(const double *x, const double *y, size_t n, size_t points,
-                              wt_peak *peak, wt_error *err) WT_NODISCARD;
-/* Finds further maxima in order of x: each in its range between adjacent minima, above which it
- * rises by a tenth at least, fitted as in wt_peak_find. Stores at most `most`; *n_peaks is their
- * number. */
-WT_API wt_status wt_secondary_peaks(const double *x, const double *y, size_t n, size_t most,
-                                    wt_peak *peaks, size_t *n_peaks, wt_error *err) WT_NODISCARD;
-/* Extrapolated onset of the fall of the storage modulus (ASTM E1640): intersection of the tangent
- * of ln y at its steepest fall with the tangent of the glass, at the lower temperature where the
- * slope is a tenth of that. */
-typedef struct wt_onset {
-    bool found;
-    wt_interval at;      /* NaN if not found */
-    size_t n;            /* points used */
-    const char *why_not; /* "" or the reason why it is not found; static */
-} wt_onset;
-/* Finds the onset; x increasing, y > 0. The curve is that of wt_peak_find through the points about
- * the fall. */
-WT_API wt_status wt_onset_find(const double *x, const double *y, size_t n, wt_onset *onset,
-                               wt_error *err) WT_NODISCARD;
-/* Returns the value of such a curve through the neighbours of x = `at`; NaN outside of the points.
- */
-WT_API wt_status wt_smooth_interpolate(const double *x, const double *y, size_t n, double at,
-                                       wt_interval *value, wt_error *err) WT_NODISCARD;
+/* Systematic error sources common to all curves of a group, which their scatter does not show. */
+typedef enum wt_systematic_source {
+    WT_SYSTEMATIC_SPRING_CONSTANT,
+    WT_SYSTEMATIC_SENSITIVITY,
+    WT_SYSTEMATIC_HALF_ANGLE,
+    WT_SYSTEMATIC_RADIUS,
+    WT_SYSTEMATIC_SOURCES
+} wt_systematic_source;
 
-/* ---- strain sweeps (Payne effect) ------------------------------------------------------------ */
+typedef struct wt_indent_job {
+    const char *group; /* "bulk", "track" or another name of [a-z0-9_]+ */
+    const wt_file_set *sets;
+    size_t n_sets;
+    wt_tip tip;
+    wt_indent_options options;
+    /* Values of all curves with their errors (0 = not stated); value NaN: as in the files. */
+    wt_estimate spring_constant, sensitivity;
+    /* Relative standard errors if the values state none; 0 (default) = none. */
+    double lever_error, sensitivity_error;
+    bool rates;        /* decodes times for the piezo and indentation rates */
+    bool median_curve; /* stores the representative curve for the figures */
+    /* Curves to store: "median" (which sets median_curve), "rejected", "worst:N", "all", "FILE:N".
+     */
+    const char *const *curves;
+    size_t n_curves;
+    const char *choices;            /* file of manual overrides for files and curves; NULL = none */
+    const struct wt_rubber *rubber; /* a factor on its spectrum is fitted; NULL (default) = none */
+    wt_estimate
+        temperature; /* temperature of the curves [K]; NaN = reference temperature of the rubber */
+    struct wt_curve_set *keep; /* receives the accepted curves; NULL (default) */
+} wt_indent_job;
+WT_API wt_indent_job wt_indent_job_defaults(void);
+WT_API const wt_params *wt_indent_job_params(void);
 
-/* Law of Kraus (1984), as in Rutherford et al., Polymers 15 (2023) 1675
- * (doi:10.3390/polym15071675):
- * storage = storage_inf + (storage_0 - storage_inf) / (1 + x^2),
- * loss = loss_inf + (loss_m - loss_inf) 2 x / (1 + x^2), x = (strain / strain_c)^exponent. */
-typedef struct wt_kraus {
-    double storage_0, storage_inf, strain_c, exponent, loss_m, loss_inf;
-} wt_kraus;
-WT_API double wt_kraus_storage(const wt_kraus *law, double strain);
-WT_API double wt_kraus_loss(const wt_kraus *law, double strain);
+/* Accepted curves of a group with their fits, for the bootstrap of wt_coverage_compute. NULL when
+ * out of memory. */
+typedef struct wt_curve_set wt_curve_set;
+WT_API wt_curve_set *wt_curve_set_new(void);
+WT_API void wt_curve_set_free(wt_curve_set *set);
 
-/* Result for one strain sweep. Values outside of the measured range are NaN. */
-typedef struct wt_payne {
-    /* Measured values: means of up to three points with the smallest amplitudes (within a factor of
-     * three of the smallest) and of the three largest; amplitudes at which the storage modulus
-     * first falls below 0.9 and 0.5 of its start, interpolated in ln strain; the largest loss
-     * modulus, and its amplitude unless that is one of the outer two on a side. */
-    double storage_start, loss_start, storage_end;
-    double strain_tenth, strain_half, loss_max, strain_loss_max;
-    /* Least squares with equal errors of the storage moduli; the loss moduli then use its strain_c
-     * and exponent. Intervals follow from the profiled sum of squares; bounds that the points do
-     * not determine are NaN. strain_c is the amplitude of half the fall. */
-    bool fitted;
-    wt_kraus law;
-    wt_interval storage_0, storage_inf, strain_c, exponent, loss_m, loss_inf;
-    double storage_misfit,
-        loss_misfit;       /* root mean square deviations over storage_0 and loss_max */
-    const char *note;      /* "", or a reason for no fit or a remark; static */
-    const char *loss_note; /* the same for the loss modulus */
-} wt_payne;
-/* Fits a strain sweep. strain increasing; strain and moduli > 0. loss NULL: not measured, and its
- * results are NaN. */
-WT_API wt_status wt_payne_fit(const double *strain, const double *storage, const double *loss,
-                              size_t n, wt_payne *payne, wt_error *err) WT_NODISCARD;
+/* Tables of indentation, each freed with wt_table_free, all with wt_indent_tables_clear. Initialise
+ * with zeros. For a further group, first take `indentation` (set it to NULL); the other tables are
+ * appended to. */
+typedef struct wt_indent_tables {
+    wt_table *indentation;        /* indentation/GROUP, one row per curve, also of rejected ones */
+    wt_table *force_displacement; /* NULL unless curves are requested */
+    wt_table *force_indentation;
+    wt_table *curves;        /* samples of the stored curves; NULL if there are none */
+    wt_table *choices;       /* applied manual overrides; NULL without choices */
+    wt_table *modulus_depth; /* NULL if no group has enough curves */
+    size_t n_files, n_curves, n_accepted, n_failed;
+} wt_indent_tables;
+WT_API void wt_indent_tables_clear(wt_indent_tables *tables);
 
-/* ---- dwells ---------------------------------------------------------------------------------- */
+/* Fits every curve of every file. Files are streamed and fitted in parallel batches, so that memory
+ * is bounded. The order of rows is that of files and curves for any number of threads. WT_E_EMPTY
+ * if no file has a curve. */
+WT_API wt_status wt_indent_group(const wt_indent_job *job, const wt_job *work,
+                                 wt_indent_tables *tables, wt_error *err) WT_NODISCARD;
+
+/* ---- groups of an indentation table --------------------------------------------------------- */
+
+/* Digest of the measured values of a curve, for finding duplicates; 0 = too few values. */
+typedef struct wt_curve_digest {
+    uint64_t digest;
+    size_t item;
+} wt_curve_digest;
+
+/* The accepted moduli of an indentation table as a group for comparison. wt_group_data_clear frees
+ * the arrays. A duplicate curve counts once. */
+typedef struct wt_group_data {
+    wt_group group; /* borrows the arrays below */
+    double *modulus;
+    long *spot;
+    double *indentation_rate;     /* [n] m/s, NaN if unknown */
+    double *equivalent_frequency; /* [n] rad/s, NaN if unknown */
+    double *spectrum_factor;      /* [n] factor on the DMA spectrum, NaN if unknown */
+    double *pull; /* [n] largest attractive force of approach and retract [N]; NaN if unknown */
+    double *max_force, *max_indentation; /* [n] N, m; NaN if unknown */
+    /* of all curves together: mean residual of the largest force, and the chance of more by
+     * scatter; NaN if unknown */
+    double pooled_misfit, pooled_misfit_p;
+    /* [n_fitted] of the curves that were fitted, rejected ones too, for a misfit rejects them: cube
+     * root of the lack of fit, number of the spot (not that of the accepted ones) */
+    double *lack_of_fit;
+    long *fitted_spot;
+    size_t n_fitted;
+    wt_curve_digest *digest;       /* [n_digests] of the curves, increasing */
+    size_t n_digests, n_copies;    /* n_copies: number of excluded duplicates */
+    const char *duplicate_file[2]; /* files of the first duplicate; borrowed from the table */
+    wt_estimate spring_constant;   /* of the table; NaN if it has none */
+    double sensitivity_gain;       /* mean of the curves, NaN if unknown */
+    wt_estimate sensitivity;       /* stated value; NaN if none or several */
+    /* Relative standard errors, NaN if not stated, and the derivative of ln E by each, NaN if
+     * unknown. */
+    double common_error[WT_SYSTEMATIC_SOURCES];
+    wt_estimate common_gain[WT_SYSTEMATIC_SOURCES];
+    double loss_error,
+        bend_error; /* systematic errors of all moduli by loss and baseline curvature, the latter
+                       with its sign; 0 if not detected, NaN if detected with unknown size */
+    double misfit_error;          /* the same by lack of fit of the contact law */
+    const char *tip;              /* description; borrowed from the table; NULL if unknown */
+    bool has_several_cantilevers; /* the curves have several spring constants */
+    bool has_several_sensitivities, has_several_tips;
+    bool spots_are_named;            /* the user named the spots */
+    wt_curve_verdict main_rejection; /* most frequent verdict of the rejected curves */
+    size_t n_main_rejection;         /* number of curves with it */
+} wt_group_data;
+
+/* ---- dwells --------------------------------------------------------------------------------- */
 
 /* An approach, the following dwell and retract, in order of time. */
 typedef struct wt_dwell_history {
@@ -622,7 +689,42 @@ WT_API wt_status wt_modulation_moduli(const wt_modulation *modulation, const wt_
                                       double spring_constant, double slope, wt_dwell_moduli *moduli,
                                       wt_error *err) WT_NODISCARD;
 
-/* ---- deflection sensitivity: curves on a hard surface ---------------------------------------- */
+typedef struct wt_dwell_tables {
+    wt_table *dwell, *dwell_points, *dwell_moduli;
+} wt_dwell_tables;
+WT_API void wt_dwell_tables_clear(wt_dwell_tables *tables);
+/* Evaluates the first dwell after the approach of every curve, with the tip and options of an
+ * indentation job. WT_E_EMPTY if no curve has one. */
+WT_API wt_status wt_dwell_compute(const wt_indent_job *job, const wt_job *work,
+                                  wt_dwell_tables *tables, wt_error *err) WT_NODISCARD;
+
+/* ---- images of a spot ----------------------------------------------------------------------- */
+
+typedef struct wt_spot_job {
+    wt_tip tip;
+    double depth; /* indentation depth [m] */
+    double x, y;  /* position in the coordinates of the image [m]; NaN (default) = its middle */
+    double position_error; /* [m]; NaN (default) = one contact radius */
+    double largest_effect; /* largest acceptable effect of roughness on the contact area; default
+                              0.1 */
+    const char *image;     /* part of the name of the image; NULL = first height image */
+    const char *after;     /* file with the image after the indentation; NULL = none */
+    wt_read_options read;  /* for both files; initialise with wt_read_defaults() */
+    bool map;              /* also computes the table spot_map */
+} wt_spot_job;
+WT_API wt_spot_job wt_spot_job_defaults(void);
+WT_API const wt_params *wt_spot_job_params(void);
+typedef struct wt_spot_tables {
+    wt_table *spot, *spot_map; /* spot_map: NULL unless requested */
+} wt_spot_tables;
+WT_API void wt_spot_tables_clear(wt_spot_tables *tables);
+/* Evaluates the image `path` before the indentation: roughness over the contact relative to the
+ * depth, and the remaining imprint. WT_E_NOT_FOUND if the file has no such height image, WT_E_RANGE
+ * if sides or pixels of the images differ by more than a factor of four. */
+WT_API wt_status wt_spot_compute(const wt_spot_job *job, const char *path, const wt_job *work,
+                                 wt_spot_tables *tables, wt_error *err) WT_NODISCARD;
+
+/* ---- deflection sensitivity: curves on a hard surface --------------------------------------- */
 
 /* Part of the contact for the slope: shares of the rise of the signal. */
 typedef struct wt_slope_options {
@@ -659,101 +761,33 @@ WT_API wt_status wt_contact_slope_fit(const double *position, const double *sign
 WT_API wt_interval wt_student_mean(const double *values, const long *units, size_t n,
                                    size_t *n_units);
 
-/* ---- friction records ------------------------------------------------------------------------ */
+typedef enum wt_curve_direction {
+    WT_DIRECTION_BOTH,
+    WT_DIRECTION_APPROACH,
+    WT_DIRECTION_RETRACT
+} wt_curve_direction;
 
-/* Interval for averaging friction before its scatter is computed, so that variation within a lap or
- * stroke does not count as scatter. */
-typedef enum wt_cycle_kind {
-    WT_CYCLE_AUTO,   /* strokes, laps or time intervals, the first that the record allows */
-    WT_CYCLE_STROKE, /* one double stroke */
-    WT_CYCLE_LAP,    /* whole revolutions */
-    WT_CYCLE_TIME,   /* equal time intervals */
-    WT_CYCLE_SAMPLE  /* no averaging: each sample */
-} wt_cycle_kind;
+/* Deflection sensitivity from curves on a hard surface. */
+typedef struct wt_sensitivity_job {
+    const wt_file_set *sets;
+    size_t n_sets;
+    wt_slope_options options;
+    wt_curve_direction ways; /* directions of the result */
+    double max_slope_change; /* largest relative change of the slope within the part that counts as
+                         straight */
+} wt_sensitivity_job;
+WT_API wt_sensitivity_job wt_sensitivity_job_defaults(void);
+WT_API const wt_params *wt_sensitivity_job_params(void);
+typedef struct wt_sensitivity_tables {
+    wt_table *sensitivity, *sensitivity_curves;
+} wt_sensitivity_tables;
+WT_API void wt_sensitivity_tables_clear(wt_sensitivity_tables *tables);
+/* WT_E_EMPTY if no file has a curve. If the surface is compliant or the signal is not straight
+ * there is no sensitivity; the verdict has the reason. */
+WT_API wt_status wt_sensitivity_compute(const wt_sensitivity_job *job, const wt_job *work,
+                                        wt_sensitivity_tables *tables, wt_error *err) WT_NODISCARD;
 
-/* Means over one cycle; channels that were not recorded are NaN. */
-typedef struct wt_cycle {
-    size_t first, n, step;
-    double time, distance, laps; /* at its middle */
-    double coefficient;
-    double zero;      /* for strokes: mean of both directions, signed, as a coefficient */
-    double deviation; /* standard deviation of its samples */
-    double normal_force, velocity, pressure, temperature, wear_depth;
-    double rotation; /* of the disc [rad/s] */
-    double duration; /* to the first sample of the next one [s] */
-} wt_cycle;
-
-typedef struct wt_cycles {
-    wt_cycle_kind kind;
-    size_t n;
-    wt_cycle *cycle;
-    double *friction;  /* [samples of the record] signed coefficient */
-    double samples;    /* median number of samples in a cycle */
-    double difference; /* largest difference of mu and friction force over load, if the file has
-                          both; NaN */
-    bool has_zero;     /* the two directions have opposite signs */
-    size_t n_unloaded; /* samples without a coefficient because the load is not positive */
-} wt_cycles;
-/* Splits a record into cycles. The track `radius` [m] converts distance to laps and rotation to
- * velocity; NaN: unknown. `load` [N] is used if none was recorded; NaN: unknown. WT_E_MISSING if
- * the record does not allow a `kind` other than WT_CYCLE_AUTO. */
-WT_API wt_status wt_cycles_compute(const wt_record *record, wt_cycle_kind kind, double radius,
-                                   double load, wt_cycles *cycles, wt_error *err) WT_NODISCARD;
-WT_API void wt_cycles_clear(wt_cycles *cycles);
-
-/* End of the running-in of a series: a line with its own scatter, then a constant with another.
- * Both scatters are white plus an autoregression of first order. The likelihood is averaged over
- * its length and share, and over the end. */
-typedef struct wt_running_in {
-    bool seen;       /* odds above 20 to 1 against a series without running-in */
-    wt_interval end; /* number of points before the steady state: median and 95 % interval; NaN */
-    size_t steady_start; /* first point of the steady state, after the interval; 0: all */
-    const char *why_not; /* "" or the reason why there is no end; static */
-} wt_running_in;
-WT_API wt_status wt_running_in_find(const double *y, size_t n, wt_running_in *running_in,
-                                    wt_error *err) WT_NODISCARD;
-/* Other rules for the first point of the steady state: one step of the mean by least squares, at
- * least 2 % from either end; MSER-5 of White, Simulation 69 (1997) 323. */
-WT_API size_t wt_step_detect(const double *y, size_t n);
-WT_API size_t wt_mser_5(const double *y, size_t n);
-
-/* Mean and drift of a steady-state series with correlated scatter. The 95 % intervals are averaged
- * over the uncertainty of the correlation; the mean also over models with and without drift. */
-typedef struct wt_steady {
-    size_t n;
-    wt_interval mean;
-    wt_interval drift;          /* per point */
-    double deviation, min, max; /* of the points */
-    double correlation;         /* variance of the mean over that of as many independent points */
-    const char *note;           /* "" or a remark; static */
-} wt_steady;
-WT_API wt_status wt_steady_mean(const double *y, size_t n, wt_steady *steady,
-                                wt_error *err) WT_NODISCARD;
-
-/* Stick-slip: significant falls of the samples that follow slower rises. */
-typedef struct wt_stick_slip {
-    size_t n;              /* number of slips; 0: none significant */
-    double amplitude;      /* mean height of the falls; NaN if none */
-    double standard_error; /* from their scatter */
-} wt_stick_slip;
-WT_API wt_status wt_stick_slip_find(const double *y, size_t n, wt_stick_slip *slips,
-                                    wt_error *err) WT_NODISCARD;
-
-/* A wear track in a profile across it: heights relative to a line through the outer quarters. */
-typedef struct wt_track {
-    bool found; /* two adjacent samples are deeper than 3 standard deviations of the outer quarters
-                 */
-    double slope, intercept, scatter; /* of the line; standard deviation about it */
-    double depth, at, from, to; /* depth and position of the deepest point; limits of the track */
-    wt_estimate area; /* area below the line within the limits; error from the line's scatter */
-    double ridges;    /* area above the line within the limits */
-} wt_track;
-/* Finds the track. Positions x increasing and heights z, both [m]. WT_E_RANGE for fewer than 40
- * points. */
-WT_API wt_status wt_track_find(const double *x, const double *z, size_t n, wt_track *track,
-                               wt_error *err) WT_NODISCARD;
-
-/* ---- thermal noise of a cantilever ----------------------------------------------------------- */
+/* ---- thermal noise of a lever --------------------------------------------------------------- */
 
 /* Thermal tune: a simple harmonic oscillator (cantilever: Butt and Jaschke, Nanotechnology 6 (1995)
  * 1) on a white floor, one-sided: S(f) = floor + 2 mean_square f0^3 / (pi Q) / ((f0^2 - f^2)^2 + (f
@@ -777,7 +811,7 @@ WT_API wt_status wt_thermal_fit(const double *frequency, const double *density, 
                                 double from, double to, wt_thermal *thermal,
                                 wt_error *err) WT_NODISCARD;
 
-/* ---- Sader's method -------------------------------------------------------------------------- */
+/* ---- Sader's method ------------------------------------------------------------------------- */
 
 typedef enum wt_medium { WT_MEDIUM_AIR, WT_MEDIUM_WATER } wt_medium;
 typedef struct wt_fluid {
@@ -797,385 +831,29 @@ WT_API wt_estimate wt_sader_spring_constant(wt_estimate length, wt_estimate widt
                                             wt_estimate resonance, wt_estimate quality,
                                             wt_fluid fluid);
 
-/* ---- surfaces: heights, power spectra, their self-affine law ----------------------------------
- */
+/* ---- spring constant of a lever ------------------------------------------------------------- */
 
-typedef enum wt_surface_window {
-    WT_WINDOW_HANN,
-    WT_WINDOW_WELCH,
-    WT_WINDOW_NONE
-} wt_surface_window;
-
-typedef enum wt_surface_form { WT_FORM_MEAN, WT_FORM_PLANE, WT_FORM_QUADRATIC } wt_surface_form;
-
-typedef struct wt_surface_options {
-    wt_surface_form form; /* polynomial that is subtracted by least squares */
-    wt_surface_window window;
-    double largest_missing; /* largest share of missing heights; more is an error */
-    double points_per_wave; /* smallest reliable number; 2 is the Nyquist wavenumber */
-    double tip_radius;      /* [m]; NaN: unknown */
-} wt_surface_options;
-WT_API wt_surface_options wt_surface_options_defaults(void);
-
-/* Height parameters after form removal: ISO 25178-2 (for a profile ISO 21920-2, where they are
- * called R) over the existing points. Slopes are forward differences of neighbours; Sdr uses the
- * two at a point. Other stencils give other slopes. */
-typedef struct wt_surface_heights {
-    size_t n, missing;
-    double rms, mean_deviation, peak_to_valley; /* Sq, Sa, Sz [m] */
-    double skewness, kurtosis;                  /* Ssk, Sku */
-    double rms_slope, slope_x, slope_y;         /* Sdq and its components; for a profile along x */
-    double area_excess;                         /* Sdr; NaN for a profile */
-} wt_surface_heights;
-
-enum { WT_SURFACE_SECTORS = 18 }; /* number of sectors in a half turn */
-/* Bin of modes with wavenumbers between 10^((index - 1/2)/10) and 10^((index + 1/2)/10) rad/m. */
-typedef struct wt_spectrum_bin {
-    int index;
-    double wavenumber, mean_wavenumber; /* geometric and arithmetic mean [rad/m] */
-    double width;                       /* standard deviation of ln q of its modes */
-    double density;                     /* mean density C [m^4] or C1 [m^3], two-sided */
-    double deviation;                   /* standard deviation of a mode of a scan */
-    size_t n;                           /* number of modes of the full plane or of both signs */
-    size_t scans;                       /* number of scans of these modes */
-    double freedom; /* degrees of freedom (chi-squared) of the mean; fewer than n, as a window
-                       correlates neighbours */
-    double shared_freedom; /* its part of the degrees of freedom of all bins, as modes of two bins
-                              are correlated, too */
-    double cosine, sine;   /* C(phi) = C (1 + cosine cos 2 phi + sine sin 2 phi + */
-    double cosine_fourth, sine_fourth; /* the same for 4 phi), phi from x */
-    /* Number of modes within half a sector of k pi / WT_SURFACE_SECTORS, and the sum of C of each
-     * over the mean of all; none for profiles. */
-    double sector_modes[WT_SURFACE_SECTORS], sector_sum[WT_SURFACE_SECTORS];
-    double sector_tie; /* number of modes of a sector per independent mode */
-    bool reliable;
-} wt_spectrum_bin;
-
-/* Power spectrum of a surface, with h_rms^2 = 2 pi int q C dq = 2 int_0^inf C1 dq; q = 2 pi /
- * wavelength. */
-typedef struct wt_surface_spectrum {
-    wt_spectrum_kind kind;
-    size_t n;
-    wt_spectrum_bin *bins;
-    double from, to;     /* reliable range [rad/m] */
-    const char *ends_by; /* "points" or "tip"; static */
-    /* For several scans: place_scatter is the standard deviation of ln C between positions, equal
-     * at all wavenumbers. place_reach is the value whose 1.96-fold is the half width of an
-     * interval; it includes the uncertainty of few positions and the scatter of the modes.
-     * place_error is the resulting standard error of the mean: by the scans of each bin, its square
-     * averaged over the bins. NaN: unknown. */
-    double place_scatter, place_reach, place_error;
-    /* Scans of one size contribute equally to all bins and deviate in all bins together,
-     * independent of other sizes. n_sizes: number of sizes, 0: not stored. place_part: [n_sizes]
-     * per bin, the widest first: standard error of ln C due to one size, over place_reach. */
-    size_t n_sizes;
-    double *place_part;
-} wt_surface_spectrum;
-WT_API void wt_surface_spectrum_clear(wt_surface_spectrum *spectrum);
-
-/* Computes height parameters and spectrum: form removal, missing heights filled as a membrane,
- * window, discrete Fourier transform, means over bins. Conventions: Jacobs, Junge, Pastewka, Surf.
- * Topogr. 5 (2017) 013001, but C = C2D / (2 pi)^2 and C1 = C1D / (2 pi). A map of one row gives C1.
- * The range ends at points_per_wave, or where the curvature of peaks reaches half that of the tip
- * (Sanner et al., Appl. Surf. Sci. Adv. 7 (2022) 100190). WT_E_RANGE: too many heights are missing;
- * WT_E_EMPTY: too few points, or all heights are equal. */
-WT_API wt_status wt_surface_analyse(const wt_height_map *map, const wt_surface_options *options,
-                                    wt_surface_heights *heights, wt_surface_spectrum *spectrum,
+/* Spring constant of a cantilever from its thermal noise: k = mode_shape / chi^2 k_B T / <d^2>,
+ * with the deflection d from the sensitivity on a hard surface. If the plan view or the coefficient
+ * of the cantilever type are stated, Sader's method is also used. */
+typedef struct wt_thermal_job {
+    const wt_file_set *sets; /* read.sensitivity [m/V] for spectra in volts without their own */
+    size_t n_sets;
+    wt_estimate
+        temperature; /* of the cantilever [K]; NaN: that of the file, else 25 degC with a warning */
+    double sensitivity_error;  /* relative */
+    double mode_shape;         /* share of the first mode in the thermal energy of the deflection */
+    double chi;                /* sensitivity of the free cantilever over that on a surface */
+    double from, to;           /* range of the fit [Hz]; NaN: about the peak */
+    wt_estimate length, width; /* of a rectangular cantilever [m]; NaN: unknown */
+    wt_medium medium;          /* medium around the cantilever */
+    wt_estimate sader_coefficient; /* A of k = A Q f^1.3 [N/m per kHz^1.3]; NaN: unknown */
+} wt_thermal_job;
+WT_API wt_thermal_job wt_thermal_job_defaults(void);
+WT_API const wt_params *wt_thermal_job_params(void);
+/* Creates the table "thermal". WT_E_EMPTY if no file has a spectrum. */
+WT_API wt_status wt_thermal_compute(const wt_thermal_job *job, const wt_job *work, wt_table **table,
                                     wt_error *err) WT_NODISCARD;
-/* Combines spectra of one kind: means of ln C over the reliable bins, weighted by their modes and
- * corrected for the bias of a mean of logarithms. WT_E_EMPTY: no bin is reliable. */
-WT_API wt_status wt_surface_combine(const wt_surface_spectrum *const *spectra, size_t n,
-                                    wt_surface_spectrum *joined, wt_error *err) WT_NODISCARD;
-/* Converts C1 of an isotropic surface to C; the slope at the end is extrapolated. Bins that the
- * scatter makes negative, or that are uncertain by more than a factor of two, are excluded.
- * WT_E_RANGE: the end is too flat, or there are too few profiles. */
-WT_API wt_status wt_surface_invert(const wt_surface_spectrum *profile, wt_surface_spectrum *surface,
-                                   wt_error *err) WT_NODISCARD;
-/* Converts C1 [m^3] at wavenumbers [rad/m] to C [m^4], [n], without errors. WT_E_RANGE as above,
- * and where C would not be positive. */
-WT_API wt_status wt_surface_from_profile(const double *wavenumber, const double *c1, size_t n,
-                                         double *c, wt_error *err) WT_NODISCARD;
-/* Returns the density of a bin with its error, including the known scatter between positions. The
- * standard error, and those of c0 and roll_off below, is that of the logarithm times the value. */
-WT_API wt_interval wt_surface_density(const wt_surface_spectrum *spectrum, size_t bin);
-
-/* Anisotropy of a spectrum: C(phi) = C (1 + amplitude cos order (phi - direction)), mean over the
- * modes of all reliable bins. Standard errors from the scatter of the modes. */
-typedef struct wt_surface_anisotropy {
-    double amplitude, direction; /* direction of a maximum, [rad] from x, -pi/order to pi/order */
-    double amplitude_error, direction_error;
-    double chance; /* p value of the amplitude for scatter alone */
-} wt_surface_anisotropy;
-/* order: 2 or 4. NaN for profiles. */
-WT_API wt_surface_anisotropy wt_surface_anisotropy_fit(const wt_surface_spectrum *spectrum,
-                                                       unsigned order);
-/* Returns C within half a sector of sector pi / WT_SURFACE_SECTORS from x over that of all
- * directions: mean over the modes of all reliable bins. *modes is their number. NaN without any. */
-WT_API wt_interval wt_surface_sector(const wt_surface_spectrum *spectrum, size_t sector,
-                                     double *modes);
-
-/* Self-affine law: C = c0 up to roll_off, c0 (q / roll_off)^(-2 (1 + hurst)) above it. */
-typedef struct wt_self_affine {
-    bool found;
-    bool rolls_off; /* false: roll_off is the first wavenumber, without an error */
-    wt_interval c0, roll_off, hurst;
-    double covariance[3][3];       /* of ln c0, ln roll_off, hurst, including the next */
-    double place_covariance[3][3]; /* contribution of the scatter between positions */
-    double misfit; /* chi-squared over its degrees of freedom; above 1 it widens the errors */
-    size_t n;      /* number of bins */
-} wt_self_affine;
-/* Fits the law by weighted least squares in ln C over the reliable bins. WT_E_MEMORY. */
-WT_API wt_status wt_self_affine_fit(const wt_surface_spectrum *spectrum, wt_self_affine *law,
-                                    wt_error *err) WT_NODISCARD;
-/* Returns C [m^4] of the law at a wavenumber, NaN if it was not found. The second function returns
- * the standard error of its logarithm (half width of the 95 % interval over 1.96), with or without
- * the contribution of positions. */
-WT_API double wt_self_affine_density(const wt_self_affine *law, double wavenumber);
-WT_API double wt_self_affine_log_error(const wt_self_affine *law, double wavenumber, bool places);
-
-/* Returns the wavenumber [rad/m] at which the rms slope, from q0 on, reaches `slope`; NaN if it
- * does not. */
-WT_API double wt_roughness_slope_wavenumber(const wt_roughness *roughness, double slope);
-
-/* ---- master curve: one spectrum for all isotherms ----------------------------------------------
- */
-
-typedef enum wt_vertical_shift {
-    WT_VERTICAL_NONE,
-    WT_VERTICAL_PHYSICAL, /* b = rho0 T0 / (rho T) */
-    WT_VERTICAL_FREE,
-    WT_VERTICAL_TIED /* physical, within clamping scatter and a smooth dependence on temperature,
-                        whose size is averaged over */
-} wt_vertical_shift;
-
-/* Quantity for the fit of the spectrum and the shifts. */
-typedef enum wt_shift_quantity {
-    WT_SHIFT_MODULI,     /* both moduli, or those measured for all isotherms */
-    WT_SHIFT_STORAGE,    /* E' or G' only */
-    WT_SHIFT_LOSS,       /* E'' or G'' only: the equilibrium modulus, and so E', stays unknown */
-    WT_SHIFT_LOSS_FACTOR /* tan delta only: no level of the moduli, no vertical shift */
-} wt_shift_quantity;
-
-typedef enum wt_reference_choice {
-    WT_REFERENCE_TEMPERATURE,   /* reference_temperature */
-    WT_REFERENCE_TAN_DELTA_PEAK /* temperature of the tan delta peak at 1 Hz; WT_E_RANGE without a
-                                   peak */
-} wt_reference_choice;
-
-typedef struct wt_master_options {
-    double reference_temperature; /* [K], not necessarily that of an isotherm; NaN (default): the
-                                     middle isotherm */
-    wt_vertical_shift vertical;   /* default TIED */
-    double expansion;             /* volumetric thermal expansion in rho T [1/K], default 0 */
-    double terms_per_decade; /* terms of the spectrum per decade; NaN (default): 3, or 10 for sharp
-                                lines */
-    bool liquid;             /* equilibrium modulus 0 */
-    bool series_only;        /* skips the fitted moduli at the points (NaN) and the verdict */
-    wt_shift_quantity shift_by; /* default MODULI */
-    wt_reference_choice reference_at;
-} wt_master_options;
-WT_API wt_master_options wt_master_options_defaults(void);
-WT_API const wt_params *wt_master_options_params(void);
-
-/* Shift of one isotherm: x_r = log10 w + log_a, y_r = log10 M + log_b. b multiplies the measured
- * values. */
-typedef struct wt_master_shift {
-    double temperature; /* [K] */
-    bool
-        determined; /* false: log_a and log_b are NaN and the isotherm is not in the master curve */
-    wt_interval log_a, log_b; /* [decade]; log_a is 0 at the reference isotherm */
-    double log_b_physical;    /* value of rho T */
-    double log_b_material;    /* value at this temperature without clamping scatter */
-    wt_interval law;          /* log10 aT of the law at this temperature; NaN without one */
-    double overlap;           /* frequency range shared with another isotherm [decade] */
-    double noise_factor;      /* noise of this isotherm relative to the others */
-    size_t n_outliers;        /* excluded values */
-    char note[128];           /* "" or a remark */
-} wt_master_shift;
-
-/* Source of the shifts. */
-typedef enum wt_shift_route {
-    WT_SHIFTS_FROM_SPECTRUM, /* fit of one spectrum to all isotherms */
-    WT_SHIFTS_FROM_OVERLAP   /* overlap of the storage moduli of neighbours: one spectrum was not
-                              found   or does not fit the isotherms. Only the shifts are returned; their
-                              errors include the variation over the overlap */
-} wt_shift_route;
-
-typedef enum wt_superposition {
-    WT_SUPERPOSITION_HOLDS,
-    WT_SUPERPOSITION_FAILS,
-    WT_SUPERPOSITION_INCONCLUSIVE
-} wt_superposition;
-
-typedef struct wt_posterior wt_posterior;
-
-/* Master curve: one relaxation spectrum, shifts and shift law for all isotherms, with the joint
- * errors. */
-typedef struct wt_master {
-    wt_deformation deformation;
-    wt_loading loading;
-    double reference_temperature; /* [K] */
-    wt_vertical_shift vertical;
-    wt_shift_route shift_route;
-    double terms_per_decade; /* of the spectrum */
-    size_t n_shifts;
-    wt_master_shift *shifts; /* [n_shifts], rising temperature */
-
-    size_t
-        n; /* number of measured points of the determined isotherms, ordered by reduced frequency */
-    double *log_frequency;          /* [n] log10 of the reduced angular frequency [rad/s] */
-    double *log_storage, *log_loss; /* [n] log10 of E' or G' [Pa], vertical shift applied */
-    wt_interval *fitted_storage, *fitted_loss; /* [n] log10 of the fitted moduli */
-    wt_interval *fitted_loss_factor;           /* [n] log10 of the fitted tan delta */
-    double *log_step; /* [n] for step tests: log10 of E(t), or 1/J(t) in creep [Pa], at the reduced
-                         time 1/frequency; else NaN */
-    wt_interval *fitted_step;         /* [n] the same of the fitted spectrum */
-    size_t *isotherm;                 /* [n] index into `shifts` */
-    bool *left_out;                   /* [n] excluded as an outlier in a modulus */
-    double noise_storage, noise_loss; /* relative standard deviation */
-    double correlation;               /* correlation of the noise of adjacent points */
-    size_t n_outliers;
-
-    wt_shift_law law;   /* kind WT_LAW_NONE: no law, `no_law_reason` has the reason */
-    wt_interval offset; /* deviation of the reference isotherm from the law [decade] */
-    wt_interval c1, c2, activation_energy; /* NaN: not a constant of the law */
-    double c_correlation;                  /* correlation of c1 and c2 */
-    wt_interval slope;         /* d log10 aT/dT at the reference temperature [decade/K] */
-    wt_interval pole;          /* [K] */
-    double temperature_spread; /* standard deviation of the temperature of an isotherm [K] */
-    double law_rms;            /* root mean square of the shifts about the law [decade] */
-    char no_law_reason[256];
-
-    wt_prony prony;          /* the spectrum at the reference temperature */
-    wt_interval equilibrium; /* [Pa] */
-    bool equilibrium_limit;  /* `high` is a one-sided 95 % limit; no other value */
-
-    wt_superposition superposition;
-    double lack_of_fit_p, misfit_low, misfit_high;           /* misfit: relative, 95 % interval */
-    double kramers_kronig_p, loss_factor, loss_factor_error; /* ln of a factor on all E'' */
-    double valid_from, valid_to;    /* [K] where superposition holds, if it fails beyond; or NaN */
-    bool settled;                   /* false: a fit ended at its last step */
-    char because[256];              /* of the verdict, and what would settle it */
-    size_t evaluations;             /* of the model, at all points */
-    double step_allowed, step_left; /* what a further step may change, and would at most
-                                       [standard errors] */
-    wt_posterior *posterior;
-} wt_master;
-WT_API void wt_master_clear(wt_master *master);
-
-/* Fits one relaxation spectrum with shifts of all isotherms to ln E' and ln E'' together. Smoothing
- * and noise are found by restricted likelihood (Wood and Fasiolo, Biometrics 73 (2017) 1071), with
- * a noise factor for each isotherm, correlation along it, and exclusion of single outliers.
- * Isotherms and points may be in any order; one isotherm is allowed. options NULL = defaults; log
- * may be NULL.
- *
- * Points with a modulus <= 0 are excluded with a warning. If fewer than four remain in an isotherm,
- * WT_E_RANGE names it. Isotherms that share less than 0.3 decade of frequencies with the others are
- * undetermined, with a note, and not in the master curve. WT_E_NO_OVERLAP if no isotherm can be
- * shifted. WT_E_RANGE for temperatures that are not in kelvin, or a reference that the law does not
- * reach within 0.2 decade. The caller clears `master`. */
-WT_API wt_status wt_master_fit(const wt_sweep *sweep, const wt_master_options *options, wt_log *log,
-                               wt_master *master, wt_error *err) WT_NODISCARD;
-/* Returns log10 aT of the law at a temperature [K]; NaN without a law, and outside of the isotherms
- * if fewer than four determine it. */
-WT_API wt_interval wt_master_log_shift(const wt_master *master, double temperature);
-/* Shared shift law of several samples. */
-typedef enum wt_shared_law_mode {
-    WT_SHARED_LAW_NONE,   /* one law for each sample */
-    WT_SHARED_LAW_SAME,   /* equal constants at one reference temperature */
-    WT_SHARED_LAW_SHIFTED /* equal constants, with a reference temperature for each sample */
-} wt_shared_law_mode;
-
-typedef struct wt_shared_law_member {
-    bool used;
-    char why_not[64];
-    wt_interval moved; /* its reference temperature above that of the first used sample [K] */
-} wt_shared_law_member;
-
-/* An isotherm of a used sample. Shifts in decades, without the offset of the sample. */
-typedef struct wt_shared_law_point {
-    size_t sample;
-    double temperature; /* [K] */
-    double log_a, log_a_error;
-    wt_interval law;        /* shared law */
-    wt_interval difference; /* law of the sample minus the shared law, relative to the middle of its
-                               isotherms, with conservative bounds; NaN if not computed */
-} wt_shared_law_point;
-
-typedef struct wt_shared_shift_law {
-    wt_law_kind kind; /* WLF or Arrhenius */
-    double reference; /* [K], of the first used sample */
-    wt_interval c1, c2, activation_energy;
-    double c_correlation; /* correlation of C1 and C2 */
-    double spread;        /* standard deviation of the temperature of an isotherm [K] */
-    double p;             /* p value that samples with one law differ so much; NaN: not computed */
-    size_t n_members, n;
-    wt_shared_law_member *members; /* [n_members] in the order of the samples */
-    wt_shared_law_point *points;   /* [n] */
-} wt_shared_shift_law;
-WT_API void wt_shared_shift_law_clear(wt_shared_shift_law *common);
-/* Fits a shared law by generalised least squares over the shifts of all samples with their
- * covariance. There is an offset for each sample, and one temperature error of all isotherms, which
- * is averaged over. The law is WLF if one sample alone has a WLF law, else Arrhenius. Samples with
- * joined laws, given shifts or without a fit (NULL) are excluded. `reference` NaN: that of the
- * first used sample. The caller clears `common`. WT_E_RANGE for fewer than two samples, or if no
- * law describes them. */
-WT_API wt_status wt_shared_shift_law_fit(const wt_master *const *masters, size_t n,
-                                         wt_shared_law_mode how, double reference,
-                                         wt_shared_shift_law *common, wt_error *err) WT_NODISCARD;
-/* Returns log10 aT of an isotherm by the closed form of ISO 18437-6 (Gergesova, Zupancic, Saprunov
- * and Emri, J. Rheol. 55 (2011) 1), for comparison. It uses only storage moduli of neighbours,
- * without a vertical shift. NaN if neighbours share too little. */
-WT_API double wt_master_closed_form(const wt_master *master, size_t isotherm);
-/* Returns the quantity of the fit: WT_SHIFT_MODULI only if both moduli were measured. */
-WT_API wt_shift_quantity wt_master_shift_quantity(const wt_master *master);
-/* Returns the measured tan delta at point i of the master curve; NaN if not measured. */
-WT_API double wt_master_loss_factor(const wt_master *master, size_t i);
-/* Computes log10 E' and log10 E'' [Pa] at the reference temperature. Only one thread at a time may
- * use a master. */
-WT_API void wt_master_moduli(const wt_master *master, double angular_frequency,
-                             wt_interval *log_storage, wt_interval *log_loss);
-/* Computes log10 of the relaxation spectrum H, the modulus per unit of ln tau [Pa], at the
- * relaxation time of a term of the series; NaN outside of the measured frequencies. */
-WT_API void wt_master_spectrum(const wt_master *master, size_t term, wt_interval *log_density);
-/* Draws one sample of the posterior: series at the reference temperature, law, and log10 b of the
- * material at the isotherms (log_b: [n_shifts], NaN where not determined; or NULL). The draw
- * depends only on seed and index. */
-WT_API wt_status wt_master_draw(const wt_master *master, uint64_t seed, size_t index,
-                                wt_prony *prony, wt_shift_law *law, double *log_b,
-                                wt_error *err) WT_NODISCARD;
-
-/* ---- few terms in place of a spectrum ------------------------------------------------------ */
-
-typedef struct wt_reduction {
-    unsigned terms;   /* 0 (default): the fewest for the error */
-    double error;     /* largest relative deviation of both moduli over the measured frequencies */
-    double long_term; /* equilibrium modulus [Pa]; NaN (default): fitted */
-} wt_reduction;
-WT_API wt_reduction wt_reduction_defaults(void);
-WT_API const wt_params *wt_reduction_params(void);
-/* Reduces a series to few positive terms with increasing times that approximate both moduli over
- * its frequency range, which must be known. If the number of terms is given, or no number meets the
- * error, it is the closest approximation; check it with wt_prony_deviation. The caller clears `to`.
- */
-WT_API wt_status wt_prony_reduce(const wt_prony *from, const wt_reduction *options, wt_prony *to,
-                                 wt_error *err) WT_NODISCARD;
-/* Computes the largest relative deviations of storage and loss modulus over the frequencies of
- * `from`. */
-WT_API void wt_prony_deviation(const wt_prony *from, const wt_prony *to, double deviation[2]);
-
-/* Fit of a fractional Zener law to the points of a master curve that were not excluded, by least
- * squares of the logarithms. It is compared with a series: root mean squares in ln, and Akaike's
- * criterion with small-sample correction (Hurvich and Tsai, Biometrika 76 (1989) 297), smaller is
- * better. There are no errors, because the lack of fit is not noise. */
-typedef struct wt_zener_fit {
-    double e0, eg, tau, alpha; /* (E0 + Eg z)/(1 + z), z = (i w tau)^alpha; moduli as measured */
-    bool determined;           /* the points determine its glass modulus and time */
-    double rms_storage, rms_loss, aicc;
-    double series_rms_storage, series_rms_loss, series_aicc;
-} wt_zener_fit;
-WT_API wt_status wt_master_zener(const wt_master *master, const wt_prony *series, wt_zener_fit *fit,
-                                 wt_error *err) WT_NODISCARD;
 
 #ifdef __cplusplus
 }

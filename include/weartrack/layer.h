@@ -1,178 +1,18 @@
-/* weartrack - kernel: Persson contact and hysteresis friction; energy density with depth,
- * formation, wear and thickness of the modified layer. Equations: Persson, J. Chem. Phys. 115
- * (2001) 3840; Mokhtari, thesis, Univ. Twente 2015, with its misprints corrected.
+/* weartrack - layer: the modified layer: energy density with depth, formation, wear, balance and
+ * thickness; identification of its constants. Equations: Mokhtari, thesis, Univ. Twente 2015, with
+ * its misprints corrected.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef WEARTRACK_KERNEL_H
-#define WEARTRACK_KERNEL_H
+#ifndef WEARTRACK_LAYER_H
+#define WEARTRACK_LAYER_H
 
-#include "weartrack/model.h"
+#include "weartrack/friction.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 
-/* ---- contact and friction -------------------------------------------------------------------- */
-
-/* A soft or stiff surface layer bonded to the bulk. Its modulus is a constant ratio of the bulk
- * modulus, a ratio that is a power of the frequency, or that of its own material. Its stiffness at
- * a wavenumber follows Burmister (1943) for nu = 1/2, independent of the material's Poisson ratio,
- * with the complex moduli at each frequency. */
-typedef struct wt_layer_state {
-    double thickness;       /* [m], 0 = none */
-    double modulus_ratio;   /* E_layer / E_bulk, > 0 */
-    wt_ratio_slope slope;   /* frequency dependence of that ratio; all 0: constant */
-    const wt_material *own; /* material of the layer, borrowed, replaces the ratio; NULL = none */
-    wt_shift_law material_law; /* shift law of that material for a flash temperature; WT_LAW_NONE:
-                             that of the bulk */
-} wt_layer_state;
-
-/* Strain softening of the moduli (Payne effect; Lorenz, Oh, Nam, Jeon and Persson, J. Chem. Phys.
- * 142 (2015) 194701). E' becomes f E' and E'' becomes g E''. f and g are linear in ln strain
- * between n >= 1 points and constant outside. The strain at a wavenumber is strain_factor times the
- * rms slope of the roughness up to it. In a transversely isotropic rubber the factors apply to the
- * effective surface modulus. */
-typedef struct wt_softening {
-    size_t n;
-    double *strain;  /* [n] amplitude, 1 = 100 %, > 0 and rising */
-    double *storage; /* [n] f, from 1e-3 to 1e3 */
-    double *loss;    /* [n] g, from 1e-3 to 1e3 */
-} wt_softening;
-
-/* Checks a softening table. WT_E_ARG or WT_E_RANGE names the invalid point. */
-WT_API wt_status wt_softening_check(const wt_softening *softening, wt_error *err) WT_NODISCARD;
-
-/* Anisotropic roughness, such as that of a ground surface. Its power spectrum is
- *   C(q, phi) = C(q) [1 + sum_k amplitude[k] cos(2 (k + 1) (phi - angle[k]))],
- * with phi from the velocity, positive in the sense of the lateral force. All 0: isotropic. */
-enum { WT_ANISOTROPY_ORDERS = 4 };
-typedef struct wt_anisotropy {
-    double amplitude[WT_ANISOTROPY_ORDERS]; /* of orders 2, 4, 6, 8 */
-    double angle[WT_ANISOTROPY_ORDERS]; /* direction of a maximum of each order, from the velocity
-                                           [rad] */
-} wt_anisotropy;
-/* WT_E_RANGE unless the spectrum is finite and nowhere negative. */
-WT_API wt_status wt_anisotropy_check(const wt_anisotropy *anisotropy, wt_error *err) WT_NODISCARD;
-/* Returns C(q, phi) / C(q) at an angle from the velocity [rad]. */
-WT_API double wt_anisotropy_density(const wt_anisotropy *anisotropy, double angle);
-/* Law of the contact area in partial contact. Persson 2001 underestimates the area there;
- * corrections: Yang and Persson, J. Phys.: Condens. Matter 20 (2008) 215214; Wang and Mueser,
- * Tribol. Lett. 65 (2017) 103; Xu et al. 2024. */
-typedef enum wt_area_law { WT_AREA_PERSSON, WT_AREA_YP08, WT_AREA_WM17, WT_AREA_XU24 } wt_area_law;
-
-/* Flash temperature: Persson, J. Phys.: Condens. Matter 18 (2006) 7789. The heat of each length
- * scale warms the rubber for the lifetime of a macroscopic contact and shifts the moduli. */
-typedef struct wt_flash {
-    bool on;              /* default false */
-    double contact_size;  /* size R of a macroscopic contact with lifetime R/v [m]; default 1 mm */
-    double heat_capacity; /* rho c [J/(m^3 K)]; default 2.2e6, typical of rubber */
-    double diffusivity;   /* D of heat [m^2/s]; default 1e-7, typical of rubber */
-    double macroscopic;   /* P_m, area fraction of macroscopic contacts, (0, 1]; default 0.3 */
-    bool clipped;         /* limits P/P_m to 1 */
-} wt_flash;
-WT_API wt_flash wt_flash_defaults(void);
-
-typedef struct wt_friction_options {
-    double tolerance; /* requested relative numerical error; default 1e-10 */
-    double gamma; /* S = gamma + (1 - gamma) P^2 in the friction integrand (Scaraggi and Persson, J.
-                     Phys.: Condens. Matter 27 (2015) 105102); default 1 (Persson 2001) */
-    wt_layer_state layer;         /* default none */
-    unsigned threads;             /* for the velocities; 0 = one per processor; default 1 */
-    bool skip_extrapolated_share; /* extrapolated_share is not computed (NaN); default false */
-    struct angular_law *series; /* internal: angular law of the material, borrowed; default NULL */
-    const wt_softening
-        *softening;           /* borrowed while the workspace is created; NULL (default) = none */
-    double strain_factor;     /* strain over rms slope, > 0; default 1 */
-    wt_anisotropy anisotropy; /* of the roughness; default none */
-    wt_area_law area_law;     /* default WT_AREA_PERSSON */
-    wt_flash flash;           /* default off */
-    wt_shift_law shift;       /* shift law of the material for a flash temperature */
-    double temperature;       /* ambient and material temperature for a flash temperature [K] */
-} wt_friction_options;
-WT_API wt_friction_options wt_friction_defaults(void);
-WT_API const wt_params *wt_friction_params(void);
-
-/* A second solution at a velocity. */
-typedef struct wt_friction_branch {
-    double hysteresis, area_ratio, temperature;
-} wt_friction_branch;
-
-/* Friction at one velocity. numerical_error is an upper bound for the test against the tolerance,
- * not an estimate. The true error is typically some hundred times smaller and never exceeded it in
- * 39,000 random checks (tests/docs/accuracy.md). It is stated whether or not the tolerance is met.
- */
-typedef struct wt_friction_point {
-    double velocity;             /* [m/s] */
-    wt_estimate stress_variance; /* G(q1) */
-    wt_estimate area_ratio;      /* P(q1) = A/A0 */
-    wt_estimate one_minus_area;  /* 1 - P without cancellation */
-    wt_estimate hysteresis;      /* mu_hys */
-    double
-        extrapolated_share; /* share of mu_hys from frequencies outside the material's range, where
-                               the angle integral is truncated at q v cos(phi); accurate to 1e-5 */
-    size_t nodes;           /* wavenumber nodes of the final quadrature */
-    bool reached;           /* G, P and mu_hys each meet the relative tolerance */
-    wt_estimate
-        side; /* lateral coefficient mu_side for anisotropic roughness; the shear stress on the
-                 rubber is -pressure (mu_hys x + mu_side y), x along the velocity, y at +90 deg */
-    bool unsettled;          /* no flash temperature was found; the numbers are NaN */
-    wt_estimate temperature; /* temperature of the finest scale, T(q1) [K]; NaN without a flash
-                                temperature */
-    wt_friction_branch
-        hot; /* second solution, in which a hot contact stays hot; NaN if there is none */
-} wt_friction_point;
-
-/* Values at one wavenumber: contact area at magnification q/q0, friction up to q, temperature. */
-typedef struct wt_friction_node {
-    double wavenumber;                              /* [rad/m] */
-    double stress_variance, area_ratio, hysteresis; /* G, P and mu of wavenumbers up to this one */
-    double numerical_error;                         /* numerical error of area_ratio */
-    double hysteresis_error;                        /* numerical error of hysteresis */
-    double temperature; /* temperature of this scale [K]; NaN without a flash temperature */
-} wt_friction_node;
-
-typedef struct wt_friction_workspace wt_friction_workspace;
-/* Prepares material and roughness for many velocities. Both are borrowed and must outlive the
- * workspace. */
-WT_API wt_status wt_friction_workspace_new(const wt_material *material,
-                                           const wt_roughness *roughness,
-                                           const wt_friction_options *options,
-                                           wt_friction_workspace **workspace,
-                                           wt_error *err) WT_NODISCARD;
-WT_API void wt_friction_workspace_free(wt_friction_workspace *workspace);
-/* Returns the strain at a wavenumber in [q0, q1]; NaN elsewhere or without strain softening. */
-WT_API double wt_friction_strain(const wt_friction_workspace *workspace, double wavenumber);
-/* Returns the wavenumbers [rad/m] at which the first and the last strain of the table are reached,
- * q1 if not reached, NaN without strain softening. */
-WT_API void wt_friction_strain_range(const wt_friction_workspace *workspace, double range[2]);
-/* Computes mu_hys, P and G at n velocities for a pressure [Pa] > 0. A negative velocity gives
- * negative friction. 0 is allowed if the law has closed angular integrals (Prony). points: [n],
- * undefined on failure. The result at a velocity depends neither on the other velocities nor on the
- * number of threads. WT_E_RANGE names pressure or velocity. One call at a time per workspace. */
-WT_API wt_status wt_friction_compute(wt_friction_workspace *workspace, double pressure,
-                                     const double *velocity, size_t n, wt_friction_point *points,
-                                     wt_error *err) WT_NODISCARD;
-/* Computes G, P and mu at n given increasing wavenumbers in [q0, q1]. nodes: [n]. */
-WT_API wt_status wt_friction_profile(wt_friction_workspace *workspace, double pressure,
-                                     double velocity, const double *wavenumber, size_t n,
-                                     wt_friction_node *nodes, wt_error *err) WT_NODISCARD;
-/* Logarithmic derivatives of mu_hys. Without a flash temperature, that of the pressure is the
- * negative of that of the modulus. */
-typedef struct wt_friction_sensitivity {
-    double modulus, density, pressure; /* density: at unchanged strains of the softening */
-    double cutoff;                     /* of q1, at unchanged temperatures */
-} wt_friction_sensitivity;
-WT_API wt_status wt_friction_sensitivities(wt_friction_workspace *workspace, double pressure,
-                                           double velocity, wt_friction_sensitivity *sensitivity,
-                                           wt_error *err) WT_NODISCARD;
-/* Returns |E_layer / E_bulk| of the layer of a workspace at an angular frequency > 0 [rad/s],
- * without flash temperature. */
-WT_API double wt_friction_layer_ratio(const wt_friction_workspace *workspace, double omega);
-/* Returns mu = mu_hys + tau_f (A/A0) / pressure with propagated errors; shear_stress tau_f [Pa]. */
-WT_API wt_estimate wt_friction_total(wt_estimate hysteresis, wt_estimate area_ratio,
-                                     wt_estimate shear_stress, double pressure);
-
-/* ---- modified layer ------------------------------------------------------------------------ */
+/* ---- energy density with depth -------------------------------------------------------------- */
 
 /* Depth profile of the energy density, theory W2: w(z) = sum_i power[i] g(z; q[i]). */
 typedef enum wt_depth_profile {
@@ -199,6 +39,8 @@ WT_API wt_status wt_energy_source_from_friction(wt_friction_workspace *workspace
 WT_API double wt_energy_density(const wt_energy_source *source, double depth); /* w [W/m^3] */
 WT_API double wt_energy_tail(const wt_energy_source *source,
                              double depth); /* int_z^inf w [W/m^2] */
+
+/* ---- from energy to damage ------------------------------------------------------------------ */
 
 /* Damage law. Both are reconstructed from the descriptions of Mokhtari 2015 and Persson. */
 typedef enum wt_layer_closure {
@@ -230,6 +72,8 @@ WT_API double wt_activation_min_barrier(double temperature, wt_attempt_frequency
  * `rate` [1/s]. */
 WT_API double wt_activation_max_temperature(double barrier, wt_attempt_frequency attempt,
                                             double rate);
+
+/* ---- balance and growth --------------------------------------------------------------------- */
 
 /* Parameters of the layer. The rubber at a depth is modified where int Omega dt >= damage. */
 typedef struct wt_layer_parameters {
@@ -303,6 +147,20 @@ WT_API wt_status wt_layer_history(const wt_energy_source *source,
 WT_API wt_status wt_layer_growth_time(const wt_energy_source *source,
                                       const wt_layer_parameters *parameters, wt_estimate thickness,
                                       wt_estimate *time, wt_error *err) WT_NODISCARD;
+
+/* Returns the thickness [m] after a time from start_thickness for a single exponential, in closed
+ * form (theory T3). NaN for a negative or infinite argument. */
+WT_API double wt_layer_exponential_thickness(double start_thickness, double kappa,
+                                             double formation_rate_zero, double wear_rate,
+                                             double time);
+/* Returns the critical energy U_c [J/m^3] for which `thickness` is the steady state of this source,
+ * with any profile: Qf(d) = Qw (theory B3). The critical energy and the duty of the parameters have
+ * no effect. */
+WT_API double wt_layer_calibrate(const wt_energy_source *source,
+                                 const wt_layer_parameters *parameters, double thickness);
+
+/* ---- loads that follow one another ---------------------------------------------------------- */
+
 /* One load of a load history. */
 typedef struct wt_layer_load {
     const wt_energy_source *source; /* borrowed */
@@ -360,21 +218,7 @@ WT_API wt_status wt_layer_load_events(const wt_layer_load *stages, size_t n_stag
 WT_API wt_status wt_layer_first_event(const wt_layer_load *stages, size_t n_stages,
                                       wt_layer_event *event, wt_error *err) WT_NODISCARD;
 
-/* Shear stress of the real contact on a layer: that of the bulk times (E_layer / E_bulk)^exponent,
- * constant or approached with the thickness, plus the stress to open cracks at the rims of the
- * contacts. Reconstructed from the list in Mokhtari 2015. */
-typedef struct wt_layer_shear {
-    double exponent;     /* default 1 */
-    double reach;        /* thickness for 1 - 1/e of the change [m]; 0 (default): full change at any
-                            thickness */
-    double crack_energy; /* crack opening energy G [J/m^2], also without a layer; default 0 */
-    double spacing;      /* distance of asperities in contact, 1/sqrt(eta) [m]; NaN unless G = 0 */
-} wt_layer_shear;
-WT_API wt_layer_shear wt_layer_shear_defaults(void);
-/* Returns the shear stress [Pa]. bulk: stress of the bulk's real contact without cracks [Pa];
- * area_ratio: A/A0 with this layer. */
-WT_API double wt_layer_shear_stress(const wt_layer_shear *shear, double bulk, wt_layer_state layer,
-                                    double area_ratio);
+/* ---- a layer that acts back on its energy --------------------------------------------------- */
 
 /* Callback for a layer with feedback on its energy: computes the energy source and the parameters
  * under a layer of a thickness [m]. The caller clears the source. */
@@ -417,18 +261,7 @@ WT_API wt_status wt_layer_feedback_history(wt_layer_energy_fn energy, void *user
                                            size_t n, wt_layer_point *points,
                                            wt_error *err) WT_NODISCARD;
 
-/* Returns the thickness [m] after a time from start_thickness for a single exponential, in closed
- * form (theory T3). NaN for a negative or infinite argument. */
-WT_API double wt_layer_exponential_thickness(double start_thickness, double kappa,
-                                             double formation_rate_zero, double wear_rate,
-                                             double time);
-/* Returns the critical energy U_c [J/m^3] for which `thickness` is the steady state of this source,
- * with any profile: Qf(d) = Qw (theory B3). The critical energy and the duty of the parameters have
- * no effect. */
-WT_API double wt_layer_calibrate(const wt_energy_source *source,
-                                 const wt_layer_parameters *parameters, double thickness);
-
-/* ---- identification of a layer --------------------------------------------------------------- */
+/* ---- identification of a layer -------------------------------------------------------------- */
 
 typedef struct wt_identified_constants {
     double critical_energy;    /* U_c [J/m^3] */
@@ -448,6 +281,109 @@ WT_API wt_status wt_layer_identify_time(const wt_energy_source *source,
                                         const wt_layer_parameters *parameters, double thickness,
                                         double time, double share, wt_identified_constants *found,
                                         wt_error *err) WT_NODISCARD;
+
+/* ---- layer of a sliding contact ------------------------------------------------------------- */
+
+/* Energy that modifies the rubber: hysteresis below the surface, shearing of the real contact, or
+ * both. The depth profile of shearing is assumed to be that of hysteresis. */
+typedef enum wt_layer_energy { WT_LAYER_HYSTERESIS, WT_LAYER_SHEAR, WT_LAYER_BOTH } wt_layer_energy;
+
+typedef struct wt_layer_job {
+    wt_estimate critical_energy;    /* U_c [J/m^3]; value NaN: calibrated from observed_thickness */
+    wt_estimate observed_thickness; /* [m]; value NaN = not observed */
+    wt_estimate specific_wear_rate; /* k [m^2/N] */
+    double damage;                  /* Lambda; default 1 */
+    double duty;                    /* share of the time in contact; default 1 */
+    double start_thickness;         /* [m]; default 0 */
+    bool incubation;                /* as in wt_layer_parameters; default true: exact */
+    wt_depth_profile profile;
+    double local_friction; /* m of the incompressible profile */
+    const double *time;    /* [n_time] s; NULL: chosen around the time scales */
+    size_t n_time;
+    double velocity;          /* velocity of the wear [m/s]; NaN = reference velocity */
+    wt_layer_energy energy;   /* default hysteresis */
+    double shear_share;       /* share of the shearing power that counts, [0, 1]; default 1 */
+    double severity_power;    /* as in wt_layer_parameters; default 0 */
+    double severity_exponent; /* as in wt_layer_parameters; default 1 */
+    wt_layer_closure closure; /* default energy; activated at the temperature of the rubber */
+    wt_estimate barrier;      /* of the activated closure [J] */
+    wt_activation activation; /* volume, attempt frequency and ageing of the activated closure */
+    bool bands;               /* requests the modified bands */
+    const char *const
+        *loads; /* [n_loads] successive loads, borrowed; none: the constant load of the sliding */
+    size_t n_loads;
+    bool running_in;      /* requests friction during the growth of the layer */
+    bool has_feedback;    /* feedback of the layer on the energy that forms it */
+    wt_layer_shear shear; /* shear of the real contact on the layer */
+    bool existence;       /* requests the regime map */
+} wt_layer_job;
+WT_API wt_layer_job wt_layer_job_defaults(void);
+WT_API const wt_params *wt_layer_job_params(void);
+/* Checks the values and their combination: exactly one of critical energy and observed thickness;
+ * the latter needs a wear rate. */
+WT_API wt_status wt_layer_job_check(const wt_layer_job *job, wt_error *err) WT_NODISCARD;
+
+typedef struct wt_layer_tables {
+    wt_table *layer;
+    wt_estimate thickness; /* steady-state thickness [m]; infinite without wear */
+    wt_layer_steady_state balance;
+} wt_layer_tables;
+WT_API void wt_layer_tables_clear(wt_layer_tables *tables);
+
+/* Computes the thickness of the layer at the reference velocity. Standard errors from the
+ * replicates of the friction and the stated errors of k and U_c (or of the observed thickness). */
+WT_API wt_status wt_layer_thickness_compute(const wt_sliding *sliding, const wt_layer_job *job,
+                                            const wt_job *work, wt_layer_tables *tables,
+                                            wt_error *err) WT_NODISCARD;
+
+/* Creates the table "layer_bands": edges of the modified bands in time by exact damage transport
+ * under the loads of the job, and the events of the bands. */
+WT_API wt_status wt_layer_bands_compute(const wt_sliding *sliding, const wt_layer_job *job,
+                                        const wt_job *work, wt_table **table,
+                                        wt_error *err) WT_NODISCARD;
+/* Creates the table "running_in": friction with the growing layer, which has the modulus ratio of
+ * `known`. With `has_feedback` its energy is that under this layer. */
+WT_API wt_status wt_running_in_compute(const wt_sliding *sliding, const wt_layer_job *job,
+                                       const wt_layer_observation *known, const wt_job *work,
+                                       wt_table **table, wt_error *err) WT_NODISCARD;
+/* Table "layer_feedback": all balances of a layer that acts back, and the folds between them. */
+WT_API wt_status wt_layer_steady_states_compute(const wt_sliding *sliding, const wt_layer_job *job,
+                                                const wt_layer_observation *known,
+                                                const wt_job *work, wt_table **table,
+                                                wt_error *err) WT_NODISCARD;
+/* Table "existence": balance thickness at every velocity, at the pressures of the map of `sliding`
+ * if it has some, else at its pressure, and with `known` (may be NULL) what the layer does to
+ * friction. */
+WT_API wt_status wt_regime_map_compute(const wt_sliding *sliding, const wt_layer_job *job,
+                                       const wt_layer_observation *known, const wt_job *work,
+                                       wt_table **table, wt_error *err) WT_NODISCARD;
+
+/* Creates the table "energy_density": energy density against depth at the velocity of the layer. */
+WT_API wt_status wt_energy_density_compute(const wt_sliding *sliding, const wt_layer_job *job,
+                                           const wt_job *work, wt_table **table,
+                                           wt_error *err) WT_NODISCARD;
+
+/* ---- identification from measurements ------------------------------------------------------- */
+
+typedef struct wt_identify_job {
+    wt_estimate observed_thickness; /* steady-state thickness [m] */
+    wt_estimate specific_wear_rate; /* k [m^2/N]; value NaN: not measured */
+    wt_estimate running_in_time;    /* [s] from unmodified rubber; value NaN: not measured */
+    double running_in_share;        /* share of the thickness at that time; default 0.95 */
+    double damage, duty;            /* as in wt_layer_job */
+    wt_depth_profile profile;
+    double local_friction;
+    double wear_low, wear_high;     /* k in the literature [m^2/N] */
+    double energy_low, energy_high; /* U_c in the literature [J/m^3] */
+} wt_identify_job;
+WT_API wt_identify_job wt_identify_job_defaults(void);
+WT_API const wt_params *wt_identify_job_params(void);
+/* Creates the table "identification": U_c and k from the thickness with the wear rate, with the
+ * running-in time by either closure, and their range from the thickness alone; 95 % intervals and
+ * correlation from the replicates and the stated errors. */
+WT_API wt_status wt_identification_compute(const wt_sliding *sliding, const wt_identify_job *job,
+                                           const wt_job *work, wt_table **table,
+                                           wt_error *err) WT_NODISCARD;
 
 #ifdef __cplusplus
 }

@@ -1,0 +1,87 @@
+/* weartrack - case: the case file, the plan (which stages it needs and why), its run, and results
+ * in words.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef WEARTRACK_CASE_H
+#define WEARTRACK_CASE_H
+
+#include "weartrack/record.h"
+#include "weartrack/report.h"
+#include "weartrack/study.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ---- case ----------------------------------------------------------------------------------- */
+
+typedef struct wt_case wt_case;
+/* Reads and checks a case file (schema, then further rules). Its paths are relative to the file. */
+WT_API wt_status wt_case_read(const char *path, wt_case **out, wt_error *err) WT_NODISCARD;
+WT_API void wt_case_free(wt_case *c);
+/* Restricts the requests of the case to these tables (names in a result, separated by blanks). */
+WT_API wt_status wt_case_request_tables(wt_case *c, const char *tables, wt_error *err) WT_NODISCARD;
+/* Replaces the records of the case (files, folders or patterns, relative to the current folder) and
+ * those parameters of the validation that are marked in `given`, as set by wt_params_set for `job`.
+ */
+WT_API wt_status wt_case_set_validation(wt_case *c, const char *const *records, size_t n,
+                                        const wt_validation_job *job, uint64_t given,
+                                        wt_error *err) WT_NODISCARD;
+WT_API const char *wt_case_schema(void);            /* XSD text; static */
+WT_API const char *wt_case_title(const wt_case *c); /* Returns the title, "" if none; borrowed. */
+/* Returns the report options of the case: its style, figures, width, font and language, or the
+ * defaults. Borrowed. */
+WT_API const wt_report_options *wt_case_report_options(const wt_case *c);
+
+/* ---- plan and run --------------------------------------------------------------------------- */
+
+typedef struct wt_run_options {
+    const char *formats; /* folder of further descriptions, NULL = none */
+    double tolerance;    /* requested relative numerical error; default 1e-10 */
+    unsigned threads;    /* 0 = one per processor */
+    uint64_t seed;       /* seed of the draws */
+    size_t replicates;   /* number of draws; default 200 */
+    wt_progress progress;
+    size_t trials;              /* trials of the table "coverage"; default 100 */
+    wt_accuracy_job precision;  /* options of the table "work_precision" */
+    bool no_provenance;         /* no times in "cost", no digests in "inputs" */
+    const char *const *columns; /* of plain tables, as in wt_formats_add_columns */
+    size_t n_columns;
+} wt_run_options;
+WT_API wt_run_options wt_run_defaults(void);
+WT_API const wt_params *wt_run_params(void);
+
+/* Creates the plan as a table: stage, title, runs (1 or 0), because (reason), needs, gives. Reads
+ * no data file. */
+WT_API wt_status wt_plan(const wt_case *c, wt_table **plan, wt_error *err) WT_NODISCARD;
+/* Runs the plan. Skipped stages have no tables; the table "cost" lists every stage. A failed file
+ * does not stop the others: the table "failures" lists it and *n_failed counts it. The same holds
+ * for a failed stage; the stages that need it are skipped. If no requested table exists, the result
+ * still exists, with the status WT_RESULT_EMPTY. */
+WT_API wt_status wt_run_case(const wt_case *c, const wt_run_options *options, wt_log *log,
+                             wt_result **result, size_t *n_failed, wt_error *err) WT_NODISCARD;
+/* Tests if `result`, read from its file, is up to date with the case and `command` (as returned by
+ * wt_provenance_command). *current is false if version, command line, case or a file that was read
+ * has changed, a file is new or missing, or the result is partial; `why` has the first difference.
+ * Files that nothing requested, and descriptions of --formats, are not tested. */
+WT_API wt_status wt_run_is_current(const wt_case *c, const wt_result *result, const char *command,
+                                   bool *current, char *why, size_t size,
+                                   wt_error *err) WT_NODISCARD;
+
+/* ---- a result in words ---------------------------------------------------------------------- */
+
+/* Creates the table "methods" of a result: the methods that produced its tables, in sentences with
+ * numbers and references. */
+WT_API wt_status wt_methods_table(const wt_result *result, wt_table **table,
+                                  wt_error *err) WT_NODISCARD;
+
+/* Logs remarks on the tables of a result: a tolerance that is not reached, extrapolation. */
+WT_API void wt_result_log_remarks(const wt_result *result, wt_log *log);
+/* Formats the summary line of a result, its main numbers, "" if it has none. Returns the length as
+ * snprintf does. */
+WT_API size_t wt_result_summary_line(const wt_result *result, char *buffer, size_t size);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,351 @@
+/* weartrack - friction: contact area and hysteresis friction of rubber on a rough surface, with a
+ * surface layer, softening with strain, flash temperature and anisotropy. Equations: Persson, J.
+ * Chem. Phys. 115 (2001) 3840; Mokhtari, thesis, Univ. Twente 2015, with its misprints corrected.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef WEARTRACK_FRICTION_H
+#define WEARTRACK_FRICTION_H
+
+#include "weartrack/dma.h"
+#include "weartrack/surface.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ---- shear stress of the real contact ------------------------------------------------------- */
+
+typedef enum wt_shear_kind { WT_SHEAR_CONSTANT, WT_SHEAR_LOG_NORMAL } wt_shear_kind;
+
+/* Shear stress law: tau_f(v, T) = tau_f0 exp(-width log10(v / v0)^2), v0 = peak_velocity exp(E/kB
+ * (1/Tref - 1/T)). Law and defaults: Lorenz, Oh, Nam, Jeon and Persson, J. Chem. Phys. 142 (2015)
+ * 194701. */
+typedef struct wt_shear_law {
+    wt_shear_kind kind;           /* default constant */
+    double peak_velocity;         /* at the reference temperature [m/s]; default 6 mm/s */
+    double width;                 /* default 0.1 */
+    double activation_energy;     /* [J]; default 0.97 eV */
+    double reference_temperature; /* [K]; default 293.15 */
+} wt_shear_law;
+WT_API wt_shear_law wt_shear_law_defaults(void);
+WT_API double wt_shear_peak_velocity(const wt_shear_law *law, double temperature);
+/* Returns tau_f / tau_f0 > 0; 1 for a constant law. */
+WT_API double wt_shear_factor(const wt_shear_law *law, double velocity, double temperature);
+
+/* ---- a layer on the rubber ------------------------------------------------------------------ */
+
+/* Frequency dependence of the ratio of two moduli: |ratio| ~ omega^exponent from `low` to `high`,
+ * constant outside. */
+typedef struct wt_ratio_slope {
+    double exponent;    /* 0: constant ratio */
+    double reference;   /* angular frequency of the stated ratio [rad/s] */
+    double low, high;   /* [rad/s] */
+    double temperature; /* temperature of these frequencies [K]; NaN: that of the material */
+} wt_ratio_slope;
+/* Computes ln |ratio| relative to the reference, and the phase of the causal minimum-phase ratio
+ * with this magnitude (Bode 1940, Kramers-Kronig relations). The phase is exponent pi/2 well inside
+ * `low` and `high` and 0 far outside. omega > 0. */
+WT_API void wt_ratio_slope_eval(const wt_ratio_slope *slope, double omega, double *log_ratio,
+                                double *phase);
+
+/* A soft or stiff surface layer bonded to the bulk. Its modulus is a constant ratio of the bulk
+ * modulus, a ratio that is a power of the frequency, or that of its own material. Its stiffness at
+ * a wavenumber follows Burmister (1943) for nu = 1/2, independent of the material's Poisson ratio,
+ * with the complex moduli at each frequency. */
+typedef struct wt_layer_state {
+    double thickness;       /* [m], 0 = none */
+    double modulus_ratio;   /* E_layer / E_bulk, > 0 */
+    wt_ratio_slope slope;   /* frequency dependence of that ratio; all 0: constant */
+    const wt_material *own; /* material of the layer, borrowed, replaces the ratio; NULL = none */
+    wt_shift_law material_law; /* shift law of that material for a flash temperature; WT_LAW_NONE:
+                             that of the bulk */
+} wt_layer_state;
+
+/* Shear stress of the real contact on a layer: that of the bulk times (E_layer / E_bulk)^exponent,
+ * constant or approached with the thickness, plus the stress to open cracks at the rims of the
+ * contacts. Reconstructed from the list in Mokhtari 2015. */
+typedef struct wt_layer_shear {
+    double exponent;     /* default 1 */
+    double reach;        /* thickness for 1 - 1/e of the change [m]; 0 (default): full change at any
+                            thickness */
+    double crack_energy; /* crack opening energy G [J/m^2], also without a layer; default 0 */
+    double spacing;      /* distance of asperities in contact, 1/sqrt(eta) [m]; NaN unless G = 0 */
+} wt_layer_shear;
+WT_API wt_layer_shear wt_layer_shear_defaults(void);
+/* Returns the shear stress [Pa]. bulk: stress of the bulk's real contact without cracks [Pa];
+ * area_ratio: A/A0 with this layer. */
+WT_API double wt_layer_shear_stress(const wt_layer_shear *shear, double bulk, wt_layer_state layer,
+                                    double area_ratio);
+
+/* ---- contact and friction ------------------------------------------------------------------- */
+
+/* Law of the contact area in partial contact. Persson 2001 underestimates the area there;
+ * corrections: Yang and Persson, J. Phys.: Condens. Matter 20 (2008) 215214; Wang and Mueser,
+ * Tribol. Lett. 65 (2017) 103; Xu et al. 2024. */
+typedef enum wt_area_law { WT_AREA_PERSSON, WT_AREA_YP08, WT_AREA_WM17, WT_AREA_XU24 } wt_area_law;
+
+/* Flash temperature: Persson, J. Phys.: Condens. Matter 18 (2006) 7789. The heat of each length
+ * scale warms the rubber for the lifetime of a macroscopic contact and shifts the moduli. */
+typedef struct wt_flash {
+    bool on;              /* default false */
+    double contact_size;  /* size R of a macroscopic contact with lifetime R/v [m]; default 1 mm */
+    double heat_capacity; /* rho c [J/(m^3 K)]; default 2.2e6, typical of rubber */
+    double diffusivity;   /* D of heat [m^2/s]; default 1e-7, typical of rubber */
+    double macroscopic;   /* P_m, area fraction of macroscopic contacts, (0, 1]; default 0.3 */
+    bool clipped;         /* limits P/P_m to 1 */
+} wt_flash;
+WT_API wt_flash wt_flash_defaults(void);
+
+typedef struct wt_friction_options {
+    double tolerance; /* requested relative numerical error; default 1e-10 */
+    double gamma; /* S = gamma + (1 - gamma) P^2 in the friction integrand (Scaraggi and Persson, J.
+                     Phys.: Condens. Matter 27 (2015) 105102); default 1 (Persson 2001) */
+    wt_layer_state layer;         /* default none */
+    unsigned threads;             /* for the velocities; 0 = one per processor; default 1 */
+    bool skip_extrapolated_share; /* extrapolated_share is not computed (NaN); default false */
+    struct angular_law *series; /* internal: angular law of the material, borrowed; default NULL */
+    const wt_softening
+        *softening;           /* borrowed while the workspace is created; NULL (default) = none */
+    double strain_factor;     /* strain over rms slope, > 0; default 1 */
+    wt_anisotropy anisotropy; /* of the roughness; default none */
+    wt_area_law area_law;     /* default WT_AREA_PERSSON */
+    wt_flash flash;           /* default off */
+    wt_shift_law shift;       /* shift law of the material for a flash temperature */
+    double temperature;       /* ambient and material temperature for a flash temperature [K] */
+} wt_friction_options;
+WT_API wt_friction_options wt_friction_defaults(void);
+WT_API const wt_params *wt_friction_params(void);
+
+/* A second solution at a velocity. */
+typedef struct wt_friction_branch {
+    double hysteresis, area_ratio, temperature;
+} wt_friction_branch;
+
+/* Friction at one velocity. numerical_error is an upper bound for the test against the tolerance,
+ * not an estimate. The true error is typically some hundred times smaller and never exceeded it in
+ * 39,000 random checks (tests/docs/accuracy.md). It is stated whether or not the tolerance is met.
+ */
+typedef struct wt_friction_point {
+    double velocity;             /* [m/s] */
+    wt_estimate stress_variance; /* G(q1) */
+    wt_estimate area_ratio;      /* P(q1) = A/A0 */
+    wt_estimate one_minus_area;  /* 1 - P without cancellation */
+    wt_estimate hysteresis;      /* mu_hys */
+    double
+        extrapolated_share; /* share of mu_hys from frequencies outside the material's range, where
+                               the angle integral is truncated at q v cos(phi); accurate to 1e-5 */
+    size_t nodes;           /* wavenumber nodes of the final quadrature */
+    bool reached;           /* G, P and mu_hys each meet the relative tolerance */
+    wt_estimate
+        side; /* lateral coefficient mu_side for anisotropic roughness; the shear stress on the
+                 rubber is -pressure (mu_hys x + mu_side y), x along the velocity, y at +90 deg */
+    bool unsettled;          /* no flash temperature was found; the numbers are NaN */
+    wt_estimate temperature; /* temperature of the finest scale, T(q1) [K]; NaN without a flash
+                                temperature */
+    wt_friction_branch
+        hot; /* second solution, in which a hot contact stays hot; NaN if there is none */
+} wt_friction_point;
+
+/* Values at one wavenumber: contact area at magnification q/q0, friction up to q, temperature. */
+typedef struct wt_friction_node {
+    double wavenumber;                              /* [rad/m] */
+    double stress_variance, area_ratio, hysteresis; /* G, P and mu of wavenumbers up to this one */
+    double numerical_error;                         /* numerical error of area_ratio */
+    double hysteresis_error;                        /* numerical error of hysteresis */
+    double temperature; /* temperature of this scale [K]; NaN without a flash temperature */
+} wt_friction_node;
+
+typedef struct wt_friction_workspace wt_friction_workspace;
+/* Prepares material and roughness for many velocities. Both are borrowed and must outlive the
+ * workspace. */
+WT_API wt_status wt_friction_workspace_new(const wt_material *material,
+                                           const wt_roughness *roughness,
+                                           const wt_friction_options *options,
+                                           wt_friction_workspace **workspace,
+                                           wt_error *err) WT_NODISCARD;
+WT_API void wt_friction_workspace_free(wt_friction_workspace *workspace);
+/* Returns the strain at a wavenumber in [q0, q1]; NaN elsewhere or without strain softening. */
+WT_API double wt_friction_strain(const wt_friction_workspace *workspace, double wavenumber);
+/* Returns the wavenumbers [rad/m] at which the first and the last strain of the table are reached,
+ * q1 if not reached, NaN without strain softening. */
+WT_API void wt_friction_strain_range(const wt_friction_workspace *workspace, double range[2]);
+/* Computes mu_hys, P and G at n velocities for a pressure [Pa] > 0. A negative velocity gives
+ * negative friction. 0 is allowed if the law has closed angular integrals (Prony). points: [n],
+ * undefined on failure. The result at a velocity depends neither on the other velocities nor on the
+ * number of threads. WT_E_RANGE names pressure or velocity. One call at a time per workspace. */
+WT_API wt_status wt_friction_compute(wt_friction_workspace *workspace, double pressure,
+                                     const double *velocity, size_t n, wt_friction_point *points,
+                                     wt_error *err) WT_NODISCARD;
+/* Computes G, P and mu at n given increasing wavenumbers in [q0, q1]. nodes: [n]. */
+WT_API wt_status wt_friction_profile(wt_friction_workspace *workspace, double pressure,
+                                     double velocity, const double *wavenumber, size_t n,
+                                     wt_friction_node *nodes, wt_error *err) WT_NODISCARD;
+/* Logarithmic derivatives of mu_hys. Without a flash temperature, that of the pressure is the
+ * negative of that of the modulus. */
+typedef struct wt_friction_sensitivity {
+    double modulus, density, pressure; /* density: at unchanged strains of the softening */
+    double cutoff;                     /* of q1, at unchanged temperatures */
+} wt_friction_sensitivity;
+WT_API wt_status wt_friction_sensitivities(wt_friction_workspace *workspace, double pressure,
+                                           double velocity, wt_friction_sensitivity *sensitivity,
+                                           wt_error *err) WT_NODISCARD;
+/* Returns |E_layer / E_bulk| of the layer of a workspace at an angular frequency > 0 [rad/s],
+ * without flash temperature. */
+WT_API double wt_friction_layer_ratio(const wt_friction_workspace *workspace, double omega);
+/* Returns mu = mu_hys + tau_f (A/A0) / pressure with propagated errors; shear_stress tau_f [Pa]. */
+WT_API wt_estimate wt_friction_total(wt_estimate hysteresis, wt_estimate area_ratio,
+                                     wt_estimate shear_stress, double pressure);
+
+/* ---- counter surface ------------------------------------------------------------------------ */
+
+/* A counter surface with its stated or measured error. */
+typedef struct wt_surface {
+    bool self_affine;
+    double q0, qr, q1, hurst; /* self-affine law; q0 and q1 truncate a spectrum (NaN = its ends) */
+    wt_estimate c0;           /* [m^4]; for a spectrum: value 1, relative error of the densities */
+    wt_power_spectrum spectrum; /* if not self-affine; 2-D */
+    double *modes_error; /* [spectrum.n] standard errors of ln C by its modes; NULL: unknown */
+    double *modes_tie;   /* [spectrum.n] correlation of that with the next point; NULL: none */
+    double *law_error;   /* [spectrum.n] fully correlated error of the law outside of the measured
+                            range; NULL */
+    /* [n_sizes * spectrum.n] For scans of several sizes: contributions to c0.standard_error of ln C
+     * of the points by the positions of the widest scans, then of the next. Each size is drawn
+     * independently. NULL: all points share the whole error. */
+    size_t n_sizes;
+    double *place_parts;
+    double reliable_to; /* end of the measured range [rad/m], continued by the law; 0: unknown */
+    double steep; /* wavenumber where the rms slope reaches 1.3 [rad/m]; 0: unknown or nowhere */
+    bool places_known; /* the scatter between positions is known, even if the error of c0 is 0 */
+} wt_surface;
+WT_API void wt_surface_clear(wt_surface *surface);
+/* Opens a surface: "self-affine:q0=1e3rad/m,qr=5e3rad/m,q1=1e7rad/m,hurst=0.8,c0=1e-17m^4+-10%",
+ * the path of a spectrum or height map, or a folder or pattern of several maps, which are
+ * transformed as by wt_topography_compute. read NULL = defaults. */
+WT_API wt_status wt_surface_open(const char *text, const wt_read_options *read, const wt_job *work,
+                                 wt_surface *surface, wt_error *err) WT_NODISCARD;
+/* Creates the roughness with all densities multiplied by `factor` > 0. It borrows nothing. */
+WT_API wt_status wt_surface_roughness(const wt_surface *surface, double factor,
+                                      wt_roughness **roughness, wt_error *err) WT_NODISCARD;
+WT_API wt_status wt_surface_table(const wt_surface *surface, wt_table **table,
+                                  wt_error *err) WT_NODISCARD; /* Creates the table "roughness". */
+
+/* ---- sliding contact ------------------------------------------------------------------------ */
+
+/* Sliding contact: rubber on a counter surface under given conditions. */
+typedef struct wt_sliding {
+    const wt_rubber *rubber;   /* borrowed */
+    const wt_surface *surface; /* borrowed */
+    wt_estimate pressure;      /* [Pa] */
+    wt_estimate temperature;   /* [K]; value NaN = reference temperature of the rubber */
+    wt_estimate shear_stress;  /* of the real contact [Pa]; value NaN: unknown, no total friction */
+    double gamma;              /* as in wt_friction_options; default 1 */
+    const double *velocity;    /* [n_velocity] m/s, borrowed */
+    size_t n_velocity;
+    double reference_velocity; /* velocity of the answer and the layer [m/s]; NaN = middle of the
+                                  list */
+    const wt_strain_softening *softness; /* borrowed; NULL = none */
+    double strain_factor;                /* as in wt_friction_options; default 1 */
+    wt_anisotropy anisotropy;            /* of the roughness; default none */
+    const double *temperatures;          /* [n_temperatures] K, of the friction map, borrowed */
+    size_t n_temperatures;
+    const double *pressures; /* [n_pressures] Pa, of the friction map, borrowed */
+    size_t n_pressures;
+    bool decades;         /* requests friction by decades of the wavenumber */
+    wt_area_law area_law; /* as in wt_friction_options */
+    wt_flash flash; /* as in wt_friction_options; `temperature` is then the ambient temperature */
+    wt_shear_law shear_law; /* law of the shear stress, which is its peak value */
+    bool sensitivities; /* requests sensitivities of the friction at the reference velocity; default
+                           false */
+    const wt_rubber
+        *layer_rubber; /* material of a layer, instead of a modulus ratio, borrowed; default NULL */
+} wt_sliding;
+WT_API wt_sliding wt_sliding_defaults(void);
+WT_API const wt_params *wt_sliding_params(void);
+
+/* The modified layer on the surface of the track. */
+typedef struct wt_layer_observation {
+    wt_estimate thickness;     /* [m] */
+    wt_estimate modulus_ratio; /* E_track / E_bulk */
+    double modulus_ratio_df;   /* degrees of freedom of its error (Student's t); 0 = normal */
+    wt_estimate ratio_slope;   /* d ln modulus_ratio / d ln omega; default 0: constant ratio */
+    double ratio_frequency;    /* angular frequency of modulus_ratio [rad/s]; NaN: not stated */
+    double ratio_lowest,
+        ratio_highest; /* measured range; the ratio is constant outside [rad/s]; NaN: not stated */
+    double ratio_temperature; /* temperature of these frequencies [K]; NaN: that of the sliding */
+    bool by_rate;    /* in a case: the ratio depends on the rate as compared; default false */
+    bool bulk_shear; /* tau_s = tau_bulk, without the modulus ratio; default false */
+    double calibration_share; /* share of calibration (spring constants etc.), not spot scatter, in
+                                 the variance of the ratio; default 0 */
+    const wt_layer_shear *shear; /* shear of the real contact on it; NULL: defaults */
+} wt_layer_observation;
+WT_API wt_layer_observation wt_layer_observation_defaults(void); /* Returns no layer. */
+WT_API const wt_params *wt_layer_observation_params(void);
+/* Reads ratio, slope and frequencies from tables of `weartrack compare`: the ratio of all rates at
+ * their mean frequency, and its slope over the frequencies of the rates. WT_E_MISSING with one
+ * rate. */
+WT_API wt_status wt_layer_observation_from_rates(const wt_table *comparison,
+                                                 const wt_table *modulus_rate,
+                                                 wt_layer_observation *known,
+                                                 wt_error *err) WT_NODISCARD;
+
+typedef struct wt_friction_tables {
+    wt_table *friction;
+    double extrapolated_share; /* largest of all velocities */
+} wt_friction_tables;
+WT_API void wt_friction_tables_clear(wt_friction_tables *tables);
+
+/* Computes hysteresis friction, contact area and total friction at every velocity. Standard errors
+ * come from replicates: spectrum, shifts and law are drawn jointly from the posterior of the
+ * isotherms, and pressure, temperature, shear stress and C0 from their stated errors. The key
+ * `standard_error_includes` lists the sources. With a layer (NULL = none): for a bonded layer and
+ * tau_s = tau_bulk x modulus ratio. */
+WT_API wt_status wt_sliding_friction_compute(const wt_sliding *sliding,
+                                             const wt_layer_observation *layer, const wt_job *work,
+                                             wt_friction_tables *tables,
+                                             wt_error *err) WT_NODISCARD;
+
+/* Creates the table "contact_area": contact area and friction against magnification at the slowest,
+ * the reference and the fastest velocity. */
+WT_API wt_status wt_contact_area_compute(const wt_sliding *sliding, const wt_job *work,
+                                         wt_table **table, wt_error *err) WT_NODISCARD;
+
+/* Creates the table "softening": hysteresis friction and contact area with and without the strain
+ * softening of `sliding`, and the shares from strains outside of its range. WT_E_ARG without strain
+ * softening. */
+WT_API wt_status wt_softened_friction_compute(const wt_sliding *sliding, const wt_job *work,
+                                              wt_table **table, wt_error *err) WT_NODISCARD;
+/* Creates the table "flash_temperature": hysteresis friction, contact area and temperature at every
+ * velocity with and without flash temperature, and for a second solution if there is one. WT_E_ARG
+ * if it is not requested. */
+WT_API wt_status wt_flash_temperature_compute(const wt_sliding *sliding, const wt_job *work,
+                                              wt_table **table, wt_error *err) WT_NODISCARD;
+/* Table "directions": hysteresis friction and contact area of a transversely isotropic rubber at
+ * every velocity, with its factors on E' and E'' and with those on one of them or none. WT_E_ARG if
+ * it has no directions. */
+WT_API wt_status wt_transverse_isotropy_compute(const wt_sliding *sliding, const wt_job *work,
+                                                wt_table **table, wt_error *err) WT_NODISCARD;
+
+/* Creates the table "anisotropy": hysteresis friction, contact area and lateral force with and
+ * without the anisotropy of `sliding`. WT_E_ARG without anisotropy. */
+WT_API wt_status wt_anisotropic_friction_compute(const wt_sliding *sliding, const wt_job *work,
+                                                 wt_table **table, wt_error *err) WT_NODISCARD;
+/* Creates the table "friction_map": friction at every velocity and temperature at the nominal
+ * pressure, then at every velocity and pressure at the nominal temperature. One kernel at the
+ * reference temperature of the rubber serves all: mu(v, T, p) is mu(v a_T, reference, p b_T).
+ * WT_E_ARG without temperatures and pressures. */
+/* The map has no layer, but uses the crack opening of the shear stress of `known` (NULL: none) on
+ * the bare surface. */
+WT_API wt_status wt_friction_map_compute(const wt_sliding *sliding,
+                                         const wt_layer_observation *known, const wt_job *work,
+                                         wt_table **table, wt_error *err) WT_NODISCARD;
+/* Creates the table "friction_decades": contributions of each decade of the wavenumber to
+ * hysteresis friction, and to shearing and crack opening of bare rubber (`known` as in the map), at
+ * the slowest, the reference and the fastest velocity. */
+WT_API wt_status wt_friction_by_scale_compute(const wt_sliding *sliding,
+                                              const wt_layer_observation *known, const wt_job *work,
+                                              wt_table **table, wt_error *err) WT_NODISCARD;
+
+#ifdef __cplusplus
+}
+#endif
+#endif
