@@ -6,7 +6,6 @@
 
 #include "friction/layer_observation.h"
 #include "friction/material_cache.h"
-#include "weartrack/layer.h"
 
 typedef struct sliding_contact {
     double pressure, shear_stress;

@@ -12,6 +12,7 @@
 #include "core/base/range_text.h"
 #include "core/math/normal_quantile.h"
 #include "core/table/table_rows.h"
+#include "weartrack/layer.h"
 
 #include <math.h>
 #include <string.h>

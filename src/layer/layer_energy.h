@@ -5,6 +5,7 @@
 #define WT_LAYER_LAYER_ENERGY_H
 
 #include "friction/sliding_contact.h"
+#include "weartrack/layer.h"
 
 typedef struct layer_energy {
     wt_energy_source source;

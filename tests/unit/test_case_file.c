@@ -96,7 +96,7 @@ static void test_full(void **state)
     assert_int_equal(c->layer.n_time, 6);
     assert_true(c->layer.incubation);
     assert_true(c->compare_groups && c->compare_rates && !c->compare_dma);
-    assert_int_equal(c->asked, FLOW_BIT(FLOW_FRICTION) | FLOW_BIT(FLOW_LAYER));
+    assert_int_equal(c->requested, FLOW_BIT(FLOW_FRICTION) | FLOW_BIT(FLOW_LAYER));
     wt_case_free(c);
 }
 

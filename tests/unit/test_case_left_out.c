@@ -353,7 +353,7 @@ static void release(ran *r)
 static bool runs(const ran *r, flow_resource given)
 {
     for (size_t i = 0; i < FLOW_N_STAGES; i++)
-        if (r->plan.chosen[i] && (flow_stages[i].gives & FLOW_BIT(given)) != 0)
+        if (r->plan.chosen[i] && (flow_stages[i].outputs & FLOW_BIT(given)) != 0)
             return true;
     return false;
 }

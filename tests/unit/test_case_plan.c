@@ -220,10 +220,10 @@ static void test_table_of_stages(void **state)
         assert_int_equal(flow_stages[i].any & ~given, 0);
         assert_true((flow_stage_needs(i, 0) | flow_stages[i].any) != 0);
         for (unsigned k = 0; k < levels; k++)
-            assert_true((flow_stages[i].more[k].things & ~flow_stage_needs(i, k)) != 0);
-        assert_int_equal(flow_stages[i].gives & FLOW_SOURCES, 0);
-        assert_true(flow_stages[i].gives != 0);
-        given |= flow_stages[i].gives;
+            assert_true((flow_stages[i].additions[k].resources & ~flow_stage_needs(i, k)) != 0);
+        assert_int_equal(flow_stages[i].outputs & FLOW_SOURCES, 0);
+        assert_true(flow_stages[i].outputs != 0);
+        given |= flow_stages[i].outputs;
     }
     assert_true(given == FLOW_BIT(FLOW_N_RESOURCES) - 1);
 }

@@ -766,7 +766,7 @@ static void test_temperature_error(void **state)
         wt_result_summary_line(result, sentence, sizeof sentence);
         wt_result_free(result);
         assert_non_null(strstr(sentence, "without the error of the DMA"));
-        const condition at = {303.15, sqrt(frequency[0] * frequency[1])};
+        const material_state at = {303.15, sqrt(frequency[0] * frequency[1])};
         double relative = 1;
         assert_int_equal(compare_temperature_error(&rubber, at, error, &work, &relative, &err),
                          WT_OK);
