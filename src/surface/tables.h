@@ -62,7 +62,7 @@
       OPTIONAL)                                                                                    \
     X(POWER_SPECTRUM_KEY_FOURTH_DIRECTION, AS(anisotropy_fourth_direction), SI(ANGLE),             \
       LABEL("Roughest direction of order 4 from x"), OPTIONAL)                                     \
-    X(POWER_SPECTRUM_KEY_DIRECTIONS, "transverse_isotropy_verdict", TEXT, SHOWS(directions),       \
+    X(POWER_SPECTRUM_KEY_DIRECTIONS, "directions_verdict", TEXT, SHOWS(directions),                \
       LABEL("Directions"))                                                                         \
     X(POWER_SPECTRUM_KEY_PROFILES, AS(profiles), TEXT, LABEL("What the profiles add"), OPTIONAL)   \
     X(POWER_SPECTRUM_KEY_INCLUDES, "standard_error_includes", TEXT, SHOWS(includes),               \
