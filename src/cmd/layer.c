@@ -88,8 +88,8 @@ int cmd_layer(int argc, char **argv)
             "that makes it (--feedback); where there is one at all (--regime-map).",
         .common = "output formats columns files-from provenance cost",
         .first = "material dma roughness pressure velocity sliding-temperature "
-                 "specific-wear-rate critical-energy observed-thickness duty start-thickness "
-                 "times closure energy-from loads feedback existence output",
+                 "specific-wear-rate critical-energy observed-thickness duty-cycle start-thickness "
+                 "times closure energy-from loads feedback regime-map output",
         .master = CMD_DMA_OPTIONS};
     wt_layer_job job = wt_layer_job_defaults();
     cmd_sliding s;

@@ -226,7 +226,7 @@ int cmd_master(int argc, char **argv)
         !check_exports(&s, &exports_given) || !check_outputs(&s, &saved, &exports_given) ||
         !cmd_begin_files(&s, &set) ||
         (common.common == WT_SHARED_LAW_NONE &&
-         cmd_option_is_given(&parts[COMMON], "common-law-margin") &&
+         cmd_option_is_given(&parts[COMMON], "shared-shift-law-margin") &&
          !cmd_usage_error(&s, "--shared-shift-law-margin goes with --shared-shift-law")))
         return cmd_session_free(&s);
     job.reduction = exports_given.reduction;

@@ -150,10 +150,9 @@ static void release_materials(replicates *r)
 
 /* ---- standard deviations --------------------------------------------------------------------- */
 
-enum {
-    MAX_COEFFICIENTS = REPLICATES_MAX_DRAWS + 1
-}; /* number of coefficients of the linear fit: a constant
-      and the slopes */
+/* Number of coefficients of the linear fit: a constant
+      and the slopes. */
+enum { MAX_COEFFICIENTS = REPLICATES_MAX_DRAWS + 1 };
 
 /* Accumulates the normal equations of the linear fit to the finite values of quantity k; returns
  * their number. */

@@ -52,10 +52,9 @@ const char *draw_source_name(flow_draw draw, const char **remedy)
     return drawn[k].words;
 }
 
-enum {
-    MOST_SOURCES = COUNT_OF(drawn) + 3
-}; /* plus material, record and scatter between the
-      steps */
+/* Plus material, record and scatter between the
+      steps. */
+enum { MOST_SOURCES = COUNT_OF(drawn) + 3 };
 
 typedef struct source {
     const char *words, *remedy;

@@ -733,7 +733,7 @@ static void bad_input(void **state)
         {"pressure", &p->pressure, {-1, -1e-9, nan, infinite}},
         {"velocity", &p->velocity, {-1, -1e-9, nan, infinite}},
         {"start-thickness", &p->start_thickness, {-1, -1e-20, nan, infinite}},
-        {"duty", &p->duty, {0, -1, nan, 1.01}},
+        {"duty-cycle", &p->duty, {0, -1, nan, 1.01}},
         {"wavenumber", &r.source.wavenumber[0], {0, -1, nan, infinite}},
         {"power", &r.source.power[0], {-1, -1e-30, nan, infinite}},
         {"local-friction", &r.source.local_friction, {-1, -1e-9, nan, infinite}},

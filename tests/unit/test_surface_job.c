@@ -283,7 +283,7 @@ static void test_directions(void **state)
         within += cell(t, k, "density_ratio_low") < c && c < cell(t, k, "density_ratio_high");
     }
     assert_true(within >= WT_SURFACE_SECTORS - 3);
-    assert_true(key(t, "chance") < 1e-6);
+    assert_true(key(t, "p_value") < 1e-6);
     const double alone = key(m.tables.power_spectrum, "anisotropy"),
                  fourth = key(m.tables.power_spectrum, "anisotropy_fourth");
     clear(&m);
@@ -301,7 +301,7 @@ static void test_directions(void **state)
     make(&m, all, COUNT_OF(all));
     assert_string_equal(wt_table_key(m.tables.power_spectrum, "anisotropy_option"), "none");
     assert_null(wt_table_key(m.tables.power_spectrum, "profiles"));
-    assert_true(key(m.tables.angular_spectrum, "chance") > 0.01);
+    assert_true(key(m.tables.angular_spectrum, "p_value") > 0.01);
     clear(&m);
     make(&m, (const char *const[]){SURFACE "profile-*.gsf"}, 1);
     assert_int_equal(m.status, WT_OK);

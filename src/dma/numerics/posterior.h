@@ -7,9 +7,8 @@
 #include "dma/numerics/shift_law.h"
 #include "dma/numerics/vertical_shift.h"
 
-enum {
-    POSTERIOR_CELLS = 12
-}; /* number of geometry widths times departure widths in master_widths.c */
+/* Number of geometry widths times departure widths in master_widths.c. */
+enum { POSTERIOR_CELLS = 12 };
 
 /* One fit of the spectrum for one width of the vertical shift. */
 typedef struct posterior_cell {

@@ -61,8 +61,7 @@ double surface_total_place_weight(const wt_surface_spectrum *s, size_t bin);
  * the first knot, or if a continued slope is not below -1. */
 double surface_invert_profile(const double *q, const double *c1, size_t n, bool extrapolate,
                               double at, const gsl_integration_glfixed_table *rule);
-enum {
-    INVERSION_POINTS = 10
-}; /* points of the quadrature rule; psd_1d_to_2d.c states the reason */
+/* Points of the quadrature rule; psd_1d_to_2d.c states the reason. */
+enum { INVERSION_POINTS = 10 };
 
 #endif

@@ -9,9 +9,8 @@
 #include <pthread.h>
 #include <stdlib.h>
 
-enum {
-    PER_DECADE = 10
-}; /* a power law is nearly straight in a bin, and the first bins contain some modes */
+/* A power law is nearly straight in a bin, and the first bins contain some modes. */
+enum { PER_DECADE = 10 };
 
 /* ---- windows --------------------------------------------------------------------------------- */
 
