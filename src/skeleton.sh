@@ -195,7 +195,7 @@ static wt_status compute(const wt_file_set *set, wt_job *work, wt_table **table,
     (void)set;
     (void)work;
     *table = NULL;
-    return wt_fail(err, WT_E_UNSUPPORTED, "weartrack @ID@ computes nothing yet");
+    return wt_fail(err, WT_E_UNSUPPORTED, "this subcommand computes nothing yet");
 }
 
 int cmd_@C@(int argc, char **argv)
