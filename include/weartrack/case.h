@@ -29,7 +29,7 @@ WT_API wt_status wt_case_set_validation(wt_case *c, const char *const *records, 
                                         wt_error *err) WT_NODISCARD;
 WT_API const char *wt_case_schema(void);            /* XSD text; static */
 WT_API const char *wt_case_title(const wt_case *c); /* Returns the title, "" if none; borrowed. */
-/* Returns the report options of the case: its style, figures, width, font and language, or the
+/* Returns the report options of the case: its style, figures, width and font, or the
  * defaults. Borrowed. */
 WT_API const wt_report_options *wt_case_report_options(const wt_case *c);
 

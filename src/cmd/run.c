@@ -197,8 +197,6 @@ static void apply_case_report_options(run_call *r, const cmd_option_group *given
         r->report.width = asked->width;
     if (!cmd_option_is_given(given, "font"))
         r->report.font = asked->font;
-    if (!cmd_option_is_given(given, "language"))
-        r->report.language = asked->language;
 }
 
 static wt_status run_whole_case(run_call *r, const cmd_option_group *report_given)
@@ -259,21 +257,19 @@ int cmd_run(int argc, char **argv)
                 "standard output, the result to an HDF5 file and the figures to a report folder "
                 "with one page.",
         .common = "formats columns provenance",
-        .notes = "--style, --figures, --width, --font and --language replace those of the "
-                 "case.\nExit status 3 "
-                 "if a file or a stage of the "
-                 "case failed and the rest is answered, 1 if nothing is.",
+        .notes = "--style, --figures, --width and --font replace those of the case.\n"
+                 "Exit status 3 if a file or a stage of the case failed and the rest is answered, "
+                 "1 if nothing is.",
         .n_files = 1,
         .files = "one case file is needed"};
     run_call r = {.s = cmd_session_defaults(),
                   .call_flags = {0},
                   .run = wt_run_defaults(),
                   .report = wt_report_defaults()};
-    cmd_option_group parts[] = {
-        {output_params(), &r.s.common, NULL, 0},
-        {run_flag_params(), &r.call_flags, NULL, 0},
-        {wt_report_params(), &r.report, "style figures width font language", 0},
-        {wt_run_params(), &r.run, NULL, 0}};
+    cmd_option_group parts[] = {{output_params(), &r.s.common, NULL, 0},
+                                {run_flag_params(), &r.call_flags, NULL, 0},
+                                {wt_report_params(), &r.report, "style figures width font", 0},
+                                {wt_run_params(), &r.run, NULL, 0}};
     if (cmd_parse(&r.s, &usage, parts, COUNT_OF(parts), argc, argv) && check_run_output(&r) &&
         (r.s.common.n_columns == 0 || cmd_read_formats(&r.s)) &&
         run_whole_case(&r, &parts[2]) != WT_OK)

@@ -118,7 +118,7 @@ static void reduced_axis(figure_drawing *d)
 {
     char label[DRAWING_LABEL];
     drawing_temperature_label(
-        d, label, d->figure->x.label,
+        label, d->figure->x.label,
         master_curve_value(d->table, MASTER_CURVE_KEY_REFERENCE_TEMPERATURE).value);
     drawing_axis(d, "x", &d->figure->x, label, d->x);
 }
@@ -204,13 +204,12 @@ static void draw_master_curve(figure_drawing *d)
 
 static void caption_isotherms(figure_drawing *d)
 {
-    text_append_translated(
+    text_format(
         &d->caption,
         " %zu %s. Those that superposition can join have the same form, moved along "
         "the axis of frequency or time; where one crosses its neighbours, look at the sample, the "
         "clamping and the oven first.",
-        count_isotherms(d),
-        translate_count(d->language, count_isotherms(d), "isotherm", "isotherms"));
+        count_isotherms(d), count_isotherms(d) == 1 ? "isotherm" : "isotherms");
 }
 
 static void caption_master_curve(figure_drawing *d)
@@ -221,23 +220,19 @@ static void caption_master_curve(figure_drawing *d)
     value_span fit = EMPTY_SPAN;
 
     if (isfinite(reference))
-        text_append_translated(&d->caption, " of %s",
-                               VALUE(d->language, WT_Q_TEMPERATURE, NULL, reference));
-    text_append_translated(
-        &d->caption,
-        ", and tan δ below; %zu points of %zu %s, coloured by the temperature of "
-        "the measurement.",
-        n, count_isotherms(d),
-        translate_count(d->language, count_isotherms(d), "isotherm", "isotherms"));
+        text_format(&d->caption, " of %s", VALUE(WT_Q_TEMPERATURE, NULL, reference));
+    text_format(&d->caption,
+                ", and tan δ below; %zu points of %zu %s, coloured by the temperature of "
+                "the measurement.",
+                n, count_isotherms(d), count_isotherms(d) == 1 ? "isotherm" : "isotherms");
     span_add_column(&fit, d->table, MASTER_CURVE_FITTED_STORAGE, true);
     if (span_is_empty(&fit))
         return;
     if (terms > 0)
-        text_append_translated(
-            &d->caption, " Lines: one relaxation spectrum of %zu terms behind both moduli.", terms);
-    text_append_phrase(&d->caption,
-                       " Grey: its 95 % interval, mostly narrower than the line. A good one has "
-                       "the points of all temperatures on one line without steps.");
+        text_format(&d->caption, " Lines: one relaxation spectrum of %zu terms behind both moduli.",
+                    terms);
+    text_add(&d->caption, " Grey: its 95 % interval, mostly narrower than the line. A good one has "
+                          "the points of all temperatures on one line without steps.");
 }
 
 /* ---- step experiments ------------------------------------------------------------------------ */
@@ -275,14 +270,12 @@ static void caption_step_master_curve(figure_drawing *d)
     const double reference =
         master_curve_value(d->table, MASTER_CURVE_KEY_REFERENCE_TEMPERATURE).value;
     if (isfinite(reference))
-        text_append_translated(&d->caption, " of %s",
-                               VALUE(d->language, WT_Q_TEMPERATURE, NULL, reference));
-    text_append_translated(
-        &d->caption,
-        "; %zu points of %zu %s, coloured by the temperature of the measurement. "
-        "Line: one relaxation spectrum behind them; grey: its 95 %% interval.",
-        d->table->n_rows, count_isotherms(d),
-        translate_count(d->language, count_isotherms(d), "isotherm", "isotherms"));
+        text_format(&d->caption, " of %s", VALUE(WT_Q_TEMPERATURE, NULL, reference));
+    text_format(&d->caption,
+                "; %zu points of %zu %s, coloured by the temperature of the measurement. "
+                "Line: one relaxation spectrum behind them; grey: its 95 %% interval.",
+                d->table->n_rows, count_isotherms(d),
+                count_isotherms(d) == 1 ? "isotherm" : "isotherms");
 }
 
 /* ---- superposition without a frequency ------------------------------------------------------- */
@@ -294,8 +287,7 @@ static void plot_plane(figure_drawing *d, const derived_quantity *x, const deriv
     (void)snprintf(using, sizeof using, "(%s($%zu,$%zu)*x_unit):(%s($%zu,$%zu)*y_unit)", x->name,
                    column, column + 1, y->name, column, column + 1);
     if (line)
-        plot_item(d, d->data[0], "%s with lines ls 11 title '%s'", using,
-                  translate(d->language, spectrum_title));
+        plot_item(d, d->data[0], "%s with lines ls 11 title '%s'", using, spectrum_title);
     else
         plot_measured_points(d, using, "points ls 51");
 }

@@ -49,10 +49,8 @@ static void draw_materials(figure_drawing *d)
     }
     plot_materials(d, STORAGE, true, "");
     plot_materials(d, LOSS, false, " dt (6,4)");
-    plot_expression(d, "keyentry with lines ls 11 title '%s'",
-                    translate(d->language, "storage modulus"));
-    plot_expression(d, "keyentry with lines ls 11 dt (6,4) title '%s'",
-                    translate(d->language, "loss modulus"));
+    plot_expression(d, "keyentry with lines ls 11 title 'storage modulus'");
+    plot_expression(d, "keyentry with lines ls 11 dt (6,4) title 'loss modulus'");
     plot_end(d);
     drawing_axis(d, "y", &d->figure->y[1], NULL, d->y[1]);
     text_add(&d->script, "unset key\n");
@@ -67,9 +65,8 @@ static void caption_materials(figure_drawing *d)
 {
     const double at = materials_value(d->table, MATERIALS_KEY_TEMPERATURE).value;
     if (isfinite(at))
-        text_append_translated(&d->caption,
-                               " All at %s, each over the frequencies that were measured of it.",
-                               VALUE(d->language, WT_Q_TEMPERATURE, NULL, at));
+        text_format(&d->caption, " All at %s, each over the frequencies that were measured of it.",
+                    VALUE(WT_Q_TEMPERATURE, NULL, at));
 }
 
 /* ---- ratios ---------------------------------------------------------------------------------- */
@@ -174,18 +171,16 @@ static void caption_material_ratio(figure_drawing *d)
     const char *settled = material_ratio_key_text(d->table, MATERIAL_RATIO_KEY_SETTLED_BY);
     const double at = material_ratio_value(d->table, MATERIAL_RATIO_KEY_TEMPERATURE).value;
     const wt_estimate frequency = material_ratio_value(d->table, MATERIAL_RATIO_KEY_FREQUENCY);
-    text_append_translated(&d->caption, " Divided by %s.",
-                           material_ratio_key_text(d->table, MATERIAL_RATIO_KEY_FIRST));
+    text_format(&d->caption, " Divided by %s.",
+                material_ratio_key_text(d->table, MATERIAL_RATIO_KEY_FIRST));
     if (isfinite(at))
-        text_append_translated(&d->caption, " Over frequency: at %s.",
-                               VALUE(d->language, WT_Q_TEMPERATURE, NULL, at));
+        text_format(&d->caption, " Over frequency: at %s.", VALUE(WT_Q_TEMPERATURE, NULL, at));
     if (d->width > 1 && isfinite(frequency.value)) /* there is a second column */
-        text_append_translated(&d->caption, " Over temperature: at %s.",
-                               ESTIMATE(d->language, &frequency));
-    text_append_translated(&d->caption, " Do they differ? %s.",
-                           material_ratio_key_text(d->table, MATERIAL_RATIO_KEY_DIFFERS));
+        text_format(&d->caption, " Over temperature: at %s.", ESTIMATE(&frequency));
+    text_format(&d->caption, " Do they differ? %s.",
+                material_ratio_key_text(d->table, MATERIAL_RATIO_KEY_DIFFERS));
     if (settled != NULL)
-        text_append_translated(&d->caption, " What would settle it: %s.", settled);
+        text_format(&d->caption, " What would settle it: %s.", settled);
 }
 
 /* ---- one law for samples --------------------------------------------------------------------- */
@@ -202,8 +197,7 @@ static void draw_shared_shift_law(figure_drawing *d)
     text_add(&d->script, "set multiplot layout 2,1\n");
     drawing_axis(d, "x", &d->figure->x, NULL, d->x);
     drawing_axis(d, "y", &d->figure->y[0], NULL, d->y[0]);
-    text_format(&d->script, "set ylabel '%s' enhanced\n",
-                translate(d->language, "Shift factor, log_{10} a_T"));
+    text_add(&d->script, "set ylabel 'Shift factor, log_{10} a_T' enhanced\n");
     for (size_t i = 0; i < d->n_groups; i++) {
         plot_item(d, d->data[i], "($1+x_offset):($%d):($%d) with filledcurves ls %zu notitle",
                   LAW + 1, LAW + 2, 81 + i);
@@ -218,8 +212,7 @@ static void draw_shared_shift_law(figure_drawing *d)
         span_add(&span, 0, false);
         text_add(&d->script, "unset key\n");
         drawing_axis(d, "y", &d->figure->y[1], NULL, span);
-        text_format(&d->script, "set ylabel '%s'\n",
-                    translate(d->language, "Own law against it (decades)"));
+        text_add(&d->script, "set ylabel 'Own law against it (decades)'\n");
         plot_expression(d, "0 with lines ls 12 notitle");
         for (size_t i = 0; i < d->n_groups; i++)
             plot_item(d, d->data[i],
@@ -233,11 +226,11 @@ static void draw_shared_shift_law(figure_drawing *d)
 static void caption_shared_shift_law(figure_drawing *d)
 {
     const char *settled = shared_shift_law_key_text(d->table, SHARED_SHIFT_LAW_KEY_SETTLED_BY);
-    text_append_translated(&d->caption, " Reference temperatures: %s. One law? %s.",
-                           shared_shift_law_key_text(d->table, SHARED_SHIFT_LAW_KEY_MOVED),
-                           shared_shift_law_key_text(d->table, SHARED_SHIFT_LAW_KEY_AGREE));
+    text_format(&d->caption, " Reference temperatures: %s. One law? %s.",
+                shared_shift_law_key_text(d->table, SHARED_SHIFT_LAW_KEY_MOVED),
+                shared_shift_law_key_text(d->table, SHARED_SHIFT_LAW_KEY_AGREE));
     if (settled != NULL)
-        text_append_translated(&d->caption, " What would settle it: %s.", settled);
+        text_format(&d->caption, " What would settle it: %s.", settled);
 }
 
 /* ---- descriptions ---------------------------------------------------------------------------- */

@@ -87,8 +87,7 @@ static void plot_residual(figure_drawing *d)
     const double offset = shift_factors_value(d->table, SHIFT_FACTORS_KEY_OFFSET).value;
     drawing_axis(d, "y", &d->figure->y[1], NULL, residual_span(d, offset));
     text_add(&d->script, "unset key\n");
-    text_format(&d->script, "set ylabel '%s' enhanced\n",
-                translate(d->language, "Residual, log_{10} a_T"));
+    text_add(&d->script, "set ylabel 'Residual, log_{10} a_T' enhanced\n");
     plot_item(d, d->data[0],
               "($1+x_offset):(over($1+x_offset,$6)-$5):($7-$5) with filledcurves ls 61 "
               "notitle");
@@ -111,27 +110,23 @@ void draw_shift_factors(figure_drawing *d)
     if (!drawing_build_data(d))
         return;
     drawing_axes(d);
-    text_format(&d->script, "set ylabel '%s' enhanced\n",
-                translate(d->language, "Shift factor, log_{10} a_T"));
+    text_add(&d->script, "set ylabel 'Shift factor, log_{10} a_T' enhanced\n");
     const bool law = define_shift_law(d);
     if (law) {
         d->height = 1.6;
         text_add(&d->script, "set multiplot layout 2,1\n");
         plot_item(d, d->data[0],
                   "($1+x_offset):(over($1+x_offset,$6)+offset):($7+offset) with filledcurves ls 61 "
-                  "title '%s'",
-                  translate(d->language, "95 % interval of the law"));
-        plot_expression(
-            d, "law(x) with lines ls 11 title '%s'",
-            translate(d->language, law_is_stated(d->table) ? "given law" : "fitted law"));
+                  "title '95 %% interval of the law'");
+        plot_expression(d, "law(x) with lines ls 11 title '%s'",
+                        law_is_stated(d->table) ? "given law" : "fitted law");
     }
-    plot_item(d, d->data[0], "($1+x_offset):($4 == 0 ? NaN : $2):3 with yerrorbars ls 1 title '%s'",
-              translate(d->language, "from overlap"));
+    plot_item(d, d->data[0],
+              "($1+x_offset):($4 == 0 ? NaN : $2):3 with yerrorbars ls 1 title 'from overlap'");
     if (count_undetermined(d->table) > 0)
         plot_item(d, d->data[0],
                   "($1+x_offset):($4 == 0 ? $2 : NaN) with points ls 14 title "
-                  "'%s'",
-                  translate(d->language, "too little overlap"));
+                  "'too little overlap'");
     plot_end(d);
     if (!law)
         return;
@@ -147,22 +142,19 @@ void caption_shift_factors(figure_drawing *d)
                       energy = shift_factors_value(d->table, SHIFT_FACTORS_KEY_ACTIVATION_ENERGY);
     const char *verdict = shift_factors_key_text(d->table, SHIFT_FACTORS_KEY_SUPERPOSITION);
     if (isfinite(c1.value))
-        text_append_translated(
-            &d->caption, " Line: WLF law with C₁ = %s and C₂ = %s, %s.", ESTIMATE(d->language, &c1),
-            ESTIMATE(d->language, &c2),
-            translate(d->language, law_is_stated(d->table)
-                                       ? "by which the shifts were given"
-                                       : "with the offset of the reference isotherm that was "
-                                         "fitted; band: its 95 % interval"));
+        text_format(&d->caption, " Line: WLF law with C₁ = %s and C₂ = %s, %s.", ESTIMATE(&c1),
+                    ESTIMATE(&c2),
+                    law_is_stated(d->table) ? "by which the shifts were given"
+                                            : "with the offset of the reference isotherm that was "
+                                              "fitted; band: its 95 % interval");
     if (isfinite(energy.value))
-        text_append_translated(&d->caption,
-                               isfinite(c1.value) ? " Arrhenius in the cold with %s."
-                                                  : " Arrhenius with %s.",
-                               ESTIMATE(d->language, &energy));
-    text_append_translated(&d->caption, " Time-temperature superposition: %s.", verdict);
+        text_format(&d->caption,
+                    isfinite(c1.value) ? " Arrhenius in the cold with %s." : " Arrhenius with %s.",
+                    ESTIMATE(&energy));
+    text_format(&d->caption, " Time-temperature superposition: %s.", verdict);
     if (undetermined > 0)
-        text_append_translated(&d->caption, " Not determined by overlap: %zu of %zu isotherms.",
-                               undetermined, d->table->n_rows);
+        text_format(&d->caption, " Not determined by overlap: %zu of %zu isotherms.", undetermined,
+                    d->table->n_rows);
 }
 
 /* ---- vertical shifts ------------------------------------------------------------------------- */
@@ -173,14 +165,10 @@ void draw_vertical_shifts(figure_drawing *d)
     if (d->table->n_rows < 2 || strcmp(vertical, "none") == 0 || !drawing_build_data(d))
         return;
     drawing_axes(d);
-    text_format(&d->script, "set ylabel '%s' enhanced\n",
-                translate(d->language, "Shift factor, log_{10} b_T"));
-    plot_item(d, d->data[0], "($1+x_offset):4 with lines ls 12 title '%s'",
-              translate(d->language, "rubber elasticity"));
-    plot_item(d, d->data[0], "($1+x_offset):5 with lines ls 11 title '%s'",
-              translate(d->language, "material"));
-    plot_item(d, d->data[0], "($1+x_offset):2:3 with yerrorbars ls 1 title '%s'",
-              translate(d->language, "isotherms"));
+    text_add(&d->script, "set ylabel 'Shift factor, log_{10} b_T' enhanced\n");
+    plot_item(d, d->data[0], "($1+x_offset):4 with lines ls 12 title 'rubber elasticity'");
+    plot_item(d, d->data[0], "($1+x_offset):5 with lines ls 11 title 'material'");
+    plot_item(d, d->data[0], "($1+x_offset):2:3 with yerrorbars ls 1 title 'isotherms'");
     plot_end(d);
 }
 
@@ -192,10 +180,9 @@ void caption_vertical_shifts(figure_drawing *d)
                                  shift_factors_get(d->table, row, SHIFT_FACTORS_LOG_B_PHYSICAL);
         most = fmax(most, isfinite(deviation) ? fabs(deviation) : 0);
     }
-    text_append_translated(
-        &d->caption,
-        " A good one is smooth, and near the line of rubber elasticity above the glass "
-        "transition; here the isotherms are off it by up to %s decade. A filler that "
-        "softens with temperature or a clamp that yields leads away from it.",
-        NUMBER(d->language, most, 2));
+    text_format(&d->caption,
+                " A good one is smooth, and near the line of rubber elasticity above the glass "
+                "transition; here the isotherms are off it by up to %s decade. A filler that "
+                "softens with temperature or a clamp that yields leads away from it.",
+                NUMBER(most, 2));
 }

@@ -24,12 +24,11 @@ static void plot_strain_points(figure_drawing *d, int column, int law, int style
     if (coloured)
         (void)snprintf(colour, sizeof colour, ":($%d*cb_unit)", FREQUENCY);
     if (has_kraus_law(d))
-        plot_item(d, d->data[0], "($1*x_unit):($%d*y_unit) with lines ls 11 title '%s'", law,
-                  translate(d->language, "law of Kraus"));
+        plot_item(d, d->data[0], "($1*x_unit):($%d*y_unit) with lines ls 11 title 'law of Kraus'",
+                  law);
     plot_item(d, d->data[0], "($1*x_unit):($%d*y_unit)%s with points ls %d %s notitle", column,
               colour, style, coloured ? "lc palette" : "lc rgb 'black'");
-    plot_expression(d, "keyentry with points ls %d lc rgb '#111111' title '%s'", style,
-                    translate(d->language, title));
+    plot_expression(d, "keyentry with points ls %d lc rgb '#111111' title '%s'", style, title);
 }
 
 /* Marks the strain at which the given fraction of the initial storage modulus remains. */
@@ -39,7 +38,7 @@ static void plot_fraction_mark(figure_drawing *d, payne_column strain, double fr
     const unsigned columns[] = {strain, PAYNE_STORAGE_START};
     const int marks = drawing_section(d, &d->tables->payne, title, NULL, columns, 2, 2);
     plot_item(d, marks, "($1*x_unit):(%g*$2*y_unit) with points ls 14 ps 1.5 title '%s'", fraction,
-              translate(d->language, title));
+              title);
 }
 
 /* The upper panel shows the storage modulus, the lower panel the loss modulus. */
@@ -74,14 +73,11 @@ static void caption_payne(figure_drawing *d)
         half += isnan(payne_get(sweeps, row, PAYNE_STRAIN_HALF)) ? 1 : 0;
     }
     const size_t n = wt_table_block(d->table->table, d->table->n_rows - 1) + 1;
-    text_append_translated(
-        &d->caption, translate_count(d->language, n, " %zu strain sweep.", " %zu strain sweeps."),
-        n);
+    text_format(&d->caption, n == 1 ? " %zu strain sweep." : " %zu strain sweeps.", n);
     if (without > 0)
-        text_append_translated(&d->caption, " Without a law of Kraus: %zu.", without);
+        text_format(&d->caption, " Without a law of Kraus: %zu.", without);
     if (half > 0)
-        text_append_translated(&d->caption,
-                               " In which half of the storage modulus is not lost: %zu.", half);
+        text_format(&d->caption, " In which half of the storage modulus is not lost: %zu.", half);
 }
 
 const figure_description figures_payne[] = {

@@ -19,10 +19,9 @@ static void draw_dma_comparison(figure_drawing *d)
     span_add_section(&d->y[0], d, section, 1, true);
     span_add_section(&d->y[0], d, section, 2, true);
     drawing_axes(d);
-    plot_item(d, section, "($1*x_unit):($3*y_unit) smooth unique with lines ls 11 title '%s'",
-              translate(d->language, "DMA |E*|"));
-    plot_item(d, section, "($1*x_unit):($2*y_unit) smooth unique with lines ls 15 title '%s'",
-              translate(d->language, "DMA E′"));
+    plot_item(d, section,
+              "($1*x_unit):($3*y_unit) smooth unique with lines ls 11 title 'DMA |E*|'");
+    plot_item(d, section, "($1*x_unit):($2*y_unit) smooth unique with lines ls 15 title 'DMA E′'");
     drawing_curves(d, 0);
     plot_end(d);
 }
@@ -33,12 +32,11 @@ static void caption_dma_comparison(figure_drawing *d)
     for (size_t row = 0; row < n; row++)
         extrapolated += dma_comparison_get(d->table, row, DMA_COMPARISON_EXTRAPOLATED) > 0;
     if (extrapolated > 0)
-        text_append_translated(
-            &d->caption,
-            " %zu of %zu points lie outside the measured frequencies of the master curve.",
-            extrapolated, n);
+        text_format(&d->caption,
+                    " %zu of %zu points lie outside the measured frequencies of the master curve.",
+                    extrapolated, n);
     if (n > 0 && wt_table_block(d->table->table, n - 1) > 0)
-        text_append_phrase(&d->caption, " The DMA is that at the temperature of each group.");
+        text_add(&d->caption, " The DMA is that at the temperature of each group.");
 }
 
 /* ---- relaxation spectrum --------------------------------------------------------------------- */
@@ -50,10 +48,8 @@ static void draw_relaxation_spectrum(figure_drawing *d)
     drawing_axes(d);
     plot_item(d, d->data[0],
               "($1*x_unit):($3*y_unit):($4*y_unit) with filledcurves ls 61 title "
-              "'%s'",
-              translate(d->language, "limits on the safe side of 95 %"));
-    plot_item(d, d->data[0], "($1*x_unit):($2*y_unit) with lines ls 11 title '%s'",
-              translate(d->language, "spectrum"));
+              "'limits on the safe side of 95 %%'");
+    plot_item(d, d->data[0], "($1*x_unit):($2*y_unit) with lines ls 11 title 'spectrum'");
     plot_end(d);
 }
 
@@ -65,8 +61,7 @@ static void plot_ramp(figure_drawing *d, int column, int style, const char *titl
     const bool coloured = d->colour.high > d->colour.low;
     plot_item(d, d->data[0], "($1+x_offset):($%d*y_unit)%s with points ls %d %s notitle", column,
               coloured ? ":($5*cb_unit)" : "", style, coloured ? "lc palette" : "lc rgb 'black'");
-    plot_expression(d, "keyentry with points ls %d lc rgb '#111111' title '%s'", style,
-                    translate(d->language, title));
+    plot_expression(d, "keyentry with points ls %d lc rgb '#111111' title '%s'", style, title);
 }
 
 static void plot_peaks(figure_drawing *d, glass_transition_column peak, const char *title)
@@ -74,8 +69,7 @@ static void plot_peaks(figure_drawing *d, glass_transition_column peak, const ch
     const unsigned columns[] = {peak, peak + GLASS_TRANSITION_FACTOR_HEIGHT -
                                           GLASS_TRANSITION_FACTOR_PEAK};
     const int peaks = drawing_section(d, &d->tables->glass_transition, title, NULL, columns, 2, 2);
-    plot_item(d, peaks, "($1+x_offset):($2*y_unit) with points ls 14 ps 1.5 title '%s'",
-              translate(d->language, title));
+    plot_item(d, peaks, "($1+x_offset):($2*y_unit) with points ls 14 ps 1.5 title '%s'", title);
 }
 
 /* The upper panel shows the moduli, the lower panel the loss factor. */
@@ -111,10 +105,10 @@ static void caption_ramp(figure_drawing *d)
     size_t none = 0;
     for (size_t row = 0; row < peaks->n_rows; row++)
         none += isnan(glass_transition_get(peaks, row, GLASS_TRANSITION_FACTOR_PEAK)) ? 1 : 0;
-    text_append_translated(&d->caption, " %zu temperature sweeps.",
-                           wt_table_block(d->table->table, d->table->n_rows - 1) + 1);
+    text_format(&d->caption, " %zu temperature sweeps.",
+                wt_table_block(d->table->table, d->table->n_rows - 1) + 1);
     if (none > 0)
-        text_append_translated(&d->caption, " Without a peak of tan δ in range: %zu.", none);
+        text_format(&d->caption, " Without a peak of tan δ in range: %zu.", none);
 }
 
 /* ---- descriptions ---------------------------------------------------------------------------- */

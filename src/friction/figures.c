@@ -12,8 +12,8 @@ static void caption_spectrum(figure_drawing *d)
 {
     const wt_estimate height = roughness_value(d->table, ROUGHNESS_KEY_RMS_HEIGHT),
                       slope = roughness_value(d->table, ROUGHNESS_KEY_RMS_SLOPE);
-    text_append_translated(&d->caption, " Root-mean-square height %s. Root-mean-square slope %s.",
-                           ESTIMATE(d->language, &height), ESTIMATE(d->language, &slope));
+    text_format(&d->caption, " Root-mean-square height %s. Root-mean-square slope %s.",
+                ESTIMATE(&height), ESTIMATE(&slope));
 }
 
 /* ---- friction against velocity --------------------------------------------------------------- */
@@ -47,51 +47,46 @@ static void caption_friction_curves(figure_drawing *d)
     span_add_column(&share, d->table, FRICTION_EXTRAPOLATED_SHARE, false);
 
     if (includes != NULL && includes[0] != '\0')
-        text_append_translated(&d->caption, " (from %s)", includes);
-    text_append_phrase(&d->caption, ".");
+        text_format(&d->caption, " (from %s)", includes);
+    text_add(&d->caption, ".");
     if (!span_is_empty(&layer)) {
         wt_estimate thickness = friction_value(d->table, FRICTION_KEY_LAYER_THICKNESS);
-        text_append_phrase(&d->caption, " Dashed: with the modified layer on the surface");
+        text_add(&d->caption, " Dashed: with the modified layer on the surface");
         if (!isnan(thickness.value))
-            text_append_translated(&d->caption, ", thickness %s",
-                                   ESTIMATE(d->language, &thickness));
-        text_append_phrase(&d->caption, ".");
+            text_format(&d->caption, ", thickness %s", ESTIMATE(&thickness));
+        text_add(&d->caption, ".");
     }
-    text_append_translated(&d->caption, " Conditions: nominal pressure %s, temperature %s",
-                           VALUE(d->language, WT_Q_PRESSURE, NULL,
-                                 friction_value(d->table, FRICTION_KEY_PRESSURE).value),
-                           VALUE(d->language, WT_Q_TEMPERATURE, NULL,
-                                 friction_value(d->table, FRICTION_KEY_TEMPERATURE).value));
+    text_format(
+        &d->caption, " Conditions: nominal pressure %s, temperature %s",
+        VALUE(WT_Q_PRESSURE, NULL, friction_value(d->table, FRICTION_KEY_PRESSURE).value),
+        VALUE(WT_Q_TEMPERATURE, NULL, friction_value(d->table, FRICTION_KEY_TEMPERATURE).value));
     const double least = 1e-3; /* a smaller share is reported as "less than" */
     double shear = friction_value(d->table, FRICTION_KEY_SHEAR_STRESS).value;
     if (isfinite(shear))
-        text_append_translated(&d->caption, ", shear stress of the real contact %s",
-                               VALUE(d->language, WT_Q_PRESSURE, NULL, shear));
-    text_append_phrase(&d->caption, ".");
+        text_format(&d->caption, ", shear stress of the real contact %s",
+                    VALUE(WT_Q_PRESSURE, NULL, shear));
+    text_add(&d->caption, ".");
     double numerical = largest_error(d->table);
     if (isfinite(numerical))
-        text_append_translated(
-            &d->caption,
-            " Largest numerical error of the hysteresis part: %s %%, not in the bands.",
-            NUMBER(d->language, 100 * numerical, 2));
+        text_format(&d->caption,
+                    " Largest numerical error of the hysteresis part: %s %%, not in the bands.",
+                    NUMBER(100 * numerical, 2));
     if (!span_is_empty(&share) && share.high > 0)
-        text_append_translated(
-            &d->caption,
-            " %s %s %% of the hysteresis part comes from frequencies outside the measured "
-            "ones.",
-            translate(d->language, share.high < least ? "Less than" : "Up to"),
-            NUMBER(d->language, 100 * fmax(share.high, least), share.high < least ? 1 : 2));
+        text_format(&d->caption,
+                    " %s %s %% of the hysteresis part comes from frequencies outside the measured "
+                    "ones.",
+                    share.high < least ? "Less than" : "Up to",
+                    NUMBER(100 * fmax(share.high, least), share.high < least ? 1 : 2));
 }
 
 /* ---- softening with strain ------------------------------------------------------------------- */
 
 static void caption_softening(figure_drawing *d)
 {
-    text_append_translated(
-        &d->caption, " Softening: %s. Largest strain met: %s. %s.",
-        softening_key_text(d->table, SOFTENING_KEY_SOURCE),
-        NUMBER(d->language, softening_value(d->table, SOFTENING_KEY_STRAIN).value, 2),
-        softening_key_text(d->table, SOFTENING_KEY_EFFECT));
+    text_format(&d->caption, " Softening: %s. Largest strain met: %s. %s.",
+                softening_key_text(d->table, SOFTENING_KEY_SOURCE),
+                NUMBER(softening_value(d->table, SOFTENING_KEY_STRAIN).value, 2),
+                softening_key_text(d->table, SOFTENING_KEY_EFFECT));
 }
 
 /* ---- flash temperature ----------------------------------------------------------------------- */
@@ -100,14 +95,13 @@ static void caption_flash(figure_drawing *d)
 {
     const char *two = flash_key_text(d->table, FLASH_KEY_BRANCHES),
                *none = flash_key_text(d->table, FLASH_KEY_UNSETTLED);
-    text_append_translated(&d->caption, " Surroundings at %s; %s.",
-                           VALUE(d->language, WT_Q_TEMPERATURE, NULL,
-                                 flash_value(d->table, FLASH_KEY_SURROUNDINGS).value),
-                           flash_key_text(d->table, FLASH_KEY_EFFECT));
+    text_format(&d->caption, " Surroundings at %s; %s.",
+                VALUE(WT_Q_TEMPERATURE, NULL, flash_value(d->table, FLASH_KEY_SURROUNDINGS).value),
+                flash_key_text(d->table, FLASH_KEY_EFFECT));
     if (two != NULL)
-        text_append_translated(&d->caption, " Two solutions: %s.", two);
+        text_format(&d->caption, " Two solutions: %s.", two);
     if (none != NULL)
-        text_append_translated(&d->caption, " Without one: %s.", none);
+        text_format(&d->caption, " Without one: %s.", none);
 }
 
 /* ---- directions ------------------------------------------------------------------------------ */
@@ -150,7 +144,7 @@ static void draw_transverse_isotropy(figure_drawing *d)
         axis_linear(d, "y", panels[p].label, &field[panels[p].column], span);
         for (size_t k = 0; k < COUNT_OF(factor_sets); k++)
             plot_item(d, section[k], "($1*x_unit):($%zu*y_unit) with lines ls %d title '%s'", p + 2,
-                      factor_sets[k].style, translate(d->language, factor_sets[k].title));
+                      factor_sets[k].style, factor_sets[k].title);
         plot_end(d);
         text_add(&d->script, "unset key\n");
     }

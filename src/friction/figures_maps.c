@@ -82,16 +82,15 @@ static void draw_collapse(figure_drawing *d)
 
 static void caption_collapse(figure_drawing *d)
 {
-    text_append_translated(
+    text_format(
         &d->caption, " Nominal pressure %s; a_T is 1 at %s.",
-        VALUE(d->language, WT_Q_PRESSURE, NULL,
-              friction_map_value(d->table, FRICTION_MAP_KEY_PRESSURE).value),
-        VALUE(d->language, WT_Q_TEMPERATURE, NULL,
+        VALUE(WT_Q_PRESSURE, NULL, friction_map_value(d->table, FRICTION_MAP_KEY_PRESSURE).value),
+        VALUE(WT_Q_TEMPERATURE, NULL,
               friction_map_value(d->table, FRICTION_MAP_KEY_REFERENCE_TEMPERATURE).value));
     const char *extrapolation_note =
         friction_map_key_text(d->table, FRICTION_MAP_KEY_MATERIAL_STATEMENT);
     if (extrapolation_note != NULL && extrapolation_note[0] != '\0')
-        text_append_translated(&d->caption, " Note: %s.", extrapolation_note);
+        text_format(&d->caption, " Note: %s.", extrapolation_note);
 }
 
 /* ---- maps ------------------------------------------------------------------------------------ */
@@ -232,8 +231,7 @@ static void caption_pressure_map(figure_drawing *d)
 {
     const double temperature = friction_map_value(d->table, FRICTION_MAP_KEY_TEMPERATURE).value;
     if (isfinite(temperature))
-        text_append_translated(&d->caption, " Temperature %s.",
-                               VALUE(d->language, WT_Q_TEMPERATURE, NULL, temperature));
+        text_format(&d->caption, " Temperature %s.", VALUE(WT_Q_TEMPERATURE, NULL, temperature));
 }
 
 /* ---- decades --------------------------------------------------------------------------------- */
@@ -274,7 +272,6 @@ static void draw_decades(figure_drawing *d)
     for (size_t k = 0; k < n; k++) {
         char title[48];
         wt_format_si(velocity[k], "m/s", 2, title, sizeof title);
-        language_set_decimal_mark(d->language, title);
         /* bars within a decade: from the first velocity on the left to the last on the right */
         plot_item(
             d, section,
@@ -289,19 +286,19 @@ static void draw_decades(figure_drawing *d)
 
 static void caption_decades(figure_drawing *d)
 {
-    text_append_translated(&d->caption, " The most: %s.",
-                           friction_decades_key_text(d->table, FRICTION_DECADES_KEY_STRONGEST));
+    text_format(&d->caption, " The most: %s.",
+                friction_decades_key_text(d->table, FRICTION_DECADES_KEY_STRONGEST));
 }
 
 /* ---- direction of sliding -------------------------------------------------------------------- */
 
 static void caption_anisotropy(figure_drawing *d)
 {
-    text_append_translated(&d->caption,
-                           " Power spectrum over its mean at an angle phi from the velocity: 1 + "
-                           "%s. %s.",
-                           anisotropy_key_text(d->table, ANISOTROPY_KEY_TEXTURE),
-                           anisotropy_key_text(d->table, ANISOTROPY_KEY_EFFECT));
+    text_format(&d->caption,
+                " Power spectrum over its mean at an angle phi from the velocity: 1 + "
+                "%s. %s.",
+                anisotropy_key_text(d->table, ANISOTROPY_KEY_TEXTURE),
+                anisotropy_key_text(d->table, ANISOTROPY_KEY_EFFECT));
 }
 
 const figure_description figures_friction_maps[] = {

@@ -51,7 +51,7 @@ static void plot_force(figure_drawing *d, int section, int style, const char *ti
 {
     plot_item(d, section,
               "(($1-contact_point)*x_unit):($2*y_unit) every %zu with lines ls %d title '%s'",
-              drawing_stride(d, section, LINE_POINTS), style, translate(d->language, title));
+              drawing_stride(d, section, LINE_POINTS), style, title);
 }
 
 static void draw_force_displacement(figure_drawing *d)
@@ -76,15 +76,14 @@ static void draw_force_displacement(figure_drawing *d)
         if (d->data[i] < 0 && retract[i] < 0)
             continue;
         text_add(&d->script, "contact_point = 0  # m; the axis counts from it\n");
-        plot_heading(d, drawing_group_name(d, d->groups[i]));
+        plot_heading(d, d->groups[i]);
         text_add(&d->script, "unset arrow\n"
                              "set arrow from 0, graph 0 to 0, graph 1 nohead ls 12 back\n");
         plot_force(d, d->data[i], style, "approach");
         plot_force(d, retract[i], style + 30, "retract");
         plot_item(d, contact[i],
                   "(($1-contact_point)*x_unit):($3*y_unit):($2*x_unit) with xerrorbars ls 13 title "
-                  "'%s'",
-                  translate(d->language, "contact"));
+                  "'contact'");
         plot_end(d);
     }
     text_add(&d->script, "unset multiplot\n");
@@ -98,19 +97,16 @@ static void caption_force_displacement(figure_drawing *d)
         const double error =
             force_displacement_value(&keys, FORCE_DISPLACEMENT_KEY_CONTACT_POINT).standard_error;
         if (curve != NULL && error > 0)
-            text_append_translated(&d->caption, " %s: %s, standard error of the contact point %s.",
-                                   drawing_group_name(d, d->groups[i]), curve,
-                                   VALUE(d->language, WT_Q_LENGTH, NULL, error));
+            text_format(&d->caption, " %s: %s, standard error of the contact point %s.",
+                        d->groups[i], curve, VALUE(WT_Q_LENGTH, NULL, error));
         else if (curve != NULL)
-            text_append_translated(&d->caption, " %s: %s.", drawing_group_name(d, d->groups[i]),
-                                   curve);
+            text_format(&d->caption, " %s: %s.", d->groups[i], curve);
     }
-    text_append_phrase(&d->caption,
-                       " The vertical line is the fitted contact point; its horizontal bar is "
-                       "one standard error.");
+    text_add(&d->caption, " The vertical line is the fitted contact point; its horizontal bar is "
+                          "one standard error.");
     size_t every = drawing_max_stride(d, LINE_POINTS);
     if (every > 1)
-        text_append_translated(&d->caption, " One sample of %zu is drawn.", every);
+        text_format(&d->caption, " One sample of %zu is drawn.", every);
 }
 
 /* ---- force against indentation --------------------------------------------------------------- */
@@ -120,10 +116,10 @@ static void caption_force_indentation(figure_drawing *d)
     value_span fit = EMPTY_SPAN;
     span_add_column(&fit, d->table, FORCE_INDENTATION_FITTED_FORCE, false);
     if (!span_is_empty(&fit))
-        text_append_phrase(&d->caption, " Lines: contact model with the fitted modulus.");
+        text_add(&d->caption, " Lines: contact model with the fitted modulus.");
     size_t every = drawing_max_stride(d, MARKER_POINTS);
     if (every > 1)
-        text_append_translated(&d->caption, " One sample of up to %zu is drawn.", every);
+        text_format(&d->caption, " One sample of up to %zu is drawn.", every);
 }
 
 /* ---- modulus by group ------------------------------------------------------------------------ */
@@ -160,7 +156,7 @@ static void draw_modulus_groups(figure_drawing *d)
     text_format(&d->script, "set xrange [0.5:%zu.6]\nset xtics (", n);
     for (size_t i = 0; i < n; i++) {
         text_buffer label = {0};
-        text_format(&label, "%s (n = %zu)", drawing_group_name(d, d->groups[i]),
+        text_format(&label, "%s (n = %zu)", d->groups[i],
                     drawing_row_count(d, d->data[i]) + drawing_row_count(d, open[i]));
         text_add(&d->script, i == 0 ? "" : ", ");
         text_tic_label(&d->script, text_string(&label));
@@ -188,19 +184,16 @@ static void caption_modulus_groups(figure_drawing *d)
 {
     size_t every = drawing_max_stride(d, CROWD_POINTS);
     if (every > 1)
-        text_append_translated(&d->caption, " One curve of up to %zu is drawn.", every);
+        text_format(&d->caption, " One curve of up to %zu is drawn.", every);
     const char *unit = comparison_key_text(&d->tables->comparison, COMPARISON_KEY_UNIT_OF_ANALYSIS);
     if (unit != NULL)
-        text_append_translated(&d->caption, " Unit of analysis of the interval: %s.",
-                               translate(d->language, unit));
+        text_format(&d->caption, " Unit of analysis of the interval: %s.", unit);
     for (size_t row = 0; row < d->table->n_rows; row++) {
         double all = modulus_groups_get(d->table, row, MODULUS_GROUPS_N),
                out = modulus_groups_get(d->table, row, MODULUS_GROUPS_N_REJECTED);
         if (isfinite(all) && isfinite(out))
-            text_append_translated(
-                &d->caption, " %s: n = %.0f, rejected %.0f.",
-                drawing_group_name(d, modulus_groups_text(d->table, row, MODULUS_GROUPS_GROUP)),
-                all, out);
+            text_format(&d->caption, " %s: n = %.0f, rejected %.0f.",
+                        modulus_groups_text(d->table, row, MODULUS_GROUPS_GROUP), all, out);
     }
 }
 
@@ -210,18 +203,16 @@ static void caption_modulus_rate(figure_drawing *d)
 {
     for (size_t i = 0; i < d->n_groups; i++) {
         bool first = true;
-        text_format(&d->caption, "%s %s n = ", i == 0 ? "" : ";",
-                    drawing_group_name(d, d->groups[i]));
+        text_format(&d->caption, "%s %s n = ", i == 0 ? "" : ";", d->groups[i]);
         for (size_t row = 0; row < d->table->n_rows; row++) {
             if (strcmp(modulus_rate_text(d->table, row, MODULUS_RATE_GROUP), d->groups[i]) != 0)
                 continue;
-            text_format(
-                &d->caption, "%s%s", first ? "" : ", ",
-                SHORT_NUMBER(d->language, modulus_rate_get(d->table, row, MODULUS_RATE_N), 9));
+            text_format(&d->caption, "%s%s", first ? "" : ", ",
+                        SHORT_NUMBER(modulus_rate_get(d->table, row, MODULUS_RATE_N), 9));
             first = false;
         }
     }
-    text_append_phrase(&d->caption, ".");
+    text_add(&d->caption, ".");
 }
 
 /* ---- descriptions ---------------------------------------------------------------------------- */

@@ -34,10 +34,9 @@ static void draw_sheet(figure_drawing *d, const curve_list *list)
         draw_curve_panel(d, &list->curves[i]);
     }
     text_add(&d->script, "unset multiplot\n");
-    text_append_translated(&d->caption, " %s %zu of %zu curves.",
-                           translate(d->language, curve_panel_legend), n, list->n_rows);
+    text_format(&d->caption, " %s %zu of %zu curves.", curve_panel_legend, n, list->n_rows);
     if (n < list->n)
-        text_append_phrase(&d->caption, " weartrack report --sheets draws the others.");
+        text_add(&d->caption, " weartrack report --sheets draws the others.");
 }
 
 static void draw_curves(figure_drawing *d)

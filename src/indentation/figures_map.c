@@ -72,7 +72,7 @@ static void draw_modulus_panel(figure_drawing *d, const map_panel *panel)
     map_axis(d, "y", panel, INDENTATION_Y, panel->step_y);
     text_format(&d->script, "half_x = %s; half_y = %s  # m\n", LITERAL(panel->step_x / 2),
                 LITERAL(panel->step_y / 2));
-    plot_heading(d, drawing_group_name(d, panel->group));
+    plot_heading(d, panel->group);
     plot_item(d, panel->accepted,
               "($1*x_unit):($2*y_unit):(half_x*x_unit):(half_y*y_unit):($3*cb_unit) with "
               "boxxyerror fc palette notitle");

@@ -72,7 +72,7 @@ static void draw_spot_map(figure_drawing *d)
             continue;
         axis_linear(d, "cb", i < 2 ? "Height" : "Change of the height",
                     &spot_map_schema.columns[shown_columns[i]], colours[i < 2 ? 0 : i]);
-        draw_spot_panel(d, sections[i], translate(d->language, titles[i]));
+        draw_spot_panel(d, sections[i], titles[i]);
     }
     text_add(&d->script, "unset multiplot\n");
 }

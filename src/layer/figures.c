@@ -37,7 +37,7 @@ static void mark_time(figure_drawing *d, double time, const char *label, double 
                 LITERAL(time), LITERAL(time));
     if (label != NULL)
         text_format(&d->script, "set label '%s' at %s*x_unit, graph %s offset 0.6,0 left front\n",
-                    translate(d->language, label), LITERAL(time), LITERAL(graph_position));
+                    label, LITERAL(time), LITERAL(graph_position));
 }
 
 static void draw_thickness(figure_drawing *d)
@@ -51,8 +51,7 @@ static void draw_thickness(figure_drawing *d)
         text_format(&d->script, "balance = %s  # m\n", LITERAL(balance));
     drawing_bands(d, 0);
     if (isfinite(balance))
-        plot_expression(d, "balance*y_unit with lines ls 15 title '%s'",
-                        translate(d->language, "balance"));
+        plot_expression(d, "balance*y_unit with lines ls 15 title 'balance'");
     drawing_curves(d, 0);
     plot_end(d);
 }
@@ -91,14 +90,11 @@ static void caption_layer(figure_drawing *d)
     const wt_estimate incubation = layer_value(d->table, LAYER_KEY_INCUBATION_TIME),
                       relaxation = layer_value(d->table, LAYER_KEY_RELAXATION_TIME);
     if (isfinite(positive_value(d, LAYER_KEY_BALANCE_THICKNESS)))
-        text_append_translated(&d->caption, " Balance thickness %s.",
-                               ESTIMATE(d->language, &balance));
+        text_format(&d->caption, " Balance thickness %s.", ESTIMATE(&balance));
     if (isfinite(visible_incubation(d)))
-        text_append_translated(&d->caption, " Incubation time %s.",
-                               ESTIMATE(d->language, &incubation));
+        text_format(&d->caption, " Incubation time %s.", ESTIMATE(&incubation));
     if (isfinite(positive_value(d, LAYER_KEY_RELAXATION_TIME)))
-        text_append_translated(&d->caption, " Relaxation time %s.",
-                               ESTIMATE(d->language, &relaxation));
+        text_format(&d->caption, " Relaxation time %s.", ESTIMATE(&relaxation));
 }
 
 /* Draws the edges with their errors where replicates have the same number of bands, else as points.
@@ -120,25 +116,22 @@ static void draw_bands(figure_drawing *d)
 static void caption_bands(figure_drawing *d)
 {
     const char *events = layer_bands_key_text(d->table, LAYER_BANDS_KEY_EVENTS);
-    text_append_translated(&d->caption, " Loads: %s.",
-                           layer_bands_key_text(d->table, LAYER_BANDS_KEY_LOADS));
+    text_format(&d->caption, " Loads: %s.", layer_bands_key_text(d->table, LAYER_BANDS_KEY_LOADS));
     if (events != NULL)
-        text_append_translated(&d->caption, " What happens: %s.", events);
+        text_format(&d->caption, " What happens: %s.", events);
     const wt_estimate first = layer_bands_value(d->table, LAYER_BANDS_KEY_FIRST);
     if (isfinite(first.value))
-        text_append_translated(&d->caption, " Rubber is first modified after %s.",
-                               ESTIMATE(d->language, &first));
+        text_format(&d->caption, " Rubber is first modified after %s.", ESTIMATE(&first));
 }
 
 static void caption_running_in(figure_drawing *d)
 {
     const wt_estimate settled = running_in_value(d->table, RUNNING_IN_KEY_SETTLED);
-    text_append_translated(&d->caption, " Shear stress of the layer: %s; %s.",
-                           running_in_key_text(d->table, RUNNING_IN_KEY_SHEAR),
-                           running_in_key_text(d->table, RUNNING_IN_KEY_BACK));
+    text_format(&d->caption, " Shear stress of the layer: %s; %s.",
+                running_in_key_text(d->table, RUNNING_IN_KEY_SHEAR),
+                running_in_key_text(d->table, RUNNING_IN_KEY_BACK));
     if (isfinite(settled.value))
-        text_append_translated(&d->caption, " After %s 5 %% of the change are left.",
-                               ESTIMATE(d->language, &settled));
+        text_format(&d->caption, " After %s 5 %% of the change are left.", ESTIMATE(&settled));
 }
 
 /* ---- thickness by the curves ----------------------------------------------------------------- */
@@ -174,8 +167,7 @@ static void draw_track_layer(figure_drawing *d)
                              "ls %d"
                            : "($1*x_unit):($2*y_unit) with lines ls %d",
                   drawing_group_style(d, i));
-        plot_title(d, translate(d->language,
-                                d->groups[i])); // the group names are fixed texts of this program
+        plot_title(d, d->groups[i]); // the group names are fixed texts of this program
     }
     plot_end(d);
 }
@@ -183,10 +175,10 @@ static void draw_track_layer(figure_drawing *d)
 static void caption_track_layer(figure_drawing *d)
 {
     const char *const agree = track_layer_key_text(d->table, TRACK_LAYER_KEY_AGREE);
-    text_append_translated(&d->caption, " By the curves: %s.",
-                           track_layer_key_text(d->table, TRACK_LAYER_KEY_ALLOWED));
+    text_format(&d->caption, " By the curves: %s.",
+                track_layer_key_text(d->table, TRACK_LAYER_KEY_ALLOWED));
     if (agree != NULL)
-        text_append_translated(&d->caption, " Do both agree? %s.", agree);
+        text_format(&d->caption, " Do both agree? %s.", agree);
 }
 
 /* ---- descriptions ---------------------------------------------------------------------------- */

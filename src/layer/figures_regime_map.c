@@ -20,17 +20,16 @@ static void caption_existence(figure_drawing *d)
     const wt_estimate from = layer_regime_map_value(d->table, LAYER_REGIME_MAP_KEY_FROM_VELOCITY),
                       to = layer_regime_map_value(d->table, LAYER_REGIME_MAP_KEY_TO_VELOCITY);
     const char *const known = layer_regime_map_key_text(d->table, LAYER_REGIME_MAP_KEY_KNOWN);
-    text_append_translated(
-        &d->caption, " At %s there is a layer %s.",
-        VALUE(d->language, WT_Q_PRESSURE, NULL,
-              layer_regime_map_value(d->table, LAYER_REGIME_MAP_KEY_PRESSURE).value),
-        layer_regime_map_key_text(d->table, LAYER_REGIME_MAP_KEY_WORDS));
+    text_format(&d->caption, " At %s there is a layer %s.",
+                VALUE(WT_Q_PRESSURE, NULL,
+                      layer_regime_map_value(d->table, LAYER_REGIME_MAP_KEY_PRESSURE).value),
+                layer_regime_map_key_text(d->table, LAYER_REGIME_MAP_KEY_WORDS));
     if (isfinite(from.value))
-        text_append_translated(&d->caption, " It begins at %s.", ESTIMATE(d->language, &from));
+        text_format(&d->caption, " It begins at %s.", ESTIMATE(&from));
     if (isfinite(to.value))
-        text_append_translated(&d->caption, " It ends at %s.", ESTIMATE(d->language, &to));
+        text_format(&d->caption, " It ends at %s.", ESTIMATE(&to));
     if (known != NULL && strncmp(known, "cannot say", strlen("cannot say")) == 0)
-        text_append_translated(&d->caption, " Of the edges one %s.", known);
+        text_format(&d->caption, " Of the edges one %s.", known);
 }
 
 /* ln R, shifted by this number of standard errors of R. */
@@ -147,8 +146,7 @@ static void draw_existence_map(figure_drawing *d, layer_regime_map_column shown,
               "notitle");
     plot_item(d, section,
               "($1*x_unit):($4 > 1 ? NaN : $2*y_unit) with points pt 2 ps 0.6 lc rgb 'black' title "
-              "'%s'",
-              translate(d->language, "no layer"));
+              "'no layer'");
     if (edge >= 0)
         plot_item(d, edge, "($1*x_unit):($2*y_unit) with lines lw 2 lc rgb 'black' title 'R = 1'");
     const int edge_limits[] = {low, high};

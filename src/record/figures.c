@@ -21,8 +21,7 @@ static void draw_record(figure_drawing *d)
     drawing_curves(d, 0);
     plot_item(d, ends,
               "($1*x_unit):($2*y_unit):($3*x_unit):($4*x_unit) with xerrorbars ls 2 title "
-              "'%s'",
-              translate(d->language, "end of the running-in"));
+              "'end of the running-in'");
     plot_end(d);
 }
 
@@ -32,9 +31,9 @@ static void caption_record(figure_drawing *d)
     size_t without = 0;
     for (size_t row = 0; row < steps->n_rows; row++)
         without += isnan(record_get(steps, row, RECORD_RUNNING_IN)) ? 1 : 0;
-    text_append_translated(&d->caption, " Steps: %zu.", steps->n_rows);
+    text_format(&d->caption, " Steps: %zu.", steps->n_rows);
     if (without > 0)
-        text_append_translated(&d->caption, " Without an end of the running-in: %zu.", without);
+        text_format(&d->caption, " Without an end of the running-in: %zu.", without);
 }
 
 /* Uses degrees Celsius, which the description of a curve cannot express. The columns are the value

@@ -7,15 +7,14 @@
 /* The caption states the subject and the verdict of the key. */
 static void caption_verdict(figure_drawing *d)
 {
-    text_append_translated(&d->caption, " Of %s: %s.",
-                           validation_key_text(d->table, VALIDATION_KEY_JUDGED),
-                           validation_key_text(d->table, VALIDATION_KEY_VERDICT));
+    text_format(&d->caption, " Of %s: %s.", validation_key_text(d->table, VALIDATION_KEY_JUDGED),
+                validation_key_text(d->table, VALIDATION_KEY_VERDICT));
 }
 
 static void caption_running_in_verdict(figure_drawing *d)
 {
-    text_append_translated(&d->caption, " Running-in: %s.",
-                           validation_course_key_text(d->table, VALIDATION_COURSE_KEY_VERDICT));
+    text_format(&d->caption, " Running-in: %s.",
+                validation_course_key_text(d->table, VALIDATION_COURSE_KEY_VERDICT));
 }
 
 /* Marks the ratio 1, at which measured and predicted friction agree. */

@@ -39,7 +39,7 @@ static void write_label(figure_drawing *d, const char *axis, const char *label,
                         const display_unit *lab)
 {
     text_buffer words = {0};
-    text_add(&words, translate(d->language, label));
+    text_add(&words, label);
     if (lab->label[0] != '\0')
         text_format(&words, " (%s)", lab->label);
     if (strcmp(axis, "cb") == 0) // room for the label of the colour scale at the right
@@ -146,7 +146,7 @@ static void write_tic(figure_drawing *d, const char *comma, double mantissa, int
 {
     text_add(&d->script, comma);
     if (uses_power_label(decade))
-        text_format(&d->script, "'%s·10^{%d}' ", SHORT_NUMBER(d->language, mantissa, 2), decade);
+        text_format(&d->script, "'%s·10^{%d}' ", SHORT_NUMBER(mantissa, 2), decade);
     text_add(&d->script, LITERAL(mantissa * pow(10, decade)));
 }
 

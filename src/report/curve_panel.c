@@ -124,9 +124,9 @@ static size_t add_heading_lines(text_buffer *to, const figure_drawing *d, const 
     text_add(to, "\n");
     if (d->tables->n_indentation > 1)
         text_format(to, "%s: ", c->rows->suffix);
-    text_add(to, translate(d->language, verdict));
+    text_add(to, verdict);
     if (c->kind != CURVE_REFUSED && isfinite(modulus.value))
-        text_format(to, ", E = %s", ESTIMATE(d->language, &modulus));
+        text_format(to, ", E = %s", ESTIMATE(&modulus));
     const size_t same = strlen("doubtful: ");
     if (strncmp(reason, "doubtful: ", same) == 0)
         reason += same;

@@ -8,7 +8,6 @@
 #include "report/figure_files.h"
 #include "report/gnuplot.h"
 #include "report/report_files.h"
-#include "report/translations.h"
 #include "weartrack/report.h"
 
 #include <errno.h>
@@ -34,7 +33,6 @@ static const size_t sheet_size = (size_t)1 << 20;
 typedef struct sheets {
     wt_report_options options;
     figure_tables tables;
-    language *language;
     curve_list list;
     text_buffer style, script;
     char *folder; /* temporary */
@@ -72,19 +70,18 @@ static wt_status write_sheet_file(const sheets *s, const char *name, const char 
 static void add_sheet_title(sheets *s, size_t sheet)
 {
     static const char *const kinds[] = {"refused", "doubtful", "accepted"};
-    text_buffer words = {.language = s->language};
-    text_append_translated(&words, "Force curves, sheet %zu of %zu:", sheet + 1, s->n);
+    text_buffer words = {0};
+    text_format(&words, "Force curves, sheet %zu of %zu:", sheet + 1, s->n);
     for (int k = 0; k < CURVE_KINDS; k++)
-        text_format(&words, "%s %zu %s", k > 0 ? "," : "", s->list.of_kind[k],
-                    translate(s->language, kinds[k]));
+        text_format(&words, "%s %zu %s", k > 0 ? "," : "", s->list.of_kind[k], kinds[k]);
     if (s->list.n < s->list.n_rows)
-        text_append_translated(&words, " with samples, of %zu curves", s->list.n_rows);
+        text_format(&words, " with samples, of %zu curves", s->list.n_rows);
     text_add(&s->script, "set multiplot title ");
     text_quoted(&s->script, text_string(&words));
     text_format(&s->script,
                 ".\"\\n%s\" noenhanced layout %d,%d margins 0.085,0.985,0.05,0.87 "
                 "spacing 0.085,0.135\n",
-                translate(s->language, curve_panel_legend), ROWS, COLUMNS);
+                curve_panel_legend, ROWS, COLUMNS);
     text_free_part(&words, &s->script);
 }
 
@@ -94,11 +91,8 @@ static wt_status write_sheet(sheets *s, size_t sheet, wt_error *err)
     char name[32];
     sheet_name(sheet, name);
     const figure_description described = {.name = name, .table = &curves_schema};
-    figure_drawing d = {.figure = &described,
-                        .tables = &s->tables,
-                        .language = s->language,
-                        .table = &s->tables.curves,
-                        .err = err};
+    figure_drawing d = {
+        .figure = &described, .tables = &s->tables, .table = &s->tables.curves, .err = err};
     text_buffer data = {0};
     const size_t first = CURVES * sheet,
                  end = first + CURVES < s->list.n ? first + CURVES : s->list.n;
@@ -184,7 +178,6 @@ static wt_status write_sheets_script(sheets *s, wt_error *err)
     if (s->options.font != NULL)
         text_format(&s->script, "figure_font = '%s'\n", s->options.font);
     text_add(&s->script, SHEET_STYLE);
-    figure_write_decimal_mark(&s->script, s->language);
     for (size_t i = 0; i < s->n && status == WT_OK; i++)
         status = write_sheet(s, i, err);
     text_add(&s->script, "set output\n");
@@ -230,7 +223,6 @@ static void sheets_clear(sheets *s)
     curve_list_clear(&s->list);
     text_free(&s->style);
     text_free(&s->script);
-    language_close(s->language);
     figure_tables_clear(&s->tables);
 }
 
@@ -240,8 +232,6 @@ wt_status wt_curve_sheets_write(const wt_result *result, const char *path,
 {
     sheets s = {.options = options != NULL ? *options : wt_report_defaults(), .progress = progress};
     wt_status status = param_check(wt_report_params(), &s.options, err);
-    if (status == WT_OK)
-        status = language_open(s.options.language, &s.language, err);
     if (status == WT_OK)
         status = figure_tables_bind(result, &s.tables, err);
     if (status == WT_OK)

@@ -70,39 +70,35 @@ double to_display_value(const display_unit *lab, double value)
     return value * lab->factor + lab->offset;
 }
 
-display_value_text format_display_value(const language *l, wt_quantity quantity, const char *unit,
-                                        double value)
+display_value_text format_display_value(wt_quantity quantity, const char *unit, double value)
 {
     display_unit lab = select_display_unit(quantity, unit, value);
     bool bare = !isfinite(value) || lab.label[0] == '\0';
     display_value_text text;
     (void)snprintf(text.chars, sizeof text.chars, "%s%s%s",
-                   SHORT_NUMBER(l, to_display_value(&lab, value), 3), bare ? "" : " ",
+                   SHORT_NUMBER(to_display_value(&lab, value), 3), bare ? "" : " ",
                    bare ? "" : lab.label);
     return text;
 }
 
-display_value_text format_display_estimate(const language *l, const wt_estimate *estimate)
+display_value_text format_display_estimate(const wt_estimate *estimate)
 {
     display_unit lab = select_display_unit(WT_Q_NONE, estimate->unit, estimate->value);
     double error = fabs(estimate->standard_error) * lab.factor;
     if (!(error > 0) || !isfinite(estimate->value)) {
-        display_value_text value =
-                               format_display_value(l, WT_Q_NONE, estimate->unit, estimate->value),
+        display_value_text value = format_display_value(WT_Q_NONE, estimate->unit, estimate->value),
                            text;
         if (!isnan(error) || !isfinite(estimate->value))
             return value;
-        (void)snprintf(text.chars, sizeof text.chars, translate(l, "%.700s (error not known)"),
-                       value.chars);
+        (void)snprintf(text.chars, sizeof text.chars, "%.700s (error not known)", value.chars);
         return text;
     }
     const int decimals = (int)fmin(9, 1 - floor(log10(error)));
     display_value_text text;
-    (void)snprintf(text.chars, sizeof text.chars, "%s ± %s%s%s",
-                   FIXED(l,
-                         round_to_power_of_ten(to_display_value(&lab, estimate->value), decimals),
-                         decimals),
-                   FIXED(l, round_to_power_of_ten(error, decimals), decimals),
-                   lab.label[0] != '\0' ? " " : "", lab.label);
+    (void)snprintf(
+        text.chars, sizeof text.chars, "%s ± %s%s%s",
+        FIXED(round_to_power_of_ten(to_display_value(&lab, estimate->value), decimals), decimals),
+        FIXED(round_to_power_of_ten(error, decimals), decimals), lab.label[0] != '\0' ? " " : "",
+        lab.label);
     return text;
 }

@@ -4,7 +4,7 @@
 #ifndef WT_REPORT_DISPLAY_UNITS_H
 #define WT_REPORT_DISPLAY_UNITS_H
 
-#include "report/language.h"
+#include "weartrack/core.h"
 
 /* displayed value = SI value * factor + offset */
 typedef struct display_unit {
@@ -23,12 +23,11 @@ double to_display_value(const display_unit *lab, double value);
 typedef struct display_value_text {
     char chars[800];
 } display_value_text;
-display_value_text format_display_value(const language *l, wt_quantity quantity, const char *unit,
-                                        double value);
+display_value_text format_display_value(wt_quantity quantity, const char *unit, double value);
 /* Formats "12.3 ± 0.4 MPa" with the standard error, or the value alone without one. */
-display_value_text format_display_estimate(const language *l, const wt_estimate *estimate);
+display_value_text format_display_estimate(const wt_estimate *estimate);
 
-#define VALUE(l, quantity, unit, value) format_display_value(l, quantity, unit, value).chars
-#define ESTIMATE(l, estimate) format_display_estimate(l, estimate).chars
+#define VALUE(quantity, unit, value) format_display_value(quantity, unit, value).chars
+#define ESTIMATE(estimate) format_display_estimate(estimate).chars
 
 #endif

@@ -12,11 +12,6 @@ bool drawing_is_wide(const figure_drawing *d)
     return d->width > 1.2;
 }
 
-const char *drawing_group_name(const figure_drawing *d, const char *name)
-{
-    return translate_group(d->language, name);
-}
-
 int drawing_group_style(const figure_drawing *d, size_t i)
 {
     if (!d->figure->by_group)

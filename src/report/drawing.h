@@ -35,7 +35,6 @@ typedef struct value_span {
 typedef struct figure_drawing {
     const figure_description *figure;
     const figure_tables *tables;
-    const language *language;           /* language of the texts; NULL: English */
     const table_view *table;            /* table of the figure */
     const char *groups[DRAWING_GROUPS]; /* names of the groups, borrowed; else "" */
     size_t n_groups;
@@ -66,7 +65,7 @@ bool drawing_is_wide(const figure_drawing *d);
 /* Builds sections, script and caption. The script is empty if there is nothing to draw. Call
  * drawing_clear also after a failure. */
 wt_status drawing_build(figure_drawing *d, const figure_description *figure,
-                        const figure_tables *tables, const language *l, wt_error *err) WT_NODISCARD;
+                        const figure_tables *tables, wt_error *err) WT_NODISCARD;
 void drawing_clear(figure_drawing *d);
 
 /* ---- described parts, for the functions of figures ---------------------------------------------
@@ -85,8 +84,7 @@ void drawing_axis(figure_drawing *d, const char *letter, const figure_axis *axis
 void drawing_axes(figure_drawing *d);
 void drawing_colours(figure_drawing *d, const char *with);
 /* Writes a label such as "Angular frequency at 20 °C", or the label alone without a temperature. */
-void drawing_temperature_label(const figure_drawing *d, char label[DRAWING_LABEL],
-                               const char *words, double temperature);
+void drawing_temperature_label(char label[DRAWING_LABEL], const char *words, double temperature);
 /* Returns the letter of the moduli, 'E' or 'G', from the deformation in a table. */
 char modulus_letter(const char *deformation);
 /* Adds the described bands, then the curves, of one panel to the plot command. */
@@ -117,8 +115,6 @@ size_t drawing_row_count(const figure_drawing *d, int section);
 size_t drawing_stride(const figure_drawing *d, int section, size_t limit);
 /* Returns the largest such n of the sections of all groups. */
 size_t drawing_max_stride(const figure_drawing *d, size_t limit);
-/* Returns the translated name of bulk and track; other names stay. */
-const char *drawing_group_name(const figure_drawing *d, const char *name);
 /* Returns the line style of group i: 1 bulk, 2 track, 3... the others. */
 int drawing_group_style(const figure_drawing *d, size_t i);
 
@@ -147,9 +143,9 @@ void axis_log(figure_drawing *d, const char *axis, const char *label, const sche
 void plot_item(figure_drawing *d, int section, const char *format, ...) WT_PRINTF(3, 4);
 /* Begins an item without data: a function or a key entry. */
 void plot_expression(figure_drawing *d, const char *format, ...) WT_PRINTF(2, 3);
-/* Ends the item with a title of the program, or without one for NULL. Neither the text nor its
- * translations contain characters that gnuplot interprets. */
-void plot_key(figure_drawing *d, const char *english);
+/* Ends the item with a title of the program, or without one for NULL. The text contains no
+ * characters that gnuplot interprets. */
+void plot_key(figure_drawing *d, const char *text);
 /* Ends the item with a title from a file. */
 void plot_title(figure_drawing *d, const char *title);
 void plot_end(figure_drawing *d);

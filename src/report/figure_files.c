@@ -93,12 +93,6 @@ static wt_status write_data(const report_folder *folder, drawn_figure *figure, w
                : folder_write(folder, name, text_string(&figure->data), figure->data.length, err);
 }
 
-void figure_write_decimal_mark(text_buffer *script, const language *l)
-{
-    if (l != NULL) // only for tic labels: data have decimal points
-        text_format(script, "set decimalsign '%c'\n", l->decimal_mark);
-}
-
 /* Writes the sizes and the font for the style. */
 static void add_sizes(text_buffer *script, const figure_drawing *d,
                       const wt_report_options *options)
@@ -121,8 +115,7 @@ static wt_status write_figure_script(const report_folder *folder, const wt_repor
     const char *const figure = d->figure->name;
     text_buffer *const script = &drawn->script;
     char name[128];
-    text_format(script, "# %s. To draw it again: gnuplot %s.gp\n",
-                translate(d->language, d->figure->title), figure);
+    text_format(script, "# %s. To draw it again: gnuplot %s.gp\n", d->figure->title, figure);
     text_format(script,
                 "# Data: %s.tsv, in SI units; x_unit and so on turn them into those of "
                 "the axes.\n",
@@ -131,7 +124,6 @@ static wt_status write_figure_script(const report_folder *folder, const wt_repor
     text_add(script, "reset\n");
     add_sizes(script, d, options);
     text_add(script, "load 'style.gp'\nload 'output.gp'\nset datafile separator \"\\t\"\n");
-    figure_write_decimal_mark(script, d->language);
     text_add(script, text_string(&d->script));
     text_add(script, "set output\n");
     (void)snprintf(name, sizeof name, "plots/%s.gp", figure);

@@ -16,8 +16,6 @@ wt_status figure_formats_read(const char *text, void *member, wt_error *err) WT_
 /* Checks that a font name is safe in scripts and on the page. */
 wt_status figure_font_check(const void *member, wt_error *err) WT_NODISCARD;
 
-/* Sets the decimal mark of the language in a script, after the style. */
-void figure_write_decimal_mark(text_buffer *script, const language *l);
 /* Appends the data of a figure: its sections, as gnuplot's `index` counts them. */
 wt_status figure_append_data(const figure_drawing *d, text_buffer *to, wt_error *err) WT_NODISCARD;
 /* Writes data and script and stores them in `figure`. */

@@ -167,16 +167,13 @@ void drawing_colours(figure_drawing *d, const char *with)
         plot_expression(d, "keyentry with %s lc palette cb %s%s title '%s'", with,
                         LITERAL(d->colours[i]),
                         column->quantity == WT_Q_TEMPERATURE ? "+cb_offset" : "*cb_unit",
-                        VALUE(d->language, column->quantity, schema_unit(column), d->colours[i]));
+                        VALUE(column->quantity, schema_unit(column), d->colours[i]));
 }
 
-void drawing_temperature_label(const figure_drawing *d, char label[DRAWING_LABEL],
-                               const char *words, double temperature)
+void drawing_temperature_label(char label[DRAWING_LABEL], const char *words, double temperature)
 {
-    (void)snprintf(
-        label, DRAWING_LABEL, isfinite(temperature) ? translate(d->language, "%s at %s") : "%s%s",
-        translate(d->language, words),
-        isfinite(temperature) ? VALUE(d->language, WT_Q_TEMPERATURE, NULL, temperature) : "");
+    (void)snprintf(label, DRAWING_LABEL, isfinite(temperature) ? "%s at %s" : "%s%s", words,
+                   isfinite(temperature) ? VALUE(WT_Q_TEMPERATURE, NULL, temperature) : "");
 }
 
 char modulus_letter(const char *deformation)
@@ -234,9 +231,9 @@ static void add_curve_title(figure_drawing *d, size_t group, const figure_curve 
 {
     bool *titled = &d->titled[curve - d->figure->curves];
     if (d->figure->by_group && curve->form != CURVE_FIT)
-        plot_title(d, drawing_group_name(d, d->groups[group]));
+        plot_title(d, d->groups[group]);
     else if (curve->title != NULL && !*titled)
-        text_format(&d->script, " title '%s'", translate(d->language, curve->title));
+        text_format(&d->script, " title '%s'", curve->title);
     else if (has_key(d->figure) || d->n_colours > 0)
         text_add(&d->script, " notitle");
     *titled = true;
@@ -347,11 +344,9 @@ static void collect_groups(figure_drawing *d)
 }
 
 wt_status drawing_build(figure_drawing *d, const figure_description *figure,
-                        const figure_tables *tables, const language *l, wt_error *err)
+                        const figure_tables *tables, wt_error *err)
 {
     *d = (figure_drawing){.figure = figure,
-                          .language = l,
-                          .caption = {.language = l},
                           .tables = tables,
                           .table = figure_tables_find(tables, figure->table),
                           .err = err,
@@ -370,9 +365,9 @@ wt_status drawing_build(figure_drawing *d, const figure_description *figure,
     else
         draw_as_described(d);
     if (d->script.length > 0) {
-        text_append_phrase(&d->caption, figure->words);
+        text_add(&d->caption, figure->words);
         if (d->too_many)
-            text_append_translated(&d->caption, " Only the first %d are drawn.", DRAWING_GROUPS);
+            text_format(&d->caption, " Only the first %d are drawn.", DRAWING_GROUPS);
         if (figure->caption != NULL)
             figure->caption(d);
     }

@@ -53,23 +53,23 @@ static void format_plain_number(const char *digits, int exponent, char chars[PLA
     chars[n] = '\0';
 }
 
-static number_text format_not_finite(const language *l, double value)
+static number_text format_not_finite(double value)
 {
     number_text number;
     (void)snprintf(number.chars, sizeof number.chars, "%s",
-                   isnan(value) ? translate(l, "not known")
+                   isnan(value) ? "not known"
                    : value < 0  ? "−∞"
                                 : "∞");
     return number;
 }
 
-number_text number_rounded(const language *l, double value, int significant, bool trimmed)
+number_text number_rounded(double value, int significant, bool trimmed)
 {
     number_text number = {"0"};
     char digits[MAX_DIGITS + 1], chars[PLAIN_SIZE], power[PLAIN_SIZE] = "";
     int count = significant < 1 ? 1 : significant > MAX_DIGITS ? MAX_DIGITS : significant;
     if (!isfinite(value))
-        return format_not_finite(l, value);
+        return format_not_finite(value);
     if (value == 0)
         return number;
     int whole = decimal_digits(value, MAX_DIGITS, digits); // exponent before rounding
@@ -83,22 +83,20 @@ number_text number_rounded(const language *l, double value, int significant, boo
     if (!plain)
         format_power_of_ten(exponent, power);
     (void)snprintf(number.chars, sizeof number.chars, "%s%s%s", value < 0 ? "−" : "", chars, power);
-    language_set_decimal_mark(l, number.chars);
     return number;
 }
 
-number_text number_fixed(const language *l, double value, int decimals)
+number_text number_fixed(double value, int decimals)
 {
     enum { MAX_DECIMALS = 15, MARK = sizeof "−" - 1 };
     number_text number = {"−"};
     int after = decimals < 0 ? 0 : decimals > MAX_DECIMALS ? MAX_DECIMALS : decimals;
     if (!isfinite(value))
-        return format_not_finite(l, value);
+        return format_not_finite(value);
     (void)clocale_print(number.chars + MARK, sizeof number.chars - MARK, "%.*f", after,
                         fabs(value));
     if (value >= 0 || strpbrk(number.chars, "123456789") == NULL)
         memmove(number.chars, number.chars + MARK, strlen(number.chars + MARK) + 1);
-    language_set_decimal_mark(l, number.chars);
     return number;
 }
 

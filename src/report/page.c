@@ -12,11 +12,8 @@
 
 static void page_head(const page_writer *page, text_buffer *out, const char *title)
 {
-    const char *const tag = language_tag(page->language);
-    text_html(out,
-              "<!DOCTYPE html>\n<html xmlns=\"http://www.w3.org/1999/xhtml\" lang=\"%s\" "
-              "xml:lang=\"%s\">\n<head>\n<meta charset=\"utf-8\" />\n" REPORT_MARK,
-              tag, tag);
+    text_html(out, "<!DOCTYPE html>\n<html xmlns=\"http://www.w3.org/1999/xhtml\" lang=\"en\" "
+                   "xml:lang=\"en\">\n<head>\n<meta charset=\"utf-8\" />\n" REPORT_MARK);
     if (page->with_provenance)
         text_format(out, " %s", wt_version());
     text_html(out,
@@ -29,8 +26,8 @@ static void page_head(const page_writer *page, text_buffer *out, const char *tit
         text_format(out, ":root { --figure-font: \"%s\"; }\n", page->font);
     text_html(out,
               "</style>\n</head>\n<body>\n<main>\n<header>\n<h1>%s</h1>\n"
-              "<nav aria-label=\"%s\">\n<ul>\n",
-              title, translate(page->language, "Contents"));
+              "<nav aria-label=\"Contents\">\n<ul>\n",
+              title);
     text_add(out, text_string(&page->contents));
     text_add(out, "</ul>\n</nav>\n</header>\n");
 }
@@ -45,7 +42,7 @@ static size_t write_folded_answers(page_writer *page, size_t row)
     if (end == row)
         return end;
     text_add(&page->out, "<details class=\"printed\">\n<summary>");
-    text_append_translated(&page->out, "%zu more", end - row);
+    text_format(&page->out, "%zu more", end - row);
     text_add(&page->out, "</summary>\n");
     for (; row < end; row++)
         text_html(&page->out, "<p>%s</p>\n", answer_text(table, row, ANSWER_ANSWER));
@@ -61,9 +58,7 @@ static void page_answer(page_writer *page)
     if (table->n_rows == 0)
         return;
     page_heading(page, "answer", "Answer");
-    text_add(&page->out, page->language == NULL ? "<div class=\"answers\">\n<div>\n"
-                                                : "<div class=\"answers\" lang=\"en\" "
-                                                  "xml:lang=\"en\">\n<div>\n");
+    text_add(&page->out, "<div class=\"answers\">\n<div>\n");
     const char *question = NULL;
     bool beside = false;
     for (size_t row = 0; row < table->n_rows;) {
@@ -104,15 +99,14 @@ static void add_figure_source(page_writer *page, const drawn_figure *drawn)
     const char *const name = drawn->drawing.figure->name;
     text_add(&page->out, " <span class=\"source\">");
     if (drawn->data.length <= data_limit) {
-        text_append_phrase(&page->out, "Data and script: ");
+        text_add(&page->out, "Data and script: ");
         add_file(page, name, "tsv", &drawn->data);
         text_add(&page->out, ", ");
     } else
-        text_append_translated(
-            &page->out,
-            "Data: plots/%s.tsv, %zu kB, in the folder that weartrack report -o FOLDER "
-            "writes. Script: ",
-            name, drawn->data.length >> 10);
+        text_format(&page->out,
+                    "Data: plots/%s.tsv, %zu kB, in the folder that weartrack report -o FOLDER "
+                    "writes. Script: ",
+                    name, drawn->data.length >> 10);
     add_file(page, name, "gp", &drawn->script);
     text_add(&page->out, ".</span>");
 }
@@ -124,16 +118,15 @@ static wt_status add_figure(page_writer *page, const drawn_figure *drawn, size_t
     text_html(&page->out, "<figure id=\"figure-%s\" class=\"%s\">\n<div class=\"card\">",
               figure->name, drawing_is_wide(&drawn->drawing) ? "wide" : "single");
     if (!svg_append_inline(&page->out, text_string(&drawn->svg), drawn->svg.length, figure->name,
-                           translate(page->language, figure->title))) {
+                           figure->title)) {
         wt_status status =
             wt_fail(err, WT_E_TOOL, "the picture of figure %s is not SVG", figure->name);
         wt_error_advice(err, "a plot style must use `set terminal svg`");
         return status;
     }
     text_add(&page->out, "</div>\n<figcaption><strong>");
-    text_append_translated(&page->out, "Figure %zu. ", number);
-    text_html(&page->out, "%s.</strong> %s", translate(page->language, figure->title),
-              text_string(&drawn->drawing.caption));
+    text_format(&page->out, "Figure %zu. ", number);
+    text_html(&page->out, "%s.</strong> %s", figure->title, text_string(&drawn->drawing.caption));
     add_figure_source(page, drawn);
     text_add(&page->out, "</figcaption>\n</figure>\n");
     return WT_OK;
@@ -157,10 +150,8 @@ static void add_missing_figures(page_writer *page)
     for (size_t i = 0; i < page->n_figures; i++) {
         const figure_description *figure = page->figures[i].drawing.figure;
         if (figure != NULL && page->figures[i].svg.length == 0 && figure->nothing != NULL)
-            text_html(&page->out, "<p class=\"omitted\">%s: %s – %s.</p>\n",
-                      translate(page->language, "Not drawn"),
-                      translate(page->language, figure->title),
-                      translate(page->language, figure->nothing));
+            text_html(&page->out, "<p class=\"omitted\">Not drawn: %s – %s.</p>\n", figure->title,
+                      figure->nothing);
     }
 }
 
@@ -189,11 +180,11 @@ static wt_status page_figures(page_writer *page, wt_error *err)
     }
     if (number > 0) {
         text_add(&page->out, "<p class=\"source\">");
-        text_append_phrase(&page->out, "The scripts are of gnuplot, and load ");
+        text_add(&page->out, "The scripts are of gnuplot, and load ");
         text_buffer output = {0};
         text_add(&output, embedded_file_text("output.gnuplot"));
         add_file(page, "style", "gp", page->style);
-        text_append_phrase(&page->out, " and ");
+        text_add(&page->out, " and ");
         add_file(page, "output", "gp", &output);
         text_add(&page->out, ".</p>\n");
         text_free_part(&output, &page->out);
@@ -212,14 +203,14 @@ static const char *page_title(const page_writer *page)
                                        &page->tables->friction};
     for (size_t i = 0; i < COUNT_OF(asked); i++)
         if (asked[i]->n_rows > 0)
-            return translate(page->language, asked[i]->schema->title);
+            return asked[i]->schema->title;
     for (int in_depth = 0; in_depth < 2; in_depth++)
         for (size_t i = 0; i < page->n_figures; i++)
             if (page->figures[i].svg.length > 0 &&
                 page->figures[i].drawing.figure->in_depth == in_depth)
-                return translate(page->language, page->figures[i].drawing.figure->title);
+                return page->figures[i].drawing.figure->title;
     if (wt_result_n_tables(page->result) == 0)
-        return translate(page->language, "Nothing was answered");
+        return "Nothing was answered";
     const wt_table *first = wt_result_table(page->result, 0);
     title = wt_table_title(first);
     return title[0] != '\0' ? title : wt_table_name(first);
@@ -240,8 +231,7 @@ wt_status page_write(page_writer *page, wt_error *err)
         page_cost(page);
         page_record(page);
         body = page->out;
-        page->out = (text_buffer){.failed = body.failed || page->contents.failed,
-                                  .language = page->language};
+        page->out = (text_buffer){.failed = body.failed || page->contents.failed};
         page_head(page, &page->out, page_title(page));
         text_bytes(&page->out, text_string(&body), body.length);
         text_add(&page->out, "</main>\n</body>\n</html>\n");

@@ -17,7 +17,6 @@ typedef struct page_writer {
     text_buffer contents; /* list of the headings so far */
     const wt_result *result;
     const figure_tables *tables;
-    const language *language; /* NULL: English */
     const text_buffer *style; /* style that the scripts load */
     const char *font;         /* font of the figures; NULL: that of the style */
     bool with_provenance;

@@ -12,10 +12,9 @@ static void add_limits(text_buffer *text, const result_value *f, double low, dou
                        int digits)
 {
     display_unit lab = select_display_unit(f->quantity, f->number.unit, f->number.value);
-    text_append_translated(text, "%s to %s%s%s",
-                           NUMBER(text->language, to_display_value(&lab, low), digits),
-                           NUMBER(text->language, to_display_value(&lab, high), digits),
-                           lab.label[0] != '\0' ? " " : "", lab.label);
+    text_format(text, "%s to %s%s%s", NUMBER(to_display_value(&lab, low), digits),
+                NUMBER(to_display_value(&lab, high), digits), lab.label[0] != '\0' ? " " : "",
+                lab.label);
 }
 
 /* Writes a row with the interval as statistical error, and the range over the model choices at the
@@ -23,19 +22,19 @@ static void add_limits(text_buffer *text, const result_value *f, double low, dou
 static void write_result_value_row(page_writer *page, const char *name, const result_value *f,
                                    text_buffer *remark)
 {
-    text_buffer interval = {.language = page->language};
+    text_buffer interval = {0};
     const wt_estimate estimate = {f->number.value, (f->high - f->low) / 4,
                                   f->number.numerical_error, f->number.unit};
     if (isfinite(f->low) && isfinite(f->high)) {
         add_limits(&interval, f, f->low, f->high,
                    result_value_digits(f->number.value, f->low, f->high));
-        text_append_phrase(&interval, " (95 % interval)");
+        text_add(&interval, " (95 % interval)");
     } else
-        text_append_phrase(&interval, "not known");
+        text_add(&interval, "not known");
     if (!isnan(f->range.low)) {
         text_add(remark, remark->length > 0 ? "; " : "");
         add_limits(remark, f, f->range.low, f->range.high, 3);
-        text_append_phrase(remark, " over all choices of the model");
+        text_add(remark, " over all choices of the model");
     }
     page_estimate(page, name, &estimate, f->quantity, text_string(&interval), text_string(remark));
     text_free_part(&interval, &page->out);
@@ -48,13 +47,12 @@ static void write_ratio_row(page_writer *page, const result_value_tables *found)
     if (!isfinite(f.number.value))
         return;
     const char *unit = comparison_key_text(table, COMPARISON_KEY_UNIT_OF_ANALYSIS);
-    text_buffer remark = {.language = page->language};
-    text_append_translated(
-        &remark, "geometric means; n = %s in the track, %s in the bulk",
-        FIXED(page->language, comparison_get(table, 0, COMPARISON_SPOTS_TRACK), 0),
-        FIXED(page->language, comparison_get(table, 0, COMPARISON_SPOTS_BULK), 0));
+    text_buffer remark = {0};
+    text_format(&remark, "geometric means; n = %s in the track, %s in the bulk",
+                FIXED(comparison_get(table, 0, COMPARISON_SPOTS_TRACK), 0),
+                FIXED(comparison_get(table, 0, COMPARISON_SPOTS_BULK), 0));
     if (unit != NULL)
-        text_append_translated(&remark, ", unit of analysis: %s", translate(page->language, unit));
+        text_format(&remark, ", unit of analysis: %s", unit);
     f.number.numerical_error = 0;
     write_result_value_row(page, f.words, &f, &remark);
     text_free_part(&remark, &page->out);
@@ -67,17 +65,14 @@ static void write_group_rows(page_writer *page, const result_value_tables *found
         result_value f = result_value_group(found, row);
         if (!isfinite(f.number.value))
             continue;
-        text_buffer name = {.language = page->language}, remark = {.language = page->language};
-        text_format(
-            &name, "%s, %s", translate(page->language, f.words),
-            translate_group(page->language, modulus_groups_text(table, row, MODULUS_GROUPS_GROUP)));
+        text_buffer name = {0}, remark = {0};
+        text_format(&name, "%s, %s", f.words,
+                    modulus_groups_text(table, row, MODULUS_GROUPS_GROUP));
         const double n_spots = modulus_groups_get(table, row, MODULUS_GROUPS_N_SPOTS);
-        text_append_translated(&remark,
-                               "geometric mean; %.0f curves on %.0f %s, %.0f rejected; by %s",
-                               modulus_groups_get(table, row, MODULUS_GROUPS_N), n_spots,
-                               translate_count(page->language, n_spots == 1, "spot", "spots"),
-                               modulus_groups_get(table, row, MODULUS_GROUPS_N_REJECTED),
-                               translate(page->language, f.includes));
+        text_format(&remark, "geometric mean; %.0f curves on %.0f %s, %.0f rejected; by %s",
+                    modulus_groups_get(table, row, MODULUS_GROUPS_N), n_spots,
+                    n_spots == 1 ? "spot" : "spots",
+                    modulus_groups_get(table, row, MODULUS_GROUPS_N_REJECTED), f.includes);
         f.number.numerical_error = 0;
         write_result_value_row(page, text_string(&name), &f, &remark);
         text_free_part(&name, &page->out);
@@ -97,8 +92,8 @@ static void headline_rows(page_writer *page, const result_value_tables *found,
         result_value f;
         if (key->headline == NULL || isnan(estimate.value))
             continue;
-        text_buffer words = {.language = page->language};
-        text_append_phrase(&words, remarked == EVERY_KEY || remarked == i ? remark : "");
+        text_buffer words = {0};
+        text_add(&words, remarked == EVERY_KEY || remarked == i ? remark : "");
         if (result_value_from_key(found, key, &f))
             write_result_value_row(page, key->headline, &f, &words);
         else
@@ -111,10 +106,10 @@ static void headline_rows(page_writer *page, const result_value_tables *found,
 static void write_reference_rows(page_writer *page, const result_value_tables *found)
 {
     const table_view *table = &page->tables->friction;
-    text_buffer remark = {.language = page->language};
-    text_append_translated(&remark, "at the reference velocity, %s",
-                           VALUE(page->language, WT_Q_VELOCITY, NULL,
-                                 friction_value(table, FRICTION_KEY_REFERENCE_VELOCITY).value));
+    text_buffer remark = {0};
+    text_format(
+        &remark, "at the reference velocity, %s",
+        VALUE(WT_Q_VELOCITY, NULL, friction_value(table, FRICTION_KEY_REFERENCE_VELOCITY).value));
     headline_rows(page, found, table, EVERY_KEY, text_string(&remark));
     text_free_part(&remark, &page->out);
 }
@@ -131,14 +126,13 @@ static void write_largest_friction_row(page_writer *page)
     }
     if (best == table->n_rows)
         return;
-    text_buffer remark = {.language = page->language};
+    text_buffer remark = {0};
     double share = friction_get(table, best, FRICTION_EXTRAPOLATED_SHARE);
-    text_append_translated(
-        &remark, "at %s",
-        VALUE(page->language, WT_Q_VELOCITY, NULL, friction_get(table, best, FRICTION_VELOCITY)));
+    text_format(&remark, "at %s",
+                VALUE(WT_Q_VELOCITY, NULL, friction_get(table, best, FRICTION_VELOCITY)));
     if (share >= 1e-3)
-        text_append_translated(&remark, "; %s %% from frequencies outside the measured ones",
-                               NUMBER(page->language, 100 * share, 2));
+        text_format(&remark, "; %s %% from frequencies outside the measured ones",
+                    NUMBER(100 * share, 2));
     const wt_estimate estimate = {friction_get(table, best, FRICTION_TOTAL),
                                   friction_get(table, best, FRICTION_TOTAL_STANDARD_ERROR),
                                   friction_get(table, best, FRICTION_TOTAL_NUMERICAL_ERROR), "1"};
@@ -153,10 +147,9 @@ static void write_law_rows(page_writer *page, const result_value_tables *found)
     const table_view *table = &page->tables->shift_factors;
     if (table->table == NULL)
         return;
-    text_buffer remark = {.language = page->language};
-    text_append_translated(&remark,
-                           "correlated with C₂, see the table of constants; superposition: %s",
-                           shift_factors_key_text(table, SHIFT_FACTORS_KEY_SUPERPOSITION));
+    text_buffer remark = {0};
+    text_format(&remark, "correlated with C₂, see the table of constants; superposition: %s",
+                shift_factors_key_text(table, SHIFT_FACTORS_KEY_SUPERPOSITION));
     headline_rows(page, found, table, SHIFT_FACTORS_KEY_WLF_C1, text_string(&remark));
     text_free_part(&remark, &page->out);
 }
@@ -168,9 +161,8 @@ static void write_transition_rows(page_writer *page, const result_value_tables *
         return;
     const wt_estimate frequency =
         glass_transition_value(table, GLASS_TRANSITION_KEY_ANGULAR_FREQUENCY);
-    text_buffer remark = {.language = page->language};
-    text_append_translated(&remark, "at %s",
-                           VALUE(page->language, WT_Q_ANGULAR_FREQUENCY, NULL, frequency.value));
+    text_buffer remark = {0};
+    text_format(&remark, "at %s", VALUE(WT_Q_ANGULAR_FREQUENCY, NULL, frequency.value));
     headline_rows(page, found, table, EVERY_KEY, text_string(&remark));
     text_free_part(&remark, &page->out);
 }

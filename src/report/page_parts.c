@@ -13,19 +13,17 @@
 
 void page_heading(page_writer *page, const char *id, const char *words)
 {
-    const char *const translated = translate(page->language, words);
-    text_html(&page->out, "<h2 id=\"%s\">%s</h2>\n", id, translated);
-    text_html(&page->contents, "<li><a href=\"#%s\">%s</a></li>\n", id, translated);
+    text_html(&page->out, "<h2 id=\"%s\">%s</h2>\n", id, words);
+    text_html(&page->contents, "<li><a href=\"#%s\">%s</a></li>\n", id, words);
 }
 
 void page_fold(page_writer *page, const char *id, const char *words, page_print_mode on_paper)
 {
-    const char *const translated = translate(page->language, words);
     // The anchor is inside of the folded part, so that a browser that jumps there unfolds it.
     text_html(&page->out,
               "<details class=\"part %s\">\n<summary><h2>%s</h2></summary>\n<div id=\"%s\">\n",
-              on_paper == PAGE_PRINTED ? "printed" : "unprinted", translated, id);
-    text_html(&page->contents, "<li><a href=\"#%s\">%s</a></li>\n", id, translated);
+              on_paper == PAGE_PRINTED ? "printed" : "unprinted", words, id);
+    text_html(&page->contents, "<li><a href=\"#%s\">%s</a></li>\n", id, words);
 }
 
 void page_fold_end(page_writer *page)
@@ -41,16 +39,15 @@ enum {
 
 static void begin_html_table(page_writer *page, const char *caption, size_t n_columns)
 {
-    const char *const translated = translate(page->language, caption);
     // The wrapper scrolls if a table is wider than the page, also with the keyboard.
     text_html(&page->out,
               "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"%s\">\n"
               "<table class=\"%s\">\n<caption>%s</caption>\n<thead><tr>",
-              translated,
+              caption,
               n_columns > SMALL_TYPE_COLUMNS ? "blocks"
               : n_columns > MANY_COLUMNS     ? "many"
                                              : "few",
-              translated);
+              caption);
 }
 
 void page_table_end(page_writer *page)
@@ -62,7 +59,7 @@ static void heading_cell(page_writer *page, const char *words, const char *unit,
 {
     text_add(&page->out, number ? "<th scope=\"col\" class=\"n\">" : "<th scope=\"col\">");
     text_html(&page->out, unit[0] != '\0' ? "%s <span class=\"unit\">(%s)</span></th>" : "%s</th>",
-              translate(page->language, words), unit);
+              words, unit);
 }
 
 /* ---- tables ---------------------------------------------------------------------------------- */
@@ -177,7 +174,7 @@ static void begin_labelled_cell(page_writer *page, const char *words, const char
 {
     text_add(&page->out, number ? "<td class=\"n\"" : "<td");
     text_html(&page->out, unit[0] != '\0' ? " data-label=\"%s (%s)\">" : " data-label=\"%s\">",
-              translate(page->language, words), unit);
+              words, unit);
 }
 
 static const char *column_label(const shown_column *shown)
@@ -192,14 +189,13 @@ static void write_number_cell(page_writer *page, const shown_column *shown, doub
     double lab = to_display_value(&shown->lab, value);
     begin_labelled_cell(page, column_label(shown), shown->lab.label, true);
     if (isnan(value))
-        text_html(&page->out, "%s",
-                  column->missing != NULL ? translate(page->language, column->missing) : "–");
+        text_html(&page->out, "%s", column->missing != NULL ? column->missing : "–");
     else if (column->yes_no)
-        text_append_phrase(&page->out, value != 0 ? "yes" : "no");
+        text_add(&page->out, value != 0 ? "yes" : "no");
     else if (column->decimals > 0 || shown->whole)
-        text_add(&page->out, FIXED(page->language, lab, column->decimals));
+        text_add(&page->out, FIXED(lab, column->decimals));
     else
-        text_add(&page->out, NUMBER(page->language, lab, digits));
+        text_add(&page->out, NUMBER(lab, digits));
     text_add(&page->out, "</td>");
 }
 
@@ -288,24 +284,24 @@ static void add_value_text(text_buffer *text, const wt_estimate *e, const displa
         error = fmax(error, fabs(e->numerical_error) * lab->factor);
     int leading = value != 0 && isfinite(value) ? (int)floor(log10(fabs(value))) : 0;
     if (!(error > 0) || !isfinite(value) || leading > 5 || leading < -4)
-        text_add(text, SHORT_NUMBER(text->language, value, 4));
+        text_add(text, SHORT_NUMBER(value, 4));
     else {
         int decimals = 1 - (int)floor(log10(error));
         decimals = decimals > 5 - leading ? 5 - leading : decimals;
-        text_add(text, FIXED(text->language, round_to_power_of_ten(value, decimals), decimals));
+        text_add(text, FIXED(round_to_power_of_ten(value, decimals), decimals));
     }
 }
 
 static void add_error_text(text_buffer *text, double error, const display_unit *lab)
 {
     if (isnan(error))
-        text_append_phrase(text, "error not known");
+        text_add(text, "error not known");
     else if (error == 0)
         text_add(text, "–");
     else {
         const double size = fabs(error) * lab->factor;
         const int decimals = 1 - (int)floor(log10(size));
-        text_format(text, "± %s", NUMBER(text->language, round_to_power_of_ten(size, decimals), 2));
+        text_format(text, "± %s", NUMBER(round_to_power_of_ten(size, decimals), 2));
         add_unit_label(text, strcmp(lab->label, "°C") == 0 ? "K" : lab->label);
     }
 }
@@ -314,7 +310,7 @@ void page_estimate(page_writer *page, const char *words, const wt_estimate *esti
                    wt_quantity quantity, const char *interval, const char *remark)
 {
     display_unit lab = select_display_unit(quantity, estimate->unit, estimate->value);
-    text_html(&page->out, "<tr><th scope=\"row\">%s</th>", translate(page->language, words));
+    text_html(&page->out, "<tr><th scope=\"row\">%s</th>", words);
     begin_labelled_cell(page, value_heading, "", true);
     add_value_text(&page->out, estimate, &lab);
     if (isfinite(estimate->value))
@@ -367,7 +363,7 @@ static void add_plain_value(page_writer *page, const schema_field *key, const ch
     double value;
     const bool rounded = key != NULL && key->kind == SCHEMA_PLAIN && strpbrk(text, ".e") != NULL &&
                          parse_stored_number(text, strlen(text), &value);
-    text_html(&page->out, "%s", rounded ? SHORT_NUMBER(page->language, value, 3) : text);
+    text_html(&page->out, "%s", rounded ? SHORT_NUMBER(value, 3) : text);
 }
 
 void page_keys(page_writer *page, const table_view *table, const char *caption)
@@ -387,8 +383,8 @@ void page_keys(page_writer *page, const table_view *table, const char *caption)
                           NULL);
         else {
             text_html(&page->out,
-                      "<tr><th scope=\"row\">%s</th><td data-label=\"%s\" colspan=\"3\">",
-                      translate(page->language, label), translate(page->language, value_heading));
+                      "<tr><th scope=\"row\">%s</th><td data-label=\"%s\" colspan=\"3\">", label,
+                      value_heading);
             add_plain_value(page, key, wt_table_key(table->table, name));
             text_add(&page->out, "</td></tr>\n");
         }

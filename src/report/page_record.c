@@ -75,11 +75,9 @@ void page_record(page_writer *page)
         return;
     const char *command = wt_provenance_command(provenance);
     page_fold(page, "provenance", "Provenance", PAGE_PRINTED);
-    text_html(&page->out, "<dl>\n<dt>%s</dt><dd>weartrack %s</dd>\n",
-              translate(page->language, "Page written by"), wt_version());
+    text_html(&page->out, "<dl>\n<dt>Page written by</dt><dd>weartrack %s</dd>\n", wt_version());
     if (command[0] != '\0')
-        text_html(&page->out, "<dt>%s</dt><dd>%s</dd>\n", translate(page->language, "Command"),
-                  command);
+        text_html(&page->out, "<dt>Command</dt><dd>%s</dd>\n", command);
     text_add(&page->out, "</dl>\n");
     page_fold_end(page);
 }

@@ -208,11 +208,11 @@ static void write_rejected_curves(page_writer *page, const table_view *table)
             rows[n++] = row;
         others++;
     }
-    text_buffer caption = {.language = page->language};
-    text_append_translated(&caption, "%s: %zu of %zu curves doubtful, %zu rejected", table->suffix,
-                           doubtful, table->n_rows, others - doubtful);
+    text_buffer caption = {0};
+    text_format(&caption, "%s: %zu of %zu curves doubtful, %zu rejected", table->suffix, doubtful,
+                table->n_rows, others - doubtful);
     if (others > n)
-        text_append_translated(&caption, ", the first %zu; the result file holds all", n);
+        text_format(&caption, ", the first %zu; the result file holds all", n);
     if (n == 0)
         text_html(&page->out, "<p>%s.</p>\n", text_string(&caption));
     else
@@ -224,11 +224,11 @@ void page_indentation(page_writer *page)
 {
     for (size_t i = 0; i < page->tables->n_indentation; i++) {
         const table_view *table = &page->tables->indentation[i];
-        text_buffer caption = {.language = page->language};
+        text_buffer caption = {0};
         if (i == 0)
             page_fold(page, "indentation", "Indentation record", PAGE_UNPRINTED);
         write_rejected_curves(page, table);
-        text_append_translated(&caption, "%s: how it was indented", table->suffix);
+        text_format(&caption, "%s: how it was indented", table->suffix);
         page_keys(page, table, text_string(&caption));
         text_free_part(&caption, &page->out);
     }

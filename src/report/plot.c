@@ -36,12 +36,12 @@ void plot_title(figure_drawing *d, const char *title)
     text_add(&d->script, " noenhanced");
 }
 
-void plot_key(figure_drawing *d, const char *english)
+void plot_key(figure_drawing *d, const char *text)
 {
-    if (english == NULL)
+    if (text == NULL)
         text_add(&d->script, " notitle");
     else
-        text_format(&d->script, " title '%s'", translate(d->language, english));
+        text_format(&d->script, " title '%s'", text);
 }
 
 void plot_end(figure_drawing *d)

@@ -9,7 +9,6 @@
 #include "report/gnuplot.h"
 #include "report/page.h"
 #include "report/report_files.h"
-#include "report/translations.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -19,7 +18,6 @@
 wt_report_options wt_report_defaults(void)
 {
     return (wt_report_options){.style = "paper",
-                               .language = "en",
                                .gnuplot = "gnuplot",
                                .with_provenance = true,
                                .gnuplot_time = 120,
@@ -42,10 +40,6 @@ static const wt_param rows[] = {
      .unset = "as the style has it", .check = figure_font_check,
      .help = "font of the figures, such as Arial; one that is not on this computer is warned of "
              "where fc-match of Fontconfig tells it"},
-    {PARAM_TEXT_OF("language", wt_report_options, language), .value = "LANGUAGE",
-     .check = language_check,
-     .help = "language of figures and page, of their decimal mark, too: en, de, fr or nl; data, "
-             "file names and what is written for each case, such as its answer, stay English"},
     {PARAM_TEXT_OF("gnuplot", wt_report_options, gnuplot), .value = "PROGRAM",
      .flags = PARAM_NO_CASE, .help = "the gnuplot to use"},
     {PARAM("gnuplot-time", wt_report_options, gnuplot_time, WT_Q_TIME, ABOVE(0)), .value = "TIME",
@@ -65,7 +59,6 @@ typedef struct picture {
 typedef struct report {
     wt_report_options options;
     figure_tables tables;
-    language *language;
     text_buffer style;
     report_folder *folder;
     drawn_figure *figures; /* one for each figure of the library */
@@ -113,7 +106,7 @@ static wt_status write_figure(report *r, size_t i, wt_error *err)
     figure_drawing *d = &r->figures[i].drawing;
     if (figure_tables_find(&r->tables, figure_find(i)->table)->n_rows == 0)
         return WT_OK;
-    const wt_status status = drawing_build(d, figure_find(i), &r->tables, r->language, err);
+    const wt_status status = drawing_build(d, figure_find(i), &r->tables, err);
     if (status != WT_OK)
         return status;
     if (d->script.failed || d->caption.failed)
@@ -199,8 +192,6 @@ static wt_status write_report_page(const report *r, const wt_result *result, wt_
 {
     page_writer page = {.result = result,
                         .tables = &r->tables,
-                        .language = r->language,
-                        .out = {.language = r->language},
                         .style = &r->style,
                         .font = r->options.font,
                         .with_provenance = r->options.with_provenance,
@@ -252,7 +243,6 @@ static void report_clear(report *r)
     free(r->figures);
     free(r->pictures);
     text_free(&r->style);
-    language_close(r->language);
     figure_tables_clear(&r->tables);
 }
 
@@ -269,8 +259,6 @@ wt_status wt_report_write(const wt_result *result, const char *folder,
     wt_status status = check_report_options(folder, &r.options, err);
     if (status == WT_OK && (r.figures == NULL || r.pictures == NULL))
         status = wt_fail(err, WT_E_MEMORY, "out of memory");
-    if (status == WT_OK)
-        status = language_open(r.options.language, &r.language, err);
     if (status == WT_OK)
         status = figure_tables_bind(result, &r.tables, err);
     if (status == WT_OK)

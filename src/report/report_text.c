@@ -97,19 +97,6 @@ void text_file_name(text_buffer *text, const char *name, size_t most)
     text_add(text, name);
 }
 
-void text_append_phrase(text_buffer *text, const char *english)
-{
-    text_add(text, translate(text->language, english));
-}
-
-void text_append_translated(text_buffer *text, const char *english, ...)
-{
-    va_list arguments;
-    va_start(arguments, english);
-    text_vformat(text, translate(text->language, english), arguments);
-    va_end(arguments);
-}
-
 #define REPLACEMENT "\xef\xbf\xbd" /* U+FFFD */
 
 /* Returns the length of the character at s, 0 if it is not UTF-8 or not allowed in XML 1.0. */

@@ -4,7 +4,7 @@
 #ifndef WT_REPORT_REPORT_TEXT_H
 #define WT_REPORT_REPORT_TEXT_H
 
-#include "report/language.h"
+#include "weartrack/core.h"
 
 #include <stdarg.h>
 
@@ -14,7 +14,6 @@ typedef struct text_buffer {
     char *bytes; /* NULL while empty, else zero-terminated */
     size_t length, capacity;
     bool failed;
-    const language *language; /* language of translated texts; NULL: English */
 } text_buffer;
 
 void text_free(text_buffer *text);                /* empty again */
@@ -29,10 +28,6 @@ void text_vformat(text_buffer *text, const char *format, va_list arguments) WT_P
 /* Appends a file name. If it is longer than `most` bytes, only its end, which distinguishes files,
  * after dots. */
 void text_file_name(text_buffer *text, const char *name, size_t most);
-
-/* Append the translation of an English text. */
-void text_append_phrase(text_buffer *text, const char *english);
-void text_append_translated(text_buffer *text, const char *english, ...) WT_PRINTF(2, 3);
 
 /* Appends markup. All arguments are %s and are escaped for HTML content and quoted attributes.
  * Characters that are not UTF-8 or not allowed in XML become U+FFFD. */

@@ -75,7 +75,7 @@ static void draw_part(figure_drawing *d, const char *part)
         return;
     axis_log(d, "x", "Processor time", &field[WORK_PRECISION_SECONDS], time);
     axis_log(d, "y", "Relative error", &field[WORK_PRECISION_TRUE_ERROR], error);
-    plot_heading(d, translate(d->language, part));
+    plot_heading(d, part);
     for (size_t i = 0; i < n; i++) {
         const int style = method_style(methods[i]);
         plot_item(d, section[i], "($1*x_unit):($4*y_unit) with lines ls 12");
@@ -109,12 +109,10 @@ static void draw_work_precision(figure_drawing *d)
     begin_legend(d, legend);
     for (size_t i = 0; i < n_methods; i++) {
         plot_expression(d, "NaN with linespoints ls %d", method_style(methods[i]));
-        plot_title(d, translate(d->language, methods[i]));
+        plot_title(d, methods[i]);
     }
-    plot_expression(d, "NaN with linespoints ls 31 pt 6 title '%s'",
-                    translate(d->language, "what it states"));
-    plot_expression(d, "NaN with lines ls 12 title '%s'",
-                    translate(d->language, "what the reference is good to"));
+    plot_expression(d, "NaN with linespoints ls 31 pt 6 title 'what it states'");
+    plot_expression(d, "NaN with lines ls 12 title 'what the reference is good to'");
     plot_end(d);
     text_add(&d->script, "unset multiplot\n");
 }
@@ -186,12 +184,9 @@ static void add_source_tic(figure_drawing *d, size_t row)
 {
     const double seconds = error_budget_get(d->table, row, ERROR_BUDGET_SECONDS);
     char words[96], time[32] = "";
-    if (seconds > 0) {
+    if (seconds > 0)
         wt_format_si(seconds, "s", 2, time, sizeof time);
-        language_set_decimal_mark(d->language, time);
-    }
-    snprintf(words, sizeof words, "%s%s%s",
-             translate(d->language, error_budget_text(d->table, row, ERROR_BUDGET_SOURCE)),
+    snprintf(words, sizeof words, "%s%s%s", error_budget_text(d->table, row, ERROR_BUDGET_SOURCE),
              time[0] != '\0' ? ", " : "", time);
     text_tic_label(&d->script, words);
 }
@@ -209,7 +204,7 @@ static void draw_number(figure_drawing *d, const number_panel *p)
     text_add(&d->script, ") noenhanced scale 0\nunset arrow\n");
     draw_floor(d, p, "together");
     draw_floor(d, p, "model");
-    plot_heading(d, translate(d->language, p->number));
+    plot_heading(d, p->number);
     const char *last = "";
     for (size_t row = p->first; row < p->first + p->n; row++) {
         const char *kind = error_budget_text(t, row, ERROR_BUDGET_KIND);
@@ -246,16 +241,12 @@ static void draw_error_budget(figure_drawing *d)
     if (n == 0)
         return;
     begin_legend(d, legend_height / d->height);
-    plot_expression(d, "NaN with boxes ls 1 title '%s'",
-                    translate(d->language, "measured or stated"));
-    plot_expression(d, "NaN with boxes ls 2 title '%s'",
-                    translate(d->language, "choice of the model"));
-    plot_expression(d, "NaN with boxes ls 5 title '%s'",
-                    translate(d->language, "together, draws, arithmetic"));
-    plot_expression(d, "NaN with lines ls %d dt 3 title '%s'", kind_style("together"),
-                    translate(d->language, "floor of what is measured"));
-    plot_expression(d, "NaN with lines ls %d dt 3 title '%s'", kind_style("model"),
-                    translate(d->language, "floor of the model"));
+    plot_expression(d, "NaN with boxes ls 1 title 'measured or stated'");
+    plot_expression(d, "NaN with boxes ls 2 title 'choice of the model'");
+    plot_expression(d, "NaN with boxes ls 5 title 'together, draws, arithmetic'");
+    plot_expression(d, "NaN with lines ls %d dt 3 title 'floor of what is measured'",
+                    kind_style("together"));
+    plot_expression(d, "NaN with lines ls %d dt 3 title 'floor of the model'", kind_style("model"));
     plot_end(d);
     text_add(&d->script, "unset multiplot\n");
 }
@@ -318,11 +309,10 @@ static void draw_cost(figure_drawing *d)
         text_add(&d->script, "k=0\nj=0\n");
         plot_item(d, section,
                   "($3>0 ? $3*x_unit : NaN):" STAGE_POSITION " with points ls 1 title '%s'",
-                  translate(d->language, "standard error"));
+                  "standard error");
         plot_item(d, section,
                   "($4>0 ? $4*x_unit : NaN):($2>0 ? -(j=j+1) : NaN)"
-                  " with points ls 2 pt 6 title '%s'",
-                  translate(d->language, "numerical error"));
+                  " with points ls 2 pt 6 title 'numerical error'");
         plot_end(d);
     }
     text_add(&d->script, "unset multiplot\n");
@@ -350,7 +340,7 @@ static void draw_coverage(figure_drawing *d)
     text_format(&d->script, "set yrange [-0.7:%zu.7]\nset ytics (", t->n_rows - 1);
     for (size_t i = 0; i < t->n_rows; i++) {
         text_add(&d->script, i > 0 ? ", " : "");
-        text_tic_label(&d->script, translate(d->language, coverage_text(t, i, COVERAGE_NUMBER)));
+        text_tic_label(&d->script, coverage_text(t, i, COVERAGE_NUMBER));
         text_format(&d->script, " %zu", t->n_rows - 1 - i);
     }
     text_add(&d->script, ") noenhanced scale 0\n"
@@ -358,10 +348,10 @@ static void draw_coverage(figure_drawing *d)
                          "set arrow from 0.683, graph 0 to 0.683, graph 1 nohead ls 12 back\n");
     plot_item(d, section,
               "($1*x_unit):(%zu-$0):($2*x_unit):($3*x_unit) with xerrorbars ls 13 "
-              "title '%s'",
-              t->n_rows - 1, translate(d->language, "in the 95 % interval"));
-    plot_item(d, section, "($4*x_unit):(%zu-$0) with points ls 2 title '%s'", t->n_rows - 1,
-              translate(d->language, "within one standard error"));
+              "title 'in the 95 %% interval'",
+              t->n_rows - 1);
+    plot_item(d, section, "($4*x_unit):(%zu-$0) with points ls 2 title 'within one standard error'",
+              t->n_rows - 1);
     plot_end(d);
 }
 

@@ -107,7 +107,7 @@ static void draw_collection_panel(figure_drawing *d, const panel_grid *g, size_t
             plot_item(d, section, "($1*x_unit):($2*y_unit) with %s ls %zu",
                       drawing_row_count(d, section) > 1 ? "lines" : "points", k + 1);
         if (i == 0)
-            plot_title(d, drawing_group_name(d, d->groups[k]));
+            plot_title(d, d->groups[k]);
         else
             text_add(&d->script, " notitle");
     }
@@ -123,7 +123,7 @@ static void draw_grid(figure_drawing *d, panel_grid *g)
         draw_collection_panel(d, g, i);
     text_add(&d->script, "unset multiplot\n");
     if (g->of.too_many)
-        text_append_translated(&d->caption, " The first %d only.", PANELS);
+        text_format(&d->caption, " The first %d only.", PANELS);
 }
 
 static void draw_moduli(figure_drawing *d)
@@ -241,7 +241,7 @@ static void draw_constants(figure_drawing *d)
         text_buffer of = {0};
         text_file_name(&of, shown[i].of, HEADING);
         text_add(&d->script, "set title ");
-        text_quoted(&d->script, translate(d->language, shown[i].constant));
+        text_quoted(&d->script, shown[i].constant);
         text_add(&d->script, ".\"\\n\".");
         text_quoted(&d->script, text_string(&of));
         text_add(&d->script, " noenhanced\n");
@@ -255,14 +255,14 @@ static void draw_constants(figure_drawing *d)
     }
     text_add(&d->script, "unset multiplot\n");
     if (too_many)
-        text_append_translated(&d->caption, " The first %d only.", PANELS);
+        text_format(&d->caption, " The first %d only.", PANELS);
 }
 
 static void caption_collected_friction(figure_drawing *d)
 {
     const char *part = collected_friction_key_text(d->table, COLLECTED_FRICTION_KEY_PART);
     if (part != NULL && strcmp(part, "hysteresis") == 0)
-        text_append_phrase(&d->caption, " Of hysteresis alone: not all cases have a shear stress.");
+        text_add(&d->caption, " Of hysteresis alone: not all cases have a shear stress.");
 }
 
 const figure_description figures_collection[] = {

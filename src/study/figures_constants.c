@@ -126,7 +126,7 @@ static void draw_region_panel(figure_drawing *d, read_estimates *read, const reg
     drawing_axis(d, "x", &d->figure->x, NULL, d->x);
     drawing_axis(d, "y", &d->figure->y[0], NULL, d->y[0]);
     if (r->n_panels > 1)
-        plot_heading(d, translate(d->language, panel_heading(r->by[panel])));
+        plot_heading(d, panel_heading(r->by[panel]));
     text_add(&d->script, panel == 1 ? "unset key\n" : "");
     for (size_t i = 0; i < r->n; i++) {
         constant_estimates p;
@@ -135,7 +135,7 @@ static void draw_region_panel(figure_drawing *d, read_estimates *read, const reg
         read(d->table, r->of[i].row, &p);
         plot_item(d, r->of[i].section, "($1*x_unit):($2*y_unit) with lines ls %zu",
                   1 + shown % STYLES + (shown < STYLES ? 0 : DASHED));
-        plot_title(d, translate(d->language, p.name));
+        plot_title(d, p.name);
         shown++;
     }
     plot_end(d);

@@ -129,14 +129,10 @@ static void draw_choice_panel(figure_drawing *d, const panel *p)
     }
     axis_linear(d, "x", p->label, &d->table->schema->columns[p->column], span);
     text_format(&d->script, "set yrange [-0.6:%zu.6]\nset ytics (", p->n - 1 + chance);
-    for (size_t i = 0; i < p->n; i++) {
-        bar named = p->bars[i];
-        language_set_decimal_mark(d->language, named.tried);
-        add_axis_name(d, i, translate(d->language, named.choice), named.tried);
-    }
+    for (size_t i = 0; i < p->n; i++)
+        add_axis_name(d, i, p->bars[i].choice, p->bars[i].tried);
     if (chance)
-        add_axis_name(d, p->n, translate(d->language, "errors that are known"),
-                      translate(d->language, "95 % interval"));
+        add_axis_name(d, p->n, "errors that are known", "95 % interval");
     text_format(&d->script,
                 ") noenhanced scale 0\nunset arrow\n"
                 "set arrow from %s*x_unit, graph 0 to %s*x_unit, graph 1 nohead ls 12 back\n",

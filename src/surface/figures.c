@@ -59,11 +59,11 @@ static size_t load_scans(figure_drawing *d, unsigned scan, load_scan_rows *load,
         n += scans[n].section >= 0 ? 1 : 0;
     }
     if (undrawn > 0 && n > 0 && d->status == WT_OK)
-        text_append_translated(
-            &d->caption,
-            " Not drawn: %zu of the scans, whose points are no grid or have no height.", undrawn);
+        text_format(&d->caption,
+                    " Not drawn: %zu of the scans, whose points are no grid or have no height.",
+                    undrawn);
     if (end < t->n_rows && d->status == WT_OK)
-        text_append_translated(&d->caption, " Of more scans the first %zu.", n);
+        text_format(&d->caption, " Of more scans the first %zu.", n);
     return d->status == WT_OK ? n : 0;
 }
 
@@ -86,7 +86,7 @@ static void draw_scale_bar(figure_drawing *d, double width)
                 "set arrow 1 from first 0, graph -0.06 to first %s*x_unit, graph -0.06 nohead lw 3 "
                 "front\nset label 1 ",
                 LITERAL(bar));
-    text_quoted(&d->script, VALUE(d->language, WT_Q_LENGTH, NULL, bar));
+    text_quoted(&d->script, VALUE(WT_Q_LENGTH, NULL, bar));
     text_format(&d->script,
                 " at first %s*x_unit, graph -0.06 offset char 1,0 left noenhanced front\n",
                 LITERAL(bar));
@@ -236,17 +236,15 @@ static void caption_measured(figure_drawing *d)
                       slope = power_spectrum_value(d->table, POWER_SPECTRUM_KEY_RMS_SLOPE),
                       hurst = power_spectrum_value(d->table, POWER_SPECTRUM_KEY_HURST);
     const double share = power_spectrum_value(d->table, POWER_SPECTRUM_KEY_SHARE).value;
-    text_append_translated(&d->caption, " Root-mean-square height %s. Root-mean-square slope %s.",
-                           ESTIMATE(d->language, &height), ESTIMATE(d->language, &slope));
+    text_format(&d->caption, " Root-mean-square height %s. Root-mean-square slope %s.",
+                ESTIMATE(&height), ESTIMATE(&slope));
     if (isfinite(hurst.value))
-        text_append_translated(&d->caption, " Self-affine law: H = %s.",
-                               ESTIMATE(d->language, &hurst));
+        text_format(&d->caption, " Self-affine law: H = %s.", ESTIMATE(&hurst));
     if (isfinite(share))
-        text_append_translated(
-            &d->caption,
-            " Beyond the points with bars the spectrum is that of the law: %s %% of the "
-            "squared slope.",
-            NUMBER(d->language, 100 * share, 2));
+        text_format(&d->caption,
+                    " Beyond the points with bars the spectrum is that of the law: %s %% of the "
+                    "squared slope.",
+                    NUMBER(100 * share, 2));
 }
 
 static void caption_angular(figure_drawing *d)
@@ -254,11 +252,10 @@ static void caption_angular(figure_drawing *d)
     const double chance = angular_spectrum_value(d->table, ANGULAR_SPECTRUM_KEY_CHANCE).value,
                  fourth =
                      angular_spectrum_value(d->table, ANGULAR_SPECTRUM_KEY_CHANCE_FOURTH).value;
-    text_append_translated(
-        &d->caption,
-        " Chance that scatter alone makes directions differ as much: %s (half a turn), %s "
-        "(a quarter).",
-        NUMBER(d->language, chance, 2), NUMBER(d->language, fourth, 2));
+    text_format(&d->caption,
+                " Chance that scatter alone makes directions differ as much: %s (half a turn), %s "
+                "(a quarter).",
+                NUMBER(chance, 2), NUMBER(fourth, 2));
 }
 
 const figure_description figures_surface[] = {

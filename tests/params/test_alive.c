@@ -209,7 +209,6 @@ static const struct {
     {NULL, "figures", "of the pictures: unit_report_paper, tests/cli/bad_input.txt"},
     {NULL, "width", "of the pictures: unit_report_paper"},
     {NULL, "font", "the same"},
-    {NULL, "language", "of the pictures: unit_report_language"},
     {"compare", "between-spot-sd",
      "one spot of each: unit_case_tables_written, tests/cli/tables.txt"},
     {"case", "between-spot-sd", "the same"},

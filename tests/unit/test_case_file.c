@@ -51,7 +51,7 @@ static const char full[] = HEAD
     "  <times>1:1e5s:log:6</times><incubation>yes</incubation></layer>\n"
     "<compare><track-to-bulk/><by-rate/></compare>\n"
     "<report style=\"screen\" figures=\"pdf,png\" width=\"85mm\" "
-    "font=\"Arial\" language=\"nl\"><result>friction</result><result>layer</result></report>\n"
+    "font=\"Arial\"><result>friction</result><result>layer</result></report>\n"
     "</case>\n";
 
 static void test_full(void **state)
@@ -66,7 +66,6 @@ static void test_full(void **state)
     assert_int_equal(wt_case_report_options(c)->figures, WT_FIGURE_PDF | WT_FIGURE_PNG);
     assert_near(wt_case_report_options(c)->width, 0.085, 1e-14);
     assert_string_equal(wt_case_report_options(c)->font, "Arial");
-    assert_string_equal(wt_case_report_options(c)->language, "nl");
     assert_near(c->indent.tip.half_angle, 35 * M_PI / 180, 1e-14);
     assert_near(c->indent.options.poisson_ratio, 0.49, 0);
     assert_near(c->indent.options.fit_depth, 70e-9, 1e-14);

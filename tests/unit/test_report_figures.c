@@ -3,7 +3,7 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cells.h"
-#include "german_figures.h"
+#include "drawn_report.h"
 #include "report/drawing.h"
 
 #include <ctype.h>
@@ -815,7 +815,6 @@ int main(void)
         cmocka_unit_test(test_crowds_are_thinned),
         cmocka_unit_test(test_what_is_missing_is_an_error),
         cmocka_unit_test(test_what_may_be_missing),
-        cmocka_unit_test(test_a_german_figure_is_german),
     };
     return cmocka_run_group_tests(tests, draw_everything, remove_everything);
 }

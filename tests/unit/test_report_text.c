@@ -35,11 +35,11 @@ static void test_numbers_for_reading(void **state)
         {-(double)INFINITY, 3, "−∞"},  {99999, 1, "99999"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        assert_string_equal(NUMBER(NULL, cases[i].value, cases[i].digits), cases[i].expected);
+        assert_string_equal(NUMBER(cases[i].value, cases[i].digits), cases[i].expected);
     }
-    assert_string_equal(SHORT_NUMBER(NULL, 0.5, 4), "0.5");
-    assert_string_equal(SHORT_NUMBER(NULL, 300, 2), "300");
-    assert_string_equal(SHORT_NUMBER(NULL, 20.04, 3), "20");
+    assert_string_equal(SHORT_NUMBER(0.5, 4), "0.5");
+    assert_string_equal(SHORT_NUMBER(300, 2), "300");
+    assert_string_equal(SHORT_NUMBER(20.04, 3), "20");
 }
 
 static void test_fixed_decimals(void **state)
@@ -55,7 +55,7 @@ static void test_fixed_decimals(void **state)
         {99.96, 1, "100.0"}, {0.0999, 2, "0.10"}, {1e-9, 3, "0.000"}, {2438121, 0, "2438121"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        assert_string_equal(FIXED(NULL, cases[i].value, cases[i].decimals), cases[i].expected);
+        assert_string_equal(FIXED(cases[i].value, cases[i].decimals), cases[i].expected);
     }
 }
 
@@ -63,8 +63,8 @@ static void test_numbers_do_not_follow_the_locale(void **state)
 {
     (void)state;
     bool comma = setlocale(LC_NUMERIC, "de_DE.UTF-8") != NULL;
-    const number_text number = number_rounded(NULL, 12.345, 3, false),
-                      fixed = number_fixed(NULL, -7.26, 1), literal = number_literal(1.5e-9);
+    const number_text number = number_rounded(12.345, 3, false), fixed = number_fixed(-7.26, 1),
+                      literal = number_literal(1.5e-9);
     (void)setlocale(LC_NUMERIC, "C");
     assert_string_equal(number.chars, "12.3");
     assert_string_equal(fixed.chars, "−7.3");
@@ -110,9 +110,9 @@ static void test_lab_units(void **state)
     /* an error of two digits, of nine decimals at most */
     const wt_estimate exact = {1, 1.2e-9, 0, "1"}, more = {1, 6e-10, 0, "1"},
                       fine = {1, 2e-12, 0, "1"};
-    assert_string_equal(ESTIMATE(NULL, &exact), "1.000000000 ± 0.000000001");
-    assert_string_equal(ESTIMATE(NULL, &more), "1.000000000 ± 0.000000001");
-    assert_string_equal(ESTIMATE(NULL, &fine), "1.000000000 ± 0.000000000");
+    assert_string_equal(ESTIMATE(&exact), "1.000000000 ± 0.000000001");
+    assert_string_equal(ESTIMATE(&more), "1.000000000 ± 0.000000001");
+    assert_string_equal(ESTIMATE(&fine), "1.000000000 ± 0.000000000");
     static const struct {
         wt_quantity quantity;
         const char *unit;
