@@ -459,20 +459,17 @@ static inline void fixture_of_case(const char *name, const char *asked)
     wt_case_free(other);
 }
 
-/* What a case does not give unless it is asked for by name, and what needs no case. */
+/* Tables that a case has only if they are requested by name. */
 static inline void fixture_accuracy(wt_case *read)
 {
     size_t failed = 0;
     wt_result *asked = NULL;
-    wt_table *table = NULL;
     wt_run_options few = wt_run_defaults();
-    wt_accuracy_job job = wt_accuracy_job_defaults();
-    const wt_job work = wt_job_defaults();
     const fixture_change no_change = {.table = "error_budget"};
-    static const char *const names[] = {"error_budget", "relaxation_spectrum", "prony_reduced"};
+    static const char *const names[] = {"error_budget", "work_precision", "relaxation_spectrum",
+                                        "prony_reduced"};
     few.replicates = 3;
-    job.part = "friction-prony";
-    job.repeats = 1;
+    few.precision.repeats = 1;
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
         fixture_check(wt_case_request_tables(read, names[i], NULL));
         fixture_check(wt_run_case(read, &few, NULL, &asked, &failed, NULL));
@@ -480,11 +477,6 @@ static inline void fixture_accuracy(wt_case *read)
             fixture_case, fixture_copy(wt_result_find(asked, names[i]), &no_change), NULL));
         wt_result_free(asked);
     }
-    few.trials = 3;
-    fixture_check(wt_case_request_tables(read, "coverage", NULL));
-    fixture_check(wt_run_case(read, &few, NULL, &asked, &failed, NULL));
-    fixture_check(wt_result_add(fixture_case,
-                                fixture_copy(wt_result_find(asked, "coverage"), &no_change), NULL));
     fixture_of_case("transverse", "transverse_isotropy");
     fixture_of_case("texture", "anisotropy");
     fixture_of_case("texture", "friction_map");
@@ -494,9 +486,6 @@ static inline void fixture_accuracy(wt_case *read)
     fixture_of_case("layer", "layer_feedback");
     fixture_of_case("layer", "layer_regime_map");
     fixture_of_case("layer", "identification");
-    fixture_check(wt_accuracy_compute(&job, &work, &table, NULL));
-    fixture_check(wt_result_add(fixture_case, table, NULL));
-    wt_result_free(asked);
 }
 
 /* As without replicates. */

@@ -42,7 +42,6 @@ typedef struct wt_run_options {
     uint64_t seed;       /* seed of the draws */
     size_t replicates;   /* number of draws; default 200 */
     wt_progress progress;
-    size_t trials;              /* trials of the table "coverage"; default 100 */
     wt_accuracy_job precision;  /* options of the table "work_precision" */
     bool no_provenance;         /* no times in "cost", no digests in "inputs" */
     const char *const *columns; /* of plain tables, as in wt_formats_add_columns */

@@ -527,16 +527,9 @@ typedef struct wt_indent_job {
     const struct wt_rubber *rubber; /* a factor on its spectrum is fitted; NULL (default) = none */
     wt_estimate
         temperature; /* temperature of the curves [K]; NaN = reference temperature of the rubber */
-    struct wt_curve_set *keep; /* receives the accepted curves; NULL (default) */
 } wt_indent_job;
 WT_API wt_indent_job wt_indent_job_defaults(void);
 WT_API const wt_params *wt_indent_job_params(void);
-
-/* Accepted curves of a group with their fits, for the bootstrap of wt_coverage_compute. NULL when
- * out of memory. */
-typedef struct wt_curve_set wt_curve_set;
-WT_API wt_curve_set *wt_curve_set_new(void);
-WT_API void wt_curve_set_free(wt_curve_set *set);
 
 /* Tables of indentation, each freed with wt_table_free, all with wt_indent_tables_clear. Initialise
  * with zeros. For a further group, first take `indentation` (set it to NULL); the other tables are

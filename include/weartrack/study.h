@@ -1,5 +1,5 @@
 /* weartrack - study: comparison of track and bulk, cases side by side, what if, error budget,
- * coverage, error against run time.
+ * error against run time.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WEARTRACK_STUDY_H
@@ -177,45 +177,18 @@ WT_API wt_status wt_error_budget_compute(const wt_sliding *sliding, const wt_lay
                                          const wt_job *work, wt_table **table,
                                          wt_error *err) WT_NODISCARD;
 
-/* ---- coverage ------------------------------------------------------------------------------- */
-
-typedef struct wt_coverage_job {
-    const wt_sliding *sliding;
-    const wt_layer_job *layer;         /* NULL as in wt_model_sensitivity_compute */
-    const wt_layer_observation *known; /* NULL as in wt_model_sensitivity_compute */
-    const wt_table *bulk, *track;      /* indentation tables, or NULL: no groups to compare */
-    size_t trials;
-    /* Curves of both groups, which are then drawn and refitted; NULL: their moduli are drawn. */
-    const wt_curve_set *curves[2];
-    bool ratio_of_groups; /* the ratio of `known` is that of the groups in each trial */
-} wt_coverage_job;
-WT_API wt_coverage_job wt_coverage_job_defaults(void); /* Sets trials to 0. */
-WT_API const wt_params *wt_coverage_job_params(void);
-/* Creates the table "coverage" by a parametric bootstrap: data are drawn from the fit of the case
- * (isotherms with noise and temperature scatter, force curves with scatter of spots and curves,
- * inputs with stated errors) and evaluated in the same way. It states how often the intervals
- * contain the values of the fit. It cannot detect a wrong model, which the table states. */
-WT_API wt_status wt_coverage_compute(const wt_coverage_job *job, const wt_job *work,
-                                     wt_table **table, wt_error *err) WT_NODISCARD;
-
 /* ---- error against run time ----------------------------------------------------------------- */
 
 typedef struct wt_accuracy_job {
-    const char *part; /* name of one numerical part; NULL (default): all */
-    size_t repeats;   /* timing repetitions of each point; default 9 */
-    bool built_in;    /* in a case: also the built-in problems; default false */
+    size_t repeats; /* timing repetitions of each point; default 9 */
 } wt_accuracy_job;
 WT_API wt_accuracy_job wt_accuracy_job_defaults(void);
 WT_API const wt_params *wt_accuracy_job_params(void);
-/* Creates the table "work_precision": error of every numerical part on a problem with an
- * independent reference, and processor time on one thread, for a sweep of its setting; the textbook
- * method for comparison. WT_E_NOT_FOUND for an unknown part. */
-WT_API wt_status wt_accuracy_compute(const wt_accuracy_job *job, const wt_job *work,
-                                     wt_table **table, wt_error *err) WT_NODISCARD;
-/* Creates the same table for a sliding contact at the reference velocity: friction and layer for a
- * sweep of the tolerance (reference 1e-13; textbook method for comparison), standard errors for a
- * sweep of the number of replicates, and values with fewer isotherms. Times are NaN if the cost of
- * `work` has none. `layer` and `known` as above. */
+/* Creates the table "work_precision" of a sliding contact at the reference velocity: friction and
+ * layer for a sweep of the tolerance (reference 1e-13; textbook method for comparison), standard
+ * errors for a sweep of the number of replicates, and values with fewer isotherms, each with its
+ * processor time on one thread. Times are NaN if the cost of `work` has none. `layer` and `known`
+ * as above. */
 WT_API wt_status wt_case_precision_compute(const wt_sliding *sliding, const wt_layer_job *layer,
                                            const wt_layer_observation *known,
                                            const wt_accuracy_job *job, const wt_job *work,

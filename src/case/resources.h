@@ -121,7 +121,6 @@
     X(VALIDATION_CHOICES, "validation_choices", &validation_choices_schema, "")                    \
     X(VALIDATION_SOURCES, "validation_sources", &validation_sources_schema, "")                    \
     X(ERROR_BUDGET, "error_budget", &error_budget_schema, "")                                      \
-    X(COVERAGE, "coverage", &coverage_schema, "")                                                  \
     X(WORK_PRECISION, "work_precision", &work_precision_schema, "")
 
 /* Resources that are passed between stages only: id, name. */
@@ -145,10 +144,9 @@ __extension__ typedef unsigned __int128 flow_resource_set;
 /* Tables that are expensive, or that concern another measurement than sliding. They are computed
  * only if a case names them. */
 #define FLOW_ONLY_REQUESTED                                                                        \
-    (FLOW_BIT(FLOW_ERROR_BUDGET) | FLOW_BIT(FLOW_COVERAGE) | FLOW_BIT(FLOW_WORK_PRECISION) |       \
-     FLOW_BIT(FLOW_RAMP) | FLOW_BIT(FLOW_GLASS_TRANSITION) | FLOW_BIT(FLOW_MODULI_AT) |            \
-     FLOW_BIT(FLOW_PRONY_REDUCED) | FLOW_BIT(FLOW_RELAXATION_SPECTRUM) | FLOW_BIT(FLOW_PAYNE) |    \
-     FLOW_BIT(FLOW_PAYNE_SWEEP))
+    (FLOW_BIT(FLOW_ERROR_BUDGET) | FLOW_BIT(FLOW_WORK_PRECISION) | FLOW_BIT(FLOW_RAMP) |           \
+     FLOW_BIT(FLOW_GLASS_TRANSITION) | FLOW_BIT(FLOW_MODULI_AT) | FLOW_BIT(FLOW_PRONY_REDUCED) |   \
+     FLOW_BIT(FLOW_RELAXATION_SPECTRUM) | FLOW_BIT(FLOW_PAYNE) | FLOW_BIT(FLOW_PAYNE_SWEEP))
 
 /* Comparison of the case with its records. */
 #define FLOW_VALIDATIONS                                                                           \

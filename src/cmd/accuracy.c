@@ -1,10 +1,10 @@
-/* weartrack accuracy: error against run time, of the methods or of a case.
+/* weartrack accuracy: error budget and error against run time of a case.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cmd/cmd.h"
 
-static wt_status fail_missing_table(cmd_session *s, const char *title)
+static wt_status fail_missing_budget(cmd_session *s)
 {
-    wt_fail(&s->err, WT_E_MISSING, "the case has no %s", title);
+    wt_fail(&s->err, WT_E_MISSING, "the case has no error budget");
     wt_error_file(&s->err, s->files[0]);
     wt_error_expected(&s->err, "a material, a counter surface and sliding conditions");
     wt_error_advice(&s->err, "`weartrack run --plan` says what each stage lacks");
@@ -21,12 +21,9 @@ static void print_text_keys(const cmd_session *s, const wt_table *table)
     }
 }
 
-/* Runs a case with requests for only its error budget and error against run time, or its coverage.
- */
+/* Runs a case with requests for only its error budget and error against run time. */
 static wt_status run_accuracy_case(cmd_session *s, wt_run_options *run)
 {
-    const bool covers = run->trials > 0;
-    const char *const first = covers ? "coverage" : "error_budget";
     wt_case *c = NULL;
     size_t n_failed = 0;
     wt_status status =
@@ -36,18 +33,18 @@ static wt_status run_accuracy_case(cmd_session *s, wt_run_options *run)
     if (status == WT_OK)
         status = wt_case_read(s->files[0], &c, &s->err);
     if (status == WT_OK)
-        status = wt_case_request_tables(c, covers ? first : "error_budget work_precision", &s->err);
+        status = wt_case_request_tables(c, "error_budget work_precision", &s->err);
     if (status == WT_OK)
         status = cmd_run_case(s, c, run, &n_failed);
     wt_case_free(c);
     if (s->result != NULL && n_failed > 0)
         cmd_print_failures(s, wt_result_find(s->result, "failures"));
-    const wt_table *table = s->result != NULL ? wt_result_find(s->result, first) : NULL;
-    if (status == WT_OK && table == NULL)
-        status = fail_missing_table(s, covers ? "intervals to be counted" : "error budget");
+    const wt_table *budget = s->result != NULL ? wt_result_find(s->result, "error_budget") : NULL;
+    if (status == WT_OK && budget == NULL)
+        status = fail_missing_budget(s);
     if (status == WT_OK) {
-        print_text_keys(s, table);
-        if (!covers && wt_result_find(s->result, "work_precision") != NULL)
+        print_text_keys(s, budget);
+        if (wt_result_find(s->result, "work_precision") != NULL)
             print_text_keys(s, wt_result_find(s->result, "work_precision"));
     }
     if (status == WT_OK)
@@ -59,45 +56,28 @@ int cmd_accuracy(int argc, char **argv)
 {
     static const cmd_usage usage = {
         .name = "accuracy",
-        .arguments = "[CASE.xml] [OPTION]...",
-        .what = "Error against run time. With a case: of its own numbers, as tolerance, replicates "
-                "and isotherms are swept, which error costs each most, what it takes to know it, "
-                "and what would make it smaller; or how often its intervals hold. Without one: "
-                "every numerical part on a problem whose answer is known otherwise, beside the "
-                "textbook method, as its setting is swept.",
-        .common = "output formats columns provenance",
-        .notes = "--part is for the numerical parts, --repeats for both, the others for a case."};
+        .arguments = "CASE.xml [OPTION]...",
+        .what = "Error against run time of the numbers of a case, as tolerance, replicates and "
+                "isotherms are swept; which error costs each most, what it takes to know it, and "
+                "what would make it smaller.",
+        .common = "output formats columns provenance"};
     cmd_session s = cmd_session_defaults();
     wt_accuracy_job job = wt_accuracy_job_defaults();
     wt_run_options run = wt_run_defaults();
-    wt_coverage_job coverage = wt_coverage_job_defaults();
-    wt_table *table = NULL;
     cmd_option_group parts[] = {{wt_accuracy_job_params(), &job, NULL, 0},
-                                {wt_run_params(), &run, NULL, 0},
-                                {wt_coverage_job_params(), &coverage, NULL, 0}};
+                                {wt_run_params(), &run, NULL, 0}};
     if (!cmd_parse(&s, &usage, parts, COUNT_OF(parts), argc, argv))
         return cmd_session_free(&s);
     bool good = true;
-    if (s.n_files > 1)
-        good = cmd_usage_error(&s, "one case at most");
-    else if (s.n_files == 1 && job.part != NULL)
-        good = cmd_usage_error(&s, "--part is not for a case");
-    else if (coverage.trials > 0 && parts[0].given != 0)
-        good = cmd_usage_error(&s, "--coverage times nothing: no --repeats, no --built-in");
-    else if (s.n_files == 0 && (parts[1].given != 0 || parts[2].given != 0 || job.built_in))
-        good = cmd_usage_error(&s, "without a case there are --part and --repeats only");
+    if (s.n_files != 1)
+        good = cmd_usage_error(&s, "give the case file");
     good = good && (s.common.n_columns == 0 || cmd_read_formats(&s));
-    if (good && s.n_files == 1) {
+    if (good) {
         s.log = wt_log_new();
-        run.trials = coverage.trials;
         run.precision = job;
         const wt_status made = s.log == NULL ? wt_fail(&s.err, WT_E_MEMORY, "out of memory")
                                              : run_accuracy_case(&s, &run);
         cmd_end(&s, made);
-    } else if (good && cmd_begin(&s)) {
-        const wt_status made = wt_accuracy_compute(&job, &s.work, &table, &s.err);
-        wt_table **const made_tables[] = {&table};
-        cmd_finish(&s, made, made_tables, COUNT_OF(made_tables));
     }
     return cmd_session_free(&s);
 }

@@ -33,7 +33,7 @@ const cmd_command cmd_commands[] = {
     {"new-case", cmd_new_case, "a commented case file from the files that there are"},
     {"run", cmd_run, "a whole case from one case file; --plan shows what it would do"},
     {"validate", cmd_validate, "whether a case explains friction as measured"},
-    {"accuracy", cmd_accuracy, "error against run time, of the methods or of a case"},
+    {"accuracy", cmd_accuracy, "error budget and error against run time of a case"},
     {"report", cmd_report, "plots and one page from a result file"},
     {"table", cmd_table, "a table of a result as TSV, CSV, JSON or SQLite"},
     {"collect", cmd_collect, "cases of several samples and conditions side by side"},

@@ -2,7 +2,6 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/base/param.h"
 #include "dma/rubber.h"
-#include "indentation/curve_set.h"
 #include "indentation/curve_tables.h"
 #include "indentation/indent_task.h"
 #include "job/cost.h"
@@ -202,8 +201,6 @@ static wt_status prepare_task(indent_task *task, wt_error *err)
         &indentation_schema, (table_variant){.suffix = task->job->group, .title = title}, err);
     if (task->rows.status != WT_OK)
         return task->rows.status;
-    if (task->job->keep != NULL)
-        curve_set_begin(task->job->keep, task->job);
     task->n_workers = wt_thread_count(task->work->threads);
     if (task->n_workers > MAX_WORKERS)
         task->n_workers = MAX_WORKERS;

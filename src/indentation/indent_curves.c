@@ -1,6 +1,5 @@
 /* Curves of a group: reads them from their files, fits them in parallel and writes them in order.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "indentation/curve_set.h"
 #include "indentation/curve_tables.h"
 #include "indentation/indent_task.h"
 
@@ -210,9 +209,6 @@ static wt_status write_item(indent_task *task, queued_curve *it, wt_error *err)
         has_fitted_contact) /* shifted sources do not apply to a fixed contact point */
         status = calibration_errors_store(&task->calibration, &it->curve, task->file_contact,
                                           has_file_tip, err);
-    if (status == WT_OK && task->job->keep != NULL)
-        status = has_job_settings ? curve_set_add(task->job->keep, &it->curve, &it->fit, err)
-                                  : curve_set_mark_unusable(task->job->keep);
     return status == WT_OK ? store_modulus(task, it, err) : status;
 }
 

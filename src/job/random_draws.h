@@ -18,14 +18,8 @@ typedef enum flow_draw {
     FLOW_DRAW_OBSERVED,
     FLOW_DRAW_THICKNESS,
     FLOW_DRAW_RATIO,
-    /* for simulated data, not for replicates */
-    FLOW_DRAW_NOISE,
-    FLOW_DRAW_ISOTHERM,
-    FLOW_DRAW_SPOT,
-    FLOW_DRAW_CURVE,
-    FLOW_DRAW_FORCE,
-    /* for replicates again; earlier values keep their numbers */
-    FLOW_DRAW_SOFT_STORAGE,
+    /* the number decides the draws: 10 to 14 stay unused */
+    FLOW_DRAW_SOFT_STORAGE = 15,
     FLOW_DRAW_SOFT_LOSS,
     /* for the points of a spectrum, in consecutive numbers */
     FLOW_DRAW_MODES,

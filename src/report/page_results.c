@@ -157,9 +157,6 @@ static const struct result_part {
     KEYS(error_budget, "Where the errors come from"),
     ROWS(error_budget, "Error budget: what each source alone does to the numbers at the reference "
                        "velocity, and the time it takes to know it"),
-    KEYS(coverage, "How often the intervals hold"),
-    ROWS(coverage, "Coverage: the share of trials, drawn from the fit of the case, in which an "
-                   "interval holds the truth"),
     KEYS(work_precision, "What more work buys"),
     ROWS(work_precision, "Error against run time"),
 };

@@ -6,18 +6,46 @@
 #include "friction/numerics/angular_weight.h"
 #include "friction/sliding_contact.h"
 #include "job/cost.h"
-#include "study/accuracy.h"
-#include "study/parametric_bootstrap.h"
+#include "study/case_override.h"
 #include "study/textbook_methods.h"
+#include "weartrack/study.h"
 
 #include "core/base/array.h"
 #include "core/base/clocale.h"
 #include "core/base/param.h"
+#include "core/table/table_rows.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+wt_accuracy_job wt_accuracy_job_defaults(void)
+{
+    return (wt_accuracy_job){.repeats = 9};
+}
+
+static const wt_param rows[] = {
+    {PARAM("repeats", wt_accuracy_job, repeats, WT_Q_NONE, FROM_TO(1, 1000)), .value = "N",
+     .help = "how often each point is timed"},
+};
+PARAM_TABLE(wt_accuracy_job_params, wt_accuracy_job, rows, wt_accuracy_job_defaults, NO_PARTS)
+
+/* Largest relative error of a number, and the error that it states; NaN if none. */
+typedef struct accuracy_errors {
+    double true_error, stated_error;
+} accuracy_errors;
+
+typedef struct accuracy_timing {
+    double median, spread; /* [s] */
+    size_t repeats;
+} accuracy_timing;
+
+TABLE_ROW(work_precision, WORK_PRECISION, const char *part, *method, *setting, *words;
+          double value, reference_error; accuracy_errors errors; accuracy_timing time;)
+
+enum { ACCURACY_VALUES = 8 }; /* capacity of a sweep */
 
 typedef enum precision_sweep {
     BY_TOLERANCE,
@@ -93,12 +121,55 @@ typedef struct precision_problem {
     double standard_error[CASE_QUANTITIES]; /* relative, with the most replicates */
 } precision_problem;
 
+/* Solves the problem at a value of the setting; this call is timed. */
+typedef wt_status accuracy_solve(precision_problem *o, double value, wt_error *err);
+
+/* Shortest measured time [s]. A clock with a resolution of 1 us then has an error of 0.5 %. */
+#define MIN_SECONDS 2e-4
+/* Longest total time [s]. A slow method is repeated less often. */
+#define MAX_SECONDS 0.2
+
+static wt_status time_solution(precision_problem *o, accuracy_solve *solve, double value,
+                               double *seconds, wt_error *err)
+{
+    size_t n = 0;
+    const double start = wt_time_cpu();
+    do {
+        const wt_status status = solve(o, value, err);
+        if (status != WT_OK)
+            return status;
+        n++;
+        *seconds = wt_time_cpu() - start;
+    } while (*seconds < MIN_SECONDS);
+    *seconds /= (double)n;
+    return WT_OK;
+}
+
+static wt_status time_repeats(precision_problem *o, accuracy_solve *solve, double value,
+                              accuracy_timing *t, wt_error *err)
+{
+    double *seconds = malloc(o->repeats * sizeof *seconds), sum = 0;
+    wt_status status = seconds == NULL ? wt_fail(err, WT_E_MEMORY, "out of memory") : WT_OK;
+    size_t n = 0;
+    while (status == WT_OK && n < o->repeats && sum < MAX_SECONDS) {
+        status = time_solution(o, solve, value, &seconds[n], err);
+        sum += seconds[n++];
+    }
+    if (status == WT_OK) {
+        numbers_sort(seconds, n);
+        *t = (accuracy_timing){
+            seconds[n / 2], n > 2 ? (seconds[(3 * n) / 4] - seconds[n / 4]) / 2 : (double)NAN, n};
+    }
+    free(seconds);
+    return status;
+}
+
 /* Solves once, or repeatedly if it is timed. */
-static wt_status solve_and_time(precision_problem *o, accuracy_solve *one, double value,
+static wt_status solve_and_time(precision_problem *o, accuracy_solve *solve, double value,
                                 accuracy_timing *time, wt_error *err)
 {
     *time = (accuracy_timing){(double)NAN, (double)NAN, 1};
-    return o->timed ? accuracy_time(one, o, value, o->repeats, time, err) : one(o, value, err);
+    return o->timed ? time_repeats(o, solve, value, time, err) : solve(o, value, err);
 }
 
 /* Skips a number that is unknown. */
@@ -108,17 +179,24 @@ static void set_cell(precision_problem *o, unsigned k, precision_sweep by, size_
         o->cells[k][by][i] = c;
 }
 
+/* Returns |value / truth - 1|; 0 for two zeros. */
+static double relative_difference(double value, double truth)
+{
+    const double difference = fabs(value - truth);
+    return difference > 0 ? difference / fabs(truth) : difference;
+}
+
 static void set_cells(precision_problem *o, precision_sweep by, size_t i, double value,
                       const wt_estimate *reference, accuracy_timing time)
 {
     for (unsigned k = o->first; k < o->last; k++) {
         const wt_estimate e = o->number[k];
         const double stated = by == BY_ISOTHERMS ? e.standard_error : e.numerical_error;
-        set_cell(
-            o, k, by, i,
-            (sweep_point){value,
-                          {accuracy_relative(e.value, reference[k].value), stated / fabs(e.value)},
-                          time});
+        set_cell(o, k, by, i,
+                 (sweep_point){
+                     value,
+                     {relative_difference(e.value, reference[k].value), stated / fabs(e.value)},
+                     time});
     }
 }
 
@@ -137,18 +215,16 @@ static void begin_sweep(precision_problem *o)
 
 /* ---- tolerance ------------------------------------------------------------------------------- */
 
-static wt_status solve_tolerance(void *problem, double value, wt_error *err)
+static wt_status solve_tolerance(precision_problem *o, double value, wt_error *err)
 {
-    precision_problem *o = problem;
     o->work.tolerance = 1 / value;
     o->work.replicates = 0;
     return case_variant_compute(&o->current, &o->work, o->number, err);
 }
 
-static wt_status solve_case_textbook(void *problem, double value, wt_error *err)
+static wt_status solve_case_textbook(precision_problem *o, double value, wt_error *err)
 {
     enum { LEAST_ANGLES = 20 }; /* a usual number for a textbook rule */
-    precision_problem *o = problem;
     const sliding_contact *c = &o->contact;
     const size_t n = (size_t)value, angles = n / 20 * 2;
     const double none = (double)NAN;
@@ -205,9 +281,8 @@ static wt_status sweep_tolerance(precision_problem *o, wt_error *err)
 
 /* ---- replicates ------------------------------------------------------------------------------ */
 
-static wt_status solve_replicates(void *problem, double value, wt_error *err)
+static wt_status solve_replicates(precision_problem *o, double value, wt_error *err)
 {
-    precision_problem *o = problem;
     o->work.replicates = (size_t)value;
     return case_variant_compute(&o->current, &o->work, o->number, err);
 }
@@ -294,9 +369,8 @@ static void select_isotherms(const wt_sweep *all, size_t n, double reference, wt
     }
 }
 
-static wt_status solve_isotherms(void *problem, double value, wt_error *err)
+static wt_status solve_isotherms(precision_problem *o, double value, wt_error *err)
 {
-    precision_problem *o = problem;
     const wt_rubber *own = &o->given->rubber;
     const size_t n = (size_t)value;
     wt_sweep part = {.deformation = own->sweep.deformation, .n_isotherms = n};
@@ -323,6 +397,20 @@ static wt_status solve_isotherms(void *problem, double value, wt_error *err)
     return status;
 }
 
+/* Sets the errors of all inputs but the material to 0. */
+static void fix_inputs(case_variant *s)
+{
+    wt_estimate *const inputs[] = {&s->sliding.pressure,         &s->sliding.temperature,
+                                   &s->sliding.shear_stress,     &s->surface.c0,
+                                   &s->layer.specific_wear_rate, &s->layer.critical_energy,
+                                   &s->layer.observed_thickness, &s->known.thickness,
+                                   &s->known.modulus_ratio,      &s->known.ratio_slope};
+    for (size_t i = 0; i < COUNT_OF(inputs); i++)
+        if (inputs[i]->standard_error > 0)
+            inputs[i]->standard_error = 0;
+    s->softness.storage_error = s->softness.loss_error = NULL;
+}
+
 /* Too few isotherms may not determine a shift law that reaches the sliding temperature. They are
  * skipped. */
 static wt_status sweep_isotherms(precision_problem *o, wt_error *err)
@@ -332,7 +420,7 @@ static wt_status sweep_isotherms(precision_problem *o, wt_error *err)
     accuracy_timing time;
     double before = LEAST_ISOTHERMS - 1;
     begin_sweep(o);
-    bootstrap_fix_inputs(&o->current);
+    fix_inputs(&o->current);
     wt_status status = solve_isotherms(o, all, NULL);
     if (status != WT_OK)
         return status == WT_E_MEMORY ? wt_fail(err, status, "out of memory") : WT_OK;
@@ -356,22 +444,15 @@ static wt_status sweep_isotherms(precision_problem *o, wt_error *err)
 
 /* ---- job ------------------------------------------------------------------------------------- */
 
-static wt_status report_progress(const precision_problem *o, const char *what, wt_error *err)
-{
-    const wt_progress *p = &o->job_settings->progress;
-    if (p->report != NULL && !p->report(p->user, what, 0, 0))
-        return wt_fail(err, WT_E_CANCELLED, "cancelled");
-    return WT_OK;
-}
-
 /* Sweeps the numbers of friction, or those that the layer adds. */
 static wt_status sweep_numbers(precision_problem *o, unsigned first, unsigned last, wt_error *err)
 {
     o->first = first;
     o->last = last;
-    wt_status status = report_progress(o, "error against run time", err);
-    if (status == WT_OK)
-        status = sweep_tolerance(o, err);
+    const wt_progress *p = &o->job_settings->progress;
+    if (p->report != NULL && !p->report(p->user, "error against run time", 0, 0))
+        return wt_fail(err, WT_E_CANCELLED, "cancelled");
+    wt_status status = sweep_tolerance(o, err);
     if (status == WT_OK)
         status = sweep_replicates(o, err);
     if (status == WT_OK && o->n_isotherms > LEAST_ISOTHERMS)
@@ -396,6 +477,10 @@ static wt_status prepare_draws(precision_problem *o, wt_error *err)
     return status;
 }
 
+/* A reference in double precision is not more accurate than this. */
+static const double least_reference = DBL_EPSILON / 2;
+
+/* A true error below that of the reference is replaced by the latter. */
 static void add_precision_rows(const precision_problem *o, table_writer *t)
 {
     char part[96];
@@ -407,9 +492,11 @@ static void add_precision_rows(const precision_problem *o, table_writer *t)
                     continue;
                 snprintf(part, sizeof part, "%s%s%s", sweeps[by].before, case_quantity_names[k],
                          sweeps[by].after);
-                accuracy_add_row(t, (accuracy_row){part, sweeps[by].method, sweeps[by].case_variant,
-                                                   sweeps[by].words, c->value,
-                                                   o->reference_error[k][by], c->errors, c->time});
+                const double reference = fmax(o->reference_error[k][by], least_reference);
+                const accuracy_errors errors = {fmax(c->errors.true_error, reference),
+                                                c->errors.stated_error};
+                TABLE_ADD(work_precision, t, part, sweeps[by].method, sweeps[by].case_variant,
+                          sweeps[by].words, c->value, reference, errors, c->time);
             }
 }
 
@@ -502,8 +589,6 @@ wt_status wt_case_precision_compute(const wt_sliding *sliding, const wt_layer_jo
         add_precision_rows(o, &t);
         write_precision_summary(o, &t);
     }
-    if (status == WT_OK && job->built_in)
-        accuracy_add_parts(job, work, &t, err);
     if (status != WT_OK)
         t.status = status;
     status = table_end(&t, table);

@@ -318,43 +318,6 @@ static void draw_cost(figure_drawing *d)
     text_add(&d->script, "unset multiplot\n");
 }
 
-/* ---- coverage of the intervals --------------------------------------------------------------- */
-
-static void draw_coverage(figure_drawing *d)
-{
-    static const unsigned columns[] = {COVERAGE_BOTH, COVERAGE_LOW, COVERAGE_HIGH, COVERAGE_ONE};
-    const table_view *t = d->table;
-    const row_filter all = {{0, 0}, {NULL, NULL}, false};
-    const int section = drawing_section(d, t, "coverage", &all, columns, 4, 4);
-    value_span span = {0.5, 1};
-    if (section == NO_SECTION)
-        return;
-    span_add_section(&span, d, section, 1, false);
-    span_add_section(&span, d, section, 3, false);
-    d->height = 0.3 + 0.09 * (double)t->n_rows;
-    d->width = 1.3;
-    text_add(
-        &d->script,
-        "set lmargin 34\nset border 1\nset tmargin 3\nset key outside top center horizontal\n");
-    axis_linear(d, "x", "Share of the trials", &t->schema->columns[COVERAGE_BOTH], span);
-    text_format(&d->script, "set yrange [-0.7:%zu.7]\nset ytics (", t->n_rows - 1);
-    for (size_t i = 0; i < t->n_rows; i++) {
-        text_add(&d->script, i > 0 ? ", " : "");
-        text_tic_label(&d->script, coverage_text(t, i, COVERAGE_NUMBER));
-        text_format(&d->script, " %zu", t->n_rows - 1 - i);
-    }
-    text_add(&d->script, ") noenhanced scale 0\n"
-                         "set arrow from 0.95, graph 0 to 0.95, graph 1 nohead ls 12 back\n"
-                         "set arrow from 0.683, graph 0 to 0.683, graph 1 nohead ls 12 back\n");
-    plot_item(d, section,
-              "($1*x_unit):(%zu-$0):($2*x_unit):($3*x_unit) with xerrorbars ls 13 "
-              "title 'in the 95 %% interval'",
-              t->n_rows - 1);
-    plot_item(d, section, "($4*x_unit):(%zu-$0) with points ls 2 title 'within one standard error'",
-              t->n_rows - 1);
-    plot_end(d);
-}
-
 const figure_description figures_accuracy[] = {
     {.name = "work_precision",
      .title = "Error against run time",
@@ -390,15 +353,5 @@ const figure_description figures_accuracy[] = {
               "(open marks), of a fit what a further step would change. A tighter tolerance buys "
               "nothing where the open mark lies left of the full one.",
      .draw = draw_cost},
-    {.name = "coverage",
-     .title = "How often the stated intervals hold",
-     .table = &coverage_schema,
-     .nothing = "no interval was stated",
-     .words =
-         "Share of trials, drawn anew from the fit of the case, in which the truth lies in the "
-         "95 % interval (bars: how well so many trials tell the share) and within one standard "
-         "error; the lines are what is stated, 0.95 and 0.683. A wrong model cannot show here: "
-         "what is judged was made with it.",
-     .draw = draw_coverage},
     {.name = NULL},
 };

@@ -1,4 +1,4 @@
-/* Friction by the plain textbook method, as a benchmark of the kernel. It uses one grid of
+/* Friction by the plain textbook method, for comparison with the kernel. It uses one grid of
  * wavenumbers, equidistant in ln q, with the trapezoidal rule. The angle uses the closed form of
  * the law, or else Simpson's rule. The contact area of an interval is that at its end. There is no
  * grading and no error estimate. */

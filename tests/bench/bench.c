@@ -7,6 +7,7 @@
 
 #include "../status_name.h"
 #include "bench/bench.h"
+#include "bench/precision.h"
 
 static double run_seconds = 0.5;
 
@@ -28,10 +29,9 @@ static double processor_seconds(void)
 /* So long by the clock, whatever is measured: on a busy machine no longer than on another. */
 static double median_of(void (*work)(void *), void *data, double (*seconds_now)(void))
 {
-    enum { RUNS = 5 };
-    double seconds[RUNS];
+    double seconds[BENCH_RUNS];
     work(data); /* warm-up */
-    for (int r = 0; r < RUNS; r++) {
+    for (int r = 0; r < BENCH_RUNS; r++) {
         size_t calls = 0;
         const double end = wt_time_wall() + run_seconds, start = seconds_now();
         do {
@@ -40,8 +40,8 @@ static double median_of(void (*work)(void *), void *data, double (*seconds_now)(
         } while (wt_time_wall() < end);
         seconds[r] = (seconds_now() - start) / (double)calls;
     }
-    qsort(seconds, RUNS, sizeof *seconds, compare);
-    return seconds[RUNS / 2];
+    qsort(seconds, BENCH_RUNS, sizeof *seconds, compare);
+    return seconds[BENCH_RUNS / 2];
 }
 
 double bench_time(void (*work)(void *), void *data)
@@ -90,12 +90,15 @@ double bench_normal(bench_random *random)
 
 int main(int argc, char **argv)
 {
-    if (argc == 2 && strcmp(argv[1], "--short") == 0)
+    const bool precision = argc >= 2 && argc <= 3 && strcmp(argv[1], "--precision") == 0;
+    if (precision || (argc == 2 && strcmp(argv[1], "--short") == 0))
         run_seconds = 0.01;
     else if (argc > 1) {
-        fprintf(stderr, "usage: bench [--short]\n");
+        fprintf(stderr, "usage: bench [--short | --precision [PART]]\n");
         return 2;
     }
+    if (precision)
+        return bench_precision(argc == 3 ? argv[2] : NULL) > 0;
     printf("weartrack %s, one thread; processor time, median of five\n\n", wt_version());
     printf("%-34s %10s %-14s %10s  %10s  %s\n", "what", "weartrack", "", "textbook", "ratio",
            "largest difference");

@@ -1,10 +1,12 @@
-/* The benchmark program: each number beside the plain textbook method, in the same run.
+/* The benchmark program: each number paired with the plain textbook method, in the same run.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_TESTS_BENCH_H
 #define WT_TESTS_BENCH_H
 
 #include "weartrack/weartrack.h"
 
+/* Number of timed runs, whose median counts. */
+enum { BENCH_RUNS = 5 };
 /* Calls `work` until half a second has gone by, five times; returns the median seconds per call, of
  * the processor, which the other work of a machine changes less than those by the clock. */
 double bench_time(void (*work)(void *), void *data);

@@ -334,7 +334,7 @@ static void put_limits(void)
     put_limits_of("files that are read", (params_of *const[SECTION_TABLES]){wt_read_params});
     put_limits_of("options of the work",
                   (params_of *const[SECTION_TABLES]){wt_run_params, wt_accuracy_job_params,
-                                                     wt_coverage_job_params, wt_report_params});
+                                                     wt_report_params});
     puts(".PD");
 }
 

@@ -37,7 +37,6 @@ static const wt_params *(*const tables[])(void) = {
     wt_rubber_options_params,
     wt_transverse_params,
     wt_accuracy_job_params,
-    wt_coverage_job_params,
     wt_ramp_job_params,
     wt_reduction_params,
 };

@@ -280,8 +280,6 @@ void __wrap_friction_evaluate(const wt_friction_workspace *ws, friction_scratch 
 
 /* ---- one run --------------------------------------------------------------------------------- */
 
-enum { TRIALS = 2 };
-
 typedef struct ran {
     wt_case *c;
     flow_plan plan;
@@ -333,7 +331,6 @@ static ran run(const char *asks, size_t replicates, bool provenance)
     options.threads = 1;
     options.tolerance = 1e-3;
     options.replicates = replicates;
-    options.trials = TRIALS;
     options.no_provenance = !provenance;
     flow_plan_create(r.c, &r.plan);
     n_seen = 0;
@@ -451,14 +448,12 @@ static void check_curves(const char *asks, const ran *r)
         assert_true(count[CHANNELS] > channels * groups * fitted + lines &&
                     count[CHANNELS] <= channels * groups * (fitted + CURVES_OF_A_FILE) + lines);
     }
-    /* once more in each trial; and with the error of the lever stated at most 8 of them,
-     * here every eighth, with four sources moved down and up */
+    /* With the error of the cantilever stated, at most 8 of them, here every eighth, are fitted
+     * again with four sources moved down and up. */
     const size_t moved = fitted / 8 * 4 * 2;
     const bool common =
         shown(r, FLOW_MODULUS_BUDGET) || shown(r, FLOW_COMPARISON) || shown(r, FLOW_MODULUS_RATIO);
-    check(asks, AGAIN,
-          count[CURVES] + (runs(r, FLOW_COVERAGE) ? TRIALS * groups * fitted : (size_t)0) +
-              (common ? groups * moved : 0));
+    check(asks, AGAIN, count[CURVES] + (common ? groups * moved : 0));
     check(asks, DEPTHS,
           (size_t)shown(r, FLOW_DEPTH_BULK) + (size_t)shown(r, FLOW_DEPTH_TRACK) +
               2 * (size_t)runs(r, FLOW_TRACK_LAYER));
@@ -470,17 +465,14 @@ static void check_material(const char *asks, const ran *r)
                        runs(r, FLOW_COMPARISON) || runs(r, FLOW_DMA_COMPARISON) ||
                        (r->replicates > 0 && (runs(r, FLOW_LAYER) || runs(r, FLOW_FRICTION) ||
                                               runs(r, FLOW_ERROR_BUDGET)));
-    /* a trial fits again, and one more fit says what is drawn anew; the choice of the vertical
-     * shift fits again with each of the three others; error against run time fits again for many
-     * draws, and all isotherms as the reference and four shares of them, for the friction and for
-     * what the layer adds */
+    /* The choice of the vertical shift fits again with each of the three others. Error against run
+     * time fits again for many draws, and all isotherms as the reference and four shares of them,
+     * for the friction and for what the layer adds. */
     const size_t precision = runs(r, FLOW_WORK_PRECISION), fewer = 2 * (1 + 4) * precision;
-    const size_t trials = runs(r, FLOW_COVERAGE) ? TRIALS : 0;
     check(asks, MASTERS,
-          runs(r, FLOW_PRONY) + 3 * (size_t)runs(r, FLOW_WHAT_IF) + (trials > 0) + trials +
-              precision + fewer);
-    check(asks, VERDICTS, (size_t)runs(r, FLOW_PRONY) + (trials > 0));
-    check(asks, DRAWS, 200 * (drawn + (r->replicates > 0 ? trials : 0) + fewer) + 4000 * precision);
+          runs(r, FLOW_PRONY) + 3 * (size_t)runs(r, FLOW_WHAT_IF) + precision + fewer);
+    check(asks, VERDICTS, (size_t)runs(r, FLOW_PRONY));
+    check(asks, DRAWS, 200 * (drawn + fewer) + 4000 * precision);
 }
 
 /* What the DMA tells beside the material of the other stages. */
@@ -500,17 +492,17 @@ static void check_sliding(const char *asks, const ran *r)
     const size_t layer = runs(r, FLOW_LAYER), friction = runs(r, FLOW_FRICTION);
     const size_t area = shown(r, FLOW_CONTACT_AREA), density = shown(r, FLOW_ENERGY_DENSITY);
     const bool settings = runs(r, FLOW_WHAT_IF); /* the budget needs it */
-    const bool covered = runs(r, FLOW_COVERAGE) || runs(r, FLOW_WORK_PRECISION);
+    const bool timed = runs(r, FLOW_WORK_PRECISION);
     const size_t times = 1 + r->replicates;
     check(asks, DENSITIES, density > 0 ? DEPTHS_SHOWN : 0);
     check(asks, PROFILES, 3 * area);
     check_some(asks, SHARES, friction > 0 || settings);
     /* the errors are those of the values themselves */
-    if (!settings && !covered && count[REACHES] > layer * (1 + TIMES_SHOWN))
+    if (!settings && !timed && count[REACHES] > layer * (1 + TIMES_SHOWN))
         fail_msg("%s: %s: %zu", asks, work_names[REACHES], (size_t)count[REACHES]);
     check(asks, TIMES, 2 * times * layer); /* incubation, and to 90 % */
-    check_some(asks, PASSES, layer + friction + area + density > 0 || settings || covered);
-    if (settings || covered)
+    check_some(asks, PASSES, layer + friction + area + density > 0 || settings || timed);
+    if (settings || timed)
         return;
     check(asks, WORKSPACES, times * (layer + 2 * friction) + area + density);
     check(asks, SOURCES_OF, times * layer + density);

@@ -123,12 +123,6 @@ static void run_errors(wt_case *c, wt_run_options options)
     if (wt_result_find(result, "work_precision") != NULL)
         see(wt_result_find(result, "work_precision"));
     wt_result_free(result);
-    options.trials = 2;
-    assert_int_equal(wt_case_request_tables(c, "coverage", NULL), WT_OK);
-    assert_int_equal(wt_run_case(c, &options, NULL, &result, NULL, NULL), WT_OK);
-    if (wt_result_find(result, "coverage") != NULL)
-        see(wt_result_find(result, "coverage"));
-    wt_result_free(result);
 }
 
 /* A bundled case with one text in the place of another. */
@@ -190,18 +184,6 @@ static void test_directions(void **state)
         see(table);
         wt_table_free(table);
     }
-}
-
-static void test_accuracy(void **state)
-{
-    (void)state;
-    wt_accuracy_job job = wt_accuracy_job_defaults();
-    const wt_job common = wt_job_defaults();
-    wt_table *table = NULL;
-    job.part = "layer-history";
-    assert_int_equal(wt_accuracy_compute(&job, &common, &table, NULL), WT_OK);
-    see(table);
-    wt_table_free(table);
 }
 
 static void run_case(const char *text, const char *instead)
@@ -1474,7 +1456,6 @@ int main(void)
         cmocka_unit_test(test_directions),
         cmocka_unit_test(test_spot),
         cmocka_unit_test(test_surface),
-        cmocka_unit_test(test_accuracy),
         cmocka_unit_test(test_all_put),
     };
     return cmocka_run_group_tests_name("tables put", tests, open_formats, free_formats);

@@ -312,8 +312,6 @@ static void test_curves_are_drawn_from_their_columns(void **state)
         {"cost", "boxxyerror ls 1", "runs cpu_time"},
         {"cost", "points ls 1", "standard_error runs"},
         {"cost", "points ls 2", "error_estimated runs"},
-        {"coverage", "xerrorbars ls 13", "covered_95 low high"},
-        {"coverage", "points ls 2", "within_one"},
     };
     for (size_t i = 0; i < wt_figure_count(); i++) {
         const char *figure = wt_figure_get(i).name;

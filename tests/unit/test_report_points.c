@@ -119,8 +119,7 @@ static void test_whole_tables(void **state)
                                            {"flash_friction", "flash_temperature"},
                                            {"energy_density", "energy_density"},
                                            {"layer", "layer"},
-                                           {"cost", "cost"},
-                                           {"coverage", "coverage"}};
+                                           {"cost", "cost"}};
     for (size_t i = 0; i < sizeof whole / sizeof *whole; i++) {
         sections s = begin_sections(whole[i][0]);
         next_is(&s, (chosen){.table = whole[i][1]});
@@ -422,17 +421,8 @@ static void test_names_at_their_places(void **state)
 {
     (void)state;
     NEED_REPORT();
-    char *script = read_plot("out", "coverage", "gp"), tic[160];
-    const wt_table *t = wt_result_find(everything, "coverage");
-    for (size_t i = 0; i < wt_table_n_rows(t); i++) {
-        snprintf(tic, sizeof tic, "'%s' %zu%s", text_cell(t, i, "number"),
-                 wt_table_n_rows(t) - 1 - i, i + 1 < wt_table_n_rows(t) ? ", " : ")");
-        if (strstr(script, tic) == NULL)
-            fail_msg("coverage: no %s", tic);
-    }
-    free(script);
-    script = read_plot("out", "cost", "gp");
-    t = wt_result_find(everything, "cost");
+    char *script = read_plot("out", "cost", "gp"), tic[160];
+    const wt_table *t = wt_result_find(everything, "cost");
     size_t n = 0;
     for (size_t i = 0; i < wt_table_n_rows(t); i++) {
         char stage[96];

@@ -134,9 +134,6 @@ typedef enum flow_optional_output {
     X(ERROR_BUDGET, error_budget, "Which error costs the numbers most: friction",                  \
       B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(WHAT_IF), 0, FLOW_AND_THICKNESS, B(ERROR_BUDGET), \
       flow_step_budget)                                                                            \
-    X(COVERAGE, coverage, "How often the stated intervals hold: friction",                         \
-      B(RUBBER) | B(SURFACE) | B(CONDITIONS), 0, FLOW_AND_THICKNESS, B(COVERAGE),                  \
-      flow_step_coverage)                                                                          \
     X(WORK_PRECISION, work_precision, "Error against run time: friction",                          \
       B(RUBBER) | B(SURFACE) | B(CONDITIONS), 0, FLOW_AND_THICKNESS, B(WORK_PRECISION),            \
       flow_step_precision)

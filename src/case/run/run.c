@@ -18,7 +18,6 @@ wt_run_options wt_run_defaults(void)
     return (wt_run_options){.tolerance = job.tolerance,
                             .seed = job.seed,
                             .replicates = job.replicates,
-                            .trials = 100,
                             .precision = wt_accuracy_job_defaults()};
 }
 
@@ -353,7 +352,6 @@ static wt_status prepare_execution(run_execution *d, const wt_run_options *optio
     if (log == NULL)
         log = d->own_log = wt_log_new();
     d->run.no_provenance = options->no_provenance;
-    d->run.trials = options->trials;
     d->run.precision = options->precision;
     d->result = wt_result_new();
     d->failures = wt_failures_new();

@@ -13,8 +13,6 @@ void flow_run_clear(flow_run *run)
     for (size_t i = 0; i < FLOW_N_RESOURCES; i++)
         wt_table_free(run->table[i]);
     wt_indent_tables_clear(&run->curves);
-    for (int g = 0; g < 2; g++)
-        wt_curve_set_free(run->curve_sets[g]);
     wt_rubber_clear(&run->rubber);
     wt_rubber_clear(&run->layer_rubber);
     wt_surface_clear(&run->surface);
@@ -64,12 +62,6 @@ static wt_status indent_group(flow_run *run, int g, wt_error *err)
     job.median_curve = (run->plan.wanted & FLOW_BIT(curve[g])) != 0;
     job.rubber = run->level > 0 ? &run->rubber : NULL;
     job.temperature = indentation_temperature_of_group(run->c, g);
-    if ((run->plan.required & FLOW_BIT(FLOW_COVERAGE)) != 0) {
-        wt_curve_set_free(run->curve_sets[g]);
-        job.keep = run->curve_sets[g] = wt_curve_set_new();
-        if (job.keep == NULL)
-            return wt_fail(err, WT_E_MEMORY, "out of memory for the curves");
-    }
     wt_status status = wt_indent_group(&job, &run->job, &run->curves, err);
     flow_run_store_table(run, g == 0 ? FLOW_INDENTATION_BULK : FLOW_INDENTATION_TRACK,
                          &run->curves.indentation);
@@ -471,8 +463,7 @@ wt_status flow_step_flash_effect(flow_run *run, wt_error *err)
     return wt_flash_temperature_compute(&sliding, &run->job, &run->table[FLOW_FLASH_EFFECT], err);
 }
 
-/* ---- what if, error budget, coverage, error against run time ----------------------------------
- */
+/* ---- what if, error budget, error against run time ---------------------------------------- */
 
 /* Optional inputs of a stage beyond friction: the layer at level 1, then its observations at level
  * 2. */
@@ -509,23 +500,6 @@ wt_status flow_step_budget(flow_run *run, wt_error *err)
     return status == WT_OK ? wt_error_budget_compute(&sliding, parts.layer, parts.known,
                                                      run->table[FLOW_WHAT_IF], &run->job,
                                                      &run->table[FLOW_ERROR_BUDGET], err)
-                           : status;
-}
-
-wt_status flow_step_coverage(flow_run *run, wt_error *err)
-{
-    const wt_sliding sliding = flow_run_sliding(run);
-    layer_inputs parts;
-    const wt_status status = load_layer_inputs(run, &parts, err);
-    const wt_coverage_job job = {.sliding = &sliding,
-                                 .layer = parts.layer,
-                                 .known = parts.known,
-                                 .bulk = run->table[FLOW_INDENTATION_BULK],
-                                 .track = run->table[FLOW_INDENTATION_TRACK],
-                                 .curves = {run->curve_sets[0], run->curve_sets[1]},
-                                 .ratio_of_groups = !run->plan.chosen[FLOW_STAGE_GIVEN_RATIO],
-                                 .trials = run->trials};
-    return status == WT_OK ? wt_coverage_compute(&job, &run->job, &run->table[FLOW_COVERAGE], err)
                            : status;
 }
 

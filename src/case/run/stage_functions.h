@@ -12,7 +12,6 @@ typedef struct flow_run {
     unsigned level;                    /* of the current stage */
     wt_table *table[FLOW_N_RESOURCES]; /* tables of the resources that are tables of their own */
     wt_indent_tables curves;           /* only the curve tables */
-    wt_curve_set *curve_sets[2];       /* curves of bulk and track for the coverage stage */
     wt_rubber rubber, layer_rubber;
     bool has_layer_rubber;
     wt_surface surface;
@@ -22,7 +21,6 @@ typedef struct flow_run {
     double modulus_ratio_df;  /* 0 if its error is normal */
     double calibration_share; /* share of the calibration in the variance of modulus_ratio */
     bool no_provenance;
-    size_t trials;             /* number of trials of the coverage */
     wt_accuracy_job precision; /* options of the stage "error against run time" */
 } flow_run;
 

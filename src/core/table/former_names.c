@@ -31,8 +31,6 @@ static const struct {
     {"angular_spectrum", "chance", "p_value"},
     {"angular_spectrum", "chance_fourth", "p_value_fourth"},
     {"cost", "because", "reason"},
-    {"coverage", "caution", "limitations"},
-    {"coverage", "within_95", "covered_95"},
     {"error_budget", "lacks", "excluded_errors"},
     {"modulus_depth", "chance_", "p_value_"},
     {"plan", "because", "reason"},

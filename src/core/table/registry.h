@@ -31,7 +31,6 @@
 #include "study/tables.h"
 #include "study/tables_accuracy.h"
 #include "study/tables_collection.h" /* with its intervals */
-#include "study/tables_coverage.h"
 #include "study/tables_error_budget.h"
 #include "study/tables_what_if.h"
 #include "surface/tables.h"
@@ -187,7 +186,6 @@
     X(validation_sources, VALIDATION_SOURCES, "validation_sources",                                \
       "Where the error of measured over predicted comes from", "validate")                         \
     X(error_budget, ERROR_BUDGET, "error_budget", "Error budget", "accuracy")                      \
-    X(coverage, COVERAGE, "coverage", "How often the stated intervals hold", "accuracy")           \
     X(work_precision, WORK_PRECISION, "work_precision", "Error against run time", "accuracy")      \
     X(force_curve, FORCE_CURVE, "force_curve/", "force curve", "convert")                          \
     X(map_curves, MAP_CURVES, "force_map/curves", "force curves", "convert")                       \

@@ -1,9 +1,9 @@
 /* Reference values of friction in long double by other methods than the kernel: tanh-sinh rules
  * between the relaxation times for the angle, Gauss rules with a nested integral for the
- * wavenumber. Internal to study.
+ * wavenumber.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef WT_STUDY_REFERENCE_VALUES_H
-#define WT_STUDY_REFERENCE_VALUES_H
+#ifndef WT_TESTS_REFERENCE_VALUES_H
+#define WT_TESTS_REFERENCE_VALUES_H
 
 #include <stddef.h>
 

@@ -1,6 +1,6 @@
 /* Accuracy of the steady-state thickness and of the growth of the modified layer.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "study/accuracy.h"
+#include "bench/precision.h"
 
 #include <float.h>
 #include <math.h>
@@ -36,12 +36,12 @@ static void end_layer(void *problem)
     wt_energy_source_clear(&p->source);
 }
 
-static accuracy_errors layer_errors(const void *problem)
+static precision_errors layer_errors(const void *problem)
 {
     const layer_problem *p = problem;
-    accuracy_errors e = {0, p->stated};
+    precision_errors e = {0, p->stated};
     for (size_t i = 0; i < p->n; i++)
-        e.true_error = fmax(e.true_error, accuracy_relative(p->found[i], p->truth[i]));
+        e.true_error = fmax(e.true_error, precision_relative(p->found[i], p->truth[i]));
     return e;
 }
 
@@ -67,7 +67,7 @@ static bool is_growing(const void *problem, long double z)
 
 static long double bisect_thickness(const layer_problem *p, int steps)
 {
-    return accuracy_bisect(is_growing, p, 0, 1e-2L, steps);
+    return precision_bisect(is_growing, p, 0, 1e-2L, steps);
 }
 
 static wt_status begin_balance(void *problem, double *reference_error, wt_error *err)
@@ -177,8 +177,8 @@ static wt_status solve_runge_kutta(void *problem, double value, wt_error *err)
     return WT_OK;
 }
 
-const accuracy_part accuracy_layer[] = {
-    {"layer-balance",
+const precision_part precision_layer[] = {
+    {.name = "layer-balance",
      "Thickness at balance of an energy that 400 wavenumbers bring; reference: bisection in long "
      "double",
      sizeof(layer_problem),
@@ -186,14 +186,16 @@ const accuracy_part accuracy_layer[] = {
      layer_errors,
      end_layer,
      {{"weartrack", "safeguarded Newton", {1}, solve_balance},
-      {"textbook", "bisections", {10, 20, 30, 40, 50}, solve_balance_bisection}}},
-    {"layer-history",
+      {"textbook", "bisections", {10, 20, 30, 40, 50}, solve_balance_bisection}},
+     .is_bound = true},
+    {.name = "layer-history",
      "Thickness at 64 times, one wavenumber; reference: closed form",
      sizeof(layer_problem),
      begin_history,
      layer_errors,
      end_layer,
      {{"weartrack", "quadrature of the time", {1}, solve_history},
-      {"textbook", "Runge-Kutta steps between two times", {1, 4, 16, 64, 256}, solve_runge_kutta}}},
+      {"textbook", "Runge-Kutta steps between two times", {1, 4, 16, 64, 256}, solve_runge_kutta}},
+     .is_bound = true},
     {.name = NULL},
 };

@@ -1,7 +1,7 @@
 /* Accuracy of hysteresis friction for each kind of material.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "study/accuracy.h"
-#include "study/reference_values.h"
+#include "bench/precision.h"
+#include "bench/reference_values.h"
 #include "study/textbook_methods.h"
 
 #include <math.h>
@@ -47,7 +47,7 @@ static void end_friction(void *problem)
 static void set_reference(friction_problem *p, double *reference_error)
 {
     p->truth = reference_friction(&p->contact, ORDER);
-    *reference_error = accuracy_relative(reference_friction(&p->contact, CHECK), p->truth);
+    *reference_error = precision_relative(reference_friction(&p->contact, CHECK), p->truth);
 }
 
 static wt_status create_prony_material(const reference_contact *c, wt_material **material,
@@ -197,10 +197,10 @@ static wt_status solve_textbook_friction(void *problem, double value, wt_error *
     return status == WT_OK ? status : wt_fail(err, status, "the textbook method failed");
 }
 
-static accuracy_errors friction_errors(const void *problem)
+static precision_errors friction_errors(const void *problem)
 {
     const friction_problem *p = problem;
-    return (accuracy_errors){accuracy_relative(p->found, p->truth), p->stated};
+    return (precision_errors){precision_relative(p->found, p->truth), p->stated};
 }
 
 #define FRICTION_METHODS                                                                           \
@@ -211,20 +211,40 @@ static accuracy_errors friction_errors(const void *problem)
         }                                                                                          \
     }
 
-const accuracy_part accuracy_friction[] = {
-    {"friction-prony",
+const precision_part precision_friction[] = {
+    {.name = "friction-prony",
      "Hysteresis friction at one velocity with set-up, Prony series of 6 terms; reference: long "
      "double, other rules",
-     sizeof(friction_problem), begin_prony, friction_errors, end_friction, FRICTION_METHODS},
-    {"friction-zener", "The same for a fractional Zener law; reference: long double, other rules",
-     sizeof(friction_problem), begin_zener, friction_errors, end_friction, FRICTION_METHODS},
-    {"friction-transverse",
+     sizeof(friction_problem),
+     begin_prony,
+     friction_errors,
+     end_friction,
+     FRICTION_METHODS,
+     .is_bound = true},
+    {.name = "friction-zener",
+     "The same for a fractional Zener law; reference: long double, other rules",
+     sizeof(friction_problem),
+     begin_zener,
+     friction_errors,
+     end_friction,
+     FRICTION_METHODS,
+     .is_bound = true},
+    {.name = "friction-transverse",
      "The same for the series with directions: along the surface normal 1.5 E' and 2 E''; "
      "reference: long double, other rules",
-     sizeof(friction_problem), begin_transverse, friction_errors, end_friction, FRICTION_METHODS},
-    {"friction-table",
+     sizeof(friction_problem),
+     begin_transverse,
+     friction_errors,
+     end_friction,
+     FRICTION_METHODS,
+     .is_bound = true},
+    {.name = "friction-table",
      "The same for a table of 107 knots; reference: the kernel at the tolerance 1e-13",
-     sizeof(friction_problem), begin_table_material, friction_errors, end_friction,
-     FRICTION_METHODS},
+     sizeof(friction_problem),
+     begin_table_material,
+     friction_errors,
+     end_friction,
+     FRICTION_METHODS,
+     .is_bound = true},
     {.name = NULL},
 };

@@ -1,7 +1,7 @@
 /* Accuracy of the contact force and of the contact fit.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "job/random_draws.h"
-#include "study/accuracy.h"
+#include "bench/bench.h"
+#include "bench/precision.h"
 
 #include <float.h>
 #include <math.h>
@@ -62,7 +62,7 @@ static long double bisect_radius(const wt_tip *tip, double depth, int steps)
     long double high = 1e-9L;
     while (is_shallower(&s, high))
         high *= 2;
-    return accuracy_bisect(is_shallower, &s, 0, high, steps);
+    return precision_bisect(is_shallower, &s, 0, high, steps);
 }
 
 static wt_status begin_force(void *problem, double *reference_error, wt_error *err)
@@ -126,12 +126,12 @@ static wt_status solve_force_bisection(void *problem, double value, wt_error *er
     return WT_OK;
 }
 
-static accuracy_errors force_errors(const void *problem)
+static precision_errors force_errors(const void *problem)
 {
     const force_problem *p = problem;
-    accuracy_errors e = {0, p->stated};
+    precision_errors e = {0, p->stated};
     for (int i = 0; i < DEPTHS; i++)
-        e.true_error = fmax(e.true_error, accuracy_relative(p->force[i], p->truth[i]));
+        e.true_error = fmax(e.true_error, precision_relative(p->force[i], p->truth[i]));
     return e;
 }
 
@@ -174,12 +174,12 @@ static void end_fit(void *problem)
 
 static void simulate_curve(fit_problem *p, int n, int curve)
 {
+    bench_random random = {(uint64_t)curve};
     double slope;
     for (int i = 0; i < n; i++) {
         p->position[i] = 1.5e-6 * i / (n - 1);
         wt_contact_function(&p->tip, p->position[i] - CONTACT_POSITION, &p->g[i], &slope);
-        p->force[i] = MODULUS / 0.75 * p->g[i] +
-                      RESIDUAL * flow_draw_normal((uint64_t)curve, (uint64_t)i, FLOW_DRAW_NOISE);
+        p->force[i] = MODULUS / 0.75 * p->g[i] + RESIDUAL * bench_normal(&random);
         p->height[i] = p->position[i] + p->force[i] / SPRING_CONSTANT;
     }
 }
@@ -233,17 +233,17 @@ static wt_status solve_scan(void *problem, double value, wt_error *err)
     return WT_OK;
 }
 
-static accuracy_errors fit_errors(const void *problem)
+static precision_errors fit_errors(const void *problem)
 {
     const fit_problem *p = problem;
     double sum = 0;
     for (int c = 0; c < CURVES; c++)
         sum += pow(p->modulus[c] / MODULUS - 1, 2);
-    return (accuracy_errors){sqrt(sum / CURVES), p->stated};
+    return (precision_errors){sqrt(sum / CURVES), p->stated};
 }
 
-const accuracy_part accuracy_contact[] = {
-    {"contact-force",
+const precision_part precision_contact[] = {
+    {.name = "contact-force",
      "Force of a blunted pyramid at 1000 depths from 0.1 nm to 1 um; reference: the published pair "
      "depth and force against contact radius, solved in long double",
      sizeof(force_problem),
@@ -255,8 +255,9 @@ const accuracy_part accuracy_contact[] = {
       {"textbook",
        "bisections of the contact radius",
        {5, 10, 20, 30, 40, 50},
-       solve_force_bisection}}},
-    {"contact-fit",
+       solve_force_bisection}},
+     .is_bound = true},
+    {.name = "contact-fit",
      "Modulus of four simulated curves with noise, against the one they were made with; the true "
      "error is that of these four, its floor the noise",
      sizeof(fit_problem),

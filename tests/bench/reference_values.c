@@ -1,6 +1,6 @@
 /* Reference values of friction in long double arithmetic.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "study/reference_values.h"
+#include "bench/reference_values.h"
 
 #include <complex.h>
 #include <math.h>

@@ -1,9 +1,11 @@
 /* Accuracy of shift factors, relaxation spectrum and standard errors by draws.
  * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "bench/bench.h"
+#include "bench/precision.h"
+
 #include "core/math/cholesky.h"
 #include "dma/law/prony_law.h"
 #include "job/random_draws.h"
-#include "study/accuracy.h"
 
 #include <math.h>
 #include <string.h>
@@ -35,6 +37,7 @@ static wt_status begin_shift(void *problem, double *reference_error, wt_error *e
 {
     shift_problem *p = problem;
     const wt_wlf wlf = {293.15, 8.5, 130};
+    bench_random random = {1};
     *reference_error = 0;
     for (int i = 0; i < ISOTHERMS; i++) {
         wt_isotherm *iso = wt_sweep_add(&p->sweep, POINTS, 0);
@@ -44,13 +47,11 @@ static wt_status begin_shift(void *problem, double *reference_error, wt_error *e
         p->truth[i] = wt_wlf_log_shift(&wlf, iso->temperature);
         for (int j = 0; j < POINTS; j++) {
             const double omega = 0.1 * pow(10, 3.0 * j / (POINTS - 1));
-            const uint64_t place = (uint64_t)(i * POINTS + j);
             double storage = 0, loss = 0;
             simulated_moduli(omega * pow(10, p->truth[i]), &storage, &loss);
             iso->angular_frequency[j] = omega;
-            iso->storage_modulus[j] =
-                storage * (1 + NOISE * flow_draw_normal(1, place, FLOW_DRAW_NOISE));
-            iso->loss_modulus[j] = loss * (1 + NOISE * flow_draw_normal(2, place, FLOW_DRAW_NOISE));
+            iso->storage_modulus[j] = storage * (1 + NOISE * bench_normal(&random));
+            iso->loss_modulus[j] = loss * (1 + NOISE * bench_normal(&random));
         }
     }
     wt_sweep_sort(&p->sweep);
@@ -138,13 +139,13 @@ static wt_status solve_pairs(void *problem, double value, wt_error *err)
     return WT_OK;
 }
 
-static accuracy_errors shift_errors(const void *problem)
+static precision_errors shift_errors(const void *problem)
 {
     const shift_problem *p = problem;
     double sum = 0;
     for (int i = 0; i < ISOTHERMS; i++)
         sum += pow(p->log_a[i] - p->truth[i], 2);
-    return (accuracy_errors){M_LN10 * sqrt(sum / ISOTHERMS), p->stated};
+    return (precision_errors){M_LN10 * sqrt(sum / ISOTHERMS), p->stated};
 }
 
 /* ---- relaxation spectrum --------------------------------------------------------------------- */
@@ -243,10 +244,10 @@ static wt_status solve_collocation(void *problem, double value, wt_error *err)
     return WT_OK;
 }
 
-static accuracy_errors spectrum_errors(const void *problem)
+static precision_errors spectrum_errors(const void *problem)
 {
     const shift_problem *p = problem;
-    return (accuracy_errors){p->error, p->stated};
+    return (precision_errors){p->error, p->stated};
 }
 
 /* ---- draws ----------------------------------------------------------------------------------- */
@@ -294,14 +295,14 @@ static wt_status solve_propagation(void *problem, double value, wt_error *err)
     return WT_OK;
 }
 
-static accuracy_errors draws_errors(const void *problem)
+static precision_errors draws_errors(const void *problem)
 {
     const draw_problem *p = problem;
-    return (accuracy_errors){accuracy_relative(p->error, p->truth), p->stated};
+    return (precision_errors){precision_relative(p->error, p->truth), p->stated};
 }
 
-const accuracy_part accuracy_spectrum[] = {
-    {"shifting",
+const precision_part precision_spectrum[] = {
+    {.name = "shifting",
      "Shift factors of 12 simulated isotherms of 16 points with 0.5 % noise, against the law they "
      "were made with; the true error is the rms of this set, its floor the noise",
      sizeof(shift_problem),
@@ -310,7 +311,7 @@ const accuracy_part accuracy_spectrum[] = {
      end_shift,
      {{"weartrack", "terms per decade of the spectrum", {2, 3, 4, 6, 10}, solve_shift},
       {"textbook", "trial shifts of each neighbour", {30, 100, 300, 1000}, solve_pairs}}},
-    {"spectrum",
+    {.name = "spectrum",
      "E' and E'' of the spectrum of the same isotherms between their points, against the series "
      "they "
      "were made with, rms; the textbook knows the shifts",
@@ -323,7 +324,7 @@ const accuracy_part accuracy_spectrum[] = {
        "terms per decade, linear least squares",
        {0.5, 1, 1.5, 2, 3},
        solve_collocation}}},
-    {"draws",
+    {.name = "draws",
      "Standard error of a logarithmic normal number by replicates, against its formula",
      sizeof(draw_problem),
      begin_draws,
