@@ -184,8 +184,8 @@ typedef struct wt_master_shift {
 typedef enum wt_shift_route {
     WT_SHIFTS_FROM_SPECTRUM, /* fit of one spectrum to all isotherms */
     WT_SHIFTS_FROM_OVERLAP   /* overlap of the storage moduli of neighbours: one spectrum was not
-                              found   or does not fit the isotherms. Only the shifts are returned;
-                              their   errors include the variation over the overlap */
+                              found or does not fit the isotherms. Only the shifts are returned; their
+                              errors include the variation over the overlap */
 } wt_shift_route;
 
 typedef enum wt_superposition {
@@ -216,9 +216,9 @@ typedef struct wt_master {
     wt_interval *fitted_loss_factor;           /* [n] log10 of the fitted tan delta */
     double *log_step; /* [n] for step tests: log10 of E(t), or 1/J(t) in creep [Pa], at the reduced
                          time 1/frequency; else NaN */
-    wt_interval *fitted_step;         /* [n] the same of the fitted spectrum */
+    wt_interval *fitted_step;         /* [n] value of the fitted spectrum */
     size_t *isotherm;                 /* [n] index into `shifts` */
-    bool *left_out;                   /* [n] excluded as an outlier in a modulus */
+    bool *is_outlier;                 /* [n] excluded as an outlier in a modulus */
     double noise_storage, noise_loss; /* relative standard deviation */
     double correlation;               /* correlation of the noise of adjacent points */
     size_t n_outliers;
@@ -241,11 +241,12 @@ typedef struct wt_master {
     double lack_of_fit_p, misfit_low, misfit_high;           /* misfit: relative, 95 % interval */
     double kramers_kronig_p, loss_factor, loss_factor_error; /* ln of a factor on all E'' */
     double valid_from, valid_to;    /* [K] where superposition holds, if it fails beyond; or NaN */
-    bool settled;                   /* false: a fit ended at its last step */
-    char because[256];              /* of the verdict, and what would settle it */
-    size_t evaluations;             /* of the model, at all points */
-    double step_allowed, step_left; /* what a further step may change, and would at most
-                                       [standard errors] */
+    bool has_converged;             /* false: a fit stopped at the largest number of steps */
+    char superposition_reason[256]; /* reason for the verdict on superposition, and how to decide it
+                                     */
+    size_t evaluations;             /* number of evaluations of the model at all points */
+    double step_tolerance, step_bound; /* largest change by one more step: the tolerance, and its
+                                          upper bound [standard errors] */
     wt_posterior *posterior;
 } wt_master;
 WT_API void wt_master_clear(wt_master *master);
@@ -289,7 +290,8 @@ WT_API wt_status wt_master_draw(const wt_master *master, uint64_t seed, size_t i
                                 wt_prony *prony, wt_shift_law *law, double *log_b,
                                 wt_error *err) WT_NODISCARD;
 
-/* ---- few terms in place of a spectrum ------------------------------------------------------- */
+/* ---- reduced series: few terms in place of a spectrum
+ * ------------------------------------------------------- */
 
 typedef struct wt_reduction {
     unsigned terms;   /* 0 (default): the fewest for the error */
@@ -321,7 +323,8 @@ typedef struct wt_zener_fit {
 WT_API wt_status wt_master_zener(const wt_master *master, const wt_prony *series, wt_zener_fit *fit,
                                  wt_error *err) WT_NODISCARD;
 
-/* ---- rubber: moduli at one temperature and how to go to another ----------------------------- */
+/* ---- rubber: moduli at one temperature, and their shift to others -----------------------------
+ */
 
 /* One joint draw of the uncertain properties of a rubber. */
 typedef struct wt_rubber_draw {
@@ -469,8 +472,9 @@ typedef enum wt_shared_law_mode {
 
 typedef struct wt_shared_law_member {
     bool used;
-    char why_not[64];
-    wt_interval moved; /* its reference temperature above that of the first used sample [K] */
+    char reason[64];
+    wt_interval
+        reference_offset; /* its reference temperature minus that of the first used sample [K] */
 } wt_shared_law_member;
 
 /* An isotherm of a used sample. Shifts in decades, without the offset of the sample. */
@@ -516,22 +520,22 @@ typedef struct wt_shared_shift_law_job {
 } wt_shared_shift_law_job;
 WT_API wt_shared_shift_law_job wt_shared_shift_law_job_defaults(void);
 WT_API const wt_params *wt_shared_shift_law_job_params(void);
-/* Table "shared_shift_law": the law with its errors, the shifts about it, and whether the samples
- * have one law. */
+/* Creates the table "shared_shift_law": the law with its errors, the deviations of the shifts, and
+ * the test that the samples have one law. */
 WT_API wt_status wt_shared_shift_law_compute(const wt_shared_shift_law_job *job, wt_table **table,
                                              wt_error *err) WT_NODISCARD;
 
-/* ---- temperature sweeps: peaks and the glass transition ------------------------------------- */
+/* ---- temperature sweeps: peaks and glass transition ------------------------------------- */
 
 /* Maximum of a curve of scattered points. The errors are due to the scatter of the points, not to
  * the thermometer. */
 typedef struct wt_peak {
     bool found;
     wt_interval at,
-        height;          /* NaN if not found; bounds that too few points determine are NaN, too */
-    size_t n;            /* points used */
-    double misfit;       /* root mean square deviation from the curve, relative to the height */
-    const char *why_not; /* "" or the reason why it is not found or not bounded; static */
+        height;         /* NaN if not found; bounds that too few points determine are NaN, too */
+    size_t n;           /* points used */
+    double misfit;      /* root mean square deviation from the curve, relative to the height */
+    const char *reason; /* "" or the reason why it is not found or not bounded; static */
 } wt_peak;
 /* Finds the peak; x increasing, y > 0. The curve is a parabola of ln y plus a Gaussian process,
  * down to half the height. With `points` > 0 it is a plain parabola of y through so many points
@@ -548,15 +552,16 @@ WT_API wt_status wt_secondary_peaks(const double *x, const double *y, size_t n, 
  * slope is a tenth of that. */
 typedef struct wt_onset {
     bool found;
-    wt_interval at;      /* NaN if not found */
-    size_t n;            /* points used */
-    const char *why_not; /* "" or the reason why it is not found; static */
+    wt_interval at;     /* NaN if not found */
+    size_t n;           /* points used */
+    const char *reason; /* "" or the reason why it is not found; static */
 } wt_onset;
 /* Finds the onset; x increasing, y > 0. The curve is that of wt_peak_find through the points about
  * the fall. */
 WT_API wt_status wt_onset_find(const double *x, const double *y, size_t n, wt_onset *onset,
                                wt_error *err) WT_NODISCARD;
-/* Returns the value of such a curve through the neighbours of x = `at`; NaN outside of the points.
+/* Interpolates at x = `at` with the curve of wt_peak_find through the neighbouring points. The
+ * value is NaN outside of the points.
  */
 WT_API wt_status wt_smooth_interpolate(const double *x, const double *y, size_t n, double at,
                                        wt_interval *value, wt_error *err) WT_NODISCARD;
@@ -608,8 +613,8 @@ typedef struct wt_payne {
     wt_interval storage_0, storage_inf, strain_c, exponent, loss_m, loss_inf;
     double storage_misfit,
         loss_misfit;       /* root mean square deviations over storage_0 and loss_max */
-    const char *note;      /* "", or a reason for no fit or a remark; static */
-    const char *loss_note; /* the same for the loss modulus */
+    const char *note;      /* "", a remark, or the reason why there is no fit; static */
+    const char *loss_note; /* note on the loss modulus */
 } wt_payne;
 /* Fits a strain sweep. strain increasing; strain and moduli > 0. loss NULL: not measured, and its
  * results are NaN. */
@@ -654,11 +659,11 @@ typedef struct wt_strain_softening {
     size_t n_sweeps;       /* number of averaged sweeps; 0: a given table */
     double temperature;    /* mean of their temperatures [K]; NaN: unknown */
 } wt_strain_softening;
-WT_API void wt_strain_softening_clear(wt_strain_softening *softness);
+WT_API void wt_strain_softening_clear(wt_strain_softening *strain_softening);
 /* Selection among strain sweeps. */
 typedef struct wt_strain_softening_choice {
-    double temperature; /* those nearest to it [K]; NaN: all have one temperature */
-    const char *sample; /* those of this sample; NULL: all have one sample */
+    double temperature; /* the sweeps nearest to it are used [K]; NaN: all have one temperature */
+    const char *sample; /* the sweeps of this sample are used; NULL: all have one sample */
 } wt_strain_softening_choice;
 WT_API wt_strain_softening_choice wt_strain_softening_choice_defaults(void);
 /* Reads strain softening from the table payne_sweep, where f and g are storage_ratio and
@@ -668,16 +673,17 @@ WT_API wt_strain_softening_choice wt_strain_softening_choice_defaults(void);
  * repeats. Any table with columns strain, f, g and optionally f_error, g_error is also accepted. */
 WT_API wt_status wt_strain_softening_from_table(const wt_table *table,
                                                 wt_strain_softening_choice choice,
-                                                wt_strain_softening *softness,
+                                                wt_strain_softening *strain_softening,
                                                 wt_error *err) WT_NODISCARD;
-/* Reads it from the table payne_sweep of a file, or else its first table. The file is an input of
- * the work, shown as `name`. */
+/* Reads strain softening from the table payne_sweep of a file, or else from its first table. The
+ * file is an input of the work, shown as `name`. */
 WT_API wt_status wt_strain_softening_read(const char *path, const char *name,
                                           wt_strain_softening_choice choice, const wt_job *work,
-                                          wt_strain_softening *softness,
+                                          wt_strain_softening *strain_softening,
                                           wt_error *err) WT_NODISCARD;
 
-/* ---- programs of finite elements ------------------------------------------------------------ */
+/* ---- export to finite-element programs
+ * ------------------------------------------------------------ */
 
 /* Export of the reduced series to finite-element programs, in the keywords of their manuals. */
 typedef enum wt_fem_program {
@@ -712,7 +718,7 @@ WT_API wt_status wt_fem_export(FILE *out, wt_fem_program program, const wt_table
                                const wt_table *shift_factors, const wt_fem_export_options *options,
                                wt_error *err) WT_NODISCARD;
 
-/* ---- materials side by side ----------------------------------------------------------------- */
+/* ---- comparison of materials ----------------------------------------------------------------- */
 
 typedef struct wt_compared_material {
     const char *name;

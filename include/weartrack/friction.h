@@ -53,10 +53,11 @@ WT_API void wt_ratio_slope_eval(const wt_ratio_slope *slope, double omega, doubl
  * a wavenumber follows Burmister (1943) for nu = 1/2, independent of the material's Poisson ratio,
  * with the complex moduli at each frequency. */
 typedef struct wt_layer_state {
-    double thickness;       /* [m], 0 = none */
-    double modulus_ratio;   /* E_layer / E_bulk, > 0 */
-    wt_ratio_slope slope;   /* frequency dependence of that ratio; all 0: constant */
-    const wt_material *own; /* material of the layer, borrowed, replaces the ratio; NULL = none */
+    double thickness;     /* [m], 0 = none */
+    double modulus_ratio; /* E_layer / E_bulk, > 0 */
+    wt_ratio_slope slope; /* frequency dependence of that ratio; all 0: constant */
+    const wt_material
+        *material; /* material of the layer, borrowed, replaces the ratio; NULL = none */
     wt_shift_law material_law; /* shift law of that material for a flash temperature; WT_LAW_NONE:
                              that of the bulk */
 } wt_layer_state;
@@ -65,9 +66,9 @@ typedef struct wt_layer_state {
  * constant or approached with the thickness, plus the stress to open cracks at the rims of the
  * contacts. Reconstructed from the list in Mokhtari 2015. */
 typedef struct wt_layer_shear {
-    double exponent;     /* default 1 */
-    double reach;        /* thickness for 1 - 1/e of the change [m]; 0 (default): full change at any
-                            thickness */
+    double exponent;             /* default 1 */
+    double transition_thickness; /* thickness for 1 - 1/e of the change [m]; 0 (default): full
+                     change at any thickness */
     double crack_energy; /* crack opening energy G [J/m^2], also without a layer; default 0 */
     double spacing;      /* distance of asperities in contact, 1/sqrt(eta) [m]; NaN unless G = 0 */
 } wt_layer_shear;
@@ -135,15 +136,15 @@ typedef struct wt_friction_point {
         extrapolated_share; /* share of mu_hys from frequencies outside the material's range, where
                                the angle integral is truncated at q v cos(phi); accurate to 1e-5 */
     size_t nodes;           /* wavenumber nodes of the final quadrature */
-    bool reached;           /* G, P and mu_hys each meet the relative tolerance */
+    bool meets_tolerance;   /* G, P and mu_hys each meet the relative tolerance */
     wt_estimate
-        side; /* lateral coefficient mu_side for anisotropic roughness; the shear stress on the
+        lateral; /* lateral coefficient mu_side for anisotropic roughness; the shear stress on the
                  rubber is -pressure (mu_hys x + mu_side y), x along the velocity, y at +90 deg */
-    bool unsettled;          /* no flash temperature was found; the numbers are NaN */
+    bool has_no_solution;    /* true if no flash temperature was found; the numbers are NaN */
     wt_estimate temperature; /* temperature of the finest scale, T(q1) [K]; NaN without a flash
                                 temperature */
     wt_friction_branch
-        hot; /* second solution, in which a hot contact stays hot; NaN if there is none */
+        hot_branch; /* second solution, in which a hot contact stays hot; NaN if there is none */
 } wt_friction_point;
 
 /* Values at one wavenumber: contact area at magnification q/q0, friction up to q, temperature. */
@@ -205,17 +206,20 @@ typedef struct wt_surface {
     wt_estimate c0;           /* [m^4]; for a spectrum: value 1, relative error of the densities */
     wt_power_spectrum spectrum; /* if not self-affine; 2-D */
     double *modes_error; /* [spectrum.n] standard errors of ln C by its modes; NULL: unknown */
-    double *modes_tie;   /* [spectrum.n] correlation of that with the next point; NULL: none */
-    double *law_error;   /* [spectrum.n] fully correlated error of the law outside of the measured
-                            range; NULL */
+    double *modes_correlation; /* [spectrum.n] correlation of the errors of adjacent points; NULL:
+                                  none */
+    double *law_error; /* [spectrum.n] fully correlated error of the law outside of the measured
+                          range; NULL */
     /* [n_sizes * spectrum.n] For scans of several sizes: contributions to c0.standard_error of ln C
      * of the points by the positions of the widest scans, then of the next. Each size is drawn
      * independently. NULL: all points share the whole error. */
     size_t n_sizes;
-    double *place_parts;
-    double reliable_to; /* end of the measured range [rad/m], continued by the law; 0: unknown */
-    double steep; /* wavenumber where the rms slope reaches 1.3 [rad/m]; 0: unknown or nowhere */
-    bool places_known; /* the scatter between positions is known, even if the error of c0 is 0 */
+    double *position_errors;
+    double measured_limit; /* end of the measured range [rad/m]; the law continues it; 0: unknown */
+    double steep_wavenumber;   /* wavenumber where the rms slope reaches 1.3 [rad/m]; 0: unknown or
+                                  nowhere */
+    bool has_position_scatter; /* true if the scatter between positions was measured, even if the
+                                  error of c0 is 0 */
 } wt_surface;
 WT_API void wt_surface_clear(wt_surface *surface);
 /* Opens a surface: "self-affine:q0=1e3rad/m,qr=5e3rad/m,q1=1e7rad/m,hurst=0.8,c0=1e-17m^4+-10%",
@@ -243,10 +247,10 @@ typedef struct wt_sliding {
     size_t n_velocity;
     double reference_velocity; /* velocity of the answer and the layer [m/s]; NaN = middle of the
                                   list */
-    const wt_strain_softening *softness; /* borrowed; NULL = none */
-    double strain_factor;                /* as in wt_friction_options; default 1 */
-    wt_anisotropy anisotropy;            /* of the roughness; default none */
-    const double *temperatures;          /* [n_temperatures] K, of the friction map, borrowed */
+    const wt_strain_softening *strain_softening; /* borrowed; NULL = none */
+    double strain_factor;                        /* as in wt_friction_options; default 1 */
+    wt_anisotropy anisotropy;                    /* of the roughness; default none */
+    const double *temperatures; /* [n_temperatures] K, of the friction map, borrowed */
     size_t n_temperatures;
     const double *pressures; /* [n_pressures] Pa, of the friction map, borrowed */
     size_t n_pressures;
@@ -278,14 +282,15 @@ typedef struct wt_layer_observation {
                                  the variance of the ratio; default 0 */
     const wt_layer_shear *shear; /* shear of the real contact on it; NULL: defaults */
 } wt_layer_observation;
-WT_API wt_layer_observation wt_layer_observation_defaults(void); /* Returns no layer. */
+WT_API wt_layer_observation
+wt_layer_observation_defaults(void); /* Returns an observation without a layer. */
 WT_API const wt_params *wt_layer_observation_params(void);
 /* Reads ratio, slope and frequencies from tables of `weartrack compare`: the ratio of all rates at
  * their mean frequency, and its slope over the frequencies of the rates. WT_E_MISSING with one
  * rate. */
 WT_API wt_status wt_layer_observation_from_rates(const wt_table *comparison,
                                                  const wt_table *modulus_rate,
-                                                 wt_layer_observation *known,
+                                                 wt_layer_observation *observation,
                                                  wt_error *err) WT_NODISCARD;
 
 typedef struct wt_friction_tables {
@@ -319,9 +324,9 @@ WT_API wt_status wt_softened_friction_compute(const wt_sliding *sliding, const w
  * if it is not requested. */
 WT_API wt_status wt_flash_temperature_compute(const wt_sliding *sliding, const wt_job *work,
                                               wt_table **table, wt_error *err) WT_NODISCARD;
-/* Table "directions": hysteresis friction and contact area of a transversely isotropic rubber at
- * every velocity, with its factors on E' and E'' and with those on one of them or none. WT_E_ARG if
- * it has no directions. */
+/* Creates the table "directions": hysteresis friction and contact area of a transversely isotropic
+ * rubber at every velocity, with its factors on E' and E'' and with those on one of them or none.
+ * WT_E_ARG if it has no directions. */
 WT_API wt_status wt_transverse_isotropy_compute(const wt_sliding *sliding, const wt_job *work,
                                                 wt_table **table, wt_error *err) WT_NODISCARD;
 
@@ -332,18 +337,19 @@ WT_API wt_status wt_anisotropic_friction_compute(const wt_sliding *sliding, cons
 /* Creates the table "friction_map": friction at every velocity and temperature at the nominal
  * pressure, then at every velocity and pressure at the nominal temperature. One kernel at the
  * reference temperature of the rubber serves all: mu(v, T, p) is mu(v a_T, reference, p b_T).
- * WT_E_ARG without temperatures and pressures. */
-/* The map has no layer, but uses the crack opening of the shear stress of `known` (NULL: none) on
- * the bare surface. */
+ * WT_E_ARG without temperatures and pressures. The map has no layer, but uses the crack opening of
+ * the shear stress of `observation` (NULL: none) on the bare surface. */
 WT_API wt_status wt_friction_map_compute(const wt_sliding *sliding,
-                                         const wt_layer_observation *known, const wt_job *work,
-                                         wt_table **table, wt_error *err) WT_NODISCARD;
+                                         const wt_layer_observation *observation,
+                                         const wt_job *work, wt_table **table,
+                                         wt_error *err) WT_NODISCARD;
 /* Creates the table "friction_decades": contributions of each decade of the wavenumber to
- * hysteresis friction, and to shearing and crack opening of bare rubber (`known` as in the map), at
- * the slowest, the reference and the fastest velocity. */
+ * hysteresis friction, and to shearing and crack opening of bare rubber (`observation` as in the
+ * map), at the slowest, the reference and the fastest velocity. */
 WT_API wt_status wt_friction_by_scale_compute(const wt_sliding *sliding,
-                                              const wt_layer_observation *known, const wt_job *work,
-                                              wt_table **table, wt_error *err) WT_NODISCARD;
+                                              const wt_layer_observation *observation,
+                                              const wt_job *work, wt_table **table,
+                                              wt_error *err) WT_NODISCARD;
 
 #ifdef __cplusplus
 }

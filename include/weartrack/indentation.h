@@ -198,15 +198,17 @@ typedef struct wt_indent_fit {
     wt_estimate baseline_offset; /* [N] at the contact point */
     wt_estimate baseline_tilt;   /* [N/m] */
     double noise;                /* standard deviation of the baseline residual [N] */
-    double correlation_length;   /* of the noise, for waves as long as the contact [samples] */
-    double lack_of_fit;          /* slow part of the residual in contact, over the variance that the
-                                    noise of the baseline gives it: 1 if the law is right; NaN where
-                                    the baseline is too short to say */
-    double lack_of_fit_p;        /* of more by noise alone */
-    double baseline_p;           /* that a straight baseline departs as much from a line */
-    double bend_shift;           /* what the same bend in contact adds to E [Pa]; 0: a baseline that
-                                    is straight, as far as its noise tells */
-    double misfit[WT_MISFIT_TERMS]; /* cosines of the residual over the contact, of max_force */
+    double correlation_length;   /* correlation length of the noise, for components as slow as the
+                                    contact [samples] */
+    double lack_of_fit;     /* variance of the slow component of the residual in contact over its
+                               variance due to baseline noise; the expectation is 1 for a correct
+                               contact law; NaN if the baseline is too short */
+    double lack_of_fit_p;   /* p value of the lack of fit for noise alone */
+    double baseline_p;      /* p value of the baseline curvature for a straight baseline */
+    double curvature_shift; /* change of E if the baseline curvature continues in contact [Pa]; 0:
+                               no significant curvature */
+    double misfit[WT_MISFIT_TERMS]; /* cosine coefficients of the residual over the contact,
+                                       relative to max_force */
     double max_force;               /* [N] above the baseline */
     double max_indentation;         /* [m] */
     double adhesion_force;          /* attractive force of the snap-in [N], 0 if not significant */
@@ -294,8 +296,8 @@ WT_API size_t wt_indent_plot_points(const wt_indent_fit *fit, const double *heig
  * of fit that is hidden in the noise of one curve. */
 typedef struct wt_pooled_misfit {
     size_t n;
-    double misfit; /* root mean square over the contact, relative to the largest force */
-    double chance; /* p value for scatter alone; NaN with fewer than 12 curves */
+    double misfit;  /* root mean square over the contact, relative to the largest force */
+    double p_value; /* p value for scatter alone; NaN with fewer than 12 curves */
 } wt_pooled_misfit;
 /* misfit: coefficients of each fit. */
 WT_API wt_pooled_misfit wt_pooled_misfit_compute(const double (*misfit)[WT_MISFIT_TERMS], size_t n);
@@ -328,18 +330,18 @@ typedef struct wt_modulus_profile {
         n_units; /* number of curves; of spots, or of curves if there are fewer than three spots */
     bool by_spot;
     wt_depth_verdict verdict;
-    double depth[WT_DEPTHS]; /* equidistant depths up to the largest [m] */
-    wt_interval
-        modulus[WT_DEPTHS]; /* of the rubber that would give that force at that depth alone */
-    wt_interval change;     /* the last over the first */
-    double chance;          /* of a larger change by scatter alone */
-    double misfit_p;        /* of a larger residual of another shape */
-    /* If a layer thinner than the indentation makes the change; NaN where the curves do not tell
-     * all three. */
-    wt_interval layer_modulus, ground_modulus, thickness;
-    size_t n_excluded_by_loss; /* curves excluded because the effect of loss on them is unknown; no
-                       verdict if half of all */
-    double bend_share,
+    double depth[WT_DEPTHS];        /* equidistant depths up to the largest [m] */
+    wt_interval modulus[WT_DEPTHS]; /* modulus of the homogeneous rubber with the same force at this
+                                       depth */
+    wt_interval change;             /* modulus at the last depth over that at the first */
+    double change_p;                /* p value of the change for scatter alone */
+    double misfit_p;                /* p value of a residual of another shape */
+    /* Constants of a layer that is thinner than the indentation and explains the change. NaN if the
+     * curves do not determine all three. */
+    wt_interval layer_modulus, substrate_modulus, thickness;
+    size_t n_excluded_by_loss; /* curves with an unknown effect of the hysteresis loss, which are
+                                  excluded; if they are half of all curves, there is no verdict */
+    double curvature_share,
         loss_share; /* shares of baseline curvature and loss in the variance of the change */
 } wt_modulus_profile;
 /* The scatter then has as many degrees of freedom as the residual has cosines. */
@@ -361,18 +363,19 @@ enum { WT_LAYER_STEPS = 96 };
 typedef enum wt_layer_bound_kind {
     WT_LAYER_BOUND_UNKNOWN,     /* no information, of track or bulk */
     WT_LAYER_BOUND_OUTSIDE_LAW, /* the law does not cover a thick layer of that ratio */
-    WT_LAYER_BOUND_ANY,         /* all thicknesses down to `least` are allowed */
+    WT_LAYER_BOUND_ANY,         /* all thicknesses down to `smallest_thickness` are allowed */
     WT_LAYER_BOUND_LOWER,       /* lower bound only */
     WT_LAYER_BOUND_UPPER,       /* upper bound only */
     WT_LAYER_BOUND_BOTH,        /* both bounds */
     WT_LAYER_BOUND_EMPTY,       /* no thickness agrees with the curves */
 } wt_layer_bound_kind;
 typedef struct wt_layer_profile {
-    wt_layer_bound_kind says;
+    wt_layer_bound_kind bound_kind;
     size_t n[2], n_units[2];      /* number of curves and of units of bulk and track */
     double depth, contact_radius; /* means of the track at the largest indentation [m] */
-    double least;                 /* smallest thickness that the law covers [m] */
-    bool below;                   /* thinner layers are not covered and therefore allowed */
+    double smallest_thickness;    /* smallest thickness that the law covers [m] */
+    bool thinner_allowed; /* true if thinner layers are not covered by the law and therefore allowed
+                           */
     /* 95 % interval [m]; low 0, high infinite: unbounded; value NaN unless both bounds exist. */
     wt_interval thickness;
     size_t n_steps; /* grid from thick to thin: */
@@ -454,7 +457,7 @@ typedef struct wt_comparison {
     size_t n_bulk, n_track;           /* number of compared units */
     size_t curves_bulk, curves_track; /* number of curves of these rates */
     wt_rate_matching rate_matching;
-    wt_verdict_undecided_reason unsettled;
+    wt_verdict_undecided_reason undecided_reason;
     bool scatter_is_stated;              /* the interval uses the spot_scatter of the groups */
     wt_estimate log_ratio;               /* ln(E_track / E_bulk) */
     double df;                           /* degrees of freedom of its standard error */
@@ -463,7 +466,7 @@ typedef struct wt_comparison {
     double effect_size;                  /* Hedges g of ln E, track minus bulk */
     double scatter;                      /* standard deviation of ln E between the units */
     double offset_variance_share;        /* share of `offset` in the variance */
-    double mann_whitney_u; /* number of pairs in which the track is stiffer; ties count half */
+    double mann_whitney_u; /* number of pairs in which the track is stiffer; a tie counts half */
     double mann_whitney_p; /* two-sided */
     double mann_whitney_smallest_p; /* smallest possible p for these numbers of units */
     bool mann_whitney_exact; /* exact for small samples without ties; else normal, corrected for
@@ -570,7 +573,7 @@ typedef struct wt_group_data {
     double *spectrum_factor;      /* [n] factor on the DMA spectrum, NaN if unknown */
     double *pull; /* [n] largest attractive force of approach and retract [N]; NaN if unknown */
     double *max_force, *max_indentation; /* [n] N, m; NaN if unknown */
-    /* of all curves together: mean residual of the largest force, and the chance of more by
+    /* of all curves together: mean residual relative to the largest force, and its p value for
      * scatter; NaN if unknown */
     double pooled_misfit, pooled_misfit_p;
     /* [n_fitted] of the curves that were fitted, rejected ones too, for a misfit rejects them: cube
@@ -635,15 +638,15 @@ typedef struct wt_dwell_moduli {
 enum { WT_DWELL_POINTS = 32, WT_DWELL_FREQUENCIES = 32 };
 typedef struct wt_dwell {
     bool found, creep;          /* creep: the force was held, else the height */
-    const char *why_not;        /* "", or why there are no moduli; static */
+    const char *reason;         /* "", or why there are no moduli; static */
     double load_time, duration; /* contact to dwell, and the dwell [s] */
     double contact_point, baseline_offset, baseline_tilt; /* as in a history */
     double drift, drift_start;       /* of the force [N/s], since that time [s] */
-    double indentation_common_error; /* of the indentation at the end [m], what curves of one kind
-                                        share; NaN as below */
-    double misfit, misfit_p; /* sum of squares over its degrees of freedom, by which the errors
-                                     are wider where it is above 1; chance of more by noise: below
-                                     0.01 the errors are not known (NaN) */
+    double indentation_common_error; /* systematic error of the indentation at the end [m], common
+                                        to curves of one kind; NaN as below */
+    double misfit, misfit_p; /* sum of squares over its degrees of freedom, which widens the errors
+                                if it is above 1; its p value for noise alone: below 0.01 the errors
+                                are unknown (NaN) */
     size_t n, n_points;
     wt_dwell_moduli moduli[WT_DWELL_FREQUENCIES]; /* four per decade, 10^(i/4) rad/s, between the
                                                      inverse times from contact of the dwell */
@@ -659,7 +662,7 @@ WT_API wt_status wt_dwell_fit(const wt_contact_table *table, const wt_dwell_hist
  * start)). */
 typedef struct wt_modulation {
     bool found;
-    const char *why_not;       /* "" or the reason why there is none; static */
+    const char *reason;        /* "" or the reason why there is none; static */
     double angular_frequency;  /* [rad/s] */
     double start;              /* [s] */
     double amplitude[4];       /* of height [m] and force [N] */
@@ -731,26 +734,26 @@ WT_API const wt_params *wt_slope_params(void);
  * shorter than a block is included. */
 typedef struct wt_contact_slope {
     bool found;
-    char why_not[96];            /* "" or the reason why there is no slope */
+    char reason[96];             /* "" or the reason why there is no slope */
     double slope, slope_error;   /* signal against piezo, with the error of the tilt: [unit of the
                                     signal / m] */
-    double change, change_error; /* relative change of the slope over the part */
+    double change, change_error; /* relative change of the slope over the contact part */
     double tilt;   /* subtracted baseline tilt relative to the slope; NaN: no baseline */
     double misfit; /* root mean square residual over the rise */
     double signal_from, signal_to; /* limits of the part above the baseline */
     double travel;                 /* piezo travel of the part [m] */
     size_t n;                      /* samples in it */
-    double freedom;
+    double df;
 } wt_contact_slope;
 /* Fits the slope. Piezo position [m] of either direction, and the signal, which is larger in
  * contact, in order of time of an approach or a retract. NaN samples are excluded. */
 WT_API wt_status wt_contact_slope_fit(const double *position, const double *signal, size_t n,
                                       const wt_slope_options *options, wt_contact_slope *slope,
                                       wt_error *err) WT_NODISCARD;
-/* Mean of n values: of the means of their units (spots, files), numbered in `units`, if there are
- * three units or more, else of the values; those of a unit stand one behind another, NULL: there
- * are no units. Interval of 95 % by Student's t with *n_units - 1 degrees of freedom; of one value
- * the error and the ends are NaN. */
+/* Returns the mean of n values with its 95 % interval by Student's t. For three or more units
+ * (spots, files) it is the mean of the unit means, with *n_units - 1 degrees of freedom; otherwise
+ * that of the values. `units` numbers the unit of each value, and values of one unit are adjacent;
+ * NULL: no units. For one value the error and the limits are NaN. */
 WT_API wt_interval wt_student_mean(const double *values, const long *units, size_t n,
                                    size_t *n_units);
 
@@ -765,7 +768,7 @@ typedef struct wt_sensitivity_job {
     const wt_file_set *sets;
     size_t n_sets;
     wt_slope_options options;
-    wt_curve_direction ways; /* directions of the result */
+    wt_curve_direction directions; /* directions of the result */
     double max_slope_change; /* largest relative change of the slope within the part that counts as
                          straight */
 } wt_sensitivity_job;
@@ -780,7 +783,8 @@ WT_API void wt_sensitivity_tables_clear(wt_sensitivity_tables *tables);
 WT_API wt_status wt_sensitivity_compute(const wt_sensitivity_job *job, const wt_job *work,
                                         wt_sensitivity_tables *tables, wt_error *err) WT_NODISCARD;
 
-/* ---- thermal noise of a lever --------------------------------------------------------------- */
+/* ---- thermal noise of a cantilever
+ * --------------------------------------------------------------- */
 
 /* Thermal tune: a simple harmonic oscillator (cantilever: Butt and Jaschke, Nanotechnology 6 (1995)
  * 1) on a white floor, one-sided: S(f) = floor + 2 mean_square f0^3 / (pi Q) / ((f0^2 - f^2)^2 + (f
@@ -794,8 +798,8 @@ typedef struct wt_thermal {
     double from, to;         /* fitted range [Hz] */
     size_t n;                /* points in it */
     double averages;         /* number of averaged spectra according to the scatter about the fit */
-    double chance;       /* p value of the slow deviation from the oscillator for scatter alone */
-    const char *why_not; /* "" or the reason why there is none; static */
+    double misfit_p;         /* p value of the lack of fit to the oscillator for scatter alone */
+    const char *reason;      /* "" or the reason why there is none; static */
 } wt_thermal;
 /* Fits an averaged periodogram by maximum likelihood: frequencies [Hz] increasing, densities
  * [unit^2/Hz]. Points without a positive density are excluded. from and to [Hz]: NaN = about the
@@ -824,7 +828,8 @@ WT_API wt_estimate wt_sader_spring_constant(wt_estimate length, wt_estimate widt
                                             wt_estimate resonance, wt_estimate quality,
                                             wt_fluid fluid);
 
-/* ---- spring constant of a lever ------------------------------------------------------------- */
+/* ---- spring constant of a cantilever
+ * ------------------------------------------------------------- */
 
 /* Spring constant of a cantilever from its thermal noise: k = mode_shape / chi^2 k_B T / <d^2>,
  * with the deflection d from the sensitivity on a hard surface. If the plan view or the coefficient

@@ -342,20 +342,20 @@ WT_API wt_status wt_layer_bands_compute(const wt_sliding *sliding, const wt_laye
                                         const wt_job *work, wt_table **table,
                                         wt_error *err) WT_NODISCARD;
 /* Creates the table "running_in": friction with the growing layer, which has the modulus ratio of
- * `known`. With `has_feedback` its energy is that under this layer. */
+ * `observation`. With `has_feedback` its energy is that under this layer. */
 WT_API wt_status wt_running_in_compute(const wt_sliding *sliding, const wt_layer_job *job,
-                                       const wt_layer_observation *known, const wt_job *work,
+                                       const wt_layer_observation *observation, const wt_job *work,
                                        wt_table **table, wt_error *err) WT_NODISCARD;
 /* Table "layer_feedback": all balances of a layer that acts back, and the folds between them. */
 WT_API wt_status wt_layer_steady_states_compute(const wt_sliding *sliding, const wt_layer_job *job,
-                                                const wt_layer_observation *known,
+                                                const wt_layer_observation *observation,
                                                 const wt_job *work, wt_table **table,
                                                 wt_error *err) WT_NODISCARD;
 /* Table "existence": balance thickness at every velocity, at the pressures of the map of `sliding`
- * if it has some, else at its pressure, and with `known` (may be NULL) what the layer does to
+ * if it has some, else at its pressure, and with `observation` (may be NULL) what the layer does to
  * friction. */
 WT_API wt_status wt_regime_map_compute(const wt_sliding *sliding, const wt_layer_job *job,
-                                       const wt_layer_observation *known, const wt_job *work,
+                                       const wt_layer_observation *observation, const wt_job *work,
                                        wt_table **table, wt_error *err) WT_NODISCARD;
 
 /* Creates the table "energy_density": energy density against depth at the velocity of the layer. */

@@ -34,12 +34,13 @@ WT_API wt_status wt_input_size(wt_input *input, size_t *size, wt_error *err) WT_
  * shorter. */
 WT_API wt_status wt_input_copy(wt_input *input, size_t from, void *to, size_t n,
                                wt_error *err) WT_NODISCARD;
-/* Opens a second input of the same file for another thread. NULL (and WT_OK) for an input that is
- * or may be kept in memory as a whole. The caller closes it, in any order. */
-WT_API wt_status wt_input_sibling(const wt_input *input, wt_input **beside,
+/* Opens a second input of the same file for another thread. It is NULL (and WT_OK) for an input
+ * that is or may be stored in memory as a whole. The caller closes it, in any order. */
+WT_API wt_status wt_input_sibling(const wt_input *input, wt_input **sibling,
                                   wt_error *err) WT_NODISCARD;
-/* Returns at least the first `want` bytes if there are as many; *whole is true if these are all. */
-WT_API wt_status wt_input_peek(wt_input *input, size_t want, const unsigned char **bytes,
+/* Returns at least the first `n_min` bytes if there are as many; *whole is true if these are all.
+ */
+WT_API wt_status wt_input_peek(wt_input *input, size_t n_min, const unsigned char **bytes,
                                size_t *length, bool *whole, wt_error *err) WT_NODISCARD;
 
 /* ---- formats -------------------------------------------------------------------------------- */
@@ -193,7 +194,7 @@ WT_API wt_status wt_record_read(const wt_formats *formats, wt_input *input,
 /* Creates the metadata table of a file for `weartrack info`: rows of (item, value, unit, source),
  * all text. */
 WT_API wt_status wt_input_describe(const wt_formats *formats, wt_input *input,
-                                   const wt_read_options *options, wt_log *log, wt_table **facts,
+                                   const wt_read_options *options, wt_log *log, wt_table **metadata,
                                    wt_error *err) WT_NODISCARD;
 
 /* ---- descriptions --------------------------------------------------------------------------- */

@@ -56,10 +56,10 @@ WT_API void wt_cycles_clear(wt_cycles *cycles);
  * Both scatters are white plus an autoregression of first order. The likelihood is averaged over
  * its length and share, and over the end. */
 typedef struct wt_running_in {
-    bool seen;       /* odds above 20 to 1 against a series without running-in */
-    wt_interval end; /* number of points before the steady state: median and 95 % interval; NaN */
+    bool is_detected; /* odds above 20 to 1 against a series without running-in */
+    wt_interval end;  /* number of points before the steady state: median and 95 % interval; NaN */
     size_t steady_start; /* first point of the steady state, after the interval; 0: all */
-    const char *why_not; /* "" or the reason why there is no end; static */
+    const char *reason;  /* "" or the reason why there is no end; static */
 } wt_running_in;
 WT_API wt_status wt_running_in_find(const double *y, size_t n, wt_running_in *running_in,
                                     wt_error *err) WT_NODISCARD;
@@ -172,12 +172,12 @@ WT_API wt_status wt_record_compute(const wt_record_job *job, const wt_job *work,
 
 typedef struct wt_validation_job {
     const wt_sliding *sliding;
-    const wt_layer_job *layer;         /* NULL as in wt_model_sensitivity_compute */
-    const wt_layer_observation *known; /* NULL as in wt_model_sensitivity_compute; its thickness is
-                                          the one used for the layer */
-    const wt_table *record;            /* table "record" */
-    const wt_table *cycles;            /* table "record_cycles", for the running-in only */
-    const wt_table *wear;              /* table "wear", or NULL */
+    const wt_layer_job *layer;                     /* NULL as in wt_model_sensitivity_compute */
+    const wt_layer_observation *layer_observation; /* NULL as in wt_model_sensitivity_compute; its
+                                          thickness is the one used for the layer */
+    const wt_table *record;                        /* table "record" */
+    const wt_table *cycles; /* table "record_cycles", for the running-in only */
+    const wt_table *wear;   /* table "wear", or NULL */
     const wt_table
         *what_if;  /* table "what_if" of the same inputs, or NULL: no likelihood of choices */
     double margin; /* irrelevant deviation of measured over predicted; default 0.2 */

@@ -78,8 +78,8 @@ WT_API wt_status wt_curve_sheets_write(const wt_result *result, const char *path
 typedef struct wt_figure_info {
     const char *name; /* "force_displacement" */
     const char *title;
-    const char *table;  /* table of the figure; drawn if the result has it with at least one row */
-    const char *beside; /* further tables that it uses, separated by blanks; "" */
+    const char *table; /* table of the figure; drawn if the result has it with at least one row */
+    const char *other_tables; /* further tables that it uses, separated by blanks; "" */
 } wt_figure_info;
 WT_API size_t wt_figure_count(void);
 WT_API wt_figure_info wt_figure_get(size_t i); /* All members are NULL past the last figure. */

@@ -23,7 +23,7 @@ typedef struct wt_mean_comparison {
 /* values: [n] one per curve; values that are not finite are excluded. spots: [n], NULL: each curve
  * is a unit. */
 WT_API wt_status wt_compare_means(const double *const values[2], const long *const spots[2],
-                                  const size_t n[2], wt_mean_comparison *signs,
+                                  const size_t n[2], wt_mean_comparison *comparison,
                                   wt_error *err) WT_NODISCARD;
 /* Returns the combined p value of two independent tests (Fisher 1932). If one is NaN, it returns
  * the other. */
@@ -83,7 +83,7 @@ typedef struct wt_compare_job {
     wt_estimate temperature; /* of the indentation [K]; NaN = reference temperature of the rubber */
     wt_estimate track_temperature; /* NaN = the same for the track */
     wt_estimate temperature_slope; /* d ln E/dT [1/K]; NaN = that of the rubber */
-    wt_cantilever_sharing levers;
+    wt_cantilever_sharing cantilevers;
     double lever_error; /* relative standard error of a spring constant whose table states none;
                            default 0 = none */
     double sensitivity_error; /* relative standard error; default 0 = not stated */
@@ -159,23 +159,25 @@ WT_API wt_status wt_collection_compute(const wt_collected_result *cases, size_t 
 /* Creates the table "what_if", a one-at-a-time sensitivity: friction and layer at the reference
  * velocity, then with one model choice changed in each row, and the resulting change. Choices that
  * do not apply have no row; a row that cannot be computed has the reason. `layer` NULL: no
- * thickness of the layer; `known` NULL: no friction with a layer. With both, the thickness is that
- * of `layer`. */
+ * thickness of the layer; `observation` NULL: no friction with a layer. With both, the thickness is
+ * that of `layer`. */
 WT_API wt_status wt_model_sensitivity_compute(const wt_sliding *sliding, const wt_layer_job *layer,
-                                              const wt_layer_observation *known, const wt_job *work,
-                                              wt_table **table, wt_error *err) WT_NODISCARD;
+                                              const wt_layer_observation *observation,
+                                              const wt_job *work, wt_table **table,
+                                              wt_error *err) WT_NODISCARD;
 
 /* ---- error budget --------------------------------------------------------------------------- */
 
 /* Creates the table "error_budget": the error of each number at the reference velocity by every
  * source alone (replicates with all others fixed), by the number of replicates, by numerical
  * errors, and by the model choices of `what_if` (may be NULL); with the time of each, if the cost
- * of `work` has times and includes `what_if`, and how to reduce it. `layer` and `known` as above.
+ * of `work` has times and includes `what_if`, and how to reduce it. `layer` and `observation` as
+ * above.
  */
 WT_API wt_status wt_error_budget_compute(const wt_sliding *sliding, const wt_layer_job *layer,
-                                         const wt_layer_observation *known, const wt_table *what_if,
-                                         const wt_job *work, wt_table **table,
-                                         wt_error *err) WT_NODISCARD;
+                                         const wt_layer_observation *observation,
+                                         const wt_table *what_if, const wt_job *work,
+                                         wt_table **table, wt_error *err) WT_NODISCARD;
 
 /* ---- error against run time ----------------------------------------------------------------- */
 
@@ -187,10 +189,10 @@ WT_API const wt_params *wt_accuracy_job_params(void);
 /* Creates the table "work_precision" of a sliding contact at the reference velocity: friction and
  * layer for a sweep of the tolerance (reference 1e-13; textbook method for comparison), standard
  * errors for a sweep of the number of replicates, and values with fewer isotherms, each with its
- * processor time on one thread. Times are NaN if the cost of `work` has none. `layer` and `known`
+ * processor time on one thread. Times are NaN if the cost of `work` has none. `layer` and `observation`
  * as above. */
 WT_API wt_status wt_case_precision_compute(const wt_sliding *sliding, const wt_layer_job *layer,
-                                           const wt_layer_observation *known,
+                                           const wt_layer_observation *observation,
                                            const wt_accuracy_job *job, const wt_job *work,
                                            wt_table **table, wt_error *err) WT_NODISCARD;
 

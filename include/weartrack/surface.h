@@ -169,7 +169,7 @@ WT_API wt_interval wt_surface_density(const wt_surface_spectrum *spectrum, size_
 typedef struct wt_surface_anisotropy {
     double amplitude, direction; /* direction of a maximum, [rad] from x, -pi/order to pi/order */
     double amplitude_error, direction_error;
-    double chance; /* p value of the amplitude for scatter alone */
+    double p_value; /* p value of the amplitude for scatter alone */
 } wt_surface_anisotropy;
 /* order: 2 or 4. NaN for profiles. */
 WT_API wt_surface_anisotropy wt_surface_anisotropy_fit(const wt_surface_spectrum *spectrum,

@@ -74,7 +74,7 @@ struct wt_case {
     bool has_layer;
     wt_layer_job layer;
     bool has_modulus_ratio; /* stated instead of measured */
-    wt_layer_observation known;
+    wt_layer_observation layer_observation;
     struct wt_case
         *layer_material; /* material of the layer as a case with nothing else; NULL without one */
     bool identifies;

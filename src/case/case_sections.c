@@ -290,7 +290,7 @@ static wt_status read_layer_material(wt_case *c, const xmlNode *node, wt_error *
 static wt_status check_ratio_slope(const wt_case *c, const xmlNode *section, wt_error *err)
 {
     const xmlNode *const slope = case_child(section, "ratio-slope");
-    if (slope == NULL || !c->known.by_rate)
+    if (slope == NULL || !c->layer_observation.by_rate)
         return WT_OK;
     wt_fail(err, WT_E_ARG, "the slope of the modulus ratio is given and measured");
     wt_error_advice(err, "delete <ratio-slope> or <ratio-by-rate>");
@@ -305,7 +305,8 @@ wt_status case_read_layer(wt_case *c, const xmlNode *section, wt_error *err)
     c->has_modulus_ratio = ratio != NULL;
     wt_status status = case_read_params(c, section, wt_layer_job_params(), &c->layer, err);
     if (status == WT_OK)
-        status = case_read_params(c, section, wt_layer_observation_params(), &c->known, err);
+        status =
+            case_read_params(c, section, wt_layer_observation_params(), &c->layer_observation, err);
     if (status == WT_OK)
         status = check_ratio_slope(c, section, err);
     wt_layer_job checked = c->layer;

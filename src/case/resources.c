@@ -9,9 +9,9 @@
 #include <limits.h>
 #include <string.h>
 
-#define SOURCE_ROW(id, text, lack, there) [FLOW_##id] = {.words = text, .missing = lack},
-#define TABLE_ROW(id, text, of, group) [FLOW_##id] = {.words = text, .schema = of, .suffix = group},
-#define INNER_ROW(id, text) [FLOW_##id] = {.words = text},
+#define SOURCE_ROW(id, text, lack, there) [FLOW_##id] = {.label = text, .missing = lack},
+#define TABLE_ROW(id, text, of, group) [FLOW_##id] = {.label = text, .schema = of, .suffix = group},
+#define INNER_ROW(id, text) [FLOW_##id] = {.label = text},
 const flow_resource_row flow_resource_rows[FLOW_N_RESOURCES] = {
     SOURCES(SOURCE_ROW) TABLE_RESOURCES(TABLE_ROW) INNER_RESOURCES(INNER_ROW)};
 _Static_assert(FLOW_N_RESOURCES <= CHAR_BIT * sizeof(flow_resource_set),
@@ -31,7 +31,7 @@ void flow_resources_list(flow_resource_set resources, char *text, size_t size)
     for (unsigned i = 0; i < FLOW_N_RESOURCES && used < size; i++)
         if (resources & FLOW_BIT(i))
             used += (size_t)snprintf(text + used, size - used, "%s%s", used > 0 ? ", " : "",
-                                     flow_resource_rows[i].words);
+                                     flow_resource_rows[i].label);
 }
 
 bool flow_table_resources(const char *table, flow_resource_set *resources)
@@ -50,7 +50,7 @@ bool flow_table_resources(const char *table, flow_resource_set *resources)
     if (strcmp(table, modulus_depth_schema.name) == 0)
         *resources = FLOW_BIT(FLOW_DEPTH_BULK) | FLOW_BIT(FLOW_DEPTH_TRACK);
     for (unsigned i = FLOW_FIRST_TABLE; i < FLOW_FIRST_INNER; i++)
-        if (flow_resource_rows[i].schema != NULL && strcmp(table, flow_resource_rows[i].words) == 0)
+        if (flow_resource_rows[i].schema != NULL && strcmp(table, flow_resource_rows[i].label) == 0)
             *resources = FLOW_BIT(i);
     return *resources != 0;
 }
@@ -63,7 +63,7 @@ bool flow_figure_resources(const char *figure, flow_resource_set *resources)
             continue;
         char names[128], *rest = NULL;
         const bool known = flow_table_resources(info.table, resources);
-        snprintf(names, sizeof names, "%s", info.beside);
+        snprintf(names, sizeof names, "%s", info.other_tables);
         for (const char *name = strtok_r(names, " ", &rest); name != NULL;
              name = strtok_r(NULL, " ", &rest)) {
             flow_resource_set more = 0;

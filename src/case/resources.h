@@ -155,7 +155,7 @@ __extension__ typedef unsigned __int128 flow_resource_set;
      FLOW_BIT(FLOW_VALIDATION_SOURCES))
 
 typedef struct flow_resource_row {
-    const char *words, *missing;
+    const char *label, *missing;
     const table_schema *schema; /* NULL if the resource is not a table of its own */
     const char *suffix;
 } flow_resource_row;

@@ -87,9 +87,9 @@ typedef struct cmd_common_options {
 cmd_common_options cmd_common_defaults(void);
 
 typedef struct cmd_usage {
-    const char *name;      /* name of the subcommand */
-    const char *arguments; /* "[OPTION]... FILE..." */
-    const char *what;      /* description, a few lines */
+    const char *name;        /* name of the subcommand */
+    const char *arguments;   /* "[OPTION]... FILE..." */
+    const char *description; /* description, a few lines */
     const char *
         common; /* names of common options, as `only`; quiet, strict and help are always included */
     const char *first;  /* most important options, for --help without "all"; NULL: all */
@@ -155,11 +155,11 @@ wt_status cmd_write_record(cmd_session *s, wt_table_sink sink, void *user);
 /* Shares reading options between files of several kinds until the end: a unit is for a column of
  * any of them. False on failure. */
 bool cmd_share_unit_options(cmd_session *s, wt_read_options *read);
-/* Prints failures, remarks and, unless `made` is WT_OK, the error. */
-void cmd_end(cmd_session *s, wt_status made);
-/* Variant that first writes the tables, in this order, with failures and notes, if `made` is WT_OK.
- * NULL tables are skipped. It takes ownership of all tables. */
-void cmd_finish(cmd_session *s, wt_status made, wt_table **const tables[], size_t n);
+/* Prints failures, remarks and, unless `status` is WT_OK, the error. */
+void cmd_end(cmd_session *s, wt_status status);
+/* Variant that first writes the tables, in this order, with failures and notes, if `status` is
+ * WT_OK. NULL tables are skipped. It takes ownership of all tables. */
+void cmd_finish(cmd_session *s, wt_status status, wt_table **const tables[], size_t n);
 /* Runs a case with the common options. The result belongs to the session; *n_failed stages or files
  * are in its table "failures". */
 wt_status cmd_run_case(cmd_session *s, const wt_case *c, wt_run_options *run, size_t *n_failed);
@@ -167,7 +167,7 @@ wt_status cmd_run_case(cmd_session *s, const wt_case *c, wt_run_options *run, si
 int cmd_session_free(cmd_session *s);
 
 /* True if the option was given. */
-bool cmd_option_is_given(const cmd_option_group *part, const char *name);
+bool cmd_option_is_set(const cmd_option_group *part, const char *name);
 /* Prints a usage error with a reference to the help; returns false. */
 bool cmd_usage_error(cmd_session *s, const char *format, ...) WT_PRINTF(2, 3);
 /* Prints a usage error for an error of the library about a parameter, whose name is its place. */

@@ -41,14 +41,15 @@ int cmd_collect(int argc, char **argv)
     static const cmd_usage usage = {
         .name = "collect",
         .arguments = "[OPTION]... RESULT...",
-        .what = "Sets the results of cases side by side by their <sample> and <condition>: modulus "
-                "of bulk and track against the indentation rate, friction against velocity, and "
-                "whether the track of one condition or sample is more different from its bulk than "
-                "that of another, corrected for the number of pairs; and constants that they may "
-                "have in common: wear rate, shear stress, rate dependence, critical energy. RESULT "
-                "may be an output "
-                "of weartrack indent, too, such as that of a particle of the filler, whose curve "
-                "stands beside.",
+        .description =
+            "Sets the results of cases side by side by their <sample> and <condition>: modulus "
+            "of bulk and track against the indentation rate, friction against velocity, and "
+            "whether the track of one condition or sample is more different from its bulk than "
+            "that of another, corrected for the number of pairs; and constants that they may "
+            "have in common: wear rate, shear stress, rate dependence, critical energy. RESULT "
+            "may be an output "
+            "of weartrack indent, too, such as that of a particle of the filler, whose curve "
+            "stands beside.",
         .common = "output files-from provenance",
         .notes = "The tables collection, collected_modulus, collected_friction, collected_force, "
                  "ratio_pairs, shared_constants, shared_members, collected_constants and "
@@ -66,18 +67,18 @@ int cmd_collect(int argc, char **argv)
     wt_result **results = calloc(s.n_files, sizeof *results);
     const bool allocated = cases != NULL && results != NULL;
     const size_t n = allocated ? read_collected_cases(&s, cases, results) : 0;
-    wt_status made = allocated ? WT_OK : wt_fail(&s.err, WT_E_MEMORY, "out of memory");
-    if (made == WT_OK && n == 0) {
+    wt_status status = allocated ? WT_OK : wt_fail(&s.err, WT_E_MEMORY, "out of memory");
+    if (status == WT_OK && n == 0) {
         s.status = CMD_FAILED;
         cmd_end(&s, WT_OK);
-    } else if (made == WT_OK)
-        made = wt_collection_compute(cases, n, &job, &tables, &s.err);
+    } else if (status == WT_OK)
+        status = wt_collection_compute(cases, n, &job, &tables, &s.err);
     wt_table **const made_tables[] = {
         &tables.collection,      &tables.collected_modulus,   &tables.collected_friction,
         &tables.collected_force, &tables.ratio_pairs,         &tables.shared_constants,
         &tables.shared_members,  &tables.collected_constants, &tables.shared_pairs};
-    if (n > 0 || made != WT_OK)
-        cmd_finish(&s, made, made_tables, COUNT_OF(made_tables));
+    if (n > 0 || status != WT_OK)
+        cmd_finish(&s, status, made_tables, COUNT_OF(made_tables));
     for (size_t i = 0; i < n; i++)
         wt_result_free(results[i]);
     free(results);

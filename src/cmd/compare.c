@@ -58,30 +58,30 @@ static void run_group_comparison(compare_call *call, const char *master)
     wt_result *dma = NULL;
     wt_rubber rubber = {0};
     wt_compare_tables tables = {0};
-    wt_status made = find_group_table(call, 0, &job->bulk, &s->err);
-    if (made == WT_OK)
-        made = find_group_table(call, 1, &job->track, &s->err);
-    if (made == WT_OK && s->n_files > 2)
-        made =
+    wt_status status = find_group_table(call, 0, &job->bulk, &s->err);
+    if (status == WT_OK)
+        status = find_group_table(call, 1, &job->track, &s->err);
+    if (status == WT_OK && s->n_files > 2)
+        status =
             wt_fail(&s->err, WT_E_ARG, "BULK and TRACK are two files, %zu are given", s->n_files);
-    if (made == WT_OK && has_table_name(job->track, names[0]))
+    if (status == WT_OK && has_table_name(job->track, names[0]))
         wt_log_add(s->log, WT_WARNING, s->files[1], NULL,
                    "its curves are called bulk and are taken for those of the track; "
                    "`weartrack indent --group track` names them");
-    if (made == WT_OK && master != NULL) {
-        made = cmd_rubber_read(master, call->set.read.sample, call->master.poisson_ratio, &s->work,
-                               &dma, &rubber, &s->err);
+    if (status == WT_OK && master != NULL) {
+        status = cmd_rubber_read(master, call->set.read.sample, call->master.poisson_ratio,
+                                 &s->work, &dma, &rubber, &s->err);
         job->rubber = &rubber;
     }
-    if (made == WT_OK)
-        made = wt_compare_groups(job, &s->work, &tables, &s->err);
+    if (status == WT_OK)
+        status = wt_compare_groups(job, &s->work, &tables, &s->err);
     wt_table *layer = NULL;
-    if (made == WT_OK)
-        made = wt_track_layer_compute(job, NULL, &s->work, &layer, &s->err);
+    if (status == WT_OK)
+        status = wt_track_layer_compute(job, NULL, &s->work, &layer, &s->err);
     wt_table **const made_tables[] = {&tables.comparison,     &tables.modulus_groups,
                                       &tables.modulus_budget, &tables.modulus_rate,
                                       &tables.dma_comparison, &layer};
-    cmd_finish(s, made, made_tables, COUNT_OF(made_tables));
+    cmd_finish(s, status, made_tables, COUNT_OF(made_tables));
     wt_rubber_clear(&rubber);
     wt_result_free(dma);
 }
@@ -103,20 +103,20 @@ static void run_dwell_comparison(compare_call *call, const char *master)
     wt_result *dma = NULL;
     wt_rubber rubber = {0};
     wt_table *made_table = NULL;
-    wt_status made = find_dwell_table(&call->input[0], &job->bulk, &s->err);
-    if (made == WT_OK && s->n_files > 1)
-        made = find_dwell_table(&call->input[1], &job->track, &s->err);
-    if (made == WT_OK && s->n_files > 2)
-        made =
+    wt_status status = find_dwell_table(&call->input[0], &job->bulk, &s->err);
+    if (status == WT_OK && s->n_files > 1)
+        status = find_dwell_table(&call->input[1], &job->track, &s->err);
+    if (status == WT_OK && s->n_files > 2)
+        status =
             wt_fail(&s->err, WT_E_ARG, "BULK and TRACK are two files, %zu are given", s->n_files);
-    if (made == WT_OK)
-        made = cmd_rubber_read(master, NULL, call->master.poisson_ratio, &s->work, &dma, &rubber,
-                               &s->err);
+    if (status == WT_OK)
+        status = cmd_rubber_read(master, NULL, call->master.poisson_ratio, &s->work, &dma, &rubber,
+                                 &s->err);
     job->rubber = &rubber;
-    if (made == WT_OK)
-        made = wt_compare_dwells(job, &s->work, &made_table, &s->err);
+    if (status == WT_OK)
+        status = wt_compare_dwells(job, &s->work, &made_table, &s->err);
     wt_table **const made_tables[] = {&made_table};
-    cmd_finish(s, made, made_tables, COUNT_OF(made_tables));
+    cmd_finish(s, status, made_tables, COUNT_OF(made_tables));
     wt_rubber_clear(&rubber);
     wt_result_free(dma);
 }
@@ -134,7 +134,7 @@ static bool check_compare_options(compare_call *call, bool materials, bool maste
         return cmd_usage_error(&call->s, "--poisson-ratio is of materials, or of --master");
     const uint64_t reading = parts[PART_READING].given;
     const bool sample_alone =
-        cmd_option_is_given(&parts[PART_READING], "sample") && (reading & (reading - 1)) == 0;
+        cmd_option_is_set(&parts[PART_READING], "sample") && (reading & (reading - 1)) == 0;
     if (reading != 0 &&
         !((sample_alone && (materials || master)) || (materials && compare_has_isotherms(call))))
         return cmd_usage_error(&call->s,
@@ -182,7 +182,7 @@ int cmd_compare(int argc, char **argv)
         .name = "compare",
         .arguments =
             "[OPTION]... BULK TRACK | --master FILE DWELLS [DWELLS] | MATERIAL MATERIAL...",
-        .what =
+        .description =
             "Compares the moduli of the wear track with those of the bulk: does it differ (yes, no "
             "or cannot say), the ratio with its 95 % interval, Welch's and the Mann-Whitney test, "
             "effect size, and the same rate by rate. BULK and TRACK are outputs of weartrack "

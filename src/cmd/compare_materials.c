@@ -107,16 +107,16 @@ void compare_materials(compare_call *call)
     cmd_session *s = &call->s;
     wt_materials_tables tables = {0};
     wt_compared_material *compared = calloc(s->n_files, sizeof *compared);
-    wt_status made = compared == NULL ? wt_fail(&s->err, WT_E_MEMORY, "out of memory")
-                                      : check_distinct_materials(call, &s->err);
+    wt_status status = compared == NULL ? wt_fail(&s->err, WT_E_MEMORY, "out of memory")
+                                        : check_distinct_materials(call, &s->err);
     /* the comparison needs every material */
     wt_table_free(s->work.failures);
     s->work.failures = NULL;
-    for (size_t i = 0; made == WT_OK && i < s->n_files; i++) {
+    for (size_t i = 0; status == WT_OK && i < s->n_files; i++) {
         compare_input *input = &call->input[i];
-        made = read_compared_material(call, input, &s->err);
+        status = read_compared_material(call, input, &s->err);
         const wt_table *shifts = input->shift_factors;
-        if (made == WT_OK && input->tables != NULL && shifts == NULL)
+        if (status == WT_OK && input->tables != NULL && shifts == NULL)
             shifts = cmd_sample_table(input->tables, "shift_factors", call->set.read.sample);
         compared[i] = (wt_compared_material){
             .name = material_name(call, i), .rubber = &input->rubber, .shift_factors = shifts};
@@ -124,9 +124,9 @@ void compare_materials(compare_call *call)
     call->materials.materials = compared;
     call->materials.n_materials = s->n_files;
     call->materials.margin = call->groups.margin;
-    if (made == WT_OK)
-        made = wt_compare_materials(&call->materials, &s->work, &tables, &s->err);
+    if (status == WT_OK)
+        status = wt_compare_materials(&call->materials, &s->work, &tables, &s->err);
     wt_table **const made_tables[] = {&tables.material_ratio, &tables.materials};
-    cmd_finish(s, made, made_tables, COUNT_OF(made_tables));
+    cmd_finish(s, status, made_tables, COUNT_OF(made_tables));
     free(compared);
 }

@@ -1,4 +1,5 @@
-/* weartrack convert: an instrument file to an open one. SPDX-License-Identifier: GPL-3.0-or-later
+/* Command `weartrack convert`: converts an instrument file to an open format.
+ * SPDX-License-Identifier: GPL-3.0-or-later
  */
 #include "cmd/cmd.h"
 
@@ -18,7 +19,7 @@ static wt_status write_curve(void *user, const wt_force_curve *curve, wt_error *
     return status == WT_OK ? wt_map_add_curve(d->map, curve, err) : status;
 }
 
-static wt_status write_table(void *user, wt_table *table, wt_error *err)
+static wt_status write_converted_table(void *user, wt_table *table, wt_error *err)
 {
     destination *d = user;
     const cmd_common_options *common = &d->session->common;
@@ -40,32 +41,33 @@ int cmd_convert(int argc, char **argv)
     static const cmd_usage usage = {
         .name = "convert",
         .arguments = "[OPTION]... FILE",
-        .what = "Writes an instrument file as a text stream (weartrack-stream(5)), or as HDF5 if "
-                "the name after -o ends in .h5 or .hdf5, in SI units. - is standard input.",
+        .description =
+            "Writes an instrument file as a text stream (weartrack-stream(5)), or as HDF5 if "
+            "the name after -o ends in .h5 or .hdf5, in SI units. - is standard input.",
         .common = "output formats columns provenance",
         .n_files = 1,
         .files = "one file is needed"};
     wt_convert_job job = wt_convert_job_defaults();
-    cmd_option_group part = {wt_convert_job_params(), &job, NULL, 0};
+    cmd_option_group group = {wt_convert_job_params(), &job, NULL, 0};
     cmd_session s = cmd_session_defaults();
     destination d = {.session = &s};
-    if (cmd_parse(&s, &usage, &part, 1, argc, argv) && cmd_begin_reading(&s, job.read.format)) {
+    if (cmd_parse(&s, &usage, &group, 1, argc, argv) && cmd_begin_reading(&s, job.read.format)) {
         const bool store = cmd_is_hdf5_path(s.common.output);
-        wt_status made = cmd_record_provenance(s.result, &s.err);
-        if (made == WT_OK)
-            made = wt_convert_file(&job, s.files[0], &s.work, write_table,
-                                   store ? write_curve : NULL, &d, &s.err);
-        if (made == WT_OK)
-            made = cmd_write_record(&s, write_table, &d);
+        wt_status status = cmd_record_provenance(s.result, &s.err);
+        if (status == WT_OK)
+            status = wt_convert_file(&job, s.files[0], &s.work, write_converted_table,
+                                     store ? write_curve : NULL, &d, &s.err);
+        if (status == WT_OK)
+            status = cmd_write_record(&s, write_converted_table, &d);
         if (d.sink.stream != NULL)
-            made = cmd_sink_close(&d.sink, made, &s.err);
-        else if (made == WT_OK && d.map != NULL)
-            made = wt_map_commit(d.map, s.result, s.common.provenance, &s.err);
-        else if (made == WT_OK && store)
-            made = cmd_write_result(&s);
+            status = cmd_sink_close(&d.sink, status, &s.err);
+        else if (status == WT_OK && d.map != NULL)
+            status = wt_map_commit(d.map, s.result, s.common.provenance, &s.err);
+        else if (status == WT_OK && store)
+            status = cmd_write_result(&s);
         else
             wt_map_discard(d.map);
-        cmd_end(&s, made);
+        cmd_end(&s, status);
     }
     return cmd_session_free(&s);
 }

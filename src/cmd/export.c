@@ -24,7 +24,7 @@ static wt_export_form select_export_form(const char *output, const cmd_option_gr
 {
     const export_options *options = part->structure;
     const char *dot = output != NULL ? strrchr(output, '.') : NULL;
-    if (cmd_option_is_given(part, "format") || dot == NULL)
+    if (cmd_option_is_set(part, "format") || dot == NULL)
         return options->form;
     static const struct {
         const char *ending;

@@ -54,20 +54,21 @@ static const struct {
 static void read_metadata_item(const char *item, const char *value, const char *unit,
                                const char *source, file_kind *found)
 {
-    const size_t used = strlen(found->words);
+    const size_t used = strlen(found->description);
     for (size_t i = 0; i < COUNT_OF(metadata_items); i++) {
         char shown[160];
         if (strcmp(item, metadata_items[i].item) != 0 || strcmp(value, "0") == 0 ||
-            strstr(found->words, item) != NULL) /* header value and converted value */
+            strstr(found->description, item) != NULL) /* header value and converted value */
             continue;
         if (found->kind == 0) {
             found->kind = metadata_items[i].kind;
             found->next = metadata_items[i].next;
         }
         format_metadata_value(value, unit, shown, sizeof shown);
-        snprintf(found->words + used, sizeof found->words - used, "%s%s %s",
-                 strchr(found->words, ',') != NULL || strchr(found->words, ' ') != NULL ? ", "
-                                                                                        : ": ",
+        snprintf(found->description + used, sizeof found->description - used, "%s%s %s",
+                 strchr(found->description, ',') != NULL || strchr(found->description, ' ') != NULL
+                     ? ", "
+                     : ": ",
                  item, shown);
     }
     static const char radius[] = "tip radius, "; /* followed by the unit */
@@ -120,21 +121,21 @@ static void read_unitless_column(const char *item, const char *value, file_kind 
                  (int)(length - begin - 1), item + begin);
 }
 
-static void read_metadata(const wt_formats *formats, const wt_table *facts, file_kind *found)
+static void read_metadata(const wt_formats *formats, const wt_table *metadata, file_kind *found)
 {
     const wt_format_info *format = NULL;
-    for (size_t row = 0; row < wt_table_n_rows(facts); row++) {
-        const char *item = wt_table_text(facts, row, FACTS_ITEM);
-        const char *value = wt_table_text(facts, row, FACTS_VALUE);
+    for (size_t row = 0; row < wt_table_n_rows(metadata); row++) {
+        const char *item = wt_table_text(metadata, row, FACTS_ITEM);
+        const char *value = wt_table_text(metadata, row, FACTS_VALUE);
         if (format == NULL && strcmp(item, "format") == 0) {
             format = wt_formats_find(formats, value);
-            snprintf(found->words, sizeof found->words, "%s", value);
+            snprintf(found->description, sizeof found->description, "%s", value);
         }
         found->is_result = found->is_result || strncmp(item, "table ", 6) == 0;
         read_unitless_column(item, value, found);
         read_column_items(item, value, found);
-        read_metadata_item(item, value, wt_table_text(facts, row, FACTS_UNIT),
-                           wt_table_text(facts, row, FACTS_SOURCE), found);
+        read_metadata_item(item, value, wt_table_text(metadata, row, FACTS_UNIT),
+                           wt_table_text(metadata, row, FACTS_SOURCE), found);
     }
     found->is_result =
         found->is_result && format != NULL && strncmp(format->id, "weartrack-", 10) == 0;
@@ -142,20 +143,20 @@ static void read_metadata(const wt_formats *formats, const wt_table *facts, file
     if (found->kind == 0 && format != NULL && !found->is_result)
         found->kind = format->kinds & (~format->kinds + 1);
     if (format != NULL && found->kind == WT_KIND_FORCE && (format->kinds & WT_KIND_IMAGE) != 0 &&
-        strstr(found->words, "curves") == NULL)
+        strstr(found->description, "curves") == NULL)
         found->kind = WT_KIND_IMAGE;
 }
 
 wt_status file_kind_detect(cmd_session *s, const char *path, const wt_read_options *options,
-                           wt_log *log, wt_table **facts, file_kind *found)
+                           wt_log *log, wt_table **metadata, file_kind *found)
 {
     wt_input *input = NULL;
     *found = (file_kind){0};
     wt_status status = wt_input_open(path, &input, &s->err);
     if (status == WT_OK)
-        status = wt_input_describe(s->formats, input, options, log, facts, &s->err);
+        status = wt_input_describe(s->formats, input, options, log, metadata, &s->err);
     if (status == WT_OK)
-        read_metadata(s->formats, *facts, found);
+        read_metadata(s->formats, *metadata, found);
     else
         wt_error_file(&s->err, path);
     wt_input_close(input);

@@ -23,12 +23,12 @@ typedef struct file_kind {
     bool has_x, has_y, one_row;        /* columns of a table of heights; an image of one row */
     bool has_force, has_load;          /* friction force; normal force or coefficient of friction */
     bool nothing;                      /* it has no readable data, whatever the options */
-    char words[512];                   /* "jpk: curves 12, spring constant 300 mN/m" */
+    char description[512];             /* "jpk: curves 12, spring constant 300 mN/m" */
 } file_kind;
 
-/* Reads a file; `facts` receives the metadata table of wt_input_describe. */
+/* Reads a file; `metadata` receives the metadata table of wt_input_describe. */
 wt_status file_kind_detect(cmd_session *s, const char *path, const wt_read_options *options,
-                           wt_log *log, wt_table **facts, file_kind *found);
+                           wt_log *log, wt_table **metadata, file_kind *found);
 /* True if the user must supply this item, other than by units of columns. */
 bool file_kind_is_missing(const file_kind *found, size_t missing);
 /* Formats a number with few digits and a prefixed unit; other values are unchanged. */

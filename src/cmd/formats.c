@@ -82,10 +82,11 @@ int cmd_formats(int argc, char **argv)
     static const cmd_usage usage = {
         .name = "formats",
         .arguments = "list | show ID | check DESCRIPTION.xml [SAMPLE]",
-        .what = "list: the formats that are understood, and whether each was checked on a genuine "
-                "file.\nshow: the description of one of them; `show schema` prints the schema of "
-                "descriptions.\ncheck: checks a description, and with a sample shows what is "
-                "understood of it.",
+        .description =
+            "list: the formats that are understood, and whether each was checked on a genuine "
+            "file.\nshow: the description of one of them; `show schema` prints the schema of "
+            "descriptions.\ncheck: checks a description, and with a sample shows what is "
+            "understood of it.",
         .common = "output formats columns provenance"};
     wt_read_options read = wt_read_defaults();
     cmd_option_group part = {

@@ -11,7 +11,7 @@ static bool is_table_requested(const wt_sliding *s, size_t k)
     case TRANSVERSE_ISOTROPY:
         return s->rubber->is_transverse;
     case SOFTENING:
-        return s->softness != NULL;
+        return s->strain_softening != NULL;
     case FLASH:
         return s->flash.on;
     case ANISOTROPY:
@@ -67,9 +67,10 @@ int cmd_friction(int argc, char **argv)
     static const cmd_usage usage = {
         .name = "friction",
         .arguments = "--material FILE --roughness R --pressure P --velocity V [OPTION]...",
-        .what = "Persson's hysteresis friction, contact area and, with --shear-stress, total "
-                "friction at each velocity, each with its numerical and its standard error; with a "
-                "modified layer on top if its thickness and modulus ratio are given.",
+        .description =
+            "Persson's hysteresis friction, contact area and, with --shear-stress, total "
+            "friction at each velocity, each with its numerical and its standard error; with a "
+            "modified layer on top if its thickness and modulus ratio are given.",
         .common = "output formats columns files-from provenance cost",
         .first = "material dma roughness pressure velocity sliding-temperature shear-stress "
                  "layer-thickness modulus-ratio strain-softening flash-temperature anisotropy "
@@ -83,26 +84,26 @@ int cmd_friction(int argc, char **argv)
     wt_table *further[N_FURTHER] = {NULL}, *what_if = NULL;
     if (!cmd_sliding_parse(&s, &usage, argc, argv))
         return cmd_sliding_free(&s);
-    const bool has_layer = cmd_option_is_given(own, "layer-thickness");
+    const bool has_layer = cmd_option_is_set(own, "layer-thickness");
     if (has_layer != cmd_sliding_has_layer(&s, own))
         cmd_usage_error(&s.session, "--layer-thickness and --modulus-ratio (or a file of it) go "
                                     "together");
     else if (cmd_sliding_open(&s)) {
-        const wt_layer_observation *known = has_layer ? &layer : NULL;
+        const wt_layer_observation *observation = has_layer ? &layer : NULL;
         wt_cost_begin_stage(s.session.cost, has_layer ? "friction_with_layer" : "friction");
-        wt_status made = wt_sliding_friction_compute(&s.conditions, known, &s.session.work, &tables,
-                                                     &s.session.err);
-        if (made == WT_OK)
-            made = compute_further_tables(&s, further);
+        wt_status status = wt_sliding_friction_compute(&s.conditions, observation, &s.session.work,
+                                                       &tables, &s.session.err);
+        if (status == WT_OK)
+            status = compute_further_tables(&s, further);
         wt_cost_begin_stage(s.session.cost, "what_if");
-        if (made == WT_OK)
-            made = wt_model_sensitivity_compute(&s.conditions, NULL, known, &s.session.work,
-                                                &what_if, &s.session.err);
+        if (status == WT_OK)
+            status = wt_model_sensitivity_compute(&s.conditions, NULL, observation, &s.session.work,
+                                                  &what_if, &s.session.err);
         wt_table **const parts[] = {
             &tables.friction,    &further[AREA],    &further[TRANSVERSE_ISOTROPY],
             &further[SOFTENING], &further[FLASH],   &further[ANISOTROPY],
             &further[MAP],       &further[DECADES], &what_if};
-        cmd_finish(&s.session, made, parts, COUNT_OF(parts));
+        cmd_finish(&s.session, status, parts, COUNT_OF(parts));
     }
     return cmd_sliding_free(&s);
 }

@@ -8,10 +8,11 @@ int cmd_identify(int argc, char **argv)
         .name = "identify",
         .arguments = "--material FILE --roughness R --pressure P --velocity V --observed-thickness "
                      "D [--specific-wear-rate K] [--running-in-time T] [OPTION]...",
-        .what = "Critical energy U_c and specific wear rate k that go with a layer of known "
-                "thickness: with a wear rate, with the time of its running-in, or both against one "
-                "another, at the velocity given (the middle one of a list); with intervals, their "
-                "correlation and the combination that the data do not determine.",
+        .description =
+            "Critical energy U_c and specific wear rate k that go with a layer of known "
+            "thickness: with a wear rate, with the time of its running-in, or both against one "
+            "another, at the velocity given (the middle one of a list); with intervals, their "
+            "correlation and the combination that the data do not determine.",
         .common = "output formats columns files-from provenance cost",
         .first = "material dma roughness pressure velocity observed-thickness specific-wear-rate "
                  "running-in-time sliding-temperature output",

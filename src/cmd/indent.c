@@ -18,9 +18,10 @@ int cmd_indent(int argc, char **argv)
     static const cmd_usage usage = {
         .name = "indent",
         .arguments = "--tip TIP [OPTION]... FILE...",
-        .what = "Fits baseline, contact point and modulus of every approach curve of the files "
-                "(folders and patterns are allowed). One row per curve; a curve without a modulus "
-                "says why.",
+        .description =
+            "Fits baseline, contact point and modulus of every approach curve of the files "
+            "(folders and patterns are allowed). One row per curve; a curve without a modulus "
+            "says why.",
         .common = "output formats columns files-from provenance cost",
         .first = "tip spring-constant sensitivity spring-constant-error poisson-ratio fit-depth "
                  "fit-force sample-thickness master group curves output",
@@ -49,26 +50,26 @@ int cmd_indent(int argc, char **argv)
         return cmd_session_free(&s);
     job.sets = &set;
     job.n_sets = 1;
-    wt_status made = WT_OK;
+    wt_status status = WT_OK;
     if (own.master != NULL) {
         wt_cost_begin_stage(s.cost, "given_material");
-        made = cmd_rubber_read(own.master, dma_read.sample, job.options.poisson_ratio, &s.work,
-                               &dma, &rubber, &s.err);
-        if (made == WT_OK)
+        status = cmd_rubber_read(own.master, dma_read.sample, job.options.poisson_ratio, &s.work,
+                                 &dma, &rubber, &s.err);
+        if (status == WT_OK)
             wt_rubber_add_cost(&rubber, &s.work);
         job.rubber = &rubber;
     }
     char stage[64];
     snprintf(stage, sizeof stage, "indentation_%s", job.group);
     wt_cost_begin_stage(s.cost, stage);
-    if (made == WT_OK)
-        made = wt_indent_group(&job, &s.work, &tables, &s.err);
+    if (status == WT_OK)
+        status = wt_indent_group(&job, &s.work, &tables, &s.err);
     const wt_table *const indentation[] = {tables.indentation};
-    if (made == WT_OK)
-        made = wt_modulus_groups_table(indentation, 1, &groups, &s.err);
-    if (made == WT_OK)
-        made = wt_modulus_budget_table(indentation, 1, &budget, &s.err);
-    if (made == WT_OK && tables.n_accepted == 0) {
+    if (status == WT_OK)
+        status = wt_modulus_groups_table(indentation, 1, &groups, &s.err);
+    if (status == WT_OK)
+        status = wt_modulus_budget_table(indentation, 1, &budget, &s.err);
+    if (status == WT_OK && tables.n_accepted == 0) {
         cmd_message("weartrack indent: no curve has a modulus; the column verdict says why\n");
         s.status = CMD_FAILED;
     }
@@ -80,7 +81,7 @@ int cmd_indent(int argc, char **argv)
                                       &tables.force_displacement,
                                       &tables.force_indentation,
                                       &tables.curves};
-    cmd_finish(&s, made, made_tables, COUNT_OF(made_tables));
+    cmd_finish(&s, status, made_tables, COUNT_OF(made_tables));
     wt_rubber_clear(&rubber);
     wt_result_free(dma);
     return cmd_session_free(&s);

@@ -5,24 +5,24 @@
 #include "cmd/file_kind.h"
 #include "core/table/registry.h"
 
-static void print_metadata(const char *name, const wt_table *facts)
+static void print_metadata(const char *name, const wt_table *metadata)
 {
     enum { MAX_LABEL = 42 };
     size_t width = 0;
-    for (size_t row = 0; row < wt_table_n_rows(facts); row++) {
-        const char *label = wt_table_text(facts, row, FACTS_ITEM);
+    for (size_t row = 0; row < wt_table_n_rows(metadata); row++) {
+        const char *label = wt_table_text(metadata, row, FACTS_ITEM);
         const size_t w = cmd_text_width(label, strlen(label));
         width = w > width && w <= MAX_LABEL ? w : width;
     }
     printf("%s\n", name);
-    for (size_t row = 0; row < wt_table_n_rows(facts); row++) {
-        const char *label = wt_table_text(facts, row, FACTS_ITEM);
-        const char *s = wt_table_text(facts, row, FACTS_SOURCE);
-        const char *v = wt_table_text(facts, row, FACTS_VALUE);
+    for (size_t row = 0; row < wt_table_n_rows(metadata); row++) {
+        const char *label = wt_table_text(metadata, row, FACTS_ITEM);
+        const char *s = wt_table_text(metadata, row, FACTS_SOURCE);
+        const char *v = wt_table_text(metadata, row, FACTS_VALUE);
         if (strcmp(label, "file") == 0 && strcmp(v, name) == 0)
             continue; /* the heading has it */
         char shown[1024], line[2048];
-        format_metadata_value(v, wt_table_text(facts, row, FACTS_UNIT), shown, sizeof shown);
+        format_metadata_value(v, wt_table_text(metadata, row, FACTS_UNIT), shown, sizeof shown);
         snprintf(line, sizeof line, *s != '\0' ? "%s  (%s)" : "%s%s", shown, s);
         const size_t w = cmd_text_width(label, strlen(label));
         printf("  %s%*s  ", label, w < width ? (int)(width - w) : 0, "");
@@ -34,22 +34,22 @@ static void print_metadata(const char *name, const wt_table *facts)
 static bool print_file_info(cmd_session *s, const char *path, const wt_read_options *options,
                             file_kind *found)
 {
-    wt_table *facts = NULL;
+    wt_table *metadata = NULL;
     wt_log *log = wt_log_new();
-    const wt_status status = file_kind_detect(s, path, options, log, &facts, found);
+    const wt_status status = file_kind_detect(s, path, options, log, &metadata, found);
     if (status == WT_OK)
-        print_metadata(path, facts);
+        print_metadata(path, metadata);
     /* Notes are shown, too, as the user wants all remarks on the file. */
     cmd_print_log(s, log, true);
     if (status != WT_OK)
         cmd_report_failure(s);
-    wt_table_free(facts);
+    wt_table_free(metadata);
     wt_log_free(log);
     return status == WT_OK;
 }
 
 /* Prints one word, quoted for a shell. */
-static void print_shell_word(const char *word)
+static void print_shell_argument(const char *word)
 {
     static const char plain[] =
         "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+./=,:@";
@@ -75,7 +75,7 @@ static void print_missing_options(const file_kind *found)
         n = strcspn(name, "\n");
         snprintf(given, sizeof given, "%.*s=UNIT", (int)n, name);
         fputs(" --units", stdout);
-        print_shell_word(given);
+        print_shell_argument(given);
     }
 }
 
@@ -87,7 +87,7 @@ static void print_next_command(const char *const *files, size_t n, const file_ki
     if (n > 1) {
         fputs("\nnext: weartrack new-case", stdout);
         for (size_t i = 0; i < n; i++)
-            print_shell_word(files[i]);
+            print_shell_argument(files[i]);
         fputs(" -o case.xml\n", stdout);
         return;
     }
@@ -97,9 +97,10 @@ static void print_next_command(const char *const *files, size_t n, const file_ki
                                    : found->kind == WT_KIND_SWEEP ? "master"
                                                                   : "convert");
     if (!found->is_result && found->kind == WT_KIND_FORCE)
-        print_shell_word(*found->tip != '\0' ? found->tip : "pyramid:half-angle=35deg,radius=20nm");
+        print_shell_argument(*found->tip != '\0' ? found->tip
+                                                 : "pyramid:half-angle=35deg,radius=20nm");
     print_missing_options(found);
-    print_shell_word(files[0]);
+    print_shell_argument(files[0]);
     char *output = found->is_result
                        ? NULL
                        : cmd_default_name(files[0], cmd_is_hdf5_path(files[0])
@@ -107,7 +108,7 @@ static void print_next_command(const char *const *files, size_t n, const file_ki
                                                         : ".h5");
     if (output != NULL) {
         fputs(" -o", stdout);
-        print_shell_word(output);
+        print_shell_argument(output);
     }
     free(output);
     putchar('\n');
@@ -120,8 +121,8 @@ int cmd_info(int argc, char **argv)
     static const cmd_usage usage = {
         .name = "info",
         .arguments = "[OPTION]... FILE...",
-        .what = "Says what each file is and who recognised it, its segments, channels and "
-                "calibration, and what is missing or odd. - is standard input.",
+        .description = "Says what each file is and who recognised it, its segments, channels and "
+                       "calibration, and what is missing or odd. - is standard input.",
         .common = "formats columns files-from",
         .n_files = CMD_ONE_OR_MORE};
     wt_read_options read = wt_read_defaults();
@@ -135,7 +136,7 @@ int cmd_info(int argc, char **argv)
         if (i > 0)
             putchar('\n');
         n_known += print_file_info(&s, s.files[i], &read, &found);
-        n_found += found.words[0] != '\0';
+        n_found += found.description[0] != '\0';
     }
     if (n_known == 0)
         s.status = CMD_FAILED;

@@ -23,26 +23,28 @@ static wt_status compute_layer_models(cmd_sliding *s, const wt_layer_job *job,
     const wt_sliding *sliding = &s->conditions;
     const wt_job *work = &s->session.work;
     wt_error *err = &s->session.err;
-    const wt_layer_observation *known =
-        cmd_sliding_has_layer(s, &s->parts[CMD_LAYER]) ? &s->known : NULL;
-    wt_status made = WT_OK;
+    const wt_layer_observation *observation =
+        cmd_sliding_has_layer(s, &s->parts[CMD_LAYER]) ? &s->layer_observation : NULL;
+    wt_status status = WT_OK;
     if (job->bands || job->n_loads > 0) {
         wt_cost_begin_stage(s->session.cost, "layer_bands");
-        made = wt_layer_bands_compute(sliding, job, work, &table[BANDS], err);
+        status = wt_layer_bands_compute(sliding, job, work, &table[BANDS], err);
     }
-    if (made == WT_OK && job->running_in) {
+    if (status == WT_OK && job->running_in) {
         wt_cost_begin_stage(s->session.cost, "running_in");
-        made = wt_running_in_compute(sliding, job, known, work, &table[RUNNING_IN], err);
+        status = wt_running_in_compute(sliding, job, observation, work, &table[RUNNING_IN], err);
     }
-    if (made == WT_OK && job->has_feedback) {
+    if (status == WT_OK && job->has_feedback) {
         wt_cost_begin_stage(s->session.cost, "layer_feedback");
-        made = wt_layer_steady_states_compute(sliding, job, known, work, &table[BALANCES], err);
+        status =
+            wt_layer_steady_states_compute(sliding, job, observation, work, &table[BALANCES], err);
     }
-    if (made == WT_OK && job->existence) {
+    if (status == WT_OK && job->existence) {
         wt_cost_begin_stage(s->session.cost, "layer_regime_map");
-        made = wt_regime_map_compute(sliding, job, known, work, &table[LAYER_REGIME_MAP], err);
+        status =
+            wt_regime_map_compute(sliding, job, observation, work, &table[LAYER_REGIME_MAP], err);
     }
-    return made;
+    return status;
 }
 
 static wt_status compute_layer_tables(cmd_sliding *s, const wt_layer_job *job,
@@ -51,26 +53,27 @@ static wt_status compute_layer_tables(cmd_sliding *s, const wt_layer_job *job,
     const wt_job *work = &s->session.work;
     wt_error *err = &s->session.err;
     wt_cost_begin_stage(s->session.cost, "layer");
-    wt_status made = wt_layer_thickness_compute(&s->conditions, job, work, tables, err);
+    wt_status status = wt_layer_thickness_compute(&s->conditions, job, work, tables, err);
     table[LAYER] = tables->layer;
     tables->layer = NULL;
     wt_cost_begin_stage(s->session.cost, "energy_density");
-    if (made == WT_OK)
-        made = wt_energy_density_compute(&s->conditions, job, work, &table[ENERGY_DENSITY], err);
-    if (made == WT_OK)
-        made = compute_layer_models(s, job, table);
-    if (made == WT_OK && s->conditions.softness != NULL) {
+    if (status == WT_OK)
+        status = wt_energy_density_compute(&s->conditions, job, work, &table[ENERGY_DENSITY], err);
+    if (status == WT_OK)
+        status = compute_layer_models(s, job, table);
+    if (status == WT_OK && s->conditions.strain_softening != NULL) {
         wt_cost_begin_stage(s->session.cost, "softening");
-        made = wt_softened_friction_compute(&s->conditions, work, &table[SOFTENING], err);
+        status = wt_softened_friction_compute(&s->conditions, work, &table[SOFTENING], err);
     }
-    if (made == WT_OK && s->conditions.flash.on) {
+    if (status == WT_OK && s->conditions.flash.on) {
         wt_cost_begin_stage(s->session.cost, "flash_temperature");
-        made = wt_flash_temperature_compute(&s->conditions, work, &table[FLASH], err);
+        status = wt_flash_temperature_compute(&s->conditions, work, &table[FLASH], err);
     }
     wt_cost_begin_stage(s->session.cost, "what_if");
-    if (made == WT_OK)
-        made = wt_model_sensitivity_compute(&s->conditions, job, NULL, work, &table[WHAT_IF], err);
-    return made;
+    if (status == WT_OK)
+        status =
+            wt_model_sensitivity_compute(&s->conditions, job, NULL, work, &table[WHAT_IF], err);
+    return status;
 }
 
 int cmd_layer(int argc, char **argv)
@@ -80,7 +83,7 @@ int cmd_layer(int argc, char **argv)
         .arguments = "--material FILE --roughness R --pressure P --velocity V "
                      "{--specific-wear-rate K | --wear-of FILE} [--critical-energy U | "
                      "--observed-thickness D] [OPTION]...",
-        .what =
+        .description =
             "Energy density with depth, formation and wear rate, balance and thickness in time "
             "of the modified layer, at constant load and the velocity given (the middle one of a "
             "list). When asked for, also: under loads that follow one another (--loads); "
@@ -115,11 +118,11 @@ int cmd_layer(int argc, char **argv)
         cmd_usage_error(&s.session, "--running-in-friction and --feedback need --modulus-ratio");
     else if (cmd_sliding_open(&s)) {
         cmd_sliding_set_wear_rate(&s, &job.specific_wear_rate);
-        const wt_status made = compute_layer_tables(&s, &job, &tables, table);
+        const wt_status status = compute_layer_tables(&s, &job, &tables, table);
         wt_table **parts[N_TABLES];
         for (size_t i = 0; i < N_TABLES; i++)
             parts[i] = &table[i];
-        cmd_finish(&s.session, made, parts, N_TABLES);
+        cmd_finish(&s.session, status, parts, N_TABLES);
     }
     return cmd_sliding_free(&s);
 }

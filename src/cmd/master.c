@@ -126,7 +126,7 @@ static bool requests_reduced_series(const cmd_option_group *part, const fem_expo
     static const char *const options[] = {"prony-terms", "prony-error", "prony-long-term"};
     bool asked = exports_given->n_exports > 0;
     for (size_t i = 0; i < COUNT_OF(options); i++)
-        asked = asked || cmd_option_is_given(part, options[i]);
+        asked = asked || cmd_option_is_set(part, options[i]);
     return asked;
 }
 
@@ -150,32 +150,32 @@ static wt_status read_saved_shifts(cmd_session *s, const char *path, const char 
     return of_samples ? cmd_check_sample(*given, path, "shift_factors", sample, &s->err) : status;
 }
 
-/* Fits one sample, writes its separate files and finishes the call. `made` is the status of
+/* Fits one sample, writes its separate files and finishes the call. `status` is the status of
  * reading. */
-static void fit_single_master(cmd_session *s, wt_status made, const wt_master_job *job,
+static void fit_single_master(cmd_session *s, wt_status status, const wt_master_job *job,
                               const wt_shared_shift_law_job *common, const saved_shifts *saved,
                               const fem_exports *exports_given)
 {
     wt_master_tables tables = {0};
-    if (made == WT_OK && common->common != WT_SHARED_LAW_NONE) {
-        made = wt_fail(&s->err, WT_E_MISSING, "one sample has no law in common with another");
+    if (status == WT_OK && common->common != WT_SHARED_LAW_NONE) {
+        status = wt_fail(&s->err, WT_E_MISSING, "one sample has no law in common with another");
         wt_error_advice(&s->err,
                         "--shared-shift-law takes sweeps of several samples, without --sample, "
                         "--save-shifts and --export; see --sample-by");
     }
-    if (made == WT_OK)
-        made = wt_master_compute(job, &s->work, &tables, NULL, &s->err);
-    if (made != WT_OK && job->shifts != NULL && strcmp(s->err.place, "shifts") == 0)
+    if (status == WT_OK)
+        status = wt_master_compute(job, &s->work, &tables, NULL, &s->err);
+    if (status != WT_OK && job->shifts != NULL && strcmp(s->err.place, "shifts") == 0)
         wt_error_file(&s->err, saved->read);
-    if (made == WT_OK && saved->written != NULL)
-        made = save_shifts(saved->written, tables.shift_factors, &s->err);
-    if (made == WT_OK)
-        made = write_exports(s, exports_given, &tables);
+    if (status == WT_OK && saved->written != NULL)
+        status = save_shifts(saved->written, tables.shift_factors, &s->err);
+    if (status == WT_OK)
+        status = write_exports(s, exports_given, &tables);
     wt_table **const made_tables[] = {
         &tables.prony,         &tables.prony_reduced, &tables.relaxation_spectrum,
         &tables.shift_factors, &tables.master_curve,  &tables.material_draws,
         &tables.series_draws};
-    cmd_finish(s, made, made_tables, COUNT_OF(made_tables));
+    cmd_finish(s, status, made_tables, COUNT_OF(made_tables));
     wt_master_tables_clear(&tables);
 }
 
@@ -184,9 +184,10 @@ int cmd_master(int argc, char **argv)
     static const cmd_usage usage = {
         .name = "master",
         .arguments = "[OPTION]... FILE...",
-        .what = "Fits one relaxation spectrum to all isotherms of DMA frequency sweeps, with their "
-                "shifts, the law of these and the errors of everything; says whether superposition "
-                "holds. Folders and patterns are allowed.",
+        .description =
+            "Fits one relaxation spectrum to all isotherms of DMA frequency sweeps, with their "
+            "shifts, the law of these and the errors of everything; says whether superposition "
+            "holds. Folders and patterns are allowed.",
         .common = "output formats columns files-from provenance cost",
         .first = "reference-temperature shift-law vertical-shift exclude liquid temperature "
                  "units sheet deformation strain sample export prony-terms output",
@@ -226,7 +227,7 @@ int cmd_master(int argc, char **argv)
         !check_exports(&s, &exports_given) || !check_outputs(&s, &saved, &exports_given) ||
         !cmd_begin_files(&s, &set) ||
         (common.common == WT_SHARED_LAW_NONE &&
-         cmd_option_is_given(&parts[COMMON], "shared-shift-law-margin") &&
+         cmd_option_is_set(&parts[COMMON], "shared-shift-law-margin") &&
          !cmd_usage_error(&s, "--shared-shift-law-margin goes with --shared-shift-law")))
         return cmd_session_free(&s);
     job.reduction = exports_given.reduction;
@@ -236,17 +237,17 @@ int cmd_master(int argc, char **argv)
     job.n_sets = 1;
     wt_cost_begin_stage(s.cost, "master_curve");
     s.work.dma = &sweep; /* read once for all samples */
-    wt_status made = WT_OK;
+    wt_status status = WT_OK;
     if (saved.read != NULL)
-        made = read_saved_shifts(&s, saved.read, set.read.sample, &given, &job.shifts);
+        status = read_saved_shifts(&s, saved.read, set.read.sample, &given, &job.shifts);
     /* separate files are for one sample only */
-    if (made == WT_OK && set.read.sample == NULL && saved.written == NULL &&
+    if (status == WT_OK && set.read.sample == NULL && saved.written == NULL &&
         exports_given.n_exports == 0)
-        made = wt_sample_names_read(&set, 1, &s.work, &samples, &s.err);
-    if (made == WT_OK && samples.n > 1)
+        status = wt_sample_names_read(&set, 1, &s.work, &samples, &s.err);
+    if (status == WT_OK && samples.n > 1)
         fit_sample_masters(&s, &job, &common, &set, &samples);
     else
-        fit_single_master(&s, made, &job, &common, &saved, &exports_given);
+        fit_single_master(&s, status, &job, &common, &saved, &exports_given);
     wt_sample_names_clear(&samples);
     wt_sweep_clear(&sweep);
     wt_result_free(given);

@@ -175,29 +175,29 @@ void fit_sample_masters(cmd_session *s, wt_master_job *job, wt_shared_shift_law_
     wt_compared_material *of = calloc(samples->n, sizeof *of);
     wt_table ***made_tables = calloc(samples->n * TABLES + 3, sizeof *made_tables);
     const char *const chosen = set->read.sample;
-    wt_status made = fits == NULL || of == NULL || made_tables == NULL
-                         ? wt_fail(&s->err, WT_E_MEMORY, "out of memory")
-                         : WT_OK;
+    wt_status status = fits == NULL || of == NULL || made_tables == NULL
+                           ? wt_fail(&s->err, WT_E_MEMORY, "out of memory")
+                           : WT_OK;
     size_t n = 0;
-    if (made == WT_OK)
-        made = fit_all_samples(s, job, set, samples, fits);
+    if (status == WT_OK)
+        status = fit_all_samples(s, job, set, samples, fits);
     set->read.sample = chosen;
-    if (made == WT_OK)
+    if (status == WT_OK)
         compare_samples(s, samples, fits, of, &materials);
     common->reference = job->fit.reference_temperature;
-    if (made == WT_OK)
-        made = fit_common_law(s, common, samples, fits, &common_law);
-    for (size_t i = 0; made == WT_OK && i < samples->n; i++) {
-        made = rename_sample_tables(&fits[i], &s->err);
+    if (status == WT_OK)
+        status = fit_common_law(s, common, samples, fits, &common_law);
+    for (size_t i = 0; status == WT_OK && i < samples->n; i++) {
+        status = rename_sample_tables(&fits[i], &s->err);
         for (size_t k = 0; k < TABLES; k++)
             made_tables[n++] = &fits[i].named[k];
     }
-    if (made == WT_OK) {
+    if (status == WT_OK) {
         made_tables[n++] = &materials.material_ratio;
         made_tables[n++] = &materials.materials;
         made_tables[n++] = &common_law;
     }
-    cmd_finish(s, made, made_tables, n);
+    cmd_finish(s, status, made_tables, n);
     for (size_t i = 0; fits != NULL && i < samples->n; i++) {
         wt_master_tables_clear(&fits[i].tables);
         wt_rubber_clear(&fits[i].rubber);

@@ -22,7 +22,7 @@ static char *path_in_case(const new_case *c, const char *path)
  */
 
 /* Returns the first word that the name contains, ignoring case; NULL: none. */
-static const char *find_name_word(const char *name, size_t length, const char *const *words)
+static const char *find_name_token(const char *name, size_t length, const char *const *words)
 {
     for (size_t i = 0; words[i] != NULL; i++)
         for (size_t k = 0, n = strlen(words[i]); k + n <= length; k++)
@@ -36,14 +36,14 @@ typedef const char *const word_list[MAX_SEARCH_WORDS];
 
 /* Finds the group by the name of the file, else of its folder, else of the folders above that
  * differ between the files, those after the first `common` characters. */
-static bool find_group_by_words(case_entry *e, size_t common, word_list words[])
+static bool find_group_by_name_tokens(case_entry *e, size_t common, word_list words[])
 {
     const char *const path = e->path, *end = path + strlen(path);
     for (int above = 0; end > path && (above < 2 || end > path + common); above++) {
         const char *slash = memrchr(path, '/', (size_t)(end - path));
         const char *name = slash != NULL ? slash + 1 : path;
         for (case_section where = BULK; where <= TRACK && e->word == NULL; where++) {
-            e->word = find_name_word(name, (size_t)(end - name), words[where]);
+            e->word = find_name_token(name, (size_t)(end - name), words[where]);
             e->case_section = e->word != NULL ? where : BULK;
         }
         e->from_folder = above > 0;
@@ -61,8 +61,8 @@ static void find_entry_group(case_entry *e, size_t common)
         [BULK] = {"bulk", "unworn", "virgin", "outside", "beside", NULL},
         [TRACK] = {"track", "worn", "wear", "scar", "groove", "inside", NULL}};
     static word_list weak[] = {[BULK] = {"reference", NULL}, [TRACK] = {NULL}};
-    if (!find_group_by_words(e, common, words))
-        (void)find_group_by_words(e, common, weak);
+    if (!find_group_by_name_tokens(e, common, words))
+        (void)find_group_by_name_tokens(e, common, weak);
 }
 
 /* Assigns force curves to groups by their names; a warning states how many are guesses. */
@@ -122,7 +122,7 @@ static void guess_maps(new_case *c)
         if (e->case_section != MAPS)
             continue;
         const char *slash = strrchr(e->path, '/'), *name = slash != NULL ? slash + 1 : e->path;
-        const bool said = find_name_word(name, strlen(name), surface) != NULL;
+        const bool said = find_name_token(name, strlen(name), surface) != NULL;
         find_entry_group(&of_spot, strlen(e->path));
         if (!said && records && is_profile(&e->found) && of_spot.case_section == TRACK)
             e->case_section = PROFILE;
@@ -163,18 +163,18 @@ static bool is_foreign_file(const wt_error *failure, bool in_folder)
 static void classify_entry(new_case *c, case_entry *e, bool in_folder)
 {
     const wt_read_options options = wt_read_defaults();
-    wt_table *facts = NULL;
+    wt_table *metadata = NULL;
     if (check_case_name(c, e) == WT_OK &&
-        file_kind_detect(c->s, e->path, &options, NULL, &facts, &e->found) == WT_OK) {
+        file_kind_detect(c->s, e->path, &options, NULL, &metadata, &e->found) == WT_OK) {
         e->case_section = section_from_kind(&e->found);
     } else {
         e->case_section = UNUSED;
         e->left_out = is_foreign_file(&c->s->err, in_folder);
-        snprintf(e->found.words, sizeof e->found.words, "%s", c->s->err.message);
+        snprintf(e->found.description, sizeof e->found.description, "%s", c->s->err.message);
         if (!e->left_out)
             cmd_report_failure(c->s);
     }
-    wt_table_free(facts);
+    wt_table_free(metadata);
 }
 
 /* Adds the files that match a pattern. */
@@ -322,7 +322,7 @@ int cmd_new_case(int argc, char **argv)
     static const cmd_usage usage = {
         .name = "new-case",
         .arguments = "[OPTION]... FILE...",
-        .what =
+        .description =
             "Writes a commented case file (weartrack-case(5)) for the files (folders, with the "
             "folders in them, and patterns): force curves as bulk or track, by the names of their "
             "folders; DMA sweeps; a power spectrum or height maps of the counter surface; a record "
@@ -339,22 +339,22 @@ int cmd_new_case(int argc, char **argv)
     if (!cmd_parse(&s, &usage, &part, 1, argc, argv) || !cmd_require_text_output(&s) ||
         !cmd_begin_reading(&s, NULL))
         return cmd_session_free(&s);
-    wt_status made = WT_OK;
-    for (size_t i = 0; i < s.n_files && made == WT_OK; i++)
-        made = add_argument(&c, s.files[i]);
-    if (made == WT_OK && c.n == 0)
-        made = wt_fail(&s.err, WT_E_EMPTY, "no file: no case is written");
-    if (made == WT_OK)
-        made = report_foreign_files(&c);
-    if (made == WT_OK) {
+    wt_status status = WT_OK;
+    for (size_t i = 0; i < s.n_files && status == WT_OK; i++)
+        status = add_argument(&c, s.files[i]);
+    if (status == WT_OK && c.n == 0)
+        status = wt_fail(&s.err, WT_E_EMPTY, "no file: no case is written");
+    if (status == WT_OK)
+        status = report_foreign_files(&c);
+    if (status == WT_OK) {
         guess_groups(&c);
         guess_maps(&c);
         if (s.status == CMD_PARTIAL && new_case_count(&c, UNUSED) == c.n)
             s.status = CMD_FAILED;
-        made = write_new_case(&c);
+        status = write_new_case(&c);
         cmd_print_log(&s, s.log, false);
     }
-    if (made != WT_OK)
+    if (status != WT_OK)
         cmd_fail(&s);
     else if (s.common.output != NULL && !s.common.quiet && s.status != CMD_FAILED)
         cmd_message("next: fill in what is missing, then weartrack run %s\n", s.common.output);

@@ -114,10 +114,10 @@ static void write_file_elements(FILE *out, const new_case *c, case_section where
         const case_entry *e = &c->entries[i];
         if (e->case_section != where)
             continue;
-        if (last == NULL || strcmp(last->found.words, e->found.words) != 0 ||
+        if (last == NULL || strcmp(last->found.description, e->found.description) != 0 ||
             last->word != e->word || last->from_folder != e->from_folder) {
             fprintf(out, "%s<!-- ", indent);
-            write_comment(out, e->found.words);
+            write_comment(out, e->found.description);
             write_reason(out, e);
             fputs(" -->\n", out);
         }
@@ -138,7 +138,7 @@ static void write_single_element(FILE *out, const new_case *c, case_section wher
         fputs(first == NULL ? "    <!-- "
                             : "    <!-- to have this one, too, name a folder of all: ",
               out);
-        write_comment(out, first == NULL ? e->found.words : e->path);
+        write_comment(out, first == NULL ? e->found.description : e->path);
         fputs(" -->\n", out);
         if (first == NULL)
             write_file_element(out, e, "    ", element);
@@ -240,7 +240,7 @@ static void write_unused(FILE *out, const case_entry *e)
     fputs("  <!-- not used: ", out);
     write_comment(out, e->path);
     fputs(": ", out);
-    write_comment(out, e->found.words);
+    write_comment(out, e->found.description);
     fputs(e->found.kind == WT_KIND_IMAGE   ? "; an image: of the counter surface it goes into "
                                              "roughness as files, across a track into record as "
                                              "profile, of a spot see weartrack spot"

@@ -63,7 +63,7 @@ typedef struct option_list {
     size_t n;
 } option_list;
 
-bool cmd_option_is_given(const cmd_option_group *part, const char *name)
+bool cmd_option_is_set(const cmd_option_group *part, const char *name)
 {
     for (size_t i = 0; i < wt_params_count(part->params); i++)
         if (strcmp(wt_params_get(part->params, i)->name, name) == 0)
@@ -214,7 +214,7 @@ static void print_subcommand_help(const cmd_usage *usage, const option_list *lis
     const size_t used = (size_t)printf("usage: weartrack %s ", usage->name);
     cmd_wrap(stdout, used, used, usage->arguments);
     putchar('\n');
-    cmd_wrap(stdout, 0, 0, usage->what);
+    cmd_wrap(stdout, 0, 0, usage->description);
     if (all || usage->first == NULL) {
         print_all_options(usage, list);
     } else {
@@ -309,7 +309,7 @@ static bool check_output_suffix(cmd_session *s, const cmd_usage *usage)
 
 /* Usage error if an input is empty or is standard input for the second time, or if -o would
  * overwrite an input. */
-static bool check_inputs(cmd_session *s, const char *const *inputs, size_t n, size_t *n_pipes)
+static bool check_input_files(cmd_session *s, const char *const *inputs, size_t n, size_t *n_pipes)
 {
     const char *output = s->common.output;
     for (size_t i = 0; i < n; i++) {
@@ -475,8 +475,8 @@ bool cmd_parse(cmd_session *s, const cmd_usage *usage, cmd_option_group *parts, 
     }
     good = good && check_output_suffix(s, usage) &&
            list_files(s, (size_t)(argc - optind), argv + optind) && check_required(s, &list) &&
-           check_inputs(s, inputs, n_inputs, &n_pipes) &&
-           check_inputs(s, s->files, s->n_files, &n_pipes) && check_file_count(s, usage);
+           check_input_files(s, inputs, n_inputs, &n_pipes) &&
+           check_input_files(s, s->files, s->n_files, &n_pipes) && check_file_count(s, usage);
     free(inputs);
     return good;
 }

@@ -7,10 +7,11 @@ int cmd_psd(int argc, char **argv)
     static const cmd_usage usage = {
         .name = "psd",
         .arguments = "[OPTION]... FILE...",
-        .what = "Power spectrum C(q) of a surface from height maps and profiles of it, as "
-                "friction and layer take it: with errors, the reliable range, "
-                "a self-affine law and the roughness numbers of every scan. Scans of several sizes "
-                "are stitched, several places averaged. Folders and patterns are allowed.",
+        .description =
+            "Power spectrum C(q) of a surface from height maps and profiles of it, as "
+            "friction and layer take it: with errors, the reliable range, "
+            "a self-affine law and the roughness numbers of every scan. Scans of several sizes "
+            "are stitched, several places averaged. Folders and patterns are allowed.",
         .common = "output formats files-from provenance cost",
         .notes = "The tables power_spectrum, place_errors (of scans of several sizes), "
                  "angular_spectrum (of height maps), surfaces, "

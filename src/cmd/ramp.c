@@ -7,10 +7,11 @@ int cmd_ramp(int argc, char **argv)
     static const cmd_usage usage = {
         .name = "ramp",
         .arguments = "[OPTION]... FILE...",
-        .what = "Glass transition of DMA temperature sweeps: the temperatures at which tan delta "
-                "and the loss modulus have their peaks, at each frequency, with their errors; with "
-                "--at the moduli and tan delta at temperatures. Isotherms are taken apart by "
-                "frequency. Folders and patterns are allowed.",
+        .description =
+            "Glass transition of DMA temperature sweeps: the temperatures at which tan delta "
+            "and the loss modulus have their peaks, at each frequency, with their errors; with "
+            "--at the moduli and tan delta at temperatures. Isotherms are taken apart by "
+            "frequency. Folders and patterns are allowed.",
         .common = "output formats columns files-from provenance cost",
         .notes = "The tables glass_transition, moduli_at (with --at) and ramp follow one another.",
         .n_files = CMD_ONE_OR_MORE};

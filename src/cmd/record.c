@@ -7,7 +7,7 @@ int cmd_record(int argc, char **argv)
     static const cmd_usage usage = {
         .name = "record",
         .arguments = "[OPTION]... FILE...",
-        .what =
+        .description =
             "Records of pin-on-disc, linear and reciprocating tribometers: where the running-in "
             "ends, the friction coefficient behind it, its drift and its stick-slip, each with "
             "its error, at every velocity, load and temperature of the record; with the loss "

@@ -189,10 +189,11 @@ int cmd_report(int argc, char **argv)
     static const cmd_usage usage = {
         .name = "report",
         .arguments = "RESULT -o PLACE|--browse FILE.html|--sheets FILE.pdf|--methods [OPTION]...",
-        .what = "Writes one page that needs no other file and can be mailed, or a folder with that "
-                "page, index.html, and for each figure its data, script and picture; the figures "
-                "can be drawn again without weartrack. RESULT is HDF5 or a text stream, - is "
-                "standard input.",
+        .description =
+            "Writes one page that needs no other file and can be mailed, or a folder with that "
+            "page, index.html, and for each figure its data, script and picture; the figures "
+            "can be drawn again without weartrack. RESULT is HDF5 or a text stream, - is "
+            "standard input.",
         .common = "provenance",
         .n_files = 1,
         .files = "one result file is needed"};
@@ -217,20 +218,20 @@ int cmd_report(int argc, char **argv)
     if (!check_output_names(&s, &own))
         return cmd_session_free(&s);
     report_options.with_provenance = s.common.provenance;
-    wt_status made = cmd_tables_read(s.files[0], &s.result, &s.err);
-    if (made == WT_OK)
-        made = own.methods ? write_methods(&s) : write_pages(&s, &report_options, &own);
-    if ((made == WT_E_MISSING || made == WT_E_UNIT) && s.err.file[0] == '\0')
+    wt_status status = cmd_tables_read(s.files[0], &s.result, &s.err);
+    if (status == WT_OK)
+        status = own.methods ? write_methods(&s) : write_pages(&s, &report_options, &own);
+    if ((status == WT_E_MISSING || status == WT_E_UNIT) && s.err.file[0] == '\0')
         wt_error_file(&s.err, s.files[0]); // a table of it is incomplete
-    if (made != WT_OK)
+    if (status != WT_OK)
         cmd_fail(&s);
     else
         cmd_apply_strict(&s, s.files[0], cmd_count_remarks(s.result));
-    if (made == WT_OK && !s.common.quiet && !own.methods && s.common.output != NULL)
+    if (status == WT_OK && !s.common.quiet && !own.methods && s.common.output != NULL)
         cmd_print_page_location(s.common.output);
-    if (made == WT_OK && !s.common.quiet && own.browse != NULL)
+    if (status == WT_OK && !s.common.quiet && own.browse != NULL)
         cmd_message("page of curves: %s\n", own.browse);
-    if (made == WT_OK && !s.common.quiet && own.sheets != NULL)
+    if (status == WT_OK && !s.common.quiet && own.sheets != NULL)
         cmd_message("sheets of curves: %s\n", own.sheets);
     return cmd_session_free(&s);
 }

@@ -114,7 +114,7 @@ static wt_status prepare_outputs(run_call *r)
     return r->call_flags.no_report ? WT_OK : wt_report_check(r->folder_name, &r->report, err);
 }
 
-static wt_status compute_run(run_call *r)
+static wt_status run_case_and_report(run_call *r)
 {
     cmd_session *s = &r->s;
     size_t n_failed = 0;
@@ -189,13 +189,13 @@ static wt_status draw_page(run_call *r)
 static void apply_case_report_options(run_call *r, const cmd_option_group *given)
 {
     const wt_report_options *const asked = wt_case_report_options(r->case_file);
-    if (!cmd_option_is_given(given, "style"))
+    if (!cmd_option_is_set(given, "style"))
         r->report.style = asked->style;
-    if (!cmd_option_is_given(given, "figures"))
+    if (!cmd_option_is_set(given, "figures"))
         r->report.figures = asked->figures;
-    if (!cmd_option_is_given(given, "width"))
+    if (!cmd_option_is_set(given, "width"))
         r->report.width = asked->width;
-    if (!cmd_option_is_given(given, "font"))
+    if (!cmd_option_is_set(given, "font"))
         r->report.font = asked->font;
 }
 
@@ -218,7 +218,7 @@ static wt_status run_whole_case(run_call *r, const cmd_option_group *report_give
     if (kept)
         cmd_apply_strict(&r->s, r->result_name, cmd_count_remarks(r->s.result));
     else if (status == WT_OK)
-        status = compute_run(r);
+        status = run_case_and_report(r);
     if (status != WT_OK)
         return status;
     print_answer(r->s.result);
@@ -253,9 +253,10 @@ int cmd_run(int argc, char **argv)
     static const cmd_usage usage = {
         .name = "run",
         .arguments = "[OPTION]... CASE.xml",
-        .what = "Runs a whole case: what the case asks for, and nothing else. The answer goes to "
-                "standard output, the result to an HDF5 file and the figures to a report folder "
-                "with one page.",
+        .description =
+            "Runs a whole case: what the case asks for, and nothing else. The answer goes to "
+            "standard output, the result to an HDF5 file and the figures to a report folder "
+            "with one page.",
         .common = "formats columns provenance",
         .notes = "--style, --figures, --width and --font replace those of the case.\n"
                  "Exit status 3 if a file or a stage of the case failed and the rest is answered, "

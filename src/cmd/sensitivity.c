@@ -7,11 +7,12 @@ int cmd_sensitivity(int argc, char **argv)
     static const cmd_usage usage = {
         .name = "sensitivity",
         .arguments = "[OPTION]... FILE...",
-        .what = "Deflection sensitivity (inverse optical lever sensitivity, nm/V) of force curves "
-                "on a hard surface: slope in contact of each curve, approach and retract, their "
-                "scatter, and whether the surface is hard and the detector straight. Of curves "
-                "whose deflection is in metres, the factor that corrects them. Folders and "
-                "patterns are allowed.",
+        .description =
+            "Deflection sensitivity (inverse optical lever sensitivity, nm/V) of force curves "
+            "on a hard surface: slope in contact of each curve, approach and retract, their "
+            "scatter, and whether the surface is hard and the detector straight. Of curves "
+            "whose deflection is in metres, the factor that corrects them. Folders and "
+            "patterns are allowed.",
         .common = "output formats columns files-from provenance cost",
         .notes = "The tables sensitivity and sensitivity_curves follow one another.",
         .n_files = CMD_ONE_OR_MORE};

@@ -139,13 +139,13 @@ wt_status cmd_write_record(cmd_session *s, wt_table_sink sink, void *user)
     return status;
 }
 
-void cmd_end(cmd_session *s, wt_status made)
+void cmd_end(cmd_session *s, wt_status status)
 {
     char sentence[2048];
     cmd_progress_end(s);
     cmd_print_failures(s, s->work.failures);
     cmd_print_log(s, s->log, false);
-    if (made != WT_OK)
+    if (status != WT_OK)
         cmd_fail(s);
     else if (!s->common.quiet && wt_result_summary_line(s->result, sentence, sizeof sentence) > 0)
         cmd_message("weartrack %s: %s\n", s->name, sentence);
@@ -156,30 +156,30 @@ static wt_status add_result_table(void *result, wt_table *table, wt_error *err)
     return wt_result_add(result, table, err);
 }
 
-void cmd_finish(cmd_session *s, wt_status made, wt_table **const tables[], size_t n)
+void cmd_finish(cmd_session *s, wt_status status, wt_table **const tables[], size_t n)
 {
     cmd_progress_end(s);
     for (size_t i = 0; i < n; i++) {
         wt_table *const table = *tables[i];
         *tables[i] = NULL;
-        if (made == WT_OK && table != NULL)
-            made = wt_result_add(s->result, table, &s->err);
+        if (status == WT_OK && table != NULL)
+            status = wt_result_add(s->result, table, &s->err);
         else
             wt_table_free(table);
     }
-    if (made == WT_OK && s->cost != NULL) {
+    if (status == WT_OK && s->cost != NULL) {
         wt_table *cost = NULL;
-        made = wt_cost_table(s->cost, &cost, &s->err);
-        if (made == WT_OK)
-            made = wt_result_add(s->result, cost, &s->err);
+        status = wt_cost_table(s->cost, &cost, &s->err);
+        if (status == WT_OK)
+            status = wt_result_add(s->result, cost, &s->err);
     }
-    if (made == WT_OK) {
+    if (status == WT_OK) {
         wt_result_log_remarks(s->result, s->log);
-        made = cmd_write_record(s, add_result_table, s->result);
+        status = cmd_write_record(s, add_result_table, s->result);
     }
-    if (made == WT_OK)
-        made = cmd_write_result(s);
-    cmd_end(s, made);
+    if (status == WT_OK)
+        status = cmd_write_result(s);
+    cmd_end(s, status);
 }
 
 wt_status cmd_run_case(cmd_session *s, const wt_case *c, wt_run_options *run, size_t *n_failed)

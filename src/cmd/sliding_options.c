@@ -64,15 +64,16 @@ void cmd_sliding_init(cmd_sliding *s, cmd_option_group own)
         "strain sample sample-by spectrum-convention",
         0};
     s->parts[CMD_SUBCOMMAND] = own;
-    s->known = wt_layer_observation_defaults();
-    s->parts[CMD_LAYER] = (cmd_option_group){wt_layer_observation_params(), &s->known, "", 0};
+    s->layer_observation = wt_layer_observation_defaults();
+    s->parts[CMD_LAYER] =
+        (cmd_option_group){wt_layer_observation_params(), &s->layer_observation, "", 0};
 }
 
 int cmd_sliding_free(cmd_sliding *s)
 {
     wt_rubber_clear(&s->rubber);
     wt_surface_clear(&s->surface);
-    wt_strain_softening_clear(&s->softness);
+    wt_strain_softening_clear(&s->strain_softening);
     wt_rubber_clear(&s->layer_rubber);
     wt_result_free(s->material_tables);
     wt_result_free(s->layer_tables);
@@ -81,21 +82,21 @@ int cmd_sliding_free(cmd_sliding *s)
 
 /* True if an option of the layer is given. Its options are in CMD_SUBCOMMAND or CMD_LAYER,
  * depending on the subcommand. */
-static bool is_layer_option_given(const cmd_sliding *s, const char *name)
+static bool is_layer_option_set(const cmd_sliding *s, const char *name)
 {
-    return cmd_option_is_given(&s->parts[CMD_SUBCOMMAND], name) ||
-           cmd_option_is_given(&s->parts[CMD_LAYER], name);
+    return cmd_option_is_set(&s->parts[CMD_SUBCOMMAND], name) ||
+           cmd_option_is_set(&s->parts[CMD_LAYER], name);
 }
 
 /* Checks that one source of the layer modulus is given; a slope needs a ratio. */
 static bool check_layer_modulus(cmd_sliding *s)
 {
-    const bool ratio = is_layer_option_given(s, "modulus-ratio");
+    const bool ratio = is_layer_option_set(s, "modulus-ratio");
     const int files = (s->contact.layer_comparison != NULL) + (s->contact.layer_material != NULL);
     if (files + ratio > 1)
         return cmd_usage_error(&s->session, "give one of --modulus-ratio, --layer-comparison and "
                                             "--layer-material");
-    return ratio || !is_layer_option_given(s, "ratio-slope") ||
+    return ratio || !is_layer_option_set(s, "ratio-slope") ||
            cmd_usage_error(&s->session, "--ratio-slope goes with --modulus-ratio");
 }
 
@@ -111,16 +112,16 @@ bool cmd_sliding_parse(cmd_sliding *s, const cmd_usage *usage, int argc, char **
         return cmd_usage_error(session, "give either --material FILE or --dma FILE (or the names "
                                         "of DMA files with --files-from)");
     if (s->contact.softening == NULL &&
-        cmd_option_is_given(&s->parts[CMD_CONDITIONS], "strain-factor"))
+        cmd_option_is_set(&s->parts[CMD_CONDITIONS], "strain-factor"))
         return cmd_usage_error(session, "--strain-factor goes with --strain-softening");
     if (s->contact.softening == NULL &&
-        cmd_option_is_given(&s->parts[CMD_CONTACT], "softening-temperature"))
+        cmd_option_is_set(&s->parts[CMD_CONTACT], "softening-temperature"))
         return cmd_usage_error(session, "--softening-temperature goes with --strain-softening");
     if (!check_layer_modulus(s))
         return false;
     if (wt_anisotropy_check(&s->conditions.anisotropy, &session->err) != WT_OK)
         return cmd_param_error(session);
-    if (s->contact.material != NULL && cmd_option_is_given(&s->parts[CMD_READ], "temperature"))
+    if (s->contact.material != NULL && cmd_option_is_set(&s->parts[CMD_READ], "temperature"))
         return cmd_usage_error(session, "--temperature is that of --dma files; the rubber's while "
                                         "it slides is --sliding-temperature");
     return true;
@@ -204,7 +205,7 @@ static wt_status read_sliding_material(const cmd_sliding *s, material_input give
 
 bool cmd_sliding_has_layer(const cmd_sliding *s, const cmd_option_group *part)
 {
-    return cmd_option_is_given(part, "modulus-ratio") || s->contact.layer_comparison != NULL ||
+    return cmd_option_is_set(part, "modulus-ratio") || s->contact.layer_comparison != NULL ||
            s->contact.layer_material != NULL;
 }
 
@@ -212,7 +213,7 @@ static wt_layer_observation *layer_observation(cmd_sliding *s)
 {
     return s->parts[CMD_SUBCOMMAND].params == wt_layer_observation_params()
                ? (wt_layer_observation *)s->parts[CMD_SUBCOMMAND].structure
-               : &s->known;
+               : &s->layer_observation;
 }
 
 /* Reads the modulus of the layer from files. */
@@ -307,8 +308,8 @@ bool cmd_sliding_open(cmd_sliding *s)
         const wt_strain_softening_choice choice = {.temperature = s->contact.softening_temperature,
                                                    .sample = s->set.read.sample};
         status = wt_strain_softening_read(s->contact.softening, s->contact.softening, choice, work,
-                                          &s->softness, err);
-        s->conditions.softness = &s->softness;
+                                          &s->strain_softening, err);
+        s->conditions.strain_softening = &s->strain_softening;
     }
     if (status == WT_OK &&
         (s->contact.layer_comparison != NULL || s->contact.layer_material != NULL)) {

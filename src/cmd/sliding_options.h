@@ -45,7 +45,7 @@ typedef struct cmd_sliding {
     wt_master_job master;
     wt_rubber_options options;
     wt_transverse transverse;
-    wt_layer_observation known;
+    wt_layer_observation layer_observation;
     wt_file_set set;
     cmd_session session;
     cmd_option_group parts[CMD_SLIDING_PARTS];
@@ -54,7 +54,7 @@ typedef struct cmd_sliding {
     wt_estimate measured_wear; /* from wear_of; value NaN: none */
     wt_rubber rubber, layer_rubber;
     wt_surface surface;
-    wt_strain_softening softness;
+    wt_strain_softening strain_softening;
 } cmd_sliding;
 
 /* Initialises; `own` has the options of the subcommand itself. */

@@ -7,10 +7,11 @@ int cmd_spot(int argc, char **argv)
     static const cmd_usage usage = {
         .name = "spot",
         .arguments = "--tip TIP --depth D [OPTION]... IMAGE",
-        .what = "Of a height image of the spot before an indentation: the roughness over the "
-                "contact against the depth, and whether the spot is too rough for it. With an "
-                "image after it (--after): the imprint that stayed, its depth and volume with "
-                "their errors; drift between the images is found.",
+        .description =
+            "Of a height image of the spot before an indentation: the roughness over the "
+            "contact against the depth, and whether the spot is too rough for it. With an "
+            "image after it (--after): the imprint that stayed, its depth and volume with "
+            "their errors; drift between the images is found.",
         .common = "output formats provenance cost",
         .n_files = 1};
     wt_indent_job indent = wt_indent_job_defaults();

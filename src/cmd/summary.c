@@ -84,8 +84,9 @@ int cmd_summary(int argc, char **argv)
     static const cmd_usage usage = {
         .name = "summary",
         .arguments = "[OPTION]... RESULT...",
-        .what = "One row for each result (HDF5 or text stream) with its main numbers, their errors "
-                "or intervals, and verdicts. A column is there if one of the results has it.",
+        .description =
+            "One row for each result (HDF5 or text stream) with its main numbers, their errors "
+            "or intervals, and verdicts. A column is there if one of the results has it.",
         .common = "output files-from",
         .exports = true,
         .notes =
@@ -101,14 +102,14 @@ int cmd_summary(int argc, char **argv)
         return cmd_session_free(&s);
     size_t n_read = 0;
     wt_table **headlines = calloc(s.n_files, sizeof *headlines);
-    wt_status made = headlines != NULL ? read_all_results(&s, headlines, &n_read)
-                                       : wt_fail(&s.err, WT_E_MEMORY, "out of memory");
-    if (n_read > 0 && made == WT_OK)
-        made =
+    wt_status status = headlines != NULL ? read_all_results(&s, headlines, &n_read)
+                                         : wt_fail(&s.err, WT_E_MEMORY, "out of memory");
+    if (n_read > 0 && status == WT_OK)
+        status =
             wt_summary_table(s.files, (const wt_table *const *)headlines, n_read, &summary, &s.err);
-    if (n_read > 0 && made == WT_OK)
-        made = export_table(&s, &parts[0], summary);
-    if (made != WT_OK)
+    if (n_read > 0 && status == WT_OK)
+        status = export_table(&s, &parts[0], summary);
+    if (status != WT_OK)
         cmd_fail(&s);
     for (size_t i = 0; i < n_read; i++)
         wt_table_free(headlines[i]);

@@ -52,9 +52,10 @@ int cmd_table(int argc, char **argv)
     static const cmd_usage usage = {
         .name = "table",
         .arguments = "[OPTION]... RESULT [NAME]",
-        .what = "Writes the table NAME of a result (HDF5 or text stream; - is standard input) for "
-                "other programs: rows of cells parted by tabs or commas under one header line, or "
-                "JSON. In SI units, which stand in the header: modulus[Pa].",
+        .description =
+            "Writes the table NAME of a result (HDF5 or text stream; - is standard input) for "
+            "other programs: rows of cells parted by tabs or commas under one header line, or "
+            "JSON. In SI units, which stand in the header: modulus[Pa].",
         .common = "output",
         .exports = true,
         .notes = "NAME may be left out if there is one table only."};

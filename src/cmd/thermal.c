@@ -7,10 +7,11 @@ int cmd_thermal(int argc, char **argv)
     static const cmd_usage usage = {
         .name = "thermal",
         .arguments = "[OPTION]... FILE...",
-        .what = "Spring constant of a cantilever by the spectrum of its thermal noise (thermal "
-                "tune): a simple harmonic oscillator on a white floor by maximum likelihood, with "
-                "the errors of the fit and, of several spectra, their scatter, beside the value "
-                "of the file. Folders and patterns are allowed.",
+        .description =
+            "Spring constant of a cantilever by the spectrum of its thermal noise (thermal "
+            "tune): a simple harmonic oscillator on a white floor by maximum likelihood, with "
+            "the errors of the fit and, of several spectra, their scatter, beside the value "
+            "of the file. Folders and patterns are allowed.",
         .common = "output formats columns files-from provenance cost",
         .n_files = CMD_ONE_OR_MORE};
     wt_thermal_job job = wt_thermal_job_defaults();

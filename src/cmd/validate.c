@@ -49,11 +49,12 @@ int cmd_validate(int argc, char **argv)
     static const cmd_usage usage = {
         .name = "validate",
         .arguments = "[OPTION]... CASE.xml [RECORD]...",
-        .what = "Does the theory explain the friction that was measured? Records of a tribometer, "
-                "or results of weartrack record, are held against what a case predicts at their "
-                "velocities, with and without the layer: explains, does not, or cannot say; the "
-                "shear stress that the record asks for; where the error comes from; and which "
-                "choices of the model the record leaves.",
+        .description =
+            "Does the theory explain the friction that was measured? Records of a tribometer, "
+            "or results of weartrack record, are held against what a case predicts at their "
+            "velocities, with and without the layer: explains, does not, or cannot say; the "
+            "shear stress that the record asks for; where the error comes from; and which "
+            "choices of the model the record leaves.",
         .common = "output formats columns provenance",
         .notes = "Without a RECORD those of the case (<record>) are taken."};
     cmd_session s = cmd_session_defaults();

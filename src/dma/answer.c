@@ -31,8 +31,8 @@ static struct law_text shift_law_summary(const table_view *shift)
 void answer_rubber(const answer_context *context)
 {
     const table_view *shift = &context->shift_factors, *prony = &context->prony;
-    if (shift->table == NULL || prony->table == NULL || context->found.comparison.table != NULL ||
-        context->found.friction.table != NULL)
+    if (shift->table == NULL || prony->table == NULL || context->values.comparison.table != NULL ||
+        context->values.friction.table != NULL)
         return;
     const double reference =
         shift_factors_value(shift, SHIFT_FACTORS_KEY_REFERENCE_TEMPERATURE).value;

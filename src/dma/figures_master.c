@@ -330,7 +330,7 @@ static void draw_wicket(figure_drawing *d)
     .x = {MASTER_CURVE_ANGULAR_FREQUENCY, AXIS_LOG, "Reduced angular frequency"},                  \
     .y = {{MASTER_CURVE_STORAGE_MODULUS, AXIS_LOG, "Storage modulus"}},                            \
     .colour = {MASTER_CURVE_TEMPERATURE, AXIS_LINEAR, "Temperature"},                              \
-    .nothing = "no oscillation moduli above zero; steps have a figure over time",                  \
+    .empty_reason = "no oscillation moduli above zero; steps have a figure over time",             \
     .curves = {CURVE(MASTER_CURVE_STORAGE_MODULUS, OWN), CURVE(MASTER_CURVE_LOSS_MODULUS, OWN),    \
                CURVE(MASTER_CURVE_TEMPERATURE, DATA), CURVE(MASTER_CURVE_FITTED_STORAGE, DATA),    \
                CURVE(MASTER_CURVE_FITTED_LOSS, DATA)}
@@ -345,8 +345,8 @@ static void draw_wicket(figure_drawing *d)
         .curves = {CURVE(MASTER_CURVE_##quantity, OWN), CURVE(OWN_VALUE, DATA),                    \
                    CURVE(MASTER_CURVE_TEMPERATURE, DATA),                                          \
                    CURVE(FITTED_OF_##quantity, DATA, .with_errors = true)},                        \
-        .words = label " shifted to the reference temperature", .draw = draw_step_master_curve,    \
-        .caption = caption_step_master_curve                                                       \
+        .caption_text = label " shifted to the reference temperature",                             \
+        .draw = draw_step_master_curve, .caption = caption_step_master_curve                       \
     }
 #define STEP_ISOTHERM_FIGURE(id, heading, quantity, label, OWN_VALUE)                              \
     {                                                                                              \
@@ -355,7 +355,8 @@ static void draw_wicket(figure_drawing *d)
         .colour = {MASTER_CURVE_TEMPERATURE, AXIS_LINEAR, "Temperature"},                          \
         .curves = {CURVE(OWN_VALUE, OWN), CURVE(MASTER_CURVE_##quantity, DATA),                    \
                    CURVE(MASTER_CURVE_TEMPERATURE, DATA)},                                         \
-        .words = label " of each isotherm before any shift; colours as in the master curve.",      \
+        .caption_text =                                                                            \
+            label " of each isotherm before any shift; colours as in the master curve.",           \
         .draw = draw_step_isotherms, .caption = caption_isotherms                                  \
     }
 #define FITTED_OF_RELAXATION_MODULUS MASTER_CURVE_FITTED_RELAXATION
@@ -372,8 +373,8 @@ const figure_description figures_master[] = {
      .colour = {MASTER_CURVE_TEMPERATURE, AXIS_LINEAR, "Temperature"},
      .curves = {CURVE(MASTER_CURVE_OWN_STORAGE, OWN), CURVE(MASTER_CURVE_OWN_LOSS, OWN),
                 CURVE(MASTER_CURVE_TEMPERATURE, DATA)},
-     .nothing = "no oscillation moduli above zero; steps have a figure over time",
-     .words =
+     .empty_reason = "no oscillation moduli above zero; steps have a figure over time",
+     .caption_text =
          "Storage and loss modulus at the temperature of each isotherm, and tan δ below, before "
          "any shift; the colours are those of the master curve.",
      .draw = draw_isotherms,
@@ -381,7 +382,7 @@ const figure_description figures_master[] = {
     {.name = "master_curve",
      .title = "Master curve",
      .table = &master_curve_schema,
-     .beside = "prony",
+     .other_tables = "prony",
      .data_title = "master curve",
      .x = {MASTER_CURVE_ANGULAR_FREQUENCY, AXIS_LOG, "Reduced angular frequency"},
      .y = {{MASTER_CURVE_STORAGE_MODULUS, AXIS_LOG, "Storage and loss modulus"}},
@@ -391,8 +392,8 @@ const figure_description figures_master[] = {
                 CURVE(MASTER_CURVE_FITTED_STORAGE, DATA, .with_errors = true),
                 CURVE(MASTER_CURVE_FITTED_LOSS, DATA, .with_errors = true),
                 CURVE(MASTER_CURVE_FITTED_LOSS_FACTOR, DATA, .with_errors = true)},
-     .nothing = "no oscillation moduli above zero; steps have a figure over time",
-     .words = "Storage and loss modulus shifted to the reference temperature",
+     .empty_reason = "no oscillation moduli above zero; steps have a figure over time",
+     .caption_text = "Storage and loss modulus shifted to the reference temperature",
      .draw = draw_master_curve,
      .caption = caption_master_curve},
     STEP_ISOTHERM_FIGURE("relaxation_isotherms", "Relaxation before shifting", RELAXATION_MODULUS,
@@ -414,9 +415,10 @@ const figure_description figures_master[] = {
                 CURVE(SHIFT_FACTORS_DETERMINED, DATA), CURVE(SHIFT_FACTORS_LAW_LOG_A, OWN),
                 CURVE(SHIFT_FACTORS_LAW_LOG_A_LOW, DATA),
                 CURVE(SHIFT_FACTORS_LAW_LOG_A_HIGH, DATA)},
-     .nothing = "no shift factor is known",
-     .words = "Horizontal shift factors with one standard error (bars; smaller than the symbol "
-              "where not seen).",
+     .empty_reason = "no shift factor is known",
+     .caption_text =
+         "Horizontal shift factors with one standard error (bars; smaller than the symbol "
+         "where not seen).",
      .draw = draw_shift_factors,
      .caption = caption_shift_factors},
     {.name = "vertical_shifts",
@@ -428,34 +430,37 @@ const figure_description figures_master[] = {
      .y = {{SHIFT_FACTORS_LOG_B, AXIS_NUMBER, "Shift factor, log₁₀ b_T"}},
      .curves = {CURVE(SHIFT_FACTORS_LOG_B, OWN, .with_errors = true),
                 CURVE(SHIFT_FACTORS_LOG_B_PHYSICAL, OWN), CURVE(SHIFT_FACTORS_LOG_B_MATERIAL, OWN)},
-     .nothing = "there is no vertical shift",
-     .words = "Vertical shift factors of the isotherms with one standard error, what is smooth in "
-              "them, which is taken for the material, and what density and temperature alone would "
-              "give.",
+     .empty_reason = "there is no vertical shift",
+     .caption_text =
+         "Vertical shift factors of the isotherms with one standard error, what is smooth in "
+         "them, which is taken for the material, and what density and temperature alone would "
+         "give.",
      .draw = draw_vertical_shifts,
      .caption = caption_vertical_shifts},
     {.name = "van_gurp_palmen",
      .in_depth = true,
      .title = "Superposition: van Gurp-Palmen plot",
      PLANE_FIGURE,
-     .words = "Phase angle against the size of the modulus, shifted vertically only: frequency and "
-              "horizontal shift do not enter. In a good one the isotherms lie on one line; where "
-              "they fan out with temperature no horizontal shift can join them.",
+     .caption_text =
+         "Phase angle against the size of the modulus, shifted vertically only: frequency and "
+         "horizontal shift do not enter. In a good one the isotherms lie on one line; where "
+         "they fan out with temperature no horizontal shift can join them.",
      .draw = draw_van_gurp_palmen},
     {.name = "wicket",
      .in_depth = true,
      .title = "Superposition: wicket plot",
      PLANE_FIGURE,
-     .words = "tan δ against the storage modulus, shifted vertically only. In a good one all "
-              "temperatures lie on one line, over a glass transition an arch, the wicket; single "
-              "points beside it are outliers, an isotherm beside it was measured on a changed "
-              "sample or at the limit of the instrument.",
+     .caption_text =
+         "tan δ against the storage modulus, shifted vertically only. In a good one all "
+         "temperatures lie on one line, over a glass transition an arch, the wicket; single "
+         "points beside it are outliers, an isotherm beside it was measured on a changed "
+         "sample or at the limit of the instrument.",
      .draw = draw_wicket},
     {.name = "cole_cole",
      .in_depth = true,
      .title = "Superposition: Cole-Cole plot",
      PLANE_FIGURE,
-     .words =
+     .caption_text =
          "Loss against storage modulus on linear axes, shifted vertically only, which shows the "
          "stiff end. In a good one the isotherms follow one arc without steps; a glass that "
          "the clamps or the instrument could not hold bends away from it.",

@@ -246,9 +246,10 @@ const figure_description figures_materials[] = {
      .curves = {CURVE(MATERIALS_STORAGE, OWN, .with_errors = true),
                 CURVE(MATERIALS_LOSS, OWN, .with_errors = true),
                 CURVE(MATERIALS_FACTOR, OWN, .with_errors = true, .panel = 1)},
-     .nothing = "no material has moduli over a known range of frequencies",
-     .words = "Storage modulus (full lines), loss modulus (broken lines) and, below, tan δ of the "
-              "materials; bands: 95 % intervals.",
+     .empty_reason = "no material has moduli over a known range of frequencies",
+     .caption_text =
+         "Storage modulus (full lines), loss modulus (broken lines) and, below, tan δ of the "
+         "materials; bands: 95 % intervals.",
      .draw = draw_materials,
      .caption = caption_materials},
     {.name = "material_ratio",
@@ -261,9 +262,10 @@ const figure_description figures_materials[] = {
      .curves = {CURVE(MATERIAL_RATIO_STORAGE, OWN, .with_errors = true),
                 CURVE(MATERIAL_RATIO_LOSS, OWN, .with_errors = true),
                 CURVE(MATERIAL_RATIO_FACTOR, OWN, .with_errors = true)},
-     .nothing = "no ratio of moduli is known",
-     .words = "E′, E″ and tan δ of materials, each divided by those of the first, where both were "
-              "measured (bands: 95 % intervals).",
+     .empty_reason = "no ratio of moduli is known",
+     .caption_text =
+         "E′, E″ and tan δ of materials, each divided by those of the first, where both were "
+         "measured (bands: 95 % intervals).",
      .draw = draw_material_ratio,
      .caption = caption_material_ratio},
     {.name = "shared_shift_law",
@@ -277,11 +279,12 @@ const figure_description figures_materials[] = {
      .curves = {CURVE(SHARED_SHIFT_LAW_LOG_A, OWN, .with_errors = true),
                 CURVE(SHARED_SHIFT_LAW_LAW_LOG_A, OWN, .with_errors = true),
                 CURVE(SHARED_SHIFT_LAW_DIFFERENCE, OWN, .with_errors = true, .panel = 1)},
-     .nothing = "no sample has shift factors about a common law",
-     .words = "Shift factors of the samples (bars: standard error without that of the temperature) "
-              "about the one law fitted to all (lines; bands: 95 % intervals) and, below, what the "
-              "law of each alone has more, from the middle of its isotherms on (bars: limits on "
-              "the safe side of 95 %).",
+     .empty_reason = "no sample has shift factors about a common law",
+     .caption_text =
+         "Shift factors of the samples (bars: standard error without that of the temperature) "
+         "about the one law fitted to all (lines; bands: 95 % intervals) and, below, what the "
+         "law of each alone has more, from the middle of its isotherms on (bars: limits on "
+         "the safe side of 95 %).",
      .draw = draw_shared_shift_law,
      .caption = caption_shared_shift_law},
     {.name = NULL},

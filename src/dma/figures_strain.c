@@ -84,7 +84,7 @@ const figure_description figures_payne[] = {
     {.name = "payne",
      .title = "Softening with strain",
      .table = &payne_sweep_schema,
-     .beside = "payne",
+     .other_tables = "payne",
      .data_title = "strain sweeps",
      .x = {PAYNE_SWEEP_STRAIN, AXIS_LOG, "Strain amplitude"},
      .y = {{PAYNE_SWEEP_STORAGE_MODULUS, AXIS_FROM_ZERO, "Storage modulus"},
@@ -93,11 +93,12 @@ const figure_description figures_payne[] = {
      .curves = {CURVE(PAYNE_SWEEP_STORAGE_MODULUS, OWN),
                 CURVE(PAYNE_SWEEP_LOSS_MODULUS, OWN, .panel = 1),
                 CURVE(PAYNE_SWEEP_STORAGE_KRAUS, DATA), CURVE(PAYNE_SWEEP_LOSS_KRAUS, DATA)},
-     .nothing = "no modulus above zero at any amplitude",
-     .words = "Storage modulus and, below, loss modulus against the amplitude of strain, with the "
-              "law of Kraus (lines) and the amplitudes at which a tenth and half of the storage "
-              "modulus are lost. A filled rubber falls between two plateaus, and the loss modulus "
-              "has its maximum where half of that fall is reached.",
+     .empty_reason = "no modulus above zero at any amplitude",
+     .caption_text =
+         "Storage modulus and, below, loss modulus against the amplitude of strain, with the "
+         "law of Kraus (lines) and the amplitudes at which a tenth and half of the storage "
+         "modulus are lost. A filled rubber falls between two plateaus, and the loss modulus "
+         "has its maximum where half of that fall is reached.",
      .draw = draw_payne,
      .caption = caption_payne},
     {.name = NULL},

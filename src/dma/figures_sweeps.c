@@ -123,11 +123,12 @@ const figure_description figures_dma[] = {
      .y = {{DMA_COMPARISON_MODULUS, AXIS_LOG, "Young's modulus"}},
      .curves = {CURVE(DMA_COMPARISON_MODULUS, BARS, .with_errors = true),
                 CURVE(DMA_COMPARISON_EXTRAPOLATED, DATA)},
-     .nothing = "no indentation modulus with a known equivalent frequency",
-     .words = "Indentation modulus (geometric mean, bars: 95 % confidence interval) against the "
-              "angular frequency equivalent to the time of loading, with the modulus of the DMA "
-              "master curve at the same frequencies. DMA strains the whole sample slightly, the "
-              "tip a small volume strongly: agreement is not expected to be exact.",
+     .empty_reason = "no indentation modulus with a known equivalent frequency",
+     .caption_text =
+         "Indentation modulus (geometric mean, bars: 95 % confidence interval) against the "
+         "angular frequency equivalent to the time of loading, with the modulus of the DMA "
+         "master curve at the same frequencies. DMA strains the whole sample slightly, the "
+         "tip a small volume strongly: agreement is not expected to be exact.",
      .draw = draw_dma_comparison,
      .caption = caption_dma_comparison},
     {.name = "relaxation_spectrum",
@@ -139,16 +140,17 @@ const figure_description figures_dma[] = {
      .y = {{RELAXATION_SPECTRUM_DENSITY, AXIS_LOG, "H, modulus for each unit of ln τ"}},
      .curves = {CURVE(RELAXATION_SPECTRUM_DENSITY, OWN), CURVE(RELAXATION_SPECTRUM_LOW, DATA),
                 CURVE(RELAXATION_SPECTRUM_HIGH, DATA)},
-     .nothing = "no relaxation time lies within the measured frequencies",
-     .words = "Relaxation spectrum behind the master curve with limits on the safe side of 95 % "
-              "(band): which modulus relaxes at which time. A step of the storage modulus is a "
-              "hump here; where "
-              "the band is wide the measurement tells little.",
+     .empty_reason = "no relaxation time lies within the measured frequencies",
+     .caption_text =
+         "Relaxation spectrum behind the master curve with limits on the safe side of 95 % "
+         "(band): which modulus relaxes at which time. A step of the storage modulus is a "
+         "hump here; where "
+         "the band is wide the measurement tells little.",
      .draw = draw_relaxation_spectrum},
     {.name = "ramp",
      .title = "Moduli against temperature",
      .table = &ramp_schema,
-     .beside = "glass_transition",
+     .other_tables = "glass_transition",
      .data_title = "temperature sweeps",
      .x = {RAMP_TEMPERATURE, AXIS_LINEAR, "Temperature"},
      .y = {{RAMP_STORAGE_MODULUS, AXIS_LOG, "Storage and loss modulus"},
@@ -156,9 +158,10 @@ const figure_description figures_dma[] = {
      .colour = {RAMP_ANGULAR_FREQUENCY, AXIS_LOG, "Angular frequency"},
      .curves = {CURVE(RAMP_STORAGE_MODULUS, OWN), CURVE(RAMP_LOSS_MODULUS, OWN),
                 CURVE(RAMP_LOSS_FACTOR, OWN, .panel = 1)},
-     .nothing = "no modulus above zero at any temperature",
-     .words = "Storage and loss modulus against temperature and, below, tan δ, with the peaks that "
-              "tell the glass transition.",
+     .empty_reason = "no modulus above zero at any temperature",
+     .caption_text =
+         "Storage and loss modulus against temperature and, below, tan δ, with the peaks that "
+         "tell the glass transition.",
      .draw = draw_ramp,
      .caption = caption_ramp},
     {.name = NULL},

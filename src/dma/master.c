@@ -119,7 +119,7 @@ static void set_superposition_keys(table_writer *t, const wt_master *m)
 {
     static const char *const words[] = {"holds", "fails", "cannot say"};
     shift_factors_set_print(t, SHIFT_FACTORS_KEY_SUPERPOSITION, "%s%s%s", words[m->superposition],
-                            isnan(m->valid_from) ? ": " : " ", m->because);
+                            isnan(m->valid_from) ? ": " : " ", m->superposition_reason);
     if (isnan(m->lack_of_fit_p))
         return;
     shift_factors_set_print(t, SHIFT_FACTORS_KEY_LACK_OF_FIT_P, "%.3g", m->lack_of_fit_p);
@@ -136,7 +136,7 @@ static const double visible_step = 0.1;
 
 static bool fit_has_converged(const wt_master *m)
 {
-    return m->settled && !(m->step_left > visible_step);
+    return m->has_converged && !(m->step_bound > visible_step);
 }
 
 static void set_route_keys(table_writer *t, const wt_master *m)
@@ -149,7 +149,7 @@ static void set_route_keys(table_writer *t, const wt_master *m)
         shift_factors_set_value(t, SHIFT_FACTORS_KEY_HOLDS_TO, m->valid_to, 0, 0);
     }
     if (!fit_has_converged(m))
-        shift_factors_set_print(t, SHIFT_FACTORS_KEY_STEP_LEFT, "%.3g", m->step_left);
+        shift_factors_set_print(t, SHIFT_FACTORS_KEY_STEP_LEFT, "%.3g", m->step_bound);
 }
 
 static wt_status build_shift_table(const wt_master *m, wt_table **table, wt_error *err)
@@ -203,7 +203,7 @@ static void add_master_curve_row(table_writer *t, const wt_master *m, size_t i)
               .fitted_loss = flow_power_of_ten(m->fitted_loss[i]),
               .fitted_loss_factor = flow_power_of_ten(m->fitted_loss_factor[i]),
               .own_frequency = own_frequency, .own_storage = pow(10, storage - shift->log_b.value),
-              .own_loss = pow(10, loss - shift->log_b.value), .left_out = m->left_out[i],
+              .own_loss = pow(10, loss - shift->log_b.value), .left_out = m->is_outlier[i],
               .time = relaxes || creeps ? pow(10, -frequency) : none,
               .relaxation_modulus = relaxes ? pow(10, step) : none,
               .creep_compliance = creeps ? pow(10, -step) : none,
@@ -512,12 +512,12 @@ static void warn_unconverged(const wt_master *m, const wt_job *work)
         wt_log_add(work->log, WT_WARNING, NULL, NULL,
                    "the fit ended before it was settled: a further step would move a number "
                    "by up to %.2g of its standard error",
-                   m->step_left);
+                   m->step_bound);
 }
 
 /* Returns the standard error [decade] of the fitted E' if it exists, otherwise of E'' or tan
  * delta. */
-static double reported_error(const wt_master *m, size_t i)
+static double fitted_modulus_error(const wt_master *m, size_t i)
 {
     return !isnan(m->fitted_storage[i].value) ? m->fitted_storage[i].standard_error
            : !isnan(m->fitted_loss[i].value)  ? m->fitted_loss[i].standard_error
@@ -529,11 +529,11 @@ static void report_fit_cost(const wt_master *m, const wt_job *work)
 {
     double error = 0;
     for (size_t i = 0; i < m->n; i++)
-        error += M_LN10 * reported_error(m, i) / (double)m->n;
+        error += M_LN10 * fitted_modulus_error(m, i) / (double)m->n;
     cost_add_nodes(work->cost, m->evaluations);
     cost_report(work, (cost_summary){.items = (double)m->n_shifts,
-                                     .tolerance_asked = m->step_allowed * error,
-                                     .error_estimated = m->step_left * error,
+                                     .tolerance_asked = m->step_tolerance * error,
+                                     .error_estimated = m->step_bound * error,
                                      .number = {1, error, 0, "1"}});
 }
 

@@ -284,9 +284,9 @@ static wt_status add_material_rows(const wt_compared_material *m,
     return status;
 }
 
-static void add_ratio_rows(table_writer *t, const char *name, const char *over,
-                           const comparison_point *point, const material_ratio *r, size_t first,
-                           size_t last)
+static void add_material_ratio_rows(table_writer *t, const char *name, const char *over,
+                                    const comparison_point *point, const material_ratio *r,
+                                    size_t first, size_t last)
 {
     if (first < last)
         table_block(t);
@@ -378,8 +378,9 @@ static wt_status compare_pair(const wt_materials_job *job, const wt_compared_mat
     if (status == WT_OK)
         status = material_ratio_compute(&values[0], &values[1], &ratio, err);
     if (status == WT_OK) {
-        add_ratio_rows(t, pair[1].name, "frequency", point, &ratio, 0, n);
-        add_ratio_rows(t, pair[1].name, "temperature", point, &ratio, n, n + n_temperatures);
+        add_material_ratio_rows(t, pair[1].name, "frequency", point, &ratio, 0, n);
+        add_material_ratio_rows(t, pair[1].name, "temperature", point, &ratio, n,
+                                n + n_temperatures);
         const material_verdict v = material_assess(pair, values, systematic, &ratio, job->margin);
         APPEND_ITEM(texts->differs, "%s", v.differs);
         if (v.settled_by[0] != '\0')

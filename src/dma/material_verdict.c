@@ -69,7 +69,7 @@ static bool is_equivalent(const quantity_difference *f)
     return f->within && !f->differs;
 }
 
-static bool is_inconclusive(const quantity_difference *f)
+static bool is_difference_inconclusive(const quantity_difference *f)
 {
     return !f->within && !f->differs;
 }
@@ -97,7 +97,7 @@ static void append_differences(const quantity_difference *f, const wt_compared_m
     if (list[0] != '\0')
         APPEND(v->differs, "; within the margin: %s", list);
     list[0] = '\0';
-    append_quantity_list(list, sizeof list, f, is_inconclusive);
+    append_quantity_list(list, sizeof list, f, is_difference_inconclusive);
     if (list[0] != '\0')
         APPEND(v->differs, "; not shown to differ: %s", list);
 }
@@ -109,7 +109,8 @@ static void append_remedy(const quantity_difference *f, const wt_compared_materi
 {
     int worst = -1;
     for (int q = 0; q < Q; q++)
-        if (is_inconclusive(&f[q]) && (worst < 0 || f[q].farthest_limit > f[worst].farthest_limit))
+        if (is_difference_inconclusive(&f[q]) &&
+            (worst < 0 || f[q].farthest_limit > f[worst].farthest_limit))
             worst = q;
     if (worst < 0)
         return;
@@ -177,7 +178,7 @@ material_verdict material_assess(const wt_compared_material pair[2],
                pair[1].name, pair[0].name, 100 * margin);
     } else {
         char list[48] = "";
-        append_quantity_list(list, sizeof list, f, is_inconclusive);
+        append_quantity_list(list, sizeof list, f, is_difference_inconclusive);
         APPEND(
             v.differs,
             "cannot say: the intervals of the ratio of %s have room for no difference and for one "

@@ -200,8 +200,8 @@ static const wt_interval unknown_interval = {(double)NAN, (double)NAN, (double)N
 static peak_columns peak_to_columns(const wt_peak *p)
 {
     const double none = (double)NAN;
-    return p->found ? (peak_columns){p->at, p->height.value, (double)p->n, p->misfit, p->why_not}
-                    : (peak_columns){unknown_interval, none, none, none, p->why_not};
+    return p->found ? (peak_columns){p->at, p->height.value, (double)p->n, p->misfit, p->reason}
+                    : (peak_columns){unknown_interval, none, none, none, p->reason};
 }
 
 typedef struct peak_set {
@@ -214,7 +214,7 @@ static wt_status find_quantity_peak(const wt_ramp_job *job, const usable_points 
 {
     if (u->has[q])
         return wt_peak_find(u->temperature, u->value[q], u->n, job->peak_points, peak, err);
-    *peak = (wt_peak){.found = false, .why_not = "not measured"};
+    *peak = (wt_peak){.found = false, .reason = "not measured"};
     return WT_OK;
 }
 
@@ -232,7 +232,7 @@ static wt_status add_secondary_peak_rows(table_writer *t, const wt_ramp *ramp,
         wt_secondary_peaks(u->temperature, u->value[q], u->n, MAX_SECONDARY_PEAKS, lower, &n, err);
     for (size_t i = 0; i < n; i++) {
         const wt_peak none = {.found = false,
-                              .why_not = q == LOSS ? "of the loss modulus" : "of tan delta"};
+                              .reason = q == LOSS ? "of the loss modulus" : "of tan delta"};
         TABLE_ADD(glass_transition, t, peak_to_columns(q == FACTOR ? &lower[i] : &none),
                   peak_to_columns(q == LOSS ? &lower[i] : &none), unknown_interval,
                   "in the row of the largest peak", ramp->angular_frequency, ramp->temperature[0],
@@ -247,13 +247,13 @@ static wt_status add_transition_row(table_writer *t, const wt_ramp_job *job, con
     wt_status status = find_quantity_peak(job, u, FACTOR, &found->factor, err);
     if (status == WT_OK)
         status = find_quantity_peak(job, u, LOSS, &found->loss, err);
-    found->onset = (wt_onset){.at = unknown_interval, .why_not = "not measured"};
+    found->onset = (wt_onset){.at = unknown_interval, .reason = "not measured"};
     if (status == WT_OK && u->has[STORAGE])
         status = wt_onset_find(u->temperature, u->value[STORAGE], u->n, &found->onset, err);
     if (status != WT_OK)
         return status;
     TABLE_ADD(glass_transition, t, peak_to_columns(&found->factor), peak_to_columns(&found->loss),
-              found->onset.at, found->onset.why_not, ramp->angular_frequency, ramp->temperature[0],
+              found->onset.at, found->onset.reason, ramp->angular_frequency, ramp->temperature[0],
               ramp->temperature[ramp->n - 1], ramp->source, false);
     for (sweep_quantity q = LOSS; q <= FACTOR && status == WT_OK && job->peak_points == 0; q++)
         status = u->has[q] ? add_secondary_peak_rows(t, ramp, u, q, err) : WT_OK;

@@ -32,7 +32,7 @@ static wt_status add_sample_name(wt_sample_names *samples, const char *sample, w
     return WT_OK;
 }
 
-static int compare_names(const void *a, const void *b)
+static int compare_sample_names(const void *a, const void *b)
 {
     return strverscmp(*(char *const *)a, *(char *const *)b);
 }
@@ -45,7 +45,7 @@ wt_status flow_samples_find(const wt_sweep *sweep, wt_sample_names *samples, wt_
     for (size_t i = 0; i < sweep->n_ramps && status == WT_OK; i++)
         status = add_sample_name(samples, sweep->ramps[i].sample, err);
     if (samples->n > 1)
-        qsort(samples->name, samples->n, sizeof *samples->name, compare_names);
+        qsort(samples->name, samples->n, sizeof *samples->name, compare_sample_names);
     return status;
 }
 

@@ -47,10 +47,10 @@ static void add_sample_rows(const wt_shared_shift_law_job *job, const wt_shared_
     const double none = (double)NAN;
     const wt_interval unknown = {none, none, none, none};
     const wt_shared_law_member *m = &law->members[sample];
-    const wt_interval moved = job->common == WT_SHARED_LAW_SHIFTED ? m->moved : unknown;
+    const wt_interval moved = job->common == WT_SHARED_LAW_SHIFTED ? m->reference_offset : unknown;
     table_block(t);
     if (!m->used)
-        TABLE_ADD(shared_shift_law, t, job->names[sample], m->why_not, unknown,
+        TABLE_ADD(shared_shift_law, t, job->names[sample], m->reason, unknown,
                   {sample, none, none, none, unknown, unknown});
     for (size_t i = 0; i < law->n; i++)
         if (law->points[i].sample == sample)
@@ -169,14 +169,14 @@ static void set_sample_keys(const wt_shared_shift_law_job *job, const wt_shared_
         const wt_shared_law_member *m = &law->members[i];
         if (!m->used) {
             append_list_text(&without, "%s%s: %s", without.used > 0 ? ", " : "", job->names[i],
-                             m->why_not);
+                             m->reason);
             continue;
         }
-        const double reference = law->reference + m->moved.value;
+        const double reference = law->reference + m->reference_offset.value;
         append_list_text(&moved, "%s%s %.2f °C", moved.used > 0 ? ", " : "", job->names[i],
                          reference - WT_ZERO_CELSIUS);
-        if (m->moved.standard_error > 0)
-            append_list_text(&moved, " ± %.2g K", m->moved.standard_error);
+        if (m->reference_offset.standard_error > 0)
+            append_list_text(&moved, " ± %.2g K", m->reference_offset.standard_error);
         format_shift_law_option(law, reference, one, sizeof one);
         if (each || given.used == 0)
             append_list_text(&given, "%s%s%s%s", given.used > 0 ? "; " : "",

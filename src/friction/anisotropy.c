@@ -36,17 +36,17 @@ static void describe_effect(const wt_friction_point *with, const wt_friction_poi
     clocale_print(against, sizeof against,
                   "roughness that is the same in all directions; the force of the hysteresis turns "
                   "by %.1f deg to the side",
-                  atan2(with->side.value, with->hysteresis.value) * 180 / M_PI);
+                  atan2(with->lateral.value, with->hysteresis.value) * 180 / M_PI);
     friction_difference_describe(with, without, against, text, size);
 }
 
-static wt_status make_table(const friction_difference *c, wt_table **table, wt_error *err)
+static wt_status tabulate_anisotropy(const friction_difference *c, wt_table **table, wt_error *err)
 {
     const size_t n = c->n - 1;
     table_writer t = table_begin(&anisotropy_schema, err);
     for (size_t i = 0; i < n; i++)
         TABLE_ADD(anisotropy, &t, c->with[i], c->without[i]);
-    anisotropy_keys keys = {.side = c->with[n].side};
+    anisotropy_keys keys = {.side = c->with[n].lateral};
     keys.side.standard_error = (double)NAN; /* this table draws no replicates */
     anisotropy_describe(&c->sliding->anisotropy, keys.texture, sizeof keys.texture);
     describe_effect(&c->with[n], &c->without[n], keys.effect, sizeof keys.effect);
@@ -69,7 +69,7 @@ wt_status wt_anisotropic_friction_compute(const wt_sliding *sliding, const wt_jo
     without.anisotropy = (wt_anisotropy){{0}, {0}};
     status = friction_difference_compute(sliding, &without, work, NULL, NULL, &c, err);
     if (status == WT_OK)
-        status = make_table(&c, table, err);
+        status = tabulate_anisotropy(&c, table, err);
     friction_difference_clear(&c);
     return status;
 }

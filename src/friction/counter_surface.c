@@ -19,9 +19,9 @@ void wt_surface_clear(wt_surface *surface)
         return;
     wt_power_spectrum_clear(&surface->spectrum);
     free(surface->modes_error);
-    free(surface->modes_tie);
+    free(surface->modes_correlation);
     free(surface->law_error);
-    free(surface->place_parts);
+    free(surface->position_errors);
     *surface = (wt_surface){0};
 }
 
@@ -135,8 +135,8 @@ static wt_status copy_position_errors(const wt_table *table, wt_surface *surface
     for (size_t i = 0, size; status == WT_OK && i < rows; i++)
         if (read_index(&view, i, PLACE_ERRORS_SIZE, rows, &size) && size >= surface->n_sizes)
             surface->n_sizes = size + 1;
-    surface->place_parts = calloc(surface->n_sizes * n + 1, sizeof *surface->place_parts);
-    if (surface->place_parts == NULL)
+    surface->position_errors = calloc(surface->n_sizes * n + 1, sizeof *surface->position_errors);
+    if (surface->position_errors == NULL)
         status = wt_fail(err, WT_E_MEMORY, "out of memory");
     for (size_t i = 0, size, at; status == WT_OK && i < rows; i++) {
         const double error = place_errors_get(&view, i, PLACE_ERRORS_ERROR);
@@ -147,7 +147,7 @@ static wt_status copy_position_errors(const wt_table *table, wt_surface *surface
             wt_error_expected(err, "a size from 1, a row from 1 to %zu, an error of 0 or more", n);
             status = WT_E_RANGE;
         } else {
-            surface->place_parts[size * n + at] = error / surface->c0.standard_error;
+            surface->position_errors[size * n + at] = error / surface->c0.standard_error;
         }
     }
     return status;
@@ -168,18 +168,19 @@ static wt_status copy_table_errors(const wt_table *table, const wt_table *places
     if (!*copied)
         return WT_OK;
     surface->modes_error = read_error_column(table, POWER_SPECTRUM_MODES_ERROR, s->n);
-    surface->modes_tie = read_error_column(table, POWER_SPECTRUM_MODES_TIE, s->n);
+    surface->modes_correlation = read_error_column(table, POWER_SPECTRUM_MODES_TIE, s->n);
     surface->law_error = read_error_column(table, POWER_SPECTRUM_LAW_ERROR, s->n);
-    if (surface->modes_error == NULL || surface->modes_tie == NULL || surface->law_error == NULL)
+    if (surface->modes_error == NULL || surface->modes_correlation == NULL ||
+        surface->law_error == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     if (wt_table_estimate(table, power_spectrum_schema.keys[POWER_SPECTRUM_KEY_PLACES_ERROR].name,
                           &place) &&
         place.value >= 0 && isfinite(place.value)) {
         surface->c0.standard_error = place.value;
-        surface->places_known = true;
+        surface->has_position_scatter = true;
     }
-    surface->reliable_to = positive_key_value(table, POWER_SPECTRUM_KEY_TO);
-    surface->steep = positive_key_value(table, POWER_SPECTRUM_KEY_STEEP);
+    surface->measured_limit = positive_key_value(table, POWER_SPECTRUM_KEY_TO);
+    surface->steep_wavenumber = positive_key_value(table, POWER_SPECTRUM_KEY_STEEP);
     return surface->c0.standard_error > 0 ? copy_position_errors(places, surface, err) : WT_OK;
 }
 
@@ -446,13 +447,13 @@ wt_status flow_surface_draw(const wt_surface *surface, double factor, uint64_t s
      * the next point. The fitted law takes the deviate of one more point. The positions of the
      * first scan size are drawn with the factor; each further size takes its own deviate. */
     const double law = flow_draw_normal(seed, replicate, (flow_draw)(FLOW_DRAW_MODES + s->n));
-    const bool sizes = surface->place_parts != NULL;
+    const bool sizes = surface->position_errors != NULL;
     const double places = surface->c0.standard_error / surface->c0.value;
     deviate_chain scatter = {0};
     for (size_t i = 0; i < s->n; i++) {
-        const double z =
-            draw_chain_deviate(&scatter, surface->modes_tie != NULL ? surface->modes_tie[i] : 0,
-                               flow_draw_normal(seed, replicate, (flow_draw)(FLOW_DRAW_MODES + i)));
+        const double z = draw_chain_deviate(
+            &scatter, surface->modes_correlation != NULL ? surface->modes_correlation[i] : 0,
+            flow_draw_normal(seed, replicate, (flow_draw)(FLOW_DRAW_MODES + i)));
         const double by_law = surface->law_error != NULL ? surface->law_error[i] * law : 0;
         drawn.spectrum.density[i] = s->density[i] * exp(surface->modes_error[i] * z + by_law);
     }
@@ -461,7 +462,7 @@ wt_status flow_surface_draw(const wt_surface *surface, double factor, uint64_t s
         const double by =
             size == 0 ? log(factor) : places * flow_draw_normal(seed, replicate, what);
         for (size_t i = 0; i < s->n; i++)
-            drawn.spectrum.density[i] *= exp(by * surface->place_parts[size * s->n + i]);
+            drawn.spectrum.density[i] *= exp(by * surface->position_errors[size * s->n + i]);
     }
     const wt_status status = wt_surface_roughness(&drawn, sizes ? 1 : factor, roughness, err);
     free(drawn.spectrum.density);

@@ -160,8 +160,9 @@ const figure_description figures_friction[] = {
      .x = {ROUGHNESS_WAVENUMBER, AXIS_LOG, "Wavenumber q"},
      .y = {{ROUGHNESS_DENSITY, AXIS_LOG, "Power spectrum C(q)"}},
      .curves = {CURVE(ROUGHNESS_DENSITY, LINE, .style = 21)},
-     .nothing = "no density above zero",
-     .words = "Power spectrum of the counter surface over the wavenumbers that enter the friction.",
+     .empty_reason = "no density above zero",
+     .caption_text =
+         "Power spectrum of the counter surface over the wavenumbers that enter the friction.",
      .caption = caption_spectrum},
     {.name = "friction",
      .title = "Friction against sliding velocity",
@@ -174,9 +175,10 @@ const figure_description figures_friction[] = {
                 CURVE(FRICTION_ADHESION, LINE, .style = 23, .title = "shearing"),
                 CURVE(FRICTION_WITH_LAYER, LINE, .style = 24, .title = "total with layer",
                       .band = 74)},
-     .nothing = "no friction coefficient is a number",
-     .words = "Friction coefficient and its parts against sliding velocity. Bands: one standard "
-              "error",
+     .empty_reason = "no friction coefficient is a number",
+     .caption_text =
+         "Friction coefficient and its parts against sliding velocity. Bands: one standard "
+         "error",
      .prepare = prepare_friction,
      .caption = caption_friction_curves},
     {
@@ -189,9 +191,10 @@ const figure_description figures_friction[] = {
         .y = {{CONTACT_AREA_AREA_RATIO, AXIS_LOG, "Contact area A/A₀"}},
         .colour = {CONTACT_AREA_VELOCITY, AXIS_LOG, "Sliding velocity"},
         .curves = {CURVE(CONTACT_AREA_AREA_RATIO, LINE, .style = 21)},
-        .nothing = "no number to draw",
-        .words = "Share of the nominal contact area that is in contact when roughness up to the "
-                 "magnification is seen; one line for each sliding velocity.",
+        .empty_reason = "no number to draw",
+        .caption_text =
+            "Share of the nominal contact area that is in contact when roughness up to the "
+            "magnification is seen; one line for each sliding velocity.",
     },
     {
         .name = "friction_scales",
@@ -203,8 +206,8 @@ const figure_description figures_friction[] = {
         .y = {{CONTACT_AREA_HYSTERESIS, AXIS_FROM_ZERO, "Hysteresis friction up to ζ"}},
         .colour = {CONTACT_AREA_VELOCITY, AXIS_LOG, "Sliding velocity"},
         .curves = {CURVE(CONTACT_AREA_HYSTERESIS, LINE, .style = 21)},
-        .nothing = "no number to draw",
-        .words =
+        .empty_reason = "no number to draw",
+        .caption_text =
             "Hysteresis part of the friction coefficient from roughness up to the magnification: "
             "where a line rises, those length scales make the friction. A line that still rises "
             "at its right end depends on the upper cut-off of the spectrum.",
@@ -212,10 +215,11 @@ const figure_description figures_friction[] = {
     {.name = "transverse_isotropy",
      .title = "What the directions of the material do",
      .table = &transverse_isotropy_schema,
-     .nothing = "no friction of the material with its directions",
-     .words = "Hysteresis friction and contact area of the transversely isotropic material against "
-              "velocity: with its factors on the moduli, with those on one modulus alone and as "
-              "the isotropic material.",
+     .empty_reason = "no friction of the material with its directions",
+     .caption_text =
+         "Hysteresis friction and contact area of the transversely isotropic material against "
+         "velocity: with its factors on the moduli, with those on one modulus alone and as "
+         "the isotropic material.",
      .draw = draw_transverse_isotropy},
     {.name = "softening",
      .title = "What softening with strain does",
@@ -227,8 +231,8 @@ const figure_description figures_friction[] = {
                       .title = "moduli soften with strain"),
                 CURVE(SOFTENING_HYSTERESIS_WITHOUT, LINE, .style = 24,
                       .title = "moduli at small strain")},
-     .nothing = "no hysteresis friction is a number",
-     .words =
+     .empty_reason = "no hysteresis friction is a number",
+     .caption_text =
          "Hysteresis part of the friction coefficient against sliding velocity with the moduli "
          "that soften with strain, and with those at small strain. The strain at a length "
          "scale is taken from the rms slope of the roughness down to it.",
@@ -242,9 +246,9 @@ const figure_description figures_friction[] = {
      .curves = {CURVE(FLASH_TEMPERATURE, LINE, .style = 21, .title = "from cold"),
                 CURVE(FLASH_HOT_TEMPERATURE, LINE, .style = 24,
                       .title = "of a contact that stays hot")},
-     .nothing = "no temperature is a number",
-     .words = "Temperature of the rubber at the finest scale of the contact against sliding "
-              "velocity: the heat of friction at every length scale warms it there.",
+     .empty_reason = "no temperature is a number",
+     .caption_text = "Temperature of the rubber at the finest scale of the contact against sliding "
+                     "velocity: the heat of friction at every length scale warms it there.",
      .caption = caption_flash},
     {.name = "flash_friction",
      .title = "What the flash temperature does to friction",
@@ -257,9 +261,10 @@ const figure_description figures_friction[] = {
                       .title = "as warm as the surroundings"),
                 CURVE(FLASH_HOT_HYSTERESIS, LINE, .style = 24,
                       .title = "of a contact that stays hot")},
-     .nothing = "no hysteresis friction is a number",
-     .words = "Hysteresis part of the friction coefficient against sliding velocity with the "
-              "temperatures that sliding makes, and with rubber as warm as its surroundings.",
+     .empty_reason = "no hysteresis friction is a number",
+     .caption_text =
+         "Hysteresis part of the friction coefficient against sliding velocity with the "
+         "temperatures that sliding makes, and with rubber as warm as its surroundings.",
      .caption = caption_flash},
     {.name = NULL},
 };

@@ -305,29 +305,30 @@ const figure_description figures_friction_maps[] = {
     {.name = "friction_collapse",
      .title = "Friction at several temperatures",
      .table = &friction_map_schema,
-     .words = "Friction against sliding velocity at each temperature and, below, against the "
-              "velocity times the shift factor a_T of the material: where moduli follow "
-              "time-temperature superposition without a vertical shift, the hysteresis friction of "
-              "all temperatures is one curve.",
+     .caption_text =
+         "Friction against sliding velocity at each temperature and, below, against the "
+         "velocity times the shift factor a_T of the material: where moduli follow "
+         "time-temperature superposition without a vertical shift, the hysteresis friction of "
+         "all temperatures is one curve.",
      .draw = draw_collapse,
      .caption = caption_collapse},
     {.name = "friction_temperature_map",
      .title = "Friction over velocity and temperature",
      .table = &friction_map_schema,
-     .words = "Friction coefficient over sliding velocity and temperature of the rubber.",
+     .caption_text = "Friction coefficient over sliding velocity and temperature of the rubber.",
      .draw = draw_temperature_map,
      .caption = caption_collapse},
     {.name = "friction_pressure_map",
      .title = "Friction over velocity and pressure",
      .table = &friction_map_schema,
-     .words = "Friction coefficient over sliding velocity and nominal pressure.",
+     .caption_text = "Friction coefficient over sliding velocity and nominal pressure.",
      .draw = draw_pressure_map,
      .caption = caption_pressure_map},
     {.name = "friction_decades",
      .title = "Which decades of the wavenumber make the friction",
      .table = &friction_decades_schema,
-     .nothing = "no hysteresis friction of a decade is a number",
-     .words =
+     .empty_reason = "no hysteresis friction of a decade is a number",
+     .caption_text =
          "What the roughness of each decade of the wavenumber makes of the hysteresis friction "
          "coefficient, at the slowest, the reference and the fastest velocity. The first and "
          "the last decade may be cut by the ends of the power spectrum.",
@@ -343,10 +344,11 @@ const figure_description figures_friction_maps[] = {
                 CURVE(ANISOTROPY_SIDE, LINE, .style = 22, .title = "to the side"),
                 CURVE(ANISOTROPY_HYSTERESIS_WITHOUT, LINE, .style = 24,
                       .title = "the same roughness in all directions")},
-     .nothing = "no hysteresis friction is a number",
-     .words = "Hysteresis part of the friction coefficient against sliding velocity on roughness "
-              "with a preferred direction, the force to its side over the load, and the friction "
-              "on roughness that is the same in all directions.",
+     .empty_reason = "no hysteresis friction is a number",
+     .caption_text =
+         "Hysteresis part of the friction coefficient against sliding velocity on roughness "
+         "with a preferred direction, the force to its side over the load, and the friction "
+         "on roughness that is the same in all directions.",
      .caption = caption_anisotropy},
     {.name = NULL},
 };

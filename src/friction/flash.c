@@ -39,12 +39,12 @@ static velocity_extent find_velocity_extent(const wt_friction_point *points, siz
 
 static bool has_hot_solution(const wt_friction_point *point)
 {
-    return !isnan(point->hot.hysteresis);
+    return !isnan(point->hot_branch.hysteresis);
 }
 
 static bool is_unsolved(const wt_friction_point *point)
 {
-    return point->unsettled;
+    return point->has_no_solution;
 }
 
 static void describe_extent(velocity_extent e, size_t n, const char *label, char *text, size_t size)
@@ -79,7 +79,7 @@ static void describe_flash_effect(const friction_difference *e, char text[192])
     const wt_friction_point *with = &e->with[e->n - 1], *without = &e->without[e->n - 1];
     char velocity[32];
     wt_format_si(with->velocity, "m/s", 3, velocity, sizeof velocity);
-    if (with->unsettled)
+    if (with->has_no_solution)
         snprintf(text, 192, "at %s no temperature was found", velocity);
     else
         clocale_print(text, 192,
@@ -98,7 +98,8 @@ static void describe_law_range(const friction_difference *e, char text[192])
     double hottest = 0;
     text[0] = '\0';
     for (size_t i = 0; i < e->n; i++)
-        hottest = fmax(hottest, fmax(e->with[i].temperature.value, e->with[i].hot.temperature));
+        hottest =
+            fmax(hottest, fmax(e->with[i].temperature.value, e->with[i].hot_branch.temperature));
     if (hottest > most)
         clocale_print(text, 192,
                       "up to %.1f degC, above the isotherms (to %.1f degC): the shift law is "
@@ -106,7 +107,7 @@ static void describe_law_range(const friction_difference *e, char text[192])
                       hottest - WT_ZERO_CELSIUS, most - WT_ZERO_CELSIUS);
 }
 
-static wt_status make_table(const friction_difference *e, wt_table **table, wt_error *err)
+static wt_status tabulate_flash(const friction_difference *e, wt_table **table, wt_error *err)
 {
     const wt_flash *flash = &e->sliding->flash;
     const size_t n = e->n - 1;
@@ -146,7 +147,7 @@ wt_status wt_flash_temperature_compute(const wt_sliding *sliding, const wt_job *
     without.flash.on = false;
     status = friction_difference_compute(sliding, &without, work, NULL, NULL, &e, err);
     if (status == WT_OK)
-        status = make_table(&e, table, err);
+        status = tabulate_flash(&e, table, err);
     friction_difference_clear(&e);
     return status;
 }

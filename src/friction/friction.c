@@ -106,7 +106,7 @@ static wt_status compute_layered(const friction_task *task, size_t replicate,
     return status;
 }
 
-static wt_status friction_replicate(const void *user, size_t i, double *out, wt_error *err)
+static wt_status compute_friction_replicate(const void *user, size_t i, double *out, wt_error *err)
 {
     const friction_task *task = user;
     sliding_contact c = {0};
@@ -181,7 +181,7 @@ static void add_friction_rows(friction_task *task, const sliding_contact *c, tab
 
 static const wt_estimate unknown_estimate = {(double)NAN, (double)NAN, (double)NAN, NULL};
 
-static void set_layer_keys(friction_task *task, friction_keys *keys)
+static void set_relative_change_keys(friction_task *task, friction_keys *keys)
 {
     const size_t last = task->n - 1;
     const double *relative = kind_values(task->centre, task->n, RELATIVE);
@@ -275,8 +275,8 @@ static void set_friction_keys(friction_task *task, const sliding_contact *c, tab
     keys.temperature = flow_stated_estimate(keys.temperature);
     if (wt_rubber_describe(s->rubber, keys.material, sizeof keys.material) == 0)
         keys.material[0] = '\0';
-    if (s->softness != NULL) {
-        strain_softening_describe(s->softness, keys.softening, sizeof keys.softening);
+    if (s->strain_softening != NULL) {
+        strain_softening_describe(s->strain_softening, keys.softening, sizeof keys.softening);
         keys.strain.value = task->strain;
     }
     anisotropy_describe(&s->anisotropy, keys.anisotropy, sizeof keys.anisotropy);
@@ -284,7 +284,7 @@ static void set_friction_keys(friction_task *task, const sliding_contact *c, tab
         clocale_print(keys.numerical, sizeof keys.numerical, TOLERANCE_STATEMENT,
                       task->work->tolerance, task->worst);
     if (task->layer != NULL)
-        set_layer_keys(task, &keys);
+        set_relative_change_keys(task, &keys);
     friction_set_keys(t, &keys);
     if (isnan(s->shear_stress.value))
         friction_set_text(t, FRICTION_KEY_SHEAR_STRESS,
@@ -374,7 +374,7 @@ static void update_worst_error(friction_task *task, const wt_friction_point *poi
 {
     for (size_t i = 0; i < task->n; i++) {
         const wt_friction_point *p = &points[i];
-        if (!p->reached && !p->unsettled)
+        if (!p->meets_tolerance && !p->has_no_solution)
             task->worst =
                 fmax(task->worst, fmax(relative_numerical_error(p->hysteresis),
                                        fmax(relative_numerical_error(p->area_ratio),
@@ -383,7 +383,7 @@ static void update_worst_error(friction_task *task, const wt_friction_point *poi
 }
 
 /* Computes the results for the stated values. `c` receives the contact without a layer. */
-static wt_status compute_stated_values(friction_task *task, sliding_contact *c, wt_error *err)
+static wt_status compute_nominal_friction(friction_task *task, sliding_contact *c, wt_error *err)
 {
     const size_t last = task->n - 1;
     wt_status status = compute_bulk(task, WT_NO_REPLICATE, task->points, task->centre, c, err);
@@ -436,7 +436,7 @@ static wt_status draw_error_nodes(friction_task *task, wt_error *err)
             status = wt_fail(err, WT_E_MEMORY, "out of memory");
     }
     if (status == WT_OK)
-        status = replicates_draw(r, N_KINDS * task->n, friction_replicate, task, err);
+        status = replicates_draw(r, N_KINDS * task->n, compute_friction_replicate, task, err);
     for (int kind = 0; status == WT_OK && nodes != NULL && kind < N_KINDS; kind++)
         error_nodes_interpolate(nodes, task->n, kind_values(r->error, task->n, kind), all.velocity,
                                 all.n, kind_values(error, all.n, kind));
@@ -496,7 +496,7 @@ wt_status wt_sliding_friction_compute(const wt_sliding *sliding, const wt_layer_
     sliding_contact c = {0};
     status = allocate_results(&task, err);
     if (status == WT_OK)
-        status = compute_stated_values(&task, &c, err);
+        status = compute_nominal_friction(&task, &c, err);
     if (status == WT_OK)
         status = draw_friction_replicates(&task, err);
     if (status == WT_OK)

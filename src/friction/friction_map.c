@@ -138,9 +138,9 @@ static void add_map_rows(friction_map *m, const map_line *line, table_writer *t,
         const double relative =
             p->hysteresis.value > 0 ? p->hysteresis.numerical_error / p->hysteresis.value : 0;
         cost->items++;
-        m->n_unsettled += p->unsettled ? 1 : 0;
+        m->n_unsettled += p->has_no_solution ? 1 : 0;
         cost->error_estimated = fmax(cost->error_estimated, relative);
-        if (!p->reached)
+        if (!p->meets_tolerance)
             m->worst = fmax(m->worst, relative);
     }
 }
@@ -198,7 +198,7 @@ static void set_map_keys(const friction_map *m, const sliding_contact *c, table_
     friction_map_set_keys(t, &keys);
 }
 
-static wt_status make_table(friction_map *m, wt_table **table, wt_error *err)
+static wt_status tabulate_friction_map(friction_map *m, wt_table **table, wt_error *err)
 {
     double range[2];
     sliding_contact c = {0};
@@ -240,7 +240,7 @@ wt_status wt_friction_map_compute(const wt_sliding *sliding,
     if (status == WT_OK)
         status = list_map_lines(&m, err);
     if (status == WT_OK)
-        status = make_table(&m, table, err);
+        status = tabulate_friction_map(&m, table, err);
     free(m.lines);
     free(m.velocity);
     free(m.points);

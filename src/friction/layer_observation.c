@@ -107,7 +107,7 @@ wt_ratio_slope sliding_layer_ratio_slope(const wt_layer_observation *observation
 
 /* Index into the draws of the layer material. The offset avoids equal indices, because the draws of
  * two materials may come from the same random numbers. */
-static size_t layer_replicate(const wt_rubber *rubber, size_t replicate)
+static size_t layer_material_draw_index(const wt_rubber *rubber, size_t replicate)
 {
     return replicate != WT_NO_REPLICATE ? replicate + rubber->n_draws / 2 : replicate;
 }
@@ -116,8 +116,9 @@ wt_status sliding_layer_material(const wt_sliding *sliding, double temperature, 
                                  size_t replicate, wt_material **material, wt_error *err)
 {
     const wt_rubber *rubber = sliding->layer_rubber;
-    const wt_status status = wt_rubber_material(
-        rubber, temperature, seed, layer_replicate(rubber, replicate), material, NULL, err);
+    const wt_status status =
+        wt_rubber_material(rubber, temperature, seed, layer_material_draw_index(rubber, replicate),
+                           material, NULL, err);
     if (status != WT_OK)
         wt_error_place(err, "material of the layer");
     return status;
@@ -126,7 +127,7 @@ wt_status sliding_layer_material(const wt_sliding *sliding, double temperature, 
 wt_shift_law sliding_layer_shift_law(const wt_sliding *sliding, uint64_t seed, size_t replicate)
 {
     const wt_rubber *rubber = sliding->layer_rubber;
-    return flow_rubber_shift_law(rubber, seed, layer_replicate(rubber, replicate));
+    return flow_rubber_shift_law(rubber, seed, layer_material_draw_index(rubber, replicate));
 }
 
 /* Widens the range by the frequencies of the waves of a contact. Waves across the sliding direction
@@ -260,15 +261,15 @@ double sliding_layer_shear_stress(const wt_layer_observation *observation, doubl
 
 bool sliding_layer_shear_is_default(const wt_layer_shear *shear)
 {
-    return shear->exponent == 1 && !(shear->reach > 0) && !(shear->crack_energy > 0);
+    return shear->exponent == 1 && !(shear->transition_thickness > 0) && !(shear->crack_energy > 0);
 }
 
 void sliding_layer_shear_describe(const wt_layer_shear *shear, char *text, size_t size)
 {
     char reach[64] = "", cracks[96] = "";
-    if (shear->reach > 0)
+    if (shear->transition_thickness > 0)
         clocale_print(reach, sizeof reach, ", reached as 1 - exp(-d / %.3g um)",
-                      1e6 * shear->reach);
+                      1e6 * shear->transition_thickness);
     if (shear->crack_energy > 0)
         clocale_print(cracks, sizeof cracks, "; cracks: G = %.3g J/m^2, asperities %.3g um apart",
                       shear->crack_energy, 1e6 * shear->spacing);

@@ -50,7 +50,7 @@ void replicates_add(replicates *r, double standard_error, flow_draw draw, const 
 replicates replicates_create(const wt_sliding *sliding, const wt_job *work, const char *what)
 {
     const wt_rubber *rubber = sliding->rubber;
-    replicates r = {.sliding = sliding, .work = work, .what = what};
+    replicates r = {.sliding = sliding, .work = work, .quantity = what};
     if (rubber->n_draws > 0) {
         add_error_source(&r, rubber->law.kind == WT_LAW_NONE ? "material"
                                                              : "material with its shift law");
@@ -63,16 +63,16 @@ replicates replicates_create(const wt_sliding *sliding, const wt_job *work, cons
     replicates_add(&r, sliding->temperature.standard_error, FLOW_DRAW_TEMPERATURE, "temperature");
     const bool measured = sliding->surface->modes_error != NULL;
     const double places = sliding->surface->c0.standard_error;
-    if (places > 0 || !sliding->surface->places_known) /* otherwise the positions differ by no
-                                                          more than the scatter of the modes */
+    if (places > 0 || !sliding->surface->has_position_scatter) /* otherwise the positions differ by
+                                                          no more than the scatter of the modes */
         replicates_add(&r, places, FLOW_DRAW_DENSITY,
                        measured ? "places of the surface" : "roughness");
     if (measured)
         add_error_source(&r, "scatter of the spectrum");
     if (anisotropy_is_present(&sliding->anisotropy))
         append_list_item(r.lacks, sizeof r.lacks, "anisotropy of the roughness");
-    if (sliding->softness != NULL) {
-        const bool drawn = strain_softening_has_errors(sliding->softness);
+    if (sliding->strain_softening != NULL) {
+        const bool drawn = strain_softening_has_errors(sliding->strain_softening);
         replicates_add(&r, drawn, FLOW_DRAW_SOFT_STORAGE, "softening with strain");
         if (drawn)
             add_linear_draw(&r, FLOW_DRAW_SOFT_LOSS);
@@ -81,7 +81,7 @@ replicates replicates_create(const wt_sliding *sliding, const wt_job *work, cons
 }
 
 void replicates_add_layer(replicates *r, const wt_sliding *sliding,
-                          const wt_layer_observation *known, const char *ratio)
+                          const wt_layer_observation *observation, const char *ratio)
 {
     if (sliding->layer_rubber != NULL) {
         if (sliding->layer_rubber->n_draws > 0)
@@ -90,9 +90,9 @@ void replicates_add_layer(replicates *r, const wt_sliding *sliding,
             append_list_item(r->lacks, sizeof r->lacks, "material of the layer");
         return;
     }
-    replicates_add(r, known->modulus_ratio.standard_error, FLOW_DRAW_RATIO, ratio);
-    if (known->ratio_slope.value != 0 || known->ratio_slope.standard_error > 0)
-        replicates_add(r, known->ratio_slope.standard_error, FLOW_DRAW_RATIO_SLOPE,
+    replicates_add(r, observation->modulus_ratio.standard_error, FLOW_DRAW_RATIO, ratio);
+    if (observation->ratio_slope.value != 0 || observation->ratio_slope.standard_error > 0)
+        replicates_add(r, observation->ratio_slope.standard_error, FLOW_DRAW_RATIO_SLOPE,
                        "its slope with the frequency");
 }
 
@@ -267,7 +267,7 @@ wt_status replicates_draw(replicates *r, size_t stride, replicate_fn one, const 
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     replicate_run d = {r, one, user};
     char words[64];
-    snprintf(words, sizeof words, "%s replicates", r->what);
+    snprintf(words, sizeof words, "%s replicates", r->quantity);
     wt_status status = r->n > 0 ? prepare_materials(r, err) : WT_OK;
     if (status != WT_OK) {
         release_materials(r);
@@ -276,7 +276,7 @@ wt_status replicates_draw(replicates *r, size_t stride, replicate_fn one, const 
     status = wt_parallel_for(r->n, r->work->threads, draw_replicate, &d, &r->work->progress, words);
     release_materials(r);
     if (status != WT_OK)
-        return wt_fail(err, status, "the replicates of the %s failed", r->what);
+        return wt_fail(err, status, "the replicates of the %s failed", r->quantity);
     size_t n_unsolved = 0;
     for (size_t i = 0; i < r->n; i++)
         n_unsolved += isnan(r->value[i * stride]) != 0;
@@ -284,7 +284,7 @@ wt_status replicates_draw(replicates *r, size_t stride, replicate_fn one, const 
         wt_log_add(r->work->log, WT_WARNING, NULL, NULL,
                    "%zu of %zu replicates of the %s have no solution and are left out of the "
                    "standard errors",
-                   n_unsolved, r->n, r->what);
+                   n_unsolved, r->n, r->quantity);
     return compute_standard_errors(r, err);
 }
 

@@ -16,7 +16,7 @@ typedef struct replicates {
     double velocity;          /* the only velocity [m/s]; 0 for those of the list and the
                                  reference */
     wt_material_cache *drawn; /* cache; set while replicates are drawn */
-    const char *what;         /* "friction", for messages */
+    const char *quantity;     /* "friction", for messages */
     flow_draw draw[REPLICATES_MAX_DRAWS]; /* [n_draws] identifiers of the normal deviates */
     size_t n_draws;
     bool varies;                    /* at least one error is stated or measured */
@@ -35,7 +35,7 @@ replicates replicates_create(const wt_sliding *sliding, const wt_job *work, cons
 void replicates_add(replicates *r, double standard_error, flow_draw draw, const char *words);
 /* Adds the errors of the modulus of a layer. `ratio` is the text for the modulus ratio. */
 void replicates_add_layer(replicates *r, const wt_sliding *sliding,
-                          const wt_layer_observation *known, const char *ratio);
+                          const wt_layer_observation *observation, const char *ratio);
 /* Returns the text of the error sources that are drawn, for a table. */
 const char *replicates_included_errors(const replicates *r);
 

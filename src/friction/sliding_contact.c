@@ -98,16 +98,17 @@ static wt_status create_workspace(const wt_sliding *sliding, wt_friction_options
                                   uint64_t seed, size_t replicate, sliding_contact *c,
                                   wt_error *err)
 {
-    wt_strain_softening softness = {0};
+    wt_strain_softening strain_softening = {0};
     wt_status status = WT_OK;
-    if (sliding->softness != NULL) {
-        status = strain_softening_draw(sliding->softness, seed, replicate, &softness, err);
-        options.softening = &softness.table;
+    if (sliding->strain_softening != NULL) {
+        status = strain_softening_draw(sliding->strain_softening, seed, replicate,
+                                       &strain_softening, err);
+        options.softening = &strain_softening.table;
         options.strain_factor = sliding->strain_factor;
     }
     if (status == WT_OK)
         status = wt_friction_workspace_new(c->material, c->roughness, &options, &c->workspace, err);
-    wt_strain_softening_clear(&softness);
+    wt_strain_softening_clear(&strain_softening);
     return status;
 }
 
@@ -187,7 +188,7 @@ wt_status sliding_contact_create(const wt_sliding *sliding, const wt_job *work, 
         status = check_material_range(sliding, &c, err);
     if (status == WT_OK && own)
         status = sliding_layer_material(sliding, c.temperature, seed, replicate, &c.layer, err);
-    options.layer.own = c.layer;
+    options.layer.material = c.layer;
     if (own)
         options.layer.material_law = sliding_layer_shift_law(sliding, seed, replicate);
     if (status == WT_OK)
@@ -212,7 +213,7 @@ wt_layer_state sliding_layer_at_shear_rate(const sliding_contact *contact, wt_la
                                            double velocity)
 {
     const double rate = fabs(velocity) / layer.thickness;
-    if (contact->workspace->own != NULL && rate > 0)
+    if (contact->workspace->layer != NULL && rate > 0)
         layer.modulus_ratio = wt_friction_layer_ratio(contact->workspace, rate);
     return layer;
 }

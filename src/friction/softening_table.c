@@ -46,8 +46,8 @@ static wt_status compute_shares(void *user, const friction_difference *of, const
     return status;
 }
 
-static wt_status make_table(const friction_difference *c, const effect *e, wt_table **table,
-                            wt_error *err)
+static wt_status tabulate_softening(const friction_difference *c, const effect *e, wt_table **table,
+                                    wt_error *err)
 {
     table_writer t = table_begin(&softening_schema, err);
     double above = (double)NAN;
@@ -69,7 +69,7 @@ static wt_status make_table(const friction_difference *c, const effect *e, wt_ta
     softening_keys keys = {.strain_factor = c->sliding->strain_factor,
                            .strain = {e->strain, (double)NAN, (double)NAN, NULL},
                            .share_above = {above, (double)NAN, (double)NAN, NULL}};
-    strain_softening_describe(c->sliding->softness, keys.source, sizeof keys.source);
+    strain_softening_describe(c->sliding->strain_softening, keys.source, sizeof keys.source);
     friction_difference_describe(&c->with[c->n - 1], &c->without[c->n - 1],
                                  "the moduli at small strain", keys.effect, sizeof keys.effect);
     softening_set_keys(&t, &keys);
@@ -82,19 +82,19 @@ wt_status wt_softened_friction_compute(const wt_sliding *sliding, const wt_job *
     if (work == NULL || table == NULL)
         return wt_fail(err, WT_E_ARG, "no softening to compute");
     wt_status status = flow_sliding_check(sliding, work, err);
-    if (status == WT_OK && sliding->softness == NULL)
+    if (status == WT_OK && sliding->strain_softening == NULL)
         status = wt_fail(err, WT_E_ARG, "the material does not soften with strain");
     if (status != WT_OK)
         return status;
     friction_difference c = {.n = 0};
     wt_sliding without = *sliding;
-    without.softness = NULL;
+    without.strain_softening = NULL;
     effect e = {.rows = calloc(sliding->n_velocity + 1, sizeof *e.rows)};
     if (e.rows == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     status = friction_difference_compute(sliding, &without, work, compute_shares, &e, &c, err);
     if (status == WT_OK)
-        status = make_table(&c, &e, table, err);
+        status = tabulate_softening(&c, &e, table, err);
     friction_difference_clear(&c);
     free(e.rows);
     return status;

@@ -185,11 +185,11 @@
       "its numerical error", NUMBER)                                                               \
     X(FLASH_HOT_HYSTERESIS, "hot_hysteresis",                                                      \
       "hysteresis friction of a contact that was hot before and stays so; nan: there is none",     \
-      NUMBER, SHOWS(with.hot.hysteresis))                                                          \
+      NUMBER, SHOWS(with.hot_branch.hysteresis))                                                   \
     X(FLASH_HOT_AREA_RATIO, "hot_area_ratio", "its real over nominal contact area", NUMBER,        \
-      SHOWS(with.hot.area_ratio))                                                                  \
+      SHOWS(with.hot_branch.area_ratio))                                                           \
     X(FLASH_HOT_TEMPERATURE, "hot_temperature", "its temperature at the finest scale",             \
-      SI(TEMPERATURE), SHOWS(with.hot.temperature))
+      SI(TEMPERATURE), SHOWS(with.hot_branch.temperature))
 
 #define FLASH_KEYS(X)                                                                              \
     X(FLASH_KEY_SURROUNDINGS, "surroundings", SI(TEMPERATURE), SHOWS(surroundings),                \

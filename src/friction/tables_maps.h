@@ -77,9 +77,9 @@
       NUMERICAL_ERROR(ANISOTROPY_HYSTERESIS))                                                      \
     X(ANISOTROPY_HYSTERESIS_NUMERICAL_ERROR, "hysteresis_numerical_error", "its numerical error",  \
       NUMBER)                                                                                      \
-    X(ANISOTROPY_SIDE, IN(with, side),                                                             \
+    X(ANISOTROPY_SIDE, "side",                                                                     \
       "force to the side over the load, against the side +90 deg from the velocity", NUMBER,       \
-      NUMERICAL_ERROR(ANISOTROPY_SIDE))                                                            \
+      SHOWS(with.lateral), NUMERICAL_ERROR(ANISOTROPY_SIDE))                                       \
     X(ANISOTROPY_SIDE_NUMERICAL_ERROR, "side_numerical_error", "its numerical error", NUMBER)      \
     X(ANISOTROPY_AREA_RATIO, IN(with, area_ratio), "real over nominal contact area", NUMBER,       \
       NUMERICAL_ERROR(ANISOTROPY_AREA_RATIO))                                                      \

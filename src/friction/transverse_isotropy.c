@@ -109,7 +109,7 @@ static void describe_factor_change(const directions *d, size_t k, table_writer *
     transverse_isotropy_set_text(t, factor_sets[k].key, text);
 }
 
-static wt_status make_table(const directions *d, wt_table **table, wt_error *err)
+static wt_status tabulate_transverse_isotropy(const directions *d, wt_table **table, wt_error *err)
 {
     char material[512];
     table_writer t = table_begin(&transverse_isotropy_schema, err);
@@ -156,7 +156,7 @@ wt_status wt_transverse_isotropy_compute(const wt_sliding *sliding, const wt_job
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     status = compute_factor_sets(&d, err);
     if (status == WT_OK)
-        status = make_table(&d, table, err);
+        status = tabulate_transverse_isotropy(&d, table, err);
     if (status == WT_OK)
         report_directions_cost(&d, work);
     free(d.points);

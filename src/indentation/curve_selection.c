@@ -25,35 +25,35 @@ TABLE_ROW(curves, CURVES, const char *group, *file; size_t curve; const char *se
 static const char worst_prefix[] = "worst:";
 
 /* Returns the start of the number in FILE:N, or NULL if the term does not name a curve. */
-static const char *curve_number_text(const char *word)
+static const char *curve_number_text(const char *term)
 {
-    const char *colon = strrchr(word, ':');
-    if (colon == NULL || colon == word || colon[1] == '\0' ||
+    const char *colon = strrchr(term, ':');
+    if (colon == NULL || colon == term || colon[1] == '\0' ||
         colon[1 + strspn(colon + 1, "0123456789")] != '\0')
         return NULL;
     return colon + 1;
 }
 
-static wt_status read_selection_term(const char *word, curve_selection *selection, wt_error *err)
+static wt_status read_selection_term(const char *term, curve_selection *selection, wt_error *err)
 {
-    const char *number = curve_number_text(word);
-    const bool is_among_worst = strncmp(word, worst_prefix, strlen(worst_prefix)) == 0;
+    const char *number = curve_number_text(term);
+    const bool is_worst_term = strncmp(term, worst_prefix, strlen(worst_prefix)) == 0;
     const unsigned long n = number != NULL ? strtoul(number, NULL, 10) : 0;
-    if (is_among_worst && n > 0) {
+    if (is_worst_term && n > 0) {
         selection->max_worst = n;
         return WT_OK;
     }
-    if (!is_among_worst && number != NULL)
+    if (!is_worst_term && number != NULL)
         return WT_OK; /* FILE:N */
-    if (strcmp(word, "median") == 0)
+    if (strcmp(term, "median") == 0)
         selection->median = true;
-    else if (strcmp(word, "rejected") == 0)
+    else if (strcmp(term, "rejected") == 0)
         selection->rejected = true;
-    else if (strcmp(word, "all") == 0)
+    else if (strcmp(term, "all") == 0)
         selection->all = true;
     else
         return wt_fail(err, WT_E_ARG, "'%s' is none of median, rejected, worst:N, all and FILE:N",
-                       word);
+                       term);
     return WT_OK;
 }
 
@@ -86,9 +86,9 @@ static bool match_named_terms(curve_selection *selection, const flow_file *file,
     return is_match;
 }
 
-/* Removes the curve with the smallest error if the list of the worst curves is full. Returns false
- * if this error does not belong to the list. */
-static bool is_among_worst(curve_selection *selection, double error)
+/* Makes place for a curve of this error in the list of the worst curves: a full list loses the
+ * curve with the smallest error. Returns false, and changes nothing, if the error is too small. */
+static bool make_place_among_worst(curve_selection *selection, double error)
 {
     size_t best = selection->n;
     if (!(error >= 0) || selection->max_worst == 0)
@@ -282,21 +282,21 @@ wt_status curve_selection_add(curve_selection *selection, const flow_file *file,
         return WT_OK;
     const bool usable = wt_curve_verdict_is_usable(fit->verdict);
     const bool is_match = match_named_terms(selection, file, curve->index);
-    selected_curve kept = {.file = file->name, .curve = curve->index};
+    selected_curve candidate = {.file = file->name, .curve = curve->index};
     if (usable)
-        kept.error = fit->modulus.standard_error / fit->modulus.value;
+        candidate.error = fit->modulus.standard_error / fit->modulus.value;
     if (!is_match && !selection->all && !(selection->rejected && !usable)) {
-        if (!usable || !is_among_worst(selection, kept.error))
+        if (!usable || !make_place_among_worst(selection, candidate.error))
             return WT_OK;
-        kept.by_error = true;
+        candidate.by_error = true;
     }
     selected_curve *grown = array_grow(selection->curve, selection->n, sizeof *grown);
     if (grown == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory for the curves to look at");
     selection->curve = grown;
-    const wt_status status = store_samples(&kept, curve, fit, contact, options, err);
-    selection->n_worst += kept.by_error;
-    selection->curve[selection->n++] = kept;
+    const wt_status status = store_samples(&candidate, curve, fit, contact, options, err);
+    selection->n_worst += candidate.by_error;
+    selection->curve[selection->n++] = candidate;
     return status;
 }
 

@@ -29,7 +29,7 @@ static const char *depth_advice(const wt_modulus_profile *d, bool other_misfit)
 {
     if (d->loss_share > 0.5 || (other_misfit && d->loss_share > 0))
         return "the DMA of the rubber would tell";
-    if (d->bend_share > 0.5 || (other_misfit && d->bend_share > 0))
+    if (d->curvature_share > 0.5 || (other_misfit && d->curvature_share > 0))
         return "the baselines are bent: a straight piezo, or one that has settled, would tell";
     return other_misfit ? "another tip or rate would tell" : "more curves would tell";
 }
@@ -91,7 +91,7 @@ static void describe_layer_reading(const wt_modulus_profile *d, char text[640])
                       format_si_value(d->thickness.low, "m").text,
                       format_si_value(d->thickness.high, "m").text,
                       format_si_value(d->layer_modulus.value, "Pa").text,
-                      format_si_value(d->ground_modulus.value, "Pa").text);
+                      format_si_value(d->substrate_modulus.value, "Pa").text);
     clocale_print(text, 640,
                   "if a layer thinner than the indentation makes it, the layer is %s than what is "
                   "below; then shallow indentations tell the layer, deep ones what is below, and "
@@ -123,7 +123,7 @@ wt_status flow_depth_table_add(wt_indent_tables *tables, const char *group,
         keys.reading = reading;
     }
     if (!isnan(d->change.value)) {
-        keys.chance = d->chance;
+        keys.chance = d->change_p;
         keys.misfit_p = d->misfit_p;
     }
     modulus_depth_set_keys(&t, &keys);

@@ -101,7 +101,7 @@ static void format_dwell_note(const wt_dwell *d, char note[256])
         all = all && dwell_is_valid_modulus(&d->moduli[i]);
     for (size_t i = 0; i < d->n_points; i++)
         is_repulsive = is_repulsive && d->point[i].force > 0;
-    const char *const parts[] = {d->found ? misfit : d->why_not,
+    const char *const parts[] = {d->found ? misfit : d->reason,
                                  all ? "" : "moduli that are not positive were left out",
                                  is_repulsive ? "" : "the force falls below the baseline in it"};
     note[0] = '\0';
@@ -112,8 +112,8 @@ static void format_dwell_note(const wt_dwell *d, char note[256])
     }
 }
 
-static void add_dwell_row(dwell_task *task, const flow_file *file, const wt_force_curve *curve,
-                          const wt_segment *s, const wt_dwell *d)
+static void add_measured_dwell(dwell_task *task, const flow_file *file, const wt_force_curve *curve,
+                               const wt_segment *s, const wt_dwell *d)
 {
     table_writer *t = &task->rows;
     const char *kind = d->n_points == 0 ? "" : d->creep ? "creep" : "relaxation";
@@ -184,7 +184,7 @@ static wt_status read_dwell_curve(dwell_task *task, const flow_file *file,
     if (status != WT_OK)
         return status;
     table_block(&task->moduli);
-    add_dwell_row(task, file, curve, first, &task->curve.dwell);
+    add_measured_dwell(task, file, curve, first, &task->curve.dwell);
     for (size_t i = 0; i < task->curve.n; i++)
         add_modulation_row(task, file, curve, &task->curve.modulations[i]);
     return WT_OK;

@@ -27,11 +27,11 @@ bool dwell_is_hold_segment(const wt_segment *s)
 
 /* Appends the samples of a segment with continuous times. Returns false if the segment lacks time,
  * height or force. */
-static bool append_segment_samples(const wt_segment *s, const wt_cantilever *lever,
+static bool append_segment_samples(const wt_segment *s, const wt_cantilever *cantilever,
                                    double direction, segment_history *to)
 {
     const double *time = segment_time(s, to->scratch), *height = segment_height(s),
-                 *force = segment_force(s, lever, to->scratch + s->n_points);
+                 *force = segment_force(s, cantilever, to->scratch + s->n_points);
     if (time == NULL || height == NULL || force == NULL || s->n_points < 2)
         return false;
     /* Times of a curve are continuous already. Times of a segment continue one time step after the
@@ -203,7 +203,7 @@ wt_status dwell_curve_fit(const wt_contact_table *contact, double poisson,
 {
     const double k = curve->cantilever.spring_constant;
     segment_history h = {0};
-    *to = (dwell_curve){.dwell.why_not = "no time, height or force in it"};
+    *to = (dwell_curve){.dwell.reason = "no time, height or force in it"};
     wt_status status = reserve_history(&h, curve, err);
     if (status != WT_OK)
         return status;
@@ -227,7 +227,7 @@ wt_status dwell_curve_fit(const wt_contact_table *contact, double poisson,
             status =
                 compute_modulation_moduli(contact, poisson, k, fit, to, &to->modulations[i], err);
         else
-            to->modulations[i].note = to->modulations[i].sine.why_not;
+            to->modulations[i].note = to->modulations[i].sine.reason;
     }
     free(block);
     return status;

@@ -227,8 +227,8 @@ const figure_description figures_indentation[] = {
      .x = {FORCE_DISPLACEMENT_DISPLACEMENT, AXIS_LINEAR, "Displacement from the contact point"},
      .y = {{FORCE_DISPLACEMENT_FORCE, AXIS_LINEAR, "Force"}},
      .curves = {CURVE(FORCE_DISPLACEMENT_FORCE, OWN)},
-     .nothing = "no force curve has numbers",
-     .words = "The curve with the median modulus of each group, approach and retract.",
+     .empty_reason = "no force curve has numbers",
+     .caption_text = "The curve with the median modulus of each group, approach and retract.",
      .draw = draw_force_displacement,
      .caption = caption_force_displacement},
     {.name = "force_indentation",
@@ -240,23 +240,25 @@ const figure_description figures_indentation[] = {
      .y = {{FORCE_INDENTATION_FORCE, AXIS_LINEAR, "Force"}},
      .curves = {CURVE(FORCE_INDENTATION_FORCE, POINTS, .style = 40, .points = MARKER_POINTS),
                 CURVE(FORCE_INDENTATION_FITTED_FORCE, FIT, .style = 11, .title = "fit")},
-     .nothing = "no point of the contact part has numbers",
-     .words = "Loading part of the curve with the median modulus of each group, counted from its "
-              "contact point.",
+     .empty_reason = "no point of the contact part has numbers",
+     .caption_text =
+         "Loading part of the curve with the median modulus of each group, counted from its "
+         "contact point.",
      .caption = caption_force_indentation},
     {.name = "modulus_groups",
      .title = "Modulus of each group",
      .table = &modulus_groups_schema,
-     .beside = "comparison",
+     .other_tables = "comparison",
      .by_group = true,
      .group = MODULUS_GROUPS_GROUP,
      .y = {{MODULUS_GROUPS_GEOMETRIC_MEAN, AXIS_LOG, "Modulus"}},
      .curves = {CURVE(MODULUS_GROUPS_GEOMETRIC_MEAN, OWN, .with_errors = true)},
-     .nothing = "no group has a modulus above zero",
-     .words = "Modulus of every accepted curve (open circles: doubtful; spread sideways for sight "
-              "only) and, to the right, "
-              "the geometric mean of the group with its 95 % confidence interval; logarithmic "
-              "axis.",
+     .empty_reason = "no group has a modulus above zero",
+     .caption_text =
+         "Modulus of every accepted curve (open circles: doubtful; spread sideways for sight "
+         "only) and, to the right, "
+         "the geometric mean of the group with its 95 % confidence interval; logarithmic "
+         "axis.",
      .draw = draw_modulus_groups,
      .caption = caption_modulus_groups},
     {.name = "modulus_map",
@@ -264,9 +266,10 @@ const figure_description figures_indentation[] = {
      .table = &modulus_groups_schema,
      .by_group = true,
      .group = MODULUS_GROUPS_GROUP,
-     .words = "Modulus of the curves at their positions; circles: doubtful, crosses: rejected "
-              "curves. One "
-              "scale of colour for all maps.",
+     .caption_text =
+         "Modulus of the curves at their positions; circles: doubtful, crosses: rejected "
+         "curves. One "
+         "scale of colour for all maps.",
      .draw = draw_modulus_map},
     {.name = "modulus_depth",
      .in_depth = true,
@@ -277,10 +280,11 @@ const figure_description figures_indentation[] = {
      .x = {MODULUS_DEPTH_DEPTH, AXIS_LINEAR, "Indentation"},
      .y = {{MODULUS_DEPTH_MODULUS, AXIS_LOG, "Modulus at this depth"}},
      .curves = {CURVE(MODULUS_DEPTH_MODULUS, JOINED_BARS, .with_errors = true)},
-     .nothing = "too few curves without adhesion tell it",
-     .words = "Modulus of the homogeneous rubber that would give the force at this depth alone, of "
-              "all curves of a group together, with their contact point fitted anew; bars: 95 % "
-              "confidence interval."},
+     .empty_reason = "too few curves without adhesion tell it",
+     .caption_text =
+         "Modulus of the homogeneous rubber that would give the force at this depth alone, of "
+         "all curves of a group together, with their contact point fitted anew; bars: 95 % "
+         "confidence interval."},
     {.name = "modulus_rate",
      .in_depth = true,
      .title = "Modulus against indentation rate",
@@ -290,9 +294,10 @@ const figure_description figures_indentation[] = {
      .x = {MODULUS_RATE_RATE, AXIS_LOG, "Indentation rate"},
      .y = {{MODULUS_RATE_GEOMETRIC_MEAN, AXIS_LOG, "Modulus, geometric mean"}},
      .curves = {CURVE(MODULUS_RATE_GEOMETRIC_MEAN, JOINED_BARS, .with_errors = true)},
-     .nothing = "no modulus with a known indentation rate",
-     .words = "Geometric mean of the modulus against indentation rate, binned by half a decade; "
-              "bars: 95 % confidence interval. Curves in the bins:",
+     .empty_reason = "no modulus with a known indentation rate",
+     .caption_text =
+         "Geometric mean of the modulus against indentation rate, binned by half a decade; "
+         "bars: 95 % confidence interval. Curves in the bins:",
      .caption = caption_modulus_rate},
     {.name = NULL},
 };

@@ -52,10 +52,10 @@ const figure_description figures_curves[] = {
     {.name = "curves",
      .title = "Force curves to look at",
      .table = &curves_schema,
-     .words =
+     .caption_text =
          "Force against displacement of single curves, refused ones first, then doubtful ones; "
          "counted from the contact point where there is one.",
-     .nothing = "no curve has samples",
+     .empty_reason = "no curve has samples",
      .draw = draw_curves},
     {.name = NULL},
 };

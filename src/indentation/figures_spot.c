@@ -81,8 +81,8 @@ const figure_description figures_spot[] = {
     {.name = "spot_map",
      .title = "Heights about a spot",
      .table = &spot_map_schema,
-     .nothing = "no height is known about the place",
-     .words =
+     .empty_reason = "no height is known about the place",
+     .caption_text =
          "Heights about the place of an indentation, each less its plane: before it; after it, "
          "moved by the drift between the images; and what changed. The circle is the contact "
          "of the tip at its depth.",

@@ -21,7 +21,7 @@ wt_status indent_summary_add(indent_summary *to, const wt_indent_fit *fit,
                              const wt_indent_options *options, wt_error *err)
 {
     to->max_depth = fmax(to->max_depth, fit->max_indentation);
-    add_shift(&to->bend, fit->bend_shift / fit->modulus.value);
+    add_shift(&to->bend, fit->curvature_shift / fit->modulus.value);
     add_shift(&to->loss, fit->loss_bias);
     add_shift(&to->loss_error, fit->loss_error);
     add_shift(&to->misfit, fit->misfit_error / fit->modulus.value);
@@ -108,7 +108,7 @@ static void test_mean_residual(const indent_summary *summary, const wt_indent_jo
     const size_t n = summary->n_misfits;
     const wt_pooled_misfit pool =
         wt_pooled_misfit_compute((const double(*)[WT_MISFIT_TERMS])summary->misfits, n);
-    const bool is_significant = pool.chance < job->options.misfit_p_threshold;
+    const bool is_significant = pool.p_value < job->options.misfit_p_threshold;
     /* A misfit that all curves share does not average out. The misfit of each curve may be shared.
      * It is unknown if no curve determines it. */
     const bool is_unknown = job->options.misfit_p_threshold > 0 && summary->misfit.n == 0 &&
@@ -117,16 +117,16 @@ static void test_mean_residual(const indent_summary *summary, const wt_indent_jo
         is_significant || is_unknown || 2 * summary->n_significant_misfit > summary->n;
     indentation_set_value(rows, INDENTATION_KEY_MISFIT_ERROR,
                           is_common ? summary->misfit.sum / (double)summary->misfit.n : 0, 0, 0);
-    if (isnan(pool.chance))
+    if (isnan(pool.p_value))
         return;
     indentation_set_print(rows, INDENTATION_KEY_POOLED_MISFIT, "%.3g", pool.misfit);
-    indentation_set_print(rows, INDENTATION_KEY_POOLED_MISFIT_CHANCE, "%.3g", pool.chance);
+    indentation_set_print(rows, INDENTATION_KEY_POOLED_MISFIT_CHANCE, "%.3g", pool.p_value);
     if (is_significant)
         wt_log_add(work->log, WT_WARNING, NULL, NULL,
                    "%s: the mean residual of %zu accepted curves is %.2g %% of the largest "
                    "force, which scatter does not explain (chance %s): another tip, a "
                    "layer, loss, adhesion or an uneven piezo; the moduli may be further off",
-                   job->group, n, 100 * pool.misfit, format_probability(pool.chance).text);
+                   job->group, n, 100 * pool.misfit, format_probability(pool.p_value).text);
 }
 
 /* Median of the contact points of one estimator where it found one; NaN if nowhere. scratch: [n].

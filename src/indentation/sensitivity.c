@@ -32,7 +32,7 @@ wt_sensitivity_job wt_sensitivity_job_defaults(void)
 }
 
 static const wt_param job_rows[] = {
-    {PARAM_CHOICE_OF("direction", wt_sensitivity_job, ways, "both|approach|retract"),
+    {PARAM_CHOICE_OF("direction", wt_sensitivity_job, directions, "both|approach|retract"),
      .flags = PARAM_NO_CASE,
      .help = "which ways of the curves the answer is of; the mean of both is free of friction of "
              "the tip and of the piezo's hysteresis to first order"},
@@ -91,15 +91,15 @@ static wt_status measure_slopes(const sensitivity_task *task, const wt_force_cur
             status = wt_contact_slope_fit(height, channel->values, segment->n_points,
                                           &task->job->options, &it->direction[w], err);
         else
-            snprintf(it->direction[w].why_not, sizeof it->direction[w].why_not,
-                     "no %s in the curve", height == NULL ? "height" : "deflection");
+            snprintf(it->direction[w].reason, sizeof it->direction[w].reason, "no %s in the curve",
+                     height == NULL ? "height" : "deflection");
     }
     for (size_t w = 0; w < DIRECTIONS && signal == WT_Q_FORCE; w++) {
         it->direction[w].slope /= curve->cantilever.spring_constant;
         it->direction[w].slope_error /= curve->cantilever.spring_constant;
         it->direction[w].found = it->direction[w].found && isfinite(it->direction[w].slope);
         if (isnan(curve->cantilever.spring_constant))
-            snprintf(it->direction[w].why_not, sizeof it->direction[w].why_not,
+            snprintf(it->direction[w].reason, sizeof it->direction[w].reason,
                      "a force without a spring constant: give --spring-constant 0.1N/m");
     }
     return status;
@@ -181,7 +181,7 @@ static wt_status read_sensitivity_files(sensitivity_task *task, const flow_files
 
 /* ---- curves ---------------------------------------------------------------------------------- */
 
-static bool has_slope(const curve_slopes *it, size_t direction)
+static bool has_found_slope(const curve_slopes *it, size_t direction)
 {
     return it->has_segment[direction] && it->direction[direction].found;
 }
@@ -207,13 +207,13 @@ static void mark_file_outliers(curve_slopes *items, size_t n, size_t direction, 
 {
     size_t m = 0;
     for (size_t i = 0; i < n; i++)
-        if (has_slope(&items[i], direction))
+        if (has_found_slope(&items[i], direction))
             values[m++] = travel_per_signal(&items[i], direction);
     if (m < OUTLIER_MIN_CURVES)
         return;
     const typical_values typical = flow_typical_values(values, m);
     for (size_t i = 0; i < n; i++)
-        if (has_slope(&items[i], direction) &&
+        if (has_found_slope(&items[i], direction) &&
             fabs(travel_per_signal(&items[i], direction) - typical.middle) > typical.most)
             items[i].outlier = true;
 }
@@ -270,7 +270,7 @@ static wt_status create_curve_table(const sensitivity_task *task, wt_table **tab
             sensitivity_curves_put_text(&t, SENSITIVITY_CURVES_DIRECTION,
                                         wt_segment_kind_name(kinds[w]));
             sensitivity_curves_put_text(&t, SENSITIVITY_CURVES_VERDICT,
-                                        !c->found     ? c->why_not
+                                        !c->found     ? c->reason
                                         : it->outlier ? "left out: far from the other curves"
                                                       : "used");
             sensitivity_curves_put(&t, SENSITIVITY_CURVES_POINTS, (double)c->n);
@@ -298,7 +298,8 @@ typedef struct direction_group {
     wt_interval sensitivity, factor, change, difference; /* difference: retract over approach */
     double tilt, curve_error; /* of one curve alone, of the sensitivity */
     double scatter;           /* of a unit, of the sensitivity */
-    double direction_error; /* by the difference of the ways, of the sensitivity; NaN: not known */
+    double direction_error;   /* error of the sensitivity due to the difference of the directions;
+                                 NaN: unknown */
     const char *verdict;
     bool refused;
 } direction_group;
@@ -315,8 +316,8 @@ typedef struct collected_values {
 
 static bool is_usable_curve(const curve_slopes *it, size_t row)
 {
-    return !it->outlier &&
-           (row < DIRECTIONS ? has_slope(it, row) : has_slope(it, 0) && has_slope(it, 1));
+    return !it->outlier && (row < DIRECTIONS ? has_found_slope(it, row)
+                                             : has_found_slope(it, 0) && has_found_slope(it, 1));
 }
 
 /* Interval of the slope change of one curve, with the error of the scatter within it. */
@@ -325,8 +326,7 @@ static wt_interval single_curve_change(const curve_slopes *it, size_t row, doubl
     const bool both = row == DIRECTIONS;
     const wt_contact_slope *const a = &it->direction[both ? 0 : row], *const b = &it->direction[1];
     const double error = both ? hypot(a->change_error, b->change_error) / 2 : a->change_error;
-    const double half =
-        wt_student_quantile(both ? fmin(a->freedom, b->freedom) : a->freedom) * error;
+    const double half = wt_student_quantile(both ? fmin(a->df, b->df) : a->df) * error;
     return (wt_interval){value, error, value - half, value + half};
 }
 
@@ -530,7 +530,7 @@ static void set_sensitivity_keys(table_writer *t, const sensitivity_task *task, 
     size_t n_excluded = 0;
     for (size_t i = 0; i < task->n; i++)
         n_excluded += task->items[i].outlier ||
-                      !(has_slope(&task->items[i], 0) || has_slope(&task->items[i], 1));
+                      !(has_found_slope(&task->items[i], 0) || has_found_slope(&task->items[i], 1));
     sensitivity_set_text(t, SENSITIVITY_KEY_DIRECTION, row_names[row]);
     sensitivity_set_text(t, SENSITIVITY_KEY_VERDICT, g->verdict);
     sensitivity_set_print(t, SENSITIVITY_KEY_N_CURVES, "%zu", task->n);
@@ -552,7 +552,7 @@ static size_t reported_row(const sensitivity_task *task, const direction_group g
 {
     static const size_t requested[] = {
         [WT_DIRECTION_BOTH] = DIRECTIONS, [WT_DIRECTION_APPROACH] = 0, [WT_DIRECTION_RETRACT] = 1};
-    const size_t row = requested[task->job->ways];
+    const size_t row = requested[task->job->directions];
     if (row < DIRECTIONS || groups[row].n > 0)
         return row;
     return groups[0].n > 0 ? 0 : 1;
@@ -571,7 +571,7 @@ static wt_status create_group_table(const sensitivity_task *task, wt_table **tab
         for (size_t w = DIRECTIONS; w-- > 0;)
             if (task->items[0].has_segment[w] && !task->items[0].direction[w].found)
                 wt_error_found(err, "%s: %s", wt_segment_kind_name(kinds[w]),
-                               task->items[0].direction[w].why_not);
+                               task->items[0].direction[w].reason);
         return status;
     }
     table_writer t = table_begin(&sensitivity_schema, err);

@@ -64,9 +64,9 @@
       NUMBER, OPTIONAL)                                                                            \
     X(INDENTATION_BASELINE_CHANCE, IN(fit, baseline_p),                                            \
       "chance that a straight baseline departs as much from a line", NUMBER, OPTIONAL)             \
-    X(INDENTATION_BEND_SHIFT, IN(fit, bend_shift),                                                 \
+    X(INDENTATION_BEND_SHIFT, "bend_shift",                                                        \
       "what the bend of the baseline adds to the modulus if it goes on in contact; 0: straight",   \
-      SI(MODULUS), OPTIONAL)                                                                       \
+      SHOWS(fit.curvature_shift), SI(MODULUS), OPTIONAL)                                           \
     X(INDENTATION_INTERFERENCE_AMPLITUDE, IN(fit, interference_amplitude),                         \
       "amplitude of a sine that the baseline shows, fitted with the modulus; 0: none", SI(FORCE),  \
       OPTIONAL)                                                                                    \
@@ -222,7 +222,7 @@
     X(CURVES_RESIDUAL, AS(residual), "force less the fit", SI(FORCE))
 #define CURVES_KEYS(X)
 
-/* As a file: what was chosen by hand. As a result: of it what was applied. */
+/* A file of this form has the manual overrides; the result has those that were applied. */
 #define OVERRIDES_COLUMNS(X)                                                                       \
     X(OVERRIDES_GROUP, AS(group), "group that it is for", TEXT, LABEL("Group"), OPTIONAL)          \
     X(OVERRIDES_FILE, AS(file), "file, or the end of its path", TEXT, LABEL("File"))               \

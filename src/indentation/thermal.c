@@ -168,10 +168,10 @@ static void report_spectrum_misfit(const wt_job *work, const flow_file *file, ca
 {
     const double stated_averages = l->spectrum.averages;
     if (!l->fit.found) {
-        append_cantilever_note(l, l->fit.why_not);
+        append_cantilever_note(l, l->fit.reason);
         return;
     }
-    if (l->fit.chance < misfit_p_threshold) {
+    if (l->fit.misfit_p < misfit_p_threshold) {
         append_cantilever_note(
             l, "the spectrum departs from an oscillator on a white floor: no interval");
         wt_log_add(work->log, WT_WARNING, file->name, NULL,
@@ -290,7 +290,7 @@ static wt_status measure_cantilever(const wt_thermal_job *job, const wt_job *wor
 
 static bool has_interval(const cantilever_result *l)
 {
-    return l->fit.found && !(l->fit.chance < misfit_p_threshold);
+    return l->fit.found && !(l->fit.misfit_p < misfit_p_threshold);
 }
 
 /* Sets a number, its error and the limits of its interval. Their columns must be consecutive. */
@@ -337,7 +337,7 @@ static void add_cantilever_row(table_writer *t, const flow_file *file, const can
         thermal_put(t, THERMAL_SADER_STANDARD_ERROR, l->sader.standard_error);
     thermal_put(t, THERMAL_SADER_RATIO, l->constant / l->sader.value);
     thermal_put(t, THERMAL_AVERAGES, f->averages);
-    thermal_put(t, THERMAL_CHANCE, f->chance);
+    thermal_put(t, THERMAL_CHANCE, f->misfit_p);
 }
 
 /* Mean spring constant of all spectra. Its error is that of the spectrum, or from three spectra on
@@ -401,8 +401,8 @@ static void set_thermal_keys(table_writer *t, const wt_thermal_job *job,
                           k.standard_error / k.value);
 }
 
-static wt_status make_table(const wt_thermal_job *job, const wt_job *work, const flow_files *files,
-                            wt_table **table, wt_error *err)
+static wt_status tabulate_thermal(const wt_thermal_job *job, const wt_job *work,
+                                  const flow_files *files, wt_table **table, wt_error *err)
 {
     wt_status status = WT_OK;
     size_t n = 0, n_failed = 0;
@@ -462,7 +462,7 @@ wt_status wt_thermal_compute(const wt_thermal_job *job, const wt_job *work, wt_t
     if (status == WT_OK)
         status = flow_files_list(job->sets, job->n_sets, work, &files, err);
     if (status == WT_OK)
-        status = make_table(job, work, &files, table, err);
+        status = tabulate_thermal(job, work, &files, table, err);
     flow_files_clear(&files);
     return status;
 }

@@ -107,13 +107,13 @@ static void set_channel_label(wt_channel *channel, wt_quantity quantity, const c
 }
 
 /* Adds one segment; a segment without height or force is skipped. force: scratch [n_points]. */
-static wt_status add_aligned_segment(const wt_segment *from, const wt_cantilever *lever,
+static wt_status add_aligned_segment(const wt_segment *from, const wt_cantilever *cantilever,
                                      double direction, const curve_contact *contact, double *force,
                                      wt_force_curve *to, wt_error *err)
 {
     enum { HEIGHT, FORCE, INDENTATION, TIME };
     const double *height = segment_height(from);
-    const double *measured = segment_force(from, lever, force);
+    const double *measured = segment_force(from, cantilever, force);
     const wt_channel *time = wt_segment_channel(from, WT_Q_TIME);
     if (height == NULL || measured == NULL)
         return WT_OK;
@@ -134,7 +134,7 @@ static wt_status add_aligned_segment(const wt_segment *from, const wt_cantilever
         const double f = measured[i] - contact->offset - contact->tilt * z;
         s->channels[HEIGHT].values[i] = z;
         s->channels[FORCE].values[i] = f;
-        s->channels[INDENTATION].values[i] = tip_position(z, f, lever->spring_constant);
+        s->channels[INDENTATION].values[i] = tip_position(z, f, cantilever->spring_constant);
     }
     if (time != NULL) {
         set_channel_label(&s->channels[TIME], WT_Q_TIME, time->name);

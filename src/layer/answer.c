@@ -31,7 +31,7 @@ void append_balance(text_builder *t, const table_view *balances)
                 least > 0 ? format_with_unit(least, "m").text : "");
 }
 
-static bool is_inconclusive(const char *text_value)
+static bool is_inconclusive_text(const char *text_value)
 {
     return text_value != NULL && strncmp(text_value, "cannot say", strlen("cannot say")) == 0;
 }
@@ -48,14 +48,14 @@ static void add_balances(const answer_context *context)
     text[0] = (char)toupper((unsigned char)text[0]);
     answer_add_sentence(context, thickness_question, "thickness", "%s: %s.", text,
                         layer_feedback_key_text(v, LAYER_FEEDBACK_KEY_WORDS));
-    if (is_inconclusive(agreement))
+    if (is_inconclusive_text(agreement))
         answer_add_sentence(context, thickness_question, "thickness",
                             "Whether that many balances are there, the inputs %s.", agreement);
 }
 
 static void add_existence(const answer_context *context)
 {
-    const table_view *const v = &context->existence;
+    const table_view *const v = &context->layer_regime_map;
     if (v->table == NULL)
         return;
     const char *const assessment = layer_regime_map_key_text(v, LAYER_REGIME_MAP_KEY_KNOWN);
@@ -76,7 +76,7 @@ static void add_existence(const answer_context *context)
     if (isfinite(ends[0]))
         answer_add_sentence(context, thickness_question, "thickness", "It ends at %s.",
                             format_estimate_interval(to, ends[0], ends[1]).text);
-    if (is_inconclusive(assessment))
+    if (is_inconclusive_text(assessment))
         answer_add_sentence(context, thickness_question, "thickness", "Of its edges the inputs %s.",
                             assessment);
 }
@@ -116,7 +116,7 @@ static void add_bands(const answer_context *context)
                                      layer_bands_value(v, LAYER_BANDS_KEY_FIRST_HIGH).value)
                 .text);
     const char *const assessment = layer_bands_key_text(v, LAYER_BANDS_KEY_KNOWN);
-    if (is_inconclusive(assessment))
+    if (is_inconclusive_text(assessment))
         answer_add_sentence(context, thickness_question, "thickness", "Of that the inputs %s.",
                             assessment);
 }
@@ -157,7 +157,7 @@ void answer_running_in(const answer_context *context)
                             "While the layer grows, friction goes from %s to %s%s.",
                             format_endpoint(bare).text, format_endpoint(end).text, text);
     const char *const assessment = running_in_key_text(v, RUNNING_IN_KEY_KNOWN);
-    if (is_inconclusive(assessment))
+    if (is_inconclusive_text(assessment))
         answer_add_sentence(context, friction_question, "friction",
                             "Of when that is the inputs %s.", assessment);
 }

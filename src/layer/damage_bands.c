@@ -254,7 +254,8 @@ static wt_estimate final_depth(const wt_layer_section *section, size_t n)
     return depth;
 }
 
-static void store_section(const wt_layer_section *s, const wt_layer_section *centre, double *out)
+static void store_band_depths(const wt_layer_section *s, const wt_layer_section *centre,
+                              double *out)
 {
     const size_t n = s->n == centre->n && s->n <= WT_LAYER_MAX_BANDS ? s->n : 0;
     out[AT_BANDS] = (double)s->n;
@@ -293,7 +294,7 @@ static wt_status bands_replicate(const void *user, size_t k, double *out, wt_err
         for (size_t i = 0; i < N_AT * task->n_times; i++)
             out[N_NUMBERS + i] = (double)NAN;
         for (size_t i = 0; i < rows; i++)
-            store_section(&section[i], &task->section[i], out + N_NUMBERS + N_AT * i);
+            store_band_depths(&section[i], &task->section[i], out + N_NUMBERS + N_AT * i);
     }
     clear_loads(&l);
     free(section);
@@ -346,7 +347,7 @@ static void add_section_rows(const bands_task *task, size_t at, table_writer *t)
                   edge_with_error(s->band[i].lower, e[2 * i + 1]), share);
 }
 
-static wt_status make_table(bands_task *task, wt_table **table, wt_error *err)
+static wt_status tabulate_bands(bands_task *task, wt_table **table, wt_error *err)
 {
     const double *const e = task->draws.replicates.error;
     const wt_interval first = layer_draws_interval(&task->draws, LN_FIRST, task->first);
@@ -369,7 +370,7 @@ static wt_status make_table(bands_task *task, wt_table **table, wt_error *err)
 
 /* ---- the job --------------------------------------------------------------------------------- */
 
-static wt_status compute_stated_values(bands_task *task, wt_error *err)
+static wt_status compute_nominal_bands(bands_task *task, wt_error *err)
 {
     wt_status status = create_loads(task, &task->draws.values, &task->centre, err);
     for (size_t i = 0; status == WT_OK && i < task->n; i++)
@@ -391,14 +392,14 @@ wt_status wt_layer_bands_compute(const wt_sliding *sliding, const wt_layer_job *
     if (status == WT_OK)
         status = parse_loads(&task, job, err);
     if (status == WT_OK)
-        status = compute_stated_values(&task, err);
+        status = compute_nominal_bands(&task, err);
     if (status == WT_OK) {
         set_velocity_range(&task, sliding);
         status = replicates_draw(&task.draws.replicates, N_NUMBERS + N_AT * task.n_times,
                                  bands_replicate, &task, err);
     }
     if (status == WT_OK)
-        status = make_table(&task, table, err);
+        status = tabulate_bands(&task, table, err);
     cost_report(work,
                 (cost_summary){.items = (double)(task.n_times * (1 + task.draws.replicates.n)),
                                .tolerance_asked = work->tolerance});

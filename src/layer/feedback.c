@@ -342,7 +342,7 @@ static const char *describe_loop(const wt_layer_feedback *loop)
                            : "a bare surface stays bare (reconstructed)";
 }
 
-static wt_status make_table(balances_task *task, wt_table **table, wt_error *err)
+static wt_status tabulate_feedback(balances_task *task, wt_table **table, wt_error *err)
 {
     const balances *b = &task->centre;
     const double *const e = task->draws.replicates.error;
@@ -361,14 +361,14 @@ static wt_status make_table(balances_task *task, wt_table **table, wt_error *err
 }
 
 wt_status wt_layer_steady_states_compute(const wt_sliding *sliding, const wt_layer_job *job,
-                                         const wt_layer_observation *known, const wt_job *work,
-                                         wt_table **table, wt_error *err)
+                                         const wt_layer_observation *observation,
+                                         const wt_job *work, wt_table **table, wt_error *err)
 {
-    if (job == NULL || known == NULL || work == NULL || table == NULL)
+    if (job == NULL || observation == NULL || work == NULL || table == NULL)
         return wt_fail(err, WT_E_ARG, "no balances of a layer to make");
     balances_task task = {.centre = {.context = &task.draws.values}};
-    wt_status status =
-        layer_draws_init(&task.draws, sliding, job, known, work, "layer that acts back", true, err);
+    wt_status status = layer_draws_init(&task.draws, sliding, job, observation, work,
+                                        "layer that acts back", true, err);
     if (status == WT_OK)
         status = compute_balances(&task.centre, err);
     if (status == WT_OK) {
@@ -379,7 +379,7 @@ wt_status wt_layer_steady_states_compute(const wt_sliding *sliding, const wt_lay
                                  balances_replicate, &task, err);
     }
     if (status == WT_OK)
-        status = make_table(&task, table, err);
+        status = tabulate_feedback(&task, table, err);
     cost_report(work,
                 (cost_summary){.items = GRID + (double)(REPLICATE_GRID * task.draws.replicates.n),
                                .tolerance_asked = work->tolerance});

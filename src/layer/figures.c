@@ -192,8 +192,8 @@ const figure_description figures_layer[] = {
      .x = {ENERGY_DENSITY_DEPTH, AXIS_LOG, "Depth below the surface"},
      .y = {{ENERGY_DENSITY_POWER, AXIS_LOG, "Dissipated power per volume"}},
      .curves = {CURVE(ENERGY_DENSITY_POWER, LINE, .style = 21)},
-     .nothing = "no energy density above zero",
-     .words = "Power per volume that sliding dissipates in the rubber, with depth."},
+     .empty_reason = "no energy density above zero",
+     .caption_text = "Power per volume that sliding dissipates in the rubber, with depth."},
     {.name = "layer",
      .title = "Thickness of the modified layer",
      .table = &layer_schema,
@@ -207,9 +207,10 @@ const figure_description figures_layer[] = {
                       .above_zero = true, .panel = 1),
                 CURVE(LAYER_WEAR_RATE, LINE, .style = 23, .title = "wear", .above_zero = true,
                       .panel = 1)},
-     .nothing = "no layer forms: no thickness above zero to draw on a logarithmic axis",
-     .words = "Thickness of the modified layer in time (band: one standard error) and the rates of "
-              "formation and wear that make it; balance is where the two rates meet.",
+     .empty_reason = "no layer forms: no thickness above zero to draw on a logarithmic axis",
+     .caption_text =
+         "Thickness of the modified layer in time (band: one standard error) and the rates of "
+         "formation and wear that make it; balance is where the two rates meet.",
      .draw = draw_layer,
      .caption = caption_layer},
     {.name = "layer_bands",
@@ -220,10 +221,11 @@ const figure_description figures_layer[] = {
      .y = {{LAYER_BANDS_LOWER, AXIS_FROM_ZERO, "Depth below the surface"}},
      .curves = {CURVE(LAYER_BANDS_LOWER, POINTS, .style = 21, .title = "lower edge", .band = 71),
                 CURVE(LAYER_BANDS_UPPER, POINTS, .style = 22, .title = "upper edge", .band = 71)},
-     .nothing = "nothing is modified",
-     .words = "Edges of the modified rubber below the surface of the time, which wear takes down: "
-              "between an upper and the lower edge under it the rubber is modified. Bars: one "
-              "standard error, of the replicates with as many bands.",
+     .empty_reason = "nothing is modified",
+     .caption_text =
+         "Edges of the modified rubber below the surface of the time, which wear takes down: "
+         "between an upper and the lower edge under it the rubber is modified. Bars: one "
+         "standard error, of the replicates with as many bands.",
      .draw = draw_bands,
      .caption = caption_bands},
     {.name = "running_in",
@@ -235,8 +237,9 @@ const figure_description figures_layer[] = {
      .curves = {CURVE(RUNNING_IN_FRICTION, LINE, .style = 21, .title = "hysteresis and shearing",
                       .band = 71),
                 CURVE(RUNNING_IN_HYSTERESIS, LINE, .style = 22, .title = "hysteresis", .band = 72)},
-     .nothing = "no shear stress is known, and so no friction",
-     .words = "Friction with the layer that has grown until then (bands: one standard error).",
+     .empty_reason = "no shear stress is known, and so no friction",
+     .caption_text =
+         "Friction with the layer that has grown until then (bands: one standard error).",
      .caption = caption_running_in},
     {.name = "track_layer",
      .title = "Thickness of the layer by the curves",
@@ -246,11 +249,12 @@ const figure_description figures_layer[] = {
      .x = {TRACK_LAYER_DEPTH, AXIS_LOG, "Indentation, thickness"},
      .y = {{TRACK_LAYER_MODULUS, AXIS_LOG, "Modulus at this depth"}},
      .curves = {CURVE(TRACK_LAYER_MODULUS, OWN, .with_errors = true)},
-     .nothing = "too few curves tell how the modulus changes with depth",
-     .words = "Modulus of the homogeneous rubber that would give the force at this depth, of bulk "
-              "and track (bars: 95 % confidence interval), and of layers on the bulk that have the "
-              "ratio of the moduli at the depth of the curves; grey: the thickness known otherwise "
-              "with its 95 % interval, on the same axis.",
+     .empty_reason = "too few curves tell how the modulus changes with depth",
+     .caption_text =
+         "Modulus of the homogeneous rubber that would give the force at this depth, of bulk "
+         "and track (bars: 95 % confidence interval), and of layers on the bulk that have the "
+         "ratio of the moduli at the depth of the curves; grey: the thickness known otherwise "
+         "with its 95 % interval, on the same axis.",
      .draw = draw_track_layer,
      .caption = caption_track_layer},
     {.name = NULL},

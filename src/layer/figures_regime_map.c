@@ -181,23 +181,26 @@ const figure_description figures_existence[] = {
      .colour = {LAYER_REGIME_MAP_PRESSURE, AXIS_LOG, "Nominal pressure"},
      .curves = {CURVE(LAYER_REGIME_MAP_THICKNESS, LINE, .style = 21, .above_zero = true)},
      .needs_several_x = true,
-     .nothing = "there is no layer at any velocity",
-     .words = "Thickness at balance against the power per area that modifies the rubber, as the "
-              "velocity grows along each line: where a line ends wear takes the layer away "
-              "as fast as it forms, the conclusion of the source.",
+     .empty_reason = "there is no layer at any velocity",
+     .caption_text =
+         "Thickness at balance against the power per area that modifies the rubber, as the "
+         "velocity grows along each line: where a line ends wear takes the layer away "
+         "as fast as it forms, the conclusion of the source.",
      .caption = caption_existence},
     {.name = "layer_regime_map_thickness",
      .title = "Layer thickness over velocity and pressure",
      .table = &layer_regime_map_schema,
-     .words = "Thickness of the layer at balance; crosses: no layer; the line is where formation "
-              "equals wear on a bare surface, R = 1.",
+     .caption_text =
+         "Thickness of the layer at balance; crosses: no layer; the line is where formation "
+         "equals wear on a bare surface, R = 1.",
      .draw = draw_thickness_map,
      .caption = caption_existence},
     {.name = "layer_regime_map_friction",
      .title = "Change of friction by the layer over velocity and pressure",
      .table = &layer_regime_map_schema,
-     .words = "Relative change of the friction coefficient by the layer at balance; crosses: no "
-              "layer; the line is where R = 1.",
+     .caption_text =
+         "Relative change of the friction coefficient by the layer at balance; crosses: no "
+         "layer; the line is where R = 1.",
      .draw = draw_friction_map,
      .caption = caption_existence},
     {.name = NULL},

@@ -331,8 +331,9 @@ static void set_agreement_text(const identify_task *task, const identified_const
     identification_set_text(t, IDENTIFICATION_KEY_AGREES, text);
 }
 
-static wt_status make_table(const identify_task *task, const identified_constants *found,
-                            wt_table **table, wt_error *err)
+static wt_status tabulate_identification(const identify_task *task,
+                                         const identified_constants *found, wt_table **table,
+                                         wt_error *err)
 {
     const replicates *const r = &task->replicates;
     table_writer t = table_begin(&identification_schema, err);
@@ -465,7 +466,7 @@ wt_status wt_identification_compute(const wt_sliding *sliding, const wt_identify
     if (status == WT_OK)
         status = compute_fixed_thickness(&task, &found, err);
     if (status == WT_OK)
-        status = make_table(&task, &found, table, err);
+        status = tabulate_identification(&task, &found, table, err);
     if (status == WT_OK)
         cost_report(work, (cost_summary){.items = (double)wt_table_n_rows(*table),
                                          .tolerance_asked = work->tolerance});

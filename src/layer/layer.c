@@ -135,7 +135,7 @@ static void clear_run(layer_run *run)
     free(run->points);
 }
 
-static wt_status layer_replicate(const void *user, size_t i, double *out, wt_error *err)
+static wt_status compute_layer_replicate(const void *user, size_t i, double *out, wt_error *err)
 {
     const layer_task *task = user;
     layer_run run = {.points = NULL};
@@ -162,7 +162,7 @@ static wt_status draw_layer_replicates(layer_task *task, wt_error *err)
     replicates *r = &task->replicates;
     const bool calibrated = !isnan(job->observed_thickness.value);
     const double given = layer_replicates_add(r, task->sliding, job);
-    wt_status status = replicates_draw(r, N_NUMBERS + task->n, layer_replicate, task, err);
+    wt_status status = replicates_draw(r, N_NUMBERS + task->n, compute_layer_replicate, task, err);
     if (status == WT_OK && !(given > 0)) /* an input without an error has no standard error */
         r->error[calibrated ? NUMBER_BALANCE_THICKNESS : NUMBER_CRITICAL_ENERGY] = (double)NAN;
     size_t without = 0, solved = 0;
@@ -248,8 +248,9 @@ static void set_layer_keys(const layer_task *task, const layer_run *run, table_w
     if (job->severity_power > 0)
         keys.severe.value = run->balance.wear_rate /
                             (job->duty * run->parameters.pressure * run->parameters.velocity);
-    if (task->sliding->softness != NULL)
-        strain_softening_describe(task->sliding->softness, keys.softening, sizeof keys.softening);
+    if (task->sliding->strain_softening != NULL)
+        strain_softening_describe(task->sliding->strain_softening, keys.softening,
+                                  sizeof keys.softening);
     anisotropy_describe(&task->sliding->anisotropy, keys.anisotropy, sizeof keys.anisotropy);
     if (run->energy.source.numerical_error > task->work->tolerance)
         clocale_print(keys.numerical, sizeof keys.numerical, TOLERANCE_STATEMENT,

@@ -108,7 +108,8 @@ static const wt_param rows[] = {
      .value = "M",
      .help = "of the modulus ratio, whose power times the shear stress is that of the layer "
              "(reconstructed)"},
-    {PARAM("shear-decay-length", wt_layer_job, shear.reach, WT_Q_LENGTH, AT_LEAST(0)),
+    {PARAM("shear-decay-length", wt_layer_job, shear.transition_thickness, WT_Q_LENGTH,
+           AT_LEAST(0)),
      .former = "shear-reach", .value = "D",
      .help = "thickness over which the shear stress goes over to that of the layer, as 1 - "
              "exp(-d/D) (reconstructed); 0: at once"},

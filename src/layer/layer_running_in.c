@@ -140,7 +140,7 @@ static wt_status find_settling_time(running_in_run *r, wt_error *err)
 
 /* Computes thickness and friction at the times. `nodes` is the number of nodes for the
  * interpolation of friction; 0 for direct computation. */
-static wt_status compute_run(running_in_run *r, size_t nodes, wt_error *err)
+static wt_status compute_thickness_and_friction(running_in_run *r, size_t nodes, wt_error *err)
 {
     double thinnest = HUGE_VAL, thickest = 0;
     wt_status status = compute_thickness(r, err);
@@ -205,7 +205,7 @@ static wt_status running_in_replicate(const void *user, size_t i, double *out, w
     running_in_run r = {.context = &context, .time = task->time, .n = task->n};
     wt_status status = layer_draws_replicate_context(&task->draws, i, &job, &context, err);
     if (status == WT_OK)
-        status = compute_run(&r, NODES, err);
+        status = compute_thickness_and_friction(&r, NODES, err);
     if (status == WT_OK)
         store_running_in(&r, out);
     clear_running_in_run(&r);
@@ -228,7 +228,7 @@ static wt_estimate estimate_with_errors(double value, double standard, double nu
     return (wt_estimate){value, standard, numerical, NULL};
 }
 
-static void add_running_in_rows(const running_task *task, table_writer *t)
+static void add_layer_friction_rows(const running_task *task, table_writer *t)
 {
     for (size_t i = 0; i < task->n; i++) {
         const layer_friction *f = &task->centre.friction[i];
@@ -259,7 +259,7 @@ static const char *describe_feedback(const wt_layer_job *job)
                : "the energy is that of the bulk, friction that with the layer (reconstructed)";
 }
 
-static wt_status make_table(running_task *task, wt_table **table, wt_error *err)
+static wt_status tabulate_running_in(running_task *task, wt_table **table, wt_error *err)
 {
     const running_in_run *r = &task->centre;
     const layer_context *values = &task->draws.values;
@@ -269,7 +269,7 @@ static wt_status make_table(running_task *task, wt_table **table, wt_error *err)
                        "friction does not settle at these times", "friction settles at these times",
                        task->known, sizeof task->known);
     table_writer t = table_begin(&running_in_schema, err);
-    add_running_in_rows(task, &t);
+    add_layer_friction_rows(task, &t);
     describe_shear(task);
     layer_draws_describe(&task->draws, task->errors, sizeof task->errors);
     TABLE_SET(running_in, &t, layer_sliding_velocity(values->sliding, values->job),
@@ -307,10 +307,10 @@ static wt_status choose_running_in_times(running_task *task, wt_error *err)
 }
 
 wt_status wt_running_in_compute(const wt_sliding *sliding, const wt_layer_job *job,
-                                const wt_layer_observation *known, const wt_job *work,
+                                const wt_layer_observation *observation, const wt_job *work,
                                 wt_table **table, wt_error *err)
 {
-    if (job == NULL || known == NULL || work == NULL || table == NULL)
+    if (job == NULL || observation == NULL || work == NULL || table == NULL)
         return wt_fail(err, WT_E_ARG, "no running-in of a layer to make");
     if (job->has_feedback && job->start_thickness > 0) {
         wt_fail(err, WT_E_ARG, "a layer that acts back is followed from a bare surface alone");
@@ -321,18 +321,18 @@ wt_status wt_running_in_compute(const wt_sliding *sliding, const wt_layer_job *j
     }
     running_task task = {.n = 0};
     wt_status status =
-        layer_draws_init(&task.draws, sliding, job, known, work, "running-in", true, err);
+        layer_draws_init(&task.draws, sliding, job, observation, work, "running-in", true, err);
     if (status == WT_OK)
         status = choose_running_in_times(&task, err);
     task.draws.replicates.velocity = status == WT_OK ? layer_sliding_velocity(sliding, job) : 0;
     task.centre = (running_in_run){.context = &task.draws.values, .time = task.time, .n = task.n};
     if (status == WT_OK)
-        status = compute_run(&task.centre, 0, err);
+        status = compute_thickness_and_friction(&task.centre, 0, err);
     if (status == WT_OK)
         status = replicates_draw(&task.draws.replicates, N_NUMBERS + N_AT * task.n,
                                  running_in_replicate, &task, err);
     if (status == WT_OK)
-        status = make_table(&task, table, err);
+        status = tabulate_running_in(&task, table, err);
     cost_report(work, (cost_summary){.items = (double)(task.n * (1 + task.draws.replicates.n)),
                                      .tolerance_asked = work->tolerance});
     layer_draws_clear(&task.draws);

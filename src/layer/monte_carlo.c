@@ -29,45 +29,46 @@ double layer_replicates_add(replicates *r, const wt_sliding *sliding, const wt_l
     return given;
 }
 
-static wt_status check_inputs(const wt_sliding *sliding, const wt_layer_job *job,
-                              const wt_layer_observation *known, const wt_job *work, wt_error *err)
+static wt_status check_layer_inputs(const wt_sliding *sliding, const wt_layer_job *job,
+                                    const wt_layer_observation *observation, const wt_job *work,
+                                    wt_error *err)
 {
     wt_status status = flow_sliding_check(sliding, work, err);
     if (status == WT_OK)
         status = wt_layer_job_check(job, err);
-    if (status == WT_OK && known != NULL && sliding->layer_rubber == NULL &&
-        !(known->modulus_ratio.value > 0)) {
+    if (status == WT_OK && observation != NULL && sliding->layer_rubber == NULL &&
+        !(observation->modulus_ratio.value > 0)) {
         status = wt_fail(err, WT_E_MISSING, "the modulus of the layer is not known");
         wt_error_expected(err, "modulus-ratio above 0");
     }
-    return status == WT_OK ? sliding_layer_check(known, err) : status;
+    return status == WT_OK ? sliding_layer_check(observation, err) : status;
 }
 
 wt_status layer_draws_init(layer_draws *d, const wt_sliding *sliding, const wt_layer_job *job,
-                           const wt_layer_observation *known, const wt_job *work, const char *what,
-                           bool friction, wt_error *err)
+                           const wt_layer_observation *observation, const wt_job *work,
+                           const char *what, bool friction, wt_error *err)
 {
-    *d = (layer_draws){.known = known};
-    wt_status status = check_inputs(sliding, job, known, work, err);
+    *d = (layer_draws){.observation = observation};
+    wt_status status = check_layer_inputs(sliding, job, observation, work, err);
     if (status != WT_OK)
         return status;
     d->stated = *job;
-    if (known != NULL) {
+    if (observation != NULL) {
         double gain[2] = {(double)NAN, (double)NAN};
-        status = sliding_layer_zero_loss_range(sliding, known, work, gain, err);
+        status = sliding_layer_zero_loss_range(sliding, observation, work, gain, err);
         if (status != WT_OK)
             return status;
-        sliding_layer_describe(sliding, known, gain, work->log, d->moduli, sizeof d->moduli);
+        sliding_layer_describe(sliding, observation, gain, work->log, d->moduli, sizeof d->moduli);
     }
-    if (known != NULL && known->bulk_shear)
+    if (observation != NULL && observation->bulk_shear)
         d->stated.shear.exponent = 0;
-    d->values =
-        (layer_context){.sliding = sliding,
-                        .job = &d->stated,
-                        .work = work,
-                        .replicate = WT_NO_REPLICATE,
-                        .modulus_ratio = known != NULL ? known->modulus_ratio.value : (double)NAN,
-                        .slope = sliding_layer_ratio_slope(known, work->seed, WT_NO_REPLICATE)};
+    d->values = (layer_context){
+        .sliding = sliding,
+        .job = &d->stated,
+        .work = work,
+        .replicate = WT_NO_REPLICATE,
+        .modulus_ratio = observation != NULL ? observation->modulus_ratio.value : (double)NAN,
+        .slope = sliding_layer_ratio_slope(observation, work->seed, WT_NO_REPLICATE)};
     status = layer_job_calibrate(&d->values, &d->calibrated, err);
     d->values.job = &d->calibrated;
     d->replicates = replicates_create(sliding, work, what);
@@ -75,8 +76,8 @@ wt_status layer_draws_init(layer_draws *d, const wt_sliding *sliding, const wt_l
     if (friction && job->energy == WT_LAYER_HYSTERESIS && !isnan(sliding->shear_stress.value))
         replicates_add(&d->replicates, sliding->shear_stress.standard_error, FLOW_DRAW_SHEAR_STRESS,
                        "shear stress");
-    if (friction && known != NULL)
-        replicates_add_layer(&d->replicates, sliding, known, "modulus ratio");
+    if (friction && observation != NULL)
+        replicates_add_layer(&d->replicates, sliding, observation, "modulus ratio");
     return status;
 }
 
@@ -87,10 +88,10 @@ wt_status layer_draws_replicate_context(const layer_draws *d, size_t replicate, 
     context->job = &d->stated;
     context->replicate = replicate;
     context->drawn = d->replicates.drawn;
-    context->slope = sliding_layer_ratio_slope(d->known, context->work->seed, replicate);
-    if (d->known != NULL)
+    context->slope = sliding_layer_ratio_slope(d->observation, context->work->seed, replicate);
+    if (d->observation != NULL)
         context->modulus_ratio =
-            flow_draw_positive_t(d->known->modulus_ratio, d->known->modulus_ratio_df,
+            flow_draw_positive_t(d->observation->modulus_ratio, d->observation->modulus_ratio_df,
                                  context->work->seed, replicate, FLOW_DRAW_RATIO);
     const wt_status status = layer_job_calibrate(context, job, err);
     context->job = job;
@@ -107,7 +108,7 @@ void layer_draws_describe(const layer_draws *d, char *text, size_t size)
 wt_estimate layer_draws_modulus_ratio(const layer_draws *d)
 {
     if (d->values.sliding->layer_rubber == NULL)
-        return flow_stated_estimate(d->known->modulus_ratio);
+        return flow_stated_estimate(d->observation->modulus_ratio);
     return (wt_estimate){(double)NAN, (double)NAN, (double)NAN, "1"};
 }
 
@@ -129,13 +130,13 @@ static size_t count_finite(const replicates *r, size_t k)
 wt_interval layer_draws_interval(const layer_draws *d, size_t k, double value)
 {
     const replicates *r = &d->replicates;
-    const double error = r->error[k], wide = exp(NORMAL_95 * error);
+    const double error = r->error[k], factor = exp(NORMAL_95 * error);
     const size_t known = count_finite(r, k);
-    wt_interval interval = {value, value * error, value / wide, value * wide};
-    const bool whole = (double)(r->n - known) <= tail_probability * (double)r->n;
+    wt_interval interval = {value, value * error, value / factor, value * factor};
+    const bool nearly_all_finite = (double)(r->n - known) <= tail_probability * (double)r->n;
     /* Without memory there is no interval, because another method would give a different one. */
-    if (!whole || (isfinite(value) && r->n >= REPLICATES_FOR_QUANTILES &&
-                   replicate_interval(r, k, tail_probability, &interval) != WT_OK))
+    if (!nearly_all_finite || (isfinite(value) && r->n >= REPLICATES_FOR_QUANTILES &&
+                               replicate_interval(r, k, tail_probability, &interval) != WT_OK))
         interval.low = interval.high = interval.standard_error = (double)NAN;
     return interval;
 }

@@ -14,18 +14,18 @@ double layer_replicates_add(replicates *r, const wt_sliding *sliding, const wt_l
 typedef struct layer_draws {
     layer_context values;
     wt_layer_job stated, calibrated;
-    const wt_layer_observation *known; /* stated properties of the layer; NULL if none */
+    const wt_layer_observation *observation; /* stated properties of the layer; NULL if none */
     replicates replicates;
     char moduli[512]; /* text about the moduli of the layer; "" if the ratio is constant or
                          unknown */
 } layer_draws;
 
-/* Initialises the draws; the caller clears them. The shear law is that of `known`; NULL means that
- * the modulus of the layer is unknown. With `friction`, shear stress and modulus of the layer are
- * drawn, too. */
+/* Initialises the draws; the caller clears them. The shear law is that of `observation`; NULL means
+ * that the modulus of the layer is unknown. With `friction`, shear stress and modulus of the layer
+ * are drawn, too. */
 wt_status layer_draws_init(layer_draws *draws, const wt_sliding *sliding, const wt_layer_job *job,
-                           const wt_layer_observation *known, const wt_job *work, const char *what,
-                           bool friction, wt_error *err) WT_NODISCARD;
+                           const wt_layer_observation *observation, const wt_job *work,
+                           const char *what, bool friction, wt_error *err) WT_NODISCARD;
 /* Context of a replicate. The caller owns its job. */
 wt_status layer_draws_replicate_context(const layer_draws *draws, size_t replicate,
                                         wt_layer_job *job, layer_context *context,

@@ -79,9 +79,9 @@ double layer_friction_coefficient(const layer_friction *f)
     return isnan(f->total) ? f->hysteresis : f->total;
 }
 
-static wt_status compute_friction(const layer_context *context, const wt_sliding *s,
-                                  const sliding_contact *c, operating_point conditions,
-                                  layer_friction *friction, wt_error *err)
+static wt_status compute_friction_at_point(const layer_context *context, const wt_sliding *s,
+                                           const sliding_contact *c, operating_point conditions,
+                                           layer_friction *friction, wt_error *err)
 {
     wt_friction_point p;
     const wt_status status =
@@ -109,7 +109,7 @@ wt_status layer_compute_contact(const layer_context *context, operating_point co
     sliding_contact c = {0};
     wt_status status = create_operating_contact(context, &s, conditions, &c, err);
     if (status == WT_OK && friction != NULL)
-        status = compute_friction(context, &s, &c, conditions, friction, err);
+        status = compute_friction_at_point(context, &s, &c, conditions, friction, err);
     if (status == WT_OK && energy != NULL) {
         status =
             layer_energy_compute(&s, context->job, &c, velocity, conditions.layer, energy, err);

@@ -117,7 +117,7 @@ static double log_rate_ratio(double log_velocity, void *user)
 }
 
 /* Finds the edge between two velocities, and the power there. */
-static void add_edge(edges *e, double low, double high, bool begins)
+static void add_regime_edge(edges *e, double low, double high, bool begins)
 {
     double at;
     const bool replicate = e->context->replicate != WT_NO_REPLICATE;
@@ -157,7 +157,7 @@ static edges find_existence_edges(const layer_context *context, wt_error *err)
     for (size_t i = 1; e.status == WT_OK && i < s->n_velocity; i++) {
         const double now = log_rate_ratio(log(s->velocity[i]), &e);
         if ((now > 0) != (before > 0))
-            add_edge(&e, s->velocity[i - 1], s->velocity[i], now > 0);
+            add_regime_edge(&e, s->velocity[i - 1], s->velocity[i], now > 0);
         any = any || now > 0;
         before = now;
     }
@@ -297,7 +297,7 @@ static wt_interval empty_interval(double value)
     return (wt_interval){value, (double)NAN, (double)NAN, (double)NAN};
 }
 
-static wt_status make_table(regime_map_task *task, wt_table **table, wt_error *err)
+static wt_status tabulate_regime_map(regime_map_task *task, wt_table **table, wt_error *err)
 {
     const replicates *r = &task->draws.replicates;
     wt_interval velocity[N_EDGES], power[N_EDGES];
@@ -359,7 +359,7 @@ static wt_status sort_velocities(regime_map_task *task, const wt_sliding *slidin
 }
 
 wt_status wt_regime_map_compute(const wt_sliding *sliding, const wt_layer_job *job,
-                                const wt_layer_observation *known, const wt_job *work,
+                                const wt_layer_observation *observation, const wt_job *work,
                                 wt_table **table, wt_error *err)
 {
     if (sliding == NULL || job == NULL || work == NULL || table == NULL)
@@ -367,8 +367,8 @@ wt_status wt_regime_map_compute(const wt_sliding *sliding, const wt_layer_job *j
     regime_map_task task = {.n = 0};
     wt_status status = sort_velocities(&task, sliding, err);
     if (status == WT_OK)
-        status =
-            layer_draws_init(&task.draws, &task.sliding, job, known, work, "existence", true, err);
+        status = layer_draws_init(&task.draws, &task.sliding, job, observation, work, "existence",
+                                  true, err);
     if (status == WT_OK) {
         task.edges = find_existence_edges(&task.draws.values, err);
         status = task.edges.status;
@@ -379,7 +379,7 @@ wt_status wt_regime_map_compute(const wt_sliding *sliding, const wt_layer_job *j
         status = replicates_draw(&task.draws.replicates, N_NUMBERS + N_AT * task.n,
                                  existence_replicate, &task, err);
     if (status == WT_OK)
-        status = make_table(&task, table, err);
+        status = tabulate_regime_map(&task, table, err);
     cost_report(work, (cost_summary){.items = (double)(task.blocks * (1 + task.draws.replicates.n)),
                                      .tolerance_asked = work->tolerance});
     layer_draws_clear(&task.draws);

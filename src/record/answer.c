@@ -73,7 +73,7 @@ void append_wear(text_builder *t, const table_view *v)
 
 void answer_layer_wear_rate(const answer_context *context, const char *question)
 {
-    const table_view *const layer = &context->found.layer;
+    const table_view *const layer = &context->values.layer;
     if (context->wear.table == NULL || layer->table == NULL)
         return;
     const wt_estimate is = wear_value(&context->wear, WEAR_KEY_RATE),

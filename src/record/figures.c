@@ -52,20 +52,21 @@ static void draw_temperature(figure_drawing *d)
         .name = "record_" which, .title = "Friction as measured, against " which,                  \
         .table = &record_schema, .data_title = "steady part", .x = {column, scale, label},         \
         .needs_several_x = true, .y = {{RECORD_FRICTION, AXIS_NUMBER, "Friction coefficient μ"}},  \
-        .curves = {CURVE(RECORD_FRICTION, BARS, .style = 1, .with_errors = true)}, .words = words_ \
+        .curves = {CURVE(RECORD_FRICTION, BARS, .style = 1, .with_errors = true)},                 \
+        .caption_text = words_                                                                     \
     }
 
 const figure_description figures_record[] = {
     {.name = "record",
      .title = "Friction as measured",
      .table = &record_cycles_schema,
-     .beside = "record",
+     .other_tables = "record",
      .data_title = "cycles",
      .x = {RECORD_CYCLES_CYCLE, AXIS_NUMBER, "Cycle"},
      .y = {{RECORD_CYCLES_FRICTION, AXIS_NUMBER, "Friction coefficient μ"}},
      .curves = {CURVE(RECORD_CYCLES_FRICTION, LINE, .style = 21, .title = "mean of a cycle")},
-     .nothing = "no friction coefficient is a number",
-     .words =
+     .empty_reason = "no friction coefficient is a number",
+     .caption_text =
          "Mean friction coefficient of every cycle, one line for each step of a record. The "
          "marks stand at the end of the running-in, with its interval of 95 %, and at the mean "
          "of the steady part behind it.",
@@ -85,7 +86,7 @@ const figure_description figures_record[] = {
      .needs_several_x = true,
      .y = {{RECORD_FRICTION, AXIS_NUMBER, "Friction coefficient μ"}},
      .curves = {CURVE(RECORD_FRICTION, OWN, .with_errors = true)},
-     .words =
+     .caption_text =
          "Friction coefficient of the steady part of every step against the temperature of the "
          "step, with its interval of 95 %.",
      .draw = draw_temperature},

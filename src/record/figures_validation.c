@@ -37,9 +37,10 @@ const figure_description figures_validation[] = {
                       .with_errors = true),
                 CURVE(VALIDATION_WITH_LAYER, JOINED_BARS, .style = 24,
                       .title = "predicted with layer", .with_errors = true)},
-     .words = "Friction coefficient of the steady part of every step of the records, with its "
-              "interval of 95 %, and as predicted at its velocity, temperature and pressure, with "
-              "one standard error; a line joins steps of one temperature and pressure.",
+     .caption_text =
+         "Friction coefficient of the steady part of every step of the records, with its "
+         "interval of 95 %, and as predicted at its velocity, temperature and pressure, with "
+         "one standard error; a line joins steps of one temperature and pressure.",
      .caption = caption_verdict},
     {.name = "validation_ratio",
      .title = "Friction, measured over predicted",
@@ -51,8 +52,8 @@ const figure_description figures_validation[] = {
                       .with_errors = true),
                 CURVE(VALIDATION_RATIO_LAYER, BARS, .style = 4, .title = "with the layer",
                       .with_errors = true)},
-     .nothing = "no shear stress is given, so that friction is not predicted",
-     .words =
+     .empty_reason = "no shear stress is given, so that friction is not predicted",
+     .caption_text =
          "Measured over predicted friction of every step of the records, with its interval of "
          "95 % by both errors and the scatter between the steps. At the dotted line they agree.",
      .prepare = mark_agreement,
@@ -71,9 +72,10 @@ const figure_description figures_validation[] = {
                       .title = "in the time that the record asks for"),
                 CURVE(VALIDATION_COURSE_MEASURED, BARS, .style = 1, .title = "measured",
                       .with_errors = true)},
-     .words = "Friction coefficient of the records from their start on, means of the cycles with "
-              "their interval of 95 %, as predicted while the layer grows and without one, with "
-              "one standard error, and the predicted course as it lies nearest to the record.",
+     .caption_text =
+         "Friction coefficient of the records from their start on, means of the cycles with "
+         "their interval of 95 %, as predicted while the layer grows and without one, with "
+         "one standard error, and the predicted course as it lies nearest to the record.",
      .caption = caption_running_in_verdict},
     {.name = NULL},
 };

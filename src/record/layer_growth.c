@@ -24,7 +24,7 @@ typedef struct growth_inputs {
     double velocity;
     const wt_sliding *stated; /* at the conditions of the case, where a thickness was observed */
     wt_layer_job job;         /* as stated, with the shear stress of the layer */
-    const wt_layer_observation *known;
+    const wt_layer_observation *observation;
     const wt_job *work;
     bool transport; /* true: damage transport; false: rate balance */
     double *time;   /* [n] */
@@ -38,7 +38,7 @@ typedef struct growth_inputs {
 static wt_status draw_context(const growth_inputs *g, size_t replicate, wt_material_cache *drawn,
                               wt_layer_job *job, layer_context *scene, wt_error *err)
 {
-    const wt_layer_observation *const known = g->known;
+    const wt_layer_observation *const observation = g->observation;
     const uint64_t seed = g->work->seed;
     *scene = (layer_context){.sliding = g->stated,
                              .job = &g->job,
@@ -53,10 +53,10 @@ static wt_status draw_context(const growth_inputs *g, size_t replicate, wt_mater
                              .work = g->work,
                              .replicate = replicate,
                              .drawn = drawn,
-                             .modulus_ratio =
-                                 flow_draw_positive_t(known->modulus_ratio, known->modulus_ratio_df,
-                                                      seed, replicate, FLOW_DRAW_RATIO),
-                             .slope = sliding_layer_ratio_slope(known, seed, replicate)};
+                             .modulus_ratio = flow_draw_positive_t(
+                                 observation->modulus_ratio, observation->modulus_ratio_df, seed,
+                                 replicate, FLOW_DRAW_RATIO),
+                             .slope = sliding_layer_ratio_slope(observation, seed, replicate)};
     return status;
 }
 
@@ -216,7 +216,7 @@ static replicates begin_growth_replicates(const growth_inputs *g)
     if (g->job.energy == WT_LAYER_HYSTERESIS)
         replicates_add(&r, g->sliding.shear_stress.standard_error, FLOW_DRAW_SHEAR_STRESS,
                        "shear stress");
-    replicates_add_layer(&r, &g->sliding, g->known, "modulus ratio of the layer");
+    replicates_add_layer(&r, &g->sliding, g->observation, "modulus ratio of the layer");
     return r;
 }
 
@@ -263,28 +263,28 @@ static void find_curves(growth *g)
 }
 
 static growth_inputs growth_inputs_read(const wt_sliding *sliding, const wt_layer_job *layer,
-                                        const wt_layer_observation *known, const measured_step *at,
-                                        const wt_job *work)
+                                        const wt_layer_observation *observation,
+                                        const measured_step *at, const wt_job *work)
 {
     growth_inputs g = {.sliding = *sliding,
                        .velocity = at->velocity,
                        .stated = sliding,
                        .job = *layer,
-                       .known = known,
+                       .observation = observation,
                        .work = work};
     measured_step_conditions(at, &g.sliding);
-    g.job.shear = sliding_layer_shear_law(known);
+    g.job.shear = sliding_layer_shear_law(observation);
     return g;
 }
 
 wt_status growth_compute(const wt_sliding *sliding, const wt_layer_job *layer,
-                         const wt_layer_observation *known, const measured_step *at,
+                         const wt_layer_observation *observation, const measured_step *at,
                          const wt_job *work, growth *out, wt_error *err)
 {
     wt_job own = *work;
     own.drawn = NULL; /* the stored draws are for another temperature */
     own.left_out = WT_EXTRA_ALL;
-    growth_inputs g = growth_inputs_read(sliding, layer, known, at, &own);
+    growth_inputs g = growth_inputs_read(sliding, layer, observation, at, &own);
     g.transport = layer->incubation && !layer->has_feedback;
     g.n = g.transport ? TIMES_TRANSPORT : TIMES_RATES;
     *out = (growth){

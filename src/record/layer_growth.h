@@ -34,7 +34,7 @@ typedef struct growth {
 /* Computes the growth. The caller clears it, also after a failure. Returns WT_E_RANGE if no layer
  * exists or if it grows without limit. */
 wt_status growth_compute(const wt_sliding *sliding, const wt_layer_job *layer,
-                         const wt_layer_observation *known, const measured_step *at,
+                         const wt_layer_observation *observation, const measured_step *at,
                          const wt_job *work, growth *g, wt_error *err) WT_NODISCARD;
 void growth_clear(growth *g);
 

@@ -29,12 +29,13 @@ static wt_status predict_setting(const validation *v, case_variant *s, double th
                                  prediction *p, wt_error *err)
 {
     wt_rubber refitted = {0};
-    wt_layer_observation known =
-        v->layered ? *v->known : (wt_layer_observation){.modulus_ratio = {1, 0, 0, NULL}};
+    wt_layer_observation observation =
+        v->layered ? *v->layer_observation
+                   : (wt_layer_observation){.modulus_ratio = {1, 0, 0, NULL}};
     wt_status status = WT_OK;
-    known.bulk_shear = s->known.bulk_shear;
+    observation.bulk_shear = s->layer_observation.bulk_shear;
     if (!isnan(thickness))
-        known.thickness.value = thickness;
+        observation.thickness.value = thickness;
     if (s->vertical != v->used.vertical) {
         status = wt_rubber_refit(&s->rubber, s->vertical, &refitted, err);
         s->rubber = refitted;
@@ -42,9 +43,9 @@ static wt_status predict_setting(const validation *v, case_variant *s, double th
     }
     s->sliding.rubber = s->given != NULL ? s->given : &s->rubber;
     s->sliding.surface = &s->surface;
-    s->sliding.softness = s->has_softness ? &s->softness : NULL;
+    s->sliding.strain_softening = s->has_softness ? &s->strain_softening : NULL;
     if (status == WT_OK)
-        status = predict_friction(&s->sliding, v->layered ? &known : NULL, &v->steps, v->work,
+        status = predict_friction(&s->sliding, v->layered ? &observation : NULL, &v->steps, v->work,
                                   false, p, err);
     wt_rubber_clear(&refitted);
     return status;
@@ -147,7 +148,7 @@ static void find_row_weights(choice_row *rows, size_t n)
 
 /* ---- ranges ---------------------------------------------------------------------------------- */
 
-static void extend_range(double range[2], double value)
+static void extend_by_value(double range[2], double value)
 {
     if (!isfinite(value))
         return;
@@ -155,8 +156,8 @@ static void extend_range(double range[2], double value)
     range[1] = fmax(range[1], value);
 }
 
-static void find_ranges(const table_view *what_if, const choice_row *rows, size_t n,
-                        choice_ranges *ranges)
+static void find_choice_ranges(const table_view *what_if, const choice_row *rows, size_t n,
+                               choice_ranges *ranges)
 {
     static const what_if_column columns[CASE_QUANTITIES] = {
         [CASE_QUANTITY_HYSTERESIS] = WHAT_IF_HYSTERESIS,
@@ -169,9 +170,9 @@ static void find_ranges(const table_view *what_if, const choice_row *rows, size_
         all[0] = all[1] = kept[0] = kept[1] = (double)NAN;
         for (size_t i = 0; i < n; i++) {
             const double value = what_if_get(what_if, i, columns[k]);
-            extend_range(all, value);
+            extend_by_value(all, value);
             if (rows[i].kept)
-                extend_range(kept, value);
+                extend_by_value(kept, value);
         }
     }
 }
@@ -227,7 +228,7 @@ wt_status model_choices_tabulate(const validation *v, const table_view *what_if,
     if (status == WT_OK) {
         find_row_weights(rows, n);
         select_rows(rows, n);
-        find_ranges(what_if, rows, n, ranges);
+        find_choice_ranges(what_if, rows, n, ranges);
         write_narrowed_range(rows, n, ranges);
         status = write_choices_table(v, rows, n, ranges, table, err);
     }

@@ -45,9 +45,9 @@ static wt_status cutoff_likelihood(const validation *v, double q1, double *value
     s.surface.q1 = q1;
     s.sliding.rubber = s.given;
     s.sliding.surface = &s.surface;
-    s.sliding.softness = s.has_softness ? &s.softness : NULL;
-    wt_status status = predict_friction(&s.sliding, v->layered ? v->known : NULL, &v->steps,
-                                        v->work, false, &p, err);
+    s.sliding.strain_softening = s.has_softness ? &s.strain_softening : NULL;
+    wt_status status = predict_friction(&s.sliding, v->layered ? v->layer_observation : NULL,
+                                        &v->steps, v->work, false, &p, err);
     const ratio_inputs of = {&p, &v->steps, p.shear, v->layered};
     for (size_t i = 0; status == WT_OK && i < v->steps.n; i++)
         value[i] = ratio_log_value(&of, 0, i);

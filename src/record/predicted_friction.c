@@ -10,7 +10,7 @@
 /* Steps with the same temperature and pressure. */
 typedef struct prediction_group {
     wt_sliding sliding;
-    const wt_layer_observation *known; /* or NULL */
+    const wt_layer_observation *observation; /* or NULL */
     const wt_job *work;
     size_t n;
     const double *velocity;
@@ -35,12 +35,12 @@ static wt_status compute_contact(const prediction_group *g, wt_material_cache *d
     for (size_t i = 0; status == WT_OK && i < g->n; i++) {
         const wt_layer_state sheared = sliding_layer_at_shear_rate(&c, layer, g->velocity[i]);
         const double warm = points[i].temperature.value, area = points[i].area_ratio.value,
-                     cracks = sliding_layer_shear_stress(g->known, 0, sheared, area),
+                     cracks = sliding_layer_shear_stress(g->observation, 0, sheared, area),
                      of_bulk = wt_shear_factor(&g->sliding.shear_law, g->velocity[i],
                                                isnan(warm) ? c.temperature : warm);
         hysteresis[i] = points[i].hysteresis.value + cracks * area / c.pressure;
         friction_per_shear[i] =
-            (sliding_layer_shear_stress(g->known, of_bulk, sheared, area) - cracks) * area /
+            (sliding_layer_shear_stress(g->observation, of_bulk, sheared, area) - cracks) * area /
             c.pressure;
     }
     sliding_contact_clear(&c);
@@ -60,8 +60,8 @@ static wt_status compute_group(const prediction_group *g, wt_material_cache *dra
     for (size_t i = 0; i < g->n; i++)
         part_values(out, g->n, PART_HYSTERESIS_LAYER)[i] =
             part_values(out, g->n, PART_BY_SHEAR_LAYER)[i] = (double)NAN;
-    if (status == WT_OK && g->known != NULL) {
-        const wt_layer_state layer = sliding_layer_state(g->known, g->work->seed, replicate);
+    if (status == WT_OK && g->observation != NULL) {
+        const wt_layer_state layer = sliding_layer_state(g->observation, g->work->seed, replicate);
         status = compute_contact(g, drawn, replicate, layer, points,
                                  part_values(out, g->n, PART_HYSTERESIS_LAYER),
                                  part_values(out, g->n, PART_BY_SHEAR_LAYER), err);
@@ -91,10 +91,10 @@ static replicates begin_friction_replicates(const prediction_group *g, const wt_
     if (!isnan(sliding->shear_stress.value))
         replicates_add(&r, sliding->shear_stress.standard_error, FLOW_DRAW_SHEAR_STRESS,
                        "shear stress");
-    if (g->known != NULL) {
-        replicates_add(&r, g->known->thickness.standard_error, FLOW_DRAW_THICKNESS,
+    if (g->observation != NULL) {
+        replicates_add(&r, g->observation->thickness.standard_error, FLOW_DRAW_THICKNESS,
                        "thickness of the layer");
-        replicates_add_layer(&r, &g->sliding, g->known, "modulus ratio of the layer");
+        replicates_add_layer(&r, &g->sliding, g->observation, "modulus ratio of the layer");
     }
     return r;
 }
@@ -131,12 +131,16 @@ static wt_status predict_group(const prediction_group *g, const wt_sliding *slid
     return status;
 }
 
-static prediction_group step_group(const wt_sliding *sliding, const wt_layer_observation *known,
+static prediction_group step_group(const wt_sliding *sliding,
+                                   const wt_layer_observation *observation,
                                    const measured_step *step, const double *velocity, size_t n,
                                    const wt_job *work)
 {
-    prediction_group g = {
-        .sliding = *sliding, .known = known, .work = work, .n = n, .velocity = velocity};
+    prediction_group g = {.sliding = *sliding,
+                          .observation = observation,
+                          .work = work,
+                          .n = n,
+                          .velocity = velocity};
     measured_step_conditions(step, &g.sliding);
     g.sliding.velocity = velocity;
     g.sliding.n_velocity = n;
@@ -144,7 +148,7 @@ static prediction_group step_group(const wt_sliding *sliding, const wt_layer_obs
     return g;
 }
 
-static wt_status predict_groups(const wt_sliding *sliding, const wt_layer_observation *known,
+static wt_status predict_groups(const wt_sliding *sliding, const wt_layer_observation *observation,
                                 const measured *steps, const wt_job *work, bool draws,
                                 prediction *p, wt_error *err)
 {
@@ -157,27 +161,28 @@ static wt_status predict_groups(const wt_sliding *sliding, const wt_layer_observ
     for (size_t first = 0, n; status == WT_OK && first < steps->n; first += n) {
         n = measured_group_length(steps, first);
         const prediction_group g =
-            step_group(sliding, known, &steps->step[first], velocity + first, n, work);
+            step_group(sliding, observation, &steps->step[first], velocity + first, n, work);
         status = predict_group(&g, sliding, work, draws, first, p, err);
-        if (status == WT_OK && known != NULL)
-            status =
-                sliding_layer_zero_loss_range(&g.sliding, known, work, p->zero_loss_range, err);
+        if (status == WT_OK && observation != NULL)
+            status = sliding_layer_zero_loss_range(&g.sliding, observation, work,
+                                                   p->zero_loss_range, err);
     }
     free(velocity);
     return status;
 }
 
-wt_status predict_friction(const wt_sliding *sliding, const wt_layer_observation *known,
+wt_status predict_friction(const wt_sliding *sliding, const wt_layer_observation *observation,
                            const measured *steps, const wt_job *work, bool draws, prediction *p,
                            wt_error *err)
 {
     wt_job own = *work;
     own.drawn = NULL; /* the stored draws are for another temperature */
     own.left_out |= WT_EXTRA_EXTRAPOLATED_SHARE;
-    *p = (prediction){
-        .n = steps->n, .layered = known != NULL, .zero_loss_range = {(double)NAN, (double)NAN}};
+    *p = (prediction){.n = steps->n,
+                      .layered = observation != NULL,
+                      .zero_loss_range = {(double)NAN, (double)NAN}};
     const prediction_group any =
-        step_group(sliding, known, &steps->step[0], &steps->step[0].velocity, 1, &own);
+        step_group(sliding, observation, &steps->step[0], &steps->step[0].velocity, 1, &own);
     p->n_draws = draws ? begin_friction_replicates(&any, sliding, &own).n : 0;
     p->part = calloc((1 + p->n_draws) * PARTS * p->n, sizeof *p->part);
     p->shear = calloc(1 + p->n_draws, sizeof *p->shear);
@@ -186,7 +191,7 @@ wt_status predict_friction(const wt_sliding *sliding, const wt_layer_observation
     for (size_t k = 0; k <= p->n_draws; k++)
         p->shear[k] = flow_draw_positive(sliding->shear_stress, work->seed,
                                          k == 0 ? WT_NO_REPLICATE : k - 1, FLOW_DRAW_SHEAR_STRESS);
-    return predict_groups(sliding, known, steps, &own, draws, p, err);
+    return predict_groups(sliding, observation, steps, &own, draws, p, err);
 }
 
 void prediction_clear(prediction *p)

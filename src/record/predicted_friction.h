@@ -29,7 +29,7 @@ typedef struct prediction {
 
 /* Predicts friction. A NULL observation means no layer. Without `draws` only nominal values are
  * computed. The caller clears `p`, also after a failure. */
-wt_status predict_friction(const wt_sliding *sliding, const wt_layer_observation *known,
+wt_status predict_friction(const wt_sliding *sliding, const wt_layer_observation *observation,
                            const measured *steps, const wt_job *work, bool draws, prediction *p,
                            wt_error *err) WT_NODISCARD;
 void prediction_clear(prediction *p);

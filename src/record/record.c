@@ -52,13 +52,13 @@ typedef struct running_in_end {
 static wt_status find_running_in_end(const wt_record_job *job, const double *y, size_t n,
                                      running_in_end *end, wt_error *err)
 {
-    wt_running_in found = {.why_not = ""};
+    wt_running_in found = {.reason = ""};
     wt_status status = WT_OK;
     *end = (running_in_end){not_known, 0, "not looked for"};
     switch (job->running_in) {
     case WT_RUNNING_IN_LIKELIHOOD:
         status = wt_running_in_find(y, n, &found, err);
-        *end = (running_in_end){found.end, found.steady_start, found.why_not};
+        *end = (running_in_end){found.end, found.steady_start, found.reason};
         break;
     case WT_RUNNING_IN_STEP:
         end->steady_start = wt_step_detect(y, n);

@@ -11,7 +11,7 @@ enum { MOST_MEANS = 1000 };
 
 /* Converts middles of cycles to their ends, half-way to the next. Missing cycles before the first
  * have its duration. */
-static bool convert_middles_to_ends(recorded_run *r, double lost)
+static bool convert_midpoints_to_ends(recorded_run *r, double lost)
 {
     double *const t = r->end;
     const double first = t[1] - t[0], last = t[r->n - 1] - t[r->n - 2];
@@ -69,7 +69,7 @@ static void read_cycles(const table_view *cycles, recorded_run *r)
         r->note = "too few cycles to follow friction in time";
     else if (!timed)
         r->note = "neither time nor distance of its cycles is known";
-    else if (!convert_middles_to_ends(r, lost))
+    else if (!convert_midpoints_to_ends(r, lost))
         r->note = "the times of its cycles do not rise";
 }
 

@@ -52,7 +52,7 @@ static void add_running_in_row(const run_fit *run, const running_in_series *s, s
     validation_course_add_row(t, &row);
 }
 
-static void add_running_in_rows(const run_fit *run, const running_in_series *s, table_writer *t)
+static void add_measured_curve_rows(const run_fit *run, const running_in_series *s, table_writer *t)
 {
     const double step = pow(s->end[s->n - 1] / s->end[0], 1.0 / MOST_ROWS);
     for (size_t first = 0, end; first < s->n; first = end) {
@@ -75,7 +75,7 @@ wt_status running_in_curve_tabulate(const run_set *all, const char *verdict, wt_
         t.status = recorded_read_series(all->runs[i].rec, all->runs[i].until, &s, err);
         if (t.status == WT_OK) {
             table_block(&t);
-            add_running_in_rows(&all->runs[i], &s, &t);
+            add_measured_curve_rows(&all->runs[i], &s, &t);
         }
         running_in_series_clear(&s);
     }

@@ -21,8 +21,8 @@ void wt_running_in_tables_clear(wt_running_in_tables *tables)
     *tables = (wt_running_in_tables){0};
 }
 
-static const wt_interval not_known = {(double)NAN, (double)NAN, (double)NAN, (double)NAN};
-static const wt_estimate no_number = {(double)NAN, (double)NAN, (double)NAN, NULL};
+static const wt_interval unknown_interval = {(double)NAN, (double)NAN, (double)NAN, (double)NAN};
+static const wt_estimate unknown_estimate = {(double)NAN, (double)NAN, (double)NAN, NULL};
 
 typedef struct running_in_task {
     const wt_validation_job *job;
@@ -52,25 +52,26 @@ static bool steps_are_equal(const measured_step *a, const measured_step *b)
            is_within_tolerance(a->temperature, b->temperature, same_temperature);
 }
 
-/* Uses the prediction of an earlier run with the same conditions, or computes one. */
+/* Assigns the prediction of an earlier run with the same conditions, or computes one. */
 static wt_status predict_run(running_in_task *task, size_t i, wt_error *err)
 {
     run_fit *const run = &task->run[i];
-    wt_error why = WT_ERROR_INIT;
+    wt_error failure = WT_ERROR_INIT;
     for (size_t k = 0; k < i; k++)
         if (task->has_growth[k] && steps_are_equal(&task->rec[k].at, &task->rec[i].at)) {
             run->growth = &task->growth[k];
             return WT_OK;
         }
-    const wt_status status = growth_compute(task->job->sliding, task->job->layer, task->job->known,
-                                            &task->rec[i].at, task->work, &task->growth[i], &why);
+    const wt_status status =
+        growth_compute(task->job->sliding, task->job->layer, task->job->layer_observation,
+                       &task->rec[i].at, task->work, &task->growth[i], &failure);
     if (status == WT_E_MEMORY || status == WT_E_INTERNAL)
         return wt_fail(err, status, "friction in running-in could not be predicted");
     task->has_growth[i] = status == WT_OK;
     if (status == WT_OK)
         run->growth = &task->growth[i];
     else
-        snprintf(run->note, sizeof run->note, "%s", why.message);
+        snprintf(run->note, sizeof run->note, "%s", failure.message);
     return WT_OK;
 }
 
@@ -142,11 +143,11 @@ static double run_standard_error(const run_fit *run, run_quantity number)
 static wt_interval run_factor_interval(const run_fit *run, run_quantity number)
 {
     const bool has_low = !isnan(run->fit.low), has_high = !isnan(run->fit.high);
-    const double end = exp(run_fit_bound(run, number)), none = (double)NAN;
+    const double limit = exp(run_fit_bound(run, number)), none = (double)NAN;
     if (has_low && has_high)
         return validation_factor(run_fit_value(run, 0, number), run_standard_error(run, number),
                                  (double)INFINITY);
-    return (wt_interval){none, none, has_low ? end : none, has_high ? end : none};
+    return (wt_interval){none, none, has_low ? limit : none, has_high ? limit : none};
 }
 
 static wt_interval run_ratio_interval(const run_fit *run)
@@ -179,11 +180,11 @@ static wt_estimate predicted_change(const growth *g)
 static void add_run_row(const run_fit *run, const wt_sliding *sliding, table_writer *t)
 {
     validation_running_in_row row = {.at = run->rec->at,
-                                     .settled = not_known,
-                                     .time_ratio = not_known,
-                                     .change_ratio = not_known,
-                                     .predicted = no_number,
-                                     .change = no_number,
+                                     .settled = unknown_interval,
+                                     .time_ratio = unknown_interval,
+                                     .change_ratio = unknown_interval,
+                                     .predicted = unknown_estimate,
+                                     .change = unknown_estimate,
                                      .note = run->note,
                                      .file = run->rec->at.file};
     if (isnan(row.at.temperature))
@@ -237,19 +238,20 @@ static wt_status set_wear_agreement(const running_in_task *task, const run_set *
                                     table_writer *t, wt_error *err)
 {
     table_view wear = {0};
-    const wt_interval needed = level_interval(all, RUN_WEAR);
-    if (task->job->wear == NULL || isnan(needed.standard_error))
+    const wt_interval required = level_interval(all, RUN_WEAR);
+    if (task->job->wear == NULL || isnan(required.standard_error))
         return WT_OK;
     const wt_status status = table_bind(task->job->wear, &wear_schema, "", &wear, err);
     if (status != WT_OK)
         return status;
-    const wt_estimate is = wear_value(&wear, WEAR_KEY_RATE);
-    if (!(is.value > 0))
+    const wt_estimate measured_rate = wear_value(&wear, WEAR_KEY_RATE);
+    if (!(measured_rate.value > 0))
         return WT_OK;
-    const bool known = is.standard_error > 0;
+    const bool known = measured_rate.standard_error > 0;
     const wt_interval ratio = validation_factor(
-        needed.value - log(is.value),
-        hypot(needed.standard_error, known ? is.standard_error / is.value : (double)NAN),
+        required.value - log(measured_rate.value),
+        hypot(required.standard_error,
+              known ? measured_rate.standard_error / measured_rate.value : (double)NAN),
         (double)INFINITY);
     if (known)
         validation_running_in_set_print(
@@ -284,7 +286,7 @@ static void set_remarks(const running_in_task *task, table_writer *t)
 }
 
 /* Names the errors in the prediction of the first run that has one. */
-static const char *included_errors(const running_in_task *task)
+static const char *prediction_error_sources(const running_in_task *task)
 {
     for (size_t i = 0; i < task->n; i++)
         if (task->has_growth[i])
@@ -318,7 +320,8 @@ static wt_status set_running_in_keys(const running_in_task *task, const run_set 
         status = set_wear_agreement(task, all, t, err);
     }
     validation_running_in_set_print(t, VALIDATION_RUNNING_IN_KEY_RUNS, "%zu", task->n_compared);
-    validation_running_in_set_text(t, VALIDATION_RUNNING_IN_KEY_INCLUDES, included_errors(task));
+    validation_running_in_set_text(t, VALIDATION_RUNNING_IN_KEY_INCLUDES,
+                                   prediction_error_sources(task));
     set_remarks(task, t);
     return status;
 }
@@ -361,7 +364,7 @@ static wt_status check_running_in_job(const wt_validation_job *job, const wt_job
                                       const wt_running_in_tables *tables, wt_error *err)
 {
     if (job == NULL || work == NULL || tables == NULL || job->record == NULL ||
-        job->cycles == NULL || job->layer == NULL || job->known == NULL)
+        job->cycles == NULL || job->layer == NULL || job->layer_observation == NULL)
         return wt_fail(err, WT_E_ARG, "no running-in to hold against a layer");
     const wt_status status = param_check(wt_validation_job_params(), job, err);
     return status == WT_OK ? flow_sliding_check(job->sliding, work, err) : status;

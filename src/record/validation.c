@@ -172,7 +172,7 @@ static void set_verdicts(const validation *v, table_writer *t)
                          : "errors of the prediction are not, without replicates");
 }
 
-static void set_ratio(const validation *v, table_writer *t)
+static void set_ratio_interval(const validation *v, table_writer *t)
 {
     if (!v->has_shear)
         return;
@@ -235,24 +235,25 @@ static wt_status set_wear(const validation *v, table_writer *t, wt_error *err)
 }
 
 /* Sets the keys of the layer that friction was predicted with. */
-static void set_layer_keys(const validation *v, table_writer *t)
+static void set_predicted_layer_keys(const validation *v, table_writer *t)
 {
     const wt_sliding *const sliding = v->job->sliding;
     char moduli[512];
     if (!v->layered)
         return;
-    const wt_estimate thickness = flow_stated_estimate(v->known->thickness),
-                      ratio = flow_stated_estimate(v->known->modulus_ratio);
+    const wt_estimate thickness = flow_stated_estimate(v->layer_observation->thickness),
+                      ratio = flow_stated_estimate(v->layer_observation->modulus_ratio);
     validation_set(t, VALIDATION_KEY_LAYER_THICKNESS, thickness);
     if (sliding->layer_rubber == NULL)
         validation_set(t, VALIDATION_KEY_LAYER_RATIO, ratio);
-    sliding_layer_describe(sliding, v->known, v->p.zero_loss_range, v->work->log, moduli,
-                           sizeof moduli);
+    sliding_layer_describe(sliding, v->layer_observation, v->p.zero_loss_range, v->work->log,
+                           moduli, sizeof moduli);
     if (moduli[0] == '\0')
         return;
     validation_set_text(t, VALIDATION_KEY_LAYER_MODULI, moduli);
     if (sliding->layer_rubber == NULL)
-        validation_set(t, VALIDATION_KEY_LAYER_SLOPE, flow_stated_estimate(v->known->ratio_slope));
+        validation_set(t, VALIDATION_KEY_LAYER_SLOPE,
+                       flow_stated_estimate(v->layer_observation->ratio_slope));
 }
 
 static wt_status set_validation_keys(const validation *v, const choice_ranges *ranges,
@@ -263,8 +264,8 @@ static wt_status set_validation_keys(const validation *v, const choice_ranges *r
         validation_set_text(t, VALIDATION_KEY_SETTLED_BY, advice->settles);
     if (!v->has_shear)
         validation_set_text(t, VALIDATION_KEY_SETTLED_BY, "a shear stress of the real contact");
-    set_ratio(v, t);
-    set_layer_keys(v, t);
+    set_ratio_interval(v, t);
+    set_predicted_layer_keys(v, t);
     if (v->has_shear)
         validation_set(t, VALIDATION_KEY_SHEAR, flow_stated_estimate(v->used.sliding.shear_stress));
     required_shear_set_keys(v, t);
@@ -285,7 +286,8 @@ static wt_status set_validation_keys(const validation *v, const choice_ranges *r
 static wt_status compare_ratios(validation *v, wt_error *err)
 {
     wt_status status = WT_OK;
-    for (int layered = 0; status == WT_OK && layered < (v->known != NULL ? 2 : 1); layered++) {
+    for (int layered = 0; status == WT_OK && layered < (v->layer_observation != NULL ? 2 : 1);
+         layered++) {
         const ratio_inputs of = {&v->p, &v->steps, v->p.shear, layered != 0};
         status = model_variant_fit_ratio(&of, v->work->seed, &v->ratio[layered], err);
         if (status == WT_OK)
@@ -299,21 +301,25 @@ static wt_status begin_validation(validation *v, wt_error *err)
 {
     table_view record = {0};
     const wt_validation_job *const job = v->job;
-    wt_status status =
-        case_variant_create(job->sliding, job->layer, job->known, v->work, &v->used, err);
+    wt_status status = case_variant_create(job->sliding, job->layer, job->layer_observation,
+                                           v->work, &v->used, err);
     if (status == WT_OK)
         status = table_bind(job->record, &record_schema, "", &record, err);
     if (status == WT_OK)
         status = measured_steps_read(&record, job->sliding, &v->steps, err);
-    v->known = job->known != NULL && isfinite(job->known->thickness.value) ? job->known : NULL;
-    v->layered = v->known != NULL;
-    if (status == WT_OK && job->known != NULL && !v->layered)
+    v->layer_observation =
+        job->layer_observation != NULL && isfinite(job->layer_observation->thickness.value)
+            ? job->layer_observation
+            : NULL;
+    v->layered = v->layer_observation != NULL;
+    if (status == WT_OK && job->layer_observation != NULL && !v->layered)
         measured_steps_add_remark(
             &v->steps, "without wear, or where it ages, the layer grows without end "
                        "and friction with it is not known: that without a layer is compared");
     v->has_shear = !isnan(job->sliding->shear_stress.value);
     if (status == WT_OK)
-        status = predict_friction(job->sliding, v->known, &v->steps, v->work, true, &v->p, err);
+        status = predict_friction(job->sliding, v->layer_observation, &v->steps, v->work, true,
+                                  &v->p, err);
     if (status == WT_OK && v->p.n_draws == 0)
         measured_steps_add_remark(&v->steps,
                                   "no interval and no verdict holds errors of the prediction, "

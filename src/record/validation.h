@@ -17,7 +17,7 @@ typedef struct mean_ratio {
 typedef struct validation {
     const wt_validation_job *job;
     const wt_job *work;
-    const wt_layer_observation *known; /* NULL without a layer of finite thickness */
+    const wt_layer_observation *layer_observation; /* NULL without a layer of finite thickness */
     case_variant used;
     measured steps;
     prediction p;

@@ -40,7 +40,7 @@ range_text validation_requested_range(double margin)
 
 verdict_text model_variant_verdict(const validation *v, const model_variant *t)
 {
-    verdict_text words;
+    verdict_text result;
     double ends[2];
     const agreement *const fit = &t->fit;
     const size_t at = fit->deciding_step;
@@ -49,14 +49,14 @@ verdict_text model_variant_verdict(const validation *v, const model_variant *t)
     if (t->n > 1)
         snprintf(all, sizeof all, " at all %zu steps", t->n);
     if (fit->verdict == AGREEMENT_YES)
-        clocale_print(words.text, sizeof words.text,
+        clocale_print(result.text, sizeof result.text,
                       "explains: measured over predicted is within %.3g %%%s: at %.3g m/s%s %.3g "
                       "(95 %%: %s)",
                       100 * v->job->margin, all, v->steps.step[at].velocity,
                       t->n > 1 ? ", where it is farthest," : "", exp(fit->fitted_value[at]),
                       format_range(exp(ends[0]), exp(ends[1]), 3).text);
     else
-        clocale_print(words.text, sizeof words.text,
+        clocale_print(result.text, sizeof result.text,
                       "%s: at %.3g m/s measured over predicted is %.3g (95 %%%s: %s), and %s is "
                       "asked for",
                       validation_verdict(fit->verdict), v->steps.step[at].velocity,
@@ -64,7 +64,7 @@ verdict_text model_variant_verdict(const validation *v, const model_variant *t)
                       fit->verdict == AGREEMENT_NO ? " at all steps at once" : "",
                       format_range(exp(ends[0]), exp(ends[1]), 3).text,
                       validation_requested_range(v->job->margin).text);
-    return words;
+    return result;
 }
 
 wt_status mean_ratio_compute(const model_variant *t, mean_ratio *mean, wt_error *err)

@@ -21,15 +21,15 @@ TABLE_ROW(wear, WEAR, wt_interval rate; const char *of; wt_estimate volume, dept
           double normal_force, distance; wt_ball_contact ball; double duty;
           const char *note, *file;)
 
-static bool is_given(wt_estimate e)
+static bool is_stated(wt_estimate e)
 {
     return !isnan(e.value);
 }
 
 bool wear_is_requested(const wt_record_job *job)
 {
-    return job->profile != NULL || is_given(job->track_area) || is_given(job->mass_loss) ||
-           is_given(job->ball_radius);
+    return job->profile != NULL || is_stated(job->track_area) || is_stated(job->mass_loss) ||
+           is_stated(job->ball_radius);
 }
 
 wt_record_job wear_without_inputs(wt_record_job job)
@@ -95,7 +95,7 @@ static double sliding_distance(const wt_record *record, const wt_cycles *cycles,
 static wt_estimate track_length(const wt_record_job *job, const wt_cycles *cycles,
                                 wt_estimate radius)
 {
-    if (is_given(job->track_length))
+    if (is_stated(job->track_length))
         return job->track_length;
     if (cycles->kind != WT_CYCLE_STROKE)
         return (wt_estimate){2 * M_PI * radius.value, 2 * M_PI * radius.standard_error, 0, "m"};
@@ -108,7 +108,7 @@ static wt_estimate track_length(const wt_record_job *job, const wt_cycles *cycle
 static wt_estimate mean_load(const wt_record_job *job, const wt_cycles *cycles)
 {
     const double load = conditions_mean(cycles->cycle, cycles->n).normal_force;
-    const double error = is_given(job->load) ? relative_error(job->load) : 0;
+    const double error = is_stated(job->load) ? relative_error(job->load) : 0;
     return (wt_estimate){load, load * error, 0, "N"};
 }
 
@@ -161,7 +161,7 @@ static wt_estimate cap_area(wt_estimate depth, double radius)
 static const char *missing_wear_input(const wt_record_job *job, const wear_row *r, wt_estimate load,
                                       bool strokes)
 {
-    if (!is_given(job->mass_loss) && !is_given(job->track_area) && isnan(r->depth.value))
+    if (!is_stated(job->mass_loss) && !is_stated(job->track_area) && isnan(r->depth.value))
         return "nothing tells what was lost: give --profile, --track-area or --mass-loss, or "
                "record the depth";
     if (isnan(load.value))
@@ -198,7 +198,7 @@ static void set_ball(const wt_record_job *job, wt_estimate load, double track_ra
     const double none = (double)NAN;
     r->ball = (wt_ball_contact){none, none};
     r->duty = none;
-    if (!is_given(job->ball_radius) || !is_given(job->modulus))
+    if (!is_stated(job->ball_radius) || !is_stated(job->modulus))
         return;
     r->ball = wt_ball_contact_compute(load.value, job->ball_radius.value, job->modulus.value,
                                       job->poisson_ratio);
@@ -257,21 +257,21 @@ wt_status wear_add(const wt_record_job *job, const wt_record *record, const wt_c
                     .depth = {none, none, 0, "m"},
                     .file = file};
     set_ball(job, rows.load, radius.value, r);
-    if (is_given(job->mass_loss)) {
+    if (is_stated(job->mass_loss)) {
         const wt_estimate inverse = {
             1 / job->density.value, relative_error(job->density) / job->density.value, 0, "m^3/kg"};
         add_wear_volume(&rows, "mass", estimate_product(job->mass_loss, inverse, "m^3"));
     }
-    if (is_given(job->track_area))
+    if (is_stated(job->track_area))
         add_wear_volume(&rows, "area of the track",
                         estimate_product(job->track_area, length, "m^3"));
     wt_status status = WT_OK;
-    if (is_given(job->ball_radius) && record->channel[WT_RECORD_WEAR_DEPTH] != NULL)
+    if (is_stated(job->ball_radius) && record->channel[WT_RECORD_WEAR_DEPTH] != NULL)
         status = worn_depth(cycles, &r->depth, err);
     if (status == WT_OK && !isnan(r->depth.value))
         add_wear_volume(&rows, "depth of the record",
                         volume_from_depth(r->depth, job->ball_radius.value, length));
-    else if (status == WT_OK && !is_given(job->mass_loss) && !is_given(job->track_area))
+    else if (status == WT_OK && !is_stated(job->mass_loss) && !is_stated(job->track_area))
         add_wear_volume(&rows, "nothing", (wt_estimate){none, none, 0, "m^3"});
     wear_rates_close_run(rates);
     return status;

@@ -132,7 +132,7 @@ static bool is_sheet_begun(const sheets *s, size_t sheet)
 }
 
 /* Callback while gnuplot runs; false ends it. */
-static bool go_on(void *user)
+static bool may_continue_sheets(void *user)
 {
     sheets *s = user;
     for (; s->begun < s->n && is_sheet_begun(s, s->begun); s->begun++)
@@ -194,7 +194,7 @@ static wt_status draw_sheets(sheets *s, const char *path, wt_error *err)
                                .size = s->n * sheet_size,
                                .limit = s->options.gnuplot_time,
                                .timed_out = &s->timed_out,
-                               .go_on = go_on,
+                               .go_on = may_continue_sheets,
                                .user = s};
     s->begin_time = wt_time_wall();
     wt_status status = gnuplot_run(&call, err);

@@ -46,7 +46,7 @@ static wt_table *create_section(figure_drawing *d, const char *title)
 }
 
 /* Stores a section with data and returns its index; else frees it and returns NO_SECTION. */
-static int store_section(figure_drawing *d, wt_table *section, bool any)
+static int store_data_section(figure_drawing *d, wt_table *section, bool any)
 {
     if (d->status == WT_OK && any && d->n_sections == DRAWING_SECTIONS)
         d->status = wt_fail(d->err, WT_E_INTERNAL, "figure %s has too many parts", d->figure->name);
@@ -94,7 +94,7 @@ int drawing_section(figure_drawing *d, const table_view *table, const char *titl
         }
         any = any || complete;
     }
-    return store_section(d, section, any);
+    return store_data_section(d, section, any);
 }
 
 int drawing_number_section(figure_drawing *d, const char *title, const char *const *columns,
@@ -110,7 +110,7 @@ int drawing_number_section(figure_drawing *d, const char *title, const char *con
         for (size_t i = 0; d->status == WT_OK && columns[i] != NULL; i++)
             wt_table_set_number(section, i, number_to_digits(*values++, DATA_DIGITS));
     }
-    return store_section(d, section, true);
+    return store_data_section(d, section, true);
 }
 
 size_t drawing_row_count(const figure_drawing *d, int section)

@@ -58,7 +58,7 @@ enum { FIGURE_PANELS = 2, FIGURE_CURVES = 8, FIGURE_COLUMNS = 16 };
 typedef struct figure_description {
     const char *name, *title;
     const table_schema *table; /* drawn if this table has a row */
-    const char *beside;        /* names of further tables that it uses; NULL: none */
+    const char *other_tables;  /* names of further tables that it uses; NULL: none */
     const char *data_title;    /* title of its data; with groups, the name of the group */
     bool by_group;             /* a curve for each text in the column `group` */
     unsigned group;
@@ -66,8 +66,8 @@ typedef struct figure_description {
     bool in_depth;                      /* folded on the page, after the main figures */
     bool needs_several_x;               /* drawn only with several values of x */
     figure_curve curves[FIGURE_CURVES]; /* ends with CURVE_NONE */
-    const char *nothing; /* reason on the page if nothing can be drawn; NULL = no text */
-    const char *words;   /* the caption */
+    const char *empty_reason; /* reason on the page if nothing can be drawn; NULL = no text */
+    const char *caption_text; /* the caption */
     void (*prepare)(struct figure_drawing *d); /* changes ranges or labels; NULL: nothing */
     void (*draw)(struct figure_drawing *d);    /* NULL: as described */
     void (*caption)(struct figure_drawing *d); /* extends the caption; NULL: nothing */

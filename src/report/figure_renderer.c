@@ -365,7 +365,7 @@ wt_status drawing_build(figure_drawing *d, const figure_description *figure,
     else
         draw_as_described(d);
     if (d->script.length > 0) {
-        text_add(&d->caption, figure->words);
+        text_add(&d->caption, figure->caption_text);
         if (d->too_many)
             text_format(&d->caption, " Only the first %d are drawn.", DRAWING_GROUPS);
         if (figure->caption != NULL)

@@ -23,8 +23,9 @@ struct report_folder {
     char *target;    /* final path */
     bool is_page;    /* only the page is written */
     char *temporary; /* temporary folder */
-    int in_use; /* descriptor that protects the temporary folder from removal; -1 before it exists
-                 */
+    int lock_file;   /* descriptor that protects the temporary folder from removal; -1 before it
+                      * exists
+                      */
     char *plots;
 };
 
@@ -168,8 +169,8 @@ static wt_status check_replaceable(const char *path, wt_error *err)
 
 static void folder_free(report_folder *folder)
 {
-    if (folder->in_use >= 0)
-        close(folder->in_use);
+    if (folder->lock_file >= 0)
+        close(folder->lock_file);
     free(folder->target);
     free(folder->temporary);
     free(folder->plots);
@@ -213,7 +214,7 @@ static wt_status create_temporary_folder(report_folder *folder, wt_error *err)
     if (parent == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     temporary_remove_abandoned(parent);
-    folder->temporary = temporary_folder_create(parent, &folder->in_use);
+    folder->temporary = temporary_folder_create(parent, &folder->lock_file);
     free(parent);
     if (folder->temporary != NULL)
         return WT_OK;
@@ -227,7 +228,7 @@ wt_status folder_open(const char *path, report_folder **out, wt_error *err)
     report_folder *folder = calloc(1, sizeof *folder);
     if (folder == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
-    folder->in_use = -1;
+    folder->lock_file = -1;
     wt_status status = resolve_report_path(path, &folder->target, err);
     folder->is_page = status == WT_OK && path_is_page(folder->target);
     if (status == WT_OK)

@@ -149,9 +149,9 @@ static void add_missing_figures(page_writer *page)
 {
     for (size_t i = 0; i < page->n_figures; i++) {
         const figure_description *figure = page->figures[i].drawing.figure;
-        if (figure != NULL && page->figures[i].svg.length == 0 && figure->nothing != NULL)
+        if (figure != NULL && page->figures[i].svg.length == 0 && figure->empty_reason != NULL)
             text_html(&page->out, "<p class=\"omitted\">Not drawn: %s – %s.</p>\n", figure->title,
-                      figure->nothing);
+                      figure->empty_reason);
     }
 }
 

@@ -90,7 +90,7 @@ static bool is_picture_begun(const report *r, const picture *p)
 }
 
 /* Asked all the while that gnuplot draws. */
-static bool go_on(void *user)
+static bool may_continue_pictures(void *user)
 {
     report *r = user;
     for (; r->next < r->n_pictures && is_picture_begun(r, &r->pictures[r->next]); r->next++)
@@ -162,7 +162,7 @@ static wt_status draw_pictures(report *r, wt_error *err)
                                    .size = GNUPLOT_PICTURE_LIMIT,
                                    .limit = r->options.gnuplot_time,
                                    .timed_out = &r->timed_out,
-                                   .go_on = go_on,
+                                   .go_on = may_continue_pictures,
                                    .user = r};
         status = gnuplot_run(&call, err);
     } else

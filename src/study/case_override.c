@@ -22,7 +22,7 @@ static const friction_key sensitivity_keys[SENSITIVITIES] = {
     FRICTION_KEY_BY_CUTOFF};
 
 wt_status case_variant_create(const wt_sliding *sliding, const wt_layer_job *layer,
-                              const wt_layer_observation *known, const wt_job *work,
+                              const wt_layer_observation *observation, const wt_job *work,
                               case_variant *s, wt_error *err)
 {
     wt_roughness *law = NULL;
@@ -36,10 +36,10 @@ wt_status case_variant_create(const wt_sliding *sliding, const wt_layer_job *lay
                         .rubber = *sliding->rubber,
                         .given = sliding->rubber,
                         .surface = *sliding->surface,
-                        .has_softness = sliding->softness != NULL,
+                        .has_softness = sliding->strain_softening != NULL,
                         .has_layer_rubber = sliding->layer_rubber != NULL,
                         .has_layer = layer != NULL,
-                        .has_known = known != NULL,
+                        .has_known = observation != NULL,
                         .vertical = sliding->rubber->fit.vertical};
     s->sliding.n_velocity = 1;
     s->sliding.sensitivities = false;
@@ -47,19 +47,19 @@ wt_status case_variant_create(const wt_sliding *sliding, const wt_layer_job *lay
     s->surface.q0 = law->q0;
     s->surface.q1 = law->q1;
     if (s->has_softness)
-        s->softness = *sliding->softness;
+        s->strain_softening = *sliding->strain_softening;
     if (s->has_layer_rubber)
         s->layer_rubber = *sliding->layer_rubber;
     if (layer != NULL)
         s->layer = *layer;
-    if (known != NULL)
-        s->known = *known;
+    if (observation != NULL)
+        s->layer_observation = *observation;
     wt_roughness_free(law);
     return WT_OK;
 }
 
 static wt_status compute_layer(const case_variant *s, const wt_job *work,
-                               wt_layer_observation *known, wt_error *err)
+                               wt_layer_observation *observation, wt_error *err)
 {
     static const double start = 0; /* only the steady-state thickness is requested */
     wt_layer_job job = s->layer;
@@ -68,17 +68,17 @@ static wt_status compute_layer(const case_variant *s, const wt_job *work,
     job.n_time = 1;
     const wt_status status = wt_layer_thickness_compute(&s->sliding, &job, work, &tables, err);
     if (status == WT_OK)
-        known->thickness = tables.thickness;
+        observation->thickness = tables.thickness;
     wt_layer_tables_clear(&tables);
     return status;
 }
 
-static wt_status compute_friction(case_variant *s, const wt_layer_observation *known,
-                                  const wt_job *work, wt_estimate *number, wt_error *err)
+static wt_status compute_variant_friction(case_variant *s, const wt_layer_observation *observation,
+                                          const wt_job *work, wt_estimate *number, wt_error *err)
 {
     wt_friction_tables tables = {0};
     table_view view;
-    wt_status status = wt_sliding_friction_compute(&s->sliding, known, work, &tables, err);
+    wt_status status = wt_sliding_friction_compute(&s->sliding, observation, work, &tables, err);
     if (status == WT_OK)
         status = table_bind(tables.friction, &friction_schema, "", &view, err);
     if (status == WT_OK) {
@@ -99,19 +99,20 @@ static wt_status compute_friction(case_variant *s, const wt_layer_observation *k
 wt_status case_variant_compute(case_variant *s, const wt_job *work, wt_estimate *number,
                                wt_error *err)
 {
-    wt_layer_observation known = s->known;
+    wt_layer_observation observation = s->layer_observation;
     s->sliding.rubber = s->given != NULL ? s->given : &s->rubber;
     s->sliding.surface = &s->surface;
-    s->sliding.softness = s->has_softness ? &s->softness : NULL;
+    s->sliding.strain_softening = s->has_softness ? &s->strain_softening : NULL;
     s->sliding.layer_rubber = s->has_layer_rubber ? &s->layer_rubber : NULL;
     s->sliding.velocity = &s->velocity;
-    wt_status status = s->has_layer ? compute_layer(s, work, &known, err) : WT_OK;
+    wt_status status = s->has_layer ? compute_layer(s, work, &observation, err) : WT_OK;
     if (status == WT_OK && s->has_layer)
-        number[CASE_QUANTITY_THICKNESS] = known.thickness;
-    if (isnan(known.thickness.standard_error))
-        known.thickness.standard_error = 0; /* an unknown error is not drawn */
+        number[CASE_QUANTITY_THICKNESS] = observation.thickness;
+    if (isnan(observation.thickness.standard_error))
+        observation.thickness.standard_error = 0; /* an unknown error is not drawn */
     /* a layer that grows without limit has no friction */
-    const bool layered = s->has_known && isfinite(known.thickness.value);
-    return status == WT_OK ? compute_friction(s, layered ? &known : NULL, work, number, err)
-                           : status;
+    const bool layered = s->has_known && isfinite(observation.thickness.value);
+    return status == WT_OK
+               ? compute_variant_friction(s, layered ? &observation : NULL, work, number, err)
+               : status;
 }

@@ -17,11 +17,11 @@ typedef struct case_variant {
     const wt_rubber *given; /* original of `rubber`; NULL once the copy is modified */
     wt_surface surface;     /* borrowed; its cut-offs are numbers [rad/m] */
     bool has_softness, has_layer_rubber;
-    wt_strain_softening softness; /* borrowed */
-    wt_rubber layer_rubber;       /* borrowed; rubber of the layer */
+    wt_strain_softening strain_softening; /* borrowed */
+    wt_rubber layer_rubber;               /* borrowed; rubber of the layer */
     bool has_layer, has_known;
     wt_layer_job layer;
-    wt_layer_observation known;
+    wt_layer_observation layer_observation;
     wt_vertical_shift vertical;
     /* Results of the computation: statement on the material, and share of the hysteresis from
      * frequencies outside its range (NaN if not requested). */
@@ -41,10 +41,10 @@ typedef enum case_quantity {
 } case_quantity;
 extern const char *const case_quantity_names[CASE_QUANTITIES];
 
-/* Creates a variant of the case as used. A NULL `layer` means no thickness; a NULL `known` means no
- * friction with a layer. With both, the thickness is that of `layer`. */
+/* Creates a variant of the case as used. A NULL `layer` means no thickness; a NULL `observation`
+ * means no friction with a layer. With both, the thickness is that of `layer`. */
 wt_status case_variant_create(const wt_sliding *sliding, const wt_layer_job *layer,
-                              const wt_layer_observation *known, const wt_job *work,
+                              const wt_layer_observation *observation, const wt_job *work,
                               case_variant *s, wt_error *err) WT_NODISCARD;
 /* Computes the results. number: [CASE_QUANTITIES]; results that do not apply stay unchanged. */
 wt_status case_variant_compute(case_variant *s, const wt_job *work, wt_estimate *number,

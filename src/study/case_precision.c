@@ -555,8 +555,9 @@ static void write_precision_summary(const precision_problem *o, table_writer *t)
 }
 
 wt_status wt_case_precision_compute(const wt_sliding *sliding, const wt_layer_job *layer,
-                                    const wt_layer_observation *known, const wt_accuracy_job *job,
-                                    const wt_job *work, wt_table **table, wt_error *err)
+                                    const wt_layer_observation *observation,
+                                    const wt_accuracy_job *job, const wt_job *work,
+                                    wt_table **table, wt_error *err)
 {
     if (job == NULL || work == NULL || table == NULL)
         return wt_fail(err, WT_E_ARG, "no numbers to time");
@@ -569,7 +570,7 @@ wt_status wt_case_precision_compute(const wt_sliding *sliding, const wt_layer_jo
     job_settings.cost = NULL;  /* the number of computations depends on the clock */
     wt_status status = param_check(wt_accuracy_job_params(), job, err);
     if (status == WT_OK)
-        status = case_variant_create(sliding, layer, known, work, &given, err);
+        status = case_variant_create(sliding, layer, observation, work, &given, err);
     if (status != WT_OK)
         return status;
     precision_problem *o = calloc(1, sizeof *o);

@@ -251,7 +251,7 @@ static const wt_param rows[] = {
      .value = "X", .unset = "that of the DMA",
      .help = "of ln E against temperature per kelvin, such as \"-0.012 +- 0.002\"; brings the "
              "track to the temperature of the bulk"},
-    {PARAM_CHOICE_OF("cantilevers", wt_compare_job, levers, "auto|one|two"),
+    {PARAM_CHOICE_OF("cantilevers", wt_compare_job, cantilevers, "auto|one|two"),
      .help = "whether bulk and track were indented with one cantilever, whose errors cancel in the "
              "ratio, or with two, whose errors enter it; auto: one if spring constants and "
              "tips are equal"},

@@ -10,7 +10,8 @@
 
 extern const char *const compare_group_name[2];
 
-/* Values in place of a bin: a curve with an unknown rate; the curves of all bins. */
+/* Values in place of the index of a bin: an unknown rate (of a curve), and all bins (of a
+ * selection). */
 #define COMPARE_NO_BIN SIZE_MAX
 #define COMPARE_ALL_BINS SIZE_MAX
 
@@ -44,22 +45,24 @@ wt_group compare_select_curves(const compare_pair *p, int g, size_t bin, size_t 
 /* Known contributions to ln(E_track / E_bulk) other than the difference of the rubber. */
 typedef struct comparison_inputs {
     wt_estimate offset;
-    double shown; /* error by loss and baseline curvature, which the curves show */
-    bool two_levers;
-    bool lever_not_stated;      /* two cantilevers, and the error of a spring constant is unknown */
-    bool temperature_not_known; /* the temperatures differ, with an unknown effect */
-    bool loss_not_known;        /* the curves have a hysteresis loss with an unknown effect on
-                                   the modulus */
-    bool rates_by_dma;          /* the DMA corrects for different rates, as the curves cannot */
-    char out_of_reach[160];     /* requested temperature that no shift law reaches */
-    double temperature[2];      /* [K]; NaN if unknown */
-    char includes[256];         /* errors in the interval besides the scatter */
-    char lacks[160];            /* errors of unknown size that are missing */
-    char cancels[128];          /* errors that cancel except for different gains */
+    double loss_and_curvature_error; /* error by hysteresis loss and baseline curvature, as measured
+                                        on the curves */
+    bool has_two_cantilevers;
+    bool lacks_spring_constant_error; /* two cantilevers, and the error of a spring constant is
+                                         unknown */
+    bool lacks_temperature_effect;    /* the temperatures differ, with an unknown effect */
+    bool lacks_loss_effect;           /* the curves have a hysteresis loss with an unknown effect on
+                                      the modulus */
+    bool rates_by_dma; /* the DMA corrects for different rates, as the curves cannot */
+    char unreachable_temperature[160]; /* requested temperature that no shift law reaches */
+    double temperature[2];             /* [K]; NaN if unknown */
+    char includes[256];                /* errors in the interval besides the scatter */
+    char lacks[160];                   /* errors of unknown size that are missing */
+    char cancels[128];                 /* errors that cancel except for different gains */
 } comparison_inputs;
 
 wt_status comparison_find_inputs(const compare_pair *p, const wt_compare_job *job,
-                                 const wt_job *work, bool rates_by_dma, comparison_inputs *known,
+                                 const wt_job *work, bool rates_by_dma, comparison_inputs *inputs,
                                  wt_error *err) WT_NODISCARD;
 
 /* Temperature [K] and angular frequency [rad/s] of a modulus. */
@@ -100,12 +103,12 @@ typedef struct compare_row {
 
 /* Causes other than the rubber that would produce the ratio. */
 typedef struct unstated_errors {
-    double log_ratio, least; /* ln of the ratio to be explained, and the part that would change
-                                the verdict */
-    char would_explain[640]; /* required size of each cause */
-    char plausible[480];     /* causes of plausible size; "" if none */
-    double lower, higher;    /* limits of their effect on ln(ratio) */
-    char settled_by[400];    /* how to decide */
+    double log_ratio, smallest_to_explain; /* ln of the ratio to be explained, and the smallest part
+                                              of it that would change the verdict */
+    char would_explain[640];               /* required size of each cause */
+    char plausible[480];                   /* causes of plausible size; "" if none */
+    double lower, higher;                  /* limits of their effect on ln(ratio) */
+    char settled_by[400];                  /* how to decide */
 } unstated_errors;
 wt_status compare_find_unstated_errors(const compare_pair *p, const wt_compare_job *job,
                                        const wt_job *work, const compare_row *row,
@@ -117,13 +120,13 @@ wt_status compare_temperature_slope(const compare_pair *p, const wt_compare_job 
 /* Verdict on the difference between track and bulk, and how to decide it. */
 typedef struct compare_verdict {
     char differs[640], settled_by[480];
-    bool twisted; /* the ratio depends on the rate */
-    bool silent;  /* no ratio can be reported */
+    bool depends_on_rate; /* the ratio depends on the rate */
+    bool is_unreportable; /* no ratio can be reported */
 } compare_verdict;
 
 /* Assesses the difference. `row` has all rates; `rates` has one row per rate. */
 compare_verdict compare_assess(const compare_pair *p, const wt_compare_job *job,
-                               const comparison_inputs *known, const unstated_errors *unstated,
+                               const comparison_inputs *inputs, const unstated_errors *unstated,
                                const compare_row *row, const compare_row *rates, size_t n_rates);
 
 /* Reads both groups of a job with their rates. The caller clears `p`, also after a failure. */

@@ -98,8 +98,8 @@ static wt_interval ratio_interval(const wt_interval *of, double by, double compa
     return (wt_interval){value, (double)NAN, value - half, value + half};
 }
 
-static void add_dwell_row(table_writer *t, int g, const dwell_mean *m, const dma_moduli *dma,
-                          bool errors, bool outside)
+static void add_dwell_dma_row(table_writer *t, int g, const dwell_mean *m, const dma_moduli *dma,
+                              bool errors, bool outside)
 {
     const double none = (double)NAN, unknown = errors ? 0 : none;
     const wt_interval no_ratio = {none, none, none, none};
@@ -145,9 +145,9 @@ static wt_status add_dwell_rows(table_writer *t, int g, const wt_table *moduli,
         status = add_temperature_variance(rubber, at, work, means, n, dma, &unknown, err);
     *lacks = *lacks || unknown;
     for (size_t i = 0; status == WT_OK && i < n; i++)
-        add_dwell_row(t, g, &means[i], reaches ? &dma[i] : NULL, rubber->n_draws > 0 && !unknown,
-                      means[i].angular_frequency < measured[0] ||
-                          means[i].angular_frequency > measured[1]);
+        add_dwell_dma_row(
+            t, g, &means[i], reaches ? &dma[i] : NULL, rubber->n_draws > 0 && !unknown,
+            means[i].angular_frequency < measured[0] || means[i].angular_frequency > measured[1]);
     free(means);
     free(dma);
     return status;

@@ -117,30 +117,31 @@ static void add_calibration_errors(const compare_pair *p, const wt_compare_job *
                                    comparison_inputs *k)
 {
     const wt_group_data *bulk = &p->data[0], *track = &p->data[1];
-    k->two_levers = has_two_cantilevers(p, job->levers);
+    k->has_two_cantilevers = has_two_cantilevers(p, job->cantilevers);
     /* a remounted cantilever was calibrated again */
     const double s[2] = {bulk->sensitivity.value, track->sensitivity.value};
     const bool anew = bulk->has_several_sensitivities || track->has_several_sensitivities ||
                       (!isnan(s[0]) && !isnan(s[1]) && s[0] != s[1]);
-    add_calibration_error(p, job, WT_SYSTEMATIC_SENSITIVITY, k->two_levers || anew,
+    add_calibration_error(p, job, WT_SYSTEMATIC_SENSITIVITY, k->has_two_cantilevers || anew,
                           "deflection sensitivity", k);
-    add_calibration_error(p, job, WT_SYSTEMATIC_SPRING_CONSTANT, k->two_levers, "spring constants",
-                          k);
+    add_calibration_error(p, job, WT_SYSTEMATIC_SPRING_CONSTANT, k->has_two_cantilevers,
+                          "spring constants", k);
     if (has_tip_error(bulk) || has_tip_error(track)) {
-        add_calibration_error(p, job, WT_SYSTEMATIC_HALF_ANGLE, k->two_levers,
+        add_calibration_error(p, job, WT_SYSTEMATIC_HALF_ANGLE, k->has_two_cantilevers,
                               "half-angle of the tip", k);
-        add_calibration_error(p, job, WT_SYSTEMATIC_RADIUS, k->two_levers, "radius of the tip", k);
+        add_calibration_error(p, job, WT_SYSTEMATIC_RADIUS, k->has_two_cantilevers,
+                              "radius of the tip", k);
     } else if (job->tip_error > 0) {
-        if (k->two_levers)
+        if (k->has_two_cantilevers)
             add_offset_error(k, job->tip_error * M_SQRT2, "tips");
         else
             cancel_error(k, "tip");
     }
-    if (!k->two_levers)
+    if (!k->has_two_cantilevers)
         return;
     for (int g = 0; g < 2; g++)
         if (!(group_calibration(&p->data[g], job, WT_SYSTEMATIC_SPRING_CONSTANT).error > 0))
-            k->lever_not_stated = true;
+            k->lacks_spring_constant_error = true;
 }
 
 /* Adds errors that the curves show, but that the scatter does not. The piezo curvature and the tip
@@ -155,11 +156,12 @@ static void add_curve_errors(const compare_pair *p, comparison_inputs *k)
         misfit[g] = d->misfit_error;
     }
     const double of_loss = hypot(loss[0], loss[1]),
-                 of_bend = k->two_levers ? hypot(bend[0], bend[1]) : fabs(bend[1] - bend[0]),
-                 of_misfit =
-                     k->two_levers ? hypot(misfit[0], misfit[1]) : fabs(misfit[1] - misfit[0]);
-    k->shown = hypot(hypot(of_loss, of_bend), of_misfit);
-    k->loss_not_known = isnan(of_loss);
+                 of_bend =
+                     k->has_two_cantilevers ? hypot(bend[0], bend[1]) : fabs(bend[1] - bend[0]),
+                 of_misfit = k->has_two_cantilevers ? hypot(misfit[0], misfit[1])
+                                                    : fabs(misfit[1] - misfit[0]);
+    k->loss_and_curvature_error = hypot(hypot(of_loss, of_bend), of_misfit);
+    k->lacks_loss_effect = isnan(of_loss);
     add_offset_error(k, of_loss, "loss of unknown spectrum");
     add_offset_error(k, of_bend, "bend of the baselines");
     add_offset_error(k, of_misfit, "misfit of the contact law");
@@ -244,7 +246,7 @@ static bool is_within_shift_law(const wt_rubber *rubber, double temperature, com
     wt_error why = WT_ERROR_INIT;
     if (rubber == NULL || flow_rubber_can_shift(rubber, temperature, &why))
         return true;
-    clocale_print(k->out_of_reach, sizeof k->out_of_reach, "%.2f °C: %s",
+    clocale_print(k->unreachable_temperature, sizeof k->unreachable_temperature, "%.2f °C: %s",
                   temperature - WT_ZERO_CELSIUS, why.message);
     return false;
 }
@@ -329,15 +331,15 @@ static wt_status add_conditions(const compare_pair *p, const wt_compare_job *job
     k->temperature[0] = bulk.value;
     k->temperature[1] = track.value;
     if (apart && isnan(bulk.value)) {
-        k->temperature_not_known = true;
+        k->lacks_temperature_effect = true;
     } else if (warmer && !isnan(slope.value)) {
         k->offset.value += slope.value * step;
         add_offset_error(k, hypot(slope.value * step_error, slope.standard_error * step),
                          "temperatures");
     } else if (warmer && !has_dma) {
-        k->temperature_not_known = step != 0;
+        k->lacks_temperature_effect = step != 0;
     }
-    const bool by_dma = warmer && isnan(slope.value) && !k->temperature_not_known && has_dma;
+    const bool by_dma = warmer && isnan(slope.value) && !k->lacks_temperature_effect && has_dma;
     k->rates_by_dma = k->rates_by_dma && has_dma;
     if (by_dma || k->rates_by_dma)
         return add_dma(p, job, work, by_dma, step_error, k, err);
@@ -345,11 +347,11 @@ static wt_status add_conditions(const compare_pair *p, const wt_compare_job *job
 }
 
 wt_status comparison_find_inputs(const compare_pair *p, const wt_compare_job *job,
-                                 const wt_job *work, bool rates_by_dma, comparison_inputs *known,
+                                 const wt_job *work, bool rates_by_dma, comparison_inputs *inputs,
                                  wt_error *err)
 {
-    *known = (comparison_inputs){.offset = {0, 0, 0, "1"}, .rates_by_dma = rates_by_dma};
-    add_calibration_errors(p, job, known);
-    add_curve_errors(p, known);
-    return add_conditions(p, job, work, known, err);
+    *inputs = (comparison_inputs){.offset = {0, 0, 0, "1"}, .rates_by_dma = rates_by_dma};
+    add_calibration_errors(p, job, inputs);
+    add_curve_errors(p, inputs);
+    return add_conditions(p, job, work, inputs, err);
 }

@@ -13,7 +13,7 @@ typedef struct comparison_task {
     compare_pair *p;
     const wt_compare_job *job;
     const wt_job *work;
-    comparison_inputs known;
+    comparison_inputs inputs;
     unstated_errors unstated;
     compare_row *rows; /* [1 + n_rates] */
     size_t n_rates;
@@ -26,7 +26,7 @@ static wt_status compare_bin(comparison_task *task, size_t bin, compare_row *r, 
     const bool all = bin == COMPARE_ALL_BINS;
     wt_group bulk = compare_select_curves(p, 0, bin, 0, p->by_factor),
              track = compare_select_curves(p, 1, bin, bulk.n, p->by_factor);
-    if (task->known.rates_by_dma)
+    if (task->inputs.rates_by_dma)
         bulk.rate = track.rate = NULL;
     *r = (compare_row){.low = all ? (double)NAN : p->low[bin],
                        .high = all ? (double)NAN : p->high[bin],
@@ -35,8 +35,9 @@ static wt_status compare_bin(comparison_task *task, size_t bin, compare_row *r, 
     if (!all && (bulk.n == 0 || track.n == 0))
         return WT_OK;
     wt_error failure = WT_ERROR_INIT;
-    const wt_status status = wt_compare_moduli(&bulk, &track, &task->known.offset, &r->c, &failure);
-    r->valid = status == WT_OK && r->c.unsettled == WT_UNDECIDED_NOT;
+    const wt_status status =
+        wt_compare_moduli(&bulk, &track, &task->inputs.offset, &r->c, &failure);
+    r->valid = status == WT_OK && r->c.undecided_reason == WT_UNDECIDED_NOT;
     if (all && status == WT_OK) {
         r->n[0] = r->c.curves_bulk;
         r->n[1] = r->c.curves_track;
@@ -84,7 +85,7 @@ static wt_status count_group_units(const comparison_task *task, compare_row *r, 
                                       task->p->data[1].group.spot != NULL,
                            .n_bulk = of[0].n_spots,
                            .n_track = of[1].n_spots,
-                           .unsettled = WT_UNDECIDED_ONE_SPOT,
+                           .undecided_reason = WT_UNDECIDED_ONE_SPOT,
                            .log_ratio = unknown,
                            .rate_slope = unknown,
                            .interaction_p = none};
@@ -95,12 +96,12 @@ static wt_status count_group_units(const comparison_task *task, compare_row *r, 
 static wt_status compare_all_rows(comparison_task *task, wt_error *err)
 {
     compare_pair *p = task->p;
-    wt_status status = comparison_find_inputs(p, task->job, task->work, false, &task->known, err);
+    wt_status status = comparison_find_inputs(p, task->job, task->work, false, &task->inputs, err);
     if (status == WT_OK)
         status = compare_bin(task, COMPARE_ALL_BINS, &task->rows[0], err);
-    if (status == WT_OK && task->rows[0].c.unsettled == WT_UNDECIDED_NO_COMMON_RATE &&
+    if (status == WT_OK && task->rows[0].c.undecided_reason == WT_UNDECIDED_NO_COMMON_RATE &&
         (task->job->rubber != NULL || p->by_factor)) {
-        status = comparison_find_inputs(p, task->job, task->work, true, &task->known, err);
+        status = comparison_find_inputs(p, task->job, task->work, true, &task->inputs, err);
         if (status == WT_OK)
             status = compare_bin(task, COMPARE_ALL_BINS, &task->rows[0], err);
     }
@@ -121,11 +122,11 @@ wt_status compare_fitted_ratio(const wt_compare_job *job, const wt_job *work,
     for (int g = 0; g < 2; g++)
         p.data[g].misfit_error = 0;
     if (status == WT_OK && p.data[0].group.n > 0 && p.data[1].group.n > 0) {
-        status = comparison_find_inputs(&p, job, work, false, &task.known, err);
+        status = comparison_find_inputs(&p, job, work, false, &task.inputs, err);
         if (status == WT_OK)
             status = compare_bin(&task, COMPARE_ALL_BINS, &row, err);
     }
-    if (status == WT_OK && row.valid && !task.known.lever_not_stated) {
+    if (status == WT_OK && row.valid && !task.inputs.lacks_spring_constant_error) {
         *log_ratio = row.c.log_ratio;
         *df = row.c.df;
     }
@@ -168,7 +169,7 @@ static void warn_two_spots(const comparison_task *task)
 static void warn_one_spot(const comparison_task *task)
 {
     const wt_comparison *c = &task->rows[0].c;
-    if (c->unsettled != WT_UNDECIDED_NOT || (c->n_bulk > 1 && c->n_track > 1))
+    if (c->undecided_reason != WT_UNDECIDED_NOT || (c->n_bulk > 1 && c->n_track > 1))
         return;
     if (c->scatter_is_stated) {
         wt_log_add(task->work->log, WT_WARNING, NULL, NULL,
@@ -200,7 +201,7 @@ static void warn_rates(const comparison_task *task)
                    "curves at %s m/s are in one group only (bulk %zu, track %zu)%s",
                    format_range(r->low, r->high, 3).text, r->n[0], r->n[1],
                    all->c.rate_matching == WT_RATES_COMMON &&
-                           all->c.unsettled != WT_UNDECIDED_NO_COMMON_RATE
+                           all->c.undecided_reason != WT_UNDECIDED_NO_COMMON_RATE
                        ? "; the comparison leaves them out"
                        : "");
     }
@@ -253,7 +254,7 @@ static const char *rates_text(const comparison_task *task)
     const wt_comparison *c = &task->rows[0].c;
     if (!task->p->by_rate)
         return "not known";
-    if (task->known.rates_by_dma || (task->p->by_factor && c->rate_matching != WT_RATES_COMMON))
+    if (task->inputs.rates_by_dma || (task->p->by_factor && c->rate_matching != WT_RATES_COMMON))
         return "brought to one by the DMA";
     if (task->p->by_factor)
         return "those that both groups have, each brought to one by the DMA";
@@ -305,25 +306,27 @@ static wt_status write_comparison_table(const comparison_task *task, wt_table **
     const compare_pair *p = task->p;
     const wt_comparison *c = &task->rows[0].c;
     const size_t n_rates = task->n_rates;
-    const compare_verdict v = compare_assess(p, task->job, &task->known, &task->unstated,
+    const compare_verdict v = compare_assess(p, task->job, &task->inputs, &task->unstated,
                                              &task->rows[0], task->rows + 1, n_rates);
-    const bool interval = c->unsettled == WT_UNDECIDED_NOT && !task->known.lever_not_stated;
+    const bool interval =
+        c->undecided_reason == WT_UNDECIDED_NOT && !task->inputs.lacks_spring_constant_error;
     table_writer t = table_begin(&comparison_schema, err);
-    add_comparison_rows(&t, task->rows, n_rates + 1, v.silent, interval, &task->unstated);
+    add_comparison_rows(&t, task->rows, n_rates + 1, v.is_unreportable, interval, &task->unstated);
     const bool given = interval && c->scatter_is_stated;
     char includes[384];
     snprintf(includes, sizeof includes, "%s%s%s",
-             given ? "scatter of spots as given" : "scatter of the units", task->known.includes,
+             given ? "scatter of spots as given" : "scatter of the units", task->inputs.includes,
              task->unstated.plausible[0] != '\0' ? " + what else may well make the ratio" : "");
     const double none = (double)NAN;
     comparison_keys keys = {.differs = v.differs,
                             .settled_by = v.settled_by,
-                            .would_explain = v.silent ? NULL : task->unstated.would_explain,
+                            .would_explain =
+                                v.is_unreportable ? NULL : task->unstated.would_explain,
                             .unit = unit_of_analysis_text(p, task->job, c),
                             .rates = rates_text(task),
-                            .includes = interval && !v.silent ? includes : NULL,
-                            .cantilevers = task->known.two_levers ? "two" : "one",
-                            .cancels = v.silent ? NULL : task->known.cancels,
+                            .includes = interval && !v.is_unreportable ? includes : NULL,
+                            .cantilevers = task->inputs.has_two_cantilevers ? "two" : "one",
+                            .cancels = v.is_unreportable ? NULL : task->inputs.cancels,
                             .margin = {task->job->margin, 0, 0, NULL},
                             .rate_slope = c->rate_slope,
                             .ratio = {none, none, 0, NULL},
@@ -331,8 +334,8 @@ static wt_status write_comparison_table(const comparison_task *task, wt_table **
                             .ratio_df = none,
                             .calibration_share = none,
                             .spot_scatter = given ? task->job->spot_scatter : none};
-    if (!v.silent)
-        set_ratio_keys(task, v.twisted, interval, &keys);
+    if (!v.is_unreportable)
+        set_ratio_keys(task, v.depends_on_rate, interval, &keys);
     comparison_set_keys(&t, &keys);
     return table_end(&t, table);
 }
@@ -349,7 +352,7 @@ wt_status compare_tabulate(compare_pair *p, const wt_compare_job *job, const wt_
     wt_status status =
         both ? compare_all_rows(&task, err) : count_group_units(&task, task.rows, err);
     if (status == WT_OK && !both)
-        status = comparison_find_inputs(p, job, work, false, &task.known, err);
+        status = comparison_find_inputs(p, job, work, false, &task.inputs, err);
     if (status == WT_OK && both)
         status = compare_find_unstated_errors(p, job, work, &task.rows[0], &task.unstated, err);
     if (status == WT_OK)

@@ -130,7 +130,7 @@ static bool assess_empty_groups(const compare_pair *p, compare_verdict *v)
     const bool empty[2] = {p->data[0].group.n == 0, p->data[1].group.n == 0};
     if (!empty[0] && !empty[1])
         return false;
-    v->silent = true;
+    v->is_unreportable = true;
     SET_TEXT(v->differs, "cannot say: ");
     for (int g = 0; g < 2; g++) {
         const wt_group_data *d = &p->data[g];
@@ -163,26 +163,26 @@ static bool assess_conditions(const compare_pair *p, const comparison_inputs *k,
                               const compare_row *row, compare_verdict *v)
 {
     const wt_comparison *c = &row->c;
-    v->silent = true;
-    if (k->temperature_not_known) {
+    v->is_unreportable = true;
+    if (k->lacks_temperature_effect) {
         SET_TEXT(v->differs,
                  "cannot say: bulk and track were indented at different temperatures, and "
                  "nothing says how the modulus changes with temperature");
         SET_TEXT(v->settled_by, "a DMA of the rubber, the slope of ln E against temperature "
                                 "(temperature-slope), or curves at one temperature");
-    } else if (k->out_of_reach[0] != '\0') {
-        SET_TEXT(v->differs, "cannot say: the DMA does not reach %s", k->out_of_reach);
+    } else if (k->unreachable_temperature[0] != '\0') {
+        SET_TEXT(v->differs, "cannot say: the DMA does not reach %s", k->unreachable_temperature);
         SET_TEXT(v->settled_by, "DMA isotherms at that temperature, %s",
                  k->rates_by_dma ? "or curves of both at one rate"
                                  : "the slope of ln E against temperature (temperature-slope), or "
                                    "curves at one temperature");
-    } else if (c->unsettled == WT_UNDECIDED_NO_COMMON_RATE ||
-               c->unsettled == WT_UNDECIDED_SLOPES_DIFFER) {
-        report_disjoint_rates(p, c->unsettled == WT_UNDECIDED_SLOPES_DIFFER, v);
+    } else if (c->undecided_reason == WT_UNDECIDED_NO_COMMON_RATE ||
+               c->undecided_reason == WT_UNDECIDED_SLOPES_DIFFER) {
+        report_disjoint_rates(p, c->undecided_reason == WT_UNDECIDED_SLOPES_DIFFER, v);
     } else {
-        v->silent = false;
+        v->is_unreportable = false;
     }
-    return v->silent;
+    return v->is_unreportable;
 }
 
 /* Assesses missing information that leaves the ratio without an interval. */
@@ -191,7 +191,7 @@ static bool assess_missing_error(const compare_pair *p, const wt_compare_job *jo
                                  compare_verdict *v)
 {
     const wt_comparison *c = &row->c;
-    if (c->unsettled == WT_UNDECIDED_ONE_SPOT) {
+    if (c->undecided_reason == WT_UNDECIDED_ONE_SPOT) {
         const bool both = c->n_bulk < 2 && c->n_track < 2;
         const bool file = (c->n_bulk < 2 && !p->data[0].spots_are_named && !job->map_spots) ||
                           (c->n_track < 2 && !p->data[1].spots_are_named && !job->map_spots);
@@ -206,7 +206,7 @@ static bool assess_missing_error(const compare_pair *p, const wt_compare_job *jo
         advise_spots(job, c, v);
         return true;
     }
-    if (k->lever_not_stated) {
+    if (k->lacks_spring_constant_error) {
         SET_TEXT(v->differs,
                  "cannot say: bulk and track were indented with different cantilevers, and "
                  "the error of a spring constant is not stated");
@@ -228,7 +228,7 @@ static void assess_rate_dependence(const compare_row *rates, size_t n, double in
         softer = softer || rates[i].c.ratio < 1;
         stiffer = stiffer || rates[i].c.ratio > 1;
     }
-    v->twisted = true;
+    v->depends_on_rate = true;
     if (!softer && !stiffer) {
         SET_TEXT(v->differs,
                  "cannot say: the ratio depends on the rate (p %s), and at no single rate is a "
@@ -254,7 +254,7 @@ static void report_incomplete_interval(const wt_compare_job *job, const comparis
         "cannot say: the interval of the ratio has no room for a difference above %s, but it does "
         "not hold, for it is not known: %s",
         format_percent(job->margin).text, k->lacks);
-    if (k->loss_not_known)
+    if (k->lacks_loss_effect)
         SET_TEXT(
             v->settled_by, "%s",
             "curves whose samples have times, or a DMA of the rubber: either tells what the loss "
@@ -273,14 +273,14 @@ static void report_unstated_errors(const unstated_errors *unstated, const char *
 }
 
 compare_verdict compare_assess(const compare_pair *p, const wt_compare_job *job,
-                               const comparison_inputs *known, const unstated_errors *unstated,
+                               const comparison_inputs *inputs, const unstated_errors *unstated,
                                const compare_row *row, const compare_row *rates, size_t n_rates)
 {
     const wt_comparison *c = &row->c;
     const double margin = log1p(job->margin);
     compare_verdict v = {0};
-    if (assess_empty_groups(p, &v) || assess_conditions(p, known, row, &v) ||
-        assess_missing_error(p, job, known, row, &v))
+    if (assess_empty_groups(p, &v) || assess_conditions(p, inputs, row, &v) ||
+        assess_missing_error(p, job, inputs, row, &v))
         return v;
     if (c->interaction_p < level) {
         assess_rate_dependence(rates, n_rates, c->interaction_p, &v);
@@ -291,8 +291,8 @@ compare_verdict compare_assess(const compare_pair *p, const wt_compare_job *job,
     }
     const double low = log(c->ratio_low), high = log(c->ratio_high);
     const bool within = low > -margin && high < margin;
-    if (within && known->lacks[0] != '\0') {
-        report_incomplete_interval(job, known, &v);
+    if (within && inputs->lacks[0] != '\0') {
+        report_incomplete_interval(job, inputs, &v);
     } else if ((low > 0 || high < 0 || within) && unstated->plausible[0] != '\0') {
         report_unstated_errors(unstated,
                                high < 0  ? "seems softer"
@@ -311,16 +311,17 @@ compare_verdict compare_assess(const compare_pair *p, const wt_compare_job *job,
             v.differs,
             "cannot say: the interval of the ratio has room for no difference and for one above %s",
             format_percent(job->margin).text);
-        const double known_error = known->offset.standard_error;
+        const double known_error = inputs->offset.standard_error;
         if (c->offset_variance_share > 0.5 &&
-            known->shown * known->shown > 0.5 * known_error * known_error)
+            inputs->loss_and_curvature_error * inputs->loss_and_curvature_error >
+                0.5 * known_error * known_error)
             SET_TEXT(
                 v.settled_by, "%s",
                 "a DMA of the rubber, which tells the spectrum behind the loss, or curves with "
                 "straight baselines: what the curves lose and bend is most of the interval");
         else if (c->offset_variance_share > 0.5)
             SET_TEXT(v.settled_by, "%s",
-                     known->two_levers
+                     inputs->has_two_cantilevers
                          ? "one cantilever for both groups: its errors cancel in the ratio"
                          : "temperature and rate the same in both groups: their errors are most of "
                            "the interval");

@@ -56,8 +56,8 @@ ESTIMATE_SOURCE(shear, sliding.shear_stress)
 ESTIMATE_SOURCE(wear, layer.specific_wear_rate)
 ESTIMATE_SOURCE(energy, layer.critical_energy)
 ESTIMATE_SOURCE(observed, layer.observed_thickness)
-ESTIMATE_SOURCE(thickness, known.thickness)
-ESTIMATE_SOURCE(slope, known.ratio_slope)
+ESTIMATE_SOURCE(thickness, layer_observation.thickness)
+ESTIMATE_SOURCE(slope, layer_observation.ratio_slope)
 
 /* Stated error of the density, or scatter of a measured surface over sites, modes and law. */
 static bool is_stated_roughness(const case_variant *s)
@@ -68,20 +68,22 @@ static bool is_stated_roughness(const case_variant *s)
 static void fix_roughness(case_variant *s)
 {
     s->surface.c0.standard_error = 0;
-    s->surface.modes_error = s->surface.law_error = s->surface.place_parts = NULL;
+    s->surface.modes_error = s->surface.law_error = s->surface.position_errors = NULL;
     s->surface.n_sizes = 0;
 }
 
 /* Scatter of the spots and calibration are components of one variance. */
 static bool is_stated_ratio(const case_variant *s)
 {
-    return s->known.modulus_ratio.standard_error > 0 && s->known.calibration_share < 1;
+    return s->layer_observation.modulus_ratio.standard_error > 0 &&
+           s->layer_observation.calibration_share < 1;
 }
 
 static void fix_ratio(case_variant *s)
 {
-    s->known.modulus_ratio.standard_error *= sqrt(s->known.calibration_share);
-    s->known.calibration_share = 1;
+    s->layer_observation.modulus_ratio.standard_error *=
+        sqrt(s->layer_observation.calibration_share);
+    s->layer_observation.calibration_share = 1;
 }
 
 static bool is_stated_layer_rubber(const case_variant *s)
@@ -96,13 +98,14 @@ static void fix_layer_rubber(case_variant *s)
 
 static bool is_stated_calibration(const case_variant *s)
 {
-    return s->known.modulus_ratio.standard_error > 0;
+    return s->layer_observation.modulus_ratio.standard_error > 0;
 }
 
 static void fix_calibration(case_variant *s)
 {
-    s->known.modulus_ratio.standard_error *= sqrt(1 - s->known.calibration_share);
-    s->known.calibration_share = 0;
+    s->layer_observation.modulus_ratio.standard_error *=
+        sqrt(1 - s->layer_observation.calibration_share);
+    s->layer_observation.calibration_share = 0;
 }
 
 static bool has_softness(const case_variant *s)
@@ -112,12 +115,12 @@ static bool has_softness(const case_variant *s)
 
 static bool is_stated_softness(const case_variant *s)
 {
-    return s->has_softness && strain_softening_has_errors(&s->softness);
+    return s->has_softness && strain_softening_has_errors(&s->strain_softening);
 }
 
 static void fix_strain_softening(case_variant *s)
 {
-    s->softness.storage_error = s->softness.loss_error = NULL;
+    s->strain_softening.storage_error = s->strain_softening.loss_error = NULL;
 }
 
 static bool has_shear_stress(const case_variant *s)
@@ -156,15 +159,15 @@ static bool has_ratio(const case_variant *s)
 }
 
 /* False if the ratio does not depend on the frequency. */
-static bool has_slope(const case_variant *s)
+static bool has_ratio_slope(const case_variant *s)
 {
-    return has_ratio(s) && (s->known.ratio_slope.value != 0 || is_stated_slope(s));
+    return has_ratio(s) && (s->layer_observation.ratio_slope.value != 0 || is_stated_slope(s));
 }
 
 /* False if there is no calibration error or if it cancels. */
 static bool has_calibration(const case_variant *s)
 {
-    return has_ratio(s) && s->known.calibration_share > 0;
+    return has_ratio(s) && s->layer_observation.calibration_share > 0;
 }
 
 static const char calibration_remedy[] = "one cantilever for both groups, or spring constants, "
@@ -193,7 +196,7 @@ static const source sources[] = {
      fix_thickness},
     {"modulus ratio", "more spots: four times as many halve it", has_ratio, is_stated_ratio,
      fix_ratio},
-    {"slope of the modulus ratio", "more spots indented at rates further apart", has_slope,
+    {"slope of the modulus ratio", "more spots indented at rates further apart", has_ratio_slope,
      is_stated_slope, fix_slope},
     {"material of the layer", "a second DMA run of the layer's rubber", has_layer_rubber,
      is_stated_layer_rubber, fix_layer_rubber},
@@ -440,14 +443,14 @@ static void add_number_rows(const error_budget_run *b, case_quantity k, const ta
 
 /* Adds the modulus ratio itself. Its components are known without draws. The time is that of the
  * curves. */
-static void add_ratio_rows(const error_budget_run *b, table_writer *t)
+static void add_modulus_ratio_row(const error_budget_run *b, table_writer *t)
 {
     static const char number[] = "modulus ratio";
-    const wt_layer_observation *known = &b->case_variant.known;
-    const wt_estimate ratio = known->modulus_ratio;
-    const bool measured = known->modulus_ratio_df > 0;
+    const wt_layer_observation *observation = &b->case_variant.layer_observation;
+    const wt_estimate ratio = observation->modulus_ratio;
+    const bool measured = observation->modulus_ratio_df > 0;
     const stage_cost_sum curves = cost_sum_stages(b->work.cost, "indentation");
-    const double spots = 1 - known->calibration_share, error = ratio.standard_error;
+    const double spots = 1 - observation->calibration_share, error = ratio.standard_error;
     const char *own = measured ? "scatter of the spots" : "stated error";
     const char *remedy = measured ? "more spots: four times as many halve it" : "a measurement";
     char text[400];
@@ -455,18 +458,19 @@ static void add_ratio_rows(const error_budget_run *b, table_writer *t)
         return;
     add_budget_row(number, ratio.value,
                    (row){own, "measured", remedy, sqrt(spots) * error, spots, curves.seconds}, t);
-    if (known->calibration_share > 0)
+    if (observation->calibration_share > 0)
         add_budget_row(number, ratio.value,
                        (row){"calibration", "measured", calibration_remedy,
-                             sqrt(known->calibration_share) * error, known->calibration_share,
-                             curves.seconds},
+                             sqrt(observation->calibration_share) * error,
+                             observation->calibration_share, curves.seconds},
                        t);
     add_budget_row(number, ratio.value,
                    (row){"all together", "together", "", error, (double)NAN, curves.seconds}, t);
-    size_t n = (size_t)snprintf(text, sizeof text, "%.0f %% of its variance is the %s: %s.",
-                                100 * fmax(spots, known->calibration_share),
-                                spots >= known->calibration_share ? own : "calibration",
-                                spots >= known->calibration_share ? remedy : calibration_remedy);
+    size_t n =
+        (size_t)snprintf(text, sizeof text, "%.0f %% of its variance is the %s: %s.",
+                         100 * fmax(spots, observation->calibration_share),
+                         spots >= observation->calibration_share ? own : "calibration",
+                         spots >= observation->calibration_share ? remedy : calibration_remedy);
     if (curves.error >= 0) {
         add_budget_row(number, ratio.value,
                        (row){"arithmetic", "numerical", "", M_SQRT2 * curves.error * ratio.value,
@@ -480,7 +484,7 @@ static void add_ratio_rows(const error_budget_run *b, table_writer *t)
 }
 
 wt_status wt_error_budget_compute(const wt_sliding *sliding, const wt_layer_job *layer,
-                                  const wt_layer_observation *known, const wt_table *what_if,
+                                  const wt_layer_observation *observation, const wt_table *what_if,
                                   const wt_job *work, wt_table **table, wt_error *err)
 {
     if (work == NULL || table == NULL)
@@ -492,7 +496,7 @@ wt_status wt_error_budget_compute(const wt_sliding *sliding, const wt_layer_job 
     b.work.drawn = NULL; /* the stored draws are for another material */
     b.work.log = NULL;   /* warnings about these numbers exist already */
     b.work.progress = (wt_progress){0};
-    wt_status status = case_variant_create(sliding, layer, known, work, &b.case_variant, err);
+    wt_status status = case_variant_create(sliding, layer, observation, work, &b.case_variant, err);
     if (status == WT_OK && what_if != NULL)
         status = table_bind(what_if, &what_if_schema, "", &moved, err);
     if (status == WT_OK)
@@ -504,7 +508,7 @@ wt_status wt_error_budget_compute(const wt_sliding *sliding, const wt_layer_job 
         if (isfinite(b.values.number[k].value))
             add_number_rows(&b, (case_quantity)k, &moved, &t);
     if (b.case_variant.has_known)
-        add_ratio_rows(&b, &t);
+        add_modulus_ratio_row(&b, &t);
     if (b.lacks[0] != '\0')
         error_budget_set_text(&t, ERROR_BUDGET_KEY_LACKS, b.lacks);
     status = table_end(&t, table);

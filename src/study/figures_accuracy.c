@@ -322,18 +322,19 @@ const figure_description figures_accuracy[] = {
     {.name = "work_precision",
      .title = "Error against run time",
      .table = &work_precision_schema,
-     .nothing = "no numerical part was timed",
-     .words = "True error of each numerical part against its processor time as the setting is "
-              "swept (full marks), and what the method itself states (open marks, dashed): of the "
-              "arithmetic a bound, which should lie on or above, of noise and draws a standard "
-              "error, which the one error that is drawn is near; lower and further left is better. "
-              "The grey line is what the reference is good to: a smaller error stands there.",
+     .empty_reason = "no numerical part was timed",
+     .caption_text =
+         "True error of each numerical part against its processor time as the setting is "
+         "swept (full marks), and what the method itself states (open marks, dashed): of the "
+         "arithmetic a bound, which should lie on or above, of noise and draws a standard "
+         "error, which the one error that is drawn is near; lower and further left is better. "
+         "The grey line is what the reference is good to: a smaller error stands there.",
      .draw = draw_work_precision},
     {.name = "error_budget",
      .title = "Where the errors come from",
      .table = &error_budget_schema,
-     .nothing = "no error of these numbers is known",
-     .words =
+     .empty_reason = "no error of these numbers is known",
+     .caption_text =
          "What each source alone does to the numbers at the reference velocity, relative, on a "
          "logarithmic scale from 10^-5, with the elapsed time that it takes to know it: one "
          "standard error of what is measured or stated "
@@ -347,11 +348,12 @@ const figure_description figures_accuracy[] = {
      .in_depth = true,
      .title = "Time and error of each stage",
      .table = &cost_schema,
-     .nothing = "no stage was timed",
-     .words = "Processor time of each stage that ran (left), and the relative errors it leaves "
-              "(right): the standard error of its main number (full marks) and its numerical error "
-              "(open marks), of a fit what a further step would change. A tighter tolerance buys "
-              "nothing where the open mark lies left of the full one.",
+     .empty_reason = "no stage was timed",
+     .caption_text =
+         "Processor time of each stage that ran (left), and the relative errors it leaves "
+         "(right): the standard error of its main number (full marks) and its numerical error "
+         "(open marks), of a fit what a further step would change. A tighter tolerance buys "
+         "nothing where the open mark lies left of the full one.",
      .draw = draw_cost},
     {.name = NULL},
 };

@@ -274,9 +274,10 @@ const figure_description figures_collection[] = {
      .x = {COLLECTED_MODULUS_RATE, AXIS_LOG, "Indentation rate"},
      .y = {{COLLECTED_MODULUS_MODULUS, AXIS_LOG, "Modulus E"}},
      .curves = {CURVE(COLLECTED_MODULUS_MODULUS, OWN, .with_errors = true)},
-     .nothing = "no case has moduli at known indentation rates",
-     .words = "Geometric mean of the modulus at each indentation rate, a panel for each sample "
-              "(bars: 95 % intervals, with what is stated of levers and tips).",
+     .empty_reason = "no case has moduli at known indentation rates",
+     .caption_text =
+         "Geometric mean of the modulus at each indentation rate, a panel for each sample "
+         "(bars: 95 % intervals, with what is stated of levers and tips).",
      .draw = draw_moduli},
     {.name = "collected_friction",
      .title = "Friction of all samples against velocity",
@@ -286,9 +287,10 @@ const figure_description figures_collection[] = {
      .x = {COLLECTED_FRICTION_VELOCITY, AXIS_LOG, "Sliding velocity"},
      .y = {{COLLECTED_FRICTION_FRICTION, AXIS_NUMBER, "Friction coefficient μ"}},
      .curves = {CURVE(COLLECTED_FRICTION_FRICTION, OWN)},
-     .nothing = "no case has friction",
-     .words = "Friction coefficient of every sample without the modified layer, a panel for each "
-              "condition.",
+     .empty_reason = "no case has friction",
+     .caption_text =
+         "Friction coefficient of every sample without the modified layer, a panel for each "
+         "condition.",
      .draw = draw_friction,
      .caption = caption_collected_friction},
     {.name = "collected_force",
@@ -299,9 +301,10 @@ const figure_description figures_collection[] = {
      .x = {COLLECTED_FORCE_INDENTATION, AXIS_LINEAR, "Indentation"},
      .y = {{COLLECTED_FORCE_FORCE, AXIS_LINEAR, "Force"}},
      .curves = {CURVE(COLLECTED_FORCE_FORCE, OWN)},
-     .nothing = "no case has a force curve",
-     .words = "Loading part of the curve with the median modulus of each group, counted from its "
-              "contact point, a panel for each sample.",
+     .empty_reason = "no case has a force curve",
+     .caption_text =
+         "Loading part of the curve with the median modulus of each group, counted from its "
+         "contact point, a panel for each sample.",
      .draw = draw_force},
     {.name = "shared_constants",
      .title = "Constants that cases may have in common",
@@ -309,10 +312,11 @@ const figure_description figures_collection[] = {
      .x = {SHARED_MEMBERS_NUMBER, AXIS_NUMBER, "Case"},
      .y = {{SHARED_MEMBERS_RATIO, AXIS_LOG, "Over the shared value"}},
      .curves = {CURVE(SHARED_MEMBERS_RATIO, OWN, .with_errors = true)},
-     .nothing = "no two cases tell a constant",
-     .words = "Value of each case over the one that they share, a panel for each constant and what "
-              "it may be common to (bars: intervals that hold together in 95 %). Whether one value "
-              "suffices is in the table.",
+     .empty_reason = "no two cases tell a constant",
+     .caption_text =
+         "Value of each case over the one that they share, a panel for each constant and what "
+         "it may be common to (bars: intervals that hold together in 95 %). Whether one value "
+         "suffices is in the table.",
      .draw = draw_constants},
     {.name = NULL},
 };

@@ -187,8 +187,8 @@ const figure_description figures_constants[] = {
      .x = {IDENTIFICATION_ENERGY, AXIS_LOG, "Critical energy U_c"},
      .y = {{IDENTIFICATION_WEAR, AXIS_LOG, "Specific wear rate k"}},
      .curves = {CURVE(IDENTIFICATION_WEAR, LINE)},
-     .nothing = "no way to know both has an interval",
-     .words =
+     .empty_reason = "no way to know both has an interval",
+     .caption_text =
          "Regions that hold critical energy and specific wear rate together in 95 %, by what is "
          "known of the layer. What is long and narrow is known across, and hardly along.",
      .draw = draw_identification},
@@ -198,8 +198,8 @@ const figure_description figures_constants[] = {
      .x = {COLLECTED_CONSTANTS_ENERGY, AXIS_LOG, "Critical energy U_c"},
      .y = {{COLLECTED_CONSTANTS_WEAR, AXIS_LOG, "Specific wear rate k"}},
      .curves = {CURVE(COLLECTED_CONSTANTS_WEAR, LINE)},
-     .nothing = "no case knows both with an interval",
-     .words =
+     .empty_reason = "no case knows both with an interval",
+     .caption_text =
          "Regions that hold critical energy and specific wear rate of a case together in 95 %, a "
          "panel for each way to know them. Whether one pair is behind them is in the table.",
      .draw = draw_collected,

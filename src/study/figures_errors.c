@@ -192,12 +192,13 @@ const figure_description figures_what_if[] = {
     {.name = "what_if",
      .title = "What if a choice of the model were another",
      .table = &what_if_schema,
-     .beside = "friction layer",
-     .nothing = "no choice of the model moves a number",
-     .words = "How far each choice of the model moves the numbers at the reference velocity: a bar "
-              "goes from the lowest to the highest one, with everything else as used (dashed "
-              "line); below its name is what was tried. On top: the 95 % interval of the errors "
-              "that are measured or stated.",
+     .other_tables = "friction layer",
+     .empty_reason = "no choice of the model moves a number",
+     .caption_text =
+         "How far each choice of the model moves the numbers at the reference velocity: a bar "
+         "goes from the lowest to the highest one, with everything else as used (dashed "
+         "line); below its name is what was tried. On top: the 95 % interval of the errors "
+         "that are measured or stated.",
      .draw = draw_what_if},
     {.name = NULL},
 };

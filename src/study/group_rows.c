@@ -29,7 +29,7 @@ static int compare_spots(const named_spot *x, const named_spot *y)
     return x->x != y->x ? compare_numbers(x->x, y->x) : compare_numbers(x->y, y->y);
 }
 
-static int compare_names(const void *a, const void *b)
+static int compare_named_spots(const void *a, const void *b)
 {
     const named_spot *x = a, *y = b;
     int order = compare_spots(x, y);
@@ -41,7 +41,7 @@ static int compare_names(const void *a, const void *b)
 static void number_spots(named_spot *names, size_t n, long *spot)
 {
     long next = 0;
-    qsort(names, n, sizeof *names, compare_names);
+    qsort(names, n, sizeof *names, compare_named_spots);
     for (size_t i = 0, first = 0; i < n; i++) {
         if (compare_spots(&names[i], &names[first]) != 0)
             first = i;

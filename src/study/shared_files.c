@@ -10,9 +10,10 @@
 
 static file_match compare_input_rows(const table_view *a, size_t i, const table_view *b, size_t k)
 {
-    const char *of_a = inputs_text(a, i, INPUTS_SHA256), *of_b = inputs_text(b, k, INPUTS_SHA256);
-    if (of_a[0] != '\0' && of_b[0] != '\0')
-        return strcmp(of_a, of_b) == 0 ? FILES_IDENTICAL : FILES_DIFFERENT;
+    const char *inputs_a = inputs_text(a, i, INPUTS_SHA256),
+               *inputs_b = inputs_text(b, k, INPUTS_SHA256);
+    if (inputs_a[0] != '\0' && inputs_b[0] != '\0')
+        return strcmp(inputs_a, inputs_b) == 0 ? FILES_IDENTICAL : FILES_DIFFERENT;
     if (inputs_get(a, i, INPUTS_BYTES) != inputs_get(b, k, INPUTS_BYTES))
         return FILES_DIFFERENT;
     return strcmp(inputs_text(a, i, INPUTS_PATH), inputs_text(b, k, INPUTS_PATH)) == 0
@@ -27,14 +28,14 @@ static bool has_role(const table_view *inputs, size_t row, const char *role)
 
 static file_match compare_role(const table_view *a, const table_view *b, const char *role)
 {
-    file_match most = FILES_DIFFERENT;
+    file_match closest = FILES_DIFFERENT;
     for (size_t i = 0; i < a->n_rows; i++)
         for (size_t k = 0; k < b->n_rows && has_role(a, i, role); k++) {
             const file_match found =
                 has_role(b, k, role) ? compare_input_rows(a, i, b, k) : FILES_DIFFERENT;
-            most = found > most ? found : most;
+            closest = found > closest ? found : closest;
         }
-    return most;
+    return closest;
 }
 
 static bool bind_inputs(const collected_case *c, table_view *inputs)
@@ -47,15 +48,15 @@ static bool bind_inputs(const collected_case *c, table_view *inputs)
 file_match compare_input_files(const collected_case *a, const collected_case *b,
                                const char *const *roles, size_t n_roles)
 {
-    table_view of_a, of_b;
-    file_match most = FILES_DIFFERENT;
-    if (!bind_inputs(a, &of_a) || !bind_inputs(b, &of_b))
+    table_view inputs_a, inputs_b;
+    file_match closest = FILES_DIFFERENT;
+    if (!bind_inputs(a, &inputs_a) || !bind_inputs(b, &inputs_b))
         return FILES_SAME_SIZE;
     for (size_t i = 0; i < n_roles; i++) {
-        const file_match found = compare_role(&of_a, &of_b, roles[i]);
-        most = found > most ? found : most;
+        const file_match found = compare_role(&inputs_a, &inputs_b, roles[i]);
+        closest = found > closest ? found : closest;
     }
-    return most;
+    return closest;
 }
 
 /* Prefix of the sources of each category (NULL if the table has none), and the roles of their
@@ -84,12 +85,13 @@ double shared_covariance(const case_value *a, const case_value *b)
 {
     double sum = 0;
     for (input_category i = 0; i < INPUT_CATEGORIES; i++) {
-        const double most = sqrt(a->by_files[i] * b->by_files[i]);
+        const double closest = sqrt(a->by_files[i] * b->by_files[i]);
         size_t n = 0;
         while (n < COUNT_OF(sources[i].roles) && sources[i].roles[n] != NULL)
             n++;
-        if (most > 0 && compare_input_files(a->of, b->of, sources[i].roles, n) != FILES_DIFFERENT)
-            sum += most;
+        if (closest > 0 &&
+            compare_input_files(a->of, b->of, sources[i].roles, n) != FILES_DIFFERENT)
+            sum += closest;
     }
     return sum;
 }

@@ -193,7 +193,7 @@ static void set_track_layer_keys(table_writer *t, const track_layer_result *f)
                              .thickness = thickness,
                              .low = finite_or_none(p->thickness.low),
                              .high = finite_or_none(p->thickness.high),
-                             .least = p->least,
+                             .least = p->smallest_thickness,
                              .layer_ratio = (double)NAN,
                              .other = finite_or_none(f->other.thickness.value),
                              .other_low = finite_or_none(f->other.thickness.low),
@@ -202,7 +202,7 @@ static void set_track_layer_keys(table_writer *t, const track_layer_result *f)
                              .both_high = finite_or_none(f->agreement.high),
                              .over_low = finite_or_none(f->agreement.ratio_low),
                              .over_high = finite_or_none(f->agreement.ratio_high)};
-    if (p->says == WT_LAYER_BOUND_BOTH) /* at depth 0 it is the modulus of the layer */
+    if (p->bound_kind == WT_LAYER_BOUND_BOTH) /* at depth 0 it is the modulus of the layer */
         keys.layer_ratio = wt_layer_modulus(p, f->ratio, thickness, 0);
     track_layer_set_keys(t, &keys);
 }
@@ -246,7 +246,7 @@ static wt_status make_track_layer_table(const depth_group group[2], const track_
         add_measured_depth_rows(&t, compare_group_name[g], &group[g].depth);
     if (f->profile.n_steps > 1) {
         const double bulk = group[1].depth.modulus[WT_DEPTHS - 1].value / f->ratio;
-        const wt_layer_bound_kind says = f->profile.says;
+        const wt_layer_bound_kind says = f->profile.bound_kind;
         if (says == WT_LAYER_BOUND_BOTH)
             add_layer_rows(&t, "layer of the curves", f, bulk, f->profile.thickness.value);
         if (says == WT_LAYER_BOUND_LOWER || says == WT_LAYER_BOUND_UPPER)
@@ -310,7 +310,7 @@ wt_status wt_track_layer_compute(const wt_compare_job *job, const wt_table *laye
     const wt_table *const tables[2] = {job->bulk, job->track};
     depth_group group[2] = {{.n = 0}, {.n = 0}};
     track_layer_result f = {.profile.thickness = {none, none, none, none},
-                            .profile.least = none,
+                            .profile.smallest_thickness = none,
                             .agreement = {none, none, none, none, false, false},
                             .ratio = none,
                             .ratio_error = none};

@@ -112,12 +112,12 @@ static void write_remedy(const track_layer_result *f, char *text, size_t size)
         return;
     if (f->obstacle.reason != NULL)
         clocale_print(text, size, "%s", f->obstacle.settled_by);
-    else if (p->says == WT_LAYER_BOUND_UNKNOWN)
+    else if (p->bound_kind == WT_LAYER_BOUND_UNKNOWN)
         clocale_print(
             text, size,
             "12 curves without adhesion in the bulk and in the track, with one tip, lever "
             "and depth, better on three spots or more each");
-    else if (p->says == WT_LAYER_BOUND_OUTSIDE_LAW)
+    else if (p->bound_kind == WT_LAYER_BOUND_OUTSIDE_LAW)
         clocale_print(text, size,
                       "a section across the track under a microscope: of such moduli the curves "
                       "do not tell a thickness");
@@ -127,20 +127,20 @@ static void write_remedy(const track_layer_result *f, char *text, size_t size)
         clocale_print(text, size,
                       "more spots in bulk and track, until the ratio of their moduli is "
                       "told from 1");
-    else if (p->says == WT_LAYER_BOUND_EMPTY)
+    else if (p->bound_kind == WT_LAYER_BOUND_EMPTY)
         clocale_print(text, size,
                       "curves at a second rate or with a second tip, in bulk and track: "
                       "what is not of the layer changes with them");
     else if (other && may_lack_error(f))
         clocale_print(text, size, "a stated error of %s", f->other.lacks);
-    else if (p->says == WT_LAYER_BOUND_LOWER && other)
+    else if (p->bound_kind == WT_LAYER_BOUND_LOWER && other)
         write_contact_advice(f, p->contact_radius * f->other.thickness.value / p->thickness.low,
                              text, size);
-    else if (p->says == WT_LAYER_BOUND_LOWER)
+    else if (p->bound_kind == WT_LAYER_BOUND_LOWER)
         clocale_print(text, size,
                       "deeper indentations in bulk and track, or a wider tip: the bound "
                       "goes with the contact radius");
-    else if (p->says == WT_LAYER_BOUND_UPPER)
+    else if (p->bound_kind == WT_LAYER_BOUND_UPPER)
         clocale_print(text, size, "shallower indentations in bulk and track, or a sharper tip");
     else
         clocale_print(text, size, "more curves on more spots in bulk and track");
@@ -152,42 +152,42 @@ static void write_allowed_thickness(const track_layer_result *f, char *text, siz
 {
     const wt_layer_profile *p = &f->profile;
     const metres_text low = format_length(p->thickness.low),
-                      high = format_length(p->thickness.high), least = format_length(p->least),
-                      depth = format_length(p->depth);
+                      high = format_length(p->thickness.high),
+                      least = format_length(p->smallest_thickness), depth = format_length(p->depth);
     if (f->obstacle.reason != NULL)
         clocale_print(text, size, "cannot say: %s", f->obstacle.reason);
-    else if (p->says == WT_LAYER_BOUND_OUTSIDE_LAW)
+    else if (p->bound_kind == WT_LAYER_BOUND_OUTSIDE_LAW)
         clocale_print(text, size,
                       "cannot say: the law of a layer is known for moduli of %g to %g times that "
                       "of the bulk, the modulus of the track is %.3g of it",
                       THIN_LAYER_MIN_RATIO, THIN_LAYER_MAX_RATIO, f->ratio);
-    else if (p->says == WT_LAYER_BOUND_UNKNOWN && p->n[0] >= WT_DEPTH_MIN_CURVES &&
+    else if (p->bound_kind == WT_LAYER_BOUND_UNKNOWN && p->n[0] >= WT_DEPTH_MIN_CURVES &&
              p->n[1] >= WT_DEPTH_MIN_CURVES)
         clocale_print(text, size,
                       "cannot say: no change with depth can be fitted to what the contact law "
                       "leaves of the curves of bulk and track");
-    else if (p->says == WT_LAYER_BOUND_UNKNOWN)
+    else if (p->bound_kind == WT_LAYER_BOUND_UNKNOWN)
         clocale_print(text, size,
                       "cannot say: %zu curves of the bulk and %zu of the track tell of depth, %d "
                       "of each are needed, without adhesion or loss whose effect is not known",
                       p->n[0], p->n[1], WT_DEPTH_MIN_CURVES);
-    else if (p->says == WT_LAYER_BOUND_ANY)
+    else if (p->bound_kind == WT_LAYER_BOUND_ANY)
         clocale_print(text, size, "every thickness that was tried, from %s on: %s", least.text,
                       is_ratio_inconclusive(f)
                           ? "the moduli of track and bulk are not told apart"
                           : "the curves do not tell how the modulus changes with depth");
-    else if (p->says == WT_LAYER_BOUND_LOWER)
+    else if (p->bound_kind == WT_LAYER_BOUND_LOWER)
         clocale_print(text, size,
                       "at least %s (95 %%): down to %s the modulus of the track changes no more "
                       "than that of the bulk, as it would if the bulk were nearer",
                       low.text, depth.text);
-    else if (p->says == WT_LAYER_BOUND_UPPER)
+    else if (p->bound_kind == WT_LAYER_BOUND_UPPER)
         clocale_print(text, size,
                       "less than %s (95 %%): down to %s the modulus of the track changes more than "
                       "with a thicker layer; how thin the law of a layer, which ends at %s, does "
                       "not tell",
                       high.text, depth.text, least.text);
-    else if (p->says == WT_LAYER_BOUND_EMPTY)
+    else if (p->bound_kind == WT_LAYER_BOUND_EMPTY)
         clocale_print(text, size,
                       "none: down to %s the modulus of the track changes as no layer on this bulk "
                       "would make it",
@@ -214,10 +214,10 @@ static void write_agreement(const track_layer_result *f, char *text, size_t size
     }
     const metres_text here = format_length(o->thickness.value);
     const thickness_range_text both = format_thickness_range(f->agreement.low, f->agreement.high);
-    if (f->obstacle.reason != NULL || p->says == WT_LAYER_BOUND_UNKNOWN ||
-        p->says == WT_LAYER_BOUND_OUTSIDE_LAW)
+    if (f->obstacle.reason != NULL || p->bound_kind == WT_LAYER_BOUND_UNKNOWN ||
+        p->bound_kind == WT_LAYER_BOUND_OUTSIDE_LAW)
         clocale_print(text, size, "cannot say: the curves do not tell");
-    else if (p->says == WT_LAYER_BOUND_EMPTY)
+    else if (p->bound_kind == WT_LAYER_BOUND_EMPTY)
         clocale_print(text, size, "cannot say: something else than a layer changes the curves");
     else if (has_no_error(f))
         clocale_print(text, size, "cannot say: the error of %s by %s is not known", here.text,

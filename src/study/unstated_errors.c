@@ -168,10 +168,10 @@ static wt_status add_tip_cause(const compare_pair *p, const wt_compare_job *job,
     if (d->tip == NULL || !(at.depth > 0) || !tip_from_description(d->tip, &tip) ||
         !(tip.radius < worn_radius))
         return WT_OK;
-    status =
-        required_radius(&tip, &at, within ? u->least : fabs(u->log_ratio), &needed, &misfit, err);
+    status = required_radius(&tip, &at, within ? u->smallest_to_explain : fabs(u->log_ratio),
+                             &needed, &misfit, err);
     if (status == WT_OK)
-        status = required_radius(&tip, &at, u->least, &least, &ignored, err);
+        status = required_radius(&tip, &at, u->smallest_to_explain, &least, &ignored, err);
     if (status != WT_OK || isinf(needed))
         return status;
     const double largest = largest_radius(d, job, &tip);
@@ -268,8 +268,8 @@ static wt_status add_pull_cause(const compare_pair *p, bool within, unstated_err
         return WT_OK;
     const wt_tip *const known = d->tip != NULL && tip_from_description(d->tip, &tip) ? &tip : NULL;
     const double needed = required_pull(known, at.depth, at.force,
-                                        within ? u->least : fabs(u->log_ratio)),
-                 least = required_pull(known, at.depth, at.force, u->least);
+                                        within ? u->smallest_to_explain : fabs(u->log_ratio)),
+                 least = required_pull(known, at.depth, at.force, u->smallest_to_explain);
     char words[200], is[32], would[32];
     if (isinf(needed))
         return WT_OK;
@@ -312,7 +312,7 @@ static wt_status add_temperature_cause(const compare_pair *p, const wt_compare_j
         status = compare_temperature_slope(p, job, work, &slope, err);
     if (status != WT_OK || !(fabs(slope) > 0))
         return status;
-    const double needed = (within ? u->least : u->log_ratio) / slope,
+    const double needed = (within ? u->smallest_to_explain : u->log_ratio) / slope,
                  effect = room_span * fabs(slope);
     char words[200], by[80] = "by the DMA";
     if (!by_dma)
@@ -325,7 +325,7 @@ static wt_status add_temperature_cause(const compare_pair *p, const wt_compare_j
                   within ? ", which would hide the margin" : "");
     /* A hidden difference must be as large as the margin and of the other sign. This is plausible
      * only with a known slope. */
-    const bool plausible = (by_dma || !within) && u->least <= effect;
+    const bool plausible = (by_dma || !within) && u->smallest_to_explain <= effect;
     add_cause(u, plausible, (cause_effect){effect, effect}, words,
               by_dma ? "the temperature of the curves (indentation-temperature, track-temperature)"
                      : "the temperature of the curves, one for both if it was "
@@ -345,7 +345,7 @@ wt_status compare_find_unstated_errors(const compare_pair *p, const wt_compare_j
     const bool within = !(low > 0) && !(high < 0);
     /* Smallest effect that changes the verdict. A yes needs the nearest limit of the interval at 1;
      * a no needs a difference as large as the margin. */
-    u->least = low > 0 ? low : high < 0 ? -high : log1p(job->margin);
+    u->smallest_to_explain = low > 0 ? low : high < 0 ? -high : log1p(job->margin);
     wt_status status = add_tip_cause(p, job, within, u, err);
     if (status == WT_OK)
         status = add_pull_cause(p, within, u, err);

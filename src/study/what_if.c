@@ -46,12 +46,12 @@ static bool always_applies(const case_variant *s)
 }
 
 /* Range of wavenumbers of the measured densities. */
-static double first_known(const case_variant *s)
+static double first_measured_wavenumber(const case_variant *s)
 {
     return s->surface.self_affine ? 0 : s->surface.spectrum.wavenumber[0];
 }
 
-static double last_known(const case_variant *s)
+static double last_measured_wavenumber(const case_variant *s)
 {
     const wt_power_spectrum *p = &s->surface.spectrum;
     return s->surface.self_affine ? (double)INFINITY : p->wavenumber[p->n - 1];
@@ -75,20 +75,22 @@ static void move_q1(const case_variant *used, double factor, case_variant *s)
 {
     const double q1 = used->surface.q1,
                  lowest = fmin(fmax(2 * used->surface.q0, roll_off_or(used, 0)), q1),
-                 highest = fmax(fmin(2 * M_PI / SHORTEST_WAVELENGTH, last_known(used)), q1);
+                 highest =
+                     fmax(fmin(2 * M_PI / SHORTEST_WAVELENGTH, last_measured_wavenumber(used)), q1);
     s->surface.q1 = limit_value(factor * q1, lowest, highest);
 }
 
 static bool is_measured_surface(const case_variant *s)
 {
-    return s->surface.reliable_to > 0;
+    return s->surface.measured_limit > 0;
 }
 
 /* Moves q1 to the end of the measured spectrum. A law beyond it would need another parameter. */
 static void move_measured_cutoff(const case_variant *used, double where_steep, case_variant *s)
 {
-    const double end = where_steep > 0 ? used->surface.steep : used->surface.reliable_to;
-    const bool known = end > 2 * used->surface.q0 && end < last_known(used);
+    const double end =
+        where_steep > 0 ? used->surface.steep_wavenumber : used->surface.measured_limit;
+    const bool known = end > 2 * used->surface.q0 && end < last_measured_wavenumber(used);
     s->surface.q1 = known ? end : used->surface.q1;
 }
 
@@ -108,7 +110,7 @@ static void move_q0(const case_variant *used, double factor, case_variant *s)
     const double q0 = used->surface.q0,
                  highest =
                      fmax(fmin(used->surface.q1 / 2, roll_off_or(used, (double)INFINITY)), q0);
-    s->surface.q0 = limit_value(factor * q0, fmin(first_known(used), q0), highest);
+    s->surface.q0 = limit_value(factor * q0, fmin(first_measured_wavenumber(used), q0), highest);
 }
 
 static double value_gamma(const case_variant *s)
@@ -244,12 +246,13 @@ static bool has_layer_shear(const case_variant *s)
 
 static void name_shear(const case_variant *s, char text[WORDS])
 {
-    snprintf(text, WORDS, "%s", s->known.bulk_shear ? "that of the bulk" : "scaled by the ratio");
+    snprintf(text, WORDS, "%s",
+             s->layer_observation.bulk_shear ? "that of the bulk" : "scaled by the ratio");
 }
 
 static void move_shear(const case_variant *used, double other, case_variant *s)
 {
-    s->known.bulk_shear = used->known.bulk_shear != (other > 0);
+    s->layer_observation.bulk_shear = used->layer_observation.bulk_shear != (other > 0);
 }
 
 static const model_choice choices[] = {
@@ -487,8 +490,8 @@ static void set_share_beyond(const what_if_run *w, table_writer *t)
     const wt_surface *const s = &w->outcomes[0].case_variant.surface;
     for (size_t i = 1; i < w->n; i++) {
         const outcome *const o = &w->outcomes[i];
-        if (s->q1 > s->reliable_to && o->model_choice->move == move_measured_cutoff &&
-            o->case_variant.surface.q1 <= s->reliable_to)
+        if (s->q1 > s->measured_limit && o->model_choice->move == move_measured_cutoff &&
+            o->case_variant.surface.q1 <= s->measured_limit)
             what_if_set_value(t, WHAT_IF_KEY_SHARE_BEYOND,
                               1 - o->number[CASE_QUANTITY_HYSTERESIS] /
                                       w->outcomes[0].number[CASE_QUANTITY_HYSTERESIS],
@@ -547,13 +550,13 @@ static wt_status cover_wavenumbers(const what_if_run *w, const case_variant *use
 }
 
 wt_status wt_model_sensitivity_compute(const wt_sliding *sliding, const wt_layer_job *layer,
-                                       const wt_layer_observation *known, const wt_job *work,
+                                       const wt_layer_observation *observation, const wt_job *work,
                                        wt_table **table, wt_error *err)
 {
     if (work == NULL || table == NULL)
         return wt_fail(err, WT_E_ARG, "no what-if job");
     case_variant used;
-    wt_status status = case_variant_create(sliding, layer, known, work, &used, err);
+    wt_status status = case_variant_create(sliding, layer, observation, work, &used, err);
     if (status != WT_OK)
         return status;
     what_if_run w = {.work = *work};

@@ -8,7 +8,7 @@
 /* Appends the contribution of unresolved waves if the spectrum was extrapolated to them. */
 static void append_extrapolation(text_builder *t, const answer_context *context)
 {
-    const table_view *const what_if = &context->found.what_if;
+    const table_view *const what_if = &context->values.what_if;
     const double end = power_spectrum_value(&context->power_spectrum, POWER_SPECTRUM_KEY_TO).value;
     const double share = what_if->table != NULL
                              ? what_if_value(what_if, WHAT_IF_KEY_SHARE_BEYOND).value

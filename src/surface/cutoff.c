@@ -73,8 +73,8 @@ static wt_status knots_to_roughness(const surface_knots *k, size_t n, wt_roughne
 
 /* Finds the wavenumber at which the rms slope reaches `slope`, in the measured range or along
  * the law. NaN if it is not reached. */
-static wt_status find_slope_end(const surface_result *w, double slope, double *end, bool *by_law,
-                                wt_error *err)
+static wt_status find_slope_limit(const surface_result *w, double slope, double *end, bool *by_law,
+                                  wt_error *err)
 {
     const double last = w->spectrum.bins[w->spectrum.n - 1].wavenumber;
     wt_status status = WT_OK;
@@ -143,8 +143,8 @@ static wt_status perturbed_statistic(surface_result *w, size_t from, size_t to, 
 
 /* Adds the variance of the parameter from place to place. The parameter is the root of an
  * integral over C. With several scan sizes each contributes separately. */
-static wt_status add_place_variance(surface_result *w, roughness_statistic *statistic, double value,
-                                    double *square, wt_error *err)
+static wt_status add_position_variance(surface_result *w, roughness_statistic *statistic,
+                                       double value, double *square, wt_error *err)
 {
     const size_t n = w->spectrum.n_sizes;
     double perturbed = 0;
@@ -171,7 +171,7 @@ static wt_status estimate_statistic(surface_result *w, roughness_statistic *stat
     wt_status status = compute_statistic(k, statistic, &value, err);
     double square = 0;
     if (status == WT_OK)
-        status = add_place_variance(w, statistic, value, &square, err);
+        status = add_position_variance(w, statistic, value, &square, err);
     for (size_t i = 0; status == WT_OK && i < k->n_measured; i++) {
         status = perturbed_statistic(w, i, i + 1, NO_SIZE, statistic, &perturbed, err);
         square += (perturbed - value) * (perturbed - value);
@@ -190,15 +190,15 @@ static wt_status estimate_statistic(surface_result *w, roughness_statistic *stat
 
 /* ---- end of the spectrum --------------------------------------------------------------------- */
 
-static wt_status find_spectrum_end(const wt_topography_job *job, const surface_result *w,
-                                   double *end, wt_error *err)
+static wt_status find_spectrum_limit(const wt_topography_job *job, const surface_result *w,
+                                     double *end, wt_error *err)
 {
     const double last = w->spectrum.bins[w->spectrum.n - 1].wavenumber;
     bool by_law = false;
     wt_status status = WT_OK;
     *end = isnan(job->end) ? last : job->end;
     if (!isnan(job->end_slope))
-        status = find_slope_end(w, job->end_slope, end, &by_law, err);
+        status = find_slope_limit(w, job->end_slope, end, &by_law, err);
     if (status == WT_OK && isnan(*end)) {
         status = range_error("end-slope", job->end_slope, "a slope that the surface reaches", err);
         wt_error_advice(err, "give --end, or leave both out: the spectrum then ends with what is "
@@ -227,13 +227,13 @@ static void warn_extrapolation(const wt_job *work, const surface_result *w, doub
                    wavelength);
 }
 
-wt_status surface_find_end(const wt_topography_job *job, const wt_job *work, surface_result *w,
-                           wt_error *err)
+wt_status surface_find_cutoff(const wt_topography_job *job, const wt_job *work, surface_result *w,
+                              wt_error *err)
 {
     double end = 0;
-    wt_status status = find_slope_end(w, surface_steep_slope, &w->steep, &w->steep_by_law, err);
+    wt_status status = find_slope_limit(w, surface_steep_slope, &w->steep, &w->steep_by_law, err);
     if (status == WT_OK)
-        status = find_spectrum_end(job, w, &end, err);
+        status = find_spectrum_limit(job, w, &end, err);
     if (status == WT_OK)
         status = build_knots(w, end, &w->knots, err);
     if (status == WT_OK)

@@ -262,9 +262,9 @@ const figure_description figures_surface[] = {
     {.name = "height_map",
      .title = "Heights of a measured surface",
      .table = &height_map_schema,
-     .beside = "surfaces",
-     .nothing = "no scan has a height",
-     .words =
+     .other_tables = "surfaces",
+     .empty_reason = "no scan has a height",
+     .caption_text =
          "Heights of the scans of a surface less their form, every so many points, each on its "
          "own scale of length and colour; white: missing. Its data are heights to a thousandth of "
          "the largest one, a row for a row of the map.",
@@ -272,10 +272,11 @@ const figure_description figures_surface[] = {
     {.name = "height_profile",
      .title = "Profiles of a measured surface",
      .table = &height_profile_schema,
-     .beside = "surfaces",
-     .nothing = "no scan has a height",
-     .words = "Heights of the scans of a surface less their form along x; of a map the line in its "
-              "middle.",
+     .other_tables = "surfaces",
+     .empty_reason = "no scan has a height",
+     .caption_text =
+         "Heights of the scans of a surface less their form along x; of a map the line in its "
+         "middle.",
      .draw = draw_profiles},
     {.name = "measured_spectrum",
      .title = "Power spectrum of a measured surface",
@@ -286,9 +287,10 @@ const figure_description figures_surface[] = {
      .curves = {CURVE(POWER_SPECTRUM_DENSITY, BARS, .style = 1, .title = "measured",
                       .with_errors = true),
                 CURVE(POWER_SPECTRUM_LAW, FIT, .style = 11, .title = "self-affine law")},
-     .nothing = "no density above zero",
-     .words = "Power spectrum of a surface, means over bins with their 95 % intervals, within the "
-              "range where scans are reliable.",
+     .empty_reason = "no density above zero",
+     .caption_text =
+         "Power spectrum of a surface, means over bins with their 95 % intervals, within the "
+         "range where scans are reliable.",
      .caption = caption_measured},
     {.name = "angular_spectrum",
      .title = "Angular spectrum of a measured surface",
@@ -299,10 +301,10 @@ const figure_description figures_surface[] = {
      .curves = {CURVE(ANGULAR_SPECTRUM_RATIO, BARS, .style = 1, .title = "measured",
                       .with_errors = true),
                 CURVE(ANGULAR_SPECTRUM_TERMS, FIT, .style = 11, .title = "two terms")},
-     .nothing = "no direction has a density",
-     .words = "Power spectrum of a surface by the direction of its waves over that of all "
-              "directions, means over the range where scans are reliable with their 95 % "
-              "intervals, and its terms cos 2 phi and cos 4 phi.",
+     .empty_reason = "no direction has a density",
+     .caption_text = "Power spectrum of a surface by the direction of its waves over that of all "
+                     "directions, means over the range where scans are reliable with their 95 % "
+                     "intervals, and its terms cos 2 phi and cos 4 phi.",
      .caption = caption_angular},
     {.name = NULL},
 };

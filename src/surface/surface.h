@@ -68,8 +68,8 @@ const wt_surface_spectrum *surface_directional_spectrum(const surface_result *wh
 void surface_describe_profiles(const surface_result *w, char *to, size_t size);
 bool surface_profiles_disagree(const surface_result *w);
 /* Sets the knots up to the end that the job requests, and the roughness parameters. */
-wt_status surface_find_end(const wt_topography_job *job, const wt_job *work, surface_result *whole,
-                           wt_error *err) WT_NODISCARD;
+wt_status surface_find_cutoff(const wt_topography_job *job, const wt_job *work,
+                              surface_result *whole, wt_error *err) WT_NODISCARD;
 /* Returns the correlation of the scatter of a bin with that of the next. A window correlates
  * modes of neighbouring bins. */
 double surface_next_bin_correlation(const wt_surface_spectrum *s, size_t bin);
@@ -79,7 +79,7 @@ double surface_law_error(const surface_result *w, double wavenumber);
 /* Standard error of ln C of a knot due to the places of one scan size, or of all sizes. The law
  * has the error of the last bin. NaN if unknown or with one size. */
 double surface_knot_size_error(const wt_surface_spectrum *s, size_t knot, size_t size);
-double surface_knot_place_error(const wt_surface_spectrum *s, size_t knot);
+double surface_knot_position_error(const wt_surface_spectrum *s, size_t knot);
 /* Returns true if the anisotropy is significant. */
 bool surface_is_anisotropic(const wt_surface_anisotropy *directions);
 /* Rms slope of the usual cutoff, above which rubber does not follow a surface. */

@@ -46,7 +46,8 @@ static const wt_spectrum_bin *reliable_bin(const wt_surface_spectrum *s, int ind
 /* Returns the place error of ln C of one kind of scan. If it is unknown, the place scatter of
  * the other kind is used, otherwise NaN. The difference between the kinds is the question, not
  * scatter. */
-static double place_standard_error(const wt_surface_spectrum *s, const wt_surface_spectrum *others)
+static double position_standard_error(const wt_surface_spectrum *s,
+                                      const wt_surface_spectrum *others)
 {
     return isnan(s->place_error) ? others->place_reach : s->place_error;
 }
@@ -67,8 +68,8 @@ static wt_interval profile_map_ratio(const wt_surface_spectrum *profiles,
     }
     if (!(weights > 0))
         return (wt_interval){(double)NAN, (double)NAN, (double)NAN, (double)NAN};
-    const double places = hypot(place_standard_error(maps, profiles),
-                                place_standard_error(profiles, maps)),
+    const double places = hypot(position_standard_error(maps, profiles),
+                                position_standard_error(profiles, maps)),
                  error = hypot(1 / sqrt(weights), places), ratio = exp(sum / weights);
     return (wt_interval){ratio, ratio * error, ratio * exp(-NORMAL_95 * error),
                          ratio * exp(NORMAL_95 * error)};

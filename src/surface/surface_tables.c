@@ -16,7 +16,7 @@ static const double misfit_p_threshold = 0.01;
 
 bool surface_is_anisotropic(const wt_surface_anisotropy *directions)
 {
-    return directions->chance < misfit_p_threshold;
+    return directions->p_value < misfit_p_threshold;
 }
 
 TABLE_ROW(power_spectrum, POWER_SPECTRUM, double wavenumber; wt_interval density;
@@ -53,20 +53,21 @@ static size_t knot_bin(const wt_surface_spectrum *s, size_t knot)
 }
 
 /* Returns the place error of a single scan; NaN if unknown or with one size. */
-static double single_place_error(const wt_surface_spectrum *s)
+static double single_position_error(const wt_surface_spectrum *s)
 {
     return s->place_error > 0 && s->n_sizes > 1 ? s->place_reach : (double)NAN;
 }
 
 double surface_knot_size_error(const wt_surface_spectrum *s, size_t knot, size_t size)
 {
-    return s->n_sizes > 1 ? single_place_error(s) * surface_place_weight(s, knot_bin(s, knot), size)
-                          : (double)NAN;
+    return s->n_sizes > 1
+               ? single_position_error(s) * surface_position_weight(s, knot_bin(s, knot), size)
+               : (double)NAN;
 }
 
-double surface_knot_place_error(const wt_surface_spectrum *s, size_t knot)
+double surface_knot_position_error(const wt_surface_spectrum *s, size_t knot)
 {
-    return single_place_error(s) * surface_total_place_weight(s, knot_bin(s, knot));
+    return single_position_error(s) * surface_total_position_weight(s, knot_bin(s, knot));
 }
 
 /* A bin is correlated equally with the next and the previous bin. */
@@ -83,7 +84,7 @@ double surface_law_error(const surface_result *w, double wavenumber)
 {
     const double alone = wt_self_affine_log_error(&w->law, wavenumber, false),
                  all = wt_self_affine_log_error(&w->law, wavenumber, true),
-                 last = surface_knot_place_error(&w->spectrum, w->spectrum.n),
+                 last = surface_knot_position_error(&w->spectrum, w->spectrum.n),
                  places = isnan(last) ? w->spectrum.place_error : last,
                  common = places > 0 ? places : 0;
     return sqrt(fmax(alone * alone, all * all - common * common));
@@ -145,11 +146,11 @@ static void print_directions(const surface_result *w, char *to, size_t size)
         clocale_print(to, size,
                       "differ: C changes by %.2g of its mean, most at %.0f deg from x (chance of "
                       "as much by scatter: %.1g)",
-                      a->amplitude, a->direction * 180 / M_PI, a->chance);
+                      a->amplitude, a->direction * 180 / M_PI, a->p_value);
     else
         clocale_print(to, size,
                       "alike: C changes by %.2g of its mean, as scatter does (chance %.2g)",
-                      a->amplitude, a->chance);
+                      a->amplitude, a->p_value);
 }
 
 /* Formats the option that gives the law to friction, from the first bin to the end of the
@@ -218,11 +219,11 @@ static wt_status build_angular_table(const surface_result *w, wt_table **table, 
                       four->amplitude * cos(4 * (phi - four->direction)),
                   modes);
     }
-    TABLE_SET(angular_spectrum, &t, two->chance, four->chance);
+    TABLE_SET(angular_spectrum, &t, two->p_value, four->p_value);
     return table_end(&t, table);
 }
 
-static const char *included_errors(const surface_result *w, bool places)
+static const char *density_error_sources(const surface_result *w, bool places)
 {
     if (w->knots.n > w->knots.n_measured)
         return places
@@ -266,7 +267,7 @@ static wt_status build_spectrum_table(const surface_result *w, size_t n_scans, w
               .anisotropy_fourth_direction =
                   plain_estimate(w->fourth.direction, w->fourth.direction_error),
               .directions = directions, .profiles = profiles,
-              .includes = included_errors(w, places),
+              .includes = density_error_sources(w, places),
               .lacks = places ? "calibration of the scanner, noise of the instrument"
                               : "places of the surface, calibration of the scanner, noise of the "
                                 "instrument",
@@ -278,7 +279,8 @@ static wt_status build_spectrum_table(const surface_result *w, size_t n_scans, w
 
 /* ---- place errors by scan size --------------------------------------------------------------- */
 
-static wt_status build_place_error_table(const surface_result *w, wt_table **table, wt_error *err)
+static wt_status build_position_error_table(const surface_result *w, wt_table **table,
+                                            wt_error *err)
 {
     table_writer t = table_begin(&place_errors_schema, err);
     for (size_t size = 0; size < w->spectrum.n_sizes; size++)
@@ -346,8 +348,8 @@ wt_status surface_tables_make(const wt_params *params, const wt_topography_job *
     for (size_t i = 0; i < n; i++)
         maps = maps || scans[i].map.ny > 1;
     wt_status status = build_spectrum_table(whole, n, &made.power_spectrum, err);
-    if (status == WT_OK && surface_knot_place_error(&whole->spectrum, 0) > 0)
-        status = build_place_error_table(whole, &made.place_errors, err);
+    if (status == WT_OK && surface_knot_position_error(&whole->spectrum, 0) > 0)
+        status = build_position_error_table(whole, &made.place_errors, err);
     if (status == WT_OK && !isnan(whole->directions.amplitude))
         status = build_angular_table(whole, &made.angular_spectrum, err);
     if (status == WT_OK)

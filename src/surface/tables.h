@@ -159,7 +159,7 @@
     X(SURFACES_DIRECTION, "anisotropy_direction", "where it is roughest, from x", SI(ANGLE),       \
       SHOWS(directions.direction), SPARSE)                                                         \
     X(SURFACES_CHANCE, "anisotropy_p", "chance of as much by scatter alone", NUMBER,               \
-      SHOWS(directions.chance), DIGITS(2), SPARSE)
+      SHOWS(directions.p_value), DIGITS(2), SPARSE)
 #define SURFACES_KEYS(X)                                                                           \
     X(SURFACES_KEY_FORM, AS(form), TEXT)                                                           \
     X(SURFACES_KEY_WINDOW, AS(window), TEXT)

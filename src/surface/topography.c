@@ -174,7 +174,7 @@ wt_status wt_topography_compute(const wt_topography_job *job, const wt_job *work
         whole.directions = wt_surface_anisotropy_fit(surface_directional_spectrum(&whole), 2);
         whole.fourth = wt_surface_anisotropy_fit(surface_directional_spectrum(&whole), 4);
         warn_surface(&whole, n, work);
-        status = surface_find_end(job, work, &whole, err);
+        status = surface_find_cutoff(job, work, &whole, err);
     }
     if (status == WT_OK)
         status =

@@ -29,7 +29,7 @@ static wt_status begin_angular_problem(void *problem, double *reference_error, w
     return wt_material_fractional_zener(e0, glass, tau, alpha, 0.5, &p->material, err);
 }
 
-static void end_angular(void *problem)
+static void finish_angular(void *problem)
 {
     angular_problem *p = problem;
     wt_material_free(p->material);
@@ -83,7 +83,7 @@ const precision_part precision_angular[] = {
      sizeof(angular_problem),
      begin_angular_problem,
      angular_errors,
-     end_angular,
+     finish_angular,
      {{"weartrack", "1 / tolerance", {1e2, 1e4, 1e6, 1e8, 1e10, 1e12}, solve_series},
       {"textbook", "intervals of the angle", {10, 30, 100, 300, 1000, 3000}, solve_simpson}},
      .is_bound = true,

@@ -87,7 +87,7 @@ static wt_status begin_force(void *problem, double *reference_error, wt_error *e
     return status;
 }
 
-static void end_force(void *problem)
+static void finish_force(void *problem)
 {
     force_problem *p = problem;
     wt_contact_table_free(p->table);
@@ -165,7 +165,7 @@ static wt_status begin_fit(void *problem, double *reference_error, wt_error *err
                                                    : status;
 }
 
-static void end_fit(void *problem)
+static void finish_fit(void *problem)
 {
     fit_problem *p = problem;
     wt_indent_workspace_free(p->workspace);
@@ -249,7 +249,7 @@ const precision_part precision_contact[] = {
      sizeof(force_problem),
      begin_force,
      force_errors,
-     end_force,
+     finish_force,
      {{"weartrack", "table of quintics", {1}, solve_table},
       {"formula", "Newton's method", {1}, solve_formula},
       {"textbook",
@@ -263,7 +263,7 @@ const precision_part precision_contact[] = {
      sizeof(fit_problem),
      begin_fit,
      fit_errors,
-     end_fit,
+     finish_fit,
      {{"weartrack", "samples of a curve", {250, 500, 1000, 2000, 4000}, solve_fit},
       {"textbook",
        "samples of a curve, each tried as contact",

@@ -36,7 +36,7 @@ static wt_status create_roughness(friction_problem *p, wt_error *err)
     return wt_roughness_self_affine(c->q0, c->qr, c->q1, c->hurst, c->c0, &p->roughness, err);
 }
 
-static void end_friction(void *problem)
+static void finish_friction(void *problem)
 {
     friction_problem *p = problem;
     wt_material_free(p->material);
@@ -218,7 +218,7 @@ const precision_part precision_friction[] = {
      sizeof(friction_problem),
      begin_prony,
      friction_errors,
-     end_friction,
+     finish_friction,
      FRICTION_METHODS,
      .is_bound = true},
     {.name = "friction-zener",
@@ -226,7 +226,7 @@ const precision_part precision_friction[] = {
      sizeof(friction_problem),
      begin_zener,
      friction_errors,
-     end_friction,
+     finish_friction,
      FRICTION_METHODS,
      .is_bound = true},
     {.name = "friction-transverse",
@@ -235,7 +235,7 @@ const precision_part precision_friction[] = {
      sizeof(friction_problem),
      begin_transverse,
      friction_errors,
-     end_friction,
+     finish_friction,
      FRICTION_METHODS,
      .is_bound = true},
     {.name = "friction-table",
@@ -243,7 +243,7 @@ const precision_part precision_friction[] = {
      sizeof(friction_problem),
      begin_table_material,
      friction_errors,
-     end_friction,
+     finish_friction,
      FRICTION_METHODS,
      .is_bound = true},
     {.name = NULL},

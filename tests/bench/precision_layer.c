@@ -30,7 +30,7 @@ static wt_status alloc_source(layer_problem *p, size_t n, wt_error *err)
                : WT_OK;
 }
 
-static void end_layer(void *problem)
+static void finish_layer(void *problem)
 {
     layer_problem *p = problem;
     wt_energy_source_clear(&p->source);
@@ -184,7 +184,7 @@ const precision_part precision_layer[] = {
      sizeof(layer_problem),
      begin_balance,
      layer_errors,
-     end_layer,
+     finish_layer,
      {{"weartrack", "safeguarded Newton", {1}, solve_balance},
       {"textbook", "bisections", {10, 20, 30, 40, 50}, solve_balance_bisection}},
      .is_bound = true},
@@ -193,7 +193,7 @@ const precision_part precision_layer[] = {
      sizeof(layer_problem),
      begin_history,
      layer_errors,
-     end_layer,
+     finish_layer,
      {{"weartrack", "quadrature of the time", {1}, solve_history},
       {"textbook", "Runge-Kutta steps between two times", {1, 4, 16, 64, 256}, solve_runge_kutta}},
      .is_bound = true},

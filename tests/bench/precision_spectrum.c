@@ -58,7 +58,7 @@ static wt_status begin_shift(void *problem, double *reference_error, wt_error *e
     return WT_OK;
 }
 
-static void end_shift(void *problem)
+static void finish_shift(void *problem)
 {
     shift_problem *p = problem;
     wt_sweep_clear(&p->sweep);
@@ -268,7 +268,7 @@ static wt_status begin_draws(void *problem, double *reference_error, wt_error *e
     return WT_OK;
 }
 
-static void end_draws(void *problem)
+static void finish_draws(void *problem)
 {
     (void)problem;
 }
@@ -308,7 +308,7 @@ const precision_part precision_spectrum[] = {
      sizeof(shift_problem),
      begin_shift,
      shift_errors,
-     end_shift,
+     finish_shift,
      {{"weartrack", "terms per decade of the spectrum", {2, 3, 4, 6, 10}, solve_shift},
       {"textbook", "trial shifts of each neighbour", {30, 100, 300, 1000}, solve_pairs}}},
     {.name = "spectrum",
@@ -318,7 +318,7 @@ const precision_part precision_spectrum[] = {
      sizeof(shift_problem),
      begin_shift,
      spectrum_errors,
-     end_shift,
+     finish_shift,
      {{"weartrack", "terms per decade", {2, 3, 4, 6, 10}, solve_spectrum},
       {"textbook",
        "terms per decade, linear least squares",
@@ -329,7 +329,7 @@ const precision_part precision_spectrum[] = {
      sizeof(draw_problem),
      begin_draws,
      draws_errors,
-     end_draws,
+     finish_draws,
      {{"weartrack", "replicates", {16, 64, 256, 1024, 4096}, solve_draws},
       {"textbook", "standard errors to each side", {1}, solve_propagation}}},
     {.name = NULL},

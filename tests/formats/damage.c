@@ -120,9 +120,9 @@ static void find_line(byte_block b, size_t place, size_t *from, size_t *to)
 static void draw_block(byte_block b, bool text, uint64_t *seed, size_t *from, size_t *to)
 {
     static const size_t sizes[] = {1, 2, 4, 8, 32, 96, 512, 4096};
-    const size_t room = draw(seed, 2) == 0 && b.n > 4096 ? 4096 : b.n;
+    const size_t capacity = draw(seed, 2) == 0 && b.n > 4096 ? 4096 : b.n;
     size_t lines = draw(seed, 4);
-    *from = draw(seed, room);
+    *from = draw(seed, capacity);
     if (!text) {
         const size_t size = sizes[draw(seed, sizeof sizes / sizeof *sizes)];
         *to = *from + size < b.n ? *from + size : b.n;
@@ -248,9 +248,9 @@ static bool find_value(byte_block b, size_t at, size_t *from, size_t *to)
 static void exchange_value(byte_block *b, uint64_t *seed)
 {
     size_t from = 0, to = 0, other = 0, end = 0;
-    const size_t room = b->n > 16384 ? 16384 : b->n; /* headers come first */
-    if (!find_value(*b, draw(seed, room), &from, &to) ||
-        !find_value(*b, draw(seed, room), &other, &end))
+    const size_t capacity = b->n > 16384 ? 16384 : b->n; /* headers come first */
+    if (!find_value(*b, draw(seed, capacity), &from, &to) ||
+        !find_value(*b, draw(seed, capacity), &other, &end))
         return;
     const byte_block old = copy(*b);
     const size_t n = end - other;

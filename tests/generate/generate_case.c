@@ -92,9 +92,9 @@ static int write_truth(const wt_rubber *rubber, const char *folder, const char *
     status = wt_layer_thickness_compute(&sliding, &c->layer, &job, &layer, &err);
     if (status != WT_OK)
         goto done;
-    wt_layer_observation known = {.thickness = layer.thickness,
-                                  .modulus_ratio = {ratio, 0, 0, "1"}};
-    status = wt_sliding_friction_compute(&sliding, &known, &job, &friction, &err);
+    wt_layer_observation observation = {.thickness = layer.thickness,
+                                        .modulus_ratio = {ratio, 0, 0, "1"}};
+    status = wt_sliding_friction_compute(&sliding, &observation, &job, &friction, &err);
     out = status != WT_OK || path == NULL ? NULL : fopen(path, "w");
     if (out == NULL)
         goto done;

@@ -321,7 +321,7 @@ static bool computed(const scene *s, double tolerance, wt_friction_point *p)
     wt_material_free(material);
     if (status != WT_OK)
         fprintf(stderr, "%s\n", err.message);
-    return status == WT_OK && !p->unsettled;
+    return status == WT_OK && !p->has_no_solution;
 }
 
 /* ---- checks ---------------------------------------------------------------------------------- */
@@ -358,7 +358,7 @@ static bool check(const scene *s, size_t number, const answer *a)
         good &= holds(number, tolerance, "G", p.stress_variance, a->variance, a->variance);
         good &= holds(number, tolerance, "P", p.area_ratio, a->area, a->area);
         good &= holds(number, tolerance, "mu", p.hysteresis, a->hysteresis, a->hysteresis);
-        good &= holds(number, tolerance, "side", p.side, a->side, a->hysteresis);
+        good &= holds(number, tolerance, "side", p.lateral, a->side, a->hysteresis);
         good &= holds(number, tolerance, "T", rise, a->rise, s->surroundings);
     }
     return good;

@@ -399,15 +399,15 @@ static void try_scene(size_t number)
         if (exact.variance == 0)
             exact = truth_with_file(&d.s, number);
         c->runs++;
-        c->short_of += !p.reached;
-        if (!p.reached)
+        c->short_of += !p.meets_tolerance;
+        if (!p.meets_tolerance)
             c->worst_short =
                 fmax(c->worst_short, p.hysteresis.numerical_error / p.hysteresis.value);
-        check(c, &d, number, k, p.reached, "G", p.stress_variance, exact.variance);
-        check(c, &d, number, k, p.reached, "P", p.area_ratio, area(exact.variance));
-        check(c, &d, number, k, p.reached, "1 - P", p.one_minus_area,
+        check(c, &d, number, k, p.meets_tolerance, "G", p.stress_variance, exact.variance);
+        check(c, &d, number, k, p.meets_tolerance, "P", p.area_ratio, area(exact.variance));
+        check(c, &d, number, k, p.meets_tolerance, "1 - P", p.one_minus_area,
               FN(erfc)(1 / (2 * FN(sqrt)(exact.variance))));
-        check(c, &d, number, k, p.reached, "mu", p.hysteresis, exact.hysteresis);
+        check(c, &d, number, k, p.meets_tolerance, "mu", p.hysteresis, exact.hysteresis);
     }
 }
 
@@ -441,10 +441,10 @@ int main(int argc, char **argv)
         rewind(truths);
     make_rule();
     count all = {0};
-    const size_t room = scenes * TOLERANCES * NUMBERS;
-    all.quotient = calloc(room, sizeof *all.quotient);
+    const size_t capacity = scenes * TOLERANCES * NUMBERS;
+    all.quotient = calloc(capacity, sizeof *all.quotient);
     for (size_t i = 0; i < SURFACES; i++)
-        counts[i].quotient = calloc(room, sizeof *all.quotient);
+        counts[i].quotient = calloc(capacity, sizeof *all.quotient);
     for (size_t i = 0; i < scenes; i++) {
         drawn_state = seed * 1000003 + i * 7919;
         try_scene(i);

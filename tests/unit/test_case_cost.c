@@ -328,8 +328,10 @@ static void test_shared_or_not(void **state)
     work.replicates = REPLICATES;
     assert_true(wt_table_estimate(layer, "balance_thickness", &thickness));
     thickness.numerical_error = 0;
-    const wt_layer_observation known = {.thickness = thickness, .modulus_ratio = {0.6, 0, 0, "1"}};
-    assert_int_equal(wt_sliding_friction_compute(&sliding, &known, &work, &alone, NULL), WT_OK);
+    const wt_layer_observation observation = {.thickness = thickness,
+                                              .modulus_ratio = {0.6, 0, 0, "1"}};
+    assert_int_equal(wt_sliding_friction_compute(&sliding, &observation, &work, &alone, NULL),
+                     WT_OK);
     for (size_t i = 0; i < COUNT_OF(velocity); i++) {
         static const char *const columns[] = {"friction", "friction_standard_error",
                                               "friction_with_layer_standard_error"};
@@ -387,9 +389,9 @@ static void test_further_steps(void **state)
         wt_master_moduli(&m, 1e-2 * exp((double)k), &storage, &loss);
         most = fmax(most, fabs(is[k] - was[k]) / (M_LN10 * storage.standard_error));
     }
-    assert_true(most > 1e-5 && most <= m.step_left);
-    assert_true(m.step_left <= m.step_allowed);
-    assert_near(m.step_allowed, sqrt(1e-3), 1e-12);
+    assert_true(most > 1e-5 && most <= m.step_bound);
+    assert_true(m.step_bound <= m.step_tolerance);
+    assert_near(m.step_tolerance, sqrt(1e-3), 1e-12);
     s->prior = NULL;
     wt_master_clear(&m);
     wt_rubber_clear(&fitted);

@@ -59,7 +59,7 @@ static bool fit_dwell(double noise, double spring_constant, wt_dwell *dwell)
 static bool dwell_on_a_wall(void)
 {
     wt_dwell dwell;
-    return fit_dwell(1e-12, 1e-6, &dwell) && !dwell.found && dwell.why_not[0] != '\0';
+    return fit_dwell(1e-12, 1e-6, &dwell) && !dwell.found && dwell.reason[0] != '\0';
 }
 
 enum { CURVES = 40 };
@@ -68,7 +68,8 @@ enum { CURVES = 40 };
 static bool pool_of_one(void)
 {
     static double misfit[CURVES][WT_MISFIT_TERMS];
-    return isnan(wt_pooled_misfit_compute((const double(*)[WT_MISFIT_TERMS])misfit, CURVES).chance);
+    return isnan(
+        wt_pooled_misfit_compute((const double(*)[WT_MISFIT_TERMS])misfit, CURVES).p_value);
 }
 
 static bool depth_of_one(void)
@@ -85,7 +86,7 @@ static bool depth_of_one(void)
                                         .spot = i};
     const bool done = wt_modulus_profile_fit(table, 0.5, curve, CURVES, &depth, NULL) == WT_OK;
     wt_contact_table_free(table);
-    return done && isnan(depth.chance);
+    return done && isnan(depth.change_p);
 }
 
 static void nothing_ends_the_process(void **state)
@@ -102,7 +103,7 @@ static void dwell_without_noise(void **state)
     wt_dwell dwell;
     assert_true(fit_dwell(0, 1, &dwell));
     assert_false(dwell.found);
-    assert_string_equal(dwell.why_not, "no noise in the baseline");
+    assert_string_equal(dwell.reason, "no noise in the baseline");
 }
 
 int main(void)

@@ -262,15 +262,15 @@ wt_status __wrap_digest_stream(digest_source *source, void *user, size_t length,
 
 void __real_friction_evaluate(const wt_friction_workspace *ws, friction_scratch *scratch,
                               const subinterval_plan *plan, friction_effort effort,
-                              friction_load at, bool with_outside, friction_record *record,
+                              friction_load at, bool with_outside, node_contributions *record,
                               friction_pass *pass);
 void __wrap_friction_evaluate(const wt_friction_workspace *ws, friction_scratch *scratch,
                               const subinterval_plan *plan, friction_effort effort,
-                              friction_load at, bool with_outside, friction_record *record,
+                              friction_load at, bool with_outside, node_contributions *record,
                               friction_pass *pass);
 void __wrap_friction_evaluate(const wt_friction_workspace *ws, friction_scratch *scratch,
                               const subinterval_plan *plan, friction_effort effort,
-                              friction_load at, bool with_outside, friction_record *record,
+                              friction_load at, bool with_outside, node_contributions *record,
                               friction_pass *pass)
 {
     count[PASSES]++;
@@ -536,7 +536,7 @@ static void check_tables(size_t replicates)
 {
     for (unsigned t = FLOW_FIRST_TABLE; t < FLOW_FIRST_INNER; t++)
         if (flow_resource_rows[t].schema != NULL)
-            check_asked("result", flow_resource_rows[t].words, replicates);
+            check_asked("result", flow_resource_rows[t].label, replicates);
     check_asked("result", "modulus_depth", replicates);
     check_asked("result", "force_indentation", replicates);
     check_asked("result", "cost", replicates);

@@ -217,10 +217,11 @@ static void test_table_of_stages(void **state)
     for (size_t i = 0; i < FLOW_N_STAGES; i++) {
         const unsigned levels = flow_stage_levels(i);
         assert_int_equal(flow_stage_needs(i, levels) & ~given, 0);
-        assert_int_equal(flow_stages[i].any & ~given, 0);
-        assert_true((flow_stage_needs(i, 0) | flow_stages[i].any) != 0);
+        assert_int_equal(flow_stages[i].alternatives & ~given, 0);
+        assert_true((flow_stage_needs(i, 0) | flow_stages[i].alternatives) != 0);
         for (unsigned k = 0; k < levels; k++)
-            assert_true((flow_stages[i].additions[k].resources & ~flow_stage_needs(i, k)) != 0);
+            assert_true((flow_stages[i].optional_inputs[k].resources & ~flow_stage_needs(i, k)) !=
+                        0);
         assert_int_equal(flow_stages[i].outputs & FLOW_SOURCES, 0);
         assert_true(flow_stages[i].outputs != 0);
         given |= flow_stages[i].outputs;
@@ -237,12 +238,12 @@ static void test_table_of_things(void **state)
         const flow_resource_row *thing = &flow_resource_rows[i];
         char name[SCHEMA_NAME_SIZE];
         flow_resource_set things = 0;
-        assert_non_null(thing->words);
+        assert_non_null(thing->label);
         assert_int_equal(thing->missing != NULL, i < FLOW_FIRST_TABLE);
         if (thing->schema == NULL)
             continue;
         schema_name(thing->schema->name, thing->suffix, name);
-        assert_string_equal(thing->words, name);
+        assert_string_equal(thing->label, name);
         assert_true(flow_table_resources(name, &things) && things == FLOW_BIT(i));
     }
 }

@@ -85,8 +85,8 @@ static void make(int way)
     wt_surface surface = {.self_affine = true, .q0 = 2e3, .qr = 4e3, .q1 = 2e4, .hurst = 0.8};
     wt_sliding sliding = wt_sliding_defaults();
     wt_job work = wt_job_defaults();
-    wt_layer_observation known = {.thickness = stated(3e-6, "m", all),
-                                  .modulus_ratio = stated(0.6, "1", all)};
+    wt_layer_observation observation = {.thickness = stated(3e-6, "m", all),
+                                        .modulus_ratio = stated(0.6, "1", all)};
     wt_layer_job job = wt_layer_job_defaults();
     wt_error err = WT_ERROR_INIT;
     fixture_check(fixture_rubber(result, &rubber[way], NULL));
@@ -107,7 +107,7 @@ static void make(int way)
     job.specific_wear_rate = stated(1e-13, "m^2/N", all);
     work.threads = 1;
     work.replicates = 8;
-    if (wt_sliding_friction_compute(&sliding, &known, &work, &friction[way], &err) != WT_OK ||
+    if (wt_sliding_friction_compute(&sliding, &observation, &work, &friction[way], &err) != WT_OK ||
         wt_layer_thickness_compute(&sliding, &job, &work, &layer[way], &err) != WT_OK)
         fail_msg("%s %s", err.message, err.found);
 }

@@ -750,12 +750,12 @@ static void test_layer_models(void **state)
 {
     (void)state;
     static const double velocity[] = {1e-3, 0.1, 10}, pressures[] = {0.1e6, 1e6};
-    const wt_layer_observation known = {.modulus_ratio = {0.6, 0, 0, "1"},
-                                        .ratio_slope = {0.05, 0.01, 0, "1"},
-                                        .ratio_frequency = 1e3,
-                                        .ratio_lowest = 10,
-                                        .ratio_highest = 1e5,
-                                        .ratio_temperature = (double)NAN};
+    const wt_layer_observation observation = {.modulus_ratio = {0.6, 0, 0, "1"},
+                                              .ratio_slope = {0.05, 0.01, 0, "1"},
+                                              .ratio_frequency = 1e3,
+                                              .ratio_lowest = 10,
+                                              .ratio_highest = 1e5,
+                                              .ratio_temperature = (double)NAN};
     wt_layer_job job = wt_layer_job_defaults();
     wt_layer_tables tables = {0};
     wt_table *table[4] = {NULL};
@@ -776,10 +776,13 @@ static void test_layer_models(void **state)
     job.critical_energy = (wt_estimate){2e10, 1e9, 0, "J/m^3"};
     work.replicates = 2;
     assert_int_equal(wt_layer_bands_compute(&sliding, &job, &work, &table[0], &err), WT_OK);
-    assert_int_equal(wt_running_in_compute(&sliding, &job, &known, &work, &table[1], &err), WT_OK);
-    assert_int_equal(wt_layer_steady_states_compute(&sliding, &job, &known, &work, &table[2], &err),
+    assert_int_equal(wt_running_in_compute(&sliding, &job, &observation, &work, &table[1], &err),
                      WT_OK);
-    assert_int_equal(wt_regime_map_compute(&sliding, &job, &known, &work, &table[3], &err), WT_OK);
+    assert_int_equal(
+        wt_layer_steady_states_compute(&sliding, &job, &observation, &work, &table[2], &err),
+        WT_OK);
+    assert_int_equal(wt_regime_map_compute(&sliding, &job, &observation, &work, &table[3], &err),
+                     WT_OK);
     for (size_t i = 0; i < 4; i++) {
         see(table[i]);
         wt_table_free(table[i]);
@@ -787,7 +790,7 @@ static void test_layer_models(void **state)
     see_both_edges();
     sliding_set_up(velocity, 3);
     const wt_layer_shear shear = {2, 1e-7, 1, 1e-5};
-    wt_layer_observation sheared = known;
+    wt_layer_observation sheared = observation;
     sheared.thickness = (wt_estimate){1e-6, 0, 0, "m"};
     sheared.shear = &shear;
     wt_friction_tables friction = {0};
@@ -812,7 +815,7 @@ static void test_no_hysteresis(void **state)
     rubber.prony.n = 1;
     rubber.prony.relaxation_time = tau;
     rubber.prony.modulus = term;
-    sliding.softness = &s;
+    sliding.strain_softening = &s;
     if (wt_softened_friction_compute(&sliding, &work, &table, &err) != WT_OK)
         fail_msg("%s %s", err.message, err.found);
     assert_true(wt_table_number(table, 0, (size_t)wt_table_find(table, "hysteresis")) <= 0);
@@ -1277,13 +1280,13 @@ static void see_validation(const char *path, double shear, double wear, bool wit
     static const double slow[] = {1e-3, 1e-2, 1e-1};
     const char *const patterns[] = {path};
     const wt_file_set set = {.patterns = patterns, .n_patterns = 1, .read = wt_read_defaults()};
-    const wt_layer_observation known = {.thickness = {1e-6, 1e-7, 0, "m"},
-                                        .modulus_ratio = {0.6, 0.05, 0, "1"},
-                                        .ratio_slope = {0.05, 0.01, 0, "1"},
-                                        .ratio_frequency = 1e3,
-                                        .ratio_lowest = 10,
-                                        .ratio_highest = 1e5,
-                                        .ratio_temperature = (double)NAN};
+    const wt_layer_observation observation = {.thickness = {1e-6, 1e-7, 0, "m"},
+                                              .modulus_ratio = {0.6, 0.05, 0, "1"},
+                                              .ratio_slope = {0.05, 0.01, 0, "1"},
+                                              .ratio_frequency = 1e3,
+                                              .ratio_lowest = 10,
+                                              .ratio_highest = 1e5,
+                                              .ratio_temperature = (double)NAN};
     wt_layer_job layer = wt_layer_job_defaults();
     wt_job common = wt_job_defaults();
     wt_record_job records = wt_record_job_defaults();
@@ -1304,12 +1307,12 @@ static void see_validation(const char *path, double shear, double wear, bool wit
     layer.specific_wear_rate = (wt_estimate){1e-12, 1e-13, 0, "m^2/N"};
     layer.critical_energy.value = 2e10;
     if (wt_record_compute(&records, &common, &measured, &err) != WT_OK ||
-        wt_model_sensitivity_compute(&sliding, &layer, with_layer ? &known : NULL, &common,
+        wt_model_sensitivity_compute(&sliding, &layer, with_layer ? &observation : NULL, &common,
                                      &what_if, &err) != WT_OK)
         fail_msg("%s %s", err.message, err.found);
     job.sliding = &sliding;
     job.layer = &layer;
-    job.known = with_layer ? &known : NULL;
+    job.layer_observation = with_layer ? &observation : NULL;
     job.record = measured.record;
     job.wear = measured.wear;
     job.what_if = what_if;

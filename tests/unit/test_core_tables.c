@@ -51,7 +51,7 @@ static void check_columns(const table_schema *s)
     assert_true(s->n_columns > 0);
     for (size_t i = 0; i < s->n_columns; i++) {
         const schema_field *c = &s->columns[i];
-        assert_true(table_word_is_valid(c->name) && c->long_name[0] != '\0');
+        assert_true(table_name_part_is_valid(c->name) && c->long_name[0] != '\0');
         assert_int_not_equal(c->kind, SCHEMA_PLAIN);
         if (c->kind == SCHEMA_NUMBER) {
             check_unit(schema_unit(c), c->unit, c->quantity);

@@ -471,7 +471,7 @@ static void the_spectrum_and_its_band(void **state)
 static void check_bound(const wt_master *m)
 {
     static const char before[] = "misfit below ";
-    const char *words = strstr(m->because, before);
+    const char *words = strstr(m->superposition_reason, before);
     assert_non_null(words);
     const double bound = strtod(words + strlen(before), NULL), number = 100 * m->misfit_high;
     assert_true(number > 0.15); /* what "at least 0.1 %" would not hide */
@@ -503,8 +503,8 @@ static void superposition_is_judged(void **state)
             sweep.isotherms[i].loss_modulus[k] *= 1.1;
     m = fit(&sweep);
     assert_int_equal(m.superposition, WT_SUPERPOSITION_FAILS);
-    assert_non_null(strstr(m.because, "Kramers-Kronig"));
-    assert_non_null(strstr(m.because, "E'' is +")); /* too high, and said to be */
+    assert_non_null(strstr(m.superposition_reason, "Kramers-Kronig"));
+    assert_non_null(strstr(m.superposition_reason, "E'' is +")); /* too high, and said to be */
     wt_master_clear(&m);
     wt_sweep_clear(&sweep);
 
@@ -533,7 +533,7 @@ static void errors_after_fails_are_no_chance(void **state)
             }
         wt_master m = fit(&sweep);
         assert_int_equal(m.superposition, WT_SUPERPOSITION_FAILS);
-        assert_true(m.settled && m.step_left <= m.step_allowed);
+        assert_true(m.has_converged && m.step_bound <= m.step_tolerance);
         assert_true(m.n_shifts <= 13);
         for (size_t i = 0; i < m.n_shifts; i++) {
             const wt_interval a = m.shifts[i].log_a;

@@ -85,7 +85,7 @@ static void auhl_2008_polyisoprene(void **state)
         print_message("vertical %d: %.4f decade from the published law; C1 %.3f +- %.3f, C2 %.2f "
                       "+- %.2f K; %s\n",
                       v, rms, master.c1.value, master.c1.standard_error, master.c2.value,
-                      master.c2.standard_error, master.because);
+                      master.c2.standard_error, master.superposition_reason);
         assert_true(rms < bound[v]);
         assert_int_equal(master.law.kind, WT_LAW_WLF);
         if (v == WT_VERTICAL_TIED) {
@@ -141,7 +141,7 @@ static void auhl_2008_series(void **state)
             storage += master.prony.modulus[j] * z * z / (1.0 + z * z);
             loss += master.prony.modulus[j] * z / (1.0 + z * z);
         }
-        if (master.left_out[k])
+        if (master.is_outlier[k])
             continue;
         assert_near(log10(storage), master.log_storage[k], 0.006);
         assert_near(log10(loss), master.log_loss[k], 0.006);

@@ -80,7 +80,7 @@ static void peaks_hold_the_truth(void **unused)
             found++;
             held += peak.at.low <= truth && truth <= peak.at.high;
             assert_true(peak.at.low < peak.at.value && peak.at.value < peak.at.high);
-            assert_string_equal(peak.why_not, "");
+            assert_string_equal(peak.reason, "");
             assert_true(peak.misfit < 0.05 && peak.n >= 9);
         }
         print_message("peak of %s: %zu of %zu\n", factor ? "tan delta" : "E''", held, found);
@@ -158,13 +158,13 @@ static void no_onset(void **unused)
     assert_int_equal(wt_onset_find(x, y, 60, &onset, NULL), WT_OK);
     assert_false(onset.found);
     assert_true(isnan(onset.at.value));
-    assert_non_null(strstr(onset.why_not, "do not show both"));
+    assert_non_null(strstr(onset.reason, "do not show both"));
     assert_int_equal(wt_onset_find(x, y, 4, &onset, NULL), WT_OK);
-    assert_non_null(strstr(onset.why_not, "fewer than 5"));
+    assert_non_null(strstr(onset.reason, "fewer than 5"));
     for (int i = 0; i < 60; i++)
         y[i] = exp(18 - 0.001 * i);
     assert_int_equal(wt_onset_find(x, y, 60, &onset, NULL), WT_OK);
-    assert_non_null(strstr(onset.why_not, "less than a factor 2"));
+    assert_non_null(strstr(onset.reason, "less than a factor 2"));
 }
 
 static void values_hold_the_truth(void **unused)
@@ -206,14 +206,14 @@ static void no_peak(void **unused)
     assert_int_equal(wt_peak_find(x, y, 60, 0, &peak, NULL), WT_OK);
     assert_false(peak.found);
     assert_true(isnan(peak.at.value));
-    assert_non_null(strstr(peak.why_not, "largest at the highest temperatures"));
+    assert_non_null(strstr(peak.reason, "largest at the highest temperatures"));
     for (int i = 0; i < 60; i++)
         y[i] = exp(-0.05 * i);
     y[1] = 2;
     assert_int_equal(wt_peak_find(x, y, 60, 0, &peak, NULL), WT_OK);
-    assert_non_null(strstr(peak.why_not, "no peak in range: largest at the lowest"));
+    assert_non_null(strstr(peak.reason, "no peak in range: largest at the lowest"));
     assert_int_equal(wt_peak_find(x, y, 4, 0, &peak, NULL), WT_OK);
-    assert_non_null(strstr(peak.why_not, "fewer than 5"));
+    assert_non_null(strstr(peak.reason, "fewer than 5"));
     for (int k = 0; k < 100; k++) {
         for (int i = 0; i < 60; i++)
             y[i] = exp(0.02 * dma_normal(&state));

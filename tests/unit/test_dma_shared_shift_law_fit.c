@@ -90,7 +90,7 @@ static shares count(const truth *t, wt_shared_law_mode how)
         s.c1 += held(law.c1, t->c1);
         s.c2 += held(law.c2, t->c2);
         s.alarms += law.p < 0.05;
-        s.moved += held(law.members[1].moved, t->moved[1]);
+        s.moved += held(law.members[1].reference_offset, t->moved[1]);
         double of_law = 0, of_difference = 0, n = 0;
         for (size_t p = 0; p < law.n; p++) {
             const wt_shared_law_point *point = &law.points[p];

@@ -39,7 +39,7 @@ static void measure(points *p, double noise, double second)
                             .log_frequency = p->x,
                             .log_storage = p->storage,
                             .log_loss = p->loss,
-                            .left_out = p->left_out};
+                            .is_outlier = p->left_out};
 }
 
 /* What a series is off, and its criterion, by the textbook. */

@@ -170,10 +170,10 @@ static void same_material_is_no_layer(void **state)
     const wt_friction_options bare = wt_friction_defaults();
     find(bulk, &bare, none);
     wt_friction_options o = under(1e-6, 1);
-    o.layer.own = twin;
+    o.layer.material = twin;
     find(bulk, &o, own);
     assert_alike(own, none, 1e-9);
-    assert_true(own[0].reached && own[1].reached && own[2].reached);
+    assert_true(own[0].meets_tolerance && own[1].meets_tolerance && own[2].meets_tolerance);
     wt_material_free(twin);
     wt_material_free(bulk);
 }
@@ -186,7 +186,7 @@ static void thick_and_thin(void **state)
     wt_friction_point alone[N], own[N], none[N];
     const wt_friction_options bare = wt_friction_defaults();
     wt_friction_options o = under(1, 1);
-    o.layer.own = layer;
+    o.layer.material = layer;
     find(layer, &bare, alone);
     find(bulk, &o, own);
     assert_alike(own, alone, 1e-9);
@@ -256,7 +256,7 @@ static void errors_hold(void **state)
     for (size_t i = 0; i < N; i++) {
         const double off = fabs(rough[i].hysteresis.value - fine[i].hysteresis.value);
         assert_true(off <= rough[i].hysteresis.numerical_error);
-        assert_true(fine[i].reached);
+        assert_true(fine[i].meets_tolerance);
         assert_true(fine[i].extrapolated_share > 0 && fine[i].extrapolated_share < 1);
     }
     o.layer.slope.low = 1e-3;
@@ -292,8 +292,8 @@ static void with_all_else(void **state)
         find(bulk, &o, own);
         assert_alike(own, one, 1e-5);
         for (size_t i = 0; i < N; i++)
-            assert_near_abs(own[i].side.value, one[i].side.value,
-                            own[i].side.numerical_error + one[i].side.numerical_error);
+            assert_near_abs(own[i].lateral.value, one[i].lateral.value,
+                            own[i].lateral.numerical_error + one[i].lateral.numerical_error);
     }
     wt_material_free(bulk);
 }
@@ -315,14 +315,14 @@ static void layer_has_its_law(void **state)
     bare.anisotropy.angle[0] = o.anisotropy.angle[0] = 0.4;
     bare.shift = layer_law;
     o.shift = bulk_law;
-    o.layer.own = layer;
+    o.layer.material = layer;
     o.layer.material_law = layer_law;
     find(layer, &bare, alone);
     find(bulk, &o, own);
     assert_alike(own, alone, 1e-5);
     for (size_t i = 0; i < N; i++)
-        assert_near_abs(own[i].side.value, alone[i].side.value,
-                        own[i].side.numerical_error + alone[i].side.numerical_error);
+        assert_near_abs(own[i].lateral.value, alone[i].lateral.value,
+                        own[i].lateral.numerical_error + alone[i].lateral.numerical_error);
     o.layer.material_law.kind = WT_LAW_NONE;
     find(bulk, &o, other);
     assert_true(own[1].temperature.value > 300);

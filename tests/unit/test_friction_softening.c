@@ -222,7 +222,7 @@ static void test_shares(void **state)
     const wt_strain_softening s = given(false);
     wt_table *table = NULL, *cut = NULL;
     sliding_set_up(velocity, N_VELOCITIES);
-    sliding.softness = &s;
+    sliding.strain_softening = &s;
     sliding.strain_factor = 0.5;
     assert_int_equal(wt_softened_friction_compute(&sliding, &work, &table, NULL), WT_OK);
     assert_int_equal(wt_table_n_rows(table), N_VELOCITIES);
@@ -266,7 +266,7 @@ static void test_same(void **state)
     sliding_set_up(velocity, N_VELOCITIES);
     assert_int_equal(wt_sliding_friction_compute(&sliding, NULL, &work, &without, NULL), WT_OK);
     assert_int_equal(wt_softened_friction_compute(&sliding, &work, &table, NULL), WT_E_ARG);
-    sliding.softness = &s;
+    sliding.strain_softening = &s;
     assert_int_equal(wt_sliding_friction_compute(&sliding, NULL, &work, &with, NULL), WT_OK);
     assert_int_equal(wt_softened_friction_compute(&sliding, &work, &table, NULL), WT_OK);
     static const char *const columns[] = {"hysteresis", "area_ratio"}, *const others[] = {
@@ -302,7 +302,7 @@ static void test_drawn(void **state)
     }
     moved[0].table.storage = other[0];
     moved[1].table.loss = other[1];
-    sliding.softness = &s;
+    sliding.strain_softening = &s;
     assert_int_equal(wt_sliding_friction_compute(&sliding, NULL, &work, &t, NULL), WT_OK);
     const double value = number_cell(t.friction, 0, "hysteresis"),
                  error = number_cell(t.friction, 0, "hysteresis_standard_error");
@@ -313,7 +313,7 @@ static void test_drawn(void **state)
     wt_friction_tables_clear(&t);
     work.replicates = 0;
     for (size_t i = 0; i < 2; i++) {
-        sliding.softness = &moved[i];
+        sliding.strain_softening = &moved[i];
         assert_int_equal(wt_sliding_friction_compute(&sliding, NULL, &work, &t, NULL), WT_OK);
         change[i] = number_cell(t.friction, 0, "hysteresis") - value;
         lacks = wt_table_key(t.friction, "standard_error_excludes");
@@ -377,7 +377,7 @@ static void test_covered(void **state)
             work.seed = trial + 1;
             work.replicates = 64;
             work.tolerance = 1e-4;
-            sliding.softness = &s;
+            sliding.strain_softening = &s;
             assert_int_equal(wt_sliding_friction_compute(&sliding, NULL, &work, &found, NULL),
                              WT_OK);
             const double value = number_cell(found.friction, 0, "hysteresis"),
@@ -387,7 +387,7 @@ static void test_covered(void **state)
                 .table = {.n = POINTS, .strain = x, .storage = f, .loss = g},
                 .temperature = (double)NAN};
             work.replicates = 0;
-            sliding.softness = &other;
+            sliding.strain_softening = &other;
             assert_int_equal(wt_sliding_friction_compute(&sliding, NULL, &work, &found, NULL),
                              WT_OK);
             held += fabs(number_cell(found.friction, 0, "hysteresis") - value) <= 1.96 * error;

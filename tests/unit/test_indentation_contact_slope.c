@@ -115,7 +115,7 @@ static void test_within(void **state)
                                    .free = cases[k].free,
                                    .out = i % 2};
             const wt_contact_slope s = measured(&c, &seed);
-            const double t = gsl_cdf_tdist_Pinv(0.975, s.freedom);
+            const double t = gsl_cdf_tdist_Pinv(0.975, s.df);
             assert_true(s.found);
             change += fabs(s.change) < t * s.change_error;
             slope += fabs(s.slope - 1 / 45e-9) < t * s.slope_error;
@@ -180,9 +180,9 @@ static void test_nothing(void **state)
     }
     assert_int_equal(wt_contact_slope_fit(z, v, 100, NULL, &s, NULL), WT_OK);
     assert_false(s.found);
-    assert_string_equal(s.why_not, "no contact: the signal rises by less than 20 times its noise");
+    assert_string_equal(s.reason, "no contact: the signal rises by less than 20 times its noise");
     assert_int_equal(wt_contact_slope_fit(z, v, 10, NULL, &s, NULL), WT_OK);
-    assert_string_equal(s.why_not, "10 samples, at least 40 are needed");
+    assert_string_equal(s.reason, "10 samples, at least 40 are needed");
     for (int i = 0; i < 100; i++)
         v[i] = i < 98 ? 0 : 1;
     assert_int_equal(wt_contact_slope_fit(z, v, 100, NULL, &s, NULL), WT_OK);
@@ -191,7 +191,7 @@ static void test_nothing(void **state)
         v[i] = i < 93 ? 0 : fmin(1, 0.3 + 0.15 * (i - 93));
     const bool german = setlocale(LC_NUMERIC, "de_DE.UTF-8") != NULL;
     assert_int_equal(wt_contact_slope_fit(z, v, 100, NULL, &s, NULL), WT_OK);
-    assert_string_equal(s.why_not,
+    assert_string_equal(s.reason,
                         "5 samples between 0.25 and 0.95 of the rise, at least 6 are needed");
     if (german)
         (void)setlocale(LC_NUMERIC, "C");
@@ -199,11 +199,11 @@ static void test_nothing(void **state)
     for (int i = 0; i < 100; i++)
         v[i] = i < 80 ? 0 : 0.05 * (i - 80);
     assert_int_equal(wt_contact_slope_fit(still, v, 100, NULL, &s, NULL), WT_OK);
-    assert_string_equal(s.why_not, "the signal does not rise with the piezo");
+    assert_string_equal(s.reason, "the signal does not rise with the piezo");
     for (int i = 0; i < 100; i++)
         v[i] = (double)NAN;
     assert_int_equal(wt_contact_slope_fit(z, v, 100, NULL, &s, NULL), WT_OK);
-    assert_string_equal(s.why_not, "0 samples, at least 40 are needed");
+    assert_string_equal(s.reason, "0 samples, at least 40 are needed");
     wt_slope_options wrong = wt_slope_defaults();
     wrong.to = 0.1;
     assert_int_equal(wt_contact_slope_fit(z, v, 100, &wrong, &s, NULL), WT_E_RANGE);

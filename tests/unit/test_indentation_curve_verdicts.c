@@ -502,8 +502,8 @@ static void not_by_the_noise(void **state)
     assert_true(bent.baseline_p < 0.01);
     assert_true(bent.modulus.standard_error > 1.5 * straight);
     assert_near_abs(bent.modulus.value, t.modulus, 2 * bent.modulus.standard_error);
-    assert_near_abs(bent.modulus.value - t.modulus, bent.bend_shift, 4 * straight);
-    assert_true(bent.bend_shift < -straight);
+    assert_near_abs(bent.modulus.value - t.modulus, bent.curvature_shift, 4 * straight);
+    assert_true(bent.curvature_shift < -straight);
     bend(&t, 3e-9);
     expect(&t, WT_CURVE_DOUBTFUL, "baseline bent");
 }
@@ -528,9 +528,9 @@ static void curves_together(void **state)
         }
         const wt_pooled_misfit pool =
             wt_pooled_misfit_compute((const double(*)[WT_MISFIT_TERMS])misfit, 30);
-        assert_true(wrong ? pool.chance < 1e-3 : pool.chance > 0.01);
+        assert_true(wrong ? pool.p_value < 1e-3 : pool.p_value > 0.01);
         assert_true(
-            isnan(wt_pooled_misfit_compute((const double(*)[WT_MISFIT_TERMS])misfit, 11).chance));
+            isnan(wt_pooled_misfit_compute((const double(*)[WT_MISFIT_TERMS])misfit, 11).p_value));
     }
 }
 

@@ -286,7 +286,7 @@ static void no_answer(void **state)
     const wt_group *const alone[][2] = {{&pair, &single}, {&spot, &two}};
     for (int i = 0; i < 2; i++) {
         assert_int_equal(wt_compare_moduli(alone[i][0], alone[i][1], NULL, &c, NULL), WT_OK);
-        assert_int_equal(c.unsettled, WT_UNDECIDED_ONE_SPOT);
+        assert_int_equal(c.undecided_reason, WT_UNDECIDED_ONE_SPOT);
         assert_true(isfinite(c.ratio) && isnan(c.ratio_low) && isnan(c.ratio_high) && isnan(c.p));
     }
     /* Unless it is told how much spots scatter: a normal interval of one spot and of two. */
@@ -294,7 +294,7 @@ static void no_answer(void **state)
     lone.spot_scatter = other[0].spot_scatter = other[1].spot_scatter = 0.2;
     for (int i = 0; i < 2; i++) {
         assert_int_equal(wt_compare_moduli(&other[i], &lone, NULL, &c, NULL), WT_OK);
-        assert_int_equal(c.unsettled, WT_UNDECIDED_NOT);
+        assert_int_equal(c.undecided_reason, WT_UNDECIDED_NOT);
         assert_true(c.scatter_is_stated);
         assert_near(c.log_ratio.standard_error, 0.2 * sqrt(1 + (i == 0 ? 1 : 0.5)), 1e-12);
         assert_near(log(c.ratio_high / c.ratio), 1.959963984540054 * c.log_ratio.standard_error,
@@ -305,7 +305,7 @@ static void no_answer(void **state)
     assert_near(log(s.high / s.low), 2 * 1.959963984540054 * 0.2, 1e-9);
     /* of both groups, */
     assert_int_equal(wt_compare_moduli(&single, &lone, NULL, &c, NULL), WT_OK);
-    assert_int_equal(c.unsettled, WT_UNDECIDED_ONE_SPOT);
+    assert_int_equal(c.undecided_reason, WT_UNDECIDED_ONE_SPOT);
     /* beside which the curves of a spot scatter, */
     const double mean_3 = log(6) / 3;
     const double of_mean =
@@ -325,7 +325,7 @@ static void no_answer(void **state)
     const double mean = log(6) / 3,
                  scatter = sqrt((mean * mean + pow(log(2) - mean, 2) + pow(log(3) - mean, 2)) / 2);
     assert_int_equal(wt_compare_moduli(&a, &single, NULL, &c, NULL), WT_OK);
-    assert_int_equal(c.unsettled, WT_UNDECIDED_NOT);
+    assert_int_equal(c.undecided_reason, WT_UNDECIDED_NOT);
     assert_near(log(c.ratio), -mean, 1e-12);
     assert_near(log(c.ratio_high / c.ratio_low),
                 2 * 4.302652729911275 * scatter * sqrt(1.0 / 3 + 4), 1e-9);
@@ -400,7 +400,7 @@ static void rates_by_slope(void **state)
     make_rates(&a, 0, 0.15, 0);
     make_rates(&b, log(0.7), 0.15, 2);
     assert_int_equal(wt_compare_moduli(&a.group, &b.group, NULL, &c, NULL), WT_OK);
-    assert_int_equal(c.unsettled, WT_UNDECIDED_NOT);
+    assert_int_equal(c.undecided_reason, WT_UNDECIDED_NOT);
     assert_int_equal(c.rate_matching, WT_RATES_WITHIN);
     assert_near(c.rate_slope.value, 0.15, 1e-9);
     assert_near(c.ratio, 0.7, 1e-9);
@@ -425,12 +425,12 @@ static void rates_that_say_nothing(void **state)
     make_rates(&a, 0, 0.15, 0);
     make_rates(&b, log(0.7), 0.25, 2);
     assert_int_equal(wt_compare_moduli(&a.group, &b.group, NULL, &c, NULL), WT_OK);
-    assert_int_equal(c.unsettled, WT_UNDECIDED_SLOPES_DIFFER);
+    assert_int_equal(c.undecided_reason, WT_UNDECIDED_SLOPES_DIFFER);
     assert_true(c.interaction_p < 1e-4 && isnan(c.ratio_low));
     /* the same with common rates is told beside the ratio */
     make_rates(&b, log(0.7), 0.25, 0);
     assert_int_equal(wt_compare_moduli(&a.group, &b.group, NULL, &c, NULL), WT_OK);
-    assert_int_equal(c.unsettled, WT_UNDECIDED_NOT);
+    assert_int_equal(c.undecided_reason, WT_UNDECIDED_NOT);
     assert_true(c.interaction_p < 1e-4);
     make_rates(&b, log(0.7), 0.15, 0);
     assert_int_equal(wt_compare_moduli(&a.group, &b.group, NULL, &c, NULL), WT_OK);
@@ -442,7 +442,7 @@ static void rates_that_say_nothing(void **state)
         b.rate_class[i] = 3;
     }
     assert_int_equal(wt_compare_moduli(&a.group, &b.group, NULL, &c, NULL), WT_OK);
-    assert_int_equal(c.unsettled, WT_UNDECIDED_NO_COMMON_RATE);
+    assert_int_equal(c.undecided_reason, WT_UNDECIDED_NO_COMMON_RATE);
     assert_true(isnan(c.ratio) && isnan(c.p));
 }
 

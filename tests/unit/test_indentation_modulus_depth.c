@@ -160,11 +160,11 @@ static void layers(void **state)
             assert_true(d.thickness.low < 1.2 * scenes[i].thickness &&
                         d.thickness.high > scenes[i].thickness / 1.2);
             assert_near(d.layer_modulus.value, 5e6, 0.3);
-            assert_near(d.ground_modulus.value, 5e6 / scenes[i].ratio, 0.3);
+            assert_near(d.substrate_modulus.value, 5e6 / scenes[i].ratio, 0.3);
         }
         print_message("ratio %g, %g nm: %g to %g nm, %g on %g Pa, left %g\n", scenes[i].ratio,
                       1e9 * scenes[i].thickness, 1e9 * d.thickness.low, 1e9 * d.thickness.high,
-                      d.layer_modulus.value, d.ground_modulus.value, d.misfit_p);
+                      d.layer_modulus.value, d.substrate_modulus.value, d.misfit_p);
     }
 }
 
@@ -204,7 +204,7 @@ static void assert_held(const scene *s, const wt_modulus_profile *d)
 {
     for (size_t i = 0; i < WT_DEPTHS; i++)
         assert_true(d->modulus[i].low < 5e6 && d->modulus[i].high > 5e6);
-    assert_true(s->bow > 0 || d->bend_share < 0.01);
+    assert_true(s->bow > 0 || d->curvature_share < 0.01);
 }
 
 /* A bend that all baselines have does not scatter: the intervals hold it, and no change is seen in
@@ -216,7 +216,7 @@ static void bent_baselines(void **state)
         const scene s = {.radius_factor = 1, .noise = 100e-12, .bow = bow};
         const wt_modulus_profile d = depth_of(&s, CURVES, CURVES);
         assert_held(&s, &d);
-        assert_true(d.bend_share > 0.5 && d.modulus[4].value < 5e6 * 0.99);
+        assert_true(d.curvature_share > 0.5 && d.modulus[4].value < 5e6 * 0.99);
         assert_true(d.modulus[4].high < 5e6 * 1.12);
         assert_true(d.verdict == WT_DEPTH_SAME || d.verdict == WT_DEPTH_INCONCLUSIVE);
     }
@@ -259,7 +259,8 @@ static void loss_of_layers(void **state)
         const size_t last = WT_DEPTHS - 1;
         double more[3] = {0};
         for (size_t k = 0; k < 2; k++) {
-            const wt_interval of[3] = {d[k].modulus[last], d[k].layer_modulus, d[k].ground_modulus};
+            const wt_interval of[3] = {d[k].modulus[last], d[k].layer_modulus,
+                                       d[k].substrate_modulus};
             for (size_t j = 0; j < 3; j++)
                 more[j] += (k == 1 ? 1 : -1) * pow(log(of[j].high / of[j].value), 2);
         }
@@ -325,7 +326,7 @@ static void words_of_no_answer(void **state)
                                       .n_excluded_by_loss = cases[i].n_excluded_by_loss,
                                       .verdict = cases[i].verdict,
                                       .change = {1, 0.1, 0.8, 1.2},
-                                      .bend_share = cases[i].bend_share,
+                                      .curvature_share = cases[i].bend_share,
                                       .loss_share = cases[i].loss_share};
         wt_indent_tables tables = {0};
         assert_int_equal(flow_depth_table_add(&tables, "bulk", &d, NULL), WT_OK);

@@ -526,7 +526,7 @@ static void test_soft(void **state)
                 2.4 * number_cell(t.sensitivity, 2, "slope_change_high"), 0.005);
     wt_sensitivity_tables_clear(&t);
     job.max_slope_change = 0.5;
-    job.ways = WT_DIRECTION_RETRACT;
+    job.directions = WT_DIRECTION_RETRACT;
     assert_int_equal(make(&job, path, 1, &t, NULL), WT_OK);
     assert_string_equal(wt_table_key(t.sensitivity, "verdict"), "straight");
     assert_string_equal(wt_table_key(t.sensitivity, "direction"), "retract");

@@ -84,9 +84,9 @@ static void test_truth(void **state)
     assert_near(t.from, 20e3, 0);
     assert_int_equal(wt_thermal_fit(f, p, s.n, 40e3, 60e3, &t, NULL), WT_OK);
     assert_false(t.found);
-    assert_string_equal(t.why_not, "the largest peak lies outside of the range of the fit");
+    assert_string_equal(t.reason, "the largest peak lies outside of the range of the fit");
     assert_int_equal(wt_thermal_fit(f, p, 10, (double)NAN, (double)NAN, &t, NULL), WT_OK);
-    assert_string_equal(t.why_not, "too few points");
+    assert_string_equal(t.reason, "too few points");
 }
 
 static void test_coverage(void **state)
@@ -113,7 +113,7 @@ static void test_coverage(void **state)
             square += t.mean_square.low < 1 && t.mean_square.high > 1;
             quality += t.quality.low < s->q && t.quality.high > s->q;
             resonance += t.resonance.low < s->f0 && t.resonance.high > s->f0;
-            alarms += t.chance < 0.01;
+            alarms += t.misfit_p < 0.01;
         }
         print_message("Q %g, %zu averages%s: mean square %.3f, Q %.3f, f0 %.3f, alarms %.3f\n",
                       s->q, s->averages, s->window ? ", window" : "", square / (double)DRAWS,
@@ -135,7 +135,7 @@ static void test_misfit(void **state)
     uint64_t seed = 22;
     assert_near(drawn(&s, &seed).averages, 100, 0.2);
     s.other = 0.3;
-    assert_true(drawn(&s, &seed).chance < 1e-6);
+    assert_true(drawn(&s, &seed).misfit_p < 1e-6);
 }
 
 /* Values by the power series of the Bessel functions; levers of table 1 of Sader, Chon and Mulvaney

@@ -357,7 +357,7 @@ static bool check_running_in(const rig *r, const case_line *line)
                       : strcmp(line->key, "mu_start") == 0 ? 0
                                                            : balance_of(r).thickness.value;
     const double jump = mu + wt_layer_shear_stress(&shear, bulk, layer, area) * area / pressure;
-    shear.reach = number(r->c, "reach", 0);
+    shear.transition_thickness = number(r->c, "reach", 0);
     const double slow = mu + wt_layer_shear_stress(&shear, bulk, layer, area) * area / pressure;
     if (friction || strcmp(line->key, "mu_end_saturating") != 0)
         assert_near(jump, v[friction], r->digits);

@@ -71,7 +71,7 @@ static wt_friction_workspace *workspace_of(const rig *r, double thickness, wt_er
     wt_friction_workspace *w = NULL;
     options.tolerance = 1e-12;
     options.layer =
-        (wt_layer_state){.thickness = thickness, .modulus_ratio = r->ratio, .own = r->own};
+        (wt_layer_state){.thickness = thickness, .modulus_ratio = r->ratio, .material = r->own};
     options.skip_extrapolated_share = true;
     if (wt_friction_workspace_new(r->material, r->roughness, &options, &w, err) != WT_OK)
         return NULL;

@@ -190,16 +190,18 @@ static void running_in_joins_both(void **state)
     wt_layer_job job = job_of();
     wt_table *running = NULL, *balances = NULL;
     wt_error err = WT_ERROR_INIT;
-    wt_layer_observation known = {.modulus_ratio = {0.5, 0, 0, "1"}};
+    wt_layer_observation observation = {.modulus_ratio = {0.5, 0, 0, "1"}};
     wt_table *layer = layer_of(&job);
-    assert_int_equal(wt_running_in_compute(&sliding, &job, &known, &work, &running, &err), WT_OK);
+    assert_int_equal(wt_running_in_compute(&sliding, &job, &observation, &work, &running, &err),
+                     WT_OK);
     const size_t n = wt_table_n_rows(running);
     for (size_t row = 0; row < n; row++)
         assert_near(number_cell(running, row, "thickness"), number_cell(layer, row, "thickness"),
                     1e-12);
     wt_friction_tables friction = {0};
-    known.thickness = (wt_estimate){key_number(layer, "balance_thickness"), 0, 0, "m"};
-    assert_int_equal(wt_sliding_friction_compute(&sliding, &known, &work, &friction, &err), WT_OK);
+    observation.thickness = (wt_estimate){key_number(layer, "balance_thickness"), 0, 0, "m"};
+    assert_int_equal(wt_sliding_friction_compute(&sliding, &observation, &work, &friction, &err),
+                     WT_OK);
     assert_near(key_number(running, "bare_friction"),
                 key_number(friction.friction, "friction_at_reference"), 1e-9);
     assert_near(key_number(running, "balance_friction"),
@@ -211,10 +213,11 @@ static void running_in_joins_both(void **state)
         job.has_feedback = true;
         job.severity_power = k ? 1e4 : 0;
         wt_table_free(running);
-        assert_int_equal(wt_running_in_compute(&sliding, &job, &known, &work, &running, &err),
+        assert_int_equal(wt_running_in_compute(&sliding, &job, &observation, &work, &running, &err),
                          WT_OK);
         assert_int_equal(
-            wt_layer_steady_states_compute(&sliding, &job, &known, &work, &balances, &err), WT_OK);
+            wt_layer_steady_states_compute(&sliding, &job, &observation, &work, &balances, &err),
+            WT_OK);
         assert_near(number_cell(running, n - 1, "thickness"), number_cell(balances, 0, "thickness"),
                     1e-8);
         assert_true(
@@ -237,17 +240,19 @@ static void one_shear_stress(void **state)
     job.shear = (wt_layer_shear){2, 3e-6, 1, 1e-5};
     wt_table *running = NULL, *layer = layer_of(&job);
     wt_error err = WT_ERROR_INIT;
-    wt_layer_observation known = {.thickness = {key_number(layer, "balance_thickness"), 0, 0, "m"},
-                                  .modulus_ratio = {0.5, 0, 0, "1"}};
-    assert_int_equal(wt_running_in_compute(&sliding, &job, &known, &work, &running, &err), WT_OK);
+    wt_layer_observation observation = {
+        .thickness = {key_number(layer, "balance_thickness"), 0, 0, "m"},
+        .modulus_ratio = {0.5, 0, 0, "1"}};
+    assert_int_equal(wt_running_in_compute(&sliding, &job, &observation, &work, &running, &err),
+                     WT_OK);
     static const char *const of_running[] = {"bare_friction", "balance_friction"},
                              *const of_friction[] = {"friction_at_reference",
                                                      "friction_with_layer_at_reference"};
     for (int with = 0; with < 2; with++) {
         wt_friction_tables friction = {0};
-        known.shear = with ? &job.shear : NULL;
-        assert_int_equal(wt_sliding_friction_compute(&sliding, &known, &work, &friction, &err),
-                         WT_OK);
+        observation.shear = with ? &job.shear : NULL;
+        assert_int_equal(
+            wt_sliding_friction_compute(&sliding, &observation, &work, &friction, &err), WT_OK);
         for (int i = 0; i < 2; i++) {
             const double apart =
                 key_number(friction.friction, of_friction[i]) / key_number(running, of_running[i]) -
@@ -267,7 +272,7 @@ static void shearing_the_layer(void **state)
 {
     (void)state;
     sliding_set_up(velocity, VELOCITIES);
-    const wt_layer_observation known = {.modulus_ratio = {0.5, 0, 0, "1"}};
+    const wt_layer_observation observation = {.modulus_ratio = {0.5, 0, 0, "1"}};
     wt_error err = WT_ERROR_INIT;
     wt_table *balances = NULL, *running = NULL;
     double thickness[2];
@@ -277,7 +282,8 @@ static void shearing_the_layer(void **state)
     for (int k = 0; k < 2; k++) {
         job.shear.exponent = k;
         assert_int_equal(
-            wt_layer_steady_states_compute(&sliding, &job, &known, &work, &balances, &err), WT_OK);
+            wt_layer_steady_states_compute(&sliding, &job, &observation, &work, &balances, &err),
+            WT_OK);
         thickness[k] = number_cell(balances, 0, "thickness");
         wt_table_free(balances);
     }
@@ -289,10 +295,11 @@ static void shearing_the_layer(void **state)
             key_number(layer, "critical_specific_wear_rate") / (k ? 1.001 : 1.1);
         wt_table_free(layer);
         assert_int_equal(
-            wt_layer_steady_states_compute(&sliding, &job, &known, &work, &balances, &err), WT_OK);
+            wt_layer_steady_states_compute(&sliding, &job, &observation, &work, &balances, &err),
+            WT_OK);
         assert_int_equal(number_cell(balances, 0, "thickness") > 0, k);
         assert_true(number_cell(balances, 0, "thickness") < 1e-8);
-        assert_int_equal(wt_running_in_compute(&sliding, &job, &known, &work, &running, &err),
+        assert_int_equal(wt_running_in_compute(&sliding, &job, &observation, &work, &running, &err),
                          WT_OK);
         assert_near(key_number(running, "balance_thickness"), number_cell(balances, 0, "thickness"),
                     1e-9);
@@ -308,7 +315,7 @@ static void threshold_of_a_stiff_layer(void **state)
 {
     (void)state;
     sliding_set_up(velocity, VELOCITIES);
-    const wt_layer_observation known = {.modulus_ratio = {4, 0, 0, "1"}};
+    const wt_layer_observation observation = {.modulus_ratio = {4, 0, 0, "1"}};
     wt_error err = WT_ERROR_INIT;
     wt_table *balances = NULL;
     wt_layer_job job = job_of();
@@ -318,9 +325,10 @@ static void threshold_of_a_stiff_layer(void **state)
     job.specific_wear_rate.value = key_number(layer, "critical_specific_wear_rate") / 0.58;
     wt_table_free(layer);
     for (int k = 0; k < 2; k++) {
-        job.shear.reach = k ? 1e-11 : 0;
+        job.shear.transition_thickness = k ? 1e-11 : 0;
         assert_int_equal(
-            wt_layer_steady_states_compute(&sliding, &job, &known, &work, &balances, &err), WT_OK);
+            wt_layer_steady_states_compute(&sliding, &job, &observation, &work, &balances, &err),
+            WT_OK);
         static const char *const stable[] = {"stable", "unstable", "stable"};
         const size_t kind = (size_t)wt_table_find(balances, "kind"),
                      at = (size_t)wt_table_find(balances, "stable");
@@ -341,12 +349,13 @@ static void existence_ends_where_it_says(void **state)
 {
     (void)state;
     sliding_set_up(velocity, VELOCITIES);
-    const wt_layer_observation known = {.modulus_ratio = {0.5, 0, 0, "1"}};
+    const wt_layer_observation observation = {.modulus_ratio = {0.5, 0, 0, "1"}};
     wt_layer_job job = job_of();
     wt_table *existence = NULL;
     wt_error err = WT_ERROR_INIT;
     job.severity_power = 1e4;
-    assert_int_equal(wt_regime_map_compute(&sliding, &job, &known, &work, &existence, &err), WT_OK);
+    assert_int_equal(wt_regime_map_compute(&sliding, &job, &observation, &work, &existence, &err),
+                     WT_OK);
     const double edge = key_number(existence, "to_velocity");
     assert_true(isnan(key_number(existence, "from_velocity")));
     assert_true(edge > velocity[0] && edge < velocity[VELOCITIES - 1]);
@@ -358,7 +367,8 @@ static void existence_ends_where_it_says(void **state)
     static const double other_way[] = {10, 1, 1e-2, 0.1, 1e-3};
     wt_table *again = NULL;
     sliding.velocity = other_way;
-    assert_int_equal(wt_regime_map_compute(&sliding, &job, &known, &work, &again, &err), WT_OK);
+    assert_int_equal(wt_regime_map_compute(&sliding, &job, &observation, &work, &again, &err),
+                     WT_OK);
     assert_near(key_number(again, "to_velocity"), edge, 1e-9);
     wt_table_free(again);
     sliding.velocity = &edge;
@@ -383,11 +393,12 @@ static void existence_of_two_ranges(void **state)
     rubber.prony.relaxation_time = tau;
     rubber.prony.modulus = term;
     surface.q1 = 2e4;
-    const wt_layer_observation known = {.modulus_ratio = {0.5, 0, 0, "1"}};
+    const wt_layer_observation observation = {.modulus_ratio = {0.5, 0, 0, "1"}};
     wt_layer_job job = job_of();
     wt_table *existence = NULL;
     wt_error err = WT_ERROR_INIT;
-    assert_int_equal(wt_regime_map_compute(&sliding, &job, &known, &work, &existence, &err), WT_OK);
+    assert_int_equal(wt_regime_map_compute(&sliding, &job, &observation, &work, &existence, &err),
+                     WT_OK);
     /* R goes with 1/k: a wear rate between the two peaks of R and the valley */
     size_t first = 0, valley = 0, last = 0;
     double ratio[LIST];
@@ -405,8 +416,8 @@ static void existence_of_two_ranges(void **state)
     job.specific_wear_rate.value = wear;
     for (int whole = 0; whole < 2; whole++) {
         sliding.n_velocity = whole ? LIST : last + 1;
-        assert_int_equal(wt_regime_map_compute(&sliding, &job, &known, &work, &existence, &err),
-                         WT_OK);
+        assert_int_equal(
+            wt_regime_map_compute(&sliding, &job, &observation, &work, &existence, &err), WT_OK);
         const double from = key_number(existence, "from_velocity"),
                      to = key_number(existence, "to_velocity"),
                      power = key_number(existence, "to_power");

@@ -33,29 +33,29 @@ static wt_table *bands_of(const wt_layer_job *job)
     return table;
 }
 
-static wt_table *running_of(const wt_layer_job *job, const wt_layer_observation *known)
+static wt_table *running_of(const wt_layer_job *job, const wt_layer_observation *observation)
 {
     wt_table *table = NULL;
     wt_error err = WT_ERROR_INIT;
-    if (wt_running_in_compute(&sliding, job, known, &work, &table, &err) != WT_OK)
+    if (wt_running_in_compute(&sliding, job, observation, &work, &table, &err) != WT_OK)
         fail_msg("running-in: %s %s", err.message, err.found);
     return table;
 }
 
-static wt_table *balances_of(const wt_layer_job *job, const wt_layer_observation *known)
+static wt_table *balances_of(const wt_layer_job *job, const wt_layer_observation *observation)
 {
     wt_table *table = NULL;
     wt_error err = WT_ERROR_INIT;
-    if (wt_layer_steady_states_compute(&sliding, job, known, &work, &table, &err) != WT_OK)
+    if (wt_layer_steady_states_compute(&sliding, job, observation, &work, &table, &err) != WT_OK)
         fail_msg("balances: %s %s", err.message, err.found);
     return table;
 }
 
-static wt_table *regime_map_of(const wt_layer_job *job, const wt_layer_observation *known)
+static wt_table *regime_map_of(const wt_layer_job *job, const wt_layer_observation *observation)
 {
     wt_table *table = NULL;
     wt_error err = WT_ERROR_INIT;
-    if (wt_regime_map_compute(&sliding, job, known, &work, &table, &err) != WT_OK)
+    if (wt_regime_map_compute(&sliding, job, observation, &work, &table, &err) != WT_OK)
         fail_msg("existence: %s %s", err.message, err.found);
     return table;
 }
@@ -71,7 +71,7 @@ static void set_up(size_t replicates)
 static void one_error_of_the_thickness(void **state)
 {
     (void)state;
-    const wt_layer_observation known = {.modulus_ratio = {0.6, 0.03, 0, "1"}};
+    const wt_layer_observation observation = {.modulus_ratio = {0.6, 0.03, 0, "1"}};
     for (int calibrated = 0; calibrated < 2; calibrated++) {
         set_up(48);
         sliding.pressure.standard_error = 0.05 * sliding.pressure.value;
@@ -82,7 +82,7 @@ static void one_error_of_the_thickness(void **state)
             job.observed_thickness = (wt_estimate){2e-5, 2e-6, 0, "m"};
         }
         wt_table *layer = layer_of(&job), *bands = bands_of(&job),
-                 *running = running_of(&job, &known), *existence = regime_map_of(&job, NULL);
+                 *running = running_of(&job, &observation), *existence = regime_map_of(&job, NULL);
         const double incubation = key_error(layer, "incubation_time");
         assert_near(key_error(bands, "onset_time"), incubation, AS_CLOSE);
         size_t looked = 0;
@@ -121,12 +121,13 @@ static void one_error_of_the_friction(void **state)
     sliding.pressure.standard_error = 0.05 * sliding.pressure.value;
     sliding.shear_stress.standard_error = 0.1 * sliding.shear_stress.value;
     const wt_layer_job job = job_of(0, 0);
-    wt_layer_observation known = {.modulus_ratio = {0.6, 0.03, 0, "1"}};
-    wt_table *running = running_of(&job, &known);
-    known.thickness = (wt_estimate){key_number(running, "balance_thickness"), 0, 0, "m"};
+    wt_layer_observation observation = {.modulus_ratio = {0.6, 0.03, 0, "1"}};
+    wt_table *running = running_of(&job, &observation);
+    observation.thickness = (wt_estimate){key_number(running, "balance_thickness"), 0, 0, "m"};
     wt_friction_tables friction = {0};
     wt_error err = WT_ERROR_INIT;
-    assert_int_equal(wt_sliding_friction_compute(&sliding, &known, &work, &friction, &err), WT_OK);
+    assert_int_equal(wt_sliding_friction_compute(&sliding, &observation, &work, &friction, &err),
+                     WT_OK);
     assert_near(key_error(running, "bare_friction"),
                 key_error(friction.friction, "friction_at_reference"), AS_CLOSE);
     /* the pressure moves the thickness, which is given there, by next to nothing of the friction */
@@ -145,17 +146,17 @@ static void errors_are_slopes(void **state)
     static const char *const loads[] = {"time=30s", "time=300s,specific-wear-rate=2e-12m^2/N",
                                         "velocity=0.02m/s"};
     const double share = 0.02;
-    const wt_layer_observation known = {.modulus_ratio = {0.6, 0, 0, "1"}};
+    const wt_layer_observation observation = {.modulus_ratio = {0.6, 0, 0, "1"}};
     set_up(64);
     wt_layer_job job = job_of(share, 0);
     job.severity_power = 1e4;
-    wt_table *existence = regime_map_of(&job, NULL), *running = running_of(&job, &known);
+    wt_table *existence = regime_map_of(&job, NULL), *running = running_of(&job, &observation);
     double edge[2], settled[2];
     for (int up = 0; up < 2; up++) {
         wt_layer_job moved = job_of(0, 0);
         moved.severity_power = 1e4;
         moved.specific_wear_rate.value *= exp(up ? share : -share);
-        wt_table *other = regime_map_of(&moved, NULL), *run = running_of(&moved, &known);
+        wt_table *other = regime_map_of(&moved, NULL), *run = running_of(&moved, &observation);
         edge[up] = key_number(other, "to_velocity");
         settled[up] = key_number(run, "settled");
         wt_table_free(other);
@@ -227,7 +228,7 @@ static void ends_do_not_hang_on_the_seed(void **state)
 static void balances_that_may_be_others(void **state)
 {
     (void)state;
-    const wt_layer_observation known = {.modulus_ratio = {4, 0, 0, "1"}};
+    const wt_layer_observation observation = {.modulus_ratio = {4, 0, 0, "1"}};
     for (int near = 0; near < 2; near++) {
         set_up(32);
         wt_layer_job job = job_of(0, 0);
@@ -239,7 +240,7 @@ static void balances_that_may_be_others(void **state)
         /* up to `most` a bare surface is modified: one balance; above it three */
         job.specific_wear_rate.value = most / (near ? 1.01 : 2);
         job.specific_wear_rate.standard_error = 0.05 * job.specific_wear_rate.value;
-        wt_table *balances = balances_of(&job, &known);
+        wt_table *balances = balances_of(&job, &observation);
         const char *const agreement = wt_table_key(balances, "agreement");
         assert_non_null(agreement);
         if (strncmp(agreement, near ? "cannot say" : "yes", near ? 10 : 3) != 0)
@@ -305,10 +306,10 @@ static void a_layer_that_may_not_come(void **state)
 static void nothing_to_draw(void **state)
 {
     (void)state;
-    const wt_layer_observation known = {.modulus_ratio = {0.6, 0, 0, "1"}};
+    const wt_layer_observation observation = {.modulus_ratio = {0.6, 0, 0, "1"}};
     set_up(16);
     wt_layer_job job = job_of(0, 0);
-    wt_table *running = running_of(&job, &known);
+    wt_table *running = running_of(&job, &observation);
     assert_true(isnan(key_error(running, "settled")));
     assert_null(wt_table_key(running, "settled_low"));
     assert_non_null(strstr(wt_table_key(running, "errors"), "no error was measured or stated"));

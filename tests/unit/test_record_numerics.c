@@ -161,7 +161,7 @@ static void test_of_a_measured_disc(void **state)
     for (size_t i = 0; i < cycles.n; i++)
         y[i] = cycles.cycle[i].coefficient;
     assert_int_equal(wt_running_in_find(y, cycles.n, &end, NULL), WT_OK);
-    assert_true(end.seen && end.end.low >= 270 && end.end.high <= 310);
+    assert_true(end.is_detected && end.end.low >= 270 && end.end.high <= 310);
     free(y);
     wt_cycles_clear(&cycles);
     wt_record_clear(&record);
@@ -305,9 +305,9 @@ static void test_of_few_points(void **state)
     assert_int_equal(wt_steady_mean(same, 50, &s, NULL), WT_OK);
     assert_true(isnan(s.mean.standard_error));
     assert_int_equal(wt_running_in_find(y, 3, &r, NULL), WT_OK);
-    assert_true(!r.seen && isnan(r.end.value) && r.steady_start == 0);
+    assert_true(!r.is_detected && isnan(r.end.value) && r.steady_start == 0);
     assert_int_equal(wt_running_in_find(same, 50, &r, NULL), WT_OK);
-    assert_false(r.seen);
+    assert_false(r.is_detected);
 }
 
 /* One that never ends, one that is not there, one that is a jump without scatter. */
@@ -321,16 +321,16 @@ static void test_of_the_end_of_a_running_in(void **state)
     for (int i = 0; i < N; i++)
         y[i] = 1 - 0.002 * i + 0.002 * normal(&seed);
     assert_int_equal(wt_running_in_find(y, N, &r, NULL), WT_OK);
-    assert_false(r.seen);
-    assert_non_null(strstr(r.why_not, "does not become steady"));
+    assert_false(r.is_detected);
+    assert_non_null(strstr(r.reason, "does not become steady"));
     for (int i = 0; i < N; i++)
         y[i] = 1 + 0.002 * normal(&seed);
     assert_int_equal(wt_running_in_find(y, N, &r, NULL), WT_OK);
-    assert_true(!r.seen && r.steady_start == 0);
+    assert_true(!r.is_detected && r.steady_start == 0);
     for (int i = 0; i < N; i++)
         y[i] = i < 100 ? 1.5 : 1;
     assert_int_equal(wt_running_in_find(y, N, &r, NULL), WT_OK);
-    assert_true(r.seen);
+    assert_true(r.is_detected);
     assert_near(r.end.value, 100, 1e-12);
     assert_near(r.end.low, 100, 1e-12);
     assert_near(r.end.high, 100, 1e-12);

@@ -13,7 +13,7 @@
 
 enum { STEPS = 13 };
 static double velocity[STEPS];
-static wt_layer_observation known;
+static wt_layer_observation observation;
 static wt_table *record, *what_if;
 static size_t at_rest = SIZE_MAX; /* row of the record */
 static bool by_rotation;          /* which alone says so */
@@ -91,7 +91,7 @@ static wt_validation_job job_of(bool layered)
 {
     wt_validation_job job = wt_validation_job_defaults();
     job.sliding = &sliding;
-    job.known = layered ? &known : NULL;
+    job.layer_observation = layered ? &known : NULL;
     job.record = record;
     return job;
 }

@@ -75,7 +75,7 @@ static void test_descriptions_fit_their_tables(void **state)
             assert_true(!curve->with_errors || column->standard_error > 0 || column->high > 0);
             assert_true(curve->panel < FIGURE_PANELS);
         }
-        assert_true(figure->words != NULL && strlen(figure->title) > 5);
+        assert_true(figure->caption_text != NULL && strlen(figure->title) > 5);
     }
 }
 

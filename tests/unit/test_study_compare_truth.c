@@ -571,7 +571,7 @@ static void test_common(void **state)
     assert_string_equal(wt_table_key(tables.comparison, "cancels"), "radius of the tip");
     assert_near(key_estimate(tables.comparison, "modulus_ratio").standard_error,
                 RATIO * hypot(scatter, 0.2 * 0.2), 1e-9);
-    job.levers = WT_CANTILEVERS_SEPARATE;
+    job.cantilevers = WT_CANTILEVERS_SEPARATE;
     job.lever_error = 0.04;
     assert_non_null(includes_of(job));
     assert_null(wt_table_key(tables.comparison, "cancels"));
@@ -627,7 +627,7 @@ static void test_stated_levers(void **state)
     set_lever(bulk_table, 0.5, 0.05);
     set_lever(track_table, 2, 0.06);
     wt_compare_job job = at_one_temperature();
-    job.levers = WT_CANTILEVERS_SEPARATE;
+    job.cantilevers = WT_CANTILEVERS_SEPARATE;
     job.lever_error = 0.3;
     assert_non_null(strstr(includes_of(job), "spring constants"));
     assert_near(key_estimate(tables.comparison, "modulus_ratio").standard_error,
@@ -672,7 +672,7 @@ static void test_shown(void **state)
     assert_non_null(strstr(includes, "loss of unknown spectrum, bend of the baselines"));
     assert_near(key_estimate(tables.comparison, "modulus_ratio").standard_error,
                 RATIO * hypot(scatter, hypot(0.05, 0.07)), 1e-9);
-    job.levers = WT_CANTILEVERS_SEPARATE;
+    job.cantilevers = WT_CANTILEVERS_SEPARATE;
     job.lever_error = 0.01;
     assert_non_null(includes_of(job));
     assert_near(key_estimate(tables.comparison, "modulus_ratio").standard_error,

@@ -215,12 +215,12 @@ static void test_nothing_stated(void **state)
 static void test_exact_ratio(void **state)
 {
     (void)state;
-    const wt_layer_observation known = {.thickness = {5e-6, 0, 0, "m"},
-                                        .modulus_ratio = {0.6, 0, 0, "1"}};
+    const wt_layer_observation observation = {.thickness = {5e-6, 0, 0, "m"},
+                                              .modulus_ratio = {0.6, 0, 0, "1"}};
     sliding_set_up_uncertain();
     wt_table *table = NULL;
-    assert_int_equal(wt_error_budget_compute(&sliding, NULL, &known, NULL, &work, &table, NULL),
-                     WT_OK);
+    assert_int_equal(
+        wt_error_budget_compute(&sliding, NULL, &observation, NULL, &work, &table, NULL), WT_OK);
     assert_true(relative(table, "friction coefficient with layer", "pressure") > 0);
     assert_non_null(strstr(wt_table_key(table, "excluded_errors"), "modulus ratio"));
     for (size_t i = 0; i < wt_table_n_rows(table); i++) {
@@ -236,13 +236,13 @@ static void test_calibration(void **state)
 {
     (void)state;
     static const char number[] = "friction coefficient with layer";
-    const wt_layer_observation known = {.thickness = {5e-6, 0, 0, "m"},
-                                        .modulus_ratio = {0.6, 0.06, 0, "1"},
-                                        .calibration_share = 0.36};
+    const wt_layer_observation observation = {.thickness = {5e-6, 0, 0, "m"},
+                                              .modulus_ratio = {0.6, 0.06, 0, "1"},
+                                              .calibration_share = 0.36};
     sliding_set_up_uncertain();
     wt_table *table = NULL;
-    assert_int_equal(wt_error_budget_compute(&sliding, NULL, &known, NULL, &work, &table, NULL),
-                     WT_OK);
+    assert_int_equal(
+        wt_error_budget_compute(&sliding, NULL, &observation, NULL, &work, &table, NULL), WT_OK);
     const double spots = relative(table, number, "modulus ratio"),
                  calibration = relative(table, number, "calibration");
     assert_near(calibration / spots, 0.6 / 0.8, 0.02);
@@ -273,16 +273,16 @@ static void test_slope(void **state)
     (void)state;
     static const char number[] = "friction coefficient with layer",
                       slope[] = "slope of the modulus ratio";
-    wt_layer_observation known = with_slope(0.1, 0);
+    wt_layer_observation observation = with_slope(0.1, 0);
     wt_table *exact = NULL, *table = NULL;
     sliding_set_up_uncertain();
     work.replicates = 16;
-    assert_int_equal(wt_error_budget_compute(&sliding, NULL, &known, NULL, &work, &exact, NULL),
-                     WT_OK);
+    assert_int_equal(
+        wt_error_budget_compute(&sliding, NULL, &observation, NULL, &work, &exact, NULL), WT_OK);
     assert_non_null(strstr(wt_table_key(exact, "excluded_errors"), slope));
-    known.ratio_slope.standard_error = 0.05;
-    assert_int_equal(wt_error_budget_compute(&sliding, NULL, &known, NULL, &work, &table, NULL),
-                     WT_OK);
+    observation.ratio_slope.standard_error = 0.05;
+    assert_int_equal(
+        wt_error_budget_compute(&sliding, NULL, &observation, NULL, &work, &table, NULL), WT_OK);
     assert_true(relative(table, number, slope) > 0.001);
     assert_near(relative(table, number, "pressure"), relative(exact, number, "pressure"), 1e-12);
     wt_table_free(exact);

@@ -161,8 +161,10 @@ static void test_below_the_law(void **state)
 {
     (void)state;
     const double end = 100e-9, error = 0.1;
-    wt_layer_profile p = {
-        .says = WT_LAYER_BOUND_UPPER, .n_steps = WT_LAYER_STEPS, .below = true, .least = end};
+    wt_layer_profile p = {.bound_kind = WT_LAYER_BOUND_UPPER,
+                          .n_steps = WT_LAYER_STEPS,
+                          .thinner_allowed = true,
+                          .smallest_thickness = end};
     for (size_t i = 0; i < p.n_steps; i++) {
         p.log_thickness[i] = log(end) + 4 - 4 * (double)i / (double)(p.n_steps - 1);
         p.deviate[i] = 3 + (p.log_thickness[i] - log(end)) / error;
@@ -172,7 +174,7 @@ static void test_below_the_law(void **state)
     assert_true(!a.differ && !a.agree);
     assert_near(a.high, 0.6 * end, 0.05);
     assert_true(a.ratio_low == 0);
-    p.below = false;
+    p.thinner_allowed = false;
     assert_true(wt_layer_compare(&p, thinner).differ);
     /* of another source without a lower end, and curves that tell nothing, there is none */
     for (size_t i = 0; i < p.n_steps; i++)
@@ -186,7 +188,7 @@ static void test_agreement(void **state)
 {
     (void)state;
     const double error = 0.1, at = log(1e-6);
-    wt_layer_profile p = {.says = WT_LAYER_BOUND_BOTH, .n_steps = WT_LAYER_STEPS};
+    wt_layer_profile p = {.bound_kind = WT_LAYER_BOUND_BOTH, .n_steps = WT_LAYER_STEPS};
     for (size_t i = 0; i < p.n_steps; i++) {
         p.log_thickness[i] = at + 2 - 4 * (double)i / (double)(p.n_steps - 1);
         p.deviate[i] = (p.log_thickness[i] - at) / error;

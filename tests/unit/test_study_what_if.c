@@ -7,7 +7,7 @@
 #include "core/table/result_value.h"
 #include "weartrack/study.h"
 
-static wt_layer_observation known;
+static wt_layer_observation observation;
 static wt_layer_job layer;
 
 static void set_up(void)

@@ -404,7 +404,7 @@ static void test_ties_of_points(void **state)
         .c0 = {1, 0, 0, "1"},
         .spectrum = {.kind = WT_SPECTRUM_2D, .n = POINTS, .wavenumber = q, .density = density},
         .modes_error = error,
-        .modes_tie = tie};
+        .modes_correlation = tie};
     for (size_t draw = 0; draw < DRAWS; draw++) {
         double c[POINTS], z[POINTS];
         wt_roughness *r = NULL;
@@ -438,7 +438,7 @@ static void test_places_of_sizes(void **state)
         .spectrum = {.kind = WT_SPECTRUM_2D, .n = POINTS, .wavenumber = q, .density = density},
         .modes_error = none,
         .n_sizes = SIZES,
-        .place_parts = parts};
+        .position_errors = parts};
     for (size_t i = 0; i < DRAWS; i++) {
         double c[POINTS], ln[POINTS];
         wt_roughness *r = NULL;
@@ -774,7 +774,7 @@ static void test_bad_places(void **state)
                          good ? WT_OK : WT_E_RANGE);
         if (good) {
             assert_int_equal(surface.n_sizes, 2);
-            assert_near(surface.place_parts[0] * surface.c0.standard_error,
+            assert_near(surface.position_errors[0] * surface.c0.standard_error,
                         place_error_of(m.tables.place_errors, 1, 1), 1e-6);
         }
         wt_surface_clear(&surface);

@@ -453,7 +453,7 @@ static void test_scatter(void **state)
             within += c.low < is && is < c.high ? 1 : 0;
             all++;
         }
-        assert_true(wt_surface_anisotropy_fit(&s, 2).chance > 1e-3);
+        assert_true(wt_surface_anisotropy_fit(&s, 2).p_value > 1e-3);
         wt_surface_spectrum_clear(&s);
         free(z);
     }
@@ -514,7 +514,7 @@ static void test_directions(void **state)
     const wt_surface_anisotropy found = wt_surface_anisotropy_fit(&s, 2);
     assert_near_abs(found.amplitude, 0.3, 0.08);
     assert_near_abs(found.direction, 0, 0.15);
-    assert_true(found.chance < 1e-4);
+    assert_true(found.p_value < 1e-4);
     wt_surface_spectrum_clear(&s);
     free(z);
 }
@@ -577,7 +577,7 @@ static void check_grooved(wt_surface_window window)
         assert_int_equal(wt_surface_analyse(&map, &options, &h, &s, NULL), WT_OK);
         for (size_t k = 0; k < 2; k++) {
             const wt_surface_anisotropy found = wt_surface_anisotropy_fit(&s, k == 0 ? 2 : 4);
-            assert_true(found.chance < 0.01);
+            assert_true(found.p_value < 0.01);
             sum[k] += found.amplitude / SURFACES;
             amplitudes += fabs(found.amplitude - grooves[k]) < 1.96 * found.amplitude_error ? 1 : 0;
             directions +=

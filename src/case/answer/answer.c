@@ -36,7 +36,8 @@ static const char *stage_failure_message(const answer_context *context, const ch
  * outputs `stage` needs; blocked stages are followed to their own cause. */
 static flow_stage_id find_failed_stage(const flow_plan *plan, flow_stage_id stage, unsigned level)
 {
-    const flow_resource_set takes = flow_plan_needs(plan, stage, level) | flow_stages[stage].any;
+    const flow_resource_set takes =
+        flow_plan_needs(plan, stage, level) | flow_stages[stage].alternatives;
     for (size_t i = 0; i < FLOW_N_STAGES && i < (size_t)stage; i++) {
         if ((flow_stages[i].outputs & takes) == 0)
             continue;
@@ -84,19 +85,19 @@ static void add_not_requested(const answer_context *context)
     static const char excluded_prefix[] = "left out because ";
     const flow_plan *plan = context->plan;
     for (size_t i = 0; i < COUNT_OF(questions); i++) {
-        const char *because = plan->because[questions[i].stage];
-        if (plan->outcome[questions[i].stage] == FLOW_LEFT_OUT &&
+        const char *because = plan->reason[questions[i].stage];
+        if (plan->outcome[questions[i].stage] == FLOW_EXCLUDED &&
             strncmp(because, excluded_prefix, strlen(excluded_prefix)) == 0)
             answer_add_sentence(context, title_not_requested, questions[i].kind,
                                 "%s Not asked: %s.", questions[i].question,
                                 because + strlen(excluded_prefix));
     }
     if (plan->outcome[FLOW_STAGE_FRICTION] == FLOW_DONE &&
-        plan->full_outcome[FLOW_STAGE_FRICTION] == FLOW_LEFT_OUT &&
-        plan->without[FLOW_STAGE_FRICTION][0] != '\0')
+        plan->full_outcome[FLOW_STAGE_FRICTION] == FLOW_EXCLUDED &&
+        plan->lower_level_reason[FLOW_STAGE_FRICTION][0] != '\0')
         answer_add_sentence(context, title_not_requested, "friction",
                             "What the layer does to friction. Not asked: %s.",
-                            plan->without[FLOW_STAGE_FRICTION]);
+                            plan->lower_level_reason[FLOW_STAGE_FRICTION]);
 }
 
 /* ---- summary --------------------------------------------------------------------------------- */
@@ -124,7 +125,7 @@ static void add_missing_summary(const answer_context *context, const char *what,
 
 static void append_friction_summary(const answer_context *context, text_builder *t)
 {
-    const result_value_tables *found = &context->found;
+    const result_value_tables *found = &context->values;
     const result_value total = result_value_friction(found, FRICTION_KEY_FRICTION),
                        hysteresis = result_value_friction(found, FRICTION_KEY_HYSTERESIS),
                        with_layer = result_value_friction(found, FRICTION_KEY_WITH_LAYER);
@@ -143,17 +144,17 @@ static void answer_summary(const answer_context *context)
 {
     char text[1000];
     text_builder t = {text, sizeof text, 0};
-    const char *thickness = strncmp(format_thickness_origin(&context->found), "put in", 6) == 0
+    const char *thickness = strncmp(format_thickness_origin(&context->values), "put in", 6) == 0
                                 ? "Thickness"
                                 : "Thickness (predicted)";
-    if (context->found.comparison.table != NULL) {
-        append_modulus_ratio(&t, &context->found);
+    if (context->values.comparison.table != NULL) {
+        append_modulus_ratio(&t, &context->values);
         add_summary(context, "Layer (measured)", text);
     } else
         add_missing_summary(context, "Layer (measured)", FLOW_STAGE_COMPARISON);
     t.used = 0;
-    if (context->found.layer.table != NULL) {
-        append_thickness(&t, &context->found);
+    if (context->values.layer.table != NULL) {
+        append_thickness(&t, &context->values);
         if (context->layer_feedback.table != NULL) {
             text_append(&t, "; ");
             append_balance(&t, &context->layer_feedback);
@@ -162,7 +163,7 @@ static void answer_summary(const answer_context *context)
     } else
         add_missing_summary(context, thickness, FLOW_STAGE_LAYER);
     t.used = 0;
-    if (context->found.friction.table != NULL) {
+    if (context->values.friction.table != NULL) {
         append_friction_summary(context, &t);
         add_summary(context, "Friction (predicted)", text);
     } else
@@ -174,12 +175,12 @@ static void answer_summary(const answer_context *context)
 /* The first row of the table comparison holds the comparison over all rates. */
 static double comparison_overall(const answer_context *context, comparison_column column)
 {
-    return comparison_get(&context->found.comparison, 0, column);
+    return comparison_get(&context->values.comparison, 0, column);
 }
 
 static bool has_verdict(const answer_context *context, const char *verdict)
 {
-    const char *differs = comparison_key_text(&context->found.comparison, COMPARISON_KEY_DIFFERS);
+    const char *differs = comparison_key_text(&context->values.comparison, COMPARISON_KEY_DIFFERS);
     return differs != NULL && strncmp(differs, verdict, strlen(verdict)) == 0;
 }
 
@@ -187,10 +188,10 @@ static bool has_verdict(const answer_context *context, const char *verdict)
 static void format_evidence(const answer_context *context, char *text, size_t size)
 {
     const char *unit =
-        comparison_key_text(&context->found.comparison, COMPARISON_KEY_UNIT_OF_ANALYSIS);
+        comparison_key_text(&context->values.comparison, COMPARISON_KEY_UNIT_OF_ANALYSIS);
     const double smallest = comparison_overall(context, COMPARISON_MANN_WHITNEY_SMALLEST_P);
     const double scatter =
-        comparison_value(&context->found.comparison, COMPARISON_KEY_SPOT_SCATTER).value;
+        comparison_value(&context->values.comparison, COMPARISON_KEY_SPOT_SCATTER).value;
     const double n[] = {comparison_overall(context, COMPARISON_SPOTS_BULK),
                         comparison_overall(context, COMPARISON_SPOTS_TRACK)};
     char least[96] = "";
@@ -215,11 +216,11 @@ static void format_evidence(const answer_context *context, char *text, size_t si
 
 static void answer_layer(const answer_context *context)
 {
-    if (context->found.comparison.table == NULL) {
+    if (context->values.comparison.table == NULL) {
         add_unanswered(context, FLOW_STAGE_COMPARISON, question_layer, "layer");
         return;
     }
-    const result_value ratio = result_value_ratio(&context->found);
+    const result_value ratio = result_value_ratio(&context->values);
     char evidence[480] = "";
     if (!isnan(ratio.low)) {
         char found[320];
@@ -235,14 +236,14 @@ static void answer_layer(const answer_context *context)
 
 static void add_group_modulus(const answer_context *context, const char *name, const char *words)
 {
-    const table_view *groups = &context->found.groups;
+    const table_view *groups = &context->values.groups;
     size_t row = 0;
     while (row < groups->n_rows &&
            strcmp(modulus_groups_text(groups, row, MODULUS_GROUPS_GROUP), name) != 0)
         row++;
     if (row == groups->n_rows)
         return;
-    const result_value modulus = result_value_group(&context->found, row);
+    const result_value modulus = result_value_group(&context->values, row);
     const double n_spots = modulus_groups_get(groups, row, MODULUS_GROUPS_N_SPOTS);
     char interval[480] = "no interval from fewer than two spots";
     if (!isnan(modulus.low))
@@ -288,15 +289,15 @@ static void add_rate_ratios(const answer_context *context)
 {
     double low = (double)NAN, high = (double)NAN, largest_p = (double)NAN;
     size_t n = 0;
-    for (size_t i = 1; i < context->found.comparison.n_rows; i++) {
-        double ratio = comparison_get(&context->found.comparison, i, COMPARISON_RATIO);
+    for (size_t i = 1; i < context->values.comparison.n_rows; i++) {
+        double ratio = comparison_get(&context->values.comparison, i, COMPARISON_RATIO);
         if (isnan(ratio))
             continue;
         n++;
         low = fmin(low, ratio);
         high = fmax(high, ratio);
         largest_p =
-            fmax(largest_p, comparison_get(&context->found.comparison, i, COMPARISON_HOLM_P));
+            fmax(largest_p, comparison_get(&context->values.comparison, i, COMPARISON_HOLM_P));
     }
     if (n >= 2)
         answer_add_sentence(context, question_difference, "difference",
@@ -332,13 +333,13 @@ static void add_dma_ratio(const answer_context *context)
 
 static void answer_difference(answer_context *context)
 {
-    if (context->found.comparison.table == NULL) {
+    if (context->values.comparison.table == NULL) {
         add_unanswered(context, FLOW_STAGE_COMPARISON, question_difference, "difference");
     } else if (isnan(comparison_overall(context, COMPARISON_RATIO))) {
         answer_add_sentence(context, question_difference, "difference",
                             "The ratio of the moduli cannot be told, for the reason above.");
     } else {
-        const result_value ratio = result_value_ratio(&context->found);
+        const result_value ratio = result_value_ratio(&context->values);
         const double effect = comparison_overall(context, COMPARISON_EFFECT_SIZE);
         char size[96] = "";
         if (isnan(ratio.low))
@@ -347,7 +348,7 @@ static void answer_difference(answer_context *context)
             clocale_print(size, sizeof size, "; effect size (Hedges' g of ln E) %.2g", effect);
         char rates[256] = "";
         text_builder t = {rates, sizeof rates, 0};
-        append_rate_correction(&t, &context->found);
+        append_rate_correction(&t, &context->values);
         answer_add_sentence(
             context, question_difference, "difference",
             "The modulus of the wear track is %s times that of the bulk (%+.0f %%)%s%s%s.",
@@ -366,8 +367,8 @@ static void answer_difference(answer_context *context)
 
 static void add_formation_times(const answer_context *context)
 {
-    wt_estimate incubation = layer_value(&context->found.layer, LAYER_KEY_INCUBATION_TIME);
-    wt_estimate settled = layer_value(&context->found.layer, LAYER_KEY_TIME_TO_90_PERCENT);
+    wt_estimate incubation = layer_value(&context->values.layer, LAYER_KEY_INCUBATION_TIME);
+    wt_estimate settled = layer_value(&context->values.layer, LAYER_KEY_TIME_TO_90_PERCENT);
     if (isnan(incubation.value))
         return;
     char then[192] = "";
@@ -382,7 +383,7 @@ static void add_formation_times(const answer_context *context)
 /* Indentation and the layer model may disagree. In this case the answer has a caveat. */
 static void add_layer_disagreement(answer_context *context, bool modelled)
 {
-    if (context->found.comparison.table == NULL)
+    if (context->values.comparison.table == NULL)
         return;
     if (has_verdict(context, "yes") && !modelled)
         answer_add_caveat(
@@ -401,33 +402,33 @@ static void add_layer_disagreement(answer_context *context, bool modelled)
 /* The text includes the model choices that cause the limits of the range. */
 static result_value_text format_thickness(const answer_context *context)
 {
-    const result_value thickness = result_value_thickness(&context->found);
+    const result_value thickness = result_value_thickness(&context->values);
     const result_value_text choices = format_choices(&thickness);
     const bool none = !(thickness.number.value > 0);
-    result_value_text words = {""};
-    text_builder t = {words.text, sizeof words.text, 0};
+    result_value_text result = {""};
+    text_builder t = {result.text, sizeof result.text, 0};
     if (none && choices.text[0] != '\0')
         text_append(&t, ", but %s", choices.text);
     else if (!none)
         text_append(&t, "%s (%s)%s%s", format_plain_number(&thickness).text,
                     format_interval(&thickness).text, choices.text[0] != '\0' ? "; " : "",
                     choices.text);
-    return words;
+    return result;
 }
 
 static void answer_thickness(answer_context *context)
 {
-    const table_view *layer = &context->found.layer;
+    const table_view *layer = &context->values.layer;
     if (layer->table == NULL) {
         add_unanswered(context, FLOW_STAGE_LAYER, question_thickness, "thickness");
         return;
     }
-    const result_value thickness = result_value_thickness(&context->found);
+    const result_value thickness = result_value_thickness(&context->values);
     const number_text ratio =
         format_known_estimate(layer_value(layer, LAYER_KEY_FORMATION_WEAR_RATIO));
     const number_text velocity = format_with_unit(thickness.velocity, "m/s"),
                       pressure = format_with_unit(thickness.pressure, "Pa");
-    const result_value_text words = format_thickness(context);
+    const result_value_text result = format_thickness(context);
     const bool none = strcmp(layer_key_text(layer, LAYER_KEY_REGIME), "none") == 0;
     if (none)
         answer_add_sentence(
@@ -435,13 +436,13 @@ static void answer_thickness(answer_context *context)
             "There is none at %s and %s%s: wear removes the rubber faster than it is modified "
             "(formation over wear R = %s, not above 1). The specific wear rate would have to be "
             "below %s.",
-            velocity.text, pressure.text, words.text, ratio.text,
+            velocity.text, pressure.text, result.text, ratio.text,
             format_with_unit(layer_value(layer, LAYER_KEY_CRITICAL_WEAR_RATE).value, "m^2/N").text);
     else if (isinf(thickness.number.value))
         answer_add_sentence(
             context, question_thickness, "thickness",
             "%s; the table layer gives its thickness in time.",
-            layer_is_ageing(&context->found)
+            layer_is_ageing(&context->values)
                 ? "It has no balance: the rubber ages, and in time all of it is modified"
                 : "Without wear it grows without end, ever more slowly");
     else
@@ -449,7 +450,7 @@ static void answer_thickness(answer_context *context)
             context, question_thickness, "thickness",
             "%s. That is where formation balances wear, at %s and %s; %s. Formation over "
             "wear R = %s. With 1 %% more wear it is %.2g %% thinner.",
-            words.text, velocity.text, pressure.text, format_thickness_origin(&context->found),
+            result.text, velocity.text, pressure.text, format_thickness_origin(&context->values),
             ratio.text, -layer_value(layer, LAYER_KEY_WEAR_SENSITIVITY).value);
     answer_layer_wear_rate(context, question_thickness);
     if (!none)
@@ -465,7 +466,7 @@ static void answer_thickness(answer_context *context)
 
 static void add_bulk_friction(const answer_context *context)
 {
-    const result_value_tables *found = &context->found;
+    const result_value_tables *found = &context->values;
     const result_value total = result_value_friction(found, FRICTION_KEY_FRICTION),
                        hysteresis = result_value_friction(found, FRICTION_KEY_HYSTERESIS),
                        area = result_value_friction(found, FRICTION_KEY_AREA_RATIO);
@@ -487,7 +488,7 @@ static void add_bulk_friction(const answer_context *context)
 
 static void add_friction_change(const answer_context *context)
 {
-    const result_value_tables *found = &context->found;
+    const result_value_tables *found = &context->values;
     const table_view *friction = &found->friction;
     const result_value with_layer = result_value_friction(found, FRICTION_KEY_WITH_LAYER),
                        change = result_value_friction(found, FRICTION_KEY_RELATIVE_CHANGE);
@@ -520,7 +521,7 @@ static void add_friction_change(const answer_context *context)
 
 static void answer_friction(const answer_context *context)
 {
-    const result_value_tables *found = &context->found;
+    const result_value_tables *found = &context->values;
     if (found->friction.table == NULL) {
         add_unanswered(context, FLOW_STAGE_FRICTION, question_friction, "friction");
         return;
@@ -563,12 +564,12 @@ static wt_status bind_answer_tables(const wt_result *result, answer_context *con
         {&validation_running_in_schema, "", &context->validation_running_in},
         {&layer_bands_schema, "", &context->layer_bands},
         {&layer_feedback_schema, "", &context->layer_feedback},
-        {&layer_regime_map_schema, "", &context->existence},
+        {&layer_regime_map_schema, "", &context->layer_regime_map},
         {&running_in_schema, "", &context->running_in},
         {&track_layer_schema, "", &context->track_layer},
         {&identification_schema, "", &context->identification},
     };
-    wt_status status = result_values_bind(result, &context->found, err);
+    wt_status status = result_values_bind(result, &context->values, err);
     for (size_t i = 0; status == WT_OK && i < COUNT_OF(tables); i++)
         status = table_bind_result(result, tables[i].schema, tables[i].suffix, tables[i].view, err);
     return status;

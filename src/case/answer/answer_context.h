@@ -1,5 +1,5 @@
-/* Context of an answer: the bound tables of the run, its log and the caveats found so far. Internal
- * to case. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Context of an answer: views of the result tables, the log of the run and the caveats so far.
+ * Internal to case. SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_CASE_ANSWER_ANSWER_CONTEXT_H
 #define WT_CASE_ANSWER_ANSWER_CONTEXT_H
 
@@ -8,8 +8,8 @@
 
 /* Subject of a caveat, in the order in which caveats are written. */
 typedef enum caveat_topic {
-    CAVEAT_WHOLE, /* failed files or stages */
-    CAVEAT_DATA,  /* doubtful or inconsistent data */
+    CAVEAT_FAILURES, /* failed files or stages */
+    CAVEAT_DATA,     /* doubtful or inconsistent data */
     CAVEAT_VERDICT,
     CAVEAT_THICKNESS,
     CAVEAT_FRICTION,
@@ -29,21 +29,22 @@ typedef struct answer_context {
     const wt_case *c;
     const flow_plan *plan;
     const wt_log *log;
-    result_value_tables found;
+    result_value_tables values;
     table_view failures;
     table_view indentation[2]; /* bulk, track */
     table_view modulus_depth, dma_comparison, shift_factors, prony, roughness;
     table_view power_spectrum, surfaces; /* of a measured counter surface */
     table_view record, wear;
     table_view validation, validation_sources, validation_running_in;
-    table_view layer_bands, layer_feedback, existence, running_in, track_layer, identification;
+    table_view layer_bands, layer_feedback, layer_regime_map, running_in, track_layer,
+        identification;
     table_writer *answer;
     caveat *caveats;
     size_t n_caveats;
     wt_status status; /* WT_E_MEMORY if a caveat could not be stored */
 } answer_context;
 
-/* Adds a row to the answer. The sentence is a printf format. */
+/* Adds a row to the table "answer". `format` is a printf format of the sentence. */
 void answer_add_sentence(const answer_context *context, const char *question, const char *kind,
                          const char *format, ...) WT_PRINTF(4, 5);
 /* Stores a caveat until answer_write_caveats writes all of them in order. */

@@ -16,7 +16,7 @@ static const char *const group_names[2] = {"bulk", "wear-track"};
 #define DEEP_SHARE 0.1
 
 /* Curves with the verdict "doubtful" count as accepted: they have a modulus. */
-static bool is_accepted(const table_view *indentation, size_t row)
+static bool is_usable_curve(const table_view *indentation, size_t row)
 {
     return wt_curve_verdict_id_is_usable(indentation_text(indentation, row, INDENTATION_VERDICT));
 }
@@ -30,7 +30,7 @@ static double accepted_median(const table_view *indentation, indentation_column 
         return (double)NAN;
     for (size_t i = 0; i < indentation->n_rows; i++) {
         double value = indentation_get(indentation, i, column);
-        if (!isnan(value) && is_accepted(indentation, i))
+        if (!isnan(value) && is_usable_curve(indentation, i))
             values[n++] = value;
     }
     if (n > 0)
@@ -143,15 +143,17 @@ static void calibration_caveats(answer_context *context)
     const char *cantilevers =
         isnan(gain[0]) || isnan(gain[1])
             ? NULL
-            : comparison_key_text(&context->found.comparison, COMPARISON_KEY_CANTILEVERS);
-    const char *includes = comparison_key_text(&context->found.comparison, COMPARISON_KEY_INCLUDES);
+            : comparison_key_text(&context->values.comparison, COMPARISON_KEY_CANTILEVERS);
+    const char *includes =
+        comparison_key_text(&context->values.comparison, COMPARISON_KEY_INCLUDES);
     if (cantilevers != NULL && strcmp(cantilevers, "one") == 0)
         text_append(
             &t,
             " Track and bulk are taken to be indented with one cantilever, %s: its errors cancel "
             "in the ratio, but for %.2g %% in each 1 %% of sensitivity.",
-            context->c->compare.levers == WT_CANTILEVERS_SHARED ? "as the case says"
-                                                                : "for no spring constants differ",
+            context->c->compare.cantilevers == WT_CANTILEVERS_SHARED
+                ? "as the case says"
+                : "for no spring constants differ",
             fabs(gain[1] - gain[0]));
     else if (cantilevers != NULL)
         text_append(
@@ -166,8 +168,9 @@ static void calibration_caveats(answer_context *context)
 /* A temperature that the case does not state is that of the material, or equal for both groups. */
 static void temperature_caveats(answer_context *context)
 {
-    const double sliding = friction_value(&context->found.friction, FRICTION_KEY_TEMPERATURE).value;
-    if (context->found.friction.table != NULL && isnan(context->c->sliding.temperature.value)) {
+    const double sliding =
+        friction_value(&context->values.friction, FRICTION_KEY_TEMPERATURE).value;
+    if (context->values.friction.table != NULL && isnan(context->c->sliding.temperature.value)) {
         if (isnan(sliding))
             answer_add_caveat(
                 context, CAVEAT_FRICTION,
@@ -194,7 +197,7 @@ static void temperature_caveats(answer_context *context)
 /* Describes the corrections of the track data before the ratio was computed. */
 static void ratio_caveats(answer_context *context)
 {
-    const table_view *comparison = &context->found.comparison;
+    const table_view *comparison = &context->values.comparison;
     const wt_compare_job *job = &context->c->compare;
     const double track = job->track_temperature.value;
     if (comparison->table == NULL)
@@ -262,7 +265,7 @@ static void comparison_caveats(answer_context *context)
 {
     const table_view *dma = &context->dma_comparison;
     const char *unit =
-        comparison_key_text(&context->found.comparison, COMPARISON_KEY_UNIT_OF_ANALYSIS);
+        comparison_key_text(&context->values.comparison, COMPARISON_KEY_UNIT_OF_ANALYSIS);
     const char *statement = dma_comparison_key_text(dma, DMA_COMPARISON_KEY_MATERIAL_STATEMENT);
     const size_t extrapolated = count_extrapolated(dma);
     if (unit != NULL && strncmp(unit, "curve", 5) == 0)
@@ -357,10 +360,11 @@ static void append_theory(text_builder *t, const table_view *friction)
 
 static void friction_caveats(answer_context *context)
 {
-    const table_view *friction = &context->found.friction;
+    const table_view *friction = &context->values.friction;
     if (friction->table == NULL)
         return;
-    const result_value hysteresis = result_value_friction(&context->found, FRICTION_KEY_HYSTERESIS);
+    const result_value hysteresis =
+        result_value_friction(&context->values, FRICTION_KEY_HYSTERESIS);
     const double share = largest_extrapolated_share(friction);
     const char *statement = friction_key_text(friction, FRICTION_KEY_MATERIAL_STATEMENT);
     char text[1100];
@@ -412,10 +416,10 @@ static void depth_caveats(answer_context *context, double thickness)
 
 static void layer_caveats(answer_context *context)
 {
-    const table_view *layer = &context->found.layer;
+    const table_view *layer = &context->values.layer;
     if (layer->table == NULL)
         return;
-    const result_value thickness = result_value_thickness(&context->found);
+    const result_value thickness = result_value_thickness(&context->values);
     const char *from = layer_key_text(layer, LAYER_KEY_CRITICAL_ENERGY_FROM);
     const number_text energy = format_known_estimate(layer_value(layer, LAYER_KEY_CRITICAL_ENERGY));
     char text[1100];
@@ -459,7 +463,7 @@ void answer_caveats(answer_context *context)
 {
     const size_t failed = context->failures.n_rows;
     if (failed > 0)
-        answer_add_caveat(context, CAVEAT_WHOLE,
+        answer_add_caveat(context, CAVEAT_FAILURES,
                           "%zu file%s or stage%s failed and %s not in these results; the table "
                           "failures lists them.",
                           failed, failed == 1 ? "" : "s", failed == 1 ? "" : "s",

@@ -36,21 +36,21 @@ static void format_digits(double value, int digits, number_text *words)
 
 static number_text format_with_digits(double value, const char *unit, int digits)
 {
-    number_text words = {""};
+    number_text result = {""};
     if (isnan(value))
-        snprintf(words.text, sizeof words.text, "not known");
+        snprintf(result.text, sizeof result.text, "not known");
     else if (isinf(value))
-        snprintf(words.text, sizeof words.text, "without limit");
+        snprintf(result.text, sizeof result.text, "without limit");
     else if (strcmp(unit, "1") == 0)
-        format_digits(value, digits, &words);
+        format_digits(value, digits, &result);
     else if (strcmp(unit, "m^2/N") == 0 && value != 0) {
-        format_digits(MM3_PER_N_M * value, digits, &words);
-        clocale_append(words.text, sizeof words.text, " mm^3/(N m)");
+        format_digits(MM3_PER_N_M * value, digits, &result);
+        clocale_append(result.text, sizeof result.text, " mm^3/(N m)");
     } else if (value == 0) /* An exact zero has no significant digits. */
-        snprintf(words.text, sizeof words.text, "0 %s", unit);
+        snprintf(result.text, sizeof result.text, "0 %s", unit);
     else
-        wt_format_si(value, unit, digits, words.text, sizeof words.text);
-    return words;
+        wt_format_si(value, unit, digits, result.text, sizeof result.text);
+    return result;
 }
 
 number_text format_with_unit(double value, const char *unit)
@@ -60,14 +60,15 @@ number_text format_with_unit(double value, const char *unit)
 
 number_text format_pair(double low, double high, int digits)
 {
-    number_text words = {""};
+    number_text result = {""};
     digits = range_digits(low, high, digits);
     const double larger = fmax(fabs(low), fabs(high));
     const int decimals = larger > 0 ? digits - 1 - (int)floor(log10(larger)) : 0;
     const bool plain = decimals >= 0 && decimals < 9; /* otherwise with a power of ten */
-    clocale_print(words.text, sizeof words.text, plain ? "from %.*f to %.*f" : "from %.*g to %.*g",
-                  plain ? decimals : digits, low, plain ? decimals : digits, high);
-    return words;
+    clocale_print(result.text, sizeof result.text,
+                  plain ? "from %.*f to %.*f" : "from %.*g to %.*g", plain ? decimals : digits, low,
+                  plain ? decimals : digits, high);
+    return result;
 }
 
 number_text format_value(wt_estimate e)
@@ -112,14 +113,14 @@ number_text format_estimate(wt_estimate e)
 number_text format_estimate_interval(wt_estimate e, double low, double high)
 {
     const int digits = result_value_digits(e.value, low, high);
-    number_text words = format_with_digits(e.value, e.unit, digits);
-    text_builder t = {words.text, sizeof words.text, strlen(words.text)};
+    number_text result = format_with_digits(e.value, e.unit, digits);
+    text_builder t = {result.text, sizeof result.text, strlen(result.text)};
     if (isfinite(e.value) && isnan(high))
         text_append(&t, " (error not known)");
     else if (isfinite(e.value) && high > e.value)
         text_append(&t, " (95 %%: %s to %s)", format_with_digits(low, e.unit, digits).text,
                     format_with_digits(high, e.unit, digits).text);
-    return words;
+    return result;
 }
 
 number_text format_known_estimate(wt_estimate e)
@@ -136,12 +137,12 @@ number_text format_positive_estimate(wt_estimate e)
 
 number_text format_celsius(double kelvin)
 {
-    number_text words;
-    clocale_print(words.text, sizeof words.text,
+    number_text result;
+    clocale_print(result.text, sizeof result.text,
                   "%.1f \xc2\xb0"
                   "C",
                   kelvin - WT_ZERO_CELSIUS);
-    return words;
+    return result;
 }
 
 /* ---- result values --------------------------------------------------------------------------- */
@@ -159,9 +160,9 @@ static number_text format_result_number(const result_value *f, double value, int
     const double half = 100 * (f->high - f->low) /
                         2; /* enough decimals to distinguish the limits of a narrow interval */
     const int decimals = half > 0 && half < 1 ? (int)fmin(3, ceil(-log10(half))) : 0;
-    number_text words;
-    clocale_print(words.text, sizeof words.text, "%+.*f %%", decimals, 100 * value);
-    return words;
+    number_text result;
+    clocale_print(result.text, sizeof result.text, "%+.*f %%", decimals, 100 * value);
+    return result;
 }
 
 number_text format_plain_number(const result_value *f)
@@ -173,30 +174,30 @@ number_text format_plain_number(const result_value *f)
 result_value_text format_interval(const result_value *f)
 {
     const int digits = result_value_digits(f->number.value, f->low, f->high);
-    result_value_text words;
+    result_value_text result;
     if (isnan(f->low) || isnan(f->high))
-        snprintf(words.text, sizeof words.text, "error not known");
+        snprintf(result.text, sizeof result.text, "error not known");
     else
-        clocale_print(words.text, sizeof words.text, "95 %% interval %s to %s",
+        clocale_print(result.text, sizeof result.text, "95 %% interval %s to %s",
                       format_result_number(f, f->low, digits).text,
                       format_result_number(f, f->high, digits).text);
-    return words;
+    return result;
 }
 
 result_value_text format_model_range(const result_value *f)
 {
-    result_value_text words = {""};
+    result_value_text result = {""};
     if (!isnan(f->range.low))
-        clocale_print(words.text, sizeof words.text, "%s to %s over all choices of the model",
+        clocale_print(result.text, sizeof result.text, "%s to %s over all choices of the model",
                       format_result_number(f, f->range.low, 3).text,
                       format_result_number(f, f->range.high, 3).text);
-    return words;
+    return result;
 }
 
 result_value_text format_choices(const result_value *f)
 {
-    result_value_text words = {""};
-    text_builder t = {words.text, sizeof words.text, 0};
+    result_value_text result = {""};
+    text_builder t = {result.text, sizeof result.text, 0};
     const result_value_range *r = &f->range;
     const struct {
         double value;
@@ -210,28 +211,28 @@ result_value_text format_choices(const result_value *f)
         else
             text_append(&t, " (as used)");
     }
-    return words;
+    return result;
 }
 
 result_value_text format_result_value(const result_value *f)
 {
     const result_value_text range = format_model_range(f);
-    result_value_text words;
-    clocale_print(words.text, sizeof words.text, "%s (%s%s%s)", format_plain_number(f).text,
+    result_value_text result;
+    clocale_print(result.text, sizeof result.text, "%s (%s%s%s)", format_plain_number(f).text,
                   format_interval(f).text, range.text[0] != '\0' ? "; " : "", range.text);
-    return words;
+    return result;
 }
 
 number_text format_frequency(const result_value *f)
 {
-    number_text words = {""};
+    number_text result = {""};
     const number_text low = format_with_unit(f->frequency[0], "rad/s"),
                       high = format_with_unit(f->frequency[1], "rad/s");
     const bool one = strcmp(low.text, high.text) == 0;
     if (!isnan(f->frequency[0]))
-        clocale_print(words.text, sizeof words.text, " at %.40s%s%.40s", low.text,
+        clocale_print(result.text, sizeof result.text, " at %.40s%s%.40s", low.text,
                       one ? "" : " to ", one ? "" : high.text);
-    return words;
+    return result;
 }
 
 const char *format_thickness_origin(const result_value_tables *tables)
@@ -329,9 +330,10 @@ double largest_extrapolated_share(const table_view *friction)
 
 number_text format_share(double share)
 {
-    number_text words;
-    clocale_print(words.text, sizeof words.text, share >= 0.1 ? "%.0f %%" : "%.2g %%", 100 * share);
-    return words;
+    number_text result;
+    clocale_print(result.text, sizeof result.text, share >= 0.1 ? "%.0f %%" : "%.2g %%",
+                  100 * share);
+    return result;
 }
 
 bool find_dma_ratio(const table_view *dma, double *low, double *high)

@@ -9,21 +9,21 @@
 #include <math.h>
 #include <string.h>
 
-typedef struct summary_sentence {
+typedef struct summary_line {
     text_builder line;
     const wt_result *result;
-    result_value_tables found;
-} summary_sentence;
+    result_value_tables values;
+} summary_line;
 
 #define append(s, ...) text_append(&(s)->line, __VA_ARGS__)
 
-static void begin_clause(summary_sentence *s)
+static void begin_clause(summary_line *s)
 {
     append(s, "%s", s->line.used > 0 ? "; " : "");
 }
 
 /* Appends the text without its parts in brackets. */
-static void append_hidden_errors(summary_sentence *s, const char *text)
+static void append_undetectable_errors(summary_line *s, const char *text)
 {
     char all[512];
     size_t n = 0;
@@ -37,11 +37,11 @@ static void append_hidden_errors(summary_sentence *s, const char *text)
     append(s, "; what no curve shows is not in that: %s", all);
 }
 
-static void summarize_groups(summary_sentence *s, const table_view *v)
+static void summarize_groups(summary_line *s, const table_view *v)
 {
     const char *hidden = NULL;
     for (size_t i = 0; i < v->n_rows; i++) {
-        const result_value modulus = result_value_group(&s->found, i);
+        const result_value modulus = result_value_group(&s->values, i);
         const double n = modulus_groups_get(v, i, MODULUS_GROUPS_N);
         const char *group = modulus_groups_text(v, i, MODULUS_GROUPS_GROUP);
         begin_clause(s);
@@ -64,39 +64,39 @@ static void summarize_groups(summary_sentence *s, const table_view *v)
                    modulus_groups_get(v, i, MODULUS_GROUPS_N_SPOTS));
     }
     if (hidden != NULL)
-        append_hidden_errors(s, hidden);
+        append_undetectable_errors(s, hidden);
 }
 
-static void summarize_ratio(summary_sentence *s, const table_view *v)
+static void summarize_ratio(summary_line *s, const table_view *v)
 {
     if (v->n_rows == 0)
         return;
     begin_clause(s);
-    append_modulus_ratio(&s->line, &s->found);
+    append_modulus_ratio(&s->line, &s->values);
 }
 
-static void summarize_materials(summary_sentence *s, const table_view *v)
+static void summarize_materials(summary_line *s, const table_view *v)
 {
     if (v->table == NULL)
         return;
-    const char *settled = material_ratio_key_text(v, MATERIAL_RATIO_KEY_SETTLED_BY);
+    const char *remedy = material_ratio_key_text(v, MATERIAL_RATIO_KEY_SETTLED_BY);
     begin_clause(s);
     append(s, "%s", material_ratio_key_text(v, MATERIAL_RATIO_KEY_DIFFERS));
-    if (settled != NULL)
-        append(s, "; what would settle it: %s", settled);
+    if (remedy != NULL)
+        append(s, "; what would settle it: %s", remedy);
 }
 
-static void summarize_shared_law(summary_sentence *s, const table_view *v)
+static void summarize_shared_law(summary_line *s, const table_view *v)
 {
     if (v->table == NULL)
         return;
-    const char *settled = shared_shift_law_key_text(v, SHARED_SHIFT_LAW_KEY_SETTLED_BY);
+    const char *remedy = shared_shift_law_key_text(v, SHARED_SHIFT_LAW_KEY_SETTLED_BY);
     const char *without = shared_shift_law_key_text(v, SHARED_SHIFT_LAW_KEY_LEFT_OUT);
     const wt_estimate c1 = shared_shift_law_value(v, SHARED_SHIFT_LAW_KEY_WLF_C1);
     begin_clause(s);
     append(s, "one law: %s", shared_shift_law_key_text(v, SHARED_SHIFT_LAW_KEY_AGREE));
-    if (settled != NULL)
-        append(s, "; what would settle it: %s", settled);
+    if (remedy != NULL)
+        append(s, "; what would settle it: %s", remedy);
     if (without != NULL)
         append(s, "; left out: %s", without);
     if (!isnan(c1.value))
@@ -105,7 +105,7 @@ static void summarize_shared_law(summary_sentence *s, const table_view *v)
                shared_shift_law_key_text(v, SHARED_SHIFT_LAW_KEY_MOVED));
 }
 
-static void summarize_material(summary_sentence *s, const table_view *v)
+static void summarize_material(summary_line *s, const table_view *v)
 {
     if (v->table == NULL)
         return;
@@ -128,7 +128,7 @@ static void summarize_material(summary_sentence *s, const table_view *v)
 }
 
 /* The number of decimals follows from the error. */
-static void append_peak(summary_sentence *s, wt_estimate at, const char *of)
+static void append_peak(summary_line *s, wt_estimate at, const char *of)
 {
     const double error = at.standard_error;
     if (!(error > 0) || !isfinite(error)) {
@@ -140,7 +140,7 @@ static void append_peak(summary_sentence *s, wt_estimate at, const char *of)
            error, of);
 }
 
-static void summarize_transition(summary_sentence *s, const table_view *v)
+static void summarize_transition(summary_line *s, const table_view *v)
 {
     if (v->table == NULL)
         return;
@@ -167,7 +167,7 @@ static void summarize_transition(summary_sentence *s, const table_view *v)
                energy.standard_error / 1000);
 }
 
-static void summarize_payne(summary_sentence *s, const table_view *v)
+static void summarize_payne(summary_line *s, const table_view *v)
 {
     enum { MOST = 3 }; /* limit for the length of the line */
     for (size_t i = 0; i < v->n_rows && i < MOST; i++) {
@@ -186,7 +186,7 @@ static void summarize_payne(summary_sentence *s, const table_view *v)
         append(s, "; %zu more strain sweeps", v->n_rows - MOST);
 }
 
-static void summarize_record(summary_sentence *s, const table_view *v)
+static void summarize_record(summary_line *s, const table_view *v)
 {
     if (v->n_rows == 0)
         return;
@@ -194,7 +194,7 @@ static void summarize_record(summary_sentence *s, const table_view *v)
     append_record(&s->line, v);
 }
 
-static void summarize_wear(summary_sentence *s, const table_view *v)
+static void summarize_wear(summary_line *s, const table_view *v)
 {
     if (v->n_rows == 0)
         return;
@@ -202,7 +202,7 @@ static void summarize_wear(summary_sentence *s, const table_view *v)
     append_wear(&s->line, v);
 }
 
-static void summarize_dwell(summary_sentence *s, const table_view *v)
+static void summarize_dwell(summary_line *s, const table_view *v)
 {
     if (v->table == NULL)
         return;
@@ -227,7 +227,7 @@ static void summarize_dwell(summary_sentence *s, const table_view *v)
         }
 }
 
-static void append_dwell_ratio(summary_sentence *s, const char *modulus, double ratio, double low,
+static void append_dwell_ratio(summary_line *s, const char *modulus, double ratio, double low,
                                double high)
 {
     append(s, " %s %s times that of the DMA", modulus, format_with_unit(ratio, "1").text);
@@ -239,7 +239,7 @@ static void append_dwell_ratio(summary_sentence *s, const char *modulus, double 
 }
 
 /* For each group the line has the middle row of those inside the frequency range of the DMA. */
-static void summarize_dwell_dma(summary_sentence *s, const table_view *v)
+static void summarize_dwell_dma(summary_line *s, const table_view *v)
 {
     if (v->table == NULL)
         return;
@@ -275,7 +275,7 @@ static void summarize_dwell_dma(summary_sentence *s, const table_view *v)
     }
 }
 
-static void summarize_sensitivity(summary_sentence *s, const table_view *v)
+static void summarize_sensitivity(summary_line *s, const table_view *v)
 {
     if (v->table == NULL)
         return;
@@ -305,7 +305,7 @@ static void summarize_sensitivity(summary_sentence *s, const table_view *v)
                option, compare != NULL ? ", and in compare " : "", compare != NULL ? compare : "");
 }
 
-static void summarize_thermal(summary_sentence *s, const table_view *v)
+static void summarize_thermal(summary_line *s, const table_view *v)
 {
     if (v->table == NULL)
         return;
@@ -343,21 +343,21 @@ static void summarize_thermal(summary_sentence *s, const table_view *v)
                compare != NULL ? compare : "");
 }
 
-static void summarize_friction(summary_sentence *s, const table_view *v)
+static void summarize_friction(summary_line *s, const table_view *v)
 {
     if (v->table == NULL)
         return;
-    const result_value hysteresis = result_value_friction(&s->found, FRICTION_KEY_HYSTERESIS),
-                       area = result_value_friction(&s->found, FRICTION_KEY_AREA_RATIO),
-                       total = result_value_friction(&s->found, FRICTION_KEY_FRICTION),
-                       with_layer = result_value_friction(&s->found, FRICTION_KEY_WITH_LAYER);
+    const result_value hysteresis = result_value_friction(&s->values, FRICTION_KEY_HYSTERESIS),
+                       area = result_value_friction(&s->values, FRICTION_KEY_AREA_RATIO),
+                       total = result_value_friction(&s->values, FRICTION_KEY_FRICTION),
+                       with_layer = result_value_friction(&s->values, FRICTION_KEY_WITH_LAYER);
     begin_clause(s);
     append(s, "at %s ", format_with_unit(hysteresis.velocity, "m/s").text);
     if (!isnan(total.number.value))
         append(s, "mu = %s, ", format_result_value(&total).text);
     if (!isnan(with_layer.number.value)) {
         append(s, "with layer %s, ", format_result_value(&with_layer).text);
-        append_friction_change(&s->line, &s->found, false);
+        append_friction_change(&s->line, &s->values, false);
         append(s, ", ");
     } else if (friction_value(v, FRICTION_KEY_LAYER_THICKNESS).value > 0) {
         append(s, "friction with the layer not known without a shear stress, ");
@@ -366,7 +366,7 @@ static void summarize_friction(summary_sentence *s, const table_view *v)
            format_result_value(&hysteresis).text, format_result_value(&area).text);
 }
 
-static void summarize_identification(summary_sentence *s, const table_view *v)
+static void summarize_identification(summary_line *s, const table_view *v)
 {
     if (v->table == NULL)
         return;
@@ -374,7 +374,7 @@ static void summarize_identification(summary_sentence *s, const table_view *v)
     append_identification(&s->line, v);
 }
 
-static void summarize_shared_pairs(summary_sentence *s, const table_view *v)
+static void summarize_shared_pairs(summary_line *s, const table_view *v)
 {
     if (v->table == NULL)
         return;
@@ -382,7 +382,7 @@ static void summarize_shared_pairs(summary_sentence *s, const table_view *v)
     append_shared_pairs(&s->line, v);
 }
 
-static void summarize_validation(summary_sentence *s, const table_view *v)
+static void summarize_validation(summary_line *s, const table_view *v)
 {
     if (v->table == NULL)
         return;
@@ -394,7 +394,7 @@ static void summarize_validation(summary_sentence *s, const table_view *v)
     }
 }
 
-static void summarize_validation_running_in(summary_sentence *s, const table_view *v)
+static void summarize_validation_running_in(summary_line *s, const table_view *v)
 {
     if (v->table == NULL)
         return;
@@ -406,19 +406,19 @@ static void summarize_validation_running_in(summary_sentence *s, const table_vie
     }
 }
 
-static void summarize_layer(summary_sentence *s, const table_view *v)
+static void summarize_layer(summary_line *s, const table_view *v)
 {
     if (v->table == NULL)
         return;
     begin_clause(s);
-    append_thickness(&s->line, &s->found);
-    const result_value thickness = result_value_thickness(&s->found);
+    append_thickness(&s->line, &s->values);
+    const result_value thickness = result_value_thickness(&s->values);
     if (thickness.number.value > 0 && isfinite(thickness.number.value))
         append(s, ", 90 %% of it after %s",
                format_known_estimate(layer_value(v, LAYER_KEY_TIME_TO_90_PERCENT)).text);
 }
 
-static void summarize_balance(summary_sentence *s, const table_view *v)
+static void summarize_balance(summary_line *s, const table_view *v)
 {
     if (v->table == NULL)
         return;
@@ -430,7 +430,7 @@ size_t wt_result_summary_line(const wt_result *result, char *buffer, size_t size
 {
     static const struct {
         const table_schema *schema;
-        void (*of)(summary_sentence *s, const table_view *view);
+        void (*summarize)(summary_line *s, const table_view *view);
     } parts[] = {{&dwell_schema, summarize_dwell},
                  {&dwell_dma_schema, summarize_dwell_dma},
                  {&sensitivity_schema, summarize_sensitivity},
@@ -451,17 +451,17 @@ size_t wt_result_summary_line(const wt_result *result, char *buffer, size_t size
                  {&shared_pairs_schema, summarize_shared_pairs},
                  {&validation_schema, summarize_validation},
                  {&validation_running_in_schema, summarize_validation_running_in}};
-    summary_sentence s = {.line = {buffer, size, 0}, .result = result};
+    summary_line s = {.line = {buffer, size, 0}, .result = result};
     const locale_t previous = clocale_enter();
     if (size > 0)
         buffer[0] = '\0';
-    if (result_values_bind(result, &s.found, NULL) != WT_OK) {
+    if (result_values_bind(result, &s.values, NULL) != WT_OK) {
         /* A table without a required column adds no text; the other tables do. */
     }
     for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) {
         table_view view;
         if (table_bind_result(result, parts[i].schema, "", &view, NULL) == WT_OK)
-            parts[i].of(&s, &view);
+            parts[i].summarize(&s, &view);
     }
     for (size_t i = 0; i < wt_result_n_tables(result); i++) { /* tables of several samples */
         static const char prefix[] = "shift_factors/";

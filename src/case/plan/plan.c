@@ -57,7 +57,7 @@ flow_resource_set flow_plan_needs(const flow_plan *plan, size_t stage, unsigned 
 bool flow_stage_can_run(const flow_plan *plan, size_t stage, unsigned level,
                         flow_resource_set there)
 {
-    const flow_resource_set any = flow_stages[stage].any;
+    const flow_resource_set any = flow_stages[stage].alternatives;
     return (flow_plan_needs(plan, stage, level) & ~there) == 0 && (any == 0 || (any & there) != 0);
 }
 
@@ -82,7 +82,7 @@ static void find_possible_stages(flow_plan *plan, bool able[FLOW_N_STAGES])
 /* Returns the needs and the alternative inputs of a stage; some of them may be unavailable. */
 static flow_resource_set resources_used(const flow_plan *plan, size_t stage)
 {
-    return flow_plan_needs(plan, stage, plan->level[stage]) | flow_stages[stage].any;
+    return flow_plan_needs(plan, stage, plan->level[stage]) | flow_stages[stage].alternatives;
 }
 
 /* Returns true if stage `a` is preferred to stage `b` for a common output. The stage that takes
@@ -117,14 +117,14 @@ static void choose_stage(flow_plan *plan, const bool able[FLOW_N_STAGES], flow_r
     if (best == FLOW_N_STAGES)
         return;
     plan->chosen[best] = true;
-    snprintf(plan->because[best], sizeof plan->because[best], "runs because %s", because);
+    snprintf(plan->reason[best], sizeof plan->reason[best], "runs because %s", because);
     for (unsigned t = FLOW_FIRST_TABLE; t < FLOW_N_RESOURCES; t++) {
         if (!(resources_used(plan, best) & FLOW_BIT(t)))
             continue;
         char reason[128];
         plan->required |= FLOW_BIT(t);
         snprintf(reason, sizeof reason, "%s needs its %s", flow_stages[best].id,
-                 flow_resource_rows[t].words);
+                 flow_resource_rows[t].label);
         choose_stage(plan, able, (flow_resource)t, reason);
     }
 }
@@ -157,7 +157,7 @@ static flow_resource_set missing_sources(const flow_plan *plan, flow_resource_se
 
 static flow_resource_set stage_missing_sources(const flow_plan *plan, size_t stage)
 {
-    const flow_resource_set any = flow_stages[stage].any;
+    const flow_resource_set any = flow_stages[stage].alternatives;
     flow_resource_set missing = missing_sources(plan, flow_plan_needs(plan, stage, 0));
     for (unsigned t = 0; missing == 0 && t < FLOW_N_RESOURCES; t++)
         if ((any & FLOW_BIT(t)) != 0 && missing_sources(plan, FLOW_BIT(t)) == 0)
@@ -184,18 +184,18 @@ static void add_limitation(flow_plan *plan, size_t i)
     const unsigned level = plan->level[i];
     if (level == flow_stage_levels(i))
         return;
-    const flow_optional_input *additions = &flow_stages[i].additions[level];
-    const size_t used = strlen(plan->because[i]);
-    format_missing(missing_sources(plan, additions->resources), plan->without[i],
-                   sizeof plan->without[i]);
-    snprintf(plan->because[i] + used, sizeof plan->because[i] - used, "; without %s, for %s",
-             additions->words, plan->without[i]);
+    const flow_optional_input *additions = &flow_stages[i].optional_inputs[level];
+    const size_t used = strlen(plan->reason[i]);
+    format_missing(missing_sources(plan, additions->resources), plan->lower_level_reason[i],
+                   sizeof plan->lower_level_reason[i]);
+    snprintf(plan->reason[i] + used, sizeof plan->reason[i] - used, "; without %s, for %s",
+             additions->label, plan->lower_level_reason[i]);
 }
 
 static void set_exclusion_reason(flow_plan *plan, size_t i, bool able)
 {
-    char *because = plan->because[i];
-    const size_t size = sizeof plan->because[i];
+    char *because = plan->reason[i];
+    const size_t size = sizeof plan->reason[i];
     if (!able) {
         char missing[256];
         format_missing(stage_missing_sources(plan, i), missing, sizeof missing);
@@ -226,7 +226,7 @@ void flow_plan_create(const wt_case *c, flow_plan *plan)
         if (record_validations(c) & FLOW_BIT(t))
             snprintf(reason, sizeof reason, "the case has a record, which is held against it");
         else
-            snprintf(reason, sizeof reason, "%s is asked for", flow_resource_rows[t].words);
+            snprintf(reason, sizeof reason, "%s is asked for", flow_resource_rows[t].label);
         choose_stage(plan, able, (flow_resource)t, reason);
     }
     for (size_t i = 0; i < FLOW_N_STAGES; i++)
@@ -234,7 +234,7 @@ void flow_plan_create(const wt_case *c, flow_plan *plan)
             add_limitation(plan, i);
         else if (able[i] && is_validation_off(c) &&
                  (flow_stages[i].outputs & FLOW_VALIDATIONS) != 0)
-            snprintf(plan->because[i], sizeof plan->because[i],
+            snprintf(plan->reason[i], sizeof plan->reason[i],
                      "left out because the case switches it off (<validate> in <record>)");
         else
             set_exclusion_reason(plan, i, able[i]);
@@ -256,7 +256,7 @@ wt_status wt_plan(const wt_case *c, wt_table **result, wt_error *err)
         plan_put_text(&t, PLAN_STAGE, flow_stages[i].id);
         plan_put_text(&t, PLAN_TITLE, title);
         plan_put(&t, PLAN_RUNS, plan.chosen[i]);
-        plan_put_text(&t, PLAN_REASON, plan.because[i]);
+        plan_put_text(&t, PLAN_REASON, plan.reason[i]);
         plan_put_text(&t, PLAN_NEEDS, needs);
         plan_put_text(&t, PLAN_PRODUCES, outputs);
     }

@@ -6,9 +6,9 @@
 #include "case/case.h"
 #include "case/plan/stages.h"
 
-/* Outcome of a stage. The initial value is FLOW_LEFT_OUT. */
+/* Outcome of a stage. The initial value is FLOW_EXCLUDED. */
 typedef enum flow_outcome {
-    FLOW_LEFT_OUT,
+    FLOW_EXCLUDED,
     FLOW_DONE,
     FLOW_FAILED,
     FLOW_BLOCKED,   /* a stage that it needs failed */
@@ -21,12 +21,12 @@ typedef struct flow_plan {
     flow_resource_set required; /* `wanted` and the needs of the chosen stages */
     bool chosen[FLOW_N_STAGES];
     unsigned level[FLOW_N_STAGES]; /* highest level whose inputs the case contains */
-    char because[FLOW_N_STAGES][320];
-    char without[FLOW_N_STAGES][192]; /* reason for a lower level: "the case has no ..."; "" at the
-                                         highest level */
+    char reason[FLOW_N_STAGES][320];
+    char lower_level_reason[FLOW_N_STAGES][192]; /* reason for a lower level: "the case has no ...";
+                                         "" at the highest level */
     flow_outcome outcome[FLOW_N_STAGES];
     /* level of a stage that ran; below `level` if the higher one failed */
-    unsigned done[FLOW_N_STAGES];
+    unsigned achieved_level[FLOW_N_STAGES];
     flow_outcome full_outcome[FLOW_N_STAGES];
     flow_resource_set unmeasured; /* outputs that a stage did not find in its files, and all that
                                depends on them */
@@ -39,7 +39,7 @@ typedef struct flow_plan {
 flow_resource_set flow_plan_needs(const flow_plan *plan, size_t stage, unsigned level);
 /* Returns true if a stage can run with the available resources. */
 bool flow_stage_can_run(const flow_plan *plan, size_t stage, unsigned level,
-                        flow_resource_set there);
+                        flow_resource_set available);
 void flow_plan_create(const wt_case *c, flow_plan *plan);
 
 #endif

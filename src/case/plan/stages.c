@@ -5,20 +5,24 @@
 
 #define B(resource) FLOW_BIT(FLOW_##resource)
 
-static const flow_optional_input optional_inputs[FLOW_N_ADDITIONS][FLOW_ADDITIONS_MAX] = {
-    [FLOW_BY_SPECTRUM] = {{B(RUBBER), ", by the spectrum of the material",
-                           "the spectrum of the material"}},
-    [FLOW_AT_ONE_RATE] = {{B(RUBBER), ", at one rate and temperature by the material",
-                           "the material"}},
-    [FLOW_AND_TRACK] = {{B(INDENTATION_TRACK), " and wear track", "the wear track"}},
-    [FLOW_AND_LAYER] = {{B(LAYER) | B(MODULUS_RATIO), ", with and without the layer", "the layer"}},
-    [FLOW_AND_RATIO] = {{B(MODULUS_RATIO), ", and what it does to friction",
-                         "the modulus ratio of the layer"}},
-    [FLOW_AND_BALANCE] = {{B(LAYER), ", beside that of the theory", "the thickness of the theory"}},
-    [FLOW_AND_WEAR] = {{B(WEAR), ", with the wear as measured", "the measured wear"}},
-    [FLOW_AND_THICKNESS] = {{B(LAYER_PARAMETERS), ", thickness of the layer", "the layer"},
-                            {B(MODULUS_RATIO), ", friction with it",
-                             "the modulus ratio of the layer"}},
+static const flow_optional_input optional_inputs[FLOW_N_OPTIONAL_INPUTS][FLOW_OPTIONAL_INPUTS_MAX] =
+    {
+        [FLOW_OPTIONAL_SPECTRUM] = {{B(RUBBER), ", by the spectrum of the material",
+                                     "the spectrum of the material"}},
+        [FLOW_OPTIONAL_RATE_CORRECTION] = {{B(RUBBER),
+                                            ", at one rate and temperature by the material",
+                                            "the material"}},
+        [FLOW_OPTIONAL_TRACK] = {{B(INDENTATION_TRACK), " and wear track", "the wear track"}},
+        [FLOW_OPTIONAL_LAYER] = {{B(LAYER) | B(MODULUS_RATIO), ", with and without the layer",
+                                  "the layer"}},
+        [FLOW_OPTIONAL_MODULUS_RATIO] = {{B(MODULUS_RATIO), ", and what it does to friction",
+                                          "the modulus ratio of the layer"}},
+        [FLOW_OPTIONAL_STEADY_STATE] = {{B(LAYER), ", beside that of the theory",
+                                         "the thickness of the theory"}},
+        [FLOW_OPTIONAL_WEAR] = {{B(WEAR), ", with the wear as measured", "the measured wear"}},
+        [FLOW_OPTIONAL_THICKNESS] = {{B(LAYER_PARAMETERS), ", thickness of the layer", "the layer"},
+                                     {B(MODULUS_RATIO), ", friction with it",
+                                      "the modulus ratio of the layer"}},
 };
 
 #define STAGE_ROW(id, name, title, needs, any, additions, outputs, step)                           \
@@ -28,7 +32,7 @@ const flow_stage flow_stages[FLOW_N_STAGES] = {STAGES(STAGE_ROW)};
 unsigned flow_stage_levels(size_t stage)
 {
     unsigned n = 0;
-    while (n < FLOW_ADDITIONS_MAX && flow_stages[stage].additions[n].resources != 0)
+    while (n < FLOW_OPTIONAL_INPUTS_MAX && flow_stages[stage].optional_inputs[n].resources != 0)
         n++;
     return n;
 }
@@ -37,7 +41,7 @@ flow_resource_set flow_stage_needs(size_t stage, unsigned level)
 {
     flow_resource_set needs = flow_stages[stage].needs;
     for (unsigned i = 0; i < level; i++)
-        needs |= flow_stages[stage].additions[i].resources;
+        needs |= flow_stages[stage].optional_inputs[i].resources;
     return needs;
 }
 
@@ -46,5 +50,5 @@ void flow_stage_title(size_t stage, unsigned level, char *text, size_t size)
     const flow_stage *s = &flow_stages[stage];
     size_t used = (size_t)snprintf(text, size, "%s", s->title);
     for (unsigned i = 0; i < level && used < size; i++)
-        used += (size_t)snprintf(text + used, size - used, "%s", s->additions[i].title);
+        used += (size_t)snprintf(text + used, size - used, "%s", s->optional_inputs[i].title);
 }

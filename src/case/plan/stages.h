@@ -5,157 +5,160 @@
 
 #include "case/resources.h"
 
-/* Optional inputs of a stage, which it uses if they are available. */
-typedef enum flow_optional_output {
-    FLOW_NO_ADDITION,
-    FLOW_BY_SPECTRUM,
-    FLOW_AT_ONE_RATE,
-    FLOW_AND_TRACK,
-    FLOW_AND_LAYER,
-    FLOW_AND_THICKNESS,
-    FLOW_AND_RATIO,
-    FLOW_AND_BALANCE,
-    FLOW_AND_WEAR,
-    FLOW_N_ADDITIONS
-} flow_optional_output;
+/* Sets of optional inputs, which a stage uses if they are available. stages.c lists their
+ * resources. */
+typedef enum flow_optional_input_id {
+    FLOW_OPTIONAL_NONE,
+    FLOW_OPTIONAL_SPECTRUM,
+    FLOW_OPTIONAL_RATE_CORRECTION,
+    FLOW_OPTIONAL_TRACK,
+    FLOW_OPTIONAL_LAYER,
+    FLOW_OPTIONAL_THICKNESS,
+    FLOW_OPTIONAL_MODULUS_RATIO,
+    FLOW_OPTIONAL_STEADY_STATE,
+    FLOW_OPTIONAL_WEAR,
+    FLOW_N_OPTIONAL_INPUTS
+} flow_optional_input_id;
 
 /* Columns: id, name, title, needs, alternatives (at least one is needed, all available ones are
- * used; 0 without such inputs), optional inputs, outputs, function.
+ * used; 0 without such inputs), optional inputs, outputs, function. B(X) is the bit of the resource
+ * FLOW_X; the file that expands the list defines it.
  *
  * Every stage follows those that it needs. Of two stages with a common output the more complete
  * one is first. The other one replaces it if it fails. */
 #define STAGES(X)                                                                                  \
     X(MASTER_CURVE, master_curve, "Shift factors, WLF law, master curve, Prony series",            \
-      B(DMA_FILES), 0, FLOW_NO_ADDITION,                                                           \
+      B(DMA_FILES), 0, FLOW_OPTIONAL_NONE,                                                         \
       B(SHIFT_FACTORS) | B(MASTER_CURVE) | B(PRONY) | B(RELAXATION_SPECTRUM) | B(PRONY_REDUCED) |  \
           B(MATERIAL_DRAWS) | B(SERIES_DRAWS) | B(RUBBER),                                         \
       flow_step_master)                                                                            \
     X(RAMP, ramp, "Glass transition and moduli against temperature", B(DMA_FILES), 0,              \
-      FLOW_NO_ADDITION, B(RAMP) | B(GLASS_TRANSITION) | B(MODULI_AT), flow_step_ramp)              \
-    X(PAYNE, payne, "Softening with strain", B(DMA_FILES), 0, FLOW_NO_ADDITION,                    \
+      FLOW_OPTIONAL_NONE, B(RAMP) | B(GLASS_TRANSITION) | B(MODULI_AT), flow_step_ramp)            \
+    X(PAYNE, payne, "Softening with strain", B(DMA_FILES), 0, FLOW_OPTIONAL_NONE,                  \
       B(PAYNE) | B(PAYNE_SWEEP), flow_step_payne)                                                  \
     X(GIVEN_MATERIAL, given_material, "Material as given in the case", B(GIVEN_MATERIAL), 0,       \
-      FLOW_NO_ADDITION, B(RUBBER), flow_step_given_material)                                       \
+      FLOW_OPTIONAL_NONE, B(RUBBER), flow_step_given_material)                                     \
     X(LAYER_MATERIAL, layer_material, "Material of the layer", B(GIVEN_LAYER_MATERIAL), 0,         \
-      FLOW_NO_ADDITION, B(MODULUS_RATIO), flow_step_layer_material)                                \
+      FLOW_OPTIONAL_NONE, B(MODULUS_RATIO), flow_step_layer_material)                              \
     X(INDENTATION_BULK, indentation_bulk, "Contact point and modulus of every bulk curve",         \
-      B(BULK_CURVES), 0, FLOW_BY_SPECTRUM, B(INDENTATION_BULK) | B(CURVE_BULK) | B(DEPTH_BULK),    \
-      flow_step_bulk)                                                                              \
+      B(BULK_CURVES), 0, FLOW_OPTIONAL_SPECTRUM,                                                   \
+      B(INDENTATION_BULK) | B(CURVE_BULK) | B(DEPTH_BULK), flow_step_bulk)                         \
     X(INDENTATION_TRACK, indentation_track, "Contact point and modulus of every wear-track curve", \
-      B(TRACK_CURVES), 0, FLOW_BY_SPECTRUM,                                                        \
+      B(TRACK_CURVES), 0, FLOW_OPTIONAL_SPECTRUM,                                                  \
       B(INDENTATION_TRACK) | B(CURVE_TRACK) | B(DEPTH_TRACK), flow_step_track)                     \
     X(COMPARISON, comparison, "Wear track against bulk",                                           \
-      B(INDENTATION_BULK) | B(INDENTATION_TRACK), 0, FLOW_AT_ONE_RATE,                             \
+      B(INDENTATION_BULK) | B(INDENTATION_TRACK), 0, FLOW_OPTIONAL_RATE_CORRECTION,                \
       B(MODULUS_GROUPS) | B(MODULUS_BUDGET) | B(COMPARISON) | B(MODULUS_RATE) | B(MODULUS_RATIO),  \
       flow_step_compare)                                                                           \
     X(GROUPS, groups, "Modulus of the groups", 0, B(INDENTATION_BULK) | B(INDENTATION_TRACK),      \
-      FLOW_NO_ADDITION, B(MODULUS_GROUPS) | B(MODULUS_BUDGET) | B(MODULUS_RATE), flow_step_groups) \
+      FLOW_OPTIONAL_NONE, B(MODULUS_GROUPS) | B(MODULUS_BUDGET) | B(MODULUS_RATE),                 \
+      flow_step_groups)                                                                            \
     X(DMA_COMPARISON, dma_comparison, "Indentation against DMA, bulk",                             \
-      B(INDENTATION_BULK) | B(RUBBER), 0, FLOW_AND_TRACK, B(DMA_COMPARISON),                       \
+      B(INDENTATION_BULK) | B(RUBBER), 0, FLOW_OPTIONAL_TRACK, B(DMA_COMPARISON),                  \
       flow_step_dma_comparison)                                                                    \
     X(WEAR, wear, "Friction and wear as measured", B(RECORD_FILES) | B(GIVEN_WEAR), 0,             \
-      FLOW_NO_ADDITION, B(RECORD) | B(RECORD_CYCLES) | B(WEAR), flow_step_wear)                    \
-    X(RECORD, record, "Friction as measured", B(RECORD_FILES), 0, FLOW_NO_ADDITION,                \
+      FLOW_OPTIONAL_NONE, B(RECORD) | B(RECORD_CYCLES) | B(WEAR), flow_step_wear)                  \
+    X(RECORD, record, "Friction as measured", B(RECORD_FILES), 0, FLOW_OPTIONAL_NONE,              \
       B(RECORD) | B(RECORD_CYCLES), flow_step_record)                                              \
     X(ROUGHNESS, roughness, "Power spectrum of the counter surface", B(COUNTER_SURFACE), 0,        \
-      FLOW_NO_ADDITION, B(ROUGHNESS) | B(SURFACE), flow_step_roughness)                            \
+      FLOW_OPTIONAL_NONE, B(ROUGHNESS) | B(SURFACE), flow_step_roughness)                          \
     X(TOPOGRAPHY, topography, "Power spectrum of the measured counter surface", B(HEIGHT_MAPS), 0, \
-      FLOW_NO_ADDITION,                                                                            \
+      FLOW_OPTIONAL_NONE,                                                                          \
       B(POWER_SPECTRUM) | B(PLACE_ERRORS) | B(ANGULAR_SPECTRUM) | B(SURFACES) | B(HEIGHT_MAP) |    \
           B(HEIGHT_PROFILE) | B(ROUGHNESS) | B(SURFACE),                                           \
       flow_step_topography)                                                                        \
     X(GIVEN_RATIO, given_ratio, "Modulus ratio as given in the case", B(GIVEN_RATIO), 0,           \
-      FLOW_NO_ADDITION, B(MODULUS_RATIO), flow_step_given_ratio)                                   \
+      FLOW_OPTIONAL_NONE, B(MODULUS_RATIO), flow_step_given_ratio)                                 \
     X(GIVEN_SOFTENING, given_softening, "Softening with strain as given in the case",              \
-      B(GIVEN_SOFTENING), 0, FLOW_NO_ADDITION, B(SOFTENING), flow_step_given_softening)            \
+      B(GIVEN_SOFTENING), 0, FLOW_OPTIONAL_NONE, B(SOFTENING), flow_step_given_softening)          \
     X(SWEPT_SOFTENING, swept_softening, "Softening with strain for the sliding contact",           \
-      B(PAYNE_SWEEP) | B(REQUESTED_SOFTENING), 0, FLOW_NO_ADDITION, B(SOFTENING),                  \
+      B(PAYNE_SWEEP) | B(REQUESTED_SOFTENING), 0, FLOW_OPTIONAL_NONE, B(SOFTENING),                \
       flow_step_swept_softening)                                                                   \
     X(LAYER, layer, "Formation, wear and thickness of the modified layer",                         \
-      B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(LAYER_PARAMETERS), 0, FLOW_NO_ADDITION, B(LAYER), \
-      flow_step_layer)                                                                             \
+      B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(LAYER_PARAMETERS), 0, FLOW_OPTIONAL_NONE,         \
+      B(LAYER), flow_step_layer)                                                                   \
     X(TRACK_LAYER, track_layer, "Thickness of the layer by the curves",                            \
-      B(INDENTATION_BULK) | B(INDENTATION_TRACK) | B(COMPARISON), 0, FLOW_AND_BALANCE,             \
+      B(INDENTATION_BULK) | B(INDENTATION_TRACK) | B(COMPARISON), 0, FLOW_OPTIONAL_STEADY_STATE,   \
       B(TRACK_LAYER), flow_step_track_layer)                                                       \
     X(ENERGY_DENSITY, energy_density, "Energy density against depth",                              \
-      B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(LAYER_PARAMETERS), 0, FLOW_NO_ADDITION,           \
+      B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(LAYER_PARAMETERS), 0, FLOW_OPTIONAL_NONE,         \
       B(ENERGY_DENSITY), flow_step_energy_density)                                                 \
     X(FRICTION, friction, "Contact area and friction", B(RUBBER) | B(SURFACE) | B(CONDITIONS), 0,  \
-      FLOW_AND_LAYER, B(FRICTION), flow_step_friction)                                             \
+      FLOW_OPTIONAL_LAYER, B(FRICTION), flow_step_friction)                                        \
     X(CONTACT_AREA, contact_area, "Contact area against magnification",                            \
-      B(RUBBER) | B(SURFACE) | B(CONDITIONS), 0, FLOW_NO_ADDITION, B(CONTACT_AREA),                \
+      B(RUBBER) | B(SURFACE) | B(CONDITIONS), 0, FLOW_OPTIONAL_NONE, B(CONTACT_AREA),              \
       flow_step_contact_area)                                                                      \
     X(TRANSVERSE_ISOTROPY, transverse_isotropy, "What the directions of the material do",          \
-      B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(GIVEN_DIRECTIONS), 0, FLOW_NO_ADDITION,           \
+      B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(GIVEN_DIRECTIONS), 0, FLOW_OPTIONAL_NONE,         \
       B(TRANSVERSE_ISOTROPY), flow_step_directions)                                                \
     X(SOFTENING_EFFECT, softening_effect, "What softening with strain does",                       \
-      B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(SOFTENING), 0, FLOW_NO_ADDITION,                  \
+      B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(SOFTENING), 0, FLOW_OPTIONAL_NONE,                \
       B(SOFTENING_EFFECT), flow_step_softening_effect)                                             \
     X(ANISOTROPY, anisotropy, "What the direction of sliding does",                                \
-      B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(GIVEN_ANISOTROPY), 0, FLOW_NO_ADDITION,           \
+      B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(GIVEN_ANISOTROPY), 0, FLOW_OPTIONAL_NONE,         \
       B(ANISOTROPY), flow_step_anisotropy)                                                         \
     X(FRICTION_MAP, friction_map, "Friction at several temperatures and pressures",                \
-      B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(REQUESTED_MAP), 0, FLOW_NO_ADDITION,              \
+      B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(REQUESTED_MAP), 0, FLOW_OPTIONAL_NONE,            \
       B(FRICTION_MAP), flow_step_friction_map)                                                     \
     X(FRICTION_DECADES, friction_decades, "Friction by decades of the wavenumber",                 \
-      B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(REQUESTED_DECADES), 0, FLOW_NO_ADDITION,          \
+      B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(REQUESTED_DECADES), 0, FLOW_OPTIONAL_NONE,        \
       B(FRICTION_DECADES), flow_step_friction_decades)                                             \
     X(LAYER_BANDS, layer_bands, "Modified bands in time",                                          \
       B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(LAYER_PARAMETERS) | B(REQUESTED_BANDS), 0,        \
-      FLOW_NO_ADDITION, B(LAYER_BANDS), flow_step_layer_bands)                                     \
+      FLOW_OPTIONAL_NONE, B(LAYER_BANDS), flow_step_layer_bands)                                   \
     X(RUNNING_IN, running_in, "Friction with the layer in running-in",                             \
       B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(LAYER_PARAMETERS) | B(MODULUS_RATIO) |            \
           B(REQUESTED_RUNNING_IN),                                                                 \
-      0, FLOW_NO_ADDITION, B(RUNNING_IN), flow_step_running_in)                                    \
+      0, FLOW_OPTIONAL_NONE, B(RUNNING_IN), flow_step_running_in)                                  \
     X(LAYER_FEEDBACK, layer_feedback, "Balances of a layer that acts back on its energy",          \
       B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(LAYER_PARAMETERS) | B(MODULUS_RATIO) |            \
           B(REQUESTED_FEEDBACK),                                                                   \
-      0, FLOW_NO_ADDITION, B(LAYER_FEEDBACK), flow_step_layer_feedback)                            \
+      0, FLOW_OPTIONAL_NONE, B(LAYER_FEEDBACK), flow_step_layer_feedback)                          \
     X(LAYER_REGIME_MAP, layer_regime_map, "Where a layer exists",                                  \
       B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(LAYER_PARAMETERS) | B(REQUESTED_REGIME_MAP), 0,   \
-      FLOW_AND_RATIO, B(LAYER_REGIME_MAP), flow_step_existence)                                    \
+      FLOW_OPTIONAL_MODULUS_RATIO, B(LAYER_REGIME_MAP), flow_step_existence)                       \
     X(IDENTIFICATION, identification, "Critical energy and wear rate of the layer that is seen",   \
-      B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(REQUESTED_IDENTIFICATION), 0, FLOW_AND_WEAR,      \
+      B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(REQUESTED_IDENTIFICATION), 0, FLOW_OPTIONAL_WEAR, \
       B(IDENTIFICATION), flow_step_identification)                                                 \
     X(FLASH_EFFECT, flash_effect, "What the flash temperature does",                               \
-      B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(REQUESTED_FLASH), 0, FLOW_NO_ADDITION,            \
+      B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(REQUESTED_FLASH), 0, FLOW_OPTIONAL_NONE,          \
       B(FLASH_EFFECT), flow_step_flash_effect)                                                     \
     X(WHAT_IF, what_if, "What if a choice of the model were another: friction",                    \
-      B(RUBBER) | B(SURFACE) | B(CONDITIONS), 0, FLOW_AND_THICKNESS, B(WHAT_IF),                   \
+      B(RUBBER) | B(SURFACE) | B(CONDITIONS), 0, FLOW_OPTIONAL_THICKNESS, B(WHAT_IF),              \
       flow_step_what_if)                                                                           \
     X(VALIDATION, validation, "Measured friction against predicted friction",                      \
-      B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(RECORD) | B(WHAT_IF), 0, FLOW_AND_LAYER,          \
+      B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(RECORD) | B(WHAT_IF), 0, FLOW_OPTIONAL_LAYER,     \
       B(VALIDATION) | B(VALIDATION_CHOICES) | B(VALIDATION_SOURCES), flow_step_validation)         \
     X(VALIDATION_RUNNING_IN, validation_running_in, "Measured running-in against the layer",       \
       B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(LAYER_PARAMETERS) | B(MODULUS_RATIO) |            \
           B(RECORD) | B(RECORD_CYCLES),                                                            \
-      0, FLOW_NO_ADDITION, B(VALIDATION_RUNNING_IN) | B(VALIDATION_COURSE),                        \
+      0, FLOW_OPTIONAL_NONE, B(VALIDATION_RUNNING_IN) | B(VALIDATION_COURSE),                      \
       flow_step_validation_running_in)                                                             \
     X(ERROR_BUDGET, error_budget, "Which error costs the numbers most: friction",                  \
-      B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(WHAT_IF), 0, FLOW_AND_THICKNESS, B(ERROR_BUDGET), \
+      B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(WHAT_IF), 0, FLOW_OPTIONAL_THICKNESS, B(ERROR_BUDGET), \
       flow_step_budget)                                                                            \
     X(WORK_PRECISION, work_precision, "Error against run time: friction",                          \
-      B(RUBBER) | B(SURFACE) | B(CONDITIONS), 0, FLOW_AND_THICKNESS, B(WORK_PRECISION),            \
+      B(RUBBER) | B(SURFACE) | B(CONDITIONS), 0, FLOW_OPTIONAL_THICKNESS, B(WORK_PRECISION),       \
       flow_step_precision)
 
 #define STAGE_ID(id, ...) FLOW_STAGE_##id,
 typedef enum flow_stage_id { STAGES(STAGE_ID) FLOW_N_STAGES } flow_stage_id;
 
 /* Largest number of optional inputs of a stage. */
-enum { FLOW_ADDITIONS_MAX = 2 };
+enum { FLOW_OPTIONAL_INPUTS_MAX = 2 };
 
 /* Optional inputs are used completely or not at all. `title` extends the title of the stage;
- * `words` completes "without ...". */
+ * `label` completes "without ...". */
 typedef struct flow_optional_input {
     flow_resource_set resources;
-    const char *title, *words;
+    const char *title, *label;
 } flow_optional_input;
 
 typedef struct flow_stage {
     const char *id, *title;
-    flow_resource_set needs, any;
-    const flow_optional_input *additions; /* [FLOW_ADDITIONS_MAX]; the second is used only with the
-                                        first; no resources marks the end */
+    flow_resource_set needs, alternatives;
+    const flow_optional_input *optional_inputs; /* [FLOW_OPTIONAL_INPUTS_MAX]; the second is used
+                                        only with the first; no resources marks the end */
     flow_resource_set outputs;
 } flow_stage;
 extern const flow_stage flow_stages[FLOW_N_STAGES];

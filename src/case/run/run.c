@@ -100,7 +100,7 @@ static wt_status run_stage(run_execution *d, size_t i, unsigned level, const cha
     if (status != WT_OK)
         return status;
     cost_begin(d->cost, flow_stages[i].id, because);
-    d->run.level = plan->done[i] = level;
+    d->run.level = plan->achieved_level[i] = level;
     status = steps[i](&d->run, &failure);
     cost_end(d->cost);
     if (status == WT_OK) {
@@ -118,7 +118,7 @@ static wt_status run_stage(run_execution *d, size_t i, unsigned level, const cha
     flow_add_case_advice(&failure);
     const bool again = may_retry(d, level);
     snprintf(stage, sizeof stage, "stage %s%s%s", flow_stages[i].id, again ? " with " : "",
-             again ? flow_stages[i].additions[level - 1].words : "");
+             again ? flow_stages[i].optional_inputs[level - 1].label : "");
     snprintf(text, sizeof text, "%s, and failed", because);
     cost_set_reason(d->cost, text);
     return is_failure_listed(d, &failure) ? WT_OK
@@ -144,7 +144,7 @@ static wt_status run_fullest_level(run_execution *d, size_t i, const char *becau
         const bool unmeasured = lacks_measured_data(d, i, level + 1);
         plan->full_outcome[i] = unmeasured ? FLOW_UNMEASURED : FLOW_BLOCKED;
         snprintf(text, sizeof text, "%s; without %s, %s%s", because,
-                 flow_stages[i].additions[level].words,
+                 flow_stages[i].optional_inputs[level].label,
                  unmeasured ? "for " : "which a stage before did not give",
                  unmeasured ? plan->unmeasured_reason : "");
     } else
@@ -154,7 +154,7 @@ static wt_status run_fullest_level(run_execution *d, size_t i, const char *becau
         plan->full_outcome[i] = FLOW_FAILED;
         level--;
         snprintf(text, sizeof text, "runs because it did not succeed with %s",
-                 flow_stages[i].additions[level].words);
+                 flow_stages[i].optional_inputs[level].label);
         status = run_stage(d, i, level, text, err);
     }
     return status;
@@ -168,18 +168,18 @@ static wt_status process_stage(run_execution *d, size_t i, wt_error *err)
         return run_fullest_level(d, i, "runs because the stage that gives more did not succeed",
                                  err);
     if (!plan->chosen[i]) {
-        cost_skip_stage(d->cost, flow_stages[i].id, plan->because[i]);
+        cost_skip_stage(d->cost, flow_stages[i].id, plan->reason[i]);
         return WT_OK;
     }
     if (flow_stage_can_run(plan, i, 0, d->available))
-        return run_fullest_level(d, i, plan->because[i], err);
+        return run_fullest_level(d, i, plan->reason[i], err);
     if (lacks_measured_data(d, i, 0)) {
         plan->outcome[i] = FLOW_UNMEASURED;
         plan->unmeasured |= flow_stages[i].outputs & ~d->available;
         snprintf(because, sizeof because, "left out because %s", plan->unmeasured_reason);
     } else {
         plan->outcome[i] = FLOW_BLOCKED;
-        const flow_resource_set needs = flow_plan_needs(plan, i, 0) | flow_stages[i].any;
+        const flow_resource_set needs = flow_plan_needs(plan, i, 0) | flow_stages[i].alternatives;
         flow_resources_list(needs & ~d->available, missing, sizeof missing);
         snprintf(because, sizeof because, "left out because a stage before failed to give its %s",
                  missing);

@@ -16,7 +16,7 @@ void flow_run_clear(flow_run *run)
     wt_rubber_clear(&run->rubber);
     wt_rubber_clear(&run->layer_rubber);
     wt_surface_clear(&run->surface);
-    wt_strain_softening_clear(&run->softness);
+    wt_strain_softening_clear(&run->strain_softening);
     *run = (flow_run){0};
 }
 
@@ -151,8 +151,8 @@ wt_status flow_step_dma_comparison(flow_run *run, wt_error *err)
 wt_status flow_step_given_ratio(flow_run *run, wt_error *err)
 {
     (void)err;
-    run->modulus_ratio = run->c->known.modulus_ratio;
-    run->modulus_ratio_df = run->c->known.modulus_ratio_df;
+    run->modulus_ratio = run->c->layer_observation.modulus_ratio;
+    run->modulus_ratio_df = run->c->layer_observation.modulus_ratio_df;
     cost_report(&run->job, (cost_summary){.items = 1, .number = run->modulus_ratio});
     return WT_OK;
 }
@@ -196,9 +196,9 @@ wt_status flow_step_layer_material(flow_run *run, wt_error *err)
     wt_job work = run->job;
     work.dma = NULL; /* its sweeps are those of the bulk */
     work.left_out |= WT_EXTRA_REDUCED_SERIES | WT_EXTRA_SPECTRUM;
-    const wt_status status = own->has_material
-                                 ? flow_run_stated_rubber(own, &work, &run->layer_rubber, err)
-                                 : read_master(own, &work, &tables, &run->layer_rubber, err);
+    const wt_status status =
+        own->has_material ? flow_run_create_stated_rubber(own, &work, &run->layer_rubber, err)
+                          : read_master(own, &work, &tables, &run->layer_rubber, err);
     wt_master_tables_clear(&tables);
     run->has_layer_rubber = status == WT_OK;
     if (status == WT_OK)
@@ -323,7 +323,7 @@ wt_sliding flow_run_sliding(const flow_run *run)
     if (isnan(sliding.reference_velocity))
         sliding.reference_velocity = run->c->layer.velocity;
     sliding.layer_rubber = run->has_layer_rubber ? &run->layer_rubber : NULL;
-    sliding.softness = run->softness.table.n > 0 ? &run->softness : NULL;
+    sliding.strain_softening = run->strain_softening.table.n > 0 ? &run->strain_softening : NULL;
     return sliding;
 }
 
@@ -344,7 +344,7 @@ wt_status flow_step_track_layer(flow_run *run, wt_error *err)
     wt_compare_job job = run->c->compare;
     job.bulk = run->table[FLOW_INDENTATION_BULK];
     job.track = run->table[FLOW_INDENTATION_TRACK];
-    job.rubber = (run->plan.done[FLOW_STAGE_COMPARISON] > 0) ? &run->rubber : NULL;
+    job.rubber = (run->plan.achieved_level[FLOW_STAGE_COMPARISON] > 0) ? &run->rubber : NULL;
     const wt_status status =
         wt_track_layer_compute(&job, run->level > 0 ? run->table[FLOW_LAYER] : NULL, &run->job,
                                &run->table[FLOW_TRACK_LAYER], err);
@@ -362,34 +362,34 @@ wt_status flow_step_energy_density(flow_run *run, wt_error *err)
 
 /* A layer with its own material has no modulus ratio, and a measured ratio does not replace the
  * material. */
-static wt_status layer_without_ratio(const flow_run *run, wt_layer_observation *known,
+static wt_status layer_without_ratio(const flow_run *run, wt_layer_observation *observation,
                                      wt_error *err)
 {
-    known->modulus_ratio = wt_layer_observation_defaults().modulus_ratio;
-    known->modulus_ratio_df = known->calibration_share = 0;
+    observation->modulus_ratio = wt_layer_observation_defaults().modulus_ratio;
+    observation->modulus_ratio_df = observation->calibration_share = 0;
     return run->has_layer_rubber
                ? WT_OK
                : wt_fail(err, WT_E_MISSING, "the material of the layer is not known");
 }
 
-wt_status flow_run_layer_observation(const flow_run *run, wt_layer_observation *known,
+wt_status flow_run_layer_observation(const flow_run *run, wt_layer_observation *observation,
                                      wt_error *err)
 {
-    *known = run->c->known;
-    known->shear = &run->layer.shear;
-    known->thickness = run->thickness;
-    known->modulus_ratio = run->modulus_ratio;
-    known->modulus_ratio_df = run->modulus_ratio_df;
-    known->calibration_share = run->calibration_share;
+    *observation = run->c->layer_observation;
+    observation->shear = &run->layer.shear;
+    observation->thickness = run->thickness;
+    observation->modulus_ratio = run->modulus_ratio;
+    observation->modulus_ratio_df = run->modulus_ratio_df;
+    observation->calibration_share = run->calibration_share;
     if (run->c->layer_material != NULL)
-        return layer_without_ratio(run, known, err);
-    if (!isnan(known->modulus_ratio.value) && known->by_rate) {
-        if (isnan(known->ratio_temperature))
-            known->ratio_temperature = run->c->compare.temperature.value;
+        return layer_without_ratio(run, observation, err);
+    if (!isnan(observation->modulus_ratio.value) && observation->by_rate) {
+        if (isnan(observation->ratio_temperature))
+            observation->ratio_temperature = run->c->compare.temperature.value;
         return wt_layer_observation_from_rates(run->table[FLOW_COMPARISON],
-                                               run->table[FLOW_MODULUS_RATE], known, err);
+                                               run->table[FLOW_MODULUS_RATE], observation, err);
     }
-    if (!isnan(known->modulus_ratio.value))
+    if (!isnan(observation->modulus_ratio.value))
         return WT_OK;
     wt_fail(err, WT_E_MISSING, "the modulus ratio of track and bulk is not known");
     wt_error_advice(err, "the table comparison says why, and what would settle it; or give the "
@@ -468,8 +468,8 @@ wt_status flow_step_flash_effect(flow_run *run, wt_error *err)
 /* Optional inputs of a stage beyond friction: the layer at level 1, then its observations at level
  * 2. */
 typedef struct layer_inputs {
-    const wt_layer_job *layer;         /* NULL at level 0 */
-    const wt_layer_observation *known; /* NULL below level 2 */
+    const wt_layer_job *layer;               /* NULL at level 0 */
+    const wt_layer_observation *observation; /* NULL below level 2 */
     wt_layer_observation storage;
 } layer_inputs;
 
@@ -478,7 +478,7 @@ static wt_status load_layer_inputs(const flow_run *run, layer_inputs *parts, wt_
     *parts = (layer_inputs){.layer = run->level > 0 ? &run->layer : NULL};
     if (run->level < 2)
         return WT_OK;
-    parts->known = &parts->storage;
+    parts->observation = &parts->storage;
     return flow_run_layer_observation(run, &parts->storage, err);
 }
 
@@ -487,7 +487,7 @@ wt_status flow_step_what_if(flow_run *run, wt_error *err)
     const wt_sliding sliding = flow_run_sliding(run);
     layer_inputs parts;
     const wt_status status = load_layer_inputs(run, &parts, err);
-    return status == WT_OK ? wt_model_sensitivity_compute(&sliding, parts.layer, parts.known,
+    return status == WT_OK ? wt_model_sensitivity_compute(&sliding, parts.layer, parts.observation,
                                                           &run->job, &run->table[FLOW_WHAT_IF], err)
                            : status;
 }
@@ -497,7 +497,7 @@ wt_status flow_step_budget(flow_run *run, wt_error *err)
     const wt_sliding sliding = flow_run_sliding(run);
     layer_inputs parts;
     const wt_status status = load_layer_inputs(run, &parts, err);
-    return status == WT_OK ? wt_error_budget_compute(&sliding, parts.layer, parts.known,
+    return status == WT_OK ? wt_error_budget_compute(&sliding, parts.layer, parts.observation,
                                                      run->table[FLOW_WHAT_IF], &run->job,
                                                      &run->table[FLOW_ERROR_BUDGET], err)
                            : status;
@@ -508,8 +508,8 @@ wt_status flow_step_precision(flow_run *run, wt_error *err)
     const wt_sliding sliding = flow_run_sliding(run);
     layer_inputs parts;
     const wt_status status = load_layer_inputs(run, &parts, err);
-    return status == WT_OK
-               ? wt_case_precision_compute(&sliding, parts.layer, parts.known, &run->precision,
-                                           &run->job, &run->table[FLOW_WORK_PRECISION], err)
-               : status;
+    return status == WT_OK ? wt_case_precision_compute(&sliding, parts.layer, parts.observation,
+                                                       &run->precision, &run->job,
+                                                       &run->table[FLOW_WORK_PRECISION], err)
+                           : status;
 }

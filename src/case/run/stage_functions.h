@@ -15,7 +15,7 @@ typedef struct flow_run {
     wt_rubber rubber, layer_rubber;
     bool has_layer_rubber;
     wt_surface surface;
-    wt_strain_softening softness;
+    wt_strain_softening strain_softening;
     wt_layer_job layer; /* layer of the case; a missing wear rate is replaced by the measured one */
     wt_estimate modulus_ratio, thickness;
     double modulus_ratio_df;  /* 0 if its error is normal */
@@ -26,15 +26,15 @@ typedef struct flow_run {
 
 void flow_run_clear(flow_run *run);
 /* Creates the stated rubber of a case or of its layer material. */
-wt_status flow_run_stated_rubber(const wt_case *c, const wt_job *work, wt_rubber *rubber,
-                                 wt_error *err) WT_NODISCARD;
+wt_status flow_run_create_stated_rubber(const wt_case *c, const wt_job *work, wt_rubber *rubber,
+                                        wt_error *err) WT_NODISCARD;
 /* Sets the transverse isotropy of the rubber as the case states it. */
 void flow_run_set_direction(flow_run *run);
 
 /* Return the sliding contact of a run and the observation of its layer. WT_E_MISSING without a
  * modulus ratio, for example after an inconclusive comparison. */
 wt_sliding flow_run_sliding(const flow_run *run);
-wt_status flow_run_layer_observation(const flow_run *run, wt_layer_observation *known,
+wt_status flow_run_layer_observation(const flow_run *run, wt_layer_observation *observation,
                                      wt_error *err) WT_NODISCARD;
 
 /* Moves a table into the run. A table from an earlier attempt is freed. */

@@ -13,7 +13,8 @@
 
 /* Fills `file` with the only file of the role. It borrows *path, which the caller frees with
  * free(). */
-static wt_status stated_file(const case_files *files, flow_file *file, char **path, wt_error *err)
+static wt_status find_stated_file(const case_files *files, flow_file *file, char **path,
+                                  wt_error *err)
 {
     const wt_file_set *set = &files->sets[0];
     *path = wt_path_join(set->folder, set->patterns[0]);
@@ -23,7 +24,7 @@ static wt_status stated_file(const case_files *files, flow_file *file, char **pa
 
 /* ---- material -------------------------------------------------------------------------------- */
 
-static wt_status stated_series(const wt_case *c, wt_rubber *rubber, wt_error *err)
+static wt_status create_stated_series(const wt_case *c, wt_rubber *rubber, wt_error *err)
 {
     const wt_status status = wt_prony_alloc(&rubber->prony, c->prony.n, err);
     if (status != WT_OK)
@@ -39,26 +40,26 @@ static wt_status stated_series(const wt_case *c, wt_rubber *rubber, wt_error *er
     return WT_OK;
 }
 
-static wt_status stated_points(const wt_case *c, const wt_job *work, wt_rubber *rubber,
-                               wt_error *err)
+static wt_status read_stated_points(const wt_case *c, const wt_job *work, wt_rubber *rubber,
+                                    wt_error *err)
 {
     char *path = NULL;
     flow_file file;
-    wt_status status = stated_file(&c->points, &file, &path, err);
+    wt_status status = find_stated_file(&c->points, &file, &path, err);
     if (status == WT_OK)
         status = flow_rubber_read(&file, &c->rubber, c->master.poisson_ratio, work, rubber, err);
     free(path);
     return status;
 }
 
-wt_status flow_run_stated_rubber(const wt_case *c, const wt_job *work, wt_rubber *rubber,
-                                 wt_error *err)
+wt_status flow_run_create_stated_rubber(const wt_case *c, const wt_job *work, wt_rubber *rubber,
+                                        wt_error *err)
 {
     const double reference = c->master.fit.reference_temperature;
-    wt_status status = c->kind == WT_RUBBER_TABLE ? stated_points(c, work, rubber, err)
+    wt_status status = c->kind == WT_RUBBER_TABLE ? read_stated_points(c, work, rubber, err)
                        : c->kind == WT_RUBBER_ZENER
                            ? flow_rubber_zener(&c->zener, c->master.poisson_ratio, rubber, err)
-                           : stated_series(c, rubber, err);
+                           : create_stated_series(c, rubber, err);
     if (status != WT_OK)
         return status;
     if (!isnan(reference))
@@ -78,7 +79,7 @@ void flow_run_set_direction(flow_run *run)
 
 wt_status flow_step_given_material(flow_run *run, wt_error *err)
 {
-    const wt_status status = flow_run_stated_rubber(run->c, &run->job, &run->rubber, err);
+    const wt_status status = flow_run_create_stated_rubber(run->c, &run->job, &run->rubber, err);
     flow_run_set_direction(run);
     if (status == WT_OK)
         wt_rubber_add_cost(&run->rubber, &run->job);
@@ -101,8 +102,8 @@ static wt_status measure_surface(const wt_topography_job *job, const wt_job *wor
     return status;
 }
 
-static wt_status stated_surface(const wt_case *c, const wt_job *work, wt_surface *surface,
-                                wt_error *err)
+static wt_status create_stated_surface(const wt_case *c, const wt_job *work, wt_surface *surface,
+                                       wt_error *err)
 {
     if (c->has_self_affine) {
         *surface = c->surface;
@@ -113,7 +114,7 @@ static wt_status stated_surface(const wt_case *c, const wt_job *work, wt_surface
         return measure_surface(&c->topography, work, surface, NULL, err);
     char *path = NULL;
     flow_file file;
-    wt_status status = stated_file(&c->spectrum, &file, &path, err);
+    wt_status status = find_stated_file(&c->spectrum, &file, &path, err);
     if (status == WT_OK)
         status = flow_surface_read(&file, work, &opened, err);
     if (status == WT_OK) {
@@ -133,7 +134,7 @@ static wt_status stated_surface(const wt_case *c, const wt_job *work, wt_surface
 
 wt_status flow_step_roughness(flow_run *run, wt_error *err)
 {
-    wt_status status = stated_surface(run->c, &run->job, &run->surface, err);
+    wt_status status = create_stated_surface(run->c, &run->job, &run->surface, err);
     if (status == WT_OK)
         flow_surface_report_cost(&run->surface, &run->job);
     if (status == WT_OK && (run->plan.required & FLOW_BIT(FLOW_ROUGHNESS)) != 0)
@@ -165,21 +166,22 @@ wt_status flow_step_given_softening(flow_run *run, wt_error *err)
 {
     char *path = NULL;
     flow_file file;
-    wt_status status = stated_file(&run->c->softening, &file, &path, err);
+    wt_status status = find_stated_file(&run->c->softening, &file, &path, err);
     if (status == WT_OK)
         status = wt_strain_softening_read(path, file.name, wt_strain_softening_choice_defaults(),
-                                          &run->job, &run->softness, err);
+                                          &run->job, &run->strain_softening, err);
     if (status == WT_OK)
-        cost_report(&run->job, (cost_summary){.items = (double)run->softness.table.n});
+        cost_report(&run->job, (cost_summary){.items = (double)run->strain_softening.table.n});
     free(path);
     return status;
 }
 
 wt_status flow_step_swept_softening(flow_run *run, wt_error *err)
 {
-    const wt_status status = wt_strain_softening_from_table(
-        run->table[FLOW_PAYNE_SWEEP], wt_strain_softening_choice_defaults(), &run->softness, err);
+    const wt_status status = wt_strain_softening_from_table(run->table[FLOW_PAYNE_SWEEP],
+                                                            wt_strain_softening_choice_defaults(),
+                                                            &run->strain_softening, err);
     if (status == WT_OK)
-        cost_report(&run->job, (cost_summary){.items = (double)run->softness.table.n});
+        cost_report(&run->job, (cost_summary){.items = (double)run->strain_softening.table.n});
     return status;
 }

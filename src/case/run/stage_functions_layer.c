@@ -14,9 +14,9 @@ wt_status flow_step_layer_bands(flow_run *run, wt_error *err)
 wt_status flow_step_running_in(flow_run *run, wt_error *err)
 {
     const wt_sliding sliding = flow_run_sliding(run);
-    wt_layer_observation known;
-    const wt_status status = flow_run_layer_observation(run, &known, err);
-    return status == WT_OK ? wt_running_in_compute(&sliding, &run->layer, &known, &run->job,
+    wt_layer_observation observation;
+    const wt_status status = flow_run_layer_observation(run, &observation, err);
+    return status == WT_OK ? wt_running_in_compute(&sliding, &run->layer, &observation, &run->job,
                                                    &run->table[FLOW_RUNNING_IN], err)
                            : status;
 }
@@ -24,10 +24,10 @@ wt_status flow_step_running_in(flow_run *run, wt_error *err)
 wt_status flow_step_layer_feedback(flow_run *run, wt_error *err)
 {
     const wt_sliding sliding = flow_run_sliding(run);
-    wt_layer_observation known;
-    const wt_status status = flow_run_layer_observation(run, &known, err);
+    wt_layer_observation observation;
+    const wt_status status = flow_run_layer_observation(run, &observation, err);
     return status == WT_OK
-               ? wt_layer_steady_states_compute(&sliding, &run->layer, &known, &run->job,
+               ? wt_layer_steady_states_compute(&sliding, &run->layer, &observation, &run->job,
                                                 &run->table[FLOW_LAYER_FEEDBACK], err)
                : status;
 }
@@ -35,10 +35,11 @@ wt_status flow_step_layer_feedback(flow_run *run, wt_error *err)
 wt_status flow_step_existence(flow_run *run, wt_error *err)
 {
     const wt_sliding sliding = flow_run_sliding(run);
-    wt_layer_observation known;
-    const wt_status status = run->level > 0 ? flow_run_layer_observation(run, &known, err) : WT_OK;
+    wt_layer_observation observation;
+    const wt_status status =
+        run->level > 0 ? flow_run_layer_observation(run, &observation, err) : WT_OK;
     return status == WT_OK
-               ? wt_regime_map_compute(&sliding, &run->layer, run->level > 0 ? &known : NULL,
+               ? wt_regime_map_compute(&sliding, &run->layer, run->level > 0 ? &observation : NULL,
                                        &run->job, &run->table[FLOW_LAYER_REGIME_MAP], err)
                : status;
 }

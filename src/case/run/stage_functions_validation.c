@@ -13,7 +13,7 @@ wt_status flow_step_validation(flow_run *run, wt_error *err)
     job.sliding = &sliding;
     job.layer =
         run->c->has_layer && !isnan(run->layer.specific_wear_rate.value) ? &run->layer : NULL;
-    job.known = run->level > 0 ? &layer : NULL;
+    job.layer_observation = run->level > 0 ? &layer : NULL;
     job.record = run->table[FLOW_RECORD];
     job.wear = run->table[FLOW_WEAR];
     job.what_if = run->table[FLOW_WHAT_IF];
@@ -34,7 +34,7 @@ wt_status flow_step_validation_running_in(flow_run *run, wt_error *err)
     wt_status status = flow_run_layer_observation(run, &layer, err);
     job.sliding = &sliding;
     job.layer = &run->layer;
-    job.known = &layer;
+    job.layer_observation = &layer;
     job.record = run->table[FLOW_RECORD];
     job.cycles = run->table[FLOW_RECORD_CYCLES];
     job.wear = run->table[FLOW_WEAR];

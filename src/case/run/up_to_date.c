@@ -35,7 +35,7 @@ __attribute__((format(printf, 2, 3))) static void differs(currency_check *k, con
 
 /* Returns the length of the next word of a command. Options without influence on the result are
  * skipped with their values. */
-static size_t next_relevant_word(const char **at)
+static size_t next_relevant_argument(const char **at)
 {
     static const struct {
         const char *name;
@@ -62,7 +62,7 @@ static size_t next_relevant_word(const char **at)
 static bool is_same_command(const char *a, const char *b)
 {
     for (;;) {
-        const size_t n = next_relevant_word(&a), m = next_relevant_word(&b);
+        const size_t n = next_relevant_argument(&a), m = next_relevant_argument(&b);
         if (n != m || strncmp(a, b, n) != 0)
             return false;
         if (n == 0)

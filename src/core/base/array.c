@@ -12,8 +12,8 @@ void *array_grow(void *array, size_t n, size_t size)
     const bool full = n == 0 || (n >= FIRST && (n & (n - 1)) == 0);
     if (!full)
         return array;
-    const size_t room = n == 0 ? FIRST : 2 * n;
-    return room > SIZE_MAX / size ? NULL : realloc(array, room * size);
+    const size_t capacity = n == 0 ? FIRST : 2 * n;
+    return capacity > SIZE_MAX / size ? NULL : realloc(array, capacity * size);
 }
 
 int numbers_compare(const void *a, const void *b)

@@ -103,8 +103,8 @@ size_t wt_error_format(const wt_error *err, char *buffer, size_t size)
         for (size_t k = 0; k < 2; k++) {
             const size_t length = strlen(pieces[k]);
             if (needed < size) {
-                const size_t room = size - needed - 1;
-                memcpy(buffer + needed, pieces[k], length < room ? length : room);
+                const size_t capacity = size - needed - 1;
+                memcpy(buffer + needed, pieces[k], length < capacity ? length : capacity);
             }
             needed += length;
         }

@@ -35,7 +35,7 @@ static bool fail_out_of_memory(hdf5_reader *r)
 }
 
 /* An invalid name is an error of the file, not of an argument. */
-static bool is_accepted(hdf5_reader *r, wt_status status)
+static bool hdf5_accepts_name(hdf5_reader *r, wt_status status)
 {
     r->status = status == WT_E_ARG ? WT_E_CORRUPT : status;
     if (status == WT_E_ARG && r->err != NULL)
@@ -240,7 +240,7 @@ static bool read_estimate_key(hdf5_reader *r, hid_t group, const char *key, doub
            read_number_attribute(r, group, names[KEY_NUMERICAL_ERROR], &e.numerical_error, NULL) &&
            (unit = read_text_attribute(r, group, names[KEY_UNITS])) != NULL;
     e.unit = unit;
-    good = good && is_accepted(r, wt_table_set_estimate(table, key, e, r->err));
+    good = good && hdf5_accepts_name(r, wt_table_set_estimate(table, key, e, r->err));
     for (size_t i = 0; i < KEY_PARTS; i++)
         free(names[i]);
     free(unit);
@@ -258,7 +258,8 @@ static bool read_table_keys(hdf5_reader *r, hid_t group, wt_table *table)
         good = read_number_attribute(r, group, keys[i], &value, &is_text);
         if (good && is_text) {
             char *const text = read_text_attribute(r, group, keys[i]);
-            good = text != NULL && is_accepted(r, wt_table_set_key(table, keys[i], text, r->err));
+            good = text != NULL &&
+                   hdf5_accepts_name(r, wt_table_set_key(table, keys[i], text, r->err));
             free(text);
         } else if (good) {
             good = read_estimate_key(r, group, keys[i], value, table);
@@ -286,9 +287,9 @@ static bool read_column(hdf5_reader *r, hid_t group, const char *name, hsize_t n
         units != NULL ? read_text_attribute(r, dataset, STORE_LONG_NAME_ATTRIBUTE) : NULL;
     bool good = words != NULL;
     if (good && class == H5T_FLOAT)
-        good = is_accepted(r, wt_table_add_column(table, name, units, words, r->err));
+        good = hdf5_accepts_name(r, wt_table_add_column(table, name, units, words, r->err));
     else if (good && class == H5T_STRING)
-        good = is_accepted(r, wt_table_add_text_column(table, name, words, r->err));
+        good = hdf5_accepts_name(r, wt_table_add_text_column(table, name, words, r->err));
     else if (good)
         good = fail_corrupt_object(r, name, "a column that is neither numbers nor text");
     free(units);
@@ -310,8 +311,8 @@ static bool read_row_blocks(hdf5_reader *r, hid_t dataset, hsize_t n, wt_table *
         if (blocks[row] != before && blocks[row] != before + (row > 0))
             good = fail_corrupt_object(r, STORE_BLOCK_DATASET, "blocks are not numbered in order");
         else if (blocks[row] != before)
-            good = is_accepted(r, wt_table_new_block(table, r->err));
-        good = good && is_accepted(r, wt_table_add_row(table, r->err));
+            good = hdf5_accepts_name(r, wt_table_new_block(table, r->err));
+        good = good && hdf5_accepts_name(r, wt_table_add_row(table, r->err));
     }
     free(blocks);
     return good;
@@ -379,7 +380,8 @@ static wt_table *read_stored_table(hdf5_reader *r, const char *name)
 static bool write_stored_table(hdf5_reader *r, const char *name)
 {
     wt_table *const table = read_stored_table(r, name);
-    const bool good = table != NULL && is_accepted(r, table_bytes_write(r->out, table, r->err));
+    const bool good =
+        table != NULL && hdf5_accepts_name(r, table_bytes_write(r->out, table, r->err));
     wt_table_free(table);
     return good;
 }

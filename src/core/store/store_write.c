@@ -152,7 +152,7 @@ static bool write_keys(const store_writer *w, hid_t group, const wt_table *table
     return good;
 }
 
-static bool write_columns(const store_writer *w, hid_t group, const wt_table *table)
+static bool write_hdf5_columns(const store_writer *w, hid_t group, const wt_table *table)
 {
     const size_t n = table->n_rows > table->n_columns ? table->n_rows : table->n_columns;
     const char **const words = calloc(n + 1, sizeof *words);
@@ -189,13 +189,13 @@ static bool write_columns(const store_writer *w, hid_t group, const wt_table *ta
     return good;
 }
 
-static bool write_table(const store_writer *w, const wt_table *table)
+static bool write_hdf5_table(const store_writer *w, const wt_table *table)
 {
     const hid_t group = store_create_group(w, table->name);
     if (group < 0)
         return false;
     const bool good = store_write_text_attribute(w, group, STORE_TITLE_ATTRIBUTE, table->title) &&
-                      write_keys(w, group, table) && write_columns(w, group, table);
+                      write_keys(w, group, table) && write_hdf5_columns(w, group, table);
     return H5Gclose(group) >= 0 && good;
 }
 
@@ -227,7 +227,7 @@ static bool write_origin(const store_writer *w, const wt_provenance *provenance,
            store_write_text_attribute(w, w->file, STORE_COMMAND_ATTRIBUTE,
                                       wt_provenance_command(provenance)) &&
            store_write_text_attribute(w, w->file, STORE_CREATED_ATTRIBUTE, created) &&
-           write_table(w, inputs);
+           write_hdf5_table(w, inputs);
 }
 
 /* Computes the digests of all tables, the inputs and the case file. The array has space for all of
@@ -268,7 +268,7 @@ static bool write_result_objects(const store_writer *w, const wt_result *result,
     if (inputs != NULL)
         good = good && write_origin(w, wt_result_provenance_const(result), inputs);
     for (size_t i = 0; good && i < n; i++)
-        good = write_table(w, wt_result_table(result, i));
+        good = write_hdf5_table(w, wt_result_table(result, i));
     if (case_file != NULL)
         good = good && write_case_dataset(w, case_file, case_length);
     free(words);

@@ -320,8 +320,8 @@ static wt_status explain_failure(const sandbox_stream *stream, int state, wt_err
 }
 
 /* Copies and validates the error that the process reported. */
-static wt_status reported_error(const char *what, const char *bytes, const sandbox_limits *limits,
-                                wt_error *err)
+static wt_status sandbox_reported_error(const char *what, const char *bytes,
+                                        const sandbox_limits *limits, wt_error *err)
 {
     wt_error reported;
     memcpy(&reported, bytes, sizeof reported);
@@ -408,8 +408,8 @@ static wt_status end_child(sandbox_stream *stream, wt_error *err)
     const int state = finish_child(stream->child, stream->outcome != STREAM_ENDED);
     stream->child = -1;
     if (stream->outcome == STREAM_ENDED && state == 0 && stream->length >= sizeof(wt_error))
-        return reported_error(stream->what, stream->bytes + stream->length - sizeof(wt_error),
-                              &stream->limits, err);
+        return sandbox_reported_error(
+            stream->what, stream->bytes + stream->length - sizeof(wt_error), &stream->limits, err);
     return explain_failure(stream, state, err);
 }
 

@@ -92,7 +92,7 @@ static wt_status add_typed_column(wt_table *table, wt_column_kind kind, const ch
                        table->name);
     if (table->n_columns >= TABLE_COLUMNS_MAX)
         return wt_fail(err, WT_E_ARG, "more than %d columns", (int)TABLE_COLUMNS_MAX);
-    if (!table_word_is_valid(name) || strcmp(name, "block") == 0) {
+    if (!table_name_part_is_valid(name) || strcmp(name, "block") == 0) {
         (void)wt_fail(err, WT_E_ARG, "not a name for a column");
         wt_error_expected(err, "letters, digits and '_', but not \"block\"");
         wt_error_found(err, "\"%s\"", name);

@@ -40,7 +40,7 @@ struct wt_table {
 /* True for parts of [a-z0-9_]+ joined by '/'. */
 bool table_name_is_valid(const char *name);
 /* True for [A-Za-z0-9_]+. */
-bool table_word_is_valid(const char *word);
+bool table_name_part_is_valid(const char *word);
 void table_free_keys(wt_table *table);
 /* Returns the names of the parts of an estimate key. The caller frees them, also on failure. False
  * when out of memory. */

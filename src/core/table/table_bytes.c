@@ -128,7 +128,7 @@ static bool fail_out_of_memory(byte_reader *r)
 }
 
 /* An invalid name is an error of the file, not of an argument. */
-static bool is_accepted(byte_reader *r, wt_status status)
+static bool bytes_accept_name(byte_reader *r, wt_status status)
 {
     r->status = status == WT_E_ARG ? WT_E_CORRUPT : status;
     if (status == WT_E_ARG && r->err != NULL)
@@ -184,8 +184,9 @@ static bool decode_keys(byte_reader *r)
             decode_numbers(r, number, is_estimate ? 3 : 0) && decode_text(r, &text) &&
             (wt_table_key(r->table, name) == NULL || fail_corrupt_bytes(r, "a key is there twice"));
         const wt_estimate e = {number[0], number[1], number[2], text};
-        good = good && is_accepted(r, is_estimate ? wt_table_set_estimate(r->table, name, e, r->err)
-                                                  : wt_table_set_key(r->table, name, text, r->err));
+        good = good &&
+               bytes_accept_name(r, is_estimate ? wt_table_set_estimate(r->table, name, e, r->err)
+                                                : wt_table_set_key(r->table, name, text, r->err));
     }
     return good;
 }
@@ -199,8 +200,8 @@ static bool decode_columns(byte_reader *r)
     for (size_t i = 0; good && i < n; i++) {
         good = decode_text(r, &name) && decode_count(r, 1, &is_text) && decode_text(r, &unit) &&
                decode_text(r, &words);
-        good = good &&
-               is_accepted(r, is_text ? wt_table_add_text_column(r->table, name, words, r->err)
+        good = good && bytes_accept_name(
+                           r, is_text ? wt_table_add_text_column(r->table, name, words, r->err)
                                       : wt_table_add_column(r->table, name, unit, words, r->err));
     }
     return good;
@@ -228,11 +229,11 @@ static bool decode_rows(byte_reader *r)
         good = decode_count(r, n - 1, &next) && ((block == 0 ? next == 0 : next > first) ||
                                                  fail_corrupt_bytes(r, "blocks without an order"));
         while (good && r->table->n_rows < next)
-            good = is_accepted(r, wt_table_add_row(r->table, r->err));
-        good = good && is_accepted(r, wt_table_new_block(r->table, r->err));
+            good = bytes_accept_name(r, wt_table_add_row(r->table, r->err));
+        good = good && bytes_accept_name(r, wt_table_new_block(r->table, r->err));
     }
     while (good && r->table->n_rows < n)
-        good = is_accepted(r, wt_table_add_row(r->table, r->err));
+        good = bytes_accept_name(r, wt_table_add_row(r->table, r->err));
     return good;
 }
 

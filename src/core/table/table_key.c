@@ -116,7 +116,7 @@ static table_key *find_table_key(const wt_table *table, const char *name)
 
 static wt_status check_key_name(const char *name, wt_error *err)
 {
-    if (table_word_is_valid(name) && !is_reserved(name))
+    if (table_name_part_is_valid(name) && !is_reserved(name))
         return WT_OK;
     wt_fail(err, WT_E_ARG, "not a name for a key");
     wt_error_expected(err, "letters, digits and '_', no word that the file formats use");

@@ -20,7 +20,7 @@ bool table_name_is_valid(const char *name)
     return part > 0;
 }
 
-bool table_word_is_valid(const char *word)
+bool table_name_part_is_valid(const char *word)
 {
     return word[0] != '\0' && word[strspn(word, "abcdefghijklmnopqrstuvwxyz"
                                                 "ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_")] == '\0';

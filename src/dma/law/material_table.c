@@ -104,7 +104,7 @@ static wt_status table_check(const double *omega, const double *storage, const d
 
 /* Computes the end slopes from ratios. Differences of logarithms lose digits, which matters far
  * outside the knots. */
-static void find_end_slopes(table_data *d, const double *storage, const double *loss)
+static void find_boundary_slopes(table_data *d, const double *storage, const double *loss)
 {
     for (size_t end = 0; end < 2; end++) {
         const size_t k = end == 0 ? 0 : d->n - 2;
@@ -119,7 +119,7 @@ static void find_end_slopes(table_data *d, const double *storage, const double *
 static const double max_slope = 100;
 
 /* Sliding contributes frequencies down to 0, where |E|^2 must stay integrable over the angle. */
-static wt_status check_end_slopes(const table_data *d, wt_error *err)
+static wt_status check_boundary_slopes(const table_data *d, wt_error *err)
 {
     const double low = fmin(d->slope[0][0], d->slope[0][1]);
     double most = 0;
@@ -170,9 +170,9 @@ wt_status wt_material_table(const double *omega, const double *storage, const do
             status =
                 wt_fail(err, WT_E_RANGE,
                         "knots %zu and %zu of a material table are too close together", i, i + 1);
-    find_end_slopes(d, storage, loss);
+    find_boundary_slopes(d, storage, loss);
     if (status == WT_OK && extrapolation == WT_EXTRAPOLATE_SLOPE)
-        status = check_end_slopes(d, err);
+        status = check_boundary_slopes(d, err);
     if (status == WT_OK)
         return material_create(&table_law, d, poisson_ratio, omega[0], omega[n - 1], material, err);
     free(d);

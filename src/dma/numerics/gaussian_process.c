@@ -299,7 +299,7 @@ typedef struct mixture_level_search {
     double probability;
 } mixture_level_search;
 
-static bool is_below_level(double x, void *user)
+static bool is_below_model_quantile(double x, void *user)
 {
     const mixture_level_search *l = user;
     return probability_below(l->o, x) < l->probability;
@@ -316,7 +316,7 @@ static double model_mixture_quantile(const model_mixture *o, double probability,
         other += step *= 2;
     mixture_level_search l = {o, probability};
     double low = fmin(from, other), high = fmax(from, other);
-    root_bisect(is_below_level, &l, &low, &high, 0, HALVINGS);
+    root_bisect(is_below_model_quantile, &l, &low, &high, 0, HALVINGS);
     return 0.5 * (low + high);
 }
 

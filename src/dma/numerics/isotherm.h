@@ -17,19 +17,19 @@ enum { STORAGE, LOSS, MODULI };
 typedef struct shift_curve {
     double temperature; /* [K] */
     size_t n;
-    double *x;         /* [n] */
-    double *y[MODULI]; /* [n] */
-    size_t n_left_out; /* points with a modulus <= 0 */
-    size_t n_merged;   /* measured points if neighbours were merged; otherwise 0 */
-    bool given;        /* the shift is stated and not fitted */
-    double given_a;    /* stated log10 a; only differences to other stated shifts count [decade] */
-    bool held;         /* the vertical shift is stated, too */
-    double given_b;    /* stated log10 b [decade] */
+    double *x;           /* [n] */
+    double *y[MODULI];   /* [n] */
+    size_t n_skipped;    /* points with a modulus <= 0 */
+    size_t n_merged;     /* measured points if neighbours were merged; otherwise 0 */
+    bool is_shift_fixed; /* the horizontal shift is stated and not fitted */
+    double fixed_log_a; /* stated log10 a; only differences to other stated shifts count [decade] */
+    bool is_vertical_fixed; /* the vertical shift is stated, too */
+    double fixed_log_b;     /* stated log10 b [decade] */
 } shift_curve;
 
 /* All isotherms by rising temperature. */
 typedef struct shift_set {
-    wt_shift_quantity by; /* not WT_SHIFT_MODULI if a modulus is missing */
+    wt_shift_quantity quantity; /* not WT_SHIFT_MODULI if a modulus is missing */
     wt_loading loading;
     bool used[MODULI]; /* fitted quantities; tan delta takes the place of LOSS */
     size_t n;

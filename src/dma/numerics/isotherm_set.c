@@ -19,7 +19,7 @@ struct order {
     size_t index;
 };
 
-static int compare_temperature(const void *left, const void *right)
+static int compare_isotherm_order(const void *left, const void *right)
 {
     const struct order *a = left, *b = right;
     if (a->temperature != b->temperature)
@@ -74,7 +74,7 @@ static const double outlier_limit = 5.0;
 enum { LEAST_MANY = 5 };
 
 /* Returns the end of the group that starts at `from`. With `alone` each point is its own group. */
-static size_t merged_points_end(const struct point *point, size_t n, size_t from, bool is_unmerged)
+static size_t end_of_merge_range(const struct point *point, size_t n, size_t from, bool is_unmerged)
 {
     size_t to = from + 1;
     while (!is_unmerged && to < n && point[to].x - point[from].x < merge_width)
@@ -95,7 +95,7 @@ static bool is_evenly_spaced(const struct point *point, size_t n)
 static bool is_sparse(const struct point *point, size_t n)
 {
     size_t left = 0;
-    for (size_t k = 0; k < n; k = merged_points_end(point, n, k, false))
+    for (size_t k = 0; k < n; k = end_of_merge_range(point, n, k, false))
         left++;
     return left < SHIFT_MIN_POINTS ||
            n < (is_evenly_spaced(point, n) ? LEAST_EVEN : LEAST_TOGETHER) * left;
@@ -128,7 +128,7 @@ static void merge_curve_points(const struct point *point, size_t n, shift_curve 
     const bool is_unmerged = is_sparse(point, n);
     curve->n = 0;
     for (size_t from = 0, to; from < n; from = to, curve->n++) {
-        to = merged_points_end(point, n, from, is_unmerged);
+        to = end_of_merge_range(point, n, from, is_unmerged);
         double x = 0.0;
         for (size_t i = from; i < to; i++)
             x += point[i].x / (double)(to - from);
@@ -152,7 +152,7 @@ static wt_status fill_shift_curve(const wt_isotherm *isotherm, const shift_set *
         const double w = isotherm->angular_frequency[k];
         double value[MODULI];
         bool good = w > 0.0 && isfinite(w);
-        fitted_values(isotherm, set->by, k, value);
+        fitted_values(isotherm, set->quantity, k, value);
         for (int q = 0; q < MODULI; q++) {
             good = good && (!set->used[q] || (value[q] > 0.0 && isfinite(value[q])));
             value[q] = set->used[q] ? log10(value[q]) : 0.0;
@@ -162,10 +162,10 @@ static wt_status fill_shift_curve(const wt_isotherm *isotherm, const shift_set *
         } else {
             if (first_bad == isotherm->n)
                 first_bad = k;
-            curve->n_left_out++;
+            curve->n_skipped++;
         }
     }
-    if (curve->n_left_out > 0 && n < SHIFT_MIN_POINTS) {
+    if (curve->n_skipped > 0 && n < SHIFT_MIN_POINTS) {
         wt_status status =
             wt_fail(err, WT_E_RANGE,
                     "the isotherm of %.2f °C has too few points with positive frequency and moduli",
@@ -178,11 +178,11 @@ static wt_status fill_shift_curve(const wt_isotherm *isotherm, const shift_set *
         wt_error_advice(err, "leave this temperature out of the sweep");
         return status;
     }
-    if (curve->n_left_out > 0)
+    if (curve->n_skipped > 0)
         wt_log_add(log, WT_WARNING, isotherm->source, NULL,
                    "isotherm of %.2f °C: %zu of %zu points left out, no positive modulus "
                    "(first: %g rad/s, storage %g Pa, loss %g Pa)",
-                   isotherm->temperature - WT_ZERO_CELSIUS, curve->n_left_out, isotherm->n,
+                   isotherm->temperature - WT_ZERO_CELSIUS, curve->n_skipped, isotherm->n,
                    isotherm->angular_frequency[first_bad], isotherm->storage_modulus[first_bad],
                    isotherm->loss_modulus[first_bad]);
     qsort(scratch, n, sizeof *scratch, numbers_compare);
@@ -219,7 +219,7 @@ static wt_status choose_fitted_quantities(const wt_sweep *sweep, wt_shift_quanti
     find_measured_moduli(sweep, has, &factor);
     if (by == WT_SHIFT_MODULI && !(has[STORAGE] && has[LOSS]))
         by = has[STORAGE] ? WT_SHIFT_STORAGE : has[LOSS] ? WT_SHIFT_LOSS : WT_SHIFT_LOSS_FACTOR;
-    set->by = by;
+    set->quantity = by;
     set->used[STORAGE] = by == WT_SHIFT_MODULI || by == WT_SHIFT_STORAGE;
     set->used[LOSS] = by != WT_SHIFT_STORAGE;
     if (by == WT_SHIFT_LOSS_FACTOR
@@ -258,22 +258,23 @@ wt_status shift_set_new(const wt_sweep *sweep, wt_shift_quantity by, wt_log *log
     if (memory->failed)
         return wt_fail(err, WT_E_MEMORY, "no memory for %zu isotherms", n);
     status = choose_fitted_quantities(sweep, by, set, err);
-    if (status == WT_OK && set->loading != WT_OSCILLATION && set->by != WT_SHIFT_STORAGE) {
+    if (status == WT_OK && set->loading != WT_OSCILLATION && set->quantity != WT_SHIFT_STORAGE) {
         status = wt_fail(err, WT_E_ARG, "after a step there is one quantity to shift by");
         wt_error_expected(err, "shift-by moduli, which takes it");
     }
     for (size_t i = 0; i < n; i++)
         order[i] = (struct order){sweep->isotherms[i].temperature, i};
-    qsort(order, n, sizeof *order, compare_temperature);
+    qsort(order, n, sizeof *order, compare_isotherm_order);
     for (size_t i = 0; i < n && status == WT_OK; i++) {
         const wt_isotherm *isotherm = &sweep->isotherms[order[i].index];
         shift_curve *curve = &set->curves[i];
         curve->temperature = isotherm->temperature;
-        curve->given = isotherm->shift_is_stated;
-        curve->given_a = isotherm->stated_log_a;
-        curve->held = isotherm->shift_is_stated && isotherm->vertical_shift_is_stated &&
-                      set->by != WT_SHIFT_LOSS_FACTOR;
-        curve->given_b = isotherm->stated_log_b;
+        curve->is_shift_fixed = isotherm->shift_is_stated;
+        curve->fixed_log_a = isotherm->stated_log_a;
+        curve->is_vertical_fixed = isotherm->shift_is_stated &&
+                                   isotherm->vertical_shift_is_stated &&
+                                   set->quantity != WT_SHIFT_LOSS_FACTOR;
+        curve->fixed_log_b = isotherm->stated_log_b;
         curve->x = next;
         curve->y[STORAGE] = next + isotherm->n;
         curve->y[LOSS] = next + 2 * isotherm->n;

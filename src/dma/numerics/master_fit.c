@@ -92,12 +92,12 @@ PARAM_TABLE(wt_master_options_params, wt_master_options, rows, wt_master_options
  * it from the horizontal shift. */
 wt_status master_check_vertical(master_work *work, wt_error *err)
 {
-    if (work->set.by == WT_SHIFT_LOSS_FACTOR)
+    if (work->set.quantity == WT_SHIFT_LOSS_FACTOR)
         work->options.vertical = WT_VERTICAL_NONE;
     /* the model of creep is a solid; a liquid gets a small equilibrium modulus */
     work->flows = work->set.loading == WT_CREEP && work->options.liquid;
     work->options.liquid = work->options.liquid && !work->flows;
-    if (work->set.by == WT_SHIFT_MODULI || work->options.vertical != WT_VERTICAL_FREE)
+    if (work->set.quantity == WT_SHIFT_MODULI || work->options.vertical != WT_VERTICAL_FREE)
         return WT_OK;
     wt_fail(err, WT_E_ARG, "one modulus alone does not tell free vertical shifts");
     wt_error_place(err, "vertical-shift");
@@ -114,11 +114,11 @@ wt_status master_choose_anchor(master_work *work, wt_error *err)
     bool given = false; /* the anchor is then a stated isotherm */
     work->anchor = set->n;
     for (size_t i = 0; i < set->n; i++)
-        given = given || (set->curves[i].given && set->curves[i].n >= SHIFT_MIN_POINTS);
+        given = given || (set->curves[i].is_shift_fixed && set->curves[i].n >= SHIFT_MIN_POINTS);
     for (size_t i = 0; i < set->n; i++) {
         const double away = isnan(asked) ? fabs((double)i - (double)(set->n / 2))
                                          : fabs(set->curves[i].temperature - asked);
-        if (set->curves[i].n >= SHIFT_MIN_POINTS && (!given || set->curves[i].given) &&
+        if (set->curves[i].n >= SHIFT_MIN_POINTS && (!given || set->curves[i].is_shift_fixed) &&
             away < nearest) {
             nearest = away;
             work->anchor = i;
@@ -341,7 +341,7 @@ static wt_status restart_from_overlaps(master_work *work, wt_error *err)
     }
     status = master_find_overlaps(work, err);
     for (size_t i = 0; status == WT_OK && i < work->set.n; i++)
-        if (work->edge[i].placed && !work->set.curves[i].given) {
+        if (work->edge[i].placed && !work->set.curves[i].is_shift_fixed) {
             work->placed[i] = true;
             work->a[i] = work->edge[i].a;
         }
@@ -353,14 +353,14 @@ static wt_status restart_from_overlaps(master_work *work, wt_error *err)
     return status == WT_OK ? master_measure_misfit(work, err) : status;
 }
 
-wt_status master_place_isotherms(master_work *work, wt_error *err)
+wt_status master_find_initial_shifts(master_work *work, wt_error *err)
 {
     const double asked = work->options.terms_per_decade;
     wt_status status = WT_OK;
     work->is_gross = false;
     work->terms_per_decade = isnan(asked) ? smooth_terms : asked;
-    spectrum_place_isotherms(&work->set, work->anchor, work->options.vertical, work->physical,
-                             work->placed, work->a, work->b);
+    spectrum_find_initial_shifts(&work->set, work->anchor, work->options.vertical, work->physical,
+                                 work->placed, work->a, work->b);
     for (size_t i = 0; work->part && i < work->set.n; i++)
         work->placed[i] = work->placed[i] && i >= work->first && i <= work->last;
     for (int round = 0; status == WT_OK && round < MOST_ROUNDS; round++) {
@@ -412,7 +412,7 @@ wt_status master_estimate_noise(master_work *work, wt_error *err)
  * not reduce their weight. */
 wt_status master_test_superposition(master_work *work, wt_error *err)
 {
-    if (work->s->n_curves < 2 || work->set.by != WT_SHIFT_MODULI)
+    if (work->s->n_curves < 2 || work->set.quantity != WT_SHIFT_MODULI)
         return WT_OK;
     spectrum *s = work->s;
     /* also tested without a request if the misfit may affect the shifts */

@@ -51,7 +51,7 @@ wt_status master_work_alloc(master_work *work, wt_error *err) WT_NODISCARD;
 wt_status master_choose_anchor(master_work *work, wt_error *err) WT_NODISCARD;
 /* Places the isotherms: start, outliers and connected isotherms. Sets the flag of a gross
  * misfit. */
-wt_status master_place_isotherms(master_work *work, wt_error *err) WT_NODISCARD;
+wt_status master_find_initial_shifts(master_work *work, wt_error *err) WT_NODISCARD;
 wt_status master_estimate_noise(master_work *work, wt_error *err) WT_NODISCARD;
 /* Measures the misfit beyond the noise within the isotherms and sets its flags. */
 wt_status master_measure_misfit(master_work *work, wt_error *err) WT_NODISCARD;

@@ -40,10 +40,10 @@ void master_add_note(wt_master_shift *shift, const char *format, ...)
 static void note_shift(const master_work *work, size_t i, wt_master_shift *shift)
 {
     const wt_posterior *p = work->posterior;
-    if (work->set.curves[i].n_left_out > 0)
+    if (work->set.curves[i].n_skipped > 0)
         master_add_note(shift, "%zu point%s without positive modulus left out",
-                        work->set.curves[i].n_left_out,
-                        work->set.curves[i].n_left_out > 1 ? "s" : "");
+                        work->set.curves[i].n_skipped,
+                        work->set.curves[i].n_skipped > 1 ? "s" : "");
     if (shift->n_outliers > 0)
         master_add_note(shift, "%zu value%s off the curve left out", shift->n_outliers,
                         shift->n_outliers > 1 ? "s" : "");
@@ -51,7 +51,7 @@ static void note_shift(const master_work *work, size_t i, wt_master_shift *shift
         master_add_note(shift, "%.1f times the noise of the others", shift->noise_factor);
     if (!shift->determined)
         return;
-    if (work->set.curves[i].given && work->route == WT_SHIFTS_FROM_SPECTRUM)
+    if (work->set.curves[i].is_shift_fixed && work->route == WT_SHIFTS_FROM_SPECTRUM)
         master_add_note(shift, "as given");
     if (work->options.vertical != WT_VERTICAL_NONE && isfinite(shift->log_b.value) &&
         fabs(shift->log_b.value - shift->log_b_physical) > vertical_deviation_limit)
@@ -129,8 +129,8 @@ static void note_quantity(const master_work *work, wt_log *log)
                    "creep of a liquid is fitted with an equilibrium modulus, which stands for "
                    "what flows: shifts, law and moduli at the measured times are those of the "
                    "liquid, and it is too stiff at longer ones");
-    else if (work->set.loading == WT_OSCILLATION && work->set.by != WT_SHIFT_MODULI)
-        wt_log_add(log, WT_WARNING, NULL, NULL, "%s", open[work->set.by]);
+    else if (work->set.loading == WT_OSCILLATION && work->set.quantity != WT_SHIFT_MODULI)
+        wt_log_add(log, WT_WARNING, NULL, NULL, "%s", open[work->set.quantity]);
 }
 
 /* Notes the route by which the shifts were found, if it is not one spectrum. */
@@ -191,11 +191,11 @@ void master_add_notes(const master_work *work, const wt_sweep *sweep, wt_master 
         wt_log_add(log, WT_WARNING, NULL, NULL,
                    "the reference temperature is outside the isotherms: the law is "
                    "extrapolated");
-    if (m->n_shifts > 1 && work->set.by == WT_SHIFT_MODULI &&
+    if (m->n_shifts > 1 && work->set.quantity == WT_SHIFT_MODULI &&
         m->superposition != WT_SUPERPOSITION_HOLDS)
         wt_log_add(log, WT_WARNING, NULL, NULL, "time-temperature superposition %s%s%s",
                    m->superposition == WT_SUPERPOSITION_FAILS ? "fails" : "cannot be judged",
-                   isnan(m->valid_from) ? ": " : " ", m->because);
+                   isnan(m->valid_from) ? ": " : " ", m->superposition_reason);
     if (m->law.kind != WT_LAW_NONE && m->law_rms > master_max_shift_error)
         wt_log_add(log, WT_WARNING, NULL, NULL,
                    "the law of the shift factors is %.2g decade off them (rms): it is none of "

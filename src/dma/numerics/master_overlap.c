@@ -49,7 +49,7 @@ wt_status master_can_use_overlaps(master_work *work, bool *may, wt_error *err)
     size_t placed = 0;
     bool given = !work->set.used[STORAGE];
     for (size_t i = 0; i < work->set.n; i++)
-        given = given || work->set.curves[i].given;
+        given = given || work->set.curves[i].is_shift_fixed;
     *may = false;
     if (given)
         return WT_OK;
@@ -97,7 +97,7 @@ static double spectrum_misfit_shift(const master_work *work, size_t i)
 {
     bool given = false;
     for (size_t k = 0; k < work->set.n; k++)
-        given = given || work->set.curves[k].given;
+        given = given || work->set.curves[k].is_shift_fixed;
     if (given || master_misfit_is_loss_factor(&work->lack))
         return 0.0; /* stated shifts may cause the misfit; a factor on all E'' does not affect
                        shifts */
@@ -134,7 +134,7 @@ static double overlap_variance(const master_work *work, size_t i)
  * here. */
 static bool is_user_stated(const master_work *work, size_t i)
 {
-    return work->route != WT_SHIFTS_FROM_OVERLAP && work->set.curves[i].given;
+    return work->route != WT_SHIFTS_FROM_OVERLAP && work->set.curves[i].is_shift_fixed;
 }
 
 /* Sets the errors of the shifts if superposition fails or may fail. They combine the scatter
@@ -223,8 +223,8 @@ wt_status master_use_overlap_shifts(master_work *work, wt_error *err)
     }
     (void)spectrum_select_connected(set, work->anchor, work->a, work->placed, work->overlap);
     for (size_t i = 0; i < set->n; i++) {
-        set->curves[i].given = work->placed[i];
-        set->curves[i].given_a = work->a[i];
+        set->curves[i].is_shift_fixed = work->placed[i];
+        set->curves[i].fixed_log_a = work->a[i];
     }
     work->route = WT_SHIFTS_FROM_OVERLAP;
     work->options.vertical = physical ? WT_VERTICAL_PHYSICAL : WT_VERTICAL_NONE;

@@ -24,7 +24,7 @@ void wt_master_clear(wt_master *master)
     free(master->shifts);
     free(master->log_frequency);
     free(master->isotherm);
-    free(master->left_out);
+    free(master->is_outlier);
     free(master->fitted_storage);
     wt_prony_clear(&master->prony);
     posterior_free(master->posterior);
@@ -232,9 +232,9 @@ static wt_status fill_master_curve(const master_work *work, wt_master *m, wt_err
     struct order *order = malloc((s->n + 1) * sizeof *order);
     m->log_frequency = malloc(4 * (s->n + 1) * sizeof *m->log_frequency);
     m->isotherm = malloc((s->n + 1) * sizeof *m->isotherm);
-    m->left_out = malloc((s->n + 1) * sizeof *m->left_out);
+    m->is_outlier = malloc((s->n + 1) * sizeof *m->is_outlier);
     m->fitted_storage = malloc(4 * (s->n + 1) * sizeof *m->fitted_storage);
-    if (order == NULL || m->log_frequency == NULL || m->isotherm == NULL || m->left_out == NULL ||
+    if (order == NULL || m->log_frequency == NULL || m->isotherm == NULL || m->is_outlier == NULL ||
         m->fitted_storage == NULL || p->memory.failed) {
         free(order);
         return wt_fail(err, WT_E_MEMORY, "no memory for the master curve");
@@ -267,8 +267,8 @@ static wt_status fill_master_curve(const master_work *work, wt_master *m, wt_err
         m->log_step[j] = step_response ? storage : unknown;
         m->log_loss[j] = s->used[LOSS] && !s->ratio ? s->y[LOSS][k] / M_LN10 + b : unknown;
         p->measured_factor[j] = measured_loss_factor(s, k);
-        m->left_out[j] = (s->used[STORAGE] && s->weight[STORAGE][k] == 0.0) ||
-                         (s->used[LOSS] && s->weight[LOSS][k] == 0.0);
+        m->is_outlier[j] = (s->used[STORAGE] && s->weight[STORAGE][k] == 0.0) ||
+                           (s->used[LOSS] && s->weight[LOSS][k] == 0.0);
     }
     for (size_t j = 0; j < m->n; j++)
         m->fitted_storage[j] = m->fitted_loss[j] = m->fitted_loss_factor[j] = m->fitted_step[j] =
@@ -399,12 +399,12 @@ wt_status master_report(master_work *work, const wt_sweep *sweep, wt_log *log, w
                    .noise_loss = work->s->used[LOSS] ? work->s->noise[LOSS] : (double)NAN,
                    .correlation = work->s->rho,
                    .evaluations = work->s->evaluations,
-                   .step_allowed = sqrt(SPECTRUM_MIN_GAIN),
-                   .step_left = work->posterior->step_left};
-    work->posterior->by = work->set.by;
-    m.settled = true;
+                   .step_tolerance = sqrt(SPECTRUM_MIN_GAIN),
+                   .step_bound = work->posterior->step_left};
+    work->posterior->by = work->set.quantity;
+    m.has_converged = true;
     for (size_t i = 0; i < work->posterior->n_components; i++)
-        m.settled = m.settled && work->posterior->components[i].cell->settled;
+        m.has_converged = m.has_converged && work->posterior->components[i].cell->has_converged;
     wt_status status = master_fill_shifts(work, &m, err);
     if (status == WT_OK) {
         fill_shift_law(work->posterior, &m);

@@ -43,7 +43,7 @@ static wt_status test_part(const master_work *whole, size_t first, size_t last, 
     if (status == WT_OK)
         status = master_choose_anchor(&work, err);
     if (status == WT_OK)
-        status = master_place_isotherms(&work, err);
+        status = master_find_initial_shifts(&work, err);
     if (status == WT_OK)
         status = master_measure_misfit(&work, err);
     if (status == WT_OK && !work.is_gross && work.s->n_curves == work.set.n)
@@ -91,7 +91,7 @@ static wt_status find_describable_part(master_work *work, wt_error *err)
     const size_t n = work->set.n;
     bool holds = false;
     wt_status status = WT_OK;
-    if (work->set.by != WT_SHIFT_MODULI || n <= LEAST_PART)
+    if (work->set.quantity != WT_SHIFT_MODULI || n <= LEAST_PART)
         return WT_OK;
     /* around the anchor, rather on the warm side, above the glass */
     work->first = work->anchor > 0 ? work->anchor - 1 : 0;
@@ -113,7 +113,7 @@ static wt_status find_describable_part(master_work *work, wt_error *err)
 static wt_status refit_without_restart(master_work *work, wt_error *err)
 {
     work->plain = true;
-    wt_status status = master_place_isotherms(work, err);
+    wt_status status = master_find_initial_shifts(work, err);
     if (status == WT_OK)
         status = master_estimate_noise(work, err);
     if (status == WT_OK && !work->prior.held)
@@ -124,7 +124,7 @@ static wt_status refit_without_restart(master_work *work, wt_error *err)
 /* Fits one spectrum with free shifts. */
 static wt_status fit_free_shifts(master_work *work, wt_error *err)
 {
-    wt_status status = master_place_isotherms(work, err);
+    wt_status status = master_find_initial_shifts(work, err);
     if (status == WT_OK && work->is_gross) { /* fixed vertical shifts may cause the whole misfit */
         status = master_set_widths(work, WT_VERTICAL_FREE, 0.0, 0.0, err);
         if (status == WT_OK)

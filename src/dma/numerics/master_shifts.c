@@ -94,7 +94,7 @@ static void fill_shift(const master_work *work, size_t i, const double *log_b_ma
         return;
     shift->determined = true;
     shift->log_a = work->measured_reference ? a : posterior_a_to_reference(work->posterior, curve);
-    if (work->set.by == WT_SHIFT_LOSS_FACTOR)
+    if (work->set.quantity == WT_SHIFT_LOSS_FACTOR)
         return;
     shift->log_b = posterior_b(work->posterior, curve);
     shift->log_b_material = log_b_material[curve];

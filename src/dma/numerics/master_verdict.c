@@ -90,7 +90,7 @@ static void describe_gross_misfit(const master_work *work, wt_master *m)
                       m->valid_to - zero);
     }
     clocale_print(
-        m->because, sizeof m->because,
+        m->superposition_reason, sizeof m->superposition_reason,
         "%sone spectrum of all misses E' by %.1f %% and E'' by %.1f %% beyond their noise: "
         "other processes, as in a glass, or a change of the material",
         where, 100.0 * missed[STORAGE], 100.0 * missed[LOSS]);
@@ -107,7 +107,7 @@ void master_assess(const master_work *work, wt_master *m)
     const size_t undetermined = m->n_shifts - determined;
     const lack_of_fit *lack = work->part ? &work->whole : &work->lack;
     const double window = widest_window(work);
-    const bool both = work->set.by == WT_SHIFT_MODULI, tested = both && work->tested;
+    const bool both = work->set.quantity == WT_SHIFT_MODULI, tested = both && work->tested;
     m->lack_of_fit_p = tested ? lack->p : (double)NAN;
     m->misfit_low = tested ? lack->misfit_low : (double)NAN;
     m->misfit_high = tested ? lack->misfit_high : (double)NAN;
@@ -117,18 +117,19 @@ void master_assess(const master_work *work, wt_master *m)
     m->superposition = WT_SUPERPOSITION_INCONCLUSIVE;
     m->valid_from = m->valid_to = (double)NAN;
     if (!both) {
-        clocale_print(m->because, sizeof m->because,
+        clocale_print(m->superposition_reason, sizeof m->superposition_reason,
                       "%s alone does not tell; storage and loss modulus together would",
-                      work->set.by == WT_SHIFT_LOSS_FACTOR ? "the loss factor" : "one modulus");
+                      work->set.quantity == WT_SHIFT_LOSS_FACTOR ? "the loss factor"
+                                                                 : "one modulus");
     } else if (work->no_spectrum[0] != '\0') {
-        clocale_print(m->because, sizeof m->because, "one spectrum of all was not found (%s)",
-                      work->no_spectrum);
+        clocale_print(m->superposition_reason, sizeof m->superposition_reason,
+                      "one spectrum of all was not found (%s)", work->no_spectrum);
     } else if (work->part || work->route == WT_SHIFTS_FROM_OVERLAP) {
         m->superposition = WT_SUPERPOSITION_FAILS;
         describe_gross_misfit(work, m);
     } else if (determined >= 2 && master_loss_is_inconsistent(lack)) {
         m->superposition = WT_SUPERPOSITION_FAILS;
-        clocale_print(m->because, sizeof m->because,
+        clocale_print(m->superposition_reason, sizeof m->superposition_reason,
                       "E'' is %+.1f %% off what E' demands (Kramers-Kronig, p %s): check the "
                       "instrument, the columns, and whether the material changed meanwhile",
                       100.0 * expm1(lack->factor), format_probability(lack->kk).text);
@@ -138,38 +139,40 @@ void master_assess(const master_work *work, wt_master *m)
         clocale_print(low, sizeof low, "%.1f", 100.0 * lack->misfit_low);
         clocale_print(high, sizeof high, "%.1f", 100.0 * lack->misfit_high);
         const bool one = strcmp(low, high) == 0;
-        clocale_print(m->because, sizeof m->because,
+        clocale_print(m->superposition_reason, sizeof m->superposition_reason,
                       "one spectrum misses the isotherms by %s%s%s %% (p %s): a second process "
                       "or a change of the material; treat the temperatures apart",
                       one ? "about " : low, one ? "" : " to ", high,
                       format_probability(lack->p_sure).text);
     } else if (determined < LEAST_ISOTHERMS) {
-        clocale_print(m->because, sizeof m->because,
+        clocale_print(m->superposition_reason, sizeof m->superposition_reason,
                       "%zu isotherm%s that overlap%s; three or more would tell", determined,
                       determined == 1 ? "" : "s", determined == 1 ? "s" : "");
     } else if (3 * undetermined > m->n_shifts) {
         clocale_print(
-            m->because, sizeof m->because,
+            m->superposition_reason, sizeof m->superposition_reason,
             "%zu of %zu shifts not determined; smaller steps of temperature or a wider range of "
             "frequencies would tell",
             undetermined, m->n_shifts);
     } else if (lack->misfit_high > possible_misfit) {
         clocale_print(
-            m->because, sizeof m->because,
+            m->superposition_reason, sizeof m->superposition_reason,
             "a misfit of up to %.1f %% would not be seen; less noise than %.1f %%, or more "
             "points, would tell",
             round_up_percent(lack->misfit_high), 100.0 * fmax(m->noise_storage, m->noise_loss));
     } else if (master_misfit_is_likely(lack)) {
-        clocale_print(m->because, sizeof m->because, "a misfit is likely (p %s) but below %.1f %%",
+        clocale_print(m->superposition_reason, sizeof m->superposition_reason,
+                      "a misfit is likely (p %s) but below %.1f %%",
                       format_probability(lack->p).text, round_up_percent(lack->misfit_high));
     } else if (window < least_window) {
         clocale_print(
-            m->because, sizeof m->because,
+            m->superposition_reason, sizeof m->superposition_reason,
             "windows of %.1f decades hide a second process; 1.5 decades or more would tell",
             window);
     } else {
         m->superposition = WT_SUPERPOSITION_HOLDS;
-        clocale_print(m->because, sizeof m->because, "misfit below %.1f %% (lack of fit p %s)",
+        clocale_print(m->superposition_reason, sizeof m->superposition_reason,
+                      "misfit below %.1f %% (lack of fit p %s)",
                       round_up_percent(lack->misfit_high), format_probability(lack->p).text);
     }
 }

@@ -19,7 +19,7 @@ typedef struct mixture_level {
     double probability;
 } mixture_level;
 
-static bool is_below_level(double x, void *user)
+static bool is_below_quantile(double x, void *user)
 {
     const mixture_level *l = user;
     double sum = 0.0;
@@ -39,7 +39,7 @@ static double normal_mixture_quantile(const mixture_component *part, size_t n, d
         low = fmin(low, part[i].mean - max_deviations * part[i].deviation);
         high = fmax(high, part[i].mean + max_deviations * part[i].deviation);
     }
-    root_bisect(is_below_level, &l, &low, &high, relative_tolerance, MOST_HALVINGS);
+    root_bisect(is_below_quantile, &l, &low, &high, relative_tolerance, MOST_HALVINGS);
     return 0.5 * (low + high);
 }
 

@@ -91,7 +91,7 @@ static wt_status locate_onset(const double *x, const double *z, size_t n, wt_ons
     if (status == WT_OK && !isnan(onset->at.value))
         *onset = (wt_onset){true, onset->at, n, ""};
     else
-        onset->why_not = "the points do not show both the glass and the steepest fall";
+        onset->reason = "the points do not show both the glass and the steepest fall";
     return status;
 }
 
@@ -99,7 +99,7 @@ wt_status wt_onset_find(const double *x, const double *y, size_t n, wt_onset *on
 {
     size_t first, last;
     *onset = (wt_onset){.at = {(double)NAN, (double)NAN, (double)NAN, (double)NAN},
-                        .why_not = "fewer than 5 points"};
+                        .reason = "fewer than 5 points"};
     if (n < GP_MIN_POINTS)
         return WT_OK;
     double *z = malloc(n * sizeof *z), lowest = HUGE_VAL, highest = -HUGE_VAL;
@@ -113,9 +113,9 @@ wt_status wt_onset_find(const double *x, const double *y, size_t n, wt_onset *on
     select_fall_points(x, z, n, &first, &last);
     wt_status status = WT_OK;
     if (highest - lowest < log(least_fall))
-        onset->why_not = "it falls by less than a factor 2";
+        onset->reason = "it falls by less than a factor 2";
     else if (last - first < GP_MIN_POINTS)
-        onset->why_not = "fewer than 5 points about its fall";
+        onset->reason = "fewer than 5 points about its fall";
     else
         status = locate_onset(x + first, z + first, last - first, onset, err);
     free(z);

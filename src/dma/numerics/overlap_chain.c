@@ -180,7 +180,7 @@ static double alternative_step_change(struct chain_work *c, double start, double
     return fit_step(&c->overlap, start, &other, &error, &spread) ? other - a : 0.0;
 }
 
-static bool add_edge(struct chain_work *c, overlap_edge *edge, size_t onto, size_t from)
+static bool add_overlap_edge(struct chain_work *c, overlap_edge *edge, size_t onto, size_t from)
 {
     double a, error, spread;
     if (!edge[onto].placed)
@@ -239,10 +239,10 @@ wt_status overlap_chain(const shift_set *set, size_t anchor, const double *b,
     }
     for (size_t i = anchor + 1; i < n; i++)
         for (size_t k = 1; k <= NEIGHBOURS && anchor + k <= i && !edge[i].placed; k++)
-            (void)add_edge(&c, edge, i - k, i);
+            (void)add_overlap_edge(&c, edge, i - k, i);
     for (size_t i = anchor; i-- > 0;)
         for (size_t k = 1; k <= NEIGHBOURS && i + k <= anchor && !edge[i].placed; k++)
-            (void)add_edge(&c, edge, i + k, i);
+            (void)add_overlap_edge(&c, edge, i + k, i);
     arena_free(&memory);
     return WT_OK;
 }

@@ -30,7 +30,7 @@ static void set_no_peak(wt_peak *peak, const char *reason)
     *peak = (wt_peak){.at = {(double)NAN, (double)NAN, (double)NAN, (double)NAN},
                       .height = {(double)NAN, (double)NAN, (double)NAN, (double)NAN},
                       .misfit = (double)NAN,
-                      .why_not = reason};
+                      .reason = reason};
 }
 
 /* Selects the points around the largest one: first index and end index. Returns false if they
@@ -70,7 +70,7 @@ typedef struct slope_level {
     double level;
 } slope_level;
 
-static bool is_below_level(double x, void *user)
+static bool is_fall_probability_below(double x, void *user)
 {
     const slope_level *l = user;
     return falling_probability(l->s, x) < l->level;
@@ -80,7 +80,7 @@ static bool is_below_level(double x, void *user)
 static double slope_crossing(const gaussian_process *s, double low, double high, double level)
 {
     slope_level l = {s, level};
-    root_bisect(is_below_level, &l, &low, &high, 0, HALVINGS);
+    root_bisect(is_fall_probability_below, &l, &low, &high, 0, HALVINGS);
     return 0.5 * (low + high);
 }
 
@@ -154,7 +154,7 @@ static wt_status locate_peak(const double *x, const double *z, size_t n, double 
         peak->height.high = largest_y * (parabola ? height.high : exp(height.high));
         peak->height.standard_error =
             largest_y * height.standard_error * (parabola ? 1 : exp(height.value));
-        peak->why_not = closed ? "" : "so few points do not bound it";
+        peak->reason = closed ? "" : "so few points do not bound it";
     }
     gaussian_process_free(&s);
     return status;

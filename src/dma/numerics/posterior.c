@@ -62,7 +62,7 @@ wt_status posterior_store(wt_posterior *p, wt_vertical_shift kind, const vertica
                           .geometry = v->geometry,
                           .departure = v->departure,
                           .log_weight = log_weight,
-                          .settled = s->settled};
+                          .has_converged = s->settled};
     const bool counts = log_weight > posterior_best(p)->log_weight + 2.0 * log(least_share);
     if (counts) {
         c->covariance = arena_matrix(&p->memory, n, n);

@@ -19,7 +19,7 @@ typedef struct posterior_cell {
     double noise[MODULI], smoothness;
     double geometry, departure; /* widths of the vertical shift */
     double log_weight, weight;  /* weight without the law */
-    bool settled;               /* the fit converged */
+    bool has_converged;         /* the fit converged */
 } posterior_cell;
 
 /* A cell combined with a law and a temperature error. */

@@ -310,15 +310,15 @@ static wt_status gather_samples(law_samples *c, const wt_master *const *masters,
         if (reason == NULL)
             status = add_sample(c, masters[i], i, err);
         else
-            snprintf(common->members[i].why_not, sizeof common->members[i].why_not, "%s", reason);
+            snprintf(common->members[i].reason, sizeof common->members[i].reason, "%s", reason);
     }
     if (status == WT_OK && c->n_members < MIN_SAMPLES) {
         size_t without = 0;
-        while (common->members[without].why_not[0] == '\0')
+        while (common->members[without].reason[0] == '\0')
             without++;
         wt_fail(err, WT_E_RANGE, "a common law needs two samples or more with a law");
         wt_error_found(err, "%zu of %zu; of sample %zu %s", c->n_members, n, without + 1,
-                       common->members[without].why_not);
+                       common->members[without].reason);
         return WT_E_RANGE;
     }
     if (status == WT_OK && c->sharing == WT_SHARED_LAW_SHIFTED && !shared_law_has_pole(c)) {

@@ -218,7 +218,7 @@ void shared_law_fill(const law_samples *c, const solution shared[LAW_SPREADS],
         shared_law_indices(c, &m, k, at);
         wt_shared_law_member *member = &common->members[c->members[k].sample];
         member->used = true;
-        member->moved =
+        member->reference_offset =
             at[MOVED] != NO_INDEX ? unknown_interval(shared, at[MOVED]) : (wt_interval){0};
     }
 }

@@ -139,7 +139,7 @@ wt_status spectrum_new(const shift_set *set, const bool *use, size_t anchor, con
     *s = (spectrum){.liquid = liquid,
                     .loading = set->loading,
                     .used = {set->used[STORAGE], set->used[LOSS]},
-                    .ratio = set->by == WT_SHIFT_LOSS_FACTOR,
+                    .ratio = set->quantity == WT_SHIFT_LOSS_FACTOR,
                     .step = M_LN10 / terms_per_decade};
     for (size_t i = 0; i < set->n; i++) {
         const shift_curve *c = &set->curves[i];
@@ -185,9 +185,9 @@ wt_status spectrum_new(const shift_set *set, const bool *use, size_t anchor, con
             }
         }
         start[curve] = a[i] * M_LN10;
-        s->given[curve] = c->given || i == anchor;
+        s->given[curve] = c->is_shift_fixed || i == anchor;
         s->given_a[curve] = (a[i] - a[anchor]) * M_LN10;
-        s->given_b[curve] = c->held ? b[i] * M_LN10 : (double)NAN;
+        s->given_b[curve] = c->is_vertical_fixed ? b[i] * M_LN10 : (double)NAN;
         start[s->n_curves + curve] = b[i] * M_LN10;
         s->kappa[curve++] = 1.0;
     }

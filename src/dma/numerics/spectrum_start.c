@@ -9,8 +9,8 @@ enum { NEIGHBOURS = 3 };
 
 /* Places curve i on the nearest placed curve towards the anchor, or on the one after it if that
  * fails. */
-static void place_isotherm(const shift_set *set, size_t anchor, wt_vertical_shift kind, size_t i,
-                           bool *placed, double *a, double *b)
+static void find_initial_shift(const shift_set *set, size_t anchor, wt_vertical_shift kind,
+                               size_t i, bool *placed, double *a, double *b)
 {
     const bool free_b = set->used[STORAGE] && set->used[LOSS] &&
                         (kind == WT_VERTICAL_FREE || kind == WT_VERTICAL_TIED);
@@ -34,24 +34,25 @@ static void place_isotherm(const shift_set *set, size_t anchor, wt_vertical_shif
     }
 }
 
-void spectrum_place_isotherms(const shift_set *set, size_t anchor, wt_vertical_shift kind,
-                              const double *physical, bool *placed, double *a, double *b)
+void spectrum_find_initial_shifts(const shift_set *set, size_t anchor, wt_vertical_shift kind,
+                                  const double *physical, bool *placed, double *a, double *b)
 {
     /* a table for another reference includes the vertical shift of this one in all rows */
     const shift_curve *at = &set->curves[anchor];
-    const double off = at->held && at->given_a != 0.0 ? at->given_b - physical[anchor] : 0.0;
+    const double off =
+        at->is_vertical_fixed && at->fixed_log_a != 0.0 ? at->fixed_log_b - physical[anchor] : 0.0;
     for (size_t i = 0; i < set->n; i++) {
         const shift_curve *c = &set->curves[i];
-        placed[i] = i == anchor || (c->given && c->n >= SHIFT_MIN_POINTS);
-        a[i] = c->given ? c->given_a - set->curves[anchor].given_a : 0.0;
-        b[i] = c->held                                                       ? c->given_b - off
-               : kind == WT_VERTICAL_NONE || set->by == WT_SHIFT_LOSS_FACTOR ? 0.0
-                                                                             : physical[i];
+        placed[i] = i == anchor || (c->is_shift_fixed && c->n >= SHIFT_MIN_POINTS);
+        a[i] = c->is_shift_fixed ? c->fixed_log_a - set->curves[anchor].fixed_log_a : 0.0;
+        b[i] = c->is_vertical_fixed ? c->fixed_log_b - off
+               : kind == WT_VERTICAL_NONE || set->quantity == WT_SHIFT_LOSS_FACTOR ? 0.0
+                                                                                   : physical[i];
     }
     for (size_t i = anchor + 1; i < set->n; i++)
-        place_isotherm(set, anchor, kind, i, placed, a, b);
+        find_initial_shift(set, anchor, kind, i, placed, a, b);
     for (size_t i = anchor; i-- > 0;)
-        place_isotherm(set, anchor, kind, i, placed, a, b);
+        find_initial_shift(set, anchor, kind, i, placed, a, b);
 }
 
 static double shared_decades(const shift_curve *p, double a_p, const shift_curve *s, double a_s)
@@ -64,7 +65,7 @@ size_t spectrum_select_connected(const shift_set *set, size_t anchor, const doub
 {
     size_t count = 1;
     for (size_t i = 0; i < set->n; i++)
-        overlap[i] = i == anchor || (placed[i] && set->curves[i].given) ? HUGE_VAL : 0.0;
+        overlap[i] = i == anchor || (placed[i] && set->curves[i].is_shift_fixed) ? HUGE_VAL : 0.0;
     /* The overlap of an isotherm is the largest minimum overlap on a path to the anchor. */
     for (bool grown = true; grown;) {
         grown = false;

@@ -7,8 +7,8 @@
 
 /* Places each isotherm on its placed neighbours, outwards from the anchor; a, b: [set->n]
  * decades. */
-void spectrum_place_isotherms(const shift_set *set, size_t anchor, wt_vertical_shift kind,
-                              const double *physical, bool *placed, double *a, double *b);
+void spectrum_find_initial_shifts(const shift_set *set, size_t anchor, wt_vertical_shift kind,
+                                  const double *physical, bool *placed, double *a, double *b);
 /* Restricts `placed` to isotherms that are connected to the anchor by shared frequencies.
  * overlap: the smallest shared range on the path [decade], infinite for the anchor. Returns
  * their number. */

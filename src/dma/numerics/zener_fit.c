@@ -30,7 +30,7 @@ static void zener_log_moduli(const double *p, double ln_w, double ln[2])
 /* Returns true if both moduli of the point are measured and not excluded. */
 static bool is_usable_point(const wt_master *m, size_t i)
 {
-    return !m->left_out[i] && isfinite(m->log_storage[i]) && isfinite(m->log_loss[i]);
+    return !m->is_outlier[i] && isfinite(m->log_storage[i]) && isfinite(m->log_loss[i]);
 }
 
 /* Returns the sum of squared ln residuals of the included points, and fills the sum of each

@@ -118,8 +118,8 @@ static double max_abs_log(double largest, const double e[2])
 }
 
 /* Places edges from `first` to `last`, at the integer multiples of the width and at the knots. */
-static void place_edges(const wt_material *material, const gauss_rule *rule, double first,
-                        double last, edge_list *list)
+static void set_subinterval_edges(const wt_material *material, const gauss_rule *rule, double first,
+                                  double last, edge_list *list)
 {
     size_t n_breaks = 0, k = 0;
     const double *breaks =
@@ -344,7 +344,7 @@ wt_status angular_subintervals_new(const wt_material *material, const gauss_rule
     /* c^(2m) is 4^-m */
     a.terms = 2 + (size_t)ceil(-log(fmin(fmax(goal, 1e-16), 0.1)) / (2 * M_LN2));
     edge_list list = {0};
-    place_edges(material, rule, first, log(high), &list);
+    set_subinterval_edges(material, rule, first, log(high), &list);
     a.n = list.n - 1;
     const size_t nodes = a.n * SUBINTERVAL_NODES, sums = (a.n + 1) * a.terms;
     a.numbers = calloc(5 * (a.n + 1) + 3 * nodes + 2 * sums, sizeof *a.numbers);
@@ -360,7 +360,7 @@ wt_status angular_subintervals_new(const wt_material *material, const gauss_rule
     a.rounding[0] = a.below[1] + sums;
     a.rounding[1] = a.rounding[0] + a.n + 1;
     a.largest = list.largest = a.rounding[1] + a.n + 1;
-    place_edges(material, rule, first, log(high), &list);
+    set_subinterval_edges(material, rule, first, log(high), &list);
     init_sums(&a);
     for (size_t p = 0; p < a.n; p++)
         evaluate_subinterval(&a, p);

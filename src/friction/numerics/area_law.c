@@ -13,9 +13,10 @@
 #include <pthread.h>
 #include <stdlib.h>
 
-/* r = ln(G / G0) as Chebyshev series on segments of x = ln G0. The nearest singular points of P are
- * at i pi/2 from a real x, 4 segments away, and 7.8^-16 is 5e-15. The segments end at G0 = 1e12,
- * where the following line in ln G0 neglects 1/G0^2 of G. */
+/* r = ln(G / G0) as Chebyshev series on segments of x = ln G0. The nearest singularities of P are i
+ * pi/2 away from a real x, which is 4 half widths, so that the error of the series is 7.8^-16 =
+ * 5e-15. Beyond the segments, at G0 > 1e12, an asymptotic law in G0 and ln G0 applies; it neglects
+ * terms of relative size 1/G0^2. */
 enum { DEGREE = 16, SEGMENTS = 42 };
 static const double segment_width = 0.8;
 
@@ -47,7 +48,7 @@ static double first_log_variance(void)
 
 /* ---- construction ---------------------------------------------------------------------------- */
 
-/* Integral of dG / S. */
+/* Returns the rise of G0 between two values of G: the integral of dG / S. */
 static double full_contact_increment(wt_area_law kind, double from, double to)
 {
     const double middle = 0.5 * (from + to), half = 0.5 * (to - from);
@@ -60,11 +61,12 @@ static double full_contact_increment(wt_area_law kind, double from, double to)
     return half * sum;
 }
 
-/* Newton steps double the number of digits: four suffice from an estimate with 10 % error. */
+/* Newton steps double the number of digits: four suffice from an estimate with 10 % error, two are
+ * spare. */
 enum { NEWTON_STEPS = 6 };
 
 /* Returns G at G0 = `to` from the pair (G0, G) at a nearby G0. */
-static double step_variance(wt_area_law kind, double from, double variance, double to)
+static double next_corrected_variance(wt_area_law kind, double from, double variance, double to)
 {
     double g = variance + (to - from) * correction_factor(kind, contact_area(variance));
     for (size_t i = 0; i < NEWTON_STEPS; i++)
@@ -114,7 +116,8 @@ static area_law *compute_area_law(wt_area_law kind)
         double value[DEGREE + 1];
         for (size_t k = DEGREE + 1; k-- > 0;) { /* in rising order */
             const double to = exp(node_log_variance(p, k));
-            g = kind == WT_AREA_XU24 ? solve_implicit(kind, to) : step_variance(kind, from, g, to);
+            g = kind == WT_AREA_XU24 ? solve_implicit(kind, to)
+                                     : next_corrected_variance(kind, from, g, to);
             from = to;
             value[k] = log(g / to);
         }

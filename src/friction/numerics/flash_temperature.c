@@ -140,12 +140,12 @@ static wt_status fill_grid(const wt_friction_workspace *ws, flash_grid *grid,
     scale_grid all;
     arena local_memory = {0};
     grid_init(&all, plan, grid->rule, &local_memory);
-    const size_t room = (plan->n_subintervals + 1) * grid->rule->n;
+    const size_t capacity = (plan->n_subintervals + 1) * grid->rule->n;
     double **const numbers[] = {&grid->q,       &grid->log_q, &grid->weight, &grid->factor1,
                                 &grid->factor2, &grid->f,     &grid->g};
     const size_t n_numbers = ws->softening != NULL ? COUNT_OF(numbers) : 5;
     for (size_t i = 0; i < n_numbers; i++)
-        *numbers[i] = arena_numbers(memory, room);
+        *numbers[i] = arena_numbers(memory, capacity);
     wt_status status = WT_OK;
     if (local_memory.failed || memory->failed)
         status = wt_fail(err, WT_E_MEMORY, "out of memory for a flash temperature");
@@ -232,7 +232,7 @@ static wt_status create_grids(wt_friction_workspace *ws, flash_law *law, wt_erro
                            ? wt_fail(err, WT_E_MEMORY, "out of memory for a flash temperature")
                            : WT_OK;
     if (status == WT_OK)
-        subinterval_plan_lay(&plan, ws->roughness, NULL, 0, NULL, 0, bounds);
+        subinterval_plan_fill(&plan, ws->roughness, NULL, 0, NULL, 0, bounds);
     for (size_t k = 0; status == WT_OK && k < FLASH_GRIDS; k++) {
         flash_grid *grid = &law->grid[k];
         const double digits = -log(fmax(law->tolerance, min_tolerance));

@@ -45,11 +45,11 @@ static void set_unsolved_point(wt_friction_point *point)
                                  .area_ratio = unknown,
                                  .one_minus_area = unknown,
                                  .hysteresis = unknown,
-                                 .side = unknown,
+                                 .lateral = unknown,
                                  .extrapolated_share = (double)NAN,
-                                 .unsettled = true,
+                                 .has_no_solution = true,
                                  .temperature = {(double)NAN, (double)NAN, (double)NAN, "K"},
-                                 .hot = {(double)NAN, (double)NAN, (double)NAN}};
+                                 .hot_branch = {(double)NAN, (double)NAN, (double)NAN}};
 }
 
 wt_status friction_heated_point(
@@ -63,7 +63,7 @@ wt_status friction_heated_point(
     set_unsolved_point(point);
     if (cold.found) {
         at.heat = &cold;
-        point->unsettled = false;
+        point->has_no_solution = false;
         status = compute(ws, scratch, &at, point);
         const flash_solution hot = flash_solve_hot(ws, scratch->flash, &at, &cold);
         if (status == WT_OK && hot.found) {
@@ -71,8 +71,8 @@ wt_status friction_heated_point(
             at.heat = &hot;
             status = compute(ws, scratch, &at, &other);
             if (status == WT_OK)
-                point->hot = (wt_friction_branch){other.hysteresis.value, other.area_ratio.value,
-                                                  other.temperature.value};
+                point->hot_branch = (wt_friction_branch){
+                    other.hysteresis.value, other.area_ratio.value, other.temperature.value};
         }
     }
     scratch->nodes += flash_reset_node_count(scratch->flash);

@@ -68,7 +68,7 @@ wt_status friction_scratch_init(friction_scratch *scratch, const wt_friction_wor
     subinterval_plan_init(&scratch->plan, ws->roughness, ws->plan.width, ws->plan.levels, ws->knots,
                           ws->slopes, ws->n_knots, n_cuts, ws->softening, memory);
     const size_t subintervals = scratch->plan.capacity;
-    scratch->room = subintervals;
+    scratch->capacity = subintervals;
     for (size_t k = 0; k < FRICTION_RULES; k++)
         grid_init(&scratch->grids[k], &scratch->plan, ws->rules[k], memory);
     double **const by_node[] = {&scratch->omega,   &scratch->log_omega, &scratch->j1,
@@ -108,7 +108,7 @@ static void choose_subinterval_width(wt_friction_workspace *ws)
     const wt_layer_state *layer = &ws->options.layer;
     const bool smooth =
         ws->material->law->angular != NULL && ws->softening == NULL && !ws->anisotropic;
-    const bool bulk = !(layer->thickness > 0) || (layer->modulus_ratio == 1 && ws->own == NULL);
+    const bool bulk = !(layer->thickness > 0) || (layer->modulus_ratio == 1 && ws->layer == NULL);
     subinterval_plan_init(
         &ws->plan, ws->roughness, smooth && bulk ? smooth_width : SUBINTERVAL_WIDTH,
         friction_core_levels(ws->options.tolerance), NULL, NULL, 0, 0, ws->softening, &ws->memory);
@@ -133,7 +133,7 @@ static wt_status prepare_plan(wt_friction_workspace *ws, wt_error *err)
     double *bounds = arena_alloc(&ws->memory, ws->plan.capacity + 1, sizeof *bounds);
     if (ws->memory.failed)
         return out_of_memory_error(err);
-    subinterval_plan_lay(&ws->plan, ws->roughness, NULL, 0, NULL, 0, bounds);
+    subinterval_plan_fill(&ws->plan, ws->roughness, NULL, 0, NULL, 0, bounds);
     return WT_OK;
 }
 
@@ -142,7 +142,7 @@ static wt_status create_angular_law(wt_friction_workspace *ws, const wt_material
 {
     const wt_status status = angular_new(material, ws->options.tolerance, &ws->memory, made, err);
     if (status == WT_OK && ws->anisotropic)
-        angular_set_weight(*made, &ws->along);
+        angular_set_weight(*made, &ws->weight);
     return status;
 }
 
@@ -153,7 +153,7 @@ static wt_status init_anisotropy(wt_friction_workspace *ws, wt_error *err)
     ws->anisotropic = anisotropy_is_present(anisotropy);
     if (!ws->anisotropic)
         return WT_OK;
-    ws->along = weight_longitudinal(anisotropy);
+    ws->weight = weight_longitudinal(anisotropy);
     ws->options.series = NULL;
     return wt_anisotropy_check(anisotropy, err);
 }
@@ -174,20 +174,20 @@ static wt_status init_layer_moduli(wt_friction_workspace *ws, wt_error *err)
     wt_layer_state *layer = &ws->options.layer;
     if (!layer_has_moduli(layer))
         return WT_OK;
-    ws->own = arena_alloc(&ws->memory, 1, sizeof *ws->own);
-    if (ws->own == NULL)
+    ws->layer = arena_alloc(&ws->memory, 1, sizeof *ws->layer);
+    if (ws->layer == NULL)
         return out_of_memory_error(err);
     const wt_status status =
         layer_slope_shift(&ws->options.shift, ws->options.temperature, &layer->slope, err);
     if (status != WT_OK)
         return status;
-    *ws->own = layer_moduli_create(ws->material, *layer, ws->options.tolerance);
-    ws->own->weight = ws->anisotropic ? &ws->along : NULL;
-    size_t more = ws->own->n_edges;
-    const double *edges = ws->own->edges;
-    if (layer->own != NULL && layer->own->law->breaks != NULL)
-        edges = layer->own->law->breaks(layer->own, &more);
-    if (layer->own != NULL)
+    *ws->layer = layer_moduli_create(ws->material, *layer, ws->options.tolerance);
+    ws->layer->weight = ws->anisotropic ? &ws->weight : NULL;
+    size_t more = ws->layer->n_edges;
+    const double *edges = ws->layer->edges;
+    if (layer->material != NULL && layer->material->law->breaks != NULL)
+        edges = layer->material->law->breaks(layer->material, &more);
+    if (layer->material != NULL)
         ws->layer_law = layer->material_law;
     *layer = (wt_layer_state){.thickness = layer->thickness, .modulus_ratio = 1};
     if (more == 0)
@@ -227,7 +227,7 @@ static wt_status init_angular(wt_friction_workspace *ws, wt_error *err)
     if (o->series == NULL)
         status = create_angular_law(ws, ws->material, &ws->angular, err);
     if (status == WT_OK && anisotropy_has_lateral_force(&o->anisotropy))
-        status = lateral_force_new(ws->material, o, ws->own, &ws->memory, &ws->side, err);
+        status = lateral_force_new(ws->material, o, ws->layer, &ws->memory, &ws->lateral, err);
     return status;
 }
 
@@ -291,7 +291,7 @@ void wt_friction_workspace_free(wt_friction_workspace *ws)
     if (ws->options.series == NULL)
         angular_clear(ws->angular);
     angular_clear(ws->loss);
-    lateral_force_clear(ws->side);
+    lateral_force_clear(ws->lateral);
     arena_free(&ws->memory);
     free(ws);
 }
@@ -370,8 +370,8 @@ wt_status friction_prepare(wt_friction_workspace *ws, double pressure, const dou
         status = angular_extend(ws->angular, lowest, highest, err);
     if (status == WT_OK && ws->softening != NULL)
         status = angular_extend(ws->loss, lowest, highest, err);
-    return status == WT_OK && ws->side != NULL
-               ? lateral_force_extend(ws->side, lowest, highest, err)
+    return status == WT_OK && ws->lateral != NULL
+               ? lateral_force_extend(ws->lateral, lowest, highest, err)
                : status;
 }
 
@@ -395,8 +395,8 @@ const subinterval_plan *friction_plan(const wt_friction_workspace *ws, friction_
         scratch->knots[k] = ws->log_knots[k] - at->log_lowest;
     if (at->heat != NULL)
         friction_shift_knots(ws, &at->heat->heat, scratch->knots);
-    subinterval_plan_lay(&scratch->plan, ws->roughness, cuts, n_cuts, scratch->knots, ws->n_knots,
-                         scratch->bounds);
+    subinterval_plan_fill(&scratch->plan, ws->roughness, cuts, n_cuts, scratch->knots, ws->n_knots,
+                          scratch->bounds);
     for (size_t k = 0; k < FRICTION_RULES; k++)
         grid_reset(&scratch->grids[k], &scratch->plan);
     return &scratch->plan;
@@ -436,8 +436,8 @@ typedef struct compute_job {
 static bool needs_extrapolated_share(const wt_friction_workspace *ws)
 {
     return !ws->options.skip_extrapolated_share &&
-           (ws->own != NULL ? !isnan(ws->own->limit[0]) || !isnan(ws->own->limit[1])
-                            : angular_has_limits(ws->angular));
+           (ws->layer != NULL ? !isnan(ws->layer->limit[0]) || !isnan(ws->layer->limit[1])
+                              : angular_has_limits(ws->angular));
 }
 
 /* Computes a load with known temperatures, for a positive velocity. */
@@ -447,9 +447,9 @@ static wt_status compute_load(const wt_friction_workspace *ws, friction_scratch 
     const double tolerance = ws->options.tolerance;
     const subinterval_plan *plan = friction_plan(ws, scratch, at, NULL, 0);
     friction_pass pass;
-    friction_record record = {0};
+    node_contributions record = {0};
     friction_evaluate(ws, scratch, plan, (friction_effort){0}, *at, needs_extrapolated_share(ws),
-                      ws->side != NULL ? &record : NULL, &pass);
+                      ws->lateral != NULL ? &record : NULL, &pass);
     const friction_relative relative = friction_relative_error(ws, &pass, *at);
     const double error_g = relative.variance * pass.variance + pass.variance_error;
     const double error_mu = relative.hysteresis * pass.hysteresis + pass.hysteresis_error;
@@ -466,14 +466,16 @@ static wt_status compute_load(const wt_friction_workspace *ws, friction_scratch 
                                            .numerical_error = friction_heat_error(at->heat, &pass),
                                            .unit = "K"};
     point->nodes = pass.nodes;
-    point->reached = error_g <= tolerance * pass.variance && error_area <= tolerance * area &&
-                     error_mu <= tolerance * pass.hysteresis;
+    point->meets_tolerance = error_g <= tolerance * pass.variance &&
+                             error_area <= tolerance * area &&
+                             error_mu <= tolerance * pass.hysteresis;
     point->extrapolated_share = ws->options.skip_extrapolated_share ? (double)NAN
                                 : pass.hysteresis > 0 ? fmin(pass.outside / pass.hysteresis, 1)
                                                       : 0;
-    point->side = dimensionless_estimate(0, 0);
+    point->lateral = dimensionless_estimate(0, 0);
     const wt_status status =
-        ws->side != NULL ? lateral_force_compute(ws, *at, &record, error_mu, &point->side) : WT_OK;
+        ws->lateral != NULL ? lateral_force_compute(ws, *at, &record, error_mu, &point->lateral)
+                            : WT_OK;
     free(record.q);
     free(record.mu);
     return status;
@@ -489,15 +491,15 @@ static wt_status compute_point(const compute_job *job, friction_scratch *scratch
     if (ws->flash == NULL || sign == 0) {
         status = compute_load(ws, scratch, &at, point);
         point->temperature = dimensionless_estimate((double)NAN, (double)NAN);
-        point->hot = (wt_friction_branch){(double)NAN, (double)NAN, (double)NAN};
-        point->unsettled = false;
+        point->hot_branch = (wt_friction_branch){(double)NAN, (double)NAN, (double)NAN};
+        point->has_no_solution = false;
     } else {
         status = friction_heated_point(ws, scratch, at, compute_load, point);
     }
     point->velocity = velocity;
     point->hysteresis.value *= sign;
-    point->side.value *= sign;
-    point->hot.hysteresis *= sign;
+    point->lateral.value *= sign;
+    point->hot_branch.hysteresis *= sign;
     return status;
 }
 
@@ -509,7 +511,7 @@ static wt_status compute_velocity(void *user, size_t i, unsigned worker)
     if (status != WT_OK)
         return status;
     const bool number = isfinite(point->stress_variance.value) && isfinite(point->hysteresis.value);
-    return number || point->unsettled ? WT_OK : WT_E_RANGE;
+    return number || point->has_no_solution ? WT_OK : WT_E_RANGE;
 }
 
 wt_status wt_friction_compute(wt_friction_workspace *workspace, double pressure,
@@ -519,7 +521,7 @@ wt_status wt_friction_compute(wt_friction_workspace *workspace, double pressure,
     if (workspace == NULL || velocity == NULL || points == NULL)
         return wt_fail(err, WT_E_ARG, "friction needs velocities and a place for the results");
     wt_status status = friction_prepare(workspace, pressure, velocity, n, err);
-    if (status == WT_OK && n > 0 && workspace->own == NULL && needs_extrapolated_share(workspace))
+    if (status == WT_OK && n > 0 && workspace->layer == NULL && needs_extrapolated_share(workspace))
         status = angular_prepare_outside(workspace->angular, err);
     if (status != WT_OK)
         return status;
@@ -537,8 +539,8 @@ wt_status wt_friction_compute(wt_friction_workspace *workspace, double pressure,
 
 double wt_friction_layer_ratio(const wt_friction_workspace *workspace, double omega)
 {
-    return workspace->own != NULL ? layer_moduli_ratio(workspace->own, omega)
-                                  : workspace->options.layer.modulus_ratio;
+    return workspace->layer != NULL ? layer_moduli_ratio(workspace->layer, omega)
+                                    : workspace->options.layer.modulus_ratio;
 }
 
 wt_estimate wt_friction_total(wt_estimate hysteresis, wt_estimate area_ratio,

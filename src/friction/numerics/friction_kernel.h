@@ -20,7 +20,7 @@ enum { RULE_FIRST, RULE_CHECK, FRICTION_RULES };
 typedef struct friction_scratch {
     subinterval_plan plan;            /* plan of this velocity, if knots move with it */
     scale_grid grids[FRICTION_RULES]; /* nodes of this plan, or of the common plan */
-    size_t room;                      /* capacity: number of subintervals */
+    size_t capacity;                  /* capacity: number of subintervals */
     double *knots;                    /* [n_knots] t */
     double *bounds;                   /* [room + 1] t */
     /* [(room + 2) * max nodes] all subintervals, then one recomputed, then the core */
@@ -48,15 +48,15 @@ struct wt_friction_workspace {
     angular_law *angular;
     strain_law *softening; /* NULL if none */
     angular_law *loss;     /* law of the loss modulus, with softening */
-    angular_weight along;  /* weight of anisotropic roughness */
+    angular_weight weight; /* weight of anisotropic roughness */
     bool anisotropic;
-    struct lateral_force *side; /* integrals of its lateral force; NULL if none */
-    layer_moduli *own;          /* layer's own moduli; NULL if none */
-    wt_shift_law layer_law;     /* shift law of its own material; none if it is shifted as the
-                                   bulk */
-    const area_law *area;       /* NULL for Persson's law */
-    flash_law *flash;           /* NULL if the rubber has the temperature of its surroundings */
-    double stiffness;           /* 1 / (1 - nu^2) */
+    struct lateral_force *lateral; /* integrals of its lateral force; NULL if none */
+    layer_moduli *layer;           /* layer's own moduli; NULL if none */
+    wt_shift_law layer_law;        /* shift law of its own material; none if it is shifted as the
+                                      bulk */
+    const area_law *area;          /* NULL for Persson's law */
+    flash_law *flash;              /* NULL if the rubber has the temperature of its surroundings */
+    double stiffness;              /* 1 / (1 - nu^2) */
     double rounding; /* relative rounding error of the integrals, without that of J1 and J2 */
     const double *knots;
     size_t n_knots;    /* knots of the materials [rad/s] */
@@ -105,14 +105,15 @@ typedef struct friction_pass {
     size_t piece, loss_piece; /* start of the search for errors of J1 and J2 */
 } friction_pass;
 
-/* Contributions of the nodes of a pass, for the energy source. The arrays grow; the caller frees
+/* Contributions of the nodes of a pass, for the energy source. The arrays grow. The caller frees
  * them. */
-typedef struct friction_record {
+typedef struct node_contributions {
     double *q, *mu;
-    size_t n, room;
+    size_t n, capacity;
     bool failed; /* true if out of memory */
-} friction_record;
-void friction_record_add(friction_record *record, const double *q, const double *mu, size_t n);
+} node_contributions;
+void node_contributions_add(node_contributions *record, const double *q, const double *mu,
+                            size_t n);
 
 /* Initialises the memory for plans with up to `n_cuts` cuts in addition to those of roughness and
  * material. */
@@ -139,7 +140,7 @@ const subinterval_plan *friction_plan(const wt_friction_workspace *ws, friction_
  * check, and halves those that still need it. The record may be NULL. */
 void friction_evaluate(const wt_friction_workspace *ws, friction_scratch *scratch,
                        const subinterval_plan *plan, friction_effort effort, friction_load at,
-                       bool with_outside, friction_record *record, friction_pass *pass);
+                       bool with_outside, node_contributions *record, friction_pass *pass);
 
 /* Finds the temperatures of a load, by which its moduli are then shifted. Without flash temperature
  * it does nothing. Returns WT_E_CONVERGENCE if there is no solution. */

@@ -61,7 +61,7 @@ typedef struct lateral_nodes {
     double *numbers;     /* memory of these arrays */
 } lateral_nodes;
 
-static bool fill_lateral_nodes(const friction_record *record, friction_load at, bool extra_shift,
+static bool fill_lateral_nodes(const node_contributions *record, friction_load at, bool extra_shift,
                                lateral_nodes *nodes)
 {
     const size_t n = record->n;
@@ -94,10 +94,10 @@ static const double closed_error = 16 * DBL_EPSILON;
 static const double rule_error_factor = 2;
 
 wt_status lateral_force_compute(const wt_friction_workspace *ws, friction_load at,
-                                const friction_record *record, double hysteresis_error,
+                                const node_contributions *record, double hysteresis_error,
                                 wt_estimate *side)
 {
-    const lateral_force *s = ws->side;
+    const lateral_force *s = ws->lateral;
     const size_t n = record->n;
     lateral_nodes k;
     *side = (wt_estimate){.unit = "1"};
@@ -109,8 +109,8 @@ wt_status lateral_force_compute(const wt_friction_workspace *ws, friction_load a
         return WT_OK;
     size_t piece[2] = {0, 0};
     double own_error = 0;
-    if (ws->own != NULL) {
-        layer_moduli_eval(ws->own, record->q, k.omega, k.extra_shift, n, k.j1, k.j2, NULL,
+    if (ws->layer != NULL) {
+        layer_moduli_eval(ws->layer, record->q, k.omega, k.extra_shift, n, k.j1, k.j2, NULL,
                           &own_error);
         layer_moduli_eval(&s->own[0], record->q, k.omega, k.extra_shift, n, k.shifted, k.j2, NULL,
                           &own_error);
@@ -127,7 +127,7 @@ wt_status lateral_force_compute(const wt_friction_workspace *ws, friction_load a
         first = fmin(first, k.log_omega[i]);
         last = fmax(last, k.log_omega[i]);
     }
-    const bool own = ws->own != NULL;
+    const bool own = ws->layer != NULL;
     const double error_shifted =
         (own ? own_error : angular_error(s->shifted, first, last, &piece[0])) + closed_error;
     const double error_plain =

@@ -8,8 +8,8 @@ void friction_moduli(const wt_friction_workspace *ws, const double *q, const dou
                      const double *x, const double *extra_shift, size_t n, double *j1, double *j2,
                      double *loss_j1, double *loss_j2, double *error)
 {
-    if (ws->own != NULL) {
-        layer_moduli_eval(ws->own, q, omega, extra_shift, n, j1, j2,
+    if (ws->layer != NULL) {
+        layer_moduli_eval(ws->layer, q, omega, extra_shift, n, j1, j2,
                           ws->loss != NULL ? loss_j2 : NULL, error);
         return;
     }

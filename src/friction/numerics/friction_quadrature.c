@@ -25,7 +25,7 @@ static double steepness(const double *j, size_t n)
 static double series_error(const wt_friction_workspace *ws, double own_error, double low,
                            double high, friction_pass *pass)
 {
-    if (ws->own != NULL)
+    if (ws->layer != NULL)
         return own_error * (ws->softening != NULL ? 2 * ws->softening->cancellation : 1);
     if (ws->flash != NULL) /* frequencies need not rise from one subinterval to the next */
         pass->piece = pass->loss_piece = 0;
@@ -44,7 +44,8 @@ static void add_input_errors(const wt_friction_workspace *ws, double own_error,
                              const double *j2, size_t n, double log_lowest, double variance,
                              double hysteresis, double variance_so_far, friction_pass *pass)
 {
-    const bool closed = ws->own == NULL && angular_uses_closed_form(ws->angular, x[0], x[n - 1]) &&
+    const bool closed = ws->layer == NULL &&
+                        angular_uses_closed_form(ws->angular, x[0], x[n - 1]) &&
                         (ws->loss == NULL || angular_uses_closed_form(ws->loss, x[0], x[n - 1]));
     /* ln omega is a sum of two terms */
     const double far = fmax(fabs(x[0]), fabs(x[n - 1])) + fabs(log_lowest);
@@ -185,7 +186,7 @@ typedef struct pass_state {
     friction_load at;
     pass_scale scale;
     bool with_outside;
-    friction_record *record; /* NULL if none */
+    node_contributions *record; /* NULL if none */
     friction_pass *pass;
     double variance_left, hysteresis_left;   /* remaining error budget of the rules */
     double variance_least, hysteresis_least; /* lower limit of the budget of a part */
@@ -204,7 +205,7 @@ static node_view core_view(const pass_state *w, size_t rule, size_t level)
 {
     friction_scratch *scratch = w->scratch;
     scale_grid *grid = &scratch->grids[rule];
-    const size_t from = (scratch->room + 1) * GAUSS_NODES_MAX;
+    const size_t from = (scratch->capacity + 1) * GAUSS_NODES_MAX;
     grid_fill_core(grid, w->plan, level, w->ws->roughness, &w->ws->options.layer);
     node_view view = create_view(scratch, grid, from);
     const size_t first = level * grid->rule->n;
@@ -400,13 +401,13 @@ static double extrapolated_part(const wt_friction_workspace *ws, const node_view
 {
     const size_t n = view->rule->n;
     double j1[GAUSS_NODES_MAX] = {0}, outside[GAUSS_NODES_MAX], sum = 0;
-    for (size_t j = 0; ws->own != NULL && j < n; j++) {
+    for (size_t j = 0; ws->layer != NULL && j < n; j++) {
         const double times = view->extra_shift != NULL ? exp(view->extra_shift[j]) : 1;
         const double at = times * view->omega[j];
-        if (at < ws->own->limit[0] || at > ws->own->limit[1])
+        if (at < ws->layer->limit[0] || at > ws->layer->limit[1])
             sum += part->share[j];
     }
-    if (ws->own != NULL)
+    if (ws->layer != NULL)
         return sum;
     for (size_t j = 0; j < n; j++)
         j1[j] = view->g != NULL ? view->j1[j] / view->g[j] : view->j1[j];
@@ -427,7 +428,7 @@ static void add_pass_part(pass_state *w, const grid_subinterval *subinterval, co
     const size_t n = view->rule->n;
     const double variance = pass->variance + part->variance;
     if (w->record != NULL)
-        friction_record_add(w->record, view->q, part->share, n);
+        node_contributions_add(w->record, view->q, part->share, n);
     if (w->with_outside)
         pass->outside += extrapolated_part(ws, view, part);
     pass->variance_error += part->variance_error;
@@ -475,9 +476,10 @@ static node_view part_view(const pass_state *w, const grid_subinterval *subinter
 {
     friction_scratch *scratch = w->scratch;
     scale_grid *grid = &scratch->grids[rule];
-    grid_fill_part(grid, w->plan, subinterval, w->ws->roughness, &w->ws->options.layer);
+    grid_fill_partial_subinterval(grid, w->plan, subinterval, w->ws->roughness,
+                                  &w->ws->options.layer);
     const node_view view =
-        subinterval_view(scratch, grid, w->plan->capacity, scratch->room * GAUSS_NODES_MAX);
+        subinterval_view(scratch, grid, w->plan->capacity, scratch->capacity * GAUSS_NODES_MAX);
     evaluate_view(w, &view);
     return view;
 }
@@ -548,7 +550,7 @@ static node_view check_rule_view(const pass_state *w, size_t p)
     friction_scratch *scratch = w->scratch;
     scale_grid *grid = &scratch->grids[RULE_CHECK];
     grid_fill_subintervals(grid, w->plan, p, p + 1, w->ws->roughness, &w->ws->options.layer);
-    const node_view view = subinterval_view(scratch, grid, p, scratch->room * GAUSS_NODES_MAX);
+    const node_view view = subinterval_view(scratch, grid, p, scratch->capacity * GAUSS_NODES_MAX);
     evaluate_view(w, &view);
     return view;
 }
@@ -581,7 +583,7 @@ static void add_refined_subinterval(pass_state *w, const grid_subinterval *subin
 
 void friction_evaluate(const wt_friction_workspace *ws, friction_scratch *scratch,
                        const subinterval_plan *plan, friction_effort effort, friction_load at,
-                       bool with_outside, friction_record *record, friction_pass *pass)
+                       bool with_outside, node_contributions *record, friction_pass *pass)
 {
     pass_state w = {.ws = ws,
                     .scratch = scratch,

@@ -17,8 +17,9 @@ double wt_layer_shear_stress(const wt_layer_shear *shear, double bulk, wt_layer_
     double stress = bulk;
     if (layer.thickness > 0) {
         const double whole = pow(layer.modulus_ratio, shear->exponent);
-        stress *=
-            shear->reach > 0 ? 1 - (whole - 1) * expm1(-layer.thickness / shear->reach) : whole;
+        stress *= shear->transition_thickness > 0
+                      ? 1 - (whole - 1) * expm1(-layer.thickness / shear->transition_thickness)
+                      : whole;
     }
     /* each asperity has one contact of diameter D = sqrt(4 (A/A0) / (pi eta)), which adds 4 G / (pi
      * D) */

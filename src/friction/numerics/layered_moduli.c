@@ -28,7 +28,7 @@ static const double rule_end = 3.6; /* the rest is e^(-e^3.6), below rounding */
 
 bool layer_has_moduli(const wt_layer_state *layer)
 {
-    return layer->thickness > 0 && (layer->own != NULL || layer->slope.exponent != 0);
+    return layer->thickness > 0 && (layer->material != NULL || layer->slope.exponent != 0);
 }
 
 wt_status layer_slope_shift(const wt_shift_law *law, double to, wt_ratio_slope *slope,
@@ -121,16 +121,16 @@ static void add_zero_loss_edges(layer_moduli *m)
 layer_moduli layer_moduli_create(const wt_material *bulk, wt_layer_state layer, double tolerance)
 {
     layer_moduli m = {.bulk = bulk, .layer = layer};
-    if (layer.own == NULL) {
+    if (layer.material == NULL) {
         m.limit[0] = m.edges[m.n_edges++] = layer.slope.low;
         m.limit[1] = m.edges[m.n_edges++] = layer.slope.high;
         if (layer.slope.exponent < 0)
             add_zero_loss_edges(&m);
     } else {
-        m.limit[0] = layer.own->frequency_min;
-        m.limit[1] = layer.own->frequency_max;
+        m.limit[0] = layer.material->frequency_min;
+        m.limit[1] = layer.material->frequency_max;
     }
-    m.knots = has_knots(bulk) || (layer.own != NULL && has_knots(layer.own));
+    m.knots = has_knots(bulk) || (layer.material != NULL && has_knots(layer.material));
     create_angle_rule(&m, tolerance);
     return m;
 }
@@ -147,14 +147,14 @@ static void evaluate_moduli(const layer_moduli *m, const double *omega, double t
     m->bulk->law->modulus(m->bulk, omega, n, storage, loss);
     for (size_t i = 0; i < n; i++)
         bulk[i] = storage[i] + unit * loss[i];
-    if (m->layer.own != NULL) {
+    if (m->layer.material != NULL) {
         double at[ANGLE_NODES];
         for (size_t i = 0; i < n; i++)
             at[i] = times * omega[i];
-        m->layer.own->law->modulus(m->layer.own, at, n, storage, loss);
+        m->layer.material->law->modulus(m->layer.material, at, n, storage, loss);
     }
     for (size_t i = 0; i < n; i++) {
-        if (m->layer.own != NULL) {
+        if (m->layer.material != NULL) {
             layer[i] = storage[i] + unit * loss[i];
             continue;
         }
@@ -177,7 +177,7 @@ bool layer_moduli_zero_loss_range(const layer_moduli *m, double low, double high
 {
     enum { STEPS = 200 }; /* about ten in a decade */
     bool any = false;
-    for (size_t i = 0; m->layer.own == NULL && i <= STEPS; i++) {
+    for (size_t i = 0; m->layer.material == NULL && i <= STEPS; i++) {
         const double omega = low * pow(high / low, (double)i / STEPS);
         double complex bulk, layer;
         evaluate_moduli(m, &omega, 1, 1, &bulk, &layer);

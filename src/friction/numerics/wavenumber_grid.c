@@ -175,8 +175,9 @@ static grid_subinterval create_subinterval(double t_low, double t_high, const do
     return subinterval;
 }
 
-void subinterval_plan_lay(subinterval_plan *plan, const wt_roughness *roughness, const double *cuts,
-                          size_t n_cuts, const double *knots, size_t n_knots, double *bounds)
+void subinterval_plan_fill(subinterval_plan *plan, const wt_roughness *roughness,
+                           const double *cuts, size_t n_cuts, const double *knots, size_t n_knots,
+                           double *bounds)
 {
     const double length = log_wavenumber_ratio(plan->q1, plan->q0);
     const double least = 1e-13 * fmax(1, length); /* cuts closer than rounding are merged */
@@ -405,8 +406,9 @@ void grid_fill_subintervals(scale_grid *grid, const subinterval_plan *plan, size
             fill_subinterval_nodes(grid, plan, &plan->subintervals[p], p, roughness, layer);
 }
 
-void grid_fill_part(scale_grid *grid, const subinterval_plan *plan, const grid_subinterval *part,
-                    const wt_roughness *roughness, const wt_layer_state *layer)
+void grid_fill_partial_subinterval(scale_grid *grid, const subinterval_plan *plan,
+                                   const grid_subinterval *part, const wt_roughness *roughness,
+                                   const wt_layer_state *layer)
 {
     fill_subinterval_nodes(grid, plan, part, plan->capacity, roughness, layer);
 }

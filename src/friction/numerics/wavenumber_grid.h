@@ -61,8 +61,9 @@ void subinterval_plan_init(subinterval_plan *plan, const wt_roughness *roughness
 /* Fills the plan. Subintervals end at the breaks of roughness and softening, at `cuts` (rising t)
  * and at `knots`. Knots have square-root maps to their right; they rise in t and may lie outside
  * the range. `bounds` is scratch memory for capacity + 1 numbers. */
-void subinterval_plan_lay(subinterval_plan *plan, const wt_roughness *roughness, const double *cuts,
-                          size_t n_cuts, const double *knots, size_t n_knots, double *bounds);
+void subinterval_plan_fill(subinterval_plan *plan, const wt_roughness *roughness,
+                           const double *cuts, size_t n_cuts, const double *knots, size_t n_knots,
+                           double *bounds);
 
 /* Returns the lower or the upper half of a subinterval. */
 grid_subinterval grid_half(const grid_subinterval *subinterval, bool upper);
@@ -91,8 +92,9 @@ void grid_fill_subintervals(scale_grid *grid, const subinterval_plan *plan, size
                             size_t last, const wt_roughness *roughness,
                             const wt_layer_state *layer);
 /* Computes part of a subinterval, stored in the last position. */
-void grid_fill_part(scale_grid *grid, const subinterval_plan *plan, const grid_subinterval *part,
-                    const wt_roughness *roughness, const wt_layer_state *layer);
+void grid_fill_partial_subinterval(scale_grid *grid, const subinterval_plan *plan,
+                                   const grid_subinterval *part, const wt_roughness *roughness,
+                                   const wt_layer_state *layer);
 void grid_fill_core(scale_grid *grid, const subinterval_plan *plan, size_t level,
                     const wt_roughness *roughness, const wt_layer_state *layer);
 

@@ -120,14 +120,14 @@ static bool is_stable(release_search *s, double bare)
     return branch_stability(bare, s) > 0.0;
 }
 
-static double solve_branch_end(release_search *s, double low, double high)
+static double solve_branch_limit(release_search *s, double low, double high)
 {
     double end = high;
     return root_find(branch_stability, s, low, high, 0.0, &end, NULL) == WT_OK ? end : (double)NAN;
 }
 
 /* Finds the end of the branch from any start. The function requires that the branch has one end. */
-static double bracket_branch_end(release_search *s, double bare)
+static double bracket_branch_limit(release_search *s, double bare)
 {
     const bool inside = is_stable(s, bare);
     double next = bare;
@@ -135,7 +135,7 @@ static double bracket_branch_end(release_search *s, double bare)
         bare = next;
         next *= inside ? 0.25 : 4.0;
     }
-    return inside ? solve_branch_end(s, next, bare) : solve_branch_end(s, bare, next);
+    return inside ? solve_branch_limit(s, next, bare) : solve_branch_limit(s, bare, next);
 }
 
 /* Radius over the square root of the profile slope rises with the radius below a corner at radius
@@ -149,13 +149,13 @@ double adhesion_release(const adhesion *law, double k)
     const wt_tip *tip = contact_table_tip(law->table);
     const double corner = contact_switch_depth(tip);
     if (!(corner > 0.0) || isinf(corner))
-        return bracket_branch_end(&search, 1e-9);
+        return bracket_branch_limit(&search, 1e-9);
     double top = corner;
     for (bare_contacts v = {.slope = {0.0}}; v.slope[0] < 4.0 * tip->transition_radius;
          bare_contact_values(law, &top, 1, &v))
         top *= 2.0;
     if (!is_stable(&search, top))
-        return bracket_branch_end(&search, top);
+        return bracket_branch_limit(&search, top);
     double bare[CORNER_NODES + 1], force[CORNER_NODES];
     for (int i = 0; i <= CORNER_NODES; i++) {
         const double share = (double)i / CORNER_NODES;
@@ -164,8 +164,8 @@ double adhesion_release(const adhesion *law, double k)
     branch_stabilities(&search, bare, CORNER_NODES, force);
     for (int i = CORNER_NODES - 1; i > 0; i--)
         if (!(force[i] > 0.0))
-            return solve_branch_end(&search, bare[i], bare[i + 1]);
-    return is_stable(&search, corner) ? bracket_branch_end(&search, corner)
+            return solve_branch_limit(&search, bare[i], bare[i + 1]);
+    return is_stable(&search, corner) ? bracket_branch_limit(&search, corner)
                                       : corner; /* below the corner, the end on the cap */
 }
 

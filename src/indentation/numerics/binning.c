@@ -148,7 +148,8 @@ static double process_difference(double x)
 }
 
 /* Half the mean square of the steps of force - stiffness * position. */
-static double step_variance(const wt_dwell_history *h, size_t from, size_t n, double stiffness)
+static double half_mean_square_step(const wt_dwell_history *h, size_t from, size_t n,
+                                    double stiffness)
 {
     double sum = 0;
     for (size_t i = from + 1; i < from + n; i++) {
@@ -207,8 +208,8 @@ static dwell_noise estimate_dwell_noise(const wt_dwell_history *h, size_t n, dou
         if (v.n >= n_measured && v.time[v.n] > whole)
             break;
     }
-    v.extra =
-        fmax(0, step_variance(h, h->n_approach, h->n_dwell, stiffness) - step_variance(h, 0, n, 0));
+    v.extra = fmax(0, half_mean_square_step(h, h->n_approach, h->n_dwell, stiffness) -
+                          half_mean_square_step(h, 0, n, 0));
     return v;
 }
 

@@ -220,8 +220,8 @@ static void fit_block_parabola(const slope_samples *s, const contact_part *p, wt
         const double deviation = v[b] - slope * z[b] - bend * q[b];
         left += deviation * deviation;
     }
-    c->freedom = (double)n - PARAMETERS;
-    const double variance = left / c->freedom;
+    c->df = (double)n - PARAMETERS;
+    const double variance = left / c->df;
     c->travel = p->to - p->from;
     c->slope = slope;
     c->slope_error = sqrt(variance / zz);
@@ -260,7 +260,7 @@ static void measure_part(const slope_samples *s, const contact_part *p, double r
 static void measure_slope(slope_samples *s, const wt_slope_options *options, wt_contact_slope *c)
 {
     if (s->n < MIN_CURVE_SAMPLES) {
-        snprintf(c->why_not, sizeof c->why_not, "%zu samples, at least %d are needed", s->n,
+        snprintf(c->reason, sizeof c->reason, "%zu samples, at least %d are needed", s->n,
                  MIN_CURVE_SAMPLES);
         return;
     }
@@ -271,7 +271,7 @@ static void measure_slope(slope_samples *s, const wt_slope_options *options, wt_
     const double rise = top - baseline;
     contact_part p = {.n = 0};
     if (!(rise > min_rise * noise)) {
-        clocale_print(c->why_not, sizeof c->why_not,
+        clocale_print(c->reason, sizeof c->reason,
                       "no contact: the signal rises by less than %g times its noise", min_rise);
         return;
     }
@@ -280,7 +280,7 @@ static void measure_slope(slope_samples *s, const wt_slope_options *options, wt_
     const bool rises =
         find_contact_part(s, baseline + c->signal_from, baseline + c->signal_to, baseline, &p);
     if (p.n < MIN_BLOCKS) {
-        clocale_print(c->why_not, sizeof c->why_not,
+        clocale_print(c->reason, sizeof c->reason,
                       "%zu samples between %g and %g of the rise, at least %d are needed", p.n,
                       options->from, options->to, MIN_BLOCKS);
         return;
@@ -289,7 +289,7 @@ static void measure_slope(slope_samples *s, const wt_slope_options *options, wt_
         measure_part(s, &p, rise, c);
     c->found = rises && c->slope > 0 && isfinite(c->slope) && isfinite(c->slope_error);
     if (!c->found)
-        snprintf(c->why_not, sizeof c->why_not, "the signal does not rise with the piezo");
+        snprintf(c->reason, sizeof c->reason, "the signal does not rise with the piezo");
 }
 
 wt_status wt_contact_slope_fit(const double *position, const double *signal, size_t n,
@@ -309,7 +309,7 @@ wt_status wt_contact_slope_fit(const double *position, const double *signal, siz
                                 .signal_from = unknown,
                                 .signal_to = unknown,
                                 .travel = unknown,
-                                .freedom = unknown};
+                                .df = unknown};
     options = options != NULL ? options : &defaults;
     wt_status status = param_check(wt_slope_params(), options, err);
     if (status == WT_OK && !(options->from < options->to))

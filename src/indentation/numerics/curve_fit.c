@@ -158,7 +158,7 @@ void curve_fit_empty(wt_indent_fit *fit)
                            .lack_of_fit = nan_,
                            .lack_of_fit_p = nan_,
                            .baseline_p = nan_,
-                           .bend_shift = nan_,
+                           .curvature_shift = nan_,
                            .max_force = nan_,
                            .max_indentation = nan_,
                            .adhesion_force = nan_,
@@ -307,7 +307,7 @@ static void report_fit(curve_fitting *f, wt_indent_fit *fit)
     fit->lack_of_fit = s->lack.statistic;
     fit->lack_of_fit_p = s->lack.chance;
     fit->baseline_p = s->lack.baseline_p;
-    fit->bend_shift = reduced * s->bend_shift;
+    fit->curvature_shift = reduced * s->bend_shift;
     fit->max_indentation = s->max_indentation;
     fit->sensitivity_gain = s->sensitivity_gain;
     fit->n_fitted = samples->n - (samples->gap_to - samples->gap_from);

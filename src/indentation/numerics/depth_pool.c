@@ -123,7 +123,7 @@ depth_fit depth_fit_law(depth_pool *d, depth_law law, const double *start, wt_er
         const double rest = (double)(W - n_p), curves = (double)d->n;
         const double f = fit.left / (curves - 1.0) * (curves - rest) / rest;
         fit.excess = fmax(1.0, f);
-        fit.chance = gsl_cdf_fdist_Q(f, rest, curves - rest);
+        fit.p_value = gsl_cdf_fdist_Q(f, rest, curves - rest);
     }
     gsl_multifit_nlinear_free(w);
     return fit;

@@ -28,7 +28,7 @@ typedef struct depth_fit {
                [CURVE_WAVES]; /* derivatives of the parameters by the whitened cosines */
     double left;              /* remaining sum of squares */
     double excess;            /* remaining sum of squares over that from scatter; at least 1 */
-    double chance;            /* p value of the lack of fit */
+    double p_value;           /* p value of the lack of fit */
     bool is_valid;
 } depth_fit;
 

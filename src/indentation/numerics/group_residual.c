@@ -19,7 +19,7 @@ enum { W = CURVE_WAVES, LEAST_CURVES = 2 * W };
 wt_pooled_misfit wt_pooled_misfit_compute(const double (*misfit)[WT_MISFIT_TERMS], size_t n)
 {
     double mean[W] = {0.0}, scatter[W * W] = {0.0}, solved[W], amplitude = 0.0, t = 0.0;
-    wt_pooled_misfit pool = {.n = n, .misfit = (double)NAN, .chance = (double)NAN};
+    wt_pooled_misfit pool = {.n = n, .misfit = (double)NAN, .p_value = (double)NAN};
     if (n < LEAST_CURVES)
         return pool;
     gsl_quiet();
@@ -44,6 +44,6 @@ wt_pooled_misfit wt_pooled_misfit_compute(const double (*misfit)[WT_MISFIT_TERMS
         t += mean[a] * solved[a];
     const double curves = (double)n;
     pool.misfit = sqrt(amplitude);
-    pool.chance = gsl_cdf_fdist_Q(curves * t * (curves - W) / (W * (curves - 1.0)), W, curves - W);
+    pool.p_value = gsl_cdf_fdist_Q(curves * t * (curves - W) / (W * (curves - 1.0)), W, curves - W);
     return pool;
 }

@@ -218,7 +218,7 @@ static void set_effect_size(moments a, moments b, wt_comparison *c)
     double sum = a.n > 1 ? (a.n - 1.0) * a.variance : 0.0;
     sum += b.n > 1 ? (b.n - 1.0) * b.variance : 0.0;
     c->scatter = df > 0.0 ? sqrt(sum / df) : (double)NAN;
-    c->effect_size = c->unsettled == WT_UNDECIDED_NOT
+    c->effect_size = c->undecided_reason == WT_UNDECIDED_NOT
                          ? c->log_ratio.value / c->scatter * (1.0 - 3.0 / (4.0 * df - 1.0))
                          : (double)NAN;
 }
@@ -253,8 +253,9 @@ static wt_status compare_values(const compare_units *u, const wt_estimate *offse
     const moments a = sample_moments(u->value[0], u->n[0]);
     const moments b = sample_moments(u->value[1], u->n[1]);
     const double known = offset != NULL ? offset->standard_error * offset->standard_error : 0.0;
-    c->unsettled = undecided_reason(u, groups[0]->spot_scatter > 0 && groups[1]->spot_scatter > 0);
-    if (c->unsettled == WT_UNDECIDED_NOT && !has_few_spots(u) && !(a.variance > 0.0) &&
+    c->undecided_reason =
+        undecided_reason(u, groups[0]->spot_scatter > 0 && groups[1]->spot_scatter > 0);
+    if (c->undecided_reason == WT_UNDECIDED_NOT && !has_few_spots(u) && !(a.variance > 0.0) &&
         !(b.variance > 0.0)) {
         wt_status status =
             wt_fail(err, WT_E_RANGE, "all moduli of each group are equal: no scatter");
@@ -266,7 +267,7 @@ static wt_status compare_values(const compare_units *u, const wt_estimate *offse
         c->ratio = exp(c->log_ratio.value);
     }
     set_effect_size(a, b, c);
-    if (c->unsettled != WT_UNDECIDED_NOT)
+    if (c->undecided_reason != WT_UNDECIDED_NOT)
         return WT_OK;
     double given = 0;
     if (has_few_spots(u))

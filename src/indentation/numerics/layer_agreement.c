@@ -34,7 +34,7 @@ static double curve_squared_deviation(const wt_layer_profile *p, double x)
     size_t i = 1;
     if (x >= p->log_thickness[0])
         return p->deviate[0] * p->deviate[0];
-    if (p->below && x < p->log_thickness[p->n_steps - 1])
+    if (p->thinner_allowed && x < p->log_thickness[p->n_steps - 1])
         return 0.0;
     while (i + 1 < p->n_steps && x < p->log_thickness[i])
         i++;

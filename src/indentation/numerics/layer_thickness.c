@@ -182,22 +182,22 @@ static void assess_profile(wt_layer_profile *p, double log_ratio)
     const bool too_much = soft ? p->deviate[last] < -limit : p->deviate[last] > limit;
     const bool open_below =
         fabs(p->deviate[last]) <= limit || (!too_much && soft == (p->deviate[0] > 0));
-    p->below = open_below;
+    p->thinner_allowed = open_below;
     const bool open_above = fabs(p->deviate[0]) <= limit, has_allowed = range[1] >= range[0];
     p->thickness = (wt_interval){.value = (double)NAN,
                                  .standard_error = (double)NAN,
                                  .low = open_below ? 0.0 : exp(range[0]),
                                  .high = open_above    ? (double)INFINITY
                                          : has_allowed ? exp(range[1])
-                                                       : p->least};
-    p->says = open_below && open_above ? WT_LAYER_BOUND_ANY
-              : open_above             ? WT_LAYER_BOUND_LOWER
-              : open_below             ? WT_LAYER_BOUND_UPPER
-              : has_allowed            ? WT_LAYER_BOUND_BOTH
-                                       : WT_LAYER_BOUND_EMPTY;
-    if (p->says == WT_LAYER_BOUND_BOTH)
+                                                       : p->smallest_thickness};
+    p->bound_kind = open_below && open_above ? WT_LAYER_BOUND_ANY
+                    : open_above             ? WT_LAYER_BOUND_LOWER
+                    : open_below             ? WT_LAYER_BOUND_UPPER
+                    : has_allowed            ? WT_LAYER_BOUND_BOTH
+                                             : WT_LAYER_BOUND_EMPTY;
+    if (p->bound_kind == WT_LAYER_BOUND_BOTH)
         p->thickness.value = exp(find_zero_deviate(p));
-    if (p->says == WT_LAYER_BOUND_EMPTY)
+    if (p->bound_kind == WT_LAYER_BOUND_EMPTY)
         p->thickness.low = p->thickness.high = (double)NAN;
 }
 
@@ -217,7 +217,7 @@ static wt_status compute_profile(layer_test *t, wt_layer_profile *p, wt_error *e
         p->n_steps = 1;
     }
     if (p->n_steps == 1 && isnan(layer_log_ratio(t->log_ratio.value, 0.0)))
-        p->says = WT_LAYER_BOUND_OUTSIDE_LAW;
+        p->bound_kind = WT_LAYER_BOUND_OUTSIDE_LAW;
     double excess = line.excess;
     for (size_t i = 1; p->n_steps == i && i < WT_LAYER_STEPS; i++) {
         p->log_thickness[i] = top + ratio * (double)i;
@@ -235,7 +235,7 @@ static wt_status compute_profile(layer_test *t, wt_layer_profile *p, wt_error *e
     }
     if (p->n_steps < 2)
         return WT_OK;
-    p->least = exp(p->log_thickness[p->n_steps - 1]);
+    p->smallest_thickness = exp(p->log_thickness[p->n_steps - 1]);
     assess_profile(p, t->log_ratio.value);
     return WT_OK;
 }
@@ -250,7 +250,7 @@ wt_status wt_layer_profile_compute(const wt_contact_table *const table[2], doubl
     wt_status status = WT_OK;
     bool thick = true;
     *profile = (wt_layer_profile){.thickness = {(double)NAN, (double)NAN, (double)NAN, (double)NAN},
-                                  .least = (double)NAN};
+                                  .smallest_thickness = (double)NAN};
     for (int g = 0; g < 2; g++) {
         depth_pool_create(&t.arena[g], table[g], poisson_ratio, curve[g], n[g], &memory);
         profile->n[g] = t.arena[g].n;

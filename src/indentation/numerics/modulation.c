@@ -192,8 +192,8 @@ wt_status wt_modulation_fit(const double *time, const double *position, const do
     double c[2][COLUMNS];
     arena memory = {0};
     gsl_quiet();
-    *modulation = (wt_modulation){.why_not = modulation_defect(time, position, force, n)};
-    if (modulation->why_not[0] != '\0')
+    *modulation = (wt_modulation){.reason = modulation_defect(time, position, force, n)};
+    if (modulation->reason[0] != '\0')
         return WT_OK;
     modulation_samples s = {.time = time, .of = {position, force}, .n = n, .start = time[0]};
     s.step = (time[n - 1] - time[0]) / (double)(n - 1);
@@ -206,11 +206,11 @@ wt_status wt_modulation_fit(const double *time, const double *position, const do
         return wt_fail(err, WT_E_MEMORY, "out of memory for a modulation");
     modulation->angular_frequency = omega;
     if (!(omega * s.duration >= 2 * pi * LEAST_PERIODS) || !(omega * s.step < pi)) {
-        modulation->why_not = "no modulation with five periods and two samples in each";
+        modulation->reason = "no modulation with five periods and two samples in each";
         return WT_OK;
     }
     if (!fit_columns(&s, omega, c)) {
-        modulation->why_not = "no sine goes through it";
+        modulation->reason = "no sine goes through it";
         return WT_OK;
     }
     for (size_t k = 0; k < 2; k++) {
@@ -228,7 +228,7 @@ wt_status wt_modulation_fit(const double *time, const double *position, const do
     modulation->found =
         c[0][SLOW] * c[0][SLOW] + c[0][SLOW + 1] * c[0][SLOW + 1] > min_power_ratio * noise;
     if (!modulation->found)
-        modulation->why_not = "no modulation of the height that is more than noise";
+        modulation->reason = "no modulation of the height that is more than noise";
     return WT_OK;
 }
 

@@ -94,8 +94,8 @@ static void set_depth_moduli(depth_pool *d, const depth_fit *fit, wt_modulus_pro
         const factor_estimate change = estimate_factor(
             d, fit, at - top, by, false, DEPTH_SHALLOW_FACTOR * (1.0 - 1.0 / WT_DEPTHS));
         to->change = change.interval;
-        to->chance = change.chance;
-        to->bend_share = change.bend_share;
+        to->change_p = change.chance;
+        to->curvature_share = change.bend_share;
         to->loss_share = change.loss_share;
     }
 }
@@ -120,7 +120,7 @@ static void set_layer_estimate(depth_pool *d, wt_modulus_profile *to, wt_error *
     const depth_fit fit = fit_equivalent_layer(d, log(to->change.value), err);
     const double ratio = exp(fit.p[DEPTH_RATIO]), reach = exp(fit.p[DEPTH_REACH]);
     if (contact_table_tip(d->mean.table)->sample_thickness > 0.0 || !fit.is_valid ||
-        fit.chance < level || !thin_layer_is_valid(ratio, reach) || (ratio > 0.6 && ratio < 1.6) ||
+        fit.p_value < level || !thin_layer_is_valid(ratio, reach) || (ratio > 0.6 && ratio < 1.6) ||
         reach < 0.7 || reach > 2.5)
         return;
     const double of_layer[] = {0.0, 1.0, 0.0, 0.0}, of_ground[] = {0.0, 1.0, -1.0, 0.0},
@@ -133,7 +133,7 @@ static void set_layer_estimate(depth_pool *d, wt_modulus_profile *to, wt_error *
         return;
     to->thickness = thickness;
     to->layer_modulus = estimate_factor(d, &fit, fit.p[DEPTH_LEVEL], of_layer, true, 1.0).interval;
-    to->ground_modulus =
+    to->substrate_modulus =
         estimate_factor(d, &fit, fit.p[DEPTH_LEVEL] - fit.p[DEPTH_RATIO], of_ground, true, 1.0)
             .interval;
 }
@@ -147,9 +147,9 @@ static bool is_negligible_change(const wt_modulus_profile *d)
 /* Sets the verdict on the change: significant, irrelevant, or inconclusive. */
 static void set_depth_verdict(const depth_fit *fit, wt_modulus_profile *to)
 {
-    to->misfit_p = fit->chance;
-    to->verdict = to->chance < level         ? WT_DEPTH_CHANGES
-                  : fit->chance < level      ? WT_DEPTH_OTHER_RESIDUAL
+    to->misfit_p = fit->p_value;
+    to->verdict = to->change_p < level       ? WT_DEPTH_CHANGES
+                  : fit->p_value < level     ? WT_DEPTH_OTHER_RESIDUAL
                   : is_negligible_change(to) ? WT_DEPTH_SAME
                                              : WT_DEPTH_INCONCLUSIVE;
 }
@@ -159,11 +159,11 @@ static wt_status analyse_depth(depth_pool *d, wt_modulus_profile *to, wt_error *
     const double start[DEPTH_PARAMETERS] = {0.0};
     wt_error failure = WT_ERROR_INIT;
     depth_fit fit = depth_fit_law(d, DEPTH_LINE, start, &failure);
-    if (fit.is_valid && fit.chance < level) {
+    if (fit.is_valid && fit.p_value < level) {
         const depth_fit other[] = {depth_fit_law(d, DEPTH_QUADRATIC, fit.p, &failure),
                                    fit_equivalent_layer(d, fit.p[DEPTH_SLOPE], &failure)};
         for (size_t i = 0; i < COUNT_OF(other); i++)
-            if (other[i].is_valid && other[i].chance > fit.chance)
+            if (other[i].is_valid && other[i].p_value > fit.p_value)
                 fit = other[i];
     }
     if (fit.is_valid && failure.status == WT_OK) {
@@ -172,10 +172,10 @@ static wt_status analyse_depth(depth_pool *d, wt_modulus_profile *to, wt_error *
     }
     if (to->verdict == WT_DEPTH_CHANGES) {
         const depth_fit bent = depth_fit_law(d, DEPTH_QUADRATIC, fit.p, &failure);
-        const double chance = to->chance;
+        const double chance = to->change_p;
         if (fit.law == DEPTH_LINE && bent.is_valid) /* the change need not be linear */
             set_depth_moduli(d, &bent, to);
-        to->chance = chance;
+        to->change_p = chance;
         if (is_negligible_change(to) && to->change.low < 1.0 && to->change.high > 1.0)
             to->verdict = WT_DEPTH_SAME;
         else
@@ -202,11 +202,11 @@ wt_status wt_modulus_profile_fit(const wt_contact_table *table, double poisson_r
                                .n_units = d.n_units,
                                .by_spot = d.by_spot,
                                .n_excluded_by_loss = d.n_excluded_by_loss,
-                               .chance = unknown,
+                               .change_p = unknown,
                                .misfit_p = unknown,
                                .change = nothing,
                                .layer_modulus = nothing,
-                               .ground_modulus = nothing,
+                               .substrate_modulus = nothing,
                                .thickness = nothing};
     if (memory.failed)
         status = wt_fail(err, WT_E_MEMORY, "out of memory");

@@ -413,10 +413,10 @@ static void set_dwell_points(relaxation_task *t, const double *p, wt_dwell *to)
     to->creep = fabs(n->position[n->first_free - 1] - n->position[n->first_dwell]) * k >
                 fabs(last->force - first->force);
     if (last->indentation < min_depth_ratio * first->indentation)
-        to->why_not = "the indentation falls in it, of which the law holds nothing";
+        to->reason = "the indentation falls in it, of which the law holds nothing";
     if (!contact_law_is_valid(contact_table_tip(t->table),
                               fmax(first->indentation, last->indentation)))
-        to->why_not = "deeper than the contact law of the tip holds";
+        to->reason = "deeper than the contact law of the tip holds";
 }
 
 /* Time from the contact point, interpolated between the means, to the dwell. */
@@ -453,7 +453,7 @@ static void set_relaxation_result(relaxation_task *t, const double *p, double co
     if (!(cost >= 0) || !(to->load_time > 0) ||
         gsl_linalg_cholesky_decomp1(&matrix.matrix) != GSL_SUCCESS ||
         gsl_linalg_cholesky_invert(&matrix.matrix) != GSL_SUCCESS) {
-        to->why_not = "no relaxation modulus goes through approach and dwell";
+        to->reason = "no relaxation modulus goes through approach and dwell";
         return;
     }
     to->duration = n->to[n->first_free - 1] - n->from[n->first_dwell];
@@ -461,12 +461,12 @@ static void set_relaxation_result(relaxation_task *t, const double *p, double co
     to->misfit_p =
         combined_chance(gsl_cdf_chisq_Q(cost, freedom), ripple_chance(t, p, &matrix.matrix));
     set_dwell_points(t, p, to);
-    if (to->why_not[0] != '\0')
+    if (to->reason[0] != '\0')
         return;
     set_contact_estimates(t, p, &matrix.matrix, to);
     set_dwell_moduli(t, p, &matrix.matrix, fmax(1, to->misfit), to);
     if (to->n == 0)
-        to->why_not = "too short beside its loading";
+        to->reason = "too short beside its loading";
     to->found = to->n > 0;
 }
 
@@ -519,7 +519,7 @@ static void fit_relaxation(relaxation_task *t, arena *memory, wt_dwell *to)
     double g, slope, p[N_PARAMETERS] = {0}, jj[N_PARAMETERS][N_PARAMETERS];
     wt_contact_table_eval(t->table, &depth, 1, &g, &slope);
     const double s = h->modulus * slope;
-    to->why_not =
+    to->reason =
         dwell_nodes_create(h, h->spring_constant * s / (h->spring_constant + s), memory, &t->nodes);
     t->residual = arena_numbers(memory, t->nodes.n);
     t->jacobian = arena_numbers(memory, N_PARAMETERS * t->nodes.n);
@@ -527,7 +527,7 @@ static void fit_relaxation(relaxation_task *t, arena *memory, wt_dwell *to)
     t->shifted = arena_numbers(memory, t->nodes.n);
     t->depth = arena_numbers(memory, t->nodes.n);
     t->pressed = arena_numbers(memory, t->nodes.n);
-    if (to->why_not[0] != '\0' || memory->failed)
+    if (to->reason[0] != '\0' || memory->failed)
         return;
     start_elastic(t, p);
     set_relaxation_times(t);
@@ -544,10 +544,10 @@ wt_status wt_dwell_fit(const wt_contact_table *table, const wt_dwell_history *hi
     relaxation_task t = {.table = table, .history = history};
     arena memory = {0};
     *dwell = (wt_dwell){.load_time = (double)NAN, .misfit = (double)NAN};
-    dwell->why_not = history_defect(history);
+    dwell->reason = history_defect(history);
     gsl_quiet();
     wt_status status = hereditary_reserve(&t.law, MOST_TERMS, err);
-    if (status == WT_OK && dwell->why_not[0] == '\0')
+    if (status == WT_OK && dwell->reason[0] == '\0')
         fit_relaxation(&t, &memory, dwell);
     if (status == WT_OK && memory.failed)
         status = wt_fail(err, WT_E_MEMORY, "out of memory for a dwell");

@@ -225,7 +225,7 @@ static bool set_fit_errors(const periodogram *v, const double theta[P], wt_therm
     t->quality = log_normal_interval(theta[QUALITY], cov[QUALITY][QUALITY]);
     t->floor = exp(theta[FLOOR]);
     t->averages = 1 / variance;
-    t->chance = slow_departure_chance(r, v->n, gradient);
+    t->misfit_p = slow_departure_chance(r, v->n, gradient);
     return isfinite(t->mean_square.standard_error) && isfinite(t->quality.standard_error);
 }
 
@@ -287,7 +287,7 @@ static periodogram select_frequency_range(const double *f, const double *p, size
 
 static bool reject_oscillator(wt_thermal *t, const char *why)
 {
-    t->why_not = why;
+    t->reason = why;
     return false;
 }
 
@@ -331,8 +331,8 @@ wt_status wt_thermal_fit(const double *frequency, const double *density, size_t 
                             .from = nan_,
                             .to = nan_,
                             .averages = nan_,
-                            .chance = nan_,
-                            .why_not = ""};
+                            .misfit_p = nan_,
+                            .reason = ""};
     if (n > SIZE_MAX / sizeof(double) / (P + 3))
         return wt_fail(err, WT_E_MEMORY, "no memory for %zu points", n);
     double *scratch = malloc((P + 3) * (n + 1) * sizeof *scratch);

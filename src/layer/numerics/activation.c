@@ -150,14 +150,14 @@ static bool grow_subintervals(activation *a)
 {
     if (a->n + 1 < a->room)
         return true;
-    const size_t room = a->room ? 2 * a->room : 128;
-    double *edge = realloc(a->edge, room * sizeof *edge);
+    const size_t capacity = a->room ? 2 * a->room : 128;
+    double *edge = realloc(a->edge, capacity * sizeof *edge);
     a->edge = edge ? edge : a->edge;
-    double *part = realloc(a->log_part, room * sizeof *part);
+    double *part = realloc(a->log_part, capacity * sizeof *part);
     a->log_part = part ? part : a->log_part;
     if (edge == NULL || part == NULL)
         return false;
-    a->room = room;
+    a->room = capacity;
     return true;
 }
 

@@ -1,5 +1,5 @@
-/* Logarithms of an energy source against depth, scaled so that no value underflows. Internal to
- * layer.
+/* Energy density w(z) of a source at depth z, and its integrals, as logarithms: no value
+ * underflows. Internal to layer.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -10,7 +10,7 @@
 
 #include <math.h>
 
-/* ln(exp(a) + exp(b)) */
+/* Returns ln(exp(a) + exp(b)). */
 static inline double log_add(double a, double b)
 {
     const double high = fmax(a, b);
@@ -19,7 +19,8 @@ static inline double log_add(double a, double b)
 
 /* Returns WT_E_RANGE with the invalid value of a source. */
 wt_status energy_check(const wt_energy_source *source, wt_error *err) WT_NODISCARD;
-/* ln of w(z), of int_z^inf w, and of int_z^(z+length) w; -infinity for a source without power. */
+/* Return ln of w(z), of int_z^inf w dz, and of int_z^(z+length) w dz. The result is -infinity for a
+ * source without power. */
 double energy_log_density(const wt_energy_source *source, double depth);
 double energy_log_tail(const wt_energy_source *source, double depth);
 double energy_log_integral(const wt_energy_source *source, double depth, double length);
@@ -29,9 +30,9 @@ void energy_log_profiles(const wt_energy_source *source, double depth,
                          double logarithm[ENERGY_PROFILE_VALUES]);
 /* Returns the smallest and the largest wavenumber with power; false if there is none. */
 bool energy_wavenumber_range(const wt_energy_source *source, double *q_min, double *q_max);
-/* True if w falls with depth for any set of wavenumbers. */
+/* Returns true if w falls with depth for any set of wavenumbers. */
 bool energy_is_monotonic(const wt_energy_source *source);
-/* Depth below which w falls for any powers [m]. */
+/* Returns the depth below which w falls for any powers [m]. */
 double energy_monotonic_depth(const wt_energy_source *source);
 
 /* int_z^(z+length) w, or w itself for length 0, at a depth, with its slope there and a bound of its

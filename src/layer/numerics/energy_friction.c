@@ -57,7 +57,7 @@ wt_status wt_energy_source_from_friction(wt_friction_workspace *workspace, doubl
     for (size_t k = 0; status == WT_OK && k < MAX_HALVINGS && error > workspace->options.tolerance;
          k++) {
         now = 1 - now;
-        friction_record record = {0};
+        node_contributions record = {0};
         friction_pass pass;
         const friction_effort effort = {
             .level = min_level, .halves = k, .accurate_everywhere = true};

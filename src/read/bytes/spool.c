@@ -1,4 +1,5 @@
-/* Implements inputs that are written piece by piece. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Spool: collects the bytes of an input that arrives piece by piece, in memory or, above
+ * SCRATCH_THRESHOLD, in a temporary file. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "read/bytes/spool.h"
 
 #include "read/bytes/input.h"

@@ -129,7 +129,7 @@ typedef struct step_marker {
 /* A line that identifies a test whose data are not read. */
 typedef struct unread_test {
     line_pattern pattern;
-    char *what; /* "a creep test" */
+    char *label; /* "a creep test" */
 } unread_test;
 
 typedef struct unit_alias {
@@ -195,8 +195,8 @@ typedef struct text_description {
 
     step_marker *steps;
     size_t n_steps;
-    line_pattern *ends;
-    size_t n_ends;
+    line_pattern *end_markers;
+    size_t n_end_markers;
     bool end_required; /* true if a table without one of them is truncated */
     unread_test *unread_tests;
     size_t n_unread_tests;

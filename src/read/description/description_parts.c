@@ -65,9 +65,9 @@ static void read_detect_element(description_parser *p, const xmlNode *detect)
                    "no score in any element");
 }
 
-/* Splits an attribute into words. */
-static void read_word_list(description_parser *p, const xmlNode *node, const char *name,
-                           char ***items, size_t *n)
+/* Splits an attribute at its blanks. */
+static void read_token_list(description_parser *p, const xmlNode *node, const char *name,
+                            char ***items, size_t *n)
 {
     char *text = parse_attribute(p, node, name);
     char *rest = NULL;
@@ -87,7 +87,7 @@ static void read_word_list(description_parser *p, const xmlNode *node, const cha
 static void read_name_list(description_parser *p, const xmlNode *node, const char *name,
                            char ***items, size_t *n)
 {
-    read_word_list(p, node, name, items, n);
+    read_token_list(p, node, name, items, n);
     for (size_t i = 0; i < *n; i++)
         (*items)[i] = parse_normalised(p, (*items)[i]);
 }
@@ -108,8 +108,8 @@ static void read_text_element(description_parser *p, const xmlNode *node)
                                                       (size_t)d->separator);
     d->decimal = marks[parse_choice(p, node, "decimal", decimals, 3, 0)];
     d->comment = parse_attribute(p, node, "comment");
-    read_word_list(p, node, "missing", &d->missing, &d->n_missing);
-    read_word_list(p, node, "widths", &widths, &n);
+    read_token_list(p, node, "missing", &d->missing, &d->n_missing);
+    read_token_list(p, node, "widths", &widths, &n);
     d->widths = parse_alloc(p, n, sizeof *d->widths);
     for (size_t i = 0; i < n && d->widths != NULL; i++)
         d->widths[d->n_widths++] = (size_t)strtoul(widths[i], NULL, 10);
@@ -157,7 +157,7 @@ static void read_header_element(description_parser *p, const xmlNode *node)
     }
 }
 
-static int compare_names(const void *a, const void *b)
+static int compare_column_names(const void *a, const void *b)
 {
     const column_name *x = a, *y = b;
     int order = strcmp(x->name, y->name);
@@ -195,7 +195,7 @@ static void read_column_elements(description_parser *p, const xmlNode *table)
         d->n_rules++;
     }
     if (d->n_names > 1)
-        qsort(d->names, d->n_names, sizeof *d->names, compare_names);
+        qsort(d->names, d->n_names, sizeof *d->names, compare_column_names);
 }
 
 static void read_table_element(description_parser *p, const xmlNode *table)
@@ -203,14 +203,14 @@ static void read_table_element(description_parser *p, const xmlNode *table)
     static const char *const units[] = {"row", "name", "name-or-row", "line", "none"};
     static const char *const titles[] = {"same", "next"};
     static const char *const blanks[] = {"skip", "block"};
-    static const char *const row_words[] = {"values", "matrix"};
+    static const char *const row_layouts[] = {"values", "matrix"};
     text_description *d = p->d;
     d->names_are = parse_attribute(p, table, "names-are");
     parse_pattern(p, table, "names-lines", &d->names_lines, 1);
     const bool elsewhere = d->names_are != NULL || d->names_lines.compiled;
     parse_pattern(p, table, "names", &d->names_line, elsewhere ? 0 : 1);
     d->has_names_line = d->names_line.compiled;
-    d->matrix = parse_choice(p, table, "rows", row_words, 2, 0) == 1;
+    d->matrix = parse_choice(p, table, "rows", row_layouts, 2, 0) == 1;
     if (d->names_lines.compiled && (!d->has_names_line || d->names_are != NULL))
         parse_fail(p, table, "names that stand elsewhere go with the line above the rows",
                    "an attribute names, and either names-are or names-lines", NULL);
@@ -229,7 +229,7 @@ static void read_table_element(description_parser *p, const xmlNode *table)
     read_name_list(p, table, "row-number", &d->row_numbers, &d->n_row_numbers);
     d->blank_is_block = parse_choice(p, table, "blank", blanks, 2, 0) == 1;
     d->steps = parse_alloc_children(p, table, "step", sizeof *d->steps);
-    d->ends = parse_alloc_children(p, table, "end", sizeof *d->ends);
+    d->end_markers = parse_alloc_children(p, table, "end", sizeof *d->end_markers);
     d->unread_tests = parse_alloc_children(p, table, "other", sizeof *d->unread_tests);
     d->aliases = parse_alloc_children(p, table, "unit", sizeof *d->aliases);
     for (const xmlNode *c = NULL; (c = parse_next_child(p, table, c, "step")) != NULL;) {
@@ -238,13 +238,13 @@ static void read_table_element(description_parser *p, const xmlNode *table)
         parse_pattern(p, c, "regex", &step->pattern, step->title_next ? 0 : 1);
     }
     for (const xmlNode *c = NULL; (c = parse_next_child(p, table, c, "end")) != NULL;) {
-        parse_pattern(p, c, "regex", &d->ends[d->n_ends++], 0);
+        parse_pattern(p, c, "regex", &d->end_markers[d->n_end_markers++], 0);
         d->end_required = parse_bool(p, c, "required") || d->end_required;
     }
     for (const xmlNode *c = NULL; (c = parse_next_child(p, table, c, "other")) != NULL;) {
         unread_test *other = &d->unread_tests[d->n_unread_tests++];
         parse_pattern(p, c, "regex", &other->pattern, 0);
-        other->what = parse_attribute(p, c, "what");
+        other->label = parse_attribute(p, c, "what");
     }
     for (const xmlNode *c = NULL; (c = parse_next_child(p, table, c, "unit")) != NULL;) {
         unit_alias *alias = &d->aliases[d->n_aliases++];
@@ -297,15 +297,15 @@ static void read_segments_element(description_parser *p, const xmlNode *node)
                    d->n_values > 0 ? "only values" : "no values");
 }
 
-unsigned parse_kinds(const char *words)
+unsigned parse_kinds(const char *kind_names)
 {
     unsigned kinds = 0;
-    kinds |= strstr(words, "force") != NULL ? WT_KIND_FORCE : 0u;
-    kinds |= strstr(words, "sweep") != NULL ? WT_KIND_SWEEP : 0u;
-    kinds |= strstr(words, "image") != NULL ? WT_KIND_IMAGE : 0u;
-    kinds |= strstr(words, "spectrum") != NULL ? WT_KIND_SPECTRUM : 0u;
-    kinds |= strstr(words, "noise") != NULL ? WT_KIND_NOISE : 0u;
-    kinds |= strstr(words, "record") != NULL ? WT_KIND_RECORD : 0u;
+    kinds |= strstr(kind_names, "force") != NULL ? WT_KIND_FORCE : 0u;
+    kinds |= strstr(kind_names, "sweep") != NULL ? WT_KIND_SWEEP : 0u;
+    kinds |= strstr(kind_names, "image") != NULL ? WT_KIND_IMAGE : 0u;
+    kinds |= strstr(kind_names, "spectrum") != NULL ? WT_KIND_SPECTRUM : 0u;
+    kinds |= strstr(kind_names, "noise") != NULL ? WT_KIND_NOISE : 0u;
+    kinds |= strstr(kind_names, "record") != NULL ? WT_KIND_RECORD : 0u;
     return kinds;
 }
 

@@ -86,13 +86,13 @@ bool parse_bool(description_parser *p, const xmlNode *node, const char *name)
 
 /* The schema has checked the text, so the list is complete. */
 size_t parse_choice(description_parser *p, const xmlNode *node, const char *name,
-                    const char *const words[], size_t n, size_t absent)
+                    const char *const choices[], size_t n, size_t absent)
 {
     const char *text = parse_attribute(p, node, name);
     size_t i = 0;
     if (text == NULL)
         return absent;
-    while (i + 1 < n && strcmp(text, words[i]) != 0)
+    while (i + 1 < n && strcmp(text, choices[i]) != 0)
         i++;
     return i;
 }

@@ -6,7 +6,7 @@
 
 #include <libxml/tree.h>
 
-/* State of one parse; the first failure is kept. */
+/* State of one parse. It stores the first failure, and later functions then do nothing. */
 typedef struct description_parser {
     text_description *d;
     const char *name;
@@ -29,7 +29,7 @@ char *parse_normalised(description_parser *p, const char *text);
 bool parse_bool(description_parser *p, const xmlNode *node, const char *name);
 /* Returns the index of an attribute value in n words; `absent` if there is no attribute. */
 size_t parse_choice(description_parser *p, const xmlNode *node, const char *name,
-                    const char *const words[], size_t n, size_t absent);
+                    const char *const choices[], size_t n, size_t absent);
 size_t parse_count(description_parser *p, const xmlNode *node, const char *name, size_t absent);
 bool parse_is_element(const xmlNode *node, const char *name);
 /* Returns the next child element with this name (NULL: any) after `after` (NULL: the first). NULL
@@ -48,7 +48,7 @@ void parse_pattern(description_parser *p, const xmlNode *node, const char *name,
  * DESCRIPTION_DETECT. */
 void parse_format(description_parser *p, const xmlNode *root);
 void parse_detect(description_parser *p, const xmlNode *root);
-unsigned parse_kinds(const char *words);
+unsigned parse_kinds(const char *choices);
 
 /* description_parse.c: parses a document with the function `parse`. With schema NULL the document
  * is assumed to be valid. */

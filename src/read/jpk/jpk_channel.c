@@ -155,7 +155,7 @@ wt_status jpk_lcd_read(const property_list *properties, const char *prefix, jpk_
         return fail_unsupported(err, "calibration slot", base);
     const char *list = properties_find(properties, prefix, "conversion-set.conversions.list");
     char name[JPK_NAME];
-    while (status == WT_OK && property_next_word(&list, name, sizeof name))
+    while (status == WT_OK && property_next_token(&list, name, sizeof name))
         status = read_slot(properties, prefix, name, lcd, err);
     return status;
 }

@@ -198,7 +198,7 @@ static wt_status read_channels(jpk_file *file, jpk_segment *segment, const char 
     segment->n_channels = 0;
     while (status == WT_OK && segment->n_channels < JPK_CHANNELS) {
         jpk_channel *channel = &segment->channels[segment->n_channels];
-        if (!property_next_word(&list, channel->name, sizeof channel->name))
+        if (!property_next_token(&list, channel->name, sizeof channel->name))
             break;
         segment->n_channels++;
         /* `lcd` is large; read_jpk_channel fills it */

@@ -145,7 +145,7 @@ static void copy_plain(property_parser *p, bool key)
 }
 
 /* Copies a word up to the end of the line, or up to the end of the key if `key`. */
-static bool copy_word(property_parser *p, bool key)
+static bool copy_token(property_parser *p, bool key)
 {
     for (;;) {
         copy_plain(p, key);
@@ -231,7 +231,7 @@ wt_status properties_parse(property_list *properties, const unsigned char *bytes
         }
         property_entry item = {.key = p.out};
         size_t line = p.line;
-        bool good = copy_word(&p, true);
+        bool good = copy_token(&p, true);
         if (good) {
             skip_blanks(&p);
             if (p.at < p.end && (*p.at == '=' || *p.at == ':')) {
@@ -239,7 +239,7 @@ wt_status properties_parse(property_list *properties, const unsigned char *bytes
                 skip_blanks(&p);
             }
             item.value = p.out;
-            good = copy_word(&p, false);
+            good = copy_token(&p, false);
         }
         if (!good) {
             properties->n = 0;
@@ -290,7 +290,7 @@ double properties_number(const property_list *properties, const char *prefix, co
     return parse_number_or_nan(properties_find(properties, prefix, suffix));
 }
 
-bool property_next_word(const char **list, char *word, size_t size)
+bool property_next_token(const char **list, char *word, size_t size)
 {
     const char *start = *list != NULL ? *list + strspn(*list, " ") : "";
     const size_t n = strcspn(start, " ");

@@ -36,7 +36,7 @@ const char *properties_find(const property_list *properties, const char *prefix,
                             const char *suffix);
 /* Reads the next word of a list and moves *list past it. Returns false if there is none or it does
  * not fit; *list is then the rest. *list may be NULL. */
-bool property_next_word(const char **list, char *word, size_t size);
+bool property_next_token(const char **list, char *word, size_t size);
 /* Returns the number of the key prefix + suffix; NaN if it is absent or no number. */
 double properties_number(const property_list *properties, const char *prefix, const char *suffix);
 

@@ -118,8 +118,8 @@ static void warn_gaps(const ntmdt_ramp *r, const char *name, wt_log *log)
                    1e9 * last);
 }
 
-static wt_status as_text(const file_reader *self, wt_input *input, wt_log *log, wt_input **text,
-                         wt_error *err)
+static wt_status convert_ntmdt_to_text(const file_reader *self, wt_input *input, wt_log *log,
+                                       wt_input **text, wt_error *err)
 {
     const unsigned char *bytes = NULL;
     size_t length = 0, n_text = 0, idle = 0;
@@ -169,7 +169,7 @@ const file_reader reader_ntmdt = {
              .verified = true,
              .evidence = "a measured file; its units are not in it",
              .version = "1"},
-    CURVE_TEXT_READER(as_text),
+    CURVE_TEXT_READER(convert_ntmdt_to_text),
     .detect = detect,
     .describe = text_describe_converted,
 };

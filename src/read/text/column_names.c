@@ -82,8 +82,8 @@ bool find_column_name(const text_description *d, text_span cell, name_match *kno
 }
 
 /* Counts the known names. *set is the set of quantities that they may measure. */
-static size_t count_known_names(const text_description *d, const text_cells *cells,
-                                wt_quantity_set *set)
+static size_t count_recognised_names(const text_description *d, const text_cells *cells,
+                                     wt_quantity_set *set)
 {
     size_t known = 0;
     *set = 0;
@@ -108,7 +108,7 @@ static size_t try_separator(names_row *names, const text_description *d, text_sp
     }
     if (names->names.n > COLUMNS_MAX)
         return 0;
-    size_t known = count_known_names(d, &names->names, &set);
+    size_t known = count_recognised_names(d, &names->names, &set);
     return quantities_suffice(set, kinds) ? known : 0;
 }
 

@@ -209,10 +209,10 @@ void text_parts_free(text_parts *parts);
 wt_status text_list_add(text_file *file, text_list *list, size_t max_items, text_span text,
                         wt_error *err);
 /* The position of a line for messages, such as "line 12". */
-typedef struct line_place_text {
-    char words[32];
-} line_place_text;
-line_place_text format_line_place(size_t line);
+typedef struct line_position_text {
+    char text[32];
+} line_position_text;
+line_position_text format_line_position(size_t line);
 /* True if the description states this kind of data and the tables have its columns. */
 bool text_has_kind(const text_file *file, unsigned kind);
 /* Returns the column of a quantity, or NULL; segment < 0 accepts any segment. */

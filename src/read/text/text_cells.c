@@ -175,7 +175,7 @@ bool cell_equals(text_span cell, const char *text)
     return strlen(text) == cell.length && memcmp(text, cell.text, cell.length) == 0;
 }
 
-static bool is_listed_word(text_span cell, const char *const words[], size_t n)
+static bool is_listed_text(text_span cell, const char *const words[], size_t n)
 {
     for (size_t i = 0; i < n; i++)
         if (strlen(words[i]) == cell.length && strncasecmp(words[i], cell.text, cell.length) == 0)
@@ -206,10 +206,10 @@ cell_kind cell_parse(text_span cell, char decimal, const text_description *descr
     static const char *const none[] = {"-", "--", "---", "n/a", "na", "#n/a"};
     static const char *const not_finite[] = {"nan",  "inf",     "-inf",   "+inf",
                                              "-nan", "1.#qnan", "1.#inf", "-1.#ind"};
-    if (cell.length == 0 || is_listed_word(cell, none, COUNT_OF(none)) ||
+    if (cell.length == 0 || is_listed_text(cell, none, COUNT_OF(none)) ||
         is_declared_missing(cell, description))
         return CELL_MISSING;
-    return is_listed_word(cell, not_finite, COUNT_OF(not_finite)) ? CELL_NOT_FINITE : CELL_TEXT;
+    return is_listed_text(cell, not_finite, COUNT_OF(not_finite)) ? CELL_NOT_FINITE : CELL_TEXT;
 }
 
 void text_copy(char *to, size_t size, text_span text)

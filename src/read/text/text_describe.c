@@ -42,14 +42,15 @@ static void describe_header(const text_file *file, table_writer *metadata)
     for (size_t i = 0; i < file->description->n_fields; i++)
         if (file->values[i].line > 0)
             metadata_add(metadata, file->description->fields[i].name, file->values[i].unit,
-                         format_line_place(file->values[i].line).words, "%s", file->values[i].text);
+                         format_line_position(file->values[i].line).text, "%s",
+                         file->values[i].text);
 }
 
 static void describe_column(const text_table *t, const text_column *c, table_writer *metadata)
 {
     char item[96];
-    const line_place_text place = format_line_place(t->names_line);
-    const char *source = place.words;
+    const line_position_text place = format_line_position(t->names_line);
+    const char *source = place.text;
     const wt_quantity q = c->rule->quantity;
     const char *id = wt_quantity_id(q);
     snprintf(item, sizeof item, "column \"%s\"", c->name);
@@ -86,7 +87,7 @@ static void describe_table(const text_file *file, size_t of_file, size_t number,
     const text_table *const t = &file->tables[of_file];
     char item[32];
     snprintf(item, sizeof item, "table %zu", number + 1);
-    metadata_add(metadata, item, "", format_line_place(t->names_line).words,
+    metadata_add(metadata, item, "", format_line_position(t->names_line).text,
                  "%s%s%zu rows, separator %s, decimal %s", t->title,
                  t->title[0] != '\0' ? ": " : "", t->n_rows, separator_name(t->separator),
                  t->decimal == ',' ? "comma" : "point");

@@ -62,13 +62,13 @@ void text_check_steps(const text_file *file, const text_table *t, int segment, s
                                         : (broken_steps){0, 0, 0};
         if (broken.first == 0)
             continue;
-        const line_place_text place = format_line_place(t->row_lines[broken.first]);
+        const line_position_text place = format_line_position(t->row_lines[broken.first]);
         if (broken.wrong == 0)
-            wt_log_add(log, WT_WARNING, file->name, place.words,
+            wt_log_add(log, WT_WARNING, file->name, place.text,
                        "the equal steps of %s have %zu gap%s from here on: are rows missing?",
                        c->name, broken.gaps, broken.gaps > 1 ? "s" : "");
         else
-            wt_log_add(log, WT_WARNING, file->name, place.words,
+            wt_log_add(log, WT_WARNING, file->name, place.text,
                        "the equal steps of %s are broken at %zu place%s from here on: are "
                        "rows missing, there twice, moved or changed?",
                        c->name, broken.gaps + broken.wrong,

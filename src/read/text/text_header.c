@@ -61,7 +61,7 @@ static void apply_field(text_scanner *s, field_sets sets, text_span text)
 static bool parse_field_number(const text_scanner *s, const header_field *field, text_span text,
                                const field_value *value, double *number)
 {
-    const line_place_text place = format_line_place(value->line);
+    const line_position_text place = format_line_position(value->line);
     const char *unit = value->unit;
     double factor, offset;
     for (size_t i = 0; i < s->d->n_aliases; i++)
@@ -69,12 +69,12 @@ static bool parse_field_number(const text_scanner *s, const header_field *field,
             unit = s->d->aliases[i].means;
     if (!wt_number_parse(text.text, text.length, '.', number) &&
         !wt_number_parse(text.text, text.length, ',', number)) {
-        wt_log_add(s->log, WT_NOTE, s->file->name, place.words, "%s: \"%s\" is not a number",
+        wt_log_add(s->log, WT_NOTE, s->file->name, place.text, "%s: \"%s\" is not a number",
                    field->name, value->text);
         return false;
     }
     if (wt_unit_to_si(unit, field->quantity, &factor, &offset, NULL) != WT_OK) {
-        wt_log_add(s->log, WT_WARNING, s->file->name, place.words,
+        wt_log_add(s->log, WT_WARNING, s->file->name, place.text,
                    "%s: \"%s\" is not a unit of %s; the value is left out", field->name, unit,
                    wt_quantity_id(field->quantity));
         return false;
@@ -155,8 +155,8 @@ bool scan_match_markers(text_scanner *s)
             return true;
         }
     }
-    for (size_t i = 0; i < d->n_ends; i++)
-        if (pattern_match(&d->ends[i], s->line, NULL, 0)) {
+    for (size_t i = 0; i < d->n_end_markers; i++)
+        if (pattern_match(&d->end_markers[i], s->line, NULL, 0)) {
             s->state = SCAN_HEADER;
             s->unclosed = false;
             return true;

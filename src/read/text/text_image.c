@@ -230,7 +230,7 @@ static bool is_skipped(const image_builder *m, wt_status status)
 {
     if (status != WT_E_UNIT || m->file->n_tables < 2)
         return false;
-    wt_log_add(m->log, WT_NOTE, m->file->name, format_line_place(m->table->names_line).words,
+    wt_log_add(m->log, WT_NOTE, m->file->name, format_line_position(m->table->names_line).text,
                "an image of no heights is left out");
     return true;
 }

@@ -28,7 +28,7 @@ static wt_status collect_noise_points(const text_file *file, wt_log *log, noise_
                                       wt_noise_spectrum *spectrum, wt_error *err)
 {
     const text_table *const t = &file->tables[0];
-    size_t n_left_out = 0, line = 0;
+    size_t n_skipped = 0, first_line = 0;
     wt_status status = text_table_require(t, WT_KIND_NOISE, err);
     if (status != WT_OK)
         return status;
@@ -53,12 +53,12 @@ static wt_status collect_noise_points(const text_file *file, wt_log *log, noise_
             points[spectrum->n++] = p;
             continue;
         }
-        line = n_left_out++ == 0 ? t->row_lines[r] : line;
+        first_line = n_skipped++ == 0 ? t->row_lines[r] : first_line;
     }
-    if (n_left_out > 0)
-        wt_log_add(log, WT_WARNING, file->name, format_line_place(line).words,
-                   "%zu row%s without a frequency of 0 or more left out, this the first",
-                   n_left_out, n_left_out == 1 ? "" : "s");
+    if (n_skipped > 0)
+        wt_log_add(log, WT_WARNING, file->name, format_line_position(first_line).text,
+                   "%zu row%s without a frequency of 0 or more left out, this the first", n_skipped,
+                   n_skipped == 1 ? "" : "s");
     spectrum->temperature = t->header.value[HEADER_TEMPERATURE];
     spectrum->spring_constant = t->header.value[HEADER_SPRING_CONSTANT];
     spectrum->sensitivity = t->header.value[HEADER_SENSITIVITY];

@@ -86,11 +86,12 @@ static wt_status add_temperature_sweeps(sweep_builder *b, const size_t *all, siz
     }
     *is_sweep = used > 0;
     if (*is_sweep && n < n_all)
-        wt_log_add(b->log, WT_WARNING, b->file->name, format_line_place(b->table->names_line).words,
+        wt_log_add(b->log, WT_WARNING, b->file->name,
+                   format_line_position(b->table->names_line).text,
                    "%zu points at %g rad/s without a temperature above absolute zero left out",
                    n_all - n, sweep_angular_frequency(b, rows[0]));
     if (*is_sweep && used < n)
-        wt_log_add(b->log, WT_NOTE, b->file->name, format_line_place(b->table->names_line).words,
+        wt_log_add(b->log, WT_NOTE, b->file->name, format_line_position(b->table->names_line).text,
                    "%zu points beside the temperature sweeps at %g rad/s left out", n - used,
                    sweep_angular_frequency(b, rows[0]));
     return status;
@@ -163,7 +164,7 @@ static wt_status extract_interleaved(sweep_builder *b, size_t *rows, size_t *n, 
         status = add_temperature_sweeps(b, chosen, n_chosen, &is_sweep);
         if (!is_sweep)
             wt_log_add(b->log, WT_WARNING, b->file->name,
-                       format_line_place(b->table->names_line).words,
+                       format_line_position(b->table->names_line).text,
                        "%zu points at %g rad/s make no temperature sweep and are left out",
                        n_chosen, sweep_angular_frequency(b, like));
     }

@@ -104,7 +104,7 @@ static void warn_ignored_cell(text_scanner *s, const text_column *column)
 {
     char found[16];
     text_copy(found, sizeof found, s->row.cells[column->cell]);
-    wt_log_add(s->log, WT_WARNING, s->file->name, format_line_place(s->i + 1).words,
+    wt_log_add(s->log, WT_WARNING, s->file->name, format_line_position(s->i + 1).text,
                "\"%s\" in column %zu (%s) is no value and is left out", found, column->cell + 1,
                column->name);
 }
@@ -173,7 +173,7 @@ static void check_row_number(text_scanner *s)
     if (t->number_cell < s->row.n)
         (void)cell_parse(s->row.cells[t->number_cell], t->decimal, s->d, &number);
     if (number > s->last_number + 1)
-        wt_log_add(s->log, WT_WARNING, s->file->name, format_line_place(s->i + 1).words,
+        wt_log_add(s->log, WT_WARNING, s->file->name, format_line_position(s->i + 1).text,
                    "the number of a row is not the next one: are rows missing before it?");
     s->last_number = number;
 }

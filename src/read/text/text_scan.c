@@ -244,7 +244,7 @@ static void warn_orphan_row(text_scanner *s)
         s->step_line != t->step_line)
         return;
     if (scan_split_row(s) && s->row.n >= t->n_names && scan_read_row(s, &bad) == ROW_GOOD)
-        wt_log_add(s->log, WT_WARNING, s->file->name, format_line_place(s->i + 1).words,
+        wt_log_add(s->log, WT_WARNING, s->file->name, format_line_position(s->i + 1).text,
                    "row of numbers after the end of its table, not read");
 }
 
@@ -267,7 +267,7 @@ static void skip_rest(text_scanner *s)
 {
     char found[48];
     text_copy(found, sizeof found, s->line);
-    wt_log_add(s->log, WT_WARNING, s->file->name, format_line_place(s->i + 1).words,
+    wt_log_add(s->log, WT_WARNING, s->file->name, format_line_position(s->i + 1).text,
                "the lines from here on are no rows of the table and are left out: \"%s\"", found);
     s->state = SCAN_HEADER;
     scan_header_line(s);

@@ -66,7 +66,7 @@ static wt_status collect_spectrum_points(const text_file *file, spectrum_point *
             case ROW_EMPTY:
                 break;
             case ROW_MEAN:
-                wt_log_add(log, WT_WARNING, file->name, format_line_place(t->row_lines[r]).words,
+                wt_log_add(log, WT_WARNING, file->name, format_line_position(t->row_lines[r]).text,
                            "wavenumber 0 is the mean of the surface, no wave; its density is "
                            "left out");
                 break;
@@ -83,7 +83,7 @@ wt_status text_read_spectrum(const file_reader *self, wt_input *input,
                              wt_power_spectrum *spectrum, wt_error *err)
 {
     text_file file;
-    wt_power_spectrum made = {.n = 0};
+    wt_power_spectrum result = {.n = 0};
     size_t rows = 0, n = 0;
     wt_status status = text_scan(self, input, WT_KIND_SPECTRUM, options, log, &file, err);
     if (status != WT_OK)
@@ -92,30 +92,30 @@ wt_status text_read_spectrum(const file_reader *self, wt_input *input,
     for (size_t i = 0; i < file.n_tables; i++)
         rows += file.tables[i].n_rows;
     spectrum_point *points = malloc((rows + 1) * sizeof *points);
-    made.wavenumber = malloc((rows + 1) * sizeof *made.wavenumber);
-    made.density = malloc((rows + 1) * sizeof *made.density);
-    if (points == NULL || made.wavenumber == NULL || made.density == NULL)
+    result.wavenumber = malloc((rows + 1) * sizeof *result.wavenumber);
+    result.density = malloc((rows + 1) * sizeof *result.density);
+    if (points == NULL || result.wavenumber == NULL || result.density == NULL)
         status = wt_fail(err, WT_E_MEMORY, "no memory for the spectrum");
     if (status == WT_OK)
-        status = collect_spectrum_points(&file, points, &n, &made.kind, log, err);
+        status = collect_spectrum_points(&file, points, &n, &result.kind, log, err);
     if (status == WT_OK && n < 2)
         status = text_fail_empty(&file, "power spectrum", err);
     if (status == WT_OK)
         qsort(points, n, sizeof *points, numbers_compare);
-    for (made.n = 0; status == WT_OK && made.n < n; made.n++) {
-        const spectrum_point *const p = &points[made.n];
-        if (made.n > 0 && !(p->wavenumber > p[-1].wavenumber)) {
+    for (result.n = 0; status == WT_OK && result.n < n; result.n++) {
+        const spectrum_point *const p = &points[result.n];
+        if (result.n > 0 && !(p->wavenumber > p[-1].wavenumber)) {
             status = wt_fail(err, WT_E_CORRUPT, "a wavenumber stands twice");
             wt_error_expected(err, "one density for each wavenumber");
             wt_error_found(err, "two for %g rad/m", p->wavenumber);
         }
-        made.wavenumber[made.n] = p->wavenumber;
-        made.density[made.n] = p->density;
+        result.wavenumber[result.n] = p->wavenumber;
+        result.density[result.n] = p->density;
     }
     if (status == WT_OK)
-        *spectrum = made;
+        *spectrum = result;
     else
-        wt_power_spectrum_clear(&made);
+        wt_power_spectrum_clear(&result);
     free(points);
     text_file_free(&file);
     return status;

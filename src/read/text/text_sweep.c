@@ -18,7 +18,8 @@ static void warn_shifted(const sweep_builder *b, double low, double high)
 {
     const double decades = log10(high / low);
     if (decades > decades_max)
-        wt_log_add(b->log, WT_WARNING, b->file->name, format_line_place(b->table->names_line).words,
+        wt_log_add(b->log, WT_WARNING, b->file->name,
+                   format_line_position(b->table->names_line).text,
                    "%s over %.1f decades at one temperature: this looks like a "
                    "master curve that was shifted already; export the measured isotherms",
                    b->c.step != NULL ? "times" : "frequencies", decades);
@@ -46,7 +47,7 @@ static wt_status finish_isotherm(sweep_builder *b)
     if (b->n == 0)
         return WT_OK;
     if (!(high > low * (1 + SAME_FREQUENCY))) {
-        wt_log_add(b->log, WT_NOTE, b->file->name, format_line_place(b->table->names_line).words,
+        wt_log_add(b->log, WT_NOTE, b->file->name, format_line_position(b->table->names_line).text,
                    "%s%s%zu points at one %s, left out", title, title[0] != '\0' ? ": " : "", b->n,
                    b->c.step != NULL ? "time" : "frequency: not a frequency sweep");
         b->n = 0;
@@ -190,7 +191,7 @@ static void ignore_count_column(const sweep_builder *b)
     const bool counts = numbers && n > 1 && 4 * n > 3 * t->n_rows;
     if (t->sample_cell == SIZE_MAX || !(counts || names->n >= SAMPLES_MAX))
         return;
-    wt_log_add(b->log, WT_WARNING, b->file->name, format_line_place(t->names_line).words,
+    wt_log_add(b->log, WT_WARNING, b->file->name, format_line_position(t->names_line).text,
                "column %zu, which would name the sample, %s: left out", t->sample_cell + 1,
                counts ? "is different in every row" : "has too many names");
     for (size_t row = 0; row < t->n_rows; row++)
@@ -211,7 +212,7 @@ static wt_status split_table(sweep_builder *b)
         if (sweep_is_valid_row(b, row))
             rows[n++] = row;
     if (status == WT_OK && n < t->n_rows)
-        wt_log_add(b->log, WT_NOTE, b->file->name, format_line_place(t->names_line).words,
+        wt_log_add(b->log, WT_NOTE, b->file->name, format_line_position(t->names_line).text,
                    "%zu rows without a positive frequency or without a modulus left out",
                    t->n_rows - n);
     while (status == WT_OK && n > 0) {

@@ -45,7 +45,7 @@ static wt_status warn_duplicate_rows(const text_file *file, text_table *t, wt_lo
     }
     free(rows);
     if (n > 0)
-        wt_log_add(log, WT_WARNING, file->name, format_line_place(line).words,
+        wt_log_add(log, WT_WARNING, file->name, format_line_position(line).text,
                    "%zu rows from here on are there twice with the same numbers: was a part "
                    "of the file copied into it?",
                    n);
@@ -89,7 +89,7 @@ static wt_status warn_loss_factors(const text_file *file, const text_table *t, w
         line = wrong && t->row_lines[i] < line ? t->row_lines[i] : line;
     }
     if (n_wrong > 0)
-        wt_log_add(log, WT_WARNING, file->name, format_line_place(line).words,
+        wt_log_add(log, WT_WARNING, file->name, format_line_position(line).text,
                    "the loss factor of %zu row%s from here on is not the ratio of the moduli "
                    "beside it, as it is in the others: was a number changed?",
                    n_wrong, n_wrong > 1 ? "s" : "");

@@ -20,10 +20,10 @@ wt_status text_list_add(text_file *file, text_list *list, size_t max_items, text
     return WT_OK;
 }
 
-line_place_text format_line_place(size_t line)
+line_position_text format_line_position(size_t line)
 {
-    line_place_text place;
-    snprintf(place.words, sizeof place.words, "line %zu", line);
+    line_position_text place;
+    snprintf(place.text, sizeof place.text, "line %zu", line);
     return place;
 }
 
@@ -228,7 +228,7 @@ static const char *find_unread_test(const text_file *file)
     for (size_t k = 0; k < d->n_unread_tests; k++)
         for (size_t i = 0; feed_line(file->feed, i, &line, NULL) == WT_OK; i++)
             if (pattern_match(&d->unread_tests[k].pattern, line, NULL, 0))
-                return d->unread_tests[k].what;
+                return d->unread_tests[k].label;
     return NULL;
 }
 

@@ -52,7 +52,7 @@ void truncation_track_row(text_scanner *s)
     s->last_is_short = is_short && l->short_rows == 0 && s->table->n_rows > 0;
     l->short_rows += is_short;
     if (is_short)
-        wt_log_add(s->log, WT_NOTE, s->file->name, format_line_place(s->i + 1).words,
+        wt_log_add(s->log, WT_NOTE, s->file->name, format_line_position(s->i + 1).text,
                    "row with fewer cells than columns; the missing ones are empty");
     l->cells_min = s->table->n_rows == 0 ? s->row.n : min_size(l->cells_min, s->row.n);
     l->empty = l->empty || cell.length == 0;
@@ -96,7 +96,7 @@ bool truncation_row_is_complete(const text_scanner *s)
 void truncation_check_table_end(text_scanner *s)
 {
     if (s->unclosed)
-        wt_log_add(s->log, WT_WARNING, s->file->name, format_line_place(s->i).words,
+        wt_log_add(s->log, WT_WARNING, s->file->name, format_line_position(s->i).text,
                    "the line that ends a table is not there: the file was cut off, and rows "
                    "are missing");
     s->unclosed = false;
@@ -104,19 +104,19 @@ void truncation_check_table_end(text_scanner *s)
 
 void truncation_report(text_scanner *s)
 {
-    const line_place_text place = format_line_place(s->i);
+    const line_position_text place = format_line_position(s->i);
     const line_end end = s->i > 0 ? feed_line_end(s->file->feed, s->i - 1) : END_WHOLE;
     if (end == END_HALF) {
-        wt_log_add(s->log, WT_WARNING, s->file->name, place.words,
+        wt_log_add(s->log, WT_WARNING, s->file->name, place.text,
                    "the last line has half a line end: the file was cut off there, and what "
                    "follows is missing");
     } else if (end == END_NONE) {
         if (s->last_row == LAST_ROW_DROPPED)
-            wt_log_add(s->log, WT_WARNING, s->file->name, place.words,
+            wt_log_add(s->log, WT_WARNING, s->file->name, place.text,
                        "the last line has no line end and is no whole row: the file was cut "
                        "off; the row is left out, and rows may be missing behind it");
         else
-            wt_log_add(s->log, WT_WARNING, s->file->name, place.words,
+            wt_log_add(s->log, WT_WARNING, s->file->name, place.text,
                        "the last line has no line end: if the file was cut off there, %s "
                        "missing; if it is whole, a line end put behind it says so",
                        s->last_row == LAST_ROW_KEPT ? "rows, or digits of its last number, are"
@@ -124,7 +124,7 @@ void truncation_report(text_scanner *s)
     } else if (s->last_is_short) {
         s->table->n_rows--;
         s->n_rows -= s->n_rows > 0;
-        wt_log_add(s->log, WT_WARNING, s->file->name, place.words,
+        wt_log_add(s->log, WT_WARNING, s->file->name, place.text,
                    "the last row has fewer cells than all others: the file was cut off; the "
                    "row is left out, and rows may be missing behind it");
     }

@@ -67,8 +67,8 @@ static wt_status read_stored_result(wt_input *input, wt_result **result, wt_erro
 }
 
 /* Converts the tables of measurements to a text stream in memory. */
-static wt_status as_text(const file_reader *self, wt_input *input, wt_log *log, wt_input **text,
-                         wt_error *err)
+static wt_status convert_tables_to_text(const file_reader *self, wt_input *input, wt_log *log,
+                                        wt_input **text, wt_error *err)
 {
     wt_result *result = NULL;
     FILE *stream = NULL;
@@ -133,7 +133,7 @@ const file_reader reader_stored = {
              .verified = true,
              .evidence = "the HDF5 file that this program writes",
              .version = "1"},
-    CURVE_TEXT_READER(as_text),
+    CURVE_TEXT_READER(convert_tables_to_text),
     .detect = detect,
     .read_sweep = text_read_sweep,
     .read_images = text_read_images,

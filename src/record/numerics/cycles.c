@@ -124,10 +124,10 @@ static double choose_span(const double *x, size_t n, double *steps)
     return fmax(steps[i], all / most_spans);
 }
 
-static void find_time_spans(const wt_record *record, double *room, cycle_spans *spans)
+static void find_time_spans(const wt_record *record, double *scratch, cycle_spans *spans)
 {
     const double *const x = progress_channel(record);
-    const double width = record->n > 1 ? choose_span(x, record->n, room) : 1;
+    const double width = record->n > 1 ? choose_span(x, record->n, scratch) : 1;
     for (size_t first = 0, end; first < record->n; first = end) {
         /* the tolerance keeps equal sampling intervals from rounding to either side */
         for (end = first + 1; same_step(record, end) && !(x[end] - x[first] > 0.999 * width);)
@@ -137,7 +137,7 @@ static void find_time_spans(const wt_record *record, double *room, cycle_spans *
 }
 
 static void find_cycles(const wt_record *record, wt_cycle_kind kind, double radius,
-                        const double *friction, double *room, cycle_spans *spans)
+                        const double *friction, double *scratch, cycle_spans *spans)
 {
     spans->n = 0;
     switch (kind) {
@@ -148,7 +148,7 @@ static void find_cycles(const wt_record *record, wt_cycle_kind kind, double radi
         find_laps(record, radius, spans);
         break;
     case WT_CYCLE_TIME:
-        find_time_spans(record, room, spans);
+        find_time_spans(record, scratch, spans);
         break;
     default:
         for (; spans->n < record->n; spans->n++)
@@ -157,14 +157,14 @@ static void find_cycles(const wt_record *record, wt_cycle_kind kind, double radi
 }
 
 static wt_status choose_cycles(const wt_record *record, wt_cycle_kind wanted, double radius,
-                               const double *friction, double *room, cycle_spans *spans,
+                               const double *friction, double *scratch, cycle_spans *spans,
                                wt_cycle_kind *kind, wt_error *err)
 {
     enum { FEWEST = 3 }; /* fewer are not a series */
     for (*kind = WT_CYCLE_STROKE; *kind <= WT_CYCLE_SAMPLE; ++*kind) {
         if (wanted != WT_CYCLE_AUTO && *kind != wanted)
             continue;
-        find_cycles(record, *kind, radius, friction, room, spans);
+        find_cycles(record, *kind, radius, friction, scratch, spans);
         if (spans->n >= FEWEST || *kind == WT_CYCLE_SAMPLE ||
             (*kind == WT_CYCLE_TIME && spans->n > 0))
             return WT_OK;
@@ -344,7 +344,7 @@ static void make_step_friction_positive(wt_cycles *cycles)
 }
 
 static void fill_cycles(const wt_record *record, double radius, double load, const double *friction,
-                        const cycle_spans *spans, double *room, wt_cycles *cycles)
+                        const cycle_spans *spans, double *scratch, wt_cycles *cycles)
 {
     for (size_t k = 0; k < spans->n; k++) {
         wt_cycle *const c = &cycles->cycle[cycles->n];
@@ -354,11 +354,11 @@ static void fill_cycles(const wt_record *record, double radius, double load, con
         if (isnan(c->coefficient))
             continue;
         cycles->has_zero = cycles->has_zero || !isnan(c->zero);
-        room[cycles->n++] = (double)c->n;
+        scratch[cycles->n++] = (double)c->n;
     }
     make_step_friction_positive(cycles);
-    numbers_sort(room, cycles->n);
-    cycles->samples = cycles->n > 0 ? room[cycles->n / 2] : 0;
+    numbers_sort(scratch, cycles->n);
+    cycles->samples = cycles->n > 0 ? scratch[cycles->n / 2] : 0;
 }
 
 wt_status wt_cycles_compute(const wt_record *record, wt_cycle_kind kind, double radius, double load,

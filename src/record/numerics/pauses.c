@@ -43,9 +43,9 @@ static const double there_and_back = 0.1;
 typedef struct pause_search {
     const double *time, *moved; /* [n] */
     size_t n;
-    double *cut;  /* [n] pause before a sample that is removed [s] */
-    bool *rest;   /* [n] */
-    double *room; /* [n] */
+    double *cut;     /* [n] pause before a sample that is removed [s] */
+    bool *rest;      /* [n] */
+    double *scratch; /* [n] */
 } pause_search;
 
 typedef struct motion_level {
@@ -133,11 +133,11 @@ static double mean_stroke_time(const pause_search *s, double low, double high)
 static void trim_rest(const pause_search *s, size_t *first, size_t *next)
 {
     const size_t n = *next - *first;
-    memcpy(s->room, s->moved + *first, n * sizeof *s->room);
-    const double place = numbers_median(s->room, n);
+    memcpy(s->scratch, s->moved + *first, n * sizeof *s->scratch);
+    const double place = numbers_median(s->scratch, n);
     for (size_t i = 0; i < n; i++)
-        s->room[i] = fabs(s->moved[*first + i] - place);
-    const double near = outside * numbers_median(s->room, n);
+        s->scratch[i] = fabs(s->moved[*first + i] - place);
+    const double near = outside * numbers_median(s->scratch, n);
     while (*first + 1 < *next && fabs(s->moved[*first] - place) > near)
         ++*first;
     while (*first + 1 < *next && fabs(s->moved[*next - 1] - place) > near)
@@ -206,7 +206,7 @@ static void integrate_speed(double *speed, const double *time, size_t n, double 
 /* Copies the motion of a channel from sample `first` on. WT_RECORD_CHANNELS stands for the sample
  * number. False if the record lacks the channel. */
 static bool channel_motion(const wt_record *record, wt_record_channel c, size_t first, size_t n,
-                           double *moved, double *room)
+                           double *moved, double *scratch)
 {
     const double *const x =
         c < WT_RECORD_CHANNELS && record->channel[c] != NULL ? record->channel[c] + first : NULL;
@@ -216,14 +216,14 @@ static bool channel_motion(const wt_record *record, wt_record_channel c, size_t 
         return true;
     if (!is_complete_channel(x, n))
         return false;
-    memcpy(room, x, n * sizeof *room);
+    memcpy(scratch, x, n * sizeof *scratch);
     if (c == WT_RECORD_VELOCITY || c == WT_RECORD_ROTATION)
-        integrate_speed(room, record->channel[WT_RECORD_TIME] + first, n, moved);
+        integrate_speed(scratch, record->channel[WT_RECORD_TIME] + first, n, moved);
     else
-        memcpy(moved, room, n * sizeof *moved);
+        memcpy(moved, scratch, n * sizeof *moved);
     for (size_t i = 0; i < n; i++) /* the sign is that of a direction */
-        room[i] = moved[n - 1] < moved[0] ? -moved[i] : moved[i];
-    memcpy(moved, room, n * sizeof *moved);
+        scratch[i] = moved[n - 1] < moved[0] ? -moved[i] : moved[i];
+    memcpy(moved, scratch, n * sizeof *moved);
     return true;
 }
 
@@ -231,7 +231,7 @@ static bool channel_motion(const wt_record *record, wt_record_channel c, size_t 
 
 /* Scratch arrays with one element per sample. */
 typedef struct pause_buffers {
-    double *moved, *room;
+    double *moved, *scratch;
     double *cut, *paused; /* [s] before a sample: pauses of this channel, pauses of all channels */
     bool *rest;
     motion_level *levels;
@@ -245,8 +245,8 @@ static void find_pauses_in_step(const wt_record *record, wt_record_channel c, si
                       n,
                       r->cut + first,
                       r->rest + first,
-                      r->room};
-    if (!channel_motion(record, c, first, n, r->moved, r->room))
+                      r->scratch};
+    if (!channel_motion(record, c, first, n, r->moved, r->scratch))
         return;
     double low = r->moved[0], high = r->moved[0];
     for (size_t i = 0; i < n; i++) {

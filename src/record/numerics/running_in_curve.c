@@ -426,7 +426,7 @@ static void normalise_weights(factor_scan *t, double expected)
         t->weight[i] = exp(t->weight[i] - all);
 }
 
-static void set_ratio(const factor_scan *t, running_in_curve_fit *fit)
+static void set_mean_ratio(const factor_scan *t, running_in_curve_fit *fit)
 {
     double mean = 0, square = 0;
     for (size_t i = 0; i < t->n; i++) {
@@ -500,7 +500,7 @@ static void find_curve_fit(factor_scan *t, double expected, running_in_curve_fit
         evaluate_factors(t, -wide, wide, FINE, false);
         normalise_weights(t, expected);
     }
-    set_ratio(t, fit);
+    set_mean_ratio(t, fit);
     fit->law = t->of[0].best_law;
     fit->level = t->of[0].best_level;
     fit->scatter = t->of[0].best_scatter;

@@ -102,17 +102,17 @@ static void assess_running_in(const likelihoods *l, double variance, wt_running_
     for (size_t k = first; k < end; k++)
         l->before[k] += l->behind[k];
     if (change_log_odds(l, l->before, first, end, variance) < log(least_odds)) {
-        r->why_not = "no running-in stands out of the scatter";
+        r->reason = "no running-in stands out of the scatter";
         return;
     }
     change_interval(l->before, first, end, r);
     if (r->steady_start + 1 < end) {
-        r->seen = true;
+        r->is_detected = true;
         return;
     }
     *r = (wt_running_in){.end = {(double)NAN, (double)NAN, (double)NAN, (double)NAN},
                          .steady_start = l->n - behind,
-                         .why_not = "it does not become steady before the last tenth"};
+                         .reason = "it does not become steady before the last tenth"};
 }
 
 static wt_status find_running_in(const double *y, size_t n, wt_running_in *r, wt_error *err)
@@ -122,7 +122,7 @@ static wt_status find_running_in(const double *y, size_t n, wt_running_in *r, wt
     if (n < FEWEST_BEFORE + 2 * FEWEST_BEHIND)
         return WT_OK;
     if (!(variance > 0)) {
-        r->why_not = "the cycles do not scatter";
+        r->reason = "the cycles do not scatter";
         return WT_OK;
     }
     likelihoods l = {n, arena_numbers(&memory, n + 1), arena_numbers(&memory, n + 1),
@@ -135,7 +135,7 @@ static wt_status find_running_in(const double *y, size_t n, wt_running_in *r, wt
         l.before[k] = l.behind[k] = -(double)INFINITY;
     for (size_t i = 0; i < SCATTER_LAWS; i++)
         add_change_law(&l, y, i);
-    r->why_not = "";
+    r->reason = "";
     assess_running_in(&l, variance, r);
     arena_free(&memory);
     return WT_OK;
@@ -152,19 +152,19 @@ static void convert_parts_to_points(const scatter_batches *parts, wt_running_in 
     r->end.low = rest + length * (r->end.low - 1) + 1;
     r->end.high = rest + length * (r->end.high + 1) - 1;
     r->end.standard_error = (r->end.high - r->end.low) / (2 * NORMAL_95);
-    r->steady_start = r->seen ? (size_t)r->end.high : r->steady_start;
+    r->steady_start = r->is_detected ? (size_t)r->end.high : r->steady_start;
 }
 
 wt_status wt_running_in_find(const double *y, size_t n, wt_running_in *running_in, wt_error *err)
 {
     scatter_batches parts;
-    double *room;
+    double *scratch;
     *running_in = (wt_running_in){.end = {(double)NAN, (double)NAN, (double)NAN, (double)NAN},
-                                  .why_not = "too few cycles"};
-    if (!scatter_batch(y, n, &parts, &room))
+                                  .reason = "too few cycles"};
+    if (!scatter_batch(y, n, &parts, &scratch))
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     const wt_status status = find_running_in(parts.y, parts.n, running_in, err);
     convert_parts_to_points(&parts, running_in);
-    free(room);
+    free(scratch);
     return status;
 }

@@ -104,10 +104,10 @@ wt_status wt_steady_mean(const double *y, size_t n, wt_steady *steady, wt_error 
     if (n < FEWEST || !(steady->deviation > rounding * fabs(m.mean)))
         return WT_OK;
     scatter_batches parts;
-    double *room;
-    if (!scatter_batch(y, n, &parts, &room))
+    double *scratch;
+    if (!scatter_batch(y, n, &parts, &scratch))
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     average_laws(&parts, m, steady);
-    free(room);
+    free(scratch);
     return WT_OK;
 }

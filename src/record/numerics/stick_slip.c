@@ -18,12 +18,12 @@ enum { FEWEST = 10 }; /* slips that determine a mean and its scatter */
 
 /* Standard deviation of white scatter by the median of second differences, few of which are slips.
  * Their variance is 6 times larger. The median of |x| is 0.6745 standard deviations. */
-static double noise_deviation(const double *y, size_t n, double *room)
+static double noise_deviation(const double *y, size_t n, double *scratch)
 {
     for (size_t i = 0; i + 2 < n; i++)
-        room[i] = fabs(y[i] - 2 * y[i + 1] + y[i + 2]);
-    numbers_sort(room, n - 2);
-    return room[(n - 2) / 2] / (0.6745 * sqrt(6));
+        scratch[i] = fabs(y[i] - 2 * y[i + 1] + y[i + 2]);
+    numbers_sort(scratch, n - 2);
+    return scratch[(n - 2) / 2] / (0.6745 * sqrt(6));
 }
 
 typedef struct slip_sums {
@@ -70,10 +70,10 @@ wt_status wt_stick_slip_find(const double *y, size_t n, wt_stick_slip *slips, wt
     *slips = (wt_stick_slip){0, (double)NAN, (double)NAN};
     if (n < 4 * FEWEST) /* a slip and its rise take at least four samples */
         return WT_OK;
-    double *const room = arena_numbers(&memory, n);
+    double *const scratch = arena_numbers(&memory, n);
     wt_status status = memory.failed ? wt_fail(err, WT_E_MEMORY, "out of memory") : WT_OK;
     if (status == WT_OK) {
-        const double scatter = noise_deviation(y, n, room);
+        const double scatter = noise_deviation(y, n, scratch);
         const slip_sums s = find_falls(y, n, outstanding * scatter);
         if (s.n >= FEWEST && s.rise > least_ratio * s.fall)
             *slips = (wt_stick_slip){(size_t)s.n, s.mean, sqrt(s.squares / (s.n - 1) / s.n)};

@@ -143,7 +143,7 @@ typedef struct law_ranges {
     constant_range of[CONSTANTS];
 } law_ranges;
 
-static void extend_range(constant_range *span, double low, double high)
+static void extend_by_span(constant_range *span, double low, double high)
 {
     span->low = fmin(span->low, low);
     span->high = fmax(span->high, high);
@@ -152,7 +152,7 @@ static void extend_range(constant_range *span, double low, double high)
 /* Finds the ranges of the constants of all laws within 1.96 standard errors of the best one. The
  * kink at the roll-off makes chi-squared not parabolic. Intervals from its curvature contained
  * c0 and the roll-off of stitched scans in 89 and 91 % only. */
-static law_ranges find_ranges(affine_fit_work *f, double best, bool rolls_off, double wider)
+static law_ranges find_law_ranges(affine_fit_work *f, double best, bool rolls_off, double wider)
 {
     enum { ROLL_OFFS = 2000 }; /* a tenth of the smallest error of the roll-off */
     const double none = (double)INFINITY, first = f->x[0],
@@ -165,9 +165,9 @@ static law_ranges find_ranges(affine_fit_work *f, double best, bool rolls_off, d
             continue;
         const double c = sqrt(slack * f->c_variance), h = sqrt(slack * f->power_variance) / 2,
                      hurst = -f->power / 2 - 1;
-        extend_range(&spans.of[LN_C0], f->c - c, f->c + c);
-        extend_range(&spans.of[LN_ROLL_OFF], r, r);
-        extend_range(&spans.of[HURST], hurst - h, hurst + h);
+        extend_by_span(&spans.of[LN_C0], f->c - c, f->c + c);
+        extend_by_span(&spans.of[LN_ROLL_OFF], r, r);
+        extend_by_span(&spans.of[HURST], hurst - h, hurst + h);
     }
     (void)chi_squared(f, best);
     return spans;
@@ -183,8 +183,8 @@ static wt_interval range_interval(double value, constant_range span, bool logari
 
 /* Computes the covariance due to the place scatter. The scans of one size share one error in all
  * bins, so several sizes tilt the law and move its roll-off. */
-static bool find_place_covariance(const linear_law *l, const wt_surface_spectrum *s,
-                                  double to[CONSTANTS][CONSTANTS])
+static bool find_position_covariance(const linear_law *l, const wt_surface_spectrum *s,
+                                     double to[CONSTANTS][CONSTANTS])
 {
     const affine_fit_work *const f = l->f;
     if (f->places == NULL) {
@@ -207,7 +207,7 @@ static bool find_place_covariance(const linear_law *l, const wt_surface_spectrum
     return true;
 }
 
-static constant_range add_place_error(constant_range span, double value, double error)
+static constant_range add_position_error(constant_range span, double value, double error)
 {
     return (constant_range){value - hypot(value - span.low, error),
                             value + hypot(span.high - value, error)};
@@ -215,7 +215,7 @@ static constant_range add_place_error(constant_range span, double value, double 
 
 static void fill_self_affine(affine_fit_work *f, double r, double wider, wt_self_affine *to)
 {
-    law_ranges spans = find_ranges(f, r, to->rolls_off, wider);
+    law_ranges spans = find_law_ranges(f, r, to->rolls_off, wider);
     const double hurst = -f->power / 2 - 1;
     for (size_t a = 0; a < CONSTANTS; a++)
         for (size_t b = 0; b < CONSTANTS; b++)
@@ -223,7 +223,7 @@ static void fill_self_affine(affine_fit_work *f, double r, double wider, wt_self
     const double best[CONSTANTS] = {[LN_C0] = f->c, [LN_ROLL_OFF] = r, [HURST] = hurst};
     for (size_t a = 0; a < CONSTANTS; a++)
         spans.of[a] =
-            add_place_error(spans.of[a], best[a], NORMAL_95 * sqrt(to->place_covariance[a][a]));
+            add_position_error(spans.of[a], best[a], NORMAL_95 * sqrt(to->place_covariance[a][a]));
     to->c0 = range_interval(f->c, spans.of[LN_C0], true);
     to->roll_off = range_interval(r, spans.of[LN_ROLL_OFF], true);
     to->hurst = range_interval(hurst, spans.of[HURST], false);
@@ -263,7 +263,7 @@ wt_status wt_self_affine_fit(const wt_surface_spectrum *spectrum, wt_self_affine
         const double wider = variance_factor(law->misfit, left);
         const linear_law linear = linearise_law(&f, at, law->rolls_off);
         law->found = f.power < 0 && find_law_covariance(&linear, wider, law->covariance) &&
-                     find_place_covariance(&linear, spectrum, law->place_covariance);
+                     find_position_covariance(&linear, spectrum, law->place_covariance);
         if (law->found)
             fill_self_affine(&f, at, wider, law);
     }

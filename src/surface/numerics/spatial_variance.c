@@ -47,8 +47,8 @@ static size_t find_scan_sizes(const place_weights *w, size_t *first)
     return n;
 }
 
-wt_status surface_set_place_weights(const double *weights, size_t n_scans, wt_surface_spectrum *to,
-                                    wt_error *err)
+wt_status surface_set_position_weights(const double *weights, size_t n_scans,
+                                       wt_surface_spectrum *to, wt_error *err)
 {
     const place_weights w = {weights, to->n, n_scans};
     size_t *first = malloc((n_scans + 1) * sizeof *first);
@@ -71,17 +71,17 @@ wt_status surface_set_place_weights(const double *weights, size_t n_scans, wt_su
     return WT_OK;
 }
 
-double surface_place_weight(const wt_surface_spectrum *s, size_t bin, size_t size)
+double surface_position_weight(const wt_surface_spectrum *s, size_t bin, size_t size)
 {
     return s->place_part[bin * s->n_sizes + size];
 }
 
-double surface_total_place_weight(const wt_surface_spectrum *s, size_t bin)
+double surface_total_position_weight(const wt_surface_spectrum *s, size_t bin)
 {
     double square = 0;
     if (s->n_sizes == 0)
         return 1 / sqrt((double)s->bins[bin].scans);
     for (size_t size = 0; size < s->n_sizes; size++)
-        square += pow(surface_place_weight(s, bin, size), 2);
+        square += pow(surface_position_weight(s, bin, size), 2);
     return sqrt(square);
 }

@@ -139,7 +139,7 @@ static double noise_share(double freedom)
 
 /* Estimates the place scatter: variance of the offsets of linked scans minus the variance of
  * their mode scatter. */
-static void estimate_place_scatter(stitching_work *j, wt_surface_spectrum *to, double *scratch)
+static void estimate_position_scatter(stitching_work *j, wt_surface_spectrum *to, double *scratch)
 {
     enum { STEPS = 200 };        /* each step reduces the change */
     const double settled = 1e-6; /* in ln C, far below its scatter */
@@ -164,11 +164,11 @@ static void estimate_place_scatter(stitching_work *j, wt_surface_spectrum *to, d
 
 /* Computes the place error of the mean. A bin of one size has only the places of that size. A
  * bin of two sizes has mostly those of the scans with most modes. */
-static void find_place_error(wt_surface_spectrum *to)
+static void find_position_error(wt_surface_spectrum *to)
 {
     double sum = 0;
     for (size_t k = 0; k < to->n; k++) {
-        const double part = surface_total_place_weight(to, k);
+        const double part = surface_total_position_weight(to, k);
         sum += part * part;
     }
     to->place_error = to->place_reach * sqrt(sum / (double)to->n);
@@ -290,14 +290,14 @@ wt_status wt_surface_combine(const wt_surface_spectrum *const *spectra, size_t n
         status = wt_fail(err, WT_E_MEMORY, "no memory for a spectrum");
     if (status == WT_OK) {
         j.weight = j.offset + n;
-        estimate_place_scatter(&j, &made, j.offset + 2 * n);
+        estimate_position_scatter(&j, &made, j.offset + 2 * n);
         for (int index = j.first; index <= j.last; index++)
             if (join_bin(&j, index, &made.bins[made.n]))
                 set_scan_weights(&j, index, weights + made.n++ * n);
-        status = surface_set_place_weights(weights, n, &made, err);
+        status = surface_set_position_weights(weights, n, &made, err);
     }
     if (status == WT_OK) {
-        find_place_error(&made);
+        find_position_error(&made);
         *joined = made;
     } else {
         free(made.bins);
@@ -313,7 +313,7 @@ wt_interval wt_surface_density(const wt_surface_spectrum *spectrum, size_t bin)
     const wt_spectrum_bin *b = &spectrum->bins[bin];
     double freedom = b->freedom;
     if (spectrum->place_error > 0) {
-        const double place = spectrum->place_reach * surface_total_place_weight(spectrum, bin);
+        const double place = spectrum->place_reach * surface_total_position_weight(spectrum, bin);
         freedom = surface_variance_freedom(surface_log_variance(freedom) + place * place);
     }
     return surface_interval(b->density, freedom);

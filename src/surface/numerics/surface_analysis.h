@@ -47,12 +47,12 @@ wt_interval surface_interval(double mean, double freedom);
 
 /* Finds the scan sizes and their weights from the weights of the scans in each bin of `to`,
  * [n_scans] for each bin. */
-wt_status surface_set_place_weights(const double *weights, size_t n_scans, wt_surface_spectrum *to,
-                                    wt_error *err) WT_NODISCARD;
+wt_status surface_set_position_weights(const double *weights, size_t n_scans,
+                                       wt_surface_spectrum *to, wt_error *err) WT_NODISCARD;
 /* Standard error of ln C of a bin due to the places of one size, or of all sizes, divided by
  * place_reach. Without stored weights all scans count equally. */
-double surface_place_weight(const wt_surface_spectrum *s, size_t bin, size_t size);
-double surface_total_place_weight(const wt_surface_spectrum *s, size_t bin);
+double surface_position_weight(const wt_surface_spectrum *s, size_t bin, size_t size);
+double surface_total_position_weight(const wt_surface_spectrum *s, size_t bin);
 
 /* ---- C from C1: psd_1d_to_2d.c --------------------------------------------------------------- */
 

@@ -56,7 +56,7 @@ wt_surface_anisotropy wt_surface_anisotropy_fit(const wt_surface_spectrum *spect
             (order == 2 ? atan2(s.sine, s.cosine) : atan2(s.sine_fourth, s.cosine_fourth)) / turns,
         .amplitude_error = scatter * sqrt(mode_share),
         .direction_error = fmin(uniform_direction_error(turns), scatter / (turns * amplitude)),
-        .chance = exp(-square * s.n * s.n / (2 * s.variance))};
+        .p_value = exp(-square * s.n * s.n / (2 * s.variance))};
 }
 
 wt_interval wt_surface_sector(const wt_surface_spectrum *spectrum, size_t sector, double *modes)
