@@ -57,9 +57,10 @@ int cmd_accuracy(int argc, char **argv)
     static const cmd_usage usage = {
         .name = "accuracy",
         .arguments = "CASE.xml [OPTION]...",
-        .description = "Error against run time of the numbers of a case, as tolerance, replicates and "
-                "isotherms are swept; which error costs each most, what it takes to know it, and "
-                "what would make it smaller.",
+        .description =
+            "Error against run time of the numbers of a case, as tolerance, replicates and "
+            "isotherms are swept; which error costs each most, what it takes to know it, and "
+            "what would make it smaller.",
         .common = "output formats columns provenance"};
     cmd_session s = cmd_session_defaults();
     wt_accuracy_job job = wt_accuracy_job_defaults();
@@ -76,7 +77,7 @@ int cmd_accuracy(int argc, char **argv)
         s.log = wt_log_new();
         run.precision = job;
         const wt_status status = s.log == NULL ? wt_fail(&s.err, WT_E_MEMORY, "out of memory")
-                                             : run_accuracy_case(&s, &run);
+                                               : run_accuracy_case(&s, &run);
         cmd_end(&s, status);
     }
     return cmd_session_free(&s);

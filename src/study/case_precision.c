@@ -400,15 +400,20 @@ static wt_status solve_isotherms(precision_problem *o, double value, wt_error *e
 /* Sets the errors of all inputs but the material to 0. */
 static void fix_inputs(case_variant *s)
 {
-    wt_estimate *const inputs[] = {&s->sliding.pressure,         &s->sliding.temperature,
-                                   &s->sliding.shear_stress,     &s->surface.c0,
-                                   &s->layer.specific_wear_rate, &s->layer.critical_energy,
-                                   &s->layer.observed_thickness, &s->known.thickness,
-                                   &s->known.modulus_ratio,      &s->known.ratio_slope};
+    wt_estimate *const inputs[] = {&s->sliding.pressure,
+                                   &s->sliding.temperature,
+                                   &s->sliding.shear_stress,
+                                   &s->surface.c0,
+                                   &s->layer.specific_wear_rate,
+                                   &s->layer.critical_energy,
+                                   &s->layer.observed_thickness,
+                                   &s->layer_observation.thickness,
+                                   &s->layer_observation.modulus_ratio,
+                                   &s->layer_observation.ratio_slope};
     for (size_t i = 0; i < COUNT_OF(inputs); i++)
         if (inputs[i]->standard_error > 0)
             inputs[i]->standard_error = 0;
-    s->softness.storage_error = s->softness.loss_error = NULL;
+    s->strain_softening.storage_error = s->strain_softening.loss_error = NULL;
 }
 
 /* Too few isotherms may not determine a shift law that reaches the sliding temperature. They are

@@ -26,8 +26,8 @@ static void set_up(void)
     sliding_set_up(velocity, STEPS);
     sliding.shear_stress.standard_error = 0.2e6;
     surface.c0.standard_error = 0.5e-18;
-    known = (wt_layer_observation){.thickness = {1e-6, 1e-7, 0, "m"},
-                                   .modulus_ratio = {0.6, 0.03, 0, "1"}};
+    observation = (wt_layer_observation){.thickness = {1e-6, 1e-7, 0, "m"},
+                                         .modulus_ratio = {0.6, 0.03, 0, "1"}};
     work.replicates = 60;
 }
 
@@ -59,7 +59,7 @@ static void make_record(double shear, double q1, double power, double error, boo
     sliding.shear_stress = (wt_estimate){fmax(shear, 0), 0, 0, "Pa"};
     surface.q1 = q1;
     work.replicates = 0;
-    assert_int_equal(wt_sliding_friction_compute(&sliding, &known, &work, &f, NULL), WT_OK);
+    assert_int_equal(wt_sliding_friction_compute(&sliding, &observation, &work, &f, NULL), WT_OK);
     sliding.shear_stress = kept;
     surface.q1 = used;
     work.replicates = draws;
@@ -91,7 +91,7 @@ static wt_validation_job job_of(bool layered)
 {
     wt_validation_job job = wt_validation_job_defaults();
     job.sliding = &sliding;
-    job.layer_observation = layered ? &known : NULL;
+    job.layer_observation = layered ? &observation : NULL;
     job.record = record;
     return job;
 }
@@ -169,7 +169,7 @@ static void test_endless_layer(void **state)
     (void)state;
     set_up();
     make_record(5e6, surface.q1, 0, 0.003, false);
-    known.thickness = (wt_estimate){(double)INFINITY, 0, 0, "m"};
+    observation.thickness = (wt_estimate){(double)INFINITY, 0, 0, "m"};
     const wt_validation_job job = job_of(true);
     wt_validation_tables t = made(&job);
     check_begins(t.validation, "judged", "friction without");
@@ -185,7 +185,7 @@ static void test_layer_shear(void **state)
     static const wt_layer_shear shear = {2, 1e-6, 2, 1e-5};
     for (int layered = 0; layered < 2; layered++) {
         set_up();
-        known.shear = &shear;
+        observation.shear = &shear;
         make_record(5e6, surface.q1, 0, 0.003, layered != 0);
         const wt_validation_job job = job_of(true);
         wt_validation_tables t = made(&job);
@@ -200,11 +200,11 @@ static void test_layer_shear(void **state)
 
 static void take_slope(double slope, double error)
 {
-    known.ratio_slope = (wt_estimate){slope, error, 0, "1"};
-    known.ratio_frequency = 1e3;
-    known.ratio_lowest = 10;
-    known.ratio_highest = 1e6;
-    known.ratio_temperature = (double)NAN;
+    observation.ratio_slope = (wt_estimate){slope, error, 0, "1"};
+    observation.ratio_frequency = 1e3;
+    observation.ratio_lowest = 10;
+    observation.ratio_highest = 1e6;
+    observation.ratio_temperature = (double)NAN;
 }
 
 /* A layer whose modulus goes with the frequency is that of friction, its slope stands by itself
@@ -483,7 +483,8 @@ static void test_rest(void **state)
     }
 }
 
-/* Steps whose temperature is not known are no steps of another one: each is predicted at its own.
+/* Steps whose temperature is not known are no steps of another one: each is predicted at its
+ * own.
  */
 static void test_temperatures(void **state)
 {

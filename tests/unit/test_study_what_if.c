@@ -14,7 +14,7 @@ static void set_up(void)
 {
     static const double velocity[] = {1e-3, 0.1, 10};
     sliding_set_up(velocity, 3);
-    known =
+    observation =
         (wt_layer_observation){.thickness = {1e-6, 0, 0, "m"}, .modulus_ratio = {0.6, 0, 0, "1"}};
     layer = wt_layer_job_defaults();
     layer.specific_wear_rate.value = 1e-12;
@@ -27,7 +27,8 @@ static wt_table *what_if(bool with_layer, bool with_known)
     wt_table *table = NULL;
     wt_error err = WT_ERROR_INIT;
     if (wt_model_sensitivity_compute(&sliding, with_layer ? &layer : NULL,
-                                     with_known ? &known : NULL, &work, &table, &err) != WT_OK)
+                                     with_known ? &observation : NULL, &work, &table,
+                                     &err) != WT_OK)
         fail_msg("%s %s", err.message, err.found);
     return table;
 }
@@ -63,7 +64,7 @@ static void check_row(const wt_table *table, const char *choice, const char *tri
     const size_t row = find_row(table, choice, tried);
     wt_layer_tables l = {0};
     wt_friction_tables f = {0};
-    wt_layer_observation on_top = known;
+    wt_layer_observation on_top = observation;
     assert_int_equal(wt_layer_thickness_compute(&sliding, &layer, &work, &l, NULL), WT_OK);
     on_top.thickness = l.thickness;
     assert_int_equal(wt_sliding_friction_compute(&sliding, &on_top, &work, &f, NULL), WT_OK);
@@ -101,7 +102,7 @@ static void test_single_runs(void **state)
     layer.profile = WT_PROFILE_INCOMPRESSIBLE;
     layer.local_friction = 1;
     check_row(table, "depth profile", "incompressible, m = 1");
-    known.bulk_shear = true;
+    observation.bulk_shear = true;
     check_row(table, "shear stress of the layer", "that of the bulk");
     assert_int_equal(wt_table_n_rows(table), 12);
     wt_table_free(table);
@@ -146,7 +147,7 @@ static void test_what_is_used_is_not_tried(void **state)
     (void)state;
     set_up();
     sliding.gamma = 0.5;
-    known.bulk_shear = true;
+    observation.bulk_shear = true;
     layer.profile = WT_PROFILE_INCOMPRESSIBLE;
     wt_table *table = what_if(true, true);
     sliding.gamma = 1;
@@ -183,7 +184,7 @@ static void test_what_does_not_apply(void **state)
     wt_table_free(table);
 }
 
-/* The densities of a measured spectrum are known between its ends only. */
+/* The densities of a measured spectrum are observation between its ends only. */
 static void test_limits(void **state)
 {
     (void)state;

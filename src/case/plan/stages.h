@@ -135,8 +135,8 @@ typedef enum flow_optional_input_id {
       0, FLOW_OPTIONAL_NONE, B(VALIDATION_RUNNING_IN) | B(VALIDATION_COURSE),                      \
       flow_step_validation_running_in)                                                             \
     X(ERROR_BUDGET, error_budget, "Which error costs the numbers most: friction",                  \
-      B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(WHAT_IF), 0, FLOW_OPTIONAL_THICKNESS, B(ERROR_BUDGET), \
-      flow_step_budget)                                                                            \
+      B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(WHAT_IF), 0, FLOW_OPTIONAL_THICKNESS,             \
+      B(ERROR_BUDGET), flow_step_budget)                                                           \
     X(WORK_PRECISION, work_precision, "Error against run time: friction",                          \
       B(RUBBER) | B(SURFACE) | B(CONDITIONS), 0, FLOW_OPTIONAL_THICKNESS, B(WORK_PRECISION),       \
       flow_step_precision)
