@@ -184,7 +184,7 @@ static void test_what_does_not_apply(void **state)
     wt_table_free(table);
 }
 
-/* The densities of a measured spectrum are observation between its ends only. */
+/* The densities of a measured spectrum are known between its ends only. */
 static void test_limits(void **state)
 {
     (void)state;
