@@ -203,7 +203,7 @@ int cmd_@C@(int argc, char **argv)
     static const cmd_usage usage = {
         .name = "@ID@",
         .arguments = "[OPTION]... FILE...",
-        .what = "TODO: what it computes, in a few lines. Folders and patterns are allowed.",
+        .description = "TODO: what it computes, in a few lines. Folders and patterns are allowed.",
         .common = "output formats columns files-from provenance cost",
         .n_files = CMD_ONE_OR_MORE};
     wt_file_set set = {.read = wt_read_defaults()};
