@@ -86,6 +86,27 @@ typedef enum wt_status {
 WT_API const char *
 wt_status_text(wt_status status); /* Returns the text of a status, such as "no data". Static. */
 
+/* ---- memory --------------------------------------------------------------------------------- */
+
+/* Called when an allocation of `size` bytes fails. It does not return; the process is aborted if it
+ * does. It must not allocate. */
+typedef void wt_memory_handler(size_t size);
+
+/* Sets the handler and returns the former one. NULL stands for abort(), the initial handler.
+ *
+ * Small allocations, whose size follows from data in memory, call the handler. An allocation whose
+ * size is stated by a file or by an option, before the data themselves are seen, returns
+ * WT_E_MEMORY instead: the statement can be wrong, and the error names the file. */
+WT_API wt_memory_handler *wt_memory_set_handler(wt_memory_handler *handler);
+/* Allocates n zeroed items of `size` bytes. Never NULL. Free with free(). */
+WT_API void *wt_alloc(size_t n, size_t size);
+/* Resizes to n items of `size` bytes; new bytes are not set. Never NULL. */
+WT_API void *wt_realloc(void *old, size_t n, size_t size);
+/* Copies a text. Never NULL. Free with free(). */
+WT_API char *wt_strdup(const char *text);
+/* Copies the first n characters of a text, which has at least n. Never NULL. Free with free(). */
+WT_API char *wt_strndup(const char *text, size_t n);
+
 /* ---- error ---------------------------------------------------------------------------------- */
 
 /* An error: message, location, expected and found values, and a remedy. It lives on the caller's

@@ -1,5 +1,5 @@
-/* Ends the command with a message when memory runs out. The library reports "out of memory"
- * wherever it allocates, but its dependencies do not: UDUNITS, libxml2 and the regular expressions
+/* Ends the command with a message when memory runs out. The library calls the handler of
+ * wt_memory_set_handler, but its dependencies do not: UDUNITS, libxml2 and the regular expressions
  * of the C library crash or treat an element as missing. A program can replace the allocator, a
  * library cannot. No output is lost, as unfinished files have temporary names.
  *
@@ -25,9 +25,20 @@
 enum { LARGE = 1 << 20 };
 static pid_t owner;
 
+static void exit_without_memory(size_t size)
+{
+    static const char words[] =
+        "weartrack: out of memory: nothing is written; close other programs, "
+        "or give it less at a time\n";
+    (void)size;
+    (void)!write(STDERR_FILENO, words, sizeof words - 1);
+    _exit(CMD_FAILED);
+}
+
 void cmd_exit_on_allocation_failure(void)
 {
     owner = getpid();
+    (void)wt_memory_set_handler(exit_without_memory);
 #ifdef __GLIBC__
     /* Fixed thresholds. Otherwise glibc raises them up to 32 MB after a large block is freed, and
      * keeps memory of a map that it could return to the system. */
@@ -40,13 +51,10 @@ void cmd_exit_on_allocation_failure(void)
 
 static void *check_allocation(void *memory, size_t size)
 {
-    static const char words[] =
-        "weartrack: out of memory: nothing is written; close other programs, "
-        "or give it less at a time\n";
     if (memory != NULL || size == 0 || size >= LARGE || owner != getpid())
         return memory;
-    (void)!write(STDERR_FILENO, words, sizeof words - 1);
-    _exit(CMD_FAILED);
+    exit_without_memory(size);
+    return NULL;
 }
 
 /* Returns the next function of that name in the loading order; NULL while the loader searches for

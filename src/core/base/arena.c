@@ -2,20 +2,15 @@
 #include "core/base/arena.h"
 
 #include "core/base/array.h"
+#include "weartrack/core.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 void *arena_alloc(arena *memory, size_t n, size_t size)
 {
-    void **blocks = array_grow(memory->blocks, memory->n, sizeof *blocks);
-    memory->blocks = blocks != NULL ? blocks : memory->blocks;
-    void *block = blocks != NULL ? calloc(n > 0 ? n : 1, size) : NULL;
-    if (block != NULL)
-        memory->blocks[memory->n++] = block;
-    else
-        memory->failed = true;
-    return block;
+    memory->blocks = array_grow(memory->blocks, memory->n, sizeof *memory->blocks);
+    return memory->blocks[memory->n++] = wt_alloc(n, size);
 }
 
 double *arena_numbers(arena *memory, size_t n)
@@ -26,7 +21,7 @@ double *arena_numbers(arena *memory, size_t n)
 char *arena_text(arena *memory, const char *text, size_t length)
 {
     char *copy = arena_alloc(memory, length + 1, 1);
-    if (copy != NULL && length > 0)
+    if (length > 0)
         memcpy(copy, text, length);
     return copy;
 }

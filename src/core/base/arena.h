@@ -12,7 +12,7 @@ typedef struct arena {
     bool failed; /* set by a failed allocation, so that several allocations need one check */
 } arena;
 
-/* Allocates n zeroed items; NULL when out of memory. */
+/* Allocates n zeroed items; never NULL. */
 void *arena_alloc(arena *memory, size_t n, size_t size);
 double *arena_numbers(arena *memory, size_t n);
 /* Copies a text and adds a terminating zero. */

@@ -1,5 +1,6 @@
 /* Growing arrays and statistics of lists of numbers. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/base/array.h"
+#include "weartrack/core.h"
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -12,8 +13,7 @@ void *array_grow(void *array, size_t n, size_t size)
     const bool full = n == 0 || (n >= FIRST && (n & (n - 1)) == 0);
     if (!full)
         return array;
-    const size_t capacity = n == 0 ? FIRST : 2 * n;
-    return capacity > SIZE_MAX / size ? NULL : realloc(array, capacity * size);
+    return wt_realloc(array, n == 0 ? FIRST : 2 * n, size);
 }
 
 int numbers_compare(const void *a, const void *b)

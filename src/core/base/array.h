@@ -7,7 +7,7 @@
 #define COUNT_OF(array) (sizeof(array) / sizeof((array)[0]))
 
 /* Makes space for one more element. The array has n elements, each added with this function.
- * Returns the array or its new position; NULL when out of memory. */
+ * Returns the array or its new position; never NULL. */
 void *array_grow(void *array, size_t n, size_t size);
 
 /* Comparison for qsort: increasing numbers, or structures that begin with a number. */
