@@ -57,7 +57,7 @@ static void check_known(const precision_part *part, double value, double error)
                   "the error of the textbook method is not the known one", error);
 }
 
-static void sweep_setting(const precision_part *part, const precision_method *m, void *problem,
+static void sweep_setting(const precision_part *part, const measured_method *m, void *problem,
                           double reference, table_writer *t)
 {
     const bool is_textbook = strcmp(m->name, "textbook") == 0;
@@ -92,7 +92,7 @@ static void run_part(const precision_part *part, table_writer *t)
     if (part->is_bound)
         check(reference < worst_reference, part, "the error of the reference is too large",
               reference);
-    for (const precision_method *m = part->methods; m->name != NULL; m++)
+    for (const measured_method *m = part->methods; m->name != NULL; m++)
         sweep_setting(part, m, problem, reference, t);
     part->end(problem);
     free(problem);

@@ -20,11 +20,11 @@ typedef wt_status precision_solve(void *problem, double value, wt_error *err);
 /* Capacity of the lists below. */
 enum { PRECISION_METHODS = 3, PRECISION_VALUES = 8, PRECISION_KNOWN = 3 };
 
-typedef struct precision_method {
+typedef struct measured_method {
     const char *name, *setting;
     double values[PRECISION_VALUES]; /* in order of rising work; ends with 0 */
     precision_solve *solve;
-} precision_method;
+} measured_method;
 
 typedef struct precision_part {
     const char *name, *words; /* words: the problem and its reference */
@@ -33,7 +33,7 @@ typedef struct precision_part {
     wt_status (*begin)(void *problem, double *reference_error, wt_error *err);
     precision_errors (*errors_of_solution)(const void *problem); /* error of the last solution */
     void (*end)(void *problem);                                  /* frees the problem */
-    precision_method methods[PRECISION_METHODS + 1];             /* ends with a NULL name */
+    measured_method methods[PRECISION_METHODS + 1];              /* ends with a NULL name */
     bool is_bound; /* the stated error is a bound of the true one, not a standard error */
     /* errors of the textbook method that are known from elsewhere, by the value of its setting */
     struct {
