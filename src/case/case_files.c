@@ -21,8 +21,6 @@ static wt_status read_attributes(wt_case *c, const xmlNode *node, wt_file_set *s
                                  case_files *lever, wt_error *err)
 {
     case_files *stated = arena_alloc(&c->memory, 1, sizeof *stated);
-    if (stated == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
     *stated = *lever;
     wt_status status = case_read_params(c, node, case_group_params(), stated, err);
     if (status == WT_OK)
@@ -64,8 +62,6 @@ wt_status case_read_files(wt_case *c, const xmlNode *parent, const char *name, c
     wt_file_set *common = arena_alloc(&c->memory, 1, sizeof *common);
     const char **patterns = arena_alloc(&c->memory, n, sizeof *patterns);
     files->sets = arena_alloc(&c->memory, n, sizeof *files->sets);
-    if (common == NULL || patterns == NULL || files->sets == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
     *common = (wt_file_set){.folder = c->folder, .read = wt_read_defaults()};
     case_files group = case_files_defaults();
     wt_status status = read_attributes(c, parent, common, &group, err);
@@ -78,8 +74,7 @@ wt_status case_read_files(wt_case *c, const xmlNode *parent, const char *name, c
         case_files lever = group;
         *set = *common;
         status = read_attributes(c, node, set, &lever, err);
-        if (status == WT_OK)
-            status = case_node_text(c, node, &patterns[i], err);
+        patterns[i] = case_node_text(c, node);
         set->patterns = &patterns[i];
         set->n_patterns = 1;
         merge_file_estimate(&files->spring_constant, &files->lever_error, lever.spring_constant,

@@ -2,6 +2,7 @@
  * GPL-3.0-or-later */
 #include "case/case_node.h"
 
+#include "core/base/memory.h"
 #include "core/base/param.h"
 
 #include <string.h>
@@ -49,37 +50,31 @@ wt_status case_add_param_location(const xmlNode *section, wt_status status, wt_e
 }
 
 /* Copies `raw` without surrounding blanks into the memory of the case. Frees `raw`. */
-static wt_status store_text(wt_case *c, xmlChar *raw, const char **text, wt_error *err)
+static const char *store_text(wt_case *c, xmlChar *raw)
 {
     static const char blanks[] = " \t\r\n";
-    char *copy = NULL;
-    if (raw != NULL) {
-        const char *begin = (const char *)raw + strspn((const char *)raw, blanks);
-        size_t length = strlen(begin);
-        while (length > 0 && strchr(blanks, begin[length - 1]) != NULL)
-            length--;
-        copy = arena_text(&c->memory, begin, length);
-    }
+    if (raw == NULL) /* libxml2 had no memory; it does not tell the size */
+        out_of_memory(0);
+    const char *begin = (const char *)raw + strspn((const char *)raw, blanks);
+    size_t length = strlen(begin);
+    while (length > 0 && strchr(blanks, begin[length - 1]) != NULL)
+        length--;
+    const char *const copy = arena_text(&c->memory, begin, length);
     xmlFree(raw);
-    if (copy == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
-    *text = copy;
-    return WT_OK;
+    return copy;
 }
 
-wt_status case_node_text(wt_case *c, const xmlNode *node, const char **text, wt_error *err)
+const char *case_node_text(wt_case *c, const xmlNode *node)
 {
-    return store_text(c, xmlNodeGetContent(node), text, err);
+    return store_text(c, xmlNodeGetContent(node));
 }
 
 static wt_status read_attribute(wt_case *c, const xmlNode *section, const char *param,
                                 const char *name, case_setting *setting, wt_error *err)
 {
-    const char *text = NULL;
-    wt_status status = store_text(c, xmlGetProp(section, (const xmlChar *)name), &text, err);
-    if (status == WT_OK)
-        status =
-            wt_params_set(setting->params, param, setting->structure, text, &setting->given, err);
+    const char *const text = store_text(c, xmlGetProp(section, (const xmlChar *)name));
+    const wt_status status =
+        wt_params_set(setting->params, param, setting->structure, text, &setting->given, err);
     if (status != WT_OK)
         wt_error_place(err, "line %ld, attribute %s of <%s>", xmlGetLineNo(section), name,
                        (const char *)section->name);
@@ -90,15 +85,13 @@ static wt_status read_attribute(wt_case *c, const xmlNode *section, const char *
 static wt_status read_param(wt_case *c, const xmlNode *section, const char *param,
                             case_setting *setting, wt_error *err)
 {
-    const char *name = case_param_name((const char *)section->name, param), *text = NULL;
+    const char *const name = case_param_name((const char *)section->name, param);
     const xmlNode *node = case_child(section, name);
     if (node == NULL && xmlHasProp(section, (const xmlChar *)name) != NULL)
         return read_attribute(c, section, param, name, setting, err);
     for (; node != NULL; node = case_next(node, name)) {
-        wt_status status = store_text(c, xmlNodeGetContent(node), &text, err);
-        if (status == WT_OK)
-            status = wt_params_set(setting->params, param, setting->structure, text,
-                                   &setting->given, err);
+        const wt_status status = wt_params_set(setting->params, param, setting->structure,
+                                               case_node_text(c, node), &setting->given, err);
         if (status != WT_OK)
             return case_add_location(node, status, err);
     }
@@ -109,8 +102,6 @@ wt_status case_read_params(wt_case *c, const xmlNode *section, const wt_params *
                            void *structure, wt_error *err)
 {
     case_setting *setting = arena_alloc(&c->memory, 1, sizeof *setting);
-    if (setting == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
     *setting = (case_setting){params, structure, 0, c->settings};
     c->settings = setting;
     wt_status status = WT_OK;

@@ -18,8 +18,7 @@ wt_status case_add_location(const xmlNode *node, wt_status status, wt_error *err
 wt_status case_add_param_location(const xmlNode *section, wt_status status, wt_error *err);
 
 /* Returns the text of a node. The case owns the text. */
-wt_status case_node_text(wt_case *c, const xmlNode *node, const char **text,
-                         wt_error *err) WT_NODISCARD;
+const char *case_node_text(wt_case *c, const xmlNode *node);
 /* Returns the element name of a parameter: in <sliding>, "sliding-temperature" is "temperature". */
 const char *case_param_name(const char *section, const char *param);
 /* Sets every parameter that the section states as an element or an attribute. The structure must

@@ -143,9 +143,7 @@ void measured_step_conditions(const measured_step *step, wt_sliding *sliding)
 wt_status measured_steps_read(const table_view *record, const wt_sliding *sliding, measured *m,
                               wt_error *err)
 {
-    *m = (measured){.step = calloc(record->n_rows + 1, sizeof *m->step)};
-    if (m->step == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    *m = (measured){.step = wt_alloc(record->n_rows, sizeof *m->step)};
     for (size_t i = 0; i < record->n_rows; i++) {
         measured_step *const s = &m->step[m->n_all++];
         *s = measured_step_read(record, i, sliding);

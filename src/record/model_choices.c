@@ -60,8 +60,8 @@ static wt_status assess_row(const validation *v, const prediction *p, choice_row
     const ratio_inputs of = {p, &v->steps, p->shear, v->layered};
     agreement fit = {.n = 0};
     agreement_data data = model_variant_agreement_data(used);
-    double *const value = malloc((data.n + 1) * sizeof *value);
-    wt_status status = value == NULL ? wt_fail(err, WT_E_MEMORY, "out of memory") : WT_OK;
+    double *const value = wt_alloc(data.n, sizeof *value);
+    wt_status status = WT_OK;
     for (size_t i = 0; status == WT_OK && i < data.n; i++) {
         value[i] = ratio_log_value(&of, 0, i);
         if (!isfinite(value[i]))
@@ -69,10 +69,10 @@ static wt_status assess_row(const validation *v, const prediction *p, choice_row
     }
     data.value = value;
     data.allowed = validation_discrepancy_variance(v);
-    if (status == WT_OK)
-        status = agreement_likelihood(&data, used->fit.scatter, &r->log_likelihood, err);
-    if (status == WT_OK)
+    if (status == WT_OK) {
+        r->log_likelihood = agreement_likelihood(&data, used->fit.scatter);
         status = agreement_fit(&data, 0, &fit, err);
+    }
     if (status == WT_OK) {
         double mean = 0;
         agreement_assess(&fit, validation_margin(v));
@@ -214,17 +214,15 @@ static wt_status write_choices_table(const validation *v, const choice_row *rows
 wt_status model_choices_tabulate(const validation *v, const table_view *what_if,
                                  choice_ranges *ranges, wt_table **table, wt_error *err)
 {
-    case_variant *settings = NULL;
     size_t n = 0;
-    wt_status status = what_if_list_variants(&v->used, &settings, &n, err);
-    if (status == WT_OK && n != what_if->n_rows) { /* the table was computed with a layer, and
-                                                      this comparison is without one */
+    wt_status status = WT_OK;
+    case_variant *const settings = what_if_list_variants(&v->used, &n);
+    if (n != what_if->n_rows) { /* the table was computed with a layer, and this comparison is
+                                   without one */
         free(settings);
         return WT_OK;
     }
-    choice_row *const rows = calloc(n + 1, sizeof *rows);
-    if (status == WT_OK && rows == NULL)
-        status = wt_fail(err, WT_E_MEMORY, "out of memory");
+    choice_row *const rows = wt_alloc(n, sizeof *rows);
     for (size_t i = 0; status == WT_OK && i < n; i++)
         status = compute_row(v, what_if, i, &settings[i], &rows[i], err);
     if (status == WT_OK) {

@@ -55,7 +55,7 @@ static wt_status cutoff_likelihood(const validation *v, double q1, double *value
     data.value = value;
     data.allowed = validation_discrepancy_variance(v);
     if (status == WT_OK)
-        status = agreement_likelihood(&data, used->fit.scatter, likelihood, err);
+        *likelihood = agreement_likelihood(&data, used->fit.scatter);
     prediction_clear(&p);
     return status;
 }
@@ -64,8 +64,8 @@ static wt_status scan_cutoffs(const validation *v, cutoff_scan *s, wt_error *err
 {
     const double used = log10(v->used.surface.q1), low = log10(lowest_cutoff(&v->used)),
                  high = log10(highest_cutoff(&v->used));
-    double *const value = malloc((v->steps.n + 1) * sizeof *value);
-    wt_status status = value == NULL ? wt_fail(err, WT_E_MEMORY, "out of memory") : WT_OK;
+    double *const value = wt_alloc(v->steps.n, sizeof *value);
+    wt_status status = WT_OK;
     s->n = 0;
     for (int i = -EACH_WAY; status == WT_OK && i <= EACH_WAY; i++) {
         const double at = used + tenth * i;

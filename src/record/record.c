@@ -49,31 +49,20 @@ typedef struct running_in_end {
     const char *why_not;
 } running_in_end;
 
-static wt_status find_running_in_end(const wt_record_job *job, const double *y, size_t n,
-                                     running_in_end *end, wt_error *err)
+static running_in_end find_running_in_end(const wt_record_job *job, const double *y, size_t n)
 {
-    wt_running_in found = {.reason = ""};
-    wt_status status = WT_OK;
-    *end = (running_in_end){not_known, 0, "not looked for"};
-    switch (job->running_in) {
-    case WT_RUNNING_IN_LIKELIHOOD:
-        status = wt_running_in_find(y, n, &found, err);
-        *end = (running_in_end){found.end, found.steady_start, found.reason};
-        break;
-    case WT_RUNNING_IN_STEP:
-        end->steady_start = wt_step_detect(y, n);
-        break;
-    case WT_RUNNING_IN_MSER:
-        end->steady_start = wt_mser_5(y, n);
-        break;
-    default:
-        break;
+    if (job->running_in == WT_RUNNING_IN_LIKELIHOOD) {
+        const wt_running_in found = wt_running_in_find(y, n);
+        return (running_in_end){found.end, found.steady_start, found.reason};
     }
+    running_in_end end = {not_known, 0, "not looked for"};
     if (job->running_in == WT_RUNNING_IN_STEP || job->running_in == WT_RUNNING_IN_MSER) {
-        end->cycles.value = (double)end->steady_start;
-        end->why_not = "this rule tells no interval";
+        end.steady_start =
+            job->running_in == WT_RUNNING_IN_STEP ? wt_step_detect(y, n) : wt_mser_5(y, n);
+        end.cycles.value = (double)end.steady_start;
+        end.why_not = "this rule tells no interval";
     }
-    return status;
+    return end;
 }
 
 static double cycle_middle(const wt_cycle *cycle, bool distance)
@@ -187,21 +176,17 @@ static double mean_zero_offset(const wt_cycle *cycles, size_t n)
 static wt_status measure_step(const wt_record_job *job, const wt_cycles *all, const wt_cycle *cycle,
                               size_t n, record_row *r, size_t *steady_start, wt_error *err)
 {
-    running_in_end end = {not_known, 0, ""};
-    double *const y = malloc((n + 1) * sizeof *y);
-    if (y == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    double *const y = wt_alloc(n, sizeof *y);
     for (size_t i = 0; i < n; i++)
         y[i] = cycle[i].coefficient;
-    wt_status status = find_running_in_end(job, y, n, &end, err);
+    const running_in_end end = find_running_in_end(job, y, n);
     const size_t from = end.steady_start < n ? end.steady_start : 0;
     const wt_cycle *const steady = cycle + from, *const last = cycle + n - 1;
-    if (status == WT_OK)
-        status = wt_steady_mean(y + from, n - from, &r->steady, err);
-    r->slips = (wt_stick_slip){0, (double)NAN, (double)NAN};
-    if (status == WT_OK && all->kind != WT_CYCLE_STROKE)
-        status = wt_stick_slip_find(all->friction + steady->first,
-                                    last->first + last->n - steady->first, &r->slips, err);
+    const wt_status status = wt_steady_mean(y + from, n - from, &r->steady, err);
+    r->slips = all->kind == WT_CYCLE_STROKE
+                   ? (wt_stick_slip){0, (double)NAN, (double)NAN}
+                   : wt_stick_slip_find(all->friction + steady->first,
+                                        last->first + last->n - steady->first);
     free(y);
     r->at = conditions_mean(steady, n - from);
     r->drift = scale_interval(r->steady.drift, (double)(n - from) - 1);
@@ -426,11 +411,11 @@ static wt_status measure_file(const wt_record_job *job, const wt_job *work, flow
     wt_estimate radius = job->track_radius;
     if (isnan(radius.value))
         radius = (wt_estimate){record.radius, 0, 0, "m"};
-    if (status == WT_OK)
-        status = record_remove_pauses(&record, &pauses, err);
-    if (status == WT_OK)
+    if (status == WT_OK) {
+        pauses = record_remove_pauses(&record);
         status =
             wt_cycles_compute(&record, job->cycle, radius.value, job->load.value, &cycles, err);
+    }
     if (status == WT_OK && cycles.n == 0)
         status = wt_fail(err, WT_E_EMPTY, "the record holds no whole cycle");
     if (status == WT_OK) {

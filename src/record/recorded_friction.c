@@ -84,29 +84,25 @@ static size_t first_sliding(const table_view *record, size_t row, const wt_slidi
     return row;
 }
 
-wt_status recorded_read(const table_view *record, const table_view *cycles,
-                        const wt_sliding *sliding, recorded_run **runs, size_t *n, wt_error *err)
+recorded_run *recorded_read(const table_view *record, const table_view *cycles,
+                            const wt_sliding *sliding, size_t *n)
 {
+    recorded_run *const runs = wt_alloc(record->n_rows, sizeof *runs);
     *n = 0;
-    *runs = calloc(record->n_rows + 1, sizeof **runs);
-    if (*runs == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
     for (size_t i = 0; i < record->n_rows; i++) {
         if (record_get(record, i, RECORD_STEP) != 1)
             continue;
-        recorded_run *const r = &(*runs)[(*n)++];
+        recorded_run *const r = &runs[(*n)++];
         const size_t row = first_sliding(record, i, sliding);
         *r = (recorded_run){.at = measured_step_read(record, row, sliding),
                             .step = (size_t)record_get(record, row, RECORD_STEP),
-                            .end = calloc(cycles->n_rows + 1, sizeof *r->end),
-                            .friction = calloc(cycles->n_rows + 1, sizeof *r->friction),
+                            .end = wt_alloc(cycles->n_rows, sizeof *r->end),
+                            .friction = wt_alloc(cycles->n_rows, sizeof *r->friction),
                             .running_in = record_get(record, row, RECORD_RUNNING_IN),
                             .note = ""};
-        if (r->end == NULL || r->friction == NULL)
-            return wt_fail(err, WT_E_MEMORY, "out of memory");
         read_cycles(cycles, r);
     }
-    return WT_OK;
+    return runs;
 }
 
 void recorded_free(recorded_run *runs, size_t n)
@@ -142,19 +138,16 @@ size_t recorded_mean_count(const recorded_run *r, double until)
     return n > 0 ? n / mean_length(n) : 0;
 }
 
-wt_status recorded_read_series(const recorded_run *r, double until, running_in_series *s,
-                               wt_error *err)
+running_in_series recorded_read_series(const recorded_run *r, double until)
 {
     const size_t cycles = count_cycles_until(r, until),
                  length = cycles > 0 ? mean_length(cycles) : 1;
-    const wt_status status = running_in_series_alloc(recorded_mean_count(r, until), s, err);
-    if (status != WT_OK)
-        return status;
-    s->begin = r->begin;
-    for (size_t i = 0; i < s->n; i++) {
-        s->end[i] = r->end[(i + 1) * length - 1];
+    running_in_series s = running_in_series_alloc(recorded_mean_count(r, until));
+    s.begin = r->begin;
+    for (size_t i = 0; i < s.n; i++) {
+        s.end[i] = r->end[(i + 1) * length - 1];
         for (size_t k = 0; k < length; k++)
-            s->friction[i] += r->friction[i * length + k] / (double)length;
+            s.friction[i] += r->friction[i * length + k] / (double)length;
     }
-    return WT_OK;
+    return s;
 }

@@ -18,15 +18,13 @@ typedef struct recorded_run {
     const char *note;  /* reason of exclusion, or "" */
 } recorded_run;
 
-/* *runs: [*n], freed by recorded_free, also after a failure. */
-wt_status recorded_read(const table_view *record, const table_view *cycles,
-                        const wt_sliding *sliding, recorded_run **runs, size_t *n,
-                        wt_error *err) WT_NODISCARD;
+/* Returns [*n] runs, freed by recorded_free. */
+recorded_run *recorded_read(const table_view *record, const table_view *cycles,
+                            const wt_sliding *sliding, size_t *n);
 void recorded_free(recorded_run *runs, size_t n);
 
 /* Returns the cycles up to a time, as means over equal numbers of cycles. */
-wt_status recorded_read_series(const recorded_run *r, double until, running_in_series *s,
-                               wt_error *err) WT_NODISCARD;
+running_in_series recorded_read_series(const recorded_run *r, double until);
 /* Returns the number of these means. */
 size_t recorded_mean_count(const recorded_run *r, double until);
 /* True if each mean holds more than one cycle. */

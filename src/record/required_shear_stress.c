@@ -21,13 +21,11 @@ wt_interval required_shear_interval(double value, double error, double df)
 
 /* Weighted mean of the required shear stress of the steps, for the nominal values and for each
  * draw. */
-static wt_status find_required_shear(validation *v, wt_error *err)
+static void find_required_shear(validation *v)
 {
     const model_variant *const t = &v->shear;
     v->needed = required_shear_interval(t->fit.coefficient[0], t->fit.error[0], t->fit.df[0]);
-    v->needed_shear = calloc(1 + v->p.n_draws, sizeof *v->needed_shear);
-    if (v->needed_shear == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    v->needed_shear = wt_alloc(1 + v->p.n_draws, sizeof *v->needed_shear);
     for (size_t k = 0; k <= v->p.n_draws; k++)
         for (size_t i = 0; i < v->steps.n; i++) {
             const double rest = v->steps.step[i].friction -
@@ -36,7 +34,6 @@ static wt_status find_required_shear(validation *v, wt_error *err)
                                  prediction_total(&v->p, k, v->layered, i, 0);
             v->needed_shear[k] += t->fit.weight[i] * rest / slope;
         }
-    return WT_OK;
 }
 
 wt_status required_shear_compute(validation *v, wt_error *err)
@@ -44,7 +41,7 @@ wt_status required_shear_compute(validation *v, wt_error *err)
     wt_status status =
         model_variant_fit_shear(&v->p, &v->steps, v->layered, v->work->seed, &v->shear, err);
     if (status == WT_OK)
-        status = find_required_shear(v, err);
+        find_required_shear(v);
     if (status != WT_OK || !(v->needed.value > 0) || v->ratio[0].fit.terms < 2)
         return status; /* one velocity determines one number, the shear stress */
     const ratio_inputs of = {&v->p, &v->steps, v->needed_shear, v->layered};

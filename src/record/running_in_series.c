@@ -69,14 +69,11 @@ wt_status running_in_curve_tabulate(const run_set *all, const char *verdict, wt_
 {
     table_writer t = table_begin(&validation_course_schema, err);
     for (size_t i = 0; i < all->n && t.status == WT_OK; i++) {
-        running_in_series s;
         if (all->runs[i].value == NULL)
             continue;
-        t.status = recorded_read_series(all->runs[i].rec, all->runs[i].until, &s, err);
-        if (t.status == WT_OK) {
-            table_block(&t);
-            add_measured_curve_rows(&all->runs[i], &s, &t);
-        }
+        running_in_series s = recorded_read_series(all->runs[i].rec, all->runs[i].until);
+        table_block(&t);
+        add_measured_curve_rows(&all->runs[i], &s, &t);
         running_in_series_clear(&s);
     }
     validation_course_set_text(&t, VALIDATION_COURSE_KEY_VERDICT, verdict);

@@ -82,9 +82,9 @@ static wt_status compare_run(running_in_task *task, size_t i, wt_error *err)
     snprintf(run->note, sizeof run->note, "%s", run->rec->note);
     if (run->note[0] != '\0' || isnan(task->job->sliding->shear_stress.value))
         return WT_OK;
-    wt_status status = predict_run(task, i, err);
+    const wt_status status = predict_run(task, i, err);
     if (status == WT_OK && run->growth != NULL)
-        status = run_fit_compute(run, task->job->running_in_margin, err);
+        run_fit_compute(run, task->job->running_in_margin);
     task->n_compared += run->value != NULL;
     return status;
 }
@@ -95,17 +95,13 @@ static wt_status compare_runs(running_in_task *task, wt_error *err)
     wt_status status = table_bind(task->job->record, &record_schema, "", &record, err);
     if (status == WT_OK)
         status = table_bind(task->job->cycles, &record_cycles_schema, "", &cycles, err);
-    if (status == WT_OK)
-        measured_default_remarks(&record, true, task->remarks, sizeof task->remarks);
-    if (status == WT_OK)
-        status = recorded_read(&record, &cycles, task->job->sliding, &task->rec, &task->n, err);
     if (status != WT_OK)
         return status;
-    task->run = calloc(task->n + 1, sizeof *task->run);
-    task->growth = calloc(task->n + 1, sizeof *task->growth);
-    task->has_growth = calloc(task->n + 1, sizeof *task->has_growth);
-    if (task->run == NULL || task->growth == NULL || task->has_growth == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    measured_default_remarks(&record, true, task->remarks, sizeof task->remarks);
+    task->rec = recorded_read(&record, &cycles, task->job->sliding, &task->n);
+    task->run = wt_alloc(task->n, sizeof *task->run);
+    task->growth = wt_alloc(task->n, sizeof *task->growth);
+    task->has_growth = wt_alloc(task->n, sizeof *task->has_growth);
     for (size_t i = 0; status == WT_OK && i < task->n; i++)
         status = compare_run(task, i, err);
     return status;

@@ -34,9 +34,8 @@ typedef struct run_fit {
     char note[256];
 } run_fit;
 
-/* Fits one run. Its note has the reason if there is no fit. The caller clears the run, also after a
- * failure. */
-wt_status run_fit_compute(run_fit *run, double margin, wt_error *err) WT_NODISCARD;
+/* Fits one run. Its note has the reason if there is no fit. The caller clears the run. */
+void run_fit_compute(run_fit *run, double margin);
 void run_fit_clear(run_fit *run);
 /* True if the record determines both limits of the time. */
 bool run_fit_is_closed(const run_fit *run);

@@ -44,7 +44,7 @@ range_text validation_requested_range(double margin);
 /* Returns "explains", "does not" or "cannot say". */
 const char *validation_verdict(agreement_verdict verdict);
 
-wt_status mean_ratio_compute(const model_variant *t, mean_ratio *mean, wt_error *err) WT_NODISCARD;
+mean_ratio mean_ratio_compute(const model_variant *t); /* row: freed by the caller */
 /* Returns the 95 % interval of exp(value). */
 wt_interval validation_factor(double value, double error, double df);
 

@@ -67,24 +67,20 @@ verdict_text model_variant_verdict(const validation *v, const model_variant *t)
     return result;
 }
 
-wt_status mean_ratio_compute(const model_variant *t, mean_ratio *mean, wt_error *err)
+mean_ratio mean_ratio_compute(const model_variant *t)
 {
-    double *const one = calloc(t->n, sizeof *one);
-    *mean = (mean_ratio){.row = calloc(t->n, sizeof *mean->row)};
-    if (one == NULL || mean->row == NULL) {
-        free(one);
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
-    }
+    double *const one = wt_alloc(t->n, sizeof *one);
+    mean_ratio mean = {.row = wt_alloc(t->n, sizeof *mean.row)};
     for (size_t i = 0; i < t->n; i++) {
         agreement_weights(&t->fit, i, one);
         for (size_t k = 0; k < t->n; k++)
-            mean->row[k] += one[k] / (double)t->n;
+            mean.row[k] += one[k] / (double)t->n;
     }
     for (size_t i = 0; i < t->n; i++)
-        mean->value += mean->row[i] * t->value[i];
-    const variance_components parts = model_variant_components(t, mean->row);
-    mean->error = sqrt(parts.all);
-    mean->df = agreement_df(parts.all, parts.scatter, t->fit.scatter_df);
+        mean.value += mean.row[i] * t->value[i];
+    const variance_components parts = model_variant_components(t, mean.row);
+    mean.error = sqrt(parts.all);
+    mean.df = agreement_df(parts.all, parts.scatter, t->fit.scatter_df);
     free(one);
-    return WT_OK;
+    return mean;
 }

@@ -129,8 +129,8 @@ static wt_status worn_depth(const wt_cycles *cycles, wt_estimate *depth, wt_erro
     *depth = (wt_estimate){(double)NAN, (double)NAN, 0, "m"};
     if (cycles->n < 2 * n)
         return WT_OK;
-    double *const y = malloc(n * sizeof *y);
-    wt_status status = y != NULL ? WT_OK : wt_fail(err, WT_E_MEMORY, "out of memory");
+    double *const y = wt_alloc(n, sizeof *y);
+    wt_status status = WT_OK;
     for (size_t e = 0; e < COUNT_OF(end) && status == WT_OK; e++) {
         for (size_t i = 0; i < n; i++)
             y[i] = cycles->cycle[e == 0 ? i : cycles->n - n + i].wear_depth;

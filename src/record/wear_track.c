@@ -10,17 +10,15 @@
 static wt_status find_track(const wt_image *image, wt_track *track, wt_error *err)
 {
     const size_t n = image->n_columns;
-    double *const x = malloc(n * sizeof *x);
-    double *const z = malloc(n * sizeof *z);
-    wt_status status = x != NULL && z != NULL ? WT_OK : wt_fail(err, WT_E_MEMORY, "out of memory");
+    double *const x = wt_alloc(n, sizeof *x);
+    double *const z = wt_alloc(n, sizeof *z);
     size_t k = 0;
-    for (size_t i = 0; status == WT_OK && i < n; i++)
+    for (size_t i = 0; i < n; i++)
         if (!isnan(image->values[i])) {
             x[k] = image->x_min + image->width * (double)i / (double)(n - 1);
             z[k++] = image->values[i];
         }
-    if (status == WT_OK)
-        status = wt_track_find(x, z, k, track, err);
+    const wt_status status = wt_track_find(x, z, k, track, err);
     free(x);
     free(z);
     return status;

@@ -148,8 +148,9 @@ static wt_status time_solution(precision_problem *o, accuracy_solve *solve, doub
 static wt_status time_repeats(precision_problem *o, accuracy_solve *solve, double value,
                               accuracy_timing *t, wt_error *err)
 {
-    double *seconds = malloc(o->repeats * sizeof *seconds), sum = 0;
-    wt_status status = seconds == NULL ? wt_fail(err, WT_E_MEMORY, "out of memory") : WT_OK;
+    double *const seconds = wt_alloc(o->repeats, sizeof *seconds);
+    double sum = 0;
+    wt_status status = WT_OK;
     size_t n = 0;
     while (status == WT_OK && n < o->repeats && sum < MAX_SECONDS) {
         status = time_solution(o, solve, value, &seconds[n], err);
@@ -377,9 +378,7 @@ static wt_status solve_isotherms(precision_problem *o, double value, wt_error *e
     wt_master_options options = own->fit;
     wt_master fit = {0};
     wt_rubber rubber = {0};
-    part.isotherms = malloc(n * sizeof *part.isotherms);
-    if (part.isotherms == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    part.isotherms = wt_alloc(n, sizeof *part.isotherms);
     options.reference_temperature = own->prony.reference_temperature;
     select_isotherms(&own->sweep, n, options.reference_temperature, part.isotherms);
     wt_status status = flow_rubber_fit(&part, &options, own->poisson_ratio, FLOW_STORED_DRAWS,
@@ -578,9 +577,7 @@ wt_status wt_case_precision_compute(const wt_sliding *sliding, const wt_layer_jo
         status = case_variant_create(sliding, layer, observation, work, &given, err);
     if (status != WT_OK)
         return status;
-    precision_problem *o = calloc(1, sizeof *o);
-    if (o == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    precision_problem *o = wt_alloc(1, sizeof *o);
     *o = (precision_problem){.given = &given,
                              .job_settings = &job_settings,
                              .repeats = job->repeats,

@@ -266,11 +266,9 @@ wt_status wt_collection_compute(const wt_collected_result *from, size_t n,
     if (n == 0)
         return wt_fail(err, WT_E_EMPTY, "there is no case");
     wt_status status = param_check(wt_collect_job_params(), job, err);
-    collected_case *cases = calloc(n, sizeof *cases);
-    wt_collected_result *paired = calloc(n, sizeof *paired);
+    collected_case *cases = wt_alloc(n, sizeof *cases);
+    wt_collected_result *paired = wt_alloc(n, sizeof *paired);
     size_t n_cases = 0;
-    if (status == WT_OK && (cases == NULL || paired == NULL))
-        status = wt_fail(err, WT_E_MEMORY, "out of memory");
     if (status == WT_OK)
         status = read_cases(from, n, cases, &n_cases, paired, err);
     if (status == WT_OK)

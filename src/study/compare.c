@@ -64,17 +64,15 @@ wt_status wt_modulus_budget_table(const wt_table *const *indentation, size_t n, 
     if (table == NULL || (n > 0 && indentation == NULL))
         return wt_fail(err, WT_E_ARG, "no indentation tables");
     wt_status status = WT_OK;
-    wt_group_data *groups = calloc(n > 0 ? n : 1, sizeof *groups);
-    const char **names = calloc(n > 0 ? n : 1, sizeof *names);
-    if (groups == NULL || names == NULL)
-        status = wt_fail(err, WT_E_MEMORY, "out of memory");
+    wt_group_data *groups = wt_alloc(n, sizeof *groups);
+    const char **names = wt_alloc(n, sizeof *names);
     for (size_t i = 0; status == WT_OK && i < n; i++) {
         names[i] = group_name(indentation[i]);
         status = wt_group_from_table(indentation[i], false, &groups[i], err);
     }
     if (status == WT_OK)
         status = modulus_budget_create(groups, names, n, table, err);
-    for (size_t i = 0; groups != NULL && i < n; i++)
+    for (size_t i = 0; i < n; i++)
         wt_group_data_clear(&groups[i]);
     free(groups);
     free(names);
@@ -116,9 +114,7 @@ static wt_status find_rate_points(compare_pair *p, wt_error *err)
 {
     wt_status status = WT_OK;
     for (int g = 0; status == WT_OK && g < 2; g++) {
-        p->point[g] = calloc(p->n_bins, sizeof *p->point[g]);
-        if (p->point[g] == NULL)
-            return wt_fail(err, WT_E_MEMORY, "out of memory");
+        p->point[g] = wt_alloc(p->n_bins, sizeof *p->point[g]);
         for (size_t b = 0; status == WT_OK && b < p->n_bins; b++)
             status = rate_point_mean(p, g, b, &p->point[g][b], err);
     }

@@ -68,9 +68,7 @@ static wt_status add_temperature_variance(const wt_rubber *rubber, wt_estimate a
         return WT_OK;
     }
     wt_status status = WT_OK;
-    dma_moduli *end[2] = {calloc(n + 1, sizeof **end), calloc(n + 1, sizeof **end)};
-    if (end[0] == NULL || end[1] == NULL)
-        status = wt_fail(err, WT_E_MEMORY, "out of memory for the moduli of the DMA");
+    dma_moduli *end[2] = {wt_alloc(n, sizeof **end), wt_alloc(n, sizeof **end)};
     for (int i = 0; status == WT_OK && i < 2; i++)
         status =
             add_draw(rubber, ends[i], work, WT_NO_REPLICATE, means, n, end[i], NULL, NULL, err);
@@ -128,9 +126,7 @@ static wt_status add_dwell_rows(table_writer *t, int g, const wt_table *moduli,
     wt_error why = WT_ERROR_INIT;
     double measured[2] = {0, 0};
     wt_status status = dwell_means(moduli, &means, &n, err);
-    dma_moduli *dma = calloc(n + 1, sizeof *dma);
-    if (status == WT_OK && dma == NULL)
-        status = wt_fail(err, WT_E_MEMORY, "out of memory for the moduli of the DMA");
+    dma_moduli *dma = wt_alloc(n, sizeof *dma);
     const bool reaches = flow_rubber_can_shift(rubber, temperature, &why);
     if (!reaches)
         clocale_print(statement, 256, "none at %.2f °C: %s", temperature - WT_ZERO_CELSIUS,

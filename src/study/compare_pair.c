@@ -30,24 +30,18 @@ void compare_pair_clear(compare_pair *p)
 
 /* A bin starts at the lowest rate outside the previous bin. The border therefore never divides a
  * nominal rate. */
-wt_status compare_assign_bins(compare_pair *p, wt_error *err)
+void compare_assign_bins(compare_pair *p)
 {
     size_t total = p->data[0].group.n + p->data[1].group.n, n = 0;
-    double *rates = malloc((total + 1) * sizeof *rates);
-    p->low = malloc((total + 1) * sizeof *p->low);
-    p->high = malloc((total + 1) * sizeof *p->high);
-    p->modulus = malloc((total + 1) * sizeof *p->modulus);
-    p->rate = malloc((total + 1) * sizeof *p->rate);
-    p->spot = malloc((total + 1) * sizeof *p->spot);
-    p->rate_class = malloc((total + 1) * sizeof *p->rate_class);
+    double *rates = wt_alloc(total, sizeof *rates);
+    p->low = wt_alloc(total, sizeof *p->low);
+    p->high = wt_alloc(total, sizeof *p->high);
+    p->modulus = wt_alloc(total, sizeof *p->modulus);
+    p->rate = wt_alloc(total, sizeof *p->rate);
+    p->spot = wt_alloc(total, sizeof *p->spot);
+    p->rate_class = wt_alloc(total, sizeof *p->rate_class);
     for (int g = 0; g < 2; g++)
-        p->bin[g] = malloc((p->data[g].group.n + 1) * sizeof *p->bin[g]);
-    if (rates == NULL || p->low == NULL || p->high == NULL || p->modulus == NULL ||
-        p->rate == NULL || p->spot == NULL || p->rate_class == NULL || p->bin[0] == NULL ||
-        p->bin[1] == NULL) {
-        free(rates);
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
-    }
+        p->bin[g] = wt_alloc(p->data[g].group.n, sizeof *p->bin[g]);
     for (int g = 0; g < 2; g++)
         for (size_t i = 0; i < p->data[g].group.n; i++)
             if (p->data[g].indentation_rate[i] > 0)
@@ -71,7 +65,6 @@ wt_status compare_assign_bins(compare_pair *p, wt_error *err)
     }
     p->by_rate = known[0] && known[1];
     free(rates);
-    return WT_OK;
 }
 
 wt_group compare_select_curves(const compare_pair *p, int g, size_t bin, size_t offset,
@@ -145,5 +138,7 @@ wt_status compare_read_groups(const wt_compare_job *job, compare_pair *p, wt_err
     if (status == WT_OK)
         status = check_copies(p, err);
     p->by_factor = status == WT_OK && compares_factors(job, p);
-    return status == WT_OK ? compare_assign_bins(p, err) : status;
+    if (status == WT_OK)
+        compare_assign_bins(p);
+    return status;
 }

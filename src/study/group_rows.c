@@ -248,28 +248,21 @@ wt_status wt_group_from_table(const wt_table *table, bool spot_per_position, wt_
     wt_status status = table_bind(table, &indentation_schema, "", &t, err);
     if (status != WT_OK)
         return status;
-    size_t allocated = t.n_rows > 0 ? t.n_rows : 1;
-    wt_group_data d = {0};
-    named_spot *names = malloc(allocated * sizeof *names);
-    size_t *row_of = malloc(allocated * sizeof *row_of);
-    d.modulus = malloc(allocated * sizeof *d.modulus);
-    d.spot = malloc(allocated * sizeof *d.spot);
-    d.indentation_rate = malloc(allocated * sizeof *d.indentation_rate);
-    d.equivalent_frequency = malloc(allocated * sizeof *d.equivalent_frequency);
-    d.spectrum_factor = malloc(allocated * sizeof *d.spectrum_factor);
-    d.digest = malloc(allocated * sizeof *d.digest);
-    d.pull = malloc(allocated * sizeof *d.pull);
-    d.lack_of_fit = malloc(allocated * sizeof *d.lack_of_fit);
-    d.fitted_spot = malloc(allocated * sizeof *d.fitted_spot);
-    d.max_force = malloc(allocated * sizeof *d.max_force);
-    d.max_indentation = malloc(allocated * sizeof *d.max_indentation);
-    if (names == NULL || row_of == NULL || d.modulus == NULL || d.spot == NULL ||
-        d.indentation_rate == NULL || d.equivalent_frequency == NULL || d.spectrum_factor == NULL ||
-        d.digest == NULL || d.pull == NULL || d.lack_of_fit == NULL || d.fitted_spot == NULL ||
-        d.max_force == NULL || d.max_indentation == NULL)
-        status = wt_fail(err, WT_E_MEMORY, "out of memory");
-    else
-        status = find_accepted_rows(&t, &d, row_of, err);
+    const size_t n = t.n_rows;
+    named_spot *const names = wt_alloc(n, sizeof *names);
+    size_t *const row_of = wt_alloc(n, sizeof *row_of);
+    wt_group_data d = {.modulus = wt_alloc(n, sizeof *d.modulus),
+                       .spot = wt_alloc(n, sizeof *d.spot),
+                       .indentation_rate = wt_alloc(n, sizeof *d.indentation_rate),
+                       .equivalent_frequency = wt_alloc(n, sizeof *d.equivalent_frequency),
+                       .spectrum_factor = wt_alloc(n, sizeof *d.spectrum_factor),
+                       .digest = wt_alloc(n, sizeof *d.digest),
+                       .pull = wt_alloc(n, sizeof *d.pull),
+                       .lack_of_fit = wt_alloc(n, sizeof *d.lack_of_fit),
+                       .fitted_spot = wt_alloc(n, sizeof *d.fitted_spot),
+                       .max_force = wt_alloc(n, sizeof *d.max_force),
+                       .max_indentation = wt_alloc(n, sizeof *d.max_indentation)};
+    status = find_accepted_rows(&t, &d, row_of, err);
     if (status == WT_OK) {
         find_spot_naming(&t, &d);
         count_rejected(&t, &d);

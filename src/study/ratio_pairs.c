@@ -32,32 +32,25 @@ typedef struct pair_list {
     size_t n;
 } pair_list;
 
-static wt_status add_ratio_pair(pair_list *list, const collected_case *a, const collected_case *b,
-                                wt_error *err)
+static void add_ratio_pair(pair_list *list, const collected_case *a, const collected_case *b)
 {
     const bool sample = strcmp(a->sample, b->sample) == 0;
     const bool condition = a->condition[0] != '\0' && strcmp(a->condition, b->condition) == 0;
     if (sample == condition || isnan(a->ratio.value) || isnan(b->ratio.value))
-        return WT_OK;
-    ratio_pair *grown = array_grow(list->pairs, list->n, sizeof *grown);
-    if (grown == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
-    list->pairs = grown;
-    grown[list->n++] = (ratio_pair){.of = sample ? a->sample : a->condition,
-                                    .a = a,
-                                    .b = b,
-                                    .of_sample = sample,
-                                    .difference = wt_log_ratio_compare(&a->ratio, &b->ratio)};
-    return WT_OK;
+        return;
+    list->pairs = array_grow(list->pairs, list->n, sizeof *list->pairs);
+    list->pairs[list->n++] = (ratio_pair){.of = sample ? a->sample : a->condition,
+                                          .a = a,
+                                          .b = b,
+                                          .of_sample = sample,
+                                          .difference = wt_log_ratio_compare(&a->ratio, &b->ratio)};
 }
 
 /* Assesses all pairs. "yes" requires significance after Holm's correction; "no" requires the whole
  * interval within the margin. */
-static wt_status assess_pairs(pair_list *list, double margin, wt_error *err)
+static void assess_pairs(pair_list *list, double margin)
 {
-    double *p = malloc(2 * list->n * sizeof *p);
-    if (p == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    double *p = wt_alloc(2 * list->n, sizeof *p);
     for (size_t i = 0; i < list->n; i++)
         p[i] = list->pairs[i].difference.p;
     wt_holm_adjust(p, list->n, p + list->n);
@@ -71,7 +64,6 @@ static wt_status assess_pairs(pair_list *list, double margin, wt_error *err)
                         : VERDICT_INCONCLUSIVE;
     }
     free(p);
-    return WT_OK;
 }
 
 static const char *differing_name(const ratio_pair *q, const collected_case *c)
@@ -142,12 +134,12 @@ wt_status collect_pairs(const collected_case *cases, size_t n, double margin, wt
     pair_list list = {0};
     wt_status status = WT_OK;
     for (size_t i = 0; i < n; i++)
-        for (size_t k = i + 1; status == WT_OK && k < n; k++)
-            status = add_ratio_pair(&list, &cases[i], &cases[k], err);
-    if (status == WT_OK && list.n > 0)
-        status = assess_pairs(&list, margin, err);
-    if (status == WT_OK && list.n > 0)
+        for (size_t k = i + 1; k < n; k++)
+            add_ratio_pair(&list, &cases[i], &cases[k]);
+    if (list.n > 0) {
+        assess_pairs(&list, margin);
         status = make_pairs_table(&list, margin, table, err);
+    }
     free(list.pairs);
     return status;
 }

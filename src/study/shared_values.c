@@ -78,11 +78,11 @@ static bool is_duplicate(case_value_list *to, const case_value *value)
 
 /* Adds a value by its logarithm. A value that is not above 0, or whose interval includes 0, is
  * excluded. */
-static wt_status add_case_value(case_value_list *to, case_value value, wt_error *err)
+static void add_case_value(case_value_list *to, case_value value)
 {
     const char *why = NULL;
     if (isnan(value.log.value) || is_duplicate(to, &value))
-        return WT_OK;
+        return;
     if (isinf(value.log.value))
         why = "it is not above zero";
     else if (isinf(value.log.standard_error))
@@ -91,14 +91,10 @@ static wt_status add_case_value(case_value_list *to, case_value value, wt_error 
         why = "no error is stated";
     if (why != NULL) {
         exclude_value(to, &value, why);
-        return WT_OK;
+        return;
     }
-    case_value *grown = array_grow(to->of, to->n, sizeof *grown);
-    if (grown == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
-    to->of = grown;
-    grown[to->n++] = value;
-    return WT_OK;
+    to->of = array_grow(to->of, to->n, sizeof *to->of);
+    to->of[to->n++] = value;
 }
 
 /* Infinite if the value is not positive. */
@@ -117,10 +113,10 @@ static wt_status add_case_wear(const collected_case *c, case_value_list *to, wt_
     const double df = wear_value(&wear, WEAR_KEY_RATE_DF).value,
                  reach = k.standard_error * (isnan(df) ? NORMAL_95 : students_t_quantile(df)),
                  error = reach >= k.value ? (double)INFINITY : k.standard_error / k.value;
-    return add_case_value(
+    add_case_value(
         to,
-        (case_value){.constant = SHARED_WEAR, .of = c, .log = {positive_log(k.value), error, df}},
-        err);
+        (case_value){.constant = SHARED_WEAR, .of = c, .log = {positive_log(k.value), error, df}});
+    return WT_OK;
 }
 
 /* Components of the variance of the shear stress by category of input files. */
@@ -165,7 +161,9 @@ static wt_status add_shear(const collected_case *c, case_value_list *to, wt_erro
                     .log = {positive_log(value), error, (double)NAN},
                     .lacks = missing_errors(c)};
     status = find_shear_components(c, error * error, v.by_files, err);
-    return status == WT_OK ? add_case_value(to, v, err) : status;
+    if (status == WT_OK)
+        add_case_value(to, v);
+    return status;
 }
 
 /* ---- modulus against rate -------------------------------------------------------------------- */
@@ -254,24 +252,21 @@ static void extend_rates(rate_range *ends, double rate, double frequency)
     }
 }
 
-static wt_status add_curve_to_spot(const table_view *curves, size_t row, spot_line **lines,
-                                   size_t *n, rate_range *ends, wt_error *err)
+static void add_curve_to_spot(const table_view *curves, size_t row, spot_line **lines, size_t *n,
+                              rate_range *ends)
 {
     const char *spot = curve_spot(curves, row);
     const double x = log10(indentation_get(curves, row, INDENTATION_RATE)),
                  y = log(indentation_get(curves, row, INDENTATION_MODULUS));
     if (spot == NULL || !isfinite(x) || !isfinite(y) ||
         !wt_curve_verdict_is_usable(indentation_enum(curves, row, INDENTATION_VERDICT)))
-        return WT_OK;
+        return;
     size_t i = 0;
     while (i < *n && strcmp((*lines)[i].spot, spot) != 0)
         i++;
     if (i == *n) {
-        spot_line *grown = array_grow(*lines, *n, sizeof *grown);
-        if (grown == NULL)
-            return wt_fail(err, WT_E_MEMORY, "out of memory");
-        *lines = grown;
-        grown[(*n)++] = (spot_line){.spot = spot};
+        *lines = array_grow(*lines, *n, sizeof **lines);
+        (*lines)[(*n)++] = (spot_line){.spot = spot};
     }
     spot_line *l = &(*lines)[i];
     extend_rates(ends, x, 1 / indentation_get(curves, row, INDENTATION_LOAD_TIME));
@@ -280,7 +275,6 @@ static wt_status add_curve_to_spot(const table_view *curves, size_t row, spot_li
     l->y += y;
     l->xx += x * x;
     l->xy += x * y;
-    return WT_OK;
 }
 
 /* Mean slope over the spots, which are the units. Each slope is fitted by least squares. A spread
@@ -288,10 +282,10 @@ static wt_status add_curve_to_spot(const table_view *curves, size_t row, spot_li
 static wt_log_ratio mean_spot_slope(const spot_line *lines, size_t n)
 {
     const double least = 0.05;
-    double *slope = malloc((n + 1) * sizeof *slope);
+    double *slope = wt_alloc(n, sizeof *slope);
     size_t known = 0;
     wt_log_ratio of = {(double)NAN, (double)NAN, (double)NAN};
-    for (size_t i = 0; slope != NULL && i < n; i++) {
+    for (size_t i = 0; i < n; i++) {
         const spot_line *l = &lines[i];
         const double square = l->xx / l->n - l->x / l->n * (l->x / l->n);
         if (square > least * least)
@@ -314,10 +308,9 @@ static wt_status add_rates(const collected_case *c, const char *group, case_valu
     size_t n = 0;
     double variance = 0;
     wt_status status = bind_case_table(c, &indentation_schema, group, &curves, err);
-    for (size_t row = 0; status == WT_OK && row < curves.n_rows; row++)
-        status = add_curve_to_spot(&curves, row, &lines, &n, &ends, err);
-    if (status == WT_OK)
-        status = find_spectrum_variance(c, &curves, &ends, &variance, err);
+    for (size_t row = 0; row < curves.n_rows; row++)
+        add_curve_to_spot(&curves, row, &lines, &n, &ends);
+    status = find_spectrum_variance(c, &curves, &ends, &variance, err);
     if (status == WT_OK) {
         case_value v = {
             .constant = SHARED_RATE, .of = c, .group = group, .log = mean_spot_slope(lines, n)};
@@ -330,7 +323,7 @@ static wt_status add_rates(const collected_case *c, const char *group, case_valu
             v.log.standard_error = all.error;
             v.log.df = all.df;
         }
-        status = add_case_value(to, v, err);
+        add_case_value(to, v);
     }
     free(lines);
     return status;

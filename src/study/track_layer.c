@@ -54,13 +54,11 @@ static bool is_complete_curve(const wt_curve_residuals *c)
     return whole;
 }
 
-static wt_status read_depth_curves(const table_view *t, double k, depth_group *g, wt_error *err)
+static void read_depth_curves(const table_view *t, double k, depth_group *g)
 {
     const char *last = NULL;
     long spots = 0;
-    g->curve = calloc(t->n_rows > 0 ? t->n_rows : 1, sizeof *g->curve);
-    if (g->curve == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    g->curve = wt_alloc(t->n_rows, sizeof *g->curve);
     for (size_t row = 0; row < t->n_rows; row++) {
         wt_curve_residuals *to = &g->curve[g->n];
         const char *spot = indentation_text(t, row, INDENTATION_SPOT);
@@ -72,7 +70,6 @@ static wt_status read_depth_curves(const table_view *t, double k, depth_group *g
         to->spot = spots;
         g->n++;
     }
-    return WT_OK;
 }
 
 /* Smallest Poisson's ratio. The law of a layer holds for incompressible rubber. At 0.45, a thin
@@ -120,9 +117,8 @@ static wt_status read_depth_group(const wt_table *table, depth_group *g, wt_erro
     g->obstacle = find_obstacle(g, known ? tip : NULL, k);
     if (g->obstacle.reason != NULL)
         return WT_OK;
-    status = read_depth_curves(&t, k, g, err);
-    if (status == WT_OK)
-        status = indent_contact_table(&g->tip, &g->contact, err);
+    read_depth_curves(&t, k, g);
+    status = indent_contact_table(&g->tip, &g->contact, err);
     return status == WT_OK ? wt_modulus_profile_fit(g->contact, g->poisson_ratio, g->curve, g->n,
                                                     &g->depth, err)
                            : status;

@@ -7,8 +7,7 @@
 
 /* Returns the case variants behind the rows of the table "what_if" in the same order; the first is
  * the case as used. A variant with another `vertical` than the first needs a new fit of the
- * isotherms. The caller frees *settings with free(). */
-wt_status what_if_list_variants(const case_variant *used, case_variant **settings, size_t *n,
-                                wt_error *err) WT_NODISCARD;
+ * isotherms. The caller frees them with free(). */
+case_variant *what_if_list_variants(const case_variant *used, size_t *n);
 
 #endif

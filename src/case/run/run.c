@@ -358,9 +358,6 @@ static wt_status prepare_execution(run_execution *d, const wt_run_options *optio
     d->failures = wt_failures_new();
     d->cost = wt_cost_new(!options->no_provenance, options->threads);
     d->drawn = material_cache_new();
-    if (log == NULL || d->result == NULL || d->failures == NULL || d->cost == NULL ||
-        d->drawn == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
     wt_status status = wt_formats_new(options->formats, &d->formats, log, err);
     if (status == WT_OK)
         status = wt_formats_add_columns(d->formats, options->columns, options->n_columns, err);

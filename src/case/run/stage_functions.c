@@ -225,8 +225,6 @@ wt_status flow_step_ramp(flow_run *run, wt_error *err)
         work.log = NULL;
         work.provenance = NULL;
         work.failures = again = wt_failures_new();
-        if (again == NULL)
-            return wt_fail(err, WT_E_MEMORY, "out of memory");
     }
     const wt_status status = wt_ramp_compute(&job, &work, &tables, err);
     wt_table_free(again);

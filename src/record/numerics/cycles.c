@@ -368,21 +368,14 @@ wt_status wt_cycles_compute(const wt_record *record, wt_cycle_kind kind, double 
     if (record == NULL || record->n == 0)
         return wt_fail(err, WT_E_ARG, "cycles of a record without samples");
     wt_cycles made = {.difference = (double)NAN};
-    double *const friction = calloc(record->n, sizeof *friction), *const room = calloc(
-                                                                      record->n, sizeof *room);
-    cycle_spans spans = {calloc(record->n, sizeof *spans.span), 0};
-    wt_status status = friction != NULL && room != NULL && spans.span != NULL
-                           ? WT_OK
-                           : wt_fail(err, WT_E_MEMORY, "out of memory");
-    if (status == WT_OK)
-        status = sample_friction(record, load, friction, &made, err);
+    double *const friction = wt_alloc(record->n, sizeof *friction), *const room = wt_alloc(
+                                                                        record->n, sizeof *room);
+    cycle_spans spans = {wt_alloc(record->n, sizeof *spans.span), 0};
+    wt_status status = sample_friction(record, load, friction, &made, err);
     if (status == WT_OK)
         status = choose_cycles(record, kind, radius, friction, room, &spans, &made.kind, err);
     if (status == WT_OK) {
-        made.cycle = calloc(spans.n + 1, sizeof *made.cycle);
-        status = made.cycle != NULL ? WT_OK : wt_fail(err, WT_E_MEMORY, "out of memory");
-    }
-    if (status == WT_OK) {
+        made.cycle = wt_alloc(spans.n, sizeof *made.cycle);
         fill_cycles(record, radius, load, friction, &spans, room, &made);
         made.friction = friction;
         *cycles = made;

@@ -115,22 +115,18 @@ static void assess_running_in(const likelihoods *l, double variance, wt_running_
                          .reason = "it does not become steady before the last tenth"};
 }
 
-static wt_status find_running_in(const double *y, size_t n, wt_running_in *r, wt_error *err)
+static void find_running_in(const double *y, size_t n, wt_running_in *r)
 {
     arena memory = {0};
     const double variance = total_variance(y, n);
     if (n < FEWEST_BEFORE + 2 * FEWEST_BEHIND)
-        return WT_OK;
+        return;
     if (!(variance > 0)) {
         r->reason = "the cycles do not scatter";
-        return WT_OK;
+        return;
     }
     likelihoods l = {n, arena_numbers(&memory, n + 1), arena_numbers(&memory, n + 1),
                      SCATTER_RESOLUTION * SCATTER_RESOLUTION * variance};
-    if (memory.failed) {
-        arena_free(&memory);
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
-    }
     for (size_t k = 0; k <= n; k++)
         l.before[k] = l.behind[k] = -(double)INFINITY;
     for (size_t i = 0; i < SCATTER_LAWS; i++)
@@ -138,7 +134,6 @@ static wt_status find_running_in(const double *y, size_t n, wt_running_in *r, wt
     r->reason = "";
     assess_running_in(&l, variance, r);
     arena_free(&memory);
-    return WT_OK;
 }
 
 /* Converts batches to points. A change within a batch shows at either of its ends. */
@@ -155,16 +150,14 @@ static void convert_parts_to_points(const scatter_batches *parts, wt_running_in 
     r->steady_start = r->is_detected ? (size_t)r->end.high : r->steady_start;
 }
 
-wt_status wt_running_in_find(const double *y, size_t n, wt_running_in *running_in, wt_error *err)
+wt_running_in wt_running_in_find(const double *y, size_t n)
 {
-    scatter_batches parts;
+    wt_running_in found = {.end = {(double)NAN, (double)NAN, (double)NAN, (double)NAN},
+                           .reason = "too few cycles"};
     double *scratch;
-    *running_in = (wt_running_in){.end = {(double)NAN, (double)NAN, (double)NAN, (double)NAN},
-                                  .reason = "too few cycles"};
-    if (!scatter_batch(y, n, &parts, &scratch))
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
-    const wt_status status = find_running_in(parts.y, parts.n, running_in, err);
-    convert_parts_to_points(&parts, running_in);
+    const scatter_batches parts = scatter_batch(y, n, &scratch);
+    find_running_in(parts.y, parts.n, &found);
+    convert_parts_to_points(&parts, &found);
     free(scratch);
-    return status;
+    return found;
 }

@@ -103,10 +103,8 @@ wt_status wt_steady_mean(const double *y, size_t n, wt_steady *steady, wt_error 
         steady->note = "the cycles do not scatter, which tells no error";
     if (n < FEWEST || !(steady->deviation > rounding * fabs(m.mean)))
         return WT_OK;
-    scatter_batches parts;
     double *scratch;
-    if (!scatter_batch(y, n, &parts, &scratch))
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    const scatter_batches parts = scatter_batch(y, n, &scratch);
     average_laws(&parts, m, steady);
     free(scratch);
     return WT_OK;

@@ -64,20 +64,16 @@ static slip_sums find_falls(const double *y, size_t n, double least)
     return s;
 }
 
-wt_status wt_stick_slip_find(const double *y, size_t n, wt_stick_slip *slips, wt_error *err)
+wt_stick_slip wt_stick_slip_find(const double *y, size_t n)
 {
-    arena memory = {0};
-    *slips = (wt_stick_slip){0, (double)NAN, (double)NAN};
+    const wt_stick_slip none = {0, (double)NAN, (double)NAN};
     if (n < 4 * FEWEST) /* a slip and its rise take at least four samples */
-        return WT_OK;
-    double *const scratch = arena_numbers(&memory, n);
-    wt_status status = memory.failed ? wt_fail(err, WT_E_MEMORY, "out of memory") : WT_OK;
-    if (status == WT_OK) {
-        const double scatter = noise_deviation(y, n, scratch);
-        const slip_sums s = find_falls(y, n, outstanding * scatter);
-        if (s.n >= FEWEST && s.rise > least_ratio * s.fall)
-            *slips = (wt_stick_slip){(size_t)s.n, s.mean, sqrt(s.squares / (s.n - 1) / s.n)};
-    }
-    arena_free(&memory);
-    return status;
+        return none;
+    double *const scratch = wt_alloc(n, sizeof *scratch);
+    const double scatter = noise_deviation(y, n, scratch);
+    free(scratch);
+    const slip_sums s = find_falls(y, n, outstanding * scatter);
+    return s.n >= FEWEST && s.rise > least_ratio * s.fall
+               ? (wt_stick_slip){(size_t)s.n, s.mean, sqrt(s.squares / (s.n - 1) / s.n)}
+               : none;
 }

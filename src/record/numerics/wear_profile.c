@@ -85,22 +85,19 @@ wt_status wt_track_find(const double *x, const double *z, size_t n, wt_track *tr
     double *const bx = arena_numbers(&memory, 2 * quarter),
                   *const bz = arena_numbers(&memory, 2 * quarter),
                   *const r = arena_numbers(&memory, n);
-    wt_status status = memory.failed ? wt_fail(err, WT_E_MEMORY, "out of memory") : WT_OK;
-    if (status == WT_OK) {
-        double c00, c01, c11, squares;
-        for (size_t i = 0; i < quarter; i++) {
-            bx[i] = x[i];
-            bz[i] = z[i];
-            bx[quarter + i] = x[n - quarter + i];
-            bz[quarter + i] = z[n - quarter + i];
-        }
-        gsl_fit_linear(bx, 1, bz, 1, 2 * quarter, &track->intercept, &track->slope, &c00, &c01,
-                       &c11, &squares);
-        track->scatter = sqrt(squares / (double)(2 * quarter - 1));
-        for (size_t i = 0; i < n; i++)
-            r[i] = z[i] - track->intercept - track->slope * x[i];
-        status = measure_track(x, r, n, quarter, track, err);
+    double c00, c01, c11, squares;
+    for (size_t i = 0; i < quarter; i++) {
+        bx[i] = x[i];
+        bz[i] = z[i];
+        bx[quarter + i] = x[n - quarter + i];
+        bz[quarter + i] = z[n - quarter + i];
     }
+    gsl_fit_linear(bx, 1, bz, 1, 2 * quarter, &track->intercept, &track->slope, &c00, &c01, &c11,
+                   &squares);
+    track->scatter = sqrt(squares / (double)(2 * quarter - 1));
+    for (size_t i = 0; i < n; i++)
+        r[i] = z[i] - track->intercept - track->slope * x[i];
+    const wt_status status = measure_track(x, r, n, quarter, track, err);
     arena_free(&memory);
     return status;
 }

@@ -26,10 +26,8 @@ static int compare_by_spot_and_value(const void *a, const void *b)
 static moments spot_mean_moments(const double *values, const long *spots, size_t n, arena *memory)
 {
     size_t n_values = 0, n_spots = 0;
-    spot_value *values_by_spot = arena_alloc(memory, n + 1, sizeof *values_by_spot);
-    double *means = arena_numbers(memory, n + 1);
-    if (memory->failed)
-        return (moments){0};
+    spot_value *values_by_spot = arena_alloc(memory, n, sizeof *values_by_spot);
+    double *means = arena_numbers(memory, n);
     for (size_t i = 0; i < n; i++)
         if (isfinite(values[i]))
             values_by_spot[n_values++] =
@@ -44,34 +42,31 @@ static moments spot_mean_moments(const double *values, const long *spots, size_t
     return sample_moments(means, n_spots);
 }
 
-wt_status wt_compare_means(const double *const values[2], const long *const spots[2],
-                           const size_t n[2], wt_mean_comparison *comparison, wt_error *err)
+wt_mean_comparison wt_compare_means(const double *const values[2], const long *const spots[2],
+                                    const size_t n[2])
 {
     arena memory = {0};
     moments m[2];
     for (int g = 0; g < 2; g++)
         m[g] = spot_mean_moments(values[g], spots[g], n[g], &memory);
-    const bool failed = memory.failed;
     arena_free(&memory);
-    if (failed)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
     const t_error parts[] = {{sqrt(m[0].variance / m[0].n), m[0].n - 1},
                              {sqrt(m[1].variance / m[1].n), m[1].n - 1}};
     const t_error welch = t_error_sum(parts, COUNT_OF(parts));
     const double unknown = (double)NAN;
-    *comparison = (wt_mean_comparison){
+    wt_mean_comparison comparison = {
         {m[0].n > 0 ? m[0].mean : unknown, m[1].n > 0 ? m[1].mean : unknown}, {unknown, unknown}};
     if (!(fmin(m[0].n, m[1].n) > 1))
-        return WT_OK;
+        return comparison;
     const double difference = m[1].mean - m[0].mean;
     if (!(welch.error > 0)) { /* without scatter the means are equal or different */
-        comparison->larger_p[1] = difference > 0 ? 0 : 1;
-        comparison->larger_p[0] = difference < 0 ? 0 : 1;
-        return WT_OK;
+        comparison.larger_p[1] = difference > 0 ? 0 : 1;
+        comparison.larger_p[0] = difference < 0 ? 0 : 1;
+        return comparison;
     }
-    comparison->larger_p[1] = gsl_cdf_tdist_Q(difference / welch.error, welch.df);
-    comparison->larger_p[0] = gsl_cdf_tdist_P(difference / welch.error, welch.df);
-    return WT_OK;
+    comparison.larger_p[1] = gsl_cdf_tdist_Q(difference / welch.error, welch.df);
+    comparison.larger_p[0] = gsl_cdf_tdist_P(difference / welch.error, welch.df);
+    return comparison;
 }
 
 double wt_combined_p_value(double a, double b)

@@ -204,9 +204,7 @@ wt_status shared_value_fit(const wt_log_ratio *of, const double *covariance, siz
     for (size_t i = 0; i < n; i++)
         if (!(of[i].standard_error > 0) || !isfinite(of[i].value) || of[i].df <= 0)
             return wt_fail(err, WT_E_ARG, "a value without an error shares nothing");
-    double *numbers = malloc((3 * n + 3 * n * n) * sizeof *numbers);
-    if (numbers == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    double *const numbers = wt_alloc(3 * n + 3 * n * n, sizeof *numbers);
     double *const squares = numbers + 3 * n;
     shared_work w = {n, numbers, squares, squares + n * n, squares + 2 * n * n, numbers + n};
     fit_shared_value(of, covariance, &w, to, deviation);
