@@ -1,9 +1,9 @@
 /* Friction during the growth of a layer.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "record/layer_growth.h"
 #include "job/random_draws.h"
 #include "layer/feedback.h"
 #include "layer/layer_friction.h"
+#include "record/running_in_validation.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,7 +1,7 @@
 /* Friction predicted at the steps of records.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "record/predicted_friction.h"
 #include "friction/sliding_contact.h"
+#include "record/validation.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,9 +1,9 @@
 /* One-at-a-time sensitivity of friction and layer to the model choices. The list `choices` has the
  * choices, their ranges and reasons.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "study/what_if.h"
 #include "friction/sliding_contact.h"
 #include "job/cost.h"
+#include "study/case_override.h"
 #include "weartrack/study.h"
 
 #include "core/base/array.h"
