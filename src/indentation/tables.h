@@ -218,7 +218,7 @@
     X(CURVES_GROUP, AS(group), "bulk or track", TEXT)                                              \
     X(CURVES_FILE, AS(file), "file of the curve", TEXT)                                            \
     X(CURVES_CURVE, AS(curve), "number of the curve in its file", NUMBER)                          \
-    X(CURVES_SEGMENT, AS(segment), "approach or retract", TEXT)                                    \
+    X(CURVES_SEGMENT, AS(segment), "approach or retract", ENUM(segment_kind))                      \
     X(CURVES_DISPLACEMENT, AS(displacement),                                                       \
       "piezo displacement from the contact point; of a curve without one from its first sample",   \
       SI(LENGTH))                                                                                  \

@@ -49,7 +49,7 @@ static size_t fields_of(const binding *b, const schema_field **fields)
 
 static bool is_words(schema_form form)
 {
-    return form == FORM_TEXT || form == FORM_CHARACTERS;
+    return form == FORM_TEXT || form == FORM_CHARACTERS || form == FORM_ENUM;
 }
 
 /* The columns of what a number of several parts shows, 0 for those that it has not. */
