@@ -1,7 +1,9 @@
 /* Parses a case file: XML, schema, sections. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "case/case_sections.h"
 
+#include "core/base/array.h"
 #include "core/base/memory.h"
+#include "core/base/param.h"
 
 #include <libxml/parser.h>
 #include <libxml/xmlschemas.h>
@@ -139,27 +141,32 @@ static wt_status read_case_document(const wt_case *c, xmlDoc **out, wt_error *er
     return WT_OK;
 }
 
-/* Gives elements the names of today, before the schema sees them. */
+/* Returns the present name of an element; NULL if it has no former name. Only these jobs have
+ * elements with former names. */
+static const char *current_element(const char *name)
+{
+    const wt_params *const tables[] = {wt_indent_job_params(), wt_compare_job_params(),
+                                       wt_master_job_params(), wt_layer_job_params(),
+                                       wt_identify_job_params()};
+    for (size_t t = 0; t < COUNT_OF(tables); t++)
+        for (size_t i = 0; i < wt_params_count(tables[t]); i++) {
+            const wt_param *const param = wt_params_get(tables[t], i);
+            if ((param->flags & PARAM_NO_CASE) == 0 && param->former != NULL &&
+                strcmp(param->former, name) == 0)
+                return param->name;
+        }
+    return NULL;
+}
+
+/* Gives elements the present names of their parameters, before the schema sees them. */
 static void use_current_elements(xmlNode *parent)
 {
-    static const struct {
-        const char *former, *name;
-    } elements[] = {{"acts-back", "feedback"},
-                    {"choices", "overrides"},
-                    {"doubtful-error", "warn-relative-error"},
-                    {"duty", "duty-cycle"},
-                    {"existence", "regime-map"},
-                    {"largest-error", "max-relative-error"},
-                    {"leave-out", "exclude"},
-                    {"least-chance", "misfit-p-threshold"},
-                    {"shear-reach", "shear-decay-length"},
-                    {"spot-scatter", "between-spot-sd"}};
     for (xmlNode *node = parent->children; node != NULL; node = node->next) {
         if (node->type != XML_ELEMENT_NODE)
             continue;
-        for (size_t i = 0; i < sizeof elements / sizeof elements[0]; i++)
-            if (strcmp((const char *)node->name, elements[i].former) == 0)
-                xmlNodeSetName(node, (const xmlChar *)elements[i].name);
+        const char *const name = current_element((const char *)node->name);
+        if (name != NULL)
+            xmlNodeSetName(node, (const xmlChar *)name);
         use_current_elements(node);
     }
 }
