@@ -151,8 +151,7 @@ static const char *current_element(const char *name)
     for (size_t t = 0; t < COUNT_OF(tables); t++)
         for (size_t i = 0; i < wt_params_count(tables[t]); i++) {
             const wt_param *const param = wt_params_get(tables[t], i);
-            if ((param->flags & PARAM_NO_CASE) == 0 && param->former != NULL &&
-                strcmp(param->former, name) == 0)
+            if (param->former != NULL && strcmp(param->former, name) == 0)
                 return param->name;
         }
     return NULL;

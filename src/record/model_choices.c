@@ -16,9 +16,7 @@
 /* Scan in steps of 0.1 decade over two decades on either side, twice the range of the model
  * choices. Friction is a smooth function of ln q1. */
 enum { EACH_WAY = 20, TRIED = 2 * EACH_WAY + 1 };
-
 static const double tenth = 0.1;
-
 /* [m] no surface has waves below the size of a molecule */
 static const double shortest_wave = 1e-9;
 

@@ -92,7 +92,6 @@ wt_stick_slip wt_stick_slip_find(const double *y, size_t n)
 /* Fewest points before the change: two more than the constants of a line. Fewest points after it:
  * they determine a scatter to 25 %, with a share of the series below. */
 enum { FEWEST_BEFORE = 4, FEWEST_BEHIND = 12 };
-
 static const double least_behind = 0.1;
 
 /* Odds over a series without a running-in at which one is reported: at most one false alarm in
