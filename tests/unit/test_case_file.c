@@ -191,7 +191,8 @@ static void test_former_elements(void **state)
         INDENTATION("<least-chance>0.01</least-chance>"),
         INDENTATION("<spot-scatter>10%</spot-scatter>"),
         HEAD "<dma><leave-out>a.txt</leave-out><files>dma/*.txt</files></dma></case>",
-        HEAD "<identify><duty>0.5</duty></identify></case>",
+        HEAD
+        "<identify><observed-thickness>1um</observed-thickness><duty>0.5</duty></identify></case>",
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         wt_case *c = NULL;
