@@ -61,8 +61,7 @@ typedef struct wt_running_in {
     size_t steady_start; /* first point of the steady state, after the interval; 0: all */
     const char *reason;  /* "" or the reason why there is no end; static */
 } wt_running_in;
-WT_API wt_status wt_running_in_find(const double *y, size_t n, wt_running_in *running_in,
-                                    wt_error *err) WT_NODISCARD;
+WT_API wt_running_in wt_running_in_find(const double *y, size_t n);
 /* Other rules for the first point of the steady state: one step of the mean by least squares, at
  * least 2 % from either end; MSER-5 of White, Simulation 69 (1997) 323. */
 WT_API size_t wt_step_detect(const double *y, size_t n);
@@ -87,8 +86,7 @@ typedef struct wt_stick_slip {
     double amplitude;      /* mean height of the falls; NaN if none */
     double standard_error; /* from their scatter */
 } wt_stick_slip;
-WT_API wt_status wt_stick_slip_find(const double *y, size_t n, wt_stick_slip *slips,
-                                    wt_error *err) WT_NODISCARD;
+WT_API wt_stick_slip wt_stick_slip_find(const double *y, size_t n);
 
 /* ---- wear tracks ---------------------------------------------------------------------------- */
 

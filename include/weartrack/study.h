@@ -20,11 +20,10 @@ typedef struct wt_mean_comparison {
     double larger_p[2]; /* one-sided p value (Welch) that this group is larger than the other;
                                 NaN with fewer than two spots in a group */
 } wt_mean_comparison;
-/* values: [n] one per curve; values that are not finite are excluded. spots: [n], NULL: each curve
- * is a unit. */
-WT_API wt_status wt_compare_means(const double *const values[2], const long *const spots[2],
-                                  const size_t n[2], wt_mean_comparison *comparison,
-                                  wt_error *err) WT_NODISCARD;
+/* Compares the means of two groups. values: [n] one per curve; values that are not finite are
+ * excluded. spots: [n], NULL: each curve is a unit. */
+WT_API wt_mean_comparison wt_compare_means(const double *const values[2],
+                                           const long *const spots[2], const size_t n[2]);
 /* Returns the combined p value of two independent tests (Fisher 1932). If one is NaN, it returns
  * the other. */
 WT_API double wt_combined_p_value(double a, double b);

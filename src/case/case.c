@@ -17,9 +17,7 @@ const char *wt_case_schema(void)
 
 wt_case *case_new(void)
 {
-    wt_case *c = calloc(1, sizeof *c);
-    if (c == NULL)
-        return NULL;
+    wt_case *c = wt_alloc(1, sizeof *c);
     c->title = c->sample = c->condition = "";
     c->indent = wt_indent_job_defaults();
     c->compare = wt_compare_job_defaults();
@@ -64,36 +62,36 @@ const wt_report_options *wt_case_report_options(const wt_case *c)
 
 wt_status wt_case_request_tables(wt_case *c, const char *tables, wt_error *err)
 {
-    char names[256], *rest = NULL;
+    char *rest = NULL;
     flow_resource_set requested = 0;
     if (c == NULL || tables == NULL)
         return wt_fail(err, WT_E_ARG, "no case, or no table");
-    snprintf(names, sizeof names, "%s", tables);
-    for (const char *name = strtok_r(names, " ", &rest); name != NULL;
+    wt_status status = WT_OK;
+    char *const names = wt_strdup(tables);
+    for (const char *name = strtok_r(names, " ", &rest); status == WT_OK && name != NULL;
          name = strtok_r(NULL, " ", &rest)) {
         flow_resource_set resources = 0;
         if (!flow_table_resources(name, &resources) || resources == 0)
-            return wt_fail(err, WT_E_NOT_FOUND, "no table of a run is called \"%s\"", name);
+            status = wt_fail(err, WT_E_NOT_FOUND, "no table of a run is called \"%s\"", name);
         requested |= resources;
     }
-    if (requested == 0)
-        return wt_fail(err, WT_E_NOT_FOUND, "no table of a run is called \"%s\"", tables);
+    free(names);
+    if (status == WT_OK && requested == 0)
+        status = wt_fail(err, WT_E_NOT_FOUND, "no table of a run is called \"%s\"", tables);
+    if (status != WT_OK)
+        return status;
     c->is_explicit_request = c->has_requests = true;
     c->requested = requested;
     return WT_OK;
 }
 
-static wt_status replace_records(wt_case *c, const char *const *records, size_t n, wt_error *err)
+static void replace_records(wt_case *c, const char *const *records, size_t n)
 {
     const bool known = c->record.n > 0;
     wt_file_set *const sets = arena_alloc(&c->memory, n, sizeof *sets);
     const char **const patterns = arena_alloc(&c->memory, n, sizeof *patterns);
-    if (sets == NULL || patterns == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
     for (size_t i = 0; i < n; i++) {
         patterns[i] = arena_text(&c->memory, records[i], strlen(records[i]));
-        if (patterns[i] == NULL)
-            return wt_fail(err, WT_E_MEMORY, "out of memory");
         sets[i] =
             (wt_file_set){.patterns = &patterns[i], .n_patterns = 1, .read = wt_read_defaults()};
     }
@@ -103,7 +101,6 @@ static wt_status replace_records(wt_case *c, const char *const *records, size_t 
         c->record.next = c->roles;
         c->roles = &c->record;
     }
-    return WT_OK;
 }
 
 wt_status wt_case_set_validation(wt_case *c, const char *const *records, size_t n,
@@ -112,5 +109,7 @@ wt_status wt_case_set_validation(wt_case *c, const char *const *records, size_t 
     if (c == NULL || job == NULL || (n > 0 && records == NULL))
         return wt_fail(err, WT_E_ARG, "no case, or no validation job");
     param_copy(wt_validation_job_params(), job, given, &c->validation);
-    return n > 0 ? replace_records(c, records, n, err) : WT_OK;
+    if (n > 0)
+        replace_records(c, records, n);
+    return WT_OK;
 }

@@ -1,6 +1,10 @@
 /* Parses a case file: XML, schema, sections. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "case/case_sections.h"
 
+#include "core/base/array.h"
+#include "core/base/memory.h"
+#include "core/base/param.h"
+
 #include <libxml/parser.h>
 #include <libxml/xmlschemas.h>
 #include <stdlib.h>
@@ -104,7 +108,7 @@ static wt_status read_case_document(const wt_case *c, xmlDoc **out, wt_error *er
     const int options = XML_PARSE_NONET | XML_PARSE_NOERROR | XML_PARSE_NOWARNING;
     xmlParserCtxt *context = xmlNewParserCtxt();
     if (context == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
+        out_of_memory(sizeof *context);
     wt_status status = WT_OK;
     xmlDoc *doc = xmlCtxtReadMemory(context, c->xml, (int)c->xml_length, NULL, NULL, options);
     const size_t beginning = c->xml_length < 16 ? c->xml_length : 16; /* byte order mark, blanks */
@@ -137,27 +141,31 @@ static wt_status read_case_document(const wt_case *c, xmlDoc **out, wt_error *er
     return WT_OK;
 }
 
-/* Gives elements the names of today, before the schema sees them. */
+/* Returns the present name of an element; NULL if it has no former name. Only these jobs have
+ * elements with former names. */
+static const char *current_element(const char *name)
+{
+    const wt_params *const tables[] = {wt_indent_job_params(), wt_compare_job_params(),
+                                       wt_master_job_params(), wt_layer_job_params(),
+                                       wt_identify_job_params()};
+    for (size_t t = 0; t < COUNT_OF(tables); t++)
+        for (size_t i = 0; i < wt_params_count(tables[t]); i++) {
+            const wt_param *const param = wt_params_get(tables[t], i);
+            if (param->former != NULL && strcmp(param->former, name) == 0)
+                return param->name;
+        }
+    return NULL;
+}
+
+/* Gives elements the present names of their parameters, before the schema sees them. */
 static void use_current_elements(xmlNode *parent)
 {
-    static const struct {
-        const char *former, *name;
-    } elements[] = {{"acts-back", "feedback"},
-                    {"choices", "overrides"},
-                    {"doubtful-error", "warn-relative-error"},
-                    {"duty", "duty-cycle"},
-                    {"existence", "regime-map"},
-                    {"largest-error", "max-relative-error"},
-                    {"leave-out", "exclude"},
-                    {"least-chance", "misfit-p-threshold"},
-                    {"shear-reach", "shear-decay-length"},
-                    {"spot-scatter", "between-spot-sd"}};
     for (xmlNode *node = parent->children; node != NULL; node = node->next) {
         if (node->type != XML_ELEMENT_NODE)
             continue;
-        for (size_t i = 0; i < sizeof elements / sizeof elements[0]; i++)
-            if (strcmp((const char *)node->name, elements[i].former) == 0)
-                xmlNodeSetName(node, (const xmlChar *)elements[i].name);
+        const char *const name = current_element((const char *)node->name);
+        if (name != NULL)
+            xmlNodeSetName(node, (const xmlChar *)name);
         use_current_elements(node);
     }
 }
@@ -192,7 +200,7 @@ static wt_status parse_case(wt_case *c, wt_error *err)
     for (size_t i = 0; status == WT_OK && i < sizeof labels / sizeof labels[0]; i++) {
         const xmlNode *label = case_child(root, labels[i].name);
         if (label != NULL)
-            status = case_node_text(c, label, labels[i].text, err);
+            *labels[i].text = case_node_text(c, label);
     }
     for (size_t i = 0; status == WT_OK && i < sizeof sections / sizeof sections[0]; i++) {
         const xmlNode *section = case_child(root, sections[i].name);
@@ -215,16 +223,12 @@ wt_status case_from_bytes(const void *bytes, size_t length, const char *path, wt
     }
     wt_case *c = case_new();
     char *folder = wt_path_folder(path);
-    if (c != NULL && folder != NULL) {
-        c->xml_length = length;
-        c->path = arena_text(&c->memory, path, strlen(path));
-        c->folder = arena_text(&c->memory, folder, strlen(folder));
-        c->xml = arena_text(&c->memory, bytes, length);
-    }
-    const wt_status status = c == NULL || c->path == NULL || c->folder == NULL || c->xml == NULL
-                                 ? wt_fail(err, WT_E_MEMORY, "out of memory")
-                                 : parse_case(c, err);
+    c->xml_length = length;
+    c->path = arena_text(&c->memory, path, strlen(path));
+    c->folder = arena_text(&c->memory, folder, strlen(folder));
+    c->xml = arena_text(&c->memory, bytes, length);
     free(folder);
+    const wt_status status = parse_case(c, err);
     if (status == WT_OK) {
         *out = c;
     } else {

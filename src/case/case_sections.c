@@ -36,26 +36,21 @@ static wt_status check_disjoint(const wt_case *c, const xmlNode *section, wt_err
 }
 
 /* The path of the file with manual overrides is relative to the case. */
-static wt_status read_choices_path(wt_case *c, const xmlNode *section, wt_error *err)
+static void read_choices_path(wt_case *c, const xmlNode *section)
 {
     const xmlNode *node = case_child(section, "overrides");
-    const char *name = NULL;
     if (node == NULL)
-        return WT_OK;
-    const wt_status status = case_node_text(c, node, &name, err);
-    if (status != WT_OK)
-        return status;
-    char *path = wt_path_join(c->folder, name);
-    c->indent.choices = path != NULL ? arena_text(&c->memory, path, strlen(path)) : NULL;
+        return;
+    char *path = wt_path_join(c->folder, case_node_text(c, node));
+    c->indent.choices = arena_text(&c->memory, path, strlen(path));
     free(path);
-    return c->indent.choices != NULL ? WT_OK : wt_fail(err, WT_E_MEMORY, "out of memory");
 }
 
 wt_status case_read_indentation(wt_case *c, const xmlNode *section, wt_error *err)
 {
     wt_status status = case_read_params(c, section, wt_indent_job_params(), &c->indent, err);
     if (status == WT_OK)
-        status = read_choices_path(c, section, err);
+        read_choices_path(c, section);
     if (status == WT_OK)
         status = case_read_params(c, section, wt_compare_job_params(), &c->compare, err);
     if (status == WT_OK)
@@ -125,8 +120,6 @@ static wt_status read_terms(wt_case *c, const xmlNode *node, wt_error *err)
     term *terms = arena_alloc(&c->memory, n, sizeof *terms);
     p->relaxation_time = arena_alloc(&c->memory, n, sizeof *p->relaxation_time);
     p->modulus = arena_alloc(&c->memory, n, sizeof *p->modulus);
-    if (terms == NULL || p->relaxation_time == NULL || p->modulus == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
     for (const xmlNode *t = case_child(node, "term"); status == WT_OK && t != NULL;
          t = case_next(t, "term")) {
         status = case_read_params(c, t, case_term_params(), &terms[p->n], err);
@@ -262,8 +255,6 @@ static wt_status read_layer_material(wt_case *c, const xmlNode *node, wt_error *
 {
     static const char *const instead[] = {"modulus-ratio", "ratio-slope", "ratio-by-rate"};
     wt_case *own = c->layer_material = case_new();
-    if (own == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
     for (size_t i = 0; i < COUNT_OF(instead); i++)
         if (case_child(node->parent, instead[i]) != NULL) {
             wt_fail(err, WT_E_ARG, "the layer has a material of its own and a modulus ratio");
@@ -381,15 +372,12 @@ wt_status case_read_report(wt_case *c, const xmlNode *section, wt_error *err)
         status = case_add_location(section, WT_E_NOT_FOUND, err);
     for (const xmlNode *node = section->children; status == WT_OK && node != NULL;
          node = node->next) {
-        const char *name = NULL;
         flow_resource_set resources = 0;
         if (node->type != XML_ELEMENT_NODE)
             continue;
-        status = case_node_text(c, node, &name, err);
-        if (status != WT_OK)
-            break;
         const bool figure = strcmp((const char *)node->name, "figure") == 0;
-        name = table_current_name(name); /* a figure of a table has its name */
+        /* a figure of a table has its name */
+        const char *const name = table_current_name(case_node_text(c, node));
         const bool known = figure ? flow_figure_resources(name, &resources)
                                   : flow_table_resources(name, &resources);
         if (!known)

@@ -16,12 +16,7 @@ wt_status case_read_record(wt_case *c, const xmlNode *section, wt_error *err) WT
 wt_status case_read_compare(wt_case *c, const xmlNode *section, wt_error *err) WT_NODISCARD;
 wt_status case_read_report(wt_case *c, const xmlNode *section, wt_error *err) WT_NODISCARD;
 
-/* Reads the <NAME> elements of a parent as file sets. The attributes of the parent are defaults. */
-wt_status case_read_files(wt_case *c, const xmlNode *parent, const char *name, case_files *files,
-                          wt_error *err) WT_NODISCARD;
-
 /* Tables of the parameters that only a case has. */
-const wt_params *case_group_params(void);
 const wt_params *case_prony_params(void);
 const wt_params *case_term_params(void);
 const wt_params *case_wlf_params(void);

@@ -214,7 +214,8 @@ static wt_status report_and_continue(new_case *c, wt_status status)
     return WT_OK;
 }
 
-/* True for the folder of a report, which has no measurements. */
+/* True for the folder of a report, which has no measurements. Its page names the version of
+ * weartrack unless it was written without provenance. */
 static bool is_report_folder(const char *folder)
 {
     char head[1024] = "", *const page = wt_path_join(folder, "index.html");
@@ -224,7 +225,7 @@ static bool is_report_folder(const char *folder)
         fclose(file);
     }
     free(page);
-    return strstr(head, "name=\"generator\" content=\"weartrack ") != NULL;
+    return strstr(head, "name=\"generator\" content=\"weartrack") != NULL;
 }
 
 /* Adds the files of a folder and its subfolders. Links to folders are not followed, as they may

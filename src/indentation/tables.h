@@ -27,8 +27,8 @@
     X(INDENTATION_Y, AS(y), "lateral position y", SI(POSITION_Y), OPTIONAL)                        \
     X(INDENTATION_VERDICT, AS(verdict), "accepted, doubtful, or why there is no modulus",          \
       ENUM(curve_verdict))                                                                         \
-    X(INDENTATION_REASON, IN(fit, reason), "the verdict with its numbers", ENUM(curve_verdict),    \
-      LABEL("Reason"), OPTIONAL)                                                                   \
+    X(INDENTATION_REASON, IN(fit, reason), "the verdict with its numbers", TEXT, LABEL("Reason"),  \
+      OPTIONAL)                                                                                    \
     X(INDENTATION_MODULUS, IN(fit, modulus), "Young's modulus", SI(MODULUS),                       \
       STANDARD_ERROR(INDENTATION_MODULUS))                                                         \
     X(INDENTATION_MODULUS_STANDARD_ERROR, "modulus_standard_error",                                \

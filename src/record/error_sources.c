@@ -134,19 +134,17 @@ static void list_sources(const validation *v, bool split, const variance_compone
 
 /* Computes how far the record shifts each drawn number, whose prior is 0 +- 1. The value is noise
  * plus slope times the true offset of the number. This is the inverse problem. */
-static wt_status find_source_pulls(const validation *v, const model_variant *t, source_list *list,
-                                   wt_error *err)
+static void find_source_pulls(const validation *v, const model_variant *t, source_list *list)
 {
     agreement_data data = model_variant_agreement_data(t);
     data.allowed = validation_discrepancy_variance(v);
-    double *const weight = malloc((t->n + 1) * sizeof *weight);
-    wt_status status = weight == NULL ? wt_fail(err, WT_E_MEMORY, "out of memory") : WT_OK;
-    for (size_t u = 0; status == WT_OK && u < t->n_lines; u++) {
+    double *const weight = wt_alloc(t->n, sizeof *weight);
+    for (size_t u = 0; u < t->n_lines; u++) {
         const double *const slope = t->slope + u * t->n;
         const size_t k = find_drawn(v->p.line[u]);
         double pull = 0, told = 0;
-        status = agreement_solve(&data, t->fit.scatter, slope, weight, err);
-        for (size_t i = 0; status == WT_OK && i < t->n; i++) {
+        agreement_solve(&data, t->fit.scatter, slope, weight);
+        for (size_t i = 0; i < t->n; i++) {
             pull += weight[i] * t->value[i];
             told += weight[i] * slope[i];
         }
@@ -157,7 +155,6 @@ static wt_status find_source_pulls(const validation *v, const model_variant *t, 
         s->left = sqrt(fmax(1 - told, 0));
     }
     free(weight);
-    return status;
 }
 
 /* ---- advice ---------------------------------------------------------------------------------- */
@@ -230,11 +227,9 @@ wt_status error_sources_tabulate(const validation *v, source_advice *advice, wt_
                                  wt_error *err)
 {
     const model_variant *const t = v->has_shear ? &v->ratio[v->layered] : &v->shear;
-    double *const row = malloc((t->n + 1) * sizeof *row);
+    double *const row = wt_alloc(t->n, sizeof *row);
     source_list list;
     *advice = (source_advice){.narrows = ""};
-    if (row == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
     agreement_weights(&t->fit, t->fit.deciding_step, row);
     const variance_components parts = model_variant_components(t, row);
     agreement_weights(&v->shear.fit, 0, row);
@@ -243,9 +238,8 @@ wt_status error_sources_tabulate(const validation *v, source_advice *advice, wt_
     const bool split = t->split || v->p.n_draws == 0; /* without draws there is nothing to
                                                          attribute */
     list_sources(v, split, &parts, &needed, &list);
-    const wt_status status = v->has_shear && split ? find_source_pulls(v, t, &list, err) : WT_OK;
-    if (status != WT_OK)
-        return status;
+    if (v->has_shear && split)
+        find_source_pulls(v, t, &list);
     qsort(list.of, list.n, sizeof *list.of, compare_variances);
     write_advice(v, t, &list, advice);
     return write_sources_table(&list, advice, table, err);

@@ -1,9 +1,9 @@
 /* Friction during the growth of a layer.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "record/layer_growth.h"
 #include "job/random_draws.h"
 #include "layer/feedback.h"
 #include "layer/layer_friction.h"
+#include "record/running_in_validation.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -137,9 +137,8 @@ static wt_status compute_draw(const growth_inputs *g, layer_context *scene, doub
                               wt_error *err)
 {
     const wt_layer_job *const job = scene->job;
-    growth_draw d = {.scene = scene, .points = calloc(g->n, sizeof *d.points)};
-    wt_status status =
-        d.points == NULL ? wt_fail(err, WT_E_MEMORY, "out of memory") : grow_layer(g, &d, err);
+    growth_draw d = {.scene = scene, .points = wt_alloc(g->n, sizeof *d.points)};
+    wt_status status = grow_layer(g, &d, err);
     if (status == WT_OK)
         status = find_layer_friction(g, &d, err);
     for (size_t i = 0; status == WT_OK && i < g->n; i++)
@@ -227,15 +226,11 @@ static wt_status draw_growth(const growth_inputs *g, growth *out, wt_error *err)
     if (g->job.has_feedback)
         r.n = 0;
     out->n_draws = r.n;
-    out->value = calloc((1 + r.n) * out->stride, sizeof *out->value);
-    out->running_in_curve = calloc((1 + r.n) * out->n, sizeof *out->running_in_curve);
-    wt_status status = out->value == NULL || out->running_in_curve == NULL
-                           ? wt_fail(err, WT_E_MEMORY, "out of memory")
-                           : WT_OK;
+    out->value = wt_alloc((1 + r.n) * out->stride, sizeof *out->value);
+    out->running_in_curve = wt_alloc((1 + r.n) * out->n, sizeof *out->running_in_curve);
     wt_layer_job job;
     layer_context nominal;
-    if (status == WT_OK)
-        status = draw_context(g, WT_NO_REPLICATE, NULL, &job, &nominal, err);
+    wt_status status = draw_context(g, WT_NO_REPLICATE, NULL, &job, &nominal, err);
     if (status == WT_OK)
         status = compute_draw(g, &nominal, out->value, err);
     if (status == WT_OK && r.n > 0)
@@ -292,10 +287,8 @@ wt_status growth_compute(const wt_sliding *sliding, const wt_layer_job *layer,
     g.sliding.velocity = &g.velocity;
     g.sliding.n_velocity = 1;
     g.sliding.reference_velocity = g.velocity;
-    g.time = malloc(g.n * sizeof *g.time);
-    wt_status status = g.time == NULL ? wt_fail(err, WT_E_MEMORY, "out of memory") : WT_OK;
-    if (status == WT_OK)
-        status = choose_times(&g, out, err);
+    g.time = wt_alloc(g.n, sizeof *g.time);
+    wt_status status = choose_times(&g, out, err);
     if (status == WT_OK)
         status = draw_growth(&g, out, err);
     if (status == WT_OK)

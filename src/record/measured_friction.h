@@ -4,6 +4,7 @@
 #define WT_RECORD_MEASURED_FRICTION_H
 
 #include "core/table/registry.h"
+#include "record/numerics/running_in_curve.h"
 #include "weartrack/friction.h"
 
 /* The conditions are those of the record. The case replaces conditions that the record does not
@@ -23,8 +24,6 @@ typedef struct measured {
     char remarks[640]; /* assumptions about conditions */
 } measured;
 
-/* Reads a row of the record. Missing conditions come from the case. */
-measured_step measured_step_read(const table_view *record, size_t row, const wt_sliding *sliding);
 /* Sets pressure and temperature of the step, with the relative errors of the case. */
 void measured_step_conditions(const measured_step *step, wt_sliding *sliding);
 
@@ -39,5 +38,29 @@ void measured_steps_add_remark(measured *m, const char *words);
 void measured_steps_clear(measured *m);
 /* Returns the number of steps from `first` on with the same temperature and pressure. */
 size_t measured_group_length(const measured *m, size_t first);
+/* ---- cycles of running-in -------------------------------------------------------------------- */
+
+/* First sliding step of a record, on a surface without a layer. Later steps begin with one. */
+typedef struct recorded_run {
+    measured_step at;
+    size_t n, step;    /* cycles; number of the step in its file, from 1 on */
+    double begin;      /* start of the first cycle with a friction, from the start of sliding on
+                          [s] */
+    double *end;       /* [n] ends of the cycles, from the start of the step on [s] */
+    double *friction;  /* [n] */
+    double running_in; /* cycles of running-in, by the scatter alone; NaN if unknown */
+    const char *note;  /* reason of exclusion, or "" */
+} recorded_run;
+
+/* Returns [*n] runs, freed by recorded_free. */
+recorded_run *recorded_read(const table_view *record, const table_view *cycles,
+                            const wt_sliding *sliding, size_t *n);
+void recorded_free(recorded_run *runs, size_t n);
+/* Returns the cycles up to a time, as means over equal numbers of cycles. */
+running_in_series recorded_read_series(const recorded_run *r, double until);
+/* Returns the number of these means. */
+size_t recorded_mean_count(const recorded_run *r, double until);
+/* True if each mean holds more than one cycle. */
+bool recorded_is_averaged(const recorded_run *r, double until);
 
 #endif

@@ -1,12 +1,93 @@
-/* Comparison of one prediction with the record.
+/* Comparison of one prediction with the record, and its verdict.
+ *
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "record/model_variant.h"
-
+#include "core/base/clocale.h"
 #include "core/math/cholesky.h"
+#include "core/math/normal_quantile.h"
+#include "record/validation.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+
+/* ---- verdict --------------------------------------------------------------------------------- */
+
+double validation_margin(const validation *v)
+{
+    return log1p(v->job->margin);
+}
+
+double validation_discrepancy_variance(const validation *v)
+{
+    const double off = validation_margin(v) / NORMAL_95;
+    return off * off;
+}
+
+const char *validation_verdict(agreement_verdict verdict)
+{
+    static const char *const words[] = {[AGREEMENT_INCONCLUSIVE] = "cannot say",
+                                        [AGREEMENT_YES] = "explains",
+                                        [AGREEMENT_NO] = "does not"};
+    return words[verdict];
+}
+
+wt_interval validation_factor(double value, double error, double df)
+{
+    const double half = agreement_quantile(df) * error, factor = exp(value);
+    return (wt_interval){factor, factor * error, exp(value - half), exp(value + half)};
+}
+
+range_text validation_requested_range(double margin)
+{
+    return format_range(1 / (1 + margin), 1 + margin, 3);
+}
+
+verdict_text model_variant_verdict(const validation *v, const model_variant *t)
+{
+    verdict_text result;
+    double ends[2];
+    const agreement *const fit = &t->fit;
+    const size_t at = fit->deciding_step;
+    agreement_interval(fit, at, fit->verdict == AGREEMENT_NO, ends);
+    char all[48] = "";
+    if (t->n > 1)
+        snprintf(all, sizeof all, " at all %zu steps", t->n);
+    if (fit->verdict == AGREEMENT_YES)
+        clocale_print(result.text, sizeof result.text,
+                      "explains: measured over predicted is within %.3g %%%s: at %.3g m/s%s %.3g "
+                      "(95 %%: %s)",
+                      100 * v->job->margin, all, v->steps.step[at].velocity,
+                      t->n > 1 ? ", where it is farthest," : "", exp(fit->fitted_value[at]),
+                      format_range(exp(ends[0]), exp(ends[1]), 3).text);
+    else
+        clocale_print(result.text, sizeof result.text,
+                      "%s: at %.3g m/s measured over predicted is %.3g (95 %%%s: %s), and %s is "
+                      "asked for",
+                      validation_verdict(fit->verdict), v->steps.step[at].velocity,
+                      exp(fit->fitted_value[at]),
+                      fit->verdict == AGREEMENT_NO ? " at all steps at once" : "",
+                      format_range(exp(ends[0]), exp(ends[1]), 3).text,
+                      validation_requested_range(v->job->margin).text);
+    return result;
+}
+
+mean_ratio mean_ratio_compute(const model_variant *t)
+{
+    double *const one = wt_alloc(t->n, sizeof *one);
+    mean_ratio mean = {.row = wt_alloc(t->n, sizeof *mean.row)};
+    for (size_t i = 0; i < t->n; i++) {
+        agreement_weights(&t->fit, i, one);
+        for (size_t k = 0; k < t->n; k++)
+            mean.row[k] += one[k] / (double)t->n;
+    }
+    for (size_t i = 0; i < t->n; i++)
+        mean.value += mean.row[i] * t->value[i];
+    const variance_components parts = model_variant_components(t, mean.row);
+    mean.error = sqrt(parts.all);
+    mean.df = agreement_df(parts.all, parts.scatter, t->fit.scatter_df);
+    free(one);
+    return mean;
+}
 
 /* Draws per slope. The scatter of the slopes is then small, as for the standard errors of
  * replicates. */
@@ -116,33 +197,16 @@ static wt_status find_draw_covariance(const prediction *p, model_variant_value *
                                       wt_error *err)
 {
     draw_regression s = {.p = p, .t = t, .columns = p->n_lines + 1};
-    s.z = malloc((p->n_draws + 1) * s.columns * sizeof *s.z);
-    s.value = malloc((p->n_draws + 1) * t->n * sizeof *s.value);
-    wt_status status =
-        s.z == NULL || s.value == NULL ? wt_fail(err, WT_E_MEMORY, "out of memory") : WT_OK;
-    if (status == WT_OK) {
-        collect_draws(&s, of, user, seed);
-        status = find_variant_covariance(&s, err);
-    }
+    s.z = wt_alloc((p->n_draws + 1) * s.columns, sizeof *s.z);
+    s.value = wt_alloc((p->n_draws + 1) * t->n, sizeof *s.value);
+    collect_draws(&s, of, user, seed);
+    const wt_status status = find_variant_covariance(&s, err);
     free(s.z);
     free(s.value);
     return status;
 }
 
 /* ---- model variant --------------------------------------------------------------------------- */
-
-static wt_status alloc_variant(model_variant *t, wt_error *err)
-{
-    double **const vectors[] = {&t->log_velocity, &t->value, &t->measurement_variance},
-                   **const squares[] = {&t->prediction_covariance, &t->rest};
-    bool good = true;
-    for (size_t i = 0; i < sizeof vectors / sizeof *vectors; i++)
-        good = (*vectors[i] = calloc(t->n, sizeof(double))) != NULL && good;
-    for (size_t i = 0; i < sizeof squares / sizeof *squares; i++)
-        good = (*squares[i] = calloc(t->n * t->n, sizeof(double))) != NULL && good;
-    t->slope = calloc(t->n * (t->n_lines + 1), sizeof *t->slope);
-    return good && t->slope != NULL ? WT_OK : wt_fail(err, WT_E_MEMORY, "out of memory");
-}
 
 agreement_data model_variant_agreement_data(const model_variant *t)
 {
@@ -154,8 +218,16 @@ wt_status model_variant_fit(const prediction *p, const measured *steps, model_va
                             const void *user, const double *measurement_variance, uint64_t seed,
                             size_t most_terms, model_variant *t, wt_error *err)
 {
-    *t = (model_variant){.n = steps->n, .n_lines = p->n_lines};
-    wt_status status = alloc_variant(t, err);
+    const size_t n = steps->n;
+    wt_status status = WT_OK;
+    *t = (model_variant){.n = n,
+                         .n_lines = p->n_lines,
+                         .log_velocity = wt_alloc(n, sizeof(double)),
+                         .value = wt_alloc(n, sizeof(double)),
+                         .measurement_variance = wt_alloc(n, sizeof(double)),
+                         .prediction_covariance = wt_alloc(n * n, sizeof(double)),
+                         .rest = wt_alloc(n * n, sizeof(double)),
+                         .slope = wt_alloc(n * (p->n_lines + 1), sizeof(double))};
     for (size_t i = 0; status == WT_OK && i < t->n; i++) {
         t->log_velocity[i] = log10(steps->step[i].velocity);
         t->value[i] = of(user, 0, i);
@@ -194,10 +266,8 @@ double ratio_log_value(const void *user, size_t k, size_t step)
 wt_status model_variant_fit_ratio(const ratio_inputs *of, uint64_t seed, model_variant *t,
                                   wt_error *err)
 {
-    double *const measurement_variance = malloc((of->steps->n + 1) * sizeof *measurement_variance);
+    double *const measurement_variance = wt_alloc(of->steps->n, sizeof *measurement_variance);
     *t = (model_variant){.n = 0};
-    if (measurement_variance == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
     for (size_t i = 0; i < of->steps->n; i++) {
         const measured_step *const s = &of->steps->step[i];
         measurement_variance[i] = (s->error / s->friction) * (s->error / s->friction);
@@ -224,10 +294,8 @@ wt_status model_variant_fit_shear(const prediction *p, const measured *steps, bo
                                   uint64_t seed, model_variant *t, wt_error *err)
 {
     const ratio_inputs of = {p, steps, NULL, layered};
-    double *const measurement_variance = malloc((steps->n + 1) * sizeof *measurement_variance);
+    double *const measurement_variance = wt_alloc(steps->n, sizeof *measurement_variance);
     *t = (model_variant){.n = 0};
-    if (measurement_variance == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
     for (size_t i = 0; i < steps->n; i++) {
         const double error = steps->step[i].error / friction_per_shear(&of, 0, i);
         measurement_variance[i] = error * error;

@@ -1,7 +1,7 @@
 /* Friction predicted at the steps of records.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "record/predicted_friction.h"
 #include "friction/sliding_contact.h"
+#include "record/validation.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -51,9 +51,7 @@ static wt_status compute_group(const prediction_group *g, wt_material_cache *dra
                                size_t replicate, double *out, wt_error *err)
 {
     const wt_layer_state none = {.modulus_ratio = 1};
-    wt_friction_point *const points = malloc((g->n + 1) * sizeof *points);
-    if (points == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    wt_friction_point *const points = wt_alloc(g->n, sizeof *points);
     wt_status status =
         compute_contact(g, drawn, replicate, none, points, part_values(out, g->n, PART_HYSTERESIS),
                         part_values(out, g->n, PART_BY_SHEAR), err);
@@ -112,10 +110,9 @@ static wt_status predict_group(const prediction_group *g, const wt_sliding *slid
                                const wt_job *work, bool draws, size_t first, prediction *p,
                                wt_error *err)
 {
-    double *const own = malloc(PARTS * g->n * sizeof *own);
+    double *const own = wt_alloc(PARTS * g->n, sizeof *own);
     replicates r = begin_friction_replicates(g, sliding, work);
-    wt_status status = own == NULL ? wt_fail(err, WT_E_MEMORY, "out of memory")
-                                   : compute_group(g, NULL, WT_NO_REPLICATE, own, err);
+    wt_status status = compute_group(g, NULL, WT_NO_REPLICATE, own, err);
     if (status == WT_OK)
         store_group(own, g->n, first, p, 0);
     if (status == WT_OK && draws && r.n > 0) {
@@ -152,9 +149,7 @@ static wt_status predict_groups(const wt_sliding *sliding, const wt_layer_observ
                                 const measured *steps, const wt_job *work, bool draws,
                                 prediction *p, wt_error *err)
 {
-    double *const velocity = malloc(steps->n * sizeof *velocity);
-    if (velocity == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    double *const velocity = wt_alloc(steps->n, sizeof *velocity);
     for (size_t i = 0; i < steps->n; i++)
         velocity[i] = steps->step[i].velocity;
     wt_status status = WT_OK;
@@ -184,10 +179,8 @@ wt_status predict_friction(const wt_sliding *sliding, const wt_layer_observation
     const prediction_group any =
         step_group(sliding, observation, &steps->step[0], &steps->step[0].velocity, 1, &own);
     p->n_draws = draws ? begin_friction_replicates(&any, sliding, &own).n : 0;
-    p->part = calloc((1 + p->n_draws) * PARTS * p->n, sizeof *p->part);
-    p->shear = calloc(1 + p->n_draws, sizeof *p->shear);
-    if (p->part == NULL || p->shear == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    p->part = wt_alloc((1 + p->n_draws) * PARTS * p->n, sizeof *p->part);
+    p->shear = wt_alloc(1 + p->n_draws, sizeof *p->shear);
     for (size_t k = 0; k <= p->n_draws; k++)
         p->shear[k] = flow_draw_positive(sliding->shear_stress, work->seed,
                                          k == 0 ? WT_NO_REPLICATE : k - 1, FLOW_DRAW_SHEAR_STRESS);

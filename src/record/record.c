@@ -2,18 +2,61 @@
  * compared with.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "record/record.h"
-
-#include "job/cost.h"
-#include "record/numerics/pauses.h"
-
 #include "core/base/array.h"
 #include "core/base/clocale.h"
 #include "core/table/table_rows.h"
+#include "job/cost.h"
+#include "record/numerics/pauses.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+
+/* True if a file is a result of weartrack: a text stream or HDF5. */
+static bool is_stored_record(wt_input *input)
+{
+    static const char *const begins[] = {"\x89HDF\r\n\x1a\n", "## weartrack:"};
+    const unsigned char *bytes = NULL;
+    size_t length = 0;
+    if (wt_input_bytes(input, &bytes, &length, NULL) != WT_OK)
+        return false;
+    for (size_t i = 0; i < sizeof begins / sizeof *begins; i++)
+        if (length >= strlen(begins[i]) && memcmp(bytes, begins[i], strlen(begins[i])) == 0)
+            return true;
+    return false;
+}
+
+/* Copies all columns of a row. */
+static void copy_row(const table_view *from, size_t row, table_writer *t)
+{
+    const table_schema *const schema = from->schema;
+    table_row(t);
+    for (unsigned c = 0; schema->columns[c].name != NULL; c++)
+        if (!view_has_column(from, schema, c))
+            continue;
+        else if (schema->columns[c].kind == SCHEMA_TEXT)
+            writer_text(t, schema, c, view_text(from, schema, row, c));
+        else
+            writer_number(t, schema, c, view_number(from, schema, row, c));
+}
+
+static wt_status stored_record_copy_rows(const wt_result *result, const table_schema *schema,
+                                         table_writer *t, stored_row_callback *each, void *user,
+                                         wt_error *err)
+{
+    table_view view = {0};
+    const wt_status status = table_bind_result(result, schema, "", &view, err);
+    if (status != WT_OK || view.table == NULL)
+        return status;
+    table_block(t);
+    for (size_t row = 0; row < view.n_rows; row++) {
+        copy_row(&view, row, t);
+        if (each != NULL)
+            each(user, &view, row);
+    }
+    return WT_OK;
+}
 
 /* Fewest samples per cycle. With fewer, the mean of a cycle contains a variable part of its
  * wave. */
@@ -49,31 +92,20 @@ typedef struct running_in_end {
     const char *why_not;
 } running_in_end;
 
-static wt_status find_running_in_end(const wt_record_job *job, const double *y, size_t n,
-                                     running_in_end *end, wt_error *err)
+static running_in_end find_running_in_end(const wt_record_job *job, const double *y, size_t n)
 {
-    wt_running_in found = {.reason = ""};
-    wt_status status = WT_OK;
-    *end = (running_in_end){not_known, 0, "not looked for"};
-    switch (job->running_in) {
-    case WT_RUNNING_IN_LIKELIHOOD:
-        status = wt_running_in_find(y, n, &found, err);
-        *end = (running_in_end){found.end, found.steady_start, found.reason};
-        break;
-    case WT_RUNNING_IN_STEP:
-        end->steady_start = wt_step_detect(y, n);
-        break;
-    case WT_RUNNING_IN_MSER:
-        end->steady_start = wt_mser_5(y, n);
-        break;
-    default:
-        break;
+    if (job->running_in == WT_RUNNING_IN_LIKELIHOOD) {
+        const wt_running_in found = wt_running_in_find(y, n);
+        return (running_in_end){found.end, found.steady_start, found.reason};
     }
+    running_in_end end = {not_known, 0, "not looked for"};
     if (job->running_in == WT_RUNNING_IN_STEP || job->running_in == WT_RUNNING_IN_MSER) {
-        end->cycles.value = (double)end->steady_start;
-        end->why_not = "this rule tells no interval";
+        end.steady_start =
+            job->running_in == WT_RUNNING_IN_STEP ? wt_step_detect(y, n) : wt_mser_5(y, n);
+        end.cycles.value = (double)end.steady_start;
+        end.why_not = "this rule tells no interval";
     }
-    return status;
+    return end;
 }
 
 static double cycle_middle(const wt_cycle *cycle, bool distance)
@@ -187,21 +219,17 @@ static double mean_zero_offset(const wt_cycle *cycles, size_t n)
 static wt_status measure_step(const wt_record_job *job, const wt_cycles *all, const wt_cycle *cycle,
                               size_t n, record_row *r, size_t *steady_start, wt_error *err)
 {
-    running_in_end end = {not_known, 0, ""};
-    double *const y = malloc((n + 1) * sizeof *y);
-    if (y == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    double *const y = wt_alloc(n, sizeof *y);
     for (size_t i = 0; i < n; i++)
         y[i] = cycle[i].coefficient;
-    wt_status status = find_running_in_end(job, y, n, &end, err);
+    const running_in_end end = find_running_in_end(job, y, n);
     const size_t from = end.steady_start < n ? end.steady_start : 0;
     const wt_cycle *const steady = cycle + from, *const last = cycle + n - 1;
-    if (status == WT_OK)
-        status = wt_steady_mean(y + from, n - from, &r->steady, err);
-    r->slips = (wt_stick_slip){0, (double)NAN, (double)NAN};
-    if (status == WT_OK && all->kind != WT_CYCLE_STROKE)
-        status = wt_stick_slip_find(all->friction + steady->first,
-                                    last->first + last->n - steady->first, &r->slips, err);
+    const wt_status status = wt_steady_mean(y + from, n - from, &r->steady, err);
+    r->slips = all->kind == WT_CYCLE_STROKE
+                   ? (wt_stick_slip){0, (double)NAN, (double)NAN}
+                   : wt_stick_slip_find(all->friction + steady->first,
+                                        last->first + last->n - steady->first);
     free(y);
     r->at = conditions_mean(steady, n - from);
     r->drift = scale_interval(r->steady.drift, (double)(n - from) - 1);
@@ -426,11 +454,11 @@ static wt_status measure_file(const wt_record_job *job, const wt_job *work, flow
     wt_estimate radius = job->track_radius;
     if (isnan(radius.value))
         radius = (wt_estimate){record.radius, 0, 0, "m"};
-    if (status == WT_OK)
-        status = record_remove_pauses(&record, &pauses, err);
-    if (status == WT_OK)
+    if (status == WT_OK) {
+        pauses = record_remove_pauses(&record);
         status =
             wt_cycles_compute(&record, job->cycle, radius.value, job->load.value, &cycles, err);
+    }
     if (status == WT_OK && cycles.n == 0)
         status = wt_fail(err, WT_E_EMPTY, "the record holds no whole cycle");
     if (status == WT_OK) {

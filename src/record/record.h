@@ -29,8 +29,6 @@ typedef struct record_group {
 void record_group_add(record_group *s, wt_estimate e);
 /* Returns the mean with its standard error; NaN if the group is empty. */
 wt_estimate record_group_mean(const record_group *s, const char *unit);
-/* Returns the degrees of freedom of the error if it is the scatter, else NaN. */
-double record_group_df(const record_group *s);
 
 /* Wear rates. Several rates of one run (by mass, by area) count as one measurement. */
 typedef struct wear_rates {
@@ -53,13 +51,8 @@ wt_status wear_add(const wt_record_job *job, const wt_record *record, const wt_c
                    wt_estimate radius, const char *file, table_writer *t, wear_rates *rates,
                    wt_error *err);
 
-/* True if a file is a result of weartrack: a text stream or HDF5. */
-bool is_stored_record(wt_input *input);
 /* Copies the rows of a table of the result, if it exists, to the table that is written. `each` is
  * called with every row. */
 typedef void stored_row_callback(void *user, const table_view *view, size_t row);
-wt_status stored_record_copy_rows(const wt_result *result, const table_schema *schema,
-                                  table_writer *t, stored_row_callback *each, void *user,
-                                  wt_error *err) WT_NODISCARD;
 
 #endif

@@ -39,12 +39,10 @@ static double expected_error(const growth *g)
 
 static wt_status fit_until(run_fit *run, double until, double expected, wt_error *err)
 {
-    running_in_series s;
+    running_in_series s = recorded_read_series(run->rec, until);
     const running_in_curve c = growth_curve(run->growth, 0);
-    wt_status status = recorded_read_series(run->rec, until, &s, err);
-    if (status == WT_OK)
-        status = running_in_curve_fit_compute(&(running_in_curve_pair){&s, &c}, 1,
-                                              RUNNING_IN_REMAINDER, expected, &run->fit, err);
+    const wt_status status = running_in_curve_fit_compute(
+        &(running_in_curve_pair){&s, &c}, 1, RUNNING_IN_REMAINDER, expected, &run->fit, err);
     run->until = until;
     running_in_series_clear(&s);
     return status;
@@ -88,20 +86,17 @@ static void set_run_values(const run_fit *run, size_t k, double margin, double l
 
 /* Fits the curve of each draw with one law of the scatter, relative to the nominal curve. The
  * uncertainty over all laws is the error of the record. */
-static wt_status fit_draws(run_fit *run, double margin, wt_error *err)
+static void fit_draws(run_fit *run, double margin)
 {
     const growth *const g = run->growth;
     const running_in_curve_fit *const fit = &run->fit;
     const running_in_curve nominal = growth_curve(g, 0);
-    running_in_series s;
-    const wt_status status = recorded_read_series(run->rec, run->until, &s, err);
+    running_in_series s = recorded_read_series(run->rec, run->until);
     const double within = fit->seen ? fmax(errors_around * fit->error, least_around) : 0,
                  centre = fit->seen ? fit->log_factor : 0, settled = log(settling_time(g, 0));
-    running_in_optimum base = {0};
-    if (status == WT_OK)
-        base = running_in_optimum_find(&s, &nominal, fit->law, centre, within);
+    const running_in_optimum base = running_in_optimum_find(&s, &nominal, fit->law, centre, within);
     set_run_values(run, 0, margin, fit->log_factor, fit->ratio, run->value);
-    for (size_t k = 1; status == WT_OK && k <= g->n_draws; k++) {
+    for (size_t k = 1; k <= g->n_draws; k++) {
         const running_in_curve c = growth_curve(g, k);
         /* without a visible change, the factor is fixed at the time that the draw predicts */
         const double around = fit->seen ? centre + settled - log(settling_time(g, k)) : 0;
@@ -110,22 +105,16 @@ static wt_status fit_draws(run_fit *run, double margin, wt_error *err)
                        fit->ratio + place.ratio - base.ratio, run->value + k * RUN_QUANTITIES);
     }
     running_in_series_clear(&s);
-    return status;
 }
 
-wt_status run_fit_compute(run_fit *run, double margin, wt_error *err)
+void run_fit_compute(run_fit *run, double margin)
 {
     wt_error why = WT_ERROR_INIT;
-    const wt_status status = fit_values(run, &why);
-    if (status == WT_E_MEMORY)
-        return wt_fail(err, status, "out of memory");
-    if (status != WT_OK) {
+    if (fit_values(run, &why) != WT_OK) {
         snprintf(run->note, sizeof run->note, "%s", why.message);
-        return WT_OK;
+        return;
     }
-    run->value = calloc((1 + run->growth->n_draws) * RUN_QUANTITIES, sizeof *run->value);
-    if (run->value == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    run->value = wt_alloc((1 + run->growth->n_draws) * RUN_QUANTITIES, sizeof *run->value);
     if (!run->fit.seen)
         snprintf(run->note, sizeof run->note,
                  "no change as the layer makes it stands out of the "
@@ -136,7 +125,7 @@ wt_status run_fit_compute(run_fit *run, double margin, wt_error *err)
     else if (isnan(run->fit.low))
         snprintf(run->note, sizeof run->note,
                  "a change as the layer makes it is over within the first cycles");
-    return fit_draws(run, margin, err);
+    fit_draws(run, margin);
 }
 
 void run_fit_clear(run_fit *run)
@@ -231,29 +220,25 @@ typedef struct run_arrays {
     double *place, *value, *record_variance, *common;
 } run_arrays;
 
-static wt_status run_arrays_collect(const run_fit *runs, size_t n, run_quantity number,
-                                    run_arrays *a, wt_error *err)
+static run_arrays run_arrays_collect(const run_fit *runs, size_t n, run_quantity number)
 {
-    *a = (run_arrays){.of = calloc(n + 1, sizeof *a->of),
-                      .place = calloc(n + 1, sizeof *a->place),
-                      .value = calloc(n + 1, sizeof *a->value),
-                      .record_variance = calloc(n + 1, sizeof *a->record_variance),
-                      .common = calloc(n * n + 1, sizeof *a->common)};
-    if (a->of == NULL || a->place == NULL || a->value == NULL || a->record_variance == NULL ||
-        a->common == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    run_arrays a = {.of = wt_alloc(n, sizeof *a.of),
+                    .place = wt_alloc(n, sizeof *a.place),
+                    .value = wt_alloc(n, sizeof *a.value),
+                    .record_variance = wt_alloc(n, sizeof *a.record_variance),
+                    .common = wt_alloc(n * n, sizeof *a.common)};
     for (size_t i = 0; i < n; i++) {
         if (!run_fit_determines(&runs[i], number))
             continue;
-        a->of[a->n] = &runs[i];
-        a->place[a->n] = log10(runs[i].rec->at.velocity);
-        a->value[a->n] = run_fit_value(&runs[i], 0, number);
-        a->record_variance[a->n++] = run_fit_record_variance(&runs[i], number);
+        a.of[a.n] = &runs[i];
+        a.place[a.n] = log10(runs[i].rec->at.velocity);
+        a.value[a.n] = run_fit_value(&runs[i], 0, number);
+        a.record_variance[a.n++] = run_fit_record_variance(&runs[i], number);
     }
-    for (size_t i = 0; i < a->n; i++)
-        for (size_t k = 0; k < a->n; k++)
-            (void)draw_covariance(a->of[i], a->of[k], number, &a->common[i * a->n + k]);
-    return WT_OK;
+    for (size_t i = 0; i < a.n; i++)
+        for (size_t k = 0; k < a.n; k++)
+            (void)draw_covariance(a.of[i], a.of[k], number, &a.common[i * a.n + k]);
+    return a;
 }
 
 static void run_arrays_clear(run_arrays *a)
@@ -268,11 +253,11 @@ static void run_arrays_clear(run_arrays *a)
 wt_status run_level_compute(const run_fit *runs, size_t n, run_quantity number, run_level *level,
                             wt_error *err)
 {
-    run_arrays a;
+    run_arrays a = run_arrays_collect(runs, n, number);
+    wt_status status = WT_OK;
     *level = (run_level){.record_variance = 0};
-    wt_status status = run_arrays_collect(runs, n, number, &a, err);
     const agreement_data data = {a.n, a.place, a.value, a.record_variance, a.common, 0};
-    if (status == WT_OK && a.n > 0)
+    if (a.n > 0)
         status = agreement_fit(&data, 1, &level->fit, err);
     for (size_t i = 0; status == WT_OK && i < a.n; i++) {
         const double w = level->fit.weight[i];
@@ -312,7 +297,7 @@ typedef struct joint_fit {
 
 static void joint_clear(joint_fit *j)
 {
-    for (size_t i = 0; j->series != NULL && i < j->n; i++)
+    for (size_t i = 0; i < j->n; i++)
         running_in_series_clear(&j->series[i]);
     free((void *)j->of);
     free(j->series);
@@ -320,26 +305,23 @@ static void joint_clear(joint_fit *j)
     free(j->pair);
 }
 
-static wt_status joint_make(const run_fit *runs, size_t n, joint_fit *j, wt_error *err)
+static joint_fit joint_make(const run_fit *runs, size_t n)
 {
-    *j = (joint_fit){.of = calloc(n + 1, sizeof *j->of),
-                     .series = calloc(n + 1, sizeof *j->series),
-                     .running_in_curve = calloc(n + 1, sizeof *j->running_in_curve),
-                     .pair = calloc(n + 1, sizeof *j->pair)};
-    wt_status status = WT_OK;
-    if (j->of == NULL || j->series == NULL || j->running_in_curve == NULL || j->pair == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
-    for (size_t i = 0; status == WT_OK && i < n; i++) {
+    joint_fit j = {.of = wt_alloc(n, sizeof *j.of),
+                   .series = wt_alloc(n, sizeof *j.series),
+                   .running_in_curve = wt_alloc(n, sizeof *j.running_in_curve),
+                   .pair = wt_alloc(n, sizeof *j.pair)};
+    for (size_t i = 0; i < n; i++) {
         if (runs[i].value == NULL)
             continue;
-        const size_t k = j->n++;
-        j->of[k] = &runs[i];
-        j->running_in_curve[k] = growth_curve(runs[i].growth, 0);
-        j->pair[k] = (running_in_curve_pair){&j->series[k], &j->running_in_curve[k]};
-        j->log_odds += runs[i].fit.log_odds;
-        status = recorded_read_series(runs[i].rec, runs[i].until, &j->series[k], err);
+        const size_t k = j.n++;
+        j.of[k] = &runs[i];
+        j.running_in_curve[k] = growth_curve(runs[i].growth, 0);
+        j.pair[k] = (running_in_curve_pair){&j.series[k], &j.running_in_curve[k]};
+        j.log_odds += runs[i].fit.log_odds;
+        j.series[k] = recorded_read_series(runs[i].rec, runs[i].until);
     }
-    return status;
+    return j;
 }
 
 /* Change of the logarithm of the time due to draw k: the mean over the runs that it affects. If no
@@ -360,33 +342,30 @@ static double joint_time_change(const joint_fit *j, size_t k)
                : log(settling_time(j->of[0]->growth, 0)) - log(settling_time(j->of[0]->growth, k));
 }
 
-static wt_status joint_set_values(const joint_fit *j, double margin, run_fit *joined, wt_error *err)
+static void joint_set_values(const joint_fit *j, double margin, run_fit *joined)
 {
     const size_t draws = joined->growth->n_draws;
-    joined->value = calloc((1 + draws) * RUN_QUANTITIES, sizeof *joined->value);
-    if (joined->value == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    joined->value = wt_alloc((1 + draws) * RUN_QUANTITIES, sizeof *joined->value);
     for (size_t k = 0; k <= draws; k++)
         set_run_values(joined, k, margin,
                        joined->fit.log_factor + (k > 0 ? joint_time_change(j, k) : 0),
                        joined->fit.ratio, joined->value + k * RUN_QUANTITIES);
-    return WT_OK;
 }
 
 /* Fits all compared records jointly. The value is NULL if they do not have one time. */
 static wt_status fit_joint_run(const run_fit *runs, size_t n, double margin, run_fit *joined,
                                wt_error *err)
 {
-    joint_fit j;
+    joint_fit j = joint_make(runs, n);
+    wt_status status = WT_OK;
     *joined = (run_fit){.value = NULL};
-    wt_status status = joint_make(runs, n, &j, err);
-    if (status == WT_OK && j.n > 1) {
+    if (j.n > 1) {
         *joined = *j.of[0];
         joined->value = NULL;
         status = running_in_curve_fit_compute(j.pair, j.n, RUNNING_IN_REMAINDER,
                                               expected_error(joined->growth), &joined->fit, err);
         if (status == WT_OK && joined->fit.log_odds > j.log_odds - log(RUNNING_IN_CURVE_MIN_ODDS))
-            status = joint_set_values(&j, margin, joined, err);
+            joint_set_values(&j, margin, joined);
     }
     joint_clear(&j);
     return status;

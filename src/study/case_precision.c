@@ -148,8 +148,9 @@ static wt_status time_solution(precision_problem *o, accuracy_solve *solve, doub
 static wt_status time_repeats(precision_problem *o, accuracy_solve *solve, double value,
                               accuracy_timing *t, wt_error *err)
 {
-    double *seconds = malloc(o->repeats * sizeof *seconds), sum = 0;
-    wt_status status = seconds == NULL ? wt_fail(err, WT_E_MEMORY, "out of memory") : WT_OK;
+    double *const seconds = wt_alloc(o->repeats, sizeof *seconds);
+    double sum = 0;
+    wt_status status = WT_OK;
     size_t n = 0;
     while (status == WT_OK && n < o->repeats && sum < MAX_SECONDS) {
         status = time_solution(o, solve, value, &seconds[n], err);
@@ -377,9 +378,7 @@ static wt_status solve_isotherms(precision_problem *o, double value, wt_error *e
     wt_master_options options = own->fit;
     wt_master fit = {0};
     wt_rubber rubber = {0};
-    part.isotherms = malloc(n * sizeof *part.isotherms);
-    if (part.isotherms == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    part.isotherms = wt_alloc(n, sizeof *part.isotherms);
     options.reference_temperature = own->prony.reference_temperature;
     select_isotherms(&own->sweep, n, options.reference_temperature, part.isotherms);
     wt_status status = flow_rubber_fit(&part, &options, own->poisson_ratio, FLOW_STORED_DRAWS,
@@ -418,7 +417,7 @@ static void fix_inputs(case_variant *s)
 
 /* Too few isotherms may not determine a shift law that reaches the sliding temperature. They are
  * skipped. */
-static wt_status sweep_isotherms(precision_problem *o, wt_error *err)
+static void sweep_isotherms(precision_problem *o)
 {
     const double *shares = sweeps[BY_ISOTHERMS].values, all = (double)o->n_isotherms;
     wt_estimate reference[CASE_QUANTITIES];
@@ -426,25 +425,20 @@ static wt_status sweep_isotherms(precision_problem *o, wt_error *err)
     double before = LEAST_ISOTHERMS - 1;
     begin_sweep(o);
     fix_inputs(&o->current);
-    wt_status status = solve_isotherms(o, all, NULL);
-    if (status != WT_OK)
-        return status == WT_E_MEMORY ? wt_fail(err, status, "out of memory") : WT_OK;
+    if (solve_isotherms(o, all, NULL) != WT_OK)
+        return;
     memcpy(reference, o->number, sizeof reference);
     for (unsigned k = o->first; k < o->last; k++)
         o->reference_error[k][BY_ISOTHERMS] =
             reference[k].standard_error / fabs(reference[k].value);
-    for (size_t i = 0; shares[i] > 0 && status == WT_OK; i++) {
+    for (size_t i = 0; shares[i] > 0; i++) {
         const double n = round(shares[i] * all);
         if (!(n > before))
             continue;
         before = n;
-        const wt_status of_some = solve_and_time(o, solve_isotherms, n, &time, NULL);
-        if (of_some == WT_OK)
+        if (solve_and_time(o, solve_isotherms, n, &time, NULL) == WT_OK)
             set_cells(o, BY_ISOTHERMS, i, n, reference, time);
-        else if (of_some == WT_E_MEMORY)
-            status = wt_fail(err, of_some, "out of memory");
     }
-    return status;
 }
 
 /* ---- job ------------------------------------------------------------------------------------- */
@@ -461,7 +455,7 @@ static wt_status sweep_numbers(precision_problem *o, unsigned first, unsigned la
     if (status == WT_OK)
         status = sweep_replicates(o, err);
     if (status == WT_OK && o->n_isotherms > LEAST_ISOTHERMS)
-        status = sweep_isotherms(o, err);
+        sweep_isotherms(o);
     return status;
 }
 
@@ -526,8 +520,8 @@ static void write_precision_summary(const precision_problem *o, table_writer *t)
 {
     static const case_quantity about[] = {CASE_QUANTITY_WITH_LAYER, CASE_QUANTITY_FRICTION,
                                           CASE_QUANTITY_HYSTERESIS};
-    char text[640], first[48], second[48];
-    size_t i = 0, n = 0;
+    char text[640] = "", first[48], second[48];
+    size_t i = 0;
     while (i + 1 < COUNT_OF(about) && !(o->cells[about[i]][BY_TOLERANCE][LOOSE].value > 0))
         i++;
     const case_quantity k = about[i];
@@ -537,25 +531,25 @@ static void write_precision_summary(const precision_problem *o, table_writer *t)
                       *half = &o->cells[k][BY_ISOTHERMS][HALF_THE_ISOTHERMS];
     if (!(loose->value > 0 && tight->value > 0))
         return;
-#define APPEND_TEXT(...)                                                                           \
-    n += n < sizeof text ? (size_t)clocale_print(text + n, sizeof text - n, __VA_ARGS__) : 0
-    APPEND_TEXT(
+    clocale_append(
+        text, sizeof text,
         "%s: the arithmetic states an error of %.1g%s at a tolerance of %g and of %.1g%s at %g",
         case_quantity_names[k], loose->errors.stated_error, format_time(loose, first),
         1 / loose->value, tight->errors.stated_error, format_time(tight, second), 1 / tight->value);
     if (o->standard_error[k] > 0)
-        APPEND_TEXT("; the standard error is %.2g %%", 100 * o->standard_error[k]);
+        clocale_append(text, sizeof text, "; the standard error is %.2g %%",
+                       100 * o->standard_error[k]);
     if (drawn->value > 0)
-        APPEND_TEXT(", which %.0f replicates tell to %.1g %%%s", drawn->value,
-                    100 * drawn->errors.stated_error, format_time(drawn, first));
+        clocale_append(text, sizeof text, ", which %.0f replicates tell to %.1g %%%s", drawn->value,
+                       100 * drawn->errors.stated_error, format_time(drawn, first));
     if (half->value > 0)
-        APPEND_TEXT(
+        clocale_append(
+            text, sizeof text,
             "; %.0f of %zu isotherms are within %.2g %% of all of them, with a standard error by "
             "the material of %.2g %% instead of %.2g %%",
             half->value, o->n_isotherms,
             100 * fmax(half->errors.true_error, o->reference_error[k][BY_ISOTHERMS]),
             100 * half->errors.stated_error, 100 * o->reference_error[k][BY_ISOTHERMS]);
-#undef APPEND_TEXT
     work_precision_set_text(t, WORK_PRECISION_KEY_ANSWER, text);
 }
 
@@ -578,9 +572,7 @@ wt_status wt_case_precision_compute(const wt_sliding *sliding, const wt_layer_jo
         status = case_variant_create(sliding, layer, observation, work, &given, err);
     if (status != WT_OK)
         return status;
-    precision_problem *o = calloc(1, sizeof *o);
-    if (o == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    precision_problem *o = wt_alloc(1, sizeof *o);
     *o = (precision_problem){.given = &given,
                              .job_settings = &job_settings,
                              .repeats = job->repeats,

@@ -1,19 +1,280 @@
-/* Collection of the results of cases by sample and condition.
+/* Collection of the results of cases by sample and condition: their force against indentation, and
+ * the differences between their modulus ratios.
+ *
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "study/collect.h"
-#include "core/base/equivalence_margin.h"
-
 #include "core/base/array.h"
+#include "core/base/clocale.h"
+#include "core/base/equivalence_margin.h"
 #include "core/math/normal_quantile.h"
 #include "core/table/table_rows.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+/* Significance level of the tests and of the intervals. */
+static const double level = 0.05;
+
+TABLE_ROW(ratio_pairs, RATIO_PAIRS, const char *of, *first, *second; wt_interval ratio;
+          double df, p, holm_p; stated_verdict differ;)
+
+TABLE_KEYS(ratio_pairs, RATIO_PAIRS, double pairs, different, undecided;
+           const char *includes, *settled_by; double margin;)
+
+typedef struct ratio_pair {
+    const char *of;
+    const collected_case *a, *b;
+    bool of_sample; /* true if both share the sample, and the conditions differ */
+    wt_log_ratio_difference difference;
+    double holm_p;
+    stated_verdict differ;
+} ratio_pair;
+
+typedef struct pair_list {
+    ratio_pair *pairs;
+    size_t n;
+} pair_list;
+
+static void add_ratio_pair(pair_list *list, const collected_case *a, const collected_case *b)
+{
+    const bool sample = strcmp(a->sample, b->sample) == 0;
+    const bool condition = a->condition[0] != '\0' && strcmp(a->condition, b->condition) == 0;
+    if (sample == condition || isnan(a->ratio.value) || isnan(b->ratio.value))
+        return;
+    list->pairs = array_grow(list->pairs, list->n, sizeof *list->pairs);
+    list->pairs[list->n++] = (ratio_pair){.of = sample ? a->sample : a->condition,
+                                          .a = a,
+                                          .b = b,
+                                          .of_sample = sample,
+                                          .difference = wt_log_ratio_compare(&a->ratio, &b->ratio)};
+}
+
+/* Assesses all pairs. "yes" requires significance after Holm's correction; "no" requires the whole
+ * interval within the margin. */
+static void assess_pairs(pair_list *list, double margin)
+{
+    double *p = wt_alloc(2 * list->n, sizeof *p);
+    for (size_t i = 0; i < list->n; i++)
+        p[i] = list->pairs[i].difference.p;
+    wt_holm_adjust(p, list->n, p + list->n);
+    for (size_t i = 0; i < list->n; i++) {
+        ratio_pair *q = &list->pairs[i];
+        const double least = log1p(margin);
+        q->holm_p = p[list->n + i];
+        q->differ = q->holm_p < level ? VERDICT_YES
+                    : q->difference.low > -least && q->difference.high < least
+                        ? VERDICT_NO
+                        : VERDICT_INCONCLUSIVE;
+    }
+    free(p);
+}
+
+static const char *differing_name(const ratio_pair *q, const collected_case *c)
+{
+    return q->of_sample ? c->condition : c->sample;
+}
+
+/* Factor by which the interval of a pair must shrink, with the same centre, to lie within the
+ * margin or to exclude 0. */
+static double required_narrowing(const ratio_pair *q, double margin)
+{
+    const double half = (q->difference.high - q->difference.low) / 2,
+                 off = fabs(q->difference.value), room = log1p(margin) - off;
+    return fmin(room > 0 ? half / room : (double)INFINITY, half / off);
+}
+
+/* Advises a multiple of the present number of spots. */
+static void advise_pair(const pair_list *list, double margin, char *text, size_t size)
+{
+    const ratio_pair *nearest = NULL;
+    double least = (double)INFINITY;
+    for (size_t i = 0; i < list->n; i++) {
+        const ratio_pair *q = &list->pairs[i];
+        const double needed = required_narrowing(q, margin);
+        if (q->differ == VERDICT_INCONCLUSIVE && needed * needed < least) {
+            least = needed * needed;
+            nearest = q;
+        }
+    }
+    if (nearest != NULL)
+        clocale_print(text, size,
+                      "about %.0f times as many spots in every group, or smaller errors that the "
+                      "groups do not share, would settle the nearest of them, %s: %s against %s",
+                      fmax(2, ceil(least)), nearest->of, differing_name(nearest, nearest->a),
+                      differing_name(nearest, nearest->b));
+}
+
+static wt_interval difference_ratio(const wt_log_ratio_difference *d)
+{
+    return (wt_interval){exp(d->value), (double)NAN, exp(d->low), exp(d->high)};
+}
+
+static wt_status make_pairs_table(const pair_list *list, double margin, wt_table **table,
+                                  wt_error *err)
+{
+    char settled_by[256] = "";
+    size_t different = 0, undecided = 0;
+    table_writer w = table_begin(&ratio_pairs_schema, err);
+    for (size_t i = 0; i < list->n; i++) {
+        const ratio_pair *q = &list->pairs[i];
+        different += q->differ == VERDICT_YES;
+        undecided += q->differ == VERDICT_INCONCLUSIVE;
+        TABLE_ADD(ratio_pairs, &w, q->of, differing_name(q, q->a), differing_name(q, q->b),
+                  difference_ratio(&q->difference), q->difference.df, q->difference.p, q->holm_p,
+                  q->differ);
+    }
+    advise_pair(list, margin, settled_by, sizeof settled_by);
+    TABLE_SET(ratio_pairs, &w, (double)list->n, (double)different, (double)undecided,
+              "what the two ratios include; an error that both share, such as one bulk, counts "
+              "twice, which is on the safe side",
+              settled_by, margin);
+    return table_end(&w, table);
+}
+
+/* Creates the table "ratio_pairs"; NULL if no two cases share a sample or a condition. */
+static wt_status collect_pairs(const collected_case *cases, size_t n, double margin,
+                               wt_table **table, wt_error *err)
+{
+    pair_list list = {0};
+    wt_status status = WT_OK;
+    for (size_t i = 0; i < n; i++)
+        for (size_t k = i + 1; k < n; k++)
+            add_ratio_pair(&list, &cases[i], &cases[k]);
+    if (list.n > 0) {
+        assess_pairs(&list, margin);
+        status = make_pairs_table(&list, margin, table, err);
+    }
+    free(list.pairs);
+    return status;
+}
+
+TABLE_ROW(collected_force, COLLECTED_FORCE, const char *sample, *condition, *place;
+          double indentation, force;)
+
+/* ---- force against indentation --------------------------------------------------------------- */
+
+/* Returns the display name of a group: "bulk", or the condition of the track. */
+static const char *collected_group_name(const collected_case *c, const char *group)
+{
+    return strcmp(group, "bulk") == 0 ? group : c->condition[0] != '\0' ? c->condition : "track";
+}
+
+static wt_status bind_force(const wt_result *result, const char *file, table_view *force,
+                            wt_error *err)
+{
+    const wt_status status = table_bind_result(result, &force_indentation_schema, "", force, err);
+    if (status != WT_OK)
+        wt_error_file(err, file);
+    return status;
+}
+
+/* Groups that belong to no case, with the index of the group that is added. */
+typedef struct paired_force {
+    const collected_case *cases;
+    const wt_collected_result *of;
+    size_t n_cases, n, at;
+} paired_force;
+
+static bool has_group(const wt_collected_result *of, const char *group)
+{
+    table_view force;
+    const bool bound =
+        table_bind_result(of->result, &force_indentation_schema, "", &force, NULL) == WT_OK;
+    for (size_t row = 0; bound && row < force.n_rows; row++)
+        if (strcmp(force_indentation_text(&force, row, FORCE_INDENTATION_GROUP), group) == 0)
+            return true;
+    return false;
+}
+
+/* True if the name is used by another group. Without --group every indented sample is "bulk". */
+static bool is_name_used(const paired_force *b, const char *group)
+{
+    bool taken = strcmp(group, "bulk") == 0 || strcmp(group, "track") == 0;
+    for (size_t i = 0; i < b->n_cases && !taken; i++)
+        taken = strcmp(group, b->cases[i].condition) == 0;
+    for (size_t i = 0; i < b->n && !taken; i++)
+        taken = i != b->at && has_group(&b->of[i], group);
+    return taken;
+}
+
+static void format_group_name(const paired_force *paired, const collected_case *c,
+                              const char *group, char *place, size_t size)
+{
+    if (paired == NULL)
+        (void)snprintf(place, size, "%s", collected_group_name(c, group));
+    else if (is_name_used(paired, group))
+        (void)snprintf(place, size, "%s of %s", group, paired->of[paired->at].file);
+    else
+        (void)snprintf(place, size, "%s", group);
+}
+
+/* Adds the curve of each group. A paired group is listed under each sample. */
+static void add_force_curves(table_writer *w, const collected_case *c, const table_view *force,
+                             const paired_force *paired)
+{
+    const char *before = NULL;
+    char place[400] = "";
+    for (size_t row = 0; row < force->n_rows; row++) {
+        const char *group = force_indentation_text(force, row, FORCE_INDENTATION_GROUP);
+        if (before == NULL || strcmp(group, before) != 0) {
+            table_block(w);
+            format_group_name(paired, c, group, place, sizeof place);
+        }
+        before = group;
+        TABLE_ADD(collected_force, w, c->sample, paired == NULL ? c->condition : "", place,
+                  force_indentation_get(force, row, FORCE_INDENTATION_INDENTATION),
+                  force_indentation_get(force, row, FORCE_INDENTATION_FORCE));
+    }
+}
+
+static wt_status add_paired_groups(table_writer *w, paired_force paired, const collected_case *c,
+                                   wt_error *err)
+{
+    for (paired.at = 0; paired.at < paired.n; paired.at++) {
+        const wt_collected_result *of = &paired.of[paired.at];
+        table_view force;
+        const wt_status status = bind_force(of->result, of->file, &force, err);
+        if (status != WT_OK)
+            return status;
+        add_force_curves(w, c, &force, &paired);
+    }
+    return WT_OK;
+}
+
+/* Creates the table "collected_force"; NULL if no case has a curve. The second array holds results
+ * with groups that belong to no case. */
+static wt_status collect_force(const collected_case *cases, size_t n,
+                               const wt_collected_result *paired, size_t n_beside, wt_table **table,
+                               wt_error *err)
+{
+    const paired_force all = {cases, paired, n, n_beside, 0};
+    table_writer w = table_begin(&collected_force_schema, err);
+    wt_status status = WT_OK;
+    for (size_t i = 0; status == WT_OK && i < n; i++) {
+        table_view force;
+        status = bind_force(cases[i].result, cases[i].file, &force, err);
+        if (status == WT_OK)
+            add_force_curves(&w, &cases[i], &force, NULL);
+        if (status == WT_OK && (i + 1 == n || strcmp(cases[i].sample, cases[i + 1].sample) != 0))
+            status = add_paired_groups(&w, all, &cases[i], err);
+    }
+    const wt_status ended = table_end(&w, table);
+    if (status == WT_OK)
+        status = ended;
+    if (status == WT_OK && wt_table_n_rows(*table) > 0)
+        return WT_OK;
+    wt_table_free(*table);
+    *table = NULL;
+    return status;
+}
 
 /* A wear rate is hardly known to better than 20 %. A margin below the usual errors would never give
  * a positive verdict. */
 static const double constant_margin = 0.5;
+
+/* ---- parameters ------------------------------------------------------------------------------ */
 
 wt_collect_job wt_collect_job_defaults(void)
 {
@@ -266,11 +527,9 @@ wt_status wt_collection_compute(const wt_collected_result *from, size_t n,
     if (n == 0)
         return wt_fail(err, WT_E_EMPTY, "there is no case");
     wt_status status = param_check(wt_collect_job_params(), job, err);
-    collected_case *cases = calloc(n, sizeof *cases);
-    wt_collected_result *paired = calloc(n, sizeof *paired);
+    collected_case *cases = wt_alloc(n, sizeof *cases);
+    wt_collected_result *paired = wt_alloc(n, sizeof *paired);
     size_t n_cases = 0;
-    if (status == WT_OK && (cases == NULL || paired == NULL))
-        status = wt_fail(err, WT_E_MEMORY, "out of memory");
     if (status == WT_OK)
         status = read_cases(from, n, cases, &n_cases, paired, err);
     if (status == WT_OK)

@@ -14,18 +14,6 @@ typedef struct collected_case {
     wt_log_ratio ratio; /* of the moduli; NaN if unknown */
 } collected_case;
 
-/* Returns the display name of a group: "bulk", or the condition of the track. */
-const char *collected_group_name(const collected_case *c, const char *group);
-
-/* Creates the table "collected_force"; NULL if no case has a curve. The second array holds results
- * with groups that belong to no case. */
-wt_status collect_force(const collected_case *cases, size_t n, const wt_collected_result *paired,
-                        size_t n_paired, wt_table **table, wt_error *err) WT_NODISCARD;
-
-/* Creates the table "ratio_pairs"; NULL if no two cases share a sample or a condition. */
-wt_status collect_pairs(const collected_case *cases, size_t n, double margin, wt_table **table,
-                        wt_error *err) WT_NODISCARD;
-
 /* ---- shared constants ------------------------------------------------------------------------ */
 
 typedef enum shared_constant {
@@ -78,10 +66,6 @@ typedef enum file_match {
     FILES_SAME_NAME, /* equal sizes and paths without digests */
     FILES_IDENTICAL
 } file_match;
-file_match compare_input_files(const collected_case *a, const collected_case *b,
-                               const char *const *roles, size_t n_roles);
-/* Returns the category of an error source of a record; INPUT_CATEGORIES if there is none. */
-input_category input_category_of_source(const char *source);
 /* Returns the largest possible covariance of two values of one constant due to shared files. */
 double shared_covariance(const case_value *a, const case_value *b);
 

@@ -36,7 +36,6 @@ typedef struct compare_pair {
     long *spot, *rate_class;
 } compare_pair;
 
-wt_status compare_assign_bins(compare_pair *p, wt_error *err) WT_NODISCARD;
 void compare_pair_clear(compare_pair *p);
 /* Copies the curves of a bin to scratch from `offset` on, with moduli or factors. */
 wt_group compare_select_curves(const compare_pair *p, int g, size_t bin, size_t offset,

@@ -49,12 +49,10 @@ static wt_status compare_bin(comparison_task *task, size_t bin, compare_row *r, 
     return status;
 }
 
-static wt_status correct_p_values(compare_row *rows, size_t n, wt_error *err)
+static void correct_p_values(compare_row *rows, size_t n)
 {
-    double *p = malloc((2 * n + 1) * sizeof *p);
+    double *p = wt_alloc(2 * n, sizeof *p);
     size_t m = 0;
-    if (p == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
     for (size_t i = 0; i < n; i++)
         if (rows[i].valid)
             p[m++] = rows[i].c.p;
@@ -64,7 +62,6 @@ static wt_status correct_p_values(compare_row *rows, size_t n, wt_error *err)
         if (rows[i].valid)
             rows[i].holm = p[n + m++];
     free(p);
-    return WT_OK;
 }
 
 /* Without a curve in one group, the row has only the counts. */
@@ -107,7 +104,9 @@ static wt_status compare_all_rows(comparison_task *task, wt_error *err)
     }
     for (size_t b = 0; status == WT_OK && b < p->n_bins; b++)
         status = compare_bin(task, b, &task->rows[b + 1], err);
-    return status == WT_OK ? correct_p_values(task->rows + 1, p->n_bins, err) : status;
+    if (status == WT_OK)
+        correct_p_values(task->rows + 1, p->n_bins);
+    return status;
 }
 
 wt_status compare_fitted_ratio(const wt_compare_job *job, const wt_job *work,
@@ -354,9 +353,7 @@ wt_status compare_tabulate(compare_pair *p, const wt_compare_job *job, const wt_
     comparison_task task = {.p = p, .job = job, .work = work};
     const bool both = p->data[0].group.n > 0 && p->data[1].group.n > 0;
     task.n_rates = both ? p->n_bins : 0;
-    task.rows = calloc(task.n_rates + 1, sizeof *task.rows);
-    if (task.rows == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    task.rows = wt_alloc(1 + task.n_rates, sizeof *task.rows);
     wt_status status =
         both ? compare_all_rows(&task, err) : count_group_units(&task, task.rows, err);
     if (status == WT_OK && !both)

@@ -35,7 +35,6 @@ static short_text format_rate(double rate)
 
 #define SET_VERDICT(v, value, ...)                                                                 \
     ((v)->verdict = (value), clocale_print((v)->reason, sizeof(v)->reason, __VA_ARGS__))
-#define SET_TEXT(field, ...) clocale_print((field), sizeof(field), __VA_ARGS__)
 
 /* Advises a number of spots for the present scatter and the apparent difference, which is at least
  * the margin. */
@@ -58,14 +57,14 @@ static void advise_spots(const wt_compare_job *job, const wt_comparison *c, comp
         third = "a third spot in the bulk first, for two do not tell how much they scatter; ";
     else if (c->by_spot && c->n_track == 2 && c->n_bulk > 2)
         third = "a third spot in the track first, for two do not tell how much they scatter; ";
-    SET_TEXT(v->settled_by,
-             "%s%s in each group would show a difference of %s in four of five trials where spots "
-             "scatter by %s%s; more curves on a spot do not help",
-             third, number, format_percent(fabs(expm1(difference))).text,
-             format_percent(scatter).text,
-             measured ? ", as they do here"
-             : given  ? ", as given"
-                      : " (assumed)");
+    clocale_print(
+        v->settled_by, sizeof v->settled_by,
+        "%s%s in each group would show a difference of %s in four of five trials where spots "
+        "scatter by %s%s; more curves on a spot do not help",
+        third, number, format_percent(fabs(expm1(difference))).text, format_percent(scatter).text,
+        measured ? ", as they do here"
+        : given  ? ", as given"
+                 : " (assumed)");
 }
 
 static void format_group_rates(const compare_pair *p, int g, char *text, size_t size)
@@ -95,8 +94,8 @@ static void report_disjoint_rates(const compare_pair *p, bool twisted, compare_v
                 "bulk (%s) and track (%s) have no indentation rate in common, and %s", bulk, track,
                 twisted ? "their moduli change with the rate in different ways"
                         : "nothing says how the modulus depends on the rate");
-    SET_TEXT(v->settled_by, "curves of both at one rate%s",
-             twisted ? "" : ", or at several rates on each spot, or a DMA of the rubber");
+    clocale_print(v->settled_by, sizeof v->settled_by, "curves of both at one rate%s",
+                  twisted ? "" : ", or at several rates on each spot, or a DMA of the rubber");
 }
 
 /* Returns a remedy for curves that were rejected for this reason. */
@@ -171,15 +170,17 @@ static bool assess_conditions(const compare_pair *p, const comparison_inputs *k,
         SET_VERDICT(v, VERDICT_INCONCLUSIVE,
                     "bulk and track were indented at different temperatures, and "
                     "nothing says how the modulus changes with temperature");
-        SET_TEXT(v->settled_by, "a DMA of the rubber, the slope of ln E against temperature "
-                                "(temperature-slope), or curves at one temperature");
+        clocale_print(v->settled_by, sizeof v->settled_by,
+                      "a DMA of the rubber, the slope of ln E against temperature "
+                      "(temperature-slope), or curves at one temperature");
     } else if (k->unreachable_temperature[0] != '\0') {
         SET_VERDICT(v, VERDICT_INCONCLUSIVE, "the DMA does not reach %s",
                     k->unreachable_temperature);
-        SET_TEXT(v->settled_by, "DMA isotherms at that temperature, %s",
-                 k->rates_by_dma ? "or curves of both at one rate"
-                                 : "the slope of ln E against temperature (temperature-slope), or "
-                                   "curves at one temperature");
+        clocale_print(v->settled_by, sizeof v->settled_by, "DMA isotherms at that temperature, %s",
+                      k->rates_by_dma
+                          ? "or curves of both at one rate"
+                          : "the slope of ln E against temperature (temperature-slope), or "
+                            "curves at one temperature");
     } else if (c->undecided_reason == WT_UNDECIDED_NO_COMMON_RATE ||
                c->undecided_reason == WT_UNDECIDED_SLOPES_DIFFER) {
         report_disjoint_rates(p, c->undecided_reason == WT_UNDECIDED_SLOPES_DIFFER, v);
@@ -213,8 +214,9 @@ static bool assess_missing_error(const compare_pair *p, const wt_compare_job *jo
         SET_VERDICT(v, VERDICT_INCONCLUSIVE,
                     "bulk and track were indented with different cantilevers, and "
                     "the error of a spring constant is not stated");
-        SET_TEXT(v->settled_by, "one cantilever for both, or the errors of the spring constants "
-                                "(spring-constant-error)");
+        clocale_print(v->settled_by, sizeof v->settled_by,
+                      "one cantilever for both, or the errors of the spring constants "
+                      "(spring-constant-error)");
         return true;
     }
     return false;
@@ -237,7 +239,7 @@ static void assess_rate_dependence(const compare_row *rates, size_t n, double in
                     "the ratio depends on the rate (p %s), and at no single rate is a "
                     "difference shown",
                     format_probability(interaction).text);
-        SET_TEXT(v->settled_by, "more spots at each rate");
+        clocale_print(v->settled_by, sizeof v->settled_by, "more spots at each rate");
         return;
     }
     SET_VERDICT(v, VERDICT_YES,
@@ -257,12 +259,13 @@ static void report_incomplete_interval(const wt_compare_job *job, const comparis
                 "not hold, for it is not known: %s",
                 format_percent(job->margin).text, k->lacks);
     if (k->lacks_loss_effect)
-        SET_TEXT(
-            v->settled_by, "%s",
+        clocale_print(
+            v->settled_by, sizeof v->settled_by, "%s",
             "curves whose samples have times, or a DMA of the rubber: either tells what the loss "
             "of the curves does to their moduli");
     else
-        SET_TEXT(v->settled_by, "the error or the effect of: %s", k->lacks);
+        clocale_print(v->settled_by, sizeof v->settled_by, "the error or the effect of: %s",
+                      k->lacks);
 }
 
 /* Plausible other causes prevent a verdict. */
@@ -271,7 +274,7 @@ static void report_unstated_errors(const unstated_errors *unstated, const char *
 {
     SET_VERDICT(v, VERDICT_INCONCLUSIVE, "the wear track %s, but this may be as well: %s", seems,
                 unstated->plausible);
-    SET_TEXT(v->settled_by, "%s", unstated->settled_by);
+    clocale_print(v->settled_by, sizeof v->settled_by, "%s", unstated->settled_by);
 }
 
 compare_verdict compare_assess(const compare_pair *p, const wt_compare_job *job,
@@ -316,16 +319,17 @@ compare_verdict compare_assess(const compare_pair *p, const wt_compare_job *job,
         if (c->offset_variance_share > 0.5 &&
             inputs->loss_and_curvature_error * inputs->loss_and_curvature_error >
                 0.5 * known_error * known_error)
-            SET_TEXT(
-                v.settled_by, "%s",
+            clocale_print(
+                v.settled_by, sizeof v.settled_by, "%s",
                 "a DMA of the rubber, which tells the spectrum behind the loss, or curves with "
                 "straight baselines: what the curves lose and bend is most of the interval");
         else if (c->offset_variance_share > 0.5)
-            SET_TEXT(v.settled_by, "%s",
-                     inputs->has_two_cantilevers
-                         ? "one cantilever for both groups: its errors cancel in the ratio"
-                         : "temperature and rate the same in both groups: their errors are most of "
-                           "the interval");
+            clocale_print(
+                v.settled_by, sizeof v.settled_by, "%s",
+                inputs->has_two_cantilevers
+                    ? "one cantilever for both groups: its errors cancel in the ratio"
+                    : "temperature and rate the same in both groups: their errors are most of "
+                      "the interval");
         else
             advise_spots(job, c, &v);
     }

@@ -383,36 +383,36 @@ static void add_sensitivity_rows(const error_budget_run *b, table_writer *t)
 static void set_advice(const error_budget_run *b, case_quantity k, const number_summary *v,
                        table_writer *t)
 {
-    char text[640];
+    char text[640] = "";
     const double value = fabs(b->values.number[k].value);
     const int decimals = v->widest.half < 0.1 * value ? 1 : 0;
-    size_t n = 0;
-#define APPEND_TEXT(...)                                                                           \
-    n += n < sizeof text ? (size_t)snprintf(text + n, sizeof text - n, __VA_ARGS__) : 0
     if (v->largest == NULL)
-        APPEND_TEXT(b->work.replicates < 2
-                        ? "Without replicates no error is drawn."
-                        : "No error of what it is made from is measured or stated.");
+        clocale_append(text, sizeof text,
+                       b->work.replicates < 2
+                           ? "Without replicates no error is drawn."
+                           : "No error of what it is made from is measured or stated.");
     else
-        APPEND_TEXT("%.0f %% of its variance is the %s: %s.", 100 * v->share, v->largest->words,
-                    v->largest->remedy);
+        clocale_append(text, sizeof text, "%.0f %% of its variance is the %s: %s.", 100 * v->share,
+                       v->largest->words, v->largest->remedy);
     if (v->widest.half > 0 && !(v->widest.half <= v->together)) /* the total may be unknown */
-        APPEND_TEXT(" The choice of the %s moves it by %+.*f %% to %+.*f %%, %s: more of the same "
-                    "measurements do not settle that.",
-                    v->widest.words, decimals, 100 * (v->widest.low / value - 1), decimals,
-                    100 * (v->widest.high / value - 1),
-                    v->together > 0 ? "more than all measured errors"
-                                    : "and no error is known beside it");
+        clocale_append(
+            text, sizeof text,
+            " The choice of the %s moves it by %+.*f %% to %+.*f %%, %s: more of the same "
+            "measurements do not settle that.",
+            v->widest.words, decimals, 100 * (v->widest.low / value - 1), decimals,
+            100 * (v->widest.high / value - 1),
+            v->together > 0 ? "more than all measured errors" : "and no error is known beside it");
     const double floor = fmax(v->together, v->widest.half);
     if (isnan(v->numerical))
-        APPEND_TEXT(" What the arithmetic leaves open is not known.");
+        clocale_append(text, sizeof text, " What the arithmetic leaves open is not known.");
     else if (v->numerical < 1e-2 * floor)
-        APPEND_TEXT(" The arithmetic is good to %.1g: a tighter tolerance buys nothing.",
-                    v->numerical / value);
+        clocale_append(text, sizeof text,
+                       " The arithmetic is good to %.1g: a tighter tolerance buys nothing.",
+                       v->numerical / value);
     else if (floor > 0)
-        APPEND_TEXT(" The arithmetic is good to %.1g only: a tighter tolerance helps.",
-                    v->numerical / value);
-#undef APPEND_TEXT
+        clocale_append(text, sizeof text,
+                       " The arithmetic is good to %.1g only: a tighter tolerance helps.",
+                       v->numerical / value);
     error_budget_set_text(t, numbers[k].key, text);
 }
 

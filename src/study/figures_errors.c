@@ -158,11 +158,7 @@ static double panel_height(const panel *p)
 
 static void draw_what_if(figure_drawing *d)
 {
-    panel *panels = calloc(PANELS, sizeof *panels);
-    if (panels == NULL) {
-        d->status = wt_fail(d->err, WT_E_MEMORY, "out of memory");
-        return;
-    }
+    panel *panels = wt_alloc(PANELS, sizeof *panels);
     const size_t n = find_choice_panels(d, panels);
     double margin = 26, top = 0; /* the margin is in character cells, which are wider than an
                                     average letter */

@@ -74,48 +74,42 @@ static void free_rows(shared_rows *list)
 
 /* Adds the row of all values that share the name of this one. Adds none unless this value is the
  * first of several. */
-static wt_status add_shared_row(shared_rows *list, const case_value_list *values, size_t first,
-                                sharing_level common, wt_error *err)
+static void add_shared_row(shared_rows *list, const case_value_list *values, size_t first,
+                           sharing_level common)
 {
     const case_value *v = &values->of[first];
     const char *name = shared_by_name(v, common);
     shared_row row = {.constant = v->constant, .common = common, .of = name};
     if (name == NULL)
-        return WT_OK;
-    row.members = calloc(values->n, sizeof *row.members);
-    row.deviation = calloc(values->n, sizeof *row.deviation);
-    shared_row *grown = array_grow(list->rows, list->n, sizeof *grown);
-    if (grown != NULL)
-        list->rows = grown;
-    for (size_t i = 0; row.members != NULL && i < values->n; i++) {
+        return;
+    row.members = wt_alloc(values->n, sizeof *row.members);
+    row.deviation = wt_alloc(values->n, sizeof *row.deviation);
+    for (size_t i = 0; i < values->n; i++) {
         const char *other =
             values->of[i].constant == v->constant ? shared_by_name(&values->of[i], common) : NULL;
         if (other != NULL && strcmp(other, name) == 0)
             row.members[row.n++] = &values->of[i];
     }
-    const bool room = row.members != NULL && row.deviation != NULL && grown != NULL;
     const shared_row *last = list->n > 0 ? &list->rows[list->n - 1] : NULL;
     const bool again = common == OF_ALL && last != NULL && last->constant == v->constant &&
                        last->n == row.n; /* all cases belong to one sample or condition */
-    if (room && row.n > 1 && row.members[0] == v && !again) {
+    if (row.n > 1 && row.members[0] == v && !again) {
+        list->rows = array_grow(list->rows, list->n, sizeof *list->rows);
         list->rows[list->n++] = row;
-        return WT_OK;
+    } else {
+        free(row.members);
+        free(row.deviation);
     }
-    free(row.members);
-    free(row.deviation);
-    return room ? WT_OK : wt_fail(err, WT_E_MEMORY, "out of memory");
 }
 
 /* Lists the rows of each constant at its own level, then over all cases. */
-static wt_status find_shared_rows(shared_rows *list, const case_value_list *values, wt_error *err)
+static void find_shared_rows(shared_rows *list, const case_value_list *values)
 {
-    wt_status status = WT_OK;
-    for (shared_constant c = 0; status == WT_OK && c < N_SHARED_CONSTANTS; c++)
-        for (int all = constants[c].of == OF_ALL; status == WT_OK && all < 2; all++)
-            for (size_t i = 0; status == WT_OK && i < values->n; i++)
+    for (shared_constant c = 0; c < N_SHARED_CONSTANTS; c++)
+        for (int all = constants[c].of == OF_ALL; all < 2; all++)
+            for (size_t i = 0; i < values->n; i++)
                 if (values->of[i].constant == c)
-                    status = add_shared_row(list, values, i, all ? OF_ALL : constants[c].of, err);
-    return status;
+                    add_shared_row(list, values, i, all ? OF_ALL : constants[c].of);
 }
 
 /* ---- fit and verdict ------------------------------------------------------------------------- */
@@ -123,18 +117,14 @@ static wt_status find_shared_rows(shared_rows *list, const case_value_list *valu
 static wt_status fit_shared_row(shared_row *row, wt_error *err)
 {
     const size_t n = row->n;
-    wt_log_ratio *of = malloc(n * sizeof *of);
-    double *common = malloc(n * n * sizeof *common);
-    wt_status status = WT_OK;
-    if (of == NULL || common == NULL)
-        status = wt_fail(err, WT_E_MEMORY, "out of memory");
-    for (size_t i = 0; status == WT_OK && i < n; i++) {
+    wt_log_ratio *of = wt_alloc(n, sizeof *of);
+    double *common = wt_alloc(n * n, sizeof *common);
+    for (size_t i = 0; i < n; i++) {
         of[i] = row->members[i]->log;
         for (size_t k = 0; k < n; k++)
             common[i * n + k] = shared_covariance(row->members[i], row->members[k]);
     }
-    if (status == WT_OK)
-        status = shared_value_fit(of, common, n, &row->found, row->deviation, err);
+    const wt_status status = shared_value_fit(of, common, n, &row->found, row->deviation, err);
     free(of);
     free(common);
     return status;
@@ -159,11 +149,9 @@ static bool is_within_margin(const shared_row *row, double margin)
     return within;
 }
 
-static wt_status assess_shared_rows(shared_rows *list, wt_error *err)
+static void assess_shared_rows(shared_rows *list)
 {
-    double *p = malloc((2 * list->n + 1) * sizeof *p);
-    if (p == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    double *p = wt_alloc(2 * list->n, sizeof *p);
     for (size_t i = 0; i < list->n; i++)
         p[i] = list->rows[i].found.p;
     wt_holm_adjust(p, list->n, p + list->n);
@@ -176,7 +164,6 @@ static wt_status assess_shared_rows(shared_rows *list, wt_error *err)
                                                               : SHARING_INCONCLUSIVE;
     }
     free(p);
-    return WT_OK;
 }
 
 /* ---- tables ---------------------------------------------------------------------------------- */
@@ -297,11 +284,11 @@ wt_status collect_constants(const collected_case *cases, size_t n, double margin
     shared_rows list = {.margin = margin};
     wt_status status = shared_values_read(cases, n, &values, err);
     if (status == WT_OK)
-        status = find_shared_rows(&list, &values, err);
+        find_shared_rows(&list, &values);
     for (size_t i = 0; status == WT_OK && i < list.n; i++)
         status = fit_shared_row(&list.rows[i], err);
     if (status == WT_OK)
-        status = assess_shared_rows(&list, err);
+        assess_shared_rows(&list);
     if (status == WT_OK && (list.n > 0 || (n > 1 && values.left_out[0] != '\0')))
         status = list_constants(&list, &values, &tables->shared_constants, err);
     if (status == WT_OK && list.n > 0)

@@ -118,11 +118,8 @@ static wt_status add_case_pairs(const collected_case *c, reported_pairs *to, wt_
     }
     for (size_t row = 0; row < v.n_rows; row++) {
         const reported_pair t = read_reported_pair(c, &v, row);
-        reported_pair *grown = array_grow(to->of, to->n, sizeof *grown);
-        if (grown == NULL)
-            return wt_fail(err, WT_E_MEMORY, "out of memory");
-        to->of = grown;
-        grown[to->n++] = t;
+        to->of = array_grow(to->of, to->n, sizeof *to->of);
+        to->of[to->n++] = t;
         if (!t.fixed && !isnan(t.energy.value)) {
             const char *why = identification_text(&v, row, IDENTIFICATION_NOTE);
             clocale_append(to->left_out, sizeof to->left_out, "%s%s, %s: %s",
@@ -164,26 +161,22 @@ static bool is_same_group(const reported_pair *a, const reported_pair *b, sharin
 
 /* Adds the row of which this pair is the first. Adds none if it is the only pair, or if all cases
  * share one name. */
-static wt_status add_pair_row(const reported_pairs *reported, size_t first, sharing_level common,
-                              pair_rows *rows, arena *memory, wt_error *err)
+static void add_pair_row(const reported_pairs *reported, size_t first, sharing_level common,
+                         pair_rows *rows, arena *memory)
 {
     const reported_pair *t = &reported->of[first];
     pair_row row = {.by = t->by, .common = common, .of = pair_shared_by_name(t, common)};
     size_t others = 0;
     row.members = arena_alloc(memory, reported->n, sizeof *row.members);
-    pair_row *grown = array_grow(rows->of, rows->n, sizeof *grown);
-    if (grown != NULL)
-        rows->of = grown;
-    if (row.members == NULL || grown == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
     for (size_t i = 0; i < reported->n; i++) {
         if (is_same_group(t, &reported->of[i], common))
             row.members[row.n++] = &reported->of[i];
         others += is_same_group(t, &reported->of[i], OF_ALL);
     }
-    if (row.n > 1 && row.members[0] == t && (common == OF_ALL || row.n < others))
-        grown[rows->n++] = row;
-    return WT_OK;
+    if (row.n > 1 && row.members[0] == t && (common == OF_ALL || row.n < others)) {
+        rows->of = array_grow(rows->of, rows->n, sizeof *rows->of);
+        rows->of[rows->n++] = row;
+    }
 }
 
 /* ---- fit and verdicts ------------------------------------------------------------------------ */
@@ -202,8 +195,6 @@ static wt_status fit_one_constant(pair_row *row, const bool *common, int which, 
     double *covariance = arena_numbers(memory, n * n);
     shared_deviation *deviation = arena_alloc(memory, n, sizeof *deviation);
     shared_value found;
-    if (of == NULL || covariance == NULL || deviation == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
     for (size_t i = 0; i < n; i++) {
         const constant_pair *p = &row->members[i]->pair;
         of[i] = (wt_log_ratio){which == OF_ENERGY ? p->energy : p->wear,
@@ -226,8 +217,6 @@ static wt_status fit_pair_row(pair_row *row, arena *memory, wt_error *err)
     const size_t n = row->n;
     constant_pair *pairs = arena_alloc(memory, n, sizeof *pairs);
     bool *common = arena_alloc(memory, n * n, sizeof *common);
-    if (pairs == NULL || common == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
     for (size_t i = 0; i < n; i++) {
         pairs[i] = row->members[i]->pair;
         for (size_t k = 0; k < n; k++)
@@ -250,11 +239,9 @@ static const reported_pair *find_incomplete_pair(const pair_row *row)
     return NULL;
 }
 
-static wt_status assess_pair_rows(pair_rows *rows, double margin, arena *memory, wt_error *err)
+static void assess_pair_rows(pair_rows *rows, double margin, arena *memory)
 {
-    double *p = arena_numbers(memory, 2 * TESTS * rows->n + 1), *corrected = p + TESTS * rows->n;
-    if (p == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    double *p = arena_numbers(memory, 2 * TESTS * rows->n), *corrected = p + TESTS * rows->n;
     for (size_t i = 0; i < TESTS * rows->n; i++)
         p[i] = rows->of[i / TESTS].p[i % TESTS];
     wt_holm_adjust(p, TESTS * rows->n, corrected);
@@ -271,7 +258,6 @@ static wt_status assess_pair_rows(pair_rows *rows, double margin, arena *memory,
                                                              : SHARING_INCONCLUSIVE;
         }
     }
-    return WT_OK;
 }
 
 /* ---- tables ---------------------------------------------------------------------------------- */
@@ -350,11 +336,11 @@ wt_status collect_layer_constants(const collected_case *cases, size_t n, double 
     for (sharing_level c = 0; status == WT_OK && c < SHARED_BY_UNKNOWN; c++)
         for (size_t i = 0; status == WT_OK && i < reported.n; i++)
             if (reported.of[i].fixed && pair_shared_by_name(&reported.of[i], c) != NULL)
-                status = add_pair_row(&reported, i, c, &rows, &memory, err);
+                add_pair_row(&reported, i, c, &rows, &memory);
     for (size_t i = 0; status == WT_OK && i < rows.n; i++)
         status = fit_pair_row(&rows.of[i], &memory, err);
     if (status == WT_OK)
-        status = assess_pair_rows(&rows, margin, &memory, err);
+        assess_pair_rows(&rows, margin, &memory);
     if (status == WT_OK && reported.n > 0)
         status = list_reported_pairs(&reported, &tables->collected_constants, err);
     if (status == WT_OK && rows.n > 0)

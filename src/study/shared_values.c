@@ -1,17 +1,127 @@
 /* Values of the constants that cases may share: measured specific wear rate, required shear stress
- * of the record, and change of the modulus over a decade of the indentation rate.
+ * of the record, and change of the modulus over a decade of the indentation rate. Input files that
+ * cases share: their errors are shared, and a shared measurement counts once.
+ *
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "study/collect.h"
-
 #include "core/base/array.h"
 #include "core/math/normal_quantile.h"
 #include "core/math/students_t.h"
 #include "core/table/registry.h"
+#include "study/collect.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+static file_match compare_input_rows(const table_view *a, size_t i, const table_view *b, size_t k)
+{
+    const char *inputs_a = inputs_text(a, i, INPUTS_SHA256),
+               *inputs_b = inputs_text(b, k, INPUTS_SHA256);
+    if (inputs_a[0] != '\0' && inputs_b[0] != '\0')
+        return strcmp(inputs_a, inputs_b) == 0 ? FILES_IDENTICAL : FILES_DIFFERENT;
+    if (inputs_get(a, i, INPUTS_BYTES) != inputs_get(b, k, INPUTS_BYTES))
+        return FILES_DIFFERENT;
+    return strcmp(inputs_text(a, i, INPUTS_PATH), inputs_text(b, k, INPUTS_PATH)) == 0
+               ? FILES_SAME_NAME
+               : FILES_SAME_SIZE;
+}
+
+static bool has_role(const table_view *inputs, size_t row, const char *role)
+{
+    return strcmp(inputs_text(inputs, row, INPUTS_ROLE), role) == 0;
+}
+
+static file_match compare_role(const table_view *a, const table_view *b, const char *role)
+{
+    file_match closest = FILES_DIFFERENT;
+    for (size_t i = 0; i < a->n_rows; i++)
+        for (size_t k = 0; k < b->n_rows && has_role(a, i, role); k++) {
+            const file_match found =
+                has_role(b, k, role) ? compare_input_rows(a, i, b, k) : FILES_DIFFERENT;
+            closest = found > closest ? found : closest;
+        }
+    return closest;
+}
+
+static bool bind_inputs(const collected_case *c, table_view *inputs)
+{
+    return table_bind_result(c->result, &inputs_schema, "", inputs, NULL) == WT_OK &&
+           inputs->table != NULL;
+}
+
+/* A result without a list of files may share any. */
+static file_match compare_input_files(const collected_case *a, const collected_case *b,
+                                      const char *const *roles, size_t n_roles)
+{
+    table_view inputs_a, inputs_b;
+    file_match closest = FILES_DIFFERENT;
+    if (!bind_inputs(a, &inputs_a) || !bind_inputs(b, &inputs_b))
+        return FILES_SAME_SIZE;
+    for (size_t i = 0; i < n_roles; i++) {
+        const file_match found = compare_role(&inputs_a, &inputs_b, roles[i]);
+        closest = found > closest ? found : closest;
+    }
+    return closest;
+}
+
+/* Prefix of the sources of each category (NULL if the table has none), and the roles of their
+ * files. */
+static const struct {
+    const char *source;
+    const char *roles[5];
+} sources[INPUT_CATEGORIES] = {[SHARED_MATERIAL] = {VALIDATION_MATERIAL_PREFIX,
+                                                    {"dma", "material", "topography", "roughness"}},
+                               [SHARED_LAW] = {"shift law", {"dma", "material"}},
+                               [SHARED_ROUGHNESS] = {"roughness", {"topography", "roughness"}},
+                               [SHARED_SOFTENING] = {"softening with strain", {"softening", "dma"}},
+                               [SHARED_SPECTRUM] = {NULL, {"dma", "material"}}};
+
+/* Returns the category of an error source of a record; INPUT_CATEGORIES if there is none. */
+static input_category input_category_of_source(const char *source)
+{
+    input_category i = 0;
+    while (i < INPUT_CATEGORIES &&
+           (sources[i].source == NULL ||
+            strncmp(source, sources[i].source, strlen(sources[i].source)) != 0))
+        i++;
+    return i;
+}
+
+double shared_covariance(const case_value *a, const case_value *b)
+{
+    double sum = 0;
+    for (input_category i = 0; i < INPUT_CATEGORIES; i++) {
+        const double closest = sqrt(a->by_files[i] * b->by_files[i]);
+        size_t n = 0;
+        while (n < COUNT_OF(sources[i].roles) && sources[i].roles[n] != NULL)
+            n++;
+        if (closest > 0 &&
+            compare_input_files(a->of, b->of, sources[i].roles, n) != FILES_DIFFERENT)
+            sum += closest;
+    }
+    return sum;
+}
+
+static bool has_input_role(const collected_case *c, const char *const *roles, size_t n)
+{
+    table_view inputs;
+    bool any = false;
+    if (!bind_inputs(c, &inputs))
+        return false;
+    for (size_t row = 0; row < inputs.n_rows; row++)
+        for (size_t k = 0; k < n; k++)
+            any = any || has_role(&inputs, row, roles[k]);
+    return any;
+}
+
+bool inputs_may_be_shared(const collected_case *a, const collected_case *b)
+{
+    static const char *const roles[] = {"dma", "material", "topography", "roughness", "softening"};
+    const size_t n = COUNT_OF(roles);
+    return !has_input_role(a, roles, n) || !has_input_role(b, roles, n) ||
+           compare_input_files(a, b, roles, n) != FILES_DIFFERENT;
+}
 
 static wt_status bind_case_table(const collected_case *c, const table_schema *schema,
                                  const char *suffix, table_view *view, wt_error *err)
@@ -26,6 +136,8 @@ const char *const shared_constant_names[N_SHARED_CONSTANTS] = {[SHARED_WEAR] = "
                                                                [SHARED_SHEAR] = "shear stress",
                                                                [SHARED_RATE] =
                                                                    "modulus over a decade of rate"};
+
+/* ---- values of the cases --------------------------------------------------------------------- */
 
 void shared_value_name(const case_value *v, char *text, size_t size)
 {
@@ -78,11 +190,11 @@ static bool is_duplicate(case_value_list *to, const case_value *value)
 
 /* Adds a value by its logarithm. A value that is not above 0, or whose interval includes 0, is
  * excluded. */
-static wt_status add_case_value(case_value_list *to, case_value value, wt_error *err)
+static void add_case_value(case_value_list *to, case_value value)
 {
     const char *why = NULL;
     if (isnan(value.log.value) || is_duplicate(to, &value))
-        return WT_OK;
+        return;
     if (isinf(value.log.value))
         why = "it is not above zero";
     else if (isinf(value.log.standard_error))
@@ -91,14 +203,10 @@ static wt_status add_case_value(case_value_list *to, case_value value, wt_error 
         why = "no error is stated";
     if (why != NULL) {
         exclude_value(to, &value, why);
-        return WT_OK;
+        return;
     }
-    case_value *grown = array_grow(to->of, to->n, sizeof *grown);
-    if (grown == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
-    to->of = grown;
-    grown[to->n++] = value;
-    return WT_OK;
+    to->of = array_grow(to->of, to->n, sizeof *to->of);
+    to->of[to->n++] = value;
 }
 
 /* Infinite if the value is not positive. */
@@ -117,22 +225,22 @@ static wt_status add_case_wear(const collected_case *c, case_value_list *to, wt_
     const double df = wear_value(&wear, WEAR_KEY_RATE_DF).value,
                  reach = k.standard_error * (isnan(df) ? NORMAL_95 : students_t_quantile(df)),
                  error = reach >= k.value ? (double)INFINITY : k.standard_error / k.value;
-    return add_case_value(
+    add_case_value(
         to,
-        (case_value){.constant = SHARED_WEAR, .of = c, .log = {positive_log(k.value), error, df}},
-        err);
+        (case_value){.constant = SHARED_WEAR, .of = c, .log = {positive_log(k.value), error, df}});
+    return WT_OK;
 }
 
 /* Components of the variance of the shear stress by category of input files. */
 static wt_status find_shear_components(const collected_case *c, double variance,
                                        double parts[INPUT_CATEGORIES], wt_error *err)
 {
-    table_view sources;
-    const wt_status status = bind_case_table(c, &validation_sources_schema, "", &sources, err);
-    for (size_t row = 0; status == WT_OK && row < sources.n_rows; row++) {
-        const double of = validation_sources_get(&sources, row, VALIDATION_SOURCES_NEEDED_SHARE);
+    table_view table;
+    const wt_status status = bind_case_table(c, &validation_sources_schema, "", &table, err);
+    for (size_t row = 0; status == WT_OK && row < table.n_rows; row++) {
+        const double of = validation_sources_get(&table, row, VALIDATION_SOURCES_NEEDED_SHARE);
         const input_category k = input_category_of_source(
-            validation_sources_text(&sources, row, VALIDATION_SOURCES_SOURCE));
+            validation_sources_text(&table, row, VALIDATION_SOURCES_SOURCE));
         if (of > 0 && k < INPUT_CATEGORIES)
             parts[k] += of * variance;
     }
@@ -165,7 +273,9 @@ static wt_status add_shear(const collected_case *c, case_value_list *to, wt_erro
                     .log = {positive_log(value), error, (double)NAN},
                     .lacks = missing_errors(c)};
     status = find_shear_components(c, error * error, v.by_files, err);
-    return status == WT_OK ? add_case_value(to, v, err) : status;
+    if (status == WT_OK)
+        add_case_value(to, v);
+    return status;
 }
 
 /* ---- modulus against rate -------------------------------------------------------------------- */
@@ -254,24 +364,21 @@ static void extend_rates(rate_range *ends, double rate, double frequency)
     }
 }
 
-static wt_status add_curve_to_spot(const table_view *curves, size_t row, spot_line **lines,
-                                   size_t *n, rate_range *ends, wt_error *err)
+static void add_curve_to_spot(const table_view *curves, size_t row, spot_line **lines, size_t *n,
+                              rate_range *ends)
 {
     const char *spot = curve_spot(curves, row);
     const double x = log10(indentation_get(curves, row, INDENTATION_RATE)),
                  y = log(indentation_get(curves, row, INDENTATION_MODULUS));
     if (spot == NULL || !isfinite(x) || !isfinite(y) ||
         !wt_curve_verdict_is_usable(indentation_enum(curves, row, INDENTATION_VERDICT)))
-        return WT_OK;
+        return;
     size_t i = 0;
     while (i < *n && strcmp((*lines)[i].spot, spot) != 0)
         i++;
     if (i == *n) {
-        spot_line *grown = array_grow(*lines, *n, sizeof *grown);
-        if (grown == NULL)
-            return wt_fail(err, WT_E_MEMORY, "out of memory");
-        *lines = grown;
-        grown[(*n)++] = (spot_line){.spot = spot};
+        *lines = array_grow(*lines, *n, sizeof **lines);
+        (*lines)[(*n)++] = (spot_line){.spot = spot};
     }
     spot_line *l = &(*lines)[i];
     extend_rates(ends, x, 1 / indentation_get(curves, row, INDENTATION_LOAD_TIME));
@@ -280,7 +387,6 @@ static wt_status add_curve_to_spot(const table_view *curves, size_t row, spot_li
     l->y += y;
     l->xx += x * x;
     l->xy += x * y;
-    return WT_OK;
 }
 
 /* Mean slope over the spots, which are the units. Each slope is fitted by least squares. A spread
@@ -288,10 +394,10 @@ static wt_status add_curve_to_spot(const table_view *curves, size_t row, spot_li
 static wt_log_ratio mean_spot_slope(const spot_line *lines, size_t n)
 {
     const double least = 0.05;
-    double *slope = malloc((n + 1) * sizeof *slope);
+    double *slope = wt_alloc(n, sizeof *slope);
     size_t known = 0;
     wt_log_ratio of = {(double)NAN, (double)NAN, (double)NAN};
-    for (size_t i = 0; slope != NULL && i < n; i++) {
+    for (size_t i = 0; i < n; i++) {
         const spot_line *l = &lines[i];
         const double square = l->xx / l->n - l->x / l->n * (l->x / l->n);
         if (square > least * least)
@@ -314,10 +420,9 @@ static wt_status add_rates(const collected_case *c, const char *group, case_valu
     size_t n = 0;
     double variance = 0;
     wt_status status = bind_case_table(c, &indentation_schema, group, &curves, err);
-    for (size_t row = 0; status == WT_OK && row < curves.n_rows; row++)
-        status = add_curve_to_spot(&curves, row, &lines, &n, &ends, err);
-    if (status == WT_OK)
-        status = find_spectrum_variance(c, &curves, &ends, &variance, err);
+    for (size_t row = 0; row < curves.n_rows; row++)
+        add_curve_to_spot(&curves, row, &lines, &n, &ends);
+    status = find_spectrum_variance(c, &curves, &ends, &variance, err);
     if (status == WT_OK) {
         case_value v = {
             .constant = SHARED_RATE, .of = c, .group = group, .log = mean_spot_slope(lines, n)};
@@ -330,7 +435,7 @@ static wt_status add_rates(const collected_case *c, const char *group, case_valu
             v.log.standard_error = all.error;
             v.log.df = all.df;
         }
-        status = add_case_value(to, v, err);
+        add_case_value(to, v);
     }
     free(lines);
     return status;

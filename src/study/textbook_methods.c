@@ -29,9 +29,7 @@ wt_status textbook_friction_compute(const wt_material *material, const wt_roughn
     if (n_q < 2 || n_angle < 2 || n_angle % 2)
         return WT_E_ARG;
     const bool closed = material->law->angular != NULL;
-    double *scratch = calloc(3 * (n_angle + 1), sizeof *scratch);
-    if (!scratch)
-        return WT_E_MEMORY;
+    double *scratch = wt_alloc(3 * (n_angle + 1), sizeof *scratch);
     const double nu = material->poisson_ratio;
     const double stiffness = 1 / ((1 - nu * nu) * pressure);
     const double step = log(roughness->q1 / roughness->q0) / (double)(n_q - 1);

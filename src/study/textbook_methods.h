@@ -18,7 +18,7 @@ void textbook_angular_integrals(const wt_material *material, double w, size_t n,
                                 double *j1, double *j2);
 
 /* Computes friction with n_q >= 2 wavenumbers from q0 to q1 and, without a closed form, n_angle >=
- * 2 intervals (even) over a quarter turn. Velocity > 0 [m/s]. Returns WT_E_MEMORY, or WT_E_ARG for
+ * 2 intervals (even) over a quarter turn. Velocity > 0 [m/s]. Returns WT_E_ARG for
  * too few points. */
 wt_status textbook_friction_compute(const wt_material *material, const wt_roughness *roughness,
                                     double pressure, double velocity, size_t n_q, size_t n_angle,

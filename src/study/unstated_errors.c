@@ -120,17 +120,15 @@ static wt_status required_radius(const wt_tip *tip, const pressed_curve *at, dou
 
 /* p values of tip wear in each group, which only the lack of fit shows: relative to the other
  * group, and over all curves. */
-static wt_status misfit_p_values(const compare_pair *p, double chance[2], wt_error *err)
+static void misfit_p_values(const compare_pair *p, double chance[2])
 {
     const wt_group_data *bulk = &p->data[0], *track = &p->data[1];
     const double *const values[2] = {bulk->lack_of_fit, track->lack_of_fit};
     const long *const spots[2] = {bulk->fitted_spot, track->fitted_spot};
     const size_t n[2] = {bulk->n_fitted, track->n_fitted};
-    wt_mean_comparison lack;
-    const wt_status status = wt_compare_means(values, spots, n, &lack, err);
-    for (int g = 0; status == WT_OK && g < 2; g++)
+    const wt_mean_comparison lack = wt_compare_means(values, spots, n);
+    for (int g = 0; g < 2; g++)
         chance[g] = wt_combined_p_value(lack.larger_p[g], p->data[g].pooled_misfit_p);
-    return status;
 }
 
 /* Returns the largest plausible tip radius. */
@@ -159,17 +157,15 @@ static wt_status add_tip_cause(const compare_pair *p, const wt_compare_job *job,
 {
     wt_tip tip;
     double chance[2], needed, least, misfit, ignored;
-    wt_status status = misfit_p_values(p, chance, err);
-    if (status != WT_OK)
-        return status;
+    misfit_p_values(p, chance);
     const int worn = within ? chance[1] < chance[0] : u->log_ratio > 0;
     const wt_group_data *d = &p->data[worn];
     const pressed_curve at = mean_pressed_curve(d);
     if (d->tip == NULL || !(at.depth > 0) || !tip_from_description(d->tip, &tip) ||
         !(tip.radius < worn_radius))
         return WT_OK;
-    status = required_radius(&tip, &at, within ? u->smallest_to_explain : fabs(u->log_ratio),
-                             &needed, &misfit, err);
+    wt_status status = required_radius(
+        &tip, &at, within ? u->smallest_to_explain : fabs(u->log_ratio), &needed, &misfit, err);
     if (status == WT_OK)
         status = required_radius(&tip, &at, u->smallest_to_explain, &least, &ignored, err);
     if (status != WT_OK || isinf(needed))
@@ -249,30 +245,26 @@ static double required_pull(const wt_tip *tip, double depth, double force, doubl
 }
 
 /* Adds adhesion if it is larger in one group. */
-static wt_status add_pull_cause(const compare_pair *p, bool within, unstated_errors *u,
-                                wt_error *err)
+static void add_pull_cause(const compare_pair *p, bool within, unstated_errors *u)
 {
     const double *const values[2] = {p->data[0].pull, p->data[1].pull};
     const long *const spots[2] = {p->data[0].group.spot, p->data[1].group.spot};
     const size_t n[2] = {p->data[0].group.n, p->data[1].group.n};
-    wt_mean_comparison pulls;
+    const wt_mean_comparison pulls = wt_compare_means(values, spots, n);
     wt_tip tip;
-    const wt_status status = wt_compare_means(values, spots, n, &pulls, err);
-    if (status != WT_OK)
-        return status;
     const int more = pulls.mean[1] > pulls.mean[0];
     const wt_group_data *d = &p->data[more];
     const pressed_curve at = mean_pressed_curve(d);
     const double there = pulls.mean[more] - pulls.mean[!more];
     if (!(pulls.larger_p[more] < level) || !(at.depth > 0) || !(at.force > 0))
-        return WT_OK;
+        return;
     const wt_tip *const known = d->tip != NULL && tip_from_description(d->tip, &tip) ? &tip : NULL;
     const double needed = required_pull(known, at.depth, at.force,
                                         within ? u->smallest_to_explain : fabs(u->log_ratio)),
                  least = required_pull(known, at.depth, at.force, u->smallest_to_explain);
     char words[200], is[32], would[32];
     if (isinf(needed))
-        return WT_OK;
+        return;
     wt_format_si(there, "N", 2, is, sizeof is);
     wt_format_si(needed, "N", 2, would, sizeof would);
     clocale_print(words, sizeof words,
@@ -282,7 +274,6 @@ static wt_status add_pull_cause(const compare_pair *p, bool within, unstated_err
                   is);
     add_cause(u, least <= there, group_effect(more, pull_effect(known, at.depth, at.force, there)),
               words, "curves without the pull, under liquid or after drying");
-    return WT_OK;
 }
 
 /* d ln E/dT without a DMA. By time-temperature superposition it is the slope against ln rate times
@@ -347,7 +338,8 @@ wt_status compare_find_unstated_errors(const compare_pair *p, const wt_compare_j
      * a no needs a difference as large as the margin. */
     u->smallest_to_explain = low > 0 ? low : high < 0 ? -high : log1p(job->margin);
     wt_status status = add_tip_cause(p, job, within, u, err);
-    if (status == WT_OK)
-        status = add_pull_cause(p, within, u, err);
-    return status == WT_OK ? add_temperature_cause(p, job, work, row, within, u, err) : status;
+    if (status != WT_OK)
+        return status;
+    add_pull_cause(p, within, u);
+    return add_temperature_cause(p, job, work, row, within, u, err);
 }

@@ -1,9 +1,9 @@
 /* One-at-a-time sensitivity of friction and layer to the model choices. The list `choices` has the
  * choices, their ranges and reasons.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "study/what_if.h"
 #include "friction/sliding_contact.h"
 #include "job/cost.h"
+#include "study/case_override.h"
 #include "weartrack/study.h"
 
 #include "core/base/array.h"
@@ -422,27 +422,21 @@ static void add_all_choices(what_if_run *w, const case_variant *used)
             add_choice(w, &choices[i], used);
 }
 
-static outcome *alloc_outcomes(wt_error *err)
+static outcome *alloc_outcomes(void)
 {
-    outcome *const outcomes = malloc((1 + COUNT_OF(choices) * MOST_TRIED) * sizeof *outcomes);
-    if (outcomes == NULL)
-        wt_fail(err, WT_E_MEMORY, "out of memory");
-    return outcomes;
+    return wt_alloc(1 + COUNT_OF(choices) * MOST_TRIED, sizeof(outcome));
 }
 
-wt_status what_if_list_variants(const case_variant *used, case_variant **settings, size_t *n,
-                                wt_error *err)
+case_variant *what_if_list_variants(const case_variant *used, size_t *n)
 {
-    what_if_run w = {.outcomes = alloc_outcomes(err)};
-    if (w.outcomes == NULL)
-        return WT_E_MEMORY;
+    what_if_run w = {.outcomes = alloc_outcomes()};
     add_all_choices(&w, used);
     *n = w.n;
-    *settings = malloc(w.n * sizeof **settings);
-    for (size_t i = 0; *settings != NULL && i < w.n; i++)
-        (*settings)[i] = w.outcomes[i].case_variant;
+    case_variant *const settings = wt_alloc(w.n, sizeof *settings);
+    for (size_t i = 0; i < w.n; i++)
+        settings[i] = w.outcomes[i].case_variant;
     free(w.outcomes);
-    return *settings != NULL ? WT_OK : wt_fail(err, WT_E_MEMORY, "out of memory");
+    return settings;
 }
 
 /* ---- table ----------------------------------------------------------------------------------- */
@@ -564,9 +558,7 @@ wt_status wt_model_sensitivity_compute(const wt_sliding *sliding, const wt_layer
     w.work.replicates = 0;
     w.work.log = NULL; /* warnings about the case as used exist already */
     w.work.progress = (wt_progress){0};
-    w.outcomes = alloc_outcomes(err);
-    if (w.outcomes == NULL)
-        return WT_E_MEMORY;
+    w.outcomes = alloc_outcomes();
     add_all_choices(&w, &used);
     w.work.left_out = WT_EXTRA_ALL & ~(unsigned)WT_EXTRA_EXTRAPOLATED_SHARE;
     status = cover_wavenumbers(&w, &used, err);

@@ -102,6 +102,10 @@ static void test_full(void **state)
 #define SLIDING(inner) HEAD "<sliding>" inner "</sliding></case>"
 #define LAYER(inner) HEAD "<layer>" inner "</layer></case>"
 
+#define INDENTATION(inner)                                                                         \
+    HEAD "<indentation><tip>sphere:radius=5um</tip>" inner                                         \
+         "<bulk><files>bulk/*</files></bulk></indentation></case>"
+
 /* Each wrong text with the status, a part of the place and a part of the whole error. */
 static void test_wrong(void **state)
 {
@@ -172,6 +176,50 @@ static void test_wrong(void **state)
 }
 
 /* The embedded schema is the file that is installed. */
+/* Elements with the names of earlier versions pass the schema. */
+static void test_former_elements(void **state)
+{
+    (void)state;
+    static const char *const cases[] = {
+        LAYER("<acts-back>no</acts-back>"),
+        LAYER("<existence>no</existence>"),
+        LAYER("<shear-reach>1um</shear-reach>"),
+        LAYER("<duty>0.5</duty>"),
+        INDENTATION("<choices>choices.csv</choices>"),
+        INDENTATION("<doubtful-error>0.2</doubtful-error>"),
+        INDENTATION("<largest-error>0.5</largest-error>"),
+        INDENTATION("<least-chance>0.01</least-chance>"),
+        INDENTATION("<spot-scatter>10%</spot-scatter>"),
+        HEAD "<dma><leave-out>a.txt</leave-out><files>dma/*.txt</files></dma></case>",
+        HEAD
+        "<identify><observed-thickness>1um</observed-thickness><duty>0.5</duty></identify></case>",
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        wt_case *c = NULL;
+        wt_error err = WT_ERROR_INIT;
+        if (read_text(cases[i], &c, &err) == WT_E_SCHEMA)
+            fail_msg("%s: %s", cases[i], err.message);
+        wt_case_free(c);
+    }
+}
+
+/* A list of tables is read to its end. */
+static void test_long_request(void **state)
+{
+    (void)state;
+    char tables[1024] = "";
+    wt_case *c = NULL;
+    wt_error err = WT_ERROR_INIT;
+    assert_int_equal(read_text(full, &c, &err), WT_OK);
+    for (int i = 0; i < 50; i++)
+        strcat(tables, "friction layer ");
+    assert_int_equal(wt_case_request_tables(c, tables, NULL), WT_OK);
+    strcat(tables, "no_table");
+    assert_int_equal(wt_case_request_tables(c, tables, &err), WT_E_NOT_FOUND);
+    assert_non_null(strstr(err.message, "no_table"));
+    wt_case_free(c);
+}
+
 static void test_schema(void **state)
 {
     (void)state;
@@ -248,6 +296,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_full),
         cmocka_unit_test(test_wrong),
+        cmocka_unit_test(test_former_elements),
+        cmocka_unit_test(test_long_request),
         cmocka_unit_test(test_schema),
         cmocka_unit_test(test_man_page_is_complete),
         cmocka_unit_test(test_man_page_example),

@@ -160,7 +160,7 @@ static void test_of_a_measured_disc(void **state)
     assert_non_null(y);
     for (size_t i = 0; i < cycles.n; i++)
         y[i] = cycles.cycle[i].coefficient;
-    assert_int_equal(wt_running_in_find(y, cycles.n, &end, NULL), WT_OK);
+    end = wt_running_in_find(y, cycles.n);
     assert_true(end.is_detected && end.end.low >= 270 && end.end.high <= 310);
     free(y);
     wt_cycles_clear(&cycles);
@@ -304,9 +304,9 @@ static void test_of_few_points(void **state)
     assert_int_equal(wt_steady_mean(y, 0, &s, NULL), WT_E_ARG);
     assert_int_equal(wt_steady_mean(same, 50, &s, NULL), WT_OK);
     assert_true(isnan(s.mean.standard_error));
-    assert_int_equal(wt_running_in_find(y, 3, &r, NULL), WT_OK);
+    r = wt_running_in_find(y, 3);
     assert_true(!r.is_detected && isnan(r.end.value) && r.steady_start == 0);
-    assert_int_equal(wt_running_in_find(same, 50, &r, NULL), WT_OK);
+    r = wt_running_in_find(same, 50);
     assert_false(r.is_detected);
 }
 
@@ -320,16 +320,16 @@ static void test_of_the_end_of_a_running_in(void **state)
     wt_running_in r;
     for (int i = 0; i < N; i++)
         y[i] = 1 - 0.002 * i + 0.002 * normal(&seed);
-    assert_int_equal(wt_running_in_find(y, N, &r, NULL), WT_OK);
+    r = wt_running_in_find(y, N);
     assert_false(r.is_detected);
     assert_non_null(strstr(r.reason, "does not become steady"));
     for (int i = 0; i < N; i++)
         y[i] = 1 + 0.002 * normal(&seed);
-    assert_int_equal(wt_running_in_find(y, N, &r, NULL), WT_OK);
+    r = wt_running_in_find(y, N);
     assert_true(!r.is_detected && r.steady_start == 0);
     for (int i = 0; i < N; i++)
         y[i] = i < 100 ? 1.5 : 1;
-    assert_int_equal(wt_running_in_find(y, N, &r, NULL), WT_OK);
+    r = wt_running_in_find(y, N);
     assert_true(r.is_detected);
     assert_near(r.end.value, 100, 1e-12);
     assert_near(r.end.low, 100, 1e-12);
@@ -347,19 +347,19 @@ static void test_of_stick_slip(void **state)
     wt_stick_slip s;
     for (int i = 0; i < N; i++)
         y[i] = 0.5 + 0.1 * (i % PERIOD) / (PERIOD - 1) + 0.001 * normal(&seed);
-    assert_int_equal(wt_stick_slip_find(y, N, &s, NULL), WT_OK);
+    s = wt_stick_slip_find(y, N);
     assert_true(s.n >= N / PERIOD - 2 && s.n <= N / PERIOD);
     assert_near(s.amplitude, 0.1, 0.02);
     assert_true(s.standard_error > 0 && s.standard_error < 1e-3);
     for (int i = 0; i < N; i++) /* up and down alike: a wave */
         y[i] = 0.5 + 0.1 * sin(2 * M_PI * i / PERIOD) + 0.001 * normal(&seed);
-    assert_int_equal(wt_stick_slip_find(y, N, &s, NULL), WT_OK);
+    s = wt_stick_slip_find(y, N);
     assert_true(s.n == 0 && isnan(s.amplitude));
     for (int i = 0; i < N; i++)
         y[i] = 0.5 + 0.001 * normal(&seed);
-    assert_int_equal(wt_stick_slip_find(y, N, &s, NULL), WT_OK);
+    s = wt_stick_slip_find(y, N);
     assert_int_equal(s.n, 0);
-    assert_int_equal(wt_stick_slip_find(y, 3, &s, NULL), WT_OK);
+    s = wt_stick_slip_find(y, 3);
     assert_int_equal(s.n, 0);
 }
 
@@ -550,8 +550,7 @@ static void test_of_a_pause(void **state)
             n++;
         }
         record.n = n;
-        record_pauses pauses;
-        assert_int_equal(record_remove_pauses(&record, &pauses, NULL), WT_OK);
+        record_pauses pauses = record_remove_pauses(&record);
         assert_int_equal(pauses.n, 1);
         /* whole laps do not tell where in one it was */
         const bool coarse = c->by == WT_RECORD_LAPS && c->display > 0;
@@ -596,8 +595,7 @@ static void test_of_no_pause(void **state)
                            : k == 1 ? 1e-4 * floor(1e4 * way)
                                     : way;
         }
-        record_pauses pauses;
-        assert_int_equal(record_remove_pauses(&record, &pauses, NULL), WT_OK);
+        record_pauses pauses = record_remove_pauses(&record);
         assert_int_equal(pauses.n, 0);
         assert_int_equal(record.n, SAMPLES);
         assert_int_equal(pauses.alike > 0, k == 4);

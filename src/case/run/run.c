@@ -2,15 +2,47 @@
  * result. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "case/answer/answer.h"
 #include "case/run/stage_functions.h"
+#include "core/base/array.h"
+#include "core/base/param.h"
+#include "core/table/registry.h"
 #include "friction/material_cache.h"
 #include "job/cost.h"
 #include "job/inputs.h"
 
-#include "core/base/array.h"
-#include "core/table/registry.h"
-
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
+
+static bool is_case_param(const wt_params *params, const char *name, size_t length)
+{
+    for (size_t i = 0; i < wt_params_count(params); i++) {
+        const wt_param *p = wt_params_get(params, i);
+        if ((p->flags & PARAM_NO_CASE) == 0 && strlen(p->name) == length &&
+            strncmp(p->name, name, length) == 0)
+            return true;
+    }
+    return false;
+}
+
+/* Extends advice that names an option by the spelling in a case file. */
+static void flow_add_case_advice(wt_error *failure)
+{
+    static const char letters[] = "abcdefghijklmnopqrstuvwxyz-";
+    const char *const option = strstr(failure->advice, "--");
+    const char *const name = option != NULL ? option + 2 : "";
+    const size_t length = strspn(name, letters), end = strlen(failure->advice);
+    char hint[96] = "";
+    if (strstr(failure->advice, "(in a case: ") != NULL)
+        return; /* The advice concerns a file that an earlier step has reported already. */
+    if (is_case_param(wt_read_params(), name, length))
+        snprintf(hint, sizeof hint,
+                 " (in a case: the attribute %.*s=\"...\" where the file is named)", (int)length,
+                 name);
+    else if (is_case_param(wt_master_job_params(), name, length))
+        snprintf(hint, sizeof hint, " (in a case: <%.*s> in <dma>)", (int)length, name);
+    if (strlen(hint) < sizeof failure->advice - end) /* truncated advice would be misleading */
+        memcpy(failure->advice + end, hint, strlen(hint) + 1);
+}
 
 wt_run_options wt_run_defaults(void)
 {
@@ -358,9 +390,6 @@ static wt_status prepare_execution(run_execution *d, const wt_run_options *optio
     d->failures = wt_failures_new();
     d->cost = wt_cost_new(!options->no_provenance, options->threads);
     d->drawn = material_cache_new();
-    if (log == NULL || d->result == NULL || d->failures == NULL || d->cost == NULL ||
-        d->drawn == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
     wt_status status = wt_formats_new(options->formats, &d->formats, log, err);
     if (status == WT_OK)
         status = wt_formats_add_columns(d->formats, options->columns, options->n_columns, err);

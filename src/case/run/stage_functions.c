@@ -225,8 +225,6 @@ wt_status flow_step_ramp(flow_run *run, wt_error *err)
         work.log = NULL;
         work.provenance = NULL;
         work.failures = again = wt_failures_new();
-        if (again == NULL)
-            return wt_fail(err, WT_E_MEMORY, "out of memory");
     }
     const wt_status status = wt_ramp_compute(&job, &work, &tables, err);
     wt_table_free(again);
@@ -403,15 +401,23 @@ wt_status flow_step_contact_area(flow_run *run, wt_error *err)
     return wt_contact_area_compute(&sliding, &run->job, &run->table[FLOW_CONTACT_AREA], err);
 }
 
+/* The layer of a stage whose only optional input is the layer: NULL at level 0. */
+static wt_status load_optional_layer(const flow_run *run, wt_layer_observation *storage,
+                                     const wt_layer_observation **layer, wt_error *err)
+{
+    *layer = run->level > 0 ? storage : NULL;
+    return run->level > 0 ? flow_run_layer_observation(run, storage, err) : WT_OK;
+}
+
 wt_status flow_step_friction(flow_run *run, wt_error *err)
 {
-    wt_sliding sliding = flow_run_sliding(run);
+    const wt_sliding sliding = flow_run_sliding(run);
+    const wt_layer_observation *layer;
+    wt_layer_observation storage;
     wt_friction_tables tables = {0};
-    wt_layer_observation layer;
-    wt_status status = run->level > 0 ? flow_run_layer_observation(run, &layer, err) : WT_OK;
+    wt_status status = load_optional_layer(run, &storage, &layer, err);
     if (status == WT_OK)
-        status = wt_sliding_friction_compute(&sliding, run->level > 0 ? &layer : NULL, &run->job,
-                                             &tables, err);
+        status = wt_sliding_friction_compute(&sliding, layer, &run->job, &tables, err);
     if (status == WT_OK)
         flow_run_store_table(run, FLOW_FRICTION, &tables.friction);
     return status;
@@ -440,21 +446,23 @@ wt_status flow_step_anisotropy(flow_run *run, wt_error *err)
 wt_status flow_step_friction_map(flow_run *run, wt_error *err)
 {
     const wt_sliding sliding = flow_run_sliding(run);
-    wt_layer_observation layer;
-    const bool layered =
-        run->c->has_layer && flow_run_layer_observation(run, &layer, NULL) == WT_OK;
-    return wt_friction_map_compute(&sliding, layered ? &layer : NULL, &run->job,
-                                   &run->table[FLOW_FRICTION_MAP], err);
+    const wt_layer_observation *layer;
+    wt_layer_observation storage;
+    const wt_status status = load_optional_layer(run, &storage, &layer, err);
+    return status == WT_OK ? wt_friction_map_compute(&sliding, layer, &run->job,
+                                                     &run->table[FLOW_FRICTION_MAP], err)
+                           : status;
 }
 
 wt_status flow_step_friction_decades(flow_run *run, wt_error *err)
 {
     const wt_sliding sliding = flow_run_sliding(run);
-    wt_layer_observation layer;
-    const bool layered =
-        run->c->has_layer && flow_run_layer_observation(run, &layer, NULL) == WT_OK;
-    return wt_friction_by_scale_compute(&sliding, layered ? &layer : NULL, &run->job,
-                                        &run->table[FLOW_FRICTION_DECADES], err);
+    const wt_layer_observation *layer;
+    wt_layer_observation storage;
+    const wt_status status = load_optional_layer(run, &storage, &layer, err);
+    return status == WT_OK ? wt_friction_by_scale_compute(&sliding, layer, &run->job,
+                                                          &run->table[FLOW_FRICTION_DECADES], err)
+                           : status;
 }
 
 wt_status flow_step_flash_effect(flow_run *run, wt_error *err)

@@ -40,9 +40,6 @@ wt_status flow_run_layer_observation(const flow_run *run, wt_layer_observation *
 /* Moves a table into the run. A table from an earlier attempt is freed. */
 void flow_run_store_table(flow_run *run, flow_resource resource, wt_table **table);
 
-/* Extends advice that names an option by the spelling in a case file. */
-void flow_add_case_advice(wt_error *failure);
-
 #define STEP_PROTOTYPE(id, name, title, needs, any, additions, outputs, step)                      \
     wt_status step(flow_run *run, wt_error *err);
 STAGES(STEP_PROTOTYPE)

@@ -11,15 +11,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Fills `file` with the only file of the role. It borrows *path, which the caller frees with
- * free(). */
-static wt_status find_stated_file(const case_files *files, flow_file *file, char **path,
-                                  wt_error *err)
+/* Returns the only file of the role. It borrows *path, which the caller frees with free(). */
+static flow_file find_stated_file(const case_files *files, char **path)
 {
-    const wt_file_set *set = &files->sets[0];
+    const wt_file_set *const set = &files->sets[0];
     *path = wt_path_join(set->folder, set->patterns[0]);
-    *file = (flow_file){.path = *path, .name = set->patterns[0], .set = set};
-    return *path != NULL ? WT_OK : wt_fail(err, WT_E_MEMORY, "out of memory");
+    return (flow_file){.path = *path, .name = set->patterns[0], .set = set};
 }
 
 /* ---- material -------------------------------------------------------------------------------- */
@@ -43,11 +40,10 @@ static wt_status create_stated_series(const wt_case *c, wt_rubber *rubber, wt_er
 static wt_status read_stated_points(const wt_case *c, const wt_job *work, wt_rubber *rubber,
                                     wt_error *err)
 {
-    char *path = NULL;
-    flow_file file;
-    wt_status status = find_stated_file(&c->points, &file, &path, err);
-    if (status == WT_OK)
-        status = flow_rubber_read(&file, &c->rubber, c->master.poisson_ratio, work, rubber, err);
+    char *path;
+    flow_file file = find_stated_file(&c->points, &path);
+    const wt_status status =
+        flow_rubber_read(&file, &c->rubber, c->master.poisson_ratio, work, rubber, err);
     free(path);
     return status;
 }
@@ -112,11 +108,9 @@ static wt_status create_stated_surface(const wt_case *c, const wt_job *work, wt_
     wt_surface opened = {0};
     if (c->height_maps.n > 0)
         return measure_surface(&c->topography, work, surface, NULL, err);
-    char *path = NULL;
-    flow_file file;
-    wt_status status = find_stated_file(&c->spectrum, &file, &path, err);
-    if (status == WT_OK)
-        status = flow_surface_read(&file, work, &opened, err);
+    char *path;
+    flow_file file = find_stated_file(&c->spectrum, &path);
+    wt_status status = flow_surface_read(&file, work, &opened, err);
     if (status == WT_OK) {
         opened.q0 = c->surface.q0;
         opened.q1 = c->surface.q1;
@@ -164,12 +158,11 @@ wt_status flow_step_topography(flow_run *run, wt_error *err)
 
 wt_status flow_step_given_softening(flow_run *run, wt_error *err)
 {
-    char *path = NULL;
-    flow_file file;
-    wt_status status = find_stated_file(&run->c->softening, &file, &path, err);
-    if (status == WT_OK)
-        status = wt_strain_softening_read(path, file.name, wt_strain_softening_choice_defaults(),
-                                          &run->job, &run->strain_softening, err);
+    char *path;
+    const flow_file file = find_stated_file(&run->c->softening, &path);
+    const wt_status status =
+        wt_strain_softening_read(path, file.name, wt_strain_softening_choice_defaults(), &run->job,
+                                 &run->strain_softening, err);
     if (status == WT_OK)
         cost_report(&run->job, (cost_summary){.items = (double)run->strain_softening.table.n});
     free(path);

@@ -87,7 +87,7 @@ static void compare_file(currency_check *k, const flow_file *file,
     wt_provenance *const now = wt_provenance_new();
     const wt_job work = {.provenance = now};
     wt_input *input = NULL;
-    wt_status status = now != NULL ? wt_input_open(file->path, &input, NULL) : WT_E_MEMORY;
+    wt_status status = wt_input_open(file->path, &input, NULL);
     if (status == WT_OK)
         status = wt_job_add_input(&work, (wt_provenance_input){.path = file->name}, input, NULL);
     if (status != WT_OK || strcmp(wt_provenance_get_input(now, 0)->sha256, before->sha256) != 0)
@@ -105,9 +105,7 @@ static wt_status compare_role(currency_check *k, const case_files *role, size_t 
     wt_table *failures = wt_failures_new();
     const wt_job work = {.log = log, .failures = failures};
     flow_files files = {0};
-    wt_status status = log != NULL && failures != NULL
-                           ? flow_files_list(role->sets, role->n, &work, &files, err)
-                           : wt_fail(err, WT_E_MEMORY, "out of memory");
+    wt_status status = flow_files_list(role->sets, role->n, &work, &files, err);
     size_t n_before = *seen;
     for (size_t i = 0; status == WT_OK && i < files.n; i++)
         *seen += find_input(k->inputs, files.file[i].name) != NULL;

@@ -29,10 +29,8 @@
 #include "record/tables_measured.h"
 #include "record/tables_validation.h"
 #include "study/tables.h"
-#include "study/tables_accuracy.h"
 #include "study/tables_collection.h" /* with its intervals */
-#include "study/tables_error_budget.h"
-#include "study/tables_what_if.h"
+#include "study/tables_errors.h"
 #include "surface/tables.h"
 #include "weartrack/indentation.h" /* enums of closed lists of texts */
 #include "weartrack/layer.h"

@@ -4,6 +4,7 @@
 #include "record/numerics/agreement.h"
 
 #include "core/base/array.h"
+#include "core/math/arena_gsl.h"
 #include "core/math/cholesky.h"
 #include "core/math/cholesky_dense.h"
 #include "core/math/students_t.h"
@@ -17,24 +18,22 @@
 /* ---- curve ----------------------------------------------------------------------------------- */
 
 /* Counts the distinct velocities and returns their range. */
-static wt_status count_velocities(const agreement_data *d, size_t *n, double ends[2], wt_error *err)
+static size_t count_velocities(const agreement_data *d, double ends[2])
 {
-    double *const sorted = malloc((d->n + 1) * sizeof *sorted);
-    if (sorted == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    double *const sorted = wt_alloc(d->n, sizeof *sorted);
     memcpy(sorted, d->log_velocity, d->n * sizeof *sorted);
     numbers_sort(sorted, d->n);
     double last = sorted[0];
-    *n = 1;
+    size_t n = 1;
     for (size_t i = 1; i < d->n; i++)
         if (sorted[i] - last > AGREEMENT_MIN_SEPARATION) {
-            ++*n;
+            n++;
             last = sorted[i];
         }
     ends[0] = sorted[0];
     ends[1] = sorted[d->n - 1];
     free(sorted);
-    return WT_OK;
+    return n;
 }
 
 /* Term k of the curve at a logarithm of the velocity. */
@@ -155,42 +154,36 @@ static void find_curve_errors(const agreement_data *d, agreement *a, double *row
     }
 }
 
-static wt_status alloc_agreement(const agreement_data *d, agreement *a, wt_error *err)
+static void alloc_agreement(const agreement_data *d, agreement *a)
 {
-    a->weight = calloc(a->terms * d->n, sizeof *a->weight);
-    a->fitted_value = calloc(d->n, sizeof *a->fitted_value);
-    a->error = calloc(d->n, sizeof *a->error);
-    a->df = calloc(d->n, sizeof *a->df);
-    a->at = calloc(a->terms * d->n, sizeof *a->at);
-    if (a->at == NULL || a->weight == NULL || a->fitted_value == NULL || a->error == NULL ||
-        a->df == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    a->weight = wt_alloc(a->terms * d->n, sizeof *a->weight);
+    a->fitted_value = wt_alloc(d->n, sizeof *a->fitted_value);
+    a->error = wt_alloc(d->n, sizeof *a->error);
+    a->df = wt_alloc(d->n, sizeof *a->df);
+    a->at = wt_alloc(a->terms * d->n, sizeof *a->at);
     for (size_t k = 0; k < a->terms; k++)
         for (size_t i = 0; i < d->n; i++)
             a->at[k * d->n + i] = curve_term(a, d->log_velocity[i], k);
-    return WT_OK;
 }
 
 wt_status agreement_fit(const agreement_data *data, size_t most_terms, agreement *a, wt_error *err)
 {
     *a = (agreement){.n = data->n};
-    size_t places = 0;
     double ends[2] = {0, 0};
     if (data->n == 0)
         return wt_fail(err, WT_E_EMPTY, "no step to be compared");
-    wt_status status = count_velocities(data, &places, ends, err);
-    if (status != WT_OK)
-        return status;
+    const size_t places = count_velocities(data, ends);
     a->terms = places < 3 ? 1 : places < 5 ? 2 : AGREEMENT_TERMS;
     if (most_terms > 0 && a->terms > most_terms)
         a->terms = most_terms;
     a->centre = 0.5 * (ends[0] + ends[1]);
     a->span = ends[1] > ends[0] ? 0.5 * (ends[1] - ends[0]) : 1;
     a->scatter_df = (double)(data->n - a->terms);
-    double *const shape = calloc(data->n, sizeof *shape), *const row = calloc(data->n, sizeof *row);
-    status = shape == NULL || row == NULL ? wt_fail(err, WT_E_MEMORY, "out of memory")
-                                          : alloc_agreement(data, a, err);
-    if (status == WT_OK && !find_curve_weights(data, a, 0))
+    double *const shape = wt_alloc(data->n, sizeof *shape), *const row =
+                                                                wt_alloc(data->n, sizeof *row);
+    wt_status status = WT_OK;
+    alloc_agreement(data, a);
+    if (!find_curve_weights(data, a, 0))
         status = wt_fail(err, WT_E_INTERNAL, "the velocities do not tell a curve");
     for (size_t i = 0; status == WT_OK && i < data->n; i++)
         shape[i] = residual_prediction_variance(data, a, i, row);
@@ -279,11 +272,11 @@ void agreement_assess(agreement *a, double margin)
 
 /* ---- likelihood ------------------------------------------------------------------------------ */
 
-/* Covariance of all values. NULL if out of memory. */
-static gsl_matrix *total_covariance(const agreement_data *d, double scatter)
+/* Covariance of all values. */
+static gsl_matrix *total_covariance(const agreement_data *d, double scatter, arena *memory)
 {
-    gsl_matrix *const v = gsl_matrix_alloc(d->n, d->n);
-    for (size_t i = 0; v != NULL && i < d->n; i++)
+    gsl_matrix *const v = arena_matrix(memory, d->n, d->n);
+    for (size_t i = 0; i < d->n; i++)
         for (size_t k = 0; k < d->n; k++) {
             const double apart = (d->log_velocity[i] - d->log_velocity[k]) / AGREEMENT_LENGTH;
             gsl_matrix_set(v, i, k,
@@ -294,40 +287,32 @@ static gsl_matrix *total_covariance(const agreement_data *d, double scatter)
     return v;
 }
 
-wt_status agreement_likelihood(const agreement_data *d, double scatter, double *likelihood,
-                               wt_error *err)
+double agreement_likelihood(const agreement_data *d, double scatter)
 {
     const double of_each = log(2 * M_PI);
-    gsl_matrix *const v = total_covariance(d, scatter);
-    double *const x = malloc((d->n + 1) * sizeof *x);
-    const wt_status status =
-        v == NULL || x == NULL ? wt_fail(err, WT_E_MEMORY, "out of memory") : WT_OK;
-    *likelihood = (double)NAN;
-    if (status == WT_OK && dense_factor(v)) {
-        double sum = 0;
+    arena memory = {0};
+    gsl_matrix *const v = total_covariance(d, scatter, &memory);
+    double *const x = arena_numbers(&memory, d->n), sum = (double)NAN;
+    if (dense_factor(v)) {
+        sum = 0;
         memcpy(x, d->value, d->n * sizeof *x);
         dense_forward(v, x);
         for (size_t i = 0; i < d->n; i++)
             sum += x[i] * x[i] + 2 * log(gsl_matrix_get(v, i, i)) + of_each;
-        *likelihood = -0.5 * sum;
     }
-    free(x);
-    gsl_matrix_free(v);
-    return status;
+    arena_free(&memory);
+    return -0.5 * sum;
 }
 
-wt_status agreement_solve(const agreement_data *d, double scatter, const double *b, double *x,
-                          wt_error *err)
+void agreement_solve(const agreement_data *d, double scatter, const double *b, double *x)
 {
-    gsl_matrix *const v = total_covariance(d, scatter);
-    if (v == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    arena memory = {0};
+    gsl_matrix *const v = total_covariance(d, scatter, &memory);
     const bool good = dense_factor(v);
     gsl_vector_view out = gsl_vector_view_array(x, d->n);
     for (size_t i = 0; i < d->n; i++)
         x[i] = good ? b[i] : (double)NAN;
     if (good)
         gsl_linalg_cholesky_svx(v, &out.vector);
-    gsl_matrix_free(v);
-    return WT_OK;
+    arena_free(&memory);
 }

@@ -79,11 +79,9 @@ double agreement_df(double variance, double scatter, double df);
  * the allowed model discrepancy (Kennedy and O'Hagan 2001, J. R. Stat. Soc. B 63, 425). Without
  * that term a record with an error of 0.1 % would weigh differences below the accuracy of the
  * theory. NaN if the covariance is not positive definite. */
-wt_status agreement_likelihood(const agreement_data *data, double scatter, double *likelihood,
-                               wt_error *err) WT_NODISCARD;
+double agreement_likelihood(const agreement_data *data, double scatter);
 
 /* Solves V x = b with the total covariance V. NaN if it is not positive definite. x, b: [n]. */
-wt_status agreement_solve(const agreement_data *data, double scatter, const double *b, double *x,
-                          wt_error *err) WT_NODISCARD;
+void agreement_solve(const agreement_data *data, double scatter, const double *b, double *x);
 
 #endif

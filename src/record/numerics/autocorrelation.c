@@ -4,6 +4,8 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "record/numerics/autocorrelation.h"
 
+#include "weartrack/core.h"
+
 #include <gsl/gsl_cdf.h>
 #include <gsl/gsl_sf_gamma.h>
 #include <math.h>
@@ -112,18 +114,17 @@ double scatter_mean_variance(scatter_law law, size_t n)
     return law.share * slow + (1 - law.share) / m;
 }
 
-bool scatter_batch(const double *y, size_t n, scatter_batches *parts, double **room)
+scatter_batches scatter_batch(const double *y, size_t n, double **room)
 {
     const size_t length = (n + SCATTER_MAX_BATCHES - 1) / SCATTER_MAX_BATCHES;
-    *parts = (scatter_batches){y, n, 1, 0};
     *room = NULL;
     if (length <= 1)
-        return true;
-    *parts = (scatter_batches){NULL, n / length, length, n % length};
-    parts->y = *room = calloc(parts->n, sizeof **room);
-    for (size_t i = 0; *room != NULL && i < parts->n * length; i++)
-        (*room)[i / length] += y[parts->rest + i] / (double)length;
-    return *room != NULL;
+        return (scatter_batches){y, n, 1, 0};
+    scatter_batches parts = {NULL, n / length, length, n % length};
+    parts.y = *room = wt_alloc(parts.n, sizeof **room);
+    for (size_t i = 0; i < parts.n * length; i++)
+        (*room)[i / length] += y[parts.rest + i] / (double)length;
+    return parts;
 }
 
 double log_add(double a, double b)

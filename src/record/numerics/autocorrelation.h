@@ -73,8 +73,8 @@ typedef struct scatter_batches {
     const double *y;        /* [n] */
     size_t n, length, rest; /* points in a batch; points skipped */
 } scatter_batches;
-/* *room is freed by the caller; NULL if the series is used directly. False if out of memory. */
-bool scatter_batch(const double *y, size_t n, scatter_batches *parts, double **room);
+/* *room is freed by the caller; NULL if the series is used directly. */
+scatter_batches scatter_batch(const double *y, size_t n, double **room);
 
 /* ln(exp a + exp b). Either may be -INFINITY. */
 double log_add(double a, double b);

@@ -323,22 +323,17 @@ static void find_pauses_by_channel(wt_record *record, wt_record_channel c, const
     remove_rests(record, r);
 }
 
-static wt_status list_pauses(const wt_record *record, const double *paused, record_pauses *pauses,
-                             wt_error *err)
+static void list_pauses(const wt_record *record, const double *paused, record_pauses *pauses)
 {
     for (size_t i = 0; i < record->n; i++) {
         if (!(paused[i] > 0))
             continue;
-        record_pause *const grown = array_grow(pauses->of, pauses->n, sizeof *grown);
-        if (grown == NULL)
-            return wt_fail(err, WT_E_MEMORY, "out of memory");
-        pauses->of = grown;
-        grown[pauses->n++] = (record_pause){i, record->channel[WT_RECORD_TIME][i], paused[i]};
+        pauses->of = array_grow(pauses->of, pauses->n, sizeof *pauses->of);
+        pauses->of[pauses->n++] = (record_pause){i, record->channel[WT_RECORD_TIME][i], paused[i]};
     }
-    return WT_OK;
 }
 
-wt_status record_remove_pauses(wt_record *record, record_pauses *pauses, wt_error *err)
+record_pauses record_remove_pauses(wt_record *record)
 {
     /* the finest channel first; time alone last, without a progressive channel */
     static const wt_record_channel order[] = {WT_RECORD_DISTANCE, WT_RECORD_VELOCITY,
@@ -346,22 +341,20 @@ wt_status record_remove_pauses(wt_record *record, record_pauses *pauses, wt_erro
                                               WT_RECORD_LAPS,     WT_RECORD_CHANNELS};
     const size_t n = record->n;
     arena memory = {0};
-    *pauses = (record_pauses){.n = 0};
+    record_pauses pauses = {.n = 0};
     if (record->channel[WT_RECORD_TIME] == NULL || n < 2)
-        return WT_OK;
+        return pauses;
     const pause_buffers r = {arena_numbers(&memory, n),
                              arena_numbers(&memory, n),
                              arena_numbers(&memory, n),
                              arena_numbers(&memory, n),
                              arena_alloc(&memory, n, sizeof(bool)),
                              arena_alloc(&memory, n, sizeof(motion_level))};
-    wt_status status = memory.failed ? wt_fail(err, WT_E_MEMORY, "out of memory") : WT_OK;
-    for (size_t i = 0; status == WT_OK && i < COUNT_OF(order); i++)
+    for (size_t i = 0; i < COUNT_OF(order); i++)
         if (order[i] != WT_RECORD_CHANNELS || (record->channel[WT_RECORD_DISTANCE] == NULL &&
                                                record->channel[WT_RECORD_LAPS] == NULL))
-            find_pauses_by_channel(record, order[i], &r, &pauses->alike);
-    if (status == WT_OK)
-        status = list_pauses(record, r.paused, pauses, err);
+            find_pauses_by_channel(record, order[i], &r, &pauses.alike);
+    list_pauses(record, r.paused, &pauses);
     arena_free(&memory);
-    return status;
+    return pauses;
 }

@@ -21,7 +21,6 @@ typedef struct record_pauses {
 
 /* Removes the samples of pauses; time, distance and laps continue without them. Rests before
  * sliding begins, after it ends or over a whole instrument step stay. */
-wt_status record_remove_pauses(wt_record *record, record_pauses *pauses,
-                               wt_error *err) WT_NODISCARD;
+record_pauses record_remove_pauses(wt_record *record);
 
 #endif

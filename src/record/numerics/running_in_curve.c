@@ -45,13 +45,10 @@ double running_in_curve_settling_time(const running_in_curve *c, double share)
     return (double)NAN;
 }
 
-wt_status running_in_series_alloc(size_t n, running_in_series *s, wt_error *err)
+running_in_series running_in_series_alloc(size_t n)
 {
-    *s = (running_in_series){.n = n,
-                             .end = calloc(n + 1, sizeof *s->end),
-                             .friction = calloc(n + 1, sizeof *s->friction)};
-    return s->end == NULL || s->friction == NULL ? wt_fail(err, WT_E_MEMORY, "out of memory")
-                                                 : WT_OK;
+    return (running_in_series){
+        .n = n, .end = wt_alloc(n, sizeof(double)), .friction = wt_alloc(n, sizeof(double))};
 }
 
 void running_in_series_clear(running_in_series *s)
@@ -80,8 +77,6 @@ static double integrate_interval(const running_in_curve *c, size_t i, double fro
 static curve_integral curve_integral_compute(const running_in_curve *c, arena *memory)
 {
     const curve_integral m = {c, arena_numbers(memory, c->n), arena_numbers(memory, c->n)};
-    if (memory->failed)
-        return m;
     for (size_t i = 0; i < c->n; i++) {
         m.time[i] = exp(c->log_first + (double)i * c->log_step);
         m.sum[i] = i == 0 ? c->value[0] * m.time[0]
@@ -178,7 +173,7 @@ running_in_optimum running_in_optimum_find(const running_in_series *s, const run
     arena memory = {0};
     factor_search p = {s, curve_integral_compute(c, &memory), running_in_curve_height(c),
                        arena_numbers(&memory, s->n), law};
-    if (!memory.failed && p.height > 0 && isfinite(p.height) && isfinite(around)) {
+    if (p.height > 0 && isfinite(p.height) && isfinite(around)) {
         place.log_factor =
             within > 0 ? search_factor(&p, around - within, around + within) : around;
         fill_column(s, &p.sums, p.height, place.log_factor, p.column);
@@ -530,8 +525,6 @@ static wt_status begin(const running_in_curve_pair *of, double settled_share, ar
         return wt_fail(err, WT_E_RANGE, "friction is predicted not to change");
     m->sums = curve_integral_compute(of->running_in_curve, memory);
     m->column = arena_numbers(memory, s->n);
-    if (memory->failed)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
     for (size_t i = 0; i < SCATTER_LAWS; i++) {
         scatter_sums sums = scatter_begin(scatter_law_at(SCATTER_FOR_CHANGE, i, s->n));
         for (size_t k = 0; k < s->n; k++)
@@ -558,7 +551,7 @@ wt_status running_in_curve_fit_compute(const running_in_curve_pair *of, size_t n
                      .ratio = arena_numbers(&memory, COARSE_MOST),
                      .square = arena_numbers(&memory, COARSE_MOST)};
     *fit = (running_in_curve_fit){.log_factor = none, .error = none, .low = none, .high = none};
-    wt_status status = memory.failed ? wt_fail(err, WT_E_MEMORY, "out of memory") : WT_OK;
+    wt_status status = WT_OK;
     for (size_t i = 0; status == WT_OK && i < n; i++)
         status = begin(&of[i], settled_share, &memory, &t.of[i], err);
     if (status == WT_OK)

@@ -29,7 +29,7 @@ typedef struct running_in_series {
     double *end;      /* [n] ends from the start on [s]; each begins where the previous one ends */
     double *friction; /* [n] */
 } running_in_series;
-wt_status running_in_series_alloc(size_t n, running_in_series *s, wt_error *err) WT_NODISCARD;
+running_in_series running_in_series_alloc(size_t n);
 void running_in_series_clear(running_in_series *s);
 
 typedef struct running_in_curve_pair {

@@ -1,12 +1,32 @@
-/* Wear track in a profile across it.
+/* Wear track in a profile across it, and Hertzian contact of a ball: nominal pressure, load and
+ * duty of a point of the track.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "weartrack/record.h"
-
 #include "core/base/arena.h"
+#include "weartrack/record.h"
 
 #include <gsl/gsl_fit.h>
 #include <math.h>
+
+wt_ball_contact wt_ball_contact_compute(double load, double radius, double modulus,
+                                        double poisson_ratio)
+{
+    const double a = cbrt(0.75 * load * radius * (1 - poisson_ratio * poisson_ratio) / modulus);
+    return (wt_ball_contact){a, load / (M_PI * a * a)};
+}
+
+double wt_ball_load(double pressure, double radius, double modulus, double poisson_ratio)
+{
+    const double a =
+        0.75 * M_PI * pressure * radius * (1 - poisson_ratio * poisson_ratio) / modulus;
+    return M_PI * a * a * pressure;
+}
+
+double wt_ball_duty(double contact_radius, double track_radius, double aside)
+{
+    const double y = aside / contact_radius, part = 1 - y * y;
+    return 3 * contact_radius / (8 * track_radius) * (part < 0 ? 0 : part);
+}
 
 enum { FEWEST = 40 };            /* ten in each quarter */
 static const double outside = 3; /* standard deviations that indicate a track */
@@ -85,22 +105,19 @@ wt_status wt_track_find(const double *x, const double *z, size_t n, wt_track *tr
     double *const bx = arena_numbers(&memory, 2 * quarter),
                   *const bz = arena_numbers(&memory, 2 * quarter),
                   *const r = arena_numbers(&memory, n);
-    wt_status status = memory.failed ? wt_fail(err, WT_E_MEMORY, "out of memory") : WT_OK;
-    if (status == WT_OK) {
-        double c00, c01, c11, squares;
-        for (size_t i = 0; i < quarter; i++) {
-            bx[i] = x[i];
-            bz[i] = z[i];
-            bx[quarter + i] = x[n - quarter + i];
-            bz[quarter + i] = z[n - quarter + i];
-        }
-        gsl_fit_linear(bx, 1, bz, 1, 2 * quarter, &track->intercept, &track->slope, &c00, &c01,
-                       &c11, &squares);
-        track->scatter = sqrt(squares / (double)(2 * quarter - 1));
-        for (size_t i = 0; i < n; i++)
-            r[i] = z[i] - track->intercept - track->slope * x[i];
-        status = measure_track(x, r, n, quarter, track, err);
+    double c00, c01, c11, squares;
+    for (size_t i = 0; i < quarter; i++) {
+        bx[i] = x[i];
+        bz[i] = z[i];
+        bx[quarter + i] = x[n - quarter + i];
+        bz[quarter + i] = z[n - quarter + i];
     }
+    gsl_fit_linear(bx, 1, bz, 1, 2 * quarter, &track->intercept, &track->slope, &c00, &c01, &c11,
+                   &squares);
+    track->scatter = sqrt(squares / (double)(2 * quarter - 1));
+    for (size_t i = 0; i < n; i++)
+        r[i] = z[i] - track->intercept - track->slope * x[i];
+    const wt_status status = measure_track(x, r, n, quarter, track, err);
     arena_free(&memory);
     return status;
 }

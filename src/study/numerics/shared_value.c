@@ -6,14 +6,41 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "study/numerics/shared_value.h"
-
 #include "core/math/gsl_quiet.h"
+#include "core/math/students_t.h"
+#include "weartrack/study.h"
 
 #include <gsl/gsl_blas.h>
 #include <gsl/gsl_cdf.h>
 #include <gsl/gsl_linalg.h>
 #include <math.h>
 #include <stdlib.h>
+
+/* ---- two ratios ------------------------------------------------------------------------------ */
+
+/* Contribution to the denominator of Satterthwaite's degrees of freedom; 0 for a normal error. */
+static double df_component(const wt_log_ratio *ratio)
+{
+    const double variance = ratio->standard_error * ratio->standard_error;
+    return isnan(ratio->df) ? 0 : variance * variance / ratio->df;
+}
+
+wt_log_ratio_difference wt_log_ratio_compare(const wt_log_ratio *a, const wt_log_ratio *b)
+{
+    const double nan = (double)NAN;
+    wt_log_ratio_difference d = {a->value - b->value, nan, nan, nan, nan};
+    const double error = hypot(a->standard_error, b->standard_error);
+    if (!isfinite(d.value) || !(error > 0) || !isfinite(error))
+        return d;
+    const double part = df_component(a) + df_component(b), t = fabs(d.value) / error;
+    if (part > 0)
+        d.df = error * error * error * error / part;
+    const double reach = error * students_t_quantile(part > 0 ? d.df : (double)INFINITY);
+    d.low = d.value - reach;
+    d.high = d.value + reach;
+    d.p = 2 * (part > 0 ? gsl_cdf_tdist_Q(t, d.df) : gsl_cdf_ugaussian_Q(t));
+    return d;
+}
 
 static const double outside = 0.05; /* error probability of all intervals together, and of one */
 
@@ -26,6 +53,8 @@ typedef struct shared_work {
     size_t n;
     double *weight, *apart, *common, *factor, *solved; /* [n], 3 of [n n], [2 n] */
 } shared_work;
+
+/* ---- several values -------------------------------------------------------------------------- */
 
 /* Fills the covariance matrix with a fraction of the possible covariances. */
 static void fill_covariance(const wt_log_ratio *of, const double *covariance, double part, size_t n,
@@ -204,9 +233,7 @@ wt_status shared_value_fit(const wt_log_ratio *of, const double *covariance, siz
     for (size_t i = 0; i < n; i++)
         if (!(of[i].standard_error > 0) || !isfinite(of[i].value) || of[i].df <= 0)
             return wt_fail(err, WT_E_ARG, "a value without an error shares nothing");
-    double *numbers = malloc((3 * n + 3 * n * n) * sizeof *numbers);
-    if (numbers == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    double *const numbers = wt_alloc(3 * n + 3 * n * n, sizeof *numbers);
     double *const squares = numbers + 3 * n;
     shared_work w = {n, numbers, squares, squares + n * n, squares + 2 * n * n, numbers + n};
     fit_shared_value(of, covariance, &w, to, deviation);
