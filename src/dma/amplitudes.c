@@ -111,18 +111,13 @@ static void warn_unmatched_strain(const sweep_entry *entries, size_t n, double t
 
 /* Moves the excluded sweeps to a temporary sweep and frees them. Logs the number of excluded
  * sweeps. */
-static wt_status remove_other_amplitudes(wt_sweep *sweep, const sweep_entry *entries, wt_log *log,
-                                         wt_error *err)
+static void remove_other_amplitudes(wt_sweep *sweep, const sweep_entry *entries, wt_log *log)
 {
     wt_sweep dropped = {0};
     const sweep_entry *const ramps = entries + sweep->n_isotherms;
     size_t isotherms = 0, kept = 0;
-    dropped.isotherms = calloc(sweep->n_isotherms + 1, sizeof *dropped.isotherms);
-    dropped.ramps = calloc(sweep->n_ramps + 1, sizeof *dropped.ramps);
-    if (dropped.isotherms == NULL || dropped.ramps == NULL) {
-        wt_sweep_clear(&dropped);
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
-    }
+    dropped.isotherms = wt_alloc(sweep->n_isotherms, sizeof *dropped.isotherms);
+    dropped.ramps = wt_alloc(sweep->n_ramps, sizeof *dropped.ramps);
     for (size_t i = 0; i < sweep->n_isotherms; i++)
         if (entries[i].drop)
             dropped.isotherms[dropped.n_isotherms++] = sweep->isotherms[i];
@@ -144,7 +139,6 @@ static wt_status remove_other_amplitudes(wt_sweep *sweep, const sweep_entry *ent
                    "%zu temperature sweep%s of other strain amplitudes left out", dropped.n_ramps,
                    dropped.n_ramps > 1 ? "s" : "");
     wt_sweep_clear(&dropped);
-    return WT_OK;
 }
 
 wt_status flow_select_amplitude(wt_sweep *sweep, const wt_file_set *sets, size_t n_sets,
@@ -152,10 +146,9 @@ wt_status flow_select_amplitude(wt_sweep *sweep, const wt_file_set *sets, size_t
 {
     const double target = n_sets > 0 ? sets[0].read.strain : (double)NAN;
     const size_t n = sweep->n_isotherms + sweep->n_ramps;
-    sweep_entry *entries = calloc(n + 1, sizeof *entries);
-    wt_status status = entries == NULL ? wt_fail(err, WT_E_MEMORY, "out of memory") : WT_OK;
-    if (status == WT_OK)
-        list_sweep_entries(sweep, entries);
+    sweep_entry *entries = wt_alloc(n, sizeof *entries);
+    wt_status status = WT_OK;
+    list_sweep_entries(sweep, entries);
     for (size_t i = 0; i < n && status == WT_OK; i++)
         for (size_t k = i + 1; k < n && status == WT_OK; k++) {
             if (!amplitudes_differ(&entries[i], &entries[k]))
@@ -170,7 +163,7 @@ wt_status flow_select_amplitude(wt_sweep *sweep, const wt_file_set *sets, size_t
     if (status == WT_OK && !isnan(target))
         warn_unmatched_strain(entries, n, target, log);
     if (status == WT_OK)
-        status = remove_other_amplitudes(sweep, entries, log, err);
+        remove_other_amplitudes(sweep, entries, log);
     free(entries);
     return status;
 }

@@ -127,13 +127,11 @@ static void set_wlf_constants(fem_material *s)
 
 /* Fills the temperature levels with their factors. A reference outside the isotherms becomes a
  * level with factor 1. */
-static wt_status set_modulus_factors(fem_material *s, wt_error *err)
+static void set_modulus_factors(fem_material *s)
 {
     const wt_rubber *r = &s->rubber;
     const double reference = r->prony.reference_temperature;
-    s->level = calloc(2 * (r->n_vertical + 2), sizeof *s->level);
-    if (s->level == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    s->level = wt_alloc(2 * (r->n_vertical + 2), sizeof *s->level);
     s->factor = s->level + r->n_vertical + 2;
     if (r->n_vertical > 0 && reference < r->vertical_temperature[0]) {
         s->level[0] = reference;
@@ -151,7 +149,6 @@ static wt_status set_modulus_factors(fem_material *s, wt_error *err)
     }
     for (size_t i = 0; i < s->n_levels; i++)
         s->level[i] -= s->zero;
-    return WT_OK;
 }
 
 /* Converts the series to Young's moduli in the units of the file. */
@@ -600,9 +597,8 @@ wt_status wt_fem_export(FILE *out, wt_fem_program program, const wt_table *prony
         set_wlf_constants(&s);
         status = scale_series(&s, err);
     }
-    if (status == WT_OK)
-        status = set_modulus_factors(&s, err);
     if (status == WT_OK) {
+        set_modulus_factors(&s);
         write_fem_header(&s);
         programs[program].write(&s);
         if (ferror(out) != 0)

@@ -46,9 +46,7 @@ static void suggest_parameter(const wt_params *params, const char *name, wt_erro
 wt_status flow_law_parse(const flow_law_text *law, const char *text, void *structure, wt_error *err)
 {
     text += strlen(law->prefix);
-    char *copy = strdup(text), *rest = NULL;
-    if (copy == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    char *copy = wt_strdup(text), *rest = NULL;
     uint64_t given = 0;
     wt_status status = WT_OK;
     for (char *item = strtok_r(copy, ",", &rest); status == WT_OK && item != NULL;

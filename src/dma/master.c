@@ -328,9 +328,7 @@ static void add_series_draw_rows(table_writer *t, size_t draw, const wt_prony *p
 static wt_status build_draw_tables(const wt_master *m, size_t n, wt_master_tables *tables,
                                    wt_error *err)
 {
-    double *log_b = malloc((m->n_shifts + 1) * sizeof *log_b);
-    if (log_b == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    double *log_b = wt_alloc(m->n_shifts, sizeof *log_b);
     table_writer material = table_begin(&material_draws_schema, err),
                  series = table_begin(&series_draws_schema, err);
     wt_status status = WT_OK;
@@ -584,21 +582,16 @@ wt_status wt_master_compute(const wt_master_job *job, const wt_job *work, wt_mas
         rubber->fit.terms_per_decade = master.terms_per_decade; /* avoids a second search */
         sweep = (wt_sweep){0};
     }
-    if (status == WT_OK && tables != NULL && (t.fit = malloc(sizeof *t.fit)) == NULL)
-        status = wt_fail(err, WT_E_MEMORY, "out of memory");
     if (status == WT_OK) {
         warn_unconverged(&master, work);
         report_fit_cost(&master, work);
     }
     if (status == WT_OK && tables != NULL) {
+        t.fit = wt_alloc(1, sizeof *t.fit);
         *t.fit = master;
         master = (wt_master){0};
         *tables = t;
         t = (wt_master_tables){0};
-    }
-    if (status != WT_OK) { /* the fit is not set on failure */
-        free(t.fit);
-        t.fit = NULL;
     }
     wt_sweep_clear(&sweep);
     wt_master_clear(&master);

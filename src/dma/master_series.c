@@ -45,16 +45,14 @@ static double widest_interval(const wt_interval *fitted, size_t n)
 
 /* Sets the keys of the fractional Zener law with tensile moduli, in the syntax of the friction
  * option, and its comparison with the series. */
-static wt_status set_zener_keys(const wt_master *m, const wt_prony *p, double poisson_ratio,
-                                table_writer *t, wt_error *err)
+static void set_zener_keys(const wt_master *m, const wt_prony *p, double poisson_ratio,
+                           table_writer *t)
 {
     const double to_young = m->deformation == WT_SHEAR ? 2 * (1 + poisson_ratio) : 1;
     char words[256];
     wt_zener_fit z;
-    const wt_status status = wt_master_zener(m, p, &z, err);
-    if (status != WT_OK)
-        return status == WT_E_MEMORY ? status
-                                     : WT_OK; /* without a fitted law the keys stay unset */
+    if (wt_master_zener(m, p, &z, NULL) != WT_OK)
+        return; /* without a fitted law the keys stay unset */
     clocale_print(words, sizeof words, "fractional-zener:e0=%.4gPa,eg=%.4gPa,tau=%.4gs,alpha=%.4g",
                   to_young * z.e0, to_young * z.eg, z.tau, z.alpha);
     prony_reduced_set_text(t, PRONY_REDUCED_KEY_ZENER,
@@ -68,7 +66,6 @@ static wt_status set_zener_keys(const wt_master *m, const wt_prony *p, double po
         100 * z.rms_storage, 100 * z.rms_loss);
     if (!isnan(z.aicc) && !isnan(z.series_aicc))
         prony_reduced_set_text(t, PRONY_REDUCED_KEY_BETTER, words);
-    return WT_OK;
 }
 
 TABLE_ROW(prony_reduced, PRONY_REDUCED, double relaxation_time, modulus, share;)
@@ -101,9 +98,8 @@ static wt_status build_reduced_table(const wt_master *m, const wt_prony *p, doub
         prony_reduced_set_print(&t, plain[i].key, "%.3g", plain[i].value);
     prony_reduced_set_text(&t, PRONY_REDUCED_KEY_DEFORMATION,
                            flow_deformation_name(p->deformation));
-    const wt_status status = set_zener_keys(m, p, poisson_ratio, &t, err),
-                    ended = table_end(&t, table);
-    return status != WT_OK ? status : ended;
+    set_zener_keys(m, p, poisson_ratio, &t);
+    return table_end(&t, table);
 }
 
 /* Builds the table of the reduced series. It warns if the deviation exceeds the requested limit. */

@@ -354,7 +354,6 @@ static wt_status compare_pair(const wt_materials_job *job, const wt_compared_mat
 {
     comparison_point point[MAX_POINTS + TEMPERATURES];
     material_values values[2] = {{0}, {0}};
-    material_ratio ratio = {0};
     range own[2] = {{0, 0}, {0, 0}};
     size_t n_temperatures = 0;
     wt_status status = WT_OK;
@@ -375,9 +374,8 @@ static wt_status compare_pair(const wt_materials_job *job, const wt_compared_mat
     for (int k = 0; status == WT_OK && k < 2; k++)
         status = material_values_compute(pair[k].rubber, &systematic[k], point, n + n_temperatures,
                                          work, &values[k], err);
-    if (status == WT_OK)
-        status = material_ratio_compute(&values[0], &values[1], &ratio, err);
     if (status == WT_OK) {
+        material_ratio ratio = material_ratio_compute(&values[0], &values[1]);
         add_material_ratio_rows(t, pair[1].name, "frequency", point, &ratio, 0, n);
         add_material_ratio_rows(t, pair[1].name, "temperature", point, &ratio, n,
                                 n + n_temperatures);
@@ -388,8 +386,8 @@ static wt_status compare_pair(const wt_materials_job *job, const wt_compared_mat
         texts->errors_known = texts->errors_known || ratio.errors_known;
         append_unshared_frequencies(&pair[0], own[0], shared, s->at_temperature, texts);
         append_unshared_frequencies(&pair[1], own[1], shared, s->at_temperature, texts);
+        material_ratio_clear(&ratio);
     }
-    material_ratio_clear(&ratio);
     material_values_clear(&values[0]);
     material_values_clear(&values[1]);
     return status;

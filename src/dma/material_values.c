@@ -22,9 +22,7 @@ static wt_status compute_log_moduli(const wt_rubber *rubber, const comparison_po
                                     size_t n, uint64_t seed, size_t replicate, double *value,
                                     wt_error *err)
 {
-    double *omega = malloc((3 * n + 1) * sizeof *omega);
-    if (omega == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    double *omega = wt_alloc(3 * n, sizeof *omega);
     double *storage = omega + n, *loss = storage + n;
     wt_status status = WT_OK;
     for (size_t first = 0, last; status == WT_OK && first < n; first = last) {
@@ -70,10 +68,8 @@ wt_status material_values_compute(const wt_rubber *rubber,
 {
     const size_t m = n * Q;
     *v = (material_values){.n = n, .n_draws = rubber->n_draws > 1 ? rubber->n_draws : 0};
-    v->value = malloc((2 * m + 1) * sizeof *v->value);
-    v->draw = malloc((v->n_draws * m + 1) * sizeof *v->draw);
-    if (v->value == NULL || v->draw == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    v->value = wt_alloc(2 * m, sizeof *v->value);
+    v->draw = wt_alloc(v->n_draws * m, sizeof *v->draw);
     v->error = v->value + m;
     wt_status status =
         compute_log_moduli(rubber, point, n, work->seed, WT_NO_REPLICATE, v->value, err);
@@ -99,14 +95,12 @@ void material_ratio_clear(material_ratio *r)
 
 /* Finds the 95 % quantile of the largest deviation over pairs of draws, in standard errors.
  * Draws of equal number share random numbers, so only different numbers are paired. */
-static wt_status find_critical_deviation(const material_values *a, const material_values *b,
-                                         material_ratio *r, wt_error *err)
+static void find_critical_deviation(const material_values *a, const material_values *b,
+                                    material_ratio *r)
 {
     enum { PAIRINGS = 4 }; /* pairs for each draw; a draw is expensive, a pair is not */
     const size_t m = r->n * Q, n = PAIRINGS * a->n_draws;
-    double *most = calloc(n + 1, sizeof *most);
-    if (most == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    double *most = wt_alloc(n, sizeof *most);
     for (size_t i = 0; i < n; i++) {
         const size_t d = i % a->n_draws, pairing = i / a->n_draws + 1;
         const size_t e = (d + pairing * b->n_draws / (PAIRINGS + 1)) % b->n_draws;
@@ -116,21 +110,19 @@ static wt_status find_critical_deviation(const material_values *a, const materia
     numbers_sort(most, n);
     r->critical = fmax(most[(size_t)(0.95 * (double)n)], NORMAL_95);
     free(most);
-    return WT_OK;
 }
 
-wt_status material_ratio_compute(const material_values *first, const material_values *second,
-                                 material_ratio *r, wt_error *err)
+material_ratio material_ratio_compute(const material_values *first, const material_values *second)
 {
     const size_t m = first->n * Q;
-    *r = (material_ratio){.n = first->n, .errors_known = first->n_draws > 0 && second->n_draws > 0};
-    r->value = malloc((2 * m + 1) * sizeof *r->value);
-    if (r->value == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
-    r->error = r->value + m;
+    material_ratio r = {.n = first->n, .errors_known = first->n_draws > 0 && second->n_draws > 0};
+    r.value = wt_alloc(2 * m, sizeof *r.value);
+    r.error = r.value + m;
     for (size_t k = 0; k < m; k++) {
-        r->value[k] = second->value[k] - first->value[k];
-        r->error[k] = hypot(first->error[k], second->error[k]);
+        r.value[k] = second->value[k] - first->value[k];
+        r.error[k] = hypot(first->error[k], second->error[k]);
     }
-    return r->errors_known ? find_critical_deviation(first, second, r, err) : WT_OK;
+    if (r.errors_known)
+        find_critical_deviation(first, second, &r);
+    return r;
 }

@@ -135,10 +135,8 @@ static wt_status build_windows(const wt_sweep *sweep, windows *w, wt_error *err)
     size_t n = 0;
     for (size_t i = 0; i < sweep->n_ramps; i++)
         n += sweep->ramps[i].n;
-    w->window_point = malloc((n + 1) * sizeof *w->window_point);
-    w->first = malloc((n + 2) * sizeof *w->first);
-    if (w->window_point == NULL || w->first == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    w->window_point = wt_alloc(n, sizeof *w->window_point);
+    w->first = wt_alloc(n + 2, sizeof *w->first);
     for (size_t i = 0; i < sweep->n_ramps; i++)
         add_sweep_points(&sweep->ramps[i], (n + MOST_POINTS - 1) / MOST_POINTS, w);
     if (w->n_points == 0)
@@ -148,19 +146,15 @@ static wt_status build_windows(const wt_sweep *sweep, windows *w, wt_error *err)
     return WT_OK;
 }
 
-static wt_status add_window_isotherms(wt_sweep *sweep, windows *w, wt_error *err)
+static void add_window_isotherms(wt_sweep *sweep, windows *w)
 {
-    w->isotherm = malloc(w->n * sizeof *w->isotherm);
-    if (w->isotherm == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    w->isotherm = wt_alloc(w->n, sizeof *w->isotherm);
     for (size_t i = 0; i < w->n; i++) {
         const size_t first = w->first[i], n = w->first[i + 1] - first;
         bool factor = false;
         for (size_t k = 0; k < n; k++)
             factor = factor || isfinite(w->window_point[first + k].value[FACTOR]);
         wt_isotherm *t = wt_sweep_add(sweep, n, factor ? WT_SWEEP_HAS_LOSS_FACTOR : 0);
-        if (t == NULL)
-            return wt_fail(err, WT_E_MEMORY, "out of memory");
         double sum = 0;
         for (size_t k = 0; k < n; k++)
             sum += w->window_point[first + k].temperature;
@@ -170,7 +164,6 @@ static wt_status add_window_isotherms(wt_sweep *sweep, windows *w, wt_error *err
                       w->window_point[first + n - 1].temperature - WT_ZERO_CELSIUS);
         w->isotherm[i] = *t;
     }
-    return WT_OK;
 }
 
 /* Updates the shift of each point by the fitted law. The residual shrinks by the same factor in
@@ -277,7 +270,7 @@ wt_status flow_ramps_fit(wt_sweep *sweep, const wt_master_options *options,
     if (status == WT_OK)
         status = build_windows(sweep, &w, err);
     if (status == WT_OK)
-        status = add_window_isotherms(sweep, &w, err);
+        add_window_isotherms(sweep, &w);
     if (status == WT_OK && is_stated)
         status = set_stated_shifts(&w, given, sweep, err);
     wt_master_options quick = *options;

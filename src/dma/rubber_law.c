@@ -197,16 +197,12 @@ static size_t merge_points(const table_view *view, curve_point *p)
 
 static wt_status read_curve_points(const table_view *view, wt_sweep *sweep, wt_error *err)
 {
-    curve_point *p = calloc(view->n_rows + 1, sizeof *p);
-    if (p == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    curve_point *p = wt_alloc(view->n_rows, sizeof *p);
     wt_status status = WT_OK;
     const size_t n = merge_points(view, p);
     wt_isotherm *points = n < 2 ? NULL : wt_sweep_add(sweep, n, 0);
-    if (n < 2)
+    if (points == NULL)
         status = wt_fail(err, WT_E_EMPTY, "the master curve has %zu points that can be used", n);
-    else if (points == NULL)
-        status = wt_fail(err, WT_E_MEMORY, "out of memory");
     for (size_t i = 0; points != NULL && i < n; i++) {
         points->angular_frequency[i] = exp(p[i].frequency);
         points->storage_modulus[i] = exp(p[i].storage);

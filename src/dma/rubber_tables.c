@@ -18,7 +18,7 @@ static wt_law_kind parse_law_kind(const char *text)
                                             : WT_LAW_NONE;
 }
 
-static wt_status read_shift_factors(const table_view *shifts, wt_rubber *rubber, wt_error *err)
+static void read_shift_factors(const table_view *shifts, wt_rubber *rubber)
 {
     const char *vertical = shift_factors_key_text(shifts, SHIFT_FACTORS_KEY_VERTICAL);
     const char *correlation = shift_factors_key_text(shifts, SHIFT_FACTORS_KEY_WLF_CORRELATION);
@@ -37,10 +37,8 @@ static wt_status read_shift_factors(const table_view *shifts, wt_rubber *rubber,
         (!wt_number_parse(correlation, strlen(correlation), '.', &rubber->c_correlation) ||
          !isfinite(rubber->c_correlation)))
         rubber->c_correlation = 0; /* also for constants without errors */
-    rubber->vertical_temperature = malloc((rows + 1) * sizeof *rubber->vertical_temperature);
-    rubber->vertical_log_b = malloc((rows + 1) * sizeof *rubber->vertical_log_b);
-    if (rubber->vertical_temperature == NULL || rubber->vertical_log_b == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    rubber->vertical_temperature = wt_alloc(rows, sizeof *rubber->vertical_temperature);
+    rubber->vertical_log_b = wt_alloc(rows, sizeof *rubber->vertical_log_b);
     for (size_t i = 0; i < rows; i++) {
         double t = shift_factors_get(shifts, i, SHIFT_FACTORS_TEMPERATURE);
         double b = shift_factors_get(shifts, i, SHIFT_FACTORS_LOG_B_MATERIAL);
@@ -54,7 +52,6 @@ static wt_status read_shift_factors(const table_view *shifts, wt_rubber *rubber,
         rubber->vertical_temperature[rubber->n_vertical] = t;
         rubber->vertical_log_b[rubber->n_vertical++] = b;
     }
-    return WT_OK;
 }
 
 static wt_status read_prony(const table_view *table, wt_prony *prony, wt_error *err)
@@ -140,10 +137,10 @@ static wt_status read_one_draw(const table_view *material, const table_view *ser
     wt_rubber_draw *d = &rubber->draws[draw];
     const size_t first = draw * (material->n_rows / rubber->n_draws),
                  n = series->n_rows / rubber->n_draws;
-    wt_status status = wt_prony_alloc(&d->prony, n, err);
-    d->log_b = malloc((rubber->n_vertical + 1) * sizeof *d->log_b);
-    if (status != WT_OK || d->log_b == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    const wt_status status = wt_prony_alloc(&d->prony, n, err);
+    if (status != WT_OK)
+        return status;
+    d->log_b = wt_alloc(rubber->n_vertical, sizeof *d->log_b);
     d->prony.deformation = rubber->prony.deformation;
     d->prony.reference_temperature = rubber->prony.reference_temperature;
     d->prony.frequency_min = rubber->prony.frequency_min;
@@ -195,9 +192,7 @@ static wt_status read_draws(const wt_table *material_draws, const wt_table *seri
         status = check_draw_order(&series, n_draws, series.column[SERIES_DRAWS_DRAW], err);
     if (status != WT_OK)
         return status;
-    rubber->draws = calloc(n_draws, sizeof *rubber->draws);
-    if (rubber->draws == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    rubber->draws = wt_alloc(n_draws, sizeof *rubber->draws);
     rubber->n_draws = n_draws;
     for (size_t i = 0; status == WT_OK && i < n_draws; i++)
         status = read_one_draw(&material, &series, i, rubber, err);
@@ -226,7 +221,7 @@ wt_status wt_rubber_from_tables(const wt_rubber_tables *tables, double poisson_r
     if (status == WT_OK && tables->shift_factors != NULL)
         status = table_bind(tables->shift_factors, &shift_factors_schema, "", &view, err);
     if (status == WT_OK && tables->shift_factors != NULL)
-        status = read_shift_factors(&view, &rubber, err);
+        read_shift_factors(&view, &rubber);
     if (status == WT_OK && tables->material_draws != NULL)
         status = read_draws(tables->material_draws, tables->series_draws, &rubber, err);
     if (status == WT_OK)

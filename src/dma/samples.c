@@ -2,6 +2,8 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dma/sweep_input.h"
 
+#include "core/base/array.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -18,18 +20,14 @@ static bool has_sample_name(const char *sample, const char *name)
 
 /* ---- list of samples ------------------------------------------------------------------------- */
 
-static wt_status add_sample_name(wt_sample_names *samples, const char *sample, wt_error *err)
+static void add_sample_name(wt_sample_names *samples, const char *sample)
 {
     const char *name = sample != NULL ? sample : "";
     for (size_t i = 0; i < samples->n; i++)
         if (strcmp(samples->name[i], name) == 0)
-            return WT_OK;
-    char **names = realloc(samples->name, (samples->n + 1) * sizeof *names);
-    samples->name = names != NULL ? names : samples->name;
-    if (names == NULL || (names[samples->n] = strdup(name)) == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
-    samples->n++;
-    return WT_OK;
+            return;
+    samples->name = array_grow(samples->name, samples->n, sizeof *samples->name);
+    samples->name[samples->n++] = wt_strdup(name);
 }
 
 static int compare_sample_names(const void *a, const void *b)
@@ -37,16 +35,16 @@ static int compare_sample_names(const void *a, const void *b)
     return strverscmp(*(char *const *)a, *(char *const *)b);
 }
 
-wt_status flow_samples_find(const wt_sweep *sweep, wt_sample_names *samples, wt_error *err)
+wt_sample_names flow_samples_find(const wt_sweep *sweep)
 {
-    wt_status status = WT_OK;
-    for (size_t i = 0; i < sweep->n_isotherms && status == WT_OK; i++)
-        status = add_sample_name(samples, sweep->isotherms[i].sample, err);
-    for (size_t i = 0; i < sweep->n_ramps && status == WT_OK; i++)
-        status = add_sample_name(samples, sweep->ramps[i].sample, err);
-    if (samples->n > 1)
-        qsort(samples->name, samples->n, sizeof *samples->name, compare_sample_names);
-    return status;
+    wt_sample_names samples = {0, NULL};
+    for (size_t i = 0; i < sweep->n_isotherms; i++)
+        add_sample_name(&samples, sweep->isotherms[i].sample);
+    for (size_t i = 0; i < sweep->n_ramps; i++)
+        add_sample_name(&samples, sweep->ramps[i].sample);
+    if (samples.n > 1)
+        qsort(samples.name, samples.n, sizeof *samples.name, compare_sample_names);
+    return samples;
 }
 
 void wt_sample_names_clear(wt_sample_names *samples)
@@ -77,14 +75,11 @@ static void list_sample_names(const wt_sample_names *samples, char *text, size_t
 static wt_status fail_sample_missing(const wt_sweep *sweep, const char *name, wt_error *err)
 {
     char found[256] = "";
-    wt_sample_names samples = {0, NULL};
-    wt_status status = flow_samples_find(sweep, &samples, err);
-    for (size_t i = 0; i < sweep->n_strain_sweeps && status == WT_OK; i++)
-        status = add_sample_name(&samples, sweep->strain_sweeps[i].sample, err);
+    wt_sample_names samples = flow_samples_find(sweep);
+    for (size_t i = 0; i < sweep->n_strain_sweeps; i++)
+        add_sample_name(&samples, sweep->strain_sweeps[i].sample);
     list_sample_names(&samples, found, sizeof found);
     wt_sample_names_clear(&samples);
-    if (status != WT_OK)
-        return status;
     wt_fail(err, WT_E_NOT_FOUND, "no sweep is of the sample \"%s\"", name);
     wt_error_found(err, "%s", found);
     return WT_E_NOT_FOUND;
@@ -126,12 +121,12 @@ wt_status flow_require_one_sample(const wt_sweep *sweep, const wt_file_set *sets
                                   wt_log *log, wt_error *err)
 {
     char found[256] = "";
-    wt_sample_names samples = {0, NULL};
+    wt_status status = WT_OK;
     if (n_sets > 0 && sets[0].read.sample != NULL)
         return WT_OK;
     warn_repeated_temperature(sweep, log);
-    wt_status status = flow_samples_find(sweep, &samples, err);
-    if (status == WT_OK && samples.n > 1) {
+    wt_sample_names samples = flow_samples_find(sweep);
+    if (samples.n > 1) {
         list_sample_names(&samples, found, sizeof found);
         status = wt_fail(err, WT_E_AMBIGUOUS, "sweeps of several samples");
         wt_error_expected(err, "those of one");

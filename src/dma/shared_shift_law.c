@@ -134,7 +134,7 @@ static void format_shift_law_option(const wt_shared_shift_law *law, double refer
 
 /* Text buffer with space for the text of each sample. */
 typedef struct text_list {
-    char *text; /* NULL: out of memory */
+    char *text;
     size_t size, used;
 } text_list;
 
@@ -143,15 +143,13 @@ static text_list list_new(const wt_shared_shift_law_job *job)
     text_list made = {.size = 1};
     for (size_t i = 0; i < job->n; i++)
         made.size += strlen(job->names[i]) + MAX_SAMPLE_TEXT;
-    made.text = calloc(made.size, 1);
+    made.text = wt_alloc(made.size, 1);
     return made;
 }
 
 static void append_list_text(text_list *to, const char *format, ...) WT_PRINTF(2, 3);
 static void append_list_text(text_list *to, const char *format, ...)
 {
-    if (to->text == NULL)
-        return;
     va_list arguments;
     va_start(arguments, format);
     clocale_vprint(to->text + to->used, to->size - to->used, format, arguments);
@@ -182,14 +180,10 @@ static void set_sample_keys(const wt_shared_shift_law_job *job, const wt_shared_
             append_list_text(&given, "%s%s%s%s", given.used > 0 ? "; " : "",
                              each ? job->names[i] : "", each ? " " : "", one);
     }
-    if (moved.text == NULL || given.text == NULL || without.text == NULL) {
-        t->status = wt_fail(t->err, WT_E_MEMORY, "out of memory");
-    } else {
-        shared_shift_law_set_text(t, SHARED_SHIFT_LAW_KEY_MOVED, moved.text);
-        shared_shift_law_set_text(t, SHARED_SHIFT_LAW_KEY_SHIFT_LAW, given.text);
-        if (without.used > 0)
-            shared_shift_law_set_text(t, SHARED_SHIFT_LAW_KEY_LEFT_OUT, without.text);
-    }
+    shared_shift_law_set_text(t, SHARED_SHIFT_LAW_KEY_MOVED, moved.text);
+    shared_shift_law_set_text(t, SHARED_SHIFT_LAW_KEY_SHIFT_LAW, given.text);
+    if (without.used > 0)
+        shared_shift_law_set_text(t, SHARED_SHIFT_LAW_KEY_LEFT_OUT, without.text);
     free(moved.text);
     free(given.text);
     free(without.text);

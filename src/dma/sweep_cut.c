@@ -53,13 +53,13 @@ static wt_status parse_range(const char *text, exclusion_range *c, wt_error *err
         c->high = c->by_frequency ? at * (1 + same_frequency) : at + same_temperature;
         return status;
     }
-    char *low = strndup(text, (size_t)(dots - text));
-    wt_status status = low == NULL ? wt_fail(err, WT_E_MEMORY, "out of memory") : WT_OK;
+    char *low = wt_strndup(text, (size_t)(dots - text));
+    wt_status status = WT_OK;
     double *const from = c->by_time ? &c->high : &c->low, *const to =
                                                               c->by_time ? &c->low : &c->high;
     c->low = -HUGE_VAL;
     c->high = HUGE_VAL;
-    if (status == WT_OK && low[0] != '\0')
+    if (low[0] != '\0')
         status = parse_limit(c, low, from, err);
     if (status == WT_OK && dots[2] != '\0')
         status = parse_limit(c, dots + 2, to, err);
@@ -152,11 +152,8 @@ static wt_status apply_exclusion(const char *text, wt_sweep *sweep, wt_log *log,
         wt_error_expected(err, c.by_time ? "frequency: for an oscillation"
                                          : "time: for relaxation and creep");
     }
-    removed_data g = {
-        .sweep = {.isotherms = calloc(sweep->n_isotherms + 1, sizeof *sweep->isotherms),
-                  .ramps = calloc(sweep->n_ramps + 1, sizeof *sweep->ramps)}};
-    if (status == WT_OK && (g.sweep.isotherms == NULL || g.sweep.ramps == NULL))
-        status = wt_fail(err, WT_E_MEMORY, "out of memory");
+    removed_data g = {.sweep = {.isotherms = wt_alloc(sweep->n_isotherms, sizeof *sweep->isotherms),
+                                .ramps = wt_alloc(sweep->n_ramps, sizeof *sweep->ramps)}};
     if (status == WT_OK) {
         exclude_isotherms(&c, sweep, &g);
         exclude_ramps(&c, sweep, &g);

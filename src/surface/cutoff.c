@@ -32,32 +32,30 @@ static double interpolate_density(const wt_spectrum_bin *a, const wt_spectrum_bi
 }
 
 /* Builds the knots: the bins up to `end`, interpolated there, and the law beyond the last bin. */
-static wt_status build_knots(const surface_result *w, double end, surface_knots *to, wt_error *err)
+static surface_knots build_knots(const surface_result *w, double end)
 {
     const wt_surface_spectrum *s = &w->spectrum;
     const double last = s->bins[s->n - 1].wavenumber;
     const double decades = fmax(0, log10(end / last));
     const size_t n_law = end > last ? (size_t)ceil(decades * LAW_PER_DECADE) : 0;
-    *to = (surface_knots){.wavenumber = malloc(2 * (s->n + n_law + 1) * sizeof(double))};
-    if (to->wavenumber == NULL)
-        return wt_fail(err, WT_E_MEMORY, "no memory for a spectrum");
-    to->density = to->wavenumber + s->n + n_law + 1;
+    surface_knots knots = {.wavenumber = wt_alloc(2 * (s->n + n_law + 1), sizeof(double))};
+    knots.density = knots.wavenumber + s->n + n_law + 1;
     for (size_t k = 0; k < s->n && s->bins[k].wavenumber <= end; k++) {
-        to->wavenumber[to->n] = s->bins[k].wavenumber;
-        to->density[to->n++] = s->bins[k].density;
+        knots.wavenumber[knots.n] = s->bins[k].wavenumber;
+        knots.density[knots.n++] = s->bins[k].density;
     }
-    if (end < last && to->n > 0 && to->wavenumber[to->n - 1] < end) {
-        to->density[to->n] = interpolate_density(&s->bins[to->n - 1], &s->bins[to->n], end);
-        to->wavenumber[to->n++] = end;
-        to->cut = true;
+    if (end < last && knots.n > 0 && knots.wavenumber[knots.n - 1] < end) {
+        knots.density[knots.n] = interpolate_density(&s->bins[knots.n - 1], &s->bins[knots.n], end);
+        knots.wavenumber[knots.n++] = end;
+        knots.cut = true;
     }
-    to->n_measured = to->n;
+    knots.n_measured = knots.n;
     for (size_t i = 1; i <= n_law; i++) {
         const double q = i == n_law ? end : last * pow(10, decades * (double)i / (double)n_law);
-        to->wavenumber[to->n] = q;
-        to->density[to->n++] = wt_self_affine_density(&w->law, q);
+        knots.wavenumber[knots.n] = q;
+        knots.density[knots.n++] = wt_self_affine_density(&w->law, q);
     }
-    return WT_OK;
+    return knots;
 }
 
 static wt_status knots_to_roughness(const surface_knots *k, size_t n, wt_roughness **to,
@@ -81,11 +79,9 @@ static wt_status find_slope_limit(const surface_result *w, double slope, double 
     *end = (double)NAN;
     for (int beyond = 0; status == WT_OK && isnan(*end) && beyond <= (w->law.found ? 1 : 0);
          beyond++) {
-        surface_knots k = {.n = 0};
+        surface_knots k = build_knots(w, beyond == 1 ? 2 * M_PI / atom_size : last);
         wt_roughness *r = NULL;
-        status = build_knots(w, beyond == 1 ? 2 * M_PI / atom_size : last, &k, err);
-        if (status == WT_OK)
-            status = knots_to_roughness(&k, k.n, &r, err);
+        status = knots_to_roughness(&k, k.n, &r, err);
         if (status == WT_OK)
             *end = wt_roughness_slope_wavenumber(r, slope);
         *by_law = beyond == 1;
@@ -126,9 +122,7 @@ static wt_status perturbed_statistic(surface_result *w, size_t from, size_t to, 
                                      wt_error *err)
 {
     surface_knots *k = &w->knots;
-    double *unperturbed = malloc((to - from + 1) * sizeof *unperturbed);
-    if (unperturbed == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    double *unperturbed = wt_alloc(to - from, sizeof *unperturbed);
     for (size_t i = from; i < to; i++) {
         unperturbed[i - from] = k->density[i];
         k->density[i] *= exp(size == NO_SIZE ? knot_error(w, i)
@@ -234,10 +228,10 @@ wt_status surface_find_cutoff(const wt_topography_job *job, const wt_job *work, 
     wt_status status = find_slope_limit(w, surface_steep_slope, &w->steep, &w->steep_by_law, err);
     if (status == WT_OK)
         status = find_spectrum_limit(job, w, &end, err);
-    if (status == WT_OK)
-        status = build_knots(w, end, &w->knots, err);
-    if (status == WT_OK)
-        status = estimate_statistic(w, wt_roughness_rms_height, &w->rms_height, err);
+    if (status != WT_OK)
+        return status;
+    w->knots = build_knots(w, end);
+    status = estimate_statistic(w, wt_roughness_rms_height, &w->rms_height, err);
     if (status == WT_OK)
         status = estimate_statistic(w, wt_roughness_rms_slope, &w->rms_slope, err);
     if (status != WT_OK)

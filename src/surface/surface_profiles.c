@@ -77,9 +77,7 @@ static wt_interval profile_map_ratio(const wt_surface_spectrum *profiles,
 
 wt_status surface_join_scans(const surface_scan *scans, size_t n, surface_result *to, wt_error *err)
 {
-    const wt_surface_spectrum **of = malloc(2 * (n + 1) * sizeof *of);
-    if (of == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    const wt_surface_spectrum **of = wt_alloc(2 * (n + 1), sizeof *of);
     const wt_surface_spectrum **profiles = of + n + 1;
     wt_surface_spectrum inverted = {.n = 0};
     for (size_t i = 0; i < n; i++)
@@ -91,12 +89,9 @@ wt_status surface_join_scans(const surface_scan *scans, size_t n, surface_result
     wt_status status = WT_OK;
     if (to->n_profiles > 0)
         status = invert_profiles(profiles, to->n_profiles, &inverted, err);
-    if (status == WT_OK && both) {
-        wt_error none =
-            WT_ERROR_INIT; /* without reliable maps the profiles are the whole spectrum */
-        status = wt_surface_combine(of, to->n_maps, &to->maps, &none);
-        status = status == WT_E_MEMORY ? wt_fail(err, status, "no memory for a spectrum") : WT_OK;
-    }
+    /* Without reliable maps the profiles are the whole spectrum. */
+    if (status == WT_OK && both && wt_surface_combine(of, to->n_maps, &to->maps, NULL) != WT_OK)
+        to->maps = (wt_surface_spectrum){.n = 0};
     if (both)
         of[to->n_maps] = &inverted;
     if (status == WT_OK && to->n_maps > 0)

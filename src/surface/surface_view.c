@@ -30,31 +30,26 @@ static size_t thinned_count(size_t n, size_t step)
     return (n - 1) / step + 1;
 }
 
-static wt_status thin_heights(const wt_height_map *map, size_t most, surface_view *to,
-                              wt_error *err)
+static surface_view thin_heights(const wt_height_map *map, size_t most)
 {
     const bool profile = map->ny == 1;
     const size_t step = thinning_step(map->nx > map->ny ? map->nx : map->ny, most),
                  along = thinning_step(map->nx, MOST_LINE);
     const double *const row = map->z + map->ny / 2 * map->nx;
-    *to = (surface_view){.nx = profile ? 0 : thinned_count(map->nx, step),
+    surface_view view = {.nx = profile ? 0 : thinned_count(map->nx, step),
                          .ny = profile ? 0 : thinned_count(map->ny, step),
                          .dx = map->dx * (double)step,
                          .dy = map->dy * (double)step,
                          .n_line = thinned_count(map->nx, along),
                          .line_step = map->dx * (double)along};
-    to->z = malloc((to->nx * to->ny + 1) * sizeof *to->z);
-    to->line = malloc(to->n_line * sizeof *to->line);
-    if (to->z == NULL || to->line == NULL) {
-        surface_view_clear(to);
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
-    }
-    for (size_t j = 0; j < to->ny; j++)
-        for (size_t i = 0; i < to->nx; i++)
-            to->z[j * to->nx + i] = map->z[j * step * map->nx + i * step];
-    for (size_t i = 0; i < to->n_line; i++)
-        to->line[i] = row[i * along];
-    return WT_OK;
+    view.z = wt_alloc(view.nx * view.ny, sizeof *view.z);
+    view.line = wt_alloc(view.n_line, sizeof *view.line);
+    for (size_t j = 0; j < view.ny; j++)
+        for (size_t i = 0; i < view.nx; i++)
+            view.z[j * view.nx + i] = map->z[j * step * map->nx + i * step];
+    for (size_t i = 0; i < view.n_line; i++)
+        view.line[i] = row[i * along];
+    return view;
 }
 
 wt_status surface_view_create(const wt_height_map *map, wt_surface_form form, size_t n_scans,
@@ -62,15 +57,13 @@ wt_status surface_view_create(const wt_height_map *map, wt_surface_form form, si
 {
     const size_t maps_per_row = (size_t)ceil(sqrt((double)n_scans));
     double coefficients[FORM_TERMS];
-    double *z = malloc(map->nx * map->ny * sizeof *z);
-    if (z == NULL)
-        return wt_fail(err, WT_E_MEMORY, "no memory for %zu x %zu heights", map->nx, map->ny);
+    double *z = wt_alloc(map->nx * map->ny, sizeof *z);
     memcpy(z, map->z, map->nx * map->ny * sizeof *z);
     const wt_height_map less = {z, map->nx, map->ny, map->dx, map->dy};
-    wt_status status = surface_remove_form(z, map->nx, map->ny, (unsigned)form, coefficients, err);
+    const wt_status status =
+        surface_remove_form(z, map->nx, map->ny, (unsigned)form, coefficients, err);
     if (status == WT_OK)
-        status =
-            thin_heights(&less, maps_per_row < MOST_SIDE ? MOST_SIDE / maps_per_row : 1, to, err);
+        *to = thin_heights(&less, maps_per_row < MOST_SIDE ? MOST_SIDE / maps_per_row : 1);
     free(z);
     return status;
 }

@@ -162,15 +162,14 @@ wt_status wt_topography_compute(const wt_topography_job *job, const wt_job *work
         status = wt_fail(err, WT_E_ARG, "end and end-slope: the spectrum has one end");
     if (status == WT_OK)
         status = flow_files_list(job->sets, job->n_sets, work, &files, err);
-    if (status == WT_OK && (scans = calloc(files.n + 1, sizeof *scans)) == NULL)
-        status = wt_fail(err, WT_E_MEMORY, "out of memory");
-    if (status == WT_OK)
+    if (status == WT_OK) {
+        scans = wt_alloc(files.n, sizeof *scans);
         status = measure_scans(job, work, &files, scans, &n, err);
+    }
     if (status == WT_OK)
         status = surface_join_scans(scans, n, &whole, err);
-    if (status == WT_OK)
-        status = wt_self_affine_fit(&whole.spectrum, &whole.law, err);
     if (status == WT_OK) {
+        whole.law = wt_self_affine_fit(&whole.spectrum);
         whole.directions = wt_surface_anisotropy_fit(surface_directional_spectrum(&whole), 2);
         whole.fourth = wt_surface_anisotropy_fit(surface_directional_spectrum(&whole), 4);
         warn_surface(&whole, n, work);

@@ -21,22 +21,16 @@ wt_status material_check_value(const char *name, double value, const char *expec
     return range_error(full, value, expected, err);
 }
 
-wt_status material_create(const wt_material_law *law, void *data, double poisson_ratio,
-                          double frequency_min, double frequency_max, wt_material **material,
-                          wt_error *err)
+wt_material *material_create(const wt_material_law *law, void *data, double poisson_ratio,
+                             double frequency_min, double frequency_max)
 {
-    wt_material *made = malloc(sizeof *made);
-    if (made == NULL) {
-        law->free(&(wt_material){.data = data});
-        return wt_fail(err, WT_E_MEMORY, "out of memory for a material");
-    }
+    wt_material *made = wt_alloc(1, sizeof *made);
     *made = (wt_material){.law = law,
                           .poisson_ratio = poisson_ratio,
                           .frequency_min = frequency_min,
                           .frequency_max = frequency_max,
                           .data = data};
-    *material = made;
-    return WT_OK;
+    return made;
 }
 
 void material_free_data(wt_material *material)

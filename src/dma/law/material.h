@@ -18,11 +18,9 @@ wt_status material_check_poisson(double poisson_ratio, wt_error *err) WT_NODISCA
  * finite. */
 wt_status material_check_value(const char *name, double value, const char *expected, bool good,
                                wt_error *err) WT_NODISCARD;
-/* Creates a material that owns `data`. On failure it frees `data`. NaN as a frequency limit
- * [rad/s] means unlimited. */
-wt_status material_create(const wt_material_law *law, void *data, double poisson_ratio,
-                          double frequency_min, double frequency_max, wt_material **material,
-                          wt_error *err) WT_NODISCARD;
+/* Creates a material that owns `data`. NaN as a frequency limit [rad/s] means unlimited. */
+wt_material *material_create(const wt_material_law *law, void *data, double poisson_ratio,
+                             double frequency_min, double frequency_max);
 /* Implements `free` for a law whose data are one block of memory. */
 void material_free_data(wt_material *material);
 

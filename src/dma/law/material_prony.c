@@ -208,9 +208,7 @@ wt_status wt_material_prony(const wt_prony *prony, double poisson_ratio, wt_mate
     if (status != WT_OK)
         return status;
 
-    prony_data *d = malloc(sizeof *d + 3 * prony->n * sizeof d->numbers[0]);
-    if (d == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory for a Prony series of %zu terms", prony->n);
+    prony_data *d = wt_alloc(1, sizeof *d + 3 * prony->n * sizeof d->numbers[0]);
     d->modulus = d->numbers;
     d->relaxation_time = d->modulus + prony->n;
     d->weight = d->relaxation_time + prony->n;
@@ -229,6 +227,7 @@ wt_status wt_material_prony(const wt_prony *prony, double poisson_ratio, wt_mate
             v += d->modulus[j] / (1 + tau / d->relaxation_time[j]);
         d->weight[k] = 2 * d->modulus[k] * v;
     }
-    return material_create(&prony_law, d, poisson_ratio, prony->frequency_min, prony->frequency_max,
-                           material, err);
+    *material =
+        material_create(&prony_law, d, poisson_ratio, prony->frequency_min, prony->frequency_max);
+    return WT_OK;
 }

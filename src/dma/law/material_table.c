@@ -150,9 +150,7 @@ wt_status wt_material_table(const double *omega, const double *storage, const do
     if (status != WT_OK)
         return status;
 
-    table_data *d = malloc(sizeof *d + 4 * n * sizeof d->numbers[0]);
-    if (d == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory for a material table of %zu knots", n);
+    table_data *d = wt_alloc(1, sizeof *d + 4 * n * sizeof d->numbers[0]);
     d->n = n;
     d->extrapolation = extrapolation;
     d->omega = d->numbers;
@@ -174,7 +172,8 @@ wt_status wt_material_table(const double *omega, const double *storage, const do
     if (status == WT_OK && extrapolation == WT_EXTRAPOLATE_SLOPE)
         status = check_boundary_slopes(d, err);
     if (status == WT_OK)
-        return material_create(&table_law, d, poisson_ratio, omega[0], omega[n - 1], material, err);
-    free(d);
+        *material = material_create(&table_law, d, poisson_ratio, omega[0], omega[n - 1]);
+    else
+        free(d);
     return status;
 }

@@ -270,7 +270,7 @@ static const wt_material_law transverse_law = {
     .free = transverse_free,
 };
 
-static wt_status merge_breaks(transverse_data *d, wt_error *err)
+static void merge_breaks(transverse_data *d)
 {
     size_t n[N_MODULI] = {0}, all = 0;
     const double *of[N_MODULI] = {NULL};
@@ -279,9 +279,7 @@ static wt_status merge_breaks(transverse_data *d, wt_error *err)
             of[i] = d->law[i]->law->breaks(d->law[i], &n[i]);
         all += n[i];
     }
-    d->breaks = malloc((all + 1) * sizeof *d->breaks);
-    if (d->breaks == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory for a material");
+    d->breaks = wt_alloc(all, sizeof *d->breaks);
     for (size_t i = 0; i < N_MODULI; i++)
         for (size_t k = 0; k < n[i]; k++)
             d->breaks[d->n_breaks++] = of[i][k];
@@ -291,7 +289,6 @@ static wt_status merge_breaks(transverse_data *d, wt_error *err)
         if (kept == 0 || d->breaks[i] > d->breaks[kept - 1])
             d->breaks[kept++] = d->breaks[i];
     d->n_breaks = kept;
-    return WT_OK;
 }
 
 /* Intersects the frequency ranges of all laws. The limits are NaN if no law has limits. */
@@ -325,17 +322,15 @@ wt_status wt_material_transverse(wt_material *plane, wt_material *axial, wt_mate
     wt_material *const law[N_MODULI] = {plane, axial != NULL ? axial : plane,
                                         shear != NULL ? shear : plane};
     wt_status status = material_check_poisson(poisson_ratio, err);
-    transverse_data *d = NULL;
     if (plane == NULL || transverse == NULL || material == NULL)
         status = wt_fail(err, WT_E_ARG, "a transversely isotropic material needs a law");
     if (status == WT_OK)
         status = param_check(wt_transverse_params(), transverse, err);
-    if (status == WT_OK && (d = calloc(1, sizeof *d)) == NULL)
-        status = wt_fail(err, WT_E_MEMORY, "out of memory for a material");
     if (status != WT_OK) {
         free_distinct_laws(law);
         return status;
     }
+    transverse_data *d = wt_alloc(1, sizeof *d);
     for (size_t i = 0; i < N_MODULI; i++)
         d->law[i] = law[i];
     d->parameters = *transverse;
@@ -352,9 +347,7 @@ wt_status wt_material_transverse(wt_material *plane, wt_material *axial, wt_mate
     d->stiffness = 2 * (1 - poisson_ratio * poisson_ratio);
     double low, high;
     intersect_ranges(d, &low, &high);
-    status = merge_breaks(d, err);
-    if (status == WT_OK)
-        return material_create(&transverse_law, d, poisson_ratio, low, high, material, err);
-    transverse_free(&(wt_material){.data = d});
-    return status;
+    merge_breaks(d);
+    *material = material_create(&transverse_law, d, poisson_ratio, low, high);
+    return WT_OK;
 }

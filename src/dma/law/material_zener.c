@@ -53,14 +53,13 @@ wt_status wt_material_fractional_zener(double e0, double eg, double tau, double 
             material_check_value("alpha", alpha, "0 < alpha <= 1", alpha > 0 && alpha <= 1, err);
     if (status != WT_OK)
         return status;
-    zener_data *d = malloc(sizeof *d);
-    if (d == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory for a material");
-    d->e0 = e0;
-    d->rise = eg - e0;
-    d->tau = tau;
-    d->alpha = alpha;
-    d->cosine = alpha < 1 ? cos(alpha * M_PI_2) : 0;
-    d->sine = sin(alpha * M_PI_2);
-    return material_create(&zener_law, d, poisson_ratio, (double)NAN, (double)NAN, material, err);
+    zener_data *d = wt_alloc(1, sizeof *d);
+    *d = (zener_data){.e0 = e0,
+                      .rise = eg - e0,
+                      .tau = tau,
+                      .alpha = alpha,
+                      .cosine = alpha < 1 ? cos(alpha * M_PI_2) : 0,
+                      .sine = sin(alpha * M_PI_2)};
+    *material = material_create(&zener_law, d, poisson_ratio, (double)NAN, (double)NAN);
+    return WT_OK;
 }

@@ -255,8 +255,6 @@ wt_status shift_set_new(const wt_sweep *sweep, wt_shift_quantity by, wt_log *log
     double *next = arena_numbers(memory, (1 + MODULI) * n_points);
     *set = (shift_set){
         .n = n, .loading = sweep->loading, .curves = arena_alloc(memory, n, sizeof *set->curves)};
-    if (memory->failed)
-        return wt_fail(err, WT_E_MEMORY, "no memory for %zu isotherms", n);
     status = choose_fitted_quantities(sweep, by, set, err);
     if (status == WT_OK && set->loading != WT_OSCILLATION && set->quantity != WT_SHIFT_STORAGE) {
         status = wt_fail(err, WT_E_ARG, "after a step there is one quantity to shift by");

@@ -144,9 +144,7 @@ wt_status wt_payne_fit(const double *strain, const double *storage, const double
         if (!(strain[i] > 0 && storage[i] > 0 && loss[i] > 0 && isfinite(strain[i]) &&
               isfinite(storage[i]) && isfinite(loss[i]) && (i == 0 || strain[i] >= strain[i - 1])))
             return wt_fail(err, WT_E_ARG, "strain sweep: not rising, or not above zero");
-    double *log_strain = malloc(n * sizeof *log_strain);
-    if (log_strain == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    double *log_strain = wt_alloc(n, sizeof *log_strain);
     for (size_t i = 0; i < n; i++)
         log_strain[i] = log(strain[i]);
     const payne_points p = {n, log_strain, storage, loss};

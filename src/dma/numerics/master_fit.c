@@ -139,7 +139,7 @@ wt_status master_choose_anchor(master_work *work, wt_error *err)
     return WT_OK;
 }
 
-wt_status master_work_alloc(master_work *work, wt_error *err)
+void master_work_alloc(master_work *work)
 {
     const size_t n = work->set.n;
     arena *m = &work->memory;
@@ -151,16 +151,10 @@ wt_status master_work_alloc(master_work *work, wt_error *err)
     vertical_alloc(m, n, &work->vertical);
     work->edge = arena_alloc(m, n, sizeof *work->edge);
     work->original_a = arena_numbers(m, n);
-    work->posterior = posterior_new();
-    if (work->posterior != NULL) {
-        work->posterior->curve = arena_alloc(&work->posterior->memory, n, sizeof(size_t));
-        work->posterior->closed_form = arena_numbers(&work->posterior->memory, n);
-        work->curve = work->posterior->curve;
-        work->s = &work->posterior->frame;
-    }
-    return m->failed || work->posterior == NULL || work->posterior->memory.failed
-               ? wt_fail(err, WT_E_MEMORY, "no memory for %zu isotherms", n)
-               : WT_OK;
+    wt_posterior *const p = work->posterior = wt_alloc(1, sizeof *p);
+    work->curve = p->curve = arena_alloc(&p->memory, n, sizeof *p->curve);
+    p->closed_form = arena_numbers(&p->memory, n);
+    work->s = &p->frame;
 }
 
 wt_status master_set_widths(master_work *work, wt_vertical_shift kind, double geometry,
@@ -193,8 +187,6 @@ wt_status master_new_spectrum(master_work *work, wt_error *err)
     p->slope = arena_numbers(m, n);
     p->scratch = arena_numbers(m, 7 * n + 4 * work->s->n_linear);
     p->cross_covariance = arena_numbers(m, 3 * n + work->s->n_linear);
-    if (m->failed)
-        return wt_fail(err, WT_E_MEMORY, "no memory for %zu isotherms", n);
     work->vertical.mean = p->mean_b;
     size_t curve = 0;
     for (size_t i = 0; i < work->set.n; i++)
@@ -251,57 +243,48 @@ static bool lines_reduce_noise(const spectrum *lines, const spectrum *s, int q)
            less * left > noise_significance * sqrt(more / 2.0);
 }
 
-/* Tests if a line spectrum with fixed vertical shifts reduces the noise. */
-static wt_status try_line_spectrum(const master_work *work, bool *better, wt_error *err)
+/* Returns true if a line spectrum with fixed vertical shifts reduces the noise. A failed fit is no
+ * failure of the caller. */
+static bool try_line_spectrum(const master_work *work)
 {
     const spectrum *s = work->s;
     spectrum lines;
-    wt_status status = spectrum_new(&work->set, work->placed, work->anchor, work->a, work->b,
-                                    trial_terms, work->options.liquid, &lines, err);
-    if (status != WT_OK)
-        return status;
+    bool better = false;
+    if (spectrum_new(&work->set, work->placed, work->anchor, work->a, work->b, trial_terms,
+                     work->options.liquid, &lines, NULL) != WT_OK)
+        return false;
     double *b = arena_numbers(&lines.memory, s->n_curves);
     const spectrum_prior held = {.held = true, .mean = b};
-    if (b == NULL)
-        status = wt_fail(err, WT_E_MEMORY, "no memory for a spectrum");
-    for (size_t i = 0; i < s->n_curves && status == WT_OK; i++)
+    for (size_t i = 0; i < s->n_curves; i++)
         b[i] = spectrum_b(s, i);
-    if (status == WT_OK) {
-        spectrum_set_prior(&lines, &held);
-        lines.smooth = lines_smooth;
-        for (int q = 0; q < MODULI; q++) {
-            memcpy(lines.weight[q], s->weight[q], s->n * sizeof *s->weight[q]);
-            lines.noise[q] = s->noise[q];
-        }
-        status = spectrum_fit(&lines, SPECTRUM_TRIAL, err);
-        if (status == WT_OK)
-            (void)spectrum_noise_update(&lines, 1.0);
+    spectrum_set_prior(&lines, &held);
+    lines.smooth = lines_smooth;
+    for (int q = 0; q < MODULI; q++) {
+        memcpy(lines.weight[q], s->weight[q], s->n * sizeof *s->weight[q]);
+        lines.noise[q] = s->noise[q];
     }
-    for (int q = 0; q < MODULI && status == WT_OK; q++)
-        *better |= lines_reduce_noise(&lines, s, q);
+    if (spectrum_fit(&lines, SPECTRUM_TRIAL, NULL) == WT_OK) {
+        (void)spectrum_noise_update(&lines, 1.0);
+        for (int q = 0; q < MODULI; q++)
+            better = better || lines_reduce_noise(&lines, s, q);
+    }
     work->s->evaluations += lines.evaluations;
     spectrum_free(&lines);
-    return status;
+    return better;
 }
 
-/* Tests if more terms are needed, because the spectrum has sharp curvature or lines reduce the
- * noise. */
-static wt_status needs_line_spectrum(master_work *work, bool *better, wt_error *err)
+/* Returns true if more terms are needed, because the spectrum has sharp curvature or lines reduce
+ * the noise. */
+static bool needs_line_spectrum(master_work *work)
 {
-    *better = work->s->smooth > sharp_curvature;
-    wt_error no_lines = WT_ERROR_INIT; /* a failed trial is no failure of the fit */
     (void)store_fitted_shifts(work);
-    if (!*better && try_line_spectrum(work, better, &no_lines) == WT_E_MEMORY)
-        return wt_fail(err, WT_E_MEMORY, "%s", no_lines.message);
-    return WT_OK;
+    return work->s->smooth > sharp_curvature || try_line_spectrum(work);
 }
 
 static wt_status refine_line_spectrum(master_work *work, wt_error *err)
 {
-    bool better = false;
-    wt_status lines = needs_line_spectrum(work, &better, err);
-    if (lines != WT_OK || !better)
-        return lines;
+    if (!needs_line_spectrum(work))
+        return WT_OK;
     work->lines = true;
     work->terms_per_decade = sharp_terms;
     const wt_status status = master_new_spectrum(work, err);
@@ -310,47 +293,43 @@ static wt_status refine_line_spectrum(master_work *work, wt_error *err)
 }
 
 /* Measures the misfit beyond the noise within the isotherms. */
-wt_status master_measure_misfit(master_work *work, wt_error *err)
+void master_measure_misfit(master_work *work)
 {
     double all[MODULI], within[MODULI];
-    const wt_status status = spectrum_measure_misfit(work->s, all, within, err);
+    spectrum_measure_misfit(work->s, all, within);
     work->is_gross = work->exceeds_noise = false;
-    for (int q = 0; status == WT_OK && q < MODULI; q++) {
+    for (int q = 0; q < MODULI; q++) {
         const double missed = all[q] * all[q] - within[q] * within[q];
         const bool is_gross = missed > gross_misfit * gross_misfit;
         work->is_gross = work->is_gross || is_gross;
         work->exceeds_noise = work->exceeds_noise || (is_gross && missed > within[q] * within[q]);
         work->missed[q] = sqrt(fmax(missed, 0.0));
     }
-    return status;
 }
 
 /* Restarts from the overlaps of E' if the misfit is large, because the start may be wrong. A
  * line spectrum also has a large misfit until it has enough terms. */
 static wt_status restart_from_overlaps(master_work *work, wt_error *err)
 {
-    bool lines = false;
-    wt_status status = master_measure_misfit(work, err);
-    if (status != WT_OK || !work->is_gross)
-        return status;
-    if (isnan(work->options.terms_per_decade))
-        status = needs_line_spectrum(work, &lines, err);
-    if (status != WT_OK || lines || !work->set.used[STORAGE]) {
-        work->is_gross = work->is_gross && !lines;
-        return status;
-    }
-    status = master_find_overlaps(work, err);
-    for (size_t i = 0; status == WT_OK && i < work->set.n; i++)
+    master_measure_misfit(work);
+    if (!work->is_gross)
+        return WT_OK;
+    work->is_gross = !isnan(work->options.terms_per_decade) || !needs_line_spectrum(work);
+    if (!work->is_gross || !work->set.used[STORAGE])
+        return WT_OK;
+    master_find_overlaps(work);
+    for (size_t i = 0; i < work->set.n; i++)
         if (work->edge[i].placed && !work->set.curves[i].is_shift_fixed) {
             work->placed[i] = true;
             work->a[i] = work->edge[i].a;
         }
     (void)spectrum_select_connected(&work->set, work->anchor, work->a, work->placed, work->overlap);
-    if (status == WT_OK)
-        status = master_new_spectrum(work, err);
+    wt_status status = master_new_spectrum(work, err);
     if (status == WT_OK)
         status = spectrum_fit(work->s, SPECTRUM_ROBUST, err);
-    return status == WT_OK ? master_measure_misfit(work, err) : status;
+    if (status == WT_OK)
+        master_measure_misfit(work);
+    return status;
 }
 
 wt_status master_find_initial_shifts(master_work *work, wt_error *err)
@@ -397,7 +376,8 @@ wt_status master_find_initial_shifts(master_work *work, wt_error *err)
  * fit. A small misfit of the spectrum therefore counts as noise. */
 wt_status master_estimate_noise(master_work *work, wt_error *err)
 {
-    wt_status status = spectrum_estimate_noise(work->s, &work->within, err);
+    wt_status status = WT_OK;
+    work->within = spectrum_estimate_noise(work->s);
     spectrum_set_point_noise(work->s, master_uniform_noise);
     for (int round = 0; status == WT_OK && round < BEND_ROUNDS; round++) {
         status = spectrum_fit(work->s, SPECTRUM_ROUGH, err);
@@ -425,7 +405,7 @@ wt_status master_test_superposition(master_work *work, wt_error *err)
     if (status == WT_OK)
         status = spectrum_fit(s, work->is_gross ? SPECTRUM_ROUGH : SPECTRUM_NOISE, err);
     if (status == WT_OK && work->tested)
-        status = superposition_test(s, work->within.uncertainty, &work->lack, err);
+        work->lack = superposition_test(s, work->within.uncertainty);
     s->rho = rho;
     spectrum_set_point_noise(s, master_uniform_noise);
     if (status == WT_OK) /* restores the columns that the cells use */

@@ -102,8 +102,6 @@ static wt_status fit_with_fallback_reference(const wt_sweep *sweep, wt_master_op
     double better;
     wt_error flat = WT_ERROR_INIT;
     wt_log *first_log = wt_log_new(); /* buffered, because a second fit repeats the messages */
-    if (first_log == NULL)
-        return wt_fail(err, WT_E_MEMORY, "no memory for the remarks of a fit");
     const wt_status status = master_fit_once(sweep, &options, first_log, master, &better, &flat);
     const bool is_final = isnan(better) || !isnan(options.reference_temperature);
     if (is_final)

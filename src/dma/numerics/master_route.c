@@ -39,19 +39,18 @@ static wt_status test_part(const master_work *whole, size_t first, size_t last, 
     work.set.curves += first;
     work.set.n = work.last = last - first + 1;
     *holds = false;
-    wt_status status = master_work_alloc(&work, err);
-    if (status == WT_OK)
-        status = master_choose_anchor(&work, err);
+    master_work_alloc(&work);
+    wt_status status = master_choose_anchor(&work, err);
     if (status == WT_OK)
         status = master_find_initial_shifts(&work, err);
     if (status == WT_OK)
-        status = master_measure_misfit(&work, err);
+        master_measure_misfit(&work);
     if (status == WT_OK && !work.is_gross && work.s->n_curves == work.set.n)
         status = master_estimate_noise(&work, err);
     if (status == WT_OK && !work.is_gross && work.s->n_curves == work.set.n)
         status = master_test_superposition(&work, err);
     if (status == WT_OK && work.tested && !master_misfit_is_significant(&work.lack))
-        status = master_shifts_agree(&work, holds, err);
+        *holds = master_shifts_agree(&work);
     posterior_free(work.posterior);
     arena_free(&work.memory);
     const bool none = status == WT_E_CONVERGENCE || status == WT_E_RANGE ||
@@ -117,7 +116,7 @@ static wt_status refit_without_restart(master_work *work, wt_error *err)
     if (status == WT_OK)
         status = master_estimate_noise(work, err);
     if (status == WT_OK && !work->prior.held)
-        status = master_measure_misfit(work, err);
+        master_measure_misfit(work);
     return status == WT_OK ? master_test_superposition(work, err) : status;
 }
 
@@ -129,16 +128,17 @@ static wt_status fit_free_shifts(master_work *work, wt_error *err)
         status = master_set_widths(work, WT_VERTICAL_FREE, 0.0, 0.0, err);
         if (status == WT_OK)
             status = spectrum_fit(work->s, SPECTRUM_ROUGH, err);
-        if (status == WT_OK)
-            status = master_measure_misfit(work, err);
-        if (status != WT_OK || !work->is_gross) /* without them the fit is good: start again */
-            return status != WT_OK ? status : refit_without_restart(work, err);
-        status = spectrum_estimate_noise(work->s, &work->within, err);
+        if (status != WT_OK)
+            return status;
+        master_measure_misfit(work);
+        if (!work->is_gross) /* without them the fit is good: start again */
+            return refit_without_restart(work, err);
+        work->within = spectrum_estimate_noise(work->s);
         spectrum_set_point_noise(work->s, master_uniform_noise);
     } else if (status == WT_OK) {
         status = master_estimate_noise(work, err);
         if (status == WT_OK) /* a good start may have ended far off */
-            status = master_measure_misfit(work, err);
+            master_measure_misfit(work);
     }
     return status == WT_OK ? master_test_superposition(work, err) : status;
 }
@@ -162,22 +162,16 @@ static wt_status fit_by_best_route(master_work *work, wt_error *err)
         snprintf(work->no_spectrum, sizeof work->no_spectrum, "%s", failure.message);
     bool overlap = false;
     if (work->no_spectrum[0] != '\0' ||
-        (status == WT_OK && work->is_gross && misfit_is_relevant(work))) {
-        const wt_status may = master_can_use_overlaps(work, &overlap, err);
-        if (may != WT_OK)
-            return may;
-    }
+        (status == WT_OK && work->is_gross && misfit_is_relevant(work)))
+        overlap = master_can_use_overlaps(work);
     if (!overlap && status == WT_OK && work->is_gross)
         status = refit_without_restart(work, &failure);
     if (!overlap && status == WT_OK && work->tested && master_misfit_is_likely(&work->lack) &&
         work->set.used[STORAGE])
-        status = master_uncertainty(work, &failure);
+        master_uncertainty(work);
     if (!overlap && status == WT_OK && master_misfit_is_significant(&work->lack) &&
-        master_all_uncertain(work)) {
-        status = master_can_use_overlaps(work, &overlap, err);
-        if (status != WT_OK)
-            return status;
-    }
+        master_all_uncertain(work))
+        overlap = master_can_use_overlaps(work);
     if (!overlap) {
         if (status != WT_OK && err != NULL)
             *err = failure;
@@ -206,10 +200,10 @@ wt_status master_fit_once(const wt_sweep *sweep, const wt_master_options *option
         status = shift_set_new(sweep, work.options.shift_by, log, &work.memory, &work.set, err);
     if (status == WT_OK)
         status = master_check_vertical(&work, err);
-    if (status == WT_OK)
-        status = master_work_alloc(&work, err);
-    if (status == WT_OK)
+    if (status == WT_OK) {
+        master_work_alloc(&work);
         status = master_choose_anchor(&work, err);
+    }
     if (status == WT_OK) {
         closed_form_shifts(&work.set, work.anchor, work.posterior->closed_form);
         status = fit_by_best_route(&work, err);

@@ -100,17 +100,12 @@ static void fill_shift(const master_work *work, size_t i, const double *log_b_ma
     shift->log_b_material = log_b_material[curve];
 }
 
-wt_status master_fill_shifts(const master_work *work, wt_master *m, wt_error *err)
+void master_fill_shifts(const master_work *work, wt_master *m)
 {
     const wt_posterior *p = work->posterior;
     const size_t n = work->s->n_curves;
-    double *log_b = calloc(2 * n, sizeof *log_b);
-    m->shifts = calloc(work->set.n, sizeof *m->shifts);
-    if (log_b == NULL || m->shifts == NULL) {
-        free(log_b);
-        return wt_fail(err, WT_E_MEMORY, "no memory for the shifts");
-    }
-    double *one = log_b + n;
+    double *log_b = wt_alloc(2 * n, sizeof *log_b), *const one = log_b + n;
+    m->shifts = wt_alloc(work->set.n, sizeof *m->shifts);
     for (size_t c = 0; c < p->n_components; c++) {
         posterior_smooth_b(p, p->components[c].cell, p->components[c].cell->value, one);
         for (size_t i = 0; i < n; i++)
@@ -122,7 +117,6 @@ wt_status master_fill_shifts(const master_work *work, wt_master *m, wt_error *er
     for (size_t i = 0; i < m->n_shifts; i++)
         m->n_outliers += m->shifts[i].n_outliers;
     free(log_b);
-    return WT_OK;
 }
 
 /* ---- checks ---------------------------------------------------------------------------------- */

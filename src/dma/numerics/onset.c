@@ -83,10 +83,9 @@ static wt_status locate_onset(const double *x, const double *z, size_t n, wt_ons
     gaussian_process s;
     for (int i = 0; i < POSITIONS; i++)
         positions[i] = x[0] + (x[n - 1] - x[0]) * i / (POSITIONS - 1);
-    wt_status status = gaussian_process_new(x, z, n, false, &s, err);
+    const wt_status status = gaussian_process_new(x, z, n, false, &s, err);
     if (status == WT_OK)
-        status = gaussian_process_slope_interval(&s, positions, POSITIONS, tangent_intersection,
-                                                 &onset->at, err);
+        onset->at = gaussian_process_slope_interval(&s, positions, POSITIONS, tangent_intersection);
     gaussian_process_free(&s);
     if (status == WT_OK && !isnan(onset->at.value))
         *onset = (wt_onset){true, onset->at, n, ""};
@@ -102,9 +101,7 @@ wt_status wt_onset_find(const double *x, const double *y, size_t n, wt_onset *on
                         .reason = "fewer than 5 points"};
     if (n < GP_MIN_POINTS)
         return WT_OK;
-    double *z = malloc(n * sizeof *z), lowest = HUGE_VAL, highest = -HUGE_VAL;
-    if (z == NULL)
-        return wt_fail(err, WT_E_MEMORY, "no memory for an onset");
+    double *z = wt_alloc(n, sizeof *z), lowest = HUGE_VAL, highest = -HUGE_VAL;
     for (size_t i = 0; i < n; i++) {
         z[i] = log(y[i]);
         lowest = fmin(lowest, z[i]);

@@ -208,8 +208,8 @@ static bool add_overlap_edge(struct chain_work *c, overlap_edge *edge, size_t on
     return true;
 }
 
-wt_status overlap_chain(const shift_set *set, size_t anchor, const double *b,
-                        const double *alternative_b, overlap_edge *edge, wt_error *err)
+void overlap_chain(const shift_set *set, size_t anchor, const double *b,
+                   const double *alternative_b, overlap_edge *edge)
 {
     const size_t n = set->n;
     size_t longest = 0;
@@ -219,7 +219,7 @@ wt_status overlap_chain(const shift_set *set, size_t anchor, const double *b,
     }
     edge[anchor] = (overlap_edge){.placed = true, .onto = anchor};
     if (!set->used[STORAGE])
-        return WT_OK;
+        return;
     arena memory = {0};
     struct chain_work c = {.set = set, .b = b, .alternative_b = alternative_b};
     for (int q = 0; q < MODULI; q++)
@@ -227,10 +227,6 @@ wt_status overlap_chain(const shift_set *set, size_t anchor, const double *b,
     c.first = arena_alloc(&memory, n, sizeof *c.first);
     c.overlap.gap = arena_alloc(&memory, 2 * longest, sizeof *c.overlap.gap);
     c.overlap.scratch = arena_numbers(&memory, 2 * longest);
-    if (memory.failed) {
-        arena_free(&memory);
-        return wt_fail(err, WT_E_MEMORY, "no memory for the overlaps");
-    }
     for (size_t i = 0, k = 0; i < n; k += set->curves[i++].n) {
         c.first[i] = k;
         for (int q = 0; q < MODULI; q++)
@@ -244,5 +240,4 @@ wt_status overlap_chain(const shift_set *set, size_t anchor, const double *b,
         for (size_t k = 1; k <= NEIGHBOURS && i + k <= anchor && !edge[i].placed; k++)
             (void)add_overlap_edge(&c, edge, i + k, i);
     arena_free(&memory);
-    return WT_OK;
 }

@@ -20,8 +20,7 @@ typedef struct overlap_edge {
 
 /* Fills the edges [set->n]. b: [set->n] vertical shifts of the moduli; alternative_b: [set->n]
  * alternative vertical shifts, or NULL. Without a storage modulus only the anchor is placed. */
-wt_status overlap_chain(const shift_set *set, size_t anchor, const double *b,
-                        const double *alternative_b, overlap_edge *edge,
-                        wt_error *err) WT_NODISCARD;
+void overlap_chain(const shift_set *set, size_t anchor, const double *b,
+                   const double *alternative_b, overlap_edge *edge);
 
 #endif

@@ -178,9 +178,7 @@ wt_status wt_peak_find(const double *x, const double *y, size_t n, size_t points
         set_no_peak(peak, "no peak in range: too few points on one side of the largest");
         return WT_OK;
     }
-    double *z = malloc((last - first) * sizeof *z);
-    if (z == NULL)
-        return wt_fail(err, WT_E_MEMORY, "no memory for a peak");
+    double *z = wt_alloc(last - first, sizeof *z);
     for (size_t i = first; i < last; i++)
         z[i - first] = points > 0 ? y[i] / y[top] : log(y[i] / y[top]);
     const wt_status status =

@@ -7,27 +7,21 @@
  * as wide as a step of 5 to 10 K between isotherms. */
 const double master_max_shift_error = 0.2;
 
-wt_status master_overlap_edges(const master_work *work, bool physical, overlap_edge *edge,
-                               wt_error *err)
+void master_overlap_edges(const master_work *work, bool physical, overlap_edge *edge)
 {
     const size_t n = work->set.n;
     arena memory = {0};
     double *none = arena_numbers(&memory, n), *rubber = arena_numbers(&memory, n);
-    wt_status status =
-        memory.failed ? wt_fail(err, WT_E_MEMORY, "no memory for the overlaps") : WT_OK;
-    for (size_t i = 0; status == WT_OK && i < n; i++)
+    for (size_t i = 0; i < n; i++)
         rubber[i] = work->physical[i] - work->physical[work->anchor];
-    if (status == WT_OK)
-        status = overlap_chain(&work->set, work->anchor, physical ? rubber : none,
-                               physical ? none : rubber, edge, err);
+    overlap_chain(&work->set, work->anchor, physical ? rubber : none, physical ? none : rubber,
+                  edge);
     arena_free(&memory);
-    return status;
 }
 
 /* Uses the vertical shift of rubber elasticity if requested, otherwise none. E' alone does not
  * separate it from the horizontal shift, and a glass has none. */
-wt_status master_find_overlaps(master_work *work, wt_error *err)
+void master_find_overlaps(master_work *work)
 {
-    return master_overlap_edges(work, work->options.vertical == WT_VERTICAL_PHYSICAL, work->edge,
-                                err);
+    master_overlap_edges(work, work->options.vertical == WT_VERTICAL_PHYSICAL, work->edge);
 }

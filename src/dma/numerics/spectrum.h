@@ -229,13 +229,11 @@ typedef struct spectrum_isotherm_noise {
         shape[SPECTRUM_SHAPES]; /* line and parabola of ln noise along an isotherm, from -1 to 1 */
     double uncertainty;         /* variance of ln of the noise variance at low frequency */
 } spectrum_isotherm_noise;
-/* Sets the noise factors of the isotherms only. */
-wt_status spectrum_estimate_noise(spectrum *s, spectrum_isotherm_noise *within,
-                                  wt_error *err) WT_NODISCARD;
+/* Estimates that noise. It sets the noise factors of the isotherms only. */
+spectrum_isotherm_noise spectrum_estimate_noise(spectrum *s);
 /* Computes the rms residual of each modulus [ln], and the rms residual about a polynomial of
  * each isotherm, for independent points. */
-wt_status spectrum_measure_misfit(spectrum *s, double all[MODULI], double within[MODULI],
-                                  wt_error *err) WT_NODISCARD;
+void spectrum_measure_misfit(spectrum *s, double all[MODULI], double within[MODULI]);
 /* Sets the noise factors of the points from their isotherm and their position on it. */
 void spectrum_set_point_noise(spectrum *s, const double shape[SPECTRUM_SHAPES]);
 

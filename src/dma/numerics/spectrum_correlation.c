@@ -229,24 +229,18 @@ void spectrum_set_point_noise(spectrum *s, const double shape[SPECTRUM_SHAPES])
     }
 }
 
-static wt_status noise_work_new(const spectrum *s, struct noise_work *w, wt_error *err)
+static struct noise_work noise_work_new(const spectrum *s)
 {
-    *w = (struct noise_work){.v = calloc(s->n * (MOST_WIDTH + 2 + MODULI), sizeof *w->v)};
-    if (w->v == NULL)
-        return wt_fail(err, WT_E_MEMORY, "no memory for the noise");
-    w->rest = w->v + s->n * MOST_WIDTH;
-    w->left = w->rest + s->n;
-    return WT_OK;
+    struct noise_work w = {.v = wt_alloc(s->n * (MOST_WIDTH + 2 + MODULI), sizeof *w.v)};
+    w.rest = w.v + s->n * MOST_WIDTH;
+    w.left = w.rest + s->n;
+    return w;
 }
 
-wt_status spectrum_measure_misfit(spectrum *s, double all[MODULI], double within[MODULI],
-                                  wt_error *err)
+void spectrum_measure_misfit(spectrum *s, double all[MODULI], double within[MODULI])
 {
     const double rho = s->rho;
-    struct noise_work w;
-    const wt_status status = noise_work_new(s, &w, err);
-    if (status != WT_OK)
-        return status;
+    struct noise_work w = noise_work_new(s);
     double *const weights = w.left + s->n; /* E', then E'' */
     s->rho = 0.0;
     for (int q = 0; q < MODULI; q++)
@@ -265,27 +259,23 @@ wt_status spectrum_measure_misfit(spectrum *s, double all[MODULI], double within
         memcpy(s->weight[q], weights + (size_t)q * s->n, s->n * sizeof *weights);
     s->rho = rho;
     free(w.v);
-    return WT_OK;
 }
 
-wt_status spectrum_estimate_noise(spectrum *s, spectrum_isotherm_noise *within, wt_error *err)
+spectrum_isotherm_noise spectrum_estimate_noise(spectrum *s)
 {
-    struct noise_work w;
-    const wt_status status = noise_work_new(s, &w, err);
-    if (status != WT_OK)
-        return status;
-    *within = (spectrum_isotherm_noise){0};
+    struct noise_work w = noise_work_new(s);
+    spectrum_isotherm_noise within = {0};
     for (size_t i = 0; i < s->n_curves; i++)
         s->kappa[i] = 1.0;
     for (int round = 0; round < NOISE_ROUNDS; round++) {
-        spectrum_set_point_noise(s, within->shape);
+        spectrum_set_point_noise(s, within.shape);
         s->rho = 0.0;
         spectrum_evaluate(s, s->value, false);
         const double of_correlation = estimate_correlation(s, &w);
-        within->rho = s->rho;
-        within->uncertainty = 4.0 * (of_correlation + update_noise_shape(s, &w, within->shape));
+        within.rho = s->rho;
+        within.uncertainty = 4.0 * (of_correlation + update_noise_shape(s, &w, within.shape));
     }
     s->rho = 0.0;
     free(w.v);
-    return WT_OK;
+    return within;
 }

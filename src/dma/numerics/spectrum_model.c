@@ -24,7 +24,7 @@ static const double flattest = 0.01, steepest = 1.5;
 
 /* ---- construction ---------------------------------------------------------------------------- */
 
-static wt_status allocate_spectrum(spectrum *s, wt_error *err)
+static void allocate_spectrum(spectrum *s)
 {
     arena *m = &s->memory;
     const size_t most = s->n_linear + 2 * s->n_curves;
@@ -63,9 +63,6 @@ static wt_status allocate_spectrum(spectrum *s, wt_error *err)
     s->direction = arena_vector(m, most);
     if (s->loading == WT_CREEP)
         spectrum_modes_new(s);
-    return m->failed
-               ? wt_fail(err, WT_E_MEMORY, "no memory for a spectrum of %zu terms", s->n_terms)
-               : WT_OK;
 }
 
 void spectrum_free(spectrum *s)
@@ -164,11 +161,7 @@ wt_status spectrum_new(const shift_set *set, const bool *use, size_t anchor, con
     s->n_terms = 1 + s->n_measured + (size_t)ceil(spectrum_slow_margin * terms_per_decade);
     s->n_linear = s->n_terms + (liquid ? 0 : 1);
     s->log_tau = -(high + spectrum_fast_margin) * M_LN10;
-    wt_status status = allocate_spectrum(s, err);
-    if (status != WT_OK) {
-        spectrum_free(s);
-        return status;
-    }
+    allocate_spectrum(s);
     double *start = s->trial; /* a, then b */
     size_t curve = 0, k = 0;
     for (size_t i = 0; i < set->n; i++) {

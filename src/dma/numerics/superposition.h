@@ -18,7 +18,6 @@ typedef struct lack_of_fit {
 
 /* Tests a fit with free vertical shifts; uncertainty: that of its noise (spectrum_isotherm_noise).
  */
-wt_status superposition_test(const spectrum *s, double uncertainty, lack_of_fit *result,
-                             wt_error *err) WT_NODISCARD;
+lack_of_fit superposition_test(const spectrum *s, double uncertainty);
 
 #endif

@@ -79,17 +79,11 @@ static const wt_roughness_law table_law = {
     .powers = true,
 };
 
-static wt_status power_new(const wt_roughness_law *law, const double *knot, const double *density,
-                           const double *slope, size_t segments, wt_roughness **roughness,
-                           wt_error *err)
+static wt_roughness *power_new(const wt_roughness_law *law, const double *knot,
+                               const double *density, const double *slope, size_t segments)
 {
-    wt_roughness *made = malloc(sizeof *made);
-    power_data *d = malloc(sizeof *d + (5 * segments + 1) * sizeof d->numbers[0]);
-    if (made == NULL || d == NULL) {
-        free(d);
-        free(made);
-        return wt_fail(err, WT_E_MEMORY, "out of memory for a power spectrum");
-    }
+    wt_roughness *made = wt_alloc(1, sizeof *made);
+    power_data *d = wt_alloc(1, sizeof *d + (5 * segments + 1) * sizeof d->numbers[0]);
     d->n = segments;
     d->knot = d->numbers;
     d->density = d->knot + segments + 1;
@@ -106,8 +100,7 @@ static wt_status power_new(const wt_roughness_law *law, const double *knot, cons
                 d->below[i][k] + segment_moment(d, i == 0 ? 1 : 3, k, d->knot[k + 1]);
     }
     *made = (wt_roughness){.law = law, .q0 = knot[0], .q1 = knot[segments], .data = d};
-    *roughness = made;
-    return WT_OK;
+    return made;
 }
 
 wt_status wt_roughness_self_affine(double q0, double qr, double q1, double hurst, double c0,
@@ -128,12 +121,13 @@ wt_status wt_roughness_self_affine(double q0, double qr, double q1, double hurst
         return range_error("c0 of a power spectrum", c0, "finite and > 0 m^4", err);
     const double fall = -2 * (1 + hurst);
     if (qr == q0)
-        return power_new(&self_affine_law, (double[]){q0, q1}, &c0, &fall, 1, roughness, err);
-    if (qr == q1)
-        return power_new(&self_affine_law, (double[]){q0, q1}, &c0, (double[]){0}, 1, roughness,
-                         err);
-    return power_new(&self_affine_law, (double[]){q0, qr, q1}, (double[]){c0, c0},
-                     (double[]){0, fall}, 2, roughness, err);
+        *roughness = power_new(&self_affine_law, (double[]){q0, q1}, &c0, &fall, 1);
+    else if (qr == q1)
+        *roughness = power_new(&self_affine_law, (double[]){q0, q1}, &c0, (double[]){0}, 1);
+    else
+        *roughness = power_new(&self_affine_law, (double[]){q0, qr, q1}, (double[]){c0, c0},
+                               (double[]){0, fall}, 2);
+    return WT_OK;
 }
 
 wt_status wt_roughness_table(const double *q, const double *c, size_t n, wt_roughness **roughness,
@@ -153,12 +147,10 @@ wt_status wt_roughness_table(const double *q, const double *c, size_t n, wt_roug
             return status;
         }
     }
-    double *slope = calloc(n - 1, sizeof *slope);
-    if (slope == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory for a power spectrum");
+    double *slope = wt_alloc(n - 1, sizeof *slope);
     for (size_t i = 0; i + 1 < n; i++)
         slope[i] = log(c[i + 1] / c[i]) / log1p((q[i + 1] - q[i]) / q[i]);
-    const wt_status status = power_new(&table_law, q, c, slope, n - 1, roughness, err);
+    *roughness = power_new(&table_law, q, c, slope, n - 1);
     free(slope);
-    return status;
+    return WT_OK;
 }

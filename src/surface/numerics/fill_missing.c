@@ -110,23 +110,18 @@ wt_status surface_fill_missing(double *z, size_t nx, size_t ny, wt_error *err)
         return WT_OK;
     if (m.n == nx * ny)
         return wt_fail(err, WT_E_EMPTY, "all heights are missing");
-    m.position = malloc(m.n * sizeof *m.position);
-    m.missing_index = malloc(nx * ny * sizeof *m.missing_index);
-    m.residual = malloc(3 * m.n * sizeof *m.residual);
-    wt_status status = WT_OK;
-    if (m.position == NULL || m.missing_index == NULL || m.residual == NULL)
-        status = wt_fail(err, WT_E_MEMORY, "no memory for %zu missing heights", m.n);
-    if (status == WT_OK) {
-        m.direction = m.residual + m.n;
-        m.product = m.direction + m.n;
-        size_t k = 0;
-        for (size_t p = 0; p < nx * ny; p++) {
-            m.missing_index[p] = isfinite(z[p]) ? NOT_MISSING : (uint32_t)k;
-            if (m.missing_index[p] != NOT_MISSING)
-                m.position[k++] = p;
-        }
-        status = solve_membrane(&m, err);
+    m.position = wt_alloc(m.n, sizeof *m.position);
+    m.missing_index = wt_alloc(nx * ny, sizeof *m.missing_index);
+    m.residual = wt_alloc(3 * m.n, sizeof *m.residual);
+    m.direction = m.residual + m.n;
+    m.product = m.direction + m.n;
+    size_t k = 0;
+    for (size_t p = 0; p < nx * ny; p++) {
+        m.missing_index[p] = isfinite(z[p]) ? NOT_MISSING : (uint32_t)k;
+        if (m.missing_index[p] != NOT_MISSING)
+            m.position[k++] = p;
     }
+    const wt_status status = solve_membrane(&m, err);
     free(m.position);
     free(m.missing_index);
     free(m.residual);

@@ -2,6 +2,8 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "surface/numerics/surface_analysis.h"
 
+#include "core/base/memory.h"
+
 #include <math.h>
 
 /* Width of a quadrature subinterval. cosh^(p - 1) is singular at i pi/2, so ten points are exact
@@ -9,6 +11,16 @@
 static const double subinterval_width = 0.5;
 /* Beyond this limit cosh^(p - 1) is below rounding even for the flattest allowed slope, -1. */
 static const double cosh_limit = 20;
+
+enum { INVERSION_POINTS = 10 };
+
+gsl_integration_glfixed_table *surface_inversion_rule(void)
+{
+    gsl_integration_glfixed_table *rule = gsl_integration_glfixed_table_alloc(INVERSION_POINTS);
+    if (rule == NULL)
+        out_of_memory(sizeof *rule);
+    return rule;
+}
 
 /* Integrates cosh^power t from a to b. */
 static double cosh_power_integral(const gsl_integration_glfixed_table *rule, double a, double b,

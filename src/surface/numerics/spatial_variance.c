@@ -47,17 +47,12 @@ static size_t find_scan_sizes(const place_weights *w, size_t *first)
     return n;
 }
 
-wt_status surface_set_position_weights(const double *weights, size_t n_scans,
-                                       wt_surface_spectrum *to, wt_error *err)
+void surface_set_position_weights(const double *weights, size_t n_scans, wt_surface_spectrum *to)
 {
     const place_weights w = {weights, to->n, n_scans};
-    size_t *first = malloc((n_scans + 1) * sizeof *first);
-    const size_t n = first != NULL ? find_scan_sizes(&w, first) : 0;
-    to->place_part = first != NULL ? calloc(to->n * n + 1, sizeof *to->place_part) : NULL;
-    if (to->place_part == NULL) {
-        free(first);
-        return wt_fail(err, WT_E_MEMORY, "no memory for a spectrum");
-    }
+    size_t *first = wt_alloc(n_scans, sizeof *first);
+    const size_t n = find_scan_sizes(&w, first);
+    to->place_part = wt_alloc(to->n * n, sizeof *to->place_part);
     to->n_sizes = n;
     for (size_t k = 0; k < to->n; k++)
         for (size_t size = 0; size < n; size++) {
@@ -68,7 +63,6 @@ wt_status surface_set_position_weights(const double *weights, size_t n_scans,
             to->place_part[k * n + size] = sqrt(square);
         }
     free(first);
-    return WT_OK;
 }
 
 double surface_position_weight(const wt_surface_spectrum *s, size_t bin, size_t size)

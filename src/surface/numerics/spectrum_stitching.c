@@ -281,31 +281,23 @@ wt_status wt_surface_combine(const wt_surface_spectrum *const *spectra, size_t n
         wt_error_advice(err, "measure with more points, over a larger area, or with a sharper tip");
         return WT_E_EMPTY;
     }
-    made.bins = calloc((size_t)(j.last - j.first) + 1, sizeof *made.bins);
-    j.offset = calloc(3 * n, sizeof *j.offset);
-    j.group = calloc(n, sizeof *j.group);
-    double *weights = calloc(((size_t)(j.last - j.first) + 1) * n, sizeof *weights);
-    wt_status status = WT_OK;
-    if (made.bins == NULL || weights == NULL || j.offset == NULL || j.group == NULL)
-        status = wt_fail(err, WT_E_MEMORY, "no memory for a spectrum");
-    if (status == WT_OK) {
-        j.weight = j.offset + n;
-        estimate_position_scatter(&j, &made, j.offset + 2 * n);
-        for (int index = j.first; index <= j.last; index++)
-            if (join_bin(&j, index, &made.bins[made.n]))
-                set_scan_weights(&j, index, weights + made.n++ * n);
-        status = surface_set_position_weights(weights, n, &made, err);
-    }
-    if (status == WT_OK) {
-        find_position_error(&made);
-        *joined = made;
-    } else {
-        free(made.bins);
-    }
+    const size_t n_bins = (size_t)(j.last - j.first) + 1;
+    double *weights = wt_alloc(n_bins * n, sizeof *weights);
+    made.bins = wt_alloc(n_bins, sizeof *made.bins);
+    j.group = wt_alloc(n, sizeof *j.group);
+    j.offset = wt_alloc(3 * n, sizeof *j.offset);
+    j.weight = j.offset + n;
+    estimate_position_scatter(&j, &made, j.offset + 2 * n);
+    for (int index = j.first; index <= j.last; index++)
+        if (join_bin(&j, index, &made.bins[made.n]))
+            set_scan_weights(&j, index, weights + made.n++ * n);
+    surface_set_position_weights(weights, n, &made);
+    find_position_error(&made);
+    *joined = made;
     free(weights);
     free(j.offset);
     free(j.group);
-    return status;
+    return WT_OK;
 }
 
 wt_interval wt_surface_density(const wt_surface_spectrum *spectrum, size_t bin)

@@ -47,8 +47,7 @@ wt_interval surface_interval(double mean, double freedom);
 
 /* Finds the scan sizes and their weights from the weights of the scans in each bin of `to`,
  * [n_scans] for each bin. */
-wt_status surface_set_position_weights(const double *weights, size_t n_scans,
-                                       wt_surface_spectrum *to, wt_error *err) WT_NODISCARD;
+void surface_set_position_weights(const double *weights, size_t n_scans, wt_surface_spectrum *to);
 /* Standard error of ln C of a bin due to the places of one size, or of all sizes, divided by
  * place_reach. Without stored weights all scans count equally. */
 double surface_position_weight(const wt_surface_spectrum *s, size_t bin, size_t size);
@@ -61,7 +60,7 @@ double surface_total_position_weight(const wt_surface_spectrum *s, size_t bin);
  * the first knot, or if a continued slope is not below -1. */
 double surface_invert_profile(const double *q, const double *c1, size_t n, bool extrapolate,
                               double at, const gsl_integration_glfixed_table *rule);
-/* Points of the quadrature rule; psd_1d_to_2d.c states the reason. */
-enum { INVERSION_POINTS = 10 };
+/* Creates the quadrature rule for it. Free with gsl_integration_glfixed_table_free(). */
+gsl_integration_glfixed_table *surface_inversion_rule(void);
 
 #endif

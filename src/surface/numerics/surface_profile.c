@@ -49,9 +49,7 @@ wt_status wt_surface_from_profile(const double *wavenumber, const double *c1, si
             wt_error_found(err, "%g m^3", c1[k]);
             return WT_E_RANGE;
         }
-    gsl_integration_glfixed_table *rule = gsl_integration_glfixed_table_alloc(INVERSION_POINTS);
-    if (rule == NULL)
-        return wt_fail(err, WT_E_MEMORY, "no memory for a spectrum");
+    gsl_integration_glfixed_table *rule = surface_inversion_rule();
     wt_status status = WT_OK;
     if (isnan(surface_invert_profile(wavenumber, c1, n, true, wavenumber[0], rule)))
         status = fail_flat_spectrum(err);
@@ -74,21 +72,18 @@ wt_status wt_surface_invert(const wt_surface_spectrum *profile, wt_surface_spect
     if (profile == NULL || surface == NULL || profile->kind != WT_SPECTRUM_1D || profile->n < 2)
         return wt_fail(err, WT_E_ARG, "no spectrum of a profile");
     wt_surface_spectrum made = *profile;
-    double *q = malloc(2 * profile->n * sizeof *q);
+    double *q = wt_alloc(2 * profile->n, sizeof *q), *const c1 = q + profile->n;
     made.kind = WT_SPECTRUM_2D;
     made.n = made.n_sizes = 0;
     made.place_part = NULL; /* each bin of C depends on many bins of C1 */
-    made.bins = malloc(profile->n * sizeof *made.bins);
-    gsl_integration_glfixed_table *rule = gsl_integration_glfixed_table_alloc(INVERSION_POINTS);
-    wt_status status = q != NULL && made.bins != NULL && rule != NULL
-                           ? WT_OK
-                           : wt_fail(err, WT_E_MEMORY, "no memory for a spectrum");
-    double *c1 = q != NULL ? q + profile->n : NULL;
-    for (size_t k = 0; status == WT_OK && k < profile->n; k++) {
+    made.bins = wt_alloc(profile->n, sizeof *made.bins);
+    gsl_integration_glfixed_table *rule = surface_inversion_rule();
+    wt_status status = WT_OK;
+    for (size_t k = 0; k < profile->n; k++) {
         q[k] = profile->bins[k].wavenumber;
         c1[k] = profile->bins[k].density;
     }
-    if (status == WT_OK && isnan(surface_invert_profile(q, c1, profile->n, true, q[0], rule)))
+    if (isnan(surface_invert_profile(q, c1, profile->n, true, q[0], rule)))
         status = fail_flat_spectrum(err);
     for (size_t k = 0; status == WT_OK && k < profile->n; k++) {
         const double c = surface_invert_profile(q, c1, profile->n, true, q[k], rule);
