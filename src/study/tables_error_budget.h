@@ -13,7 +13,7 @@
       "what the number of replicates leaves open of that, at most; numerical: a bound; model: "    \
       "half the range of the what-if table; one per cent: what one per cent of the source does, "  \
       "where sensitivities are asked for",                                                         \
-      TEXT, LABEL("Kind"))                                                                         \
+      ENUM(error_kind), LABEL("Kind"))                                                             \
     X(ERROR_BUDGET_RELATIVE_ERROR, "relative_error", "the error over the number", NUMBER,          \
       SHOWS(of.error), LABEL("Relative error"))                                                    \
     X(ERROR_BUDGET_SHARE, IN(of, share), "of the variance by all that is measured or stated",      \
