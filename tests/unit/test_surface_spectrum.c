@@ -8,7 +8,6 @@
 #include "surface_reference.h"
 
 #include "core/base/array.h"
-#include "surface/numerics/height_grid.h"
 #include "surface/numerics/surface_analysis.h"
 
 #include <gsl/gsl_sf_psi.h>

@@ -1,7 +1,6 @@
 /* Computes the power spectrum of one height map or profile.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "surface/numerics/surface_analysis.h"
-#include "surface/numerics/height_grid.h"
 
 #include <math.h>
 #include <stdlib.h>
