@@ -444,27 +444,22 @@ static const char mfront_integrator[] =
 static void write_code_aster(fem_material *s)
 {
     const wt_prony *p = &s->rubber.prony;
-    write_formatted(s, "MFRONT_SOURCE = r\"\"\"\n@DSL Default;\n@Behaviour WeartrackMaxwell;\n");
-    write_formatted(s, "@IntegerConstant nt = %zu;\n@IntegerConstant nb = %zu;\n", p->n,
-                    s->n_levels);
     write_formatted(
         s,
+        "MFRONT_SOURCE = r\"\"\"\n@DSL Default;\n@Behaviour WeartrackMaxwell;\n"
+        "@IntegerConstant nt = %zu;\n@IntegerConstant nb = %zu;\n"
         "@MaterialProperty real Nu;\n@MaterialProperty stress El;\n"
         "@MaterialProperty stress Ei[%zu];\n@MaterialProperty real Tau[%zu];\n"
         "@MaterialProperty real T0;\n@MaterialProperty real C1;\n@MaterialProperty real C2;\n"
         "@MaterialProperty real Tb[%zu];\n@MaterialProperty real Lb[%zu];\n"
         "@AuxiliaryStateVariable StressStensor Si[%zu];\n"
-        "@ProvidesSymmetricTangentOperator;\n%s\"\"\"\n",
-        p->n, p->n, s->n_levels, s->n_levels, p->n, mfront_integrator);
-    write_formatted(s,
-                    "with open(\"fort.38\", \"w\") as source:\n    source.write(MFRONT_SOURCE)\n");
-    write_formatted(
-        s, "MAXWELL = CREA_LIB_MFRONT(NOM_COMPOR=\"WeartrackMaxwell\", UNITE_MFRONT=38)\n");
-    write_formatted(
-        s,
-        "# COMPORTEMENT=_F(RELATION=\"MFRONT\", COMPOR_MFRONT=MAXWELL, DEFORMATION=\"PETIT\")\n");
-    write_formatted(s, "%s = DEFI_MATERIAU(\n    ELAS=_F(E=%.12g, NU=%.12g", s->name, s->instant,
-                    s->nu);
+        "@ProvidesSymmetricTangentOperator;\n%s\"\"\"\n"
+        "with open(\"fort.38\", \"w\") as source:\n    source.write(MFRONT_SOURCE)\n"
+        "MAXWELL = CREA_LIB_MFRONT(NOM_COMPOR=\"WeartrackMaxwell\", UNITE_MFRONT=38)\n"
+        "# COMPORTEMENT=_F(RELATION=\"MFRONT\", COMPOR_MFRONT=MAXWELL, DEFORMATION=\"PETIT\")\n"
+        "%s = DEFI_MATERIAU(\n    ELAS=_F(E=%.12g, NU=%.12g",
+        p->n, s->n_levels, p->n, p->n, s->n_levels, s->n_levels, p->n, mfront_integrator, s->name,
+        s->instant, s->nu);
     if (!isnan(s->options->density))
         write_formatted(s, ", RHO=%.12g", s->options->density / s->unit_system->density);
     if (!isnan(s->options->expansion))
@@ -531,8 +526,6 @@ bool wt_fem_program_find(const char *name, size_t length, wt_fem_program *progra
     return false;
 }
 
-static const char default_name[] = "RUBBER";
-
 /* Checks the material name. Ansys allows 32 characters for a parameter, Code_Aster 8 for a
  * concept. */
 static wt_status check_material_name(wt_fem_program program, const char *name, wt_error *err)
@@ -579,7 +572,7 @@ wt_status wt_fem_export(FILE *out, wt_fem_program program, const wt_table *prony
     fem_material s = {.out = out,
                       .comment = programs[program].comment,
                       .options = &o,
-                      .name = o.name != NULL ? o.name : default_name,
+                      .name = o.name != NULL ? o.name : "RUBBER",
                       .nu = o.poisson_ratio,
                       .incompressible = o.poisson_ratio >= 0.5,
                       .zero = o.temperature == WT_FEM_CELSIUS ? WT_ZERO_CELSIUS : 0};

@@ -146,6 +146,27 @@ static wt_status find_comparison_temperature(const wt_materials_job *job, compar
     return WT_E_RANGE;
 }
 
+/* Chooses the frequency of the comparison over temperature: 10 Hz, if all materials were measured
+ * there at the temperature of the comparison, else the middle of their common range. It stays NaN
+ * without one. */
+static wt_status find_comparison_frequency(const wt_materials_job *job, comparison_conditions *s,
+                                           wt_error *err)
+{
+    range shared = {0, (double)INFINITY};
+    wt_status status = WT_OK;
+    s->at_frequency = job->frequency;
+    for (size_t i = 0; status == WT_OK && isnan(job->frequency) && i < job->n_materials; i++) {
+        range own = {0, 0};
+        status = measured_frequencies(job->materials[i].rubber, s->at_temperature, &own, err);
+        shared = range_intersection(shared, own);
+    }
+    if (status == WT_OK && isnan(job->frequency) && shared.low > 0 && shared.low <= shared.high &&
+        isfinite(shared.high))
+        s->at_frequency =
+            range_contains(shared, ten_hertz) ? ten_hertz : sqrt(shared.low * shared.high);
+    return status;
+}
+
 static wt_status fail_no_common_frequency(const wt_compared_material pair[2], const range own[2],
                                           double temperature, wt_error *err)
 {
@@ -315,6 +336,21 @@ typedef struct verdict_texts {
         clocale_print((field) + more_, sizeof(field) - more_, __VA_ARGS__);                        \
     } while (0)
 
+/* States why a pair has no rows over temperature, if the common temperatures are a range. */
+static void append_missing_temperatures(const wt_compared_material *m,
+                                        const comparison_conditions *set, verdict_texts *s)
+{
+    const range r = set->temperature;
+    if (!isfinite(r.low + r.high) || !(r.high - r.low > 2 * same_temperature))
+        return;
+    if (isnan(set->at_frequency))
+        APPEND_ITEM(s->outside, "%s over temperature: the materials have no frequency in common",
+                    m->name);
+    else
+        APPEND_ITEM(s->outside, "%s over temperature: not measured at %.3g rad/s", m->name,
+                    set->at_frequency);
+}
+
 /* Lists the frequencies that only one material has, if they are a fifth of a decade or more. */
 static void append_unshared_frequencies(const wt_compared_material *m, range own, range shared,
                                         double temperature, verdict_texts *s)
@@ -349,7 +385,7 @@ static void append_unshared_temperatures(const wt_materials_job *job,
 /* Compares a material with the first one. */
 static wt_status compare_pair(const wt_materials_job *job, const wt_compared_material pair[2],
                               const material_systematic_errors systematic[2], const wt_job *work,
-                              comparison_conditions *s, table_writer *t, verdict_texts *texts,
+                              const comparison_conditions *s, table_writer *t, verdict_texts *texts,
                               wt_error *err)
 {
     comparison_point point[MAX_POINTS + TEMPERATURES];
@@ -365,9 +401,6 @@ static wt_status compare_pair(const wt_materials_job *job, const wt_compared_mat
     if (!(shared.low > 0 && shared.low < shared.high && isfinite(shared.high)))
         return fail_no_common_frequency(pair, own, s->at_temperature, err);
     const size_t n = list_frequency_points(shared, s->at_temperature, point);
-    if (isnan(s->at_frequency))
-        s->at_frequency =
-            range_contains(shared, ten_hertz) ? ten_hertz : sqrt(shared.low * shared.high);
     status = list_temperature_points(pair, s, s->at_frequency, point + n, &n_temperatures, err);
     if (status == WT_OK && n_temperatures == 0 && !isnan(job->frequency))
         status = fail_frequency_not_measured(pair, own, s, err);
@@ -384,6 +417,8 @@ static wt_status compare_pair(const wt_materials_job *job, const wt_compared_mat
         if (v.settled_by[0] != '\0')
             APPEND_ITEM(texts->settled_by, "%s", v.settled_by);
         texts->errors_known = texts->errors_known || ratio.errors_known;
+        if (n_temperatures == 0)
+            append_missing_temperatures(&pair[1], s, texts);
         append_unshared_frequencies(&pair[0], own[0], shared, s->at_temperature, texts);
         append_unshared_frequencies(&pair[1], own[1], shared, s->at_temperature, texts);
         material_ratio_clear(&ratio);
@@ -435,10 +470,12 @@ static void warn_deformation(const wt_materials_job *job, const wt_job *work)
 static wt_status build_comparison_tables(const wt_materials_job *job, const wt_job *work,
                                          wt_materials_tables *tables, wt_error *err)
 {
-    comparison_conditions s = {.at_frequency = job->frequency};
+    comparison_conditions s = {0};
     verdict_texts texts = {.errors_known = false};
     material_systematic_errors first;
     wt_status status = find_comparison_temperature(job, &s, err);
+    if (status == WT_OK)
+        status = find_comparison_frequency(job, &s, err);
     if (status == WT_OK)
         status = find_systematic_errors(&job->materials[0], job->sample_error, &first, err);
     if (status != WT_OK)

@@ -1,12 +1,11 @@
 /* Converts temperature sweeps to isotherms. Points of neighbouring temperatures form one
  * isotherm. The shift law, found in the same fit, moves each point to its temperature.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "dma/ramp_windows.h"
+#include "dma/master.h"
 
 #include "core/base/array.h"
-#include "dma/sweep_input.h"
-
 #include "core/base/clocale.h"
+#include "dma/sweep_input.h"
 
 #include <math.h>
 #include <stdlib.h>

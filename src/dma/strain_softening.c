@@ -1,13 +1,13 @@
 /* Strain softening of the rubber from strain sweeps or from a table.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dma/strain_softening.h"
-#include "job/random_draws.h"
 
 #include "core/base/array.h"
 #include "core/base/clocale.h"
 #include "core/base/range_text.h"
 #include "core/math/normal_quantile.h"
 #include "core/table/registry.h"
+#include "job/random_draws.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -55,7 +55,8 @@ typedef struct softening_sweep {
 static const double same_strain = 0.05;
 
 /* Sweeps within 1.5 K have one temperature, as two runs of a chamber. A warning appears if the
- * nearest temperature is more than 10 K from the requested one; that limit is chosen. */
+ * nearest temperature is more than 10 K from the requested one. By the universal WLF constants
+ * 10 K are 0.8 decade of time 50 K above the glass transition, most of a relaxation time. */
 static const double same_temperature = 1.5, other_temperature = 10;
 
 /* Returns true if a row has moduli and matches the selected temperature and sample (NaN, NULL:

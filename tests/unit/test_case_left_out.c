@@ -9,7 +9,7 @@
 #include "case/plan/plan.h"
 #include "core/math/root.h"
 #include "dma/master.h"
-#include "dma/numerics/superposition.h"
+#include "dma/numerics/spectrum.h"
 #include "friction/numerics/friction_kernel.h"
 #include "indentation/numerics/curve.h"
 #include "layer/numerics/layer_kernel.h"

@@ -1,11 +1,21 @@
 /* Generalised Maxwell (Prony) material with its angular integrals in closed form.
  * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "dma/law/prony_law.h"
+
 #include "core/math/simd.h"
 #include "dma/law/material.h"
-#include "dma/law/prony_law.h"
+#include "weartrack/core.h"
 
 #include <math.h>
 #include <stdlib.h>
+
+void prony_moduli(const wt_prony *series, double omega, double *storage, double *loss)
+{
+    *storage = series->equilibrium_modulus;
+    *loss = 0;
+    for (size_t i = 0; i < series->n; i++)
+        prony_add_term(series->modulus[i], series->relaxation_time[i], omega, storage, loss);
+}
 
 typedef struct prony_data {
     double equilibrium; /* E_inf [Pa] */

@@ -4,7 +4,6 @@
  * The surface compliance D in u_z(q) = (D / q) sigma_z(q) is 2 (1 - nu^2) / E for an isotropic
  * solid. The laws of the surface therefore use E = 2 (1 - nu^2) / D.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "dma/law/material_transverse.h"
 #include "dma/law/material.h"
 
 #include "core/base/array.h"

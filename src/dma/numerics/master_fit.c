@@ -5,14 +5,14 @@
 
 #include "core/base/param.h"
 #include "core/math/arena_gsl.h"
-#include "dma/numerics/spectrum_start.h"
+#include "dma/numerics/isotherm.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 /* Initial widths of the prior of the vertical shift [decade]: clamping and departure of the
- * material (master_widths.c). */
+ * material (master_route.c). */
 static const double start_geometry = 0.002, start_departure = 0.02;
 /* Noise that is uniform along an isotherm. */
 const double master_uniform_noise[SPECTRUM_SHAPES] = {0.0};
@@ -36,7 +36,7 @@ static const double max_start_shift = 0.5;
 static const double smooth_terms = 3.0, trial_terms = 5.0, sharp_terms = 10.0,
                     sharp_curvature = 3.0;
 /* Misfit of a modulus beyond its noise from which the shifts are meaningless [ln]. On a plateau
- * with d ln E'/d ln w = 0.1 it is 0.17 decade, about master_max_shift_error (shift_graph.c). If
+ * with d ln E'/d ln w = 0.1 it is 0.17 decade, about master_max_shift_error (master_overlap.c). If
  * superposition holds or nearly holds the misfit is 0.3 to 3 %; glassy polymers have 5 to 20 %
  * of E''. Below the limit the shift errors grow with the misfit (master_overlap.c), so only the
  * route changes abruptly. */
@@ -45,10 +45,9 @@ static const double gross_misfit = 0.04;
  * noise. */
 static const double shift_relevant_misfit = 0.01;
 /* Initial curvature scale of lines: a factor 150 between terms. The noise must fall by the
- * factor noise_ratio_limit and by six standard errors, one false alarm in 1e9 for normal noise. The
- * factor is chosen: at 1.3 lines between terms add 69 % to the square of the noise. At 1.15 some
- * smooth spectra count as lines, which costs terms and no precision. At 1.6 lines with 1.2 times
- * the noise are missed. */
+ * factor noise_ratio_limit and by six standard errors, one false alarm in 1e9 for normal noise. At
+ * the factor 1.3 lines between terms add 69 % to the square of the noise: a smaller misfit is below
+ * 0.83 of the noise and moves no shift by more than its error. */
 static const double lines_smooth = 5.0, noise_ratio_limit = 1.3, noise_significance = 6.0;
 
 wt_master_options wt_master_options_defaults(void)

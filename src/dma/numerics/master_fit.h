@@ -5,7 +5,7 @@
 
 #include "dma/numerics/overlap_chain.h"
 #include "dma/numerics/posterior.h"
-#include "dma/numerics/superposition.h"
+#include "dma/numerics/spectrum.h"
 
 typedef struct master_work {
     arena memory;
@@ -114,6 +114,9 @@ wt_status master_check_reference(const master_work *work, const wt_master *m,
 /* Returns WT_E_NO_OVERLAP if no isotherm is shifted onto the reference. */
 wt_status master_check_shifts(const master_work *work, const wt_master *m,
                               wt_error *err) WT_NODISCARD;
+/* Returns the isotherm with the largest change of modulus if its shift error is at most half of
+ * that of the anchor, otherwise the anchor. */
+size_t master_steeper_isotherm(const master_work *work);
 /* Appends a remark to the note of a shift after "; ". */
 void master_add_note(wt_master_shift *shift, const char *format, ...) WT_PRINTF(2, 3);
 /* Writes unexpected properties of the isotherms to their notes and to the log. */

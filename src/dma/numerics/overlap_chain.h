@@ -22,5 +22,8 @@ typedef struct overlap_edge {
  * alternative vertical shifts, or NULL. Without a storage modulus only the anchor is placed. */
 void overlap_chain(const shift_set *set, size_t anchor, const double *b,
                    const double *alternative_b, overlap_edge *edge);
+/* Computes log_a [set->n], in decades, 0 at the anchor. It is NaN if no isotherm towards the
+ * anchor shares enough height, or without a storage modulus. */
+void closed_form_shifts(const shift_set *set, size_t anchor, double *log_a);
 
 #endif

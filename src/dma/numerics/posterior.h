@@ -5,9 +5,9 @@
 #define WT_DMA_NUMERICS_POSTERIOR_H
 
 #include "dma/numerics/shift_law.h"
-#include "dma/numerics/vertical_shift.h"
+#include "dma/numerics/spectrum.h"
 
-/* Number of geometry widths times departure widths in master_widths.c. */
+/* Number of geometry widths times departure widths in master_route.c. */
 enum { POSTERIOR_CELLS = 12 };
 
 /* One fit of the spectrum for one width of the vertical shift. */

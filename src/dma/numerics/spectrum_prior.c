@@ -1,12 +1,189 @@
-/* Priors of a spectrum: smoothness, equilibrium modulus and vertical shifts, and the complete
- * equations of the fit.
+/* Priors of a spectrum: smoothness, equilibrium modulus, the ends beyond the measured range and
+ * the vertical shifts, and the complete equations of the fit.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dma/numerics/spectrum.h"
 
+#include "core/math/arena_gsl.h"
+#include "core/math/cholesky.h"
 #include "core/math/cholesky_dense.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
+
+/* ---- vertical shifts ------------------------------------------------------------------------- */
+
+/* Correlation length of the departure of the material [K]; a filler network or a transition
+ * changes over tens of kelvin. It exceeds two steps of 10 K between
+ * isotherms, below which the departure follows single isotherms, as clamping does. It is below
+ * half the range of 100 K of a sweep, above which the departure is nearly a line. */
+static const double correlation_length = 40.0;
+
+/* Returns the covariance of the smooth departure at two temperatures; it is 0 at the reference. */
+static double vertical_departure_covariance(const vertical *v, double t1, double t2)
+{
+    const double r = v->reference_temperature;
+    const double k12 =
+        exp(-0.5 * (t1 - t2) * (t1 - t2) / (correlation_length * correlation_length));
+    const double k1 = exp(-0.5 * (t1 - r) * (t1 - r) / (correlation_length * correlation_length));
+    const double k2 = exp(-0.5 * (t2 - r) * (t2 - r) / (correlation_length * correlation_length));
+    return k12 - k1 - k2 + 1.0;
+}
+
+double vertical_physical(const vertical *v, double temperature)
+{
+    const double t0 = v->reference_temperature;
+    return log(t0 / temperature) + v->expansion * (temperature - t0);
+}
+
+void vertical_alloc(arena *memory, size_t n, vertical *v)
+{
+    const size_t most = n < SPECTRUM_MAX_SMOOTH ? n : SPECTRUM_MAX_SMOOTH;
+    v->prior_storage.precision = arena_numbers(memory, n);
+    v->prior_storage.smooth = arena_matrix(memory, n, most);
+    v->left = arena_numbers(memory, n);
+    v->root = arena_matrix(memory, most, most);
+    v->prior_storage.at = arena_numbers(memory, most);
+}
+
+/* Factors the covariance of the departure by pivoted Cholesky down to rounding. Returns the
+ * number of components. */
+static size_t factor_departure(const vertical *v, const double *temperature, size_t n,
+                               gsl_matrix *smooth)
+{
+    const double departure = v->departure * M_LN10;
+    double *left = v->left;
+    size_t m = 0;
+    for (size_t i = 0; i < n; i++)
+        left[i] = vertical_departure_covariance(v, temperature[i], temperature[i]);
+    for (; departure > 0.0 && m < smooth->size2; m++) {
+        size_t pivot = 0;
+        for (size_t i = 1; i < n; i++)
+            pivot = left[i] > left[pivot] ? i : pivot;
+        if (!(left[pivot] > DBL_EPSILON))
+            break;
+        const double root = sqrt(left[pivot]);
+        for (size_t i = 0; i < n; i++) {
+            double with = vertical_departure_covariance(v, temperature[i], temperature[pivot]);
+            for (size_t j = 0; j < m; j++)
+                with -= gsl_matrix_get(smooth, i, j) * gsl_matrix_get(smooth, pivot, j);
+            gsl_matrix_set(smooth, i, m, with / root);
+        }
+        for (size_t i = 0; i < n; i++)
+            left[i] -= pow(gsl_matrix_get(smooth, i, m), 2);
+        left[pivot] = 0.0;
+    }
+    for (size_t i = 0; i < n; i++)
+        for (size_t j = 0; j < m; j++)
+            *gsl_matrix_ptr(smooth, i, j) *= departure;
+    return m;
+}
+
+/* Converts the factor F of the departure to S = F R^-T, where R is the factor of 1 + F' P F.
+ * *log_det: ln of its determinant. */
+static bool departure_to_smooth(const vertical *v, size_t n, double clamped, size_t m,
+                                gsl_matrix *smooth, double *log_det)
+{
+    double *root = v->root->data;
+    const size_t stride = v->root->tda;
+    for (size_t j = 0; j < m; j++)
+        for (size_t k = 0; k <= j; k++) {
+            double sum = 0.0;
+            for (size_t i = 0; i < n; i++)
+                sum += gsl_matrix_get(smooth, i, j) * gsl_matrix_get(smooth, i, k);
+            root[j * stride + k] = clamped * sum + (j == k ? 1.0 : 0.0);
+        }
+    if (!cholesky_factor(root, stride, m, 0.0))
+        return false;
+    for (size_t i = 0; i < n; i++)
+        cholesky_forward(root, stride, m, gsl_matrix_ptr(smooth, i, 0),
+                         gsl_matrix_ptr(smooth, i, 0));
+    *log_det = 0.0;
+    for (size_t j = 0; j < m; j++)
+        *log_det += 2.0 * log(root[j * stride + j]);
+    return true;
+}
+
+wt_status vertical_prior(vertical *v, wt_vertical_shift kind, const double *temperature,
+                         const spectrum *s, spectrum_prior *prior, wt_error *err)
+{
+    const size_t n = s->n_curves;
+    const double geometry = v->geometry * M_LN10, clamped = 1.0 / (geometry * geometry);
+    *prior = v->prior_storage;
+    prior->held = kind == WT_VERTICAL_NONE || kind == WT_VERTICAL_PHYSICAL;
+    prior->mean = v->mean;
+    for (size_t i = 0; i < n; i++) {
+        v->mean[i] = kind == WT_VERTICAL_NONE ? 0.0 : vertical_physical(v, temperature[i]);
+        prior->precision[i] = kind == WT_VERTICAL_TIED || i == s->anchor ? clamped : 0.0;
+    }
+    if (kind == WT_VERTICAL_FREE && geometry > 0.0)
+        prior->log_det = 2.0 * log(geometry);
+    else if (kind != WT_VERTICAL_TIED)
+        prior->precision = NULL;
+    if (kind != WT_VERTICAL_TIED)
+        return WT_OK;
+    const size_t m = prior->n_smooth = factor_departure(v, temperature, n, prior->smooth);
+    if (!departure_to_smooth(v, n, clamped, m, prior->smooth, &prior->log_det))
+        return wt_fail(err, WT_E_INTERNAL, "the prior of the vertical shifts is not positive");
+    prior->log_det += 2.0 * (double)n * log(geometry);
+    return WT_OK;
+}
+
+void vertical_smooth_part(const spectrum_prior *prior, size_t n, double *weight)
+{
+    for (size_t i = 0; i < n; i++)
+        for (size_t k = 0; k < n; k++)
+            for (size_t j = 0; j < prior->n_smooth; j++)
+                weight[i * n + k] += gsl_matrix_get(prior->smooth, i, j) *
+                                     gsl_matrix_get(prior->smooth, k, j) * prior->precision[k];
+}
+
+/* ---- beyond the measured range --------------------------------------------------------------- */
+
+/* Extension of the relaxation times beyond the measured range [decade]. E'' of a term 4.5
+ * decades faster is 3e-5 of its modulus at the highest frequency, so faster terms act as a glass
+ * modulus. Six slow decades convert a second to two weeks and an hour to a century. */
+const double spectrum_fast_margin = 4.5, spectrum_slow_margin = 6.0;
+
+/* Distance beyond the ends with the measured prior [decade]. E'' of such a term is a tenth of
+ * its modulus at the end, so it is measured. */
+static const double measured_margin = 1.0;
+
+/* Beyond that distance the slope d ln H/d ln tau tends to a mean known for rubber, with this
+ * scatter and correlation length in decades. At short times the mean is 0. It lies between -1/2
+ * of Rouse chains, the slope of a transition (Ferry, Viscoelastic Properties of Polymers, 1980,
+ * chapter 10), and the opposite slope beyond its peak. */
+static const double fast_slope = 0.0, fast_scatter = 0.5, fast_reach = 2.0;
+
+/* At long times networks relax by a power of time (Chasset and Thirion, Proc. Conf. Phys.
+ * Non-Cryst. Solids, 1965; Curro and Pincus, Macromolecules 16 (1983) 559). Measured exponents
+ * are 0.1 to 0.4 and persist for decades. */
+static const double slow_slope = -0.25, slow_scatter = 0.15, slow_reach = 4.0;
+
+size_t spectrum_end_term(const spectrum *s, size_t place)
+{
+    return s->n_measured + (s->n_terms - s->n_measured) * (place + 1) / SPECTRUM_ENDS;
+}
+
+void spectrum_set_extrapolation(spectrum *s)
+{
+    const size_t margin = (size_t)ceil(measured_margin * M_LN10 / s->step);
+    s->bend_first = s->n_fast - margin;
+    s->bend_end = s->n_measured + margin;
+    const double decay[2] = {exp(-s->step / (fast_reach * M_LN10)),
+                             exp(-s->step / (slow_reach * M_LN10))};
+    const double scatter[2] = {fast_scatter * s->step, slow_scatter * s->step};
+    const double slope[2] = {-fast_slope * s->step, slow_slope * s->step};
+    for (int end = 0; end < 2; end++) { /* in the outward direction */
+        const double k = decay[end];
+        s->beyond[end] = (spectrum_extrapolation){
+            .weight = {end == 0 ? 1.0 : k, -1.0 - k, end == 0 ? k : 1.0},
+            .mean = (1.0 - k) * slope[end],
+            .precision = 1.0 / (scatter[end] * scatter[end] * (1.0 - k * k))};
+    }
+}
+
+/* ---- spectrum and noise ---------------------------------------------------------------------- */
 
 /* Prior of the second difference of terms j to j + 2, in the measured range or beyond an end. */
 typedef struct curvature_prior {

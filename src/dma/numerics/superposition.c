@@ -2,7 +2,7 @@
  * explains, and what a different shift of slow times explains. A common factor on E'' tests the
  * Kramers-Kronig relation separately.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "dma/numerics/superposition.h"
+#include "dma/numerics/spectrum.h"
 
 #include "core/base/memory.h"
 #include "core/math/arena_gsl.h"
@@ -35,9 +35,8 @@ static const double least_left = 1e-6;
 static const double least_squares = 0.01;
 
 /* Minimum degrees of freedom of the noise estimate, because a large misfit may cause apparent
- * noise within the isotherms. The variance of ln of a variance is 2 divided by them: 12 are a
- * factor 1.5. Chosen: the 1 % point of F for 20 columns is 3.9. It would be 7.4 with half and
- * 2.7 with twice as many. */
+ * noise within the isotherms. They are those of one isotherm with ten frequencies: 20 values less
+ * 8 coefficients (spectrum_noise.c). The noise is then known to a factor 1.5. */
 static const double min_noise_freedom = 12.0;
 
 /* Relative accuracy of the limits of the misfit; two digits are reported. */
