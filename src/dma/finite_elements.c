@@ -116,13 +116,11 @@ static void set_wlf_constants(fem_material *s)
     const wt_shift_law *law = &s->rubber.law;
     const double reference = s->rubber.prony.reference_temperature;
     s->shifts = law->kind != WT_LAW_NONE;
+    s->c1 = law->wlf.c1;
+    s->c2 = law->wlf.c2;
     if (law->kind == WT_LAW_ARRHENIUS ||
-        (law->kind == WT_LAW_WLF_ARRHENIUS && reference < law->joint)) {
+        (law->kind == WT_LAW_WLF_ARRHENIUS && reference < law->joint))
         arrhenius_to_wlf(law->activation_energy, reference, &s->c1, &s->c2);
-    } else {
-        s->c1 = law->wlf.c1;
-        s->c2 = law->wlf.c2;
-    }
 }
 
 /* Fills the temperature levels with their factors. A reference outside the isotherms becomes a
@@ -208,7 +206,6 @@ static void write_other_branch(fem_material *s)
 static void write_shift_law(fem_material *s)
 {
     const wt_shift_law *law = &s->rubber.law;
-    const double zero = s->zero;
     if (!s->shifts) {
         write_formatted(s, "%sNo law of the shifts: for the reference temperature alone.\n",
                         s->comment);
@@ -225,7 +222,7 @@ static void write_shift_law(fem_material *s)
     if (law->kind == WT_LAW_WLF_ARRHENIUS)
         write_other_branch(s);
     write_formatted(s, "%sThe isotherms were measured from %.6g to %.6g.\n", s->comment,
-                    s->rubber.temperature_min - zero, s->rubber.temperature_max - zero);
+                    s->rubber.temperature_min - s->zero, s->rubber.temperature_max - s->zero);
 }
 
 static double deviation_percent(const table_view *series, prony_reduced_key key)

@@ -10,6 +10,7 @@
 #include "core/table/table_rows.h"
 
 #include <math.h>
+#include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -101,9 +102,8 @@ static wt_status fail_no_common_temperature(const wt_materials_job *job, wt_erro
     char found[256] = "";
     for (size_t i = 0; i < job->n_materials; i++) {
         const range r = measured_temperatures(job->materials[i].rubber);
-        const size_t used = strlen(found);
-        clocale_print(found + used, sizeof found - used, "%s%s: %.1f to %.1f °C", i > 0 ? "; " : "",
-                      job->materials[i].name, r.low - WT_ZERO_CELSIUS, r.high - WT_ZERO_CELSIUS);
+        clocale_append(found, sizeof found, "%s%s: %.1f to %.1f °C", i > 0 ? "; " : "",
+                       job->materials[i].name, r.low - WT_ZERO_CELSIUS, r.high - WT_ZERO_CELSIUS);
     }
     wt_fail(err, WT_E_RANGE, "the materials have no temperature in common");
     wt_error_found(err, "%s", found);
@@ -328,13 +328,17 @@ typedef struct verdict_texts {
     bool errors_known, misfit; /* true if some interval is known; true if one contains a misfit */
 } verdict_texts;
 
-#define APPEND_ITEM(field, ...)                                                                    \
-    do {                                                                                           \
-        const size_t used_ = strlen(field);                                                        \
-        clocale_print((field) + used_, sizeof(field) - used_, "%s", used_ > 0 ? "; " : "");        \
-        const size_t more_ = strlen(field);                                                        \
-        clocale_print((field) + more_, sizeof(field) - more_, __VA_ARGS__);                        \
-    } while (0)
+/* Appends a formatted text, after "; " unless it is the first. */
+static void append_item(char *text, size_t size, const char *format, ...) WT_PRINTF(3, 4);
+static void append_item(char *text, size_t size, const char *format, ...)
+{
+    va_list arguments;
+    clocale_append(text, size, "%s", text[0] != '\0' ? "; " : "");
+    const size_t used = strlen(text);
+    va_start(arguments, format);
+    clocale_vprint(text + used, size - used, format, arguments);
+    va_end(arguments);
+}
 
 /* States why a pair has no rows over temperature, if the common temperatures are a range. */
 static void append_missing_temperatures(const wt_compared_material *m,
@@ -344,11 +348,11 @@ static void append_missing_temperatures(const wt_compared_material *m,
     if (!isfinite(r.low + r.high) || !(r.high - r.low > 2 * same_temperature))
         return;
     if (isnan(set->at_frequency))
-        APPEND_ITEM(s->outside, "%s over temperature: the materials have no frequency in common",
-                    m->name);
+        append_item(s->outside, sizeof s->outside,
+                    "%s over temperature: the materials have no frequency in common", m->name);
     else
-        APPEND_ITEM(s->outside, "%s over temperature: not measured at %.3g rad/s", m->name,
-                    set->at_frequency);
+        append_item(s->outside, sizeof s->outside,
+                    "%s over temperature: not measured at %.3g rad/s", m->name, set->at_frequency);
 }
 
 /* Lists the frequencies that only one material has, if they are a fifth of a decade or more. */
@@ -357,9 +361,11 @@ static void append_unshared_frequencies(const wt_compared_material *m, range own
 {
     const double at = temperature - WT_ZERO_CELSIUS;
     if (own.low < shared.low / 1.6 && own.low > 0)
-        APPEND_ITEM(s->outside, "%s below %.2g rad/s at %.1f °C", m->name, shared.low, at);
+        append_item(s->outside, sizeof s->outside, "%s below %.2g rad/s at %.1f °C", m->name,
+                    shared.low, at);
     if (own.high > shared.high * 1.6 && isfinite(own.high))
-        APPEND_ITEM(s->outside, "%s above %.2g rad/s at %.1f °C", m->name, shared.high, at);
+        append_item(s->outside, sizeof s->outside, "%s above %.2g rad/s at %.1f °C", m->name,
+                    shared.high, at);
 }
 
 static void append_unshared_temperatures(const wt_materials_job *job,
@@ -371,12 +377,14 @@ static void append_unshared_temperatures(const wt_materials_job *job,
         const range own = measured_temperatures(m->rubber);
         const bool law = m->rubber->law.kind != WT_LAW_NONE;
         if (!law)
-            APPEND_ITEM(s->outside, "%s has no shift law: all are compared at its temperature only",
-                        m->name);
+            append_item(s->outside, sizeof s->outside,
+                        "%s has no shift law: all are compared at its temperature only", m->name);
         if (law && isfinite(own.high) && own.low < r.low - same_temperature)
-            APPEND_ITEM(s->outside, "%s below %.1f °C", m->name, r.low - WT_ZERO_CELSIUS);
+            append_item(s->outside, sizeof s->outside, "%s below %.1f °C", m->name,
+                        r.low - WT_ZERO_CELSIUS);
         if (law && isfinite(own.high) && own.high > r.high + same_temperature)
-            APPEND_ITEM(s->outside, "%s above %.1f °C", m->name, r.high - WT_ZERO_CELSIUS);
+            append_item(s->outside, sizeof s->outside, "%s above %.1f °C", m->name,
+                        r.high - WT_ZERO_CELSIUS);
     }
 }
 
@@ -413,9 +421,9 @@ static wt_status compare_pair(const wt_materials_job *job, const wt_compared_mat
         add_material_ratio_rows(t, pair[1].name, "temperature", point, &ratio, n,
                                 n + n_temperatures);
         const material_verdict v = material_assess(pair, values, systematic, &ratio, job->margin);
-        APPEND_ITEM(texts->differs, "%s", v.differs);
+        append_item(texts->differs, sizeof texts->differs, "%s", v.differs);
         if (v.settled_by[0] != '\0')
-            APPEND_ITEM(texts->settled_by, "%s", v.settled_by);
+            append_item(texts->settled_by, sizeof texts->settled_by, "%s", v.settled_by);
         texts->errors_known = texts->errors_known || ratio.errors_known;
         if (n_temperatures == 0)
             append_missing_temperatures(&pair[1], s, texts);

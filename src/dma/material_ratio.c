@@ -162,12 +162,6 @@ static quantity_difference assess_quantity(const material_ratio *r, int q, doubl
     return f;
 }
 
-#define APPEND(field, ...)                                                                         \
-    do {                                                                                           \
-        const size_t used_ = strlen(field);                                                        \
-        clocale_print((field) + used_, sizeof(field) - used_, __VA_ARGS__);                        \
-    } while (0)
-
 static void append_quantity_list(char *text, size_t size, const quantity_difference *f,
                                  bool (*matches)(const quantity_difference *))
 {
@@ -177,13 +171,12 @@ static void append_quantity_list(char *text, size_t size, const quantity_differe
     for (int q = 0; q < Q; q++) {
         if (!matches(&f[q]))
             continue;
-        const size_t used = strlen(text);
         left--;
-        clocale_print(text + used, size - used, "%s%s",
-                      n++ == 0    ? ""
-                      : left == 0 ? " and "
-                                  : ", ",
-                      quantity_names[q]);
+        clocale_append(text, size, "%s%s",
+                       n++ == 0    ? ""
+                       : left == 0 ? " and "
+                                   : ", ",
+                       quantity_names[q]);
     }
 }
 
@@ -203,26 +196,30 @@ static void append_differences(const quantity_difference *f, const wt_compared_m
     int n = 0, left = 0;
     for (int q = 0; q < Q; q++)
         left += f[q].differs;
-    APPEND(v->differs, "yes: %s has ", pair[1].name);
+    clocale_append(v->differs, sizeof v->differs, "yes: %s has ", pair[1].name);
     for (int q = 0; q < Q; q++) {
         if (!f[q].differs)
             continue;
         left--;
-        APPEND(v->differs, "%s%.3g", n++ == 0 ? "" : left == 0 ? " and " : ", ", f[q].low);
+        clocale_append(v->differs, sizeof v->differs, "%s%.3g",
+                       n++ == 0    ? ""
+                       : left == 0 ? " and "
+                                   : ", ",
+                       f[q].low);
         if (f[q].high > 1.01 * f[q].low)
-            APPEND(v->differs, " to %.3g", f[q].high);
-        APPEND(v->differs, " times the %s%s", quantity_names[q],
-               f[q].within ? " (within the margin)" : "");
+            clocale_append(v->differs, sizeof v->differs, " to %.3g", f[q].high);
+        clocale_append(v->differs, sizeof v->differs, " times the %s%s", quantity_names[q],
+                       f[q].within ? " (within the margin)" : "");
     }
-    APPEND(v->differs, " of %s", pair[0].name);
+    clocale_append(v->differs, sizeof v->differs, " of %s", pair[0].name);
     char list[48] = "";
     append_quantity_list(list, sizeof list, f, is_equivalent);
     if (list[0] != '\0')
-        APPEND(v->differs, "; within the margin: %s", list);
+        clocale_append(v->differs, sizeof v->differs, "; within the margin: %s", list);
     list[0] = '\0';
     append_quantity_list(list, sizeof list, f, is_difference_inconclusive);
     if (list[0] != '\0')
-        APPEND(v->differs, "; not shown to differ: %s", list);
+        clocale_append(v->differs, sizeof v->differs, "; not shown to differ: %s", list);
 }
 
 /* Names the largest contribution to the widest inconclusive interval as the remedy. */
@@ -246,17 +243,17 @@ static void append_remedy(const quantity_difference *f, const wt_compared_materi
     const int larger = part[1] > part[0];
     const double sum = part[0] + part[1];
     if (sample > sum / 2)
-        APPEND(v->settled_by,
-               "dimensions of the samples known better than sample-error, or several "
-               "samples of each");
+        clocale_append(v->settled_by, sizeof v->settled_by,
+                       "dimensions of the samples known better than sample-error, or several "
+                       "samples of each");
     else if (misfit[larger] > sum / 2)
-        APPEND(
-            v->settled_by,
+        clocale_append(
+            v->settled_by, sizeof v->settled_by,
             "a master curve of %s in which superposition holds: most of the interval is its misfit",
             pair[larger].name);
     else
-        APPEND(
-            v->settled_by,
+        clocale_append(
+            v->settled_by, sizeof v->settled_by,
             "more isotherms of %s, or less noise in them: it has %.0f %% of the variance where the "
             "interval is widest",
             pair[larger].name, 100 * part[larger] / sum);
@@ -267,12 +264,13 @@ static void append_missing_errors(const wt_compared_material pair[2],
 {
     const bool both = values[0].n_draws == 0 && values[1].n_draws == 0;
     const char *name = pair[values[0].n_draws == 0 ? 0 : 1].name;
-    APPEND(v->differs, "cannot say: the error of %s%s%s is not known", name, both ? " and of " : "",
-           both ? pair[1].name : "");
-    APPEND(v->settled_by,
-           "the isotherms of %s%s%s, or what `weartrack master` makes of them with its tables of "
-           "draws",
-           name, both ? " and of " : "", both ? pair[1].name : "");
+    clocale_append(v->differs, sizeof v->differs, "cannot say: the error of %s%s%s is not known",
+                   name, both ? " and of " : "", both ? pair[1].name : "");
+    clocale_append(
+        v->settled_by, sizeof v->settled_by,
+        "the isotherms of %s%s%s, or what `weartrack master` makes of them with its tables of "
+        "draws",
+        name, both ? " and of " : "", both ? pair[1].name : "");
 }
 
 material_verdict material_assess(const wt_compared_material pair[2],
@@ -295,15 +293,15 @@ material_verdict material_assess(const wt_compared_material pair[2],
     if (differs) {
         append_differences(f, pair, &v);
     } else if (within) {
-        APPEND(v.differs,
-               "no: E', E'' and tan delta of %s are those of %s within %.3g %%, the margin "
-               "set",
-               pair[1].name, pair[0].name, 100 * margin);
+        clocale_append(v.differs, sizeof v.differs,
+                       "no: E', E'' and tan delta of %s are those of %s within %.3g %%, the margin "
+                       "set",
+                       pair[1].name, pair[0].name, 100 * margin);
     } else {
         char list[48] = "";
         append_quantity_list(list, sizeof list, f, is_difference_inconclusive);
-        APPEND(
-            v.differs,
+        clocale_append(
+            v.differs, sizeof v.differs,
             "cannot say: the intervals of the ratio of %s have room for no difference and for one "
             "above %.3g %%",
             list, 100 * margin);

@@ -112,10 +112,9 @@ static void append_wave_range(char *to, size_t size, const char *before, double 
                               double q_short)
 {
     char from[32], till[32];
-    const size_t used = strlen(to);
     wt_format_si(2 * M_PI / q_short, "m", 3, from, sizeof from);
     wt_format_si(2 * M_PI / q_long, "m", 3, till, sizeof till);
-    clocale_print(to + used, size - used, "%s%s to %s", before, from, till);
+    clocale_append(to, size, "%s%s to %s", before, from, till);
 }
 
 bool surface_profiles_disagree(const surface_result *w)
@@ -140,22 +139,21 @@ void surface_describe_profiles(const surface_result *w, char *to, size_t size)
     if (all->bins[all->n - 1].index > last->index)
         append_wave_range(to, size, before, fmax(last->wavenumber, w->profiles_from),
                           w->profiles_to);
-    const size_t used = strlen(to);
+    const char *separator = to[0] != '\0' ? "; " : "";
     if (isnan(r->value))
-        clocale_print(to + used, size - used, "%sthey share no waves with the height maps",
-                      used > 0 ? "; " : "");
+        clocale_append(to, size, "%sthey share no waves with the height maps", separator);
     else if (isnan(r->standard_error))
-        clocale_print(to + used, size - used,
-                      "%swhere both tell, C by them is %.2g of that by the height maps; it cannot "
-                      "be said whether they agree, for how places differ is not known: a second "
-                      "map or profile would tell",
-                      used > 0 ? "; " : "", r->value);
+        clocale_append(to, size,
+                       "%swhere both tell, C by them is %.2g of that by the height maps; it cannot "
+                       "be said whether they agree, for how places differ is not known: a second "
+                       "map or profile would tell",
+                       separator, r->value);
     else
-        clocale_print(to + used, size - used,
-                      "%swhere both tell, C by them is %.2g (95 %%: %s) of that by the "
-                      "height maps%s",
-                      used > 0 ? "; " : "", r->value, format_range(r->low, r->high, 2).text,
-                      surface_profiles_disagree(w) ? ": they disagree" : "");
+        clocale_append(to, size,
+                       "%swhere both tell, C by them is %.2g (95 %%: %s) of that by the "
+                       "height maps%s",
+                       separator, r->value, format_range(r->low, r->high, 2).text,
+                       surface_profiles_disagree(w) ? ": they disagree" : "");
 }
 
 /* ---- knots ----------------------------------------------------------------------------------- */

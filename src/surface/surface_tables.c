@@ -78,7 +78,8 @@ TABLE_ROW(height_map, HEIGHT_MAP, double scan, x, y, height;)
 
 TABLE_ROW(height_profile, HEIGHT_PROFILE, double scan, x, height;)
 
-wt_status surface_view_maps(const surface_scan *scans, size_t n, wt_table **table, wt_error *err)
+static wt_status build_map_table(const surface_scan *scans, size_t n, wt_table **table,
+                                 wt_error *err)
 {
     table_writer t = table_begin(&height_map_schema, err);
     for (size_t s = 0; s < n; s++) {
@@ -91,8 +92,8 @@ wt_status surface_view_maps(const surface_scan *scans, size_t n, wt_table **tabl
     return table_end(&t, table);
 }
 
-wt_status surface_view_profiles(const surface_scan *scans, size_t n, wt_table **table,
-                                wt_error *err)
+static wt_status build_profile_table(const surface_scan *scans, size_t n, wt_table **table,
+                                     wt_error *err)
 {
     table_writer t = table_begin(&height_profile_schema, err);
     for (size_t s = 0; s < n; s++) {
@@ -159,7 +160,8 @@ double surface_knot_size_error(const wt_surface_spectrum *s, size_t knot, size_t
                : (double)NAN;
 }
 
-double surface_knot_position_error(const wt_surface_spectrum *s, size_t knot)
+/* The same due to the places of all sizes. */
+static double surface_knot_position_error(const wt_surface_spectrum *s, size_t knot)
 {
     return single_position_error(s) * surface_total_position_weight(s, knot_bin(s, knot));
 }
@@ -284,16 +286,14 @@ static void print_anisotropy(const surface_result *w, char *to, size_t size)
     static const char *const names[][2] = {{"anisotropy", "texture-angle"},
                                            {"anisotropy-fourth", "texture-angle-fourth"}};
     const wt_anisotropy a = significant_anisotropy(w);
-    size_t used = 0;
-    clocale_print(to, size, "none");
-    if (wt_anisotropy_check(&a, NULL) != WT_OK)
-        return;
-    for (size_t k = 0; k < sizeof names / sizeof *names && used < size; k++)
-        if (a.amplitude[k] > 0) {
-            clocale_print(to + used, size - used, "%s--%s %.4g --%s %.4gdeg", used > 0 ? " " : "",
-                          names[k][0], a.amplitude[k], names[k][1], a.angle[k] * 180 / M_PI);
-            used = strlen(to);
-        }
+    to[0] = '\0';
+    const bool usable = wt_anisotropy_check(&a, NULL) == WT_OK;
+    for (size_t k = 0; usable && k < sizeof names / sizeof *names; k++)
+        if (a.amplitude[k] > 0)
+            clocale_append(to, size, "%s--%s %.4g --%s %.4gdeg", to[0] != '\0' ? " " : "",
+                           names[k][0], a.amplitude[k], names[k][1], a.angle[k] * 180 / M_PI);
+    if (to[0] == '\0')
+        clocale_print(to, size, "none");
 }
 
 static wt_status build_angular_table(const surface_result *w, wt_table **table, wt_error *err)
@@ -451,9 +451,9 @@ wt_status surface_tables_make(const wt_params *params, const wt_topography_job *
     if (status == WT_OK && job->scans)
         status = build_scan_table(scans, n, &made.scan_spectra, err);
     if (status == WT_OK && job->heights)
-        status = surface_view_profiles(scans, n, &made.height_profile, err);
+        status = build_profile_table(scans, n, &made.height_profile, err);
     if (status == WT_OK && job->heights && maps)
-        status = surface_view_maps(scans, n, &made.height_map, err);
+        status = build_map_table(scans, n, &made.height_map, err);
     if (status == WT_OK)
         *tables = made;
     else

@@ -35,32 +35,22 @@ wt_transverse wt_transverse_defaults(void)
                            .axial_poisson = (double)NAN};
 }
 
-#define MODULUS_FACTOR_PARAM(name, member, limits, words)                                          \
-    {                                                                                              \
-        PARAM(name, wt_transverse, member, WT_Q_NONE, limits), .value = "X", .help = words         \
-    }
-#define POISSON_PARAM(name, member, words)                                                         \
-    {                                                                                              \
-        PARAM(name, wt_transverse, member, WT_Q_NONE, BRACED(-1, 1, false, false)),                \
-            .value = "NU", .unset = "the Poisson ratio", .help = words                             \
-    }
 static const wt_param rows[] = {
-    MODULUS_FACTOR_PARAM("axial-storage", axial_storage, ABOVE(0),
-                         "E' along the surface normal over that of the material"),
-    MODULUS_FACTOR_PARAM("axial-loss", axial_loss, AT_LEAST(0),
-                         "E'' along the surface normal over that of the material"),
-    MODULUS_FACTOR_PARAM("plane-storage", plane_storage, ABOVE(0),
-                         "E' in the plane of the surface over that of the material"),
-    MODULUS_FACTOR_PARAM("plane-loss", plane_loss, AT_LEAST(0),
-                         "E'' in the plane of the surface over that of the material"),
-    MODULUS_FACTOR_PARAM(
-        "shear-storage", shear_storage, ABOVE(0),
-        "storage modulus of shear between normal and plane over E' / (2 (1 + nu_p))"),
-    MODULUS_FACTOR_PARAM(
-        "shear-loss", shear_loss, AT_LEAST(0),
-        "loss modulus of shear between normal and plane over E'' / (2 (1 + nu_p))"),
-    POISSON_PARAM("plane-poisson", plane_poisson,
-                  "nu_p: contraction in the plane of the surface under a load in it"),
+    {PARAM("axial-storage", wt_transverse, axial_storage, WT_Q_NONE, ABOVE(0)), .value = "X",
+     .help = "E' along the surface normal over that of the material"},
+    {PARAM("axial-loss", wt_transverse, axial_loss, WT_Q_NONE, AT_LEAST(0)), .value = "X",
+     .help = "E'' along the surface normal over that of the material"},
+    {PARAM("plane-storage", wt_transverse, plane_storage, WT_Q_NONE, ABOVE(0)), .value = "X",
+     .help = "E' in the plane of the surface over that of the material"},
+    {PARAM("plane-loss", wt_transverse, plane_loss, WT_Q_NONE, AT_LEAST(0)), .value = "X",
+     .help = "E'' in the plane of the surface over that of the material"},
+    {PARAM("shear-storage", wt_transverse, shear_storage, WT_Q_NONE, ABOVE(0)), .value = "X",
+     .help = "storage modulus of shear between normal and plane over E' / (2 (1 + nu_p))"},
+    {PARAM("shear-loss", wt_transverse, shear_loss, WT_Q_NONE, AT_LEAST(0)), .value = "X",
+     .help = "loss modulus of shear between normal and plane over E'' / (2 (1 + nu_p))"},
+    {PARAM("plane-poisson", wt_transverse, plane_poisson, WT_Q_NONE, BRACED(-1, 1, false, false)),
+     .value = "NU", .unset = "the Poisson ratio",
+     .help = "nu_p: contraction in the plane of the surface under a load in it"},
     {PARAM("axial-poisson", wt_transverse, axial_poisson, WT_Q_NONE, ANY_NUMBER), .value = "NU",
      .unset = "the Poisson ratio",
      .help = "nu_zp: contraction in the plane of the surface under a load along its normal"},

@@ -403,8 +403,10 @@ static bool has_enough_overlap(const struct pair *pair, const struct overlap *su
     return enough;
 }
 
-bool shift_pair_fit(const shift_set *set, size_t onto, size_t from, bool free_b, double *a,
-                    double *b)
+/* Fits the shift of curve s relative to curve p by least squares of the used moduli in both
+ * directions. b is fitted if free_b, otherwise it is an input. Returns false without overlap. */
+static bool shift_pair_fit(const shift_set *set, size_t onto, size_t from, bool free_b, double *a,
+                           double *b)
 {
     const shift_curve *p = &set->curves[onto], *s = &set->curves[from];
     const struct pair pair = {p, s, set->used, free_b, free_b ? 0.0 : *b};

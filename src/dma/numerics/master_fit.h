@@ -59,14 +59,9 @@ void master_measure_misfit(master_work *work);
 wt_status master_test_superposition(master_work *work, wt_error *err) WT_NODISCARD;
 /* Noise that is uniform along an isotherm. */
 extern const double master_uniform_noise[SPECTRUM_SHAPES];
-/* Fills the edges [set.n] from the overlaps, with the vertical shift of rubber elasticity or
- * with none. */
-void master_overlap_edges(const master_work *work, bool physical, overlap_edge *edge);
 /* Sets the prior of the vertical shifts, with widths of clamping and departure [decade]. */
 wt_status master_set_widths(master_work *work, wt_vertical_shift kind, double geometry,
                             double departure, wt_error *err) WT_NODISCARD;
-/* Fits all relevant widths of the prior. The spectrum ends at the best one. */
-wt_status master_fit_widths(master_work *work, wt_error *err) WT_NODISCARD;
 /* Creates a spectrum for the placed curves at their present shifts, without outliers. */
 wt_status master_new_spectrum(master_work *work, wt_error *err) WT_NODISCARD;
 wt_status master_fit_robust(master_work *work, wt_error *err) WT_NODISCARD;
@@ -99,10 +94,6 @@ bool master_loss_is_inconsistent(const lack_of_fit *lack);
 /* Returns true if that factor is the only misfit. It does not affect the shifts. */
 bool master_misfit_is_loss_factor(const lack_of_fit *lack);
 
-/* Fits for the reference of the options. *better: after a lack of overlap, the temperature of a
- * steeper isotherm; otherwise NaN. */
-wt_status master_fit_once(const wt_sweep *sweep, const wt_master_options *options, wt_log *log,
-                          wt_master *master, double *better, wt_error *err) WT_NODISCARD;
 /* Fills `master` and transfers the posterior to it. */
 wt_status master_report(master_work *work, const wt_sweep *sweep, wt_log *log, wt_master *master,
                         wt_error *err) WT_NODISCARD;

@@ -12,7 +12,9 @@
  * as wide as a step of 5 to 10 K between isotherms. */
 const double master_max_shift_error = 0.2;
 
-void master_overlap_edges(const master_work *work, bool physical, overlap_edge *edge)
+/* Fills the edges [set.n] from the overlaps, with the vertical shift of rubber elasticity or
+ * with none. */
+static void master_overlap_edges(const master_work *work, bool physical, overlap_edge *edge)
 {
     const size_t n = work->set.n;
     arena memory = {0};

@@ -99,7 +99,7 @@ static wt_status fit_free_shift(master_work *work, const double *log_weight, wt_
 }
 
 /* Fits all relevant widths. The spectrum ends at the best one. */
-wt_status master_fit_widths(master_work *work, wt_error *err)
+static wt_status master_fit_widths(master_work *work, wt_error *err)
 {
     const wt_vertical_shift kind = work->options.vertical;
     wt_posterior *p = work->posterior;
@@ -284,8 +284,10 @@ static wt_status fit_by_best_route(master_work *work, wt_error *err)
     return status == WT_OK ? master_estimate_noise(work, err) : status;
 }
 
-wt_status master_fit_once(const wt_sweep *sweep, const wt_master_options *options, wt_log *log,
-                          wt_master *master, double *better, wt_error *err)
+/* Fits for the reference of the options. *better: after a lack of overlap, the temperature of a
+ * steeper isotherm; otherwise NaN. */
+static wt_status master_fit_once(const wt_sweep *sweep, const wt_master_options *options,
+                                 wt_log *log, wt_master *master, double *better, wt_error *err)
 {
     master_work work = {.options = *options};
     wt_status status = param_check(wt_master_options_params(), &work.options, err);

@@ -155,8 +155,6 @@ void spectrum_evaluate(spectrum *s, const double *value, bool with_rows);
 void spectrum_whiten(const spectrum *s, size_t curve, int q, double *v, size_t width);
 double spectrum_log_det_correlation(const spectrum *s);
 void spectrum_normal(spectrum *s);
-/* Solves x = covariance times y for unknowns; x and y may be the same. */
-void spectrum_solve(const spectrum *s, const double *y, double *x);
 /* Copies the full precision matrix [n_unknowns^2]. */
 void spectrum_precision(const spectrum *s, gsl_matrix *precision);
 double spectrum_variance(const spectrum *s, size_t curve); /* variance of a fitted a */

@@ -55,7 +55,8 @@ static bool factor_damped(spectrum *s, double damping)
     return bordered_factor(&s->factor);
 }
 
-void spectrum_solve(const spectrum *s, const double *y, double *x)
+/* Solves x = covariance times y for unknowns; x and y may be the same. */
+static void spectrum_solve(const spectrum *s, const double *y, double *x)
 {
     double *border = s->border, *side = s->side;
     memset(border, 0, s->factor.m * sizeof *border);
