@@ -25,7 +25,6 @@ enum {
 static const double same_frequency = 1e-3; /* exports with four digits differ by 5e-4 */
 /* The rounds end if no point moves farther [decade]: 1 %, the size of the noise. */
 static const double convergence_limit = 0.005;
-
 enum { STORAGE, LOSS, FACTOR, QUANTITIES };
 
 typedef struct window_point {

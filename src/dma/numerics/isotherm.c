@@ -71,13 +71,11 @@ static const double merge_width = 0.09;
 /* Evenly spaced points are merged from two per group on, other points from five on. A few close
  * points cost little and stay unchanged. */
 enum { LEAST_EVEN = 2, LEAST_TOGETHER = 5 };
-
 static const double even_spacing_ratio = 1.5; /* largest step divided by the mean step */
 
 /* In groups of LEAST_MANY or more, points farther from the median are excluded from the mean
  * [standard deviations]. */
 static const double outlier_limit = 5.0;
-
 enum { LEAST_MANY = 5 };
 
 /* Returns the end of the group that starts at `from`. With `alone` each point is its own group. */

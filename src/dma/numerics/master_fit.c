@@ -156,6 +156,25 @@ void master_work_alloc(master_work *work)
     work->s = &p->frame;
 }
 
+void master_overlap_edges(const master_work *work, bool physical, overlap_edge *edge)
+{
+    const size_t n = work->set.n;
+    arena memory = {0};
+    double *none = arena_numbers(&memory, n), *rubber = arena_numbers(&memory, n);
+    for (size_t i = 0; i < n; i++)
+        rubber[i] = work->physical[i] - work->physical[work->anchor];
+    overlap_chain(&work->set, work->anchor, physical ? rubber : none, physical ? none : rubber,
+                  edge);
+    arena_free(&memory);
+}
+
+/* Uses the vertical shift of rubber elasticity if requested, otherwise none. E' alone does not
+ * separate it from the horizontal shift, and a glass has none. */
+void master_find_overlaps(master_work *work)
+{
+    master_overlap_edges(work, work->options.vertical == WT_VERTICAL_PHYSICAL, work->edge);
+}
+
 wt_status master_set_widths(master_work *work, wt_vertical_shift kind, double geometry,
                             double departure, wt_error *err)
 {

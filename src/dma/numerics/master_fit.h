@@ -65,6 +65,9 @@ wt_status master_set_widths(master_work *work, wt_vertical_shift kind, double ge
 /* Creates a spectrum for the placed curves at their present shifts, without outliers. */
 wt_status master_new_spectrum(master_work *work, wt_error *err) WT_NODISCARD;
 wt_status master_fit_robust(master_work *work, wt_error *err) WT_NODISCARD;
+/* Fills the edges [set.n] from the overlaps, with the vertical shift of rubber elasticity or
+ * with none. */
+void master_overlap_edges(const master_work *work, bool physical, overlap_edge *edge);
 /* Fills the edges of the work from the overlaps with the requested vertical shifts. */
 void master_find_overlaps(master_work *work);
 /* Replaces the shifts by those of the overlaps and fits the spectrum to them. */

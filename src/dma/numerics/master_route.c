@@ -22,15 +22,10 @@
  * (PI_634.5k of RepTate), within 0.012 of the entropic shifts, and a filled damping rubber, 0.23
  * from them. */
 static const double geometry_widths[] = {0.0003, 0.002, 0.008, 0.03};
-
 static const double geometry_cells[] = {0.0068, 0.0032, 0.0115, 0.0445};
-
 static const double departure_widths[] = {0.0, 0.02, 0.1};
-
 static const double departure_cells[] = {0.02, 0.04, 0.12};
-
 static const double geometry_prior_width = 0.01, departure_prior_width = 0.05;
-
 enum { GEOMETRIES = 4, DEPARTURES = 3 };
 
 /* Cells whose ln weight is this much below the largest are dropped. exp(-20) is 2e-9 of the

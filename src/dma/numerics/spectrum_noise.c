@@ -17,7 +17,6 @@
 /* Correlations of neighbouring points from which the criterion selects. The steps are about one
  * standard error for 30 points. */
 static const double rhos[] = {0.0, 0.2, 0.4, 0.6, 0.75, 0.88};
-
 enum { RHOS = sizeof rhos / sizeof *rhos };
 
 wt_status spectrum_choose_rho(spectrum *s, wt_error *err)
@@ -51,7 +50,6 @@ enum { LEAST_LEFT = 3 };
  * few points do not distinguish it from 0. A Cauchy prior applies. Its half width
  * is the standard error for 14 points, the size of an isotherm. */
 enum { CORRELATIONS = 15 };
-
 static const double correlation_first = -0.36, correlation_step = 0.18,
                     correlation_prior_width = 0.3;
 
@@ -60,7 +58,6 @@ static const double correlation_first = -0.36, correlation_step = 0.18,
  * with 30 values, so their weight is four times that of the prior. The rounds suffice because the
  * shapes are nearly independent. */
 enum { SHAPES = SPECTRUM_SHAPES, NOISE_ROUNDS = 4 };
-
 static const double shape_prior_width = 0.4;
 
 struct within {
