@@ -161,6 +161,14 @@ double spectrum_variance(const spectrum *s, size_t curve); /* variance of a fitt
 /* Returns the factor on the ln residual of a point; 0: excluded. */
 double spectrum_weight(const spectrum *s, size_t k, int q);
 double spectrum_squares(const spectrum *s, int q); /* sum of squares of the whitened residuals */
+/* Extension of the terms beyond the measured range [decade]. */
+extern const double spectrum_fast_margin, spectrum_slow_margin;
+void spectrum_set_extrapolation(spectrum *s);
+/* The slow end of a spectrum is unknown. It has equal probability at SPECTRUM_ENDS positions
+ * from the first decade beyond the measured range on. The terms from spectrum_end_term() on belong
+ * to the equilibrium modulus. */
+enum { SPECTRUM_ENDS = 6 };
+size_t spectrum_end_term(const spectrum *s, size_t place);
 
 /* ---- spectrum_prior.c */
 /* Assembles precision and gradient for the present noise and smoothness. */
@@ -171,14 +179,6 @@ double spectrum_roughness(const spectrum *s,
                           const double *value);     /* weighted squares of the second differences */
 double spectrum_roughness_trace(const spectrum *s); /* contribution of the covariance to them */
 double spectrum_prior_log_det(const spectrum *s);
-/* Extension of the terms beyond the measured range [decade]. */
-extern const double spectrum_fast_margin, spectrum_slow_margin;
-void spectrum_set_extrapolation(spectrum *s);
-/* The slow end of a spectrum is unknown. It has equal probability at SPECTRUM_ENDS positions
- * from the first decade beyond the measured range on. The terms from spectrum_end_term() on belong
- * to the equilibrium modulus. */
-enum { SPECTRUM_ENDS = 6 };
-size_t spectrum_end_term(const spectrum *s, size_t place);
 /* Prior of the vertical shifts. */
 typedef struct vertical {
     double reference_temperature, expansion; /* [K], [1/K] */
