@@ -209,6 +209,8 @@ typedef enum spectrum_mode {
     SPECTRUM_TRIAL        /* the same with an accuracy that suffices to compare the noise */
 } spectrum_mode;
 wt_status spectrum_fit(spectrum *s, spectrum_mode mode, wt_error *err) WT_NODISCARD;
+/* Chooses the correlation along the isotherms by the criterion. */
+wt_status spectrum_choose_rho(spectrum *s, wt_error *err) WT_NODISCARD;
 /* Gain of -2 ln likelihood at which a fit ends. Its root is the remaining step in standard
  * errors, 3 %. */
 #define SPECTRUM_MIN_GAIN 1e-3
@@ -231,8 +233,6 @@ size_t spectrum_outliers(spectrum *s);
 /* Prior weight of equal noise factors, in points: half of the 16 values of an isotherm with
  * eight frequencies. It is a prior standard deviation of ln of a factor of 1/sqrt(2 * 8) = 0.25. */
 #define SPECTRUM_KAPPA_PRIOR_POINTS 8.0
-/* Chooses the correlation along the isotherms by the criterion. */
-wt_status spectrum_choose_rho(spectrum *s, wt_error *err) WT_NODISCARD;
 /* Noise about a separate polynomial of each isotherm, so that a misfit of the spectrum does not
  * count as noise. */
 enum { SPECTRUM_SHAPES = 2 };

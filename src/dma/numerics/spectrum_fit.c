@@ -203,3 +203,26 @@ wt_status spectrum_fit(spectrum *s, spectrum_mode mode, wt_error *err)
         spectrum_criterion(s);
     return status;
 }
+
+/* ---- correlation along the isotherms --------------------------------------------------------- */
+
+/* Correlations of neighbouring points from which the criterion selects. The steps are about one
+ * standard error for 30 points. */
+static const double rhos[] = {0.0, 0.2, 0.4, 0.6, 0.75, 0.88};
+enum { RHOS = sizeof rhos / sizeof *rhos };
+
+wt_status spectrum_choose_rho(spectrum *s, wt_error *err)
+{
+    double best = s->criterion, chosen = s->rho;
+    wt_status status = WT_OK;
+    for (size_t i = 1; status == WT_OK && i < RHOS; i++) {
+        s->rho = rhos[i];
+        status = spectrum_fit(s, SPECTRUM_ROUGH, err);
+        if (status != WT_OK || s->criterion >= best)
+            break; /* the criterion has one minimum */
+        best = s->criterion;
+        chosen = rhos[i];
+    }
+    s->rho = chosen;
+    return status == WT_OK ? spectrum_fit(s, SPECTRUM_NOISE, err) : status;
+}

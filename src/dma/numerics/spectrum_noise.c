@@ -1,4 +1,4 @@
-/* Noise of the moduli: size, correlation along the isotherms, smoothness of the spectrum,
+/* Noise of the moduli: size and correlation within the isotherms, smoothness of the spectrum,
  * curvature weights and outliers.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dma/numerics/spectrum.h"
@@ -12,30 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- correlation along the isotherms --------------------------------------------------------- */
-
-/* Correlations of neighbouring points from which the criterion selects. The steps are about one
- * standard error for 30 points. */
-static const double rhos[] = {0.0, 0.2, 0.4, 0.6, 0.75, 0.88};
-enum { RHOS = sizeof rhos / sizeof *rhos };
-
-wt_status spectrum_choose_rho(spectrum *s, wt_error *err)
-{
-    double best = s->criterion, chosen = s->rho;
-    wt_status status = WT_OK;
-    for (size_t i = 1; status == WT_OK && i < RHOS; i++) {
-        s->rho = rhos[i];
-        status = spectrum_fit(s, SPECTRUM_ROUGH, err);
-        if (status != WT_OK || s->criterion >= best)
-            break; /* the criterion has one minimum */
-        best = s->criterion;
-        chosen = rhos[i];
-    }
-    s->rho = chosen;
-    return status == WT_OK ? spectrum_fit(s, SPECTRUM_NOISE, err) : status;
-}
-
-/* ---- within the isotherms -------------------------------------------------------------------- */
+/* ---- noise within the isotherms -------------------------------------------------------------- */
 
 /* Coefficients of the polynomial of an isotherm, depending on its number of points. The residual
  * of a second process needs more than a parabola, otherwise it looks like correlated noise. At
