@@ -8,10 +8,6 @@
 
 #include <math.h>
 
-/* A shift with a larger error is not determined [decade]. Its 95 % interval is most of a decade,
- * as wide as a step of 5 to 10 K between isotherms. */
-const double master_max_shift_error = 0.2;
-
 /* Shifts of the spectrum and of the overlaps disagree if they differ by more standard errors
  * than this. */
 static const double agreement_limit = 2.0;
