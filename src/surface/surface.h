@@ -75,6 +75,8 @@ double surface_law_error(const surface_result *w, double wavenumber);
 /* Standard error of ln C of a knot due to the places of one scan size. The law has the error of
  * the last bin. NaN if unknown or with one size. */
 double surface_knot_size_error(const wt_surface_spectrum *s, size_t knot, size_t size);
+/* The same due to the places of all sizes. */
+double surface_knot_position_error(const wt_surface_spectrum *s, size_t knot);
 /* Returns true if the anisotropy is significant. */
 bool surface_is_anisotropic(const wt_surface_anisotropy *directions);
 /* Rms slope of the usual cutoff, above which rubber does not follow a surface. */

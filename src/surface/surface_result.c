@@ -7,6 +7,7 @@
 #include "core/base/param.h"
 #include "core/base/range_text.h"
 #include "core/math/normal_quantile.h"
+#include "core/table/registry.h"
 #include "surface/numerics/surface_analysis.h"
 
 #include <limits.h>
@@ -238,6 +239,52 @@ static wt_status find_slope_limit(const surface_result *w, double slope, double 
         surface_knots_clear(&k);
     }
     return status;
+}
+
+/* ---- errors of the knots --------------------------------------------------------------------- */
+
+static size_t knot_bin(const wt_surface_spectrum *s, size_t knot)
+{
+    return knot < s->n ? knot : s->n - 1;
+}
+
+/* Returns the place error of a single scan; NaN if unknown or with one size. */
+static double single_position_error(const wt_surface_spectrum *s)
+{
+    return s->place_error > 0 && s->n_sizes > 1 ? s->place_reach : (double)NAN;
+}
+
+double surface_knot_size_error(const wt_surface_spectrum *s, size_t knot, size_t size)
+{
+    return s->n_sizes > 1
+               ? single_position_error(s) * surface_position_weight(s, knot_bin(s, knot), size)
+               : (double)NAN;
+}
+
+/* The same due to the places of all sizes. */
+double surface_knot_position_error(const wt_surface_spectrum *s, size_t knot)
+{
+    return single_position_error(s) * surface_total_position_weight(s, knot_bin(s, knot));
+}
+
+/* A bin is correlated equally with the next and the previous bin. */
+double surface_next_bin_correlation(const wt_surface_spectrum *s, size_t bin)
+{
+    const wt_spectrum_bin *const a = &s->bins[bin], *const b = a + 1;
+    const double most = POWER_SPECTRUM_MAX_CORRELATION;
+    const double beside_a = fmax(0, a->freedom / a->shared_freedom - 1),
+                 beside_b = fmax(0, b->freedom / b->shared_freedom - 1);
+    return b->index == a->index + 1 ? fmin(most, 0.5 * sqrt(beside_a * beside_b)) : 0;
+}
+
+double surface_law_error(const surface_result *w, double wavenumber)
+{
+    const double alone = wt_self_affine_log_error(&w->law, wavenumber, false),
+                 all = wt_self_affine_log_error(&w->law, wavenumber, true),
+                 last = surface_knot_position_error(&w->spectrum, w->spectrum.n),
+                 places = isnan(last) ? w->spectrum.place_error : last,
+                 common = places > 0 ? places : 0;
+    return sqrt(fmax(alone * alone, all * all - common * common));
 }
 
 /* ---- roughness parameters -------------------------------------------------------------------- */
