@@ -189,9 +189,8 @@ typedef struct wt_self_affine {
     double misfit; /* chi-squared over its degrees of freedom; above 1 it widens the errors */
     size_t n;      /* number of bins */
 } wt_self_affine;
-/* Fits the law by weighted least squares in ln C over the reliable bins. WT_E_MEMORY. */
-WT_API wt_status wt_self_affine_fit(const wt_surface_spectrum *spectrum, wt_self_affine *law,
-                                    wt_error *err) WT_NODISCARD;
+/* Fits the law by weighted least squares in ln C over the reliable bins. */
+WT_API wt_self_affine wt_self_affine_fit(const wt_surface_spectrum *spectrum);
 /* Returns C [m^4] of the law at a wavenumber, NaN if it was not found. The second function returns
  * the standard error of its logarithm (half width of the 95 % interval over 1.96), with or without
  * the contribution of positions. */

@@ -116,24 +116,20 @@ static void set_wlf_constants(fem_material *s)
     const wt_shift_law *law = &s->rubber.law;
     const double reference = s->rubber.prony.reference_temperature;
     s->shifts = law->kind != WT_LAW_NONE;
+    s->c1 = law->wlf.c1;
+    s->c2 = law->wlf.c2;
     if (law->kind == WT_LAW_ARRHENIUS ||
-        (law->kind == WT_LAW_WLF_ARRHENIUS && reference < law->joint)) {
+        (law->kind == WT_LAW_WLF_ARRHENIUS && reference < law->joint))
         arrhenius_to_wlf(law->activation_energy, reference, &s->c1, &s->c2);
-    } else {
-        s->c1 = law->wlf.c1;
-        s->c2 = law->wlf.c2;
-    }
 }
 
 /* Fills the temperature levels with their factors. A reference outside the isotherms becomes a
  * level with factor 1. */
-static wt_status set_modulus_factors(fem_material *s, wt_error *err)
+static void set_modulus_factors(fem_material *s)
 {
     const wt_rubber *r = &s->rubber;
     const double reference = r->prony.reference_temperature;
-    s->level = calloc(2 * (r->n_vertical + 2), sizeof *s->level);
-    if (s->level == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    s->level = wt_alloc(2 * (r->n_vertical + 2), sizeof *s->level);
     s->factor = s->level + r->n_vertical + 2;
     if (r->n_vertical > 0 && reference < r->vertical_temperature[0]) {
         s->level[0] = reference;
@@ -151,7 +147,6 @@ static wt_status set_modulus_factors(fem_material *s, wt_error *err)
     }
     for (size_t i = 0; i < s->n_levels; i++)
         s->level[i] -= s->zero;
-    return WT_OK;
 }
 
 /* Converts the series to Young's moduli in the units of the file. */
@@ -211,7 +206,6 @@ static void write_other_branch(fem_material *s)
 static void write_shift_law(fem_material *s)
 {
     const wt_shift_law *law = &s->rubber.law;
-    const double zero = s->zero;
     if (!s->shifts) {
         write_formatted(s, "%sNo law of the shifts: for the reference temperature alone.\n",
                         s->comment);
@@ -228,7 +222,7 @@ static void write_shift_law(fem_material *s)
     if (law->kind == WT_LAW_WLF_ARRHENIUS)
         write_other_branch(s);
     write_formatted(s, "%sThe isotherms were measured from %.6g to %.6g.\n", s->comment,
-                    s->rubber.temperature_min - zero, s->rubber.temperature_max - zero);
+                    s->rubber.temperature_min - s->zero, s->rubber.temperature_max - s->zero);
 }
 
 static double deviation_percent(const table_view *series, prony_reduced_key key)
@@ -447,27 +441,22 @@ static const char mfront_integrator[] =
 static void write_code_aster(fem_material *s)
 {
     const wt_prony *p = &s->rubber.prony;
-    write_formatted(s, "MFRONT_SOURCE = r\"\"\"\n@DSL Default;\n@Behaviour WeartrackMaxwell;\n");
-    write_formatted(s, "@IntegerConstant nt = %zu;\n@IntegerConstant nb = %zu;\n", p->n,
-                    s->n_levels);
     write_formatted(
         s,
+        "MFRONT_SOURCE = r\"\"\"\n@DSL Default;\n@Behaviour WeartrackMaxwell;\n"
+        "@IntegerConstant nt = %zu;\n@IntegerConstant nb = %zu;\n"
         "@MaterialProperty real Nu;\n@MaterialProperty stress El;\n"
         "@MaterialProperty stress Ei[%zu];\n@MaterialProperty real Tau[%zu];\n"
         "@MaterialProperty real T0;\n@MaterialProperty real C1;\n@MaterialProperty real C2;\n"
         "@MaterialProperty real Tb[%zu];\n@MaterialProperty real Lb[%zu];\n"
         "@AuxiliaryStateVariable StressStensor Si[%zu];\n"
-        "@ProvidesSymmetricTangentOperator;\n%s\"\"\"\n",
-        p->n, p->n, s->n_levels, s->n_levels, p->n, mfront_integrator);
-    write_formatted(s,
-                    "with open(\"fort.38\", \"w\") as source:\n    source.write(MFRONT_SOURCE)\n");
-    write_formatted(
-        s, "MAXWELL = CREA_LIB_MFRONT(NOM_COMPOR=\"WeartrackMaxwell\", UNITE_MFRONT=38)\n");
-    write_formatted(
-        s,
-        "# COMPORTEMENT=_F(RELATION=\"MFRONT\", COMPOR_MFRONT=MAXWELL, DEFORMATION=\"PETIT\")\n");
-    write_formatted(s, "%s = DEFI_MATERIAU(\n    ELAS=_F(E=%.12g, NU=%.12g", s->name, s->instant,
-                    s->nu);
+        "@ProvidesSymmetricTangentOperator;\n%s\"\"\"\n"
+        "with open(\"fort.38\", \"w\") as source:\n    source.write(MFRONT_SOURCE)\n"
+        "MAXWELL = CREA_LIB_MFRONT(NOM_COMPOR=\"WeartrackMaxwell\", UNITE_MFRONT=38)\n"
+        "# COMPORTEMENT=_F(RELATION=\"MFRONT\", COMPOR_MFRONT=MAXWELL, DEFORMATION=\"PETIT\")\n"
+        "%s = DEFI_MATERIAU(\n    ELAS=_F(E=%.12g, NU=%.12g",
+        p->n, s->n_levels, p->n, p->n, s->n_levels, s->n_levels, p->n, mfront_integrator, s->name,
+        s->instant, s->nu);
     if (!isnan(s->options->density))
         write_formatted(s, ", RHO=%.12g", s->options->density / s->unit_system->density);
     if (!isnan(s->options->expansion))
@@ -534,8 +523,6 @@ bool wt_fem_program_find(const char *name, size_t length, wt_fem_program *progra
     return false;
 }
 
-static const char default_name[] = "RUBBER";
-
 /* Checks the material name. Ansys allows 32 characters for a parameter, Code_Aster 8 for a
  * concept. */
 static wt_status check_material_name(wt_fem_program program, const char *name, wt_error *err)
@@ -582,7 +569,7 @@ wt_status wt_fem_export(FILE *out, wt_fem_program program, const wt_table *prony
     fem_material s = {.out = out,
                       .comment = programs[program].comment,
                       .options = &o,
-                      .name = o.name != NULL ? o.name : default_name,
+                      .name = o.name != NULL ? o.name : "RUBBER",
                       .nu = o.poisson_ratio,
                       .incompressible = o.poisson_ratio >= 0.5,
                       .zero = o.temperature == WT_FEM_CELSIUS ? WT_ZERO_CELSIUS : 0};
@@ -600,9 +587,8 @@ wt_status wt_fem_export(FILE *out, wt_fem_program program, const wt_table *prony
         set_wlf_constants(&s);
         status = scale_series(&s, err);
     }
-    if (status == WT_OK)
-        status = set_modulus_factors(&s, err);
     if (status == WT_OK) {
+        set_modulus_factors(&s);
         write_fem_header(&s);
         programs[program].write(&s);
         if (ferror(out) != 0)

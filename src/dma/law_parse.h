@@ -12,12 +12,15 @@ typedef struct flow_law_text {
     const char *example;       /* example text after the prefix */
     const wt_params *(*params)(void);
 } flow_law_text;
+
 /* Returns true if the text begins with the prefix. */
 bool flow_has_law_prefix(const flow_law_text *law, const char *text);
+
 /* Handles a text that was not found as a file. If the text resembles the prefix it suggests the
  * law, otherwise it returns `status`. */
 wt_status flow_law_suggest(const flow_law_text *law, const char *text, wt_status status,
                            wt_error *err) WT_NODISCARD;
+
 /* Sets the parameters that the text contains. All required parameters must be present. */
 wt_status flow_law_parse(const flow_law_text *law, const char *text, void *structure,
                          wt_error *err) WT_NODISCARD;

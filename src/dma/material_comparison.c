@@ -10,6 +10,7 @@
 #include "core/table/table_rows.h"
 
 #include <math.h>
+#include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -101,9 +102,8 @@ static wt_status fail_no_common_temperature(const wt_materials_job *job, wt_erro
     char found[256] = "";
     for (size_t i = 0; i < job->n_materials; i++) {
         const range r = measured_temperatures(job->materials[i].rubber);
-        const size_t used = strlen(found);
-        clocale_print(found + used, sizeof found - used, "%s%s: %.1f to %.1f °C", i > 0 ? "; " : "",
-                      job->materials[i].name, r.low - WT_ZERO_CELSIUS, r.high - WT_ZERO_CELSIUS);
+        clocale_append(found, sizeof found, "%s%s: %.1f to %.1f °C", i > 0 ? "; " : "",
+                       job->materials[i].name, r.low - WT_ZERO_CELSIUS, r.high - WT_ZERO_CELSIUS);
     }
     wt_fail(err, WT_E_RANGE, "the materials have no temperature in common");
     wt_error_found(err, "%s", found);
@@ -144,6 +144,27 @@ static wt_status find_comparison_temperature(const wt_materials_job *job, compar
     wt_error_expected(err, "%.1f to %.1f °C", r.low - WT_ZERO_CELSIUS, r.high - WT_ZERO_CELSIUS);
     wt_error_found(err, "%.1f °C", s->at_temperature - WT_ZERO_CELSIUS);
     return WT_E_RANGE;
+}
+
+/* Chooses the frequency of the comparison over temperature: 10 Hz, if all materials were measured
+ * there at the temperature of the comparison, else the middle of their common range. It stays NaN
+ * without one. */
+static wt_status find_comparison_frequency(const wt_materials_job *job, comparison_conditions *s,
+                                           wt_error *err)
+{
+    range shared = {0, (double)INFINITY};
+    wt_status status = WT_OK;
+    s->at_frequency = job->frequency;
+    for (size_t i = 0; status == WT_OK && isnan(job->frequency) && i < job->n_materials; i++) {
+        range own = {0, 0};
+        status = measured_frequencies(job->materials[i].rubber, s->at_temperature, &own, err);
+        shared = range_intersection(shared, own);
+    }
+    if (status == WT_OK && isnan(job->frequency) && shared.low > 0 && shared.low <= shared.high &&
+        isfinite(shared.high))
+        s->at_frequency =
+            range_contains(shared, ten_hertz) ? ten_hertz : sqrt(shared.low * shared.high);
+    return status;
 }
 
 static wt_status fail_no_common_frequency(const wt_compared_material pair[2], const range own[2],
@@ -307,13 +328,32 @@ typedef struct verdict_texts {
     bool errors_known, misfit; /* true if some interval is known; true if one contains a misfit */
 } verdict_texts;
 
-#define APPEND_ITEM(field, ...)                                                                    \
-    do {                                                                                           \
-        const size_t used_ = strlen(field);                                                        \
-        clocale_print((field) + used_, sizeof(field) - used_, "%s", used_ > 0 ? "; " : "");        \
-        const size_t more_ = strlen(field);                                                        \
-        clocale_print((field) + more_, sizeof(field) - more_, __VA_ARGS__);                        \
-    } while (0)
+/* Appends a formatted text, after "; " unless it is the first. */
+static void append_item(char *text, size_t size, const char *format, ...) WT_PRINTF(3, 4);
+static void append_item(char *text, size_t size, const char *format, ...)
+{
+    va_list arguments;
+    clocale_append(text, size, "%s", text[0] != '\0' ? "; " : "");
+    const size_t used = strlen(text);
+    va_start(arguments, format);
+    clocale_vprint(text + used, size - used, format, arguments);
+    va_end(arguments);
+}
+
+/* States why a pair has no rows over temperature, if the common temperatures are a range. */
+static void append_missing_temperatures(const wt_compared_material *m,
+                                        const comparison_conditions *set, verdict_texts *s)
+{
+    const range r = set->temperature;
+    if (!isfinite(r.low + r.high) || !(r.high - r.low > 2 * same_temperature))
+        return;
+    if (isnan(set->at_frequency))
+        append_item(s->outside, sizeof s->outside,
+                    "%s over temperature: the materials have no frequency in common", m->name);
+    else
+        append_item(s->outside, sizeof s->outside,
+                    "%s over temperature: not measured at %.3g rad/s", m->name, set->at_frequency);
+}
 
 /* Lists the frequencies that only one material has, if they are a fifth of a decade or more. */
 static void append_unshared_frequencies(const wt_compared_material *m, range own, range shared,
@@ -321,9 +361,11 @@ static void append_unshared_frequencies(const wt_compared_material *m, range own
 {
     const double at = temperature - WT_ZERO_CELSIUS;
     if (own.low < shared.low / 1.6 && own.low > 0)
-        APPEND_ITEM(s->outside, "%s below %.2g rad/s at %.1f °C", m->name, shared.low, at);
+        append_item(s->outside, sizeof s->outside, "%s below %.2g rad/s at %.1f °C", m->name,
+                    shared.low, at);
     if (own.high > shared.high * 1.6 && isfinite(own.high))
-        APPEND_ITEM(s->outside, "%s above %.2g rad/s at %.1f °C", m->name, shared.high, at);
+        append_item(s->outside, sizeof s->outside, "%s above %.2g rad/s at %.1f °C", m->name,
+                    shared.high, at);
 }
 
 static void append_unshared_temperatures(const wt_materials_job *job,
@@ -335,12 +377,14 @@ static void append_unshared_temperatures(const wt_materials_job *job,
         const range own = measured_temperatures(m->rubber);
         const bool law = m->rubber->law.kind != WT_LAW_NONE;
         if (!law)
-            APPEND_ITEM(s->outside, "%s has no shift law: all are compared at its temperature only",
-                        m->name);
+            append_item(s->outside, sizeof s->outside,
+                        "%s has no shift law: all are compared at its temperature only", m->name);
         if (law && isfinite(own.high) && own.low < r.low - same_temperature)
-            APPEND_ITEM(s->outside, "%s below %.1f °C", m->name, r.low - WT_ZERO_CELSIUS);
+            append_item(s->outside, sizeof s->outside, "%s below %.1f °C", m->name,
+                        r.low - WT_ZERO_CELSIUS);
         if (law && isfinite(own.high) && own.high > r.high + same_temperature)
-            APPEND_ITEM(s->outside, "%s above %.1f °C", m->name, r.high - WT_ZERO_CELSIUS);
+            append_item(s->outside, sizeof s->outside, "%s above %.1f °C", m->name,
+                        r.high - WT_ZERO_CELSIUS);
     }
 }
 
@@ -349,12 +393,11 @@ static void append_unshared_temperatures(const wt_materials_job *job,
 /* Compares a material with the first one. */
 static wt_status compare_pair(const wt_materials_job *job, const wt_compared_material pair[2],
                               const material_systematic_errors systematic[2], const wt_job *work,
-                              comparison_conditions *s, table_writer *t, verdict_texts *texts,
+                              const comparison_conditions *s, table_writer *t, verdict_texts *texts,
                               wt_error *err)
 {
     comparison_point point[MAX_POINTS + TEMPERATURES];
     material_values values[2] = {{0}, {0}};
-    material_ratio ratio = {0};
     range own[2] = {{0, 0}, {0, 0}};
     size_t n_temperatures = 0;
     wt_status status = WT_OK;
@@ -366,30 +409,28 @@ static wt_status compare_pair(const wt_materials_job *job, const wt_compared_mat
     if (!(shared.low > 0 && shared.low < shared.high && isfinite(shared.high)))
         return fail_no_common_frequency(pair, own, s->at_temperature, err);
     const size_t n = list_frequency_points(shared, s->at_temperature, point);
-    if (isnan(s->at_frequency))
-        s->at_frequency =
-            range_contains(shared, ten_hertz) ? ten_hertz : sqrt(shared.low * shared.high);
     status = list_temperature_points(pair, s, s->at_frequency, point + n, &n_temperatures, err);
     if (status == WT_OK && n_temperatures == 0 && !isnan(job->frequency))
         status = fail_frequency_not_measured(pair, own, s, err);
     for (int k = 0; status == WT_OK && k < 2; k++)
         status = material_values_compute(pair[k].rubber, &systematic[k], point, n + n_temperatures,
                                          work, &values[k], err);
-    if (status == WT_OK)
-        status = material_ratio_compute(&values[0], &values[1], &ratio, err);
     if (status == WT_OK) {
+        material_ratio ratio = material_ratio_compute(&values[0], &values[1]);
         add_material_ratio_rows(t, pair[1].name, "frequency", point, &ratio, 0, n);
         add_material_ratio_rows(t, pair[1].name, "temperature", point, &ratio, n,
                                 n + n_temperatures);
         const material_verdict v = material_assess(pair, values, systematic, &ratio, job->margin);
-        APPEND_ITEM(texts->differs, "%s", v.differs);
+        append_item(texts->differs, sizeof texts->differs, "%s", v.differs);
         if (v.settled_by[0] != '\0')
-            APPEND_ITEM(texts->settled_by, "%s", v.settled_by);
+            append_item(texts->settled_by, sizeof texts->settled_by, "%s", v.settled_by);
         texts->errors_known = texts->errors_known || ratio.errors_known;
+        if (n_temperatures == 0)
+            append_missing_temperatures(&pair[1], s, texts);
         append_unshared_frequencies(&pair[0], own[0], shared, s->at_temperature, texts);
         append_unshared_frequencies(&pair[1], own[1], shared, s->at_temperature, texts);
+        material_ratio_clear(&ratio);
     }
-    material_ratio_clear(&ratio);
     material_values_clear(&values[0]);
     material_values_clear(&values[1]);
     return status;
@@ -437,10 +478,12 @@ static void warn_deformation(const wt_materials_job *job, const wt_job *work)
 static wt_status build_comparison_tables(const wt_materials_job *job, const wt_job *work,
                                          wt_materials_tables *tables, wt_error *err)
 {
-    comparison_conditions s = {.at_frequency = job->frequency};
+    comparison_conditions s = {0};
     verdict_texts texts = {.errors_known = false};
     material_systematic_errors first;
     wt_status status = find_comparison_temperature(job, &s, err);
+    if (status == WT_OK)
+        status = find_comparison_frequency(job, &s, err);
     if (status == WT_OK)
         status = find_systematic_errors(&job->materials[0], job->sample_error, &first, err);
     if (status != WT_OK)

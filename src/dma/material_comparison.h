@@ -41,8 +41,7 @@ typedef struct material_ratio {
     double critical;   /* in standard errors; no point deviates more by chance in 95 of 100 cases */
     bool errors_known; /* true if both errors are known */
 } material_ratio;
-wt_status material_ratio_compute(const material_values *first, const material_values *second,
-                                 material_ratio *r, wt_error *err) WT_NODISCARD;
+material_ratio material_ratio_compute(const material_values *first, const material_values *second);
 void material_ratio_clear(material_ratio *r);
 
 typedef struct material_verdict {

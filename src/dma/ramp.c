@@ -61,17 +61,11 @@ typedef struct ramp_point {
     double frequency, temperature, storage, loss, factor, strain;
 } ramp_point;
 
-static wt_status add_ramp_from_points(wt_sweep *sweep, const ramp_point *points, size_t n,
-                                      wt_error *err)
+static void add_ramp_from_points(wt_sweep *sweep, const ramp_point *points, size_t n)
 {
-    wt_ramp *ramp =
-        n >= MIN_POINTS
-            ? wt_sweep_add_ramp(sweep, n, WT_SWEEP_HAS_LOSS_FACTOR | WT_SWEEP_HAS_STRAIN)
-            : NULL;
     if (n < MIN_POINTS)
-        return WT_OK;
-    if (ramp == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
+        return;
+    wt_ramp *ramp = wt_sweep_add_ramp(sweep, n, WT_SWEEP_HAS_LOSS_FACTOR | WT_SWEEP_HAS_STRAIN);
     double sum = 0;
     for (size_t i = 0; i < n; i++) {
         ramp->temperature[i] = points[i].temperature;
@@ -83,18 +77,15 @@ static wt_status add_ramp_from_points(wt_sweep *sweep, const ramp_point *points,
     }
     ramp->angular_frequency = sum / (double)n;
     snprintf(ramp->source, sizeof ramp->source, "%zu isotherms", n);
-    return WT_OK;
 }
 
 /* Converts the isotherms to temperature sweeps, one for each shared frequency, and adds them. */
-static wt_status add_isotherm_ramps(wt_sweep *sweep, wt_error *err)
+static void add_isotherm_ramps(wt_sweep *sweep)
 {
     size_t n = 0, all = 0;
     for (size_t i = 0; i < sweep->n_isotherms; i++)
         all += sweep->isotherms[i].n;
-    ramp_point *points = malloc((all + 1) * sizeof *points);
-    if (points == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    ramp_point *points = wt_alloc(all, sizeof *points);
     for (size_t i = 0; i < sweep->n_isotherms; i++) {
         const wt_isotherm *t = &sweep->isotherms[i];
         for (size_t k = 0; k < t->n; k++)
@@ -106,16 +97,14 @@ static wt_status add_isotherm_ramps(wt_sweep *sweep, wt_error *err)
                                        t->strain != NULL ? t->strain[k] : (double)NAN};
     }
     qsort(points, n, sizeof *points, numbers_compare);
-    wt_status status = WT_OK;
-    for (size_t first = 0, end; first < n && status == WT_OK; first = end) {
+    for (size_t first = 0, end; first < n; first = end) {
         for (end = first + 1;
              end < n && points[end].frequency < points[first].frequency * (1 + same_frequency);)
             end++;
-        status = add_ramp_from_points(sweep, points + first, end - first, err);
+        add_ramp_from_points(sweep, points + first, end - first);
     }
     free(points);
     wt_sweep_sort(sweep);
-    return status;
 }
 
 /* ---- one temperature sweep ------------------------------------------------------------------- */
@@ -138,38 +127,35 @@ static double loss_factor(const wt_ramp *ramp, size_t i)
     return ramp->loss_factor != NULL ? ramp->loss_factor[i] : (double)NAN;
 }
 
-static wt_status select_usable_points(const wt_ramp *ramp, arena *memory, wt_log *log,
-                                      usable_points *u, wt_error *err)
+static usable_points select_usable_points(const wt_ramp *ramp, arena *memory, wt_log *log)
 {
-    *u = (usable_points){.temperature = arena_numbers(memory, ramp->n)};
+    usable_points u = {.temperature = arena_numbers(memory, ramp->n)};
     for (int q = 0; q < QUANTITIES; q++)
-        u->value[q] = arena_numbers(memory, ramp->n);
-    if (memory->failed)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
+        u.value[q] = arena_numbers(memory, ramp->n);
     for (size_t i = 0; i < ramp->n; i++) {
-        u->has[STORAGE] = u->has[STORAGE] || !isnan(ramp->storage_modulus[i]);
-        u->has[LOSS] = u->has[LOSS] || !isnan(ramp->loss_modulus[i]);
-        u->has[FACTOR] = u->has[FACTOR] || !isnan(loss_factor(ramp, i));
+        u.has[STORAGE] = u.has[STORAGE] || !isnan(ramp->storage_modulus[i]);
+        u.has[LOSS] = u.has[LOSS] || !isnan(ramp->loss_modulus[i]);
+        u.has[FACTOR] = u.has[FACTOR] || !isnan(loss_factor(ramp, i));
     }
     for (size_t i = 0; i < ramp->n; i++) {
         const double values[QUANTITIES] = {ramp->storage_modulus[i], ramp->loss_modulus[i],
                                            loss_factor(ramp, i)};
         bool good = true;
         for (int q = 0; q < QUANTITIES; q++)
-            good = good && (!u->has[q] || (values[q] > 0 && isfinite(values[q])));
+            good = good && (!u.has[q] || (values[q] > 0 && isfinite(values[q])));
         if (!good)
             continue;
-        u->temperature[u->n] = ramp->temperature[i];
+        u.temperature[u.n] = ramp->temperature[i];
         for (int q = 0; q < QUANTITIES; q++)
-            u->value[q][u->n] = values[q];
-        u->n++;
+            u.value[q][u.n] = values[q];
+        u.n++;
     }
-    if (u->n < ramp->n)
+    if (u.n < ramp->n)
         wt_log_add(log, WT_WARNING, ramp->source, NULL,
                    "temperature sweep at %.4g rad/s: %zu of %zu points left out, no positive "
                    "modulus",
-                   ramp->angular_frequency, ramp->n - u->n, ramp->n);
-    return WT_OK;
+                   ramp->angular_frequency, ramp->n - u.n, ramp->n);
+    return u;
 }
 
 TABLE_ROW(ramp, RAMP, double temperature, angular_frequency, storage_modulus, loss_modulus,
@@ -355,11 +341,10 @@ static wt_status add_sweep_rows(const wt_ramp_job *job, const wt_job *work, cons
     for (size_t i = 0; i < sweep->n_ramps && status == WT_OK; i++) {
         const wt_ramp *ramp = &sweep->ramps[i];
         arena memory = {0};
-        usable_points u;
+        const usable_points u = select_usable_points(ramp, &memory, work->log);
         peak_set found = {0};
         add_ramp_rows(&w->ramp, ramp);
-        status = select_usable_points(ramp, &memory, work->log, &u, err);
-        if (status == WT_OK && (work->left_out & WT_EXTRA_TRANSITION) == 0)
+        if ((work->left_out & WT_EXTRA_TRANSITION) == 0)
             status = add_transition_row(&w->transition, job, ramp, &u, &found, err);
         if (status == WT_OK)
             status = add_moduli_rows(&w->moduli, job, ramp, &u, err);
@@ -420,7 +405,7 @@ wt_status wt_ramp_compute(const wt_ramp_job *job, const wt_job *work, wt_ramp_ta
     if (status == WT_OK)
         status = flow_require_oscillation(&sweep, "a temperature sweep", err);
     if (status == WT_OK)
-        status = add_isotherm_ramps(&sweep, err);
+        add_isotherm_ramps(&sweep);
     if (status == WT_OK && sweep.n_ramps == 0) {
         status = wt_fail(err, WT_E_EMPTY, "no temperature sweep could be read");
         wt_error_expected(err, "moduli at one frequency at %d temperatures or more", MIN_POINTS);

@@ -1,12 +1,11 @@
 /* Converts temperature sweeps to isotherms. Points of neighbouring temperatures form one
  * isotherm. The shift law, found in the same fit, moves each point to its temperature.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "dma/ramp_windows.h"
+#include "dma/master.h"
 
 #include "core/base/array.h"
-#include "dma/sweep_input.h"
-
 #include "core/base/clocale.h"
+#include "dma/sweep_input.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -26,7 +25,6 @@ enum {
 static const double same_frequency = 1e-3; /* exports with four digits differ by 5e-4 */
 /* The rounds end if no point moves farther [decade]: 1 %, the size of the noise. */
 static const double convergence_limit = 0.005;
-
 enum { STORAGE, LOSS, FACTOR, QUANTITIES };
 
 typedef struct window_point {
@@ -135,10 +133,8 @@ static wt_status build_windows(const wt_sweep *sweep, windows *w, wt_error *err)
     size_t n = 0;
     for (size_t i = 0; i < sweep->n_ramps; i++)
         n += sweep->ramps[i].n;
-    w->window_point = malloc((n + 1) * sizeof *w->window_point);
-    w->first = malloc((n + 2) * sizeof *w->first);
-    if (w->window_point == NULL || w->first == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    w->window_point = wt_alloc(n, sizeof *w->window_point);
+    w->first = wt_alloc(n + 2, sizeof *w->first);
     for (size_t i = 0; i < sweep->n_ramps; i++)
         add_sweep_points(&sweep->ramps[i], (n + MOST_POINTS - 1) / MOST_POINTS, w);
     if (w->n_points == 0)
@@ -148,19 +144,15 @@ static wt_status build_windows(const wt_sweep *sweep, windows *w, wt_error *err)
     return WT_OK;
 }
 
-static wt_status add_window_isotherms(wt_sweep *sweep, windows *w, wt_error *err)
+static void add_window_isotherms(wt_sweep *sweep, windows *w)
 {
-    w->isotherm = malloc(w->n * sizeof *w->isotherm);
-    if (w->isotherm == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    w->isotherm = wt_alloc(w->n, sizeof *w->isotherm);
     for (size_t i = 0; i < w->n; i++) {
         const size_t first = w->first[i], n = w->first[i + 1] - first;
         bool factor = false;
         for (size_t k = 0; k < n; k++)
             factor = factor || isfinite(w->window_point[first + k].value[FACTOR]);
         wt_isotherm *t = wt_sweep_add(sweep, n, factor ? WT_SWEEP_HAS_LOSS_FACTOR : 0);
-        if (t == NULL)
-            return wt_fail(err, WT_E_MEMORY, "out of memory");
         double sum = 0;
         for (size_t k = 0; k < n; k++)
             sum += w->window_point[first + k].temperature;
@@ -170,7 +162,6 @@ static wt_status add_window_isotherms(wt_sweep *sweep, windows *w, wt_error *err
                       w->window_point[first + n - 1].temperature - WT_ZERO_CELSIUS);
         w->isotherm[i] = *t;
     }
-    return WT_OK;
 }
 
 /* Updates the shift of each point by the fitted law. The residual shrinks by the same factor in
@@ -277,7 +268,7 @@ wt_status flow_ramps_fit(wt_sweep *sweep, const wt_master_options *options,
     if (status == WT_OK)
         status = build_windows(sweep, &w, err);
     if (status == WT_OK)
-        status = add_window_isotherms(sweep, &w, err);
+        add_window_isotherms(sweep, &w);
     if (status == WT_OK && is_stated)
         status = set_stated_shifts(&w, given, sweep, err);
     wt_master_options quick = *options;

@@ -196,9 +196,7 @@ static wt_status table_material(const wt_rubber *rubber, double a, double b, wt_
     const size_t n = points->n;
     const double to_young =
         rubber->sweep.deformation == WT_SHEAR ? 2 * (1 + rubber->poisson_ratio) : 1;
-    double *omega = malloc((3 * n + 1) * sizeof *omega);
-    if (omega == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    double *omega = wt_alloc(3 * n, sizeof *omega);
     double *storage = omega + n, *loss = storage + n;
     for (size_t i = 0; i < n; i++) {
         omega[i] = points->angular_frequency[i] / a;

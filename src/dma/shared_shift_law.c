@@ -7,7 +7,6 @@
 #include "core/table/table_rows.h"
 
 #include <math.h>
-#include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -132,31 +131,13 @@ static void format_shift_law_option(const wt_shared_shift_law *law, double refer
                       law->activation_energy.value / 1000);
 }
 
-/* Text buffer with space for the text of each sample. */
-typedef struct text_list {
-    char *text; /* NULL: out of memory */
-    size_t size, used;
-} text_list;
-
-static text_list list_new(const wt_shared_shift_law_job *job)
+/* Returns the size of a text with an item for each sample. */
+static size_t list_size(const wt_shared_shift_law_job *job)
 {
-    text_list made = {.size = 1};
+    size_t size = 1;
     for (size_t i = 0; i < job->n; i++)
-        made.size += strlen(job->names[i]) + MAX_SAMPLE_TEXT;
-    made.text = calloc(made.size, 1);
-    return made;
-}
-
-static void append_list_text(text_list *to, const char *format, ...) WT_PRINTF(2, 3);
-static void append_list_text(text_list *to, const char *format, ...)
-{
-    if (to->text == NULL)
-        return;
-    va_list arguments;
-    va_start(arguments, format);
-    clocale_vprint(to->text + to->used, to->size - to->used, format, arguments);
-    va_end(arguments);
-    to->used += strlen(to->text + to->used);
+        size += strlen(job->names[i]) + MAX_SAMPLE_TEXT;
+    return size;
 }
 
 static void set_sample_keys(const wt_shared_shift_law_job *job, const wt_shared_shift_law *law,
@@ -164,35 +145,32 @@ static void set_sample_keys(const wt_shared_shift_law_job *job, const wt_shared_
 {
     char one[MAX_SAMPLE_TEXT];
     const bool each = job->common == WT_SHARED_LAW_SHIFTED;
-    text_list moved = list_new(job), given = list_new(job), without = list_new(job);
+    const size_t size = list_size(job);
+    char *moved = wt_alloc(size, 1), *given = wt_alloc(size, 1), *without = wt_alloc(size, 1);
     for (size_t i = 0; i < law->n_members; i++) {
         const wt_shared_law_member *m = &law->members[i];
         if (!m->used) {
-            append_list_text(&without, "%s%s: %s", without.used > 0 ? ", " : "", job->names[i],
-                             m->reason);
+            clocale_append(without, size, "%s%s: %s", without[0] != '\0' ? ", " : "", job->names[i],
+                           m->reason);
             continue;
         }
         const double reference = law->reference + m->reference_offset.value;
-        append_list_text(&moved, "%s%s %.2f °C", moved.used > 0 ? ", " : "", job->names[i],
-                         reference - WT_ZERO_CELSIUS);
+        clocale_append(moved, size, "%s%s %.2f °C", moved[0] != '\0' ? ", " : "", job->names[i],
+                       reference - WT_ZERO_CELSIUS);
         if (m->reference_offset.standard_error > 0)
-            append_list_text(&moved, " ± %.2g K", m->reference_offset.standard_error);
+            clocale_append(moved, size, " ± %.2g K", m->reference_offset.standard_error);
         format_shift_law_option(law, reference, one, sizeof one);
-        if (each || given.used == 0)
-            append_list_text(&given, "%s%s%s%s", given.used > 0 ? "; " : "",
-                             each ? job->names[i] : "", each ? " " : "", one);
+        if (each || given[0] == '\0')
+            clocale_append(given, size, "%s%s%s%s", given[0] != '\0' ? "; " : "",
+                           each ? job->names[i] : "", each ? " " : "", one);
     }
-    if (moved.text == NULL || given.text == NULL || without.text == NULL) {
-        t->status = wt_fail(t->err, WT_E_MEMORY, "out of memory");
-    } else {
-        shared_shift_law_set_text(t, SHARED_SHIFT_LAW_KEY_MOVED, moved.text);
-        shared_shift_law_set_text(t, SHARED_SHIFT_LAW_KEY_SHIFT_LAW, given.text);
-        if (without.used > 0)
-            shared_shift_law_set_text(t, SHARED_SHIFT_LAW_KEY_LEFT_OUT, without.text);
-    }
-    free(moved.text);
-    free(given.text);
-    free(without.text);
+    shared_shift_law_set_text(t, SHARED_SHIFT_LAW_KEY_MOVED, moved);
+    shared_shift_law_set_text(t, SHARED_SHIFT_LAW_KEY_SHIFT_LAW, given);
+    if (without[0] != '\0')
+        shared_shift_law_set_text(t, SHARED_SHIFT_LAW_KEY_LEFT_OUT, without);
+    free(moved);
+    free(given);
+    free(without);
 }
 
 static void set_constant_keys(const wt_shared_shift_law *law, table_writer *t)

@@ -1,22 +1,17 @@
 /* Strain softening of the rubber from strain sweeps or from a table.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dma/strain_softening.h"
-#include "job/random_draws.h"
 
 #include "core/base/array.h"
 #include "core/base/clocale.h"
 #include "core/base/range_text.h"
 #include "core/math/normal_quantile.h"
 #include "core/table/registry.h"
+#include "job/random_draws.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-static wt_status fail_memory(wt_error *err)
-{
-    return wt_fail(err, WT_E_MEMORY, "out of memory for the softening with strain");
-}
 
 wt_strain_softening_choice wt_strain_softening_choice_defaults(void)
 {
@@ -32,19 +27,14 @@ void wt_strain_softening_clear(wt_strain_softening *softening)
 }
 
 /* Allocates n points, with or without errors. */
-static wt_status softening_alloc(wt_strain_softening *s, size_t n, bool errors, wt_error *err)
+static wt_strain_softening softening_alloc(size_t n, bool errors)
 {
-    double *numbers = calloc(5 * n, sizeof *numbers);
-    if (numbers == NULL)
-        return fail_memory(err);
-    *s = (wt_strain_softening){
+    double *numbers = wt_alloc(5 * n, sizeof *numbers);
+    return (wt_strain_softening){
         .table = {.n = n, .strain = numbers, .storage = numbers + n, .loss = numbers + 2 * n},
+        .storage_error = errors ? numbers + 3 * n : NULL,
+        .loss_error = errors ? numbers + 4 * n : NULL,
         .temperature = (double)NAN};
-    if (errors) {
-        s->storage_error = numbers + 3 * n;
-        s->loss_error = numbers + 4 * n;
-    }
-    return WT_OK;
 }
 
 static bool is_positive(double x)
@@ -65,7 +55,8 @@ typedef struct softening_sweep {
 static const double same_strain = 0.05;
 
 /* Sweeps within 1.5 K have one temperature, as two runs of a chamber. A warning appears if the
- * nearest temperature is more than 10 K from the requested one; that limit is chosen. */
+ * nearest temperature is more than 10 K from the requested one. By the universal WLF constants
+ * 10 K are 0.8 decade of time 50 K above the glass transition, most of a relaxation time. */
 static const double same_temperature = 1.5, other_temperature = 10;
 
 /* Returns true if a row has moduli and matches the selected temperature and sample (NaN, NULL:
@@ -274,9 +265,9 @@ static wt_status average_sweeps(const softening_sweep *sweeps, size_t n, double 
                                 wt_strain_softening *s, wt_error *err)
 {
     const size_t points = common_strains(sweeps, n, x, err);
-    wt_status status = points > 0 ? softening_alloc(s, points, n > 1, err) : WT_E_RANGE;
-    if (status != WT_OK)
-        return status;
+    if (points == 0)
+        return WT_E_RANGE;
+    *s = softening_alloc(points, n > 1);
     compute_mean(sweeps, n, x, false, s->table.storage, s->storage_error, points);
     compute_mean(sweeps, n, x, true, s->table.loss, s->loss_error, points);
     for (size_t k = 0; k < points; k++)
@@ -296,16 +287,12 @@ static wt_status read_strain_sweeps(const wt_table *table, wt_strain_softening_c
         status = select_temperature(&v, &choice, err);
     if (status != WT_OK)
         return status;
-    double *numbers = calloc(4 * v.n_rows + 1, sizeof *numbers);
-    softening_sweep *sweeps = calloc(v.n_rows + 1, sizeof *sweeps);
-    size_t n = 0;
-    if (numbers == NULL || sweeps == NULL)
-        status = fail_memory(err);
-    else
-        n = collect_sweeps(
-            &v, choice, (softening_sweep){0, numbers, numbers + v.n_rows, numbers + 2 * v.n_rows},
-            sweeps);
-    if (status == WT_OK && n == 0) {
+    double *numbers = wt_alloc(4 * v.n_rows, sizeof *numbers);
+    softening_sweep *sweeps = wt_alloc(v.n_rows, sizeof *sweeps);
+    const size_t n = collect_sweeps(
+        &v, choice, (softening_sweep){0, numbers, numbers + v.n_rows, numbers + 2 * v.n_rows},
+        sweeps);
+    if (n == 0) {
         status = wt_fail(err, WT_E_EMPTY, "no strain sweep has both moduli");
         wt_error_expected(err, "storage_ratio and loss_ratio above 0 in the table payne_sweep");
     }
@@ -359,9 +346,7 @@ static wt_status read_softening_table(const wt_table *table, wt_strain_softening
         wt_error_found(err, "%s", names[column[F_ERROR] >= 0 ? F_ERROR : G_ERROR]);
         return WT_E_MISSING;
     }
-    status = softening_alloc(s, n, column[F_ERROR] >= 0, err);
-    if (status != WT_OK)
-        return status;
+    *s = softening_alloc(n, column[F_ERROR] >= 0);
     double *const to[N_COLUMNS] = {s->table.strain, s->table.storage, s->table.loss,
                                    s->storage_error, s->loss_error};
     for (size_t i = 0; i < N_COLUMNS; i++)
@@ -472,21 +457,19 @@ static void scale_curve(double *value, const double *error, size_t n, double nor
         value[k] *= exp(normal * error[k] / value[k]);
 }
 
-wt_status strain_softening_draw(const wt_strain_softening *softening, uint64_t seed,
-                                size_t replicate, wt_strain_softening *drawn, wt_error *err)
+wt_strain_softening strain_softening_draw(const wt_strain_softening *softening, uint64_t seed,
+                                          size_t replicate)
 {
     const wt_softening *t = &softening->table;
-    const wt_status status = softening_alloc(drawn, t->n, false, err);
-    if (status != WT_OK)
-        return status;
-    memcpy(drawn->table.strain, t->strain, t->n * sizeof *t->strain);
-    memcpy(drawn->table.storage, t->storage, t->n * sizeof *t->storage);
-    memcpy(drawn->table.loss, t->loss, t->n * sizeof *t->loss);
-    if (replicate == WT_NO_REPLICATE)
-        return WT_OK;
-    scale_curve(drawn->table.storage, softening->storage_error, t->n,
-                flow_draw_normal(seed, replicate, FLOW_DRAW_SOFT_STORAGE));
-    scale_curve(drawn->table.loss, softening->loss_error, t->n,
-                flow_draw_normal(seed, replicate, FLOW_DRAW_SOFT_LOSS));
-    return WT_OK;
+    wt_strain_softening drawn = softening_alloc(t->n, false);
+    memcpy(drawn.table.strain, t->strain, t->n * sizeof *t->strain);
+    memcpy(drawn.table.storage, t->storage, t->n * sizeof *t->storage);
+    memcpy(drawn.table.loss, t->loss, t->n * sizeof *t->loss);
+    if (replicate != WT_NO_REPLICATE) {
+        scale_curve(drawn.table.storage, softening->storage_error, t->n,
+                    flow_draw_normal(seed, replicate, FLOW_DRAW_SOFT_STORAGE));
+        scale_curve(drawn.table.loss, softening->loss_error, t->n,
+                    flow_draw_normal(seed, replicate, FLOW_DRAW_SOFT_LOSS));
+    }
+    return drawn;
 }

@@ -11,8 +11,7 @@ bool strain_softening_has_errors(const wt_strain_softening *softening);
 void strain_softening_describe(const wt_strain_softening *softening, char *text, size_t size);
 /* Creates a copy without errors for a replicate (WT_NO_REPLICATE: unchanged). The caller clears
  * it. */
-wt_status strain_softening_draw(const wt_strain_softening *softening, uint64_t seed,
-                                size_t replicate, wt_strain_softening *drawn,
-                                wt_error *err) WT_NODISCARD;
+wt_strain_softening strain_softening_draw(const wt_strain_softening *softening, uint64_t seed,
+                                          size_t replicate);
 
 #endif

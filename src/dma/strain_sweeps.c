@@ -30,32 +30,29 @@ typedef struct usable_points {
     bool loss_measured;
 } usable_points;
 
-static wt_status select_usable_points(const wt_strain_sweep *sweep, arena *memory, wt_log *log,
-                                      usable_points *u, wt_error *err)
+static usable_points select_usable_points(const wt_strain_sweep *sweep, arena *memory, wt_log *log)
 {
-    *u = (usable_points){.strain = arena_numbers(memory, sweep->n),
-                         .storage = arena_numbers(memory, sweep->n),
-                         .loss = arena_numbers(memory, sweep->n)};
-    if (memory->failed)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    usable_points u = {.strain = arena_numbers(memory, sweep->n),
+                       .storage = arena_numbers(memory, sweep->n),
+                       .loss = arena_numbers(memory, sweep->n)};
     bool storage_only = true;
     for (size_t i = 0; i < sweep->n && storage_only; i++)
         storage_only = isnan(sweep->loss_modulus[i]);
-    u->loss_measured = !storage_only;
+    u.loss_measured = !storage_only;
     for (size_t i = 0; i < sweep->n; i++) {
         const double storage = sweep->storage_modulus[i], loss = sweep->loss_modulus[i];
         if (!(storage > 0 && isfinite(storage) && (storage_only || (loss > 0 && isfinite(loss)))))
             continue;
-        u->strain[u->n] = sweep->strain[i];
-        u->storage[u->n] = storage;
-        u->loss[u->n++] = loss;
+        u.strain[u.n] = sweep->strain[i];
+        u.storage[u.n] = storage;
+        u.loss[u.n++] = loss;
     }
-    if (u->n < sweep->n)
+    if (u.n < sweep->n)
         wt_log_add(log, WT_WARNING, sweep->source, NULL,
                    "strain sweep at %.4g rad/s: %zu of %zu points left out, no positive "
                    "modulus",
-                   sweep->angular_frequency, sweep->n - u->n, sweep->n);
-    return WT_OK;
+                   sweep->angular_frequency, sweep->n - u.n, sweep->n);
+    return u;
 }
 
 TABLE_ROW(payne_sweep, PAYNE_SWEEP, double strain, angular_frequency, temperature, storage, loss,
@@ -92,10 +89,9 @@ static wt_status build_payne_tables(const wt_job *work, const wt_sweep *sweep, w
     for (size_t i = 0; i < sweep->n_strain_sweeps && status == WT_OK; i++) {
         const wt_strain_sweep *s = &sweep->strain_sweeps[i];
         arena memory = {0};
-        usable_points u;
+        const usable_points u = select_usable_points(s, &memory, work->log);
         wt_payne payne;
-        status = select_usable_points(s, &memory, work->log, &u, err);
-        if (status == WT_OK && u.n > 0) {
+        if (u.n > 0) {
             status = wt_payne_fit(u.strain, u.storage, u.loss_measured ? u.loss : NULL, u.n, &payne,
                                   err);
             if (status == WT_OK) {

@@ -18,63 +18,54 @@ static unsigned optional_arrays(sweep_points p)
            (p.array[SWEEP_LOSS_FACTOR] != NULL ? (unsigned)WT_SWEEP_HAS_LOSS_FACTOR : 0);
 }
 
-/* Copies the arrays and the sample name. Returns false if memory is exhausted. */
-static bool copy_points(sweep_points to, sweep_points from, char **sample)
+/* Copies the arrays and the sample name. */
+static void copy_points(sweep_points to, sweep_points from, char **sample)
 {
     for (size_t j = 0; j < SWEEP_ARRAYS; j++)
         if (to.array[j] != NULL)
             memcpy(to.array[j], from.array[j], from.n * sizeof(double));
-    *sample = from.sample != NULL ? strdup(from.sample) : NULL;
-    return from.sample == NULL || *sample != NULL;
+    *sample = from.sample != NULL ? wt_strdup(from.sample) : NULL;
 }
 
-static bool copy_isotherm(wt_sweep *to, const wt_isotherm *s)
+static void copy_isotherm(wt_sweep *to, const wt_isotherm *s)
 {
     const sweep_points from = isotherm_points(s);
     wt_isotherm *t = wt_sweep_add(to, s->n, optional_arrays(from));
-    if (t == NULL)
-        return false;
     t->temperature = s->temperature;
     t->temperature_spread = s->temperature_spread;
     memcpy(t->source, s->source, sizeof t->source);
-    return copy_points(isotherm_points(t), from, &t->sample);
+    copy_points(isotherm_points(t), from, &t->sample);
 }
 
-static bool copy_ramp(wt_sweep *to, const wt_ramp *s)
+static void copy_ramp(wt_sweep *to, const wt_ramp *s)
 {
     const sweep_points from = ramp_points(s);
     wt_ramp *t = wt_sweep_add_ramp(to, s->n, optional_arrays(from));
-    if (t == NULL)
-        return false;
     t->angular_frequency = s->angular_frequency;
     memcpy(t->source, s->source, sizeof t->source);
-    return copy_points(ramp_points(t), from, &t->sample);
+    copy_points(ramp_points(t), from, &t->sample);
 }
 
-static bool copy_strain_sweep(wt_sweep *to, const wt_strain_sweep *s)
+static void copy_strain_sweep(wt_sweep *to, const wt_strain_sweep *s)
 {
     wt_strain_sweep *t = wt_sweep_add_strain_sweep(to, s->n);
-    if (t == NULL)
-        return false;
     t->angular_frequency = s->angular_frequency;
     t->temperature = s->temperature;
     memcpy(t->source, s->source, sizeof t->source);
-    return copy_points(strain_sweep_points(t), strain_sweep_points(s), &t->sample);
+    copy_points(strain_sweep_points(t), strain_sweep_points(s), &t->sample);
 }
 
 /* Copies all sweeps to `to`, which must be empty. */
-static wt_status copy_sweep(wt_sweep *to, const wt_sweep *from, wt_error *err)
+static void copy_sweep(wt_sweep *to, const wt_sweep *from)
 {
-    bool good = true;
     to->deformation = from->deformation;
     to->loading = from->loading;
-    for (size_t i = 0; i < from->n_isotherms && good; i++)
-        good = copy_isotherm(to, &from->isotherms[i]);
-    for (size_t i = 0; i < from->n_ramps && good; i++)
-        good = copy_ramp(to, &from->ramps[i]);
-    for (size_t i = 0; i < from->n_strain_sweeps && good; i++)
-        good = copy_strain_sweep(to, &from->strain_sweeps[i]);
-    return good ? WT_OK : wt_fail(err, WT_E_MEMORY, "out of memory");
+    for (size_t i = 0; i < from->n_isotherms; i++)
+        copy_isotherm(to, &from->isotherms[i]);
+    for (size_t i = 0; i < from->n_ramps; i++)
+        copy_ramp(to, &from->ramps[i]);
+    for (size_t i = 0; i < from->n_strain_sweeps; i++)
+        copy_strain_sweep(to, &from->strain_sweeps[i]);
 }
 
 static size_t count_sweeps(const wt_sweep *sweep)
@@ -85,8 +76,10 @@ static size_t count_sweeps(const wt_sweep *sweep)
 static wt_status read_sweeps(const wt_file_set *sets, size_t n_sets, const wt_job *work,
                              wt_sweep *sweep, wt_error *err)
 {
-    if (work->dma != NULL && count_sweeps(work->dma) > 0)
-        return copy_sweep(sweep, work->dma, err);
+    if (work->dma != NULL && count_sweeps(work->dma) > 0) {
+        copy_sweep(sweep, work->dma);
+        return WT_OK;
+    }
     flow_files files = {NULL, 0, NULL};
     wt_status status = flow_files_list(sets, n_sets, work, &files, err);
     for (size_t i = 0; status == WT_OK && i < files.n; i++) {
@@ -117,7 +110,7 @@ static wt_status read_sweeps(const wt_file_set *sets, size_t n_sets, const wt_jo
         wt_sweep_sort(sweep);
         wt_sweep_remove_duplicates(sweep, work->log);
         if (work->dma != NULL)
-            status = copy_sweep(work->dma, sweep, err);
+            copy_sweep(work->dma, sweep);
     }
     flow_files_clear(&files);
     return status;
@@ -147,11 +140,9 @@ wt_status wt_sample_names_read(const wt_file_set *sets, size_t n_sets, const wt_
 {
     wt_sweep sweep = {0};
     *samples = (wt_sample_names){0, NULL};
-    wt_status status = flow_sweeps_read(sets, n_sets, work, &sweep, err);
+    const wt_status status = flow_sweeps_read(sets, n_sets, work, &sweep, err);
     if (status == WT_OK)
-        status = flow_samples_find(&sweep, samples, err);
-    if (status != WT_OK)
-        wt_sample_names_clear(samples);
+        *samples = flow_samples_find(&sweep);
     wt_sweep_clear(&sweep);
     return status;
 }

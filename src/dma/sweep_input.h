@@ -17,10 +17,8 @@ wt_status flow_sweeps_read(const wt_file_set *sets, size_t n_sets, const wt_job 
 /* Returns WT_E_UNSUPPORTED for step experiments. `what` names the data that need an oscillation. */
 wt_status flow_require_oscillation(const wt_sweep *sweep, const char *what,
                                    wt_error *err) WT_NODISCARD;
-/* Lists the samples of isotherms and temperature sweeps. `samples` must be empty; the caller
- * clears it. */
-wt_status flow_samples_find(const wt_sweep *sweep, wt_sample_names *samples,
-                            wt_error *err) WT_NODISCARD;
+/* Lists the samples of isotherms and temperature sweeps. The caller clears the list. */
+wt_sample_names flow_samples_find(const wt_sweep *sweep);
 /* Removes the sweeps of other samples, unless `name` is NULL or "all". Returns WT_E_NOT_FOUND if
  * no sweep has this sample. */
 wt_status flow_select_sample(wt_sweep *sweep, const char *name, wt_error *err) WT_NODISCARD;

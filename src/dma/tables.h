@@ -320,4 +320,204 @@
     X(SERIES_DRAWS_MODULUS, AS(modulus), "modulus of the term", SI(MODULUS))
 #define SERIES_DRAWS_KEYS(X)
 
+/* A number with its limits, which are missing if its error is unknown. */
+#define VALUE_AND_INTERVAL(X, ID, name, words, unit, ...)                                          \
+    X(ID, name, words, unit, INTERVAL(ID##_LOW, ID##_HIGH), __VA_ARGS__)                           \
+    X(ID##_LOW, name "_low", "lower end of its 95 % interval", unit, SPARSE)                       \
+    X(ID##_HIGH, name "_high", "upper end of its 95 % interval", unit, SPARSE)
+
+/* One block for each material. */
+#define MATERIALS_COLUMNS(X)                                                                       \
+    X(MATERIALS_MATERIAL, AS(material), "name of the material", TEXT)                              \
+    X(MATERIALS_ANGULAR_FREQUENCY, AS(angular_frequency), "angular frequency",                     \
+      SI(ANGULAR_FREQUENCY))                                                                       \
+    VALUE_AND_INTERVAL(X, MATERIALS_STORAGE, "storage_modulus", "storage modulus",                 \
+                       SI(STORAGE_MODULUS), SHOWS(storage))                                        \
+    VALUE_AND_INTERVAL(X, MATERIALS_LOSS, "loss_modulus", "loss modulus", SI(LOSS_MODULUS),        \
+                       SHOWS(loss))                                                                \
+    VALUE_AND_INTERVAL(X, MATERIALS_FACTOR, "loss_factor", "tan delta", NUMBER, SHOWS(factor))
+#define MATERIALS_KEYS(X) X(MATERIALS_KEY_TEMPERATURE, "temperature", SI(TEMPERATURE))
+
+/* One block over frequency and one over temperature for each material except the first. */
+#define MATERIAL_RATIO_COLUMNS(X)                                                                  \
+    X(MATERIAL_RATIO_MATERIAL, AS(material), "material whose moduli are divided by the first's",   \
+      TEXT)                                                                                        \
+    X(MATERIAL_RATIO_OVER, AS(over), "frequency or temperature: what changes in the block", TEXT)  \
+    X(MATERIAL_RATIO_TEMPERATURE, AS(temperature), "temperature", SI(TEMPERATURE))                 \
+    X(MATERIAL_RATIO_ANGULAR_FREQUENCY, AS(angular_frequency), "angular frequency",                \
+      SI(ANGULAR_FREQUENCY))                                                                       \
+    VALUE_AND_INTERVAL(X, MATERIAL_RATIO_STORAGE, "storage_ratio", "ratio of the storage moduli",  \
+                       NUMBER, SHOWS(storage))                                                     \
+    VALUE_AND_INTERVAL(X, MATERIAL_RATIO_LOSS, "loss_ratio", "ratio of the loss moduli", NUMBER,   \
+                       SHOWS(loss))                                                                \
+    VALUE_AND_INTERVAL(X, MATERIAL_RATIO_FACTOR, "loss_factor_ratio", "ratio of tan delta",        \
+                       NUMBER, SHOWS(factor))
+
+#define MATERIAL_RATIO_KEYS(X)                                                                     \
+    X(MATERIAL_RATIO_KEY_DIFFERS, AS(differs), TEXT, LABEL("Do the materials differ"),             \
+      HEADLINE("Do the materials differ"))                                                         \
+    X(MATERIAL_RATIO_KEY_SETTLED_BY, AS(settled_by), TEXT, LABEL("What would settle it"),          \
+      OPTIONAL)                                                                                    \
+    X(MATERIAL_RATIO_KEY_FIRST, AS(first_material), TEXT, LABEL("Divided by"))                     \
+    X(MATERIAL_RATIO_KEY_TEMPERATURE, AS(temperature), SI(TEMPERATURE),                            \
+      LABEL("Temperature, over frequency"))                                                        \
+    X(MATERIAL_RATIO_KEY_FREQUENCY, AS(angular_frequency), SI(ANGULAR_FREQUENCY),                  \
+      LABEL("Angular frequency, over temperature"), OPTIONAL)                                      \
+    X(MATERIAL_RATIO_KEY_INCLUDES, "interval_includes", TEXT, SHOWS(includes),                     \
+      LABEL("The interval includes"), OPTIONAL)                                                    \
+    X(MATERIAL_RATIO_KEY_LACKS, "interval_excludes", TEXT, SHOWS(lacks),                           \
+      LABEL("It does not include"), OPTIONAL)                                                      \
+    X(MATERIAL_RATIO_KEY_OUTSIDE, AS(outside), TEXT, LABEL("Not compared: measured of one alone"), \
+      OPTIONAL)                                                                                    \
+    X(MATERIAL_RATIO_KEY_MARGIN, "equivalence_margin", PLAIN, SHOWS(margin),                       \
+      LABEL("Margin within which they are alike"))
+
+#define RAMP_COLUMNS(X)                                                                            \
+    X(RAMP_TEMPERATURE, AS(temperature), "temperature", SI(TEMPERATURE))                           \
+    X(RAMP_ANGULAR_FREQUENCY, AS(angular_frequency), "angular frequency", SI(ANGULAR_FREQUENCY))   \
+    X(RAMP_STORAGE_MODULUS, AS(storage_modulus), "storage modulus", SI(STORAGE_MODULUS), SPARSE)   \
+    X(RAMP_LOSS_MODULUS, AS(loss_modulus), "loss modulus", SI(LOSS_MODULUS), SPARSE)               \
+    X(RAMP_LOSS_FACTOR, AS(loss_factor), "loss factor tan delta", SI(LOSS_FACTOR), SPARSE)         \
+    X(RAMP_SOURCE, AS(source), "file and step", TEXT)                                              \
+    X(RAMP_STRAIN, AS(strain), "strain amplitude", SI(STRAIN), SPARSE)
+#define RAMP_KEYS(X) X(RAMP_KEY_DEFORMATION, "deformation", ENUM(deformation))
+
+#define PEAK_COLUMNS(X, ID, name, words, unit, heading, peak)                                      \
+    NUMBER_AND_INTERVAL(X, ID##_PEAK, name "_peak_temperature",                                    \
+                        "temperature of the peak of " words, SI(TEMPERATURE), "Peak of " heading,  \
+                        SHOWS(peak.at))                                                            \
+    X(ID##_HEIGHT, name "_peak", "its height", unit, SHOWS(peak.height), LABEL("its height"),      \
+      SPARSE)                                                                                      \
+    X(ID##_POINTS, name "_points", "points that it is placed by", NUMBER, SHOWS(peak.points),      \
+      LABEL("Points"), SPARSE)                                                                     \
+    X(ID##_MISFIT, name "_misfit",                                                                 \
+      "root mean square of what they are off its curve, of the height", NUMBER,                    \
+      SHOWS(peak.misfit), LABEL("Misfit"), DIGITS(2), SPARSE)                                      \
+    X(ID##_NOTE, name "_note", "why there is no peak or no interval", TEXT, SHOWS(peak.why_not),   \
+      LABEL("Note"))
+
+#define GLASS_TRANSITION_COLUMNS(X)                                                                \
+    X(GLASS_TRANSITION_ANGULAR_FREQUENCY, AS(angular_frequency), "angular frequency",              \
+      SI(ANGULAR_FREQUENCY), LABEL("Angular frequency"))                                           \
+    PEAK_COLUMNS(X, GLASS_TRANSITION_FACTOR, "loss_factor", "tan delta", SI(LOSS_FACTOR), "tan δ", \
+                 factor)                                                                           \
+    PEAK_COLUMNS(X, GLASS_TRANSITION_LOSS, "loss_modulus", "the loss modulus", SI(LOSS_MODULUS),   \
+                 "the loss modulus", loss)                                                         \
+    NUMBER_AND_INTERVAL(X, GLASS_TRANSITION_ONSET, "storage_modulus_onset_temperature",            \
+                        "temperature at which the storage modulus begins to fall, by tangents",    \
+                        SI(TEMPERATURE), "Onset of the storage modulus", SHOWS(onset))             \
+    X(GLASS_TRANSITION_ONSET_NOTE, AS(onset_note), "why there is no onset", TEXT, LABEL("Note"))   \
+    X(GLASS_TRANSITION_TEMPERATURE_MIN, AS(temperature_min), "coldest point", SI(TEMPERATURE))     \
+    X(GLASS_TRANSITION_TEMPERATURE_MAX, AS(temperature_max), "warmest point", SI(TEMPERATURE))     \
+    X(GLASS_TRANSITION_OTHER, AS(other),                                                           \
+      "1: a lower peak beside the largest one, in a row of its own", YES_NO, LABEL("Lower peak"))  \
+    X(GLASS_TRANSITION_SOURCE, AS(source), "file and step", TEXT)
+/* The keys describe the frequency nearest to 1 Hz that has a peak. The energies use all
+ * frequencies. */
+#define GLASS_TRANSITION_KEYS(X)                                                                   \
+    X(GLASS_TRANSITION_KEY_FACTOR_PEAK, "loss_factor_peak_temperature", SI(TEMPERATURE),           \
+      SHOWS(factor_peak), HEADLINE("Glass transition (peak of tan δ)"), OPTIONAL)                  \
+    X(GLASS_TRANSITION_KEY_LOSS_PEAK, "loss_modulus_peak_temperature", SI(TEMPERATURE),            \
+      SHOWS(loss_peak), HEADLINE("Glass transition (peak of the loss modulus)"), OPTIONAL)         \
+    X(GLASS_TRANSITION_KEY_ONSET, "storage_modulus_onset_temperature", SI(TEMPERATURE),            \
+      SHOWS(onset), LABEL("Onset of the fall of the storage modulus"), OPTIONAL)                   \
+    X(GLASS_TRANSITION_KEY_FACTOR_ENERGY, "loss_factor_activation_energy", UNIT("J/mol"),          \
+      SHOWS(factor_energy), LABEL("Activation energy of the peak of tan δ"), OPTIONAL)             \
+    X(GLASS_TRANSITION_KEY_LOSS_ENERGY, "loss_modulus_activation_energy", UNIT("J/mol"),           \
+      SHOWS(loss_energy), LABEL("Activation energy of the peak of the loss modulus"), OPTIONAL)    \
+    X(GLASS_TRANSITION_KEY_ANGULAR_FREQUENCY, AS(angular_frequency), SI(ANGULAR_FREQUENCY),        \
+      LABEL("at the angular frequency"), OPTIONAL)                                                 \
+    X(GLASS_TRANSITION_KEY_DEFORMATION, AS(deformation), ENUM(deformation), LABEL("Deformation"))
+
+#define MODULI_AT_COLUMNS(X)                                                                       \
+    X(MODULI_AT_TEMPERATURE, AS(temperature), "temperature", SI(TEMPERATURE),                      \
+      LABEL("Temperature"))                                                                        \
+    X(MODULI_AT_ANGULAR_FREQUENCY, AS(angular_frequency), "angular frequency",                     \
+      SI(ANGULAR_FREQUENCY), LABEL("Angular frequency"))                                           \
+    NUMBER_AND_INTERVAL(X, MODULI_AT_STORAGE, "storage_modulus", "storage modulus",                \
+                        SI(STORAGE_MODULUS), "Storage modulus", SHOWS(modulus[STORAGE]))           \
+    NUMBER_AND_INTERVAL(X, MODULI_AT_LOSS, "loss_modulus", "loss modulus", SI(LOSS_MODULUS),       \
+                        "Loss modulus", SHOWS(modulus[LOSS]))                                      \
+    NUMBER_AND_INTERVAL(X, MODULI_AT_FACTOR, "loss_factor", "loss factor tan delta",               \
+                        SI(LOSS_FACTOR), "tan δ", SHOWS(modulus[FACTOR]))                          \
+    X(MODULI_AT_NOTE, AS(note), "why there is no value", TEXT, LABEL("Note"))                      \
+    X(MODULI_AT_SOURCE, AS(source), "file and step", TEXT)
+#define MODULI_AT_KEYS(X) X(MODULI_AT_KEY_DEFORMATION, "deformation", ENUM(deformation))
+
+/* The ratios are f and g of the friction job: moduli divided by those at the smallest
+ * amplitudes. */
+#define PAYNE_SWEEP_COLUMNS(X)                                                                     \
+    X(PAYNE_SWEEP_STRAIN, AS(strain), "strain amplitude", SI(STRAIN))                              \
+    X(PAYNE_SWEEP_ANGULAR_FREQUENCY, AS(angular_frequency), "angular frequency",                   \
+      SI(ANGULAR_FREQUENCY))                                                                       \
+    X(PAYNE_SWEEP_TEMPERATURE, AS(temperature), "temperature", SI(TEMPERATURE), SPARSE)            \
+    X(PAYNE_SWEEP_STORAGE_MODULUS, "storage_modulus", "storage modulus", SI(STORAGE_MODULUS),      \
+      SHOWS(storage))                                                                              \
+    X(PAYNE_SWEEP_LOSS_MODULUS, "loss_modulus", "loss modulus", SI(LOSS_MODULUS), SHOWS(loss))     \
+    X(PAYNE_SWEEP_LOSS_FACTOR, AS(loss_factor), "loss factor tan delta", SI(LOSS_FACTOR))          \
+    X(PAYNE_SWEEP_STORAGE_RATIO, AS(storage_ratio),                                                \
+      "storage modulus by that of the smallest amplitudes, f(strain)", NUMBER)                     \
+    X(PAYNE_SWEEP_LOSS_RATIO, AS(loss_ratio),                                                      \
+      "loss modulus by that of the smallest amplitudes, g(strain)", NUMBER)                        \
+    X(PAYNE_SWEEP_STORAGE_KRAUS, AS(storage_kraus), "storage modulus of the law of Kraus",         \
+      SI(STORAGE_MODULUS), SPARSE)                                                                 \
+    X(PAYNE_SWEEP_LOSS_KRAUS, AS(loss_kraus), "loss modulus of the law of Kraus",                  \
+      SI(LOSS_MODULUS), SPARSE)                                                                    \
+    X(PAYNE_SWEEP_SAMPLE, AS(sample), "name of the sample", TEXT, OPTIONAL, SPARSE)                \
+    X(PAYNE_SWEEP_SOURCE, AS(source), "file and step", TEXT)
+#define PAYNE_SWEEP_KEYS(X) X(PAYNE_SWEEP_KEY_DEFORMATION, "deformation", ENUM(deformation))
+
+/* The measured values come first, then the law of Kraus. */
+#define PAYNE_COLUMNS(X)                                                                           \
+    X(PAYNE_ANGULAR_FREQUENCY, IN(sweep, angular_frequency), "angular frequency",                  \
+      SI(ANGULAR_FREQUENCY), LABEL("Angular frequency"))                                           \
+    X(PAYNE_TEMPERATURE, IN(sweep, temperature), "temperature", SI(TEMPERATURE),                   \
+      LABEL("Temperature"), SPARSE)                                                                \
+    X(PAYNE_STORAGE_START, IN(payne, storage_start), "storage modulus of the smallest amplitudes", \
+      SI(STORAGE_MODULUS), LABEL("Storage modulus, smallest strain"))                              \
+    X(PAYNE_STORAGE_END, IN(payne, storage_end), "storage modulus of the largest amplitudes",      \
+      SI(STORAGE_MODULUS), LABEL("Storage modulus, largest strain"))                               \
+    X(PAYNE_STRAIN_TENTH, IN(payne, strain_tenth),                                                 \
+      "strain at which the storage modulus first lost a tenth of its start", SI(STRAIN),           \
+      LABEL("Strain, a tenth lost"), SPARSE)                                                       \
+    X(PAYNE_STRAIN_HALF, IN(payne, strain_half),                                                   \
+      "strain at which the storage modulus first lost half of its start", SI(STRAIN),              \
+      LABEL("Strain, half lost"), SPARSE)                                                          \
+    X(PAYNE_LOSS_MAX, IN(payne, loss_max), "largest loss modulus", SI(LOSS_MODULUS),               \
+      LABEL("Largest loss modulus"))                                                               \
+    X(PAYNE_STRAIN_LOSS_MAX, IN(payne, strain_loss_max),                                           \
+      "strain of the maximum of the loss modulus", SI(STRAIN), LABEL("Strain of its maximum"),     \
+      SPARSE)                                                                                      \
+    X(PAYNE_LOSS_NOTE, IN(payne, loss_note), "what the loss modulus lacks", TEXT, LABEL("Note"))   \
+    NUMBER_AND_INTERVAL(X, PAYNE_STORAGE_0, "storage_0", "Kraus: storage modulus at no strain",    \
+                        SI(STORAGE_MODULUS), "Kraus: storage modulus at no strain",                \
+                        SHOWS(payne.storage_0))                                                    \
+    NUMBER_AND_INTERVAL(X, PAYNE_STORAGE_INF, "storage_inf",                                       \
+                        "Kraus: storage modulus at large strain", SI(STORAGE_MODULUS),             \
+                        "Kraus: at large strain", SHOWS(payne.storage_inf))                        \
+    NUMBER_AND_INTERVAL(X, PAYNE_STRAIN_C, "strain_c", "Kraus: strain at half of the fall",        \
+                        SI(STRAIN), "Kraus: strain at half of the fall", SHOWS(payne.strain_c))    \
+    NUMBER_AND_INTERVAL(X, PAYNE_EXPONENT, "exponent", "Kraus: exponent m", NUMBER,                \
+                        "Kraus: exponent", SHOWS(payne.exponent))                                  \
+    NUMBER_AND_INTERVAL(X, PAYNE_LOSS_M, "loss_m", "Kraus: loss modulus at half of the fall",      \
+                        SI(LOSS_MODULUS), "Kraus: loss modulus at half of the fall",               \
+                        SHOWS(payne.loss_m))                                                       \
+    NUMBER_AND_INTERVAL(X, PAYNE_LOSS_INF, "loss_inf",                                             \
+                        "Kraus: loss modulus far from half of the fall", SI(LOSS_MODULUS),         \
+                        "Kraus: loss modulus far from it", SHOWS(payne.loss_inf))                  \
+    X(PAYNE_STORAGE_MISFIT, IN(payne, storage_misfit),                                             \
+      "root mean square of what the storage moduli are off the law, of storage_0", NUMBER,         \
+      LABEL("Misfit"), DIGITS(2), SPARSE)                                                          \
+    X(PAYNE_LOSS_MISFIT, IN(payne, loss_misfit),                                                   \
+      "root mean square of what the loss moduli are off the law, of the largest", NUMBER,          \
+      LABEL("Misfit of the loss modulus"), DIGITS(2), SPARSE)                                      \
+    X(PAYNE_NOTE, IN(payne, note), "why there is no law of Kraus, or what it lacks", TEXT,         \
+      LABEL("Note"))                                                                               \
+    X(PAYNE_POINTS, AS(points), "points", NUMBER, LABEL("Points"))                                 \
+    X(PAYNE_STRAIN_MIN, AS(strain_min), "smallest amplitude", SI(STRAIN))                          \
+    X(PAYNE_STRAIN_MAX, AS(strain_max), "largest amplitude", SI(STRAIN))                           \
+    X(PAYNE_SAMPLE, IN(sweep, sample), "name of the sample", TEXT, OPTIONAL, SPARSE)               \
+    X(PAYNE_SOURCE, IN(sweep, source), "file and step", TEXT)
+#define PAYNE_KEYS(X) X(PAYNE_KEY_DEFORMATION, "deformation", ENUM(deformation))
+
 #endif

@@ -99,15 +99,13 @@ static wt_status create_workspace(const wt_sliding *sliding, wt_friction_options
                                   wt_error *err)
 {
     wt_strain_softening strain_softening = {0};
-    wt_status status = WT_OK;
     if (sliding->strain_softening != NULL) {
-        status = strain_softening_draw(sliding->strain_softening, seed, replicate,
-                                       &strain_softening, err);
+        strain_softening = strain_softening_draw(sliding->strain_softening, seed, replicate);
         options.softening = &strain_softening.table;
         options.strain_factor = sliding->strain_factor;
     }
-    if (status == WT_OK)
-        status = wt_friction_workspace_new(c->material, c->roughness, &options, &c->workspace, err);
+    const wt_status status =
+        wt_friction_workspace_new(c->material, c->roughness, &options, &c->workspace, err);
     wt_strain_softening_clear(&strain_softening);
     return status;
 }

@@ -130,15 +130,13 @@ static void load_map(figure_drawing *d, size_t row, size_t end, drawn_scan *to)
         span_add(&to->height, height_map_get(t, i, HEIGHT_MAP_HEIGHT), false);
     }
     enum { NAME = 24 };
-    double *heights = malloc((end - row) * sizeof *heights);
-    char(*words)[NAME] = malloc(nx * sizeof *words);
-    const char **names = calloc(nx + 1, sizeof *names), **units = calloc(nx + 1, sizeof *units);
-    if (heights == NULL || words == NULL || names == NULL || units == NULL)
-        d->status = wt_fail(d->err, WT_E_MEMORY, "out of memory");
+    double *heights = wt_alloc(end - row, sizeof *heights);
+    char(*words)[NAME] = wt_alloc(nx, sizeof *words);
+    const char **names = wt_alloc(nx + 1, sizeof *names), **units = wt_alloc(nx + 1, sizeof *units);
     const double largest = fmax(fabs(to->height.low), fabs(to->height.high));
-    for (size_t i = row; i < end && d->status == WT_OK; i++)
+    for (size_t i = row; i < end; i++)
         heights[i - row] = round_height(height_map_get(t, i, HEIGHT_MAP_HEIGHT), largest);
-    for (size_t i = 0; i < nx && d->status == WT_OK; i++) {
+    for (size_t i = 0; i < nx; i++) {
         (void)snprintf(words[i], NAME, "h%zu", i + 1);
         names[i] = words[i];
         units[i] = "m";
@@ -146,7 +144,7 @@ static void load_map(figure_drawing *d, size_t row, size_t end, drawn_scan *to)
     to->step_x = (to->x.high - to->x.low) / (double)(nx > 1 ? nx - 1 : 1);
     to->step_y =
         (to->y.high - to->y.low) / (double)((end - row) / nx > 1 ? (end - row) / nx - 1 : 1);
-    if (d->status == WT_OK && !span_is_empty(&to->height))
+    if (!span_is_empty(&to->height))
         to->section = drawing_number_section(d, to->name, names, units, heights, (end - row) / nx);
     free(heights);
     free(words);
@@ -193,11 +191,7 @@ static void draw_height_maps(figure_drawing *d)
 static void load_profile(figure_drawing *d, size_t row, size_t end, drawn_scan *to)
 {
     static const char *const names[] = {"x", "height", NULL}, *const metres[] = {"m", "m"};
-    double *values = malloc((end - row) * 2 * sizeof *values), *value = values;
-    if (values == NULL) {
-        d->status = wt_fail(d->err, WT_E_MEMORY, "out of memory");
-        return;
-    }
+    double *values = wt_alloc((end - row) * 2, sizeof *values), *value = values;
     for (size_t i = row; i < end; i++) {
         *value++ = height_profile_get(d->table, i, HEIGHT_PROFILE_X);
         *value++ = height_profile_get(d->table, i, HEIGHT_PROFILE_HEIGHT);

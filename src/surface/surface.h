@@ -29,10 +29,6 @@ typedef struct surface_scan {
     wt_surface_anisotropy directions;
     surface_view view; /* set if heights are requested */
 } surface_scan;
-wt_status surface_view_maps(const surface_scan *scans, size_t n, wt_table **table,
-                            wt_error *err) WT_NODISCARD;
-wt_status surface_view_profiles(const surface_scan *scans, size_t n, wt_table **table,
-                                wt_error *err) WT_NODISCARD;
 
 /* Knots of the reported spectrum: measured ones, then those of the law. */
 typedef struct surface_knots {
@@ -76,9 +72,10 @@ double surface_next_bin_correlation(const wt_surface_spectrum *s, size_t bin);
 /* Returns the standard error of ln C of the law, without the place error that the whole spectrum
  * shares. */
 double surface_law_error(const surface_result *w, double wavenumber);
-/* Standard error of ln C of a knot due to the places of one scan size, or of all sizes. The law
- * has the error of the last bin. NaN if unknown or with one size. */
+/* Standard error of ln C of a knot due to the places of one scan size. The law has the error of
+ * the last bin. NaN if unknown or with one size. */
 double surface_knot_size_error(const wt_surface_spectrum *s, size_t knot, size_t size);
+/* The same due to the places of all sizes. */
 double surface_knot_position_error(const wt_surface_spectrum *s, size_t knot);
 /* Returns true if the anisotropy is significant. */
 bool surface_is_anisotropic(const wt_surface_anisotropy *directions);

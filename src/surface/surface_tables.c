@@ -9,7 +9,100 @@
 #include "weartrack/surface.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
+
+/* ---- heights, thinned for a figure ----------------------------------------------------------- */
+
+/* Maximum points along the side of all maps of a figure, and along a line: more than a page
+ * resolves. */
+enum { MOST_SIDE = 256, MOST_LINE = 2048 };
+
+void surface_view_clear(surface_view *view)
+{
+    free(view->z);
+    free(view->line);
+    *view = (surface_view){.nx = 0};
+}
+
+/* Returns the step that leaves at most `most` of n points. */
+static size_t thinning_step(size_t n, size_t most)
+{
+    return (n - 1) / most + 1;
+}
+
+static size_t thinned_count(size_t n, size_t step)
+{
+    return (n - 1) / step + 1;
+}
+
+static surface_view thin_heights(const wt_height_map *map, size_t most)
+{
+    const bool profile = map->ny == 1;
+    const size_t step = thinning_step(map->nx > map->ny ? map->nx : map->ny, most),
+                 along = thinning_step(map->nx, MOST_LINE);
+    const double *const row = map->z + map->ny / 2 * map->nx;
+    surface_view view = {.nx = profile ? 0 : thinned_count(map->nx, step),
+                         .ny = profile ? 0 : thinned_count(map->ny, step),
+                         .dx = map->dx * (double)step,
+                         .dy = map->dy * (double)step,
+                         .n_line = thinned_count(map->nx, along),
+                         .line_step = map->dx * (double)along};
+    view.z = wt_alloc(view.nx * view.ny, sizeof *view.z);
+    view.line = wt_alloc(view.n_line, sizeof *view.line);
+    for (size_t j = 0; j < view.ny; j++)
+        for (size_t i = 0; i < view.nx; i++)
+            view.z[j * view.nx + i] = map->z[j * step * map->nx + i * step];
+    for (size_t i = 0; i < view.n_line; i++)
+        view.line[i] = row[i * along];
+    return view;
+}
+
+wt_status surface_view_create(const wt_height_map *map, wt_surface_form form, size_t n_scans,
+                              surface_view *to, wt_error *err)
+{
+    const size_t maps_per_row = (size_t)ceil(sqrt((double)n_scans));
+    double coefficients[FORM_TERMS];
+    double *z = wt_alloc(map->nx * map->ny, sizeof *z);
+    memcpy(z, map->z, map->nx * map->ny * sizeof *z);
+    const wt_height_map less = {z, map->nx, map->ny, map->dx, map->dy};
+    const wt_status status =
+        surface_remove_form(z, map->nx, map->ny, (unsigned)form, coefficients, err);
+    if (status == WT_OK)
+        *to = thin_heights(&less, maps_per_row < MOST_SIDE ? MOST_SIDE / maps_per_row : 1);
+    free(z);
+    return status;
+}
+
+TABLE_ROW(height_map, HEIGHT_MAP, double scan, x, y, height;)
+
+TABLE_ROW(height_profile, HEIGHT_PROFILE, double scan, x, height;)
+
+static wt_status build_map_table(const surface_scan *scans, size_t n, wt_table **table,
+                                 wt_error *err)
+{
+    table_writer t = table_begin(&height_map_schema, err);
+    for (size_t s = 0; s < n; s++) {
+        const surface_view *v = &scans[s].view;
+        for (size_t j = 0; j < v->ny; j++)
+            for (size_t i = 0; i < v->nx; i++)
+                TABLE_ADD(height_map, &t, (double)(s + 1), (double)i * v->dx, (double)j * v->dy,
+                          v->z[j * v->nx + i]);
+    }
+    return table_end(&t, table);
+}
+
+static wt_status build_profile_table(const surface_scan *scans, size_t n, wt_table **table,
+                                     wt_error *err)
+{
+    table_writer t = table_begin(&height_profile_schema, err);
+    for (size_t s = 0; s < n; s++) {
+        const surface_view *v = &scans[s].view;
+        for (size_t i = 0; i < v->n_line; i++)
+            TABLE_ADD(height_profile, &t, (double)(s + 1), (double)i * v->line_step, v->line[i]);
+    }
+    return table_end(&t, table);
+}
 
 /* Significance level of an anisotropy. */
 static const double misfit_p_threshold = 0.01;
@@ -45,49 +138,6 @@ static wt_estimate plain_estimate(double value, double standard_error)
 static wt_estimate interval_estimate(wt_interval i, bool known)
 {
     return known ? plain_estimate(i.value, i.standard_error) : plain_estimate((double)NAN, 0);
-}
-
-static size_t knot_bin(const wt_surface_spectrum *s, size_t knot)
-{
-    return knot < s->n ? knot : s->n - 1;
-}
-
-/* Returns the place error of a single scan; NaN if unknown or with one size. */
-static double single_position_error(const wt_surface_spectrum *s)
-{
-    return s->place_error > 0 && s->n_sizes > 1 ? s->place_reach : (double)NAN;
-}
-
-double surface_knot_size_error(const wt_surface_spectrum *s, size_t knot, size_t size)
-{
-    return s->n_sizes > 1
-               ? single_position_error(s) * surface_position_weight(s, knot_bin(s, knot), size)
-               : (double)NAN;
-}
-
-double surface_knot_position_error(const wt_surface_spectrum *s, size_t knot)
-{
-    return single_position_error(s) * surface_total_position_weight(s, knot_bin(s, knot));
-}
-
-/* A bin is correlated equally with the next and the previous bin. */
-double surface_next_bin_correlation(const wt_surface_spectrum *s, size_t bin)
-{
-    const wt_spectrum_bin *const a = &s->bins[bin], *const b = a + 1;
-    const double most = POWER_SPECTRUM_MAX_CORRELATION;
-    const double beside_a = fmax(0, a->freedom / a->shared_freedom - 1),
-                 beside_b = fmax(0, b->freedom / b->shared_freedom - 1);
-    return b->index == a->index + 1 ? fmin(most, 0.5 * sqrt(beside_a * beside_b)) : 0;
-}
-
-double surface_law_error(const surface_result *w, double wavenumber)
-{
-    const double alone = wt_self_affine_log_error(&w->law, wavenumber, false),
-                 all = wt_self_affine_log_error(&w->law, wavenumber, true),
-                 last = surface_knot_position_error(&w->spectrum, w->spectrum.n),
-                 places = isnan(last) ? w->spectrum.place_error : last,
-                 common = places > 0 ? places : 0;
-    return sqrt(fmax(alone * alone, all * all - common * common));
 }
 
 /* ---- power spectrum -------------------------------------------------------------------------- */
@@ -190,16 +240,14 @@ static void print_anisotropy(const surface_result *w, char *to, size_t size)
     static const char *const names[][2] = {{"anisotropy", "texture-angle"},
                                            {"anisotropy-fourth", "texture-angle-fourth"}};
     const wt_anisotropy a = significant_anisotropy(w);
-    size_t used = 0;
-    clocale_print(to, size, "none");
-    if (wt_anisotropy_check(&a, NULL) != WT_OK)
-        return;
-    for (size_t k = 0; k < sizeof names / sizeof *names && used < size; k++)
-        if (a.amplitude[k] > 0) {
-            clocale_print(to + used, size - used, "%s--%s %.4g --%s %.4gdeg", used > 0 ? " " : "",
-                          names[k][0], a.amplitude[k], names[k][1], a.angle[k] * 180 / M_PI);
-            used = strlen(to);
-        }
+    to[0] = '\0';
+    const bool usable = wt_anisotropy_check(&a, NULL) == WT_OK;
+    for (size_t k = 0; usable && k < sizeof names / sizeof *names; k++)
+        if (a.amplitude[k] > 0)
+            clocale_append(to, size, "%s--%s %.4g --%s %.4gdeg", to[0] != '\0' ? " " : "",
+                           names[k][0], a.amplitude[k], names[k][1], a.angle[k] * 180 / M_PI);
+    if (to[0] == '\0')
+        clocale_print(to, size, "none");
 }
 
 static wt_status build_angular_table(const surface_result *w, wt_table **table, wt_error *err)
@@ -357,9 +405,9 @@ wt_status surface_tables_make(const wt_params *params, const wt_topography_job *
     if (status == WT_OK && job->scans)
         status = build_scan_table(scans, n, &made.scan_spectra, err);
     if (status == WT_OK && job->heights)
-        status = surface_view_profiles(scans, n, &made.height_profile, err);
+        status = build_profile_table(scans, n, &made.height_profile, err);
     if (status == WT_OK && job->heights && maps)
-        status = surface_view_maps(scans, n, &made.height_map, err);
+        status = build_map_table(scans, n, &made.height_map, err);
     if (status == WT_OK)
         *tables = made;
     else

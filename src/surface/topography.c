@@ -9,9 +9,12 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* A smaller anisotropy changes friction by less than the scatter of a spectrum. Heuristic. */
+/* Smallest amplitude of an anisotropy that causes a warning. Friction changes by a third to a half
+ * of it: the mean of cos 2 phi with the weight cos(phi)^(1 + n), where n = 0 to 1 is the slope of
+ * ln E''. Here that is 3 to 5 %. */
 static const double least_anisotropy = 0.1;
-/* Share of filled heights that causes a warning. Heuristic: above it C may deviate by as much. */
+/* Share of filled heights that causes a warning. They have no short waves, so C of short waves is
+ * too low by about this share, half of what aliased waves add at the end of the range. */
 static const double missing_share_limit = 0.01;
 
 wt_topography_job wt_topography_job_defaults(void)
@@ -162,15 +165,14 @@ wt_status wt_topography_compute(const wt_topography_job *job, const wt_job *work
         status = wt_fail(err, WT_E_ARG, "end and end-slope: the spectrum has one end");
     if (status == WT_OK)
         status = flow_files_list(job->sets, job->n_sets, work, &files, err);
-    if (status == WT_OK && (scans = calloc(files.n + 1, sizeof *scans)) == NULL)
-        status = wt_fail(err, WT_E_MEMORY, "out of memory");
-    if (status == WT_OK)
+    if (status == WT_OK) {
+        scans = wt_alloc(files.n, sizeof *scans);
         status = measure_scans(job, work, &files, scans, &n, err);
+    }
     if (status == WT_OK)
         status = surface_join_scans(scans, n, &whole, err);
-    if (status == WT_OK)
-        status = wt_self_affine_fit(&whole.spectrum, &whole.law, err);
     if (status == WT_OK) {
+        whole.law = wt_self_affine_fit(&whole.spectrum);
         whole.directions = wt_surface_anisotropy_fit(surface_directional_spectrum(&whole), 2);
         whole.fourth = wt_surface_anisotropy_fit(surface_directional_spectrum(&whole), 4);
         warn_surface(&whole, n, work);

@@ -9,7 +9,7 @@
 #include "case/plan/plan.h"
 #include "core/math/root.h"
 #include "dma/master.h"
-#include "dma/numerics/superposition.h"
+#include "dma/numerics/spectrum.h"
 #include "friction/numerics/friction_kernel.h"
 #include "indentation/numerics/curve.h"
 #include "layer/numerics/layer_kernel.h"
@@ -214,9 +214,8 @@ COUNTED(wt_status, layer_damage_time, TIMES,
 COUNTED(double, root_displacement, REACHES,
         (root_fn function, void *user, double root, double error, double reach, double least),
         (function, user, root, error, reach, least))
-COUNTED(wt_status, superposition_test, VERDICTS,
-        (const spectrum *s, double uncertainty, lack_of_fit *result, wt_error *err),
-        (s, uncertainty, result, err))
+COUNTED(lack_of_fit, superposition_test, VERDICTS, (const spectrum *s, double uncertainty),
+        (s, uncertainty))
 COUNTED(wt_status, curve_fit_branches, AGAIN,
         (const wt_contact_table *table, const wt_indent_options *options,
          const curve_branch *approach, const curve_branch *retract, double spring_constant,

@@ -129,8 +129,62 @@ static void test_tables(void **state)
     }
 }
 
+/* Of three materials the third has no 10 Hz: the frequency over temperature is one that all have,
+ * and each pair has rows over temperature. Without a common one the pair says so. */
+static void test_one_frequency(void **state)
+{
+    (void)state;
+    static const struct {
+        double low, high; /* of the third material [rad/s] */
+        bool common;
+    } cases[] = {{1e3, 1e6, true}, {1e-1, 1e4, true}, {1e7, 1e8, false}};
+    for (size_t c = 0; c < 3; c++) {
+        wt_rubber r[3];
+        sliding_set_up(NULL, 0);
+        for (size_t i = 0; i < 3; i++) {
+            r[i] = rubber;
+            r[i].law = (wt_shift_law){.kind = WT_LAW_WLF, .wlf = {293.15, 8.86, 101.6}};
+            r[i].temperature_min = 283.15;
+            r[i].temperature_max = 303.15;
+        }
+        r[1].prony.frequency_max = cases[c].common ? 1e8 : 1e5;
+        r[0].prony.frequency_max = cases[c].common ? 1e8 : 2e7;
+        r[2].prony.frequency_min = cases[c].low;
+        r[2].prony.frequency_max = cases[c].high;
+        const wt_compared_material three[] = {{.name = "first", .rubber = &r[0]},
+                                              {.name = "second", .rubber = &r[1]},
+                                              {.name = "third", .rubber = &r[2]}};
+        wt_materials_job job = wt_materials_job_defaults();
+        wt_materials_tables tables = {0};
+        job.materials = three;
+        job.n_materials = 3;
+        assert_int_equal(wt_compare_materials(&job, &work, &tables, NULL), WT_OK);
+        const wt_table *t = tables.material_ratio;
+        size_t over[2] = {0, 0};
+        for (size_t row = 0; row < wt_table_n_rows(t); row++)
+            if (strcmp(cell_text(t, row, "over"), "temperature") == 0) {
+                const bool third = strcmp(cell_text(t, row, "material"), "third") == 0;
+                const double omega = cell(t, row, "angular_frequency");
+                assert_true(omega >= cases[c].low && omega <= cases[c].high);
+                over[third]++;
+            }
+        const char *outside = wt_table_key(t, "outside");
+        if (cases[c].common) {
+            assert_true(over[0] > 5 && over[1] > 5);
+            if (c == 1) /* all have 10 Hz */
+                assert_near(key_estimate(t, "angular_frequency").value, 20 * M_PI, 1e-9);
+        } else {
+            assert_int_equal(over[0] + over[1], 0);
+            assert_non_null(strstr(outside, "second over temperature: "));
+            assert_non_null(strstr(outside, "third over temperature: "));
+        }
+        wt_materials_tables_clear(&tables);
+    }
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_tables)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_tables),
+                                       cmocka_unit_test(test_one_frequency)};
     return cmocka_run_group_tests_name("tables of materials", tests, NULL, NULL);
 }

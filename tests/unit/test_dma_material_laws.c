@@ -1,7 +1,7 @@
 /* Materials: moduli, closed angular integrals, limits, what is refused. */
 #include "near.h"
 
-#include "dma/law/material_transverse.h"
+#include "dma/law/material.h"
 #include "friction/numerics/angular_panels.h"
 #include "weartrack/dma.h"
 

@@ -511,7 +511,12 @@ static void impossible_input_is_refused(void **state)
     (void)state;
     wt_sweep empty = {0};
     const wt_master_options any = at_reference(293.15, WT_VERTICAL_PHYSICAL);
+    wt_master none_made = {0};
+    wt_error err = WT_ERROR_INIT;
     expect_failure(&empty, &any, WT_E_MISSING);
+    assert_int_equal(wt_master_fit(&empty, &any, NULL, &none_made, &err), WT_E_MISSING);
+    assert_string_equal(err.message, "a master curve needs an isotherm with points");
+    assert_string_equal(err.found, "0 isotherms, 0 points");
     for (int i = 0; i < 2; i++) { /* isotherms without a point */
         wt_isotherm *none = wt_sweep_add(&empty, 0, 0);
         assert_non_null(none);

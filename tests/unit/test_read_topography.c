@@ -5,7 +5,6 @@
 #include "core/base/array.h"
 #include "core/system/digest.h"
 #include "fuzz/pack_list.h"
-#include "surface/numerics/height_grid.h"
 #include "surface/numerics/surface_analysis.h"
 
 #include <ctype.h>

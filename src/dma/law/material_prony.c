@@ -1,11 +1,21 @@
 /* Generalised Maxwell (Prony) material with its angular integrals in closed form.
  * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "dma/law/prony_law.h"
+
 #include "core/math/simd.h"
 #include "dma/law/material.h"
-#include "dma/law/prony_law.h"
+#include "weartrack/core.h"
 
 #include <math.h>
 #include <stdlib.h>
+
+void prony_moduli(const wt_prony *series, double omega, double *storage, double *loss)
+{
+    *storage = series->equilibrium_modulus;
+    *loss = 0;
+    for (size_t i = 0; i < series->n; i++)
+        prony_add_term(series->modulus[i], series->relaxation_time[i], omega, storage, loss);
+}
 
 typedef struct prony_data {
     double equilibrium; /* E_inf [Pa] */
@@ -208,9 +218,7 @@ wt_status wt_material_prony(const wt_prony *prony, double poisson_ratio, wt_mate
     if (status != WT_OK)
         return status;
 
-    prony_data *d = malloc(sizeof *d + 3 * prony->n * sizeof d->numbers[0]);
-    if (d == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory for a Prony series of %zu terms", prony->n);
+    prony_data *d = wt_alloc(1, sizeof *d + 3 * prony->n * sizeof d->numbers[0]);
     d->modulus = d->numbers;
     d->relaxation_time = d->modulus + prony->n;
     d->weight = d->relaxation_time + prony->n;
@@ -229,6 +237,7 @@ wt_status wt_material_prony(const wt_prony *prony, double poisson_ratio, wt_mate
             v += d->modulus[j] / (1 + tau / d->relaxation_time[j]);
         d->weight[k] = 2 * d->modulus[k] * v;
     }
-    return material_create(&prony_law, d, poisson_ratio, prony->frequency_min, prony->frequency_max,
-                           material, err);
+    *material =
+        material_create(&prony_law, d, poisson_ratio, prony->frequency_min, prony->frequency_max);
+    return WT_OK;
 }

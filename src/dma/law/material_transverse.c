@@ -4,7 +4,6 @@
  * The surface compliance D in u_z(q) = (D / q) sigma_z(q) is 2 (1 - nu^2) / E for an isotropic
  * solid. The laws of the surface therefore use E = 2 (1 - nu^2) / D.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "dma/law/material_transverse.h"
 #include "dma/law/material.h"
 
 #include "core/base/array.h"
@@ -36,32 +35,22 @@ wt_transverse wt_transverse_defaults(void)
                            .axial_poisson = (double)NAN};
 }
 
-#define MODULUS_FACTOR_PARAM(name, member, limits, words)                                          \
-    {                                                                                              \
-        PARAM(name, wt_transverse, member, WT_Q_NONE, limits), .value = "X", .help = words         \
-    }
-#define POISSON_PARAM(name, member, words)                                                         \
-    {                                                                                              \
-        PARAM(name, wt_transverse, member, WT_Q_NONE, BRACED(-1, 1, false, false)),                \
-            .value = "NU", .unset = "the Poisson ratio", .help = words                             \
-    }
 static const wt_param rows[] = {
-    MODULUS_FACTOR_PARAM("axial-storage", axial_storage, ABOVE(0),
-                         "E' along the surface normal over that of the material"),
-    MODULUS_FACTOR_PARAM("axial-loss", axial_loss, AT_LEAST(0),
-                         "E'' along the surface normal over that of the material"),
-    MODULUS_FACTOR_PARAM("plane-storage", plane_storage, ABOVE(0),
-                         "E' in the plane of the surface over that of the material"),
-    MODULUS_FACTOR_PARAM("plane-loss", plane_loss, AT_LEAST(0),
-                         "E'' in the plane of the surface over that of the material"),
-    MODULUS_FACTOR_PARAM(
-        "shear-storage", shear_storage, ABOVE(0),
-        "storage modulus of shear between normal and plane over E' / (2 (1 + nu_p))"),
-    MODULUS_FACTOR_PARAM(
-        "shear-loss", shear_loss, AT_LEAST(0),
-        "loss modulus of shear between normal and plane over E'' / (2 (1 + nu_p))"),
-    POISSON_PARAM("plane-poisson", plane_poisson,
-                  "nu_p: contraction in the plane of the surface under a load in it"),
+    {PARAM("axial-storage", wt_transverse, axial_storage, WT_Q_NONE, ABOVE(0)), .value = "X",
+     .help = "E' along the surface normal over that of the material"},
+    {PARAM("axial-loss", wt_transverse, axial_loss, WT_Q_NONE, AT_LEAST(0)), .value = "X",
+     .help = "E'' along the surface normal over that of the material"},
+    {PARAM("plane-storage", wt_transverse, plane_storage, WT_Q_NONE, ABOVE(0)), .value = "X",
+     .help = "E' in the plane of the surface over that of the material"},
+    {PARAM("plane-loss", wt_transverse, plane_loss, WT_Q_NONE, AT_LEAST(0)), .value = "X",
+     .help = "E'' in the plane of the surface over that of the material"},
+    {PARAM("shear-storage", wt_transverse, shear_storage, WT_Q_NONE, ABOVE(0)), .value = "X",
+     .help = "storage modulus of shear between normal and plane over E' / (2 (1 + nu_p))"},
+    {PARAM("shear-loss", wt_transverse, shear_loss, WT_Q_NONE, AT_LEAST(0)), .value = "X",
+     .help = "loss modulus of shear between normal and plane over E'' / (2 (1 + nu_p))"},
+    {PARAM("plane-poisson", wt_transverse, plane_poisson, WT_Q_NONE, BRACED(-1, 1, false, false)),
+     .value = "NU", .unset = "the Poisson ratio",
+     .help = "nu_p: contraction in the plane of the surface under a load in it"},
     {PARAM("axial-poisson", wt_transverse, axial_poisson, WT_Q_NONE, ANY_NUMBER), .value = "NU",
      .unset = "the Poisson ratio",
      .help = "nu_zp: contraction in the plane of the surface under a load along its normal"},
@@ -270,7 +259,7 @@ static const wt_material_law transverse_law = {
     .free = transverse_free,
 };
 
-static wt_status merge_breaks(transverse_data *d, wt_error *err)
+static void merge_breaks(transverse_data *d)
 {
     size_t n[N_MODULI] = {0}, all = 0;
     const double *of[N_MODULI] = {NULL};
@@ -279,9 +268,7 @@ static wt_status merge_breaks(transverse_data *d, wt_error *err)
             of[i] = d->law[i]->law->breaks(d->law[i], &n[i]);
         all += n[i];
     }
-    d->breaks = malloc((all + 1) * sizeof *d->breaks);
-    if (d->breaks == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory for a material");
+    d->breaks = wt_alloc(all, sizeof *d->breaks);
     for (size_t i = 0; i < N_MODULI; i++)
         for (size_t k = 0; k < n[i]; k++)
             d->breaks[d->n_breaks++] = of[i][k];
@@ -291,7 +278,6 @@ static wt_status merge_breaks(transverse_data *d, wt_error *err)
         if (kept == 0 || d->breaks[i] > d->breaks[kept - 1])
             d->breaks[kept++] = d->breaks[i];
     d->n_breaks = kept;
-    return WT_OK;
 }
 
 /* Intersects the frequency ranges of all laws. The limits are NaN if no law has limits. */
@@ -325,17 +311,15 @@ wt_status wt_material_transverse(wt_material *plane, wt_material *axial, wt_mate
     wt_material *const law[N_MODULI] = {plane, axial != NULL ? axial : plane,
                                         shear != NULL ? shear : plane};
     wt_status status = material_check_poisson(poisson_ratio, err);
-    transverse_data *d = NULL;
     if (plane == NULL || transverse == NULL || material == NULL)
         status = wt_fail(err, WT_E_ARG, "a transversely isotropic material needs a law");
     if (status == WT_OK)
         status = param_check(wt_transverse_params(), transverse, err);
-    if (status == WT_OK && (d = calloc(1, sizeof *d)) == NULL)
-        status = wt_fail(err, WT_E_MEMORY, "out of memory for a material");
     if (status != WT_OK) {
         free_distinct_laws(law);
         return status;
     }
+    transverse_data *d = wt_alloc(1, sizeof *d);
     for (size_t i = 0; i < N_MODULI; i++)
         d->law[i] = law[i];
     d->parameters = *transverse;
@@ -352,9 +336,7 @@ wt_status wt_material_transverse(wt_material *plane, wt_material *axial, wt_mate
     d->stiffness = 2 * (1 - poisson_ratio * poisson_ratio);
     double low, high;
     intersect_ranges(d, &low, &high);
-    status = merge_breaks(d, err);
-    if (status == WT_OK)
-        return material_create(&transverse_law, d, poisson_ratio, low, high, material, err);
-    transverse_free(&(wt_material){.data = d});
-    return status;
+    merge_breaks(d);
+    *material = material_create(&transverse_law, d, poisson_ratio, low, high);
+    return WT_OK;
 }

@@ -3,6 +3,7 @@
 #include "dma/numerics/gaussian_process.h"
 
 #include "core/base/array.h"
+#include "core/base/memory.h"
 #include "core/math/arena_gsl.h"
 #include "core/math/gsl_quiet.h"
 #include "core/math/normal_quantile.h"
@@ -59,8 +60,7 @@ static double gp_departure_covariance(const gp_hyperparameters *w, double x, dou
 
 /* ---- points ---------------------------------------------------------------------------------- */
 
-static wt_status merge_neighbours(gaussian_process *s, const double *x, const double *y, size_t n,
-                                  wt_error *err)
+static void merge_neighbours(gaussian_process *s, const double *x, const double *y, size_t n)
 {
     const size_t each = (n + GP_MAX_POINTS - 1) / GP_MAX_POINTS;
     s->n = (n + each - 1) / each;
@@ -68,8 +68,6 @@ static wt_status merge_neighbours(gaussian_process *s, const double *x, const do
     s->y = arena_numbers(&s->memory, s->n);
     s->count = arena_numbers(&s->memory, s->n);
     s->components = arena_alloc(&s->memory, MAX_COMPONENTS, sizeof *s->components);
-    if (s->memory.failed)
-        return wt_fail(err, WT_E_MEMORY, "no memory for a curve");
     s->centre = 0.5 * (x[0] + x[n - 1]);
     s->half = x[n - 1] > x[0] ? 0.5 * (x[n - 1] - x[0]) : 1;
     for (size_t i = 0; i < n; i++) {
@@ -78,7 +76,6 @@ static wt_status merge_neighbours(gaussian_process *s, const double *x, const do
         s->x[k] += ((x[i] - s->centre) / s->half - s->x[k]) / (before + 1);
         s->y[k] += (y[i] - s->y[k]) / (before + 1);
     }
-    return WT_OK;
 }
 
 /* ---- one component --------------------------------------------------------------------------- */
@@ -169,23 +166,21 @@ wt_status gaussian_process_new(const double *x, const double *y, size_t n, bool 
 {
     *s = (gaussian_process){.n = 0};
     gsl_quiet();
-    wt_status status = merge_neighbours(s, x, y, n, err);
-    gsl_vector *scratch = status == WT_OK ? arena_vector(&s->memory, s->n) : NULL;
+    merge_neighbours(s, x, y, n);
+    gsl_vector *scratch = arena_vector(&s->memory, s->n);
     double best = -HUGE_VAL, sum = 0;
-    for (size_t k = 0; status == WT_OK && k < COUNT_OF(lengths); k++)
+    for (size_t k = 0; k < COUNT_OF(lengths); k++)
         for (size_t r = 0; r < COUNT_OF(ratios); r++) {
             if (parabola && k + r > 0)
                 continue;
             gp_hyperparameters *w = new_component(s, lengths[k], parabola ? 0 : ratios[r]);
-            if (s->memory.failed)
-                return wt_fail(err, WT_E_MEMORY, "no memory for a curve");
             if (!fit_component(s, w, scratch))
                 continue;
             best = fmax(best, w->log_weight);
             s->n_components++;
         }
-    if (status == WT_OK && s->n_components == 0)
-        status = wt_fail(err, WT_E_CONVERGENCE, "no curve through %zu points", n);
+    if (s->n_components == 0)
+        return wt_fail(err, WT_E_CONVERGENCE, "no curve through %zu points", n);
     const size_t made = s->n_components;
     s->n_components = 0;
     for (size_t i = 0; i < made; i++) {
@@ -197,7 +192,7 @@ wt_status gaussian_process_new(const double *x, const double *y, size_t n, bool 
     }
     for (size_t i = 0; i < s->n_components; i++)
         s->components[i].weight /= sum;
-    return status;
+    return WT_OK;
 }
 
 void gaussian_process_free(gaussian_process *s)
@@ -424,34 +419,33 @@ static bool component_statistic(const gaussian_process *s, const gp_hyperparamet
     return isfinite(*mean) && isfinite(*error);
 }
 
-static wt_status slope_workspace_new(const gaussian_process *s, const double *x, size_t n,
-                                     arena *memory, slope_workspace *v, wt_error *err)
+static slope_workspace slope_workspace_new(const gaussian_process *s, const double *x, size_t n,
+                                           arena *memory)
 {
-    *v = (slope_workspace){.x = x,
-                           .n = n,
-                           .mean = arena_numbers(memory, n),
-                           .moved = arena_numbers(memory, n),
-                           .known = arena_matrix(memory, s->n, n),
-                           .powers = arena_matrix(memory, n, PARABOLA),
-                           .covariance = arena_matrix(memory, n, n),
-                           .directions = arena_matrix(memory, n, n),
-                           .squares = arena_vector(memory, n)};
-    if (memory->failed || (v->eigen = gsl_eigen_symmv_alloc(n)) == NULL)
-        return wt_fail(err, WT_E_MEMORY, "no memory for the slopes of a curve");
-    return WT_OK;
+    const slope_workspace v = {.x = x,
+                               .n = n,
+                               .mean = arena_numbers(memory, n),
+                               .moved = arena_numbers(memory, n),
+                               .known = arena_matrix(memory, s->n, n),
+                               .powers = arena_matrix(memory, n, PARABOLA),
+                               .covariance = arena_matrix(memory, n, n),
+                               .directions = arena_matrix(memory, n, n),
+                               .squares = arena_vector(memory, n),
+                               .eigen = gsl_eigen_symmv_alloc(n)};
+    if (v.eigen == NULL)
+        out_of_memory(n * sizeof(double));
+    return v;
 }
 
-wt_status gaussian_process_slope_interval(const gaussian_process *s, const double *x, size_t n,
-                                          gaussian_process_statistic *statistic,
-                                          wt_interval *interval, wt_error *err)
+wt_interval gaussian_process_slope_interval(const gaussian_process *s, const double *x, size_t n,
+                                            gaussian_process_statistic *statistic)
 {
     arena memory = {0};
-    slope_workspace v;
+    slope_workspace v = slope_workspace_new(s, x, n, &memory);
     model_mixture o = {.freedom = (double)(s->n - PARABOLA)};
     double sum = 0;
-    *interval = (wt_interval){(double)NAN, (double)NAN, (double)NAN, (double)NAN};
-    const wt_status status = slope_workspace_new(s, x, n, &memory, &v, err);
-    for (size_t i = 0; status == WT_OK && i < s->n_components; i++) {
+    wt_interval interval = {(double)NAN, (double)NAN, (double)NAN, (double)NAN};
+    for (size_t i = 0; i < s->n_components; i++) {
         o.weight[o.n] = s->components[i].weight;
         if (!component_statistic(s, &s->components[i], &v, statistic, &o.mean[o.n], &o.error[o.n]))
             continue;
@@ -460,8 +454,8 @@ wt_status gaussian_process_slope_interval(const gaussian_process *s, const doubl
     for (size_t i = 0; i < o.n; i++)
         o.weight[i] /= sum;
     if (sum >= 1 - max_undefined_share)
-        *interval = model_mixture_interval(&o);
+        interval = model_mixture_interval(&o);
     gsl_eigen_symmv_free(v.eigen);
     arena_free(&memory);
-    return status;
+    return interval;
 }

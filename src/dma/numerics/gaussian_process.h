@@ -40,8 +40,7 @@ wt_interval gaussian_process_interval(const gaussian_process *s, double x);
 typedef double gaussian_process_statistic(const double *x, const double *slope, size_t n);
 /* Computes the interval of a statistic from the joint distribution of the slopes, to first
  * order. It is NaN if components with more than 5 % of the weight have no value. */
-wt_status gaussian_process_slope_interval(const gaussian_process *s, const double *x, size_t n,
-                                          gaussian_process_statistic *statistic,
-                                          wt_interval *interval, wt_error *err) WT_NODISCARD;
+wt_interval gaussian_process_slope_interval(const gaussian_process *s, const double *x, size_t n,
+                                            gaussian_process_statistic *statistic);
 
 #endif

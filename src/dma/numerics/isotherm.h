@@ -47,8 +47,14 @@ wt_status shift_set_new(const wt_sweep *sweep, wt_shift_quantity by, wt_log *log
 /* Returns the change of the modulus along a curve, of E' if it is used [decade]. */
 double curve_modulus_change(const shift_set *set, size_t curve);
 
-/* Fits the shift of curve s relative to curve p by least squares of the used moduli in both
- * directions. b is fitted if free_b, otherwise it is an input. Returns false without overlap. */
-bool shift_pair_fit(const shift_set *set, size_t p, size_t s, bool free_b, double *a, double *b);
+/* Places each isotherm on its placed neighbours, outwards from the anchor; a, b: [set->n]
+ * decades. */
+void spectrum_find_initial_shifts(const shift_set *set, size_t anchor, wt_vertical_shift kind,
+                                  const double *physical, bool *placed, double *a, double *b);
+/* Restricts `placed` to isotherms that are connected to the anchor by shared frequencies.
+ * overlap: the smallest shared range on the path [decade], infinite for the anchor. Returns
+ * their number. */
+size_t spectrum_select_connected(const shift_set *set, size_t anchor, const double *a, bool *placed,
+                                 double *overlap);
 
 #endif

@@ -5,14 +5,14 @@
 
 #include "core/base/param.h"
 #include "core/math/arena_gsl.h"
-#include "dma/numerics/spectrum_start.h"
+#include "dma/numerics/isotherm.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 /* Initial widths of the prior of the vertical shift [decade]: clamping and departure of the
- * material (master_widths.c). */
+ * material (master_route.c). */
 static const double start_geometry = 0.002, start_departure = 0.02;
 /* Noise that is uniform along an isotherm. */
 const double master_uniform_noise[SPECTRUM_SHAPES] = {0.0};
@@ -35,8 +35,11 @@ static const double max_start_shift = 0.5;
  * isotherms by more than their errors. */
 static const double smooth_terms = 3.0, trial_terms = 5.0, sharp_terms = 10.0,
                     sharp_curvature = 3.0;
+/* A shift with a larger error is not determined [decade]. Its 95 % interval is most of a decade,
+ * as wide as a step of 5 to 10 K between isotherms. */
+const double master_max_shift_error = 0.2;
 /* Misfit of a modulus beyond its noise from which the shifts are meaningless [ln]. On a plateau
- * with d ln E'/d ln w = 0.1 it is 0.17 decade, about master_max_shift_error (shift_graph.c). If
+ * with d ln E'/d ln w = 0.1 it is 0.17 decade, about master_max_shift_error. If
  * superposition holds or nearly holds the misfit is 0.3 to 3 %; glassy polymers have 5 to 20 %
  * of E''. Below the limit the shift errors grow with the misfit (master_overlap.c), so only the
  * route changes abruptly. */
@@ -45,10 +48,9 @@ static const double gross_misfit = 0.04;
  * noise. */
 static const double shift_relevant_misfit = 0.01;
 /* Initial curvature scale of lines: a factor 150 between terms. The noise must fall by the
- * factor noise_ratio_limit and by six standard errors, one false alarm in 1e9 for normal noise. The
- * factor is chosen: at 1.3 lines between terms add 69 % to the square of the noise. At 1.15 some
- * smooth spectra count as lines, which costs terms and no precision. At 1.6 lines with 1.2 times
- * the noise are missed. */
+ * factor noise_ratio_limit and by six standard errors, one false alarm in 1e9 for normal noise. At
+ * the factor 1.3 lines between terms add 69 % to the square of the noise: a smaller misfit is below
+ * 0.83 of the noise and moves no shift by more than its error. */
 static const double lines_smooth = 5.0, noise_ratio_limit = 1.3, noise_significance = 6.0;
 
 wt_master_options wt_master_options_defaults(void)
@@ -139,7 +141,7 @@ wt_status master_choose_anchor(master_work *work, wt_error *err)
     return WT_OK;
 }
 
-wt_status master_work_alloc(master_work *work, wt_error *err)
+void master_work_alloc(master_work *work)
 {
     const size_t n = work->set.n;
     arena *m = &work->memory;
@@ -151,16 +153,29 @@ wt_status master_work_alloc(master_work *work, wt_error *err)
     vertical_alloc(m, n, &work->vertical);
     work->edge = arena_alloc(m, n, sizeof *work->edge);
     work->original_a = arena_numbers(m, n);
-    work->posterior = posterior_new();
-    if (work->posterior != NULL) {
-        work->posterior->curve = arena_alloc(&work->posterior->memory, n, sizeof(size_t));
-        work->posterior->closed_form = arena_numbers(&work->posterior->memory, n);
-        work->curve = work->posterior->curve;
-        work->s = &work->posterior->frame;
-    }
-    return m->failed || work->posterior == NULL || work->posterior->memory.failed
-               ? wt_fail(err, WT_E_MEMORY, "no memory for %zu isotherms", n)
-               : WT_OK;
+    wt_posterior *const p = work->posterior = wt_alloc(1, sizeof *p);
+    work->curve = p->curve = arena_alloc(&p->memory, n, sizeof *p->curve);
+    p->closed_form = arena_numbers(&p->memory, n);
+    work->s = &p->frame;
+}
+
+void master_overlap_edges(const master_work *work, bool physical, overlap_edge *edge)
+{
+    const size_t n = work->set.n;
+    arena memory = {0};
+    double *none = arena_numbers(&memory, n), *rubber = arena_numbers(&memory, n);
+    for (size_t i = 0; i < n; i++)
+        rubber[i] = work->physical[i] - work->physical[work->anchor];
+    overlap_chain(&work->set, work->anchor, physical ? rubber : none, physical ? none : rubber,
+                  edge);
+    arena_free(&memory);
+}
+
+/* Uses the vertical shift of rubber elasticity if requested, otherwise none. E' alone does not
+ * separate it from the horizontal shift, and a glass has none. */
+void master_find_overlaps(master_work *work)
+{
+    master_overlap_edges(work, work->options.vertical == WT_VERTICAL_PHYSICAL, work->edge);
 }
 
 wt_status master_set_widths(master_work *work, wt_vertical_shift kind, double geometry,
@@ -193,8 +208,6 @@ wt_status master_new_spectrum(master_work *work, wt_error *err)
     p->slope = arena_numbers(m, n);
     p->scratch = arena_numbers(m, 7 * n + 4 * work->s->n_linear);
     p->cross_covariance = arena_numbers(m, 3 * n + work->s->n_linear);
-    if (m->failed)
-        return wt_fail(err, WT_E_MEMORY, "no memory for %zu isotherms", n);
     work->vertical.mean = p->mean_b;
     size_t curve = 0;
     for (size_t i = 0; i < work->set.n; i++)
@@ -251,57 +264,48 @@ static bool lines_reduce_noise(const spectrum *lines, const spectrum *s, int q)
            less * left > noise_significance * sqrt(more / 2.0);
 }
 
-/* Tests if a line spectrum with fixed vertical shifts reduces the noise. */
-static wt_status try_line_spectrum(const master_work *work, bool *better, wt_error *err)
+/* Returns true if a line spectrum with fixed vertical shifts reduces the noise. A failed fit is no
+ * failure of the caller. */
+static bool try_line_spectrum(const master_work *work)
 {
     const spectrum *s = work->s;
     spectrum lines;
-    wt_status status = spectrum_new(&work->set, work->placed, work->anchor, work->a, work->b,
-                                    trial_terms, work->options.liquid, &lines, err);
-    if (status != WT_OK)
-        return status;
+    bool better = false;
+    if (spectrum_new(&work->set, work->placed, work->anchor, work->a, work->b, trial_terms,
+                     work->options.liquid, &lines, NULL) != WT_OK)
+        return false;
     double *b = arena_numbers(&lines.memory, s->n_curves);
     const spectrum_prior held = {.held = true, .mean = b};
-    if (b == NULL)
-        status = wt_fail(err, WT_E_MEMORY, "no memory for a spectrum");
-    for (size_t i = 0; i < s->n_curves && status == WT_OK; i++)
+    for (size_t i = 0; i < s->n_curves; i++)
         b[i] = spectrum_b(s, i);
-    if (status == WT_OK) {
-        spectrum_set_prior(&lines, &held);
-        lines.smooth = lines_smooth;
-        for (int q = 0; q < MODULI; q++) {
-            memcpy(lines.weight[q], s->weight[q], s->n * sizeof *s->weight[q]);
-            lines.noise[q] = s->noise[q];
-        }
-        status = spectrum_fit(&lines, SPECTRUM_TRIAL, err);
-        if (status == WT_OK)
-            (void)spectrum_noise_update(&lines, 1.0);
+    spectrum_set_prior(&lines, &held);
+    lines.smooth = lines_smooth;
+    for (int q = 0; q < MODULI; q++) {
+        memcpy(lines.weight[q], s->weight[q], s->n * sizeof *s->weight[q]);
+        lines.noise[q] = s->noise[q];
     }
-    for (int q = 0; q < MODULI && status == WT_OK; q++)
-        *better |= lines_reduce_noise(&lines, s, q);
+    if (spectrum_fit(&lines, SPECTRUM_TRIAL, NULL) == WT_OK) {
+        (void)spectrum_noise_update(&lines, 1.0);
+        for (int q = 0; q < MODULI; q++)
+            better = better || lines_reduce_noise(&lines, s, q);
+    }
     work->s->evaluations += lines.evaluations;
     spectrum_free(&lines);
-    return status;
+    return better;
 }
 
-/* Tests if more terms are needed, because the spectrum has sharp curvature or lines reduce the
- * noise. */
-static wt_status needs_line_spectrum(master_work *work, bool *better, wt_error *err)
+/* Returns true if more terms are needed, because the spectrum has sharp curvature or lines reduce
+ * the noise. */
+static bool needs_line_spectrum(master_work *work)
 {
-    *better = work->s->smooth > sharp_curvature;
-    wt_error no_lines = WT_ERROR_INIT; /* a failed trial is no failure of the fit */
     (void)store_fitted_shifts(work);
-    if (!*better && try_line_spectrum(work, better, &no_lines) == WT_E_MEMORY)
-        return wt_fail(err, WT_E_MEMORY, "%s", no_lines.message);
-    return WT_OK;
+    return work->s->smooth > sharp_curvature || try_line_spectrum(work);
 }
 
 static wt_status refine_line_spectrum(master_work *work, wt_error *err)
 {
-    bool better = false;
-    wt_status lines = needs_line_spectrum(work, &better, err);
-    if (lines != WT_OK || !better)
-        return lines;
+    if (!needs_line_spectrum(work))
+        return WT_OK;
     work->lines = true;
     work->terms_per_decade = sharp_terms;
     const wt_status status = master_new_spectrum(work, err);
@@ -310,47 +314,43 @@ static wt_status refine_line_spectrum(master_work *work, wt_error *err)
 }
 
 /* Measures the misfit beyond the noise within the isotherms. */
-wt_status master_measure_misfit(master_work *work, wt_error *err)
+void master_measure_misfit(master_work *work)
 {
     double all[MODULI], within[MODULI];
-    const wt_status status = spectrum_measure_misfit(work->s, all, within, err);
+    spectrum_measure_misfit(work->s, all, within);
     work->is_gross = work->exceeds_noise = false;
-    for (int q = 0; status == WT_OK && q < MODULI; q++) {
+    for (int q = 0; q < MODULI; q++) {
         const double missed = all[q] * all[q] - within[q] * within[q];
         const bool is_gross = missed > gross_misfit * gross_misfit;
         work->is_gross = work->is_gross || is_gross;
         work->exceeds_noise = work->exceeds_noise || (is_gross && missed > within[q] * within[q]);
         work->missed[q] = sqrt(fmax(missed, 0.0));
     }
-    return status;
 }
 
 /* Restarts from the overlaps of E' if the misfit is large, because the start may be wrong. A
  * line spectrum also has a large misfit until it has enough terms. */
 static wt_status restart_from_overlaps(master_work *work, wt_error *err)
 {
-    bool lines = false;
-    wt_status status = master_measure_misfit(work, err);
-    if (status != WT_OK || !work->is_gross)
-        return status;
-    if (isnan(work->options.terms_per_decade))
-        status = needs_line_spectrum(work, &lines, err);
-    if (status != WT_OK || lines || !work->set.used[STORAGE]) {
-        work->is_gross = work->is_gross && !lines;
-        return status;
-    }
-    status = master_find_overlaps(work, err);
-    for (size_t i = 0; status == WT_OK && i < work->set.n; i++)
+    master_measure_misfit(work);
+    if (!work->is_gross)
+        return WT_OK;
+    work->is_gross = !isnan(work->options.terms_per_decade) || !needs_line_spectrum(work);
+    if (!work->is_gross || !work->set.used[STORAGE])
+        return WT_OK;
+    master_find_overlaps(work);
+    for (size_t i = 0; i < work->set.n; i++)
         if (work->edge[i].placed && !work->set.curves[i].is_shift_fixed) {
             work->placed[i] = true;
             work->a[i] = work->edge[i].a;
         }
     (void)spectrum_select_connected(&work->set, work->anchor, work->a, work->placed, work->overlap);
-    if (status == WT_OK)
-        status = master_new_spectrum(work, err);
+    wt_status status = master_new_spectrum(work, err);
     if (status == WT_OK)
         status = spectrum_fit(work->s, SPECTRUM_ROBUST, err);
-    return status == WT_OK ? master_measure_misfit(work, err) : status;
+    if (status == WT_OK)
+        master_measure_misfit(work);
+    return status;
 }
 
 wt_status master_find_initial_shifts(master_work *work, wt_error *err)
@@ -397,7 +397,8 @@ wt_status master_find_initial_shifts(master_work *work, wt_error *err)
  * fit. A small misfit of the spectrum therefore counts as noise. */
 wt_status master_estimate_noise(master_work *work, wt_error *err)
 {
-    wt_status status = spectrum_estimate_noise(work->s, &work->within, err);
+    wt_status status = WT_OK;
+    work->within = spectrum_estimate_noise(work->s);
     spectrum_set_point_noise(work->s, master_uniform_noise);
     for (int round = 0; status == WT_OK && round < BEND_ROUNDS; round++) {
         status = spectrum_fit(work->s, SPECTRUM_ROUGH, err);
@@ -425,7 +426,7 @@ wt_status master_test_superposition(master_work *work, wt_error *err)
     if (status == WT_OK)
         status = spectrum_fit(s, work->is_gross ? SPECTRUM_ROUGH : SPECTRUM_NOISE, err);
     if (status == WT_OK && work->tested)
-        status = superposition_test(s, work->within.uncertainty, &work->lack, err);
+        work->lack = superposition_test(s, work->within.uncertainty);
     s->rho = rho;
     spectrum_set_point_noise(s, master_uniform_noise);
     if (status == WT_OK) /* restores the columns that the cells use */

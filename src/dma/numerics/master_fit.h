@@ -5,7 +5,7 @@
 
 #include "dma/numerics/overlap_chain.h"
 #include "dma/numerics/posterior.h"
-#include "dma/numerics/superposition.h"
+#include "dma/numerics/spectrum.h"
 
 typedef struct master_work {
     arena memory;
@@ -46,7 +46,7 @@ typedef struct master_work {
 
 /* Adapts the vertical shift to the data, or fails if free vertical shifts cannot be determined. */
 wt_status master_check_vertical(master_work *work, wt_error *err) WT_NODISCARD;
-wt_status master_work_alloc(master_work *work, wt_error *err) WT_NODISCARD;
+void master_work_alloc(master_work *work);
 /* Chooses the isotherm to start from. */
 wt_status master_choose_anchor(master_work *work, wt_error *err) WT_NODISCARD;
 /* Places the isotherms: start, outliers and connected isotherms. Sets the flag of a gross
@@ -54,43 +54,40 @@ wt_status master_choose_anchor(master_work *work, wt_error *err) WT_NODISCARD;
 wt_status master_find_initial_shifts(master_work *work, wt_error *err) WT_NODISCARD;
 wt_status master_estimate_noise(master_work *work, wt_error *err) WT_NODISCARD;
 /* Measures the misfit beyond the noise within the isotherms and sets its flags. */
-wt_status master_measure_misfit(master_work *work, wt_error *err) WT_NODISCARD;
+void master_measure_misfit(master_work *work);
 /* Tests superposition with free vertical shifts; fills `lack`. */
 wt_status master_test_superposition(master_work *work, wt_error *err) WT_NODISCARD;
 /* Noise that is uniform along an isotherm. */
 extern const double master_uniform_noise[SPECTRUM_SHAPES];
-/* Fills the edges [set.n] from the overlaps, with the vertical shift of rubber elasticity or
- * with none. */
-wt_status master_overlap_edges(const master_work *work, bool physical, overlap_edge *edge,
-                               wt_error *err) WT_NODISCARD;
 /* Sets the prior of the vertical shifts, with widths of clamping and departure [decade]. */
 wt_status master_set_widths(master_work *work, wt_vertical_shift kind, double geometry,
                             double departure, wt_error *err) WT_NODISCARD;
-/* Fits all relevant widths of the prior. The spectrum ends at the best one. */
-wt_status master_fit_widths(master_work *work, wt_error *err) WT_NODISCARD;
 /* Creates a spectrum for the placed curves at their present shifts, without outliers. */
 wt_status master_new_spectrum(master_work *work, wt_error *err) WT_NODISCARD;
 wt_status master_fit_robust(master_work *work, wt_error *err) WT_NODISCARD;
+/* Fills the edges [set.n] from the overlaps, with the vertical shift of rubber elasticity or
+ * with none. */
+void master_overlap_edges(const master_work *work, bool physical, overlap_edge *edge);
 /* Fills the edges of the work from the overlaps with the requested vertical shifts. */
-wt_status master_find_overlaps(master_work *work, wt_error *err) WT_NODISCARD;
+void master_find_overlaps(master_work *work);
 /* Replaces the shifts by those of the overlaps and fits the spectrum to them. */
 wt_status master_use_overlap_shifts(master_work *work, wt_error *err) WT_NODISCARD;
 /* Computes the shift and error of an isotherm outside the described part. */
 bool master_shift_outside_part(const master_work *work, size_t i, double *a, double *error);
-/* Tests if the overlaps determine shifts. They need storage moduli and no stated shift. The
+/* Returns true if the overlaps determine shifts. They need storage moduli and no stated shift. The
  * function also fills the edges of the work. */
-wt_status master_can_use_overlaps(master_work *work, bool *may, wt_error *err) WT_NODISCARD;
+bool master_can_use_overlaps(master_work *work);
 /* Stores the shifts of the spectrum in original_a. */
 void master_store_original_shifts(master_work *work);
 /* Adds the disagreement with the overlaps to the errors of the shifts if superposition fails. */
-wt_status master_uncertainty(master_work *work, wt_error *err) WT_NODISCARD;
+void master_uncertainty(master_work *work);
 /* Returns true if no shift of the spectrum remains determined. */
 bool master_all_uncertain(const master_work *work);
 /* A shift with a larger error is not determined [decade]. */
 extern const double master_max_shift_error;
-/* Tests if the shifts of the spectrum agree with the overlaps, with the vertical shift of rubber
- * elasticity or with none. */
-wt_status master_shifts_agree(const master_work *work, bool *agrees, wt_error *err) WT_NODISCARD;
+/* Returns true if the shifts of the spectrum agree with the overlaps, with the vertical shift of
+ * rubber elasticity or with none. */
+bool master_shifts_agree(const master_work *work);
 /* Returns true if the lack of fit is significant and relevant. */
 bool master_misfit_is_significant(const lack_of_fit *lack);
 /* Returns true if a lack of fit is likely, which prevents the verdict that superposition holds. */
@@ -100,21 +97,20 @@ bool master_loss_is_inconsistent(const lack_of_fit *lack);
 /* Returns true if that factor is the only misfit. It does not affect the shifts. */
 bool master_misfit_is_loss_factor(const lack_of_fit *lack);
 
-/* Fits for the reference of the options. *better: after a lack of overlap, the temperature of a
- * steeper isotherm; otherwise NaN. */
-wt_status master_fit_once(const wt_sweep *sweep, const wt_master_options *options, wt_log *log,
-                          wt_master *master, double *better, wt_error *err) WT_NODISCARD;
 /* Fills `master` and transfers the posterior to it. */
 wt_status master_report(master_work *work, const wt_sweep *sweep, wt_log *log, wt_master *master,
                         wt_error *err) WT_NODISCARD;
 /* Fills the shifts and their notes. */
-wt_status master_fill_shifts(const master_work *work, wt_master *m, wt_error *err) WT_NODISCARD;
+void master_fill_shifts(const master_work *work, wt_master *m);
 /* Returns WT_E_RANGE if no shift exists for the reference temperature. */
 wt_status master_check_reference(const master_work *work, const wt_master *m,
                                  wt_error *err) WT_NODISCARD;
 /* Returns WT_E_NO_OVERLAP if no isotherm is shifted onto the reference. */
 wt_status master_check_shifts(const master_work *work, const wt_master *m,
                               wt_error *err) WT_NODISCARD;
+/* Returns the isotherm with the largest change of modulus if its shift error is at most half of
+ * that of the anchor, otherwise the anchor. */
+size_t master_steeper_isotherm(const master_work *work);
 /* Appends a remark to the note of a shift after "; ". */
 void master_add_note(wt_master_shift *shift, const char *format, ...) WT_PRINTF(2, 3);
 /* Writes unexpected properties of the isotherms to their notes and to the log. */

@@ -4,7 +4,7 @@
 #include "dma/numerics/master_fit.h"
 
 #include "core/math/arena_gsl.h"
-#include "dma/numerics/spectrum_start.h"
+#include "dma/numerics/isotherm.h"
 
 #include <math.h>
 
@@ -28,36 +28,31 @@ static bool shifts_match_edges(const master_work *work, const overlap_edge *edge
     return true;
 }
 
-wt_status master_shifts_agree(const master_work *work, bool *agrees, wt_error *err)
+bool master_shifts_agree(const master_work *work)
 {
-    const size_t n = work->set.n;
     arena memory = {0};
-    overlap_edge *edge = arena_alloc(&memory, n, sizeof *edge);
-    wt_status status =
-        memory.failed ? wt_fail(err, WT_E_MEMORY, "no memory for the overlaps") : WT_OK;
-    *agrees = false;
-    for (int physical = 0; physical < 2 && status == WT_OK && !*agrees; physical++) {
-        status = master_overlap_edges(work, physical == 1, edge, err);
-        *agrees = status == WT_OK && shifts_match_edges(work, edge);
+    overlap_edge *edge = arena_alloc(&memory, work->set.n, sizeof *edge);
+    bool agree = false;
+    for (int physical = 0; physical < 2 && !agree; physical++) {
+        master_overlap_edges(work, physical == 1, edge);
+        agree = shifts_match_edges(work, edge);
     }
     arena_free(&memory);
-    return status;
+    return agree;
 }
 
-wt_status master_can_use_overlaps(master_work *work, bool *may, wt_error *err)
+bool master_can_use_overlaps(master_work *work)
 {
     size_t placed = 0;
     bool given = !work->set.used[STORAGE];
     for (size_t i = 0; i < work->set.n; i++)
         given = given || work->set.curves[i].is_shift_fixed;
-    *may = false;
     if (given)
-        return WT_OK;
-    const wt_status status = master_find_overlaps(work, err);
-    for (size_t i = 0; status == WT_OK && i < work->set.n; i++)
+        return false;
+    master_find_overlaps(work);
+    for (size_t i = 0; i < work->set.n; i++)
         placed += work->edge[i].placed;
-    *may = placed > 1;
-    return status;
+    return placed > 1;
 }
 
 static size_t distance_to_anchor(const master_work *work, size_t i)
@@ -141,7 +136,7 @@ static bool is_user_stated(const master_work *work, size_t i)
  * within the overlaps, the difference of spectrum and overlaps, and the misfit. The law treats
  * them as independent step errors of the same total size, because a common error leaves its form
  * unchanged. An error that is only possible is ignored by the law. Stated shifts have no error. */
-static wt_status set_extra_shift_errors(master_work *work, wt_error *err)
+static void set_extra_shift_errors(master_work *work)
 {
     const size_t n = work->set.n;
     wt_posterior *p = work->posterior;
@@ -151,8 +146,6 @@ static wt_status set_extra_shift_errors(master_work *work, wt_error *err)
     double all = 0.0, steps = 0.0;
     p->extra_error = arena_numbers(&p->memory, work->s->n_curves);
     p->extra_covariance = arena_matrix(&p->memory, work->s->n_curves, work->s->n_curves);
-    if (p->memory.failed)
-        return wt_fail(err, WT_E_MEMORY, "no memory for the overlaps");
     for (size_t i = 0; i < n; i++) {
         if (!work->placed[i] || is_user_stated(work, i))
             continue;
@@ -176,7 +169,6 @@ static wt_status set_extra_shift_errors(master_work *work, wt_error *err)
         if (work->placed[i] && !is_user_stated(work, i) && !work->edge[i].placed)
             gsl_matrix_set(p->extra_covariance, work->curve[i], work->curve[i],
                            fails ? pow(p->extra_error[work->curve[i]], 2) : 0.0);
-    return WT_OK;
 }
 
 void master_store_original_shifts(master_work *work)
@@ -187,18 +179,16 @@ void master_store_original_shifts(master_work *work)
                                   : (double)NAN;
 }
 
-wt_status master_uncertainty(master_work *work, wt_error *err)
+void master_uncertainty(master_work *work)
 {
     double *b = arena_numbers(&work->memory, work->set.n);
-    if (b == NULL)
-        return wt_fail(err, WT_E_MEMORY, "no memory for the overlaps");
     const double b0 = spectrum_b(work->s, work->curve[work->anchor]);
     for (size_t i = 0; i < work->set.n; i++)
         if (work->placed[i])
             b[i] = (spectrum_b(work->s, work->curve[i]) - b0) / M_LN10;
     master_store_original_shifts(work);
-    const wt_status status = overlap_chain(&work->set, work->anchor, b, NULL, work->edge, err);
-    return status == WT_OK ? set_extra_shift_errors(work, err) : status;
+    overlap_chain(&work->set, work->anchor, b, NULL, work->edge);
+    set_extra_shift_errors(work);
 }
 
 bool master_all_uncertain(const master_work *work)
@@ -215,7 +205,6 @@ wt_status master_use_overlap_shifts(master_work *work, wt_error *err)
 {
     const bool physical = work->options.vertical == WT_VERTICAL_PHYSICAL;
     shift_set *set = &work->set;
-    wt_status status = WT_OK;
     for (size_t i = 0; i < set->n; i++) {
         work->placed[i] = work->edge[i].placed;
         work->a[i] = work->placed[i] ? work->edge[i].a : 0.0;
@@ -229,13 +218,14 @@ wt_status master_use_overlap_shifts(master_work *work, wt_error *err)
     work->route = WT_SHIFTS_FROM_OVERLAP;
     work->options.vertical = physical ? WT_VERTICAL_PHYSICAL : WT_VERTICAL_NONE;
     work->lines = false;
-    status = master_new_spectrum(work, err);
-    if (status == WT_OK)
-        status = set_extra_shift_errors(work, err);
-    return status == WT_OK ? master_fit_robust(work, err) : status;
+    const wt_status status = master_new_spectrum(work, err);
+    if (status != WT_OK)
+        return status;
+    set_extra_shift_errors(work);
+    return master_fit_robust(work, err);
 }
 
-/* ---- isotherms outside the described part */
+/* ---- isotherms outside the described part ---------------------------------------------------- */
 
 bool master_shift_outside_part(const master_work *work, size_t i, double *a, double *error)
 {

@@ -223,22 +223,17 @@ static double measured_loss_factor(const spectrum *s, size_t k)
 }
 
 /* Fills the points of the determined isotherms, sorted by reduced frequency. */
-static wt_status fill_master_curve(const master_work *work, wt_master *m, wt_error *err)
+static void fill_master_curve(const master_work *work, wt_master *m)
 {
     const spectrum *s = work->s;
     const bool step_response = s->loading != WT_OSCILLATION;
     wt_posterior *p = work->posterior;
     p->measured_factor = arena_numbers(&p->memory, s->n);
-    struct order *order = malloc((s->n + 1) * sizeof *order);
-    m->log_frequency = malloc(4 * (s->n + 1) * sizeof *m->log_frequency);
-    m->isotherm = malloc((s->n + 1) * sizeof *m->isotherm);
-    m->is_outlier = malloc((s->n + 1) * sizeof *m->is_outlier);
-    m->fitted_storage = malloc(4 * (s->n + 1) * sizeof *m->fitted_storage);
-    if (order == NULL || m->log_frequency == NULL || m->isotherm == NULL || m->is_outlier == NULL ||
-        m->fitted_storage == NULL || p->memory.failed) {
-        free(order);
-        return wt_fail(err, WT_E_MEMORY, "no memory for the master curve");
-    }
+    struct order *order = wt_alloc(s->n, sizeof *order);
+    m->log_frequency = wt_alloc(4 * s->n, sizeof *m->log_frequency);
+    m->isotherm = wt_alloc(s->n, sizeof *m->isotherm);
+    m->is_outlier = wt_alloc(s->n, sizeof *m->is_outlier);
+    m->fitted_storage = wt_alloc(4 * s->n, sizeof *m->fitted_storage);
     m->log_storage = m->log_frequency + s->n;
     m->log_loss = m->log_storage + s->n;
     m->fitted_loss = m->fitted_storage + s->n;
@@ -278,7 +273,6 @@ static wt_status fill_master_curve(const master_work *work, wt_master *m, wt_err
     if (!work->options.series_only && step_response)
         fill_fitted_moduli(work->posterior, true, m);
     free(order);
-    return WT_OK;
 }
 
 /* Converts unknowns of the spectrum to a series at the reference temperature. `reached` returns
@@ -346,9 +340,7 @@ static wt_status find_equilibrium_limit(master_work *work, double *limit, wt_err
 static wt_status fill_series(master_work *work, wt_master *m, wt_error *err)
 {
     const wt_posterior *p = work->posterior;
-    double *value = malloc(p->frame.n_unknowns * sizeof *value);
-    if (value == NULL)
-        return wt_fail(err, WT_E_MEMORY, "no memory for the series");
+    double *value = wt_alloc(p->frame.n_unknowns, sizeof *value);
     double unknown[LAW_MAX_UNKNOWNS];
     posterior_mean(p, value);
     posterior_mean_law(p, unknown);
@@ -405,12 +397,10 @@ wt_status master_report(master_work *work, const wt_sweep *sweep, wt_log *log, w
     m.has_converged = true;
     for (size_t i = 0; i < work->posterior->n_components; i++)
         m.has_converged = m.has_converged && work->posterior->components[i].cell->has_converged;
-    wt_status status = master_fill_shifts(work, &m, err);
-    if (status == WT_OK) {
-        fill_shift_law(work->posterior, &m);
-        clear_law_errors(work->s, &m);
-        status = master_check_reference(work, &m, err);
-    }
+    master_fill_shifts(work, &m);
+    fill_shift_law(work->posterior, &m);
+    clear_law_errors(work->s, &m);
+    wt_status status = master_check_reference(work, &m, err);
     if (status == WT_OK)
         status = master_check_shifts(work, &m, err);
     if (status == WT_OK) {
@@ -418,11 +408,9 @@ wt_status master_report(master_work *work, const wt_sweep *sweep, wt_log *log, w
         if (!work->measured_reference) /* the shifts already refer to the reference */
             m.offset = (wt_interval){0};
         set_law_rms(&m);
-    }
-    if (status == WT_OK)
-        status = fill_master_curve(work, &m, err);
-    if (status == WT_OK)
+        fill_master_curve(work, &m);
         status = fill_series(work, &m, err);
+    }
     if (status != WT_OK) {
         wt_master_clear(&m);
         return status;
@@ -497,14 +485,11 @@ wt_status wt_master_draw(const wt_master *master, uint64_t seed, size_t index, w
     const wt_posterior *p = master->posterior;
     const size_t n = p->frame.n_curves;
     double unknown[LAW_MAX_UNKNOWNS];
-    double *value = malloc((p->frame.n_unknowns + n) * sizeof *value);
-    if (value == NULL)
-        return wt_fail(err, WT_E_MEMORY, "no memory for a draw");
+    double *value = wt_alloc(p->frame.n_unknowns + n, sizeof *value);
     double *b = value + p->frame.n_unknowns;
-    wt_status status = posterior_draw(p, seed, index, value, unknown, b, err);
-    if (status == WT_OK)
-        status = terms_to_prony(p, value, unknown[0], term_is_reached,
-                                posterior_end_index(seed, index), prony, err);
+    posterior_draw(p, seed, index, value, unknown, b);
+    const wt_status status = terms_to_prony(p, value, unknown[0], term_is_reached,
+                                            posterior_end_index(seed, index), prony, err);
     if (status == WT_OK) {
         prony->deformation = master->deformation;
         prony->reference_temperature = master->reference_temperature;

@@ -100,17 +100,12 @@ static void fill_shift(const master_work *work, size_t i, const double *log_b_ma
     shift->log_b_material = log_b_material[curve];
 }
 
-wt_status master_fill_shifts(const master_work *work, wt_master *m, wt_error *err)
+void master_fill_shifts(const master_work *work, wt_master *m)
 {
     const wt_posterior *p = work->posterior;
     const size_t n = work->s->n_curves;
-    double *log_b = calloc(2 * n, sizeof *log_b);
-    m->shifts = calloc(work->set.n, sizeof *m->shifts);
-    if (log_b == NULL || m->shifts == NULL) {
-        free(log_b);
-        return wt_fail(err, WT_E_MEMORY, "no memory for the shifts");
-    }
-    double *one = log_b + n;
+    double *log_b = wt_alloc(2 * n, sizeof *log_b), *const one = log_b + n;
+    m->shifts = wt_alloc(work->set.n, sizeof *m->shifts);
     for (size_t c = 0; c < p->n_components; c++) {
         posterior_smooth_b(p, p->components[c].cell, p->components[c].cell->value, one);
         for (size_t i = 0; i < n; i++)
@@ -122,25 +117,34 @@ wt_status master_fill_shifts(const master_work *work, wt_master *m, wt_error *er
     for (size_t i = 0; i < m->n_shifts; i++)
         m->n_outliers += m->shifts[i].n_outliers;
     free(log_b);
-    return WT_OK;
 }
 
 /* ---- checks ---------------------------------------------------------------------------------- */
 
-/* If another isotherm changes by this factor more, the shift error there is half, and not all
- * isotherms are flat. */
+/* Ratio of the change along the steepest isotherm to that along the anchor. At 2 the shift error
+ * halves, because it is noise divided by slope. */
 static const double steepness_ratio = 2.0;
+
+size_t master_steeper_isotherm(const master_work *work)
+{
+    const shift_set *set = &work->set;
+    size_t steepest = work->anchor;
+    for (size_t i = 0; i < set->n; i++)
+        if (set->curves[i].n >= SHIFT_MIN_POINTS &&
+            curve_modulus_change(set, i) > curve_modulus_change(set, steepest))
+            steepest = i;
+    return curve_modulus_change(set, steepest) >
+                   steepness_ratio * curve_modulus_change(set, work->anchor)
+               ? steepest
+               : work->anchor;
+}
 
 /* Fails because no slope determines the shifts. */
 static wt_status fail_flat_isotherms(const master_work *work, wt_error *err)
 {
     const shift_curve *at = &work->set.curves[work->anchor];
-    size_t steepest = work->anchor;
-    for (size_t i = 0; i < work->set.n; i++)
-        if (curve_modulus_change(&work->set, i) > curve_modulus_change(&work->set, steepest))
-            steepest = i;
-    const bool elsewhere = curve_modulus_change(&work->set, steepest) >
-                           steepness_ratio * curve_modulus_change(&work->set, work->anchor);
+    const size_t steepest = master_steeper_isotherm(work);
+    const bool elsewhere = steepest != work->anchor;
     wt_fail(err, WT_E_NO_OVERLAP,
             elsewhere ? "no shift is determined: the isotherm of the reference is flat"
                       : "no shift is determined: the isotherms are flat");

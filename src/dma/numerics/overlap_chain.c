@@ -4,7 +4,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dma/numerics/overlap_chain.h"
 
-#include "dma/numerics/closed_form.h"
+#include "dma/numerics/isotherm.h"
 
 #include <gsl/gsl_sort.h>
 #include <gsl/gsl_statistics_double.h>
@@ -12,7 +12,83 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A step with a larger error is rejected [decade], as for the shifts of the fit (shift_graph.c). */
+/* ---- closed form of ISO 18437-6 -------------------------------------------------------------- */
+
+/* Minimum shared height [decade], or this share of the height of the flatter curve, because a
+ * glass has no more. The height is twelve times 1 % of noise (0.004 decade). The
+ * overlap chain, which starts from these shifts, has separate errors. */
+static const double least_height = 0.05, least_share = 0.25;
+
+/* Minimum number of points of each curve in the shared range. Two isotherms towards the anchor
+ * are tried, so that one bad isotherm leaves a gap only. */
+enum { LEAST_POINTS = 2, REACH = 2 };
+
+/* Integrates x over the ordinates from low to high along the running maximum of a curve. *n:
+ * number of points in that range. */
+static double area_along_ordinates(const shift_curve *c, double low, double high, size_t *n)
+{
+    double sum = 0.0, before = c->y[STORAGE][0];
+    *n = before >= low && before <= high;
+    for (size_t k = 1; k < c->n; k++) {
+        const double y = c->y[STORAGE][k], from = fmax(before, low), to = fmin(y, high);
+        *n += y >= low && y <= high;
+        if (!(y > before))
+            continue;
+        if (to > from) {
+            const double slope = (c->x[k] - c->x[k - 1]) / (y - before);
+            sum += (to - from) * (c->x[k - 1] + slope * (0.5 * (from + to) - before));
+        }
+        before = y;
+    }
+    return sum;
+}
+
+static double highest_ordinate(const shift_curve *c)
+{
+    double most = -HUGE_VAL;
+    for (size_t k = 0; k < c->n; k++)
+        most = fmax(most, c->y[STORAGE][k]);
+    return most;
+}
+
+/* Returns the shift of curve `from` onto curve `onto`, with its storage modulus times 10^b
+ * [decade]. It is NaN if they share too little height. */
+static double closed_form_step(const shift_set *set, size_t onto, size_t from, double b)
+{
+    const shift_curve *p = &set->curves[onto], *s = &set->curves[from];
+    if (!set->used[STORAGE] || p->n < LEAST_POINTS || s->n < LEAST_POINTS)
+        return (double)NAN;
+    const double first[2] = {p->y[STORAGE][0], s->y[STORAGE][0] + b},
+                 last[2] = {highest_ordinate(p), highest_ordinate(s) + b};
+    const double low = fmax(first[0], first[1]), high = fmin(last[0], last[1]);
+    const double flatter = fmin(last[0] - first[0], last[1] - first[1]);
+    size_t points[2];
+    const double between = area_along_ordinates(p, low, high, &points[0]) -
+                           area_along_ordinates(s, low - b, high - b, &points[1]);
+    const bool enough = high > low && high - low >= fmin(least_height, least_share * flatter) &&
+                        points[0] >= LEAST_POINTS && points[1] >= LEAST_POINTS;
+    return enough ? between / (high - low) : (double)NAN;
+}
+
+void closed_form_shifts(const shift_set *set, size_t anchor, double *log_a)
+{
+    for (size_t i = 0; i < set->n; i++)
+        log_a[i] = (double)NAN;
+    if (!set->used[STORAGE])
+        return;
+    log_a[anchor] = 0.0;
+    for (size_t i = anchor + 1; i < set->n; i++)
+        for (size_t k = 1; isnan(log_a[i]) && k <= REACH && anchor + k <= i; k++)
+            log_a[i] = log_a[i - k] + closed_form_step(set, i - k, i, 0.0);
+    for (size_t i = anchor; i-- > 0;)
+        for (size_t k = 1; isnan(log_a[i]) && k <= REACH && i + k <= anchor; k++)
+            log_a[i] = log_a[i + k] + closed_form_step(set, i + k, i, 0.0);
+}
+
+/* ---- overlaps -------------------------------------------------------------------------------- */
+
+/* A step with a larger error is rejected [decade], as for the shifts of the fit (master_overlap.c).
+ */
 static const double largest_sigma = 0.2;
 /* Half width of the line fit that gives a slope [decade]. */
 static const double slope_reach = 0.3;
@@ -208,8 +284,8 @@ static bool add_overlap_edge(struct chain_work *c, overlap_edge *edge, size_t on
     return true;
 }
 
-wt_status overlap_chain(const shift_set *set, size_t anchor, const double *b,
-                        const double *alternative_b, overlap_edge *edge, wt_error *err)
+void overlap_chain(const shift_set *set, size_t anchor, const double *b,
+                   const double *alternative_b, overlap_edge *edge)
 {
     const size_t n = set->n;
     size_t longest = 0;
@@ -219,7 +295,7 @@ wt_status overlap_chain(const shift_set *set, size_t anchor, const double *b,
     }
     edge[anchor] = (overlap_edge){.placed = true, .onto = anchor};
     if (!set->used[STORAGE])
-        return WT_OK;
+        return;
     arena memory = {0};
     struct chain_work c = {.set = set, .b = b, .alternative_b = alternative_b};
     for (int q = 0; q < MODULI; q++)
@@ -227,10 +303,6 @@ wt_status overlap_chain(const shift_set *set, size_t anchor, const double *b,
     c.first = arena_alloc(&memory, n, sizeof *c.first);
     c.overlap.gap = arena_alloc(&memory, 2 * longest, sizeof *c.overlap.gap);
     c.overlap.scratch = arena_numbers(&memory, 2 * longest);
-    if (memory.failed) {
-        arena_free(&memory);
-        return wt_fail(err, WT_E_MEMORY, "no memory for the overlaps");
-    }
     for (size_t i = 0, k = 0; i < n; k += set->curves[i++].n) {
         c.first[i] = k;
         for (int q = 0; q < MODULI; q++)
@@ -244,5 +316,4 @@ wt_status overlap_chain(const shift_set *set, size_t anchor, const double *b,
         for (size_t k = 1; k <= NEIGHBOURS && i + k <= anchor && !edge[i].placed; k++)
             (void)add_overlap_edge(&c, edge, i + k, i);
     arena_free(&memory);
-    return WT_OK;
 }

@@ -20,8 +20,10 @@ typedef struct overlap_edge {
 
 /* Fills the edges [set->n]. b: [set->n] vertical shifts of the moduli; alternative_b: [set->n]
  * alternative vertical shifts, or NULL. Without a storage modulus only the anchor is placed. */
-wt_status overlap_chain(const shift_set *set, size_t anchor, const double *b,
-                        const double *alternative_b, overlap_edge *edge,
-                        wt_error *err) WT_NODISCARD;
+void overlap_chain(const shift_set *set, size_t anchor, const double *b,
+                   const double *alternative_b, overlap_edge *edge);
+/* Computes log_a [set->n], in decades, 0 at the anchor. It is NaN if no isotherm towards the
+ * anchor shares enough height, or without a storage modulus. */
+void closed_form_shifts(const shift_set *set, size_t anchor, double *log_a);
 
 #endif

@@ -17,11 +17,6 @@ static const double least_share = 1e-3;
 
 /* ---- construction ---------------------------------------------------------------------------- */
 
-wt_posterior *posterior_new(void)
-{
-    return calloc(1, sizeof(wt_posterior));
-}
-
 void posterior_free(wt_posterior *p)
 {
     if (p == NULL)
@@ -36,16 +31,14 @@ static wt_status fill_cell(const wt_posterior *p, posterior_cell *c, wt_error *e
 {
     const spectrum *s = &p->frame;
     const size_t n = s->n_unknowns;
-    gsl_matrix *scratch = gsl_matrix_alloc(n, n);
-    if (scratch == NULL)
-        return wt_fail(err, WT_E_MEMORY, "no memory for the fits");
+    arena memory = {0};
     spectrum_precision(s, c->root);
     for (size_t u = 0; u < n; u++)
         *gsl_matrix_ptr(c->root, u, u) *= 1.0 + s->rounding;
     const bool good = dense_factor(c->root);
     if (good)
-        dense_inverse(c->root, scratch, c->covariance);
-    gsl_matrix_free(scratch);
+        dense_inverse(c->root, arena_matrix(&memory, n, n), c->covariance);
+    arena_free(&memory);
     return good ? WT_OK
                 : wt_fail(err, WT_E_CONVERGENCE, "the isotherms do not determine a spectrum");
 }
@@ -70,8 +63,6 @@ wt_status posterior_store(wt_posterior *p, wt_vertical_shift kind, const vertica
     }
     if (counts && kind == WT_VERTICAL_TIED)
         c->smooth = arena_numbers(&p->memory, n_curves * n_curves);
-    if (p->memory.failed)
-        return wt_fail(err, WT_E_MEMORY, "no memory for the fits");
     p->step_left = fmax(p->step_left, spectrum_step_left(s));
     memcpy(c->value, s->value, n * sizeof *c->value);
     if (c->smooth != NULL)
@@ -154,13 +145,9 @@ static wt_status component_fill(wt_posterior *p, posterior_component *component,
     const size_t n = data->n, k = component->law.n_unknowns;
     gsl_matrix *x = arena_matrix(&p->memory, n, k), *mx = arena_matrix(&p->memory, n, k);
     gsl_vector *gap = arena_vector(&p->memory, n);
-    component_alloc(p, component);
-    if (p->memory.failed)
-        return wt_fail(err, WT_E_MEMORY, "no memory for the law");
     gsl_matrix *root = arena_matrix(&p->memory, n, n);
-    const wt_status status = root == NULL || root->data == NULL
-                                 ? wt_fail(err, WT_E_MEMORY, "no memory for the law")
-                                 : law_gls_covariance(data, component->spread, root, err);
+    component_alloc(p, component);
+    const wt_status status = law_gls_covariance(data, component->spread, root, err);
     if (status != WT_OK)
         return status;
     dense_inverse(root, component->inner, component->inverse);
@@ -217,8 +204,6 @@ static wt_status weigh_components(wt_posterior *p, gsl_matrix *root, wt_error *e
     size_t n = 0;
     double sum = 0.0;
     p->components = arena_alloc(&p->memory, p->n_cells * LAW_SPREADS, sizeof *p->components);
-    if (p->components == NULL)
-        return wt_fail(err, WT_E_MEMORY, "no memory for the mixture");
     wt_status status = fit_components(p, p->components, &n, root, err);
     for (size_t i = 0; status == WT_OK && i < n; i++)
         if (p->components[i].weight >= least_share) {
@@ -234,10 +219,10 @@ static wt_status weigh_components(wt_posterior *p, gsl_matrix *root, wt_error *e
 }
 
 /* Uses the cells as components if there is no law. */
-static wt_status components_without_law(wt_posterior *p, wt_error *err)
+static void components_without_law(wt_posterior *p)
 {
     p->components = arena_alloc(&p->memory, p->n_cells, sizeof *p->components);
-    for (size_t i = 0; p->components != NULL && i < p->n_cells; i++) {
+    for (size_t i = 0; i < p->n_cells; i++) {
         posterior_component *component = &p->components[p->n_components];
         *component = (posterior_component){.cell = &p->cells[i], .weight = p->cells[i].weight};
         if (!(component->weight > 0.0))
@@ -246,19 +231,16 @@ static wt_status components_without_law(wt_posterior *p, wt_error *err)
         p->n_components++;
     }
     p->shape = (law_shape){.kind = WT_LAW_NONE, .outlier = -1};
-    return p->memory.failed ? wt_fail(err, WT_E_MEMORY, "no memory for the mixture") : WT_OK;
 }
 
 /* Factors the covariance of the additional errors. Rows without such an error, as the reference,
  * are 0. */
-static wt_status factor_extra_covariance(wt_posterior *p, wt_error *err)
+static void factor_extra_covariance(wt_posterior *p)
 {
     const size_t n = p->frame.n_curves;
     if (p->extra_covariance == NULL)
-        return WT_OK;
+        return;
     gsl_matrix *root = p->extra_covariance_root = arena_matrix(&p->memory, n, n);
-    if (p->memory.failed)
-        return wt_fail(err, WT_E_MEMORY, "no memory for the law");
     for (size_t i = 0; i < n; i++)
         for (size_t k = 0; k <= i; k++) {
             double sum = gsl_matrix_get(p->extra_covariance, i, k);
@@ -270,7 +252,6 @@ static wt_status factor_extra_covariance(wt_posterior *p, wt_error *err)
                            : pivot > 0.0 ? sum / pivot
                                          : 0.0);
         }
-    return WT_OK;
 }
 
 wt_status posterior_finish(wt_posterior *p, double reference, wt_error *err)
@@ -284,11 +265,7 @@ wt_status posterior_finish(wt_posterior *p, double reference, wt_error *err)
                          .covariance = arena_matrix(&p->memory, n, n),
                          .slope = p->slope,
                          .scratch = arena_numbers(&p->memory, n * (LAW_MAX_UNKNOWNS + 2))};
-    if (p->memory.failed)
-        return wt_fail(err, WT_E_MEMORY, "no memory for the law");
-    const wt_status extra_covariance = factor_extra_covariance(p, err);
-    if (extra_covariance != WT_OK)
-        return extra_covariance;
+    factor_extra_covariance(p);
     weigh_cells(p);
     set_cell_shifts(p, posterior_best(p));
     wt_status status = n < 2 ? wt_fail(&failure, WT_E_RANGE, "one isotherm has no shift")
@@ -297,7 +274,8 @@ wt_status posterior_finish(wt_posterior *p, double reference, wt_error *err)
         status = weigh_components(p, root, &failure);
     if (status == WT_E_RANGE || status == WT_E_CONVERGENCE) {
         snprintf(p->no_law_reason, sizeof p->no_law_reason, "%s", failure.message);
-        return components_without_law(p, err);
+        components_without_law(p);
+        return WT_OK;
     }
     if (status != WT_OK && err != NULL)
         *err = failure;

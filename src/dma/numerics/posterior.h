@@ -5,9 +5,9 @@
 #define WT_DMA_NUMERICS_POSTERIOR_H
 
 #include "dma/numerics/shift_law.h"
-#include "dma/numerics/vertical_shift.h"
+#include "dma/numerics/spectrum.h"
 
-/* Number of geometry widths times departure widths in master_widths.c. */
+/* Number of geometry widths times departure widths in master_route.c. */
 enum { POSTERIOR_CELLS = 12 };
 
 /* One fit of the spectrum for one width of the vertical shift. */
@@ -58,7 +58,6 @@ struct wt_posterior {
     double step_left; /* largest remaining step of a cell [standard errors] */
 };
 
-wt_posterior *posterior_new(void); /* NULL if memory is exhausted */
 void posterior_free(wt_posterior *p);
 /* Stores the present fit of the frame as a cell. */
 wt_status posterior_store(wt_posterior *p, wt_vertical_shift kind, const vertical *v,
@@ -104,8 +103,7 @@ void posterior_smooth_b(const wt_posterior *p, const posterior_cell *cell, const
                         double *log_b);
 /* One joint draw: unknowns of the spectrum [n_unknowns] and of the law, and b of the material at
  * the isotherms. The draw depends on seed and index only. */
-wt_status posterior_draw(const wt_posterior *p, uint64_t seed, size_t index, double *value,
-                         double unknown[LAW_MAX_UNKNOWNS], double *log_b,
-                         wt_error *err) WT_NODISCARD;
+void posterior_draw(const wt_posterior *p, uint64_t seed, size_t index, double *value,
+                    double unknown[LAW_MAX_UNKNOWNS], double *log_b);
 
 #endif

@@ -426,8 +426,8 @@ static void draw_extra_errors(const wt_posterior *p, struct random_stream *s, do
 }
 
 /* Draws spectrum and shifts without the law, then moves them towards the drawn law. */
-wt_status posterior_draw(const wt_posterior *p, uint64_t seed, size_t index, double *value,
-                         double unknown[LAW_MAX_UNKNOWNS], double *log_b, wt_error *err)
+void posterior_draw(const wt_posterior *p, uint64_t seed, size_t index, double *value,
+                    double unknown[LAW_MAX_UNKNOWNS], double *log_b)
 {
     const size_t n = p->frame.n_unknowns, n_curves = p->frame.n_curves;
     const posterior_component *component = draw_component(p, seed, index);
@@ -435,10 +435,6 @@ wt_status posterior_draw(const wt_posterior *p, uint64_t seed, size_t index, dou
     arena memory = {0};
     gsl_vector *e = arena_vector(&memory, n), *gap = arena_vector(&memory, n_curves),
                *pull = arena_vector(&memory, n_curves);
-    if (memory.failed) {
-        arena_free(&memory);
-        return wt_fail(err, WT_E_MEMORY, "no memory for a draw");
-    }
     for (size_t u = 0; u < n; u++)
         gsl_vector_set(e, u, draw_normal(&s));
     gsl_blas_dtrsv(CblasLower, CblasTrans, CblasNonUnit, component->cell->root, e);
@@ -462,5 +458,4 @@ wt_status posterior_draw(const wt_posterior *p, uint64_t seed, size_t index, dou
     linearise_draw(p, component, value);
     posterior_smooth_b(p, component->cell, value, log_b);
     arena_free(&memory);
-    return WT_OK;
 }

@@ -391,8 +391,6 @@ static wt_status prepare_reduction(reducer *r, const wt_reduction *options, wt_e
     r->factor = arena_matrix(&r->memory, n, n);
     r->gradient = arena_vector(&r->memory, n);
     r->move = arena_vector(&r->memory, n);
-    if (r->memory.failed)
-        return wt_fail(err, WT_E_MEMORY, "no memory to reduce the series");
     for (size_t k = 0; k < r->n; k++) {
         double modulus[MODULI];
         r->x[k] = first + (last - first) * (double)k / (double)(r->n - 1);
@@ -451,10 +449,8 @@ wt_status wt_prony_reduce(const wt_prony *from, const wt_reduction *options, wt_
     wt_status status = param_check(wt_reduction_params(), &o, err);
     if (status == WT_OK)
         status = prepare_reduction(&r, &o, err);
-    double *best_terms = status == WT_OK ? arena_numbers(&r.memory, 2 * r.most + 1) : NULL;
-    if (status == WT_OK && best_terms == NULL)
-        status = wt_fail(err, WT_E_MEMORY, "no memory to reduce the series");
     if (status == WT_OK) {
+        double *best_terms = arena_numbers(&r.memory, 2 * r.most + 1);
         size_t terms = o.terms;
         if (terms > 0) {
             spread_terms(&r, terms);

@@ -78,9 +78,6 @@ static wt_status add_sample(law_samples *c, const wt_master *master, size_t samp
     m->covariance = arena_matrix(&c->memory, m->n, m->n);
     for (size_t i = 0; i < LAW_SPREADS; i++)
         m->root[i] = arena_matrix(&c->memory, m->n, m->n);
-    if (c->memory.failed)
-        return wt_fail(err, WT_E_MEMORY, "no memory for a common law");
-    memset(m->log_a, 0, m->n * sizeof *m->log_a);
     read_posterior_shifts(p, shape->outlier, m);
     posterior_mean_law(p, constants);
     m->main_constant = constants[1];
@@ -214,8 +211,6 @@ static void fit_with_spread(law_samples *c, const law_model *model, size_t sprea
     s->unknown = arena_numbers(memory, n);
     s->covariance = arena_matrix(memory, n, n);
     s->good = false;
-    if (memory->failed)
-        return;
     set_start_values(c, model, s->unknown);
     bool done = false;
     s->chi_square = weighted_squares(c, model, spread, s->unknown, off, columns, cross, right);
@@ -303,8 +298,6 @@ static wt_status gather_samples(law_samples *c, const wt_master *const *masters,
 {
     wt_status status = WT_OK;
     c->members = arena_alloc(&c->memory, n, sizeof *c->members);
-    if (c->members == NULL)
-        return wt_fail(err, WT_E_MEMORY, "no memory for a common law");
     for (size_t i = 0; status == WT_OK && i < n; i++) {
         const char *const reason = why_not(masters[i]);
         if (reason == NULL)
@@ -344,9 +337,7 @@ static wt_status compute_shared_law(law_samples *c, wt_shared_shift_law *common,
         fit_with_spread(c, &of_all, i, &shared[i]);
         fit_with_spread(c, &of_each, i, &separate[i]);
     }
-    common->points = calloc(c->n, sizeof *common->points);
-    if (c->memory.failed || common->points == NULL)
-        return wt_fail(err, WT_E_MEMORY, "no memory for a common law");
+    common->points = wt_alloc(c->n, sizeof *common->points);
     if (!weigh_spreads(c, true, shared)) {
         wt_fail(err, WT_E_RANGE, "no one law describes the shifts of all samples");
         wt_error_advice(err, "%s",
@@ -372,11 +363,9 @@ wt_status wt_shared_shift_law_fit(const wt_master *const *masters, size_t n,
         return wt_fail(err, WT_E_ARG, "a common law needs two samples or more");
     law_samples c = {
         .sharing = sharing, .reference = reference, .kind = shared_law_kind(masters, n)};
-    wt_shared_shift_law made = {.n_members = n, .members = calloc(n, sizeof *made.members)};
+    wt_shared_shift_law made = {.n_members = n, .members = wt_alloc(n, sizeof *made.members)};
     gsl_quiet();
-    wt_status status = made.members == NULL
-                           ? wt_fail(err, WT_E_MEMORY, "no memory for a common law")
-                           : gather_samples(&c, masters, n, &made, err);
+    wt_status status = gather_samples(&c, masters, n, &made, err);
     if (status == WT_OK)
         status = compute_shared_law(&c, &made, err);
     arena_free(&c.memory);

@@ -18,8 +18,8 @@
  * platinum thermometer at 0 degC (IEC 60751). */
 const double law_temperature_tolerance = 0.3;
 /* Additional prior weight of the smallest temperature error, a fifth of all, because a program
- * may be very stable. It is chosen. Without it the errors of stable sweeps are too wide; twice
- * as much ignores scatter as large as the noise too often. */
+ * may be very stable. The data must then favour it by 4 to 1 to give it half of the weight, which
+ * is substantial evidence on the scale of Jeffreys (Theory of Probability, 1961, appendix B). */
 static const double zero_spread_weight = 0.15;
 /* Minimum number of isotherms for that weight. With n - 3 degrees of freedom scatter as large as
  * the noise appears absent (chi^2 below half its mean) with probability 0.39 for five, 0.26 for

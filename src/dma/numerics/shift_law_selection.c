@@ -46,9 +46,7 @@ static wt_status factor_spreads(struct search *search, wt_error *err)
     for (size_t i = 0; i < LAW_SPREADS && status == WT_OK; i++) {
         if (search->root[i] == NULL)
             search->root[i] = arena_matrix(&search->memory, n, n);
-        status = search->memory.failed
-                     ? wt_fail(err, WT_E_MEMORY, "no memory for the law")
-                     : law_gls_covariance(search->data, law_spread(i), search->root[i], err);
+        status = law_gls_covariance(search->data, law_spread(i), search->root[i], err);
     }
     return status;
 }
@@ -96,7 +94,7 @@ static wt_status try_law(struct search *search, law_shape shape, bool *is_best, 
     wt_error failure = WT_ERROR_INIT;
     const wt_status status = law_likelihoods(search, &shape, &largest, &mean, &failure);
     *is_best = false;
-    if (status == WT_E_MEMORY || status == WT_E_INTERNAL) {
+    if (status == WT_E_INTERNAL) {
         if (err != NULL)
             *err = failure;
         return status;
@@ -163,7 +161,7 @@ static wt_status outlier_gains(struct search *search, const law_shape *shape, do
                *x = arena_matrix(m, n, k), *mx = arena_matrix(m, n, k);
     gsl_vector *gap = arena_vector(m, n), *pull = arena_vector(m, n);
     double least[LAW_SPREADS];
-    wt_status status = m->failed ? wt_fail(err, WT_E_MEMORY, "no memory for the law") : WT_OK;
+    wt_status status = WT_OK;
     for (size_t i = 0; status == WT_OK && i < LAW_SPREADS; i++) {
         law_fit fit;
         status = law_fit_gls(data, shape, search->root[i], &fit, err);
@@ -196,8 +194,7 @@ static wt_status find_outlier_isotherm(struct search *search, wt_error *err)
     const struct search plain = *search;
     const size_t n = search->data->n;
     double *gain = arena_numbers(&search->memory, n);
-    wt_status status = gain == NULL ? wt_fail(err, WT_E_MEMORY, "no memory for the law")
-                                    : factor_spreads(search, err);
+    wt_status status = factor_spreads(search, err);
     if (status == WT_OK)
         status = outlier_gains(search, &plain.chosen, gain, err);
     if (status == WT_E_RANGE)

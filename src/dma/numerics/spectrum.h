@@ -8,7 +8,6 @@
 #include "core/base/arena.h"
 #include "dma/numerics/bordered_matrix.h"
 #include "dma/numerics/isotherm.h"
-
 #include <gsl/gsl_matrix.h>
 
 /* Prior of the vertical shifts: normal about `mean` with the precision P - P S S' P. P is the
@@ -24,7 +23,7 @@ typedef struct spectrum_prior {
     double log_det;     /* ln determinant of the covariance */
 } spectrum_prior;
 
-/* Maximum number of smooth components (vertical_shift.c). It is exact to rounding over a range
+/* Maximum number of smooth components (spectrum_prior.c). It is exact to rounding over a range
  * of a thousand kelvin. */
 enum { SPECTRUM_MAX_SMOOTH = 64 };
 
@@ -156,16 +155,12 @@ void spectrum_evaluate(spectrum *s, const double *value, bool with_rows);
 void spectrum_whiten(const spectrum *s, size_t curve, int q, double *v, size_t width);
 double spectrum_log_det_correlation(const spectrum *s);
 void spectrum_normal(spectrum *s);
-/* Solves x = covariance times y for unknowns; x and y may be the same. */
-void spectrum_solve(const spectrum *s, const double *y, double *x);
 /* Copies the full precision matrix [n_unknowns^2]. */
 void spectrum_precision(const spectrum *s, gsl_matrix *precision);
 double spectrum_variance(const spectrum *s, size_t curve); /* variance of a fitted a */
 /* Returns the factor on the ln residual of a point; 0: excluded. */
 double spectrum_weight(const spectrum *s, size_t k, int q);
 double spectrum_squares(const spectrum *s, int q); /* sum of squares of the whitened residuals */
-
-/* ---- spectrum_extrapolation.c */
 /* Extension of the terms beyond the measured range [decade]. */
 extern const double spectrum_fast_margin, spectrum_slow_margin;
 void spectrum_set_extrapolation(spectrum *s);
@@ -184,6 +179,26 @@ double spectrum_roughness(const spectrum *s,
                           const double *value);     /* weighted squares of the second differences */
 double spectrum_roughness_trace(const spectrum *s); /* contribution of the covariance to them */
 double spectrum_prior_log_det(const spectrum *s);
+/* Prior of the vertical shifts. */
+typedef struct vertical {
+    double reference_temperature, expansion; /* [K], [1/K] */
+    double geometry, departure;              /* standard deviations [decade] */
+    double *mean;                            /* [n] owned by the caller */
+    spectrum_prior prior_storage;            /* arrays of the prior; one prior at a time */
+    double *left;                            /* [n] scratch */
+    gsl_matrix *root;                        /* scratch */
+} vertical;
+/* Returns ln b of rubber elasticity. */
+double vertical_physical(const vertical *v, double temperature);
+/* Allocates the arrays for n curves. */
+void vertical_alloc(arena *memory, size_t n, vertical *v);
+/* Fills the prior of the curves of a spectrum, which borrows `mean` and the arrays. Free shifts
+ * fix only the anchor, with the clamping error; without a geometry error the anchor is exact. */
+wt_status vertical_prior(vertical *v, wt_vertical_shift kind, const double *temperature,
+                         const spectrum *s, spectrum_prior *prior, wt_error *err) WT_NODISCARD;
+/* Computes the weights of the smooth part: ln b of the material at isotherm i is
+ * vertical_physical plus the sum of weight[i * n + k] times (b_k - mean_k). weight must be zero. */
+void vertical_smooth_part(const spectrum_prior *prior, size_t n, double *weight);
 
 /* ---- spectrum_fit.c: Levenberg-Marquardt with noise and smoothness by Fellner-Schall */
 typedef enum spectrum_mode {
@@ -194,6 +209,8 @@ typedef enum spectrum_mode {
     SPECTRUM_TRIAL        /* the same with an accuracy that suffices to compare the noise */
 } spectrum_mode;
 wt_status spectrum_fit(spectrum *s, spectrum_mode mode, wt_error *err) WT_NODISCARD;
+/* Chooses the correlation along the isotherms by the criterion. */
+wt_status spectrum_choose_rho(spectrum *s, wt_error *err) WT_NODISCARD;
 /* Gain of -2 ln likelihood at which a fit ends. Its root is the remaining step in standard
  * errors, 3 %. */
 #define SPECTRUM_MIN_GAIN 1e-3
@@ -214,12 +231,8 @@ void spectrum_update_curvature(spectrum *s);
 size_t spectrum_outliers(spectrum *s);
 
 /* Prior weight of equal noise factors, in points: half of the 16 values of an isotherm with
- * eight frequencies. Chosen; a factor of five in the noise is found with 4 and with 16, too. */
+ * eight frequencies. It is a prior standard deviation of ln of a factor of 1/sqrt(2 * 8) = 0.25. */
 #define SPECTRUM_KAPPA_PRIOR_POINTS 8.0
-
-/* ---- spectrum_correlation.c */
-/* Chooses the correlation along the isotherms by the criterion. */
-wt_status spectrum_choose_rho(spectrum *s, wt_error *err) WT_NODISCARD;
 /* Noise about a separate polynomial of each isotherm, so that a misfit of the spectrum does not
  * count as noise. */
 enum { SPECTRUM_SHAPES = 2 };
@@ -229,14 +242,28 @@ typedef struct spectrum_isotherm_noise {
         shape[SPECTRUM_SHAPES]; /* line and parabola of ln noise along an isotherm, from -1 to 1 */
     double uncertainty;         /* variance of ln of the noise variance at low frequency */
 } spectrum_isotherm_noise;
-/* Sets the noise factors of the isotherms only. */
-wt_status spectrum_estimate_noise(spectrum *s, spectrum_isotherm_noise *within,
-                                  wt_error *err) WT_NODISCARD;
+/* Estimates that noise. It sets the noise factors of the isotherms only. */
+spectrum_isotherm_noise spectrum_estimate_noise(spectrum *s);
 /* Computes the rms residual of each modulus [ln], and the rms residual about a polynomial of
  * each isotherm, for independent points. */
-wt_status spectrum_measure_misfit(spectrum *s, double all[MODULI], double within[MODULI],
-                                  wt_error *err) WT_NODISCARD;
+void spectrum_measure_misfit(spectrum *s, double all[MODULI], double within[MODULI]);
 /* Sets the noise factors of the points from their isotherm and their position on it. */
 void spectrum_set_point_noise(spectrum *s, const double shape[SPECTRUM_SHAPES]);
+
+/* ---- superposition.c: test if one spectrum with shifts describes the isotherms */
+typedef struct lack_of_fit {
+    double p;      /* p value of one spectrum from both tests, with the noise as estimated */
+    double p_sure; /* the same with the uncertainty of the noise */
+    double misfit_low, misfit_high;  /* relative misfit, 95 % limits: the larger of the two tests */
+    double factor, factor_error, kk; /* ln of a common factor on E'', its error and p value */
+    double p_beyond;                 /* p_sure of the isotherm columns without that factor */
+    double beyond;                   /* share of their explained squares without that factor */
+    double
+        parted; /* separation of slow and fast times as a share of the shift, without that factor */
+} lack_of_fit;
+
+/* Tests a fit with free vertical shifts; uncertainty: that of its noise (spectrum_isotherm_noise).
+ */
+lack_of_fit superposition_test(const spectrum *s, double uncertainty);
 
 #endif

@@ -55,7 +55,8 @@ static bool factor_damped(spectrum *s, double damping)
     return bordered_factor(&s->factor);
 }
 
-void spectrum_solve(const spectrum *s, const double *y, double *x)
+/* Solves x = covariance times y for unknowns; x and y may be the same. */
+static void spectrum_solve(const spectrum *s, const double *y, double *x)
 {
     double *border = s->border, *side = s->side;
     memset(border, 0, s->factor.m * sizeof *border);
@@ -201,4 +202,27 @@ wt_status spectrum_fit(spectrum *s, spectrum_mode mode, wt_error *err)
     if (status == WT_OK)
         spectrum_criterion(s);
     return status;
+}
+
+/* ---- correlation along the isotherms --------------------------------------------------------- */
+
+/* Correlations of neighbouring points from which the criterion selects. The steps are about one
+ * standard error for 30 points. */
+static const double rhos[] = {0.0, 0.2, 0.4, 0.6, 0.75, 0.88};
+enum { RHOS = sizeof rhos / sizeof *rhos };
+
+wt_status spectrum_choose_rho(spectrum *s, wt_error *err)
+{
+    double best = s->criterion, chosen = s->rho;
+    wt_status status = WT_OK;
+    for (size_t i = 1; status == WT_OK && i < RHOS; i++) {
+        s->rho = rhos[i];
+        status = spectrum_fit(s, SPECTRUM_ROUGH, err);
+        if (status != WT_OK || s->criterion >= best)
+            break; /* the criterion has one minimum */
+        best = s->criterion;
+        chosen = rhos[i];
+    }
+    s->rho = chosen;
+    return status == WT_OK ? spectrum_fit(s, SPECTRUM_NOISE, err) : status;
 }

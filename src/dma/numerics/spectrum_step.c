@@ -88,8 +88,6 @@ void spectrum_modes_new(spectrum *s)
     arena *m = &s->memory;
     spectrum_modes *modes = arena_alloc(m, 1, sizeof *modes);
     const size_t n = s->n_terms;
-    if (modes == NULL)
-        return; /* the arena records the failure */
     modes->terms = arena_numbers(m, s->n_linear);
     modes->index = arena_alloc(m, n, sizeof *modes->index);
     modes->modulus = arena_numbers(m, n);

@@ -2,8 +2,9 @@
  * explains, and what a different shift of slow times explains. A common factor on E'' tests the
  * Kramers-Kronig relation separately.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "dma/numerics/superposition.h"
+#include "dma/numerics/spectrum.h"
 
+#include "core/base/memory.h"
 #include "core/math/arena_gsl.h"
 #include "core/math/cholesky.h"
 #include "core/math/cholesky_dense.h"
@@ -34,9 +35,8 @@ static const double least_left = 1e-6;
 static const double least_squares = 0.01;
 
 /* Minimum degrees of freedom of the noise estimate, because a large misfit may cause apparent
- * noise within the isotherms. The variance of ln of a variance is 2 divided by them: 12 are a
- * factor 1.5. Chosen: the 1 % point of F for 20 columns is 3.9. It would be 7.4 with half and
- * 2.7 with twice as many. */
+ * noise within the isotherms. They are those of one isotherm with ten frequencies: 20 values less
+ * 8 coefficients (spectrum_noise.c). The noise is then known to a factor 1.5. */
 static const double min_noise_freedom = 12.0;
 
 /* Relative accuracy of the limits of the misfit; two digits are reported. */
@@ -318,16 +318,14 @@ static void accumulate_common(struct test_work *x, const struct columns *c)
 
 /* Projects the terms out of the columns of all isotherms together. For each eigenvector of the
  * common products the model leaves 1 minus the eigenvalue. */
-static wt_status project_out_common(struct test_work *x, wt_error *err)
+static void project_out_common(struct test_work *x)
 {
     const size_t m = x->s->n_linear;
     gsl_vector *value = arena_vector(&x->memory, m);
     gsl_matrix *vector = arena_matrix(&x->memory, m, m);
     gsl_eigen_symmv_workspace *work = gsl_eigen_symmv_alloc(m);
-    if (x->memory.failed || work == NULL) {
-        gsl_eigen_symmv_free(work);
-        return wt_fail(err, WT_E_MEMORY, "no memory for the test of superposition");
-    }
+    if (work == NULL)
+        out_of_memory(m * sizeof(double));
     for (size_t i = 0; i < m; i++)
         apply_border_inverse(x->s, gsl_matrix_ptr(x->common_products, i, 0));
     gsl_matrix_transpose(x->common_products);
@@ -344,11 +342,10 @@ static wt_status project_out_common(struct test_work *x, wt_error *err)
         x->total.explained += left > least_left ? sum * sum / left : -sum * sum / taken;
         x->total.rank -= left > least_left ? 0 : 1;
     }
-    return WT_OK;
 }
 
 /* Computes the squares explained by a line and a parabola of each isotherm. */
-static wt_status explain_isotherms(struct test_work *x, struct columns *c, wt_error *err)
+static void explain_isotherms(struct test_work *x, struct columns *c)
 {
     x->total = (explanation){0.0, 0};
     for (size_t i = 0; i < x->s->n_curves; i++) {
@@ -359,19 +356,17 @@ static wt_status explain_isotherms(struct test_work *x, struct columns *c, wt_er
         orthogonalise(x, c);
         accumulate_common(x, c);
     }
-    return project_out_common(x, err);
+    project_out_common(x);
 }
 
 /* Fills the columns of all isotherms: a second process shifts slow and fast times differently in
  * proportion to the shift. The last column is the factor on E''. */
-static wt_status fill_shared_columns(struct test_work *x, struct columns *c, wt_error *err)
+static void fill_shared_columns(struct test_work *x, struct columns *c)
 {
     const spectrum *s = x->s;
     double *share = x->share = arena_numbers(&x->memory, PARTINGS * s->n_terms);
     double *const part[MODULI] = {arena_numbers(&x->memory, s->n_linear),
                                   arena_numbers(&x->memory, s->n_linear)};
-    if (x->memory.failed)
-        return wt_fail(err, WT_E_MEMORY, "no memory for the test of superposition");
     set_parting_shares(s, share);
     clear_products(x, WITH_FACTOR, c);
     for (size_t i = 0; i < s->n_curves; i++) {
@@ -387,7 +382,6 @@ static wt_status fill_shared_columns(struct test_work *x, struct columns *c, wt_
     }
     scale_products(x, c);
     project_out_terms(x, c);
-    return WT_OK;
 }
 
 /* Computes the squares explained by the separations. */
@@ -510,35 +504,26 @@ static void allocate_test(struct test_work *x, struct columns *c)
         c->border[i] = arena_numbers(&x->memory, s->n_linear);
 }
 
-wt_status superposition_test(const spectrum *s, double uncertainty, lack_of_fit *result,
-                             wt_error *err)
+lack_of_fit superposition_test(const spectrum *s, double uncertainty)
 {
     struct test_work x = {.s = s, .uncertainty = uncertainty};
     struct columns c = {0};
+    lack_of_fit result = {.p = 1.0, .p_sure = 1.0, .p_beyond = 1.0};
     allocate_test(&x, &c);
-    wt_status status = x.memory.failed
-                           ? wt_fail(err, WT_E_MEMORY, "no memory for the test of superposition")
-                           : WT_OK;
     for (int q = 0; q < MODULI; q++) {
         x.squares += spectrum_squares(s, q) / (s->noise[q] * s->noise[q]);
         x.freedom += s->freedom[q];
         for (size_t k = 0; k < s->n; k++)
             x.points += s->weight[q][k] > 0.0;
     }
-    *result = (lack_of_fit){.p = 1.0, .p_sure = 1.0, .p_beyond = 1.0};
-    if (status == WT_OK)
-        status = explain_isotherms(&x, &c, err);
+    explain_isotherms(&x, &c);
     const explanation lines = x.total;
-    if (status == WT_OK) {
-        assess_columns(&x, result);
-        status = fill_shared_columns(&x, &c, err);
-    }
-    if (status == WT_OK) {
-        test_loss_factor(&x, &c, lines, result);
-        result->parted = parted_share(&x, &c);
-        explain_partings(&x, &c);
-        assess_columns(&x, result);
-    }
+    assess_columns(&x, &result);
+    fill_shared_columns(&x, &c);
+    test_loss_factor(&x, &c, lines, &result);
+    result.parted = parted_share(&x, &c);
+    explain_partings(&x, &c);
+    assess_columns(&x, &result);
     arena_free(&x.memory);
-    return status;
+    return result;
 }

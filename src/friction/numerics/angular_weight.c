@@ -4,7 +4,7 @@
  */
 #include "friction/numerics/angular_weight.h"
 
-#include "surface/law/anisotropy.h"
+#include "surface/law/roughness.h"
 
 #include <float.h>
 #include <math.h>

@@ -229,13 +229,10 @@ static void fill_self_affine(affine_fit_work *f, double r, double wider, wt_self
     to->hurst = range_interval(hurst, spans.of[HURST], false);
 }
 
-wt_status wt_self_affine_fit(const wt_surface_spectrum *spectrum, wt_self_affine *law,
-                             wt_error *err)
+wt_self_affine wt_self_affine_fit(const wt_surface_spectrum *spectrum)
 {
-    *law = (wt_self_affine){.found = false};
-    affine_fit_work f = {.x = malloc((3 + spectrum->n_sizes) * (spectrum->n + 1) * sizeof *f.x)};
-    if (f.x == NULL)
-        return wt_fail(err, WT_E_MEMORY, "no memory for a self-affine law");
+    wt_self_affine law = {.found = false};
+    affine_fit_work f = {.x = wt_alloc((3 + spectrum->n_sizes) * spectrum->n, sizeof *f.x)};
     f.y = f.x + spectrum->n;
     f.weight = f.y + spectrum->n;
     f.places = spectrum->n_sizes > 0 ? f.weight + spectrum->n : NULL;
@@ -255,20 +252,19 @@ wt_status wt_self_affine_fit(const wt_surface_spectrum *spectrum, wt_self_affine
         const double freedom = (double)(f.n - CONSTANTS), misfit = fmax(1, best / freedom);
         /* A roll-off counts if it is significant at 95 % (chi-squared with one degree of
          * freedom). */
-        law->rolls_off = r > f.x[0] && none - best > gsl_cdf_chisq_Pinv(0.95, 1) * misfit;
-        const double at = law->rolls_off ? r : f.x[0],
-                     left = law->rolls_off ? freedom : freedom + 1;
-        law->n = f.n;
-        law->misfit = chi_squared(&f, at) / left;
-        const double wider = variance_factor(law->misfit, left);
-        const linear_law linear = linearise_law(&f, at, law->rolls_off);
-        law->found = f.power < 0 && find_law_covariance(&linear, wider, law->covariance) &&
-                     find_position_covariance(&linear, spectrum, law->place_covariance);
-        if (law->found)
-            fill_self_affine(&f, at, wider, law);
+        law.rolls_off = r > f.x[0] && none - best > gsl_cdf_chisq_Pinv(0.95, 1) * misfit;
+        const double at = law.rolls_off ? r : f.x[0], left = law.rolls_off ? freedom : freedom + 1;
+        law.n = f.n;
+        law.misfit = chi_squared(&f, at) / left;
+        const double wider = variance_factor(law.misfit, left);
+        const linear_law linear = linearise_law(&f, at, law.rolls_off);
+        law.found = f.power < 0 && find_law_covariance(&linear, wider, law.covariance) &&
+                    find_position_covariance(&linear, spectrum, law.place_covariance);
+        if (law.found)
+            fill_self_affine(&f, at, wider, &law);
     }
     free(f.x);
-    return WT_OK;
+    return law;
 }
 
 /* ---- predictions of the law ------------------------------------------------------------------ */

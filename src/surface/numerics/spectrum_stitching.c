@@ -22,19 +22,6 @@ typedef struct stitching_work {
     size_t *group;  /* [n] first scan that is linked by shared bins */
 } stitching_work;
 
-static const wt_spectrum_bin *find_reliable_bin(const wt_surface_spectrum *s, int index)
-{
-    for (size_t k = 0; k < s->n; k++)
-        if (s->bins[k].index == index)
-            return s->bins[k].reliable ? &s->bins[k] : NULL;
-    return NULL;
-}
-
-static double bin_log_density(const wt_spectrum_bin *b)
-{
-    return log(b->density) - surface_log_bias(b->freedom);
-}
-
 /* ---- scatter from place to place ------------------------------------------------------------- */
 
 /* Computes the mean of a bin without the offsets. Returns the number of scans in it. */
@@ -43,10 +30,10 @@ static size_t offset_free_mean(const stitching_work *j, int index, double *mean)
     double sum = 0, weights = 0;
     size_t n = 0;
     for (size_t i = 0; i < j->n; i++) {
-        const wt_spectrum_bin *b = find_reliable_bin(j->spectra[i], index);
+        const wt_spectrum_bin *b = surface_reliable_bin(j->spectra[i], index);
         if (b == NULL)
             continue;
-        sum += b->freedom * (bin_log_density(b) - j->offset[i]);
+        sum += b->freedom * (surface_bin_log_density(b) - j->offset[i]);
         weights += b->freedom;
         n++;
     }
@@ -66,10 +53,10 @@ static double refine_offsets(stitching_work *j, double *sum)
         if (offset_free_mean(j, index, &mean) < 2)
             continue;
         for (size_t i = 0; i < j->n; i++) {
-            const wt_spectrum_bin *b = find_reliable_bin(j->spectra[i], index);
+            const wt_spectrum_bin *b = surface_reliable_bin(j->spectra[i], index);
             if (b == NULL)
                 continue;
-            sum[i] += (bin_log_density(b) - mean) / surface_log_variance(b->freedom);
+            sum[i] += (surface_bin_log_density(b) - mean) / surface_log_variance(b->freedom);
             j->weight[i] += 1 / surface_log_variance(b->freedom);
         }
     }
@@ -98,10 +85,10 @@ static void find_linked_groups(stitching_work *j)
         for (int index = j->first; index <= j->last; index++) {
             size_t least = j->n;
             for (size_t i = 0; i < j->n; i++)
-                if (find_reliable_bin(j->spectra[i], index) != NULL && j->group[i] < least)
+                if (surface_reliable_bin(j->spectra[i], index) != NULL && j->group[i] < least)
                     least = j->group[i];
             for (size_t i = 0; i < j->n; i++)
-                if (find_reliable_bin(j->spectra[i], index) != NULL && j->group[i] > least) {
+                if (surface_reliable_bin(j->spectra[i], index) != NULL && j->group[i] > least) {
                     j->group[i] = least;
                     changed = true;
                 }
@@ -199,7 +186,7 @@ static bool join_bin(const stitching_work *j, int index, wt_spectrum_bin *to)
            deviation = 0;
     *to = (wt_spectrum_bin){.index = index, .reliable = true};
     for (size_t i = 0; i < j->n; i++) {
-        const wt_spectrum_bin *b = find_reliable_bin(j->spectra[i], index);
+        const wt_spectrum_bin *b = surface_reliable_bin(j->spectra[i], index);
         if (b == NULL)
             continue;
         const double w = (double)b->n;
@@ -239,7 +226,7 @@ static void set_scan_weights(const stitching_work *j, int index, double *weight)
 {
     double n = 0;
     for (size_t i = 0; i < j->n; i++) {
-        const wt_spectrum_bin *b = find_reliable_bin(j->spectra[i], index);
+        const wt_spectrum_bin *b = surface_reliable_bin(j->spectra[i], index);
         weight[i] = b != NULL ? (double)b->n : 0;
         n += weight[i];
     }
@@ -281,31 +268,23 @@ wt_status wt_surface_combine(const wt_surface_spectrum *const *spectra, size_t n
         wt_error_advice(err, "measure with more points, over a larger area, or with a sharper tip");
         return WT_E_EMPTY;
     }
-    made.bins = calloc((size_t)(j.last - j.first) + 1, sizeof *made.bins);
-    j.offset = calloc(3 * n, sizeof *j.offset);
-    j.group = calloc(n, sizeof *j.group);
-    double *weights = calloc(((size_t)(j.last - j.first) + 1) * n, sizeof *weights);
-    wt_status status = WT_OK;
-    if (made.bins == NULL || weights == NULL || j.offset == NULL || j.group == NULL)
-        status = wt_fail(err, WT_E_MEMORY, "no memory for a spectrum");
-    if (status == WT_OK) {
-        j.weight = j.offset + n;
-        estimate_position_scatter(&j, &made, j.offset + 2 * n);
-        for (int index = j.first; index <= j.last; index++)
-            if (join_bin(&j, index, &made.bins[made.n]))
-                set_scan_weights(&j, index, weights + made.n++ * n);
-        status = surface_set_position_weights(weights, n, &made, err);
-    }
-    if (status == WT_OK) {
-        find_position_error(&made);
-        *joined = made;
-    } else {
-        free(made.bins);
-    }
+    const size_t n_bins = (size_t)(j.last - j.first) + 1;
+    double *weights = wt_alloc(n_bins * n, sizeof *weights);
+    made.bins = wt_alloc(n_bins, sizeof *made.bins);
+    j.group = wt_alloc(n, sizeof *j.group);
+    j.offset = wt_alloc(3 * n, sizeof *j.offset);
+    j.weight = j.offset + n;
+    estimate_position_scatter(&j, &made, j.offset + 2 * n);
+    for (int index = j.first; index <= j.last; index++)
+        if (join_bin(&j, index, &made.bins[made.n]))
+            set_scan_weights(&j, index, weights + made.n++ * n);
+    surface_set_position_weights(weights, n, &made);
+    find_position_error(&made);
+    *joined = made;
     free(weights);
     free(j.offset);
     free(j.group);
-    return status;
+    return WT_OK;
 }
 
 wt_interval wt_surface_density(const wt_surface_spectrum *spectrum, size_t bin)

@@ -1,7 +1,6 @@
 /* Computes the power spectrum of one height map or profile.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "surface/numerics/surface_analysis.h"
-#include "surface/numerics/height_grid.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -87,14 +86,12 @@ static double window_leakage(const wt_height_map *map, double variance, double p
 /* Corrects the mean of a bin for a steep spectrum. C = q^p exceeds its value at the geometric
  * mean by exp(p^2 width^2 / 2). The variation within the bin reduces the degrees of freedom. The
  * window adds leakage. */
-static wt_status correct_steep_bins(const wt_height_map *map, wt_surface_window window,
-                                    wt_surface_spectrum *s, wt_error *err)
+static void correct_steep_bins(const wt_height_map *map, wt_surface_window window,
+                               wt_surface_spectrum *s)
 {
     const double most = 0.6; /* leakage at two waves and the slope of rough surfaces */
     const double variance = window_variance(window);
-    double *slope = malloc((s->n + 1) * sizeof *slope);
-    if (slope == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    double *slope = wt_alloc(s->n, sizeof *slope);
     for (size_t k = 0; k < s->n; k++)
         slope[k] = local_slope(s, k);
     for (size_t k = 0; k < s->n; k++) {
@@ -108,7 +105,6 @@ static wt_status correct_steep_bins(const wt_height_map *map, wt_surface_window 
         b->shared_freedom *= exp(-above * above);
     }
     free(slope);
-    return WT_OK;
 }
 
 /* Marks the bins whose edges lie in the reliable range and whose scatter is known. */
@@ -181,9 +177,7 @@ wt_status wt_surface_analyse(const wt_height_map *map, const wt_surface_options 
     wt_status status = check_grid(map, err);
     if (status != WT_OK)
         return status;
-    double *z = malloc(map->nx * map->ny * sizeof *z);
-    if (z == NULL)
-        return wt_fail(err, WT_E_MEMORY, "no memory for %zu x %zu heights", map->nx, map->ny);
+    double *z = wt_alloc(map->nx * map->ny, sizeof *z);
     memcpy(z, map->z, map->nx * map->ny * sizeof *z);
     const wt_height_map less = {z, map->nx, map->ny, map->dx, map->dy};
     wt_surface_spectrum made = {
@@ -205,13 +199,10 @@ wt_status wt_surface_analyse(const wt_height_map *map, const wt_surface_options 
         status = surface_transform(&less, options->window, profile, &bins, &made, err);
     }
     free(z);
-    if (status == WT_OK)
-        status = correct_steep_bins(&less, options->window, &made, err);
     if (status == WT_OK) {
+        correct_steep_bins(&less, options->window, &made);
         mark_reliable(&made);
         *spectrum = made;
-    } else {
-        free(made.bins);
     }
     return status;
 }

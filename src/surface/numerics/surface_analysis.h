@@ -4,10 +4,9 @@
 #define WT_SURFACE_NUMERICS_SURFACE_ANALYSIS_H
 
 #include "weartrack/surface.h"
-
 #include <gsl/gsl_integration.h>
 
-/* ---- heights: detrend.c, fill_missing.c ------------------------------------------------------ */
+/* ---- heights: heights.c ---------------------------------------------------------------------- */
 
 /* Terms: 1; x, y; x^2, x y, y^2, with x and y from -1 to 1 over the points. */
 enum { FORM_TERMS = 6 };
@@ -19,6 +18,11 @@ wt_status surface_remove_form(double *z, size_t nx, size_t ny, unsigned degree,
 /* Fills missing heights by the membrane over their neighbours: the five-point Laplace equation
  * with zero slope across the edges. */
 wt_status surface_fill_missing(double *z, size_t nx, size_t ny, wt_error *err) WT_NODISCARD;
+/* Computes the parameters of the heights without their form. */
+void surface_height_statistics(const wt_height_map *map, wt_surface_heights *to);
+/* Returns a wavenumber [rad/m]. Its wavelength is the shortest second difference that stays
+ * below half the curvature of the tip. It is 0 if none does. radius [m]. */
+double surface_tip_limit(const wt_height_map *map, double radius);
 
 /* ---- spectra: surface_transform.c ------------------------------------------------------------ */
 
@@ -33,35 +37,36 @@ wt_status surface_transform(const wt_height_map *map, wt_surface_window window, 
                             const surface_bins *bins, wt_surface_spectrum *to,
                             wt_error *err) WT_NODISCARD;
 
-/* ---- scatter of a mean of exponential variables: surface_scatter.c --------------------------- */
+/* ---- scatter of a spectrum: spectrum_scatter.c ----------------------------------------------- */
 
-/* Mean bias and variance of ln of a mean with `freedom` degrees of freedom, and the degrees of
- * freedom for a given variance. */
+/* Mean bias and variance of ln of a mean of exponential variables with `freedom` degrees of
+ * freedom, and the degrees of freedom for a given variance. */
 double surface_log_bias(double freedom);
 double surface_log_variance(double freedom);
 double surface_variance_freedom(double variance);
 /* Returns the 95 % interval of the true value for a mean. */
 wt_interval surface_interval(double mean, double freedom);
 
-/* ---- places: spatial_variance.c -------------------------------------------------------------- */
-
+/* Returns ln C of a bin without the mean bias. */
+double surface_bin_log_density(const wt_spectrum_bin *bin);
+/* Returns the bin of this index if it is reliable, otherwise NULL. */
+const wt_spectrum_bin *surface_reliable_bin(const wt_surface_spectrum *s, int index);
 /* Finds the scan sizes and their weights from the weights of the scans in each bin of `to`,
  * [n_scans] for each bin. */
-wt_status surface_set_position_weights(const double *weights, size_t n_scans,
-                                       wt_surface_spectrum *to, wt_error *err) WT_NODISCARD;
+void surface_set_position_weights(const double *weights, size_t n_scans, wt_surface_spectrum *to);
 /* Standard error of ln C of a bin due to the places of one size, or of all sizes, divided by
  * place_reach. Without stored weights all scans count equally. */
 double surface_position_weight(const wt_surface_spectrum *s, size_t bin, size_t size);
 double surface_total_position_weight(const wt_surface_spectrum *s, size_t bin);
 
-/* ---- C from C1: psd_1d_to_2d.c --------------------------------------------------------------- */
+/* ---- C from C1: surface_profile.c ------------------------------------------------------------ */
 
 /* Returns C(q) = -(1/pi) int_q^inf C1'(k) / sqrt(k^2 - q^2) dk for log-log linear C1 between n
  * >= 2 knots. Above the last knot the last slope continues (`extrapolate`) or C1 is 0. NaN below
  * the first knot, or if a continued slope is not below -1. */
 double surface_invert_profile(const double *q, const double *c1, size_t n, bool extrapolate,
                               double at, const gsl_integration_glfixed_table *rule);
-/* Points of the quadrature rule; psd_1d_to_2d.c states the reason. */
-enum { INVERSION_POINTS = 10 };
+/* Creates the quadrature rule for it. Free with gsl_integration_glfixed_table_free(). */
+gsl_integration_glfixed_table *surface_inversion_rule(void);
 
 #endif

@@ -47,8 +47,8 @@ static double window_correlation(wt_surface_window window)
  * it. */
 static double *window_new(wt_surface_window window, size_t n, double *mean_square)
 {
-    double *w = malloc(n * sizeof *w), sum = 0;
-    for (size_t i = 0; w != NULL && i < n; i++) {
+    double *w = wt_alloc(n, sizeof *w), sum = 0;
+    for (size_t i = 0; i < n; i++) {
         w[i] = window_value(window, i, n);
         sum += w[i] * w[i];
     }
@@ -96,27 +96,16 @@ static wt_status windowed_transform(const wt_height_map *map, wt_surface_window 
     double *wx = window_new(window, map->nx, &square_x);
     double *wy = window_new(lines ? WT_WINDOW_NONE : window, map->ny, &square_y);
     *t = (transform){.nx = map->nx, .ny = map->ny, .stride = 2 * (map->nx / 2 + 1)};
-    /* fftw_malloc would abort the process when memory is exhausted. */
-    t->row = malloc(t->ny * t->stride * sizeof *t->row);
-    wt_status status = WT_OK;
-    if (wx == NULL || wy == NULL || t->row == NULL)
-        status = wt_fail(err, WT_E_MEMORY, "no memory for a transform of %zu x %zu heights",
-                         map->nx, map->ny);
-    for (size_t j = 0; status == WT_OK && j < t->ny; j++)
+    t->row = wt_alloc(t->ny * t->stride, sizeof *t->row);
+    for (size_t j = 0; j < t->ny; j++)
         for (size_t i = 0; i < t->nx; i++)
             t->row[j * t->stride + i] = wx[i] * wy[j] * map->z[j * t->nx + i];
-    if (status == WT_OK)
-        status = execute_transform(t, lines, err);
     t->density = map->dx / (2 * M_PI * (double)map->nx * square_x);
     if (!lines)
         t->density *= map->dy / (2 * M_PI * (double)map->ny * square_y);
     free(wx);
     free(wy);
-    if (status != WT_OK) {
-        free(t->row);
-        t->row = NULL;
-    }
-    return status;
+    return execute_transform(t, lines, err);
 }
 
 static double mode_density(const transform *t, size_t i, size_t j)
@@ -147,13 +136,13 @@ static int bin_index(const surface_bins *limits, double q)
     return (int)floor(PER_DECADE * log10(q / limits->reference) + 0.5);
 }
 
-static wt_status binning_new(const surface_bins *limits, binning *b, wt_error *err)
+static binning binning_new(const surface_bins *limits)
 {
-    *b = (binning){.limits = limits, .first = bin_index(limits, limits->low)};
-    b->n =
-        limits->high >= limits->low ? (size_t)(bin_index(limits, limits->high) - b->first) + 1 : 0;
-    b->sums = calloc(b->n + 1, sizeof *b->sums);
-    return b->sums != NULL ? WT_OK : wt_fail(err, WT_E_MEMORY, "no memory for bins");
+    binning b = {.limits = limits, .first = bin_index(limits, limits->low)};
+    if (limits->high >= limits->low)
+        b.n = (size_t)(bin_index(limits, limits->high) - b.first) + 1;
+    b.sums = wt_alloc(b.n, sizeof *b.sums);
+    return b;
 }
 
 /* Returns the bin of a mode, or -1 outside the limits. Modes of the lattice lie on the limits up
@@ -260,8 +249,7 @@ static double mode_pair_sum(const mode_grid *g, int i, int j, int bin, int reach
 }
 
 /* Counts the pairs in bins of few modes, whose neighbours are often in other bins. */
-static wt_status count_correlated_pairs(const wt_height_map *map, bool lines, const binning *b,
-                                        wt_error *err)
+static void count_correlated_pairs(const wt_height_map *map, bool lines, const binning *b)
 {
     double most = 0;
     for (size_t k = 0; k < b->n; k++)
@@ -272,9 +260,7 @@ static wt_status count_correlated_pairs(const wt_height_map *map, bool lines, co
     mode_grid g = {.reach_x = (int)fmin(most / step_x, (double)map->nx / 2),
                    .reach_y = lines ? 0 : (int)fmin(most / step_y, (double)map->ny / 2)};
     const size_t columns = (size_t)(2 * g.reach_x + 1), rows = (size_t)(2 * g.reach_y + 1);
-    g.bin = malloc(columns * rows * sizeof *g.bin);
-    if (g.bin == NULL)
-        return wt_fail(err, WT_E_MEMORY, "no memory for modes");
+    g.bin = wt_alloc(columns * rows, sizeof *g.bin);
     for (size_t n = 0; n < columns * rows; n++) {
         const int i = (int)(n % columns) - g.reach_x, j = (int)(n / columns) - g.reach_y;
         g.bin[n] = (short)mode_bin(b, hypot(step_x * i, step_y * j));
@@ -285,7 +271,6 @@ static wt_status count_correlated_pairs(const wt_height_map *map, bool lines, co
             b->sums[g.bin[n]].pairs += mode_pair_sum(&g, i, j, g.bin[n], lines ? 0 : REACH);
     }
     free(g.bin);
-    return WT_OK;
 }
 
 /* ---- means ----------------------------------------------------------------------------------- */
@@ -358,20 +343,16 @@ wt_status surface_transform(const wt_height_map *map, wt_surface_window window, 
                             const surface_bins *bins, wt_surface_spectrum *to, wt_error *err)
 {
     transform t = {.row = NULL};
-    binning b = {.n = 0};
+    const binning b = binning_new(bins);
     const double one = window_correlation(window), correlation = lines ? one : one * one;
-    wt_status status = binning_new(bins, &b, err);
-    if (status == WT_OK)
-        status = windowed_transform(map, window, lines, &t, err);
+    const wt_status status = windowed_transform(map, window, lines, &t, err);
     to->kind = lines ? WT_SPECTRUM_1D : WT_SPECTRUM_2D;
     to->n = 0;
-    to->bins = status == WT_OK ? calloc(b.n + 1, sizeof *to->bins) : NULL;
-    if (status == WT_OK && to->bins == NULL)
-        status = wt_fail(err, WT_E_MEMORY, "no memory for bins");
     if (status == WT_OK) {
+        to->bins = wt_alloc(b.n, sizeof *to->bins);
         (lines ? bin_lines : bin_plane)(&t, map, &b);
         if (window == WT_WINDOW_HANN)
-            status = count_correlated_pairs(map, lines, &b, err);
+            count_correlated_pairs(map, lines, &b);
         for (size_t k = 0; k < b.n; k++) {
             if (!(b.sums[k].n > 1))
                 continue;

@@ -1,4 +1,5 @@
-/* Converts the isotherms of a sweep to sorted logarithms and reports unusable points.
+/* Isotherms as logarithms, the shift of one onto another, and start positions of all, one by one
+ * from the anchor outwards.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dma/numerics/isotherm.h"
 
@@ -9,6 +10,8 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+
+/* ---- isotherms as logarithms ----------------------------------------------------------------- */
 
 struct point {
     double x, y[MODULI];
@@ -64,10 +67,12 @@ static void fitted_values(const wt_isotherm *t, wt_shift_quantity by, size_t k,
 /* Points within this range are replaced by their mean [decade]. A relaxation broadens moduli
  * over a decade, so nothing changes within a tenth of it. */
 static const double merge_width = 0.09;
+
 /* Evenly spaced points are merged from two per group on, other points from five on. A few close
  * points cost little and stay unchanged. */
 enum { LEAST_EVEN = 2, LEAST_TOGETHER = 5 };
 static const double even_spacing_ratio = 1.5; /* largest step divided by the mean step */
+
 /* In groups of LEAST_MANY or more, points farther from the median are excluded from the mean
  * [standard deviations]. */
 static const double outlier_limit = 5.0;
@@ -245,8 +250,8 @@ wt_status shift_set_new(const wt_sweep *sweep, wt_shift_quantity by, wt_log *log
         n_longest = sweep->isotherms[i].n > n_longest ? sweep->isotherms[i].n : n_longest;
     }
     if (n < 1 || n_points == 0) {
-        status = wt_fail(err, WT_E_MISSING, "a master curve needs at least two isotherms");
-        wt_error_found(err, "%zu", n);
+        status = wt_fail(err, WT_E_MISSING, "a master curve needs an isotherm with points");
+        wt_error_found(err, "%zu isotherms, %zu points", n, n_points);
         wt_error_advice(err, "give all temperatures of the sweep together");
         return status;
     }
@@ -255,8 +260,6 @@ wt_status shift_set_new(const wt_sweep *sweep, wt_shift_quantity by, wt_log *log
     double *next = arena_numbers(memory, (1 + MODULI) * n_points);
     *set = (shift_set){
         .n = n, .loading = sweep->loading, .curves = arena_alloc(memory, n, sizeof *set->curves)};
-    if (memory->failed)
-        return wt_fail(err, WT_E_MEMORY, "no memory for %zu isotherms", n);
     status = choose_fitted_quantities(sweep, by, set, err);
     if (status == WT_OK && set->loading != WT_OSCILLATION && set->quantity != WT_SHIFT_STORAGE) {
         status = wt_fail(err, WT_E_ARG, "after a step there is one quantity to shift by");
@@ -290,4 +293,234 @@ double curve_modulus_change(const shift_set *set, size_t curve)
     const shift_curve *c = &set->curves[curve];
     const double *y = c->y[set->used[STORAGE] ? STORAGE : LOSS];
     return c->n > 0 ? fabs(y[c->n - 1] - y[0]) : 0.0;
+}
+
+/* ---- shift of one isotherm ------------------------------------------------------------------- */
+
+/* These values only set the start of the joint fit and affect no reported number. Minimum shared
+ * range of ordinates [decade]: 12 %, beyond noise and clamping. */
+static const double least_overlap = 0.05;
+
+/* A point outside the overlap counts with this residual [decade]. A smaller residual favours
+ * more overlap, a larger one less residual. At half this value noise of 5 % is taken for a wrong
+ * position. */
+static const double indifferent_residual = 0.05;
+
+/* Residuals below this are equally good [decade]: 0.7 %, the noise of a good rheometer. */
+static const double equal_residual = 0.003;
+
+/* Number of tested shifts over the range of overlap: 40 per decade for ten decades. */
+enum { GRID = 400 };
+
+struct pair {
+    const shift_curve *p, *s;
+    const bool *used; /* [MODULI] */
+    bool free_b;
+    double fixed_b;
+};
+
+struct overlap {
+    size_t n[MODULI];
+    double sum, square; /* sums over the gaps y_p - y_s */
+};
+
+/* Adds the gaps y_onto(x + a) - y_from(x) times `sign` for the points of `from` within `onto`.
+ * Both abscissas rise, so one pass over `onto` suffices. */
+static void add_pair_gaps(const shift_curve *onto, const shift_curve *from, const bool *used,
+                          double a, double sign, double pivot, struct overlap *sum)
+{
+    size_t k = 0;
+    for (size_t i = 0; i < from->n; i++) {
+        const double x = from->x[i] + a;
+        if (x < onto->x[0])
+            continue;
+        if (x > onto->x[onto->n - 1])
+            return;
+        while (k + 2 < onto->n && onto->x[k + 1] < x)
+            k++;
+        const double width = onto->x[k + 1] - onto->x[k];
+        const double share = width > 0.0 ? (x - onto->x[k]) / width : 0.5;
+        for (int q = 0; q < MODULI; q++) {
+            if (!used[q])
+                continue;
+            const double y = onto->y[q][k] + share * (onto->y[q][k + 1] - onto->y[q][k]);
+            const double gap = sign * (y - from->y[q][i]) - pivot;
+            sum->n[q]++;
+            sum->sum += gap;
+            sum->square += gap * gap;
+        }
+    }
+}
+
+static struct overlap overlap_sums(const struct pair *pair, double a)
+{
+    struct overlap sum = {0};
+    add_pair_gaps(pair->p, pair->s, pair->used, a, 1.0, pair->fixed_b, &sum);
+    add_pair_gaps(pair->s, pair->p, pair->used, -a, -1.0, pair->fixed_b, &sum);
+    return sum;
+}
+
+/* Returns the mean square residual; *b: the corresponding vertical shift. */
+static double mean_square(const struct pair *pair, const struct overlap *sum, double *b)
+{
+    const double n = (double)(sum->n[STORAGE] + sum->n[LOSS]);
+    const double mean = sum->sum / n;
+    *b = pair->fixed_b + (pair->free_b ? mean : 0.0);
+    return fmax(sum->square / n - (pair->free_b ? mean * mean : 0.0), 0.0);
+}
+
+/* Returns the log likelihood relative to residuals of `indifferent_residual` at all points;
+ * smaller is better. The plain mean square would prefer a chance match of a few end points. */
+static double pair_cost(const struct overlap *sum, double square)
+{
+    const double n = (double)(sum->n[STORAGE] + sum->n[LOSS]);
+    return n * log((square + equal_residual * equal_residual) /
+                   (indifferent_residual * indifferent_residual));
+}
+
+/* Returns true if the ordinates overlap by a twentieth of a decade, or a quarter of the flatter
+ * curve. E'' is not monotonic, so E' decides if available. */
+static bool ordinates_overlap(const struct pair *pair)
+{
+    const int q = pair->used[STORAGE] ? STORAGE : LOSS;
+    double low[2], high[2];
+    const shift_curve *curve[2] = {pair->p, pair->s};
+    for (int c = 0; c < 2; c++)
+        gsl_stats_minmax(&low[c], &high[c], curve[c]->y[q], 1, curve[c]->n);
+    const double shared = fmin(high[0], high[1]) - fmax(low[0], low[1]);
+    const double flatter = fmin(high[0] - low[0], high[1] - low[1]);
+    return shared > 0.0 && shared >= fmin(least_overlap, 0.25 * flatter);
+}
+
+/* Returns true if enough points lie on the other curve. */
+static bool has_enough_overlap(const struct pair *pair, const struct overlap *sum)
+{
+    bool enough = true;
+    for (int q = 0; q < MODULI; q++)
+        enough = enough && (!pair->used[q] || sum->n[q] >= SHIFT_MIN_POINTS);
+    return enough;
+}
+
+/* Fits the shift of curve s relative to curve p by least squares of the used moduli in both
+ * directions. b is fitted if free_b, otherwise it is an input. Returns false without overlap. */
+static bool shift_pair_fit(const shift_set *set, size_t onto, size_t from, bool free_b, double *a,
+                           double *b)
+{
+    const shift_curve *p = &set->curves[onto], *s = &set->curves[from];
+    const struct pair pair = {p, s, set->used, free_b, free_b ? 0.0 : *b};
+    if (p->n < SHIFT_MIN_POINTS || s->n < SHIFT_MIN_POINTS || !ordinates_overlap(&pair))
+        return false;
+    const double lowest = p->x[0] - s->x[s->n - 1], highest = p->x[p->n - 1] - s->x[0];
+    const double step = (highest - lowest) / GRID;
+    double best_cost = HUGE_VAL, least_square = HUGE_VAL, closest = 0.0, b_closest = 0.0;
+    for (int g = 1; g < GRID; g++) {
+        const struct overlap sum = overlap_sums(&pair, lowest + g * step);
+        if (!has_enough_overlap(&pair, &sum))
+            continue;
+        double vertical;
+        const double square = mean_square(&pair, &sum, &vertical);
+        const double cost = pair_cost(&sum, square);
+        if (cost < best_cost) {
+            best_cost = cost;
+            *a = lowest + g * step;
+            *b = vertical;
+        }
+        if (square < least_square) {
+            least_square = square;
+            closest = lowest + g * step;
+            b_closest = vertical;
+        }
+    }
+    /* if no shift fits within `indifferent_residual` the cost favours few points */
+    if (best_cost >= 0.0) {
+        *a = closest;
+        *b = b_closest;
+    }
+    return best_cost < HUGE_VAL;
+}
+
+/* ---- start positions ------------------------------------------------------------------------- */
+
+/* Number of neighbours on which an isotherm is tried before it counts as unplaced. */
+enum { NEIGHBOURS = 3 };
+
+/* Places curve i on the nearest placed curve towards the anchor, or on the one after it if that
+ * fails. */
+static void find_initial_shift(const shift_set *set, size_t anchor, wt_vertical_shift kind,
+                               size_t i, bool *placed, double *a, double *b)
+{
+    const bool free_b = set->used[STORAGE] && set->used[LOSS] &&
+                        (kind == WT_VERTICAL_FREE || kind == WT_VERTICAL_TIED);
+    if (placed[i])
+        return;
+    const long inwards = i > anchor ? -1 : 1;
+    int tried = 0;
+    for (long p = (long)i + inwards; tried < NEIGHBOURS; p += inwards) {
+        double by = 0.0, vertical = b[i] - b[p];
+        if (placed[p]) {
+            tried++;
+            placed[i] = shift_pair_fit(set, (size_t)p, i, free_b, &by, &vertical);
+        }
+        if (placed[i]) {
+            a[i] = a[p] + by;
+            b[i] = b[p] + vertical;
+            return;
+        }
+        if ((size_t)p == anchor)
+            return;
+    }
+}
+
+void spectrum_find_initial_shifts(const shift_set *set, size_t anchor, wt_vertical_shift kind,
+                                  const double *physical, bool *placed, double *a, double *b)
+{
+    /* a table for another reference includes the vertical shift of this one in all rows */
+    const shift_curve *at = &set->curves[anchor];
+    const double off =
+        at->is_vertical_fixed && at->fixed_log_a != 0.0 ? at->fixed_log_b - physical[anchor] : 0.0;
+    for (size_t i = 0; i < set->n; i++) {
+        const shift_curve *c = &set->curves[i];
+        placed[i] = i == anchor || (c->is_shift_fixed && c->n >= SHIFT_MIN_POINTS);
+        a[i] = c->is_shift_fixed ? c->fixed_log_a - set->curves[anchor].fixed_log_a : 0.0;
+        b[i] = c->is_vertical_fixed ? c->fixed_log_b - off
+               : kind == WT_VERTICAL_NONE || set->quantity == WT_SHIFT_LOSS_FACTOR ? 0.0
+                                                                                   : physical[i];
+    }
+    for (size_t i = anchor + 1; i < set->n; i++)
+        find_initial_shift(set, anchor, kind, i, placed, a, b);
+    for (size_t i = anchor; i-- > 0;)
+        find_initial_shift(set, anchor, kind, i, placed, a, b);
+}
+
+static double shared_decades(const shift_curve *p, double a_p, const shift_curve *s, double a_s)
+{
+    return fmin(p->x[p->n - 1] + a_p, s->x[s->n - 1] + a_s) - fmax(p->x[0] + a_p, s->x[0] + a_s);
+}
+
+size_t spectrum_select_connected(const shift_set *set, size_t anchor, const double *a, bool *placed,
+                                 double *overlap)
+{
+    size_t count = 1;
+    for (size_t i = 0; i < set->n; i++)
+        overlap[i] = i == anchor || (placed[i] && set->curves[i].is_shift_fixed) ? HUGE_VAL : 0.0;
+    /* The overlap of an isotherm is the largest minimum overlap on a path to the anchor. */
+    for (bool grown = true; grown;) {
+        grown = false;
+        for (size_t i = 0; i < set->n; i++)
+            for (size_t p = 0; placed[i] && p < set->n; p++) {
+                if (p == i || !placed[p])
+                    continue;
+                const double both =
+                    fmin(shared_decades(&set->curves[p], a[p], &set->curves[i], a[i]), overlap[p]);
+                if (both > overlap[i]) {
+                    overlap[i] = both;
+                    grown = true;
+                }
+            }
+    }
+    for (size_t i = 0; i < set->n; i++) {
+        placed[i] = placed[i] && overlap[i] > 0.0;
+        count += placed[i] && i != anchor;
+    }
+    return count;
 }

@@ -1,0 +1,330 @@
+/* Heights of a surface before the transform: statistics, missing heights and form.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "surface/numerics/surface_analysis.h"
+
+#include "core/math/cholesky.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+
+/* ---- statistics ------------------------------------------------------------------------------ */
+
+/* Running sum and number of values. */
+typedef struct running_mean {
+    double sum, n;
+} running_mean;
+
+static void mean_add(running_mean *m, double value)
+{
+    m->sum += value;
+    m->n++;
+}
+
+static double mean_value(running_mean m)
+{
+    return m.n > 0 ? m.sum / m.n : (double)NAN;
+}
+
+static void compute_amplitudes(const double *z, size_t n, wt_surface_heights *to)
+{
+    running_mean height = {0, 0}, absolute = {0, 0}, power[3] = {{0, 0}, {0, 0}, {0, 0}};
+    double low = (double)INFINITY, high = -(double)INFINITY;
+    for (size_t i = 0; i < n; i++)
+        if (isfinite(z[i]))
+            mean_add(&height, z[i]);
+    const double middle = mean_value(height);
+    for (size_t i = 0; i < n; i++) {
+        if (!isfinite(z[i]))
+            continue;
+        const double d = z[i] - middle, d2 = d * d;
+        mean_add(&absolute, fabs(d));
+        mean_add(&power[0], d2);
+        mean_add(&power[1], d2 * d);
+        mean_add(&power[2], d2 * d2);
+        low = fmin(low, d);
+        high = fmax(high, d);
+    }
+    to->n = n;
+    to->missing = n - (size_t)height.n;
+    to->rms = sqrt(mean_value(power[0]));
+    to->mean_deviation = mean_value(absolute);
+    to->peak_to_valley = high - low;
+    to->skewness = mean_value(power[1]) / (to->rms * to->rms * to->rms);
+    to->kurtosis = mean_value(power[2]) / (to->rms * to->rms * to->rms * to->rms);
+}
+
+void surface_height_statistics(const wt_height_map *map, wt_surface_heights *to)
+{
+    const size_t nx = map->nx, ny = map->ny;
+    running_mean along_x = {0, 0}, along_y = {0, 0}, excess = {0, 0};
+    compute_amplitudes(map->z, nx * ny, to);
+    for (size_t j = 0; j < ny; j++)
+        for (size_t i = 0; i < nx; i++) {
+            const double *z = map->z + j * nx + i;
+            const double sx = i + 1 < nx ? (z[1] - z[0]) / map->dx : (double)NAN;
+            const double sy = j + 1 < ny ? (z[nx] - z[0]) / map->dy : (double)NAN;
+            if (isfinite(sx))
+                mean_add(&along_x, sx * sx);
+            if (isfinite(sy))
+                mean_add(&along_y, sy * sy);
+            if (isfinite(sx) && isfinite(sy))
+                mean_add(&excess, sqrt(1 + sx * sx + sy * sy) - 1);
+        }
+    to->slope_x = sqrt(mean_value(along_x));
+    to->slope_y = sqrt(mean_value(along_y));
+    to->rms_slope = ny > 1 ? hypot(to->slope_x, to->slope_y) : to->slope_x;
+    to->area_excess = mean_value(excess);
+}
+
+/* Returns the most negative curvature of the peaks [1/m], from second differences over 2 l
+ * points. */
+static double peak_curvature(const wt_height_map *map, size_t l)
+{
+    const size_t nx = map->nx, ny = map->ny;
+    const double x2 = (double)(l * l) * map->dx * map->dx, y2 = (double)(l * l) * map->dy * map->dy;
+    double least = 0;
+    for (size_t j = 0; j < ny; j++)
+        for (size_t i = 0; i < nx; i++) {
+            const double *z = map->z + j * nx + i;
+            if (i >= l && i + l < nx)
+                least = fmin(least, (*(z + l) - 2 * *z + *(z - l)) / x2);
+            if (j >= l && j + l < ny)
+                least = fmin(least, (*(z + l * nx) - 2 * *z + *(z - l * nx)) / y2);
+        }
+    return least;
+}
+
+double surface_tip_limit(const wt_height_map *map, double radius)
+{
+    const size_t most = (map->nx > map->ny ? map->nx : map->ny) / 2;
+    const double step = map->ny > 1 ? fmax(map->dx, map->dy) : map->dx;
+    for (size_t l = 1; l < most; l += 1 + l / 8)
+        if (peak_curvature(map, l) >= -1 / (2 * radius))
+            return M_PI / ((double)l * step);
+    return 0;
+}
+
+/* ---- missing heights: a membrane over their neighbours --------------------------------------- */
+
+/* Conjugate gradients: Hestenes and Stiefel, J. Res. Natl. Bur. Stand. 49 (1952) 409.
+ * Relative residual at the end of the iteration, far below the resolution of an instrument. */
+static const double residual_left = 1e-12;
+
+typedef struct membrane {
+    double *z;               /* heights; missing ones are filled in place */
+    size_t nx, ny, n;        /* size of the grid; n: missing heights */
+    size_t *position;        /* [n] */
+    uint32_t *missing_index; /* [ny * nx] index of a missing height; a marker for known heights */
+    double *residual, *direction, *product; /* [n] */
+} membrane;
+
+enum { NEIGHBOURS = 4 }; /* neighbours in the grid */
+
+#define NOT_MISSING UINT32_MAX
+
+/* Lists the neighbours of a grid point and returns their number. */
+static size_t list_neighbours(const membrane *m, size_t p, size_t to[NEIGHBOURS])
+{
+    const size_t i = p % m->nx, j = p / m->nx;
+    size_t n = 0;
+    if (i > 0)
+        to[n++] = p - 1;
+    if (i + 1 < m->nx)
+        to[n++] = p + 1;
+    if (j > 0)
+        to[n++] = p - m->nx;
+    if (j + 1 < m->ny)
+        to[n++] = p + m->nx;
+    return n;
+}
+
+/* Applies the discrete Laplacian to the missing heights: number of neighbours times the value,
+ * minus the missing neighbours. */
+static void apply_laplacian(const membrane *m, const double *x, double *to)
+{
+    size_t neighbours[NEIGHBOURS];
+    for (size_t k = 0; k < m->n; k++) {
+        const size_t n = list_neighbours(m, m->position[k], neighbours);
+        double sum = (double)n * x[k];
+        for (size_t b = 0; b < n; b++)
+            if (m->missing_index[neighbours[b]] != NOT_MISSING)
+                sum -= x[m->missing_index[neighbours[b]]];
+        to[k] = sum;
+    }
+}
+
+static double sum_of_squares(const double *x, size_t n)
+{
+    double sum = 0;
+    for (size_t i = 0; i < n; i++)
+        sum += x[i] * x[i];
+    return sum;
+}
+
+/* Starts at zero. The residual is the sum of the known neighbours. */
+static void start_solution(membrane *m)
+{
+    size_t neighbours[NEIGHBOURS];
+    for (size_t k = 0; k < m->n; k++) {
+        const size_t n = list_neighbours(m, m->position[k], neighbours);
+        double sum = 0;
+        for (size_t b = 0; b < n; b++)
+            if (m->missing_index[neighbours[b]] == NOT_MISSING)
+                sum += m->z[neighbours[b]];
+        m->residual[k] = m->direction[k] = sum;
+    }
+    for (size_t k = 0; k < m->n; k++)
+        m->z[m->position[k]] = 0;
+}
+
+static wt_status solve_membrane(membrane *m, wt_error *err)
+{
+    start_solution(m);
+    const double first = sum_of_squares(m->residual, m->n);
+    double now = first;
+    /* In exact arithmetic n steps suffice; a small patch needs a few more due to rounding. */
+    for (size_t step = 0; step < 2 * m->n + 10; step++) {
+        if (now <= residual_left * residual_left * first)
+            return WT_OK;
+        apply_laplacian(m, m->direction, m->product);
+        double along = 0;
+        for (size_t k = 0; k < m->n; k++)
+            along += m->direction[k] * m->product[k];
+        const double a = now / along;
+        for (size_t k = 0; k < m->n; k++) {
+            m->z[m->position[k]] += a * m->direction[k];
+            m->residual[k] -= a * m->product[k];
+        }
+        const double next = sum_of_squares(m->residual, m->n), b = next / now;
+        for (size_t k = 0; k < m->n; k++)
+            m->direction[k] = m->residual[k] + b * m->direction[k];
+        now = next;
+    }
+    return wt_fail(err, WT_E_CONVERGENCE, "the missing heights could not be filled");
+}
+
+wt_status surface_fill_missing(double *z, size_t nx, size_t ny, wt_error *err)
+{
+    membrane m = {.z = z, .nx = nx, .ny = ny};
+    for (size_t p = 0; p < nx * ny; p++)
+        m.n += isfinite(z[p]) ? 0 : 1;
+    if (m.n == 0)
+        return WT_OK;
+    if (m.n == nx * ny)
+        return wt_fail(err, WT_E_EMPTY, "all heights are missing");
+    m.position = wt_alloc(m.n, sizeof *m.position);
+    m.missing_index = wt_alloc(nx * ny, sizeof *m.missing_index);
+    m.residual = wt_alloc(3 * m.n, sizeof *m.residual);
+    m.direction = m.residual + m.n;
+    m.product = m.direction + m.n;
+    size_t k = 0;
+    for (size_t p = 0; p < nx * ny; p++) {
+        m.missing_index[p] = isfinite(z[p]) ? NOT_MISSING : (uint32_t)k;
+        if (m.missing_index[p] != NOT_MISSING)
+            m.position[k++] = p;
+    }
+    const wt_status status = solve_membrane(&m, err);
+    free(m.position);
+    free(m.missing_index);
+    free(m.residual);
+    return status;
+}
+
+/* ---- form: a polynomial fitted by least squares ---------------------------------------------- */
+
+/* Powers of x and y in the terms of a form. */
+static const int power_x[FORM_TERMS] = {0, 1, 0, 2, 1, 0}, power_y[FORM_TERMS] = {0, 0, 1, 0, 1, 2};
+enum { HIGHEST = 4 }; /* highest power in a product of two terms */
+
+static double normalised_coordinate(size_t i, size_t n)
+{
+    return n > 1 ? (2 * (double)i + 1 - (double)n) / (double)n : 0;
+}
+
+/* Lists the terms of the form. A profile has no terms in y. */
+static size_t select_form_terms(unsigned degree, bool profile, size_t terms[FORM_TERMS])
+{
+    size_t n = 0;
+    for (size_t t = 0; t < FORM_TERMS; t++)
+        if ((unsigned)(power_x[t] + power_y[t]) <= degree && !(profile && power_y[t] > 0))
+            terms[n++] = t;
+    return n;
+}
+
+/* Sums of x^i and of x^i z over the heights of a row. */
+typedef struct row_sums {
+    double x[HIGHEST + 1], z[HIGHEST / 2 + 1];
+    size_t n;
+} row_sums;
+
+static row_sums sum_row(const double *z, size_t nx)
+{
+    row_sums s = {.n = 0};
+    for (size_t i = 0; i < nx; i++) {
+        if (!isfinite(z[i]))
+            continue;
+        const double x = normalised_coordinate(i, nx), x2 = x * x;
+        s.n++;
+        s.x[1] += x;
+        s.x[2] += x2;
+        s.x[3] += x2 * x;
+        s.x[4] += x2 * x2;
+        s.z[0] += z[i];
+        s.z[1] += x * z[i];
+        s.z[2] += x2 * z[i];
+    }
+    s.x[0] = (double)s.n;
+    return s;
+}
+
+static double integer_power(double y, int n)
+{
+    return n == 0 ? 1 : n == 1 ? y : n == 2 ? y * y : n == 3 ? y * y * y : y * y * y * y;
+}
+
+static void subtract_form(double *z, size_t nx, size_t ny, const double c[FORM_TERMS])
+{
+    for (size_t j = 0; j < ny; j++) {
+        const double y = normalised_coordinate(j, ny);
+        const double a = c[0] + y * (c[2] + y * c[5]), b = c[1] + y * c[4];
+        for (size_t i = 0; i < nx; i++) {
+            const double x = normalised_coordinate(i, nx);
+            z[j * nx + i] -= a + x * (b + x * c[3]);
+        }
+    }
+}
+
+wt_status surface_remove_form(double *z, size_t nx, size_t ny, unsigned degree,
+                              double coefficients[FORM_TERMS], wt_error *err)
+{
+    size_t terms[FORM_TERMS], n_points = 0;
+    double m[FORM_TERMS][FORM_TERMS] = {{0}}, v[FORM_TERMS] = {0};
+    const size_t n = select_form_terms(degree, ny == 1, terms);
+    for (size_t j = 0; j < ny; j++) {
+        const row_sums s = sum_row(z + j * nx, nx);
+        const double y = normalised_coordinate(j, ny);
+        n_points += s.n;
+        for (size_t a = 0; a < n; a++) {
+            const int xa = power_x[terms[a]], ya = power_y[terms[a]];
+            v[a] += integer_power(y, ya) * s.z[xa];
+            for (size_t b = 0; b <= a; b++)
+                m[a][b] += integer_power(y, ya + power_y[terms[b]]) * s.x[xa + power_x[terms[b]]];
+        }
+    }
+    for (size_t t = 0; t < FORM_TERMS; t++)
+        coefficients[t] = 0;
+    /* Pivots within the rounding error count as zero. */
+    if (n_points < n ||
+        !cholesky_solve(&m[0][0], FORM_TERMS, n, (double)(n * n) * DBL_EPSILON, v)) {
+        wt_fail(err, WT_E_EMPTY, "too few heights for the form that is taken off");
+        wt_error_expected(err, "%zu or more that do not lie on one line", n);
+        wt_error_found(err, "%zu", n_points);
+        return WT_E_EMPTY;
+    }
+    for (size_t a = 0; a < n; a++)
+        coefficients[terms[a]] = v[a];
+    subtract_form(z, nx, ny, coefficients);
+    return WT_OK;
+}
