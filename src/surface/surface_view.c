@@ -66,7 +66,7 @@ wt_status surface_view_create(const wt_height_map *map, wt_surface_form form, si
     if (z == NULL)
         return wt_fail(err, WT_E_MEMORY, "no memory for %zu x %zu heights", map->nx, map->ny);
     memcpy(z, map->z, map->nx * map->ny * sizeof *z);
-    const wt_height_map less = {z, map->nx, map->ny, map->dx, map->dy};
+    const wt_height_map less = {z, map->nx, map->ny, map->dx, map->dy, map->levelled};
     wt_status status = surface_remove_form(z, map->nx, map->ny, (unsigned)form, coefficients, err);
     if (status == WT_OK)
         status =

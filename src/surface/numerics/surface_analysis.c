@@ -185,7 +185,7 @@ wt_status wt_surface_analyse(const wt_height_map *map, const wt_surface_options 
     if (z == NULL)
         return wt_fail(err, WT_E_MEMORY, "no memory for %zu x %zu heights", map->nx, map->ny);
     memcpy(z, map->z, map->nx * map->ny * sizeof *z);
-    const wt_height_map less = {z, map->nx, map->ny, map->dx, map->dy};
+    const wt_height_map less = {z, map->nx, map->ny, map->dx, map->dy, map->levelled};
     wt_surface_spectrum made = {
         .place_scatter = (double)NAN, .place_reach = (double)NAN, .place_error = (double)NAN};
     status = surface_remove_form(z, map->nx, map->ny, (unsigned)options->form, form, err);
