@@ -67,12 +67,13 @@ static void condition_scan(const wt_topography_job *job, const wt_job *work, con
     const bool mend = job->scan_lines == WT_SCAN_LINES_MEND;
     const scan_line_faults found = surface_scan_lines(z, map, mend);
     if (found.scars > 0)
-        wt_log_add(work->log, WT_WARNING, file, NULL,
-                   "scars: %zu parts of single scan lines stand out from both adjacent lines%s",
-                   found.scars,
-                   mend ? "; they are replaced by the mean of these lines (--scan-lines keep "
-                          "leaves them)"
-                        : " and raise the spectrum");
+        wt_log_add(
+            work->log, WT_WARNING, file, NULL,
+            "scars: %zu parts of scan lines stand out from the lines before and behind them%s",
+            found.scars,
+            mend ? "; they are replaced by the mean of these lines (--scan-lines keep "
+                   "leaves them)"
+                 : " and raise the spectrum");
     if (found.offsets > 0)
         wt_log_add(work->log, WT_WARNING, file, NULL,
                    "the scan lines have random offsets of %.3g nm (standard deviation)%s",

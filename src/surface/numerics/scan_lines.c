@@ -20,10 +20,13 @@ static const double least_ratio = 2;
 static const double most_correlation = -0.25;
 /* Standard deviation of a normal distribution over its median absolute deviation. */
 static const double deviations_per_median = 1.4826;
-/* A scar differs from both adjacent rows by so many standard deviations of their difference, over
- * so many points: for independent normal heights both together never occur in any map. */
+/* A scar differs from the rows before and behind it by so many standard deviations of the
+ * difference of adjacent rows, over so many points: for independent normal heights both together
+ * never occur in any map. */
 static const double scar_deviations = 6;
-enum { LEAST_SCAR = 8 };
+enum { LEAST_SCAR = 16 };
+/* A scar of more rows is a feature of the surface. */
+enum { WIDEST_SCAR = 4 };
 
 /* Differences of a map along one axis. */
 typedef struct levels {
@@ -80,45 +83,88 @@ static double next_correlation(const levels *l)
     return squares > 0 ? products / squares : 0;
 }
 
-/* Height of a point above both adjacent rows, the lesser of two; 0 between them. */
-static double standing_out(const wt_height_map *map, const levels *rows, size_t j, size_t i)
+/* ---- scars ----------------------------------------------------------------------------------- */
+
+/* True if `width` heights of a column from z on are all above the heights before and behind them by
+ * more than `least`, or all below (sign -1). nx: from one row to the next. */
+static bool stands_out(const double *z, size_t nx, size_t width, double sign, double least)
 {
-    const double *const z = &map->z[j * map->nx + i];
-    const double above = z[0] - *(z - map->nx) - rows->shift[j - 1],
-                 below = z[0] - z[map->nx] + rows->shift[j];
-    if (above > 0 && below > 0)
-        return fmin(above, below);
-    return above < 0 && below < 0 ? fmax(above, below) : 0;
+    const double before = sign * *(z - nx), behind = sign * z[width * nx];
+    bool all = !isnan(before) && !isnan(behind);
+    for (size_t k = 0; all && k < width; k++)
+        all = sign * z[k * nx] - fmax(before, behind) > least;
+    return all;
 }
 
-/* row: the heights of row j, with nx heights in each row. */
-static void replace_scar(double *row, size_t nx, const levels *rows, size_t j, size_t from,
-                         size_t to)
+/* Marks the points of each column that stand out: 1 or -1. */
+static void mark_points(const double *z, size_t nx, size_t ny, double least, signed char *mark)
 {
-    for (size_t i = from; i < to; i++)
-        row[i] = (*(row + i - nx) + rows->shift[j - 1] + row[i + nx] - rows->shift[j]) / 2;
+    for (size_t j = 1; j + 1 < ny; j++)
+        for (size_t i = 0; i < nx; i++)
+            for (size_t width = 1; width <= WIDEST_SCAR && j + width < ny; width++)
+                for (int sign = -1; sign <= 1; sign += 2)
+                    for (size_t k = 0;
+                         k < width && stands_out(&z[j * nx + i], nx, width, sign, least); k++)
+                        mark[(j + k) * nx + i] = (signed char)sign;
 }
 
-static size_t find_scars(double *z, const wt_height_map *map, const levels *rows, bool mend)
+/* Keeps the marks of long runs and returns the number of runs. */
+static size_t keep_scars(signed char *mark, size_t nx, size_t ny)
 {
-    const double least = scar_deviations * rows->difference;
     size_t scars = 0;
-    for (size_t j = 1; least > 0 && j + 1 < map->ny; j++)
-        for (size_t i = 0, to; i < map->nx; i = to) {
-            const double first = standing_out(map, rows, j, i);
-            to = i + 1;
-            if (!(fabs(first) > least))
-                continue;
-            while (to < map->nx && standing_out(map, rows, j, to) * first > 0 &&
-                   fabs(standing_out(map, rows, j, to)) > least)
+    for (size_t j = 0; j < ny; j++)
+        for (size_t i = 0, to; i < nx; i = to) {
+            signed char *const row = mark + j * nx;
+            for (to = i + 1; to < nx && row[to] == row[i];)
                 to++;
-            if (to - i < LEAST_SCAR)
-                continue;
-            scars++;
-            if (mend)
-                replace_scar(z + j * map->nx, map->nx, rows, j, i, to);
+            scars += row[i] != 0 && to - i >= LEAST_SCAR;
+            for (size_t k = i; k < to && to - i < LEAST_SCAR; k++)
+                row[k] = 0;
         }
     return scars;
+}
+
+/* Replaces the marked heights by those between the rows before and behind them. */
+static void replace_marked(double *z, size_t nx, size_t ny, const signed char *mark)
+{
+    for (size_t i = 0; i < nx; i++)
+        for (size_t j = 1, to; j + 1 < ny; j = to) {
+            to = j + 1;
+            if (mark[j * nx + i] == 0)
+                continue;
+            while (mark[to * nx + i] != 0)
+                to++; /* the last row has no mark */
+            const double before = z[(j - 1) * nx + i], behind = z[to * nx + i];
+            for (size_t k = j; k < to; k++)
+                z[k * nx + i] =
+                    before + (behind - before) * (double)(k - j + 1) / (double)(to - j + 1);
+        }
+}
+
+static size_t find_scars(double *z, size_t nx, size_t ny, double least, bool mend)
+{
+    signed char *const mark = wt_alloc(nx * ny, 1);
+    if (least > 0)
+        mark_points(z, nx, ny, least, mark);
+    const size_t scars = keep_scars(mark, nx, ny);
+    if (scars > 0 && mend)
+        replace_marked(z, nx, ny, mark);
+    free(mark);
+    return scars;
+}
+
+/* ---- offsets --------------------------------------------------------------------------------- */
+
+/* Subtracts the running sum of the shifts, so that the rows stand on one level; `sign` -1 puts the
+ * offsets back. */
+static void remove_shifts(double *z, size_t nx, const levels *rows, double sign)
+{
+    double level = 0;
+    for (size_t j = 1; j <= rows->n; j++) {
+        level += sign * rows->shift[j - 1];
+        for (size_t i = 0; i < nx; i++)
+            z[j * nx + i] -= level;
+    }
 }
 
 static void level_rows(double *heights, wt_height_map *map)
@@ -150,10 +196,11 @@ scan_line_faults surface_scan_lines(double *z, wt_height_map *map, bool mend)
     found.suspected = rows.deviation > least_ratio * step * columns.deviation;
     if (found.suspected && next_correlation(&rows) < most_correlation)
         found.offsets = rows.deviation / sqrt(2);
-    /* without offsets, a shift of a row is that of a scar over more than half of it */
-    for (size_t k = 0; k < rows.n && !(found.offsets > 0); k++)
-        rows.shift[k] = 0;
-    found.scars = find_scars(z, map, &rows, mend);
+    if (found.offsets > 0)
+        remove_shifts(z, map->nx, &rows, 1);
+    found.scars = find_scars(z, map->nx, map->ny, scar_deviations * rows.difference, mend);
+    if (found.offsets > 0 && !mend)
+        remove_shifts(z, map->nx, &rows, -1);
     if (found.offsets > 0 && mend)
         level_rows(z, map);
     free(rows.shift);
