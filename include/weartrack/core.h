@@ -547,6 +547,7 @@ typedef struct wt_height_map {
     const double *z; /* [ny * nx] borrowed */
     size_t nx, ny;
     double dx, dy; /* spacing [m]; dy is NaN for a profile */
+    bool levelled; /* the mean of each row was subtracted: modes across the rows are unknown */
 } wt_height_map;
 /* Returns the heights of an image in metres, borrowed from the image. */
 WT_API wt_height_map wt_image_height_map(const wt_image *image);

@@ -206,8 +206,12 @@ typedef struct wt_topography_job {
     const char *image; /* part of the name of the image; NULL = first height image */
     double end;        /* last wavenumber [rad/m]; NaN = that of the reliable range */
     double end_slope;  /* ends the spectrum at this rms slope instead; NaN = none */
-    bool scans;        /* also computes the table scan_spectra */
-    bool heights;      /* also computes the tables height_map and height_profile */
+    enum wt_scan_lines {
+        WT_SCAN_LINES_MEND, /* offsets of rows and scars are found and removed */
+        WT_SCAN_LINES_KEEP  /* they are found and named */
+    } scan_lines;
+    bool scans;   /* also computes the table scan_spectra */
+    bool heights; /* also computes the tables height_map and height_profile */
 } wt_topography_job;
 WT_API wt_topography_job wt_topography_job_defaults(void);
 WT_API const wt_params *wt_topography_job_params(void);

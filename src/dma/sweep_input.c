@@ -1,6 +1,7 @@
 /* Reads the sweeps of a job. Each file is read once in a run, and each stage gets a copy.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dma/sweep_input.h"
+#include "job/conditioning.h"
 
 #include "core/data/sweep_points.h"
 
@@ -109,6 +110,7 @@ static wt_status read_sweeps(const wt_file_set *sets, size_t n_sets, const wt_jo
     if (status == WT_OK) {
         wt_sweep_sort(sweep);
         wt_sweep_remove_duplicates(sweep, work->log);
+        check_sweep(sweep, work->log);
         if (work->dma != NULL)
             copy_sweep(work->dma, sweep);
     }

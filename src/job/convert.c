@@ -1,5 +1,6 @@
 /* Converts an instrument file to tables in SI units. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "job/aligned_curves.h"
+#include "job/conditioning.h"
 #include "job/inputs.h"
 
 #include "core/base/array.h"
@@ -256,6 +257,7 @@ static wt_status convert_sweep(const conversion *c, wt_error *err)
         wt_sweep_read(c->work->formats, c->input, &c->read, c->work->log, &sweep, err);
     if (status == WT_OK) {
         wt_sweep_sort(&sweep);
+        check_sweep(&sweep, c->work->log);
         status = send_sweep(c, &sweep, err);
     }
     wt_sweep_clear(&sweep);

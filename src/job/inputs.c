@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "job/inputs.h"
 #include "job/cost.h"
+#include "job/file_copies.h"
 
 #include "core/base/array.h"
 #include "core/base/shared_params.h"
@@ -192,7 +193,9 @@ wt_status flow_files_list(const wt_file_set *sets, size_t n_sets, const wt_job *
             status = list_pattern(&sets[i], sets[i].patterns[j], work, files, err);
     if (files->n > 1)
         qsort(files->file, files->n, sizeof *files->file, compare_file_paths);
-    if (status != WT_OK)
+    if (status == WT_OK && files->n > 1)
+        file_copies_remove(files, work);
+    else if (status != WT_OK)
         flow_files_clear(files);
     return status;
 }

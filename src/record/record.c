@@ -2,6 +2,7 @@
  * compared with.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "record/record.h"
+#include "job/conditioning.h"
 #include "core/base/array.h"
 #include "core/base/clocale.h"
 #include "core/table/table_rows.h"
@@ -451,6 +452,8 @@ static wt_status measure_file(const wt_record_job *job, const wt_job *work, flow
     if (status == WT_OK)
         status = wt_record_read(work->formats, input, &read, work->log, &record, err);
     wt_input_close(input);
+    if (status == WT_OK)
+        condition_record(&record, file->name, work->log);
     wt_estimate radius = job->track_radius;
     if (isnan(radius.value))
         radius = (wt_estimate){record.radius, 0, 0, "m"};
@@ -463,6 +466,7 @@ static wt_status measure_file(const wt_record_job *job, const wt_job *work, flow
         status = wt_fail(err, WT_E_EMPTY, "the record holds no whole cycle");
     if (status == WT_OK) {
         warn_difference(work, &cycles, file->name);
+        check_friction_coefficient(cycles.cycle[cycles.n / 2].coefficient, file->name, work->log);
         warn_pauses(work, &pauses, file->name);
         if (cycles.n_unloaded > 0)
             wt_log_add(work->log, WT_WARNING, file->name, NULL,

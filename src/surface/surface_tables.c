@@ -65,7 +65,7 @@ wt_status surface_view_create(const wt_height_map *map, wt_surface_form form, si
     double coefficients[FORM_TERMS];
     double *z = wt_alloc(map->nx * map->ny, sizeof *z);
     memcpy(z, map->z, map->nx * map->ny * sizeof *z);
-    const wt_height_map less = {z, map->nx, map->ny, map->dx, map->dy};
+    const wt_height_map less = {z, map->nx, map->ny, map->dx, map->dy, map->levelled};
     const wt_status status =
         surface_remove_form(z, map->nx, map->ny, (unsigned)form, coefficients, err);
     if (status == WT_OK)

@@ -4,6 +4,7 @@
 #include "core/base/range_text.h"
 #include "job/cost.h"
 #include "job/height_input.h"
+#include "surface/numerics/surface_analysis.h"
 #include "surface/surface.h"
 
 #include <math.h>
@@ -32,6 +33,9 @@ static const wt_param rows[] = {
     {PARAM("max-missing", wt_topography_job, options.largest_missing, WT_Q_NONE, FROM_BELOW(0, 1)),
      .former = "largest-missing", .value = "X", .flags = PARAM_NO_CASE,
      .help = "share of missing heights up to which they are filled; a scan with more is refused"},
+    {PARAM_CHOICE_OF("scan-lines", wt_topography_job, scan_lines, "mend|keep"),
+     .help = "what happens to offsets of scan lines and to scars: mend removes them, keep only "
+             "names them"},
     {PARAM("points-per-wave", wt_topography_job, options.points_per_wave, WT_Q_NONE, AT_LEAST(2)),
      .value = "N", .help = "fewest points of a wave that is reliable"},
     {PARAM("tip-radius", wt_topography_job, options.tip_radius, WT_Q_LENGTH, ABOVE(0)),
@@ -59,6 +63,34 @@ PARAM_TABLE(wt_topography_job_params, wt_topography_job, rows, wt_topography_job
 
 /* ---- scans ----------------------------------------------------------------------------------- */
 
+/* Removes the artefacts of the scanner, and says what was found. */
+static void condition_scan(const wt_topography_job *job, const wt_job *work, const char *file,
+                           double *z, wt_height_map *map)
+{
+    const bool mend = job->scan_lines == WT_SCAN_LINES_MEND;
+    const scan_line_faults found = surface_scan_lines(z, map, mend);
+    if (found.scars > 0)
+        wt_log_add(
+            work->log, WT_WARNING, file, NULL,
+            "scars: %zu parts of scan lines stand out from the lines before and behind them%s",
+            found.scars,
+            mend ? "; they are replaced by the mean of these lines (--scan-lines keep "
+                   "leaves them)"
+                 : " and raise the spectrum");
+    if (found.offsets > 0)
+        wt_log_add(work->log, WT_WARNING, file, NULL,
+                   "the scan lines have random offsets of %.3g nm (standard deviation)%s",
+                   1e9 * found.offsets,
+                   mend ? "; each line loses its mean, and waves across the lines are left out of "
+                          "the spectrum (--scan-lines keep leaves the offsets)"
+                        : ", which raise the spectrum");
+    else if (found.suspected)
+        wt_log_add(work->log, WT_WARNING, file, NULL,
+                   "adjacent scan lines differ more than adjacent columns do: a texture along the "
+                   "lines, or a drift of the scanner, which raises the spectrum; scan the surface "
+                   "again at 90 degrees to tell");
+}
+
 static wt_status measure_scan(const wt_topography_job *job, const wt_job *work, size_t n_files,
                               flow_file *file, surface_scan *to, wt_error *err)
 {
@@ -68,6 +100,7 @@ static wt_status measure_scan(const wt_topography_job *job, const wt_job *work, 
         return status;
     *to = (surface_scan){.name = file->name, .map = wt_image_height_map(&image)};
     snprintf(to->image, sizeof to->image, "%s", image.name);
+    condition_scan(job, work, file->name, image.values, &to->map);
     status = wt_surface_analyse(&to->map, &job->options, &to->heights, &to->spectrum, err);
     if (status == WT_OK && job->heights) {
         status = surface_view_create(&to->map, job->options.form, n_files, &to->view, err);

@@ -601,7 +601,7 @@ static void transform_measured(const measured_file *file, wt_surface_spectrum *t
     assert_int_equal(surface_remove_form(z, nx, ny, 1, form, NULL), WT_OK);
     for (size_t i = 0; i < nx * ny; i++)
         z[i] = isfinite(z[i]) ? z[i] : 0;
-    map = (wt_height_map){z, nx, ny, dx, dy};
+    map = (wt_height_map){z, nx, ny, dx, dy, false};
     const surface_bins bins = {pow(10, 0.05), 1e-9,
                                ny > 1 ? fmin(M_PI / dx, M_PI / dy) : M_PI / dx};
     assert_int_equal(surface_transform(&map, WT_WINDOW_HANN, ny == 1, &bins, to, NULL), WT_OK);

@@ -69,7 +69,7 @@ static double *tilted(void)
 
 static wt_height_map map_of(const double *z)
 {
-    return (wt_height_map){z, SIDE, SIDE, length / SIDE, length / SIDE};
+    return (wt_height_map){z, SIDE, SIDE, length / SIDE, length / SIDE, false};
 }
 
 static double rms_of(const double *z)
@@ -129,12 +129,12 @@ static void test_heights(void **state)
             z[j * MORE + i] = p[j % SIDE * SIDE + i % SIDE];
     wt_surface_heights h, wide, tall, round;
     const double step = length / SIDE;
-    surface_height_statistics(&(wt_height_map){p, SIDE, SIDE, step, step}, &h);
-    surface_height_statistics(&(wt_height_map){z, MORE, SIDE, step, step}, &wide);
-    surface_height_statistics(&(wt_height_map){z, MORE, MORE, step, step}, &round);
+    surface_height_statistics(&(wt_height_map){p, SIDE, SIDE, step, step, false}, &h);
+    surface_height_statistics(&(wt_height_map){z, MORE, SIDE, step, step, false}, &wide);
+    surface_height_statistics(&(wt_height_map){z, MORE, MORE, step, step, false}, &round);
     for (size_t j = 0; j < MORE; j++)
         memcpy(z + j * SIDE, p + j % SIDE * SIDE, SIDE * sizeof *z);
-    surface_height_statistics(&(wt_height_map){z, SIDE, MORE, step, step}, &tall);
+    surface_height_statistics(&(wt_height_map){z, SIDE, MORE, step, step, false}, &tall);
     assert_near(h.rms, 2.95185095003904e-06, 1e-12);
     assert_near(h.mean_deviation, 2.358673054648525e-06, 1e-12);
     assert_near(h.peak_to_valley, 2.411885845894341e-05, 1e-12);
@@ -476,7 +476,7 @@ static void test_leak(void **state)
         for (size_t j = 0; j < CUT; j++)
             memcpy(part + j * CUT, z + (j + 9) * N + 5, CUT * sizeof *part);
         const double step = made.length / N;
-        const wt_height_map map = {part, CUT, CUT, step, step};
+        const wt_height_map map = {part, CUT, CUT, step, step, false};
         for (size_t w = 0; w < COUNT_OF(windows); w++) {
             wt_surface_options options = wt_surface_options_defaults();
             wt_surface_heights heights;

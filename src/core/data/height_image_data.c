@@ -15,8 +15,11 @@ void wt_image_clear(wt_image *image)
 
 wt_height_map wt_image_height_map(const wt_image *image)
 {
-    return (wt_height_map){image->values, image->n_columns, image->n_rows,
+    return (wt_height_map){image->values,
+                           image->n_columns,
+                           image->n_rows,
                            image->width / (double)(image->n_columns - 1),
                            image->n_rows > 1 ? image->height / (double)(image->n_rows - 1)
-                                             : (double)NAN};
+                                             : (double)NAN,
+                           false};
 }

@@ -185,7 +185,7 @@ static wt_status extract_patch(const wt_height_map *f, double x, double y, doubl
     size_t i[2], j[2];
     pixel_span(x, 2 * radius + INTERPOLATION_NODES * f->dx, f->dx, f->nx, &i[0], &i[1]);
     pixel_span(y, 2 * radius + INTERPOLATION_NODES * f->dy, f->dy, f->ny, &j[0], &j[1]);
-    *to = (patch){{NULL, i[1] - i[0] + 1, j[1] - j[0] + 1, f->dx, f->dy},
+    *to = (patch){{NULL, i[1] - i[0] + 1, j[1] - j[0] + 1, f->dx, f->dy, false},
                   x - (double)i[0] * f->dx,
                   y - (double)j[0] * f->dy,
                   NULL};

@@ -123,7 +123,8 @@ static bool find_best_shift(const wt_height_map *before, const wt_height_map *af
 /* Computes means of f x f pixels. */
 static wt_status coarsen_image(const wt_height_map *of, size_t f, wt_height_map *to, wt_error *err)
 {
-    *to = (wt_height_map){NULL, of->nx / f, of->ny / f, of->dx * (double)f, of->dy * (double)f};
+    *to = (wt_height_map){NULL, of->nx / f, of->ny / f, of->dx * (double)f, of->dy * (double)f,
+                          false};
     double *z = malloc((to->nx * to->ny + 1) * sizeof *z);
     if (z == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
@@ -438,8 +439,12 @@ wt_status spot_align(const wt_height_map *before, const wt_height_map *after, do
 wt_status spot_resample(const wt_height_map *field, double dx, double dy, wt_height_map *to,
                         wt_error *err)
 {
-    *to = (wt_height_map){NULL, (size_t)floor((double)(field->nx - 1) * field->dx / dx) + 1,
-                          (size_t)floor((double)(field->ny - 1) * field->dy / dy) + 1, dx, dy};
+    *to = (wt_height_map){NULL,
+                          (size_t)floor((double)(field->nx - 1) * field->dx / dx) + 1,
+                          (size_t)floor((double)(field->ny - 1) * field->dy / dy) + 1,
+                          dx,
+                          dy,
+                          false};
     double *z = malloc(to->nx * to->ny * sizeof *z);
     if (z == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");

@@ -179,7 +179,7 @@ wt_status wt_surface_analyse(const wt_height_map *map, const wt_surface_options 
         return status;
     double *z = wt_alloc(map->nx * map->ny, sizeof *z);
     memcpy(z, map->z, map->nx * map->ny * sizeof *z);
-    const wt_height_map less = {z, map->nx, map->ny, map->dx, map->dy};
+    const wt_height_map less = {z, map->nx, map->ny, map->dx, map->dy, map->levelled};
     wt_surface_spectrum made = {
         .place_scatter = (double)NAN, .place_reach = (double)NAN, .place_error = (double)NAN};
     status = surface_remove_form(z, map->nx, map->ny, (unsigned)options->form, form, err);

@@ -24,6 +24,19 @@ void surface_height_statistics(const wt_height_map *map, wt_surface_heights *to)
  * below half the curvature of the tip. It is 0 if none does. radius [m]. */
 double surface_tip_limit(const wt_height_map *map, double radius);
 
+/* ---- artefacts of a scanner: scan_lines.c ---------------------------------------------------- */
+
+/* What was found in a map of at least 16 rows of 16 points. */
+typedef struct scan_line_faults {
+    size_t scars;   /* parts of single rows that stand out, where the tip lost the surface */
+    double offsets; /* standard deviation of the random offsets of the rows [m]; 0: none */
+    bool suspected; /* rows differ more than columns do, which offsets or a texture explain */
+} scan_line_faults;
+/* Finds scars and random offsets of rows; z: the heights of the map, to be changed. With `mend`,
+ * scars are replaced by the mean of the adjacent rows, and if there are offsets, each row loses its
+ * mean and the map is levelled. */
+scan_line_faults surface_scan_lines(double *z, wt_height_map *map, bool mend);
+
 /* ---- spectra: surface_transform.c ------------------------------------------------------------ */
 
 /* Ten bins per decade; bin k contains the modes of 10^((k - 1/2)/10) <= q / reference < 10^((k +

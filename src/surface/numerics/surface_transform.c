@@ -248,6 +248,15 @@ static double mode_pair_sum(const mode_grid *g, int i, int j, int bin, int reach
     return sum;
 }
 
+/* First mode of a row of the transform. In a map of levelled rows the mode 0 has lost its heights,
+ * and a window mixes it with its neighbour. */
+static size_t first_mode(const wt_height_map *map, wt_surface_window window, size_t j)
+{
+    if (map->levelled)
+        return window == WT_WINDOW_NONE ? 1 : 2;
+    return j == 0 ? 1 : 0;
+}
+
 /* Counts the pairs in bins of few modes, whose neighbours are often in other bins. */
 static void count_correlated_pairs(const wt_height_map *map, bool lines, const binning *b)
 {
@@ -263,7 +272,9 @@ static void count_correlated_pairs(const wt_height_map *map, bool lines, const b
     g.bin = wt_alloc(columns * rows, sizeof *g.bin);
     for (size_t n = 0; n < columns * rows; n++) {
         const int i = (int)(n % columns) - g.reach_x, j = (int)(n / columns) - g.reach_y;
-        g.bin[n] = (short)mode_bin(b, hypot(step_x * i, step_y * j));
+        const bool is_left_out =
+            map->levelled && (size_t)abs(i) < first_mode(map, WT_WINDOW_HANN, 1);
+        g.bin[n] = is_left_out ? -1 : (short)mode_bin(b, hypot(step_x * i, step_y * j));
     }
     for (size_t n = 0; n < columns * rows; n++) {
         const int i = (int)(n % columns) - g.reach_x, j = (int)(n / columns) - g.reach_y;
@@ -319,13 +330,14 @@ static double mode_multiplicity(size_t i, size_t n)
     return i == 0 || 2 * i == n ? 1 : 2;
 }
 
-static void bin_plane(const transform *t, const wt_height_map *map, const binning *b)
+static void bin_plane(const transform *t, const wt_height_map *map, wt_surface_window window,
+                      const binning *b)
 {
     const double step_x = 2 * M_PI / ((double)t->nx * map->dx),
                  step_y = 2 * M_PI / ((double)t->ny * map->dy);
     for (size_t j = 0; j < t->ny; j++) {
         const double qy = step_y * (2 * j < t->ny ? (double)j : (double)j - (double)t->ny);
-        for (size_t i = j == 0 ? 1 : 0; i <= t->nx / 2; i++)
+        for (size_t i = first_mode(map, window, j); i <= t->nx / 2; i++)
             add_mode(b, step_x * (double)i, qy, mode_density(t, i, j), mode_multiplicity(i, t->nx));
     }
 }
@@ -350,7 +362,10 @@ wt_status surface_transform(const wt_height_map *map, wt_surface_window window, 
     to->n = 0;
     if (status == WT_OK) {
         to->bins = wt_alloc(b.n, sizeof *to->bins);
-        (lines ? bin_lines : bin_plane)(&t, map, &b);
+        if (lines)
+            bin_lines(&t, map, &b);
+        else
+            bin_plane(&t, map, window, &b);
         if (window == WT_WINDOW_HANN)
             count_correlated_pairs(map, lines, &b);
         for (size_t k = 0; k < b.n; k++) {

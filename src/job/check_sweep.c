@@ -1,0 +1,149 @@
+/* Plausibility of measured values, and agreement of isotherms of one temperature.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "job/conditioning.h"
+
+#include "core/base/array.h"
+#include "core/base/memory.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/* What rubber, plastics and their instruments can have, with a decade to spare on either side, and
+ * the likely cause of a value outside. */
+typedef struct plausible_range {
+    const char *quantity, *unit;
+    double low, high;
+    const char *cause_below, *cause_above;
+} plausible_range;
+
+enum { MODULUS, FREQUENCY, TEMPERATURE, COEFFICIENT };
+static const plausible_range ranges[] = {
+    [MODULUS] = {"modulus", "Pa", 1e3, 1e11, "a unit such as mPa for MPa, or Pa for MPa",
+                 "a unit such as GPa for MPa, or a decimal separator that is lost"},
+    /* Instruments reach 200 Hz, some 1 kHz; a day number of a spreadsheet is above 36,000. */
+    [FREQUENCY] = {"frequency", "rad/s", 1e-7, 2 * M_PI * 1e4, "a time in place of a frequency",
+                   "a cell that a spreadsheet turned into a date, or an extrapolated master curve"},
+    [TEMPERATURE] = {"temperature", "K", 70, 900, "degrees Celsius read as kelvin",
+                     "a wrong unit or column"},
+    [COEFFICIENT] = {"friction coefficient", "1", 1e-3, 10, "a wrong unit or column of a force",
+                     "percent, or a wrong unit or column of a force"},
+};
+
+static void check_value(double value, size_t which, const char *place, wt_log *log)
+{
+    const plausible_range *const r = &ranges[which];
+    const bool below = value < r->low;
+    if (isnan(value) || (!below && !(value > r->high)))
+        return;
+    wt_log_add(log, WT_WARNING, place, NULL,
+               "a %s of %.4g %s is implausible; the likely cause is %s", r->quantity, value,
+               r->unit, below ? r->cause_below : r->cause_above);
+}
+
+void check_friction_coefficient(double typical, const char *file, wt_log *log)
+{
+    check_value(fabs(typical), COEFFICIENT, file, log);
+}
+
+static void add_range(const double *x, size_t n, double *low, double *high)
+{
+    for (size_t i = 0; i < n; i++) {
+        *low = fmin(*low, x[i]); /* NaN is passed over */
+        *high = fmax(*high, x[i]);
+    }
+}
+
+/* Checks that some modulus of the sweep is one that rubber can have. Melts and glasses begin and
+ * end beyond that. */
+static void check_moduli(const wt_sweep *sweep, wt_log *log)
+{
+    double low = INFINITY, high = -INFINITY;
+    for (size_t i = 0; i < sweep->n_isotherms; i++)
+        add_range(sweep->isotherms[i].storage_modulus, sweep->isotherms[i].n, &low, &high);
+    for (size_t i = 0; i < sweep->n_ramps; i++)
+        add_range(sweep->ramps[i].storage_modulus, sweep->ramps[i].n, &low, &high);
+    if (!(low <= high))
+        return;
+    const char *const source =
+        sweep->n_isotherms > 0 ? sweep->isotherms[0].source : sweep->ramps[0].source;
+    if (high < ranges[MODULUS].low)
+        check_value(high, MODULUS, source, log);
+    else if (low > ranges[MODULUS].high)
+        check_value(low, MODULUS, source, log);
+}
+
+/* ---- isotherms of one temperature ------------------------------------------------------------ */
+
+/* Temperatures of one set point differ by less in all instruments of the source formats. */
+static const double same_temperature = 0.5; /* [K] */
+/* A clamp that is closed again changes a modulus by 3 to 5 % (ISO 6721-1). */
+static const double same_modulus = 0.05;
+
+/* Median of ln E' of b over that of a at the frequencies that both have. NaN if there are none. */
+static double modulus_difference(const wt_isotherm *a, const wt_isotherm *b)
+{
+    const double same_frequency = 1e-3; /* instruments repeat their set values to four digits */
+    double *const difference = wt_alloc(a->n + b->n, sizeof *difference);
+    size_t n = 0;
+    for (size_t i = 0, k = 0; i < a->n && k < b->n;) {
+        const double step = b->angular_frequency[k] / a->angular_frequency[i] - 1;
+        if (fabs(step) <= same_frequency && a->storage_modulus[i] > 0 && b->storage_modulus[k] > 0)
+            difference[n++] = log(b->storage_modulus[k] / a->storage_modulus[i]);
+        i += step >= 0 || fabs(step) <= same_frequency;
+        k += step < 0 || fabs(step) <= same_frequency;
+    }
+    const double median = n > 0 ? numbers_median(difference, n) : (double)NAN;
+    free(difference);
+    return median;
+}
+
+static bool same_sample(const wt_isotherm *a, const wt_isotherm *b)
+{
+    return a->sample == NULL || b->sample == NULL || strcmp(a->sample, b->sample) == 0;
+}
+
+static void check_repeated(const wt_sweep *sweep, wt_log *log)
+{
+    size_t n = 0;
+    double largest = 0;
+    const wt_isotherm *first = NULL;
+    for (size_t i = 0; i + 1 < sweep->n_isotherms; i++) {
+        const wt_isotherm *const a = &sweep->isotherms[i], *const b = a + 1;
+        const double difference = modulus_difference(a, b);
+        if (fabs(b->temperature - a->temperature) > same_temperature || !same_sample(a, b) ||
+            a->shift_is_stated || !(fabs(difference) > same_modulus))
+            continue;
+        n++;
+        first = first == NULL ? a : first;
+        largest = fmax(largest, fabs(difference));
+    }
+    if (n > 0)
+        wt_log_add(log, WT_WARNING, first->source, NULL,
+                   "two isotherms of the same temperature differ by %.0f %% in the storage modulus "
+                   "(at %.4g degC%s): two specimens, or a material that changed between two runs; "
+                   "separate the runs into files and take one",
+                   100 * expm1(largest), first->temperature - WT_ZERO_CELSIUS,
+                   n > 1 ? " and at other temperatures" : "");
+}
+
+void check_sweep(const wt_sweep *sweep, wt_log *log)
+{
+    for (size_t i = 0; i < sweep->n_isotherms; i++) {
+        const wt_isotherm *const t = &sweep->isotherms[i];
+        if (t->n == 0)
+            continue;
+        const wt_isotherm *const before = i > 0 ? t - 1 : NULL;
+        if (before != NULL && strcmp(before->source, t->source) == 0)
+            continue; /* one message for a file and step */
+        check_value(t->temperature, TEMPERATURE, t->source, log);
+        if (sweep->loading == WT_OSCILLATION && !t->shift_is_stated)
+            check_value(t->angular_frequency[t->n - 1], FREQUENCY, t->source, log);
+    }
+    for (size_t i = 0; i < sweep->n_ramps; i++) {
+        const wt_ramp *const r = &sweep->ramps[i];
+        check_value(r->angular_frequency, FREQUENCY, r->source, log);
+    }
+    check_moduli(sweep, log);
+    check_repeated(sweep, log);
+}
