@@ -3,6 +3,7 @@
 #include <sys/stat.h>
 
 #include "cmd/cmd.h"
+#include "core/base/memory.h"
 
 static bool ends_with(const char *text, const char *end)
 {
@@ -46,7 +47,9 @@ char *cmd_default_name(const char *path, const char *ending)
     const char *dot = strrchr(base, '.');
     const int stem = (int)(dot != NULL && dot != base ? (size_t)(dot - base) : strlen(base));
     char *name = NULL;
-    return asprintf(&name, "%.*s%s", stem, base, ending) < 0 ? NULL : name;
+    if (asprintf(&name, "%.*s%s", stem, base, ending) < 0)
+        out_of_memory(strlen(path));
+    return name;
 }
 
 static wt_status write_stream(FILE *out, const wt_result *result, bool with_provenance,
