@@ -53,6 +53,8 @@ int cmd_summary(int argc, char **argv);
 
 /* Makes this process exit when memory runs out (malloc_abort.c). */
 void cmd_exit_on_allocation_failure(void);
+/* Ends the process with a message: an allocation of `size` bytes failed. */
+_Noreturn void cmd_exit_without_memory(size_t size);
 
 /* ---- options ------------------------------------------------------------------------------ */
 

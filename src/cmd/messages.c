@@ -6,7 +6,6 @@
 #include <unistd.h>
 
 #include "cmd/cmd.h"
-#include "core/base/memory.h"
 #include "core/base/utf8.h"
 #include "core/table/registry.h"
 
@@ -35,7 +34,7 @@ void cmd_message(const char *format, ...)
     const int written = vasprintf(&text, format, arguments);
     va_end(arguments);
     if (written < 0)
-        out_of_memory(strlen(format));
+        cmd_exit_without_memory(strlen(format));
     size_t length = (size_t)written;
     if (cmd_log_is_json()) {
         text[length - (length > 0 && text[length - 1] == '\n')] = '\0';

@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "cmd/cmd.h"
-#include "core/base/memory.h"
 #include "core/base/spell_suggest.h"
 
 enum { MAX_OPTIONS = 160, FIRST_CODE = 256, NAME_SIZE = 48, TEXT_SIZE = 512 };
@@ -78,7 +77,7 @@ bool cmd_usage_error(cmd_session *s, const char *format, ...)
     va_start(args, format);
     char *text = NULL;
     if (vasprintf(&text, format, args) < 0)
-        out_of_memory(strlen(format));
+        cmd_exit_without_memory(strlen(format));
     va_end(args);
     cmd_message("weartrack %s: %s; see weartrack %s --help\n", s->name, text, s->name);
     free(text);

@@ -3,7 +3,6 @@
 #include <sys/stat.h>
 
 #include "cmd/cmd.h"
-#include "core/base/memory.h"
 
 static bool ends_with(const char *text, const char *end)
 {
@@ -48,7 +47,7 @@ char *cmd_default_name(const char *path, const char *ending)
     const int stem = (int)(dot != NULL && dot != base ? (size_t)(dot - base) : strlen(base));
     char *name = NULL;
     if (asprintf(&name, "%.*s%s", stem, base, ending) < 0)
-        out_of_memory(strlen(path));
+        cmd_exit_without_memory(strlen(path));
     return name;
 }
 

@@ -190,7 +190,9 @@ static wt_status read_stream_header(stream_reader *r, wt_error *err)
     static const char form[] = "a header line \"# name[unit]<TAB>name[unit]...\"";
     if (r->length < 3 || r->line[0] != '#' || r->line[1] != ' ')
         return fail_corrupt_stream(r, 0, "the header line is missing", form, r->line, err);
-    wt_status status = r->table == NULL ? begin_stream_table(r, "table", err) : WT_OK;
+    wt_status status = WT_OK;
+    if (r->table == NULL)
+        r->table = wt_table_new("table", "");
     size_t column = 0;
     char *next = NULL;
     for (char *cell = r->line + 2; status == WT_OK && cell != NULL; cell = next) {
