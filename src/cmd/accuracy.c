@@ -76,9 +76,7 @@ int cmd_accuracy(int argc, char **argv)
     if (good) {
         s.log = wt_log_new();
         run.precision = job;
-        const wt_status status = s.log == NULL ? wt_fail(&s.err, WT_E_MEMORY, "out of memory")
-                                               : run_accuracy_case(&s, &run);
-        cmd_end(&s, status);
+        cmd_end(&s, run_accuracy_case(&s, &run));
     }
     return cmd_session_free(&s);
 }

@@ -53,6 +53,8 @@ int cmd_summary(int argc, char **argv);
 
 /* Makes this process exit when memory runs out (malloc_abort.c). */
 void cmd_exit_on_allocation_failure(void);
+/* Ends the process with a message: an allocation of `size` bytes failed. */
+_Noreturn void cmd_exit_without_memory(size_t size);
 
 /* ---- options ------------------------------------------------------------------------------ */
 
@@ -153,8 +155,8 @@ bool cmd_begin_job(cmd_session *s, const cmd_usage *usage, cmd_option_group *par
  */
 wt_status cmd_write_record(cmd_session *s, wt_table_sink sink, void *user);
 /* Shares reading options between files of several kinds until the end: a unit is for a column of
- * any of them. False on failure. */
-bool cmd_share_unit_options(cmd_session *s, wt_read_options *read);
+ * any of them. */
+void cmd_share_unit_options(cmd_session *s, wt_read_options *read);
 /* Prints failures, remarks and, unless `status` is WT_OK, the error. */
 void cmd_end(cmd_session *s, wt_status status);
 /* Variant that first writes the tables, in this order, with failures and notes, if `status` is

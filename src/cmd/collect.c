@@ -63,15 +63,14 @@ int cmd_collect(int argc, char **argv)
     wt_collection_tables tables = {0};
     if (!cmd_parse(&s, &usage, &part, 1, argc, argv) || !cmd_begin(&s))
         return cmd_session_free(&s);
-    wt_collected_result *cases = calloc(s.n_files, sizeof *cases);
-    wt_result **results = calloc(s.n_files, sizeof *results);
-    const bool allocated = cases != NULL && results != NULL;
-    const size_t n = allocated ? read_collected_cases(&s, cases, results) : 0;
-    wt_status status = allocated ? WT_OK : wt_fail(&s.err, WT_E_MEMORY, "out of memory");
-    if (status == WT_OK && n == 0) {
+    wt_collected_result *cases = wt_alloc(s.n_files, sizeof *cases);
+    wt_result **results = wt_alloc(s.n_files, sizeof *results);
+    const size_t n = read_collected_cases(&s, cases, results);
+    wt_status status = WT_OK;
+    if (n == 0) {
         s.status = CMD_FAILED;
         cmd_end(&s, WT_OK);
-    } else if (status == WT_OK)
+    } else
         status = wt_collection_compute(cases, n, &job, &tables, &s.err);
     wt_table **const made_tables[] = {
         &tables.collection,      &tables.collected_modulus,   &tables.collected_friction,

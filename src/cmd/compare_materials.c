@@ -106,9 +106,8 @@ void compare_materials(compare_call *call)
 {
     cmd_session *s = &call->s;
     wt_materials_tables tables = {0};
-    wt_compared_material *compared = calloc(s->n_files, sizeof *compared);
-    wt_status status = compared == NULL ? wt_fail(&s->err, WT_E_MEMORY, "out of memory")
-                                        : check_distinct_materials(call, &s->err);
+    wt_compared_material *compared = wt_alloc(s->n_files, sizeof *compared);
+    wt_status status = check_distinct_materials(call, &s->err);
     /* the comparison needs every material */
     wt_table_free(s->work.failures);
     s->work.failures = NULL;

@@ -25,7 +25,7 @@
 enum { LARGE = 1 << 20 };
 static pid_t owner;
 
-static void exit_without_memory(size_t size)
+void cmd_exit_without_memory(size_t size)
 {
     static const char words[] =
         "weartrack: out of memory: nothing is written; close other programs, "
@@ -38,7 +38,7 @@ static void exit_without_memory(size_t size)
 void cmd_exit_on_allocation_failure(void)
 {
     owner = getpid();
-    (void)wt_memory_set_handler(exit_without_memory);
+    (void)wt_memory_set_handler(cmd_exit_without_memory);
 #ifdef __GLIBC__
     /* Fixed thresholds. Otherwise glibc raises them up to 32 MB after a large block is freed, and
      * keeps memory of a map that it could return to the system. */
@@ -53,8 +53,7 @@ static void *check_allocation(void *memory, size_t size)
 {
     if (memory != NULL || size == 0 || size >= LARGE || owner != getpid())
         return memory;
-    exit_without_memory(size);
-    return NULL;
+    cmd_exit_without_memory(size);
 }
 
 /* Returns the next function of that name in the loading order; NULL while the loader searches for

@@ -83,8 +83,6 @@ static wt_status fit_sample(cmd_session *s, wt_master_job *job, wt_file_set *set
     wt_log *const log = wt_log_new();
     wt_error failure = WT_ERROR_INIT;
     wt_job work = s->work;
-    if (log == NULL)
-        return wt_fail(&s->err, WT_E_MEMORY, "out of memory");
     set->read.sample = sample;
     work.log = log;
     wt_status status = wt_master_compute(job, &work, &f->tables, NULL, &failure);
@@ -147,19 +145,16 @@ static wt_status fit_common_law(cmd_session *s, wt_shared_shift_law_job *job,
     wt_error failure = WT_ERROR_INIT;
     if (job->common == WT_SHARED_LAW_NONE)
         return WT_OK;
-    const char **names = calloc(samples->n, sizeof *names);
-    const wt_master **of = calloc(samples->n, sizeof *of);
-    wt_status status =
-        names == NULL || of == NULL ? wt_fail(&failure, WT_E_MEMORY, "out of memory") : WT_OK;
-    for (size_t i = 0; status == WT_OK && i < samples->n; i++) {
+    const char **names = wt_alloc(samples->n, sizeof *names);
+    const wt_master **of = wt_alloc(samples->n, sizeof *of);
+    for (size_t i = 0; i < samples->n; i++) {
         names[i] = display_name(samples->name[i]);
         of[i] = fits[i].tables.fit;
     }
     job->names = names;
     job->fits = of;
     job->n = samples->n;
-    if (status == WT_OK)
-        status = wt_shared_shift_law_compute(job, table, &failure);
+    const wt_status status = wt_shared_shift_law_compute(job, table, &failure);
     free(names);
     free(of);
     return status == WT_OK ? WT_OK
@@ -171,16 +166,12 @@ void fit_sample_masters(cmd_session *s, wt_master_job *job, wt_shared_shift_law_
 {
     wt_materials_tables materials = {0};
     wt_table *common_law = NULL;
-    sample_fit *fits = calloc(samples->n, sizeof *fits);
-    wt_compared_material *of = calloc(samples->n, sizeof *of);
-    wt_table ***made_tables = calloc(samples->n * TABLES + 3, sizeof *made_tables);
+    sample_fit *fits = wt_alloc(samples->n, sizeof *fits);
+    wt_compared_material *of = wt_alloc(samples->n, sizeof *of);
+    wt_table ***made_tables = wt_alloc(samples->n * TABLES + 3, sizeof *made_tables);
     const char *const chosen = set->read.sample;
-    wt_status status = fits == NULL || of == NULL || made_tables == NULL
-                           ? wt_fail(&s->err, WT_E_MEMORY, "out of memory")
-                           : WT_OK;
     size_t n = 0;
-    if (status == WT_OK)
-        status = fit_all_samples(s, job, set, samples, fits);
+    wt_status status = fit_all_samples(s, job, set, samples, fits);
     set->read.sample = chosen;
     if (status == WT_OK)
         compare_samples(s, samples, fits, of, &materials);
@@ -198,7 +189,7 @@ void fit_sample_masters(cmd_session *s, wt_master_job *job, wt_shared_shift_law_
         made_tables[n++] = &common_law;
     }
     cmd_finish(s, status, made_tables, n);
-    for (size_t i = 0; fits != NULL && i < samples->n; i++) {
+    for (size_t i = 0; i < samples->n; i++) {
         wt_master_tables_clear(&fits[i].tables);
         wt_rubber_clear(&fits[i].rubber);
         for (size_t k = 0; k < TABLES; k++)

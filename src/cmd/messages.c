@@ -34,7 +34,7 @@ void cmd_message(const char *format, ...)
     const int written = vasprintf(&text, format, arguments);
     va_end(arguments);
     if (written < 0)
-        return;
+        cmd_exit_without_memory(strlen(format));
     size_t length = (size_t)written;
     if (cmd_log_is_json()) {
         text[length - (length > 0 && text[length - 1] == '\n')] = '\0';
@@ -181,12 +181,7 @@ void cmd_print_log(cmd_session *s, const wt_log *log, bool notes)
     const bool quiet = s->common.quiet, strict = s->common.strict;
     const size_t n = wt_log_count(log), n_unkept = wt_log_dropped(log);
     size_t n_folds = 0, n_remarks = n_unkept, n_losses = 0;
-    log_group *folds = calloc(n + 1, sizeof *folds);
-    if (folds == NULL) {
-        cmd_message("weartrack %s: out of memory\n", s->name);
-        s->status = CMD_FAILED;
-        return;
-    }
+    log_group *folds = wt_alloc(n + 1, sizeof *folds);
     for (size_t i = 0; i < n; i++) {
         const wt_log_entry e = wt_log_get(log, i);
         n_remarks += e.severity != WT_NOTE;

@@ -15,7 +15,7 @@ static char *path_in_case(const new_case *c, const char *path)
     char *whole = NULL;
     if (output != NULL && strchr(output, '/') != NULL && path[0] != '/')
         whole = realpath(path, NULL);
-    return whole != NULL ? whole : strdup(path);
+    return whole != NULL ? whole : wt_strdup(path);
 }
 
 /* ---- kinds of the files -----------------------------------------------------------------------
@@ -143,9 +143,7 @@ static wt_status check_case_name(new_case *c, case_entry *e)
 {
     wt_error *const err = &c->s->err;
     e->in_case = path_in_case(c, e->path);
-    const char *const unfit = e->in_case != NULL ? new_case_name_problem(e->in_case) : NULL;
-    if (e->in_case == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    const char *const unfit = new_case_name_problem(e->in_case);
     if (unfit == NULL)
         return WT_OK;
     (void)wt_fail(err, WT_E_ARG, "the name cannot stand in a case file: it has %s", unfit);
@@ -185,11 +183,7 @@ static wt_status add_files(new_case *c, const char *pattern, bool in_folder)
     const wt_status status = wt_glob(NULL, pattern, &paths, &n, &c->s->err);
     if (status != WT_OK)
         return status;
-    case_entry *grown = realloc(c->entries, (c->n + n) * sizeof *grown);
-    if (grown == NULL) {
-        wt_strings_free(paths, n);
-        return wt_fail(&c->s->err, WT_E_MEMORY, "out of memory");
-    }
+    case_entry *grown = wt_realloc(c->entries, c->n + n, sizeof *grown);
     c->entries = grown;
     for (size_t i = 0; i < n; i++) {
         grown[c->n] = (case_entry){.path = paths[i]};
@@ -245,9 +239,7 @@ static wt_status add_case_folder(new_case *c, const char *folder)
     }
     for (int i = 0; i < n; i++) {
         char *inner = status == WT_OK ? wt_path_join(folder, items[i]->d_name) : NULL;
-        if (status == WT_OK && inner == NULL)
-            status = wt_fail(&c->s->err, WT_E_MEMORY, "out of memory");
-        else if (status == WT_OK && lstat(inner, &info) == 0 && S_ISDIR(info.st_mode))
+        if (status == WT_OK && lstat(inner, &info) == 0 && S_ISDIR(info.st_mode))
             status = report_and_continue(c, add_case_folder(c, inner));
         free(inner);
         free(items[i]);

@@ -76,12 +76,11 @@ bool cmd_usage_error(cmd_session *s, const char *format, ...)
     va_list args;
     va_start(args, format);
     char *text = NULL;
-    const int written = vasprintf(&text, format, args);
+    if (vasprintf(&text, format, args) < 0)
+        cmd_exit_without_memory(strlen(format));
     va_end(args);
-    cmd_message("weartrack %s: %s; see weartrack %s --help\n", s->name, written < 0 ? "" : text,
-                s->name);
-    if (written >= 0)
-        free(text);
+    cmd_message("weartrack %s: %s; see weartrack %s --help\n", s->name, text, s->name);
+    free(text);
     s->status = CMD_USAGE;
     return false;
 }
@@ -363,13 +362,9 @@ static bool list_files(cmd_session *s, size_t n, char **arguments)
     if (status == WT_OK && from != NULL)
         status = wt_input_bytes(input, &bytes, &length, &s->err);
     if (status == WT_OK) {
-        s->names = calloc(length + 1, 1);
-        s->files = malloc((n + length / 2 + 1) *
-                          sizeof *s->files); /* a name and its separator need 2 bytes */
-        if (s->names == NULL || s->files == NULL)
-            status = wt_fail(&s->err, WT_E_MEMORY, "out of memory");
-    }
-    if (status == WT_OK) {
+        s->names = wt_alloc(length + 1, 1);
+        /* a name and its separator need 2 bytes */
+        s->files = wt_alloc(n + length / 2 + 1, sizeof *s->files);
         for (size_t i = 0; i < n; i++)
             s->files[i] = arguments[i];
         if (length > 0)
@@ -455,7 +450,7 @@ bool cmd_parse(cmd_session *s, const cmd_usage *usage, cmd_option_group *parts, 
     option_list list = {.n = 0};
     char names[TEXT_SIZE];
     size_t n_inputs = 0, n_pipes = 0;
-    const char **inputs = calloc((size_t)argc + 1, sizeof *inputs);
+    const char **inputs = wt_alloc((size_t)argc + 1, sizeof *inputs);
     snprintf(names, sizeof names, "%s log quiet strict help", usage->common);
     cmd_option_group last = {common_params(), &s->common, names, 0};
     s->name = usage->name;
@@ -464,10 +459,6 @@ bool cmd_parse(cmd_session *s, const cmd_usage *usage, cmd_option_group *parts, 
     for (size_t i = 0; i < n_parts; i++)
         add_option_group(&list, &parts[i]);
     add_option_group(&list, &last);
-    if (inputs == NULL) {
-        wt_fail(&s->err, WT_E_MEMORY, "out of memory");
-        return cmd_fail(s);
-    }
     bool good = parse_options(s, &list, argc, argv, inputs, &n_inputs);
     if (good && s->common.help) {
         print_subcommand_help(usage, &list, optind < argc && strcmp(argv[optind], "all") == 0);

@@ -46,7 +46,9 @@ char *cmd_default_name(const char *path, const char *ending)
     const char *dot = strrchr(base, '.');
     const int stem = (int)(dot != NULL && dot != base ? (size_t)(dot - base) : strlen(base));
     char *name = NULL;
-    return asprintf(&name, "%.*s%s", stem, base, ending) < 0 ? NULL : name;
+    if (asprintf(&name, "%.*s%s", stem, base, ending) < 0)
+        cmd_exit_without_memory(strlen(path));
+    return name;
 }
 
 static wt_status write_stream(FILE *out, const wt_result *result, bool with_provenance,

@@ -25,8 +25,10 @@ int cmd_record(int argc, char **argv)
     wt_table **const tables[] = {&made.record, &made.record_cycles, &made.wear};
     job.sets = &set;
     job.n_sets = 1;
-    if (cmd_begin_job(&s, &usage, parts, COUNT_OF(parts), &set, argc, argv) &&
-        (job.profile == NULL || cmd_share_unit_options(&s, &set.read)))
+    if (cmd_begin_job(&s, &usage, parts, COUNT_OF(parts), &set, argc, argv)) {
+        if (job.profile != NULL)
+            cmd_share_unit_options(&s, &set.read);
         cmd_finish(&s, wt_record_compute(&job, &s.work, &made, &s.err), tables, COUNT_OF(tables));
+    }
     return cmd_session_free(&s);
 }

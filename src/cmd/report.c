@@ -35,9 +35,11 @@ CMD_OPTIONS(report_output_params, report_outputs, report_output_rows)
 
 /* ---- a section on methods -------------------------------------------------------------------- */
 
-static const char *cell(const wt_table *methods, size_t row, const char *column)
+/* "" if the table has no such column. */
+static const char *cell(const wt_table *methods, size_t row, const char *name)
 {
-    return wt_table_text(methods, row, (size_t)wt_table_find(methods, column));
+    const long column = wt_table_find(methods, name);
+    return column >= 0 ? wt_table_text(methods, row, (size_t)column) : "";
 }
 
 /* Returns the number of the reference of a row, from 1 in order of first occurrence; 0: none. */

@@ -94,13 +94,11 @@ static wt_status prepare_outputs(run_call *r)
 {
     const char *path = r->s.files[0], *output = r->s.common.output;
     wt_error *err = &r->s.err;
-    r->result_name = output != NULL ? strdup(output) : cmd_default_name(path, ".h5");
+    r->result_name = output != NULL ? wt_strdup(output) : cmd_default_name(path, ".h5");
     r->folder_name = r->call_flags.report != NULL
-                         ? strdup(r->call_flags.report)
+                         ? wt_strdup(r->call_flags.report)
                          : cmd_default_name(strcmp(path, "-") == 0 ? output : path, "-report");
     r->s.log = wt_log_new();
-    if (r->result_name == NULL || r->folder_name == NULL || r->s.log == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
     if (wt_check_overwrite(r->result_name, err) != WT_OK)
         return err->status;
     if (!plan_runs_stage(r->plan)) {

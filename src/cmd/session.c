@@ -15,22 +15,15 @@ bool cmd_begin(cmd_session *s)
     s->log = s->log != NULL ? s->log : wt_log_new();
     s->result = wt_result_new();
     s->work.failures = wt_failures_new();
-    if (s->log == NULL || s->result == NULL || s->work.failures == NULL) {
-        wt_fail(&s->err, WT_E_MEMORY, "out of memory");
-        return cmd_fail(s);
-    }
     if (cmd_check_output(s->common.output, &s->err) != WT_OK)
         return cmd_fail(s);
     s->work.log = s->log;
     s->work.provenance = wt_result_provenance(s->result);
     s->work.left_out = s->common.provenance ? 0 : WT_EXTRA_DIGESTS;
     s->work.progress = cmd_progress_start(s);
-    if (!s->common.cost)
-        return true;
-    s->work.cost = s->cost = wt_cost_new(s->common.provenance, s->work.threads);
-    if (s->cost == NULL)
-        wt_fail(&s->err, WT_E_MEMORY, "out of memory");
-    return s->cost != NULL || cmd_fail(s);
+    if (s->common.cost)
+        s->work.cost = s->cost = wt_cost_new(s->common.provenance, s->work.threads);
+    return true;
 }
 
 bool cmd_read_formats(cmd_session *s)
@@ -92,13 +85,10 @@ static void warn_unused_columns(cmd_session *s)
                    "its layout is known without them");
 }
 
-bool cmd_share_unit_options(cmd_session *s, wt_read_options *read)
+void cmd_share_unit_options(cmd_session *s, wt_read_options *read)
 {
-    read->unit_usage = calloc(read->n_units + 1, sizeof *read->unit_usage);
+    read->unit_usage = wt_alloc(read->n_units + 1, sizeof *read->unit_usage);
     s->shared = read;
-    if (read->unit_usage == NULL)
-        cmd_end(s, wt_fail(&s->err, WT_E_MEMORY, "out of memory"));
-    return read->unit_usage != NULL;
 }
 
 static void warn_unused_units(cmd_session *s)

@@ -279,9 +279,9 @@ bool cmd_sliding_open(cmd_sliding *s)
 {
     wt_error *err = &s->session.err;
     wt_job *work = &s->session.work;
-    if (!cmd_begin_reading(&s->session, s->set.read.format) ||
-        !cmd_share_unit_options(&s->session, &s->set.read))
+    if (!cmd_begin_reading(&s->session, s->set.read.format))
         return false;
+    cmd_share_unit_options(&s->session, &s->set.read);
     /* friction needs every input */
     wt_table_free(work->failures);
     work->failures = NULL;

@@ -5,7 +5,7 @@
 /* Result of reading one file: headlines or failure. */
 typedef struct file_result {
     wt_table *headlines; /* NULL after a failure */
-    wt_error *failure;   /* NULL after a failure: out of memory */
+    wt_error *failure;   /* NULL without a failure */
     size_t n_remarks;
 } file_result;
 
@@ -27,7 +27,8 @@ static wt_status read_result(void *user, size_t i, unsigned worker)
         read = wt_result_main_values(result, &one->headlines, &err);
     if (read == WT_OK) {
         one->n_remarks = cmd_count_remarks(result);
-    } else if ((one->failure = malloc(sizeof err)) != NULL) {
+    } else {
+        one->failure = wt_alloc(1, sizeof err);
         wt_error_file(&err, r->files[i]);
         *one->failure = err;
     }
@@ -49,12 +50,7 @@ static size_t collect_read_results(cmd_session *s, file_result *results, wt_tabl
             cmd_apply_strict(s, path, one->n_remarks);
             continue;
         }
-        if (one->failure != NULL) {
-            s->err = *one->failure;
-        } else {
-            (void)wt_fail(&s->err, WT_E_MEMORY, "out of memory");
-            wt_error_file(&s->err, path);
-        }
+        s->err = *one->failure;
         cmd_report_failure(s);
         free(one->failure);
     }
@@ -66,9 +62,7 @@ static size_t collect_read_results(cmd_session *s, file_result *results, wt_tabl
 /* Reads the headlines of all files in parallel; those that were read are moved to the front. */
 static wt_status read_all_results(cmd_session *s, wt_table **headlines, size_t *n_read)
 {
-    file_result *const results = calloc(s->n_files, sizeof *results);
-    if (results == NULL)
-        return wt_fail(&s->err, WT_E_MEMORY, "out of memory");
+    file_result *const results = wt_alloc(s->n_files, sizeof *results);
     summary_reading all = {s->files, results};
     const wt_progress progress = cmd_progress_start(s);
     const wt_status status =
@@ -101,9 +95,8 @@ int cmd_summary(int argc, char **argv)
     if (!cmd_parse(&s, &usage, parts, COUNT_OF(parts), argc, argv) || !cmd_require_text_output(&s))
         return cmd_session_free(&s);
     size_t n_read = 0;
-    wt_table **headlines = calloc(s.n_files, sizeof *headlines);
-    wt_status status = headlines != NULL ? read_all_results(&s, headlines, &n_read)
-                                         : wt_fail(&s.err, WT_E_MEMORY, "out of memory");
+    wt_table **headlines = wt_alloc(s.n_files, sizeof *headlines);
+    wt_status status = read_all_results(&s, headlines, &n_read);
     if (n_read > 0 && status == WT_OK)
         status =
             wt_summary_table(s.files, (const wt_table *const *)headlines, n_read, &summary, &s.err);

@@ -68,8 +68,7 @@ int cmd_validate(int argc, char **argv)
     good = good && (s.common.n_columns == 0 || cmd_read_formats(&s));
     if (good) {
         s.log = wt_log_new();
-        cmd_end(&s, s.log == NULL ? wt_fail(&s.err, WT_E_MEMORY, "out of memory")
-                                  : run_validation_case(&s, &run, &parts[0]));
+        cmd_end(&s, run_validation_case(&s, &run, &parts[0]));
     }
     return cmd_session_free(&s);
 }

@@ -182,9 +182,7 @@ wt_status align_with_contact(const contact_points *points, const flow_file *file
     for (size_t i = 0; i < curve->n_segments; i++)
         if (curve->segments[i].n_points > longest)
             longest = curve->segments[i].n_points;
-    double *force = malloc(longest * sizeof *force);
-    if (force == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    double *force = wt_alloc(longest, sizeof *force);
     wt_force_curve_reset(to);
     to->index = curve->index;
     to->x = curve->x;

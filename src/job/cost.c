@@ -23,7 +23,7 @@ typedef struct cost_part_row {
 } cost_part_row;
 
 struct wt_cost {
-    bool timed, failed, open; /* open: the last stage has not ended */
+    bool timed, open; /* open: the last stage has not ended */
     unsigned threads;
     double wall, cpu; /* clocks at the beginning */
     atomic_size_t nodes, files, bytes;
@@ -35,9 +35,7 @@ struct wt_cost {
 
 wt_cost *wt_cost_new(bool timed, unsigned threads)
 {
-    wt_cost *cost = calloc(1, sizeof *cost);
-    if (cost == NULL)
-        return NULL;
+    wt_cost *cost = wt_alloc(1, sizeof *cost);
     cost->timed = timed;
     cost->threads = wt_thread_count(threads);
     cost->wall = cost_clock(cost);
@@ -80,17 +78,12 @@ void cost_report(const wt_job *work, cost_summary summary)
 
 static cost_row *add_cost_row(wt_cost *cost, const char *stage, const char *because)
 {
-    cost_row *rows = array_grow(cost->rows, cost->n_rows, sizeof *rows);
-    if (rows == NULL) {
-        cost->failed = true;
-        return NULL;
-    }
-    cost->rows = rows;
-    rows += cost->n_rows++;
-    *rows = (cost_row){.runs = false};
-    snprintf(rows->stage, sizeof rows->stage, "%s", stage);
-    snprintf(rows->because, sizeof rows->because, "%s", because);
-    return rows;
+    cost->rows = array_grow(cost->rows, cost->n_rows, sizeof *cost->rows);
+    cost_row *const row = &cost->rows[cost->n_rows++];
+    *row = (cost_row){.runs = false};
+    snprintf(row->stage, sizeof row->stage, "%s", stage);
+    snprintf(row->because, sizeof row->because, "%s", because);
+    return row;
 }
 
 void cost_begin(wt_cost *cost, const char *stage, const char *because)
@@ -200,8 +193,6 @@ wt_status wt_cost_table(wt_cost *cost, wt_table **table, wt_error *err)
     if (cost == NULL || table == NULL)
         return wt_fail(err, WT_E_ARG, "no cost to write down");
     cost_end(cost);
-    if (cost->failed)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
     table_writer t = table_begin(&cost_schema, err);
     for (size_t i = 0; i < cost->n_rows; i++)
         write_cost_row(&t, cost->timed, cost->rows[i]);

@@ -5,6 +5,7 @@
 #include "job/file_copies.h"
 
 #include "core/base/array.h"
+#include "core/base/memory.h"
 #include "core/base/shared_params.h"
 #include "core/system/digest.h"
 #include "core/table/table_rows.h"
@@ -119,22 +120,15 @@ static size_t path_depth(const char *path)
     return n;
 }
 
-/* Takes ownership of `path`, also on failure. */
-static wt_status files_add(flow_files *files, char *path, const char *pattern,
-                           const wt_file_set *set, wt_error *err)
+/* Takes ownership of `path`. */
+static void files_add(flow_files *files, char *path, const char *pattern, const wt_file_set *set)
 {
-    flow_file *grown = array_grow(files->file, files->n, sizeof *grown);
-    files->file = grown != NULL ? grown : files->file;
-    if (grown == NULL || path == NULL) {
-        free(path);
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
-    }
+    files->file = array_grow(files->file, files->n, sizeof *files->file);
     const char *name = relative_path(set->folder, path);
     files->file[files->n++] = (flow_file){.path = path,
                                           .name = name,
                                           .set = set,
                                           .from_folder = path_depth(name) > path_depth(pattern)};
-    return WT_OK;
 }
 
 static int compare_path_texts(const void *a, const void *b)
@@ -154,27 +148,27 @@ static wt_status list_pattern(const wt_file_set *set, const char *pattern, const
     size_t n = 0;
     wt_status status = WT_OK;
     wt_error failure = WT_ERROR_INIT;
-    if (strcmp(pattern, "-") == 0)
-        return files_add(files, strdup("-"), pattern, set, err);
+    if (strcmp(pattern, "-") == 0) {
+        files_add(files, wt_strdup("-"), pattern, set);
+        return WT_OK;
+    }
     status = wt_glob(set->folder, pattern, &paths, &n, &failure);
     if (status != WT_OK)
         return wt_job_add_failure(work, pattern, status, &failure, err);
-    for (size_t i = 0; status == WT_OK && i < n; i++) {
+    for (size_t i = 0; i < n; i++) {
         char *const *const found = tsearch(paths[i], &files->paths, compare_path_texts);
-        if (found == NULL) {
-            status = wt_fail(err, WT_E_MEMORY, "out of memory");
-            break;
-        }
+        if (found == NULL)
+            out_of_memory(sizeof *found);
         if (*found != paths[i]) {
             wt_log_add(work->log, WT_WARNING, paths[i], NULL,
                        "named more than once; it is taken once");
             continue;
         }
-        status = files_add(files, paths[i], pattern, set, err);
+        files_add(files, paths[i], pattern, set);
         paths[i] = NULL;
     }
     wt_strings_free(paths, n);
-    return status;
+    return WT_OK;
 }
 
 static int compare_file_paths(const void *a, const void *b)

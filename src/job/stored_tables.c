@@ -23,8 +23,8 @@ static wt_status read_stream_memory(const unsigned char *bytes, size_t length, c
 {
     wt_result *const read = wt_result_new();
     FILE *const in = fmemopen((void *)(uintptr_t)bytes, length, "r");
-    wt_status status = read == NULL || in == NULL ? wt_fail(err, WT_E_MEMORY, "out of memory")
-                                                  : read_stream_tables(in, path, read, err);
+    wt_status status = in == NULL ? wt_fail(err, WT_E_MEMORY, "out of memory")
+                                  : read_stream_tables(in, path, read, err);
     if (in != NULL)
         (void)fclose(in);
     if (status == WT_OK && wt_result_n_tables(read) == 0) {

@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/base/array.h"
 #include "core/base/clocale.h"
+#include "core/base/memory.h"
 #include "core/base/utf8.h"
 #include "weartrack/core.h"
 
@@ -35,8 +36,6 @@ static int compare_log_entries(const void *a, const void *b)
 
 static void entry_free(log_entry *e)
 {
-    if (e == NULL)
-        return;
     free(e->file);
     free(e->place);
     free(e->text);
@@ -58,7 +57,7 @@ const char *wt_severity_name(wt_severity severity)
 
 wt_log *wt_log_new(void)
 {
-    return calloc(1, sizeof(wt_log));
+    return wt_alloc(1, sizeof(wt_log));
 }
 
 void wt_log_free(wt_log *log)
@@ -73,33 +72,26 @@ void wt_log_free(wt_log *log)
 }
 
 /* Adds a copy of a text, or increments the count of an equal entry. */
-static bool add_log_entry(wt_log *log, wt_severity severity, wt_log_topic topic, const char *file,
+static void add_log_entry(wt_log *log, wt_severity severity, wt_log_topic topic, const char *file,
                           const char *place, const char *text)
 {
-    log_entry *new_entry = calloc(1, sizeof *new_entry);
-    if (new_entry == NULL)
-        return false;
+    log_entry *new_entry = wt_alloc(1, sizeof *new_entry);
     new_entry->severity = severity;
     new_entry->topic = topic;
-    new_entry->file = strdup(file != NULL ? file : "");
-    new_entry->place = strdup(place != NULL ? place : "");
-    new_entry->text = strdup(text);
+    new_entry->file = wt_strdup(file != NULL ? file : "");
+    new_entry->place = wt_strdup(place != NULL ? place : "");
+    new_entry->text = wt_strdup(text);
     new_entry->count = 1;
-    const bool whole =
-        new_entry->file != NULL && new_entry->place != NULL && new_entry->text != NULL;
-    log_entry **const entries = whole ? array_grow(log->entries, log->n, sizeof *entries) : NULL;
-    if (entries != NULL)
-        log->entries = entries;
-    log_entry *const *const found =
-        entries != NULL ? tsearch(new_entry, &log->tree, compare_log_entries) : NULL;
-    if (found != NULL && *found == new_entry) {
+    log_entry *const *const found = tsearch(new_entry, &log->tree, compare_log_entries);
+    if (found == NULL)
+        out_of_memory(sizeof *new_entry);
+    if (*found == new_entry) {
+        log->entries = array_grow(log->entries, log->n, sizeof *log->entries);
         log->entries[log->n++] = new_entry;
-        return true;
+        return;
     }
-    if (found != NULL)
-        (*found)->count++;
+    (*found)->count++;
     entry_free(new_entry);
-    return found != NULL;
 }
 
 static void print_log_entry(wt_log *log, wt_severity severity, wt_log_topic topic, const char *file,
@@ -111,13 +103,10 @@ static void print_log_entry(wt_log *log, wt_severity severity, wt_log_topic topi
     const locale_t previous = clocale_enter();
     const int length = vasprintf(&text, format, arguments);
     clocale_leave(previous);
-    if (length < 0) {
-        log->lost++;
-        return;
-    }
+    if (length < 0)
+        out_of_memory(sizeof *text);
     utf8_sanitize(text);
-    if (!add_log_entry(log, severity, topic, file, place, text))
-        log->lost++;
+    add_log_entry(log, severity, topic, file, place, text);
     free(text);
 }
 

@@ -275,18 +275,13 @@ static wt_status append_text_items(const bound_member *s, const char *text, wt_e
     for (const char *begin = text;; begin++) {
         const char *end = begin + strcspn(begin, part);
         begin += strspn(begin, *part != '\0' ? " \t\r\n" : "");
-        char *item = strndup(begin, begin < end ? (size_t)(end - begin) : 0);
-        if (item != NULL && !is_valid_item(s->param, item)) {
+        char *item = wt_strndup(begin, begin < end ? (size_t)(end - begin) : 0);
+        if (!is_valid_item(s->param, item)) {
             wt_fail(err, WT_E_ARG, "'%s' is not %s", item, s->param->value);
             free(item);
             return WT_E_ARG;
         }
-        const char **grown =
-            item == NULL ? NULL : realloc((void *)*list, (*s->count + 1) * sizeof *grown);
-        if (grown == NULL) {
-            free(item);
-            return wt_fail(err, WT_E_MEMORY, "out of memory");
-        }
+        const char **grown = wt_realloc((void *)*list, *s->count + 1, sizeof *grown);
         grown[*s->count] = item;
         *s->count += 1;
         *list = grown;

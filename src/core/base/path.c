@@ -8,12 +8,10 @@ char *wt_path_join(const char *folder, const char *name)
 {
     /* "./name" is shortened to "name". */
     if (name[0] == '/' || folder == NULL || folder[0] == '\0' || strcmp(folder, ".") == 0)
-        return strdup(name);
+        return wt_strdup(name);
     const size_t n_folder = strlen(folder), n_name = strlen(name);
     const size_t slash = folder[n_folder - 1] == '/' ? 0 : 1;
-    char *const path = malloc(n_folder + slash + n_name + 1);
-    if (path == NULL)
-        return NULL;
+    char *const path = wt_alloc(n_folder + slash + n_name + 1, 1);
     memcpy(path, folder, n_folder);
     if (slash == 1)
         path[n_folder] = '/';
@@ -25,8 +23,8 @@ char *wt_path_folder(const char *path)
 {
     const char *const slash = strrchr(path, '/');
     if (slash == NULL)
-        return strdup(".");
-    return strndup(path, slash == path ? 1 : (size_t)(slash - path));
+        return wt_strdup(".");
+    return wt_strndup(path, slash == path ? 1 : (size_t)(slash - path));
 }
 
 const char *wt_path_base(const char *path)

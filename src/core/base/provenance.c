@@ -15,7 +15,7 @@ struct wt_provenance {
 
 wt_provenance *wt_provenance_new(void)
 {
-    return calloc(1, sizeof(wt_provenance));
+    return wt_alloc(1, sizeof(wt_provenance));
 }
 
 /* Consecutive inputs often have the same role and format and share these texts. */
@@ -31,7 +31,7 @@ static void input_free(wt_provenance_input *input, const wt_provenance_input *be
 static const char *share_text(const char *text, const char *before)
 {
     const char *const given = text != NULL ? text : "";
-    return before != NULL && strcmp(given, before) == 0 ? before : strdup(given);
+    return before != NULL && strcmp(given, before) == 0 ? before : wt_strdup(given);
 }
 
 void wt_provenance_free(wt_provenance *p)
@@ -75,9 +75,7 @@ wt_status wt_provenance_set_command(wt_provenance *p, int argc, char *const argv
     size_t size = 1;
     for (int i = 0; i < argc; i++)
         size += 4 * strlen(argv[i]) + 3;
-    char *const command = malloc(size);
-    if (command == NULL)
-        return WT_E_MEMORY;
+    char *const command = wt_alloc(size, 1);
     char *to = command;
     *to = '\0';
     for (int i = 0; i < argc; i++) {
@@ -91,39 +89,26 @@ wt_status wt_provenance_set_command(wt_provenance *p, int argc, char *const argv
     return WT_OK;
 }
 
-wt_status provenance_restore(wt_provenance *p, const char *version_and_command)
+void provenance_restore(wt_provenance *p, const char *version_and_command)
 {
     const size_t length = strcspn(version_and_command, "\n");
     const char *const rest = version_and_command + length;
-    char *const version = strndup(version_and_command, length);
-    char *const command = strdup(rest[0] != '\0' ? rest + 1 : rest);
-    if (version == NULL || command == NULL) {
-        free(version);
-        free(command);
-        return WT_E_MEMORY;
-    }
+    char *const version = wt_strndup(version_and_command, length);
+    char *const command = wt_strdup(rest[0] != '\0' ? rest + 1 : rest);
     free(p->version);
     free(p->command);
     p->version = version;
     p->command = command;
-    return WT_OK;
 }
 
 wt_status wt_provenance_add_input(wt_provenance *p, const wt_provenance_input *input)
 {
-    wt_provenance_input *const inputs = array_grow(p->inputs, p->n, sizeof *inputs);
-    if (inputs == NULL)
-        return WT_E_MEMORY;
-    p->inputs = inputs;
+    p->inputs = array_grow(p->inputs, p->n, sizeof *p->inputs);
     wt_provenance_input copy = *input;
-    const wt_provenance_input *const before = p->n > 0 ? &inputs[p->n - 1] : NULL;
-    copy.path = strdup(input->path != NULL ? input->path : "");
+    const wt_provenance_input *const before = p->n > 0 ? &p->inputs[p->n - 1] : NULL;
+    copy.path = wt_strdup(input->path != NULL ? input->path : "");
     copy.role = share_text(input->role, before != NULL ? before->role : NULL);
     copy.format = share_text(input->format, before != NULL ? before->format : NULL);
-    if (copy.path == NULL || copy.role == NULL || copy.format == NULL) {
-        input_free(&copy, before);
-        return WT_E_MEMORY;
-    }
     copy.sha256[sizeof copy.sha256 - 1] = '\0';
     p->inputs[p->n++] = copy;
     return WT_OK;

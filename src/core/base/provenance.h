@@ -6,6 +6,6 @@
 
 /* Sets version and command from the texts of wt_provenance_version and wt_provenance_command,
  * separated by a line feed. */
-wt_status provenance_restore(wt_provenance *p, const char *version_and_command) WT_NODISCARD;
+void provenance_restore(wt_provenance *p, const char *version_and_command);
 
 #endif

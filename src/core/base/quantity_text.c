@@ -11,14 +11,14 @@ static bool is_blank_or_line_end(char c)
     return c == ' ' || c == '\t' || c == '\n' || c == '\r';
 }
 
-/* Copies [begin, end) without surrounding blanks; NULL when out of memory. */
+/* Copies [begin, end) without surrounding blanks. */
 static char *copy_trimmed(const char *begin, const char *end)
 {
     while (begin < end && is_blank_or_line_end(*begin))
         begin++;
     while (end > begin && is_blank_or_line_end(end[-1]))
         end--;
-    return strndup(begin, (size_t)(end - begin));
+    return wt_strndup(begin, (size_t)(end - begin));
 }
 
 /* Returns the position of "+-" or "±", NULL if there is none. Both have two bytes. */
@@ -105,9 +105,7 @@ wt_status wt_estimate_parse(const char *text, wt_quantity quantity, wt_estimate 
     const char *sign = find_plus_minus(text), *end = text + strlen(text);
     char *head = copy_trimmed(text, sign != NULL ? sign : end);
     char *tail = sign != NULL ? copy_trimmed(sign + 2, end) : NULL;
-    wt_status status = head == NULL || (sign != NULL && tail == NULL)
-                           ? wt_fail(err, WT_E_MEMORY, "out of memory")
-                           : wt_quantity_parse(head, quantity, &parsed.value, err);
+    wt_status status = wt_quantity_parse(head, quantity, &parsed.value, err);
     if (status == WT_OK && tail != NULL && length_before_percent(head) > 0 &&
         length_before_percent(tail) > 0)
         status = fail_two_percents(text, err);
@@ -141,9 +139,7 @@ static wt_status fail_list(const char *text, const char *what, wt_error *err)
 static wt_status parse_items(char *const *item, size_t n, wt_quantity quantity, value_list *out,
                              wt_error *err)
 {
-    out->v = malloc(n * sizeof *out->v);
-    if (out->v == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    out->v = wt_alloc(n, sizeof *out->v);
     wt_status status = WT_OK;
     for (size_t i = 0; status == WT_OK && i < n; i++)
         status = wt_quantity_parse(item[i], quantity, &out->v[i], err);
@@ -181,9 +177,7 @@ static wt_status parse_range(const char *text, char *const *part, wt_quantity qu
     if (!(last > first) || (logarithmic && !(first > 0)))
         return fail_list(text, "the values do not rise (and are positive for log)", err);
     out->n = (size_t)count;
-    out->v = malloc(out->n * sizeof *out->v);
-    if (out->v == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    out->v = wt_alloc(out->n, sizeof *out->v);
     for (size_t i = 0; i < out->n; i++) {
         const double t = (double)i / (double)(out->n - 1);
         const double v = logarithmic ? first * pow(last / first, t) : first + (last - first) * t;
@@ -198,19 +192,15 @@ static wt_status parse_range(const char *text, char *const *part, wt_quantity qu
     return WT_OK;
 }
 
-/* Splits a text into n parts without surrounding blanks; NULL when out of memory. */
+/* Splits a text into n parts without surrounding blanks. */
 static char **split_at_mark(const char *text, char mark, size_t n)
 {
-    char **pieces = calloc(n, sizeof *pieces);
+    char **pieces = wt_alloc(n, sizeof *pieces);
     const char *begin = text;
-    for (size_t i = 0; pieces != NULL && i < n; i++) {
+    for (size_t i = 0; i < n; i++) {
         const char *end = strchrnul(begin, mark);
         pieces[i] = copy_trimmed(begin, end);
         begin = end + 1;
-        if (pieces[i] == NULL) {
-            wt_strings_free(pieces, n);
-            return NULL;
-        }
     }
     return pieces;
 }
@@ -229,9 +219,7 @@ wt_status wt_list_parse(const char *text, wt_quantity quantity, double **result,
     if (n_parts > (range ? 4 : MAX_LIST))
         return fail_list(text, range ? "too many parts" : "the list is too long", err);
     char **parts = split_at_mark(text, range ? ':' : ',', n_parts);
-    if (parts == NULL)
-        status = wt_fail(err, WT_E_MEMORY, "out of memory");
-    else if (!range)
+    if (!range)
         status = parse_items(parts, n_parts, quantity, &list, err);
     else if (n_parts == 4)
         status = parse_range(text, parts, quantity, &list, err);

@@ -15,13 +15,9 @@ void wt_prony_clear(wt_prony *prony)
 
 wt_status wt_prony_alloc(wt_prony *prony, size_t n, wt_error *err)
 {
-    double *const relaxation_time = calloc(n > 0 ? n : 1, sizeof *relaxation_time);
-    double *const modulus = calloc(n > 0 ? n : 1, sizeof *modulus);
-    if (relaxation_time == NULL || modulus == NULL) {
-        free(relaxation_time);
-        free(modulus);
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
-    }
+    double *const relaxation_time = wt_alloc(n, sizeof *relaxation_time);
+    double *const modulus = wt_alloc(n, sizeof *modulus);
+    (void)err;
     *prony = (wt_prony){.deformation = WT_TENSION,
                         .reference_temperature = (double)NAN,
                         .n = n,

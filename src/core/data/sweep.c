@@ -38,9 +38,8 @@ static void free_points(sweep_points p)
     free(p.sample);
 }
 
-/* Allocates the moduli, the swept variable and the optional arrays `with`, uninitialised. False
- * when out of memory. */
-static bool allocate_points(sweep_points *p, size_t n, unsigned with)
+/* Allocates the moduli, the swept variable and the optional arrays `with`, zeroed. */
+static void allocate_points(sweep_points *p, size_t n, unsigned with)
 {
     const bool has[SWEEP_ARRAYS] = {[SWEEP_VARIABLE] = true,
                                     [SWEEP_STORAGE] = true,
@@ -48,16 +47,8 @@ static bool allocate_points(sweep_points *p, size_t n, unsigned with)
                                     [SWEEP_STRAIN] = (with & WT_SWEEP_HAS_STRAIN) != 0,
                                     [SWEEP_LOSS_FACTOR] = (with & WT_SWEEP_HAS_LOSS_FACTOR) != 0};
     *p = (sweep_points){.n = n};
-    if (n > SIZE_MAX / sizeof(double))
-        return false;
-    for (size_t j = 0; j < SWEEP_ARRAYS; j++) {
-        p->array[j] = has[j] ? malloc((n > 0 ? n : 1) * sizeof(double)) : NULL;
-        if (has[j] && p->array[j] == NULL) {
-            free_points(*p);
-            return false;
-        }
-    }
-    return true;
+    for (size_t j = 0; j < SWEEP_ARRAYS; j++)
+        p->array[j] = has[j] ? wt_alloc(n, sizeof(double)) : NULL;
 }
 
 void wt_sweep_clear(wt_sweep *sweep)
@@ -79,11 +70,9 @@ void wt_sweep_clear(wt_sweep *sweep)
 wt_isotherm *wt_sweep_add(wt_sweep *sweep, size_t n, unsigned with)
 {
     sweep_points p;
-    wt_isotherm *const all = reallocarray(sweep->isotherms, sweep->n_isotherms + 1, sizeof *all);
-    if (all != NULL)
-        sweep->isotherms = all;
-    if (all == NULL || !allocate_points(&p, n, with))
-        return NULL;
+    wt_isotherm *const all = wt_realloc(sweep->isotherms, sweep->n_isotherms + 1, sizeof *all);
+    sweep->isotherms = all;
+    allocate_points(&p, n, with);
     all[sweep->n_isotherms] = (wt_isotherm){.temperature = (double)NAN,
                                             .temperature_spread = (double)NAN,
                                             .n = n,
@@ -98,11 +87,9 @@ wt_isotherm *wt_sweep_add(wt_sweep *sweep, size_t n, unsigned with)
 wt_ramp *wt_sweep_add_ramp(wt_sweep *sweep, size_t n, unsigned with)
 {
     sweep_points p;
-    wt_ramp *const all = reallocarray(sweep->ramps, sweep->n_ramps + 1, sizeof *all);
-    if (all != NULL)
-        sweep->ramps = all;
-    if (all == NULL || !allocate_points(&p, n, with))
-        return NULL;
+    wt_ramp *const all = wt_realloc(sweep->ramps, sweep->n_ramps + 1, sizeof *all);
+    sweep->ramps = all;
+    allocate_points(&p, n, with);
     all[sweep->n_ramps] = (wt_ramp){.angular_frequency = (double)NAN,
                                     .n = n,
                                     .temperature = p.array[SWEEP_VARIABLE],
@@ -117,11 +104,9 @@ wt_strain_sweep *wt_sweep_add_strain_sweep(wt_sweep *sweep, size_t n)
 {
     sweep_points p;
     wt_strain_sweep *const all =
-        reallocarray(sweep->strain_sweeps, sweep->n_strain_sweeps + 1, sizeof *all);
-    if (all != NULL)
-        sweep->strain_sweeps = all;
-    if (all == NULL || !allocate_points(&p, n, 0))
-        return NULL;
+        wt_realloc(sweep->strain_sweeps, sweep->n_strain_sweeps + 1, sizeof *all);
+    sweep->strain_sweeps = all;
+    allocate_points(&p, n, 0);
     all[sweep->n_strain_sweeps] = (wt_strain_sweep){.angular_frequency = (double)NAN,
                                                     .temperature = (double)NAN,
                                                     .n = n,

@@ -1,6 +1,4 @@
-/* Zeroed GSL vectors and matrices in an arena, which frees them. A failed allocation sets the
- * member `failed` of the arena.
- *
+/* Zeroed GSL vectors and matrices in an arena, which frees them.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_CORE_MATH_ARENA_GSL_H
 #define WT_CORE_MATH_ARENA_GSL_H
@@ -13,19 +11,17 @@
 static inline gsl_vector *arena_vector(arena *memory, size_t n)
 {
     gsl_vector *v = arena_alloc(memory, 1, sizeof *v);
-    if (v != NULL)
-        *v = (gsl_vector){.size = n, .stride = 1, .data = arena_numbers(memory, n)};
+    *v = (gsl_vector){.size = n, .stride = 1, .data = arena_numbers(memory, n)};
     return v;
 }
 
 static inline gsl_matrix *arena_matrix(arena *memory, size_t rows, size_t columns)
 {
     gsl_matrix *m = arena_alloc(memory, 1, sizeof *m);
-    if (m != NULL)
-        *m = (gsl_matrix){.size1 = rows,
-                          .size2 = columns,
-                          .tda = columns,
-                          .data = arena_numbers(memory, rows * columns)};
+    *m = (gsl_matrix){.size1 = rows,
+                      .size2 = columns,
+                      .tda = columns,
+                      .data = arena_numbers(memory, rows * columns)};
     return m;
 }
 

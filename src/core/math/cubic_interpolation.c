@@ -2,6 +2,7 @@
 #include "core/math/cubic_interpolation.h"
 
 #include "core/math/gsl_quiet.h"
+#include "weartrack/core.h"
 
 #include <gsl/gsl_spline.h>
 #include <stdlib.h>
@@ -12,10 +13,8 @@ struct curve {
 
 curve *akima_curve_new(const double *x, const double *y, size_t n)
 {
-    curve *c = calloc(1, sizeof *c);
+    curve *c = wt_alloc(1, sizeof *c);
     gsl_quiet();
-    if (c == NULL)
-        return NULL;
     c->spline = gsl_spline_alloc(gsl_interp_akima, n);
     if (c->spline == NULL || gsl_spline_init(c->spline, x, y, n) != 0) {
         akima_curve_free(c);

@@ -3,6 +3,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/math/gauss_legendre.h"
 
+#include "core/base/memory.h"
 #include "core/math/gsl_quiet.h"
 #include "core/math/simd.h"
 
@@ -132,27 +133,23 @@ double gauss_rule_error(const gauss_rule *rule, const legendre_top *top)
     return fall;
 }
 
-/* Creates a rule; NULL when out of memory. */
 static gauss_rule *create_gauss_rule(size_t n)
 {
     const size_t row_stride = (n + WIDE - 1) / WIDE * WIDE;
-    gauss_rule *made = calloc(1, sizeof *made + n * (row_stride + 2 + LEGENDRE_TOP_STRIDE) *
-                                                    sizeof *made->numbers);
+    gauss_rule *made = wt_alloc(1, sizeof *made + n * (row_stride + 2 + LEGENDRE_TOP_STRIDE) *
+                                                      sizeof *made->numbers);
     gsl_integration_glfixed_table *table = gsl_integration_glfixed_table_alloc(n);
-    if (made != NULL && table != NULL) {
-        made->n = n;
-        made->row_stride = row_stride;
-        made->node = made->numbers;
-        made->weight = made->node + n;
-        made->running = made->weight + n;
-        made->top = made->running + n * row_stride;
-        for (size_t i = 0; i < n; i++)
-            gsl_integration_glfixed_point(-1, 1, i, &made->node[i], &made->weight[i], table);
-        fill_running_weights(made);
-    } else {
-        free(made);
-        made = NULL;
-    }
+    if (table == NULL)
+        out_of_memory(sizeof *table);
+    made->n = n;
+    made->row_stride = row_stride;
+    made->node = made->numbers;
+    made->weight = made->node + n;
+    made->running = made->weight + n;
+    made->top = made->running + n * row_stride;
+    for (size_t i = 0; i < n; i++)
+        gsl_integration_glfixed_point(-1, 1, i, &made->node[i], &made->weight[i], table);
+    fill_running_weights(made);
     gsl_integration_glfixed_table_free(table);
     return made;
 }

@@ -3,6 +3,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/math/root.h"
 
+#include "core/base/memory.h"
 #include "core/math/gsl_quiet.h"
 
 #include <float.h>
@@ -75,7 +76,7 @@ wt_status root_find(root_fn f, void *user, double low, double high, double close
     wt_status status = WT_OK;
     gsl_root_fsolver *solver = gsl_root_fsolver_alloc(gsl_root_fsolver_brent);
     if (solver == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory for a root");
+        out_of_memory(sizeof *solver);
     gsl_function function = {.function = bracketed_value, .params = &bracket};
     const int limit = 300;
     int code = gsl_root_fsolver_set(solver, &function, low, high);

@@ -234,11 +234,11 @@ static bool read_estimate_key(hdf5_reader *r, hid_t group, const char *key, doub
     char *names[KEY_PARTS] = {NULL};
     char *unit = NULL;
     wt_estimate e = {.value = value};
-    bool good = table_key_part_names(key, names) || fail_out_of_memory(r);
-    good = good &&
-           read_number_attribute(r, group, names[KEY_STANDARD_ERROR], &e.standard_error, NULL) &&
-           read_number_attribute(r, group, names[KEY_NUMERICAL_ERROR], &e.numerical_error, NULL) &&
-           (unit = read_text_attribute(r, group, names[KEY_UNITS])) != NULL;
+    table_key_part_names(key, names);
+    bool good =
+        read_number_attribute(r, group, names[KEY_STANDARD_ERROR], &e.standard_error, NULL) &&
+        read_number_attribute(r, group, names[KEY_NUMERICAL_ERROR], &e.numerical_error, NULL) &&
+        (unit = read_text_attribute(r, group, names[KEY_UNITS])) != NULL;
     e.unit = unit;
     good = good && hdf5_accepts_name(r, wt_table_set_estimate(table, key, e, r->err));
     for (size_t i = 0; i < KEY_PARTS; i++)

@@ -22,12 +22,11 @@ wt_status store_corrupt_error(wt_error *err, const char *place, const char *mess
     return WT_E_CORRUPT;
 }
 
-static wt_status decode_origin(const char *text, size_t length, wt_provenance *provenance)
+static void decode_origin(const char *text, size_t length, wt_provenance *provenance)
 {
-    char *const origin = strndup(text, length);
-    const wt_status status = origin != NULL ? provenance_restore(provenance, origin) : WT_E_MEMORY;
+    char *const origin = wt_strndup(text, length);
+    provenance_restore(provenance, origin);
     free(origin);
-    return status;
 }
 
 static wt_status check_digest(const char *bytes, const char *end, const char *expected,
@@ -83,11 +82,8 @@ static wt_status decode_tables(const store_parts *p, wt_result *result, wt_error
             status = check_digest(from, at, digest, table->name, err);
         digest += STORE_DIGEST_SIZE;
         if (status == WT_OK && i < p->tail.n_tables) {
-            status = table_use_current_names(table, err);
-            if (status == WT_OK)
-                status = wt_result_add(result, table, err);
-            else
-                wt_table_free(table);
+            table_use_current_names(table);
+            status = wt_result_add(result, table, err);
             continue;
         }
         if (status == WT_OK)
@@ -110,10 +106,10 @@ wt_status store_decode(const char *bytes, size_t length, wt_result *result, wt_e
         return store_corrupt_error(err, "", "the content is not whole");
     wt_status status = decode_tables(&p, result, err);
     if (status == WT_OK && p.tail.has_origin)
-        status = decode_origin(p.origin, p.tail.origin_length, wt_result_provenance(result));
+        decode_origin(p.origin, p.tail.origin_length, wt_result_provenance(result));
     if (status == WT_OK)
         status = wt_result_set_case(result, p.case_file, p.tail.case_length, err);
-    return status == WT_E_MEMORY ? wt_fail(err, WT_E_MEMORY, "out of memory") : status;
+    return status;
 }
 
 wt_status store_read_bytes(const hdf5_bytes *from, hdf5_read_function *pass, const char *name,
@@ -123,9 +119,7 @@ wt_status store_read_bytes(const hdf5_bytes *from, hdf5_read_function *pass, con
     size_t n = 0;
     char *answer = NULL;
     wt_result *const read = wt_result_new();
-    wt_status status = read != NULL ? WT_OK : wt_fail(err, WT_E_MEMORY, "out of memory");
-    if (status == WT_OK)
-        status = hdf5_sandbox_read(from, &limits, pass, &answer, &n, err);
+    wt_status status = hdf5_sandbox_read(from, &limits, pass, &answer, &n, err);
     if (status == WT_OK)
         status = store_decode(answer, n, read, err);
     free(answer);

@@ -137,8 +137,8 @@ static bool write_keys(const store_writer *w, hid_t group, const wt_table *table
             continue;
         }
         char *names[KEY_PARTS] = {NULL};
-        good = table_key_part_names(key->name, names) &&
-               write_number_attribute(w, group, key->name, key->parsed.value) &&
+        table_key_part_names(key->name, names);
+        good = write_number_attribute(w, group, key->name, key->parsed.value) &&
                write_number_attribute(w, group, names[KEY_STANDARD_ERROR],
                                       key->parsed.standard_error) &&
                write_number_attribute(w, group, names[KEY_NUMERICAL_ERROR],

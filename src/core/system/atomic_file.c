@@ -63,7 +63,7 @@ static int create_unnamed(const char *folder, char **name)
     if (descriptor < 0)
         return -1;
     (void)snprintf(path, sizeof path, "/proc/self/fd/%d", descriptor);
-    *name = access(path, F_OK) == 0 ? strdup(path) : NULL;
+    *name = access(path, F_OK) == 0 ? wt_strdup(path) : NULL;
     if (*name != NULL)
         return descriptor;
     (void)close(descriptor);
@@ -134,15 +134,15 @@ static void remove_temporary(const wt_atomic_file *file)
 static char *resolve_links(const char *path)
 {
     char target[PATH_MAX];
-    char *name = strdup(path);
-    for (int i = 0; name != NULL && i < LINKS; i++) {
+    char *name = wt_strdup(path);
+    for (int i = 0; i < LINKS; i++) {
         const ssize_t length = readlink(name, target, sizeof target - 1);
         if (length < 0)
             break;
         target[length] = '\0';
         char *const folder = wt_path_folder(name);
         free(name);
-        name = folder != NULL ? wt_path_join(folder, target) : NULL;
+        name = wt_path_join(folder, target);
         free(folder);
     }
     return name;
@@ -154,9 +154,8 @@ static wt_status open_output_stream(wt_atomic_file *new_file, const char *folder
 {
     int descriptor = -1;
     if (new_file->direct) {
-        new_file->temporary = strdup(new_file->final);
-        if (new_file->temporary != NULL)
-            descriptor = open(new_file->final, O_WRONLY | O_CLOEXEC);
+        new_file->temporary = wt_strdup(new_file->final);
+        descriptor = open(new_file->final, O_WRONLY | O_CLOEXEC);
     } else {
         descriptor = create_unnamed(folder, &new_file->temporary);
         new_file->unnamed = descriptor >= 0;
@@ -183,17 +182,13 @@ static wt_status open_output_stream(wt_atomic_file *new_file, const char *folder
 
 wt_status wt_outfile_open(const char *path, wt_atomic_file **file, wt_error *err)
 {
-    char *folder = NULL;
     struct stat info;
-    wt_atomic_file *new_file = calloc(1, sizeof *new_file);
+    wt_atomic_file *new_file = wt_alloc(1, sizeof *new_file);
     const bool exists = stat(path, &info) == 0;
-    if (new_file != NULL) {
-        new_file->direct = exists && !S_ISREG(info.st_mode);
-        new_file->final = new_file->direct ? strdup(path) : resolve_links(path);
-        folder = new_file->final != NULL ? wt_path_folder(new_file->final) : NULL;
-    }
-    wt_status status =
-        folder == NULL ? wt_fail(err, WT_E_MEMORY, "out of memory") : wt_check_overwrite(path, err);
+    new_file->direct = exists && !S_ISREG(info.st_mode);
+    new_file->final = new_file->direct ? wt_strdup(path) : resolve_links(path);
+    char *const folder = wt_path_folder(new_file->final);
+    wt_status status = wt_check_overwrite(path, err);
     if (status == WT_OK && exists && S_ISDIR(info.st_mode)) {
         status = wt_fail(err, WT_E_IO, "cannot write: it is a folder");
         wt_error_expected(err, "the name of a file");

@@ -1,5 +1,6 @@
 /* Expands shell patterns to sorted lists of files. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/base/array.h"
+#include "core/base/memory.h"
 #include "weartrack/core.h"
 
 #include <dirent.h>
@@ -15,17 +16,11 @@ typedef struct path_list {
     size_t n_folders; /* number of subfolders, which are not searched */
 } path_list;
 
-/* Transfers `path` to the list and frees it on failure. */
-static bool path_list_add(path_list *l, char *path)
+/* Transfers `path` to the list. */
+static void path_list_add(path_list *l, char *path)
 {
-    char **const paths = path != NULL ? array_grow(l->paths, l->n, sizeof *paths) : NULL;
-    if (paths == NULL) {
-        free(path);
-        return false;
-    }
-    l->paths = paths;
+    l->paths = array_grow(l->paths, l->n, sizeof *l->paths);
     l->paths[l->n++] = path;
-    return true;
 }
 
 static int compare_path_bytes(const void *a, const void *b)
@@ -43,8 +38,10 @@ static wt_status add_path(path_list *l, const char *path, wt_error *err)
         wt_error_file(err, path);
         return status;
     }
-    if (!S_ISDIR(info.st_mode))
-        return path_list_add(l, strdup(path)) ? WT_OK : wt_fail(err, WT_E_MEMORY, "out of memory");
+    if (!S_ISDIR(info.st_mode)) {
+        path_list_add(l, wt_strdup(path));
+        return WT_OK;
+    }
     DIR *const folder = opendir(path);
     if (folder == NULL) {
         const wt_status status =
@@ -52,31 +49,26 @@ static wt_status add_path(path_list *l, const char *path, wt_error *err)
         wt_error_file(err, path);
         return status;
     }
-    wt_status status = WT_OK;
     const struct dirent *item;
-    while (status == WT_OK && (item = readdir(folder)) != NULL) {
+    while ((item = readdir(folder)) != NULL) {
         if (item->d_name[0] == '.')
             continue;
         char *const inner = wt_path_join(path, item->d_name);
-        const bool known = inner != NULL && stat(inner, &info) == 0;
+        const bool known = stat(inner, &info) == 0;
         l->n_folders += known && S_ISDIR(info.st_mode);
-        if (inner == NULL)
-            status = wt_fail(err, WT_E_MEMORY, "out of memory");
-        else if (!known || !S_ISREG(info.st_mode))
+        if (known && S_ISREG(info.st_mode))
+            path_list_add(l, inner);
+        else
             free(inner);
-        else if (!path_list_add(l, inner))
-            status = wt_fail(err, WT_E_MEMORY, "out of memory");
     }
     (void)closedir(folder);
-    return status;
+    return WT_OK;
 }
 
 /* Quotes every character with a special meaning for glob. */
 static char *escape_glob_characters(const char *text)
 {
-    char *const quoted = malloc(2 * strlen(text) + 1);
-    if (quoted == NULL)
-        return NULL;
+    char *const quoted = wt_alloc(2 * strlen(text) + 1, 1);
     char *to = quoted;
     for (const char *from = text; *from != '\0'; from++) {
         if (strchr("*?[]\\", *from) != NULL)
@@ -94,18 +86,17 @@ wt_status wt_glob(const char *folder, const char *pattern, char ***paths, size_t
     glob_t found = {0};
     struct stat info;
     char *quoted = escape_glob_characters(folder != NULL ? folder : "");
-    char *full = quoted != NULL ? wt_path_join(quoted, pattern) : NULL;
+    char *full = wt_path_join(quoted, pattern);
     char *literal = wt_path_join(folder, pattern);
-    if (full == NULL || literal == NULL) {
-        status = wt_fail(err, WT_E_MEMORY, "out of memory");
-    } else if (stat(literal, &info) == 0) {
+    if (stat(literal, &info) == 0) {
         /* A file may have a name like "curve[1].txt". */
         status = add_path(&l, literal, err);
     } else {
         const int code = glob(full, GLOB_NOSORT, NULL, &found);
         if (code != 0 && code != GLOB_NOMATCH) {
-            status = code == GLOB_NOSPACE ? wt_fail(err, WT_E_MEMORY, "out of memory")
-                                          : wt_fail(err, WT_E_IO, "cannot read a folder");
+            if (code == GLOB_NOSPACE)
+                out_of_memory(strlen(full));
+            status = wt_fail(err, WT_E_IO, "cannot read a folder");
             wt_error_file(err, literal);
         }
         for (size_t i = 0; status == WT_OK && i < found.gl_pathc; i++)

@@ -28,18 +28,13 @@ void wt_protect_begin(void)
 }
 
 /* The caller holds the lock. */
-static wt_status protect_file(const struct stat *info)
+static void protect_file(const struct stat *info)
 {
     if (guard.n == guard.capacity) {
-        const size_t capacity = guard.capacity > 0 ? 2 * guard.capacity : 64;
-        struct file_id *const files = realloc(guard.files, capacity * sizeof *files);
-        if (files == NULL)
-            return WT_E_MEMORY;
-        guard.files = files;
-        guard.capacity = capacity;
+        guard.capacity = guard.capacity > 0 ? 2 * guard.capacity : 64;
+        guard.files = wt_realloc(guard.files, guard.capacity, sizeof *guard.files);
     }
     guard.files[guard.n++] = (struct file_id){info->st_dev, info->st_ino};
-    return WT_OK;
 }
 
 static bool is_protected_file(const struct stat *info)
@@ -54,14 +49,14 @@ wt_status wt_protect_input(const char *path, wt_error *err)
 {
     struct stat info;
     const bool standard = strcmp(path, "-") == 0;
-    wt_status status = WT_OK;
+    (void)err;
     if ((standard ? fstat(STDIN_FILENO, &info) : stat(path, &info)) != 0 || !S_ISREG(info.st_mode))
         return WT_OK;
     (void)pthread_mutex_lock(&guard.lock);
     if (guard.started)
-        status = protect_file(&info);
+        protect_file(&info);
     (void)pthread_mutex_unlock(&guard.lock);
-    return status == WT_OK ? WT_OK : wt_fail(err, status, "out of memory");
+    return WT_OK;
 }
 
 static bool contains_text(const unsigned char *block, size_t n, const char *mark)

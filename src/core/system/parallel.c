@@ -81,9 +81,9 @@ wt_status wt_parallel_for(size_t n, unsigned threads, wt_parallel_fn body, void 
     if (n_threads > n)
         n_threads = n;
     /* If a thread cannot be created, the other threads do its work. */
-    worker *const helpers = n_threads > 1 ? calloc(n_threads - 1, sizeof *helpers) : NULL;
+    worker *const helpers = n_threads > 1 ? wt_alloc(n_threads - 1, sizeof *helpers) : NULL;
     size_t started = 0;
-    while (helpers != NULL && started < n_threads - 1) {
+    while (n_threads > 1 && started < n_threads - 1) {
         worker *const w = &helpers[started];
         w->parallel_job = &j;
         w->number = (unsigned)started + 1;

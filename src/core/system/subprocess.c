@@ -41,9 +41,7 @@ static const char **environment(const program_call *call)
 {
     const size_t n = list_length((const char *const *)environ), added = list_length(call->added);
     size_t kept = 0;
-    const char **list = calloc(n + added + 2, sizeof *list);
-    if (list == NULL)
-        return NULL;
+    const char **list = wt_alloc(n + added + 2, sizeof *list);
     list[kept++] = "LC_ALL=C.UTF-8";
     for (size_t i = 0; i < added; i++)
         list[kept++] = call->added[i];
@@ -57,9 +55,7 @@ static const char **environment(const program_call *call)
 static const char **create_argument_list(const program_call *call, const char *path)
 {
     const size_t n = list_length(call->arguments);
-    const char **list = calloc(n + 2, sizeof *list);
-    if (list == NULL)
-        return NULL;
+    const char **list = wt_alloc(n + 2, sizeof *list);
     list[0] = path;
     for (size_t i = 0; i < n; i++)
         list[i + 1] = call->arguments[i];
@@ -94,9 +90,9 @@ static bool read_output(int fd, last_line *last)
 static char *resolve_program_path(const char *program)
 {
     if (program[0] == '/' || strchr(program, '/') == NULL)
-        return strdup(program);
+        return wt_strdup(program);
     char *absolute = realpath(program, NULL);
-    return absolute != NULL ? absolute : strdup(program);
+    return absolute != NULL ? absolute : wt_strdup(program);
 }
 
 /* Arguments for the child process. */
@@ -160,9 +156,7 @@ static wt_status start_program(const program_call *call, pid_t *child, int *word
     int output_pipe[2] = {-1, -1}, start_error[2] = {-1, -1};
     char *path = resolve_program_path(call->program);
     const char **list = environment(call), **line = create_argument_list(call, path);
-    if (list == NULL || path == NULL || line == NULL) {
-        status = wt_fail(err, WT_E_MEMORY, "out of memory");
-    } else if (pipe2(output_pipe, O_CLOEXEC) != 0 || pipe2(start_error, O_CLOEXEC) != 0) {
+    if (pipe2(output_pipe, O_CLOEXEC) != 0 || pipe2(start_error, O_CLOEXEC) != 0) {
         status = wt_fail(err, WT_E_IO, "no pipe for the messages of %s: %s", call->program,
                          strerror(errno));
     } else {

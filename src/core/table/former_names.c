@@ -4,6 +4,7 @@
 #include "core/table/former_names.h"
 
 #include "core/base/array.h"
+#include "core/base/memory.h"
 #include "core/table/table.h"
 
 #include <stdio.h>
@@ -62,8 +63,8 @@ const char *table_current_name(const char *name)
     return name;
 }
 
-/* Replaces *name if it is a former name of a column or key of the table. False: out of memory. */
-static bool replace_member(const char *table, char **name)
+/* Replaces *name if it is a former name of a column or key of the table. */
+static void replace_member(const char *table, char **name)
 {
     for (size_t i = 0; i < COUNT_OF(members); i++) {
         const size_t n = strlen(members[i].former);
@@ -73,29 +74,22 @@ static bool replace_member(const char *table, char **name)
             continue;
         char *current = NULL;
         if (asprintf(&current, "%s%s", members[i].name, *name + n) < 0)
-            return false;
+            out_of_memory(n);
         free(*name);
         *name = current;
-        return true;
+        return;
     }
-    return true;
 }
 
-wt_status table_use_current_names(wt_table *table, wt_error *err)
+void table_use_current_names(wt_table *table)
 {
-    bool good = true;
     const char *current = table_current_name(table->name);
     if (current != table->name) {
-        char *copy = strdup(current);
-        good = copy != NULL;
-        if (good) {
-            free(table->name);
-            table->name = copy;
-        }
+        free(table->name);
+        table->name = wt_strdup(current);
     }
-    for (size_t i = 0; good && i < table->n_columns; i++)
-        good = replace_member(table->name, &table->columns[i].name);
-    for (size_t i = 0; good && i < table->n_keys; i++)
-        good = replace_member(table->name, &table->keys[i].name);
-    return good ? WT_OK : wt_fail(err, WT_E_MEMORY, "out of memory");
+    for (size_t i = 0; i < table->n_columns; i++)
+        replace_member(table->name, &table->columns[i].name);
+    for (size_t i = 0; i < table->n_keys; i++)
+        replace_member(table->name, &table->keys[i].name);
 }

@@ -10,7 +10,7 @@
 /* Returns the name of today of a table; the same name if it did not change. */
 const char *table_current_name(const char *name);
 
-/* Gives a table, its columns and its keys the names of today. WT_E_MEMORY. */
-wt_status table_use_current_names(wt_table *table, wt_error *err) WT_NODISCARD;
+/* Gives a table, its columns and its keys the names of today. */
+void table_use_current_names(wt_table *table);
 
 #endif

@@ -17,14 +17,8 @@ struct wt_result {
 
 wt_result *wt_result_new(void)
 {
-    wt_result *const result = calloc(1, sizeof *result);
-    if (result == NULL)
-        return NULL;
+    wt_result *const result = wt_alloc(1, sizeof *result);
     result->provenance = wt_provenance_new();
-    if (result->provenance == NULL) {
-        free(result);
-        return NULL;
-    }
     return result;
 }
 
@@ -53,7 +47,6 @@ static bool names_collide(const char *a, const char *b)
 wt_status wt_result_add(wt_result *result, wt_table *table, wt_error *err)
 {
     wt_status status = WT_OK;
-    wt_table **tables = NULL;
     if (!table_name_is_valid(table->name) || names_collide(table->name, "case") ||
         names_collide(table->name, "provenance")) {
         status = wt_fail(err, WT_E_ARG, "not a name for a table");
@@ -67,10 +60,8 @@ wt_status wt_result_add(wt_result *result, wt_table *table, wt_error *err)
         if (names_collide(result->tables[i]->name, table->name))
             status = wt_fail(err, WT_E_ARG, "tables \"%s\" and \"%s\" collide",
                              result->tables[i]->name, table->name);
-    if (status == WT_OK && (tables = array_grow(result->tables, result->n, sizeof *tables)) == NULL)
-        status = wt_fail(err, WT_E_MEMORY, "out of memory");
     if (status == WT_OK) {
-        result->tables = tables;
+        result->tables = array_grow(result->tables, result->n, sizeof *result->tables);
         result->tables[result->n++] = table;
     } else {
         wt_table_free(table);
@@ -110,14 +101,8 @@ const wt_provenance *wt_result_provenance_const(const wt_result *result)
 
 wt_status wt_result_set_case(wt_result *result, const char *xml, size_t length, wt_error *err)
 {
-    char *copy = NULL;
-    if (length > 0) {
-        copy = length < SIZE_MAX ? malloc(length + 1) : NULL;
-        if (copy == NULL)
-            return wt_fail(err, WT_E_MEMORY, "out of memory");
-        memcpy(copy, xml, length);
-        copy[length] = '\0';
-    }
+    char *const copy = length > 0 ? wt_strndup(xml, length) : NULL;
+    (void)err;
     free(result->case_file);
     result->case_file = copy;
     result->case_length = length;

@@ -100,33 +100,11 @@ static wt_status fail_refused_name(const stream_reader *r, size_t column, wt_sta
     return status;
 }
 
-static wt_status begin_stream_table(stream_reader *r, const char *name, wt_error *err)
+/* Copies a text, which is needed when the columns are created. */
+static void store_long_name(stream_reader *r, const char *text)
 {
-    r->table = wt_table_new(name, "");
-    return r->table != NULL ? WT_OK : wt_fail(err, WT_E_MEMORY, "out of memory");
-}
-
-static wt_status set_table_title(stream_reader *r, const char *title, wt_error *err)
-{
-    char *const copy = strdup(title);
-    if (copy == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
-    free(r->table->title);
-    r->table->title = copy;
-    return WT_OK;
-}
-
-/* Stores a text until the columns are created. The reader owns the text. */
-static wt_status store_long_name(stream_reader *r, char *text, wt_error *err)
-{
-    char **const kept = array_grow(r->long_names, r->n_long_names, sizeof *kept);
-    r->long_names = kept != NULL ? kept : r->long_names;
-    if (text == NULL || kept == NULL) {
-        free(text);
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
-    }
-    r->long_names[r->n_long_names++] = text;
-    return WT_OK;
+    r->long_names = array_grow(r->long_names, r->n_long_names, sizeof *r->long_names);
+    r->long_names[r->n_long_names++] = wt_strdup(text);
 }
 
 /* Parses "## key: value"; the line is changed in place. */
@@ -158,9 +136,9 @@ static wt_status read_key_line(stream_reader *r, wt_error *err)
         if (!table_name_is_valid(text))
             return fail_corrupt_stream(r, 0, "not a name for a table",
                                        "a to z, digits, '_' and '/'", text, err);
-        const wt_status status = begin_stream_table(r, text, err);
-        r->named = status == WT_OK;
-        return status;
+        r->table = wt_table_new(text, "");
+        r->named = true;
+        return WT_OK;
     }
     if (strcmp(key, "column") == 0) {
         if (tab == NULL)
@@ -170,16 +148,20 @@ static wt_status read_key_line(stream_reader *r, wt_error *err)
         if (r->n_long_names >= 2 * TABLE_COLUMNS_MAX)
             return fail_corrupt_stream(r, 0, "words for too many columns",
                                        "one line for each column", NULL, err);
-        const wt_status status = store_long_name(r, strdup(value), err);
-        return status == WT_OK ? store_long_name(r, strdup(text), err) : status;
+        store_long_name(r, value);
+        store_long_name(r, text);
+        return WT_OK;
     }
-    wt_status status = r->table == NULL ? begin_stream_table(r, "table", err) : WT_OK;
-    if (status == WT_OK && strcmp(key, "title") == 0)
-        return set_table_title(r, text, err);
-    if (status == WT_OK && wt_table_key(r->table, key) != NULL)
+    if (r->table == NULL)
+        r->table = wt_table_new("table", "");
+    if (strcmp(key, "title") == 0) {
+        free(r->table->title);
+        r->table->title = wt_strdup(text);
+        return WT_OK;
+    }
+    if (wt_table_key(r->table, key) != NULL)
         return fail_corrupt_stream(r, 0, "the key is there twice", "each key once", key, err);
-    if (status == WT_OK)
-        status = wt_table_set_key(r->table, key, text, err);
+    const wt_status status = wt_table_set_key(r->table, key, text, err);
     return status == WT_OK ? WT_OK : fail_refused_name(r, 0, status, err);
 }
 
@@ -208,7 +190,9 @@ static wt_status read_stream_header(stream_reader *r, wt_error *err)
     static const char form[] = "a header line \"# name[unit]<TAB>name[unit]...\"";
     if (r->length < 3 || r->line[0] != '#' || r->line[1] != ' ')
         return fail_corrupt_stream(r, 0, "the header line is missing", form, r->line, err);
-    wt_status status = r->table == NULL ? begin_stream_table(r, "table", err) : WT_OK;
+    wt_status status = WT_OK;
+    if (r->table == NULL)
+        r->table = wt_table_new("table", "");
     size_t column = 0;
     char *next = NULL;
     for (char *cell = r->line + 2; status == WT_OK && cell != NULL; cell = next) {
@@ -304,7 +288,7 @@ wt_status wt_stream_read(FILE *in, const char *name, wt_table **table, wt_error 
         status = fail_corrupt_stream(&r, 0, "a table without a header line",
                                      "a header line \"# name[unit]<TAB>name[unit]...\"", NULL, err);
     if (status == WT_OK && r.named)
-        status = table_use_current_names(r.table, err);
+        table_use_current_names(r.table);
     if (status == WT_OK) {
         *table = r.table;
         r.table = NULL;

@@ -11,15 +11,9 @@
 
 wt_table *wt_table_new(const char *name, const char *title)
 {
-    wt_table *const table = calloc(1, sizeof *table);
-    if (table == NULL)
-        return NULL;
-    table->name = strdup(name);
-    table->title = strdup(title != NULL ? title : "");
-    if (table->name == NULL || table->title == NULL) {
-        wt_table_free(table);
-        return NULL;
-    }
+    wt_table *const table = wt_alloc(1, sizeof *table);
+    table->name = wt_strdup(name);
+    table->title = wt_strdup(title != NULL ? title : "");
     return table;
 }
 
@@ -56,13 +50,11 @@ const char *wt_table_name(const wt_table *table)
 
 wt_status wt_table_rename(wt_table *table, const char *name, wt_error *err)
 {
-    char *const copy_of_name = table_name_is_valid(name) ? strdup(name) : NULL;
     if (!table_name_is_valid(name))
         return wt_fail(err, WT_E_ARG, "\"%s\" is no name of a table", name);
-    if (copy_of_name == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
-    free(table->name);
-    table->name = copy_of_name;
+    char *const former = table->name;
+    table->name = wt_strdup(name); /* `name` may be part of the former one */
+    free(former);
     return WT_OK;
 }
 
@@ -106,19 +98,12 @@ static wt_status add_typed_column(wt_table *table, wt_column_kind kind, const ch
         wt_error_found(err, "\"%s\"", unit);
         return WT_E_ARG;
     }
-    table_column *const columns = array_grow(table->columns, table->n_columns, sizeof *columns);
-    if (columns == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
-    table->columns = columns;
-    table_column column = {.kind = kind,
-                           .name = strdup(name),
-                           .unit = strdup(unit),
-                           .long_name = strdup(long_name != NULL ? long_name : "")};
-    if (column.name == NULL || column.unit == NULL || column.long_name == NULL) {
-        column_free(&column, 0);
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
-    }
-    columns[table->n_columns++] = column;
+    table->columns = array_grow(table->columns, table->n_columns, sizeof *table->columns);
+    table->columns[table->n_columns++] =
+        (table_column){.kind = kind,
+                       .name = wt_strdup(name),
+                       .unit = wt_strdup(unit),
+                       .long_name = wt_strdup(long_name != NULL ? long_name : "")};
     return WT_OK;
 }
 
@@ -134,39 +119,30 @@ wt_status wt_table_add_text_column(wt_table *table, const char *name, const char
     return add_typed_column(table, WT_COLUMN_TEXT, name, "", long_name, err);
 }
 
-static bool grow_columns(wt_table *table)
+static void grow_columns(wt_table *table)
 {
     for (size_t i = 0; i < table->n_columns; i++) {
         table_column *const column = &table->columns[i];
-        const bool is_number = column->kind == WT_COLUMN_NUMBER;
-        void *const cells = is_number ? array_grow(column->numbers, table->n_rows, sizeof(double))
-                                      : array_grow(column->texts, table->n_rows, sizeof(char *));
-        if (cells == NULL)
-            return false;
-        if (is_number)
-            column->numbers = cells;
+        if (column->kind == WT_COLUMN_NUMBER)
+            column->numbers = array_grow(column->numbers, table->n_rows, sizeof(double));
         else
-            column->texts = cells;
+            column->texts = array_grow(column->texts, table->n_rows, sizeof(char *));
     }
-    return true;
 }
 
-static bool begin_block(wt_table *table)
+static void begin_block(wt_table *table)
 {
-    size_t *const blocks = array_grow(table->blocks, table->n_blocks, sizeof *blocks);
-    if (blocks == NULL)
-        return false;
-    table->blocks = blocks;
+    table->blocks = array_grow(table->blocks, table->n_blocks, sizeof *table->blocks);
     table->blocks[table->n_blocks++] = table->n_rows;
-    return true;
 }
 
 wt_status wt_table_add_row(wt_table *table, wt_error *err)
 {
     if (table->n_columns == 0)
         return wt_fail(err, WT_E_ARG, "table \"%s\" has no columns", table->name);
-    if (!grow_columns(table) || (table->n_blocks == 0 && !begin_block(table)))
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    grow_columns(table);
+    if (table->n_blocks == 0)
+        begin_block(table);
     for (size_t i = 0; i < table->n_columns; i++) {
         if (table->columns[i].kind == WT_COLUMN_NUMBER)
             table->columns[i].numbers[table->n_rows] = (double)NAN;
@@ -230,11 +206,9 @@ wt_status wt_table_set_text(wt_table *table, size_t column, const char *text, wt
     char *copy = NULL;
     char **const cell = &table->columns[column].texts[table->n_rows - 1];
     char *const above = table->n_rows > 1 ? cell[-1] : NULL;
-    if (text != NULL && text[0] != '\0') {
-        copy = above != NULL && strcmp(text, above) == 0 ? above : strdup(text);
-        if (copy == NULL)
-            return wt_fail(err, WT_E_MEMORY, "out of memory");
-    }
+    (void)err;
+    if (text != NULL && text[0] != '\0')
+        copy = above != NULL && strcmp(text, above) == 0 ? above : wt_strdup(text);
     if (*cell != above)
         free(*cell);
     *cell = copy;
@@ -265,9 +239,10 @@ const double *wt_table_numbers(const wt_table *table, size_t column)
 wt_status wt_table_new_block(wt_table *table, wt_error *err)
 {
     /* A block without rows is not created. */
-    if (table->n_blocks == 0 || table->blocks[table->n_blocks - 1] == table->n_rows)
-        return WT_OK;
-    return begin_block(table) ? WT_OK : wt_fail(err, WT_E_MEMORY, "out of memory");
+    (void)err;
+    if (table->n_blocks > 0 && table->blocks[table->n_blocks - 1] != table->n_rows)
+        begin_block(table);
+    return WT_OK;
 }
 
 size_t wt_table_block(const wt_table *table, size_t row)

@@ -44,6 +44,6 @@ bool table_name_part_is_valid(const char *word);
 void table_free_keys(wt_table *table);
 /* Returns the names of the parts of an estimate key. The caller frees them, also on failure. False
  * when out of memory. */
-bool table_key_part_names(const char *key, char *names[KEY_PARTS]);
+void table_key_part_names(const char *key, char *names[KEY_PARTS]);
 
 #endif

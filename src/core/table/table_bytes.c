@@ -5,6 +5,7 @@
  * block; the cells by column. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/table/table_bytes.h"
 
+#include "core/base/memory.h"
 #include "core/table/table.h"
 
 #include <endian.h>
@@ -94,10 +95,10 @@ wt_status table_bytes_digest(const wt_table *table, char hex[65], wt_error *err)
     size_t length = 0;
     FILE *const out = open_memstream(&bytes, &length);
     if (out == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
-    wt_status status = table_bytes_write(out, table, err);
-    if (fclose(out) != 0 || status == WT_E_IO)
-        status = wt_fail(err, WT_E_MEMORY, "out of memory");
+        out_of_memory(BUFSIZ);
+    const wt_status status = table_bytes_write(out, table, err);
+    if (fclose(out) != 0 || status == WT_E_IO) /* a stream in memory has no other failure */
+        out_of_memory(length);
     if (status == WT_OK)
         wt_sha256(bytes, length, hex);
     free(bytes);
@@ -118,12 +119,6 @@ static bool fail_corrupt_bytes(byte_reader *r, const char *message)
 {
     if (r->status == WT_OK)
         r->status = wt_fail(r->err, WT_E_CORRUPT, "%s", message);
-    return false;
-}
-
-static bool fail_out_of_memory(byte_reader *r)
-{
-    r->status = wt_fail(r->err, WT_E_MEMORY, "out of memory");
     return false;
 }
 
@@ -246,9 +241,7 @@ static bool decode_texts(byte_reader *r, char **texts, size_t n)
             return false;
         if (text[0] == '\0')
             continue;
-        texts[row] = above != NULL && strcmp(text, above) == 0 ? above : strdup(text);
-        if (texts[row] == NULL)
-            return fail_out_of_memory(r);
+        texts[row] = above != NULL && strcmp(text, above) == 0 ? above : wt_strdup(text);
     }
     return true;
 }
@@ -261,8 +254,7 @@ wt_status table_bytes_read(const char **at, const char *end, wt_table **table, w
                 (table_name_is_valid(name) || fail_corrupt_bytes(&r, "not a name for a table"));
     if (good)
         r.table = wt_table_new(name, title);
-    good = good && (r.table != NULL || fail_out_of_memory(&r)) && decode_keys(&r) &&
-           decode_columns(&r) && decode_rows(&r);
+    good = good && decode_keys(&r) && decode_columns(&r) && decode_rows(&r);
     for (size_t i = 0; good && i < r.table->n_columns; i++) {
         const table_column *const column = &r.table->columns[i];
         good = column->kind == WT_COLUMN_NUMBER

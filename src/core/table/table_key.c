@@ -3,6 +3,7 @@
 #include "core/table/table.h"
 
 #include "core/base/array.h"
+#include "core/base/memory.h"
 #include "core/base/number.h"
 
 #include <stdlib.h>
@@ -18,16 +19,11 @@ static const char *const part_suffixes[KEY_PARTS] = {
     [KEY_UNITS] = "_units",
 };
 
-bool table_key_part_names(const char *key, char *names[KEY_PARTS])
+void table_key_part_names(const char *key, char *names[KEY_PARTS])
 {
-    bool good = true;
-    for (size_t i = 0; i < KEY_PARTS; i++) {
-        if (asprintf(&names[i], "%s%s", key, part_suffixes[i]) < 0) {
-            names[i] = NULL;
-            good = false;
-        }
-    }
-    return good;
+    for (size_t i = 0; i < KEY_PARTS; i++)
+        if (asprintf(&names[i], "%s%s", key, part_suffixes[i]) < 0)
+            out_of_memory(strlen(key));
 }
 
 static void key_free(table_key *key)
@@ -45,7 +41,7 @@ void table_free_keys(wt_table *table)
 }
 
 /* Formats an estimate as "17.4 standard_error=0.3 numerical_error=0 unit=K". The caller frees the
- * text; NULL when out of memory. */
+ * text. */
 static char *format_estimate_key(const wt_estimate *estimate)
 {
     char value[32], standard_error[32], numerical_error[32];
@@ -57,7 +53,7 @@ static char *format_estimate_key(const wt_estimate *estimate)
         estimate->unit != NULL && estimate->unit[0] != '\0' ? estimate->unit : "1";
     if (asprintf(&text, "%s%s%s%s%s%s%s", value, standard_error_mark, standard_error,
                  numerical_error_mark, numerical_error, unit_mark, unit) < 0)
-        return NULL;
+        out_of_memory(sizeof *text);
     return text;
 }
 
@@ -125,22 +121,18 @@ static wt_status check_key_name(const char *name, wt_error *err)
 }
 
 /* Fills a key from its text. An estimate is rewritten, so that it has one spelling. */
-static wt_status fill_key(const char *name, table_key *key, wt_error *err)
+static void fill_key(const char *name, table_key *key)
 {
     key->is_estimate = parse_estimate(key->text, &key->parsed);
     if (key->is_estimate) {
         char *const canonical = format_estimate_key(&key->parsed);
         free(key->text);
         key->text = canonical;
-        if (canonical == NULL || !parse_estimate(canonical, &key->parsed))
-            return wt_fail(err, WT_E_MEMORY, "out of memory");
+        (void)parse_estimate(canonical, &key->parsed);
     }
-    key->name = strdup(name);
-    key->unit = strdup(key->is_estimate ? key->parsed.unit : "");
-    if (key->name == NULL || key->unit == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    key->name = wt_strdup(name);
+    key->unit = wt_strdup(key->is_estimate ? key->parsed.unit : "");
     key->parsed.unit = key->unit;
-    return WT_OK;
 }
 
 /* Finds the key with the name, or adds an empty one. */
@@ -152,11 +144,8 @@ static wt_status find_or_add_key(wt_table *table, const char *name, table_key **
         return WT_OK;
     if (table->n_keys >= TABLE_KEYS_MAX)
         return wt_fail(err, WT_E_ARG, "more than %d keys", (int)TABLE_KEYS_MAX);
-    table_key *const keys = array_grow(table->keys, table->n_keys, sizeof *keys);
-    if (keys == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
-    table->keys = keys;
-    *place = &keys[table->n_keys++];
+    table->keys = array_grow(table->keys, table->n_keys, sizeof *table->keys);
+    *place = &table->keys[table->n_keys++];
     **place = (table_key){0};
     return WT_OK;
 }
@@ -167,7 +156,7 @@ static wt_status set_key_text(wt_table *table, const char *name, char *text, wt_
     table_key key = {.text = text};
     wt_status status = check_key_name(name, err);
     if (status == WT_OK)
-        status = fill_key(name, &key, err);
+        fill_key(name, &key);
     for (size_t i = 0; status == WT_OK && i < table->n_keys; i++) {
         const table_key *const other = &table->keys[i];
         if ((other->is_estimate && is_estimate_part(name, other->name)) ||
@@ -189,19 +178,13 @@ static wt_status set_key_text(wt_table *table, const char *name, char *text, wt_
 
 wt_status wt_table_set_key(wt_table *table, const char *key, const char *text, wt_error *err)
 {
-    char *const copy = strdup(text != NULL ? text : "");
-    if (copy == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
-    return set_key_text(table, key, copy, err);
+    return set_key_text(table, key, wt_strdup(text != NULL ? text : ""), err);
 }
 
 wt_status wt_table_set_estimate(wt_table *table, const char *key, wt_estimate estimate,
                                 wt_error *err)
 {
-    char *const text = format_estimate_key(&estimate);
-    if (text == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
-    return set_key_text(table, key, text, err);
+    return set_key_text(table, key, format_estimate_key(&estimate), err);
 }
 
 size_t wt_table_n_keys(const wt_table *table)

@@ -26,8 +26,6 @@ table_writer table_begin_variant(const table_schema *schema, table_variant varia
                       .left_out = variant.left_out};
     schema_name(variant.name != NULL ? variant.name : schema->name, w.suffix, name);
     w.table = wt_table_new(name, variant.title != NULL ? variant.title : schema->title);
-    if (w.table == NULL)
-        w.status = wt_fail(err, WT_E_MEMORY, "out of memory");
     add_schema_columns(&w, variant.columns != NULL ? variant.columns : schema->columns);
     return w;
 }
