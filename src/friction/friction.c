@@ -35,8 +35,6 @@ typedef struct friction_task {
     double numerical[2];       /* numerical error of the total friction at the reference: without
                                   and with the layer */
     wt_friction_point *points; /* [n] results for the stated values, without a layer */
-    wt_friction_sensitivity
-        sensitivity; /* sensitivities for the stated values; NaN if not requested */
     replicates replicates;
     size_t drawn;              /* number of velocities in all replicates */
     double layer_outside;      /* share of the hysteresis on a layer with its own moduli from
@@ -69,11 +67,7 @@ static wt_status compute_bulk(const friction_task *task, size_t replicate,
         kind_values(out, task->n, HYSTERESIS)[i] = points[i].hysteresis.value;
         kind_values(out, task->n, AREA)[i] = points[i].area_ratio.value;
         kind_values(out, task->n, TOTAL)[i] =
-            points[i].hysteresis.value +
-            sliding_layer_shear_stress(task->layer,
-                                       sliding_shear_stress(task->sliding, c, &points[i]), none,
-                                       points[i].area_ratio.value) *
-                points[i].area_ratio.value / c->pressure;
+            points[i].hysteresis.value + c->shear_stress * points[i].area_ratio.value / c->pressure;
         kind_values(out, task->n, LAYERED)[i] = (double)NAN;
         kind_values(out, task->n, CHANGE)[i] = (double)NAN;
         kind_values(out, task->n, RELATIVE)[i] = (double)NAN;
@@ -93,9 +87,7 @@ static wt_status compute_layered(const friction_task *task, size_t replicate,
     for (size_t i = 0; status == WT_OK && i < task->n; i++) {
         const wt_layer_state sheared = sliding_layer_at_shear_rate(&c, layer, task->velocity[i]);
         double with = points[i].hysteresis.value +
-                      sliding_layer_shear_stress(
-                          task->layer, sliding_shear_stress(task->sliding, &c, &points[i]), sheared,
-                          points[i].area_ratio.value) *
+                      sliding_layer_shear_stress(task->layer, c.shear_stress, sheared) *
                           points[i].area_ratio.value / c.pressure;
         double without = kind_values(out, task->n, TOTAL)[i];
         kind_values(out, task->n, LAYERED)[i] = with;
@@ -141,9 +133,8 @@ TABLE_KEYS(friction, FRICTION, double gamma, reference_velocity;
            wt_estimate layer_slope, layer_outside; char layer_moduli[512];
            wt_estimate relative_change, relative_change_low, relative_change_high;
            size_t replicates; const char *includes, *lacks, *statement;
-           wt_estimate by_modulus, by_density, by_pressure, by_cutoff, shear_at_reference;
            char material[512], softening[512], anisotropy[192], numerical[512], flash[256];
-           char area_law[128], shear_law[256], layer_shear[256];)
+           char layer_shear[256];)
 
 /* Result for the stated values with the standard error from the replicates. */
 static wt_estimate estimate_with_error(friction_task *task, int kind, size_t i,
@@ -159,11 +150,7 @@ static void add_friction_rows(friction_task *task, const sliding_contact *c, tab
     const wt_sliding *s = task->sliding;
     for (size_t i = 0; i < s->n_velocity; i++) {
         const wt_friction_point *p = &task->points[i];
-        const wt_layer_state none = {.modulus_ratio = 1};
-        const wt_estimate shear = {sliding_layer_shear_stress(task->layer,
-                                                              sliding_shear_stress(s, c, p), none,
-                                                              p->area_ratio.value),
-                                   0, 0, "Pa"};
+        const wt_estimate shear = {c->shear_stress, 0, 0, "Pa"};
         friction_row row = {
             .velocity = p->velocity,
             .extrapolated_share = extrapolated_share(s->rubber, p),
@@ -209,29 +196,15 @@ static void set_relative_change_keys(friction_task *task, friction_keys *keys)
 }
 
 /* Writes the options that differ from the default theory as text. */
-static void describe_options(const friction_task *task, const sliding_contact *c,
-                             friction_keys *keys)
+static void describe_options(const friction_task *task, friction_keys *keys)
 {
-    static const char *const areas[] = {"", "Yang and Persson 2008 (yp08): S = 0.42 + 0.58 P^2",
-                                        "Wang and Mueser 2017 (wm17): S = 5/9 - 2/9 P^2 + 2/3 P^4",
-                                        "Xu 2024 (xu24): P = erf(1/(2 sqrt((0.42 + 0.58 P) G)))"};
     const wt_sliding *s = task->sliding;
-    const wt_shear_law *law = &s->shear_law;
-    snprintf(keys->area_law, sizeof keys->area_law, "%s", areas[s->area_law]);
     flash_describe(s, task->points, task->n, keys->flash);
     if (!isnan(s->shear_stress.value) && task->layer != NULL && task->layer->shear != NULL) {
         const wt_layer_shear shear = sliding_layer_shear_law(task->layer);
         if (!sliding_layer_shear_is_default(&shear))
             sliding_layer_shear_describe(&shear, keys->layer_shear, sizeof keys->layer_shear);
     }
-    if (isnan(s->shear_stress.value) || law->kind == WT_SHEAR_CONSTANT)
-        return;
-    clocale_print(keys->shear_law, sizeof keys->shear_law,
-                  "log-normal about %.4g m/s at %.1f degC, %.3g per decade squared, activation "
-                  "energy %.3g eV",
-                  law->peak_velocity, law->reference_temperature - WT_ZERO_CELSIUS, law->width,
-                  law->activation_energy / ELECTRONVOLT);
-    keys->shear_at_reference.value = sliding_shear_stress(s, c, &task->points[task->n - 1]);
 }
 
 /* Sets the keys of the table. The reference velocity is the last one. */
@@ -251,11 +224,6 @@ static void set_friction_keys(friction_task *task, const sliding_contact *c, tab
             estimate_with_error(task, HYSTERESIS, last, reference->hysteresis.numerical_error),
         .area = estimate_with_error(task, AREA, last, reference->area_ratio.numerical_error),
         .strain = unknown_estimate,
-        .shear_at_reference = unknown_estimate,
-        .by_modulus = flow_stated_estimate((wt_estimate){.value = task->sensitivity.modulus}),
-        .by_density = flow_stated_estimate((wt_estimate){.value = task->sensitivity.density}),
-        .by_pressure = flow_stated_estimate((wt_estimate){.value = task->sensitivity.pressure}),
-        .by_cutoff = flow_stated_estimate((wt_estimate){.value = task->sensitivity.cutoff}),
         .layer_thickness = unknown_estimate,
         .layer_modulus_ratio = unknown_estimate,
         .layer_slope = unknown_estimate,
@@ -269,7 +237,7 @@ static void set_friction_keys(friction_task *task, const sliding_contact *c, tab
         .includes = replicates_included_errors(&task->replicates),
         .lacks = task->replicates.lacks,
         .statement = c->statement};
-    describe_options(task, c, &keys);
+    describe_options(task, &keys);
     if (isnan(keys.temperature.value))
         keys.temperature.value = s->rubber->prony.reference_temperature;
     keys.temperature = flow_stated_estimate(keys.temperature);
@@ -387,13 +355,9 @@ static wt_status compute_nominal_friction(friction_task *task, sliding_contact *
 {
     const size_t last = task->n - 1;
     wt_status status = compute_bulk(task, WT_NO_REPLICATE, task->points, task->centre, c, err);
-    if (status == WT_OK && task->sliding->sensitivities)
-        status = wt_friction_sensitivities(c->workspace, c->pressure, task->velocity[last],
-                                           &task->sensitivity, err);
     if (status != WT_OK)
         return status;
-    const double pressure = task->sliding->pressure.value,
-                 shear = sliding_shear_stress(task->sliding, c, &task->points[last]);
+    const double pressure = task->sliding->pressure.value, shear = c->shear_stress;
     task->strain = wt_friction_strain(c->workspace, c->roughness->q1);
     task->numerical[0] = total_numerical_error(&task->points[last], shear / pressure);
     update_worst_error(task, task->points);
@@ -412,8 +376,7 @@ static wt_status compute_nominal_friction(friction_task *task, sliding_contact *
                                           : layered[last].extrapolated_share;
         task->numerical[1] = total_numerical_error(
             &layered[last],
-            sliding_layer_shear_stress(task->layer, shear, replicate_layer(task, WT_NO_REPLICATE),
-                                       layered[last].area_ratio.value) /
+            sliding_layer_shear_stress(task->layer, shear, replicate_layer(task, WT_NO_REPLICATE)) /
                 pressure);
         update_worst_error(task, layered);
     }
@@ -489,7 +452,6 @@ wt_status wt_sliding_friction_compute(const wt_sliding *sliding, const wt_layer_
                           .layer = layer,
                           .work = work,
                           .n = sliding->n_velocity + !is_only_reference(sliding),
-                          .sensitivity = {(double)NAN, (double)NAN, (double)NAN, (double)NAN},
                           .zero_loss_range = {(double)NAN, (double)NAN},
                           .replicates = replicates_create(sliding, work, "friction")};
     wt_friction_tables t = {0};

@@ -11,14 +11,13 @@
 #include <stdlib.h>
 
 TABLE_ROW(friction_decades, FRICTION_DECADES, double velocity, from, to, share;
-          wt_estimate hysteresis, area_ratio; double shearing, cracks, total;)
+          wt_estimate hysteresis, area_ratio; double shearing, total;)
 
 TABLE_KEYS(friction_decades, FRICTION_DECADES, char strongest[160];)
 
 /* Limits of the decades: q0, the powers of ten in between, q1. */
 typedef struct decade_contributions {
     const wt_sliding *sliding;
-    const wt_layer_observation *observation; /* layer with its crack energy; NULL if none */
     size_t n;
     double *q;               /* [n] */
     wt_friction_node *nodes; /* [n] */
@@ -56,22 +55,6 @@ static void describe_strongest(decade_contributions *d, double velocity, size_t 
                   100 * share);
 }
 
-/* Adds the friction of shearing the contact area if the roughness ends at a node, and the part of
- * crack opening. The rubber has no layer. */
-static void add_shear_friction(const sliding_contact *c, const decade_contributions *d,
-                               double velocity, const wt_friction_node *node,
-                               friction_decades_row *row)
-{
-    const wt_layer_state none = {.modulus_ratio = 1};
-    const wt_friction_point point = {.velocity = velocity,
-                                     .temperature = {.value = node->temperature}};
-    const double bulk = sliding_shear_stress(d->sliding, c, &point), area = node->area_ratio;
-    const double all = sliding_layer_shear_stress(d->observation, bulk, none, area);
-    row->shearing = all * area / c->pressure;
-    row->cracks = (all - bulk) * area / c->pressure;
-    row->total = node->hysteresis + row->shearing;
-}
-
 static void add_decade_rows(const sliding_contact *c, decade_contributions *d, double velocity,
                             bool is_reference, table_writer *t, cost_summary *cost)
 {
@@ -86,14 +69,16 @@ static void add_decade_rows(const sliding_contact *c, decade_contributions *d, d
         const double part = b->hysteresis - a->hysteresis;
         const double share = all > 0 ? part / all : (double)NAN; /* the share is undefined without
                                                                     hysteresis friction */
+        const double shearing = c->shear_stress * b->area_ratio / c->pressure;
         friction_decades_row row = {
             .velocity = velocity,
             .from = d->q[i - 1],
             .to = d->q[i],
             .share = share,
             .hysteresis = {part, (double)NAN, a->hysteresis_error + b->hysteresis_error, "1"},
-            .area_ratio = {b->area_ratio, (double)NAN, b->numerical_error, "1"}};
-        add_shear_friction(c, d, velocity, b, &row);
+            .area_ratio = {b->area_ratio, (double)NAN, b->numerical_error, "1"},
+            .shearing = shearing,
+            .total = b->hysteresis + shearing};
         friction_decades_add_row(t, &row);
         cost->items++;
         if (all > 0)
@@ -117,15 +102,14 @@ static void add_velocity_blocks(const wt_sliding *sliding, const sliding_contact
         add_decade_rows(c, d, last, false, t, cost);
 }
 
-wt_status wt_friction_by_scale_compute(const wt_sliding *sliding,
-                                       const wt_layer_observation *observation, const wt_job *work,
+wt_status wt_friction_by_scale_compute(const wt_sliding *sliding, const wt_job *work,
                                        wt_table **table, wt_error *err)
 {
     if (work == NULL || table == NULL)
         return wt_fail(err, WT_E_ARG, "no decades to make");
     const wt_layer_state none = {.modulus_ratio = 1};
     sliding_contact c = {0};
-    decade_contributions d = {.sliding = sliding, .observation = observation};
+    decade_contributions d = {.sliding = sliding};
     wt_status status = flow_sliding_check(sliding, work, err);
     if (status != WT_OK)
         return status;

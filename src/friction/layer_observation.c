@@ -28,7 +28,7 @@ wt_layer_observation wt_layer_observation_defaults(void)
 static const wt_param parameter_rows[] = {
     LAYER_STATE_ROWS(wt_layer_observation, ),
     {PARAM("modulus-ratio-df", wt_layer_observation, modulus_ratio_df, WT_Q_NONE, AT_LEAST(0)),
-     .value = "N",
+     .value = "N", .flags = PARAM_ONLY_C,
      .help = "degrees of freedom of the error of the modulus ratio, as weartrack compare gives "
              "them; 0: a normal error"},
     /* Beyond 1 the phase alone makes a storage modulus negative. */
@@ -49,14 +49,14 @@ static const wt_param parameter_rows[] = {
      .value = "W", .unset = "needed with a slope", .help = "likewise, the highest one"},
     {PARAM("ratio-temperature", wt_layer_observation, ratio_temperature, WT_Q_TEMPERATURE,
            AT_LEAST(0)),
-     .value = "T", .unset = "that of the sliding",
+     .value = "T", .unset = "that of the sliding", .flags = PARAM_ONLY_C,
      .help =
          "of these frequencies; another one needs the shift law of the bulk, which the layer is "
          "taken to have"},
     {PARAM_FLAG_OF("ratio-by-rate", wt_layer_observation, by_rate), .flags = PARAM_NO_OPTION,
      .help = "the modulus ratio goes with the frequency as the comparison finds it at several "
              "indentation rates"},
-    {PARAM_FLAG_OF("bulk-shear", wt_layer_observation, bulk_shear),
+    {PARAM_FLAG_OF("bulk-shear", wt_layer_observation, bulk_shear), .flags = PARAM_ONLY_C,
      .help = "shear stress of the bulk for the layer, too, not times the modulus ratio"},
 };
 PARAM_TABLE(wt_layer_observation_params, wt_layer_observation, parameter_rows,
@@ -251,30 +251,27 @@ wt_layer_shear sliding_layer_shear_law(const wt_layer_observation *observation)
 }
 
 double sliding_layer_shear_stress(const wt_layer_observation *observation, double bulk,
-                                  wt_layer_state layer, double area_ratio)
+                                  wt_layer_state layer)
 {
     if (observation == NULL)
         return bulk;
     const wt_layer_shear shear = sliding_layer_shear_law(observation);
-    return wt_layer_shear_stress(&shear, bulk, layer, area_ratio);
+    return wt_layer_shear_stress(&shear, bulk, layer);
 }
 
 bool sliding_layer_shear_is_default(const wt_layer_shear *shear)
 {
-    return shear->exponent == 1 && !(shear->transition_thickness > 0) && !(shear->crack_energy > 0);
+    return shear->exponent == 1 && !(shear->transition_thickness > 0);
 }
 
 void sliding_layer_shear_describe(const wt_layer_shear *shear, char *text, size_t size)
 {
-    char reach[64] = "", cracks[96] = "";
+    char reach[64] = "";
     if (shear->transition_thickness > 0)
         clocale_print(reach, sizeof reach, ", reached as 1 - exp(-d / %.3g um)",
                       1e6 * shear->transition_thickness);
-    if (shear->crack_energy > 0)
-        clocale_print(cracks, sizeof cracks, "; cracks: G = %.3g J/m^2, asperities %.3g um apart",
-                      shear->crack_energy, 1e6 * shear->spacing);
     clocale_print(text, size,
                   "that of the bulk times the modulus ratio to the power of %.3g "
-                  "(reconstructed)%s%s",
-                  shear->exponent, reach, cracks);
+                  "(reconstructed)%s",
+                  shear->exponent, reach);
 }

@@ -63,24 +63,10 @@
       OPTIONAL)                                                                                    \
     X(FRICTION_KEY_NUMERICAL_STATEMENT, "numerical_statement", TEXT, SHOWS(numerical),             \
       LABEL("Numerical statement"), OPTIONAL)                                                      \
-    X(FRICTION_KEY_AREA_LAW, AS(area_law), TEXT, LABEL("Contact area in partial contact"),         \
-      OPTIONAL)                                                                                    \
     X(FRICTION_KEY_FLASH, "flash_temperature", TEXT, SHOWS(flash), LABEL("Flash temperature"),     \
-      OPTIONAL)                                                                                    \
-    X(FRICTION_KEY_SHEAR_LAW, AS(shear_law), TEXT, LABEL("Shear stress of the real contact"),      \
       OPTIONAL)                                                                                    \
     X(FRICTION_KEY_LAYER_SHEAR, "layer_shear_stress", TEXT, SHOWS(layer_shear),                    \
       LABEL("Shear stress of the layer"), OPTIONAL)                                                \
-    X(FRICTION_KEY_SHEAR_AT_REFERENCE, "shear_stress_at_reference", SI(PRESSURE),                  \
-      SHOWS(shear_at_reference), LABEL("Shear stress at the reference velocity"), OPTIONAL)        \
-    X(FRICTION_KEY_BY_MODULUS, "sensitivity_to_modulus", NUMBER, SHOWS(by_modulus),                \
-      LABEL("Change of the hysteresis in % by 1 % of modulus"), OPTIONAL)                          \
-    X(FRICTION_KEY_BY_DENSITY, "sensitivity_to_spectrum", NUMBER, SHOWS(by_density),               \
-      LABEL("Change of the hysteresis in % by 1 % of the power spectrum"), OPTIONAL)               \
-    X(FRICTION_KEY_BY_PRESSURE, "sensitivity_to_pressure", NUMBER, SHOWS(by_pressure),             \
-      LABEL("Change of the hysteresis in % by 1 % of pressure"), OPTIONAL)                         \
-    X(FRICTION_KEY_BY_CUTOFF, "sensitivity_to_cutoff", NUMBER, SHOWS(by_cutoff),                   \
-      LABEL("Change of the hysteresis in % by 1 % of the largest wavenumber"), OPTIONAL)           \
     X(FRICTION_KEY_LAYER_THICKNESS, AS(layer_thickness), SI(LENGTH), LABEL("Layer thickness"),     \
       OPTIONAL)                                                                                    \
     X(FRICTION_KEY_LAYER_MODULUS_RATIO, AS(layer_modulus_ratio), NUMBER,                           \
@@ -268,12 +254,6 @@
       LABEL("Power of hysteresis"), OPTIONAL)                                                      \
     X(LAYER_KEY_SHEAR_POWER, AS(shear_power), UNIT("W/m^2"),                                       \
       LABEL("Power of shearing the surface"), OPTIONAL)                                            \
-    X(LAYER_KEY_CLOSURE, "closure", TEXT, SHOWS(said.closure), LABEL("Closure of the layer"),      \
-      OPTIONAL)                                                                                    \
-    X(LAYER_KEY_UNLOADED_RATE, AS(unloaded_rate), SI(RATE),                                        \
-      LABEL("Rate of modification without load"), OPTIONAL)                                        \
-    X(LAYER_KEY_SHELF_LIFE, AS(shelf_life), SI(TIME), LABEL("Time until it modifies the rubber"),  \
-      OPTIONAL)                                                                                    \
     X(LAYER_KEY_SEVERITY, "severity", TEXT, SHOWS(said.severity), LABEL("Severity of wear"),       \
       OPTIONAL)                                                                                    \
     X(LAYER_KEY_SEVERE_WEAR_RATE, "severe_wear_rate", SI(WEAR_RATE), SHOWS(severe),                \

@@ -61,10 +61,8 @@
       NUMERICAL_ERROR(FRICTION_DECADES_AREA_RATIO))                                                \
     X(FRICTION_DECADES_AREA_RATIO_NUMERICAL_ERROR, "area_ratio_numerical_error",                   \
       "its numerical error", NUMBER)                                                               \
-    X(FRICTION_DECADES_SHEARING, AS(shearing),                                                     \
-      "friction of shearing this contact area, with that of opening cracks", NUMBER, OPTIONAL)     \
-    X(FRICTION_DECADES_CRACKS, "crack_opening", "of it that of opening cracks at its rims",        \
-      NUMBER, SHOWS(cracks), OPTIONAL)                                                             \
+    X(FRICTION_DECADES_SHEARING, AS(shearing), "friction of shearing this contact area", NUMBER,   \
+      OPTIONAL)                                                                                    \
     X(FRICTION_DECADES_TOTAL, "friction",                                                          \
       "friction coefficient if the roughness ended at the last wavenumber", NUMBER, SHOWS(total),  \
       OPTIONAL)

@@ -98,7 +98,7 @@ static wt_status compute_balance(const layer_task *task, size_t replicate, layer
     if (status == WT_OK) {
         memcpy(run->statement, c.statement, sizeof c.statement);
         wt_layer_parameters *p = &run->parameters;
-        *p = layer_parameters_create(job, &c, task->velocity, &run->energy, seed, replicate);
+        *p = layer_parameters_create(job, &c, task->velocity, seed, replicate);
         p->balance_only = !with_times;
         const bool calibrated = !isnan(job->observed_thickness.value);
         if (calibrated)
@@ -212,7 +212,7 @@ TABLE_ROW_OF(layer, LAYER, wt_layer_point)
 TABLE_KEYS(layer, LAYER, const char *regime, *critical_energy_from, *includes, *lacks, *statement;
            double velocity, damage, duty; wt_estimate pressure, wear_rate, observed;
            char softening[256], anisotropy[192], numerical[512]; layer_description said;
-           wt_estimate hysteresis_power, shear_power, unloaded_rate, shelf_life, severe;)
+           wt_estimate hysteresis_power, shear_power, severe;)
 
 static void set_layer_keys(const layer_task *task, const layer_run *run, table_writer *t)
 {
@@ -221,8 +221,7 @@ static void set_layer_keys(const layer_task *task, const layer_run *run, table_w
     layer_keys keys = {.regime = regime_name(run->balance.regime),
                        .critical_energy_from =
                            calibrated ? "calibrated: makes the observed thickness the balance"
-                           : job->closure == WT_CLOSURE_ACTIVATED ? "none: the closure is activated"
-                                                                  : "given",
+                                      : "given",
                        .includes = replicates_included_errors(&task->replicates),
                        .lacks = task->replicates.lacks,
                        .statement = run->statement,
@@ -234,16 +233,12 @@ static void set_layer_keys(const layer_task *task, const layer_run *run, table_w
                        .observed = flow_stated_estimate(job->observed_thickness)};
     if (!calibrated)
         keys.observed.value = (double)NAN;
-    keys.hysteresis_power = keys.shear_power = keys.unloaded_rate = keys.shelf_life = keys.severe =
+    keys.hysteresis_power = keys.shear_power = keys.severe =
         (wt_estimate){(double)NAN, (double)NAN, (double)NAN, NULL};
     layer_describe(job, &run->energy, &run->parameters, &keys.said);
     if (job->energy != WT_LAYER_HYSTERESIS) {
         keys.hysteresis_power.value = run->energy.hysteresis_power;
         keys.shear_power.value = run->energy.shear_power;
-    }
-    if (job->closure == WT_CLOSURE_ACTIVATED) {
-        keys.unloaded_rate.value = wt_activation_unloaded_rate(&run->parameters.activation);
-        keys.shelf_life.value = job->damage / keys.unloaded_rate.value;
     }
     if (job->severity_power > 0)
         keys.severe.value = run->balance.wear_rate /
@@ -293,8 +288,6 @@ wt_status wt_layer_thickness_compute(const wt_sliding *sliding, const wt_layer_j
     layer_run centre = {.points = NULL};
     wt_layer_tables t = {0};
     status = compute_balance(&task, WT_NO_REPLICATE, &centre, err);
-    if (status == WT_OK)
-        layer_warn_shelf_life(job, &centre.parameters, work->log);
     if (status == WT_OK)
         status = layer_times_choose(job, &centre.balance, &task.time, &task.n, err);
     if (status == WT_OK)

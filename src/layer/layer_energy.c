@@ -6,11 +6,6 @@
 
 #include <math.h>
 
-bool layer_needs_area(const wt_layer_job *job)
-{
-    return job->energy != WT_LAYER_HYSTERESIS || job->closure == WT_CLOSURE_ACTIVATED;
-}
-
 void layer_energy_clear(layer_energy *energy)
 {
     wt_energy_source_clear(&energy->source);
@@ -19,23 +14,23 @@ void layer_energy_clear(layer_energy *energy)
 /* Ratio of the effective power to that of the hysteresis. */
 static double power_factor(const wt_layer_job *job, const layer_energy *e)
 {
-    const double shear = job->energy == WT_LAYER_HYSTERESIS ? 0 : job->shear_share * e->shear_power;
+    const double shear = job->energy == WT_LAYER_HYSTERESIS ? 0 : e->shear_power;
     const double hysteresis = job->energy == WT_LAYER_SHEAR ? 0 : e->hysteresis_power;
     return (hysteresis + shear) / e->hysteresis_power;
 }
 
 /* Computes friction, contact area and the power of shearing. */
-static wt_status compute_contact_area(const wt_sliding *sliding, const wt_layer_job *job,
-                                      const sliding_contact *c, double velocity,
-                                      wt_layer_state layer, layer_energy *e, wt_error *err)
+static wt_status compute_contact_area(const wt_layer_job *job, const sliding_contact *c,
+                                      double velocity, wt_layer_state layer, layer_energy *e,
+                                      wt_error *err)
 {
     const wt_status status =
         wt_friction_compute(c->workspace, c->pressure, &velocity, 1, &e->point, err);
     if (status != WT_OK)
         return status;
     const double area = e->point.area_ratio.value;
-    e->shear_power = wt_layer_shear_stress(&job->shear, sliding_shear_stress(sliding, c, &e->point),
-                                           sliding_layer_at_shear_rate(c, layer, velocity), area) *
+    e->shear_power = wt_layer_shear_stress(&job->shear, c->shear_stress,
+                                           sliding_layer_at_shear_rate(c, layer, velocity)) *
                      area * fabs(velocity);
     return WT_OK;
 }
@@ -53,8 +48,8 @@ wt_status layer_energy_compute(const wt_sliding *sliding, const wt_layer_job *jo
     }
     wt_status status = wt_energy_source_from_friction(contact->workspace, contact->pressure,
                                                       velocity, &e.source, err);
-    if (status == WT_OK && layer_needs_area(job))
-        status = compute_contact_area(sliding, job, contact, velocity, layer, &e, err);
+    if (status == WT_OK && job->energy != WT_LAYER_HYSTERESIS)
+        status = compute_contact_area(job, contact, velocity, layer, &e, err);
     e.source.profile = job->profile;
     e.source.local_friction = job->local_friction;
     for (size_t i = 0; i < e.source.n; i++)
@@ -76,8 +71,7 @@ wt_status layer_energy_compute(const wt_sliding *sliding, const wt_layer_job *jo
 }
 
 wt_layer_parameters layer_parameters_create(const wt_layer_job *job, const sliding_contact *contact,
-                                            double velocity, const layer_energy *energy,
-                                            uint64_t seed, size_t replicate)
+                                            double velocity, uint64_t seed, size_t replicate)
 {
     wt_layer_parameters p = wt_layer_defaults();
     p.damage = job->damage;
@@ -91,19 +85,7 @@ wt_layer_parameters layer_parameters_create(const wt_layer_job *job, const slidi
     p.severity_exponent = job->severity_exponent;
     p.specific_wear_rate =
         flow_draw_positive(job->specific_wear_rate, seed, replicate, FLOW_DRAW_WEAR);
-    p.closure = job->closure;
-    if (job->closure == WT_CLOSURE_ENERGY) {
-        p.critical_energy =
-            flow_draw_positive(job->critical_energy, seed, replicate, FLOW_DRAW_CRITICAL_ENERGY);
-        return p;
-    }
-    p.activation = job->activation;
-    p.activation.barrier =
-        flow_draw_positive(job->barrier, seed, replicate, FLOW_DRAW_CRITICAL_ENERGY);
-    p.activation.area_ratio = fmin(1, energy->point.area_ratio.value);
-    /* in a contact heated by friction, the temperature of the finest scale */
-    p.activation.temperature = isnan(energy->point.temperature.value)
-                                   ? contact->temperature
-                                   : energy->point.temperature.value;
+    p.critical_energy =
+        flow_draw_positive(job->critical_energy, seed, replicate, FLOW_DRAW_CRITICAL_ENERGY);
     return p;
 }

@@ -16,8 +16,6 @@ typedef struct layer_energy {
 
 /* Velocity at which the track was worn. */
 double layer_sliding_velocity(const wt_sliding *sliding, const wt_layer_job *layer);
-/* True if a job needs friction and contact area in addition to the energy. */
-bool layer_needs_area(const wt_layer_job *job);
 /* Computes the energy; the caller clears it. Returns WT_E_MISSING if shearing contributes and its
  * stress is not stated. */
 wt_status layer_energy_compute(const wt_sliding *sliding, const wt_layer_job *job,
@@ -27,8 +25,7 @@ wt_status layer_energy_compute(const wt_sliding *sliding, const wt_layer_job *jo
 void layer_energy_clear(layer_energy *energy);
 /* Parameters of a replicate. The critical energy may still have to be calibrated. */
 wt_layer_parameters layer_parameters_create(const wt_layer_job *job, const sliding_contact *contact,
-                                            double velocity, const layer_energy *energy,
-                                            uint64_t seed, size_t replicate);
+                                            double velocity, uint64_t seed, size_t replicate);
 
 /* Times of a job, by default from well before the first change of the layer to well after the last:
  * *time [n], which the caller frees. */

@@ -253,10 +253,7 @@ static const char *describe_feedback(const wt_layer_job *job)
     if (job->has_feedback)
         return "the layer acts back on the energy that makes it; by the rate balance "
                "(reconstructed)";
-    return job->closure == WT_CLOSURE_ACTIVATED && job->activation.ageing
-               ? "the energy is that of the bulk, friction that with the layer (reconstructed); "
-                 "not known (nan) once age has modified rubber of every depth"
-               : "the energy is that of the bulk, friction that with the layer (reconstructed)";
+    return "the energy is that of the bulk, friction that with the layer (reconstructed)";
 }
 
 static wt_status tabulate_running_in(running_task *task, wt_table **table, wt_error *err)

@@ -7,13 +7,10 @@
 
 /* A text is "" for a default option. */
 typedef struct layer_description {
-    char energy[256], closure[320], severity[256];
+    char energy[256], severity[256];
 } layer_description;
 
 void layer_describe(const wt_layer_job *job, const layer_energy *energy,
                     const wt_layer_parameters *parameters, layer_description *words);
-/* Warns if the rubber would be modified during storage. */
-void layer_warn_shelf_life(const wt_layer_job *job, const wt_layer_parameters *parameters,
-                           wt_log *log);
 
 #endif

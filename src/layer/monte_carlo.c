@@ -14,15 +14,10 @@ double layer_replicates_add(replicates *r, const wt_sliding *sliding, const wt_l
 {
     replicates_add(r, job->specific_wear_rate.standard_error, FLOW_DRAW_WEAR, "specific wear rate");
     const bool calibrated = !isnan(job->observed_thickness.value);
-    const bool activated = job->closure == WT_CLOSURE_ACTIVATED;
-    const double given = (activated    ? job->barrier
-                          : calibrated ? job->observed_thickness
-                                       : job->critical_energy)
-                             .standard_error;
+    const double given =
+        (calibrated ? job->observed_thickness : job->critical_energy).standard_error;
     replicates_add(r, given, calibrated ? FLOW_DRAW_OBSERVED : FLOW_DRAW_CRITICAL_ENERGY,
-                   activated    ? "barrier"
-                   : calibrated ? "observed thickness"
-                                : "critical energy");
+                   calibrated ? "observed thickness" : "critical energy");
     if (job->energy != WT_LAYER_HYSTERESIS)
         replicates_add(r, sliding->shear_stress.standard_error, FLOW_DRAW_SHEAR_STRESS,
                        "shear stress");

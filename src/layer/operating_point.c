@@ -68,7 +68,7 @@ static wt_status create_operating_contact(const layer_context *context, const wt
 void layer_friction_set_total(const wt_layer_job *job, wt_layer_state layer, layer_friction *f)
 {
     layer.modulus_ratio = f->ratio;
-    const double stress = wt_layer_shear_stress(&job->shear, f->bulk_stress, layer, f->area_ratio);
+    const double stress = wt_layer_shear_stress(&job->shear, f->bulk_stress, layer);
     f->shear_stress = stress;
     f->total = f->hysteresis + stress * f->area_ratio / f->pressure;
     f->total_error = f->hysteresis_error + stress * f->area_error / f->pressure;
@@ -93,7 +93,7 @@ static wt_status compute_friction_at_point(const layer_context *context, const w
         .area_ratio = p.area_ratio.value,
         .hysteresis_error = p.hysteresis.numerical_error,
         .area_error = p.area_ratio.numerical_error,
-        .bulk_stress = sliding_shear_stress(s, c, &p),
+        .bulk_stress = c->shear_stress,
         .pressure = c->pressure,
         .ratio = sliding_layer_at_shear_rate(c, conditions.layer, s->velocity[0]).modulus_ratio};
     layer_friction_set_total(context->job, conditions.layer, friction);
@@ -114,8 +114,8 @@ wt_status layer_compute_contact(const layer_context *context, operating_point co
         status =
             layer_energy_compute(&s, context->job, &c, velocity, conditions.layer, energy, err);
         if (status == WT_OK)
-            *parameters = layer_parameters_create(context->job, &c, velocity, energy,
-                                                  context->work->seed, context->replicate);
+            *parameters = layer_parameters_create(context->job, &c, velocity, context->work->seed,
+                                                  context->replicate);
     }
     sliding_contact_clear(&c);
     return status;

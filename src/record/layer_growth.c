@@ -136,7 +136,6 @@ static wt_status evaluate_friction(const growth_draw *d, double thickness, doubl
 static wt_status compute_draw(const growth_inputs *g, layer_context *scene, double *out,
                               wt_error *err)
 {
-    const wt_layer_job *const job = scene->job;
     growth_draw d = {.scene = scene, .points = calloc(g->n, sizeof *d.points)};
     wt_status status =
         d.points == NULL ? wt_fail(err, WT_E_MEMORY, "out of memory") : grow_layer(g, &d, err);
@@ -149,8 +148,7 @@ static wt_status compute_draw(const growth_inputs *g, layer_context *scene, doub
         status = evaluate_friction(&d, d.thickness, &out[GROWTH_END], err);
     out[GROWTH_BARE] = d.bare;
     out[GROWTH_WEAR] = d.parameters.specific_wear_rate;
-    out[GROWTH_ENERGY] =
-        job->closure == WT_CLOSURE_ENERGY ? d.parameters.critical_energy : (double)NAN;
+    out[GROWTH_ENERGY] = d.parameters.critical_energy;
     layer_friction_model_clear(&d.friction_of);
     free(d.points);
     return status;

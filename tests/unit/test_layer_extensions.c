@@ -419,7 +419,7 @@ static bool check_number(const rig *r, const case_line *line)
                          *v);
     else if (strcmp(line->key, "surface_rate") == 0) {
         assert_int_equal(layer_rates_compute(&r->source, &r->p, &rates, &err), WT_OK);
-        assert_near(exp(rates_log_density(&rates, 0)) + wt_activation_unloaded_rate(a), *v,
+        assert_near(exp(energy_log_density(rates.source, 0)) + wt_activation_unloaded_rate(a), *v,
                     r->digits);
         layer_rates_clear(&rates);
     } else if (strcmp(line->key, "ratio_of_least_power") == 0) {

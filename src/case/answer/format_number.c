@@ -238,8 +238,6 @@ number_text format_frequency(const result_value *f)
 const char *format_thickness_origin(const result_value_tables *tables)
 {
     const char *from = layer_key_text(&tables->layer, LAYER_KEY_CRITICAL_ENERGY_FROM);
-    if (layer_key_text(&tables->layer, LAYER_KEY_CLOSURE) != NULL)
-        return "predicted from a given barrier";
     return from != NULL && strncmp(from, "calibrated", 10) == 0
                ? "put in, not predicted: U_c is calibrated to it"
                : "predicted from a given U_c";
@@ -275,21 +273,13 @@ static const char *missing_ratio_text(const result_value *f)
                                    : "";
 }
 
-bool layer_is_ageing(const result_value_tables *tables)
-{
-    return isinf(layer_value(&tables->layer, LAYER_KEY_BALANCE_THICKNESS).value) &&
-           layer_value(&tables->layer, LAYER_KEY_WEAR_RATE).value > 0;
-}
-
 void append_thickness(text_builder *t, const result_value_tables *tables)
 {
     const result_value thickness = result_value_thickness(tables);
     const result_value_text range = format_model_range(&thickness);
     const char *open = range.text[0] != '\0' ? " (" : "", *close = *open != '\0' ? ")" : "";
     if (isinf(thickness.number.value))
-        text_append(t, "%s",
-                    layer_is_ageing(tables) ? "the rubber ages: in time all of it is modified"
-                                            : "without wear the layer grows without end");
+        text_append(t, "without wear the layer grows without end");
     else if (!(thickness.number.value > 0))
         text_append(t, "no layer where formation balances wear%s%s%s, %s", open, range.text, close,
                     format_thickness_origin(tables));

@@ -440,21 +440,14 @@ wt_status flow_step_anisotropy(flow_run *run, wt_error *err)
 wt_status flow_step_friction_map(flow_run *run, wt_error *err)
 {
     const wt_sliding sliding = flow_run_sliding(run);
-    wt_layer_observation layer;
-    const bool layered =
-        run->c->has_layer && flow_run_layer_observation(run, &layer, NULL) == WT_OK;
-    return wt_friction_map_compute(&sliding, layered ? &layer : NULL, &run->job,
-                                   &run->table[FLOW_FRICTION_MAP], err);
+    return wt_friction_map_compute(&sliding, &run->job, &run->table[FLOW_FRICTION_MAP], err);
 }
 
 wt_status flow_step_friction_decades(flow_run *run, wt_error *err)
 {
     const wt_sliding sliding = flow_run_sliding(run);
-    wt_layer_observation layer;
-    const bool layered =
-        run->c->has_layer && flow_run_layer_observation(run, &layer, NULL) == WT_OK;
-    return wt_friction_by_scale_compute(&sliding, layered ? &layer : NULL, &run->job,
-                                        &run->table[FLOW_FRICTION_DECADES], err);
+    return wt_friction_by_scale_compute(&sliding, &run->job, &run->table[FLOW_FRICTION_DECADES],
+                                        err);
 }
 
 wt_status flow_step_flash_effect(flow_run *run, wt_error *err)

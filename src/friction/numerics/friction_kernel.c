@@ -44,7 +44,7 @@ static const wt_param rows[] = {
     FRICTION_TOLERANCE(wt_friction_options),     FRICTION_GAMMA(wt_friction_options),
     FRICTION_STRAIN_FACTOR(wt_friction_options), LAYER_STATE_ROWS(wt_friction_options, layer.),
     PARAM_THREADS(wt_friction_options),          FRICTION_ANISOTROPY(wt_friction_options),
-    FRICTION_AREA_LAW(wt_friction_options),      FLASH_ROWS(wt_friction_options, flash.),
+    FLASH_ROWS(wt_friction_options, flash.),
 };
 PARAM_TABLE(wt_friction_params, wt_friction_options, rows, wt_friction_defaults, NO_PARTS)
 
@@ -266,8 +266,6 @@ wt_status wt_friction_workspace_new(const wt_material *material, const wt_roughn
         status = choose_rules(ws, err);
     if (status == WT_OK)
         ws->rounding = relative_rounding(ws);
-    if (status == WT_OK)
-        status = area_law_get(o.area_law, &ws->area, err);
     if (status == WT_OK && o.flash.on)
         status = flash_new(ws, err);
     if (status == WT_OK && ws->n_knots == 0)
@@ -379,11 +377,8 @@ friction_load friction_load_create(const wt_friction_workspace *ws, double press
                                    double velocity)
 {
     const double speed = fabs(velocity);
-    return (friction_load){.pressure = pressure,
-                           .speed = speed,
-                           .log_lowest = log(ws->roughness->q0) + log(speed),
-                           .modulus = 1,
-                           .density = 1};
+    return (friction_load){
+        .pressure = pressure, .speed = speed, .log_lowest = log(ws->roughness->q0) + log(speed)};
 }
 
 const subinterval_plan *friction_plan(const wt_friction_workspace *ws, friction_scratch *scratch,
@@ -453,13 +448,12 @@ static wt_status compute_load(const wt_friction_workspace *ws, friction_scratch 
     const friction_relative relative = friction_relative_error(ws, &pass, *at);
     const double error_g = relative.variance * pass.variance + pass.variance_error;
     const double error_mu = relative.hysteresis * pass.hysteresis + pass.hysteresis_error;
-    const double corrected = area_law_variance(ws->area, pass.variance);
-    const double area = contact_area(corrected);
-    const double error_area = contact_area_error(corrected, error_g);
+    const double area = contact_area(pass.variance);
+    const double error_area = contact_area_error(pass.variance, error_g);
     point->stress_variance = dimensionless_estimate(pass.variance, error_g);
     point->area_ratio = dimensionless_estimate(area, error_area);
-    point->one_minus_area =
-        dimensionless_estimate(contact_gap(corrected), contact_gap_error(corrected, error_g));
+    point->one_minus_area = dimensionless_estimate(contact_gap(pass.variance),
+                                                   contact_gap_error(pass.variance, error_g));
     point->hysteresis = dimensionless_estimate(pass.hysteresis, error_mu);
     if (at->heat != NULL)
         point->temperature = (wt_estimate){.value = ws->options.temperature + at->heat->rise,

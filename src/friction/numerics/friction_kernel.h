@@ -6,7 +6,6 @@
 #define WT_FRICTION_NUMERICS_FRICTION_KERNEL_H
 
 #include "friction/numerics/angular.h"
-#include "friction/numerics/area_law.h"
 #include "friction/numerics/flash_temperature.h"
 #include "friction/numerics/layered_moduli.h"
 #include "friction/numerics/wavenumber_grid.h"
@@ -54,7 +53,6 @@ struct wt_friction_workspace {
     layer_moduli *layer;           /* layer's own moduli; NULL if none */
     wt_shift_law layer_law;        /* shift law of its own material; none if it is shifted as the
                                       bulk */
-    const area_law *area;          /* NULL for Persson's law */
     flash_law *flash;              /* NULL if the rubber has the temperature of its surroundings */
     double stiffness;              /* 1 / (1 - nu^2) */
     double rounding; /* relative rounding error of the integrals, without that of J1 and J2 */
@@ -68,11 +66,10 @@ struct wt_friction_workspace {
     friction_scratch *scratch; /* [threads] */
 };
 
-/* Pressure and speed of a point, with factors for sensitivities. */
+/* Pressure and speed of a point. */
 typedef struct friction_load {
     double pressure, speed;     /* speed >= 0 */
     double log_lowest;          /* ln(q0 speed) */
-    double modulus, density;    /* factors of the moduli and of the spectrum; 1 by default */
     const flash_solution *heat; /* NULL if all scales have the temperature of the surroundings */
 } friction_load;
 

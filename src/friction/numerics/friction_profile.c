@@ -54,13 +54,12 @@ static void fill_nodes(const wt_friction_workspace *workspace, friction_load at,
             error += scratch->error_mu[part];
             part++;
         }
-        const double corrected = area_law_variance(workspace->area, variance);
         nodes[i] = (wt_friction_node){.wavenumber = wavenumber[i],
                                       .stress_variance = variance,
-                                      .area_ratio = contact_area(corrected),
+                                      .area_ratio = contact_area(variance),
                                       .hysteresis = sign * hysteresis,
                                       .numerical_error = contact_area_error(
-                                          corrected, difference + relative.variance * variance),
+                                          variance, difference + relative.variance * variance),
                                       .hysteresis_error = error + relative.hysteresis * hysteresis,
                                       .temperature = (double)NAN};
         if (at.heat != NULL) {

@@ -156,8 +156,8 @@ typedef struct pass_scale {
 
 static pass_scale compute_pass_scale(const wt_friction_workspace *ws, friction_load at)
 {
-    const double ratio = ws->stiffness * at.modulus / at.pressure;
-    return (pass_scale){.g = ratio * ratio / 8 * at.density, .mu = ratio / 2 * at.density};
+    const double ratio = ws->stiffness / at.pressure;
+    return (pass_scale){.g = ratio * ratio / 8, .mu = ratio / 2};
 }
 
 static void scale_parts(size_t n, double scale, const double *restrict factor,
@@ -283,7 +283,7 @@ static void integrate_core(const wt_friction_workspace *ws, const node_view *cor
                 least = fmin(least, mu[i] / g[i]);
                 most = fmax(most, mu[i] / g[i]);
             }
-        const double integral = area_law_integral(ws->area, part->variance, ws->options.gamma);
+        const double integral = contact_integral(part->variance, ws->options.gamma);
         contact = integral / part->variance;
         part->closed_error = (most - least) * integral;
     }
@@ -376,8 +376,6 @@ static void integrate_subinterval(const wt_friction_workspace *ws, const node_vi
         below += rule->weight[j] * g[j];
         running[j] = highest = here > highest ? here : highest;
     }
-    for (size_t j = 0; ws->area != NULL && j < rule->n; j++)
-        running[j] = area_law_variance(ws->area, running[j]);
     contact_areas(running, rule->n, area);
     for (size_t j = 0; j < rule->n; j++)
         mu[j] = full[j] * area[j] * (gamma + (1 - gamma) * area[j] * area[j]);

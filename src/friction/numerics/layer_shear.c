@@ -8,11 +8,10 @@
 
 wt_layer_shear wt_layer_shear_defaults(void)
 {
-    return (wt_layer_shear){.exponent = 1, .spacing = (double)NAN};
+    return (wt_layer_shear){.exponent = 1};
 }
 
-double wt_layer_shear_stress(const wt_layer_shear *shear, double bulk, wt_layer_state layer,
-                             double area_ratio)
+double wt_layer_shear_stress(const wt_layer_shear *shear, double bulk, wt_layer_state layer)
 {
     double stress = bulk;
     if (layer.thickness > 0) {
@@ -21,9 +20,5 @@ double wt_layer_shear_stress(const wt_layer_shear *shear, double bulk, wt_layer_
                       ? 1 - (whole - 1) * expm1(-layer.thickness / shear->transition_thickness)
                       : whole;
     }
-    /* each asperity has one contact of diameter D = sqrt(4 (A/A0) / (pi eta)), which adds 4 G / (pi
-     * D) */
-    if (shear->crack_energy > 0)
-        stress += 2 * shear->crack_energy / (shear->spacing * sqrt(M_PI * area_ratio));
     return stress;
 }

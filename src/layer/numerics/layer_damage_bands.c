@@ -21,8 +21,7 @@ static const double slope_step = 1e-6;
 void layer_loads_clear(layer_loads *loads)
 {
     for (size_t i = 0; loads->rates != NULL && i < loads->n; i++)
-        layer_rates_clear(&loads->rates[i]);
-    free(loads->rates);
+        free(loads->rates);
     free(loads->past);
     free(loads->begin);
     *loads = (layer_loads){0};
@@ -98,7 +97,6 @@ damage layer_loads_damage(layer_loads *loads, double time, double *worn)
         const layer_rates *r = &loads->rates[i];
         damage before = damage_create(r, true);
         damage_set_time(&before, loads->begin[i + 1] - loads->begin[i]);
-        d.past_background += r->background * before.time;
         if (r->formation > 0 && before.time > 0) {
             loads->past[d.n_past] = damage_load_create(&before);
             loads->past[d.n_past++].worn = since;
@@ -202,12 +200,9 @@ static wt_status compute_section(layer_loads *loads, double time, bool edges,
 {
     wt_layer_section s = {.time = time};
     damage d = layer_loads_damage(loads, time, &s.worn);
-    const double unloaded = d.rates->background * d.time + d.past_background;
     const bool any = d.n_past > 0 || (d.rates->formation > 0 && d.time > 0);
     wt_status status = WT_OK;
-    if (unloaded >= 1)
-        add_band(&s, (wt_layer_band){{.unit = "m"}, {.value = HUGE_VAL, .unit = "m"}});
-    else if (any)
+    if (any)
         status = loads->falls ? falling(loads, &d, edges, &s, err) : find_bands(loads, &d, &s, err);
     add_old_layer(&s, loads->start - s.worn);
     *section = s;
@@ -253,9 +248,8 @@ wt_status wt_layer_damage(const wt_layer_load *stages, size_t n_stages, double t
     if (status == WT_OK) {
         double worn;
         damage d = layer_loads_damage(&loads, time, &worn);
-        const double unloaded = d.rates->background * d.time + d.past_background;
         const bool any = d.n_past > 0 || (d.rates->formation > 0 && d.time > 0);
-        *amount = unloaded + (any ? exp(damage_log_total(depth, &d)) : 0);
+        *amount = any ? exp(damage_log_total(depth, &d)) : 0;
     }
     layer_loads_clear(&loads);
     return status;

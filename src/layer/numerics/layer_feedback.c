@@ -47,22 +47,16 @@ static loop_point compute_loop_point(loop_search *s, double thickness)
     s->status = s->energy(thickness, s->user, &source, &parameters, s->err);
     if (s->status == WT_OK)
         s->status = layer_rates_compute(&source, &parameters, &rates, s->err);
-    if (s->status == WT_OK && rates.background > 0) {
-        s->status = wt_fail(s->err, WT_E_ARG, "a layer that ages has no balance to act back on");
-        wt_error_place(s->err, "ageing");
-        wt_error_advice(s->err, "leave out ageing, or feedback");
-        layer_rates_clear(&rates);
-    }
     if (s->status == WT_OK) {
         p = (loop_point){.formation = layer_formation_rate(&rates, thickness),
                          .wear = rates.wear,
                          .decay = layer_decay_rate(&rates, thickness),
                          .wear_factor = parameters.specific_wear_rate,
                          .q_max = rates.q_max};
-        p.log_ratio = rates.formation > 0
-                          ? rates.log_ratio + rates_log_tail(&rates, thickness) - rates.log_power
-                          : -HUGE_VAL;
-        layer_rates_clear(&rates);
+        p.log_ratio =
+            rates.formation > 0
+                ? rates.log_ratio + energy_log_tail(rates.source, thickness) - rates.log_power
+                : -HUGE_VAL;
     }
     wt_energy_source_clear(&source);
     return p;

@@ -38,8 +38,8 @@ static wt_status history_damage(const layer_rates *rates, double start, const la
 /* Returns kappa if all power is at one wavenumber under an exponential profile, else 0. */
 static double single_kappa(const layer_rates *rates)
 {
-    const bool single = rates->source->profile == WT_PROFILE_PERSSON && rates->activated == NULL &&
-                        rates->q_min > 0 && rates->q_min == rates->q_max;
+    const bool single = rates->source->profile == WT_PROFILE_PERSSON && rates->q_min > 0 &&
+                        rates->q_min == rates->q_max;
     return single ? 2 * rates->q_min : 0;
 }
 
@@ -103,7 +103,6 @@ wt_status wt_layer_history(const wt_energy_source *source, const wt_layer_parame
     if (status == WT_OK)
         status = layer_times_check(time, n, err);
     if (status != WT_OK || n == 0) {
-        layer_rates_clear(&rates);
         return status;
     }
     const double kappa = single_kappa(&rates);
@@ -117,6 +116,5 @@ wt_status wt_layer_history(const wt_energy_source *source, const wt_layer_parame
         points[i].formation_rate = layer_formation_rate(&rates, points[i].thickness.value);
         points[i].wear_rate = rates.wear;
     }
-    layer_rates_clear(&rates);
     return status;
 }

@@ -5,13 +5,11 @@
 #ifndef WT_LAYER_NUMERICS_LAYER_KERNEL_H
 #define WT_LAYER_NUMERICS_LAYER_KERNEL_H
 
-#include "layer/numerics/activation.h"
+#include "layer/numerics/energy_density_kernel.h"
 
-/* Qf(d) = formation exp(log_tail(d) - log_power), Qw = wear; R = Qf(0)/Qw. Density, tail and
- * integral belong to the energy, or to the rate of an activated closure. */
+/* Qf(d) = formation exp(log_tail(d) - log_power), Qw = wear; R = Qf(0)/Qw. */
 typedef struct layer_rates {
     const wt_energy_source *source;
-    activation *activated;                /* NULL for the energy closure */
     const struct feedback_rate *feedback; /* formation with feedback; NULL if as on the bulk */
     double q_min, q_max; /* range of the terms with power [rad/m]; 0 without power */
     double formation;    /* Qf(0) [m/s], duty included */
@@ -19,8 +17,7 @@ typedef struct layer_rates {
     double power;        /* power per area [W/m^2] */
     double log_power;    /* ln of the tail at the surface; 0 without power */
     double log_ratio;    /* ln R; -infinity without power, +infinity without wear */
-    double threshold;    /* ln(U_c Lambda), or ln Lambda of an activated closure */
-    double background;   /* damage rate without load over Lambda [1/s]; 0 if none */
+    double threshold;    /* ln(U_c Lambda) */
     double error;        /* relative error of a tail */
     double wear_error;   /* relative error of the wear if it depends on the power;
                             else 0 */
@@ -32,11 +29,6 @@ wt_status layer_rates_compute(const wt_energy_source *source, const wt_layer_par
                               layer_rates *rates, wt_error *err) WT_NODISCARD;
 /* Specific wear rate k with the effect of the power [m^2/N]. */
 double layer_wear_rate(const wt_layer_parameters *parameters, double power);
-void layer_rates_clear(layer_rates *rates);
-double rates_log_density(const layer_rates *rates, double depth);
-double rates_log_tail(const layer_rates *rates, double depth);
-double rates_log_integral(const layer_rates *rates, double depth, double length);
-energy_expansion rates_expand(const layer_rates *rates, double depth, double length, double reach);
 double layer_formation_rate(const layer_rates *rates, double thickness); /* Qf */
 /* Local decay rate of Qf, w / int w [1/m]. */
 double layer_decay_rate(const layer_rates *rates, double thickness);
