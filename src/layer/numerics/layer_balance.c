@@ -64,9 +64,8 @@ wt_status wt_layer_steady_state_compute(const wt_energy_source *source,
     if (status == WT_OK && !parameters->balance_only)
         status = layer_damage_time(&r, parameters->incubation, (wt_estimate){.unit = "m"},
                                    &b.incubation_time, err);
-    if (status != WT_OK) {
+    if (status != WT_OK)
         return status;
-    }
 
     b.surface_power = r.power;
     b.formation_rate_zero = r.formation;
@@ -105,9 +104,8 @@ wt_status wt_layer_growth_time(const wt_energy_source *source,
     layer_rates r;
     *time = time_estimate((double)NAN, (double)NAN);
     wt_status status = layer_rates_compute(source, parameters, &r, err);
-    if (status != WT_OK || !(thickness.value > 0)) {
+    if (status != WT_OK || !(thickness.value > 0))
         return status;
-    }
     const double start = parameters->start_thickness;
     if (parameters->incubation)
         status = layer_damage_time(&r, true, thickness, time, err);

@@ -20,8 +20,7 @@ static const double slope_step = 1e-6;
 
 void layer_loads_clear(layer_loads *loads)
 {
-    for (size_t i = 0; loads->rates != NULL && i < loads->n; i++)
-        free(loads->rates);
+    free(loads->rates);
     free(loads->past);
     free(loads->begin);
     *loads = (layer_loads){0};

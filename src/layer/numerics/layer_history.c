@@ -102,9 +102,8 @@ wt_status wt_layer_history(const wt_energy_source *source, const wt_layer_parame
     wt_status status = layer_rates_compute(source, parameters, &rates, err);
     if (status == WT_OK)
         status = layer_times_check(time, n, err);
-    if (status != WT_OK || n == 0) {
+    if (status != WT_OK || n == 0)
         return status;
-    }
     const double kappa = single_kappa(&rates);
     if (kappa > 0 && !parameters->incubation)
         history_exponential(&rates, kappa, parameters->start_thickness, time, n, points);
