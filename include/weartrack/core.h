@@ -147,11 +147,19 @@ WT_API size_t wt_error_format(const wt_error *err, char *buffer, size_t size);
 /* Severity of a log entry. A note is shown on request, a warning always. A loss reports data of the
  * file that could not be read. */
 typedef enum wt_severity { WT_NOTE, WT_WARNING, WT_LOSS } wt_severity;
+#define WT_SEVERITY_LIST(X) X(WT_NOTE, "note") X(WT_WARNING, "warning") X(WT_LOSS, "loss")
 WT_API const char *
 wt_severity_name(wt_severity severity); /* Returns "note", "warning" or "loss". Static. */
 
+/* Subject of an entry, for code that acts on it. */
+typedef enum wt_log_topic {
+    WT_TOPIC_NONE,
+    WT_TOPIC_SUPERPOSITION /* the verdict on time-temperature superposition of a sample */
+} wt_log_topic;
+
 typedef struct wt_log_entry {
     wt_severity severity;
+    wt_log_topic topic;
     const char *file;  /* "" if none */
     const char *place; /* "" if none */
     const char *text;
@@ -169,6 +177,9 @@ WT_API void wt_log_free(wt_log *log);
  * wt_log_dropped. */
 WT_API void wt_log_add(wt_log *log, wt_severity severity, const char *file, const char *place,
                        const char *format, ...) WT_PRINTF(5, 6);
+WT_API void wt_log_add_topic(wt_log *log, wt_severity severity, wt_log_topic topic,
+                             const char *file, const char *place, const char *format, ...)
+    WT_PRINTF(6, 7);
 WT_API size_t
 wt_log_count(const wt_log *log); /* Returns the number of distinct entries; 0 for NULL. */
 WT_API wt_log_entry wt_log_get(const wt_log *log, size_t i);
@@ -457,6 +468,12 @@ typedef enum wt_segment_kind {
     WT_SEGMENT_MODULATION,
     WT_SEGMENT_OTHER
 } wt_segment_kind;
+#define WT_SEGMENT_KIND_LIST(X)                                                                    \
+    X(WT_SEGMENT_APPROACH, "approach")                                                             \
+    X(WT_SEGMENT_RETRACT, "retract")                                                               \
+    X(WT_SEGMENT_DWELL, "dwell")                                                                   \
+    X(WT_SEGMENT_MODULATION, "modulation")                                                         \
+    X(WT_SEGMENT_OTHER, "other")
 #define WT_SEGMENT_BIT(kind) (1u << (unsigned)(kind))
 #define WT_SEGMENT_ALL (~0u)
 
@@ -537,6 +554,7 @@ WT_API wt_height_map wt_image_height_map(const wt_image *image);
 /* ---- DMA ------------------------------------------------------------------------------------ */
 
 typedef enum wt_deformation { WT_TENSION, WT_SHEAR } wt_deformation; /* E or G */
+#define WT_DEFORMATION_LIST(X) X(WT_TENSION, "tension") X(WT_SHEAR, "shear")
 
 /* Test method of the isotherms of a sweep. */
 typedef enum wt_loading { WT_OSCILLATION, WT_RELAXATION, WT_CREEP } wt_loading;

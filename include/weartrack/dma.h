@@ -32,6 +32,11 @@ typedef enum wt_law_kind {
     WT_LAW_ARRHENIUS,
     WT_LAW_WLF_ARRHENIUS /* WLF above, Arrhenius below a transition temperature (glass) */
 } wt_law_kind;
+#define WT_LAW_KIND_LIST(X)                                                                        \
+    X(WT_LAW_NONE, "none")                                                                         \
+    X(WT_LAW_WLF, "WLF")                                                                           \
+    X(WT_LAW_ARRHENIUS, "Arrhenius")                                                               \
+    X(WT_LAW_WLF_ARRHENIUS, "joined")
 
 typedef struct wt_shift_law {
     wt_law_kind kind;
@@ -134,6 +139,11 @@ typedef enum wt_vertical_shift {
     WT_VERTICAL_TIED /* physical, within clamping scatter and a smooth dependence on temperature,
                         whose size is averaged over */
 } wt_vertical_shift;
+#define WT_VERTICAL_SHIFT_LIST(X)                                                                  \
+    X(WT_VERTICAL_NONE, "none")                                                                    \
+    X(WT_VERTICAL_PHYSICAL, "physical")                                                            \
+    X(WT_VERTICAL_FREE, "free")                                                                    \
+    X(WT_VERTICAL_TIED, "tied")
 
 /* Quantity for the fit of the spectrum and the shifts. */
 typedef enum wt_shift_quantity {
@@ -193,6 +203,10 @@ typedef enum wt_superposition {
     WT_SUPERPOSITION_FAILS,
     WT_SUPERPOSITION_INCONCLUSIVE
 } wt_superposition;
+#define WT_SUPERPOSITION_LIST(X)                                                                   \
+    X(WT_SUPERPOSITION_HOLDS, "holds")                                                             \
+    X(WT_SUPERPOSITION_FAILS, "fails")                                                             \
+    X(WT_SUPERPOSITION_INCONCLUSIVE, "cannot say")
 
 typedef struct wt_posterior wt_posterior;
 

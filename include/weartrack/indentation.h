@@ -126,10 +126,8 @@ typedef enum wt_curve_verdict {
 } wt_curve_verdict;
 WT_API const char *wt_curve_verdict_id(wt_curve_verdict verdict);   /* static */
 WT_API const char *wt_curve_verdict_text(wt_curve_verdict verdict); /* static */
-/* Returns true if the modulus is usable: accepted or doubtful. The second function takes an
- * identifier. */
+/* Returns true if the modulus is usable: accepted or doubtful. */
 WT_API bool wt_curve_verdict_is_usable(wt_curve_verdict verdict);
-WT_API bool wt_curve_verdict_id_is_usable(const char *id);
 
 enum { WT_MISFIT_TERMS = 6 };
 

@@ -67,6 +67,8 @@ typedef enum wt_layer_regime {
     WT_LAYER_THIN, /* 1 < R < e: sensitive to the wear rate */
     WT_LAYER_THICK /* R >= e */
 } wt_layer_regime;
+#define WT_LAYER_REGIME_LIST(X)                                                                    \
+    X(WT_LAYER_NONE, "none") X(WT_LAYER_THIN, "thin") X(WT_LAYER_THICK, "thick")
 
 typedef struct wt_layer_steady_state {
     double surface_power;               /* J0 [W/m^2] */

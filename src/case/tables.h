@@ -3,13 +3,26 @@
 #ifndef WT_CASE_TABLES_H
 #define WT_CASE_TABLES_H
 
+#define ANSWER_KINDS(X)                                                                            \
+    X(ANSWER_KIND_SHORT, "short")                                                                  \
+    X(ANSWER_KIND_MATERIAL, "material")                                                            \
+    X(ANSWER_KIND_LAYER, "layer")                                                                  \
+    X(ANSWER_KIND_DIFFERENCE, "difference")                                                        \
+    X(ANSWER_KIND_THICKNESS, "thickness")                                                          \
+    X(ANSWER_KIND_FRICTION, "friction")                                                            \
+    X(ANSWER_KIND_SURFACE, "surface")                                                              \
+    X(ANSWER_KIND_RECORD, "record")                                                                \
+    X(ANSWER_KIND_VALIDATION, "validation")                                                        \
+    X(ANSWER_KIND_CAVEAT, "caveat")                                                                \
+    X(ANSWER_KIND_FOLDED, "folded") /* a caveat that changes less than those before */
+
 #define ANSWER_COLUMNS(X)                                                                          \
     X(ANSWER_QUESTION, "question", "question", TEXT)                                               \
     X(ANSWER_ANSWER, "answer", "answer", TEXT)                                                     \
     X(ANSWER_KIND, "kind",                                                                         \
       "short, material, layer, difference, thickness, friction, surface, record, caveat or "       \
       "folded: a caveat that changes less than those before",                                      \
-      TEXT)
+      ENUM(answer_kind))
 #define ANSWER_KEYS(X)                                                                             \
     X(ANSWER_KEY_CASE_TITLE, "case_title", TEXT, OPTIONAL)                                         \
     X(ANSWER_KEY_CASE_SAMPLE, "case_sample", TEXT, OPTIONAL)                                       \
@@ -24,7 +37,7 @@
 #define INPUTS_KEYS(X)
 
 #define NOTES_COLUMNS(X)                                                                           \
-    X(NOTES_SEVERITY, AS(severity), "note, warning or loss", TEXT, LABEL("Severity"))              \
+    X(NOTES_SEVERITY, AS(severity), "note, warning or loss", ENUM(severity), LABEL("Severity"))    \
     X(NOTES_FILE, AS(file), "file it is about", TEXT, LABEL("File"))                               \
     X(NOTES_PLACE, IN(entry, place), "first place in the file", TEXT, LABEL("Place"))              \
     X(NOTES_TEXT, IN(entry, text), "what was noticed", TEXT, LABEL("Note"))                        \

@@ -36,9 +36,8 @@ static void print_answer(const wt_result *result)
     size_t folded = 0;
     for (size_t i = 0; answer != NULL && i < wt_table_n_rows(answer); i++) {
         const char *question = wt_table_text(answer, i, ANSWER_QUESTION);
-        if (strcmp(wt_table_text(answer, i, ANSWER_KIND), "folded") == 0) {
-            const bool more = i + 1 < wt_table_n_rows(answer) &&
-                              strcmp(wt_table_text(answer, i + 1, ANSWER_KIND), "folded") == 0;
+        if (wt_answer_is_folded(answer, i)) {
+            const bool more = i + 1 < wt_table_n_rows(answer) && wt_answer_is_folded(answer, i + 1);
             folded++;
             if (!more)
                 printf("  %zu more: on the page and in the table answer.\n", folded);

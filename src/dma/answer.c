@@ -39,9 +39,9 @@ void answer_rubber(const answer_context *context)
     const wt_estimate equilibrium = prony_value(prony, PRONY_KEY_EQUILIBRIUM_MODULUS),
                       limit = prony_value(prony, PRONY_KEY_EQUILIBRIUM_LIMIT);
     const char *verdict = shift_factors_key_text(shift, SHIFT_FACTORS_KEY_SUPERPOSITION);
-    const bool holds =
-        strncmp(verdict, "holds", 5) == 0; /* otherwise a remark states the verdict */
-    answer_add_sentence(context, "What is the rubber like?", "material",
+    const bool holds = shift_factors_key_enum(shift, SHIFT_FACTORS_KEY_SUPERPOSITION) ==
+                       WT_SUPERPOSITION_HOLDS; /* otherwise a remark states the verdict */
+    answer_add_sentence(context, "What is the rubber like?", ANSWER_KIND_MATERIAL,
                         "At %s, from %zu isotherms: %s; equilibrium modulus %s%s (%s).%s%s%s",
                         format_celsius(reference).text, shift->n_rows,
                         shift_law_summary(shift).text, isnan(limit.value) ? "" : "at most ",

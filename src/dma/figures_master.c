@@ -65,7 +65,7 @@ static void define_derived_quantities(figure_drawing *d)
 
 static char drawn_modulus_letter(const figure_drawing *d)
 {
-    return modulus_letter(master_curve_key_text(d->table, MASTER_CURVE_KEY_DEFORMATION));
+    return modulus_letter(master_curve_key_enum(d->table, MASTER_CURVE_KEY_DEFORMATION));
 }
 
 static void derived_quantity_axis(figure_drawing *d, const char *axis, const derived_quantity *c)

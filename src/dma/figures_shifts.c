@@ -161,8 +161,8 @@ void caption_shift_factors(figure_drawing *d)
 
 void draw_vertical_shifts(figure_drawing *d)
 {
-    const char *vertical = shift_factors_key_text(d->table, SHIFT_FACTORS_KEY_VERTICAL);
-    if (d->table->n_rows < 2 || strcmp(vertical, "none") == 0 || !drawing_build_data(d))
+    const int vertical = shift_factors_key_enum(d->table, SHIFT_FACTORS_KEY_VERTICAL);
+    if (d->table->n_rows < 2 || vertical == WT_VERTICAL_NONE || !drawing_build_data(d))
         return;
     drawing_axes(d);
     text_add(&d->script, "set ylabel 'Shift factor, log_{10} b_T' enhanced\n");

@@ -46,7 +46,7 @@ static void draw_payne(figure_drawing *d)
 {
     if (!drawing_build_data(d))
         return;
-    const char letter = modulus_letter(payne_sweep_key_text(d->table, PAYNE_SWEEP_KEY_DEFORMATION));
+    const char letter = modulus_letter(payne_sweep_key_enum(d->table, PAYNE_SWEEP_KEY_DEFORMATION));
     char storage[16], loss[16];
     (void)snprintf(storage, sizeof storage, "%c′", letter);
     (void)snprintf(loss, sizeof loss, "%c″", letter);

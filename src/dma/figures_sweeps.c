@@ -77,7 +77,7 @@ static void draw_ramp(figure_drawing *d)
 {
     if (!drawing_build_data(d))
         return;
-    const char letter = modulus_letter(ramp_key_text(d->table, RAMP_KEY_DEFORMATION));
+    const char letter = modulus_letter(ramp_key_enum(d->table, RAMP_KEY_DEFORMATION));
     char label[64], storage[16], loss[16];
     (void)snprintf(label, sizeof label, "%c′, %c″", letter, letter);
     (void)snprintf(storage, sizeof storage, "%c′", letter);

@@ -89,12 +89,8 @@ static void set_interval(table_writer *t, shift_factors_key key, wt_interval x)
 
 static void set_law_keys(table_writer *t, const wt_master *m)
 {
-    static const char *const names[] = {[WT_LAW_NONE] = "none",
-                                        [WT_LAW_WLF] = "WLF",
-                                        [WT_LAW_ARRHENIUS] = "Arrhenius",
-                                        [WT_LAW_WLF_ARRHENIUS] = "joined"};
     const bool none = m->law.kind == WT_LAW_NONE;
-    shift_factors_set_print(t, SHIFT_FACTORS_KEY_LAW, "%s%s%s", names[m->law.kind],
+    shift_factors_set_print(t, SHIFT_FACTORS_KEY_LAW, "%s%s%s", shift_law_kind_text(m->law.kind),
                             none ? ": " : "", none ? m->no_law_reason : "");
     if (none)
         return;
@@ -117,9 +113,9 @@ static void set_law_keys(table_writer *t, const wt_master *m)
 
 static void set_superposition_keys(table_writer *t, const wt_master *m)
 {
-    static const char *const words[] = {"holds", "fails", "cannot say"};
-    shift_factors_set_print(t, SHIFT_FACTORS_KEY_SUPERPOSITION, "%s%s%s", words[m->superposition],
-                            isnan(m->valid_from) ? ": " : " ", m->superposition_reason);
+    shift_factors_set_print(t, SHIFT_FACTORS_KEY_SUPERPOSITION, "%s%s%s",
+                            superposition_text(m->superposition), isnan(m->valid_from) ? ": " : " ",
+                            m->superposition_reason);
     if (isnan(m->lack_of_fit_p))
         return;
     shift_factors_set_print(t, SHIFT_FACTORS_KEY_LACK_OF_FIT_P, "%.3g", m->lack_of_fit_p);
@@ -160,9 +156,7 @@ static wt_status build_shift_table(const wt_master *m, wt_table **table, wt_erro
     set_law_keys(&t, m);
     shift_factors_set_value(&t, SHIFT_FACTORS_KEY_REFERENCE_TEMPERATURE, m->reference_temperature,
                             0, 0);
-    char word[PARAM_CHOICE_NAME_SIZE];
-    param_choice_name(wt_master_options_params(), "vertical-shift", m->vertical, word, sizeof word);
-    shift_factors_set_text(&t, SHIFT_FACTORS_KEY_VERTICAL, word);
+    shift_factors_set_text(&t, SHIFT_FACTORS_KEY_VERTICAL, vertical_shift_text(m->vertical));
     if (wt_master_shift_quantity(m) != WT_SHIFT_MODULI)
         shift_factors_set_text(&t, SHIFT_FACTORS_KEY_SHIFTED_BY, shift_quantity_name(m));
     set_route_keys(&t, m);

@@ -229,10 +229,10 @@ static wt_status find_systematic_errors(const wt_compared_material *m, double sa
     const wt_status status = table_bind(m->shift_factors, &shift_factors_schema, "", &view, err);
     if (status != WT_OK)
         return status;
-    const char *verdict = shift_factors_key_text(&view, SHIFT_FACTORS_KEY_SUPERPOSITION),
-               *high = shift_factors_key_text(&view, SHIFT_FACTORS_KEY_MISFIT_HIGH);
+    const wt_superposition state = shift_factors_key_enum(&view, SHIFT_FACTORS_KEY_SUPERPOSITION);
+    const char *high = shift_factors_key_text(&view, SHIFT_FACTORS_KEY_MISFIT_HIGH);
     double misfit = 0;
-    if (strncmp(verdict, "holds", 5) == 0 || high == NULL ||
+    if (state == WT_SUPERPOSITION_HOLDS || high == NULL ||
         !wt_number_parse(high, strlen(high), '.', &misfit) || !isfinite(misfit))
         return WT_OK;
     const double factor = shift_factors_value(&view, SHIFT_FACTORS_KEY_LOSS_FACTOR).value;

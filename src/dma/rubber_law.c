@@ -228,9 +228,9 @@ wt_status wt_rubber_tabulate(wt_rubber *rubber, const wt_table *master_curve,
         status = read_curve_points(&view, &sweep, err);
     if (status != WT_OK)
         return status;
-    const char *deformation = master_curve_key_text(&view, MASTER_CURVE_KEY_DEFORMATION);
-    sweep.deformation =
-        deformation != NULL && strcmp(deformation, "shear") == 0 ? WT_SHEAR : WT_TENSION;
+    sweep.deformation = master_curve_key_enum(&view, MASTER_CURVE_KEY_DEFORMATION) == WT_SHEAR
+                            ? WT_SHEAR
+                            : WT_TENSION;
     const double reference =
         master_curve_value(&view, MASTER_CURVE_KEY_REFERENCE_TEMPERATURE).value;
     wt_prony_clear(&rubber->prony);

@@ -10,24 +10,17 @@
 #include <stdlib.h>
 #include <string.h>
 
-static wt_law_kind parse_law_kind(const char *text)
-{
-    return strcmp(text, "WLF") == 0         ? WT_LAW_WLF
-           : strcmp(text, "Arrhenius") == 0 ? WT_LAW_ARRHENIUS
-           : strcmp(text, "joined") == 0    ? WT_LAW_WLF_ARRHENIUS
-                                            : WT_LAW_NONE;
-}
-
 static wt_status read_shift_factors(const table_view *shifts, wt_rubber *rubber, wt_error *err)
 {
-    const char *vertical = shift_factors_key_text(shifts, SHIFT_FACTORS_KEY_VERTICAL);
+    const bool level =
+        shift_factors_key_enum(shifts, SHIFT_FACTORS_KEY_VERTICAL) == WT_VERTICAL_NONE;
     const char *correlation = shift_factors_key_text(shifts, SHIFT_FACTORS_KEY_WLF_CORRELATION);
-    const char *kind = shift_factors_key_text(shifts, SHIFT_FACTORS_KEY_LAW);
+    const int kind = shift_factors_key_enum(shifts, SHIFT_FACTORS_KEY_LAW);
     const wt_estimate c1 = shift_factors_value(shifts, SHIFT_FACTORS_KEY_WLF_C1),
                       c2 = shift_factors_value(shifts, SHIFT_FACTORS_KEY_WLF_C2);
     const size_t rows = shifts->n_rows;
     rubber->law = (wt_shift_law){
-        .kind = parse_law_kind(kind),
+        .kind = kind <= WT_LAW_WLF_ARRHENIUS ? kind : WT_LAW_NONE,
         .wlf = {rubber->prony.reference_temperature, c1.value, c2.value},
         .activation_energy = shift_factors_value(shifts, SHIFT_FACTORS_KEY_ACTIVATION_ENERGY).value,
         .joint = shift_factors_value(shifts, SHIFT_FACTORS_KEY_JOINT).value};
@@ -49,7 +42,7 @@ static wt_status read_shift_factors(const table_view *shifts, wt_rubber *rubber,
         if (i == 0 || t > rubber->temperature_max)
             rubber->temperature_max = t;
         bool undetermined = shift_factors_get(shifts, i, SHIFT_FACTORS_DETERMINED) <= 0;
-        if (isnan(t) || isnan(b) || undetermined || strcmp(vertical, "none") == 0 || rows < 2)
+        if (isnan(t) || isnan(b) || undetermined || level || rows < 2)
             continue;
         rubber->vertical_temperature[rubber->n_vertical] = t;
         rubber->vertical_log_b[rubber->n_vertical++] = b;
@@ -59,7 +52,7 @@ static wt_status read_shift_factors(const table_view *shifts, wt_rubber *rubber,
 
 static wt_status read_prony(const table_view *table, wt_prony *prony, wt_error *err)
 {
-    const char *deformation = prony_key_text(table, PRONY_KEY_DEFORMATION);
+    const int deformation = prony_key_enum(table, PRONY_KEY_DEFORMATION);
     wt_status status = wt_prony_alloc(prony, table->n_rows, err);
     if (status != WT_OK)
         return status;
@@ -67,9 +60,8 @@ static wt_status read_prony(const table_view *table, wt_prony *prony, wt_error *
     prony->frequency_max = prony_value(table, PRONY_KEY_FREQUENCY_MAX).value;
     prony->reference_temperature = prony_value(table, PRONY_KEY_REFERENCE_TEMPERATURE).value;
     prony->equilibrium_modulus = prony_value(table, PRONY_KEY_EQUILIBRIUM_MODULUS).value;
-    prony->deformation = strcmp(deformation, "shear") == 0 ? WT_SHEAR : WT_TENSION;
-    if (isnan(prony->equilibrium_modulus) ||
-        (prony->deformation == WT_TENSION && strcmp(deformation, "tension") != 0)) {
+    prony->deformation = deformation == WT_SHEAR ? WT_SHEAR : WT_TENSION;
+    if (isnan(prony->equilibrium_modulus) || deformation > WT_SHEAR) {
         wt_fail(err, WT_E_MISSING, "the table is not a Prony series");
         wt_error_expected(err, "keys equilibrium_modulus and deformation (tension or shear)");
         wt_error_advice(err, "give the prony table of `weartrack master`");

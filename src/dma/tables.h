@@ -48,7 +48,7 @@
 /* The keys of the law exist only if there is a law. */
 #define SHIFT_FACTORS_KEYS(X)                                                                      \
     X(SHIFT_FACTORS_KEY_SAMPLE, "sample", TEXT, LABEL("Sample"), OPTIONAL)                         \
-    X(SHIFT_FACTORS_KEY_LAW, "law", TEXT, LABEL("Law of the shift factors"))                       \
+    X(SHIFT_FACTORS_KEY_LAW, "law", ENUM(shift_law_kind), LABEL("Law of the shift factors"))       \
     X(SHIFT_FACTORS_KEY_WLF_C1, "wlf_c1", NUMBER, LABEL("WLF constant C₁"),                        \
       HEADLINE("WLF constant C₁"), OPTIONAL)                                                       \
     X(SHIFT_FACTORS_KEY_WLF_C2, "wlf_c2", SI(TEMPERATURE_DIFFERENCE), LABEL("WLF constant C₂"),    \
@@ -70,7 +70,7 @@
       LABEL("Error of the temperature of an isotherm"), OPTIONAL)                                  \
     X(SHIFT_FACTORS_KEY_REFERENCE_TEMPERATURE, "reference_temperature", SI(TEMPERATURE),           \
       HEADLINE("Reference temperature"))                                                           \
-    X(SHIFT_FACTORS_KEY_VERTICAL, "vertical", TEXT, LABEL("Vertical shift"))                       \
+    X(SHIFT_FACTORS_KEY_VERTICAL, "vertical", ENUM(vertical_shift), LABEL("Vertical shift"))       \
     X(SHIFT_FACTORS_KEY_SHIFTED_BY, "shifted_by", TEXT, LABEL("Shifted by"), OPTIONAL)             \
     X(SHIFT_FACTORS_KEY_ROUTE, "route", TEXT, LABEL("Shifts by"), OPTIONAL)                        \
     X(SHIFT_FACTORS_KEY_HOLDS_FROM, "valid_from", SI(TEMPERATURE),                                 \
@@ -79,8 +79,8 @@
       OPTIONAL)                                                                                    \
     X(SHIFT_FACTORS_KEY_STEP_LEFT, "step_left", PLAIN,                                             \
       LABEL("Not settled: a further step moves a number by up to (standard errors)"), OPTIONAL)    \
-    X(SHIFT_FACTORS_KEY_DEFORMATION, "deformation", TEXT, LABEL("Deformation"))                    \
-    X(SHIFT_FACTORS_KEY_SUPERPOSITION, "superposition", TEXT,                                      \
+    X(SHIFT_FACTORS_KEY_DEFORMATION, "deformation", ENUM(deformation), LABEL("Deformation"))       \
+    X(SHIFT_FACTORS_KEY_SUPERPOSITION, "superposition", ENUM(superposition),                       \
       HEADLINE("Time-temperature superposition"))                                                  \
     X(SHIFT_FACTORS_KEY_LACK_OF_FIT_P, "lack_of_fit_p", PLAIN, LABEL("Lack of fit, p"), OPTIONAL)  \
     X(SHIFT_FACTORS_KEY_MISFIT_LOW, "misfit_low", PLAIN,                                           \
@@ -230,7 +230,7 @@
     X(MASTER_CURVE_KEY_NOISE_CORRELATION, "noise_correlation", PLAIN, SHOWS(correlation),          \
       LABEL("Correlation of the noise of neighbouring points"))                                    \
     X(MASTER_CURVE_KEY_REFERENCE_TEMPERATURE, AS(reference_temperature), SI(TEMPERATURE))          \
-    X(MASTER_CURVE_KEY_DEFORMATION, "deformation", TEXT)
+    X(MASTER_CURVE_KEY_DEFORMATION, "deformation", ENUM(deformation))
 
 #define PRONY_COLUMNS(X)                                                                           \
     X(PRONY_RELAXATION_TIME, AS(relaxation_time), "relaxation time", SI(TIME),                     \
@@ -248,7 +248,7 @@
       LABEL("Lowest angular frequency measured"), OPTIONAL)                                        \
     X(PRONY_KEY_FREQUENCY_MAX, IN(series, frequency_max), SI(ANGULAR_FREQUENCY),                   \
       LABEL("Highest angular frequency measured"), OPTIONAL)                                       \
-    X(PRONY_KEY_DEFORMATION, AS(deformation), TEXT, LABEL("Deformation"))                          \
+    X(PRONY_KEY_DEFORMATION, AS(deformation), ENUM(deformation), LABEL("Deformation"))             \
     X(PRONY_KEY_RMS_STORAGE, "rms_storage", PLAIN, SHOWS(noise_storage),                           \
       LABEL("Noise of the storage modulus, relative"), OPTIONAL)                                   \
     X(PRONY_KEY_RMS_LOSS, "rms_loss", PLAIN, SHOWS(noise_loss),                                    \
@@ -263,7 +263,7 @@
     X(RELAXATION_SPECTRUM_HIGH, "density_high", "upper limit", SI(MODULUS))
 #define RELAXATION_SPECTRUM_KEYS(X)                                                                \
     X(RELAXATION_SPECTRUM_KEY_REFERENCE_TEMPERATURE, "reference_temperature", SI(TEMPERATURE))     \
-    X(RELAXATION_SPECTRUM_KEY_DEFORMATION, "deformation", TEXT)
+    X(RELAXATION_SPECTRUM_KEY_DEFORMATION, "deformation", ENUM(deformation))
 
 /* The reduced series for finite element programs. */
 #define PRONY_REDUCED_COLUMNS(X)                                                                   \
@@ -292,7 +292,7 @@
       LABEL("Lowest angular frequency it holds for"))                                              \
     X(PRONY_REDUCED_KEY_FREQUENCY_MAX, "frequency_max", SI(ANGULAR_FREQUENCY),                     \
       LABEL("Highest angular frequency it holds for"))                                             \
-    X(PRONY_REDUCED_KEY_DEFORMATION, "deformation", TEXT, LABEL("Deformation"))                    \
+    X(PRONY_REDUCED_KEY_DEFORMATION, "deformation", ENUM(deformation), LABEL("Deformation"))       \
     X(PRONY_REDUCED_KEY_ZENER, "fractional_zener", TEXT,                                           \
       LABEL("Fractional Zener law through the same points"), OPTIONAL)                             \
     X(PRONY_REDUCED_KEY_BETTER, "preferred_model", TEXT,                                           \

@@ -12,7 +12,7 @@
     X(RAMP_LOSS_FACTOR, AS(loss_factor), "loss factor tan delta", SI(LOSS_FACTOR), SPARSE)         \
     X(RAMP_SOURCE, AS(source), "file and step", TEXT)                                              \
     X(RAMP_STRAIN, AS(strain), "strain amplitude", SI(STRAIN), SPARSE)
-#define RAMP_KEYS(X) X(RAMP_KEY_DEFORMATION, "deformation", TEXT)
+#define RAMP_KEYS(X) X(RAMP_KEY_DEFORMATION, "deformation", ENUM(deformation))
 
 #define PEAK_COLUMNS(X, ID, name, words, unit, heading, peak)                                      \
     NUMBER_AND_INTERVAL(X, ID##_PEAK, name "_peak_temperature",                                    \
@@ -59,7 +59,7 @@
       SHOWS(loss_energy), LABEL("Activation energy of the peak of the loss modulus"), OPTIONAL)    \
     X(GLASS_TRANSITION_KEY_ANGULAR_FREQUENCY, AS(angular_frequency), SI(ANGULAR_FREQUENCY),        \
       LABEL("at the angular frequency"), OPTIONAL)                                                 \
-    X(GLASS_TRANSITION_KEY_DEFORMATION, AS(deformation), TEXT, LABEL("Deformation"))
+    X(GLASS_TRANSITION_KEY_DEFORMATION, AS(deformation), ENUM(deformation), LABEL("Deformation"))
 
 #define MODULI_AT_COLUMNS(X)                                                                       \
     X(MODULI_AT_TEMPERATURE, AS(temperature), "temperature", SI(TEMPERATURE),                      \
@@ -74,6 +74,6 @@
                         SI(LOSS_FACTOR), "tan δ", SHOWS(modulus[FACTOR]))                          \
     X(MODULI_AT_NOTE, AS(note), "why there is no value", TEXT, LABEL("Note"))                      \
     X(MODULI_AT_SOURCE, AS(source), "file and step", TEXT)
-#define MODULI_AT_KEYS(X) X(MODULI_AT_KEY_DEFORMATION, "deformation", TEXT)
+#define MODULI_AT_KEYS(X) X(MODULI_AT_KEY_DEFORMATION, "deformation", ENUM(deformation))
 
 #endif

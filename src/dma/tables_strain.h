@@ -25,7 +25,7 @@
       SI(LOSS_MODULUS), SPARSE)                                                                    \
     X(PAYNE_SWEEP_SAMPLE, AS(sample), "name of the sample", TEXT, OPTIONAL, SPARSE)                \
     X(PAYNE_SWEEP_SOURCE, AS(source), "file and step", TEXT)
-#define PAYNE_SWEEP_KEYS(X) X(PAYNE_SWEEP_KEY_DEFORMATION, "deformation", TEXT)
+#define PAYNE_SWEEP_KEYS(X) X(PAYNE_SWEEP_KEY_DEFORMATION, "deformation", ENUM(deformation))
 
 /* The measured values come first, then the law of Kraus. */
 #define PAYNE_COLUMNS(X)                                                                           \
@@ -78,6 +78,6 @@
     X(PAYNE_STRAIN_MAX, AS(strain_max), "largest amplitude", SI(STRAIN))                           \
     X(PAYNE_SAMPLE, IN(sweep, sample), "name of the sample", TEXT, OPTIONAL, SPARSE)               \
     X(PAYNE_SOURCE, IN(sweep, source), "file and step", TEXT)
-#define PAYNE_KEYS(X) X(PAYNE_KEY_DEFORMATION, "deformation", TEXT)
+#define PAYNE_KEYS(X) X(PAYNE_KEY_DEFORMATION, "deformation", ENUM(deformation))
 
 #endif

@@ -424,7 +424,7 @@ static wt_status draw_friction_replicates(friction_task *task, wt_error *err)
     const wt_layer_observation *layer = task->layer;
     if (!isnan(task->sliding->shear_stress.value))
         replicates_add(r, task->sliding->shear_stress.standard_error, FLOW_DRAW_SHEAR_STRESS,
-                       "shear stress");
+                       error_source_text(SOURCE_SHEAR_STRESS));
     const bool bulk_varies = r->varies;
     if (layer != NULL) {
         replicates_add(r, layer->thickness.standard_error, FLOW_DRAW_THICKNESS,

@@ -4,6 +4,14 @@
 #ifndef WT_FRICTION_TABLES_H
 #define WT_FRICTION_TABLES_H
 
+/* Error sources that code asks for, in a list of those that an error lacks. The texts of others are
+ * free. */
+#define ERROR_SOURCES(X)                                                                           \
+    X(SOURCE_MATERIAL, "material")                                                                 \
+    X(SOURCE_TEMPERATURE, "temperature")                                                           \
+    X(SOURCE_SHEAR_STRESS, "shear stress")                                                         \
+    X(SOURCE_MODULUS_RATIO, "modulus ratio")
+
 #define ROUGHNESS_COLUMNS(X)                                                                       \
     X(ROUGHNESS_WAVENUMBER, AS(wavenumber), "wavenumber", SI(WAVENUMBER))                          \
     X(ROUGHNESS_DENSITY, AS(density), "two-dimensional power spectrum C(q)", SI(POWER_SPECTRUM_2D))
@@ -51,7 +59,7 @@
       HEADLINE("Real over nominal contact area"))                                                  \
     X(FRICTION_KEY_ERROR_INCLUDES, "standard_error_includes", TEXT, SHOWS(includes),               \
       LABEL("Standard errors include"))                                                            \
-    X(FRICTION_KEY_ERROR_LACKS, "standard_error_excludes", TEXT, SHOWS(lacks),                     \
+    X(FRICTION_KEY_ERROR_LACKS, "standard_error_excludes", ENUM(error_source), SHOWS(lacks),       \
       LABEL("No error known of"), OPTIONAL)                                                        \
     X(FRICTION_KEY_REPLICATES, AS(replicates), PLAIN, LABEL("Replicates"))                         \
     X(FRICTION_KEY_MATERIAL, AS(material), TEXT, LABEL("Material"), OPTIONAL)                      \
@@ -203,6 +211,10 @@
       NUMBER)
 #define CONTACT_AREA_KEYS(X)
 
+#define CRITICAL_ENERGY_ORIGINS(X)                                                                 \
+    X(ENERGY_GIVEN, "given")                                                                       \
+    X(ENERGY_CALIBRATED, "calibrated")
+
 #define LAYER_COLUMNS(X)                                                                           \
     X(LAYER_TIME, AS(time), "time since the start", SI(TIME))                                      \
     COLUMN_AND_ERRORS(X, LAYER_THICKNESS, "thickness", "thickness of the modified layer",          \
@@ -228,20 +240,20 @@
     X(LAYER_KEY_SURFACE_POWER, "surface_power", UNIT("W/m^2"), LABEL("Surface power"))             \
     X(LAYER_KEY_TIME_TO_90_PERCENT, "time_to_90_percent", SI(TIME),                                \
       LABEL("Time to 90 % of the balance thickness"))                                              \
-    X(LAYER_KEY_REGIME, AS(regime), TEXT, HEADLINE("Regime of the layer"))                         \
+    X(LAYER_KEY_REGIME, AS(regime), ENUM(layer_regime), HEADLINE("Regime of the layer"))           \
     X(LAYER_KEY_VELOCITY, AS(velocity), SI(VELOCITY), LABEL("Velocity"))                           \
     X(LAYER_KEY_PRESSURE, AS(pressure), SI(PRESSURE), LABEL("Pressure"))                           \
     X(LAYER_KEY_WEAR_RATE, "specific_wear_rate", SI(WEAR_RATE), SHOWS(wear_rate),                  \
       LABEL("Specific wear rate"))                                                                 \
     X(LAYER_KEY_OBSERVED_THICKNESS, "observed_thickness", SI(LENGTH), SHOWS(observed),             \
       LABEL("Observed thickness"), OPTIONAL)                                                       \
-    X(LAYER_KEY_CRITICAL_ENERGY_FROM, AS(critical_energy_from), TEXT,                              \
+    X(LAYER_KEY_CRITICAL_ENERGY_FROM, AS(critical_energy_from), ENUM(critical_energy_origin),      \
       LABEL("Critical energy from"))                                                               \
     X(LAYER_KEY_DAMAGE, AS(damage), PLAIN, LABEL("Damage"))                                        \
     X(LAYER_KEY_DUTY, AS(duty), PLAIN, LABEL("Duty"))                                              \
     X(LAYER_KEY_ERROR_INCLUDES, "standard_error_includes", TEXT, SHOWS(includes),                  \
       LABEL("Standard errors include"))                                                            \
-    X(LAYER_KEY_ERROR_LACKS, "standard_error_excludes", TEXT, SHOWS(lacks),                        \
+    X(LAYER_KEY_ERROR_LACKS, "standard_error_excludes", ENUM(error_source), SHOWS(lacks),          \
       LABEL("No error known of"), OPTIONAL)                                                        \
     X(LAYER_KEY_MATERIAL_STATEMENT, "material_statement", TEXT, SHOWS(statement),                  \
       LABEL("Material statement"), OPTIONAL)                                                       \

@@ -17,7 +17,7 @@
  * it has more bins. */
 enum { BINS_BEFORE = 32, BINS_CONTACT = 56, BINS_RETRACT = 24 };
 
-TABLE_ROW(curves, CURVES, const char *group, *file; size_t curve; const char *segment;
+TABLE_ROW(curves, CURVES, const char *group, *file; size_t curve; wt_segment_kind segment;
           double displacement, force, indentation, fitted_force, residual;)
 
 /* ---- selection terms ------------------------------------------------------------------------- */
@@ -141,8 +141,8 @@ static selected_sample convert_sample(const segment_origin *from, const wt_segme
 {
     const double z = from->direction * segment_height(segment)[i] - from->position;
     const double f = force[i] - from->force - from->tilt * z;
-    return (selected_sample){wt_segment_kind_name(segment->kind), z, f,
-                             tip_position(z, f, from->spring_constant), (double)NAN};
+    return (selected_sample){segment->kind, z, f, tip_position(z, f, from->spring_constant),
+                             (double)NAN};
 }
 
 /* Appends at most 2 samples of each bin, in their order. */

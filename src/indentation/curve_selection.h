@@ -8,7 +8,7 @@
 #include "weartrack/indentation.h"
 
 typedef struct selected_sample {
-    const char *segment; /* static string */
+    wt_segment_kind segment;
     double displacement, force, indentation, fitted_force;
 } selected_sample;
 

@@ -120,7 +120,7 @@ static double equivalent_frequency(const wt_indent_job *job, const wt_indent_fit
     return wt_equivalent_frequency(fit->load_time, fit->max_indentation * slope / g);
 }
 
-TABLE_ROW(indentation, INDENTATION, const char *file, *spot, *verdict; size_t curve;
+TABLE_ROW(indentation, INDENTATION, const char *file, *spot; wt_curve_verdict verdict; size_t curve;
           double x, y, equivalent_frequency; wt_indent_fit fit; wt_curve_residuals deep;)
 
 void flow_indentation_row_add(table_writer *t, const wt_indent_job *job, const char *file,
@@ -129,7 +129,7 @@ void flow_indentation_row_add(table_writer *t, const wt_indent_job *job, const c
 {
     indentation_row row = {.file = file,
                            .spot = spot,
-                           .verdict = wt_curve_verdict_id(fit->verdict),
+                           .verdict = fit->verdict,
                            .curve = curve->index,
                            .x = curve->x,
                            .y = curve->y,

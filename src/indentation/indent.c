@@ -88,8 +88,9 @@ static void describe_tips(const indent_task *task, char *text, size_t size)
     }
     for (size_t i = 0; i < task->n_tips && i < MAX_NAMED_TIPS; i++) {
         wt_tip_describe(task->tips[i], tip, sizeof tip);
-        used += (size_t)snprintf(text + used, size - used, "%s%s",
-                                 i == 0 ? INDENTATION_SEVERAL_TIPS : "; ", tip);
+        used +=
+            (size_t)snprintf(text + used, size - used, "%s%s%s",
+                             i == 0 ? tip_form_text(SEVERAL_TIPS) : "", i == 0 ? ": " : "; ", tip);
     }
     if (task->n_tips > MAX_NAMED_TIPS)
         (void)snprintf(text + used, size - used, "; and %zu more", task->n_tips - MAX_NAMED_TIPS);
@@ -132,11 +133,9 @@ static void set_indentation_keys(const indent_task *task, const flow_files *file
     size_t n_named = 0;
     for (size_t i = 0; i < files->n; i++)
         n_named += files->file[i].set->spot != NULL;
-    const char *spots = "mixed: some named, the others one for each file";
-    if (n_named == files->n)
-        spots = "named";
-    else if (n_named == 0)
-        spots = "file: each file is a spot, none were named";
+    const spot_naming spots = n_named == files->n ? SPOTS_NAMED
+                              : n_named == 0      ? SPOTS_OF_FILES
+                                                  : SPOTS_MIXED;
     describe_tips(task, tip, sizeof tip);
     if (task->options.spectrum != NULL)
         indentation_set_value(t, INDENTATION_KEY_SPECTRUM_TEMPERATURE,
@@ -146,7 +145,10 @@ static void set_indentation_keys(const indent_task *task, const flow_files *file
     if (indent_range_text(&job->options, range, sizeof range))
         indentation_set_text(t, INDENTATION_KEY_FIT_RANGE, range);
     set_calibration_keys(task, t);
-    indentation_set_text(t, INDENTATION_KEY_SPOTS, spots);
+    indentation_set_print(t, INDENTATION_KEY_SPOTS, "%s%s", spot_naming_text(spots),
+                          spots == SPOTS_NAMED   ? ""
+                          : spots == SPOTS_MIXED ? ": some named, the others one for each file"
+                                                 : ": each file is a spot, none were named");
     indentation_set_print(t, INDENTATION_KEY_N_ACCEPTED, "%zu", task->n_accepted);
     indentation_set_print(t, INDENTATION_KEY_N_DOUBTFUL, "%zu", task->n_doubtful);
     indentation_set_print(t, INDENTATION_KEY_N_REJECTED, "%zu", task->n_curves - task->n_accepted);

@@ -20,7 +20,8 @@ typedef struct part {
     bool applies;
 } part;
 
-TABLE_ROW(modulus_budget, MODULUS_BUDGET, const char *group, *kind; double share; part part;)
+TABLE_ROW(modulus_budget, MODULUS_BUDGET, const char *group; error_kind kind; double share;
+          part part;)
 
 TABLE_KEYS(modulus_budget, MODULUS_BUDGET, wt_estimate modulus; double df, low, high;
            const char *says;)
@@ -101,11 +102,11 @@ static void add_budget_rows(table_writer *t, const char *group, const budget *b)
                curve = {"one curve", (double)NAN, b->curves, none, true};
     for (int i = 0; i < PARTS; i++)
         if (b->part[i].applies)
-            TABLE_ADD(modulus_budget, t, group, i == SCATTER ? "scatter" : "shared",
+            TABLE_ADD(modulus_budget, t, group, i == SCATTER ? ERROR_SCATTER : ERROR_SHARED,
                       variance_share(b, b->part[i].error), b->part[i]);
-    TABLE_ADD(modulus_budget, t, group, "together", variance_share(b, b->all.error), all);
-    TABLE_ADD(modulus_budget, t, group, "beside", (double)NAN, spot);
-    TABLE_ADD(modulus_budget, t, group, "beside", (double)NAN, curve);
+    TABLE_ADD(modulus_budget, t, group, ERROR_TOGETHER, variance_share(b, b->all.error), all);
+    TABLE_ADD(modulus_budget, t, group, ERROR_BESIDE, (double)NAN, spot);
+    TABLE_ADD(modulus_budget, t, group, ERROR_BESIDE, (double)NAN, curve);
 }
 
 /* ---- text ------------------------------------------------------------------------------------ */

@@ -300,12 +300,9 @@ typedef struct direction_group {
     double scatter;           /* of a unit, of the sensitivity */
     double direction_error;   /* error of the sensitivity due to the difference of the directions;
                                  NaN: unknown */
-    const char *verdict;
+    slope_verdict verdict;
     bool refused;
 } direction_group;
-
-/* Names of the table rows; the first two are the directions. */
-static const char *const row_names[ROWS] = {"approach", "retract", "both"};
 
 typedef struct collected_values {
     double *values; /* [n] */
@@ -335,11 +332,10 @@ static void assess_linearity(direction_group *g, double most)
     const wt_interval *c = &g->change;
     const bool rises = c->value > most && c->low > 0, falls = c->value < -most && c->high < 0;
     g->refused = rises || falls;
-    g->verdict = rises   ? "soft surface: the slope rises with the deflection"
-                 : falls ? "not straight: the slope falls with the deflection"
-                 : c->low >= -most && c->high <= most
-                     ? "straight"
-                     : "cannot say whether the surface is hard: the slope scatters too much";
+    g->verdict = rises                                ? SLOPE_RISES
+                 : falls                              ? SLOPE_FALLS
+                 : c->low >= -most && c->high <= most ? SLOPE_STRAIGHT
+                                                      : SLOPE_INCONCLUSIVE;
 }
 
 /* Returns the mean of `of` over the directions of a row. */
@@ -480,7 +476,25 @@ static void set_interval_columns(table_writer *t, sensitivity_column first, wt_i
     sensitivity_put(t, first + 3, i.high);
 }
 
-static void add_group_row(table_writer *t, size_t row, const direction_group *g, double share)
+typedef struct verdict_text {
+    char text[96];
+} verdict_text;
+
+static verdict_text format_verdict(slope_verdict verdict)
+{
+    static const char *const reasons[] = {
+        [SLOPE_STRAIGHT] = "",
+        [SLOPE_RISES] = ": the slope rises with the deflection",
+        [SLOPE_FALLS] = ": the slope falls with the deflection",
+        [SLOPE_INCONCLUSIVE] = " whether the surface is hard: the slope scatters too much"};
+    verdict_text words;
+    snprintf(words.text, sizeof words.text, "%s%s", slope_verdict_text(verdict), reasons[verdict]);
+    return words;
+}
+
+/* The first two rows are the directions. */
+static void add_group_row(table_writer *t, slope_direction row, const direction_group *g,
+                          double share)
 {
     char note[160] = "";
     if (g->n == 1)
@@ -489,10 +503,10 @@ static void add_group_row(table_writer *t, size_t row, const direction_group *g,
                  "curve %.2g %%",
                  100 * g->curve_error);
     table_row(t);
-    sensitivity_put_text(t, SENSITIVITY_DIRECTION, row_names[row]);
+    sensitivity_put_text(t, SENSITIVITY_DIRECTION, slope_direction_text((slope_direction)row));
     sensitivity_put(t, SENSITIVITY_N, (double)g->n);
     sensitivity_put(t, SENSITIVITY_UNITS, (double)g->n_units);
-    sensitivity_put_text(t, SENSITIVITY_VERDICT, g->verdict);
+    sensitivity_put_text(t, SENSITIVITY_VERDICT, format_verdict(g->verdict).text);
     sensitivity_put_text(t, SENSITIVITY_NOTE, note);
     sensitivity_put(t, SENSITIVITY_TILT, g->tilt);
     set_interval_columns(t, SENSITIVITY_CHANGE, g->change);
@@ -531,8 +545,8 @@ static void set_sensitivity_keys(table_writer *t, const sensitivity_task *task, 
     for (size_t i = 0; i < task->n; i++)
         n_excluded += task->items[i].outlier ||
                       !(has_found_slope(&task->items[i], 0) || has_found_slope(&task->items[i], 1));
-    sensitivity_set_text(t, SENSITIVITY_KEY_DIRECTION, row_names[row]);
-    sensitivity_set_text(t, SENSITIVITY_KEY_VERDICT, g->verdict);
+    sensitivity_set_text(t, SENSITIVITY_KEY_DIRECTION, slope_direction_text((slope_direction)row));
+    sensitivity_set_text(t, SENSITIVITY_KEY_VERDICT, format_verdict(g->verdict).text);
     sensitivity_set_print(t, SENSITIVITY_KEY_N_CURVES, "%zu", task->n);
     sensitivity_set_print(t, SENSITIVITY_KEY_N_LEFT_OUT, "%zu", n_excluded);
     if (row == DIRECTIONS)
@@ -577,7 +591,8 @@ static wt_status create_group_table(const sensitivity_task *task, wt_table **tab
     table_writer t = table_begin(&sensitivity_schema, err);
     for (size_t row = 0; row < ROWS; row++)
         if (groups[row].n > 0)
-            add_group_row(&t, row, &groups[row], sphere_share(&task->job->options));
+            add_group_row(&t, (slope_direction)row, &groups[row],
+                          sphere_share(&task->job->options));
     set_sensitivity_keys(&t, task, answer, &groups[answer]);
     cost_report(task->work, (cost_summary){.items = (double)task->n});
     return table_end(&t, table);

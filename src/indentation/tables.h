@@ -11,6 +11,11 @@
       "of depth",                                                                                  \
       NUMBER, SHOWS(deep.misfit[n - 1]), OPTIONAL)
 
+#define SPOT_NAMINGS(X)                                                                            \
+    X(SPOTS_NAMED, "named")                                                                        \
+    X(SPOTS_MIXED, "mixed") /* some are named, each of the other files is one */                   \
+    X(SPOTS_OF_FILES, "file")
+
 /* A table written by hand needs verdicts and moduli only. */
 #define INDENTATION_COLUMNS(X)                                                                     \
     X(INDENTATION_FILE, AS(file), "file of the curve", TEXT, LABEL("File"), OPTIONAL)              \
@@ -20,9 +25,10 @@
       TEXT, LABEL("Spot"), OPTIONAL)                                                               \
     X(INDENTATION_X, AS(x), "lateral position x", SI(POSITION_X), OPTIONAL)                        \
     X(INDENTATION_Y, AS(y), "lateral position y", SI(POSITION_Y), OPTIONAL)                        \
-    X(INDENTATION_VERDICT, AS(verdict), "accepted, doubtful, or why there is no modulus", TEXT)    \
-    X(INDENTATION_REASON, IN(fit, reason), "the verdict with its numbers", TEXT, LABEL("Reason"),  \
-      OPTIONAL)                                                                                    \
+    X(INDENTATION_VERDICT, AS(verdict), "accepted, doubtful, or why there is no modulus",          \
+      ENUM(curve_verdict))                                                                         \
+    X(INDENTATION_REASON, IN(fit, reason), "the verdict with its numbers", ENUM(curve_verdict),    \
+      LABEL("Reason"), OPTIONAL)                                                                   \
     X(INDENTATION_MODULUS, IN(fit, modulus), "Young's modulus", SI(MODULUS),                       \
       STANDARD_ERROR(INDENTATION_MODULUS))                                                         \
     X(INDENTATION_MODULUS_STANDARD_ERROR, "modulus_standard_error",                                \
@@ -159,11 +165,14 @@
     X(INDENTATION_KEY_BEND_ERROR, "bend_error", NUMBER, OPTIONAL)                                  \
     X(INDENTATION_KEY_MISFIT_ERROR, "misfit_error", NUMBER, OPTIONAL)
 
-/* Start of the key tip if the curves of a group had different tips. */
-#define INDENTATION_SEVERAL_TIPS "several: "
+/* Form of the tip as wt_tip_describe writes it. Several tips are described one after another. */
+#define TIP_FORMS(X)                                                                               \
+    X(TIP_BLUNTED_PYRAMID, "blunted pyramid")                                                      \
+    X(SEVERAL_TIPS, "several")                                                                     \
+    X(SEVERAL_BLUNTED_PYRAMIDS, "several: blunted pyramid")
 
 #define INDENTATION_KEYS(X)                                                                        \
-    X(INDENTATION_KEY_TIP, "tip", TEXT, OPTIONAL)                                                  \
+    X(INDENTATION_KEY_TIP, "tip", ENUM(tip_form), OPTIONAL)                                        \
     X(INDENTATION_KEY_POISSON_RATIO, "poisson_ratio", PLAIN, OPTIONAL)                             \
     X(INDENTATION_KEY_FIT_RANGE, "fit_range", TEXT, LABEL("Range of the fit"), OPTIONAL)           \
     X(INDENTATION_KEY_SPRING_CONSTANT, "spring_constant", SI(SPRING_CONSTANT), OPTIONAL)           \
@@ -171,7 +180,7 @@
     X(INDENTATION_KEY_SENSITIVITY, "sensitivity", SI(SENSITIVITY), OPTIONAL)                       \
     X(INDENTATION_KEY_SENSITIVITIES, "sensitivities", TEXT, OPTIONAL)                              \
     INDENTATION_COMMON_KEYS(X)                                                                     \
-    X(INDENTATION_KEY_SPOTS, "spots", TEXT, OPTIONAL)                                              \
+    X(INDENTATION_KEY_SPOTS, "spots", ENUM(spot_naming), OPTIONAL)                                 \
     X(INDENTATION_KEY_SPECTRUM_TEMPERATURE, "spectrum_temperature", SI(TEMPERATURE),               \
       LABEL("Temperature of the spectrum"), OPTIONAL)                                              \
     X(INDENTATION_KEY_POOLED_MISFIT, "pooled_misfit", PLAIN,                                       \
@@ -185,7 +194,7 @@
 
 #define FORCE_DISPLACEMENT_COLUMNS(X)                                                              \
     X(FORCE_DISPLACEMENT_GROUP, AS(group), "bulk or track", TEXT)                                  \
-    X(FORCE_DISPLACEMENT_SEGMENT, AS(segment), "approach or retract", TEXT)                        \
+    X(FORCE_DISPLACEMENT_SEGMENT, AS(segment), "approach or retract", ENUM(segment_kind))          \
     X(FORCE_DISPLACEMENT_DISPLACEMENT, AS(displacement),                                           \
       "piezo displacement towards the sample, from the contact point", SI(LENGTH))                 \
     X(FORCE_DISPLACEMENT_FORCE, AS(force), "force above the baseline at contact", SI(FORCE))

@@ -32,9 +32,21 @@
     X(SENSITIVITY_CURVES_KEY_FROM, "contact_from", PLAIN)                                          \
     X(SENSITIVITY_CURVES_KEY_TO, "contact_to", PLAIN)
 
+#define SLOPE_DIRECTIONS(X)                                                                        \
+    X(SLOPE_OF_APPROACH, "approach")                                                               \
+    X(SLOPE_OF_RETRACT, "retract")                                                                 \
+    X(SLOPE_OF_BOTH, "both")
+
+#define SLOPE_VERDICTS(X)                                                                          \
+    X(SLOPE_STRAIGHT, "straight")                                                                  \
+    X(SLOPE_RISES, "soft surface")                                                                 \
+    X(SLOPE_FALLS, "not straight")                                                                 \
+    X(SLOPE_INCONCLUSIVE, "cannot say")
+
 #define SENSITIVITY_COLUMNS(X)                                                                     \
     X(SENSITIVITY_DIRECTION, "direction",                                                          \
-      "approach, retract, or the mean of the two of each curve", TEXT, LABEL("Direction"))         \
+      "approach, retract, or the mean of the two of each curve", ENUM(slope_direction),            \
+      LABEL("Direction"))                                                                          \
     X(SENSITIVITY_N, "n", "number of curves", NUMBER, LABEL("Curves"))                             \
     X(SENSITIVITY_UNITS, "n_units", "files, or curves where fewer than three files are", NUMBER,   \
       LABEL("Units"))                                                                              \
@@ -56,15 +68,16 @@
       NUMBER, LABEL("Surface at most"), DIGITS(2), SPARSE)                                         \
     X(SENSITIVITY_TILT, "baseline_tilt",                                                           \
       "mean slope of the baselines, which is subtracted, of that in contact", NUMBER, SPARSE)      \
-    X(SENSITIVITY_VERDICT, "verdict", "straight, or what it is instead", TEXT, LABEL("Verdict"))   \
+    X(SENSITIVITY_VERDICT, "verdict", "straight, or what it is instead", ENUM(slope_verdict),      \
+      LABEL("Verdict"))                                                                            \
     X(SENSITIVITY_NOTE, "note", "what is lacking", TEXT, LABEL("Note"))
 #define SENSITIVITY_KEYS(X)                                                                        \
     X(SENSITIVITY_KEY_SENSITIVITY, "sensitivity", SI(SENSITIVITY),                                 \
       HEADLINE("Deflection sensitivity"), OPTIONAL)                                                \
     X(SENSITIVITY_KEY_FACTOR, "factor", UNIT("1"), LABEL("Sensitivity over that of the file"),     \
       OPTIONAL)                                                                                    \
-    X(SENSITIVITY_KEY_VERDICT, "verdict", TEXT, HEADLINE("Surface and detector"))                  \
-    X(SENSITIVITY_KEY_DIRECTION, "direction", TEXT)                                                \
+    X(SENSITIVITY_KEY_VERDICT, "verdict", ENUM(slope_verdict), HEADLINE("Surface and detector"))   \
+    X(SENSITIVITY_KEY_DIRECTION, "direction", ENUM(slope_direction))                               \
     X(SENSITIVITY_KEY_DIFFERENCE, "retract_over_approach", UNIT("1"),                              \
       LABEL("Retract over approach"), OPTIONAL)                                                    \
     X(SENSITIVITY_KEY_INDENT, "indent_option", TEXT, OPTIONAL)                                     \

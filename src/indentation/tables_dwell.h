@@ -111,7 +111,7 @@
 #define DWELL_DMA_KEYS(X)                                                                          \
     X(DWELL_DMA_KEY_TEMPERATURE, AS(temperature), SI(TEMPERATURE))                                 \
     X(DWELL_DMA_KEY_TRACK_TEMPERATURE, AS(track_temperature), SI(TEMPERATURE), OPTIONAL)           \
-    X(DWELL_DMA_KEY_ERROR_LACKS, "standard_error_excludes", TEXT, SHOWS(lacks),                    \
+    X(DWELL_DMA_KEY_ERROR_LACKS, "standard_error_excludes", ENUM(error_source), SHOWS(lacks),      \
       LABEL("No error known of"), OPTIONAL)                                                        \
     X(DWELL_DMA_KEY_MATERIAL_STATEMENT, AS(material_statement), TEXT, OPTIONAL)                    \
     X(DWELL_DMA_KEY_TRACK_STATEMENT, AS(track_statement), TEXT, OPTIONAL)

@@ -15,7 +15,7 @@ static double thinnest_stable(const table_view *v)
 {
     double least = (double)NAN;
     for (size_t i = 0; i < v->n_rows; i++)
-        if (strcmp(layer_feedback_text(v, i, LAYER_FEEDBACK_STABLE), "stable") == 0)
+        if (layer_feedback_enum(v, i, LAYER_FEEDBACK_STABLE) == BALANCE_STABLE)
             least = fmin(least, layer_feedback_get(v, i, LAYER_FEEDBACK_THICKNESS));
     return least;
 }
@@ -31,11 +31,6 @@ void append_balance(text_builder *t, const table_view *balances)
                 least > 0 ? format_with_unit(least, "m").text : "");
 }
 
-static bool is_inconclusive_text(const char *text_value)
-{
-    return text_value != NULL && strncmp(text_value, "cannot say", strlen("cannot say")) == 0;
-}
-
 static void add_balances(const answer_context *context)
 {
     const table_view *const v = &context->layer_feedback;
@@ -46,10 +41,10 @@ static void add_balances(const answer_context *context)
     text_builder t = {text, sizeof text, 0};
     append_balance(&t, v);
     text[0] = (char)toupper((unsigned char)text[0]);
-    answer_add_sentence(context, thickness_question, "thickness", "%s: %s.", text,
+    answer_add_sentence(context, thickness_question, ANSWER_KIND_THICKNESS, "%s: %s.", text,
                         layer_feedback_key_text(v, LAYER_FEEDBACK_KEY_WORDS));
-    if (is_inconclusive_text(agreement))
-        answer_add_sentence(context, thickness_question, "thickness",
+    if (layer_feedback_key_enum(v, LAYER_FEEDBACK_KEY_AGREEMENT) == VERDICT_INCONCLUSIVE)
+        answer_add_sentence(context, thickness_question, ANSWER_KIND_THICKNESS,
                             "Whether that many balances are there, the inputs %s.", agreement);
 }
 
@@ -60,7 +55,7 @@ static void add_existence(const answer_context *context)
         return;
     const char *const assessment = layer_regime_map_key_text(v, LAYER_REGIME_MAP_KEY_KNOWN);
     answer_add_sentence(
-        context, thickness_question, "thickness", "At %s a layer exists %s.",
+        context, thickness_question, ANSWER_KIND_THICKNESS, "At %s a layer exists %s.",
         format_with_unit(layer_regime_map_value(v, LAYER_REGIME_MAP_KEY_PRESSURE).value, "Pa").text,
         layer_regime_map_key_text(v, LAYER_REGIME_MAP_KEY_WORDS));
     const wt_estimate from = layer_regime_map_value(v, LAYER_REGIME_MAP_KEY_FROM_VELOCITY),
@@ -71,14 +66,14 @@ static void add_existence(const answer_context *context)
                  ends[] = {layer_regime_map_value(v, LAYER_REGIME_MAP_KEY_TO_VELOCITY_LOW).value,
                            layer_regime_map_value(v, LAYER_REGIME_MAP_KEY_TO_VELOCITY_HIGH).value};
     if (isfinite(begins[0]))
-        answer_add_sentence(context, thickness_question, "thickness", "It begins at %s.",
+        answer_add_sentence(context, thickness_question, ANSWER_KIND_THICKNESS, "It begins at %s.",
                             format_estimate_interval(from, begins[0], begins[1]).text);
     if (isfinite(ends[0]))
-        answer_add_sentence(context, thickness_question, "thickness", "It ends at %s.",
+        answer_add_sentence(context, thickness_question, ANSWER_KIND_THICKNESS, "It ends at %s.",
                             format_estimate_interval(to, ends[0], ends[1]).text);
-    if (is_inconclusive_text(assessment))
-        answer_add_sentence(context, thickness_question, "thickness", "Of its edges the inputs %s.",
-                            assessment);
+    if (layer_regime_map_key_enum(v, LAYER_REGIME_MAP_KEY_KNOWN) == VERDICT_INCONCLUSIVE)
+        answer_add_sentence(context, thickness_question, ANSWER_KIND_THICKNESS,
+                            "Of its edges the inputs %s.", assessment);
 }
 
 void answer_track_layer(const answer_context *context)
@@ -89,7 +84,7 @@ void answer_track_layer(const answer_context *context)
     const char *const allowed = track_layer_key_text(v, TRACK_LAYER_KEY_ALLOWED),
                       *const agree = track_layer_key_text(v, TRACK_LAYER_KEY_AGREE),
                       *const settled_by = track_layer_key_text(v, TRACK_LAYER_KEY_SETTLED_BY);
-    answer_add_sentence(context, thickness_question, "thickness",
+    answer_add_sentence(context, thickness_question, ANSWER_KIND_THICKNESS,
                         "What thickness do the curves alone allow? %c%s.%s%s%s%s%s%s",
                         toupper((unsigned char)allowed[0]), allowed + 1,
                         agree != NULL ? " Does the theory agree? " : "", agree != NULL ? agree : "",
@@ -106,19 +101,20 @@ static void add_bands(const answer_context *context)
     if (events == NULL)
         return;
     const wt_estimate first = layer_bands_value(v, LAYER_BANDS_KEY_FIRST);
-    answer_add_sentence(context, thickness_question, "thickness", "By the transport of damage: %s.",
-                        events);
+    answer_add_sentence(context, thickness_question, ANSWER_KIND_THICKNESS,
+                        "By the transport of damage: %s.", events);
     if (first.standard_error > 0 &&
         isfinite(layer_bands_value(v, LAYER_BANDS_KEY_FIRST_HIGH).value))
         answer_add_sentence(
-            context, thickness_question, "thickness", "Rubber is first modified after %s.",
+            context, thickness_question, ANSWER_KIND_THICKNESS,
+            "Rubber is first modified after %s.",
             format_estimate_interval(first, layer_bands_value(v, LAYER_BANDS_KEY_FIRST_LOW).value,
                                      layer_bands_value(v, LAYER_BANDS_KEY_FIRST_HIGH).value)
                 .text);
     const char *const assessment = layer_bands_key_text(v, LAYER_BANDS_KEY_KNOWN);
-    if (is_inconclusive_text(assessment))
-        answer_add_sentence(context, thickness_question, "thickness", "Of that the inputs %s.",
-                            assessment);
+    if (layer_bands_key_enum(v, LAYER_BANDS_KEY_KNOWN) == VERDICT_INCONCLUSIVE)
+        answer_add_sentence(context, thickness_question, ANSWER_KIND_THICKNESS,
+                            "Of that the inputs %s.", assessment);
 }
 
 void answer_layer_models(const answer_context *context)
@@ -153,11 +149,11 @@ void answer_running_in(const answer_context *context)
         text_append(&t, "; 5 %% of the change are left after %s in contact",
                     format_estimate_interval(settled, low, high).text);
     if (!isnan(end.value))
-        answer_add_sentence(context, friction_question, "friction",
+        answer_add_sentence(context, friction_question, ANSWER_KIND_FRICTION,
                             "While the layer grows, friction goes from %s to %s%s.",
                             format_endpoint(bare).text, format_endpoint(end).text, text);
     const char *const assessment = running_in_key_text(v, RUNNING_IN_KEY_KNOWN);
-    if (is_inconclusive_text(assessment))
-        answer_add_sentence(context, friction_question, "friction",
+    if (running_in_key_enum(v, RUNNING_IN_KEY_KNOWN) == VERDICT_INCONCLUSIVE)
+        answer_add_sentence(context, friction_question, ANSWER_KIND_FRICTION,
                             "Of when that is the inputs %s.", assessment);
 }

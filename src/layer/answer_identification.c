@@ -84,22 +84,22 @@ void append_shared_pairs(text_builder *t, const table_view *v)
     const char *const settled_by = shared_pairs_key_text(v, SHARED_PAIRS_KEY_SETTLED_BY);
     bool open = false, is_first_appended = false;
     for (size_t i = 0; i < v->n_rows; i++) {
-        const char *const one_pair = shared_pairs_text(v, i, SHARED_PAIRS_ONE_PAIR);
+        const sharing_verdict one_pair = shared_pairs_enum(v, i, SHARED_PAIRS_ONE_PAIR);
         const reported_pair p =
             read_reported_pair(v, i, SHARED_PAIRS_ENERGY, SHARED_PAIRS_CORRELATION);
-        if (strcmp(shared_pairs_text(v, i, SHARED_PAIRS_OVER), "all cases") != 0)
+        if (shared_pairs_enum(v, i, SHARED_PAIRS_OVER) != OF_ALL)
             continue;
         text_append(t, "%sone U_c and k of %.0f cases by %s: %s", is_first_appended ? "; " : "",
                     shared_pairs_get(v, i, SHARED_PAIRS_N),
-                    shared_pairs_text(v, i, SHARED_PAIRS_BY), one_pair);
+                    shared_pairs_text(v, i, SHARED_PAIRS_BY), sharing_verdict_text(one_pair));
         is_first_appended = true;
-        open = open || strcmp(one_pair, "cannot say") == 0;
-        if (strcmp(one_pair, "one") != 0)
+        open = open || one_pair == SHARING_INCONCLUSIVE;
+        if (one_pair != SHARING_ONE)
             text_append(t, " (U_c: %s; k: %s)", shared_pairs_text(v, i, SHARED_PAIRS_ONE_ENERGY),
                         shared_pairs_text(v, i, SHARED_PAIRS_ONE_WEAR));
-        if (strcmp(one_pair, "differs") == 0) /* cases that differ have no common mean */
+        if (one_pair == SHARING_DIFFERS) /* cases that differ have no common mean */
             continue;
-        text_append(t, strcmp(one_pair, "one") == 0 ? ", " : "; as one ");
+        text_append(t, one_pair == SHARING_ONE ? ", " : "; as one ");
         append_pair(t, &p);
     }
     if (open && settled_by != NULL)
@@ -114,6 +114,6 @@ void answer_identification(const answer_context *context)
     if (v->table == NULL)
         return;
     append_identification(&t, v);
-    answer_add_sentence(context, "How thick is it?", "thickness", "What makes it so thick? %c%s.",
-                        toupper((unsigned char)text[0]), text + 1);
+    answer_add_sentence(context, "How thick is it?", ANSWER_KIND_THICKNESS,
+                        "What makes it so thick? %c%s.", toupper((unsigned char)text[0]), text + 1);
 }

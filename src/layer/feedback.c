@@ -22,7 +22,7 @@ enum { REPLICATE_GRID = 48 };
 static const double thinnest = 1e-2; /* in units of 1/q1 */
 static const double thickest = 4;    /* in units of 1/q0 */
 
-TABLE_ROW(layer_feedback, LAYER_FEEDBACK, const char *kind, *stable;
+TABLE_ROW(layer_feedback, LAYER_FEEDBACK, const char *kind; balance_stability stable;
           wt_estimate thickness, map_slope, eigenvalue, wear_rate, hysteresis, area_ratio,
           friction;)
 TABLE_KEYS(layer_feedback, LAYER_FEEDBACK, wt_estimate one_way, ratio, modulus_ratio;
@@ -258,15 +258,16 @@ static void assess_agreement(balances_task *task)
     char *const text = task->agreement;
     const size_t size = sizeof task->agreement;
     if (solved == 0)
-        snprintf(text, size, "not tested: %s", replicates_included_errors(r));
+        snprintf(text, size, "%s: %s", stated_verdict_text(VERDICT_NOT_TESTED),
+                 replicates_included_errors(r));
     else if (known)
-        snprintf(text, size, "yes: %zu of %zu replicates have as many balances, equally stable",
-                 same, solved);
+        snprintf(text, size, "%s: %zu of %zu replicates have as many balances, equally stable",
+                 stated_verdict_text(VERDICT_YES), same, solved);
     else
         snprintf(text, size,
-                 "cannot say: %zu of %zu replicates have as many balances, equally stable, and all "
-                 "of them %zu to %zu; smaller errors of what is drawn would settle it",
-                 same, solved, fewest, most);
+                 "%s: %zu of %zu replicates have as many balances, equally stable, and all of them "
+                 "%zu to %zu; smaller errors of what is drawn would settle it",
+                 stated_verdict_text(VERDICT_INCONCLUSIVE), same, solved, fewest, most);
     if (solved > 0 && !known)
         wt_log_add(task->draws.values.work->log, WT_WARNING, NULL, NULL,
                    "within the stated errors the number of balances of the layer, or their "
@@ -307,7 +308,7 @@ static wt_estimate state_estimate(const balance_state *at, const double *error, 
 }
 
 static void add_state_row(const balance_state *at, const double *e, const char *kind,
-                          const char *stable, table_writer *t)
+                          balance_stability stable, table_writer *t)
 {
     TABLE_ADD(layer_feedback, t, kind, stable, state_estimate(at, e, AT_THICKNESS),
               state_estimate(at, e, AT_SLOPE), state_estimate(at, e, AT_EIGENVALUE),
@@ -321,10 +322,10 @@ static void add_balance_rows(const balances_task *task, table_writer *t)
     const double *e = task->draws.replicates.error + N_NUMBERS;
     for (size_t i = 0; i < loop->n_roots; i++, e += N_AT)
         add_state_row(&task->centre.root[i], e, "balance",
-                      loop->root[i].stable ? "stable" : "unstable", t);
+                      loop->root[i].stable ? BALANCE_STABLE : BALANCE_UNSTABLE, t);
     for (size_t i = 0; i < loop->n_folds; i++, e += N_AT)
-        add_state_row(&task->centre.fold[i], e, "fold", loop->fold[i].maximum ? "above" : "below",
-                      t);
+        add_state_row(&task->centre.fold[i], e, "fold",
+                      loop->fold[i].maximum ? FOLD_ABOVE : FOLD_BELOW, t);
 }
 
 static const char *describe_loop(const wt_layer_feedback *loop)

@@ -28,7 +28,7 @@ static void caption_existence(figure_drawing *d)
         text_format(&d->caption, " It begins at %s.", ESTIMATE(&from));
     if (isfinite(to.value))
         text_format(&d->caption, " It ends at %s.", ESTIMATE(&to));
-    if (known != NULL && strncmp(known, "cannot say", strlen("cannot say")) == 0)
+    if (layer_regime_map_key_enum(d->table, LAYER_REGIME_MAP_KEY_KNOWN) == VERDICT_INCONCLUSIVE)
         text_format(&d->caption, " Of the edges one %s.", known);
 }
 

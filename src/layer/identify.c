@@ -71,12 +71,9 @@ PARAM_TABLE(wt_identify_job_params, wt_identify_job, rows, wt_identify_job_defau
 
 /* ---- one set of values ----------------------------------------------------------------------- */
 
-typedef enum method { BY_WEAR, BY_RATES, BY_TRANSPORT, N_METHODS } method;
-
-static const char *const method_labels[N_METHODS] = {
-    [BY_WEAR] = "thickness and wear rate",
-    [BY_RATES] = "thickness and running-in, by the balance of rates",
-    [BY_TRANSPORT] = "thickness and running-in, by the transport of damage"};
+/* Methods other than BY_THICKNESS. */
+typedef identification_method method;
+enum { N_METHODS = BY_THICKNESS };
 
 /* Logarithms of the results; NaN if not applicable. */
 enum {
@@ -153,7 +150,7 @@ static wt_status identify_all_methods(const identify_task *task, size_t replicat
                                    1, &found, err);
     out[LN_PRODUCT] = log(found.critical_energy);
     out[LN_RATIO] = log(found.ratio);
-    for (method by = 0; status == WT_OK && by < N_METHODS; by++)
+    for (method by = 0; status == WT_OK && by < BY_THICKNESS; by++)
         status = identify_by_method(task, by, &source, p, replicate, out, err);
     wt_energy_source_clear(&source);
     sliding_contact_clear(&c);
@@ -222,7 +219,7 @@ static void add_method_row(const identify_task *task, method by, const identifie
     const char *const none = missing_interval_reason(task, by == BY_WEAR, by != BY_WEAR);
     const double unknown = (double)NAN;
     identification_row row = {
-        .by = method_labels[by],
+        .by = identification_method_text(by),
         .axes = constant_axes_compute((pair_covariance){unknown, unknown, unknown}),
         .energy_inputs = unknown,
         .wear_inputs = unknown,
@@ -252,10 +249,11 @@ static void set_headline(const identify_task *task, const identified_constants *
                          table_writer *t)
 {
     method by = BY_WEAR;
-    while (by < N_METHODS && (isnan(found->value[LN_ENERGY + by]) ||
-                              missing_interval_reason(task, by == BY_WEAR, by != BY_WEAR) != NULL))
+    while (by < BY_THICKNESS &&
+           (isnan(found->value[LN_ENERGY + by]) ||
+            missing_interval_reason(task, by == BY_WEAR, by != BY_WEAR) != NULL))
         by++;
-    if (by == N_METHODS)
+    if (by == BY_THICKNESS)
         return;
     const wt_interval energy = confidence_interval(found, LN_ENERGY + by),
                       wear = confidence_interval(found, LN_WEAR + by);
@@ -271,7 +269,7 @@ static void add_thickness_row(const identify_task *task, wt_interval product, ta
 {
     const wt_identify_job *const job = task->job;
     identification_row row = {
-        .by = "thickness alone",
+        .by = identification_method_text(BY_THICKNESS),
         .energy = unknown_interval,
         .wear = unknown_interval,
         .axes = {.correlation = (double)NAN,
@@ -306,7 +304,7 @@ static void set_agreement_text(const identify_task *task, const identified_const
 {
     const char *const none = missing_interval_reason(task, true, true);
     char text[400] = "";
-    for (method by = BY_RATES; by < N_METHODS; by++) {
+    for (method by = BY_RATES; by < BY_THICKNESS; by++) {
         const size_t used = strlen(text);
         if (isnan(found->value[LN_DISCREPANCY + by]))
             return;
@@ -340,7 +338,7 @@ static wt_status tabulate_identification(const identify_task *task,
     const wt_interval product = confidence_interval(found, LN_PRODUCT);
     const double ratio = exp(found->value[LN_RATIO]);
     add_thickness_row(task, product, &t);
-    for (method by = 0; by < N_METHODS; by++)
+    for (method by = 0; by < BY_THICKNESS; by++)
         add_method_row(task, by, found, &t);
     set_headline(task, found, &t);
     identification_set_value(&t, IDENTIFICATION_KEY_PRODUCT, product.value, product.standard_error,

@@ -181,12 +181,6 @@ static wt_status draw_layer_replicates(layer_task *task, wt_error *err)
 
 /* ---- tables ---------------------------------------------------------------------------------- */
 
-static const char *regime_name(wt_layer_regime regime)
-{
-    static const char *const names[] = {"none", "thin", "thick"};
-    return names[regime];
-}
-
 static void set_numbers(const layer_task *task, const layer_run *run, table_writer *t)
 {
 #define NUMBER_KEY(key, value) LAYER_KEY_##key,
@@ -209,7 +203,8 @@ static void set_numbers(const layer_task *task, const layer_run *run, table_writ
 
 TABLE_ROW_OF(layer, LAYER, wt_layer_point)
 
-TABLE_KEYS(layer, LAYER, const char *regime, *critical_energy_from, *includes, *lacks, *statement;
+TABLE_KEYS(layer, LAYER, wt_layer_regime regime;
+           const char *critical_energy_from, *includes, *lacks, *statement;
            double velocity, damage, duty; wt_estimate pressure, wear_rate, observed;
            char softening[256], anisotropy[192], numerical[512]; layer_description said;
            wt_estimate hysteresis_power, shear_power, severe;)
@@ -218,10 +213,12 @@ static void set_layer_keys(const layer_task *task, const layer_run *run, table_w
 {
     const wt_layer_job *job = task->job;
     const bool calibrated = !isnan(job->observed_thickness.value);
-    layer_keys keys = {.regime = regime_name(run->balance.regime),
-                       .critical_energy_from =
-                           calibrated ? "calibrated: makes the observed thickness the balance"
-                                      : "given",
+    char from[80];
+    snprintf(from, sizeof from, "%s%s",
+             critical_energy_origin_text(calibrated ? ENERGY_CALIBRATED : ENERGY_GIVEN),
+             calibrated ? ": makes the observed thickness the balance" : "");
+    layer_keys keys = {.regime = run->balance.regime,
+                       .critical_energy_from = from,
                        .includes = replicates_included_errors(&task->replicates),
                        .lacks = task->replicates.lacks,
                        .statement = run->statement,

@@ -1,6 +1,7 @@
 /* Monte Carlo draws of a layer: the error sources, and the values of one replicate.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "layer/monte_carlo.h"
+#include "core/table/registry.h"
 #include "job/random_draws.h"
 #include "layer/replicate_intervals.h"
 
@@ -20,7 +21,7 @@ double layer_replicates_add(replicates *r, const wt_sliding *sliding, const wt_l
                    calibrated ? "observed thickness" : "critical energy");
     if (job->energy != WT_LAYER_HYSTERESIS)
         replicates_add(r, sliding->shear_stress.standard_error, FLOW_DRAW_SHEAR_STRESS,
-                       "shear stress");
+                       error_source_text(SOURCE_SHEAR_STRESS));
     return given;
 }
 
@@ -70,9 +71,10 @@ wt_status layer_draws_init(layer_draws *d, const wt_sliding *sliding, const wt_l
     layer_replicates_add(&d->replicates, sliding, job);
     if (friction && job->energy == WT_LAYER_HYSTERESIS && !isnan(sliding->shear_stress.value))
         replicates_add(&d->replicates, sliding->shear_stress.standard_error, FLOW_DRAW_SHEAR_STRESS,
-                       "shear stress");
+                       error_source_text(SOURCE_SHEAR_STRESS));
     if (friction && observation != NULL)
-        replicates_add_layer(&d->replicates, sliding, observation, "modulus ratio");
+        replicates_add_layer(&d->replicates, sliding, observation,
+                             error_source_text(SOURCE_MODULUS_RATIO));
     return status;
 }
 
@@ -142,13 +144,14 @@ void layer_draws_assess(const layer_draws *d, size_t k, double value, const char
     const replicates *r = &d->replicates;
     const size_t known = count_finite(r, k), n_other = isfinite(value) ? r->n - known : known;
     if (r->n == 0)
-        snprintf(text, size, "not tested: no replicates are drawn");
+        snprintf(text, size, "%s: no replicates are drawn",
+                 stated_verdict_text(VERDICT_NOT_TESTED));
     else if ((double)n_other <= tail_probability * (double)r->n)
-        snprintf(text, size, "yes: nearly all replicates agree");
+        snprintf(text, size, "%s: nearly all replicates agree", stated_verdict_text(VERDICT_YES));
     else
         clocale_print(
             text, size,
-            "cannot say: in %.3g %% of the replicates %s; smaller errors of what is drawn "
-            "would settle it",
-            100 * (double)n_other / (double)r->n, isfinite(value) ? without : with);
+            "%s: in %.3g %% of the replicates %s; smaller errors of what is drawn would settle it",
+            stated_verdict_text(VERDICT_INCONCLUSIVE), 100 * (double)n_other / (double)r->n,
+            isfinite(value) ? without : with);
 }

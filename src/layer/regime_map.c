@@ -261,8 +261,8 @@ static bool assess_edge(regime_map_task *task, size_t end)
     clocale_print(task->known + used, sizeof task->known - used,
                   "%s: in %.3g %% of the replicates there is %s %s edge between the velocities of "
                   "the list; more velocities, or smaller errors of what is drawn, would settle it",
-                  used > 0 ? "" : "cannot say", 100 * missing, there ? "no" : "a",
-                  end == EDGE_FIRST ? "first" : "last");
+                  used > 0 ? "" : stated_verdict_text(VERDICT_INCONCLUSIVE), 100 * missing,
+                  there ? "no" : "a", end == EDGE_FIRST ? "first" : "last");
     return false;
 }
 
@@ -310,9 +310,10 @@ static wt_status tabulate_regime_map(regime_map_task *task, wt_table **table, wt
         }
     }
     if (task->known[0] == '\0')
-        snprintf(task->known, sizeof task->known, "%s",
-                 r->n > 0 ? "yes: nearly all replicates have the same edges"
-                          : "not tested: no replicates are drawn");
+        snprintf(task->known, sizeof task->known, "%s: %s",
+                 stated_verdict_text(r->n > 0 ? VERDICT_YES : VERDICT_NOT_TESTED),
+                 r->n > 0 ? "nearly all replicates have the same edges"
+                          : "no replicates are drawn");
     layer_draws_describe(&task->draws, task->errors, sizeof task->errors);
     table_writer t = table_begin(&layer_regime_map_schema, err);
     add_existence_rows(task, &t);

@@ -27,7 +27,7 @@
       LABEL("Its 95 % interval from"), OPTIONAL)                                                   \
     X(LAYER_BANDS_KEY_FIRST_HIGH, "first_appearance_high", SI(TIME), SHOWS(first_high),            \
       LABEL("to"), OPTIONAL)                                                                       \
-    X(LAYER_BANDS_KEY_KNOWN, "first_appearance_known", TEXT, SHOWS(known),                         \
+    X(LAYER_BANDS_KEY_KNOWN, "first_appearance_known", ENUM(stated_verdict), SHOWS(known),         \
       LABEL("Whether it is known within the errors"), OPTIONAL)                                    \
     X(LAYER_BANDS_KEY_THICKNESS, "last_thickness", SI(LENGTH), SHOWS(thickness),                   \
       LABEL("Depth of the modified rubber at the last time"), OPTIONAL)                            \
@@ -62,7 +62,7 @@
     X(RUNNING_IN_KEY_SETTLED_LOW, AS(settled_low), SI(TIME), LABEL("Its 95 % interval from"),      \
       OPTIONAL)                                                                                    \
     X(RUNNING_IN_KEY_SETTLED_HIGH, AS(settled_high), SI(TIME), LABEL("to"), OPTIONAL)              \
-    X(RUNNING_IN_KEY_KNOWN, "settled_known", TEXT, SHOWS(known),                                   \
+    X(RUNNING_IN_KEY_KNOWN, "settled_known", ENUM(stated_verdict), SHOWS(known),                   \
       LABEL("Whether it is known within the errors"), OPTIONAL)                                    \
     X(RUNNING_IN_KEY_SHEAR, AS(shear), TEXT, LABEL("Shear stress of the layer"))                   \
     X(RUNNING_IN_KEY_BACK, AS(back), TEXT, LABEL("Layer and energy"))                              \
@@ -70,13 +70,21 @@
     X(RUNNING_IN_KEY_MODULI, "layer_moduli", TEXT, SHOWS(moduli), LABEL("Moduli of the layer"),    \
       OPTIONAL)
 
+/* The pair of balances of a fold is gone above or below its specific wear rate. */
+#define BALANCE_STABILITIES(X)                                                                     \
+    X(BALANCE_STABLE, "stable")                                                                    \
+    X(BALANCE_UNSTABLE, "unstable")                                                                \
+    X(FOLD_ABOVE, "above")                                                                         \
+    X(FOLD_BELOW, "below")
+
 #define LAYER_FEEDBACK_COLUMNS(X)                                                                  \
     X(LAYER_FEEDBACK_KIND, AS(kind),                                                               \
       "balance, or fold: where two balances meet as the specific wear rate changes", TEXT)         \
     COLUMN_AND_NEW_ERRORS(X, LAYER_FEEDBACK_THICKNESS, "thickness",                                \
                           "thickness of the modified layer", SI(LENGTH), SHOWS(thickness))         \
     X(LAYER_FEEDBACK_STABLE, AS(stable),                                                           \
-      "stable or unstable; of a fold above or below: where the pair is gone", TEXT)                \
+      "stable or unstable; of a fold above or below: where the pair is gone",                      \
+      ENUM(balance_stability))                                                                     \
     COLUMN_AND_NEW_ERROR(                                                                          \
         X, LAYER_FEEDBACK_MAP_SLOPE, "map_slope",                                                  \
         "change of the balance thickness with that of the layer that the energy sees", NUMBER,     \
@@ -102,7 +110,7 @@
     X(LAYER_FEEDBACK_KEY_LOW, AS(low), SI(LENGTH), LABEL("Looked for from"))                       \
     X(LAYER_FEEDBACK_KEY_HIGH, AS(high), SI(LENGTH), LABEL("Looked for up to"))                    \
     X(LAYER_FEEDBACK_KEY_WORDS, AS(words), TEXT, LABEL("A layer that acts back on its energy"))    \
-    X(LAYER_FEEDBACK_KEY_AGREEMENT, AS(agreement), TEXT,                                           \
+    X(LAYER_FEEDBACK_KEY_AGREEMENT, AS(agreement), ENUM(stated_verdict),                           \
       LABEL("Whether their number is known within the errors"), OPTIONAL)                          \
     X(LAYER_FEEDBACK_KEY_ERRORS, AS(errors), TEXT, LABEL("Standard errors include"), OPTIONAL)     \
     X(LAYER_FEEDBACK_KEY_MODULI, "layer_moduli", TEXT, SHOWS(moduli),                              \
@@ -145,7 +153,7 @@
     X(LAYER_REGIME_MAP_KEY_TO_POWER, AS(to_power), UNIT("W/m^2"), LABEL("up to the power"))        \
     LAYER_REGIME_MAP_LIMITS(X, LAYER_REGIME_MAP_KEY_TO_POWER, to_power, UNIT("W/m^2"))             \
     X(LAYER_REGIME_MAP_KEY_WORDS, AS(words), TEXT, LABEL("Where a layer exists"))                  \
-    X(LAYER_REGIME_MAP_KEY_KNOWN, AS(known), TEXT,                                                 \
+    X(LAYER_REGIME_MAP_KEY_KNOWN, AS(known), ENUM(stated_verdict),                                 \
       LABEL("Whether the edges are known within the errors"), OPTIONAL)                            \
     X(LAYER_REGIME_MAP_KEY_ERRORS, AS(errors), TEXT, LABEL("Standard errors include"), OPTIONAL)   \
     X(LAYER_REGIME_MAP_KEY_MODULI, "layer_moduli", TEXT, SHOWS(moduli),                            \

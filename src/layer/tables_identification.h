@@ -4,9 +4,16 @@
 #ifndef WT_LAYER_TABLES_IDENTIFICATION_H
 #define WT_LAYER_TABLES_IDENTIFICATION_H
 
+#define IDENTIFICATION_METHODS(X)                                                                  \
+    X(BY_WEAR, "thickness and wear rate")                                                          \
+    X(BY_RATES, "thickness and running-in, by the balance of rates")                               \
+    X(BY_TRANSPORT, "thickness and running-in, by the transport of damage")                        \
+    X(BY_THICKNESS, "thickness alone")
+
 /* Each row is one identification method. */
 #define IDENTIFICATION_COLUMNS(X)                                                                  \
-    X(IDENTIFICATION_BY, AS(by), "what they are known by", TEXT, LABEL("By"))                      \
+    X(IDENTIFICATION_BY, AS(by), "what they are known by", ENUM(identification_method),            \
+      LABEL("By"))                                                                                 \
     NUMBER_AND_INTERVAL(X, IDENTIFICATION_ENERGY, "critical_energy", "critical energy U_c",        \
                         SI(ENERGY_DENSITY), "Critical energy", SHOWS(energy))                      \
     NUMBER_AND_INTERVAL(X, IDENTIFICATION_WEAR, "specific_wear_rate", "specific wear rate k",      \

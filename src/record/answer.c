@@ -81,12 +81,12 @@ void answer_layer_wear_rate(const answer_context *context, const char *question)
     if (!(is.value > 0) || !(used.value > 0))
         return;
     if (used.value == is.value)
-        answer_add_sentence(context, question, "thickness",
+        answer_add_sentence(context, question, ANSWER_KIND_THICKNESS,
                             "Its specific wear rate is the one measured by the records: %s.",
                             format_positive_estimate(is).text);
     else
         answer_add_sentence(
-            context, question, "thickness",
+            context, question, ANSWER_KIND_THICKNESS,
             "Its specific wear rate is the one given, %s; the one measured by the records is "
             "%.3g times that: %s.",
             format_value(used).text, is.value / used.value, format_positive_estimate(is).text);
@@ -105,5 +105,5 @@ void answer_record(const answer_context *context)
     }
     if (text[0] >= 'a' && text[0] <= 'z')
         text[0] = (char)(text[0] - 'a' + 'A');
-    answer_add_sentence(context, "What was measured of friction?", "record", "%s.", text);
+    answer_add_sentence(context, "What was measured of friction?", ANSWER_KIND_RECORD, "%s.", text);
 }

@@ -64,13 +64,13 @@ static void report_running_in(const answer_context *context)
                           validation_running_in_key_text(v, VALIDATION_RUNNING_IN_KEY_AGREES);
     append_running_in_verdict(&t, v);
     text[0] = (char)toupper((unsigned char)text[0]);
-    answer_add_sentence(context, question, "validation", "%s.", text);
+    answer_add_sentence(context, question, ANSWER_KIND_VALIDATION, "%s.", text);
     if (validation_running_in_key_text(v, VALIDATION_RUNNING_IN_KEY_REMARKS) != NULL)
-        answer_add_sentence(context, question, "validation",
+        answer_add_sentence(context, question, ANSWER_KIND_VALIDATION,
                             "To be kept in mind of the running-in: %s.",
                             validation_running_in_key_text(v, VALIDATION_RUNNING_IN_KEY_REMARKS));
     if (settled != NULL)
-        answer_add_sentence(context, question, "validation",
+        answer_add_sentence(context, question, ANSWER_KIND_VALIDATION,
                             "What would settle the running-in: %s.", settled);
     t.used = 0;
     append_required_wear(&t, v);
@@ -79,7 +79,7 @@ static void report_running_in(const answer_context *context)
     text[0] = (char)toupper((unsigned char)text[0]);
     if (agrees != NULL)
         text_append(&t, "; against the wear that was measured: %s", agrees);
-    answer_add_sentence(context, question, "validation", "%s.", text);
+    answer_add_sentence(context, question, ANSWER_KIND_VALIDATION, "%s.", text);
 }
 
 static void report_required_shear(const answer_context *context, const table_view *v)
@@ -93,7 +93,7 @@ static void report_required_shear(const answer_context *context, const table_vie
     text[0] = (char)toupper((unsigned char)text[0]);
     if (shape != NULL)
         text_append(&t, ". The verdict with it: %s", shape);
-    answer_add_sentence(context, question, "validation", "%s.", text);
+    answer_add_sentence(context, question, ANSWER_KIND_VALIDATION, "%s.", text);
 }
 
 static void report_narrowed_range(const answer_context *context, const table_view *v)
@@ -114,7 +114,7 @@ static void report_narrowed_range(const answer_context *context, const table_vie
     if (isnan(kept[0]))
         return;
     answer_add_sentence(
-        context, question, "validation",
+        context, question, ANSWER_KIND_VALIDATION,
         "Over the choices of the model the friction at the reference velocity is %s; over "
         "those that the record leaves, %s.",
         format_range(all[0], all[1], 3).text, format_range(kept[0], kept[1], 3).text);
@@ -133,18 +133,20 @@ void answer_validation(const answer_context *context)
                       *const wear = validation_key_text(v, VALIDATION_KEY_WEAR);
     append_verdict(&t, v);
     text[0] = (char)toupper((unsigned char)text[0]);
-    answer_add_sentence(context, question, "validation", "%s.", text);
+    answer_add_sentence(context, question, ANSWER_KIND_VALIDATION, "%s.", text);
     if (settled != NULL)
-        answer_add_sentence(context, question, "validation", "What would settle it: %s.", settled);
+        answer_add_sentence(context, question, ANSWER_KIND_VALIDATION, "What would settle it: %s.",
+                            settled);
     if (context->validation_sources.table != NULL)
-        answer_add_sentence(context, question, "validation", "What would narrow it most: %s.",
+        answer_add_sentence(context, question, ANSWER_KIND_VALIDATION,
+                            "What would narrow it most: %s.",
                             validation_sources_key_text(&context->validation_sources,
                                                         VALIDATION_SOURCES_KEY_ADVICE));
     report_required_shear(context, v);
     report_narrowed_range(context, v);
     if (wear != NULL)
         answer_add_sentence(
-            context, question, "validation",
+            context, question, ANSWER_KIND_VALIDATION,
             "The specific wear rate as measured is %.3g times that of the layer: %s.",
             validation_value(v, VALIDATION_KEY_WEAR_RATIO).value, wear);
     report_running_in(context);

@@ -213,7 +213,7 @@ static replicates begin_growth_replicates(const growth_inputs *g)
     layer_replicates_add(&r, &g->sliding, &g->job);
     if (g->job.energy == WT_LAYER_HYSTERESIS)
         replicates_add(&r, g->sliding.shear_stress.standard_error, FLOW_DRAW_SHEAR_STRESS,
-                       "shear stress");
+                       error_source_text(SOURCE_SHEAR_STRESS));
     replicates_add_layer(&r, &g->sliding, g->observation, "modulus ratio of the layer");
     return r;
 }

@@ -17,6 +17,7 @@ typedef struct choice_row {
     const char *choice, *tried, *verdict;
     double ratio, trend, log_likelihood, weight;
     bool kept;
+    agreement_verdict agreement; /* AGREEMENT_INCONCLUSIVE without a prediction */
     char note[256];
 } choice_row;
 TABLE_ROW_OF(validation_choices, VALIDATION_CHOICES, choice_row)
@@ -79,6 +80,7 @@ static wt_status assess_row(const validation *v, const prediction *p, choice_row
             mean += v->mean.row[i] * value[i];
         r->ratio = exp(mean);
         r->trend = fit.terms > 1 ? expm1(fit.coefficient[1] / fit.span) : (double)NAN;
+        r->agreement = fit.verdict;
         r->verdict = validation_verdict(fit.verdict);
     }
     agreement_clear(&fit);
@@ -184,7 +186,7 @@ static void write_narrowed_range(const choice_row *rows, size_t n, choice_ranges
     size_t kept = 0, explained = 0, best = 0;
     for (size_t i = 0; i < n; i++) {
         kept += rows[i].kept;
-        explained += rows[i].kept && strcmp(rows[i].verdict, validation_verdict(AGREEMENT_NO)) != 0;
+        explained += rows[i].kept && rows[i].agreement != AGREEMENT_NO;
         best = rows[i].weight > rows[best].weight ? i : best;
     }
     clocale_print(ranges->narrows, sizeof ranges->narrows,

@@ -85,7 +85,7 @@ static replicates begin_friction_replicates(const prediction_group *g, const wt_
     replicates r = replicates_create(&g->sliding, work, "validation");
     if (!isnan(sliding->shear_stress.value))
         replicates_add(&r, sliding->shear_stress.standard_error, FLOW_DRAW_SHEAR_STRESS,
-                       "shear stress");
+                       error_source_text(SOURCE_SHEAR_STRESS));
     if (g->observation != NULL) {
         replicates_add(&r, g->observation->thickness.standard_error, FLOW_DRAW_THICKNESS,
                        "thickness of the layer");

@@ -135,7 +135,7 @@ static wt_status add_samples_json(const table_view *view, curve_block b, text_bu
     const size_t n = b.to - b.from;
     size_t approach = 0, contact = 0;
     while (approach < n &&
-           strcmp(curves_text(view, b.from + approach, CURVES_SEGMENT), "approach") == 0)
+           curves_enum(view, b.from + approach, CURVES_SEGMENT) == WT_SEGMENT_APPROACH)
         approach++;
     while (contact < approach &&
            !(curves_get(view, b.from + contact, CURVES_DISPLACEMENT) >= 0 &&

@@ -13,10 +13,10 @@
 
 curve_kind row_curve_kind(const table_view *rows, size_t row)
 {
-    const char *verdict = indentation_text(rows, row, INDENTATION_VERDICT);
-    if (strcmp(verdict, "accepted") == 0)
-        return CURVE_ACCEPTED;
-    return strcmp(verdict, "doubtful") == 0 ? CURVE_DOUBTFUL : CURVE_REFUSED;
+    const wt_curve_verdict verdict = indentation_enum(rows, row, INDENTATION_VERDICT);
+    return verdict == WT_CURVE_ACCEPTED   ? CURVE_ACCEPTED
+           : verdict == WT_CURVE_DOUBTFUL ? CURVE_DOUBTFUL
+                                          : CURVE_REFUSED;
 }
 
 /* Returns the number of curves if none is rejected, else 0. */

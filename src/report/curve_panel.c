@@ -127,9 +127,8 @@ static size_t add_heading_lines(text_buffer *to, const figure_drawing *d, const 
     text_add(to, verdict);
     if (c->kind != CURVE_REFUSED && isfinite(modulus.value))
         text_format(to, ", E = %s", ESTIMATE(&modulus));
-    const size_t same = strlen("doubtful: ");
-    if (strncmp(reason, "doubtful: ", same) == 0)
-        reason += same;
+    if (indentation_enum(c->rows, c->row, INDENTATION_REASON) == WT_CURVE_DOUBTFUL)
+        reason += strlen(curve_verdict_text(WT_CURVE_DOUBTFUL)) + strlen(": ");
     if (c->kind != CURVE_ACCEPTED && reason[0] != '\0') {
         text_add(to, "\n");
         lines += add_wrapped_lines(to, reason, REASON_LINES);
@@ -167,7 +166,7 @@ static void add_heading(figure_drawing *d, const listed_curve *c)
 /* ---- panel ----------------------------------------------------------------------------------- */
 
 /* Adds a section of the samples of one segment, with the fit of the approach. */
-static int curve_section(figure_drawing *d, curve_block b, const char *segment)
+static int curve_section(figure_drawing *d, curve_block b, wt_segment_kind segment)
 {
     static const char *const columns[] = {"displacement", "force", "fitted_force", NULL};
     static const char *const units[] = {"m", "N", "N", NULL};
@@ -179,13 +178,14 @@ static int curve_section(figure_drawing *d, curve_block b, const char *segment)
         return NO_SECTION;
     }
     for (size_t i = b.from; i < b.to; i++) {
-        if (strcmp(curves_text(d->table, i, CURVES_SEGMENT), segment) != 0)
+        if (curves_enum(d->table, i, CURVES_SEGMENT) != (int)segment)
             continue;
         values[COLUMNS * n] = curves_get(d->table, i, CURVES_DISPLACEMENT);
         values[COLUMNS * n + 1] = curves_get(d->table, i, CURVES_FORCE);
         values[COLUMNS * n++ + 2] = curves_get(d->table, i, CURVES_FITTED_FORCE);
     }
-    const int section = drawing_number_section(d, segment, columns, units, values, n);
+    const int section =
+        drawing_number_section(d, segment_kind_text(segment), columns, units, values, n);
     free(values);
     return section;
 }
@@ -201,8 +201,8 @@ static bool has_fitted_samples(const figure_drawing *d, curve_block b)
 
 void draw_curve_panel(figure_drawing *d, const listed_curve *c)
 {
-    const int approach = curve_section(d, c->block, "approach"),
-              retract = curve_section(d, c->block, "retract");
+    const int approach = curve_section(d, c->block, WT_SEGMENT_APPROACH),
+              retract = curve_section(d, c->block, WT_SEGMENT_RETRACT);
     value_span x = EMPTY_SPAN, y = EMPTY_SPAN;
     span_add_section(&x, d, approach, 0, false);
     span_add_section(&x, d, retract, 0, false);

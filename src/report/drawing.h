@@ -86,7 +86,7 @@ void drawing_colours(figure_drawing *d, const char *with);
 /* Writes a label such as "Angular frequency at 20 °C", or the label alone without a temperature. */
 void drawing_temperature_label(char label[DRAWING_LABEL], const char *words, double temperature);
 /* Returns the letter of the moduli, 'E' or 'G', from the deformation in a table. */
-char modulus_letter(const char *deformation);
+char modulus_letter(int deformation); /* a wt_deformation, or unknown */
 /* Adds the described bands, then the curves, of one panel to the plot command. */
 void drawing_bands(figure_drawing *d, size_t panel);
 void drawing_curves(figure_drawing *d, size_t panel);

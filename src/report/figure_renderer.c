@@ -176,9 +176,9 @@ void drawing_temperature_label(char label[DRAWING_LABEL], const char *words, dou
                    isfinite(temperature) ? VALUE(WT_Q_TEMPERATURE, NULL, temperature) : "");
 }
 
-char modulus_letter(const char *deformation)
+char modulus_letter(int deformation)
 {
-    return strcmp(deformation, "shear") == 0 ? 'G' : 'E';
+    return deformation == WT_SHEAR ? 'G' : 'E';
 }
 
 /* ---- curves ---------------------------------------------------------------------------------- */

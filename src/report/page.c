@@ -37,7 +37,7 @@ static size_t write_folded_answers(page_writer *page, size_t row)
 {
     const table_view *table = &page->tables->answer;
     size_t end = row;
-    while (end < table->n_rows && strcmp(answer_text(table, end, ANSWER_KIND), "folded") == 0)
+    while (end < table->n_rows && answer_enum(table, end, ANSWER_KIND) == ANSWER_KIND_FOLDED)
         end++;
     if (end == row)
         return end;
@@ -64,7 +64,7 @@ static void page_answer(page_writer *page)
     for (size_t row = 0; row < table->n_rows;) {
         const char *next = answer_text(table, row, ANSWER_QUESTION);
         if (question == NULL || strcmp(question, next) != 0) {
-            bool caveat = strcmp(answer_text(table, row, ANSWER_KIND), "caveat") == 0;
+            bool caveat = answer_enum(table, row, ANSWER_KIND) == ANSWER_KIND_CAVEAT;
             text_add(&page->out, question == NULL ? "" : "</section>\n");
             text_add(&page->out, caveat && !beside ? "</div>\n<div>\n" : "");
             beside = beside || caveat;

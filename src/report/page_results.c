@@ -197,10 +197,10 @@ static void write_rejected_curves(page_writer *page, const table_view *table)
     enum { SHOWN = 200 };
     size_t rows[SHOWN], n = 0, others = 0, doubtful = 0;
     for (size_t row = 0; row < table->n_rows; row++) {
-        const char *verdict = indentation_text(table, row, INDENTATION_VERDICT);
-        if (strcmp(verdict, "accepted") == 0)
+        const wt_curve_verdict verdict = indentation_enum(table, row, INDENTATION_VERDICT);
+        if (verdict == WT_CURVE_ACCEPTED)
             continue;
-        doubtful += strcmp(verdict, "doubtful") == 0;
+        doubtful += verdict == WT_CURVE_DOUBTFUL;
         if (n < SHOWN)
             rows[n++] = row;
         others++;

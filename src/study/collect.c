@@ -44,13 +44,13 @@ void wt_collection_tables_clear(wt_collection_tables *tables)
 }
 
 TABLE_ROW(collection, COLLECTION, const char *sample, *condition; wt_interval ratio;
-          const char *differs; wt_interval thickness, change; const char *file;)
+          stated_verdict differs; wt_interval thickness, change; const char *file;)
 TABLE_KEYS(collection, COLLECTION, double cases, samples, conditions;)
 TABLE_ROW(collected_modulus, COLLECTED_MODULUS, const char *sample, *condition, *place; double rate;
           wt_interval modulus;)
 TABLE_ROW(collected_friction, COLLECTED_FRICTION, const char *sample, *condition;
           double velocity, friction, standard_error, with_layer;)
-TABLE_KEYS(collected_friction, COLLECTED_FRICTION, const char *part;)
+TABLE_KEYS(collected_friction, COLLECTED_FRICTION, friction_part part;)
 
 /* ---- one case -------------------------------------------------------------------------------- */
 
@@ -110,14 +110,10 @@ static wt_interval result_interval(const result_value *f)
     return (wt_interval){f->number.value, f->number.standard_error, f->low, f->high};
 }
 
-/* Reduces the text of a verdict to "yes", "no" or "cannot say". */
-static const char *short_verdict(const char *verdict)
+static stated_verdict short_verdict(const table_view *comparison)
 {
-    static const char *const words[] = {"yes", "no", "cannot say"};
-    for (size_t i = 0; verdict != NULL && i < COUNT_OF(words); i++)
-        if (strncmp(verdict, words[i], strlen(words[i])) == 0)
-            return words[i];
-    return "not asked";
+    const int verdict = comparison_key_enum(comparison, COMPARISON_KEY_DIFFERS);
+    return verdict <= VERDICT_NO ? verdict : VERDICT_NOT_ASKED;
 }
 
 static size_t count_different(const collected_case *cases, size_t n, bool condition)
@@ -142,8 +138,8 @@ static wt_status list_cases(const collected_case *cases, size_t n, wt_table **ta
                            thickness = result_value_thickness(&c->tables),
                            change = result_value_friction(&c->tables, FRICTION_KEY_RELATIVE_CHANGE);
         TABLE_ADD(collection, &w, c->sample, c->condition, result_interval(&ratio),
-                  short_verdict(comparison_key_text(&c->tables.comparison, COMPARISON_KEY_DIFFERS)),
-                  result_interval(&thickness), result_interval(&change), c->file);
+                  short_verdict(&c->tables.comparison), result_interval(&thickness),
+                  result_interval(&change), c->file);
     }
     TABLE_SET(collection, &w, (double)n, (double)count_different(cases, n, false),
               (double)count_different(cases, n, true));
@@ -158,13 +154,13 @@ static double shared_error(const result_value_tables *tables, const char *group)
     const table_view *budget = &tables->budget;
     double variance = 0;
     for (size_t row = 0; row < budget->n_rows; row++) {
-        const char *kind = modulus_budget_text(budget, row, MODULUS_BUDGET_KIND);
+        const error_kind kind = modulus_budget_enum(budget, row, MODULUS_BUDGET_KIND);
         const double error = modulus_budget_get(budget, row, MODULUS_BUDGET_RELATIVE_ERROR);
         if (strcmp(modulus_budget_text(budget, row, MODULUS_BUDGET_GROUP), group) != 0)
             continue;
-        if (strcmp(kind, "together") == 0 && isnan(error))
+        if (kind == ERROR_TOGETHER && isnan(error))
             return (double)NAN;
-        if (strcmp(kind, "shared") == 0 && !isnan(error))
+        if (kind == ERROR_SHARED && !isnan(error))
             variance += error * error;
     }
     return sqrt(variance);
@@ -237,7 +233,7 @@ static wt_status list_friction(const collected_case *cases, size_t n, wt_table *
                       total ? friction_get(t, row, FRICTION_WITH_LAYER) : (double)NAN);
         }
     }
-    TABLE_SET(collected_friction, &w, total ? "friction" : "hysteresis");
+    TABLE_SET(collected_friction, &w, total ? WHOLE_FRICTION : HYSTERESIS_ALONE);
     return table_end(&w, table);
 }
 

@@ -119,7 +119,8 @@ wt_status compare_temperature_slope(const compare_pair *p, const wt_compare_job 
 
 /* Verdict on the difference between track and bulk, and how to decide it. */
 typedef struct compare_verdict {
-    char differs[640], settled_by[480];
+    stated_verdict verdict;
+    char reason[628], settled_by[480];
     bool depends_on_rate; /* the ratio depends on the rate */
     bool is_unreportable; /* no ratio can be reported */
 } compare_verdict;

@@ -237,30 +237,34 @@ static void add_comparison_rows(table_writer *t, const compare_row *rows, size_t
     }
 }
 
-static const char *unit_of_analysis_text(const compare_pair *p, const wt_compare_job *job,
-                                         const wt_comparison *c)
+static void format_analysis_unit(const comparison_task *task, char *text, size_t size)
 {
-    if (!c->by_spot)
-        return "curve: no spots in the tables";
-    if (p->data[0].spots_are_named && p->data[1].spots_are_named)
-        return "spot";
-    if (job->map_spots)
-        return "spot: each place of a map counts as one";
-    return "spot: each file counts as one where none were named";
+    const compare_pair *p = task->p;
+    const bool by_spot = task->rows[0].c.by_spot;
+    const char *const how = !by_spot ? ": no spots in the tables"
+                            : p->data[0].spots_are_named && p->data[1].spots_are_named ? ""
+                            : task->job->map_spots
+                                ? ": each place of a map counts as one"
+                                : ": each file counts as one where none were named";
+    snprintf(text, size, "%s%s", analysis_unit_text(by_spot ? UNIT_IS_SPOT : UNIT_IS_CURVE), how);
 }
 
-static const char *rates_text(const comparison_task *task)
+static void format_rates(const comparison_task *task, char *text, size_t size)
 {
-    const wt_comparison *c = &task->rows[0].c;
-    if (!task->p->by_rate)
-        return "not known";
-    if (task->inputs.rates_by_dma || (task->p->by_factor && c->rate_matching != WT_RATES_COMMON))
-        return "brought to one by the DMA";
-    if (task->p->by_factor)
-        return "those that both groups have, each brought to one by the DMA";
-    return c->rate_matching == WT_RATES_WITHIN    ? "brought to one by the slope within the spots"
-           : c->rate_matching == WT_RATES_BETWEEN ? "brought to one by the slope between the spots"
-                                                  : "those that both groups have";
+    const wt_rate_matching matching = task->rows[0].c.rate_matching;
+    const bool by_factor = task->p->by_factor,
+               by_dma = task->inputs.rates_by_dma || (by_factor && matching != WT_RATES_COMMON);
+    const rate_match match = !task->p->by_rate                          ? RATES_NOT_KNOWN
+                             : by_dma                                   ? RATES_BROUGHT
+                             : by_factor || matching == WT_RATES_COMMON ? RATES_COMMON
+                                                                        : RATES_BROUGHT;
+    const char *const how = match == RATES_NOT_KNOWN       ? ""
+                            : by_dma                       ? " by the DMA"
+                            : by_factor                    ? ", each brought to one by the DMA"
+                            : matching == WT_RATES_WITHIN  ? " by the slope within the spots"
+                            : matching == WT_RATES_BETWEEN ? " by the slope between the spots"
+                                                           : "";
+    snprintf(text, size, "%s%s", rate_match_text(match), how);
 }
 
 /* Half the range of ln(ratio) over the rates. It becomes an error of the single ratio. */
@@ -276,8 +280,8 @@ static double rate_ratio_half_range(const compare_row *rates, size_t n)
 }
 
 TABLE_KEYS(comparison, COMPARISON, const char *differs, *settled_by, *would_explain, *unit, *rates,
-           *includes, *cantilevers, *cancels;
-           wt_estimate margin, rate_slope, ratio;
+           *includes, *cancels;
+           cantilever_count cantilevers; wt_estimate margin, rate_slope, ratio;
            double interaction_p, ratio_df, calibration_share, spot_scatter;)
 
 /* Sets the ratio and its error for friction: a Student's t error of the logarithm, unknown without
@@ -318,22 +322,26 @@ static wt_status write_comparison_table(const comparison_task *task, wt_table **
              given ? "scatter of spots as given" : "scatter of the units", task->inputs.includes,
              task->unstated.plausible[0] != '\0' ? " + what else may well make the ratio" : "");
     const double none = (double)NAN;
-    comparison_keys keys = {.differs = v.differs,
-                            .settled_by = v.settled_by,
-                            .would_explain =
-                                v.is_unreportable ? NULL : task->unstated.would_explain,
-                            .unit = unit_of_analysis_text(p, task->job, c),
-                            .rates = rates_text(task),
-                            .includes = interval && !v.is_unreportable ? includes : NULL,
-                            .cantilevers = task->inputs.has_two_cantilevers ? "two" : "one",
-                            .cancels = v.is_unreportable ? NULL : task->inputs.cancels,
-                            .margin = {task->job->margin, 0, 0, NULL},
-                            .rate_slope = c->rate_slope,
-                            .ratio = {none, none, 0, NULL},
-                            .interaction_p = c->interaction_p,
-                            .ratio_df = none,
-                            .calibration_share = none,
-                            .spot_scatter = given ? task->job->spot_scatter : none};
+    char differs[640], unit[96], rates[96];
+    format_analysis_unit(task, unit, sizeof unit);
+    format_rates(task, rates, sizeof rates);
+    snprintf(differs, sizeof differs, "%s: %s", stated_verdict_text(v.verdict), v.reason);
+    comparison_keys keys = {
+        .differs = differs,
+        .settled_by = v.settled_by,
+        .would_explain = v.is_unreportable ? NULL : task->unstated.would_explain,
+        .unit = unit,
+        .rates = rates,
+        .includes = interval && !v.is_unreportable ? includes : NULL,
+        .cantilevers = task->inputs.has_two_cantilevers ? TWO_CANTILEVERS : ONE_CANTILEVER,
+        .cancels = v.is_unreportable ? NULL : task->inputs.cancels,
+        .margin = {task->job->margin, 0, 0, NULL},
+        .rate_slope = c->rate_slope,
+        .ratio = {none, none, 0, NULL},
+        .interaction_p = c->interaction_p,
+        .ratio_df = none,
+        .calibration_share = none,
+        .spot_scatter = given ? task->job->spot_scatter : none};
     if (!v.is_unreportable)
         set_ratio_keys(task, v.depends_on_rate, interval, &keys);
     comparison_set_keys(&t, &keys);

@@ -33,6 +33,8 @@ static short_text format_rate(double rate)
     return w;
 }
 
+#define SET_VERDICT(v, value, ...)                                                                 \
+    ((v)->verdict = (value), clocale_print((v)->reason, sizeof(v)->reason, __VA_ARGS__))
 #define SET_TEXT(field, ...) clocale_print((field), sizeof(field), __VA_ARGS__)
 
 /* Advises a number of spots for the present scatter and the apparent difference, which is at least
@@ -89,11 +91,10 @@ static void report_disjoint_rates(const compare_pair *p, bool twisted, compare_v
     char bulk[112], track[112];
     format_group_rates(p, 0, bulk, sizeof bulk);
     format_group_rates(p, 1, track, sizeof track);
-    SET_TEXT(v->differs,
-             "cannot say: bulk (%s) and track (%s) have no indentation rate in common, and %s",
-             bulk, track,
-             twisted ? "their moduli change with the rate in different ways"
-                     : "nothing says how the modulus depends on the rate");
+    SET_VERDICT(v, VERDICT_INCONCLUSIVE,
+                "bulk (%s) and track (%s) have no indentation rate in common, and %s", bulk, track,
+                twisted ? "their moduli change with the rate in different ways"
+                        : "nothing says how the modulus depends on the rate");
     SET_TEXT(v->settled_by, "curves of both at one rate%s",
              twisted ? "" : ", or at several rates on each spot, or a DMA of the rubber");
 }
@@ -131,27 +132,29 @@ static bool assess_empty_groups(const compare_pair *p, compare_verdict *v)
     if (!empty[0] && !empty[1])
         return false;
     v->is_unreportable = true;
-    SET_TEXT(v->differs, "cannot say: ");
+    v->verdict = VERDICT_INCONCLUSIVE;
     for (int g = 0; g < 2; g++) {
         const wt_group_data *d = &p->data[g];
-        const size_t used = strlen(v->differs), settled_length = strlen(v->settled_by);
+        const size_t used = strlen(v->reason), settled_length = strlen(v->settled_by);
         if (!empty[g])
             continue;
         const char *also = g > 0 && empty[0] ? "; " : "";
         if (d->group.n_rejected == 1)
-            clocale_print(v->differs + used, sizeof v->differs - used,
+            clocale_print(v->reason + used, sizeof v->reason - used,
                           "%sthe only curve of the %s has no modulus", also, compare_group_name[g]);
         else
-            clocale_print(v->differs + used, sizeof v->differs - used,
+            clocale_print(v->reason + used, sizeof v->reason - used,
                           "%snone of the %zu curves of the %s has a modulus", also,
                           d->group.n_rejected, compare_group_name[g]);
         const char *better = curve_remedy(d->main_rejection);
+        const bool is_named =
+            g > 0 && empty[0] && curve_remedy(p->data[0].main_rejection) == better;
         if (d->n_main_rejection > 0) {
-            const size_t end = strlen(v->differs);
-            clocale_print(v->differs + end, sizeof v->differs - end, " (%zu: %s)",
+            const size_t end = strlen(v->reason);
+            clocale_print(v->reason + end, sizeof v->reason - end, " (%zu: %s)",
                           d->n_main_rejection, wt_curve_verdict_text(d->main_rejection));
         }
-        if (strstr(v->settled_by, better) == NULL)
+        if (!is_named)
             clocale_print(v->settled_by + settled_length, sizeof v->settled_by - settled_length,
                           "%s%s", settled_length > 0 ? "; " : "", better);
     }
@@ -165,13 +168,14 @@ static bool assess_conditions(const compare_pair *p, const comparison_inputs *k,
     const wt_comparison *c = &row->c;
     v->is_unreportable = true;
     if (k->lacks_temperature_effect) {
-        SET_TEXT(v->differs,
-                 "cannot say: bulk and track were indented at different temperatures, and "
-                 "nothing says how the modulus changes with temperature");
+        SET_VERDICT(v, VERDICT_INCONCLUSIVE,
+                    "bulk and track were indented at different temperatures, and "
+                    "nothing says how the modulus changes with temperature");
         SET_TEXT(v->settled_by, "a DMA of the rubber, the slope of ln E against temperature "
                                 "(temperature-slope), or curves at one temperature");
     } else if (k->unreachable_temperature[0] != '\0') {
-        SET_TEXT(v->differs, "cannot say: the DMA does not reach %s", k->unreachable_temperature);
+        SET_VERDICT(v, VERDICT_INCONCLUSIVE, "the DMA does not reach %s",
+                    k->unreachable_temperature);
         SET_TEXT(v->settled_by, "DMA isotherms at that temperature, %s",
                  k->rates_by_dma ? "or curves of both at one rate"
                                  : "the slope of ln E against temperature (temperature-slope), or "
@@ -195,21 +199,20 @@ static bool assess_missing_error(const compare_pair *p, const wt_compare_job *jo
         const bool both = c->n_bulk < 2 && c->n_track < 2;
         const bool file = (c->n_bulk < 2 && !p->data[0].spots_are_named && !job->map_spots) ||
                           (c->n_track < 2 && !p->data[1].spots_are_named && !job->map_spots);
-        SET_TEXT(
-            v->differs,
-            "cannot say: %s measured on one spot only%s, so it is not known how much the modulus "
-            "changes from place to place",
-            both            ? "bulk and track were each"
-            : c->n_bulk < 2 ? "the bulk was"
-                            : "the track was",
-            file ? " (the curves of one file, none of them with a named spot)" : "");
+        SET_VERDICT(v, VERDICT_INCONCLUSIVE,
+                    "%s measured on one spot only%s, so it is not known how much the modulus "
+                    "changes from place to place",
+                    both            ? "bulk and track were each"
+                    : c->n_bulk < 2 ? "the bulk was"
+                                    : "the track was",
+                    file ? " (the curves of one file, none of them with a named spot)" : "");
         advise_spots(job, c, v);
         return true;
     }
     if (k->lacks_spring_constant_error) {
-        SET_TEXT(v->differs,
-                 "cannot say: bulk and track were indented with different cantilevers, and "
-                 "the error of a spring constant is not stated");
+        SET_VERDICT(v, VERDICT_INCONCLUSIVE,
+                    "bulk and track were indented with different cantilevers, and "
+                    "the error of a spring constant is not stated");
         SET_TEXT(v->settled_by, "one cantilever for both, or the errors of the spring constants "
                                 "(spring-constant-error)");
         return true;
@@ -230,30 +233,29 @@ static void assess_rate_dependence(const compare_row *rates, size_t n, double in
     }
     v->depends_on_rate = true;
     if (!softer && !stiffer) {
-        SET_TEXT(v->differs,
-                 "cannot say: the ratio depends on the rate (p %s), and at no single rate is a "
-                 "difference shown",
-                 format_probability(interaction).text);
+        SET_VERDICT(v, VERDICT_INCONCLUSIVE,
+                    "the ratio depends on the rate (p %s), and at no single rate is a "
+                    "difference shown",
+                    format_probability(interaction).text);
         SET_TEXT(v->settled_by, "more spots at each rate");
         return;
     }
-    SET_TEXT(v->differs,
-             "yes: the wear track is %s the bulk, by a ratio that depends on the rate (p %s)",
-             softer && stiffer ? "at some rates softer and at others stiffer than"
-             : softer          ? "softer than"
-                               : "stiffer than",
-             format_probability(interaction).text);
+    SET_VERDICT(v, VERDICT_YES,
+                "the wear track is %s the bulk, by a ratio that depends on the rate (p %s)",
+                softer && stiffer ? "at some rates softer and at others stiffer than"
+                : softer          ? "softer than"
+                                  : "stiffer than",
+                format_probability(interaction).text);
 }
 
 /* An interval without a known error source does not show that the difference is small. */
 static void report_incomplete_interval(const wt_compare_job *job, const comparison_inputs *k,
                                        compare_verdict *v)
 {
-    SET_TEXT(
-        v->differs,
-        "cannot say: the interval of the ratio has no room for a difference above %s, but it does "
-        "not hold, for it is not known: %s",
-        format_percent(job->margin).text, k->lacks);
+    SET_VERDICT(v, VERDICT_INCONCLUSIVE,
+                "the interval of the ratio has no room for a difference above %s, but it does "
+                "not hold, for it is not known: %s",
+                format_percent(job->margin).text, k->lacks);
     if (k->lacks_loss_effect)
         SET_TEXT(
             v->settled_by, "%s",
@@ -267,8 +269,8 @@ static void report_incomplete_interval(const wt_compare_job *job, const comparis
 static void report_unstated_errors(const unstated_errors *unstated, const char *seems,
                                    compare_verdict *v)
 {
-    SET_TEXT(v->differs, "cannot say: the wear track %s, but this may be as well: %s", seems,
-             unstated->plausible);
+    SET_VERDICT(v, VERDICT_INCONCLUSIVE, "the wear track %s, but this may be as well: %s", seems,
+                unstated->plausible);
     SET_TEXT(v->settled_by, "%s", unstated->settled_by);
 }
 
@@ -284,7 +286,7 @@ compare_verdict compare_assess(const compare_pair *p, const wt_compare_job *job,
         return v;
     if (c->interaction_p < level) {
         assess_rate_dependence(rates, n_rates, c->interaction_p, &v);
-        if (strncmp(v.differs, "yes", 3) == 0 && unstated->plausible[0] != '\0')
+        if (v.verdict == VERDICT_YES && unstated->plausible[0] != '\0')
             report_unstated_errors(unstated, "seems to differ, by a ratio that depends on the rate",
                                    &v);
         return v;
@@ -300,17 +302,16 @@ compare_verdict compare_assess(const compare_pair *p, const wt_compare_job *job,
                                          : "seems to differ by less than the margin",
                                &v);
     } else if (low > 0 || high < 0) {
-        SET_TEXT(v.differs, "yes: the wear track is %s than the bulk%s",
-                 high < 0 ? "softer" : "stiffer", within ? ", by less than the margin" : "");
+        SET_VERDICT(&v, VERDICT_YES, "the wear track is %s than the bulk%s",
+                    high < 0 ? "softer" : "stiffer", within ? ", by less than the margin" : "");
     } else if (within) {
-        SET_TEXT(v.differs,
-                 "no: the wear track differs from the bulk by less than %s, the margin set",
-                 format_percent(job->margin).text);
+        SET_VERDICT(&v, VERDICT_NO,
+                    "the wear track differs from the bulk by less than %s, the margin set",
+                    format_percent(job->margin).text);
     } else {
-        SET_TEXT(
-            v.differs,
-            "cannot say: the interval of the ratio has room for no difference and for one above %s",
-            format_percent(job->margin).text);
+        SET_VERDICT(&v, VERDICT_INCONCLUSIVE,
+                    "the interval of the ratio has room for no difference and for one above %s",
+                    format_percent(job->margin).text);
         const double known_error = inputs->offset.standard_error;
         if (c->offset_variance_share > 0.5 &&
             inputs->loss_and_curvature_error * inputs->loss_and_curvature_error >

@@ -295,7 +295,9 @@ static size_t find_choice_range(const table_view *t, size_t row, what_if_column 
 /* ---- table ----------------------------------------------------------------------------------- */
 
 typedef struct row {
-    const char *source, *kind, *remedy;
+    const char *source;
+    error_kind kind;
+    const char *remedy;
     double error; /* absolute error of the number */
     double share, seconds;
 } row;
@@ -334,10 +336,10 @@ static void add_measured_rows(const error_budget_run *b, case_quantity k, number
         if (!b->of[i].computed || !(error > 0))
             continue;
         const double part = error / sum, share = part * part;
-        add_number_row(
-            b, k,
-            (row){sources[i].words, "measured", sources[i].remedy, error, share, b->of[i].seconds},
-            t);
+        add_number_row(b, k,
+                       (row){sources[i].words, ERROR_MEASURED, sources[i].remedy, error, share,
+                             b->of[i].seconds},
+                       t);
         if (v->largest == NULL || share > v->share) {
             v->largest = &sources[i];
             v->share = share;
@@ -354,7 +356,7 @@ static void add_model_rows(const error_budget_run *b, case_quantity k, const tab
         if (!(range.half > 0))
             continue;
         add_number_row(b, k,
-                       (row){range.words, "model", "a measurement that settles the choice",
+                       (row){range.words, ERROR_MODEL, "a measurement that settles the choice",
                              range.half, (double)NAN, cost_part_seconds(b->work.cost, range.words)},
                        t);
         if (range.half > v->widest.half)
@@ -408,16 +410,17 @@ static void add_number_rows(const error_budget_run *b, case_quantity k, const ta
     add_measured_rows(b, k, &v, t);
     if (isfinite(v.together)) {
         add_number_row(
-            b, k, (row){"all together", "together", "", v.together, (double)NAN, b->all.seconds},
-            t);
+            b, k,
+            (row){"all together", ERROR_TOGETHER, "", v.together, (double)NAN, b->all.seconds}, t);
         add_number_row(b, k,
-                       (row){"number of replicates", "draws", "four times the replicates halve it",
-                             v.together / sqrt(2 * (n - 1)), (double)NAN, b->all.seconds},
+                       (row){"number of replicates", ERROR_DRAWS,
+                             "four times the replicates halve it", v.together / sqrt(2 * (n - 1)),
+                             (double)NAN, b->all.seconds},
                        t);
     }
     add_number_row(b, k,
-                   (row){"arithmetic", "numerical", "a tighter tolerance", v.numerical, (double)NAN,
-                         b->values.seconds},
+                   (row){"arithmetic", ERROR_NUMERICAL, "a tighter tolerance", v.numerical,
+                         (double)NAN, b->values.seconds},
                    t);
     add_model_rows(b, k, what_if, &v, t);
     set_advice(b, k, &v, t);
@@ -439,15 +442,17 @@ static void add_modulus_ratio_row(const error_budget_run *b, table_writer *t)
     if (!(error > 0))
         return;
     add_budget_row(number, ratio.value,
-                   (row){own, "measured", remedy, sqrt(spots) * error, spots, curves.seconds}, t);
+                   (row){own, ERROR_MEASURED, remedy, sqrt(spots) * error, spots, curves.seconds},
+                   t);
     if (observation->calibration_share > 0)
         add_budget_row(number, ratio.value,
-                       (row){"calibration", "measured", calibration_remedy,
+                       (row){"calibration", ERROR_MEASURED, calibration_remedy,
                              sqrt(observation->calibration_share) * error,
                              observation->calibration_share, curves.seconds},
                        t);
     add_budget_row(number, ratio.value,
-                   (row){"all together", "together", "", error, (double)NAN, curves.seconds}, t);
+                   (row){"all together", ERROR_TOGETHER, "", error, (double)NAN, curves.seconds},
+                   t);
     size_t n =
         (size_t)snprintf(text, sizeof text, "%.0f %% of its variance is the %s: %s.",
                          100 * fmax(spots, observation->calibration_share),
@@ -455,8 +460,8 @@ static void add_modulus_ratio_row(const error_budget_run *b, table_writer *t)
                          spots >= observation->calibration_share ? remedy : calibration_remedy);
     if (curves.error >= 0) {
         add_budget_row(number, ratio.value,
-                       (row){"arithmetic", "numerical", "", M_SQRT2 * curves.error * ratio.value,
-                             (double)NAN, curves.seconds},
+                       (row){"arithmetic", ERROR_NUMERICAL, "",
+                             M_SQRT2 * curves.error * ratio.value, (double)NAN, curves.seconds},
                        t);
         clocale_print(text + n, sizeof text - n,
                       " The arithmetic of the fits is good to %.1g: it leaves nothing to be had.",

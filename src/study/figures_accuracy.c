@@ -49,7 +49,8 @@ static size_t list_texts(const table_view *t, work_precision_column column, cons
 
 static int method_style(const char *method)
 {
-    return strcmp(method, "weartrack") == 0 ? 1 : strcmp(method, "textbook") == 0 ? 2 : 3;
+    const int of = closed_list_find(&precision_method_list, method);
+    return of == METHOD_OF_PROGRAM ? 1 : of == METHOD_OF_TEXTBOOK ? 2 : 3;
 }
 
 static void draw_part(figure_drawing *d, const char *part)
@@ -148,17 +149,18 @@ static size_t find_numbers(const table_view *t, number_panel panels[NUMBERS])
     return n;
 }
 
-static int kind_style(const char *kind)
+static int kind_style(error_kind kind)
 {
-    return strcmp(kind, "measured") == 0 ? 1 : strcmp(kind, "model") == 0 ? 2 : 5;
+    return kind == ERROR_MEASURED ? 1 : kind == ERROR_MODEL ? 2 : 5;
 }
 
-static void draw_bars(figure_drawing *d, const number_panel *p, size_t from, const char *kind)
+static void draw_bars(figure_drawing *d, const number_panel *p, size_t from, error_kind kind)
 {
     static const unsigned columns[] = {ERROR_BUDGET_RELATIVE_ERROR, ERROR_BUDGET_SHARE};
-    const row_filter rows = {{ERROR_BUDGET_NUMBER, ERROR_BUDGET_KIND}, {p->number, kind}, false};
+    const row_filter rows = {
+        {ERROR_BUDGET_NUMBER, ERROR_BUDGET_KIND}, {p->number, error_kind_text(kind)}, false};
     const size_t top = p->first + p->n - 1 - from;
-    plot_item(d, drawing_section(d, d->table, kind, &rows, columns, 2, 1),
+    plot_item(d, drawing_section(d, d->table, error_kind_text(kind), &rows, columns, 2, 1),
               "($1>%s ? %s*x_unit : NaN):(%zu-$0):(%s*x_unit):($1*x_unit):(%zu.7-$0-1):(%zu.3-$0) "
               "with boxxyerror ls %d",
               LITERAL(least_error), LITERAL(least_error), top, LITERAL(least_error), top, top,
@@ -166,11 +168,11 @@ static void draw_bars(figure_drawing *d, const number_panel *p, size_t from, con
 }
 
 /* Draws a line at the largest error of a kind, which improvements of other kinds cannot reduce. */
-static void draw_floor(figure_drawing *d, const number_panel *p, const char *kind)
+static void draw_floor(figure_drawing *d, const number_panel *p, error_kind kind)
 {
     double largest = 0;
     for (size_t row = p->first; row < p->first + p->n; row++)
-        if (strcmp(error_budget_text(d->table, row, ERROR_BUDGET_KIND), kind) == 0)
+        if (error_budget_enum(d->table, row, ERROR_BUDGET_KIND) == (int)kind)
             largest = fmax(largest, error_budget_get(d->table, row, ERROR_BUDGET_RELATIVE_ERROR));
     if (largest > least_error)
         text_format(&d->script,
@@ -202,13 +204,13 @@ static void draw_number(figure_drawing *d, const number_panel *p)
         text_format(&d->script, " %zu", p->n - 1 - i);
     }
     text_add(&d->script, ") noenhanced scale 0\nunset arrow\n");
-    draw_floor(d, p, "together");
-    draw_floor(d, p, "model");
+    draw_floor(d, p, ERROR_TOGETHER);
+    draw_floor(d, p, ERROR_MODEL);
     plot_heading(d, p->number);
-    const char *last = "";
+    error_kind last = ERROR_KIND_UNKNOWN;
     for (size_t row = p->first; row < p->first + p->n; row++) {
-        const char *kind = error_budget_text(t, row, ERROR_BUDGET_KIND);
-        if (strcmp(kind, last) != 0)
+        const error_kind kind = error_budget_enum(t, row, ERROR_BUDGET_KIND);
+        if (kind != last)
             draw_bars(d, p, row, kind);
         last = kind;
     }
@@ -245,8 +247,9 @@ static void draw_error_budget(figure_drawing *d)
     plot_expression(d, "NaN with boxes ls 2 title 'choice of the model'");
     plot_expression(d, "NaN with boxes ls 5 title 'together, draws, arithmetic'");
     plot_expression(d, "NaN with lines ls %d dt 3 title 'floor of what is measured'",
-                    kind_style("together"));
-    plot_expression(d, "NaN with lines ls %d dt 3 title 'floor of the model'", kind_style("model"));
+                    kind_style(ERROR_TOGETHER));
+    plot_expression(d, "NaN with lines ls %d dt 3 title 'floor of the model'",
+                    kind_style(ERROR_MODEL));
     plot_end(d);
     text_add(&d->script, "unset multiplot\n");
 }
@@ -308,8 +311,8 @@ static void draw_cost(figure_drawing *d)
         axis_log(d, "x", "Relative error", &t->schema->columns[COST_STANDARD_ERROR], error);
         text_add(&d->script, "k=0\nj=0\n");
         plot_item(d, section,
-                  "($3>0 ? $3*x_unit : NaN):" STAGE_POSITION " with points ls 1 title '%s'",
-                  "standard error");
+                  "($3>0 ? $3*x_unit : NaN):" STAGE_POSITION
+                  " with points ls 1 title 'standard error'");
         plot_item(d, section,
                   "($4>0 ? $4*x_unit : NaN):($2>0 ? -(j=j+1) : NaN)"
                   " with points ls 2 pt 6 title 'numerical error'");

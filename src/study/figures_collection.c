@@ -260,8 +260,7 @@ static void draw_constants(figure_drawing *d)
 
 static void caption_collected_friction(figure_drawing *d)
 {
-    const char *part = collected_friction_key_text(d->table, COLLECTED_FRICTION_KEY_PART);
-    if (part != NULL && strcmp(part, "hysteresis") == 0)
+    if (collected_friction_key_enum(d->table, COLLECTED_FRICTION_KEY_PART) == HYSTERESIS_ALONE)
         text_add(&d->caption, " Of hysteresis alone: not all cases have a shear stress.");
 }
 

@@ -22,15 +22,14 @@ typedef struct constant_estimates {
     char room[128]; /* storage of the name */
 } constant_estimates;
 
-/* Returns the distinguishing end of the name of a method. */
+/* Returns the heading of a method. */
 static const char *panel_heading(const char *by)
 {
-    static const char *const ends[] = {"wear rate", "balance of rates", "transport of damage"};
-    const size_t length = strlen(by);
-    for (size_t i = 0; i < sizeof ends / sizeof *ends; i++)
-        if (length >= strlen(ends[i]) && strcmp(by + length - strlen(ends[i]), ends[i]) == 0)
-            return ends[i];
-    return by;
+    static const char *const headings[] = {[BY_WEAR] = "wear rate",
+                                           [BY_RATES] = "balance of rates",
+                                           [BY_TRANSPORT] = "transport of damage"};
+    const int method = closed_list_find(&identification_method_list, by);
+    return method <= BY_TRANSPORT ? headings[method] : by;
 }
 
 static void read_identification(const table_view *t, size_t row, constant_estimates *p)

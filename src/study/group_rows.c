@@ -116,7 +116,7 @@ static wt_status find_accepted_rows(const table_view *t, wt_group_data *d, size_
     size_t n = 0;
     for (size_t row = 0; row < t->n_rows; row++) {
         const double modulus = indentation_get(t, row, INDENTATION_MODULUS);
-        if (!wt_curve_verdict_id_is_usable(indentation_text(t, row, INDENTATION_VERDICT))) {
+        if (!wt_curve_verdict_is_usable(indentation_enum(t, row, INDENTATION_VERDICT))) {
             d->group.n_rejected++;
             continue;
         }
@@ -141,9 +141,9 @@ static void count_rejected(const table_view *t, wt_group_data *d)
 {
     size_t counts[WT_CURVE_UNREADABLE + 1] = {0};
     for (size_t row = 0; row < t->n_rows; row++) {
-        const char *verdict = indentation_text(t, row, INDENTATION_VERDICT);
-        for (int v = WT_CURVE_ACCEPTED; v <= WT_CURVE_UNREADABLE; v++)
-            counts[v] += strcmp(verdict, wt_curve_verdict_id((wt_curve_verdict)v)) == 0 ? 1 : 0;
+        const int verdict = indentation_enum(t, row, INDENTATION_VERDICT);
+        if (verdict <= WT_CURVE_UNREADABLE)
+            counts[verdict]++;
     }
     for (int v = WT_CURVE_ACCEPTED; v <= WT_CURVE_UNREADABLE; v++)
         if (!wt_curve_verdict_is_usable((wt_curve_verdict)v) && counts[v] > d->n_main_rejection) {
@@ -156,9 +156,9 @@ static void count_rejected(const table_view *t, wt_group_data *d)
  * from another program. */
 static void find_spot_naming(const table_view *t, wt_group_data *d)
 {
-    const char *spots = indentation_key_text(t, INDENTATION_KEY_SPOTS);
-    d->spots_are_named =
-        spots != NULL ? strncmp(spots, "named", 5) == 0 : indentation_has(t, INDENTATION_SPOT);
+    d->spots_are_named = indentation_key_text(t, INDENTATION_KEY_SPOTS) != NULL
+                             ? indentation_key_enum(t, INDENTATION_KEY_SPOTS) == SPOTS_NAMED
+                             : indentation_has(t, INDENTATION_SPOT);
 }
 
 /* Returns the spot of an accepted curve. With `spot_per_position` its position is part of the spot,
@@ -224,8 +224,8 @@ static void read_shared_inputs(const table_view *t, wt_group_data *d)
     d->tip = indentation_key_text(t, INDENTATION_KEY_TIP);
     d->has_several_cantilevers = indentation_key_text(t, INDENTATION_KEY_SPRING_CONSTANTS) != NULL;
     d->has_several_sensitivities = indentation_key_text(t, INDENTATION_KEY_SENSITIVITIES) != NULL;
-    d->has_several_tips = d->tip != NULL && strncmp(d->tip, INDENTATION_SEVERAL_TIPS,
-                                                    strlen(INDENTATION_SEVERAL_TIPS)) == 0;
+    const tip_form form = indentation_key_enum(t, INDENTATION_KEY_TIP);
+    d->has_several_tips = form == SEVERAL_TIPS || form == SEVERAL_BLUNTED_PYRAMIDS;
     for (int i = 0; i < WT_SYSTEMATIC_SOURCES; i++) {
         const indentation_key error = (indentation_key)(INDENTATION_KEY_LEVER_ERROR + i),
                               gain = (indentation_key)(INDENTATION_KEY_LEVER_GAIN + i);

@@ -14,7 +14,7 @@
 static const double level = 0.05;
 
 TABLE_ROW(ratio_pairs, RATIO_PAIRS, const char *of, *first, *second; wt_interval ratio;
-          double df, p, holm_p; const char *differ;)
+          double df, p, holm_p; stated_verdict differ;)
 TABLE_KEYS(ratio_pairs, RATIO_PAIRS, double pairs, different, undecided;
            const char *includes, *settled_by; double margin;)
 
@@ -24,15 +24,13 @@ typedef struct ratio_pair {
     bool of_sample; /* true if both share the sample, and the conditions differ */
     wt_log_ratio_difference difference;
     double holm_p;
-    const char *differ;
+    stated_verdict differ;
 } ratio_pair;
 
 typedef struct pair_list {
     ratio_pair *pairs;
     size_t n;
 } pair_list;
-
-static const char yes[] = "yes", no[] = "no", open_[] = "cannot say";
 
 static wt_status add_ratio_pair(pair_list *list, const collected_case *a, const collected_case *b,
                                 wt_error *err)
@@ -67,9 +65,10 @@ static wt_status assess_pairs(pair_list *list, double margin, wt_error *err)
         ratio_pair *q = &list->pairs[i];
         const double least = log1p(margin);
         q->holm_p = p[list->n + i];
-        q->differ = q->holm_p < level                                          ? yes
-                    : q->difference.low > -least && q->difference.high < least ? no
-                                                                               : open_;
+        q->differ = q->holm_p < level ? VERDICT_YES
+                    : q->difference.low > -least && q->difference.high < least
+                        ? VERDICT_NO
+                        : VERDICT_INCONCLUSIVE;
     }
     free(p);
     return WT_OK;
@@ -97,7 +96,7 @@ static void advise_pair(const pair_list *list, double margin, char *text, size_t
     for (size_t i = 0; i < list->n; i++) {
         const ratio_pair *q = &list->pairs[i];
         const double needed = required_narrowing(q, margin);
-        if (q->differ == open_ && needed * needed < least) {
+        if (q->differ == VERDICT_INCONCLUSIVE && needed * needed < least) {
             least = needed * needed;
             nearest = q;
         }
@@ -123,8 +122,8 @@ static wt_status make_pairs_table(const pair_list *list, double margin, wt_table
     table_writer w = table_begin(&ratio_pairs_schema, err);
     for (size_t i = 0; i < list->n; i++) {
         const ratio_pair *q = &list->pairs[i];
-        different += q->differ == yes;
-        undecided += q->differ == open_;
+        different += q->differ == VERDICT_YES;
+        undecided += q->differ == VERDICT_INCONCLUSIVE;
         TABLE_ADD(ratio_pairs, &w, q->of, differing_name(q, q->a), differing_name(q, q->b),
                   difference_ratio(&q->difference), q->difference.df, q->difference.p, q->holm_p,
                   q->differ);

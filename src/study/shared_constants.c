@@ -18,14 +18,11 @@
 static const double level = 0.05;
 
 TABLE_ROW(shared_constants, SHARED_CONSTANTS, const char *constant, *over, *of; wt_interval value;
-          const char *unit; double n, chi_squared, df, p, holm_p; const char *suffices;)
+          const char *unit; double n, chi_squared, df, p, holm_p; sharing_verdict suffices;)
 TABLE_KEYS(shared_constants, SHARED_CONSTANTS, double tested, different, undecided;
            const char *includes, *left_out, *settled_by; double margin;)
 TABLE_ROW(shared_members, SHARED_MEMBERS, const char *constant, *over, *of, *member;
           double number, value; const char *unit; wt_interval ratio;)
-
-typedef enum sharing_level { OF_SAMPLE, OF_CONDITION, OF_ALL, COMMONS } sharing_level;
-static const char *const common_words[COMMONS] = {"sample", "condition", "all cases"};
 
 /* Unit of each constant, and the level at which the theory shares it. All constants are also tested
  * over all cases. */
@@ -46,7 +43,7 @@ typedef struct shared_row {
     size_t n;
     shared_value found;
     double holm_p;
-    const char *suffices;
+    sharing_verdict suffices;
 } shared_row;
 
 typedef struct shared_rows {
@@ -54,8 +51,6 @@ typedef struct shared_rows {
     size_t n;
     double margin;
 } shared_rows;
-
-static const char one[] = "one", differs[] = "differs", open_[] = "cannot say";
 
 /* ---- selection ------------------------------------------------------------------------------- */
 
@@ -175,10 +170,10 @@ static wt_status assess_shared_rows(shared_rows *list, wt_error *err)
     for (size_t i = 0; i < list->n; i++) {
         shared_row *row = &list->rows[i];
         row->holm_p = p[list->n + i];
-        row->suffices = find_incomplete_value(row) != NULL    ? open_
-                        : row->holm_p < level                 ? differs
-                        : is_within_margin(row, list->margin) ? one
-                                                              : open_;
+        row->suffices = find_incomplete_value(row) != NULL    ? SHARING_INCONCLUSIVE
+                        : row->holm_p < level                 ? SHARING_DIFFERS
+                        : is_within_margin(row, list->margin) ? SHARING_ONE
+                                                              : SHARING_INCONCLUSIVE;
     }
     free(p);
     return WT_OK;
@@ -224,7 +219,8 @@ static void advise_shared_row(const shared_rows *list, char *text, size_t size)
     for (size_t i = 0; i < list->n; i++) {
         const shared_row *row = &list->rows[i];
         const double needed = required_narrowing(row, list->margin);
-        if (row->suffices == open_ && find_incomplete_value(row) == NULL && needed < least) {
+        if (row->suffices == SHARING_INCONCLUSIVE && find_incomplete_value(row) == NULL &&
+            needed < least) {
             least = needed;
             nearest = row;
         }
@@ -235,7 +231,7 @@ static void advise_shared_row(const shared_rows *list, char *text, size_t size)
             "errors smaller by a factor of about %.2g, of each case, would settle the nearest of "
             "them, the %s of %s%s%s",
             fmax(1.1, least), shared_constant_names[nearest->constant],
-            common_words[nearest->common], nearest->of[0] != '\0' ? " " : "", nearest->of);
+            sharing_level_text(nearest->common), nearest->of[0] != '\0' ? " " : "", nearest->of);
     advise_errors(list, text, size);
 }
 
@@ -257,10 +253,10 @@ static wt_status list_constants(const shared_rows *list, const case_value_list *
         const shared_row *row = &list->rows[i];
         const shared_value *f = &row->found;
         const double value = exp(f->value);
-        different += row->suffices == differs;
-        undecided += row->suffices == open_;
+        different += row->suffices == SHARING_DIFFERS;
+        undecided += row->suffices == SHARING_INCONCLUSIVE;
         TABLE_ADD(shared_constants, &w, shared_constant_names[row->constant],
-                  common_words[row->common], row->of,
+                  sharing_level_text(row->common), row->of,
                   (wt_interval){value, value * f->error, exp(f->low), exp(f->high)},
                   constants[row->constant].unit, (double)row->n, f->chi_squared, f->df, f->p,
                   row->holm_p, row->suffices);
@@ -286,7 +282,7 @@ static wt_status list_members(const shared_rows *list, wt_table **table, wt_erro
             const shared_deviation *d = &row->deviation[k];
             shared_value_name(row->members[k], name, sizeof name);
             TABLE_ADD(shared_members, &w, shared_constant_names[row->constant],
-                      common_words[row->common], row->of, name, (double)(k + 1),
+                      sharing_level_text(row->common), row->of, name, (double)(k + 1),
                       exp(row->members[k]->log.value), constants[row->constant].unit,
                       (wt_interval){exp(d->value), (double)NAN, exp(d->low), exp(d->high)});
         }

@@ -22,10 +22,10 @@ static const double level = 0.05;
 
 TABLE_ROW(collected_constants, COLLECTED_CONSTANTS, const char *sample, *condition, *by;
           wt_interval energy, wear; constant_axes axes;)
-TABLE_ROW(shared_pairs, SHARED_PAIRS, const char *by, *over, *of; double n;
-          const char *one_energy, *one_wear, *one_pair; wt_interval energy, wear;
+TABLE_ROW(shared_pairs, SHARED_PAIRS, const char *by; sharing_level over; const char *of; double n;
+          sharing_verdict one_energy, one_wear, one_pair; wt_interval energy, wear;
           constant_axes axes; double chi_squared, df, holm_p;)
-TABLE_KEYS(shared_pairs, SHARED_PAIRS, const char *one_of_all; double tests;
+TABLE_KEYS(shared_pairs, SHARED_PAIRS, sharing_verdict one_of_all; double tests;
            const char *left_out, *settled_by; double margin;)
 
 /* Pair of a case by one method: a row of its table "identification". */
@@ -44,10 +44,6 @@ typedef struct reported_pairs {
     char left_out[1000];
 } reported_pairs;
 
-typedef enum sharing_level { OF_SAMPLE, OF_CONDITION, OF_ALL, COMMONS } sharing_level;
-static const char *const common_words[COMMONS] = {"sample", "condition", "all cases"};
-static const char one[] = "one", differs[] = "differs", open_[] = "cannot say";
-
 /* Tests of a row. */
 enum { OF_ENERGY, OF_WEAR, OF_BOTH, TESTS };
 
@@ -59,7 +55,7 @@ typedef struct pair_row {
     shared_pair found;
     double p[TESTS], holm_p[TESTS];
     double off[OF_BOTH]; /* largest deviation from the shared value, as a limit of its interval */
-    const char *says[TESTS];
+    sharing_verdict says[TESTS];
 } pair_row;
 
 typedef struct pair_rows {
@@ -269,10 +265,10 @@ static wt_status assess_pair_rows(pair_rows *rows, double margin, arena *memory,
             within = within && (k == OF_BOTH || row->off[k] < log1p(margin));
             const bool near = k == OF_BOTH ? within : row->off[k] < log1p(margin);
             row->holm_p[k] = corrected[TESTS * i + (size_t)k];
-            row->says[k] = find_incomplete_pair(row) != NULL ? open_
-                           : row->holm_p[k] < level          ? differs
-                           : near                            ? one
-                                                             : open_;
+            row->says[k] = find_incomplete_pair(row) != NULL ? SHARING_INCONCLUSIVE
+                           : row->holm_p[k] < level          ? SHARING_DIFFERS
+                           : near                            ? SHARING_ONE
+                                                             : SHARING_INCONCLUSIVE;
         }
     }
     return WT_OK;
@@ -300,7 +296,7 @@ static void write_pair_advice(const pair_rows *rows, char *text, size_t size)
                           lacks->of->sample, lacks->of->condition, lacks->lacks);
             return;
         }
-        if (row->says[OF_BOTH] == open_ && text[0] == '\0')
+        if (row->says[OF_BOTH] == SHARING_INCONCLUSIVE && text[0] == '\0')
             clocale_print(
                 text, size,
                 "what narrows %s, which is known least (to a factor of %.3g): a wear rate "
@@ -310,12 +306,13 @@ static void write_pair_advice(const pair_rows *rows, char *text, size_t size)
 }
 
 /* Overall verdict over all cases and all methods: "differs" if any method differs. */
-static const char *overall_verdict(const pair_rows *rows)
+static sharing_verdict overall_verdict(const pair_rows *rows)
 {
-    const char *said = NULL;
+    sharing_verdict said = SHARING_UNKNOWN;
     for (size_t i = 0; i < rows->n; i++) {
-        const char *const here = rows->of[i].says[OF_BOTH];
-        if (rows->of[i].common == OF_ALL && (said == NULL || here == differs || said == one))
+        const sharing_verdict here = rows->of[i].says[OF_BOTH];
+        if (rows->of[i].common == OF_ALL &&
+            (said == SHARING_UNKNOWN || here == SHARING_DIFFERS || said == SHARING_ONE))
             said = here;
     }
     return said;
@@ -329,12 +326,11 @@ static wt_status list_rows(const pair_rows *rows, const reported_pairs *reported
     for (size_t i = 0; i < rows->n; i++) {
         const pair_row *r = &rows->of[i];
         const shared_pair *f = &r->found;
-        TABLE_ADD(shared_pairs, &w, r->by, common_words[r->common], r->of, (double)r->n,
-                  r->says[OF_ENERGY], r->says[OF_WEAR], r->says[OF_BOTH],
-                  shared_interval(f->energy, f->covariance.energy),
-                  shared_interval(f->wear, f->covariance.wear),
-                  constant_axes_compute(f->covariance), f->chi_squared, 2 * ((double)r->n - 1),
-                  r->holm_p[OF_BOTH]);
+        TABLE_ADD(
+            shared_pairs, &w, r->by, r->common, r->of, (double)r->n, r->says[OF_ENERGY],
+            r->says[OF_WEAR], r->says[OF_BOTH], shared_interval(f->energy, f->covariance.energy),
+            shared_interval(f->wear, f->covariance.wear), constant_axes_compute(f->covariance),
+            f->chi_squared, 2 * ((double)r->n - 1), r->holm_p[OF_BOTH]);
     }
     write_pair_advice(rows, settled_by, sizeof settled_by);
     TABLE_SET(shared_pairs, &w, overall_verdict(rows), (double)(TESTS * rows->n),
@@ -351,7 +347,7 @@ wt_status collect_layer_constants(const collected_case *cases, size_t n, double 
     wt_status status = WT_OK;
     for (size_t i = 0; status == WT_OK && i < n; i++)
         status = add_case_pairs(&cases[i], &reported, err);
-    for (sharing_level c = 0; status == WT_OK && c < COMMONS; c++)
+    for (sharing_level c = 0; status == WT_OK && c < SHARED_BY_UNKNOWN; c++)
         for (size_t i = 0; status == WT_OK && i < reported.n; i++)
             if (reported.of[i].fixed && pair_shared_by_name(&reported.of[i], c) != NULL)
                 status = add_pair_row(&reported, i, c, &rows, &memory, err);

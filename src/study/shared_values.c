@@ -144,7 +144,10 @@ static wt_status find_shear_components(const collected_case *c, double variance,
 static const char *missing_errors(const collected_case *c)
 {
     const char *lacks = friction_key_text(&c->tables.friction, FRICTION_KEY_ERROR_LACKS);
-    return lacks != NULL && strcmp(lacks, "shear stress") != 0 ? lacks : NULL;
+    return friction_key_items(&c->tables.friction, FRICTION_KEY_ERROR_LACKS) ==
+                   SCHEMA_BIT(SOURCE_SHEAR_STRESS)
+               ? NULL
+               : lacks;
 }
 
 static wt_status add_shear(const collected_case *c, case_value_list *to, wt_error *err)
@@ -254,12 +257,11 @@ static void extend_rates(rate_range *ends, double rate, double frequency)
 static wt_status add_curve_to_spot(const table_view *curves, size_t row, spot_line **lines,
                                    size_t *n, rate_range *ends, wt_error *err)
 {
-    const char *spot = curve_spot(curves, row),
-               *verdict = indentation_text(curves, row, INDENTATION_VERDICT);
+    const char *spot = curve_spot(curves, row);
     const double x = log10(indentation_get(curves, row, INDENTATION_RATE)),
                  y = log(indentation_get(curves, row, INDENTATION_MODULUS));
     if (spot == NULL || !isfinite(x) || !isfinite(y) ||
-        (strcmp(verdict, "accepted") != 0 && strcmp(verdict, "doubtful") != 0))
+        !wt_curve_verdict_is_usable(indentation_enum(curves, row, INDENTATION_VERDICT)))
         return WT_OK;
     size_t i = 0;
     while (i < *n && strcmp((*lines)[i].spot, spot) != 0)

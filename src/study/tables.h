@@ -5,6 +5,30 @@
 #define WT_STUDY_TABLES_H
 
 /* A group without an accepted curve has only its numbers of curves. */
+#define ANALYSIS_UNITS(X)                                                                          \
+    X(UNIT_IS_CURVE, "curve")                                                                      \
+    X(UNIT_IS_SPOT, "spot")
+
+#define RATE_MATCHES(X)                                                                            \
+    X(RATES_COMMON, "those that both groups have")                                                 \
+    X(RATES_BROUGHT, "brought to one")                                                             \
+    X(RATES_NOT_KNOWN, "not known")
+
+#define CANTILEVER_COUNTS(X)                                                                       \
+    X(ONE_CANTILEVER, "one")                                                                       \
+    X(TWO_CANTILEVERS, "two")
+
+/* Kinds of errors of a budget. */
+#define ERROR_KINDS(X)                                                                             \
+    X(ERROR_SCATTER, "scatter")                                                                    \
+    X(ERROR_BESIDE, "beside") /* of one curve or spot, not in the sum */                           \
+    X(ERROR_SHARED, "shared")                                                                      \
+    X(ERROR_MEASURED, "measured")                                                                  \
+    X(ERROR_DRAWS, "draws")                                                                        \
+    X(ERROR_NUMERICAL, "numerical")                                                                \
+    X(ERROR_MODEL, "model")                                                                        \
+    X(ERROR_TOGETHER, "together")
+
 #define MODULUS_GROUPS_COLUMNS(X)                                                                  \
     X(MODULUS_GROUPS_GROUP, AS(group), "group of curves", TEXT, LABEL("Group"))                    \
     X(MODULUS_GROUPS_N, IN(data, n), "accepted curves", NUMBER, LABEL("Curves n"))                 \
@@ -36,7 +60,7 @@
       "shared: by all curves of the group; scatter: of the mean of the spots; together: the root " \
       "of "                                                                                        \
       "the sum of their squares; beside: of one curve or spot, not in the sum",                    \
-      TEXT, LABEL("Kind"))                                                                         \
+      ENUM(error_kind), LABEL("Kind"))                                                             \
     X(MODULUS_BUDGET_SOURCE_ERROR, IN(part, source_error),                                         \
       "relative standard error of the source; nan: not stated", NUMBER, LABEL("Its error"),        \
       MISSING("not stated"), SPARSE)                                                               \
@@ -92,16 +116,18 @@
 
 /* The ratio of all rates also has a key, if it exists. A normal error has no degrees of freedom. */
 #define COMPARISON_KEYS(X)                                                                         \
-    X(COMPARISON_KEY_DIFFERS, AS(differs), TEXT, LABEL("Does the wear track differ"))              \
+    X(COMPARISON_KEY_DIFFERS, AS(differs), ENUM(stated_verdict),                                   \
+      LABEL("Does the wear track differ"))                                                         \
     X(COMPARISON_KEY_SETTLED_BY, AS(settled_by), TEXT, LABEL("What would settle it"), OPTIONAL)    \
     X(COMPARISON_KEY_WOULD_EXPLAIN, AS(would_explain), TEXT,                                       \
       LABEL("What else would make this ratio"), OPTIONAL)                                          \
-    X(COMPARISON_KEY_UNIT_OF_ANALYSIS, "unit_of_analysis", TEXT, SHOWS(unit),                      \
+    X(COMPARISON_KEY_UNIT_OF_ANALYSIS, "unit_of_analysis", ENUM(analysis_unit), SHOWS(unit),       \
       LABEL("Unit of analysis"))                                                                   \
-    X(COMPARISON_KEY_RATES, "rates_compared", TEXT, SHOWS(rates), LABEL("Rates compared"))         \
+    X(COMPARISON_KEY_RATES, "rates_compared", ENUM(rate_match), SHOWS(rates),                      \
+      LABEL("Rates compared"))                                                                     \
     X(COMPARISON_KEY_INCLUDES, "interval_includes", TEXT, SHOWS(includes),                         \
       LABEL("The interval includes"), OPTIONAL)                                                    \
-    X(COMPARISON_KEY_CANTILEVERS, AS(cantilevers), TEXT, LABEL("Cantilevers"))                     \
+    X(COMPARISON_KEY_CANTILEVERS, AS(cantilevers), ENUM(cantilever_count), LABEL("Cantilevers"))   \
     X(COMPARISON_KEY_CANCELS, AS(cancels), TEXT, LABEL("Errors that cancel in the ratio"),         \
       OPTIONAL)                                                                                    \
     X(COMPARISON_KEY_MARGIN, "equivalence_margin", PLAIN, SHOWS(margin),                           \
@@ -198,7 +224,7 @@
     X(DMA_COMPARISON_KEY_TEMPERATURE, AS(temperature), SI(TEMPERATURE))                            \
     X(DMA_COMPARISON_KEY_TRACK_TEMPERATURE, AS(track_temperature), SI(TEMPERATURE), OPTIONAL)      \
     X(DMA_COMPARISON_KEY_RATIO_OF, AS(ratio_of), TEXT)                                             \
-    X(DMA_COMPARISON_KEY_ERROR_LACKS, "standard_error_excludes", TEXT, SHOWS(lacks),               \
+    X(DMA_COMPARISON_KEY_ERROR_LACKS, "standard_error_excludes", ENUM(error_source), SHOWS(lacks), \
       LABEL("No error known of"), OPTIONAL)                                                        \
     X(DMA_COMPARISON_KEY_MATERIAL_STATEMENT, "material_statement", TEXT, SHOWS(statement), OPTIONAL)
 

@@ -4,9 +4,14 @@
 #ifndef WT_STUDY_TABLES_ACCURACY_H
 #define WT_STUDY_TABLES_ACCURACY_H
 
+#define PRECISION_METHODS(X)                                                                       \
+    X(METHOD_OF_PROGRAM, "weartrack")                                                              \
+    X(METHOD_OF_TEXTBOOK, "textbook")
+
 #define WORK_PRECISION_COLUMNS(X)                                                                  \
     X(WORK_PRECISION_PART, AS(part), "numerical part", TEXT, LABEL("Part"))                        \
-    X(WORK_PRECISION_METHOD, AS(method), "weartrack or the textbook", TEXT, LABEL("Method"))       \
+    X(WORK_PRECISION_METHOD, AS(method), "weartrack or the textbook", ENUM(precision_method),      \
+      LABEL("Method"))                                                                             \
     X(WORK_PRECISION_SETTING, AS(setting), "what is swept", TEXT, LABEL("Setting"))                \
     X(WORK_PRECISION_VALUE, AS(value), "its value", NUMBER, LABEL("Value"))                        \
     X(WORK_PRECISION_TRUE_ERROR, IN(errors, true_error),                                           \

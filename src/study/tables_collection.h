@@ -3,6 +3,22 @@
 #ifndef WT_STUDY_TABLES_COLLECTION_H
 #define WT_STUDY_TABLES_COLLECTION_H
 
+/* What cases have in common. */
+#define SHARING_LEVELS(X)                                                                          \
+    X(OF_SAMPLE, "sample")                                                                         \
+    X(OF_CONDITION, "condition")                                                                   \
+    X(OF_ALL, "all cases")
+
+/* Does one value of a constant suffice? */
+#define SHARING_VERDICTS(X)                                                                        \
+    X(SHARING_INCONCLUSIVE, "cannot say")                                                          \
+    X(SHARING_ONE, "one")                                                                          \
+    X(SHARING_DIFFERS, "differs")
+
+#define FRICTION_PARTS(X)                                                                          \
+    X(WHOLE_FRICTION, "friction")                                                                  \
+    X(HYSTERESIS_ALONE, "hysteresis")
+
 #define OF_CASE(X, ID)                                                                             \
     X(ID##_SAMPLE, AS(sample), "rubber", TEXT, LABEL("Sample"))                                    \
     X(ID##_CONDITION, AS(condition), "what made the wear track", TEXT, LABEL("Condition"))
@@ -13,8 +29,8 @@
     VALUE_AND_INTERVAL(X, COLLECTION_RATIO, "modulus_ratio",                                       \
                        "modulus of the track over that of the bulk", NUMBER, SHOWS(ratio),         \
                        LABEL("Track / bulk"), SPARSE)                                              \
-    X(COLLECTION_DIFFERS, AS(differs), "does the wear track differ: yes, no or cannot say", TEXT,  \
-      LABEL("Differs"))                                                                            \
+    X(COLLECTION_DIFFERS, AS(differs), "does the wear track differ: yes, no or cannot say",        \
+      ENUM(stated_verdict), LABEL("Differs"))                                                      \
     VALUE_AND_INTERVAL(X, COLLECTION_THICKNESS, "balance_thickness",                               \
                        "thickness of the layer where formation balances wear", SI(LENGTH),         \
                        SHOWS(thickness), LABEL("Layer thickness"), SPARSE)                         \
@@ -48,7 +64,7 @@
       NUMBER, SHOWS(standard_error))                                                               \
     X(COLLECTED_FRICTION_WITH_LAYER, AS(with_layer),                                               \
       "friction coefficient with the modified layer", NUMBER, SPARSE)
-#define COLLECTED_FRICTION_KEYS(X) X(COLLECTED_FRICTION_KEY_PART, AS(part), TEXT)
+#define COLLECTED_FRICTION_KEYS(X) X(COLLECTED_FRICTION_KEY_PART, AS(part), ENUM(friction_part))
 
 /* Each block is a group of a case, or a paired group of a sample. */
 #define COLLECTED_FORCE_COLUMNS(X)                                                                 \
@@ -81,7 +97,7 @@
     X(SHARED_CONSTANTS_HOLM_P, AS(holm_p), "p after Holm's correction for the number of rows",     \
       NUMBER, LABEL("p (Holm)"), DIGITS(2))                                                        \
     X(SHARED_CONSTANTS_SUFFICES, AS(suffices), "does one value suffice: one, differs, cannot say", \
-      TEXT, LABEL("One value"))
+      ENUM(sharing_verdict), LABEL("One value"))
 #define SHARED_CONSTANTS_KEYS(X)                                                                   \
     X(SHARED_CONSTANTS_KEY_TESTED, "constants_tested", NUMBER, SHOWS(tested),                      \
       LABEL("Constants tested"))                                                                   \
@@ -139,15 +155,17 @@
     X(SHARED_PAIRS_OVER, AS(over),                                                                 \
       "what the cases have in common: sample, condition, or all "                                  \
       "cases",                                                                                     \
-      TEXT, LABEL("Common to"))                                                                    \
+      ENUM(sharing_level), LABEL("Common to"))                                                     \
     X(SHARED_PAIRS_OF, AS(of), "its name", TEXT, LABEL("Of"))                                      \
     X(SHARED_PAIRS_N, AS(n), "cases that it is of", NUMBER, LABEL("Cases"))                        \
     X(SHARED_PAIRS_ONE_ENERGY, AS(one_energy),                                                     \
-      "does one critical energy suffice: one, differs, cannot say", TEXT, LABEL("One U_c"))        \
+      "does one critical energy suffice: one, differs, cannot say", ENUM(sharing_verdict),         \
+      LABEL("One U_c"))                                                                            \
     X(SHARED_PAIRS_ONE_WEAR, AS(one_wear), "does one wear rate suffice: one, differs, cannot say", \
-      TEXT, LABEL("One k"))                                                                        \
+      ENUM(sharing_verdict), LABEL("One k"))                                                       \
     X(SHARED_PAIRS_ONE_PAIR, AS(one_pair),                                                         \
-      "does one pair of both suffice: one, differs, cannot say", TEXT, LABEL("One pair"))          \
+      "does one pair of both suffice: one, differs, cannot say", ENUM(sharing_verdict),            \
+      LABEL("One pair"))                                                                           \
     OF_PAIR(X, SHARED_PAIRS)                                                                       \
     X(SHARED_PAIRS_CHI_SQUARED, AS(chi_squared), "chi-squared of the scatter of the pairs",        \
       NUMBER, LABEL("Chi-squared"), DIGITS(3))                                                     \
@@ -157,7 +175,7 @@
       "number of tests of the table",                                                              \
       NUMBER, LABEL("p (Holm)"), DIGITS(2))
 #define SHARED_PAIRS_KEYS(X)                                                                       \
-    X(SHARED_PAIRS_KEY_ONE, "one_layer_constants", TEXT, SHOWS(one_of_all),                        \
+    X(SHARED_PAIRS_KEY_ONE, "one_layer_constants", ENUM(sharing_verdict), SHOWS(one_of_all),       \
       HEADLINE("One critical energy and wear rate of all layers"), OPTIONAL)                       \
     X(SHARED_PAIRS_KEY_TESTS, "tests", NUMBER, SHOWS(tests), LABEL("Tests"))                       \
     X(SHARED_PAIRS_KEY_LEFT_OUT, AS(left_out), TEXT, LABEL("Cases that are not in them"),          \
@@ -182,7 +200,7 @@
     X(RATIO_PAIRS_HOLM_P, AS(holm_p), "p after Holm's correction for the number of pairs", NUMBER, \
       LABEL("p (Holm)"), DIGITS(2), SPARSE)                                                        \
     X(RATIO_PAIRS_DIFFER, AS(differ), "do they differ: yes, no within the margin, cannot say",     \
-      TEXT, LABEL("Differ"))
+      ENUM(stated_verdict), LABEL("Differ"))
 #define RATIO_PAIRS_KEYS(X)                                                                        \
     X(RATIO_PAIRS_KEY_PAIRS, AS(pairs), NUMBER, LABEL("Pairs compared"))                           \
     X(RATIO_PAIRS_KEY_DIFFERENT, "pairs_that_differ", NUMBER, SHOWS(different),                    \

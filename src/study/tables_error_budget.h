@@ -12,7 +12,7 @@
       "measured: one standard error by this source alone; together: by all of them; draws: "       \
       "what the number of replicates leaves open of that, at most; numerical: a bound; model: "    \
       "half the range of the what-if table",                                                       \
-      TEXT, LABEL("Kind"))                                                                         \
+      ENUM(error_kind), LABEL("Kind"))                                                             \
     X(ERROR_BUDGET_RELATIVE_ERROR, "relative_error", "the error over the number", NUMBER,          \
       SHOWS(of.error), LABEL("Relative error"))                                                    \
     X(ERROR_BUDGET_SHARE, IN(of, share), "of the variance by all that is measured or stated",      \

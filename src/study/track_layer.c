@@ -99,7 +99,7 @@ static track_obstacle find_obstacle(const depth_group *g, const char *tip, doubl
                                 "Poisson's ratio below 0.45, or one that is not stated, is not",
                                 "a Poisson's ratio of rubber (0.5) in weartrack indent, if the "
                                 "sample is rubber"};
-    if (strstr(tip, "; sample ") != NULL)
+    if (tip_description_has_sample(tip))
         return (track_obstacle){"a layer on a thin sample is none of which the law is known",
                                 "curves on a thick piece of the sample"};
     return (track_obstacle){NULL, NULL};

@@ -47,5 +47,6 @@ void answer_surface(const answer_context *context)
                 places > 0    ? " and from place to place"
                 : places == 0 ? "; its places differ by no more than that"
                               : ", but not what another place of the surface would give");
-    answer_add_sentence(context, "What is the counter surface like?", "surface", "%s", text);
+    answer_add_sentence(context, "What is the counter surface like?", ANSWER_KIND_SURFACE, "%s",
+                        text);
 }

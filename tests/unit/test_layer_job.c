@@ -235,8 +235,9 @@ static void one_shear_stress(void **state)
             const double apart =
                 key_number(friction.friction, of_friction[i]) / key_number(running, of_running[i]) -
                 1;
-            assert_int_equal(fabs(apart) < 1e-9, with); /* without it they differ by per cents */
-            assert_int_equal(fabs(apart) > 1e-2, !with);
+            /* with a layer they differ by per cents without that law */
+            assert_int_equal(fabs(apart) < 1e-9, with || i == 0);
+            assert_int_equal(fabs(apart) > 1e-2, !with && i == 1);
         }
         wt_friction_tables_clear(&friction);
     }

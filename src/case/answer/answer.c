@@ -51,7 +51,7 @@ static flow_stage_id find_failed_stage(const flow_plan *plan, flow_stage_id stag
 
 /* Adds a sentence with the reason why a requested result is missing. */
 static void add_reason(const answer_context *context, flow_stage_id stage, flow_outcome outcome,
-                       const char *question, const char *kind)
+                       const char *question, answer_kind kind)
 {
     const flow_plan *plan = context->plan;
     if (outcome == FLOW_FAILED)
@@ -68,7 +68,7 @@ static void add_reason(const answer_context *context, flow_stage_id stage, flow_
 }
 
 static void add_unanswered(const answer_context *context, flow_stage_id stage, const char *question,
-                           const char *kind)
+                           answer_kind kind)
 {
     add_reason(context, stage, context->plan->outcome[stage], question, kind);
 }
@@ -78,24 +78,22 @@ static void add_not_requested(const answer_context *context)
 {
     static const struct {
         flow_stage_id stage;
-        const char *question, *kind;
-    } questions[] = {{FLOW_STAGE_COMPARISON, question_layer, "layer"},
-                     {FLOW_STAGE_LAYER, question_thickness, "thickness"},
-                     {FLOW_STAGE_FRICTION, question_friction, "friction"}};
-    static const char excluded_prefix[] = "left out because ";
+        const char *question;
+        answer_kind kind;
+    } questions[] = {{FLOW_STAGE_COMPARISON, question_layer, ANSWER_KIND_LAYER},
+                     {FLOW_STAGE_LAYER, question_thickness, ANSWER_KIND_THICKNESS},
+                     {FLOW_STAGE_FRICTION, question_friction, ANSWER_KIND_FRICTION}};
     const flow_plan *plan = context->plan;
     for (size_t i = 0; i < COUNT_OF(questions); i++) {
-        const char *because = plan->reason[questions[i].stage];
-        if (plan->outcome[questions[i].stage] == FLOW_EXCLUDED &&
-            strncmp(because, excluded_prefix, strlen(excluded_prefix)) == 0)
+        const flow_stage_id stage = questions[i].stage;
+        if (plan->outcome[stage] == FLOW_EXCLUDED && !plan->chosen[stage])
             answer_add_sentence(context, title_not_requested, questions[i].kind,
-                                "%s Not asked: %s.", questions[i].question,
-                                because + strlen(excluded_prefix));
+                                "%s Not asked: %s.", questions[i].question, plan->reason[stage]);
     }
     if (plan->outcome[FLOW_STAGE_FRICTION] == FLOW_DONE &&
         plan->full_outcome[FLOW_STAGE_FRICTION] == FLOW_EXCLUDED &&
         plan->lower_level_reason[FLOW_STAGE_FRICTION][0] != '\0')
-        answer_add_sentence(context, title_not_requested, "friction",
+        answer_add_sentence(context, title_not_requested, ANSWER_KIND_FRICTION,
                             "What the layer does to friction. Not asked: %s.",
                             plan->lower_level_reason[FLOW_STAGE_FRICTION]);
 }
@@ -104,7 +102,7 @@ static void add_not_requested(const answer_context *context)
 
 static void add_summary(const answer_context *context, const char *what, const char *text)
 {
-    answer_add_sentence(context, title_summary, "short", "%s: %s.", what, text);
+    answer_add_sentence(context, title_summary, ANSWER_KIND_SHORT, "%s: %s.", what, text);
 }
 
 /* Adds the summary line of a requested result that is missing. */
@@ -113,14 +111,14 @@ static void add_missing_summary(const answer_context *context, const char *what,
 {
     const flow_outcome outcome = context->plan->outcome[stage];
     if (outcome == FLOW_FAILED)
-        answer_add_sentence(context, title_summary, "short", "%s: not answered: %s.", what,
-                            stage_failure_message(context, flow_stages[stage].id));
+        answer_add_sentence(context, title_summary, ANSWER_KIND_SHORT, "%s: not answered: %s.",
+                            what, stage_failure_message(context, flow_stages[stage].id));
     else if (outcome == FLOW_BLOCKED)
-        answer_add_sentence(context, title_summary, "short",
+        answer_add_sentence(context, title_summary, ANSWER_KIND_SHORT,
                             "%s: not answered, for what it needs failed.", what);
     else if (outcome == FLOW_UNMEASURED)
-        answer_add_sentence(context, title_summary, "short", "%s: not measured: %s.", what,
-                            context->plan->unmeasured_reason);
+        answer_add_sentence(context, title_summary, ANSWER_KIND_SHORT, "%s: not measured: %s.",
+                            what, context->plan->unmeasured_reason);
 }
 
 static void append_friction_summary(const answer_context *context, text_builder *t)
@@ -144,9 +142,8 @@ static void answer_summary(const answer_context *context)
 {
     char text[1000];
     text_builder t = {text, sizeof text, 0};
-    const char *thickness = strncmp(format_thickness_origin(&context->values), "put in", 6) == 0
-                                ? "Thickness"
-                                : "Thickness (predicted)";
+    const char *thickness =
+        is_thickness_put_in(&context->values) ? "Thickness" : "Thickness (predicted)";
     if (context->values.comparison.table != NULL) {
         append_modulus_ratio(&t, &context->values);
         add_summary(context, "Layer (measured)", text);
@@ -178,17 +175,16 @@ static double comparison_overall(const answer_context *context, comparison_colum
     return comparison_get(&context->values.comparison, 0, column);
 }
 
-static bool has_verdict(const answer_context *context, const char *verdict)
+static stated_verdict differs_verdict(const answer_context *context)
 {
-    const char *differs = comparison_key_text(&context->values.comparison, COMPARISON_KEY_DIFFERS);
-    return differs != NULL && strncmp(differs, verdict, strlen(verdict)) == 0;
+    return comparison_key_enum(&context->values.comparison, COMPARISON_KEY_DIFFERS);
 }
 
 /* "4 spots in the bulk and 5 in the track; p 0.01 by Welch, 0.03 by Mann and Whitney ..." */
 static void format_evidence(const answer_context *context, char *text, size_t size)
 {
-    const char *unit =
-        comparison_key_text(&context->values.comparison, COMPARISON_KEY_UNIT_OF_ANALYSIS);
+    const analysis_unit unit =
+        comparison_key_enum(&context->values.comparison, COMPARISON_KEY_UNIT_OF_ANALYSIS);
     const double smallest = comparison_overall(context, COMPARISON_MANN_WHITNEY_SMALLEST_P);
     const double scatter =
         comparison_value(&context->values.comparison, COMPARISON_KEY_SPOT_SCATTER).value;
@@ -208,7 +204,7 @@ static void format_evidence(const answer_context *context, char *text, size_t si
     clocale_print(text, size,
                   "%.0f %s in the bulk and %.0f in the track; p %s by Welch, %s by "
                   "Mann and Whitney%s",
-                  n[0], strncmp(unit, "curve", 5) == 0 ? "curves" : "spots", n[1],
+                  n[0], unit == UNIT_IS_CURVE ? "curves" : "spots", n[1],
                   format_probability(comparison_overall(context, COMPARISON_WELCH_P)).text,
                   format_probability(comparison_overall(context, COMPARISON_MANN_WHITNEY_P)).text,
                   least);
@@ -217,7 +213,7 @@ static void format_evidence(const answer_context *context, char *text, size_t si
 static void answer_layer(const answer_context *context)
 {
     if (context->values.comparison.table == NULL) {
-        add_unanswered(context, FLOW_STAGE_COMPARISON, question_layer, "layer");
+        add_unanswered(context, FLOW_STAGE_COMPARISON, question_layer, ANSWER_KIND_LAYER);
         return;
     }
     const result_value ratio = result_value_ratio(&context->values);
@@ -228,7 +224,7 @@ static void answer_layer(const answer_context *context)
         clocale_print(evidence, sizeof evidence, " E_track/E_bulk = %s, %s (%s).",
                       format_plain_number(&ratio).text, format_interval(&ratio).text, found);
     }
-    answer_add_sentence(context, question_layer, "layer", "%c%s.%s%s%s%s",
+    answer_add_sentence(context, question_layer, ANSWER_KIND_LAYER, "%c%s.%s%s%s%s",
                         toupper((unsigned char)ratio.verdict[0]), ratio.verdict + 1, evidence,
                         ratio.remedy != NULL ? " What would settle it: " : "",
                         ratio.remedy != NULL ? ratio.remedy : "", ratio.remedy != NULL ? "." : "");
@@ -252,15 +248,15 @@ static void add_group_modulus(const answer_context *context, const char *name, c
     if (!(modulus_groups_get(groups, row, MODULUS_GROUPS_N) > 0)) {
         const double rejected = modulus_groups_get(groups, row, MODULUS_GROUPS_N_REJECTED);
         if (rejected == 1)
-            answer_add_sentence(context, question_difference, "difference",
+            answer_add_sentence(context, question_difference, ANSWER_KIND_DIFFERENCE,
                                 "%s: the only curve has no modulus.", words);
         else
-            answer_add_sentence(context, question_difference, "difference",
+            answer_add_sentence(context, question_difference, ANSWER_KIND_DIFFERENCE,
                                 "%s: none of the %.0f curves has a modulus.", words, rejected);
         return;
     }
     answer_add_sentence(
-        context, question_difference, "difference",
+        context, question_difference, ANSWER_KIND_DIFFERENCE,
         "%s: E = %s%s (geometric mean, %s) from %.0f curves on %.0f spot%s, %.0f rejected.", words,
         format_plain_number(&modulus).text, format_frequency(&modulus).text, interval,
         modulus_groups_get(groups, row, MODULUS_GROUPS_N), n_spots, n_spots > 1 ? "s" : "",
@@ -276,7 +272,7 @@ static void add_depth_verdict(answer_context *context, const char *name, const c
     const char *reading = modulus_depth_key_text(&depth, MODULUS_DEPTH_KEY_READING);
     if (changes == NULL)
         return;
-    answer_add_sentence(context, question_difference, "difference",
+    answer_add_sentence(context, question_difference, ANSWER_KIND_DIFFERENCE,
                         "Does the modulus of the %s change with depth? "
                         "%c%s.",
                         words, toupper((unsigned char)changes[0]), changes + 1);
@@ -300,7 +296,7 @@ static void add_rate_ratios(const answer_context *context)
             fmax(largest_p, comparison_get(&context->values.comparison, i, COMPARISON_HOLM_P));
     }
     if (n >= 2)
-        answer_add_sentence(context, question_difference, "difference",
+        answer_add_sentence(context, question_difference, ANSWER_KIND_DIFFERENCE,
                             "Rate by rate (%zu indentation rates) the ratio is %s; the "
                             "largest p after Holm's correction is %s.",
                             n, format_range(low, high, 3).text, format_probability(largest_p).text);
@@ -321,7 +317,7 @@ static void add_dma_ratio(const answer_context *context)
                       ", of which the spring constant leaves %.2g %% uncertain",
                       100 * k.standard_error / k.value);
     answer_add_sentence(
-        context, question_difference, "difference",
+        context, question_difference, ANSWER_KIND_DIFFERENCE,
         "%sAt equal frequency the indentation modulus of the bulk is %s%s%s times |E*| of "
         "the DMA%s.%s",
         alarm ? "Alarm: indentation and DMA do not describe one rubber. " : "", first.text,
@@ -334,9 +330,9 @@ static void add_dma_ratio(const answer_context *context)
 static void answer_difference(answer_context *context)
 {
     if (context->values.comparison.table == NULL) {
-        add_unanswered(context, FLOW_STAGE_COMPARISON, question_difference, "difference");
+        add_unanswered(context, FLOW_STAGE_COMPARISON, question_difference, ANSWER_KIND_DIFFERENCE);
     } else if (isnan(comparison_overall(context, COMPARISON_RATIO))) {
-        answer_add_sentence(context, question_difference, "difference",
+        answer_add_sentence(context, question_difference, ANSWER_KIND_DIFFERENCE,
                             "The ratio of the moduli cannot be told, for the reason above.");
     } else {
         const result_value ratio = result_value_ratio(&context->values);
@@ -350,7 +346,7 @@ static void answer_difference(answer_context *context)
         text_builder t = {rates, sizeof rates, 0};
         append_rate_correction(&t, &context->values);
         answer_add_sentence(
-            context, question_difference, "difference",
+            context, question_difference, ANSWER_KIND_DIFFERENCE,
             "The modulus of the wear track is %s times that of the bulk (%+.0f %%)%s%s%s.",
             format_plain_number(&ratio).text, 100 * (ratio.number.value - 1),
             format_frequency(&ratio).text, rates, size);
@@ -375,7 +371,7 @@ static void add_formation_times(const answer_context *context)
     if (!isnan(settled.value))
         clocale_print(then, sizeof then, " and reaches 90 %% of the balance after %s",
                       format_known_estimate(settled).text);
-    answer_add_sentence(context, question_thickness, "thickness",
+    answer_add_sentence(context, question_thickness, ANSWER_KIND_THICKNESS,
                         "It begins to form after %s%s, time under load.",
                         format_known_estimate(incubation).text, then);
 }
@@ -385,18 +381,19 @@ static void add_layer_disagreement(answer_context *context, bool modelled)
 {
     if (context->values.comparison.table == NULL)
         return;
-    if (has_verdict(context, "yes") && !modelled)
+    if (differs_verdict(context) == VERDICT_YES && !modelled)
         answer_add_caveat(
             context, CAVEAT_THICKNESS,
             "That there is no layer does not agree with the indentation, which shows a "
             "modified track: the specific wear rate, the critical energy or the model "
             "does not fit it.");
-    if (!has_verdict(context, "yes") && modelled)
+    if (differs_verdict(context) != VERDICT_YES && modelled)
         answer_add_caveat(
             context, CAVEAT_THICKNESS,
             "The indentation %s this layer: it is what the model makes of the specific "
             "wear rate and the critical energy given.",
-            has_verdict(context, "no") ? "does not show" : "cannot say whether there is");
+            differs_verdict(context) == VERDICT_NO ? "does not show"
+                                                   : "cannot say whether there is");
 }
 
 /* The text includes the model choices that cause the limits of the range. */
@@ -420,7 +417,7 @@ static void answer_thickness(answer_context *context)
 {
     const table_view *layer = &context->values.layer;
     if (layer->table == NULL) {
-        add_unanswered(context, FLOW_STAGE_LAYER, question_thickness, "thickness");
+        add_unanswered(context, FLOW_STAGE_LAYER, question_thickness, ANSWER_KIND_THICKNESS);
         return;
     }
     const result_value thickness = result_value_thickness(&context->values);
@@ -429,10 +426,10 @@ static void answer_thickness(answer_context *context)
     const number_text velocity = format_with_unit(thickness.velocity, "m/s"),
                       pressure = format_with_unit(thickness.pressure, "Pa");
     const result_value_text result = format_thickness(context);
-    const bool none = strcmp(layer_key_text(layer, LAYER_KEY_REGIME), "none") == 0;
+    const bool none = layer_key_enum(layer, LAYER_KEY_REGIME) == WT_LAYER_NONE;
     if (none)
         answer_add_sentence(
-            context, question_thickness, "thickness",
+            context, question_thickness, ANSWER_KIND_THICKNESS,
             "There is none at %s and %s%s: wear removes the rubber faster than it is modified "
             "(formation over wear R = %s, not above 1). The specific wear rate would have to be "
             "below %s.",
@@ -440,12 +437,12 @@ static void answer_thickness(answer_context *context)
             format_with_unit(layer_value(layer, LAYER_KEY_CRITICAL_WEAR_RATE).value, "m^2/N").text);
     else if (isinf(thickness.number.value))
         answer_add_sentence(
-            context, question_thickness, "thickness",
+            context, question_thickness, ANSWER_KIND_THICKNESS,
             "Without wear it grows without end, ever more slowly; the table layer gives its "
             "thickness in time.");
     else
         answer_add_sentence(
-            context, question_thickness, "thickness",
+            context, question_thickness, ANSWER_KIND_THICKNESS,
             "%s. That is where formation balances wear, at %s and %s; %s. Formation over "
             "wear R = %s. With 1 %% more wear it is %.2g %% thinner.",
             result.text, velocity.text, pressure.text, format_thickness_origin(&context->values),
@@ -454,7 +451,7 @@ static void answer_thickness(answer_context *context)
     if (!none)
         add_formation_times(context);
     if (thickness.range.widest != NULL)
-        answer_add_sentence(context, question_thickness, "thickness",
+        answer_add_sentence(context, question_thickness, ANSWER_KIND_THICKNESS,
                             "What would settle it most: a measurement that settles the %s.",
                             thickness.range.widest);
     add_layer_disagreement(context, !none);
@@ -471,13 +468,13 @@ static void add_bulk_friction(const answer_context *context)
     const number_text velocity = format_with_unit(total.velocity, "m/s");
     if (isnan(total.number.value))
         answer_add_sentence(
-            context, question_friction, "friction",
+            context, question_friction, ANSWER_KIND_FRICTION,
             "Without a layer, at %s, the hysteresis part is %s, with a real contact of the "
             "nominal area of %s; the total is not known because no shear stress is given.",
             velocity.text, format_result_value(&hysteresis).text, format_result_value(&area).text);
     else
         answer_add_sentence(
-            context, question_friction, "friction",
+            context, question_friction, ANSWER_KIND_FRICTION,
             "Without a layer, at %s, mu = %s: hysteresis %s, shearing of the real contact "
             "%.3g; contact area of the nominal one %s.",
             velocity.text, format_result_value(&total).text, format_result_value(&hysteresis).text,
@@ -503,16 +500,16 @@ static void add_friction_change(const answer_context *context)
     const wt_estimate ratio = friction_value(friction, FRICTION_KEY_LAYER_MODULUS_RATIO);
     const bool own = isnan(ratio.value) && friction_key_text(friction, FRICTION_KEY_LAYER_MODULI);
     answer_add_sentence(
-        context, question_friction, "friction",
+        context, question_friction, ANSWER_KIND_FRICTION,
         "With the layer (%s thick, %s%s), at %s, mu "
         "= %s.",
         format_value(friction_value(friction, FRICTION_KEY_LAYER_THICKNESS)).text,
         own ? "of a material of its own" : "modulus ratio ", own ? "" : format_value(ratio).text,
         format_with_unit(with_layer.velocity, "m/s").text, format_result_value(&with_layer).text);
-    answer_add_sentence(context, question_friction, "friction", "%c%s.",
+    answer_add_sentence(context, question_friction, ANSWER_KIND_FRICTION, "%c%s.",
                         toupper((unsigned char)text[0]), text + 1);
     if (change.range.widest != NULL)
-        answer_add_sentence(context, question_friction, "friction",
+        answer_add_sentence(context, question_friction, ANSWER_KIND_FRICTION,
                             "What would settle it most: a measurement that settles the %s.",
                             change.range.widest);
 }
@@ -521,17 +518,17 @@ static void answer_friction(const answer_context *context)
 {
     const result_value_tables *found = &context->values;
     if (found->friction.table == NULL) {
-        add_unanswered(context, FLOW_STAGE_FRICTION, question_friction, "friction");
+        add_unanswered(context, FLOW_STAGE_FRICTION, question_friction, ANSWER_KIND_FRICTION);
         return;
     }
     add_bulk_friction(context);
     if (friction_key_text(&found->friction, FRICTION_KEY_LAYER_THICKNESS) == NULL)
         add_reason(context, FLOW_STAGE_FRICTION, context->plan->full_outcome[FLOW_STAGE_FRICTION],
-                   question_friction, "friction");
+                   question_friction, ANSWER_KIND_FRICTION);
     else if (isnan(result_value_friction(found, FRICTION_KEY_WITH_LAYER).number.value))
         return;
     else if (!(friction_value(&found->friction, FRICTION_KEY_LAYER_THICKNESS).value > 0))
-        answer_add_sentence(context, question_friction, "friction",
+        answer_add_sentence(context, question_friction, ANSWER_KIND_FRICTION,
                             "Where wear leaves no layer, that is the friction: nothing changes.");
     else
         add_friction_change(context);

@@ -10,16 +10,23 @@
 /* Length of a sentence in bytes; longer sentences are truncated. */
 enum { LONGEST = 1200 };
 
-static void add_answer_row(const answer_context *context, const char *question, const char *kind,
+static void add_answer_row(const answer_context *context, const char *question, answer_kind kind,
                            const char *text)
 {
     table_row(context->answer);
     answer_put_text(context->answer, ANSWER_QUESTION, question);
     answer_put_text(context->answer, ANSWER_ANSWER, text);
-    answer_put_text(context->answer, ANSWER_KIND, kind);
+    answer_put_text(context->answer, ANSWER_KIND, answer_kind_text(kind));
 }
 
-void answer_add_sentence(const answer_context *context, const char *question, const char *kind,
+bool wt_answer_is_folded(const wt_table *answer, size_t row)
+{
+    table_view view;
+    return table_bind(answer, &answer_schema, "", &view, NULL) == WT_OK &&
+           answer_enum(&view, row, ANSWER_KIND) == ANSWER_KIND_FOLDED;
+}
+
+void answer_add_sentence(const answer_context *context, const char *question, answer_kind kind,
                          const char *format, ...)
 {
     char text[LONGEST];
@@ -55,7 +62,8 @@ void answer_write_caveats(answer_context *context)
         for (size_t i = 0; i < context->n_caveats; i++)
             if (context->caveats[i].topic == (caveat_topic)topic)
                 add_answer_row(context, "What must be kept in mind?",
-                               n_written++ < CAVEATS_SHOWN ? "caveat" : "folded",
+                               n_written++ < CAVEATS_SHOWN ? ANSWER_KIND_CAVEAT
+                                                           : ANSWER_KIND_FOLDED,
                                context->caveats[i].text);
 }
 

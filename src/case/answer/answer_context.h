@@ -44,8 +44,8 @@ typedef struct answer_context {
     wt_status status; /* WT_E_MEMORY if a caveat could not be stored */
 } answer_context;
 
-/* Adds a row to the table "answer". `format` is a printf format of the sentence. */
-void answer_add_sentence(const answer_context *context, const char *question, const char *kind,
+/* Adds a row to the answer. The sentence is a printf format. */
+void answer_add_sentence(const answer_context *context, const char *question, answer_kind kind,
                          const char *format, ...) WT_PRINTF(4, 5);
 /* Stores a caveat until answer_write_caveats writes all of them in order. */
 void answer_add_caveat(answer_context *context, caveat_topic topic, const char *format, ...)

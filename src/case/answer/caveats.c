@@ -18,7 +18,7 @@ static const char *const group_names[2] = {"bulk", "wear-track"};
 /* Curves with the verdict "doubtful" count as accepted: they have a modulus. */
 static bool is_usable_curve(const table_view *indentation, size_t row)
 {
-    return wt_curve_verdict_id_is_usable(indentation_text(indentation, row, INDENTATION_VERDICT));
+    return wt_curve_verdict_is_usable(indentation_enum(indentation, row, INDENTATION_VERDICT));
 }
 
 /* Returns the median of a column over the accepted curves, NaN without accepted curves. */
@@ -41,9 +41,10 @@ static double accepted_median(const table_view *indentation, indentation_column 
 
 /* Returns the rest of a sentence "the ... curves ..." on the assignment of curves to spots; NULL if
  * the spots are named. */
-static const char *format_spots_caveat(const answer_context *context, const char *spots)
+static const char *format_spots_caveat(const answer_context *context, const table_view *t)
 {
-    if (spots == NULL || strncmp(spots, "named", 5) == 0)
+    if (indentation_key_text(t, INDENTATION_KEY_SPOTS) == NULL ||
+        indentation_key_enum(t, INDENTATION_KEY_SPOTS) == SPOTS_NAMED)
         return NULL;
     return context->c->compare.map_spots
                ? "curves without a named spot count as a spot for each place, as the case says: if "
@@ -61,7 +62,7 @@ static void indentation_caveats(answer_context *context)
     for (int g = 0; g < 2; g++) {
         const table_view *t = &context->indentation[g];
         rejected[g] = format_rejected_curves(t, reasons[g], sizeof reasons[g]);
-        spots[g] = format_spots_caveat(context, indentation_key_text(t, INDENTATION_KEY_SPOTS));
+        spots[g] = format_spots_caveat(context, t);
     }
     for (int g = 0; g < 2; g++) {
         char text[512];
@@ -140,13 +141,14 @@ static void calibration_caveats(answer_context *context)
                 "; the intervals of the moduli hold what is stated, and nothing of what is not.");
     /* A group without a modulus has no gain, and there is no ratio in which an error could
      * cancel. */
-    const char *cantilevers =
+    const cantilever_count cantilevers =
         isnan(gain[0]) || isnan(gain[1])
-            ? NULL
-            : comparison_key_text(&context->values.comparison, COMPARISON_KEY_CANTILEVERS);
+            ? CANTILEVER_COUNT_UNKNOWN
+            : (cantilever_count)comparison_key_enum(&context->values.comparison,
+                                                    COMPARISON_KEY_CANTILEVERS);
     const char *includes =
         comparison_key_text(&context->values.comparison, COMPARISON_KEY_INCLUDES);
-    if (cantilevers != NULL && strcmp(cantilevers, "one") == 0)
+    if (cantilevers == ONE_CANTILEVER)
         text_append(
             &t,
             " Track and bulk are taken to be indented with one cantilever, %s: its errors cancel "
@@ -155,7 +157,7 @@ static void calibration_caveats(answer_context *context)
                 ? "as the case says"
                 : "for no spring constants differ",
             fabs(gain[1] - gain[0]));
-    else if (cantilevers != NULL)
+    else if (cantilevers == TWO_CANTILEVERS)
         text_append(
             &t,
             " Track and bulk were indented with different cantilevers (bulk %s, track %s), whose "
@@ -217,7 +219,7 @@ static void ratio_caveats(answer_context *context)
             format_celsius(track).text,
             isnan(job->temperature_slope.value) ? "the DMA" : "the temperature slope given");
     const char *rates = comparison_key_text(comparison, COMPARISON_KEY_RATES);
-    if (strncmp(rates, "brought", 7) == 0)
+    if (comparison_key_enum(comparison, COMPARISON_KEY_RATES) == RATES_BROUGHT)
         answer_add_caveat(context, CAVEAT_VERDICT,
                           "Bulk and track have no indentation rate in common: the rates are %s.",
                           rates);
@@ -232,15 +234,15 @@ static void append_interval(text_builder *t, const char *whose, const result_val
                 f->lacks != NULL ? f->lacks : "");
 }
 
-/* True if material_caveats already reports the warning `text`. */
-static bool is_superposition_warning(const answer_context *context, const char *text)
+/* True if the log has a warning about superposition that material_caveats reports, too. Then it is
+ * the first one: the rubber is fitted before a layer of another material. */
+static bool is_superposition_reported(const answer_context *context)
 {
     const table_view *shifts = &context->shift_factors;
-    const char *verdict = shifts->table == NULL
-                              ? NULL
-                              : shift_factors_key_text(shifts, SHIFT_FACTORS_KEY_SUPERPOSITION);
-    const char *because = verdict != NULL ? strstr(verdict, ": ") : NULL;
-    return because != NULL && strstr(text, because) != NULL;
+    return shifts->n_rows > 1 &&
+           shift_factors_key_text(shifts, SHIFT_FACTORS_KEY_SHIFTED_BY) == NULL &&
+           shift_factors_key_enum(shifts, SHIFT_FACTORS_KEY_SUPERPOSITION) !=
+               WT_SUPERPOSITION_HOLDS;
 }
 
 /* Adds the first warnings in full and the number of the others. */
@@ -248,10 +250,12 @@ static void warning_caveats(answer_context *context)
 {
     enum { SHOWN = 5 }; /* limit for the length of the answer */
     size_t n = 0;
+    bool is_reported = is_superposition_reported(context);
     for (size_t i = 0; i < wt_log_count(context->log); i++) {
         wt_log_entry entry = wt_log_get(context->log, i);
-        if (entry.severity != WT_NOTE && !is_superposition_warning(context, entry.text) &&
-            ++n <= SHOWN)
+        if (is_reported && entry.topic == WT_TOPIC_SUPERPOSITION)
+            is_reported = false;
+        else if (entry.severity != WT_NOTE && ++n <= SHOWN)
             answer_add_caveat(
                 context, CAVEAT_DATA, "%s%s%s: %s.", entry.severity == WT_LOSS ? "Lost" : "Warning",
                 entry.file[0] != '\0' ? " of " : "", wt_path_base(entry.file), entry.text);
@@ -264,11 +268,10 @@ static void warning_caveats(answer_context *context)
 static void comparison_caveats(answer_context *context)
 {
     const table_view *dma = &context->dma_comparison;
-    const char *unit =
-        comparison_key_text(&context->values.comparison, COMPARISON_KEY_UNIT_OF_ANALYSIS);
     const char *statement = dma_comparison_key_text(dma, DMA_COMPARISON_KEY_MATERIAL_STATEMENT);
     const size_t extrapolated = count_extrapolated(dma);
-    if (unit != NULL && strncmp(unit, "curve", 5) == 0)
+    if (comparison_key_enum(&context->values.comparison, COMPARISON_KEY_UNIT_OF_ANALYSIS) ==
+        UNIT_IS_CURVE)
         answer_add_caveat(
             context, CAVEAT_VERDICT,
             "The tables name no spots: each curve counts as one in the comparison, which "
@@ -310,24 +313,25 @@ static void material_caveats(answer_context *context)
     const table_view *shifts = &context->shift_factors;
     if (shifts->table == NULL)
         return;
-    const char *superposition = shift_factors_key_text(shifts, SHIFT_FACTORS_KEY_SUPERPOSITION);
+    const char *reason = shift_factors_key_text(shifts, SHIFT_FACTORS_KEY_SUPERPOSITION);
+    const wt_superposition superposition =
+        shift_factors_key_enum(shifts, SHIFT_FACTORS_KEY_SUPERPOSITION);
     size_t undetermined = 0;
     for (size_t i = 0; i < shifts->n_rows; i++)
         undetermined += !(shift_factors_get(shifts, i, SHIFT_FACTORS_DETERMINED) > 0);
-    if (strncmp(superposition, "fails", 5) == 0)
+    if (superposition == WT_SUPERPOSITION_FAILS)
         answer_add_caveat(context, CAVEAT_DATA,
                           "Time-temperature superposition %s. What rests on the master curve is "
                           "doubtful.",
-                          superposition);
+                          reason);
     else if (shifts->n_rows < 2)
         answer_add_caveat(
             context, CAVEAT_DATA,
             "The material is known from one isotherm: no time-temperature superposition "
             "widens its frequencies.");
-    else if (strncmp(superposition, "cannot say", 10) == 0)
+    else if (superposition == WT_SUPERPOSITION_INCONCLUSIVE)
         answer_add_caveat(context, CAVEAT_DATA,
-                          "Whether time-temperature superposition holds the data %s.",
-                          superposition);
+                          "Whether time-temperature superposition holds the data %s.", reason);
     if (undetermined > 0)
         answer_add_caveat(
             context, CAVEAT_DATA,
@@ -420,12 +424,11 @@ static void layer_caveats(answer_context *context)
     if (layer->table == NULL)
         return;
     const result_value thickness = result_value_thickness(&context->values);
-    const char *from = layer_key_text(layer, LAYER_KEY_CRITICAL_ENERGY_FROM);
     const number_text energy = format_known_estimate(layer_value(layer, LAYER_KEY_CRITICAL_ENERGY));
     char text[1100];
     text_builder t = {text, sizeof text, 0};
     const char *energy_from = layer_key_text(layer, LAYER_KEY_ENERGY_FROM);
-    if (strncmp(from, "calibrated", 10) == 0)
+    if (is_thickness_put_in(&context->values))
         text_append(
             &t,
             "The critical energy U_c = %s is calibrated so that the observed thickness is the "

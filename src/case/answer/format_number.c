@@ -235,12 +235,15 @@ number_text format_frequency(const result_value *f)
     return result;
 }
 
+bool is_thickness_put_in(const result_value_tables *tables)
+{
+    return layer_key_enum(&tables->layer, LAYER_KEY_CRITICAL_ENERGY_FROM) == ENERGY_CALIBRATED;
+}
+
 const char *format_thickness_origin(const result_value_tables *tables)
 {
-    const char *from = layer_key_text(&tables->layer, LAYER_KEY_CRITICAL_ENERGY_FROM);
-    return from != NULL && strncmp(from, "calibrated", 10) == 0
-               ? "put in, not predicted: U_c is calibrated to it"
-               : "predicted from a given U_c";
+    return is_thickness_put_in(tables) ? "put in, not predicted: U_c is calibrated to it"
+                                       : "predicted from a given U_c";
 }
 
 /* The correction concerns the rates of both groups, if the moduli of all rates have a different
@@ -268,9 +271,9 @@ void append_modulus_ratio(text_builder *t, const result_value_tables *tables)
 /* The ratio of one spot has no error. The text states that the interval lacks this contribution. */
 static const char *missing_ratio_text(const result_value *f)
 {
-    const bool lacks = f->lacks != NULL && strstr(f->lacks, "modulus ratio") != NULL;
-    return lacks && !isnan(f->low) ? ", without the error of the modulus ratio, which is not known"
-                                   : "";
+    return f->lacks_modulus_ratio && !isnan(f->low)
+               ? ", without the error of the modulus ratio, which is not known"
+               : "";
 }
 
 void append_thickness(text_builder *t, const result_value_tables *tables)
@@ -383,10 +386,9 @@ size_t format_rejected_curves(const table_view *indentation, char *text, size_t 
     size_t counts[WT_CURVE_UNREADABLE + 1] = {0}, total = 0, used = 0;
     text[0] = '\0';
     for (size_t i = 0; i < indentation->n_rows; i++) {
-        const char *verdict = indentation_text(indentation, i, INDENTATION_VERDICT);
-        for (int v = WT_CURVE_DOUBTFUL + 1; v <= WT_CURVE_UNREADABLE; v++)
-            if (strcmp(verdict, wt_curve_verdict_id((wt_curve_verdict)v)) == 0)
-                counts[v]++;
+        const int verdict = indentation_enum(indentation, i, INDENTATION_VERDICT);
+        if (verdict <= WT_CURVE_UNREADABLE)
+            counts[verdict]++;
     }
     for (int v = WT_CURVE_DOUBTFUL + 1; v <= WT_CURVE_UNREADABLE; v++) {
         total += counts[v];

@@ -91,6 +91,7 @@ void append_required_wear(text_builder *t, const table_view *running_in);
  * appended if the stress is unknown. */
 void append_required_shear(text_builder *t, const table_view *validation);
 /* Example: "predicted from a given U_c". */
+bool is_thickness_put_in(const result_value_tables *tables);
 const char *format_thickness_origin(const result_value_tables *tables);
 
 /* ---- values of several sentences ------------------------------------------------------------- */

@@ -19,17 +19,19 @@ typedef struct method {
     const char *reference, *doi; /* as printed in journals; "" without a reference */
 } method;
 
-/* ---- indentation ----------------------------------------------------------------------------- */
-
-static bool tip_contains(const table_view *table, const char *words)
+/* Number of a key without errors; NaN without the key. */
+static double plain_number(const char *key)
 {
-    const char *tip = indentation_key_text(table, INDENTATION_KEY_TIP);
-    return tip != NULL && strstr(tip, words) != NULL;
+    double value = (double)NAN;
+    return key != NULL && wt_number_parse(key, strlen(key), '.', &value) ? value : (double)NAN;
 }
+
+/* ---- indentation ----------------------------------------------------------------------------- */
 
 static bool is_blunted(const table_view *table)
 {
-    return tip_contains(table, "blunted pyramid");
+    const tip_form form = indentation_key_enum(table, INDENTATION_KEY_TIP);
+    return form == TIP_BLUNTED_PYRAMID || form == SEVERAL_BLUNTED_PYRAMIDS;
 }
 
 static bool is_general_tip(const table_view *table)
@@ -175,7 +177,7 @@ static void describe_payne(text_builder *t, const table_view *table)
 static void describe_power_spectrum(text_builder *t, const table_view *table)
 {
     const char *scans = power_spectrum_key_text(table, POWER_SPECTRUM_KEY_N_SCANS);
-    const bool one = scans != NULL && strcmp(scans, "1") == 0;
+    const bool one = plain_number(scans) == 1;
     text_append(t, "The power spectrum of the counter surface was computed from %s scan%s.",
                 scans != NULL ? scans : "its", one ? "" : "s");
 }
@@ -194,7 +196,7 @@ static void describe_friction(text_builder *t, const table_view *table)
         text_append(t, ", with a shear stress of %s in the real contact",
                     format_estimate(shear).text);
     const char *draws = friction_key_text(table, FRICTION_KEY_REPLICATES);
-    if (draws != NULL && strcmp(draws, "0") != 0)
+    if (plain_number(draws) > 0)
         text_append(t, "; intervals by %s draws of what has an error", draws);
     text_append(t, ".");
 }

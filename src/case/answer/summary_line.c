@@ -122,7 +122,8 @@ static void summarize_material(summary_line *s, const table_view *v)
                format_estimate(shift_factors_value(v, SHIFT_FACTORS_KEY_WLF_C2)).text);
     const char *verdict = shift_factors_key_text(v, SHIFT_FACTORS_KEY_SUPERPOSITION);
     /* A failed or inconclusive superposition is explained by a warning. */
-    const bool warned = v->n_rows > 1 && strncmp(verdict, "holds", 5) != 0;
+    const wt_superposition state = shift_factors_key_enum(v, SHIFT_FACTORS_KEY_SUPERPOSITION);
+    const bool warned = v->n_rows > 1 && state != WT_SUPERPOSITION_HOLDS;
     append(s, ", superposition: %.*s", (int)(warned ? strcspn(verdict, ":") : strlen(verdict)),
            verdict);
 }
@@ -271,7 +272,10 @@ static void summarize_dwell_dma(summary_line *s, const table_view *v)
                            dwell_dma_get(v, row, DWELL_DMA_LOSS_RATIO_HIGH));
         if (lacks != NULL)
             append(s, ", without the error of the %s",
-                   strcmp(lacks, "temperature") == 0 ? "temperature of the DMA" : "DMA");
+                   dwell_dma_key_items(v, DWELL_DMA_KEY_ERROR_LACKS) ==
+                           SCHEMA_BIT(SOURCE_TEMPERATURE)
+                       ? "temperature of the DMA"
+                       : "DMA");
     }
 }
 
@@ -281,8 +285,9 @@ static void summarize_sensitivity(summary_line *s, const table_view *v)
         return;
     const wt_estimate value = sensitivity_value(v, SENSITIVITY_KEY_SENSITIVITY),
                       factor = sensitivity_value(v, SENSITIVITY_KEY_FACTOR);
-    const char *direction = sensitivity_key_text(v, SENSITIVITY_KEY_DIRECTION),
-               *option = sensitivity_key_text(v, SENSITIVITY_KEY_INDENT),
+    const slope_direction direction = sensitivity_key_enum(v, SENSITIVITY_KEY_DIRECTION);
+    const bool straight = sensitivity_key_enum(v, SENSITIVITY_KEY_VERDICT) == SLOPE_STRAIGHT;
+    const char *option = sensitivity_key_text(v, SENSITIVITY_KEY_INDENT),
                *compare = sensitivity_key_text(v, SENSITIVITY_KEY_COMPARE),
                *verdict = sensitivity_key_text(v, SENSITIVITY_KEY_VERDICT);
     begin_clause(s);
@@ -294,15 +299,16 @@ static void summarize_sensitivity(summary_line *s, const table_view *v)
         append(s, "%s%s of that of the file", isnan(value.value) ? "deflection sensitivity " : ", ",
                format_estimate(factor).text);
     for (size_t i = 0; i < v->n_rows; i++)
-        if (strcmp(sensitivity_text(v, i, SENSITIVITY_DIRECTION), direction) == 0) {
+        if (sensitivity_enum(v, i, SENSITIVITY_DIRECTION) == (int)direction) {
             const double n = sensitivity_get(v, i, SENSITIVITY_N);
             append(s, " (%.0f curve%s, %s)", n, n > 1 ? "s" : "",
-                   strcmp(direction, "both") == 0 ? "approach and retract" : direction);
+                   direction == SLOPE_OF_BOTH ? "approach and retract"
+                                              : slope_direction_text(direction));
         }
     append(s, "; %s", verdict);
     if (option != NULL)
-        append(s, "; %s %s%s%s", strcmp(verdict, "straight") == 0 ? "use" : "if it is hard, use",
-               option, compare != NULL ? ", and in compare " : "", compare != NULL ? compare : "");
+        append(s, "; %s %s%s%s", straight ? "use" : "if it is hard, use", option,
+               compare != NULL ? ", and in compare " : "", compare != NULL ? compare : "");
 }
 
 static void summarize_thermal(summary_line *s, const table_view *v)

@@ -117,7 +117,7 @@ static void choose_stage(flow_plan *plan, const bool able[FLOW_N_STAGES], flow_r
     if (best == FLOW_N_STAGES)
         return;
     plan->chosen[best] = true;
-    snprintf(plan->reason[best], sizeof plan->reason[best], "runs because %s", because);
+    snprintf(plan->reason[best], sizeof plan->reason[best], "%s", because);
     for (unsigned t = FLOW_FIRST_TABLE; t < FLOW_N_RESOURCES; t++) {
         if (!(resources_used(plan, best) & FLOW_BIT(t)))
             continue;
@@ -199,18 +199,17 @@ static void set_exclusion_reason(flow_plan *plan, size_t i, bool able)
     if (!able) {
         char missing[256];
         format_missing(stage_missing_sources(plan, i), missing, sizeof missing);
-        snprintf(because, size, "left out because %s", missing);
+        snprintf(because, size, "%s", missing);
         return;
     }
     flow_resource_set useful = flow_stages[i].outputs & plan->required;
     for (size_t k = 0; useful != 0 && k < FLOW_N_STAGES; k++) {
         if (plan->chosen[k] && (useful & ~flow_stages[k].outputs) == 0) {
-            snprintf(because, size, "left out because %s gives its results and more",
-                     flow_stages[k].id);
+            snprintf(because, size, "%s gives its results and more", flow_stages[k].id);
             return;
         }
     }
-    snprintf(because, size, "left out because nothing that is asked for needs it");
+    snprintf(because, size, "nothing that is asked for needs it");
 }
 
 void flow_plan_create(const wt_case *c, flow_plan *plan)
@@ -235,9 +234,15 @@ void flow_plan_create(const wt_case *c, flow_plan *plan)
         else if (able[i] && is_validation_off(c) &&
                  (flow_stages[i].outputs & FLOW_VALIDATIONS) != 0)
             snprintf(plan->reason[i], sizeof plan->reason[i],
-                     "left out because the case switches it off (<validate> in <record>)");
+                     "the case switches it off (<validate> in <record>)");
         else
             set_exclusion_reason(plan, i, able[i]);
+}
+
+void flow_plan_reason(const flow_plan *plan, size_t stage, char *text, size_t size)
+{
+    snprintf(text, size, "%s because %s", plan->chosen[stage] ? "runs" : "left out",
+             plan->reason[stage]);
 }
 
 wt_status wt_plan(const wt_case *c, wt_table **result, wt_error *err)
@@ -248,7 +253,7 @@ wt_status wt_plan(const wt_case *c, wt_table **result, wt_error *err)
     flow_plan_create(c, &plan);
     table_writer t = table_begin(&plan_schema, err);
     for (size_t i = 0; i < FLOW_N_STAGES; i++) {
-        char title[160], needs[256], outputs[256];
+        char title[160], needs[256], outputs[256], reason[FLOW_REASON_SIZE];
         flow_stage_title(i, plan.level[i], title, sizeof title);
         flow_resources_list(resources_used(&plan, i), needs, sizeof needs);
         flow_resources_list(flow_stages[i].outputs, outputs, sizeof outputs);
@@ -256,7 +261,8 @@ wt_status wt_plan(const wt_case *c, wt_table **result, wt_error *err)
         plan_put_text(&t, PLAN_STAGE, flow_stages[i].id);
         plan_put_text(&t, PLAN_TITLE, title);
         plan_put(&t, PLAN_RUNS, plan.chosen[i]);
-        plan_put_text(&t, PLAN_REASON, plan.reason[i]);
+        flow_plan_reason(&plan, i, reason, sizeof reason);
+        plan_put_text(&t, PLAN_REASON, reason);
         plan_put_text(&t, PLAN_NEEDS, needs);
         plan_put_text(&t, PLAN_PRODUCES, outputs);
     }

@@ -20,8 +20,8 @@ typedef struct flow_plan {
     flow_resource_set wanted;   /* what the user requests */
     flow_resource_set required; /* `wanted` and the needs of the chosen stages */
     bool chosen[FLOW_N_STAGES];
-    unsigned level[FLOW_N_STAGES]; /* highest level whose inputs the case contains */
-    char reason[FLOW_N_STAGES][320];
+    unsigned level[FLOW_N_STAGES];               /* highest level whose inputs the case contains */
+    char reason[FLOW_N_STAGES][304];             /* why it is chosen, or not */
     char lower_level_reason[FLOW_N_STAGES][192]; /* reason for a lower level: "the case has no ...";
                                          "" at the highest level */
     flow_outcome outcome[FLOW_N_STAGES];
@@ -40,6 +40,9 @@ flow_resource_set flow_plan_needs(const flow_plan *plan, size_t stage, unsigned 
 /* Returns true if a stage can run with the available resources. */
 bool flow_stage_can_run(const flow_plan *plan, size_t stage, unsigned level,
                         flow_resource_set available);
+/* Writes "runs because ..." or "left out because ...". */
+enum { FLOW_REASON_SIZE = 320 };
+void flow_plan_reason(const flow_plan *plan, size_t stage, char *text, size_t size);
 void flow_plan_create(const wt_case *c, flow_plan *plan);
 
 #endif

@@ -163,16 +163,17 @@ static wt_status run_fullest_level(run_execution *d, size_t i, const char *becau
 static wt_status process_stage(run_execution *d, size_t i, wt_error *err)
 {
     flow_plan *plan = &d->run.plan;
-    char missing[160], because[320];
+    char missing[160], because[FLOW_REASON_SIZE];
+    flow_plan_reason(plan, i, because, sizeof because);
     if (must_substitute(d, i))
         return run_fullest_level(d, i, "runs because the stage that gives more did not succeed",
                                  err);
     if (!plan->chosen[i]) {
-        cost_skip_stage(d->cost, flow_stages[i].id, plan->reason[i]);
+        cost_skip_stage(d->cost, flow_stages[i].id, because);
         return WT_OK;
     }
     if (flow_stage_can_run(plan, i, 0, d->available))
-        return run_fullest_level(d, i, plan->reason[i], err);
+        return run_fullest_level(d, i, because, err);
     if (lacks_measured_data(d, i, 0)) {
         plan->outcome[i] = FLOW_UNMEASURED;
         plan->unmeasured |= flow_stages[i].outputs & ~d->available;

@@ -12,6 +12,7 @@
 
 typedef struct log_entry {
     wt_severity severity;
+    wt_log_topic topic;
     char *file, *place, *text;
     size_t count;
 } log_entry;
@@ -49,7 +50,10 @@ static void free_no_entry(void *node)
 
 const char *wt_severity_name(wt_severity severity)
 {
-    return severity == WT_NOTE ? "note" : severity == WT_WARNING ? "warning" : "loss";
+#define SEVERITY_NAME(value, name) [value] = name,
+    static const char *const names[] = {WT_SEVERITY_LIST(SEVERITY_NAME)};
+#undef SEVERITY_NAME
+    return names[severity];
 }
 
 wt_log *wt_log_new(void)
@@ -69,13 +73,14 @@ void wt_log_free(wt_log *log)
 }
 
 /* Adds a copy of a text, or increments the count of an equal entry. */
-static bool add_log_entry(wt_log *log, wt_severity severity, const char *file, const char *place,
-                          const char *text)
+static bool add_log_entry(wt_log *log, wt_severity severity, wt_log_topic topic, const char *file,
+                          const char *place, const char *text)
 {
     log_entry *new_entry = calloc(1, sizeof *new_entry);
     if (new_entry == NULL)
         return false;
     new_entry->severity = severity;
+    new_entry->topic = topic;
     new_entry->file = strdup(file != NULL ? file : "");
     new_entry->place = strdup(place != NULL ? place : "");
     new_entry->text = strdup(text);
@@ -97,26 +102,41 @@ static bool add_log_entry(wt_log *log, wt_severity severity, const char *file, c
     return found != NULL;
 }
 
-void wt_log_add(wt_log *log, wt_severity severity, const char *file, const char *place,
-                const char *format, ...)
+static void print_log_entry(wt_log *log, wt_severity severity, wt_log_topic topic, const char *file,
+                            const char *place, const char *format, va_list arguments)
 {
     if (log == NULL)
         return;
     char *text = NULL;
-    va_list arguments;
-    va_start(arguments, format);
     const locale_t previous = clocale_enter();
     const int length = vasprintf(&text, format, arguments);
     clocale_leave(previous);
-    va_end(arguments);
     if (length < 0) {
         log->lost++;
         return;
     }
     utf8_sanitize(text);
-    if (!add_log_entry(log, severity, file, place, text))
+    if (!add_log_entry(log, severity, topic, file, place, text))
         log->lost++;
     free(text);
+}
+
+void wt_log_add(wt_log *log, wt_severity severity, const char *file, const char *place,
+                const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    print_log_entry(log, severity, WT_TOPIC_NONE, file, place, format, arguments);
+    va_end(arguments);
+}
+
+void wt_log_add_topic(wt_log *log, wt_severity severity, wt_log_topic topic, const char *file,
+                      const char *place, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    print_log_entry(log, severity, topic, file, place, format, arguments);
+    va_end(arguments);
 }
 
 size_t wt_log_count(const wt_log *log)
@@ -127,7 +147,7 @@ size_t wt_log_count(const wt_log *log)
 wt_log_entry wt_log_get(const wt_log *log, size_t i)
 {
     const log_entry *const e = log->entries[i];
-    return (wt_log_entry){e->severity, e->file, e->place, e->text, e->count};
+    return (wt_log_entry){e->severity, e->topic, e->file, e->place, e->text, e->count};
 }
 
 size_t wt_log_dropped(const wt_log *log)

@@ -11,11 +11,9 @@
 
 const char *wt_segment_kind_name(wt_segment_kind kind)
 {
-    static const char *const names[] = {[WT_SEGMENT_APPROACH] = "approach",
-                                        [WT_SEGMENT_RETRACT] = "retract",
-                                        [WT_SEGMENT_DWELL] = "dwell",
-                                        [WT_SEGMENT_MODULATION] = "modulation",
-                                        [WT_SEGMENT_OTHER] = "other"};
+#define SEGMENT_NAME(value, name) [value] = name,
+    static const char *const names[] = {WT_SEGMENT_KIND_LIST(SEGMENT_NAME)};
+#undef SEGMENT_NAME
     return names[(size_t)kind < COUNT_OF(names) ? kind : WT_SEGMENT_OTHER];
 }
 

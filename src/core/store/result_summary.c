@@ -35,14 +35,11 @@ static void add_text_headline(table_writer *t, const char *name, const char *wor
     add_headline(t, name, (wt_estimate){(double)NAN, (double)NAN, (double)NAN, NULL}, words);
 }
 
-/* Only the first word of a verdict is a headline. The numbers after the colon have their own
- * columns. */
+/* A headline has no reason; its numbers have their own columns. */
 static void add_verdict_headline(table_writer *t, const char *name, const char *verdict)
 {
     char word[256];
-    const char *colon = strstr(verdict, ": ");
-    (void)snprintf(word, sizeof word, "%.*s",
-                   colon != NULL ? (int)(colon - verdict) : (int)strlen(verdict), verdict);
+    (void)snprintf(word, sizeof word, "%.*s", (int)length_without_reason(verdict), verdict);
     add_text_headline(t, name, word);
 }
 
@@ -126,7 +123,7 @@ static wt_result_status result_completeness(const table_view *failures, const ta
 {
     bool lost = failures->n_rows > 0;
     for (size_t row = 0; row < notes->n_rows; row++)
-        lost = lost || strcmp(notes_text(notes, row, NOTES_SEVERITY), "loss") == 0;
+        lost = lost || notes_enum(notes, row, NOTES_SEVERITY) == WT_LOSS;
     if (parse_plain_key(failures_key_text(failures, FAILURES_KEY_STATUS)) == WT_RESULT_EMPTY)
         return WT_RESULT_EMPTY;
     return lost ? WT_RESULT_PARTIAL : WT_RESULT_COMPLETE;
@@ -207,7 +204,7 @@ wt_status wt_result_main_values(const wt_result *result, wt_table **headlines, w
         return status;
     double n_remarks = 0;
     for (size_t row = 0; row < views[NOTES].n_rows; row++)
-        n_remarks += strcmp(notes_text(&views[NOTES], row, NOTES_SEVERITY), "note") != 0;
+        n_remarks += notes_enum(&views[NOTES], row, NOTES_SEVERITY) != WT_NOTE;
     table_writer t = table_begin(&keys_schema, err);
     add_number_headline(&t, "status", "", result_completeness(&views[FAILURES], &views[NOTES]),
                         "1");

@@ -14,6 +14,7 @@
 #define SI(q) .quantity = WT_Q_##q
 #define UNIT(words) .unit = words
 #define TEXT .kind = SCHEMA_TEXT
+#define ENUM(name) .kind = SCHEMA_TEXT, .list = &name##_list
 #define PLAIN .kind = SCHEMA_PLAIN
 #define YES_NO .yes_no = true
 #define LABEL(words) .label = words

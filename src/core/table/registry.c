@@ -6,6 +6,17 @@
 /* Only the code that writes the table knows the structure: core/table/table_rows.h. */
 #define SHOWS(name) .member = #name
 
+#define FIRST_TEXT(text, ...) text
+#define TEXT_ROW(value, ...) [value] = FIRST_TEXT(__VA_ARGS__, ""),
+#define TEXTS(list, ROWS)                                                                          \
+    static const char *const list##_texts[] = {ROWS(TEXT_ROW)};                                    \
+    const closed_list list##_list = {list##_texts,                                                 \
+                                     (int)(sizeof list##_texts / sizeof *list##_texts)};
+#define PUBLIC_TEXTS(list, type, ROWS) TEXTS(list, ROWS)
+#define TABLE_TEXTS(list, ROWS, unknown) TEXTS(list, ROWS)
+PUBLIC_TEXT_LISTS(PUBLIC_TEXTS)
+TABLE_TEXT_LISTS(TABLE_TEXTS)
+
 /* The last row ends an empty list. */
 #define SCHEMA(table, TABLE, table_name, words, subcommand)                                        \
     static const schema_field table##_columns[] = {TABLE##_COLUMNS(COLUMN){.name = NULL}};         \

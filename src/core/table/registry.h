@@ -34,6 +34,8 @@
 #include "study/tables_error_budget.h"
 #include "study/tables_what_if.h"
 #include "surface/tables.h"
+#include "weartrack/indentation.h" /* enums of closed lists of texts */
+#include "weartrack/layer.h"
 
 /* Groups of columns: a number with its standard error, a number with both errors, or the limits of
  * an interval. `heading` is the heading on the page. */
@@ -200,6 +202,60 @@
     X(description, DESCRIPTION, "description", "Columns that the description understands",         \
       "formats")
 
+/* Verdicts of several tables. */
+#define STATED_VERDICTS(X)                                                                         \
+    X(VERDICT_INCONCLUSIVE, "cannot say")                                                          \
+    X(VERDICT_YES, "yes")                                                                          \
+    X(VERDICT_NO, "no")                                                                            \
+    X(VERDICT_NOT_TESTED, "not tested")                                                            \
+    X(VERDICT_NOT_ASKED, "not asked")
+
+/* Closed lists of texts whose enum is public: name of the list, enum, rows. */
+#define PUBLIC_TEXT_LISTS(X)                                                                       \
+    X(severity, wt_severity, WT_SEVERITY_LIST)                                                     \
+    X(deformation, wt_deformation, WT_DEFORMATION_LIST)                                            \
+    X(segment_kind, wt_segment_kind, WT_SEGMENT_KIND_LIST)                                         \
+    X(curve_verdict, wt_curve_verdict, WT_CURVE_VERDICT_LIST)                                      \
+    X(superposition, wt_superposition, WT_SUPERPOSITION_LIST)                                      \
+    X(vertical_shift, wt_vertical_shift, WT_VERTICAL_SHIFT_LIST)                                   \
+    X(shift_law_kind, wt_law_kind, WT_LAW_KIND_LIST)                                               \
+    X(layer_regime, wt_layer_regime, WT_LAYER_REGIME_LIST)
+/* Closed lists of texts whose enum is defined here: name of the list and of the enum, rows, value
+ * of an unknown text. */
+#define TABLE_TEXT_LISTS(X)                                                                        \
+    X(stated_verdict, STATED_VERDICTS, VERDICT_UNKNOWN)                                            \
+    X(answer_kind, ANSWER_KINDS, ANSWER_KIND_UNKNOWN)                                              \
+    X(tip_form, TIP_FORMS, TIP_FORM_UNKNOWN)                                                       \
+    X(error_source, ERROR_SOURCES, ERROR_SOURCE_UNKNOWN)                                           \
+    X(spot_naming, SPOT_NAMINGS, SPOT_NAMING_UNKNOWN)                                              \
+    X(slope_direction, SLOPE_DIRECTIONS, SLOPE_DIRECTION_UNKNOWN)                                  \
+    X(slope_verdict, SLOPE_VERDICTS, SLOPE_VERDICT_UNKNOWN)                                        \
+    X(analysis_unit, ANALYSIS_UNITS, ANALYSIS_UNIT_UNKNOWN)                                        \
+    X(rate_match, RATE_MATCHES, RATE_MATCH_UNKNOWN)                                                \
+    X(cantilever_count, CANTILEVER_COUNTS, CANTILEVER_COUNT_UNKNOWN)                               \
+    X(error_kind, ERROR_KINDS, ERROR_KIND_UNKNOWN)                                                 \
+    X(precision_method, PRECISION_METHODS, PRECISION_METHOD_UNKNOWN)                               \
+    X(sharing_level, SHARING_LEVELS, SHARED_BY_UNKNOWN)                                            \
+    X(sharing_verdict, SHARING_VERDICTS, SHARING_UNKNOWN)                                          \
+    X(friction_part, FRICTION_PARTS, FRICTION_PART_UNKNOWN)                                        \
+    X(balance_stability, BALANCE_STABILITIES, BALANCE_STABILITY_UNKNOWN)                           \
+    X(identification_method, IDENTIFICATION_METHODS, IDENTIFICATION_METHOD_UNKNOWN)                \
+    X(critical_energy_origin, CRITICAL_ENERGY_ORIGINS, CRITICAL_ENERGY_ORIGIN_UNKNOWN)
+
+#define TEXT_LIST_ACCESS(list, type)                                                               \
+    extern const closed_list list##_list;                                                          \
+    static inline const char *list##_text(type value)                                              \
+    {                                                                                              \
+        return closed_list_get(&list##_list, (int)value);                                          \
+    }
+#define PUBLIC_TEXT_LIST(list, type, ROWS) TEXT_LIST_ACCESS(list, type)
+#define TEXT_VALUE(value, ...) value,
+#define TABLE_TEXT_LIST(list, ROWS, unknown)                                                       \
+    typedef enum list { ROWS(TEXT_VALUE) unknown } list;                                           \
+    TEXT_LIST_ACCESS(list, list)
+PUBLIC_TEXT_LISTS(PUBLIC_TEXT_LIST)
+TABLE_TEXT_LISTS(TABLE_TEXT_LIST)
+
 #define TABLE_ID(id, ...) id,
 #define TABLE_TYPES(table, TABLE, ...)                                                             \
     typedef enum table##_column{TABLE##_COLUMNS(TABLE_ID) TABLE##_N_COLUMNS} table##_column;       \
@@ -249,6 +305,18 @@
     static inline const char *table##_text(const table_view *v, size_t row, table##_column c)      \
     {                                                                                              \
         return view_text(v, &table##_schema, row, (unsigned)c);                                    \
+    }                                                                                              \
+    static inline int table##_enum(const table_view *v, size_t row, table##_column c)              \
+    {                                                                                              \
+        return view_enum(v, &table##_schema, row, (unsigned)c);                                    \
+    }                                                                                              \
+    static inline int table##_key_enum(const table_view *v, table##_key k)                         \
+    {                                                                                              \
+        return view_key_enum(v, &table##_schema, (unsigned)k);                                     \
+    }                                                                                              \
+    static inline uint64_t table##_key_items(const table_view *v, table##_key k)                   \
+    {                                                                                              \
+        return view_key_items(v, &table##_schema, (unsigned)k);                                    \
     }                                                                                              \
     static inline wt_estimate table##_value(const table_view *v, table##_key k)                    \
     {                                                                                              \

@@ -28,7 +28,8 @@ typedef struct result_value {
     const char *verdict; /* "yes: ...", or NULL */
     const char *remedy;  /* how to decide an inconclusive verdict, or NULL */
     const char *includes,
-        *lacks;          /* error sources that the interval includes and excludes, or NULL */
+        *lacks;               /* error sources that the interval includes and excludes, or NULL */
+    bool lacks_modulus_ratio; /* true if it excludes the error of the modulus ratio */
     double frequency[2]; /* angular frequency range [rad/s]; NaN if unknown or not applicable */
     double velocity,
         pressure; /* sliding velocity [m/s] and pressure [Pa]; NaN if unknown or not applicable */

@@ -16,16 +16,33 @@ typedef enum schema_kind {
     SCHEMA_PLAIN /* key that is a number without errors, stored as text */
 } schema_kind;
 
+/* Closed list of the texts of a column or key. The position of a text is the value of its enum; `n`
+ * is that of an unknown text. In a table a text may be followed by its reason: "yes: the wear track
+ * is softer". */
+typedef struct closed_list {
+    const char *const *texts;
+    int n;
+} closed_list;
+
+/* Returns the length of a cell before ": " and its reason. */
+size_t length_without_reason(const char *cell);
+/* Returns the value of the text with which a cell begins; the longest one if there are several. */
+int closed_list_find(const closed_list *list, const char *cell);
+/* Returns the set of texts in a cell that lists several with commas; bit n for unknown texts. */
+uint64_t closed_list_find_items(const closed_list *list, const char *cell);
+const char *closed_list_get(const closed_list *list, int value); /* "" for an unknown value */
+
 /* Type of the member that a column or key shows. */
 typedef enum schema_form {
     FORM_NONE, /* set by a function call */
     FORM_NUMBER,
-    FORM_COUNT,     /* size_t */
-    FORM_YES_NO,    /* bool */
-    FORM_ESTIMATE,  /* its errors fill the error columns, if the table has them */
-    FORM_INTERVAL,  /* its limits fill the columns of the limits, if the table has them */
-    FORM_TEXT,      /* const char *; NULL is "" in a column */
-    FORM_CHARACTERS /* char [] */
+    FORM_COUNT,      /* size_t */
+    FORM_YES_NO,     /* bool */
+    FORM_ESTIMATE,   /* its errors fill the error columns, if the table has them */
+    FORM_INTERVAL,   /* its limits fill the columns of the limits, if the table has them */
+    FORM_TEXT,       /* const char *; NULL is "" in a column */
+    FORM_CHARACTERS, /* char [] */
+    FORM_ENUM        /* enum whose texts are in the list of the field */
 } schema_form;
 
 /* Column or key of a table. */
@@ -34,14 +51,15 @@ typedef struct schema_field {
     const char *long_name; /* of a column */
     schema_kind kind;
     wt_quantity quantity;
-    const char *unit;     /* SI; NULL for the unit of the quantity */
-    const char *label;    /* on the page; NULL for the long name, or the name of a key */
-    const char *headline; /* description of a key that is a main result, else NULL */
-    bool optional;        /* the table may lack it */
-    int precision;        /* significant digits of a plain key; 0 for 6 */
-    const char *member;   /* name of the member that it shows; NULL if it is set by a call */
-    schema_form form;     /* form and offset of the member, only in the lists of */
-    size_t offset;        /* core/table/table_rows.h, which knows the structure */
+    const char *unit;        /* SI; NULL for the unit of the quantity */
+    const closed_list *list; /* its texts if they are a closed list, else NULL */
+    const char *label;       /* on the page; NULL for the long name, or the name of a key */
+    const char *headline;    /* description of a key that is a main result, else NULL */
+    bool optional;           /* the table may lack it */
+    int precision;           /* significant digits of a plain key; 0 for 6 */
+    const char *member;      /* name of the member that it shows; NULL if it is set by a call */
+    schema_form form;        /* form and offset of the member, only in the lists of */
+    size_t offset;           /* core/table/table_rows.h, which knows the structure */
     /* members of a column: */
     unsigned standard_error; /* columns with its errors; 0 without one */
     unsigned numerical_error;

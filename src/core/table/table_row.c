@@ -34,12 +34,14 @@ static numeric_member member_number(const schema_field *field, const void *row)
 static const char *member_text(const schema_field *field, const void *row)
 {
     const char *const at = (const char *)row + field->offset;
+    if (field->form == FORM_ENUM)
+        return closed_list_get(field->list, *(const int *)(const void *)at);
     return field->form == FORM_TEXT ? *(const char *const *)(const void *)at : at;
 }
 
 static bool is_text_form(const schema_field *field)
 {
-    return field->form == FORM_TEXT || field->form == FORM_CHARACTERS;
+    return field->form == FORM_TEXT || field->form == FORM_CHARACTERS || field->form == FORM_ENUM;
 }
 
 static void write_member(table_writer *w, const table_schema *of, const schema_field *field,

@@ -29,7 +29,9 @@
                         : FORM_ESTIMATE, wt_interval                                               \
                         : FORM_INTERVAL, const char *                                              \
                         : FORM_TEXT, char *                                                       \
-                        : FORM_CHARACTERS))
+                        : FORM_CHARACTERS, int                                                     \
+                        : FORM_ENUM, unsigned                                                      \
+                        : FORM_ENUM))
 #define SHOWS(name) .member = #name, .offset = offsetof(shown_row, name), .form = SHOWN_FORM(name)
 
 #define SHOWN_BY(table, row, FIELDS, add, writer)                                                  \

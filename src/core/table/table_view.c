@@ -110,3 +110,21 @@ const char *view_key_text(const table_view *view, const table_schema *of, unsign
     schema_name(of->keys[key].name, view->suffix, name);
     return view->table == NULL ? NULL : wt_table_key(view->table, name);
 }
+
+int view_enum(const table_view *view, const table_schema *of, size_t row, unsigned column)
+{
+    assert(of->columns[column].list != NULL);
+    return closed_list_find(of->columns[column].list, view_text(view, of, row, column));
+}
+
+int view_key_enum(const table_view *view, const table_schema *of, unsigned key)
+{
+    assert(of->keys[key].list != NULL);
+    return closed_list_find(of->keys[key].list, view_key_text(view, of, key));
+}
+
+uint64_t view_key_items(const table_view *view, const table_schema *of, unsigned key)
+{
+    assert(of->keys[key].list != NULL);
+    return closed_list_find_items(of->keys[key].list, view_key_text(view, of, key));
+}

@@ -90,7 +90,7 @@ static void forward_log(const wt_log *from, wt_log *to)
     for (size_t i = 0; i < wt_log_count(from); i++) {
         const wt_log_entry e = wt_log_get(from, i);
         for (size_t k = 0; k < e.count; k++)
-            wt_log_add(to, e.severity, e.file, e.place, "%s", e.text);
+            wt_log_add_topic(to, e.severity, e.topic, e.file, e.place, "%s", e.text);
     }
 }
 

@@ -53,6 +53,8 @@ void contact_table_values(const wt_contact_table *table, const double *delta, si
 /* Parses a pyramid or cone with a cap from the text of wt_tip_describe. Returns false for other
  * tips and texts. */
 bool tip_from_description(const char *description, wt_tip *tip);
+/* True if a text of wt_tip_describe has the thickness of a sample. */
+bool tip_description_has_sample(const char *description);
 /* Parses a tip of any shape from the text of wt_tip_describe. */
 bool tip_from_any_description(const char *description, wt_tip *tip);
 

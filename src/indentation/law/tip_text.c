@@ -275,6 +275,11 @@ bool tip_from_description(const char *description, wt_tip *tip)
     return wt_tip_check(tip, NULL) == WT_OK;
 }
 
+bool tip_description_has_sample(const char *description)
+{
+    return strstr(description, "; sample ") != NULL;
+}
+
 bool tip_from_any_description(const char *description, wt_tip *tip)
 {
     static const struct {

@@ -57,6 +57,7 @@ typedef struct curve_fitting {
     bool range_empty;       /* too few samples in the range; the fit uses all samples */
     bool spectrum_mismatch; /* the spectrum of the options does not describe the curve */
     bool below_saturation;  /* the fit only covers forces up to the limit of the options */
+    bool misfit_is_named;   /* the reason of the verdict names the misfit */
     bool unknown_loss;      /* the curve loses work, and the law of the fit does not describe it */
     /* Alternative law of adhesion, second contact point, and the relative error of the modulus due
      * to the latter. */
@@ -154,7 +155,7 @@ wt_curve_verdict curve_no_contact_verdict(curve_fitting *f, char reason[160]);
  * case. */
 bool curve_is_retract(curve_fitting *f, char reason[160]);
 /* Appends text to a reason if it fits completely. */
-void curve_append_note(char reason[160], const char *text);
+bool curve_append_note(char reason[160], const char *text); /* false: it has no room */
 /* Returns the verdict on a fit and sets its reason. */
 wt_curve_verdict curve_assess(curve_fitting *f, wt_indent_fit *fit);
 /* Largest force to which a saturated curve may be fitted [N]. */

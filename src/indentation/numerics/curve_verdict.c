@@ -60,12 +60,6 @@ bool wt_curve_verdict_is_usable(wt_curve_verdict verdict)
     return verdict == WT_CURVE_ACCEPTED || verdict == WT_CURVE_DOUBTFUL;
 }
 
-bool wt_curve_verdict_id_is_usable(const char *id)
-{
-    return strcmp(id, wt_curve_verdict_id(WT_CURVE_ACCEPTED)) == 0 ||
-           strcmp(id, wt_curve_verdict_id(WT_CURVE_DOUBTFUL)) == 0;
-}
-
 /* Peak-to-peak departure of the baseline residual from a line: that of a sine with the variance of
  * the block means in excess of white noise. */
 static double baseline_departure(const curve_fitting *f)
@@ -269,8 +263,7 @@ static wt_curve_verdict interval_verdict(const curve_fitting *f, const wt_indent
 }
 
 /* Tests the modulus and states the objections. */
-static wt_curve_verdict law_verdict(const curve_fitting *f, const wt_indent_fit *fit,
-                                    char reason[160])
+static wt_curve_verdict law_verdict(curve_fitting *f, const wt_indent_fit *fit, char reason[160])
 {
     const curve_solution *s = &f->solution;
     const double departure = baseline_departure(f);
@@ -303,12 +296,14 @@ static wt_curve_verdict law_verdict(const curve_fitting *f, const wt_indent_fit 
         curve_set_reason(reason,
                          "doubtful: what a misfit makes of the modulus is not known: the samples "
                          "do not tell it from their noise; a longer approach would");
+        f->misfit_is_named = true;
         return WT_CURVE_DOUBTFUL;
     }
     if (!(s->lack.chance >= f->options->misfit_p_threshold) &&
         fit->misfit_error > f->options->doubtful_error * fit->modulus.value) {
         curve_set_reason(reason, "doubtful: misfit: %s; %s", misfit_text(fit).buffer,
                          misfit_cause(f));
+        f->misfit_is_named = true;
         return WT_CURVE_DOUBTFUL;
     }
     const double pull = fmax(f->snap_in_pull, f->pull_off > 0.0 ? f->pull_off : 0.0);
@@ -328,10 +323,12 @@ static wt_curve_verdict law_verdict(const curve_fitting *f, const wt_indent_fit 
     return WT_CURVE_ACCEPTED;
 }
 
-void curve_append_note(char reason[160], const char *text)
+bool curve_append_note(char reason[160], const char *text)
 {
-    if (strlen(reason) + strlen(text) < 160)
+    const bool has_room = strlen(reason) + strlen(text) < 160;
+    if (has_room)
         strcat(reason, text);
+    return has_room;
 }
 
 /* Appends remarks on an accepted curve. */
@@ -359,7 +356,7 @@ static void append_notes(const curve_fitting *f, const wt_indent_fit *fit, char 
     }
     if (f->spectrum_mismatch && !f->kind.adhesive)
         curve_append_note(reason, "; not of the spectrum of the DMA");
-    if (!curve_passes_misfit_test(f) && strstr(reason, "misfit") == NULL) {
+    if (!curve_passes_misfit_test(f) && !f->misfit_is_named) {
         curve_set_reason(text, "; misfit: %s", misfit_text(fit).buffer);
         curve_append_note(reason, text);
     }
@@ -407,7 +404,7 @@ static void append_notes(const curve_fitting *f, const wt_indent_fit *fit, char 
 }
 
 /* Changes the verdict of a usable fit to doubtful, because it only covers forces below a limit. */
-static wt_curve_verdict verdict_below_limit(const curve_fitting *f, wt_curve_verdict verdict,
+static wt_curve_verdict verdict_below_limit(curve_fitting *f, wt_curve_verdict verdict,
                                             char reason[160])
 {
     static const char doubtful[] = "doubtful: ";
@@ -420,7 +417,7 @@ static wt_curve_verdict verdict_below_limit(const curve_fitting *f, wt_curve_ver
         curve_format_si(f->options->fit_force, "N").buffer);
     if (verdict == WT_CURVE_DOUBTFUL) {
         curve_set_reason(text, "; %s", all + strlen(doubtful));
-        curve_append_note(reason, text);
+        f->misfit_is_named = curve_append_note(reason, text) && f->misfit_is_named;
     }
     return WT_CURVE_DOUBTFUL;
 }
