@@ -5,25 +5,21 @@
 #include <math.h>
 #include <stdlib.h>
 
-wt_status error_nodes_choose(const double *v, size_t n, double **nodes, size_t *m, wt_error *err)
+double *error_nodes_create(const double *v, size_t n, size_t *m)
 {
     const size_t last = n - 1;
-    *nodes = NULL;
     *m = n;
     if (n <= ERROR_NODES + 1)
-        return WT_OK;
-    double *const made = malloc((ERROR_NODES + 1) * sizeof *made);
-    if (made == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
+        return NULL;
+    double *const made = wt_alloc(ERROR_NODES + 1, sizeof *made);
     const double from = log(v[0]), to = log(v[last - 1]);
     for (size_t i = 0; i < ERROR_NODES; i++)
         made[i] = exp(from + (to - from) * (double)i / (ERROR_NODES - 1));
     made[0] = v[0];
     made[ERROR_NODES - 1] = v[last - 1];
     made[ERROR_NODES] = v[last];
-    *nodes = made;
     *m = ERROR_NODES + 1;
-    return WT_OK;
+    return made;
 }
 
 void error_nodes_interpolate(const double *nodes, size_t m, const double *at_nodes, const double *v,

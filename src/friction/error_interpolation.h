@@ -12,11 +12,10 @@
  * standard error of 200 replicates has an uncertainty of 5e-2. */
 enum { ERROR_NODES = 1000 };
 
-/* Chooses the nodes for the replicates. The velocities v [n] rise, except the last, which is the
- * reference. *nodes [*m] ends with the reference; the caller frees it. NULL means that the nodes
- * are v. */
-wt_status error_nodes_choose(const double *v, size_t n, double **nodes, size_t *m,
-                             wt_error *err) WT_NODISCARD;
+/* Creates the nodes for the replicates. The velocities v [n] rise, except the last, which is the
+ * reference. The nodes [*m] end with the reference; the caller frees them. NULL means that the
+ * nodes are v. */
+double *error_nodes_create(const double *v, size_t n, size_t *m);
 /* Interpolates the errors from at_nodes [m] to error [n] at v, linearly in ln v. The last value is
  * copied. */
 void error_nodes_interpolate(const double *nodes, size_t m, const double *at_nodes, const double *v,

@@ -102,9 +102,7 @@ static wt_status compute_friction_replicate(const void *user, size_t i, double *
 {
     const friction_task *task = user;
     sliding_contact c = {0};
-    wt_friction_point *points = malloc(task->n * sizeof *points);
-    if (points == NULL)
-        return WT_E_MEMORY;
+    wt_friction_point *points = wt_alloc(task->n, sizeof *points);
     wt_status status = compute_bulk(task, i, points, out, &c, err);
     if (status == WT_OK && task->layer != NULL)
         status = compute_layered(task, i, points, out, err);
@@ -275,17 +273,14 @@ static bool is_only_reference(const wt_sliding *sliding)
     return sliding->n_velocity == 1 && sliding->velocity[0] == flow_reference_velocity(sliding);
 }
 
-static wt_status allocate_results(friction_task *task, wt_error *err)
+static void allocate_results(friction_task *task)
 {
-    task->velocity = malloc(task->n * sizeof *task->velocity);
-    task->centre = malloc(N_KINDS * task->n * sizeof *task->centre);
-    task->points = malloc(task->n * sizeof *task->points);
-    if (task->velocity == NULL || task->centre == NULL || task->points == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    task->velocity = wt_alloc(task->n, sizeof *task->velocity);
+    task->centre = wt_alloc(N_KINDS * task->n, sizeof *task->centre);
+    task->points = wt_alloc(task->n, sizeof *task->points);
     memcpy(task->velocity, task->sliding->velocity,
            task->sliding->n_velocity * sizeof *task->velocity);
     task->velocity[task->n - 1] = flow_reference_velocity(task->sliding);
-    return WT_OK;
 }
 
 static void free_results(friction_task *task)
@@ -363,9 +358,7 @@ static wt_status compute_nominal_friction(friction_task *task, sliding_contact *
     update_worst_error(task, task->points);
     if (task->layer == NULL)
         return WT_OK;
-    wt_friction_point *layered = malloc(task->n * sizeof *layered);
-    if (layered == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    wt_friction_point *layered = wt_alloc(task->n, sizeof *layered);
     status = compute_layered(task, WT_NO_REPLICATE, layered, task->centre, err);
     if (status == WT_OK)
         status = sliding_layer_zero_loss_range(task->sliding, task->layer, task->work,
@@ -390,16 +383,12 @@ static wt_status draw_error_nodes(friction_task *task, wt_error *err)
 {
     replicates *r = &task->replicates;
     const friction_task all = *task;
-    double *nodes = NULL, *error = NULL;
-    wt_status status = error_nodes_choose(all.velocity, all.n, &nodes, &task->n, err);
-    if (status == WT_OK && nodes != NULL) {
+    double *error = NULL, *const nodes = error_nodes_create(all.velocity, all.n, &task->n);
+    if (nodes != NULL) {
         task->velocity = nodes;
-        error = malloc(N_KINDS * all.n * sizeof *error);
-        if (error == NULL)
-            status = wt_fail(err, WT_E_MEMORY, "out of memory");
+        error = wt_alloc(N_KINDS * all.n, sizeof *error);
     }
-    if (status == WT_OK)
-        status = replicates_draw(r, N_KINDS * task->n, compute_friction_replicate, task, err);
+    wt_status status = replicates_draw(r, N_KINDS * task->n, compute_friction_replicate, task, err);
     for (int kind = 0; status == WT_OK && nodes != NULL && kind < N_KINDS; kind++)
         error_nodes_interpolate(nodes, task->n, kind_values(r->error, task->n, kind), all.velocity,
                                 all.n, kind_values(error, all.n, kind));
@@ -456,9 +445,8 @@ wt_status wt_sliding_friction_compute(const wt_sliding *sliding, const wt_layer_
                           .replicates = replicates_create(sliding, work, "friction")};
     wt_friction_tables t = {0};
     sliding_contact c = {0};
-    status = allocate_results(&task, err);
-    if (status == WT_OK)
-        status = compute_nominal_friction(&task, &c, err);
+    allocate_results(&task);
+    status = compute_nominal_friction(&task, &c, err);
     if (status == WT_OK)
         status = draw_friction_replicates(&task, err);
     if (status == WT_OK)

@@ -24,23 +24,19 @@ typedef struct decade_contributions {
     char strongest[160];
 } decade_contributions;
 
-static wt_status find_decade_edges(const wt_roughness *spectrum, decade_contributions *d,
-                                   wt_error *err)
+static void find_decade_edges(const wt_roughness *spectrum, decade_contributions *d)
 {
     /* a power of ten that differs from a limit by rounding only is that limit */
     const double slack = 1e-9;
     const int first = (int)floor(log10(spectrum->q0) + slack) + 1,
               last = (int)ceil(log10(spectrum->q1) - slack) - 1;
     const size_t inner = last >= first ? (size_t)(last - first + 1) : 0;
-    d->q = malloc((inner + 2) * sizeof *d->q);
-    d->nodes = malloc((inner + 2) * sizeof *d->nodes);
-    if (d->q == NULL || d->nodes == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    d->q = wt_alloc(inner + 2, sizeof *d->q);
+    d->nodes = wt_alloc(inner + 2, sizeof *d->nodes);
     d->q[d->n++] = spectrum->q0;
     for (int k = first; k <= last; k++)
         d->q[d->n++] = pow(10, k);
     d->q[d->n++] = spectrum->q1;
-    return WT_OK;
 }
 
 static void describe_strongest(decade_contributions *d, double velocity, size_t i, double share)
@@ -116,9 +112,8 @@ wt_status wt_friction_by_scale_compute(const wt_sliding *sliding, const wt_job *
     wt_job local_job = *work;
     local_job.left_out = WT_EXTRA_ALL;
     status = sliding_contact_create(sliding, &local_job, WT_NO_REPLICATE, NULL, none, &c, err);
-    if (status == WT_OK)
-        status = find_decade_edges(c.roughness, &d, err);
     if (status == WT_OK) {
+        find_decade_edges(c.roughness, &d);
         table_writer t = table_begin(&friction_decades_schema, err);
         cost_summary cost = {.tolerance_asked = work->tolerance};
         add_velocity_blocks(sliding, &c, &d, &t, &cost);

@@ -41,11 +41,9 @@ wt_status friction_difference_compute(const wt_sliding *with, const wt_sliding *
 {
     sliding_contact contact = {0}, other = {0};
     *c = (friction_difference){.sliding = with, .n = with->n_velocity + 1};
-    c->velocity = malloc(c->n * sizeof *c->velocity);
-    c->with = calloc(c->n, sizeof *c->with);
-    c->without = calloc(c->n, sizeof *c->without);
-    if (c->velocity == NULL || c->with == NULL || c->without == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    c->velocity = wt_alloc(c->n, sizeof *c->velocity);
+    c->with = wt_alloc(c->n, sizeof *c->with);
+    c->without = wt_alloc(c->n, sizeof *c->without);
     for (size_t i = 0; i < with->n_velocity; i++)
         c->velocity[i] = with->velocity[i];
     c->velocity[c->n - 1] = flow_reference_velocity(with);

@@ -221,13 +221,10 @@ wt_status wt_friction_map_compute(const wt_sliding *sliding, const wt_job *work,
     if (n == 0)
         return wt_fail(err, WT_E_ARG, "a friction map needs temperatures or pressures");
     friction_map m = {.sliding = sliding, .work = work, .lowest = (double)INFINITY, .highest = 0};
-    m.lines = calloc(n, sizeof *m.lines);
-    m.velocity = malloc(sliding->n_velocity * sizeof *m.velocity);
-    m.points = malloc(sliding->n_velocity * sizeof *m.points);
-    if (m.lines == NULL || m.velocity == NULL || m.points == NULL)
-        status = wt_fail(err, WT_E_MEMORY, "out of memory");
-    if (status == WT_OK)
-        status = list_map_lines(&m, err);
+    m.lines = wt_alloc(n, sizeof *m.lines);
+    m.velocity = wt_alloc(sliding->n_velocity, sizeof *m.velocity);
+    m.points = wt_alloc(sliding->n_velocity, sizeof *m.points);
+    status = list_map_lines(&m, err);
     if (status == WT_OK)
         status = tabulate_friction_map(&m, table, err);
     free(m.lines);

@@ -47,20 +47,16 @@ static void add_area_blocks(const wt_sliding *sliding, const sliding_contact *c,
                  middle = flow_reference_velocity(sliding);
     const double decades = log10(c->roughness->q1 / c->roughness->q0);
     const size_t n = 2 + (size_t)ceil(decades * CONTACT_POINTS_PER_DECADE);
-    double *q = malloc(n * sizeof *q);
-    wt_friction_node *nodes = malloc(n * sizeof *nodes);
-    if (q == NULL || nodes == NULL) {
-        t->status = wt_fail(t->err, WT_E_MEMORY, "out of memory");
-    } else {
-        for (size_t i = 0; i < n; i++)
-            q[i] = c->roughness->q0 * pow(10, decades * (double)i / (double)(n - 1));
-        q[n - 1] = c->roughness->q1;
-        add_area_block(c, first, q, n, nodes, t, cost);
-        if (middle > first && middle < last)
-            add_area_block(c, middle, q, n, nodes, t, cost);
-        if (last > first)
-            add_area_block(c, last, q, n, nodes, t, cost);
-    }
+    double *q = wt_alloc(n, sizeof *q);
+    wt_friction_node *nodes = wt_alloc(n, sizeof *nodes);
+    for (size_t i = 0; i < n; i++)
+        q[i] = c->roughness->q0 * pow(10, decades * (double)i / (double)(n - 1));
+    q[n - 1] = c->roughness->q1;
+    add_area_block(c, first, q, n, nodes, t, cost);
+    if (middle > first && middle < last)
+        add_area_block(c, middle, q, n, nodes, t, cost);
+    if (last > first)
+        add_area_block(c, last, q, n, nodes, t, cost);
     free(q);
     free(nodes);
 }

@@ -89,9 +89,7 @@ wt_status wt_softened_friction_compute(const wt_sliding *sliding, const wt_job *
     friction_difference c = {.n = 0};
     wt_sliding without = *sliding;
     without.strain_softening = NULL;
-    effect e = {.rows = calloc(sliding->n_velocity + 1, sizeof *e.rows)};
-    if (e.rows == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    effect e = {.rows = wt_alloc(sliding->n_velocity + 1, sizeof *e.rows)};
     status = friction_difference_compute(sliding, &without, work, compute_shares, &e, &c, err);
     if (status == WT_OK)
         status = tabulate_softening(&c, &e, table, err);

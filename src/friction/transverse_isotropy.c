@@ -151,9 +151,7 @@ wt_status wt_transverse_isotropy_compute(const wt_sliding *sliding, const wt_job
     directions d = {.sliding = sliding, .work = *work, .n = sliding->n_velocity + 1};
     d.work.left_out = WT_EXTRA_ALL;
     d.work.drawn = NULL; /* the cache is for another material */
-    d.points = malloc(N_FACTOR_SETS * d.n * sizeof *d.points);
-    if (d.points == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    d.points = wt_alloc(N_FACTOR_SETS * d.n, sizeof *d.points);
     status = compute_factor_sets(&d, err);
     if (status == WT_OK)
         status = tabulate_transverse_isotropy(&d, table, err);

@@ -61,12 +61,8 @@ static int add_edge_section(figure_drawing *d, const char *title, double errors)
     static const char *const names[] = {"velocity", "pressure", NULL};
     static const char *const units[] = {"m/s", "Pa"};
     const table_view *t = d->table;
-    double *values = calloc(2 * t->n_rows, sizeof *values);
+    double *values = wt_alloc(2 * t->n_rows, sizeof *values);
     size_t n = 0;
-    if (values == NULL) {
-        d->status = wt_fail(d->err, WT_E_MEMORY, "out of memory");
-        return NO_SECTION;
-    }
     for (size_t row = 0; row + 1 < t->n_rows; row++) {
         const double velocity = interpolate_edge(t, row, errors);
         if (isnan(velocity))
@@ -85,11 +81,7 @@ static int add_edge_section(figure_drawing *d, const char *title, double errors)
 static double half_step_factor(figure_drawing *d, layer_regime_map_column column)
 {
     const size_t n = d->table->n_rows;
-    double *values = malloc(n * sizeof *values), least = (double)INFINITY;
-    if (values == NULL) {
-        d->status = wt_fail(d->err, WT_E_MEMORY, "out of memory");
-        return 1;
-    }
+    double *values = wt_alloc(n, sizeof *values), least = (double)INFINITY;
     for (size_t row = 0; row < n; row++)
         values[row] = layer_regime_map_get(d->table, row, column);
     numbers_sort(values, n);

@@ -122,9 +122,7 @@ static wt_status compute_balance(const layer_task *task, size_t replicate, layer
 
 static wt_status compute_history(const layer_task *task, layer_run *run, wt_error *err)
 {
-    run->points = malloc((task->n + 1) * sizeof *run->points);
-    if (run->points == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    run->points = wt_alloc(task->n + 1, sizeof *run->points);
     return wt_layer_history(&run->energy.source, &run->parameters, task->time, task->n, run->points,
                             err);
 }
@@ -286,7 +284,7 @@ wt_status wt_layer_thickness_compute(const wt_sliding *sliding, const wt_layer_j
     wt_layer_tables t = {0};
     status = compute_balance(&task, WT_NO_REPLICATE, &centre, err);
     if (status == WT_OK)
-        status = layer_times_choose(job, &centre.balance, &task.time, &task.n, err);
+        task.time = layer_times_choose(job, &centre.balance, &task.n);
     if (status == WT_OK)
         status = compute_history(&task, &centre, err);
     if (status == WT_OK)

@@ -28,9 +28,9 @@ wt_layer_parameters layer_parameters_create(const wt_layer_job *job, const slidi
                                             double velocity, uint64_t seed, size_t replicate);
 
 /* Times of a job, by default from well before the first change of the layer to well after the last:
- * *time [n], which the caller frees. */
-wt_status layer_times_choose(const wt_layer_job *job, const wt_layer_steady_state *balance,
-                             double **time, size_t *n, wt_error *err) WT_NODISCARD;
+ * [n], which the caller frees. */
+double *layer_times_choose(const wt_layer_job *job, const wt_layer_steady_state *balance,
+                           size_t *n);
 
 /* ---- context and operating point ------------------------------------------------------------- */
 

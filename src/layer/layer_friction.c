@@ -38,9 +38,7 @@ wt_status layer_friction_model_create(const layer_context *context, double thinn
     *friction = (layer_friction_model){.context = context};
     if (n < AKIMA_POINTS_MIN || !(thickest > min_thickness_ratio * thinnest))
         return WT_OK;
-    double *all = malloc((N_NODE_QUANTITIES + 1) * n * sizeof *all);
-    if (all == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    double *all = wt_alloc((N_NODE_QUANTITIES + 1) * n, sizeof *all);
     friction->log_thickness = all;
     for (size_t k = 0; k < N_NODE_QUANTITIES; k++)
         friction->value[k] = all + (k + 1) * n;
@@ -50,6 +48,7 @@ wt_status layer_friction_model_create(const layer_context *context, double thinn
         if (friction->curve[k] == NULL)
             status = wt_fail(err, WT_E_MEMORY, "out of memory");
     }
+
     if (status != WT_OK)
         layer_friction_model_clear(friction);
     return status;

@@ -15,16 +15,13 @@
 #define LAST_OVER_FIRST 1e6
 
 /* Times from well before the first change to well after the last one. */
-wt_status layer_times_choose(const wt_layer_job *job, const wt_layer_steady_state *b, double **time,
-                             size_t *n, wt_error *err)
+double *layer_times_choose(const wt_layer_job *job, const wt_layer_steady_state *b, size_t *n)
 {
     *n = job->time != NULL ? job->n_time : DEFAULT_TIMES;
-    *time = malloc((*n > 0 ? *n : 1) * sizeof **time);
-    if (*time == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    double *const time = wt_alloc(*n > 0 ? *n : 1, sizeof *time);
     if (job->time != NULL) {
-        memcpy(*time, job->time, *n * sizeof **time);
-        return WT_OK;
+        memcpy(time, job->time, *n * sizeof *time);
+        return time;
     }
     double first = b->incubation_time.value, last = b->relaxation_time.value;
     if (!(first > 0) || !isfinite(first))
@@ -34,6 +31,6 @@ wt_status layer_times_choose(const wt_layer_job *job, const wt_layer_steady_stat
     first /= 2;
     last = TIME_SPAN * fmax(last, first);
     for (size_t i = 0; i < *n; i++)
-        (*time)[i] = first * pow(last / first, (double)i / (double)(*n - 1));
-    return WT_OK;
+        time[i] = first * pow(last / first, (double)i / (double)(*n - 1));
+    return time;
 }

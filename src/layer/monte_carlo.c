@@ -131,10 +131,10 @@ wt_interval layer_draws_interval(const layer_draws *d, size_t k, double value)
     const size_t known = count_finite(r, k);
     wt_interval interval = {value, value * error, value / factor, value * factor};
     const bool nearly_all_finite = (double)(r->n - known) <= tail_probability * (double)r->n;
-    /* Without memory there is no interval, because another method would give a different one. */
-    if (!nearly_all_finite || (isfinite(value) && r->n >= REPLICATES_FOR_QUANTILES &&
-                               replicate_interval(r, k, tail_probability, &interval) != WT_OK))
+    if (!nearly_all_finite)
         interval.low = interval.high = interval.standard_error = (double)NAN;
+    else if (isfinite(value) && r->n >= REPLICATES_FOR_QUANTILES)
+        replicate_interval(r, k, tail_probability, &interval);
     return interval;
 }
 

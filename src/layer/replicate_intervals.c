@@ -62,16 +62,12 @@ static int compare_positions(const void *left, const void *right)
 
 /* Correction of each of the n values if each draw had its expected order statistic; 0 without a
  * fit. */
-static wt_status compute_corrections(const replicates *r, size_t k, double *correction)
+static void compute_corrections(const replicates *r, size_t k, double *correction)
 {
-    bool has_line = false;
     parabola fitted;
-    double *const at = malloc((r->n + 1) * sizeof *at);
-    line_position *const positions = malloc((r->n + 1) * sizeof *positions);
-    const wt_status status = at != NULL && positions != NULL
-                                 ? replicates_line_positions(r, k, at, &has_line)
-                                 : WT_E_MEMORY;
-    has_line = status == WT_OK && has_line && fit_parabola(r, k, at, &fitted);
+    double *const at = wt_alloc(r->n + 1, sizeof *at);
+    line_position *const positions = wt_alloc(r->n + 1, sizeof *positions);
+    const bool has_line = replicates_line_positions(r, k, at) && fit_parabola(r, k, at, &fitted);
     for (size_t i = 0; i < r->n; i++)
         correction[i] = 0;
     for (size_t i = 0; has_line && i < r->n; i++)
@@ -85,28 +81,23 @@ static wt_status compute_corrections(const replicates *r, size_t k, double *corr
     }
     free(at);
     free(positions);
-    return status;
 }
 
-wt_status replicate_interval(const replicates *r, size_t k, double tail_probability,
-                             wt_interval *interval)
+void replicate_interval(const replicates *r, size_t k, double tail_probability,
+                        wt_interval *interval)
 {
-    double *const sorted = malloc((r->n + 1) * sizeof *sorted);
-    double *const correction = malloc((r->n + 1) * sizeof *correction);
+    double *const sorted = wt_alloc(r->n + 1, sizeof *sorted);
+    double *const correction = wt_alloc(r->n + 1, sizeof *correction);
     size_t m = 0;
-    const wt_status status =
-        sorted != NULL && correction != NULL ? compute_corrections(r, k, correction) : WT_E_MEMORY;
-    for (size_t i = 0; status == WT_OK && i < r->n; i++) {
+    compute_corrections(r, k, correction);
+    for (size_t i = 0; i < r->n; i++) {
         const double value = r->value[i * r->stride + k];
         if (isfinite(value))
             sorted[m++] = value + correction[i];
     }
-    if (status == WT_OK) {
-        numbers_sort(sorted, m);
-        interval->low = exp(censored_quantile(sorted, m, r->n, tail_probability));
-        interval->high = exp(censored_quantile(sorted, m, r->n, 1 - tail_probability));
-    }
+    numbers_sort(sorted, m);
+    interval->low = exp(censored_quantile(sorted, m, r->n, tail_probability));
+    interval->high = exp(censored_quantile(sorted, m, r->n, 1 - tail_probability));
     free(sorted);
     free(correction);
-    return status;
 }

@@ -12,9 +12,8 @@ enum { REPLICATES_FOR_QUANTILES = 80 };
  * beyond each limit. Replicates without a value count as above all others. Quantiles of some
  * hundred replicates scatter by a tenth of the interval, in the same direction for all results of a
  * seed. The draws are standard normal, however. Each replicate is therefore moved along the
- * parabola fit from its draw to the expected value of its rank. Returns WT_E_MEMORY without a
- * change if out of memory. */
-wt_status replicate_interval(const replicates *r, size_t k, double tail_probability,
-                             wt_interval *interval) WT_NODISCARD;
+ * parabola fit from its draw to the expected value of its rank. */
+void replicate_interval(const replicates *r, size_t k, double tail_probability,
+                        wt_interval *interval);
 
 #endif

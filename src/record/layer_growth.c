@@ -175,7 +175,7 @@ static wt_status choose_times(growth_inputs *g, growth *out, wt_error *err)
     if (status == WT_OK && balance.thickness.value <= 0 && !g->job.has_feedback)
         status = wt_fail(err, WT_E_RANGE, "no layer is predicted there: wear exceeds formation");
     if (status == WT_OK)
-        status = layer_times_choose(&job, &balance, &shown, &n, err);
+        shown = layer_times_choose(&job, &balance, &n);
     if (status == WT_OK) {
         /* With the rate balance the layer starts at once. The times start where the thinnest
          * relevant layer exists. */

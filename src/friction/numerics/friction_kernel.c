@@ -48,11 +48,6 @@ static const wt_param rows[] = {
 };
 PARAM_TABLE(wt_friction_params, wt_friction_options, rows, wt_friction_defaults, NO_PARTS)
 
-static wt_status out_of_memory_error(wt_error *err)
-{
-    return wt_fail(err, WT_E_MEMORY, "out of memory for the friction integral");
-}
-
 /* The closed form in the core neglects the change of dmu/dG over the core, which is about its
  * length. The share of the core in mu is about the square root of its length. */
 static size_t friction_core_levels(double tolerance)
@@ -61,8 +56,8 @@ static size_t friction_core_levels(double tolerance)
     return (size_t)ceil(-0.5 * log2(core));
 }
 
-wt_status friction_scratch_init(friction_scratch *scratch, const wt_friction_workspace *ws,
-                                size_t n_cuts, arena *memory, wt_error *err)
+void friction_scratch_init(friction_scratch *scratch, const wt_friction_workspace *ws,
+                           size_t n_cuts, arena *memory)
 {
     *scratch = (friction_scratch){0};
     subinterval_plan_init(&scratch->plan, ws->roughness, ws->plan.width, ws->plan.levels, ws->knots,
@@ -89,7 +84,6 @@ wt_status friction_scratch_init(friction_scratch *scratch, const wt_friction_wor
         scratch->extra_shift = arena_numbers(memory, (subintervals + 2) * GAUSS_NODES_MAX);
     if (ws->flash != NULL)
         scratch->flash = flash_scratch_new(ws, memory);
-    return memory->failed ? out_of_memory_error(err) : WT_OK;
 }
 
 static double relative_rounding(const wt_friction_workspace *ws)
@@ -128,13 +122,10 @@ static wt_status choose_rules(wt_friction_workspace *ws, wt_error *err)
 }
 
 /* Prepares the common plan of all velocities. */
-static wt_status prepare_plan(wt_friction_workspace *ws, wt_error *err)
+static void prepare_plan(wt_friction_workspace *ws)
 {
     double *bounds = arena_alloc(&ws->memory, ws->plan.capacity + 1, sizeof *bounds);
-    if (ws->memory.failed)
-        return out_of_memory_error(err);
     subinterval_plan_fill(&ws->plan, ws->roughness, NULL, 0, NULL, 0, bounds);
-    return WT_OK;
 }
 
 static wt_status create_angular_law(wt_friction_workspace *ws, const wt_material *material,
@@ -175,8 +166,6 @@ static wt_status init_layer_moduli(wt_friction_workspace *ws, wt_error *err)
     if (!layer_has_moduli(layer))
         return WT_OK;
     ws->layer = arena_alloc(&ws->memory, 1, sizeof *ws->layer);
-    if (ws->layer == NULL)
-        return out_of_memory_error(err);
     const wt_status status =
         layer_slope_shift(&ws->options.shift, ws->options.temperature, &layer->slope, err);
     if (status != WT_OK)
@@ -193,8 +182,6 @@ static wt_status init_layer_moduli(wt_friction_workspace *ws, wt_error *err)
     if (more == 0)
         return WT_OK;
     double *all = arena_numbers(&ws->memory, ws->n_knots + more);
-    if (all == NULL)
-        return out_of_memory_error(err);
     for (size_t k = 0; k < ws->n_knots + more; k++)
         all[k] = k < ws->n_knots ? ws->knots[k] : edges[k - ws->n_knots];
     numbers_sort(all, ws->n_knots + more);
@@ -206,12 +193,10 @@ static wt_status init_layer_moduli(wt_friction_workspace *ws, wt_error *err)
 /* Prepares the data of the knots for the plans. */
 static void prepare_knots(wt_friction_workspace *ws)
 {
-    if (ws->n_knots > 0)
-        ws->slopes = arena_numbers(&ws->memory, ws->n_knots + 1);
-    if (ws->n_knots > 0)
-        ws->log_knots = arena_numbers(&ws->memory, ws->n_knots);
-    if (ws->slopes == NULL || ws->log_knots == NULL)
+    if (ws->n_knots == 0)
         return;
+    ws->slopes = arena_numbers(&ws->memory, ws->n_knots + 1);
+    ws->log_knots = arena_numbers(&ws->memory, ws->n_knots);
     material_slopes(ws->material, ws->knots, ws->n_knots, ws->slopes);
     for (size_t k = 0; k < ws->n_knots; k++)
         ws->log_knots[k] = log(ws->knots[k]);
@@ -241,9 +226,7 @@ wt_status wt_friction_workspace_new(const wt_material *material, const wt_roughn
     wt_status status = param_check(wt_friction_params(), &o, err);
     if (status != WT_OK)
         return status;
-    wt_friction_workspace *ws = calloc(1, sizeof *ws);
-    if (ws == NULL)
-        return out_of_memory_error(err);
+    wt_friction_workspace *ws = wt_alloc(1, sizeof *ws);
     ws->material = material;
     ws->roughness = roughness;
     ws->options = o;
@@ -269,11 +252,9 @@ wt_status wt_friction_workspace_new(const wt_material *material, const wt_roughn
     if (status == WT_OK && o.flash.on)
         status = flash_new(ws, err);
     if (status == WT_OK && ws->n_knots == 0)
-        status = prepare_plan(ws, err);
-    if (status == WT_OK && ws->memory.failed)
-        status = out_of_memory_error(err);
+        prepare_plan(ws);
     for (unsigned i = 0; status == WT_OK && i < ws->threads; i++)
-        status = friction_scratch_init(&ws->scratch[i], ws, 0, &ws->memory, err);
+        friction_scratch_init(&ws->scratch[i], ws, 0, &ws->memory);
     if (status != WT_OK) {
         wt_friction_workspace_free(ws);
         return status;
@@ -436,8 +417,8 @@ static bool needs_extrapolated_share(const wt_friction_workspace *ws)
 }
 
 /* Computes a load with known temperatures, for a positive velocity. */
-static wt_status compute_load(const wt_friction_workspace *ws, friction_scratch *scratch,
-                              const friction_load *at, wt_friction_point *point)
+static void compute_load(const wt_friction_workspace *ws, friction_scratch *scratch,
+                         const friction_load *at, wt_friction_point *point)
 {
     const double tolerance = ws->options.tolerance;
     const subinterval_plan *plan = friction_plan(ws, scratch, at, NULL, 0);
@@ -466,44 +447,37 @@ static wt_status compute_load(const wt_friction_workspace *ws, friction_scratch 
     point->extrapolated_share = ws->options.skip_extrapolated_share ? (double)NAN
                                 : pass.hysteresis > 0 ? fmin(pass.outside / pass.hysteresis, 1)
                                                       : 0;
-    point->lateral = dimensionless_estimate(0, 0);
-    const wt_status status =
-        ws->lateral != NULL ? lateral_force_compute(ws, *at, &record, error_mu, &point->lateral)
-                            : WT_OK;
+    point->lateral = ws->lateral != NULL ? lateral_force_compute(ws, *at, &record, error_mu)
+                                         : dimensionless_estimate(0, 0);
     free(record.q);
     free(record.mu);
-    return status;
 }
 
-static wt_status compute_point(const compute_job *job, friction_scratch *scratch, double velocity,
-                               wt_friction_point *point)
+static void compute_point(const compute_job *job, friction_scratch *scratch, double velocity,
+                          wt_friction_point *point)
 {
     const wt_friction_workspace *ws = job->ws;
-    wt_status status;
     friction_load at = friction_load_create(ws, job->pressure, velocity);
     const double sign = velocity < 0 ? -1 : velocity > 0 ? 1 : 0;
     if (ws->flash == NULL || sign == 0) {
-        status = compute_load(ws, scratch, &at, point);
+        compute_load(ws, scratch, &at, point);
         point->temperature = dimensionless_estimate((double)NAN, (double)NAN);
         point->hot_branch = (wt_friction_branch){(double)NAN, (double)NAN, (double)NAN};
         point->has_no_solution = false;
     } else {
-        status = friction_heated_point(ws, scratch, at, compute_load, point);
+        friction_heated_point(ws, scratch, at, compute_load, point);
     }
     point->velocity = velocity;
     point->hysteresis.value *= sign;
     point->lateral.value *= sign;
     point->hot_branch.hysteresis *= sign;
-    return status;
 }
 
 static wt_status compute_velocity(void *user, size_t i, unsigned worker)
 {
     const compute_job *job = user;
     wt_friction_point *point = &job->points[i];
-    const wt_status status = compute_point(job, &job->ws->scratch[worker], job->velocity[i], point);
-    if (status != WT_OK)
-        return status;
+    compute_point(job, &job->ws->scratch[worker], job->velocity[i], point);
     const bool number = isfinite(point->stress_variance.value) && isfinite(point->hysteresis.value);
     return number || point->has_no_solution ? WT_OK : WT_E_RANGE;
 }

@@ -107,15 +107,14 @@ typedef struct friction_pass {
 typedef struct node_contributions {
     double *q, *mu;
     size_t n, capacity;
-    bool failed; /* true if out of memory */
 } node_contributions;
 void node_contributions_add(node_contributions *record, const double *q, const double *mu,
                             size_t n);
 
 /* Initialises the memory for plans with up to `n_cuts` cuts in addition to those of roughness and
  * material. */
-wt_status friction_scratch_init(friction_scratch *scratch, const wt_friction_workspace *ws,
-                                size_t n_cuts, arena *memory, wt_error *err) WT_NODISCARD;
+void friction_scratch_init(friction_scratch *scratch, const wt_friction_workspace *ws,
+                           size_t n_cuts, arena *memory);
 
 /* J1 and J2 at n wavenumbers and their frequencies omega, x = ln omega. `extra_shift` is ln of the
  * shift of a layer relative to the bulk; NULL for none. With softening, the integrals of the loss
@@ -145,11 +144,12 @@ wt_status friction_solve_heat(const wt_friction_workspace *ws, friction_scratch 
                               friction_load *at, wt_error *err) WT_NODISCARD;
 
 /* Computes a point by `compute` at its self-consistent temperatures, and its second solution. */
-wt_status friction_heated_point(
-    const wt_friction_workspace *ws, friction_scratch *scratch, friction_load at,
-    wt_status (*compute)(const wt_friction_workspace *ws, friction_scratch *scratch,
-                         const friction_load *at, wt_friction_point *point),
-    wt_friction_point *point);
+void friction_heated_point(const wt_friction_workspace *ws, friction_scratch *scratch,
+                           friction_load at,
+                           void (*compute)(const wt_friction_workspace *ws,
+                                           friction_scratch *scratch, const friction_load *at,
+                                           wt_friction_point *point),
+                           wt_friction_point *point);
 /* Error of the temperatures [K], from a pass at them. */
 double friction_heat_error(const flash_solution *solution, const friction_pass *pass);
 /* Shifts the frequencies at n <= GAUSS_NODES_MAX wavenumbers by the temperatures there, and

@@ -24,8 +24,7 @@ wt_status lateral_force_extend(lateral_force *side, double lowest, double highes
                                wt_error *err) WT_NODISCARD;
 /* Computes the lateral friction of a pass with recorded nodes and this error of the hysteresis, for
  * a positive velocity. */
-wt_status lateral_force_compute(const wt_friction_workspace *ws, friction_load at,
-                                const node_contributions *record, double hysteresis_error,
-                                wt_estimate *side) WT_NODISCARD;
+wt_estimate lateral_force_compute(const wt_friction_workspace *ws, friction_load at,
+                                  const node_contributions *record, double hysteresis_error);
 
 #endif

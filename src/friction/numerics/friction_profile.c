@@ -86,9 +86,8 @@ wt_status wt_friction_profile(wt_friction_workspace *workspace, double pressure,
     friction_scratch scratch;
     arena memory = {0};
     double *cuts = arena_alloc(&memory, n, sizeof *cuts);
-    status = friction_scratch_init(&scratch, workspace, n, &memory, err);
-    if (status == WT_OK)
-        status = friction_solve_heat(workspace, &scratch, &at, err);
+    friction_scratch_init(&scratch, workspace, n, &memory);
+    status = friction_solve_heat(workspace, &scratch, &at, err);
     if (status == WT_OK)
         fill_nodes(workspace, at,
                    velocity < 0   ? -1

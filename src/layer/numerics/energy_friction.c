@@ -47,9 +47,8 @@ wt_status wt_energy_source_from_friction(wt_friction_workspace *workspace, doubl
     friction_scratch scratch;
     arena memory = {0};
     wt_energy_source pair[2] = {{0}, {0}};
-    status = friction_scratch_init(&scratch, workspace, 0, &memory, err);
-    if (status == WT_OK)
-        status = friction_solve_heat(workspace, &scratch, &at, err);
+    friction_scratch_init(&scratch, workspace, 0, &memory);
+    status = friction_solve_heat(workspace, &scratch, &at, err);
     const subinterval_plan *plan =
         status == WT_OK ? friction_plan(workspace, &scratch, &at, NULL, 0) : NULL;
     size_t now = 0;
@@ -68,11 +67,9 @@ wt_status wt_energy_source_from_friction(wt_friction_workspace *workspace, doubl
                                 .n = record.n,
                                 .wavenumber = record.q,
                                 .power = record.mu};
-        if (record.failed)
-            status = wt_fail(err, WT_E_MEMORY, "out of memory for an energy source");
         for (size_t i = 0; i < s->n; i++)
             s->power[i] *= pressure * at.speed;
-        if (k > 0 && status == WT_OK)
+        if (k > 0)
             error = compare_sources(s, &pair[1 - now], workspace->roughness) +
                     pass.hysteresis_error / (pass.hysteresis > 0 ? pass.hysteresis : 1);
         s->numerical_error = error + friction_relative_error(workspace, &pass, at).hysteresis;

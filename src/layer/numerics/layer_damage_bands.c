@@ -56,14 +56,12 @@ wt_status layer_loads_create(const wt_layer_load *stages, size_t n, layer_loads 
     if (stages == NULL || n == 0 || stages->source == NULL)
         return wt_fail(err, WT_E_ARG, "the loads of a layer need one stage at least");
     *loads = (layer_loads){.n = n,
-                           .rates = calloc(n, sizeof *loads->rates),
-                           .past = calloc(n, sizeof *loads->past),
-                           .begin = calloc(n, sizeof *loads->begin),
+                           .rates = wt_alloc(n, sizeof *loads->rates),
+                           .past = wt_alloc(n, sizeof *loads->past),
+                           .begin = wt_alloc(n, sizeof *loads->begin),
                            .start = stages->parameters.start_thickness,
                            .falls = energy_is_monotonic(stages->source)};
     wt_status status = WT_OK;
-    if (loads->rates == NULL || loads->past == NULL || loads->begin == NULL)
-        status = wt_fail(err, WT_E_MEMORY, "out of memory for the loads of a layer");
     for (size_t i = 0; status == WT_OK && i < n; i++) {
         wt_layer_parameters p = stages[i].parameters;
         p.incubation = true; /* damage is transported */

@@ -154,9 +154,7 @@ wt_status wt_layer_feedback_solve(wt_layer_energy_fn energy, void *user, double 
     if (energy == NULL || loop == NULL || !(low > 0) || !(high > low) || grid < 3)
         return wt_fail(err, WT_E_ARG, "a layer that acts back needs a range of thickness");
     loop_search s = {.energy = energy, .user = user, .err = err};
-    double *x = malloc(2 * grid * sizeof *x);
-    if (x == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory for a layer that acts back");
+    double *x = wt_alloc(2 * grid, sizeof *x);
     double *value = x + grid;
     wt_layer_feedback l = {.low = low, .high = high};
     const double bare = compute_loop_point(&s, 0).log_ratio;
@@ -242,9 +240,7 @@ wt_status wt_layer_feedback_history(wt_layer_energy_fn energy, void *user,
         wt_error_advice(err, "without wear, or with little, it has no balance: leave out feedback");
         return WT_E_RANGE;
     }
-    feedback_rate *feedback = calloc(1, sizeof *feedback);
-    if (feedback == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory for a layer that acts back");
+    feedback_rate *feedback = wt_alloc(1, sizeof *feedback);
     formation_search o = {&s, bare.wear};
     status = feedback_rate_create(compute_log_formation, &o, 1 / bare.q_max, target, feedback, err);
     if (status == WT_OK)

@@ -5,6 +5,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
 #include "layer/numerics/layer_feedback_rate.h"
+#include "core/base/memory.h"
 
 #include <gsl/gsl_chebyshev.h>
 #include <math.h>
@@ -34,7 +35,7 @@ wt_status feedback_rate_create(feedback_formation_fn f, void *user, double first
                                     gsl_cheb_alloc(ORDER)};
         feedback->n++;
         if (p->value == NULL || p->slope == NULL)
-            return wt_fail(err, WT_E_MEMORY, "out of memory for a layer that acts back");
+            out_of_memory(sizeof(gsl_cheb_series));
         gsl_cheb_init(p->value, &function, p->low, p->high);
         gsl_cheb_calc_deriv(p->slope, p->value);
         low = p->high;

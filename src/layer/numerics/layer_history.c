@@ -69,9 +69,7 @@ static void history_exponential(const layer_rates *rates, double kappa, double s
 wt_status layer_history_sorted(const layer_rates *rates, double start, bool transport,
                                const double *time, size_t n, wt_layer_point *points, wt_error *err)
 {
-    layer_instant *order = calloc(n + 1, sizeof *order);
-    if (order == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory for the history of a layer");
+    layer_instant *order = wt_alloc(n + 1, sizeof *order);
     for (size_t i = 0; i < n; i++)
         order[i] = (layer_instant){time[i], &points[i]};
     qsort(order, n, sizeof *order, numbers_compare);
