@@ -1,23 +1,62 @@
 /* The friction job: hysteresis, contact area and total friction at every velocity, with and without
  * the modified layer, with standard errors from replicates.
  * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "core/base/clocale.h"
+#include "core/base/quantity.h"
 #include "core/base/shared_params.h"
+#include "core/table/table_rows.h"
 #include "dma/strain_softening.h"
-#include "friction/anisotropy.h"
-#include "friction/error_interpolation.h"
-#include "friction/flash.h"
 #include "friction/replicates.h"
 #include "friction/sliding_contact.h"
 #include "job/cost.h"
 #include "job/random_draws.h"
-
-#include "core/base/clocale.h"
-#include "core/base/quantity.h"
-#include "core/table/table_rows.h"
+#include "weartrack/core.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+
+/* Up to this number of velocities, the replicates are computed at each. A longer list uses this
+ * number of nodes, equally spaced in ln v. Over 20 decades the spacing h is 0.05. Linear
+ * interpolation then has the error h^2/8, or 3e-4, if the standard error changes e-fold with v. The
+ * standard error of 200 replicates has an uncertainty of 5e-2. */
+enum { ERROR_NODES = 1000 };
+
+/* Creates the nodes for the replicates. The velocities v [n] rise, except the last, which is the
+ * reference. The nodes [*m] end with the reference; the caller frees them. NULL means that the
+ * nodes are v. */
+static double *error_nodes_create(const double *v, size_t n, size_t *m)
+{
+    const size_t last = n - 1;
+    *m = n;
+    if (n <= ERROR_NODES + 1)
+        return NULL;
+    double *const made = wt_alloc(ERROR_NODES + 1, sizeof *made);
+    const double from = log(v[0]), to = log(v[last - 1]);
+    for (size_t i = 0; i < ERROR_NODES; i++)
+        made[i] = exp(from + (to - from) * (double)i / (ERROR_NODES - 1));
+    made[0] = v[0];
+    made[ERROR_NODES - 1] = v[last - 1];
+    made[ERROR_NODES] = v[last];
+    *m = ERROR_NODES + 1;
+    return made;
+}
+
+/* Interpolates the errors from at_nodes [m] to error [n] at v, linearly in ln v. The last value is
+ * copied. */
+static void error_nodes_interpolate(const double *nodes, size_t m, const double *at_nodes,
+                                    const double *v, size_t n, double *error)
+{
+    size_t k = 0; /* v[i] lies between the nodes k and k + 1 */
+    for (size_t i = 0; i + 1 < n; i++) {
+        while (k + 3 < m && v[i] > nodes[k + 1])
+            k++;
+        const double width = log(nodes[k + 1] / nodes[k]);
+        const double share = width > 0 ? log(v[i] / nodes[k]) / width : 0;
+        error[i] = at_nodes[k] + share * (at_nodes[k + 1] - at_nodes[k]);
+    }
+    error[n - 1] = at_nodes[m - 1];
+}
 
 /* Quantities that a replicate returns for each velocity. */
 enum { HYSTERESIS, AREA, TOTAL, LAYERED, CHANGE, RELATIVE, N_KINDS };

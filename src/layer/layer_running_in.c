@@ -3,7 +3,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "job/cost.h"
 #include "layer/feedback.h"
-#include "layer/layer_friction.h"
+#include "layer/layer_energy.h"
 
 #include "core/base/array.h"
 #include "core/table/table_rows.h"

@@ -3,7 +3,7 @@
 #include "record/layer_growth.h"
 #include "job/random_draws.h"
 #include "layer/feedback.h"
-#include "layer/layer_friction.h"
+#include "layer/layer_energy.h"
 
 #include <math.h>
 #include <stdlib.h>

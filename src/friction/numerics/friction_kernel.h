@@ -123,6 +123,14 @@ void friction_scratch_init(friction_scratch *scratch, const wt_friction_workspac
 void friction_moduli(const wt_friction_workspace *ws, const double *q, const double *omega,
                      const double *x, const double *extra_shift, size_t n, double *j1, double *j2,
                      double *loss_j1, double *loss_j2, double *error);
+/* Adds the errors of a part from J1, J2 and rounding; its n nodes have ln omega = `x`, and G so far
+ * includes the part. The series have errors. Steep integrands also amplify the rounding of ln(q /
+ * q0), ln omega and the logarithms of the knots. */
+void friction_add_input_errors(const wt_friction_workspace *ws, double own_error,
+                               const grid_subinterval *subinterval, const double *x,
+                               const double *j1, const double *j2, size_t n, double log_lowest,
+                               double variance, double hysteresis, double variance_so_far,
+                               friction_pass *pass);
 /* Total number of nodes of all threads and calls. */
 size_t friction_node_count(const wt_friction_workspace *ws);
 

@@ -4,7 +4,7 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
-#include "layer/numerics/layer_feedback_rate.h"
+#include "layer/numerics/layer_kernel.h"
 
 #include "core/math/root.h"
 

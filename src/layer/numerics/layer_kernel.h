@@ -7,6 +7,24 @@
 
 #include "layer/numerics/energy_density_kernel.h"
 
+typedef struct feedback_subinterval {
+    double low, high;
+    struct gsl_cheb_series_struct *value, *slope; /* of ln Qf */
+} feedback_subinterval;
+
+/* Each subinterval is as long as all before it: a layer is never 2^64 times as thick as the
+ * shortest wave. */
+enum { FEEDBACK_SUBINTERVALS = 64 };
+
+typedef struct feedback_rate {
+    double target; /* final thickness [m] */
+    size_t n;
+    feedback_subinterval subinterval[FEEDBACK_SUBINTERVALS];
+} feedback_rate;
+
+/* ln Qf under a layer of this thickness. */
+typedef double (*feedback_formation_fn)(double thickness, void *user);
+
 /* Qf(d) = formation exp(log_tail(d) - log_power), Qw = wear; R = Qf(0)/Qw. */
 typedef struct layer_rates {
     const wt_energy_source *source;
@@ -62,5 +80,10 @@ wt_status layer_history_sorted(const layer_rates *rates, double start, bool tran
  * surface; infinite if it is not on the path. */
 wt_status layer_integrate_time(const layer_rates *rates, double start, wt_estimate goal,
                                wt_estimate *time, wt_error *err) WT_NODISCARD;
+/* Creates subintervals from 0 to the target; the first has the length `first`. The caller clears
+ * the rate, also on failure. */
+wt_status feedback_rate_create(feedback_formation_fn f, void *user, double first, double target,
+                               feedback_rate *feedback, wt_error *err) WT_NODISCARD;
+void feedback_rate_clear(feedback_rate *feedback);
 
 #endif

@@ -1,7 +1,7 @@
 /* Successive loads of a layer job. Internal to layer.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef WT_LAYER_LAYER_LOADS_H
-#define WT_LAYER_LAYER_LOADS_H
+#ifndef WT_LAYER_LAYER_PARAMS_H
+#define WT_LAYER_LAYER_PARAMS_H
 
 #include "weartrack/layer.h"
 
