@@ -4,7 +4,7 @@
 #include "core/base/clocale.h"
 #include "core/table/table_rows.h"
 #include "dma/strain_softening.h"
-#include "friction/numerics/angular_weight.h"
+#include "friction/numerics/angular.h"
 #include "friction/sliding_contact.h"
 #include "job/cost.h"
 #include "weartrack/friction.h"

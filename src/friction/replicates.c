@@ -3,7 +3,7 @@
 #include "friction/replicates.h"
 #include "core/base/memory.h"
 #include "dma/strain_softening.h"
-#include "friction/numerics/angular_weight.h"
+#include "friction/numerics/angular.h"
 #include "friction/sliding_contact.h"
 
 #include "core/math/cholesky.h"

@@ -3,7 +3,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "job/cost.h"
 #include "job/random_draws.h"
-#include "layer/layer_params.h"
+#include "layer/layer_energy.h"
 #include "layer/monte_carlo.h"
 
 #include "core/base/clocale.h"

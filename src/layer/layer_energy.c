@@ -243,11 +243,8 @@ wt_status layer_job_calibrate(const layer_context *context, wt_layer_job *calibr
  * scale to a multiple of the last, where the layer is steady. A missing scale is set by a ratio to
  * the other one. The choice of times does not affect their results. */
 #define DEFAULT_TIMES 61
-
 #define TIME_SPAN 100
-
 #define FIRST_OVER_LAST 1e-3
-
 #define LAST_OVER_FIRST 1e6
 
 /* Times from well before the first change to well after the last one. */

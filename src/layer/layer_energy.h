@@ -117,4 +117,23 @@ wt_status layer_friction_model_evaluate(const layer_friction_model *model, doubl
                                         layer_friction *f, wt_error *err) WT_NODISCARD;
 void layer_friction_model_clear(layer_friction_model *friction);
 
+/* ---- feedback and loads -----------------------------------------------------------------------
+ */
+
+/* A wt_layer_energy_fn whose `user` is a layer_context. */
+wt_status feedback_energy(double thickness, void *user, wt_energy_source *source,
+                          wt_layer_parameters *parameters, wt_error *err) WT_NODISCARD;
+/* Finds all balances with thicknesses from the shortest wave to the longest. */
+wt_status feedback_find_balances(layer_context *context, wt_layer_feedback *loop,
+                                 wt_error *err) WT_NODISCARD;
+
+/* NaN for the value of the sliding; an unset time of the last load means that it does not end. */
+typedef struct layer_load {
+    double time, pressure, velocity, temperature, specific_wear_rate;
+} layer_load;
+
+/* Parses load i of a job. Errors name the load and the invalid value. */
+wt_status layer_load_parse(const wt_layer_job *job, size_t i, layer_load *load,
+                           wt_error *err) WT_NODISCARD;
+
 #endif

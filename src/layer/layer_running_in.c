@@ -2,8 +2,8 @@
  * values and, for the standard errors, by replicates.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "job/cost.h"
-#include "layer/feedback.h"
 #include "layer/layer_energy.h"
+#include "layer/monte_carlo.h"
 
 #include "core/base/array.h"
 #include "core/table/table_rows.h"

@@ -257,10 +257,10 @@ static bool assess_edge(regime_map_task *task, size_t end)
     if (!(missing > max_missing_share))
         return true;
     clocale_print(task->known + used, sizeof task->known - used,
-                  "%s: in %.3g %% of the replicates there is %s %s edge between the velocities of "
+                  "%s%s in %.3g %% of the replicates there is %s %s edge between the velocities of "
                   "the list; more velocities, or smaller errors of what is drawn, would settle it",
-                  used > 0 ? "" : stated_verdict_text(VERDICT_INCONCLUSIVE), 100 * missing,
-                  there ? "no" : "a", end == EDGE_FIRST ? "first" : "last");
+                  used > 0 ? "" : stated_verdict_text(VERDICT_INCONCLUSIVE), used > 0 ? ";" : ":",
+                  100 * missing, there ? "no" : "a", end == EDGE_FIRST ? "first" : "last");
     return false;
 }
 

@@ -2,8 +2,8 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "record/layer_growth.h"
 #include "job/random_draws.h"
-#include "layer/feedback.h"
 #include "layer/layer_energy.h"
+#include "layer/monte_carlo.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -9,7 +9,6 @@
 #include "core/math/chebyshev.h"
 #include "core/math/simd.h"
 #include "core/math/vector_exp.h"
-#include "friction/numerics/angular_panels.h"
 
 #include <float.h>
 #include <math.h>

@@ -3,7 +3,7 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
-#include "friction/numerics/angular_panels.h"
+#include "friction/numerics/angular.h"
 
 #include "core/math/simd.h"
 #include "core/math/vector_exp.h"

@@ -4,7 +4,6 @@
  */
 #include "friction/numerics/friction_kernel.h"
 #include "core/base/shared_params.h"
-#include "friction/numerics/friction_lateral.h"
 
 #include "core/base/array.h"
 #include "friction/numerics/persson_contact.h"

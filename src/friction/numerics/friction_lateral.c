@@ -2,7 +2,7 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
-#include "friction/numerics/friction_lateral.h"
+#include "friction/numerics/friction_kernel.h"
 
 #include <float.h>
 #include <math.h>

@@ -20,7 +20,6 @@
 /* Depths of the comparison of two sources, from 0.1 / q1 to the limit of double precision: exp(-2 q
  * z) underflows in products near q z = 710. */
 enum { DEPTHS = 32 };
-
 static const double last_depth = 710;
 
 /* Number of cells towards q0, each a quarter of the previous one. They resolve the longest waves,

@@ -19,7 +19,6 @@ enum { LOW_NODES = 12, HIGH_NODES = 16 };
  * logarithm. The second limit is in units of the local decay length, over which formation is
  * smooth. The shares affect the cost only: inaccurate subintervals are halved. */
 static const double distance_share = 0.7;
-
 static const double decay_lengths = 2;
 
 /* Tolerance of the difference of the two rules; a hundred subintervals then have an error of 1e-10.
