@@ -2,7 +2,6 @@
  * the modified layer, with standard errors from replicates.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/base/clocale.h"
-#include "core/base/quantity.h"
 #include "core/base/shared_params.h"
 #include "core/table/table_rows.h"
 #include "dma/strain_softening.h"
@@ -335,8 +334,8 @@ static wt_status check_layer_thickness(const wt_layer_observation *layer, wt_err
     if (layer != NULL && isinf(layer->thickness.value)) {
         wt_fail(err, WT_E_RANGE, "friction needs a layer of finite thickness");
         wt_error_found(err, "%g m", layer->thickness.value);
-        wt_error_advice(err, "without wear, or where it ages, the layer grows without end: give a "
-                             "specific wear rate or an observed thickness, or leave out ageing");
+        wt_error_advice(err, "without wear the layer grows without end: give a specific wear rate "
+                             "or an observed thickness");
         return WT_E_RANGE;
     }
     return sliding_layer_check(layer, err);

@@ -89,7 +89,6 @@ TABLE_KEYS(friction_decades, FRICTION_DECADES, char strongest[160];)
 
 /* Limits of the decades: q0, the powers of ten in between, q1. */
 typedef struct decade_contributions {
-    const wt_sliding *sliding;
     size_t n;
     double *q;               /* [n] */
     wt_friction_node *nodes; /* [n] */
@@ -177,7 +176,7 @@ wt_status wt_friction_by_scale_compute(const wt_sliding *sliding, const wt_job *
         return wt_fail(err, WT_E_ARG, "no decades to make");
     const wt_layer_state none = {.modulus_ratio = 1};
     sliding_contact c = {0};
-    decade_contributions d = {.sliding = sliding};
+    decade_contributions d = {.n = 0};
     wt_status status = flow_sliding_check(sliding, work, err);
     if (status != WT_OK)
         return status;

@@ -7,7 +7,6 @@
 #include "layer/monte_carlo.h"
 
 #include "core/base/clocale.h"
-#include "core/base/quantity.h"
 #include "core/table/table_rows.h"
 
 #include <math.h>

@@ -2,7 +2,6 @@
  * time, with standard errors from replicates.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/base/clocale.h"
-#include "core/base/quantity.h"
 #include "core/base/shared_params.h"
 #include "core/table/table_rows.h"
 #include "dma/strain_softening.h"

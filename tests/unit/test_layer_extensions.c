@@ -7,8 +7,6 @@
 
 #include <float.h>
 
-#define ELECTRONVOLT 1.602176634e-19
-
 typedef struct rig {
     const numeric_case *c;
     wt_energy_source source;
@@ -21,8 +19,6 @@ static double number(const numeric_case *c, const char *key, double missing)
     return case_number(c, false, key, missing);
 }
 
-/* A barrier and the energy against it are up to 1000 kB T, which a double rounds to 1e-13 of the
- * rate. */
 static double digits_of(const numeric_case *c)
 {
     return pow(10, -number(c, "digits", 12));
