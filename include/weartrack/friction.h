@@ -13,25 +13,6 @@
 extern "C" {
 #endif
 
-/* ---- shear stress of the real contact ------------------------------------------------------- */
-
-typedef enum wt_shear_kind { WT_SHEAR_CONSTANT, WT_SHEAR_LOG_NORMAL } wt_shear_kind;
-
-/* Shear stress law: tau_f(v, T) = tau_f0 exp(-width log10(v / v0)^2), v0 = peak_velocity exp(E/kB
- * (1/Tref - 1/T)). Law and defaults: Lorenz, Oh, Nam, Jeon and Persson, J. Chem. Phys. 142 (2015)
- * 194701. */
-typedef struct wt_shear_law {
-    wt_shear_kind kind;           /* default constant */
-    double peak_velocity;         /* at the reference temperature [m/s]; default 6 mm/s */
-    double width;                 /* default 0.1 */
-    double activation_energy;     /* [J]; default 0.97 eV */
-    double reference_temperature; /* [K]; default 293.15 */
-} wt_shear_law;
-WT_API wt_shear_law wt_shear_law_defaults(void);
-WT_API double wt_shear_peak_velocity(const wt_shear_law *law, double temperature);
-/* Returns tau_f / tau_f0 > 0; 1 for a constant law. */
-WT_API double wt_shear_factor(const wt_shear_law *law, double velocity, double temperature);
-
 /* ---- a layer on the rubber ------------------------------------------------------------------ */
 
 /* Frequency dependence of the ratio of two moduli: |ratio| ~ omega^exponent from `low` to `high`,
@@ -63,27 +44,17 @@ typedef struct wt_layer_state {
 } wt_layer_state;
 
 /* Shear stress of the real contact on a layer: that of the bulk times (E_layer / E_bulk)^exponent,
- * constant or approached with the thickness, plus the stress to open cracks at the rims of the
- * contacts. Reconstructed from the list in Mokhtari 2015. */
+ * constant or approached with the thickness. Reconstructed from the list in Mokhtari 2015. */
 typedef struct wt_layer_shear {
     double exponent;             /* default 1 */
     double transition_thickness; /* thickness for 1 - 1/e of the change [m]; 0 (default): full
                      change at any thickness */
-    double crack_energy; /* crack opening energy G [J/m^2], also without a layer; default 0 */
-    double spacing;      /* distance of asperities in contact, 1/sqrt(eta) [m]; NaN unless G = 0 */
 } wt_layer_shear;
 WT_API wt_layer_shear wt_layer_shear_defaults(void);
-/* Returns the shear stress [Pa]. bulk: stress of the bulk's real contact without cracks [Pa];
- * area_ratio: A/A0 with this layer. */
-WT_API double wt_layer_shear_stress(const wt_layer_shear *shear, double bulk, wt_layer_state layer,
-                                    double area_ratio);
+/* Returns the shear stress [Pa]. bulk: that of the bulk [Pa]. */
+WT_API double wt_layer_shear_stress(const wt_layer_shear *shear, double bulk, wt_layer_state layer);
 
 /* ---- contact and friction ------------------------------------------------------------------- */
-
-/* Law of the contact area in partial contact. Persson 2001 underestimates the area there;
- * corrections: Yang and Persson, J. Phys.: Condens. Matter 20 (2008) 215214; Wang and Mueser,
- * Tribol. Lett. 65 (2017) 103; Xu et al. 2024. */
-typedef enum wt_area_law { WT_AREA_PERSSON, WT_AREA_YP08, WT_AREA_WM17, WT_AREA_XU24 } wt_area_law;
 
 /* Flash temperature: Persson, J. Phys.: Condens. Matter 18 (2006) 7789. The heat of each length
  * scale warms the rubber for the lifetime of a macroscopic contact and shifts the moduli. */
@@ -93,7 +64,6 @@ typedef struct wt_flash {
     double heat_capacity; /* rho c [J/(m^3 K)]; default 2.2e6, typical of rubber */
     double diffusivity;   /* D of heat [m^2/s]; default 1e-7, typical of rubber */
     double macroscopic;   /* P_m, area fraction of macroscopic contacts, (0, 1]; default 0.3 */
-    bool clipped;         /* limits P/P_m to 1 */
 } wt_flash;
 WT_API wt_flash wt_flash_defaults(void);
 
@@ -109,7 +79,6 @@ typedef struct wt_friction_options {
         *softening;           /* borrowed while the workspace is created; NULL (default) = none */
     double strain_factor;     /* strain over rms slope, > 0; default 1 */
     wt_anisotropy anisotropy; /* of the roughness; default none */
-    wt_area_law area_law;     /* default WT_AREA_PERSSON */
     wt_flash flash;           /* default off */
     wt_shift_law shift;       /* shift law of the material for a flash temperature */
     double temperature;       /* ambient and material temperature for a flash temperature [K] */
@@ -181,15 +150,6 @@ WT_API wt_status wt_friction_compute(wt_friction_workspace *workspace, double pr
 WT_API wt_status wt_friction_profile(wt_friction_workspace *workspace, double pressure,
                                      double velocity, const double *wavenumber, size_t n,
                                      wt_friction_node *nodes, wt_error *err) WT_NODISCARD;
-/* Logarithmic derivatives of mu_hys. Without a flash temperature, that of the pressure is the
- * negative of that of the modulus. */
-typedef struct wt_friction_sensitivity {
-    double modulus, density, pressure; /* density: at unchanged strains of the softening */
-    double cutoff;                     /* of q1, at unchanged temperatures */
-} wt_friction_sensitivity;
-WT_API wt_status wt_friction_sensitivities(wt_friction_workspace *workspace, double pressure,
-                                           double velocity, wt_friction_sensitivity *sensitivity,
-                                           wt_error *err) WT_NODISCARD;
 /* Returns |E_layer / E_bulk| of the layer of a workspace at an angular frequency > 0 [rad/s],
  * without flash temperature. */
 WT_API double wt_friction_layer_ratio(const wt_friction_workspace *workspace, double omega);
@@ -254,12 +214,8 @@ typedef struct wt_sliding {
     size_t n_temperatures;
     const double *pressures; /* [n_pressures] Pa, of the friction map, borrowed */
     size_t n_pressures;
-    bool decades;         /* requests friction by decades of the wavenumber */
-    wt_area_law area_law; /* as in wt_friction_options */
+    bool decades;   /* requests friction by decades of the wavenumber */
     wt_flash flash; /* as in wt_friction_options; `temperature` is then the ambient temperature */
-    wt_shear_law shear_law; /* law of the shear stress, which is its peak value */
-    bool sensitivities; /* requests sensitivities of the friction at the reference velocity; default
-                           false */
     const wt_rubber
         *layer_rubber; /* material of a layer, instead of a modulus ratio, borrowed; default NULL */
 } wt_sliding;
@@ -337,19 +293,14 @@ WT_API wt_status wt_anisotropic_friction_compute(const wt_sliding *sliding, cons
 /* Creates the table "friction_map": friction at every velocity and temperature at the nominal
  * pressure, then at every velocity and pressure at the nominal temperature. One kernel at the
  * reference temperature of the rubber serves all: mu(v, T, p) is mu(v a_T, reference, p b_T).
- * WT_E_ARG without temperatures and pressures. The map has no layer, but uses the crack opening of
- * the shear stress of `observation` (NULL: none) on the bare surface. */
-WT_API wt_status wt_friction_map_compute(const wt_sliding *sliding,
-                                         const wt_layer_observation *observation,
-                                         const wt_job *work, wt_table **table,
-                                         wt_error *err) WT_NODISCARD;
+ * WT_E_ARG without temperatures and pressures. The map has no layer. */
+WT_API wt_status wt_friction_map_compute(const wt_sliding *sliding, const wt_job *work,
+                                         wt_table **table, wt_error *err) WT_NODISCARD;
 /* Creates the table "friction_decades": contributions of each decade of the wavenumber to
- * hysteresis friction, and to shearing and crack opening of bare rubber (`observation` as in the
- * map), at the slowest, the reference and the fastest velocity. */
-WT_API wt_status wt_friction_by_scale_compute(const wt_sliding *sliding,
-                                              const wt_layer_observation *observation,
-                                              const wt_job *work, wt_table **table,
-                                              wt_error *err) WT_NODISCARD;
+ * hysteresis friction and to shearing of bare rubber, at the slowest, the reference and the fastest
+ * velocity. */
+WT_API wt_status wt_friction_by_scale_compute(const wt_sliding *sliding, const wt_job *work,
+                                              wt_table **table, wt_error *err) WT_NODISCARD;
 
 #ifdef __cplusplus
 }

@@ -40,44 +40,11 @@ WT_API double wt_energy_density(const wt_energy_source *source, double depth); /
 WT_API double wt_energy_tail(const wt_energy_source *source,
                              double depth); /* int_z^inf w [W/m^2] */
 
-/* ---- from energy to damage ------------------------------------------------------------------ */
-
-/* Damage law. Both are reconstructed from the descriptions of Mokhtari 2015 and Persson. */
-typedef enum wt_layer_closure {
-    WT_CLOSURE_ENERGY,   /* Omega = w / critical_energy */
-    WT_CLOSURE_ACTIVATED /* Omega = A exp(-max(0, barrier - V_a e) / kB T) in contact */
-} wt_layer_closure;
-/* Attempt frequency A of the activated closure: kB T over the reduced or the plain Planck constant.
- */
-typedef enum wt_attempt_frequency { WT_ATTEMPT_HBAR, WT_ATTEMPT_H } wt_attempt_frequency;
-
-/* Stress-activated bond rupture. e is the energy of a wave in contact during its passage 1/(q v):
- * sum_i power[i] g(z; q[i]) / (q[i] v area_ratio). */
-typedef struct wt_activation {
-    double barrier;               /* barrier of an unloaded bond [J], > 0 */
-    double volume;                /* V_a [m^3], > 0 */
-    wt_attempt_frequency attempt; /* default hbar */
-    double temperature;           /* [K], > 0 */
-    double area_ratio;            /* A/A0, (0, 1]; default 1 */
-    bool ageing; /* the unloaded rate also counts as damage; default false. A layer needs
-                    `incubation` with it, and then all depths age: there is no steady state */
-} wt_activation;
-/* Returns the unloaded rate A exp(-barrier / kB T) [1/s]; NaN for invalid parameters. */
-WT_API double wt_activation_unloaded_rate(const wt_activation *parameters);
-/* Returns the smallest barrier [J] whose unloaded rate at a temperature does not exceed `rate`
- * [1/s]. */
-WT_API double wt_activation_min_barrier(double temperature, wt_attempt_frequency attempt,
-                                        double rate);
-/* Returns the highest temperature [K] at which the unloaded rate of a barrier does not exceed
- * `rate` [1/s]. */
-WT_API double wt_activation_max_temperature(double barrier, wt_attempt_frequency attempt,
-                                            double rate);
-
 /* ---- balance and growth --------------------------------------------------------------------- */
 
 /* Parameters of the layer. The rubber at a depth is modified where int Omega dt >= damage. */
 typedef struct wt_layer_parameters {
-    double critical_energy;    /* U_c of the energy closure [J/m^3], > 0 */
+    double critical_energy;    /* U_c [J/m^3], > 0 */
     double damage;             /* Lambda, > 0; default 1 */
     double specific_wear_rate; /* k [m^2/N], >= 0 */
     double pressure;           /* [Pa] */
@@ -91,8 +58,6 @@ typedef struct wt_layer_parameters {
     double severity_power; /* severity: k (1 + (power / severity_power)^severity_exponent) [W/m^2];
                               0 = constant k */
     double severity_exponent; /* > 0; default 1 */
-    wt_layer_closure closure; /* default energy */
-    wt_activation activation;
 } wt_layer_parameters;
 WT_API wt_layer_parameters wt_layer_defaults(void);
 WT_API const wt_params *wt_layer_params(void);
@@ -109,12 +74,11 @@ typedef struct wt_layer_steady_state {
     double surface_power;               /* J0 [W/m^2] */
     double formation_rate_zero;         /* Qf(0) [m/s] */
     double wear_rate;                   /* Qw [m/s] */
-    double ratio;                       /* R = Qf(0)/Qw, infinite without wear or with ageing */
+    double ratio;                       /* R = Qf(0)/Qw, infinite without wear */
     double critical_specific_wear_rate; /* critical k*, before the severity factor [m^2/N] */
     double ratio_error;    /* relative numerical error of ratio and k*, and of a calibrated critical
                               energy */
-    wt_estimate thickness; /* steady-state thickness delta_total [m]; infinite without wear or with
-                              ageing */
+    wt_estimate thickness; /* steady-state thickness delta_total [m]; infinite without wear */
     double eigenvalue;     /* of the linearised balance [1/s]; 0 without a steady state or wear */
     wt_estimate
         relaxation_time; /* 1/(kappa Qw), kappa = w / int w at that depth; infinite without wear */
@@ -304,12 +268,8 @@ typedef struct wt_layer_job {
     size_t n_time;
     double velocity;          /* velocity of the wear [m/s]; NaN = reference velocity */
     wt_layer_energy energy;   /* default hysteresis */
-    double shear_share;       /* share of the shearing power that counts, [0, 1]; default 1 */
     double severity_power;    /* as in wt_layer_parameters; default 0 */
     double severity_exponent; /* as in wt_layer_parameters; default 1 */
-    wt_layer_closure closure; /* default energy; activated at the temperature of the rubber */
-    wt_estimate barrier;      /* of the activated closure [J] */
-    wt_activation activation; /* volume, attempt frequency and ageing of the activated closure */
     bool bands;               /* requests the modified bands */
     const char *const
         *loads; /* [n_loads] successive loads, borrowed; none: the constant load of the sliding */

@@ -25,20 +25,6 @@ static bool is_table_requested(const wt_sliding *s, size_t k)
     }
 }
 
-/* The map and the contributions by scale are those of the bare surface, which the other layer
- * options do not affect. */
-static wt_status compute_friction_map(const wt_sliding *sliding, const wt_job *work,
-                                      wt_table **table, wt_error *err)
-{
-    return wt_friction_map_compute(sliding, NULL, work, table, err);
-}
-
-static wt_status compute_friction_by_scale(const wt_sliding *sliding, const wt_job *work,
-                                           wt_table **table, wt_error *err)
-{
-    return wt_friction_by_scale_compute(sliding, NULL, work, table, err);
-}
-
 static wt_status compute_further_tables(cmd_sliding *s, wt_table *further[N_FURTHER])
 {
     static const struct {
@@ -50,8 +36,8 @@ static wt_status compute_further_tables(cmd_sliding *s, wt_table *further[N_FURT
         [SOFTENING] = {"softening", wt_softened_friction_compute},
         [FLASH] = {"flash_temperature", wt_flash_temperature_compute},
         [ANISOTROPY] = {"anisotropy", wt_anisotropic_friction_compute},
-        [MAP] = {"friction_map", compute_friction_map},
-        [DECADES] = {"friction_decades", compute_friction_by_scale}};
+        [MAP] = {"friction_map", wt_friction_map_compute},
+        [DECADES] = {"friction_decades", wt_friction_by_scale_compute}};
     wt_status status = WT_OK;
     for (size_t k = 0; status == WT_OK && k < N_FURTHER; k++) {
         if (!is_table_requested(&s->conditions, k))

@@ -25,9 +25,8 @@ int cmd_identify(int argc, char **argv)
     s.parts[CMD_CONTACT].only =
         "material dma roughness strain-softening softening-temperature wear-of";
     s.parts[CMD_CONDITIONS].only =
-        "pressure velocity sliding-temperature gamma strain-factor anisotropy texture-angle "
-        "anisotropy-fourth texture-angle-fourth area-law flash-temperature contact-size "
-        "heat-capacity heat-diffusivity macroscopic-area clip-heat";
+        "pressure velocity sliding-temperature anisotropy texture-angle anisotropy-fourth "
+        "texture-angle-fourth flash-temperature contact-size heat-capacity heat-diffusivity";
     if (!cmd_sliding_parse(&s, &usage, argc, argv))
         return cmd_sliding_free(&s);
     if (cmd_sliding_open(&s)) {

@@ -92,21 +92,18 @@ int cmd_layer(int argc, char **argv)
         .common = "output formats columns files-from provenance cost",
         .first = "material dma roughness pressure velocity sliding-temperature "
                  "specific-wear-rate critical-energy observed-thickness duty-cycle start-thickness "
-                 "times closure energy-from loads feedback regime-map output",
+                 "times energy-from loads feedback regime-map output",
         .master = CMD_DMA_OPTIONS};
     wt_layer_job job = wt_layer_job_defaults();
     cmd_sliding s;
     cmd_sliding_init(&s, (cmd_option_group){wt_layer_job_params(), &job, NULL, 0});
     s.parts[CMD_CONTACT].only = NULL;
     s.parts[CMD_CONDITIONS].only =
-        "pressure velocity pressures sliding-temperature gamma strain-factor anisotropy "
-        "texture-angle "
-        "anisotropy-fourth texture-angle-fourth area-law flash-temperature contact-size "
-        "heat-capacity heat-diffusivity macroscopic-area clip-heat shear-stress shear-law "
-        "shear-peak-velocity shear-width shear-activation shear-temperature";
+        "pressure velocity pressures sliding-temperature anisotropy texture-angle "
+        "anisotropy-fourth texture-angle-fourth flash-temperature contact-size heat-capacity "
+        "heat-diffusivity shear-stress";
     s.parts[CMD_LAYER].only =
-        "modulus-ratio modulus-ratio-df ratio-slope ratio-frequency ratio-lowest "
-        "ratio-highest ratio-temperature bulk-shear";
+        "modulus-ratio ratio-slope ratio-frequency ratio-lowest ratio-highest";
     wt_layer_tables tables = {0};
     wt_table *table[N_TABLES] = {NULL};
     if (!cmd_sliding_parse(&s, &usage, argc, argv))

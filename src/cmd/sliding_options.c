@@ -44,7 +44,6 @@ void cmd_sliding_init(cmd_sliding *s, cmd_option_group own)
     s->conditions = wt_sliding_defaults();
     s->master = wt_master_job_defaults();
     s->options = wt_rubber_options_defaults();
-    s->transverse = wt_transverse_defaults();
     s->set.read = wt_read_defaults();
     s->session = cmd_session_defaults();
     s->contact = contact_defaults();
@@ -55,13 +54,14 @@ void cmd_sliding_init(cmd_sliding *s, cmd_option_group own)
                            0};
     s->parts[CMD_CONDITIONS] = (cmd_option_group){wt_sliding_params(), &s->conditions, NULL, 0};
     s->parts[CMD_WORK] = (cmd_option_group){wt_job_params(), &s->session.work, NULL, 0};
-    s->parts[CMD_MASTER] = (cmd_option_group){wt_master_job_params(), &s->master, NULL, 0};
+    s->parts[CMD_MASTER] =
+        (cmd_option_group){wt_master_job_params(), &s->master,
+                           "poisson-ratio reference-temperature shift-law vertical-shift", 0};
     s->parts[CMD_RUBBER] = (cmd_option_group){wt_rubber_options_params(), &s->options, NULL, 0};
-    s->parts[CMD_TRANSVERSE] = (cmd_option_group){wt_transverse_params(), &s->transverse, NULL, 0};
     s->parts[CMD_READ] = (cmd_option_group){
         wt_read_params(), &s->set.read,
         "temperature temperature-in-name units pixel-size height-unit format sheet deformation "
-        "strain sample sample-by spectrum-convention",
+        "sample spectrum-convention",
         0};
     s->parts[CMD_SUBCOMMAND] = own;
     s->layer_observation = wt_layer_observation_defaults();
@@ -111,9 +111,6 @@ bool cmd_sliding_parse(cmd_sliding *s, const cmd_usage *usage, int argc, char **
     if ((s->contact.material != NULL) + (s->contact.n_dma > 0) + (session->n_files > 0) != 1)
         return cmd_usage_error(session, "give either --material FILE or --dma FILE (or the names "
                                         "of DMA files with --files-from)");
-    if (s->contact.softening == NULL &&
-        cmd_option_is_set(&s->parts[CMD_CONDITIONS], "strain-factor"))
-        return cmd_usage_error(session, "--strain-factor goes with --strain-softening");
     if (s->contact.softening == NULL &&
         cmd_option_is_set(&s->parts[CMD_CONTACT], "softening-temperature"))
         return cmd_usage_error(session, "--softening-temperature goes with --strain-softening");
@@ -294,8 +291,6 @@ bool cmd_sliding_open(cmd_sliding *s)
     if (status == WT_OK && s->contact.material != NULL)
         wt_rubber_add_cost(&s->rubber, work);
     bool wrong_words = status != WT_OK && is_law_text(s->contact.material);
-    s->rubber.is_transverse = s->parts[CMD_TRANSVERSE].given != 0;
-    s->rubber.transverse = s->transverse;
     wt_cost_begin_stage(s->session.cost, "roughness");
     if (status == WT_OK) {
         status = wt_surface_open(s->contact.roughness, &s->set.read, work, &s->surface, err);

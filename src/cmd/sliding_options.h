@@ -21,9 +21,8 @@ typedef struct cmd_contact {
 
 /* Options for DMA files, which weartrack master documents. */
 #define CMD_DMA_OPTIONS                                                                            \
-    "exclude shift-law reference-temperature reference-at vertical-shift expansion "               \
-    "terms-per-decade liquid shift-by temperature temperature-in-name units format sheet "         \
-    "deformation strain sample sample-by"
+    "shift-law reference-temperature vertical-shift temperature temperature-in-name units format " \
+    "sheet deformation sample"
 
 /* Option groups; CMD_SUBCOMMAND has those of the subcommand itself. */
 enum {
@@ -34,7 +33,6 @@ enum {
     CMD_WORK,
     CMD_MASTER,
     CMD_RUBBER,
-    CMD_TRANSVERSE,
     CMD_READ,
     CMD_SLIDING_PARTS
 };
@@ -44,7 +42,6 @@ typedef struct cmd_sliding {
     wt_sliding conditions;
     wt_master_job master;
     wt_rubber_options options;
-    wt_transverse transverse;
     wt_layer_observation layer_observation;
     wt_file_set set;
     cmd_session session;

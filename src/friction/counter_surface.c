@@ -102,8 +102,8 @@ static double *read_error_column(const wt_table *table, power_spectrum_column wh
     const long column = wt_table_find(table, power_spectrum_schema.columns[which].name);
     const bool known =
         column >= 0 && wt_table_column_kind(table, (size_t)column) == WT_COLUMN_NUMBER;
-    double *errors = malloc((n + 1) * sizeof *errors);
-    for (size_t i = 0; errors != NULL && i < n; i++) {
+    double *errors = wt_alloc(n + 1, sizeof *errors);
+    for (size_t i = 0; i < n; i++) {
         const double error = known ? wt_table_number(table, i, (size_t)column) : 0;
         errors[i] = error > 0 && isfinite(error) ? error : 0;
     }
@@ -135,9 +135,7 @@ static wt_status copy_position_errors(const wt_table *table, wt_surface *surface
     for (size_t i = 0, size; status == WT_OK && i < rows; i++)
         if (read_index(&view, i, PLACE_ERRORS_SIZE, rows, &size) && size >= surface->n_sizes)
             surface->n_sizes = size + 1;
-    surface->position_errors = calloc(surface->n_sizes * n + 1, sizeof *surface->position_errors);
-    if (surface->position_errors == NULL)
-        status = wt_fail(err, WT_E_MEMORY, "out of memory");
+    surface->position_errors = wt_alloc(surface->n_sizes * n + 1, sizeof *surface->position_errors);
     for (size_t i = 0, size, at; status == WT_OK && i < rows; i++) {
         const double error = place_errors_get(&view, i, PLACE_ERRORS_ERROR);
         if (!read_index(&view, i, PLACE_ERRORS_SIZE, surface->n_sizes, &size) ||
@@ -170,9 +168,6 @@ static wt_status copy_table_errors(const wt_table *table, const wt_table *places
     surface->modes_error = read_error_column(table, POWER_SPECTRUM_MODES_ERROR, s->n);
     surface->modes_correlation = read_error_column(table, POWER_SPECTRUM_MODES_TIE, s->n);
     surface->law_error = read_error_column(table, POWER_SPECTRUM_LAW_ERROR, s->n);
-    if (surface->modes_error == NULL || surface->modes_correlation == NULL ||
-        surface->law_error == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
     if (wt_table_estimate(table, power_spectrum_schema.keys[POWER_SPECTRUM_KEY_PLACES_ERROR].name,
                           &place) &&
         place.value >= 0 && isfinite(place.value)) {
@@ -219,9 +214,7 @@ static wt_status read_spectrum_errors(const flow_file *file, const wt_job *work,
 static wt_status convert_profile_spectrum(const char *name, const wt_job *work,
                                           wt_power_spectrum *spectrum, wt_error *err)
 {
-    double *c = malloc((spectrum->n + 1) * sizeof *c);
-    if (c == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    double *c = wt_alloc(spectrum->n + 1, sizeof *c);
     const wt_status status =
         wt_surface_from_profile(spectrum->wavenumber, spectrum->density, spectrum->n, c, err);
     if (status != WT_OK) {
@@ -263,10 +256,8 @@ static wt_status copy_spectrum(const wt_topography_tables *made, wt_surface *sur
     wt_power_spectrum *const s = &surface->spectrum;
     bool copied = false;
     s->kind = WT_SPECTRUM_2D;
-    s->wavenumber = malloc((n + 1) * sizeof *s->wavenumber);
-    s->density = malloc((n + 1) * sizeof *s->density);
-    if (s->wavenumber == NULL || s->density == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    s->wavenumber = wt_alloc(n + 1, sizeof *s->wavenumber);
+    s->density = wt_alloc(n + 1, sizeof *s->density);
     for (s->n = 0; s->n < n; s->n++) {
         s->wavenumber[s->n] = wt_table_number(table, s->n, POWER_SPECTRUM_WAVENUMBER);
         s->density[s->n] = wt_table_number(table, s->n, POWER_SPECTRUM_DENSITY);
@@ -382,9 +373,7 @@ static wt_status measured_spectrum_roughness(const wt_surface *surface, double f
         wt_error_found(err, "q0 = %g, q1 = %g rad/m", q0, q1);
         return WT_E_RANGE;
     }
-    double *q = malloc(2 * (s->n + 2) * sizeof *q);
-    if (q == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    double *q = wt_alloc(2 * (s->n + 2), sizeof *q);
     double *c = q + s->n + 2;
     size_t n = 0;
     for (size_t i = 0; i < s->n; i++) {
@@ -440,9 +429,7 @@ wt_status flow_surface_draw(const wt_surface *surface, double factor, uint64_t s
     if (replicate == WT_NO_REPLICATE || surface->modes_error == NULL || surface->self_affine)
         return wt_surface_roughness(surface, factor, roughness, err);
     wt_surface drawn = *surface;
-    drawn.spectrum.density = malloc((s->n + 1) * sizeof *s->density);
-    if (drawn.spectrum.density == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    drawn.spectrum.density = wt_alloc(s->n + 1, sizeof *s->density);
     /* Each point has its own deviate, numbered after all other draws and correlated with that of
      * the next point. The fitted law takes the deviate of one more point. The positions of the
      * first scan size are drawn with the factor; each further size takes its own deviate. */

@@ -171,12 +171,8 @@ static int add_box_section(figure_drawing *d, const char *against, const map_axi
     const char *const speed = schema_unit(&field[FRICTION_MAP_VELOCITY]),
                       *const upward = schema_unit(&field[up->column]);
     const char *const units[] = {speed, speed, upward, upward, "1"};
-    double *boxes = calloc(t->n_rows * BOX_COLUMNS, sizeof *boxes);
+    double *boxes = wt_alloc(t->n_rows * BOX_COLUMNS, sizeof *boxes);
     size_t n = 0;
-    if (boxes == NULL) {
-        d->status = wt_fail(d->err, WT_E_MEMORY, "out of memory");
-        return NO_SECTION;
-    }
     for (size_t row = 0; row < t->n_rows; row++) {
         double *box = boxes + n * BOX_COLUMNS;
         if (strcmp(friction_map_text(t, row, FRICTION_MAP_AGAINST), against) != 0)

@@ -1,23 +1,61 @@
 /* The friction job: hysteresis, contact area and total friction at every velocity, with and without
  * the modified layer, with standard errors from replicates.
  * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "core/base/clocale.h"
 #include "core/base/shared_params.h"
+#include "core/table/table_rows.h"
 #include "dma/strain_softening.h"
-#include "friction/anisotropy.h"
-#include "friction/error_interpolation.h"
-#include "friction/flash.h"
 #include "friction/replicates.h"
 #include "friction/sliding_contact.h"
 #include "job/cost.h"
 #include "job/random_draws.h"
-
-#include "core/base/clocale.h"
-#include "core/base/quantity.h"
-#include "core/table/table_rows.h"
+#include "weartrack/core.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+
+/* Up to this number of velocities, the replicates are computed at each. A longer list uses this
+ * number of nodes, equally spaced in ln v. Over 20 decades the spacing h is 0.05. Linear
+ * interpolation then has the error h^2/8, or 3e-4, if the standard error changes e-fold with v. The
+ * standard error of 200 replicates has an uncertainty of 5e-2. */
+enum { ERROR_NODES = 1000 };
+
+/* Creates the nodes for the replicates. The velocities v [n] rise, except the last, which is the
+ * reference. The nodes [*m] end with the reference; the caller frees them. NULL means that the
+ * nodes are v. */
+static double *error_nodes_create(const double *v, size_t n, size_t *m)
+{
+    const size_t last = n - 1;
+    *m = n;
+    if (n <= ERROR_NODES + 1)
+        return NULL;
+    double *const made = wt_alloc(ERROR_NODES + 1, sizeof *made);
+    const double from = log(v[0]), to = log(v[last - 1]);
+    for (size_t i = 0; i < ERROR_NODES; i++)
+        made[i] = exp(from + (to - from) * (double)i / (ERROR_NODES - 1));
+    made[0] = v[0];
+    made[ERROR_NODES - 1] = v[last - 1];
+    made[ERROR_NODES] = v[last];
+    *m = ERROR_NODES + 1;
+    return made;
+}
+
+/* Interpolates the errors from at_nodes [m] to error [n] at v, linearly in ln v. The last value is
+ * copied. */
+static void error_nodes_interpolate(const double *nodes, size_t m, const double *at_nodes,
+                                    const double *v, size_t n, double *error)
+{
+    size_t k = 0; /* v[i] lies between the nodes k and k + 1 */
+    for (size_t i = 0; i + 1 < n; i++) {
+        while (k + 3 < m && v[i] > nodes[k + 1])
+            k++;
+        const double width = log(nodes[k + 1] / nodes[k]);
+        const double share = width > 0 ? log(v[i] / nodes[k]) / width : 0;
+        error[i] = at_nodes[k] + share * (at_nodes[k + 1] - at_nodes[k]);
+    }
+    error[n - 1] = at_nodes[m - 1];
+}
 
 /* Quantities that a replicate returns for each velocity. */
 enum { HYSTERESIS, AREA, TOTAL, LAYERED, CHANGE, RELATIVE, N_KINDS };
@@ -35,8 +73,6 @@ typedef struct friction_task {
     double numerical[2];       /* numerical error of the total friction at the reference: without
                                   and with the layer */
     wt_friction_point *points; /* [n] results for the stated values, without a layer */
-    wt_friction_sensitivity
-        sensitivity; /* sensitivities for the stated values; NaN if not requested */
     replicates replicates;
     size_t drawn;              /* number of velocities in all replicates */
     double layer_outside;      /* share of the hysteresis on a layer with its own moduli from
@@ -69,11 +105,7 @@ static wt_status compute_bulk(const friction_task *task, size_t replicate,
         kind_values(out, task->n, HYSTERESIS)[i] = points[i].hysteresis.value;
         kind_values(out, task->n, AREA)[i] = points[i].area_ratio.value;
         kind_values(out, task->n, TOTAL)[i] =
-            points[i].hysteresis.value +
-            sliding_layer_shear_stress(task->layer,
-                                       sliding_shear_stress(task->sliding, c, &points[i]), none,
-                                       points[i].area_ratio.value) *
-                points[i].area_ratio.value / c->pressure;
+            points[i].hysteresis.value + c->shear_stress * points[i].area_ratio.value / c->pressure;
         kind_values(out, task->n, LAYERED)[i] = (double)NAN;
         kind_values(out, task->n, CHANGE)[i] = (double)NAN;
         kind_values(out, task->n, RELATIVE)[i] = (double)NAN;
@@ -93,9 +125,7 @@ static wt_status compute_layered(const friction_task *task, size_t replicate,
     for (size_t i = 0; status == WT_OK && i < task->n; i++) {
         const wt_layer_state sheared = sliding_layer_at_shear_rate(&c, layer, task->velocity[i]);
         double with = points[i].hysteresis.value +
-                      sliding_layer_shear_stress(
-                          task->layer, sliding_shear_stress(task->sliding, &c, &points[i]), sheared,
-                          points[i].area_ratio.value) *
+                      sliding_layer_shear_stress(task->layer, c.shear_stress, sheared) *
                           points[i].area_ratio.value / c.pressure;
         double without = kind_values(out, task->n, TOTAL)[i];
         kind_values(out, task->n, LAYERED)[i] = with;
@@ -110,9 +140,7 @@ static wt_status compute_friction_replicate(const void *user, size_t i, double *
 {
     const friction_task *task = user;
     sliding_contact c = {0};
-    wt_friction_point *points = malloc(task->n * sizeof *points);
-    if (points == NULL)
-        return WT_E_MEMORY;
+    wt_friction_point *points = wt_alloc(task->n, sizeof *points);
     wt_status status = compute_bulk(task, i, points, out, &c, err);
     if (status == WT_OK && task->layer != NULL)
         status = compute_layered(task, i, points, out, err);
@@ -141,9 +169,8 @@ TABLE_KEYS(friction, FRICTION, double gamma, reference_velocity;
            wt_estimate layer_slope, layer_outside; char layer_moduli[512];
            wt_estimate relative_change, relative_change_low, relative_change_high;
            size_t replicates; const char *includes, *lacks, *statement;
-           wt_estimate by_modulus, by_density, by_pressure, by_cutoff, shear_at_reference;
            char material[512], softening[512], anisotropy[192], numerical[512], flash[256];
-           char area_law[128], shear_law[256], layer_shear[256];)
+           char layer_shear[256];)
 
 /* Result for the stated values with the standard error from the replicates. */
 static wt_estimate estimate_with_error(friction_task *task, int kind, size_t i,
@@ -159,11 +186,7 @@ static void add_friction_rows(friction_task *task, const sliding_contact *c, tab
     const wt_sliding *s = task->sliding;
     for (size_t i = 0; i < s->n_velocity; i++) {
         const wt_friction_point *p = &task->points[i];
-        const wt_layer_state none = {.modulus_ratio = 1};
-        const wt_estimate shear = {sliding_layer_shear_stress(task->layer,
-                                                              sliding_shear_stress(s, c, p), none,
-                                                              p->area_ratio.value),
-                                   0, 0, "Pa"};
+        const wt_estimate shear = {c->shear_stress, 0, 0, "Pa"};
         friction_row row = {
             .velocity = p->velocity,
             .extrapolated_share = extrapolated_share(s->rubber, p),
@@ -209,29 +232,15 @@ static void set_relative_change_keys(friction_task *task, friction_keys *keys)
 }
 
 /* Writes the options that differ from the default theory as text. */
-static void describe_options(const friction_task *task, const sliding_contact *c,
-                             friction_keys *keys)
+static void describe_options(const friction_task *task, friction_keys *keys)
 {
-    static const char *const areas[] = {"", "Yang and Persson 2008 (yp08): S = 0.42 + 0.58 P^2",
-                                        "Wang and Mueser 2017 (wm17): S = 5/9 - 2/9 P^2 + 2/3 P^4",
-                                        "Xu 2024 (xu24): P = erf(1/(2 sqrt((0.42 + 0.58 P) G)))"};
     const wt_sliding *s = task->sliding;
-    const wt_shear_law *law = &s->shear_law;
-    snprintf(keys->area_law, sizeof keys->area_law, "%s", areas[s->area_law]);
     flash_describe(s, task->points, task->n, keys->flash);
     if (!isnan(s->shear_stress.value) && task->layer != NULL && task->layer->shear != NULL) {
         const wt_layer_shear shear = sliding_layer_shear_law(task->layer);
         if (!sliding_layer_shear_is_default(&shear))
             sliding_layer_shear_describe(&shear, keys->layer_shear, sizeof keys->layer_shear);
     }
-    if (isnan(s->shear_stress.value) || law->kind == WT_SHEAR_CONSTANT)
-        return;
-    clocale_print(keys->shear_law, sizeof keys->shear_law,
-                  "log-normal about %.4g m/s at %.1f degC, %.3g per decade squared, activation "
-                  "energy %.3g eV",
-                  law->peak_velocity, law->reference_temperature - WT_ZERO_CELSIUS, law->width,
-                  law->activation_energy / ELECTRONVOLT);
-    keys->shear_at_reference.value = sliding_shear_stress(s, c, &task->points[task->n - 1]);
 }
 
 /* Sets the keys of the table. The reference velocity is the last one. */
@@ -251,11 +260,6 @@ static void set_friction_keys(friction_task *task, const sliding_contact *c, tab
             estimate_with_error(task, HYSTERESIS, last, reference->hysteresis.numerical_error),
         .area = estimate_with_error(task, AREA, last, reference->area_ratio.numerical_error),
         .strain = unknown_estimate,
-        .shear_at_reference = unknown_estimate,
-        .by_modulus = flow_stated_estimate((wt_estimate){.value = task->sensitivity.modulus}),
-        .by_density = flow_stated_estimate((wt_estimate){.value = task->sensitivity.density}),
-        .by_pressure = flow_stated_estimate((wt_estimate){.value = task->sensitivity.pressure}),
-        .by_cutoff = flow_stated_estimate((wt_estimate){.value = task->sensitivity.cutoff}),
         .layer_thickness = unknown_estimate,
         .layer_modulus_ratio = unknown_estimate,
         .layer_slope = unknown_estimate,
@@ -269,7 +273,7 @@ static void set_friction_keys(friction_task *task, const sliding_contact *c, tab
         .includes = replicates_included_errors(&task->replicates),
         .lacks = task->replicates.lacks,
         .statement = c->statement};
-    describe_options(task, c, &keys);
+    describe_options(task, &keys);
     if (isnan(keys.temperature.value))
         keys.temperature.value = s->rubber->prony.reference_temperature;
     keys.temperature = flow_stated_estimate(keys.temperature);
@@ -307,17 +311,14 @@ static bool is_only_reference(const wt_sliding *sliding)
     return sliding->n_velocity == 1 && sliding->velocity[0] == flow_reference_velocity(sliding);
 }
 
-static wt_status allocate_results(friction_task *task, wt_error *err)
+static void allocate_results(friction_task *task)
 {
-    task->velocity = malloc(task->n * sizeof *task->velocity);
-    task->centre = malloc(N_KINDS * task->n * sizeof *task->centre);
-    task->points = malloc(task->n * sizeof *task->points);
-    if (task->velocity == NULL || task->centre == NULL || task->points == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    task->velocity = wt_alloc(task->n, sizeof *task->velocity);
+    task->centre = wt_alloc(N_KINDS * task->n, sizeof *task->centre);
+    task->points = wt_alloc(task->n, sizeof *task->points);
     memcpy(task->velocity, task->sliding->velocity,
            task->sliding->n_velocity * sizeof *task->velocity);
     task->velocity[task->n - 1] = flow_reference_velocity(task->sliding);
-    return WT_OK;
 }
 
 static void free_results(friction_task *task)
@@ -333,8 +334,8 @@ static wt_status check_layer_thickness(const wt_layer_observation *layer, wt_err
     if (layer != NULL && isinf(layer->thickness.value)) {
         wt_fail(err, WT_E_RANGE, "friction needs a layer of finite thickness");
         wt_error_found(err, "%g m", layer->thickness.value);
-        wt_error_advice(err, "without wear, or where it ages, the layer grows without end: give a "
-                             "specific wear rate or an observed thickness, or leave out ageing");
+        wt_error_advice(err, "without wear the layer grows without end: give a specific wear rate "
+                             "or an observed thickness");
         return WT_E_RANGE;
     }
     return sliding_layer_check(layer, err);
@@ -387,21 +388,15 @@ static wt_status compute_nominal_friction(friction_task *task, sliding_contact *
 {
     const size_t last = task->n - 1;
     wt_status status = compute_bulk(task, WT_NO_REPLICATE, task->points, task->centre, c, err);
-    if (status == WT_OK && task->sliding->sensitivities)
-        status = wt_friction_sensitivities(c->workspace, c->pressure, task->velocity[last],
-                                           &task->sensitivity, err);
     if (status != WT_OK)
         return status;
-    const double pressure = task->sliding->pressure.value,
-                 shear = sliding_shear_stress(task->sliding, c, &task->points[last]);
+    const double pressure = task->sliding->pressure.value, shear = c->shear_stress;
     task->strain = wt_friction_strain(c->workspace, c->roughness->q1);
     task->numerical[0] = total_numerical_error(&task->points[last], shear / pressure);
     update_worst_error(task, task->points);
     if (task->layer == NULL)
         return WT_OK;
-    wt_friction_point *layered = malloc(task->n * sizeof *layered);
-    if (layered == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    wt_friction_point *layered = wt_alloc(task->n, sizeof *layered);
     status = compute_layered(task, WT_NO_REPLICATE, layered, task->centre, err);
     if (status == WT_OK)
         status = sliding_layer_zero_loss_range(task->sliding, task->layer, task->work,
@@ -412,8 +407,7 @@ static wt_status compute_nominal_friction(friction_task *task, sliding_contact *
                                           : layered[last].extrapolated_share;
         task->numerical[1] = total_numerical_error(
             &layered[last],
-            sliding_layer_shear_stress(task->layer, shear, replicate_layer(task, WT_NO_REPLICATE),
-                                       layered[last].area_ratio.value) /
+            sliding_layer_shear_stress(task->layer, shear, replicate_layer(task, WT_NO_REPLICATE)) /
                 pressure);
         update_worst_error(task, layered);
     }
@@ -427,16 +421,12 @@ static wt_status draw_error_nodes(friction_task *task, wt_error *err)
 {
     replicates *r = &task->replicates;
     const friction_task all = *task;
-    double *nodes = NULL, *error = NULL;
-    wt_status status = error_nodes_choose(all.velocity, all.n, &nodes, &task->n, err);
-    if (status == WT_OK && nodes != NULL) {
+    double *error = NULL, *const nodes = error_nodes_create(all.velocity, all.n, &task->n);
+    if (nodes != NULL) {
         task->velocity = nodes;
-        error = malloc(N_KINDS * all.n * sizeof *error);
-        if (error == NULL)
-            status = wt_fail(err, WT_E_MEMORY, "out of memory");
+        error = wt_alloc(N_KINDS * all.n, sizeof *error);
     }
-    if (status == WT_OK)
-        status = replicates_draw(r, N_KINDS * task->n, compute_friction_replicate, task, err);
+    wt_status status = replicates_draw(r, N_KINDS * task->n, compute_friction_replicate, task, err);
     for (int kind = 0; status == WT_OK && nodes != NULL && kind < N_KINDS; kind++)
         error_nodes_interpolate(nodes, task->n, kind_values(r->error, task->n, kind), all.velocity,
                                 all.n, kind_values(error, all.n, kind));
@@ -489,14 +479,12 @@ wt_status wt_sliding_friction_compute(const wt_sliding *sliding, const wt_layer_
                           .layer = layer,
                           .work = work,
                           .n = sliding->n_velocity + !is_only_reference(sliding),
-                          .sensitivity = {(double)NAN, (double)NAN, (double)NAN, (double)NAN},
                           .zero_loss_range = {(double)NAN, (double)NAN},
                           .replicates = replicates_create(sliding, work, "friction")};
     wt_friction_tables t = {0};
     sliding_contact c = {0};
-    status = allocate_results(&task, err);
-    if (status == WT_OK)
-        status = compute_nominal_friction(&task, &c, err);
+    allocate_results(&task);
+    status = compute_nominal_friction(&task, &c, err);
     if (status == WT_OK)
         status = draw_friction_replicates(&task, err);
     if (status == WT_OK)

@@ -1,47 +1,113 @@
-/* Contribution of each decade of the wavenumber to the hysteresis friction.
+/* Friction and contact area by length scale: against magnification, and of each decade of the
+ * wavenumber.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "friction/sliding_contact.h"
-#include "job/cost.h"
-
 #include "core/base/clocale.h"
 #include "core/base/range_text.h"
 #include "core/table/table_rows.h"
+#include "friction/sliding_contact.h"
+#include "job/cost.h"
 
 #include <math.h>
 #include <stdlib.h>
 
+/* Creates the contact for the stated values, without a layer and without the extrapolated share. */
+static wt_status create_contact(const wt_sliding *sliding, const wt_job *work, sliding_contact *c,
+                                wt_error *err)
+{
+    const wt_layer_state none = {.modulus_ratio = 1};
+    wt_job local_job = *work;
+    local_job.left_out = WT_EXTRA_ALL;
+    return sliding_contact_create(sliding, &local_job, WT_NO_REPLICATE, NULL, none, c, err);
+}
+
+/* ---- contact area ---------------------------------------------------------------------------- */
+
+/* Resolution of a figure. */
+#define CONTACT_POINTS_PER_DECADE 20
+
+TABLE_ROW(contact_area, CONTACT_AREA, double velocity, magnification, wavenumber;
+          wt_friction_node node;)
+
+static void add_area_block(const sliding_contact *c, double velocity, const double *q, size_t n,
+                           wt_friction_node *nodes, table_writer *t, cost_summary *cost)
+{
+    if (t->status == WT_OK)
+        t->status = wt_friction_profile(c->workspace, c->pressure, velocity, q, n, nodes, t->err);
+    table_block(t);
+    for (size_t i = 0; t->status == WT_OK && i < n; i++) {
+        TABLE_ADD(contact_area, t, velocity, q[i] / c->roughness->q0, q[i], nodes[i]);
+        cost->items++;
+        cost->error_estimated =
+            fmax(cost->error_estimated, nodes[i].numerical_error / nodes[i].area_ratio);
+    }
+}
+
+static void add_area_blocks(const wt_sliding *sliding, const sliding_contact *c, table_writer *t,
+                            cost_summary *cost)
+{
+    const double first = sliding->velocity[0], last = sliding->velocity[sliding->n_velocity - 1],
+                 middle = flow_reference_velocity(sliding);
+    const double decades = log10(c->roughness->q1 / c->roughness->q0);
+    const size_t n = 2 + (size_t)ceil(decades * CONTACT_POINTS_PER_DECADE);
+    double *q = wt_alloc(n, sizeof *q);
+    wt_friction_node *nodes = wt_alloc(n, sizeof *nodes);
+    for (size_t i = 0; i < n; i++)
+        q[i] = c->roughness->q0 * pow(10, decades * (double)i / (double)(n - 1));
+    q[n - 1] = c->roughness->q1;
+    add_area_block(c, first, q, n, nodes, t, cost);
+    if (middle > first && middle < last)
+        add_area_block(c, middle, q, n, nodes, t, cost);
+    if (last > first)
+        add_area_block(c, last, q, n, nodes, t, cost);
+    free(q);
+    free(nodes);
+}
+
+wt_status wt_contact_area_compute(const wt_sliding *sliding, const wt_job *work, wt_table **table,
+                                  wt_error *err)
+{
+    if (work == NULL || table == NULL)
+        return wt_fail(err, WT_E_ARG, "no contact area to make");
+    sliding_contact c = {0};
+    wt_status status = flow_sliding_check(sliding, work, err);
+    if (status == WT_OK)
+        status = create_contact(sliding, work, &c, err);
+    if (status != WT_OK)
+        return status;
+    table_writer t = table_begin(&contact_area_schema, err);
+    cost_summary cost = {.tolerance_asked = work->tolerance};
+    add_area_blocks(sliding, &c, &t, &cost);
+    cost_report(work, cost);
+    sliding_contact_clear(&c);
+    return table_end(&t, table);
+}
+
 TABLE_ROW(friction_decades, FRICTION_DECADES, double velocity, from, to, share;
-          wt_estimate hysteresis, area_ratio; double shearing, cracks, total;)
+          wt_estimate hysteresis, area_ratio; double shearing, total;)
 
 TABLE_KEYS(friction_decades, FRICTION_DECADES, char strongest[160];)
 
 /* Limits of the decades: q0, the powers of ten in between, q1. */
 typedef struct decade_contributions {
-    const wt_sliding *sliding;
-    const wt_layer_observation *observation; /* layer with its crack energy; NULL if none */
     size_t n;
     double *q;               /* [n] */
     wt_friction_node *nodes; /* [n] */
     char strongest[160];
 } decade_contributions;
 
-static wt_status find_decade_edges(const wt_roughness *spectrum, decade_contributions *d,
-                                   wt_error *err)
+static void find_decade_edges(const wt_roughness *spectrum, decade_contributions *d)
 {
     /* a power of ten that differs from a limit by rounding only is that limit */
     const double slack = 1e-9;
     const int first = (int)floor(log10(spectrum->q0) + slack) + 1,
               last = (int)ceil(log10(spectrum->q1) - slack) - 1;
     const size_t inner = last >= first ? (size_t)(last - first + 1) : 0;
-    d->q = malloc((inner + 2) * sizeof *d->q);
-    d->nodes = malloc((inner + 2) * sizeof *d->nodes);
-    if (d->q == NULL || d->nodes == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    d->q = wt_alloc(inner + 2, sizeof *d->q);
+    d->nodes = wt_alloc(inner + 2, sizeof *d->nodes);
     d->q[d->n++] = spectrum->q0;
     for (int k = first; k <= last; k++)
         d->q[d->n++] = pow(10, k);
     d->q[d->n++] = spectrum->q1;
-    return WT_OK;
 }
 
 static void describe_strongest(decade_contributions *d, double velocity, size_t i, double share)
@@ -54,22 +120,6 @@ static void describe_strongest(decade_contributions *d, double velocity, size_t 
                   format_range(d->q[i - 1], d->q[i], 3).text,
                   format_range(2e6 * M_PI / d->q[i], 2e6 * M_PI / d->q[i - 1], 3).text, speed,
                   100 * share);
-}
-
-/* Adds the friction of shearing the contact area if the roughness ends at a node, and the part of
- * crack opening. The rubber has no layer. */
-static void add_shear_friction(const sliding_contact *c, const decade_contributions *d,
-                               double velocity, const wt_friction_node *node,
-                               friction_decades_row *row)
-{
-    const wt_layer_state none = {.modulus_ratio = 1};
-    const wt_friction_point point = {.velocity = velocity,
-                                     .temperature = {.value = node->temperature}};
-    const double bulk = sliding_shear_stress(d->sliding, c, &point), area = node->area_ratio;
-    const double all = sliding_layer_shear_stress(d->observation, bulk, none, area);
-    row->shearing = all * area / c->pressure;
-    row->cracks = (all - bulk) * area / c->pressure;
-    row->total = node->hysteresis + row->shearing;
 }
 
 static void add_decade_rows(const sliding_contact *c, decade_contributions *d, double velocity,
@@ -86,14 +136,16 @@ static void add_decade_rows(const sliding_contact *c, decade_contributions *d, d
         const double part = b->hysteresis - a->hysteresis;
         const double share = all > 0 ? part / all : (double)NAN; /* the share is undefined without
                                                                     hysteresis friction */
+        const double shearing = c->shear_stress * b->area_ratio / c->pressure;
         friction_decades_row row = {
             .velocity = velocity,
             .from = d->q[i - 1],
             .to = d->q[i],
             .share = share,
             .hysteresis = {part, (double)NAN, a->hysteresis_error + b->hysteresis_error, "1"},
-            .area_ratio = {b->area_ratio, (double)NAN, b->numerical_error, "1"}};
-        add_shear_friction(c, d, velocity, b, &row);
+            .area_ratio = {b->area_ratio, (double)NAN, b->numerical_error, "1"},
+            .shearing = shearing,
+            .total = b->hysteresis + shearing};
         friction_decades_add_row(t, &row);
         cost->items++;
         if (all > 0)
@@ -117,24 +169,22 @@ static void add_velocity_blocks(const wt_sliding *sliding, const sliding_contact
         add_decade_rows(c, d, last, false, t, cost);
 }
 
-wt_status wt_friction_by_scale_compute(const wt_sliding *sliding,
-                                       const wt_layer_observation *observation, const wt_job *work,
+wt_status wt_friction_by_scale_compute(const wt_sliding *sliding, const wt_job *work,
                                        wt_table **table, wt_error *err)
 {
     if (work == NULL || table == NULL)
         return wt_fail(err, WT_E_ARG, "no decades to make");
     const wt_layer_state none = {.modulus_ratio = 1};
     sliding_contact c = {0};
-    decade_contributions d = {.sliding = sliding, .observation = observation};
+    decade_contributions d = {.n = 0};
     wt_status status = flow_sliding_check(sliding, work, err);
     if (status != WT_OK)
         return status;
     wt_job local_job = *work;
     local_job.left_out = WT_EXTRA_ALL;
     status = sliding_contact_create(sliding, &local_job, WT_NO_REPLICATE, NULL, none, &c, err);
-    if (status == WT_OK)
-        status = find_decade_edges(c.roughness, &d, err);
     if (status == WT_OK) {
+        find_decade_edges(c.roughness, &d);
         table_writer t = table_begin(&friction_decades_schema, err);
         cost_summary cost = {.tolerance_asked = work->tolerance};
         add_velocity_blocks(sliding, &c, &d, &t, &cost);

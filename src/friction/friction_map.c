@@ -33,7 +33,6 @@ typedef struct map_line {
 
 typedef struct friction_map {
     const wt_sliding *sliding;
-    const wt_layer_observation *observation; /* NULL if none */
     const wt_job *work;
     size_t n_lines;
     map_line *lines;           /* [n_lines] */
@@ -117,12 +116,7 @@ static void add_map_rows(friction_map *m, const map_line *line, table_writer *t,
     for (size_t i = 0; i < s->n_velocity; i++) {
         const wt_friction_point *p = &m->points[i];
         const double temperature = isnan(line->temperature) ? reference : line->temperature;
-        const double warm = isnan(p->temperature.value) ? temperature : p->temperature.value;
-        const double factor = wt_shear_factor(&s->shear_law, s->velocity[i], warm);
-        const double bare =
-            sliding_layer_shear_stress(m->observation, s->shear_stress.value * factor,
-                                       (wt_layer_state){.modulus_ratio = 1}, p->area_ratio.value);
-        const wt_estimate shear = {bare, 0, 0, "Pa"};
+        const wt_estimate shear = {s->shear_stress.value, 0, 0, "Pa"};
         friction_map_row row = {
             .against = line->against,
             .temperature = temperature,
@@ -215,9 +209,8 @@ static wt_status tabulate_friction_map(friction_map *m, wt_table **table, wt_err
     return table_end(&t, table);
 }
 
-wt_status wt_friction_map_compute(const wt_sliding *sliding,
-                                  const wt_layer_observation *observation, const wt_job *work,
-                                  wt_table **table, wt_error *err)
+wt_status wt_friction_map_compute(const wt_sliding *sliding, const wt_job *work, wt_table **table,
+                                  wt_error *err)
 {
     if (work == NULL || table == NULL)
         return wt_fail(err, WT_E_ARG, "no friction map to make");
@@ -227,18 +220,11 @@ wt_status wt_friction_map_compute(const wt_sliding *sliding,
     const size_t n = sliding->n_temperatures + sliding->n_pressures;
     if (n == 0)
         return wt_fail(err, WT_E_ARG, "a friction map needs temperatures or pressures");
-    friction_map m = {.sliding = sliding,
-                      .observation = observation,
-                      .work = work,
-                      .lowest = (double)INFINITY,
-                      .highest = 0};
-    m.lines = calloc(n, sizeof *m.lines);
-    m.velocity = malloc(sliding->n_velocity * sizeof *m.velocity);
-    m.points = malloc(sliding->n_velocity * sizeof *m.points);
-    if (m.lines == NULL || m.velocity == NULL || m.points == NULL)
-        status = wt_fail(err, WT_E_MEMORY, "out of memory");
-    if (status == WT_OK)
-        status = list_map_lines(&m, err);
+    friction_map m = {.sliding = sliding, .work = work, .lowest = (double)INFINITY, .highest = 0};
+    m.lines = wt_alloc(n, sizeof *m.lines);
+    m.velocity = wt_alloc(sliding->n_velocity, sizeof *m.velocity);
+    m.points = wt_alloc(sliding->n_velocity, sizeof *m.points);
+    status = list_map_lines(&m, err);
     if (status == WT_OK)
         status = tabulate_friction_map(&m, table, err);
     free(m.lines);

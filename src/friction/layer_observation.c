@@ -1,17 +1,182 @@
-/* Layer properties that are stated or measured.
- * SPDX-License-Identifier: GPL-3.0-or-later */
+/* Layer properties that are stated or measured: modulus ratio, also by the rates of indentation,
+ * and shear stress. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "friction/layer_observation.h"
-#include "core/base/shared_params.h"
-#include "dma/rubber.h"
-#include "friction/numerics/layered_moduli.h"
-#include "job/random_draws.h"
-
 #include "core/base/clocale.h"
 #include "core/base/quantity.h"
 #include "core/base/range_text.h"
+#include "core/base/shared_params.h"
+#include "core/math/normal_quantile.h"
+#include "core/math/students_t.h"
+#include "core/table/registry.h"
+#include "dma/rubber.h"
+#include "friction/numerics/layered_moduli.h"
+#include "job/random_draws.h"
+#include "weartrack/friction.h"
 
 #include <math.h>
 #include <string.h>
+
+/* Upper limit of the number of indentation rates. */
+enum { MAX_RATES = 64 };
+
+typedef struct rate_ratio {
+    double log_frequency, log_ratio, error, df; /* standard error and degrees of freedom of ln
+                                                   ratio */
+} rate_ratio;
+
+typedef struct rate_ratios {
+    size_t n;
+    rate_ratio item[MAX_RATES];
+} rate_ratios;
+
+/* Mean ln frequency of the curves of a row, over both groups; NaN if no frequency is available. */
+static double mean_log_frequency(const table_view *rates, double low, double high)
+{
+    const double rounding = 1e-9;
+    double sum = 0, n = 0;
+    for (size_t i = 0; i < rates->n_rows; i++) {
+        const double rate = modulus_rate_get(rates, i, MODULUS_RATE_RATE),
+                     frequency = modulus_rate_get(rates, i, MODULUS_RATE_EQUIVALENT_FREQUENCY),
+                     curves = modulus_rate_get(rates, i, MODULUS_RATE_N);
+        if (rate < low * (1 - rounding) || rate > high * (1 + rounding) || !(frequency > 0))
+            continue;
+        sum += curves * log(frequency);
+        n += curves;
+    }
+    return n > 0 ? sum / n : (double)NAN;
+}
+
+static wt_status read_rates(const table_view *comparison, const table_view *rates, rate_ratios *r,
+                            wt_error *err)
+{
+    for (size_t i = 0; i < comparison->n_rows; i++) {
+        const double low = comparison_get(comparison, i, COMPARISON_RATE_LOW),
+                     high = comparison_get(comparison, i, COMPARISON_RATE_HIGH),
+                     ratio_low = comparison_get(comparison, i, COMPARISON_RATIO_LOW),
+                     ratio_high = comparison_get(comparison, i, COMPARISON_RATIO_HIGH),
+                     welch_df = comparison_get(comparison, i, COMPARISON_WELCH_DF),
+                     df = isnan(welch_df) ? (double)INFINITY : welch_df;
+        const rate_ratio entry = {.log_frequency = mean_log_frequency(rates, low, high),
+                                  .log_ratio = log(comparison_get(comparison, i, COMPARISON_RATIO)),
+                                  .error =
+                                      log(ratio_high / ratio_low) / 2 / students_t_quantile(df),
+                                  .df = df};
+        if (!isfinite(entry.log_frequency) || !isfinite(entry.log_ratio) || !(entry.error > 0))
+            continue;
+        if (r->n == MAX_RATES) {
+            wt_fail(err, WT_E_RANGE, "a comparison at more indentation rates than can be");
+            wt_error_expected(err, "at most %d", MAX_RATES);
+            return WT_E_RANGE;
+        }
+        r->item[r->n++] = entry;
+    }
+    return WT_OK;
+}
+
+/* Weighted linear fit through the rates. The error of the slope has the effective degrees of
+ * freedom of the errors of the points. It is enlarged if the points scatter more than their errors.
+ * Systematic errors that all rates share (spots, cantilevers) do not change the slope, so that the
+ * error is conservative. */
+static void fit_slope(const rate_ratios *r, double *slope, double *error)
+{
+    double w = 0, wx = 0, wy = 0, wxx = 0, wxy = 0, chi = 0;
+    t_error part[MAX_RATES];
+    for (size_t i = 0; i < r->n; i++) {
+        const double weight = 1 / (r->item[i].error * r->item[i].error);
+        w += weight;
+        wx += weight * r->item[i].log_frequency;
+        wy += weight * r->item[i].log_ratio;
+    }
+    const double x0 = wx / w, y0 = wy / w;
+    for (size_t i = 0; i < r->n; i++) {
+        const double weight = 1 / (r->item[i].error * r->item[i].error),
+                     x = r->item[i].log_frequency - x0;
+        wxx += weight * x * x;
+        wxy += weight * x * (r->item[i].log_ratio - y0);
+    }
+    *slope = wxy / wxx;
+    for (size_t i = 0; i < r->n; i++) {
+        const double x = r->item[i].log_frequency - x0;
+        const double off = (r->item[i].log_ratio - y0 - *slope * x) / r->item[i].error;
+        chi += off * off;
+        part[i] = (t_error){fabs(x) / (r->item[i].error * wxx), r->item[i].df};
+    }
+    const t_error all = t_error_sum(part, r->n);
+    const double scatter = r->n > 2 ? fmax(1, chi / (double)(r->n - 2)) : 1;
+    *error = all.error * sqrt(scatter) * students_t_quantile(all.df) / NORMAL_95;
+}
+
+static wt_status set_ratio_slope(const rate_ratios *r, wt_layer_observation *observation,
+                                 wt_error *err)
+{
+    double low = (double)INFINITY, high = -(double)INFINITY, sum = 0;
+    for (size_t i = 0; i < r->n; i++) {
+        low = fmin(low, r->item[i].log_frequency);
+        high = fmax(high, r->item[i].log_frequency);
+        sum += r->item[i].log_frequency;
+    }
+    if (!(high > low)) {
+        wt_fail(err, WT_E_MISSING, "the modulus ratio is known at one indentation rate only");
+        wt_error_expected(err, "bulk and track compared at two rates or more, with intervals");
+        wt_error_found(err, "%zu with an interval and a frequency", r->n);
+        wt_error_advice(err, "measure both groups at another rate, three spots each; or leave out "
+                             "that the ratio goes with the rate");
+        return WT_E_MISSING;
+    }
+    observation->ratio_slope = (wt_estimate){.unit = "1"};
+    fit_slope(r, &observation->ratio_slope.value, &observation->ratio_slope.standard_error);
+    observation->ratio_frequency = exp(sum / (double)r->n); /* each spot has all rates */
+    observation->ratio_lowest = exp(low);
+    observation->ratio_highest = exp(high);
+    return WT_OK;
+}
+
+wt_status wt_layer_observation_from_rates(const wt_table *comparison, const wt_table *modulus_rate,
+                                          wt_layer_observation *observation, wt_error *err)
+{
+    table_view c, m;
+    rate_ratios r = {.n = 0};
+    if (comparison == NULL || modulus_rate == NULL || observation == NULL) {
+        wt_fail(err, WT_E_MISSING, "no comparison of wear track and bulk at several rates");
+        wt_error_advice(err, "a ratio by rate needs curves of both at several rates; ratio-slope, "
+                             "ratio-frequency, ratio-lowest and ratio-highest give it otherwise");
+        return WT_E_MISSING;
+    }
+    wt_status status = table_bind(comparison, &comparison_schema, "", &c, err);
+    if (status == WT_OK)
+        status = table_bind(modulus_rate, &modulus_rate_schema, "", &m, err);
+    if (status == WT_OK)
+        status = read_rates(&c, &m, &r, err);
+    if (status == WT_OK)
+        status = set_ratio_slope(&r, observation, err);
+    if (status != WT_OK)
+        return status;
+    const wt_estimate ratio = comparison_value(&c, COMPARISON_KEY_MODULUS_RATIO);
+    const double df = comparison_value(&c, COMPARISON_KEY_MODULUS_RATIO_DF).value;
+    if (!(ratio.value > 0))
+        return wt_fail(err, WT_E_MISSING, "the comparison tells no modulus ratio of all rates");
+    observation->modulus_ratio = ratio;
+    observation->modulus_ratio.unit = "1"; /* the table uses another unit text */
+    observation->modulus_ratio_df = isnan(df) ? 0 : df;
+    return WT_OK;
+}
+
+wt_layer_shear wt_layer_shear_defaults(void)
+{
+    return (wt_layer_shear){.exponent = 1};
+}
+
+double wt_layer_shear_stress(const wt_layer_shear *shear, double bulk, wt_layer_state layer)
+{
+    double stress = bulk;
+    if (layer.thickness > 0) {
+        const double whole = pow(layer.modulus_ratio, shear->exponent);
+        stress *= shear->transition_thickness > 0
+                      ? 1 - (whole - 1) * expm1(-layer.thickness / shear->transition_thickness)
+                      : whole;
+    }
+    return stress;
+}
 
 wt_layer_observation wt_layer_observation_defaults(void)
 {
@@ -28,7 +193,7 @@ wt_layer_observation wt_layer_observation_defaults(void)
 static const wt_param parameter_rows[] = {
     LAYER_STATE_ROWS(wt_layer_observation, ),
     {PARAM("modulus-ratio-df", wt_layer_observation, modulus_ratio_df, WT_Q_NONE, AT_LEAST(0)),
-     .value = "N",
+     .value = "N", .flags = PARAM_ONLY_C,
      .help = "degrees of freedom of the error of the modulus ratio, as weartrack compare gives "
              "them; 0: a normal error"},
     /* Beyond 1 the phase alone makes a storage modulus negative. */
@@ -49,14 +214,14 @@ static const wt_param parameter_rows[] = {
      .value = "W", .unset = "needed with a slope", .help = "likewise, the highest one"},
     {PARAM("ratio-temperature", wt_layer_observation, ratio_temperature, WT_Q_TEMPERATURE,
            AT_LEAST(0)),
-     .value = "T", .unset = "that of the sliding",
+     .value = "T", .unset = "that of the sliding", .flags = PARAM_ONLY_C,
      .help =
          "of these frequencies; another one needs the shift law of the bulk, which the layer is "
          "taken to have"},
     {PARAM_FLAG_OF("ratio-by-rate", wt_layer_observation, by_rate), .flags = PARAM_NO_OPTION,
      .help = "the modulus ratio goes with the frequency as the comparison finds it at several "
              "indentation rates"},
-    {PARAM_FLAG_OF("bulk-shear", wt_layer_observation, bulk_shear),
+    {PARAM_FLAG_OF("bulk-shear", wt_layer_observation, bulk_shear), .flags = PARAM_ONLY_C,
      .help = "shear stress of the bulk for the layer, too, not times the modulus ratio"},
 };
 PARAM_TABLE(wt_layer_observation_params, wt_layer_observation, parameter_rows,
@@ -251,30 +416,27 @@ wt_layer_shear sliding_layer_shear_law(const wt_layer_observation *observation)
 }
 
 double sliding_layer_shear_stress(const wt_layer_observation *observation, double bulk,
-                                  wt_layer_state layer, double area_ratio)
+                                  wt_layer_state layer)
 {
     if (observation == NULL)
         return bulk;
     const wt_layer_shear shear = sliding_layer_shear_law(observation);
-    return wt_layer_shear_stress(&shear, bulk, layer, area_ratio);
+    return wt_layer_shear_stress(&shear, bulk, layer);
 }
 
 bool sliding_layer_shear_is_default(const wt_layer_shear *shear)
 {
-    return shear->exponent == 1 && !(shear->transition_thickness > 0) && !(shear->crack_energy > 0);
+    return shear->exponent == 1 && !(shear->transition_thickness > 0);
 }
 
 void sliding_layer_shear_describe(const wt_layer_shear *shear, char *text, size_t size)
 {
-    char reach[64] = "", cracks[96] = "";
+    char reach[64] = "";
     if (shear->transition_thickness > 0)
         clocale_print(reach, sizeof reach, ", reached as 1 - exp(-d / %.3g um)",
                       1e6 * shear->transition_thickness);
-    if (shear->crack_energy > 0)
-        clocale_print(cracks, sizeof cracks, "; cracks: G = %.3g J/m^2, asperities %.3g um apart",
-                      shear->crack_energy, 1e6 * shear->spacing);
     clocale_print(text, size,
                   "that of the bulk times the modulus ratio to the power of %.3g "
-                  "(reconstructed)%s%s",
-                  shear->exponent, reach, cracks);
+                  "(reconstructed)%s",
+                  shear->exponent, reach);
 }

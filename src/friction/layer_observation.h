@@ -16,11 +16,11 @@ wt_layer_state sliding_layer_state(const wt_layer_observation *observation, uint
  * 0. */
 wt_layer_shear sliding_layer_shear_law(const wt_layer_observation *observation);
 /* Shear stress with a layer from that of the bulk: tau_s = tau_bulk x modulus ratio (L3), or by the
- * law of the layer. Crack opening also contributes without a layer. A NULL observation returns the
+ * law of the layer. A NULL observation returns the
  * stress of the bulk. */
 double sliding_layer_shear_stress(const wt_layer_observation *observation, double bulk,
-                                  wt_layer_state layer, double area_ratio);
-/* True for the default law, which needs no text: the modulus ratio at any thickness, no cracks. The
+                                  wt_layer_state layer);
+/* True for the default law, which needs no text: the modulus ratio at any thickness. The
  * second function writes the law as text. */
 bool sliding_layer_shear_is_default(const wt_layer_shear *shear);
 void sliding_layer_shear_describe(const wt_layer_shear *shear, char *text, size_t size);

@@ -54,7 +54,7 @@ static void free_replicate_materials(wt_material_cache *d)
 
 wt_material_cache *material_cache_new(void)
 {
-    return calloc(1, sizeof(wt_material_cache));
+    return wt_alloc(1, sizeof(wt_material_cache));
 }
 
 void material_cache_free(wt_material_cache *drawn)
@@ -79,8 +79,7 @@ static bool is_current(const wt_material_cache *d, const wt_sliding *s, const wt
            (d->is_single || d->n == MAX_CACHED || d->n >= work->replicates);
 }
 
-static wt_status reset_materials(wt_material_cache *d, const wt_sliding *sliding,
-                                 const wt_job *work, wt_error *err)
+static void reset_materials(wt_material_cache *d, const wt_sliding *sliding, const wt_job *work)
 {
     const wt_rubber *rubber = sliding->rubber;
     const bool is_single = rubber->n_draws == 0 && !(rubber->c1_error > 0) &&
@@ -92,21 +91,17 @@ static wt_status reset_materials(wt_material_cache *d, const wt_sliding *sliding
                              .temperature = sliding->temperature,
                              .seed = work->seed,
                              .is_single = is_single,
-                             .items = calloc(is_single ? 1 : n + 1, sizeof *d->items)};
-    if (d->items == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory for the materials of the replicates");
+                             .items = wt_alloc(is_single ? 1 : n + 1, sizeof *d->items)};
     d->n = is_single ? 1 : n;
-    return WT_OK;
 }
 
 wt_status material_cache_prepare(wt_material_cache *d, const wt_sliding *sliding,
                                  const wt_job *work, double slowest, double fastest, wt_error *err)
 {
     wt_roughness *roughness = NULL;
-    wt_status status =
-        is_current(d, sliding, work) ? WT_OK : reset_materials(d, sliding, work, err);
-    if (status == WT_OK)
-        status = wt_surface_roughness(sliding->surface, 1, &roughness, err);
+    if (!is_current(d, sliding, work))
+        reset_materials(d, sliding, work);
+    const wt_status status = wt_surface_roughness(sliding->surface, 1, &roughness, err);
     if (status != WT_OK)
         return status;
     d->lowest = slowest * roughness->q0;

@@ -11,7 +11,7 @@
 /* Relative numerical tolerance of replicates: far below their scatter, which is some per cent. */
 #define REPLICATE_TOLERANCE 1e-5
 
-wt_material_cache *material_cache_new(void); /* NULL if out of memory */
+wt_material_cache *material_cache_new(void);
 void material_cache_free(wt_material_cache *drawn);
 /* Prepares the cache for the replicates of this contact at these velocities, and frees the
  * materials of another contact. Replicates must not run meanwhile. */

@@ -1,8 +1,9 @@
 /* Standard errors from Monte Carlo replicates.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "friction/replicates.h"
+#include "core/base/memory.h"
 #include "dma/strain_softening.h"
-#include "friction/numerics/angular_weight.h"
+#include "friction/numerics/angular.h"
 #include "friction/sliding_contact.h"
 
 #include "core/math/cholesky.h"
@@ -137,8 +138,7 @@ static wt_status prepare_materials(replicates *r, wt_error *err)
         fastest = fmax(fastest, fmax(v[s->n_velocity - 1], reference));
     }
     r->drawn = shared ? r->work->drawn : material_cache_new();
-    return r->drawn != NULL ? material_cache_prepare(r->drawn, s, r->work, slowest, fastest, err)
-                            : wt_fail(err, WT_E_MEMORY, "out of memory");
+    return material_cache_prepare(r->drawn, s, r->work, slowest, fastest, err);
 }
 
 static void release_materials(replicates *r)
@@ -211,13 +211,13 @@ static double line_standard_deviation(const replicates *r, const double *z, size
     return sqrt(lines + rest * (1 - (double)(p - 1) / (double)n));
 }
 
-/* Returns [n * p]: 1 and the draws of each replicate, or NULL if out of memory. The caller frees
+/* Returns [n * p]: 1 and the draws of each replicate. The caller frees
  * it. */
 static double *create_draw_matrix(const replicates *r)
 {
     const size_t p = r->n_draws + 1;
-    double *const z = malloc((r->n + 1) * p * sizeof *z);
-    for (size_t i = 0; z != NULL && i < r->n; i++) {
+    double *const z = wt_alloc((r->n + 1) * p, sizeof *z);
+    for (size_t i = 0; i < r->n; i++) {
         z[i * p] = 1;
         for (size_t u = 1; u < p; u++)
             z[i * p + u] = flow_draw_normal(r->work->seed, i, r->draw[u - 1]);
@@ -225,45 +225,40 @@ static double *create_draw_matrix(const replicates *r)
     return z;
 }
 
-wt_status replicates_line_positions(const replicates *r, size_t k, double *at, bool *known)
+bool replicates_line_positions(const replicates *r, size_t k, double *at)
 {
     double *const z = create_draw_matrix(r);
     double b[MAX_COEFFICIENTS], square = 0;
     const size_t p = r->n_draws + 1;
     size_t n;
-    if (z == NULL)
-        return WT_E_MEMORY;
-    *known = fit_line(r, z, k, b, &n);
-    for (size_t u = 1; *known && u < p; u++)
+    bool known = fit_line(r, z, k, b, &n);
+    for (size_t u = 1; known && u < p; u++)
         square += b[u] * b[u];
-    *known = *known && square > 0;
-    for (size_t i = 0; *known && i < r->n; i++) {
+    known = known && square > 0;
+    for (size_t i = 0; known && i < r->n; i++) {
         at[i] = 0;
         for (size_t u = 1; u < p; u++)
             at[i] += b[u] * z[i * p + u] / sqrt(square);
     }
     free(z);
-    return WT_OK;
+    return known;
 }
 
-static wt_status compute_standard_errors(replicates *r, wt_error *err)
+static void compute_standard_errors(replicates *r)
 {
     double *const z = create_draw_matrix(r);
-    if (z == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
     for (size_t k = 0; k < r->stride; k++)
         r->error[k] = line_standard_deviation(r, z, k);
     free(z);
-    return WT_OK;
 }
 
 wt_status replicates_draw(replicates *r, size_t stride, replicate_fn one, const void *user,
                           wt_error *err)
 {
     r->stride = stride;
-    r->error = malloc(stride * sizeof *r->error);
-    r->value = calloc(r->n + 1, stride * sizeof *r->value);
-    if (r->error == NULL || r->value == NULL)
+    r->error = wt_alloc(stride, sizeof *r->error);
+    r->value = try_alloc(r->n + 1, stride * sizeof *r->value); /* the number is an option */
+    if (r->value == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     replicate_run d = {r, one, user};
     char words[64];
@@ -285,7 +280,8 @@ wt_status replicates_draw(replicates *r, size_t stride, replicate_fn one, const 
                    "%zu of %zu replicates of the %s have no solution and are left out of the "
                    "standard errors",
                    n_unsolved, r->n, r->quantity);
-    return compute_standard_errors(r, err);
+    compute_standard_errors(r);
+    return WT_OK;
 }
 
 void replicates_clear(replicates *r)

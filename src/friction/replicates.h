@@ -48,10 +48,9 @@ typedef wt_status (*replicate_fn)(const void *user, size_t replicate, double *ou
 wt_status replicates_draw(replicates *r, size_t stride, replicate_fn one, const void *user,
                           wt_error *err) WT_NODISCARD;
 /* Position of each replicate along the linear fit of quantity k, in standard deviations: a sample
- * of a standard normal variable. at [n] belongs to the caller. The flag is false if there are too
+ * of a standard normal variable. at [n] belongs to the caller. Returns false if there are too
  * few replicates for a fit, or if no draw has an effect. */
-wt_status replicates_line_positions(const replicates *r, size_t k, double *at,
-                                    bool *known) WT_NODISCARD;
+bool replicates_line_positions(const replicates *r, size_t k, double *at);
 void replicates_clear(replicates *r);
 
 #endif

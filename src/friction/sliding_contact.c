@@ -22,7 +22,6 @@ wt_sliding wt_sliding_defaults(void)
         .reference_velocity = (double)NAN,
         .strain_factor = wt_friction_defaults().strain_factor,
         .flash = wt_flash_defaults(),
-        .shear_law = wt_shear_law_defaults(),
     };
 }
 
@@ -57,12 +56,7 @@ static const wt_param rows[] = {
              "list"},
     {PARAM_FLAG_OF("decades", wt_sliding, decades),
      .help = "also what each decade of the wavenumber makes of the friction"},
-    FRICTION_AREA_LAW(wt_sliding),
     FLASH_ROWS(wt_sliding, flash.),
-    SHEAR_LAW_ROWS(wt_sliding, shear_law.),
-    {PARAM_FLAG_OF("sensitivities", wt_sliding, sensitivities),
-     .help = "by how many percent the hysteresis friction changes with one percent of modulus, "
-             "spectrum, pressure and largest wavenumber"},
 };
 PARAM_TABLE(wt_sliding_params, wt_sliding, rows, wt_sliding_defaults, NO_PARTS)
 
@@ -160,7 +154,6 @@ wt_status sliding_contact_create(const wt_sliding *sliding, const wt_job *work, 
     options.tolerance = drawn ? REPLICATE_TOLERANCE : work->tolerance;
     options.gamma = sliding->gamma;
     options.anisotropy = sliding->anisotropy;
-    options.area_law = sliding->area_law;
     options.flash = sliding->flash;
     options.shift = flow_rubber_shift_law(sliding->rubber, seed, replicate);
     options.temperature = c.temperature =
@@ -197,14 +190,6 @@ wt_status sliding_contact_create(const wt_sliding *sliding, const wt_job *work, 
     }
     *contact = c;
     return WT_OK;
-}
-
-double sliding_shear_stress(const wt_sliding *sliding, const sliding_contact *contact,
-                            const wt_friction_point *point)
-{
-    const double warm = point->temperature.value;
-    return contact->shear_stress * wt_shear_factor(&sliding->shear_law, point->velocity,
-                                                   isnan(warm) ? contact->temperature : warm);
 }
 
 wt_layer_state sliding_layer_at_shear_rate(const sliding_contact *contact, wt_layer_state layer,

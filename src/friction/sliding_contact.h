@@ -32,13 +32,18 @@ wt_status sliding_contact_create(const wt_sliding *sliding, const wt_job *work, 
                                  sliding_contact *contact, wt_error *err) WT_NODISCARD;
 /* Statement about results whose relative error exceeds the tolerance. */
 #define TOLERANCE_STATEMENT "the tolerance %.2g is not reached, the numerical error is up to %.2g"
-/* Shear stress of the contact at the temperature of a point. */
-double sliding_shear_stress(const wt_sliding *sliding, const sliding_contact *contact,
-                            const wt_friction_point *point);
 /* State of the layer with the modulus ratio at its shear frequency, velocity / thickness. This is
  * the shear rate of the layer and the frequency of a wave as long as its thickness. */
 wt_layer_state sliding_layer_at_shear_rate(const sliding_contact *contact, wt_layer_state layer,
                                            double velocity);
 void sliding_contact_clear(sliding_contact *contact);
+
+/* Writes the terms of the anisotropy, with phi measured from the velocity. The text is "" without
+ * an anisotropy. */
+void anisotropy_describe(const wt_anisotropy *anisotropy, char *text, size_t size);
+/* Writes the model, and the velocities with no solution or with two. The text is "" without a flash
+ * temperature. */
+void flash_describe(const wt_sliding *sliding, const wt_friction_point *points, size_t n,
+                    char text[256]);
 
 #endif

@@ -3,11 +3,10 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "job/cost.h"
 #include "job/random_draws.h"
-#include "layer/layer_loads.h"
+#include "layer/layer_energy.h"
 #include "layer/monte_carlo.h"
 
 #include "core/base/clocale.h"
-#include "core/base/quantity.h"
 #include "core/table/table_rows.h"
 
 #include <math.h>
@@ -87,10 +86,8 @@ static double draw_load_wear(const layer_context *context, double sliding_veloci
 static wt_status create_loads(const bands_task *task, const layer_context *context, loads *l,
                               wt_error *err)
 {
-    *l = (loads){.energy = calloc(task->n + 1, sizeof *l->energy),
-                 .stage = calloc(task->n + 1, sizeof *l->stage)};
-    if (l->energy == NULL || l->stage == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    *l = (loads){.energy = wt_alloc(task->n + 1, sizeof *l->energy),
+                 .stage = wt_alloc(task->n + 1, sizeof *l->stage)};
     for (size_t i = 0; i < task->n; i++) {
         const layer_load *load = &task->load[i];
         const operating_point conditions = {load->pressure, load->velocity, load->temperature,
@@ -116,10 +113,8 @@ static wt_status parse_loads(bands_task *task, const wt_layer_job *job, wt_error
 {
     const double unset = (double)NAN;
     task->n = job->n_loads > 0 ? job->n_loads : 1;
-    task->load = calloc(task->n, sizeof *task->load);
-    task->words = calloc(task->n + 1, LOAD_TEXT_SIZE);
-    if (task->load == NULL || task->words == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    task->load = wt_alloc(task->n, sizeof *task->load);
+    task->words = wt_alloc(task->n + 1, LOAD_TEXT_SIZE);
     task->load[0] = (layer_load){unset, unset, unset, unset, unset};
     wt_status status = WT_OK;
     for (size_t i = 0; status == WT_OK && i < job->n_loads; i++)
@@ -168,23 +163,21 @@ static wt_status choose_band_times(bands_task *task, wt_error *err)
     wt_status status =
         wt_layer_steady_state_compute(last->source, &last->parameters, &balance, err);
     if (status == WT_OK)
-        status = layer_times_choose(job, &balance, &last_load_times, &n, err);
+        last_load_times = layer_times_choose(job, &balance, &n);
     if (status != WT_OK)
         return status;
     const bool chosen = job->time == NULL;
-    task->time = malloc((n + (task->n + 1) * (TIMES_OF_LOAD + 1)) * sizeof *task->time);
-    if (task->time == NULL)
-        status = wt_fail(err, WT_E_MEMORY, "out of memory");
-    for (size_t i = 0; status == WT_OK && chosen && i + 1 < task->n; i++) {
+    task->time = wt_alloc(n + (task->n + 1) * (TIMES_OF_LOAD + 1), sizeof *task->time);
+    for (size_t i = 0; chosen && i + 1 < task->n; i++) {
         const double length = task->centre.stage[i].duration;
         if (length > 0)
             add_log_times(task, begin, length, length);
         begin += length;
     }
     /* The times of the last load begin where that load alone would have an effect. */
-    if (status == WT_OK && begin > 0 && last_load_times[0] > first_part * begin)
+    if (begin > 0 && last_load_times[0] > first_part * begin)
         add_log_times(task, begin, begin, last_load_times[0]);
-    for (size_t i = 0; status == WT_OK && i < n; i++)
+    for (size_t i = 0; i < n; i++)
         task->time[task->n_times++] = begin + last_load_times[i];
     free(last_load_times);
     return status;
@@ -224,12 +217,11 @@ static wt_status list_events(bands_task *task, wt_error *err)
 
 static wt_status compute_sections(bands_task *task, wt_error *err)
 {
-    task->section = malloc((task->n_times + 1) * sizeof *task->section);
+    task->section = wt_alloc(task->n_times + 1, sizeof *task->section);
     for (size_t i = 0; i < task->n_times; i++)
         task->latest = fmax(task->latest, task->time[i]);
-    return task->section != NULL ? wt_layer_sections(task->centre.stage, task->n, task->time,
-                                                     task->n_times, task->section, err)
-                                 : wt_fail(err, WT_E_MEMORY, "out of memory");
+    return wt_layer_sections(task->centre.stage, task->n, task->time, task->n_times, task->section,
+                             err);
 }
 
 /* ---- replicates ------------------------------------------------------------------------------ */
@@ -273,10 +265,8 @@ static wt_status bands_replicate(const void *user, size_t k, double *out, wt_err
     loads l = {0};
     wt_layer_event first = {.time = (double)NAN};
     const size_t rows = k < LAYER_ROW_REPLICATES ? task->n_times : 0;
-    wt_layer_section *section = malloc((task->n_times + 1) * sizeof *section);
-    wt_status status = section != NULL
-                           ? layer_draws_replicate_context(&task->draws, k, &job, &context, err)
-                           : wt_fail(err, WT_E_MEMORY, "out of memory");
+    wt_layer_section *section = wt_alloc(task->n_times + 1, sizeof *section);
+    wt_status status = layer_draws_replicate_context(&task->draws, k, &job, &context, err);
     if (status == WT_OK)
         status = create_loads(task, &context, &l, err);
     if (status == WT_OK)

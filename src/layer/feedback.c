@@ -1,7 +1,8 @@
 /* Table of the balances of a layer with feedback on its own energy, with uncertainties from
  * replicates.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "layer/feedback.h"
+#include "layer/layer_energy.h"
+#include "layer/monte_carlo.h"
 #include "job/cost.h"
 #include "job/random_draws.h"
 

@@ -1,20 +1,95 @@
 /* Layer job: energy density against depth, formation and wear, thickness at balance and against
  * time, with standard errors from replicates.
  * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "core/base/clocale.h"
 #include "core/base/shared_params.h"
+#include "core/table/table_rows.h"
 #include "dma/strain_softening.h"
-#include "friction/anisotropy.h"
+#include "friction/sliding_contact.h"
 #include "job/cost.h"
 #include "job/random_draws.h"
-#include "layer/layer_text.h"
+#include "layer/layer_energy.h"
 #include "layer/monte_carlo.h"
-
-#include "core/base/clocale.h"
-#include "core/table/table_rows.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+
+#define DEPTHS 121 /* resolution of a figure */
+
+TABLE_ROW(energy_density, ENERGY_DENSITY, double depth, energy_density;)
+
+static void add_depths(const wt_energy_source *source, table_writer *t)
+{
+    double q_min = source->wavenumber[0], q_max = source->wavenumber[0];
+    for (size_t i = 1; i < source->n; i++) {
+        q_min = fmin(q_min, source->wavenumber[i]);
+        q_max = fmax(q_max, source->wavenumber[i]);
+    }
+    /* from a tenth of the shortest wave to where the longest one has decayed */
+    const double first = 0.1 / q_max, last = 3 / q_min;
+    for (size_t i = 0; i < DEPTHS; i++) {
+        const double depth = first * pow(last / first, (double)i / (DEPTHS - 1));
+        TABLE_ADD(energy_density, t, depth, wt_energy_density(source, depth));
+    }
+}
+
+wt_status wt_energy_density_compute(const wt_sliding *sliding, const wt_layer_job *job,
+                                    const wt_job *work, wt_table **table, wt_error *err)
+{
+    if (job == NULL || work == NULL || table == NULL)
+        return wt_fail(err, WT_E_ARG, "no energy density to make");
+    sliding_contact c = {0};
+    layer_energy energy = {.source = {.n = 0}};
+    wt_job own = *work;
+    own.left_out = WT_EXTRA_ALL;
+    const wt_layer_state none = {.modulus_ratio = 1};
+    wt_status status = flow_sliding_check(sliding, work, err);
+    if (status == WT_OK)
+        status = wt_layer_job_check(job, err);
+    if (status == WT_OK)
+        status = sliding_contact_create(sliding, &own, WT_NO_REPLICATE, NULL, none, &c, err);
+    const double velocity = status == WT_OK ? layer_sliding_velocity(sliding, job) : 0;
+    if (status == WT_OK)
+        status = layer_energy_compute(sliding, job, &c, velocity, none, &energy, err);
+    sliding_contact_clear(&c);
+    if (status != WT_OK)
+        return status;
+    table_writer t = table_begin(&energy_density_schema, err);
+    add_depths(&energy.source, &t);
+    energy_density_set_value(&t, ENERGY_DENSITY_KEY_VELOCITY, velocity, 0, 0);
+    cost_report(work, (cost_summary){.items = DEPTHS,
+                                     .tolerance_asked = work->tolerance,
+                                     .error_estimated = energy.source.numerical_error});
+    layer_energy_clear(&energy);
+    return table_end(&t, table);
+}
+
+/* A text is "" for a default option. */
+typedef struct layer_description {
+    char energy[256], severity[256];
+} layer_description;
+
+static void layer_describe(const wt_layer_job *job, const layer_energy *energy,
+                           const wt_layer_parameters *parameters, layer_description *words)
+{
+    *words = (layer_description){.energy = ""};
+    if (job->energy == WT_LAYER_SHEAR)
+        clocale_print(words->energy, sizeof words->energy,
+                      "shearing of the surface, which goes as deep as the hysteresis "
+                      "(reconstructed)");
+    if (job->energy == WT_LAYER_BOTH)
+        clocale_print(
+            words->energy, sizeof words->energy,
+            "hysteresis, and shearing of the surface, which goes as deep (reconstructed): "
+            "shearing is %.3g %% of it",
+            100 * energy->shear_power / (energy->hysteresis_power + energy->shear_power));
+    if (job->severity_power > 0)
+        clocale_print(words->severity, sizeof words->severity,
+                      "k = %.4g mm^3/(N m) (1 + (E / %.4g kW/m^2)^%.3g) (reconstructed)",
+                      1e9 * parameters->specific_wear_rate, 1e-3 * job->severity_power,
+                      job->severity_exponent);
+}
 
 /* Balance for one set of values. */
 typedef struct layer_run {
@@ -98,7 +173,7 @@ static wt_status compute_balance(const layer_task *task, size_t replicate, layer
     if (status == WT_OK) {
         memcpy(run->statement, c.statement, sizeof c.statement);
         wt_layer_parameters *p = &run->parameters;
-        *p = layer_parameters_create(job, &c, task->velocity, &run->energy, seed, replicate);
+        *p = layer_parameters_create(job, &c, task->velocity, seed, replicate);
         p->balance_only = !with_times;
         const bool calibrated = !isnan(job->observed_thickness.value);
         if (calibrated)
@@ -122,9 +197,7 @@ static wt_status compute_balance(const layer_task *task, size_t replicate, layer
 
 static wt_status compute_history(const layer_task *task, layer_run *run, wt_error *err)
 {
-    run->points = malloc((task->n + 1) * sizeof *run->points);
-    if (run->points == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    run->points = wt_alloc(task->n + 1, sizeof *run->points);
     return wt_layer_history(&run->energy.source, &run->parameters, task->time, task->n, run->points,
                             err);
 }
@@ -207,7 +280,7 @@ TABLE_KEYS(layer, LAYER, wt_layer_regime regime;
            const char *critical_energy_from, *includes, *lacks, *statement;
            double velocity, damage, duty; wt_estimate pressure, wear_rate, observed;
            char softening[256], anisotropy[192], numerical[512]; layer_description said;
-           wt_estimate hysteresis_power, shear_power, unloaded_rate, shelf_life, severe;)
+           wt_estimate hysteresis_power, shear_power, severe;)
 
 static void set_layer_keys(const layer_task *task, const layer_run *run, table_writer *t)
 {
@@ -215,12 +288,8 @@ static void set_layer_keys(const layer_task *task, const layer_run *run, table_w
     const bool calibrated = !isnan(job->observed_thickness.value);
     char from[80];
     snprintf(from, sizeof from, "%s%s",
-             critical_energy_origin_text(calibrated                             ? ENERGY_CALIBRATED
-                                         : job->closure == WT_CLOSURE_ACTIVATED ? ENERGY_OF_NO_USE
-                                                                                : ENERGY_GIVEN),
-             calibrated                             ? ": makes the observed thickness the balance"
-             : job->closure == WT_CLOSURE_ACTIVATED ? ": the closure is activated"
-                                                    : "");
+             critical_energy_origin_text(calibrated ? ENERGY_CALIBRATED : ENERGY_GIVEN),
+             calibrated ? ": makes the observed thickness the balance" : "");
     layer_keys keys = {.regime = run->balance.regime,
                        .critical_energy_from = from,
                        .includes = replicates_included_errors(&task->replicates),
@@ -234,16 +303,12 @@ static void set_layer_keys(const layer_task *task, const layer_run *run, table_w
                        .observed = flow_stated_estimate(job->observed_thickness)};
     if (!calibrated)
         keys.observed.value = (double)NAN;
-    keys.hysteresis_power = keys.shear_power = keys.unloaded_rate = keys.shelf_life = keys.severe =
+    keys.hysteresis_power = keys.shear_power = keys.severe =
         (wt_estimate){(double)NAN, (double)NAN, (double)NAN, NULL};
     layer_describe(job, &run->energy, &run->parameters, &keys.said);
     if (job->energy != WT_LAYER_HYSTERESIS) {
         keys.hysteresis_power.value = run->energy.hysteresis_power;
         keys.shear_power.value = run->energy.shear_power;
-    }
-    if (job->closure == WT_CLOSURE_ACTIVATED) {
-        keys.unloaded_rate.value = wt_activation_unloaded_rate(&run->parameters.activation);
-        keys.shelf_life.value = job->damage / keys.unloaded_rate.value;
     }
     if (job->severity_power > 0)
         keys.severe.value = run->balance.wear_rate /
@@ -294,9 +359,7 @@ wt_status wt_layer_thickness_compute(const wt_sliding *sliding, const wt_layer_j
     wt_layer_tables t = {0};
     status = compute_balance(&task, WT_NO_REPLICATE, &centre, err);
     if (status == WT_OK)
-        layer_warn_shelf_life(job, &centre.parameters, work->log);
-    if (status == WT_OK)
-        status = layer_times_choose(job, &centre.balance, &task.time, &task.n, err);
+        task.time = layer_times_choose(job, &centre.balance, &task.n);
     if (status == WT_OK)
         status = compute_history(&task, &centre, err);
     if (status == WT_OK)

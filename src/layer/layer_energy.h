@@ -1,9 +1,10 @@
-/* Energy that modifies the rubber in one sliding contact, and the parameters of its layer. Internal
- * to layer.
+/* A layer in one sliding contact: energy that modifies the rubber, parameters, operating point and
+ * friction. Internal to layer.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_LAYER_LAYER_ENERGY_H
 #define WT_LAYER_LAYER_ENERGY_H
 
+#include "core/math/cubic_interpolation.h"
 #include "friction/sliding_contact.h"
 #include "weartrack/layer.h"
 
@@ -16,8 +17,6 @@ typedef struct layer_energy {
 
 /* Velocity at which the track was worn. */
 double layer_sliding_velocity(const wt_sliding *sliding, const wt_layer_job *layer);
-/* True if a job needs friction and contact area in addition to the energy. */
-bool layer_needs_area(const wt_layer_job *job);
 /* Computes the energy; the caller clears it. Returns WT_E_MISSING if shearing contributes and its
  * stress is not stated. */
 wt_status layer_energy_compute(const wt_sliding *sliding, const wt_layer_job *job,
@@ -27,13 +26,12 @@ wt_status layer_energy_compute(const wt_sliding *sliding, const wt_layer_job *jo
 void layer_energy_clear(layer_energy *energy);
 /* Parameters of a replicate. The critical energy may still have to be calibrated. */
 wt_layer_parameters layer_parameters_create(const wt_layer_job *job, const sliding_contact *contact,
-                                            double velocity, const layer_energy *energy,
-                                            uint64_t seed, size_t replicate);
+                                            double velocity, uint64_t seed, size_t replicate);
 
 /* Times of a job, by default from well before the first change of the layer to well after the last:
- * *time [n], which the caller frees. */
-wt_status layer_times_choose(const wt_layer_job *job, const wt_layer_steady_state *balance,
-                             double **time, size_t *n, wt_error *err) WT_NODISCARD;
+ * [n], which the caller frees. */
+double *layer_times_choose(const wt_layer_job *job, const wt_layer_steady_state *balance,
+                           size_t *n);
 
 /* ---- context and operating point ------------------------------------------------------------- */
 
@@ -91,5 +89,51 @@ wt_estimate estimate_without_error(double value);
  */
 wt_status layer_job_calibrate(const layer_context *context, wt_layer_job *calibrated,
                               wt_error *err) WT_NODISCARD;
+
+/* ---- friction against thickness ----------------------------------------------------------------
+ */
+
+/* Interpolated quantities. The shear stress of the layer can be discontinuous and is computed from
+ * these. */
+enum { NODE_HYSTERESIS, NODE_AREA, NODE_BULK_STRESS, NODE_MODULUS_RATIO, N_NODE_QUANTITIES };
+
+typedef struct layer_friction_model {
+    const layer_context *context; /* borrowed */
+    size_t n;                     /* number of nodes; 0 for direct computation */
+    double *log_thickness;        /* [n] rising */
+    double pressure;
+    double *value[N_NODE_QUANTITIES]; /* [n] each */
+    curve *curve[N_NODE_QUANTITIES];
+} layer_friction_model;
+
+/* Creates n nodes from the thinnest to the thickest layer, in equal ratios. There are none if n <
+ * AKIMA_POINTS_MIN or if the thicknesses are equal; friction is then computed directly. The
+ * caller clears the model. */
+wt_status layer_friction_model_create(const layer_context *context, double thinnest,
+                                      double thickest, size_t n, layer_friction_model *friction,
+                                      wt_error *err) WT_NODISCARD;
+/* Friction at a thickness [m]; NaN for a thickness that is not finite. */
+wt_status layer_friction_model_evaluate(const layer_friction_model *model, double thickness,
+                                        layer_friction *f, wt_error *err) WT_NODISCARD;
+void layer_friction_model_clear(layer_friction_model *friction);
+
+/* ---- feedback and loads -----------------------------------------------------------------------
+ */
+
+/* A wt_layer_energy_fn whose `user` is a layer_context. */
+wt_status feedback_energy(double thickness, void *user, wt_energy_source *source,
+                          wt_layer_parameters *parameters, wt_error *err) WT_NODISCARD;
+/* Finds all balances with thicknesses from the shortest wave to the longest. */
+wt_status feedback_find_balances(layer_context *context, wt_layer_feedback *loop,
+                                 wt_error *err) WT_NODISCARD;
+
+/* NaN for the value of the sliding; an unset time of the last load means that it does not end. */
+typedef struct layer_load {
+    double time, pressure, velocity, temperature, specific_wear_rate;
+} layer_load;
+
+/* Parses load i of a job. Errors name the load and the invalid value. */
+wt_status layer_load_parse(const wt_layer_job *job, size_t i, layer_load *load,
+                           wt_error *err) WT_NODISCARD;
 
 #endif

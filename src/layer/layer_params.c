@@ -1,12 +1,55 @@
 /* Parameters of the layer job, and their consistency.
  * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "layer/layer_energy.h"
+#include "core/base/param.h"
 #include "core/base/shared_params.h"
-#include "layer/layer_loads.h"
+#include "dma/law_parse.h"
 #include "weartrack/layer.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
+
+static layer_load load_defaults(void)
+{
+    const double unset = (double)NAN;
+    return (layer_load){unset, unset, unset, unset, unset};
+}
+
+static const wt_param load_rows[] = {
+    {PARAM("time", layer_load, time, WT_Q_TIME, AT_LEAST(0)), .unset = "", .flags = PARAM_NO_OPTION,
+     .help = "that the load lasts"},
+    {PARAM("pressure", layer_load, pressure, WT_Q_PRESSURE, ABOVE(0)), .unset = "",
+     .flags = PARAM_NO_OPTION, .help = "nominal pressure"},
+    {PARAM("velocity", layer_load, velocity, WT_Q_VELOCITY, ABOVE(0)), .unset = "",
+     .flags = PARAM_NO_OPTION, .help = "of sliding"},
+    {PARAM("temperature", layer_load, temperature, WT_Q_TEMPERATURE, ABOVE(0)), .unset = "",
+     .flags = PARAM_NO_OPTION, .help = "of the rubber"},
+    {PARAM("specific-wear-rate", layer_load, specific_wear_rate, WT_Q_WEAR_RATE, AT_LEAST(0)),
+     .unset = "", .flags = PARAM_NO_OPTION, .help = "k"},
+};
+
+PARAM_LOCAL_TABLE(load_params, layer_load, load_rows, load_defaults, NO_PARTS)
+
+static const flow_law_text load_text = {.prefix = "",
+                                        .name = "load",
+                                        .what = "a load",
+                                        .example = "time=900s,pressure=0.4MPa,velocity=5mm/s",
+                                        .params = load_params};
+
+wt_status layer_load_parse(const wt_layer_job *job, size_t i, layer_load *load, wt_error *err)
+{
+    layer_load l = load_defaults();
+    wt_status status = flow_law_parse(&load_text, job->loads[i], &l, err);
+    if (status == WT_OK && isnan(l.time) && i + 1 < job->n_loads) {
+        status = wt_fail(err, WT_E_MISSING, "a load that another one follows needs its time");
+        wt_error_expected(err, "time=900s");
+    }
+    if (status != WT_OK)
+        wt_error_place(err, "load %zu of %zu", i + 1, job->n_loads);
+    *load = l;
+    return status;
+}
 
 wt_layer_job wt_layer_job_defaults(void)
 {
@@ -20,11 +63,7 @@ wt_layer_job wt_layer_job_defaults(void)
         .profile = WT_PROFILE_PERSSON,
         .velocity = (double)NAN,
         .energy = WT_LAYER_HYSTERESIS,
-        .shear_share = 1,
         .severity_exponent = wt_layer_defaults().severity_exponent,
-        .closure = wt_layer_defaults().closure,
-        .barrier = {(double)NAN, 0, 0, "J"},
-        .activation = wt_layer_defaults().activation,
         .shear = wt_layer_shear_defaults(),
     };
 }
@@ -79,15 +118,11 @@ static const wt_param rows[] = {
      .help = "what modifies the rubber: the hysteresis, the shearing of the real contact by the "
              "shear stress, or both; the shearing is taken to go as deep as the hysteresis "
              "(reconstructed)"},
-    {PARAM("shear-share", wt_layer_job, shear_share, WT_Q_NONE, FROM_TO(0, 1)), .value = "X",
-     .help = "share of the power of shearing that modifies the rubber, where it counts"},
     {PARAM_OTHER_OF("severity-power", wt_layer_job, severity_power, read_power),
      .check = check_power, .value = "E", .unset = "",
      .help = "such as 25kW/m^2: E_c of a specific wear rate that grows with the power E that "
              "modifies the rubber, k (1 + (E/E_c)^m) (reconstructed); without it k is constant"},
     LAYER_SEVERITY_EXPONENT(wt_layer_job),
-    LAYER_CLOSURE(wt_layer_job),
-    LAYER_ACTIVATION_ROWS(wt_layer_job, activation., ),
     {PARAM_FLAG_OF("bands", wt_layer_job, bands),
      .help = "also the upper and lower edges of the modified rubber in time, and when bands begin, "
              "reach the surface and merge"},
@@ -105,7 +140,7 @@ static const wt_param rows[] = {
      .help = "also where a layer exists: thickness against the power, at every velocity and "
              "pressure of the lists"},
     {PARAM("shear-exponent", wt_layer_job, shear.exponent, WT_Q_NONE, FROM_TO(-10, 10)),
-     .value = "M",
+     .value = "M", .flags = PARAM_ONLY_C,
      .help = "of the modulus ratio, whose power times the shear stress is that of the layer "
              "(reconstructed)"},
     {PARAM("shear-decay-length", wt_layer_job, shear.transition_thickness, WT_Q_LENGTH,
@@ -113,31 +148,8 @@ static const wt_param rows[] = {
      .former = "shear-reach", .value = "D",
      .help = "thickness over which the shear stress goes over to that of the layer, as 1 - "
              "exp(-d/D) (reconstructed); 0: at once"},
-    {PARAM("crack-energy", wt_layer_job, shear.crack_energy, WT_Q_SPRING_CONSTANT, AT_LEAST(0)),
-     .value = "G",
-     .help = "per area, such as 1J/m^2, to open cracks at the rims of the contacts, which adds "
-             "to the shear stress (source; its form reconstructed)"},
-    {PARAM("asperity-spacing", wt_layer_job, shear.spacing, WT_Q_LENGTH, ABOVE(0)), .value = "D",
-     .unset = "", .help = "of the asperities in contact, 1/sqrt(eta), for the crack energy"},
 };
 PARAM_TABLE(wt_layer_job_params, wt_layer_job, rows, wt_layer_job_defaults, NO_PARTS)
-
-/* Checks the parameters of the activated closure, which has a barrier in place of the critical
- * energy. */
-static wt_status activated_check(const wt_layer_job *job, wt_error *err)
-{
-    const bool whole = !isnan(job->barrier.value) && !isnan(job->activation.volume);
-    const bool other = !isnan(job->critical_energy.value) || !isnan(job->observed_thickness.value);
-    if (whole && !other)
-        return WT_OK;
-    wt_status status = wt_fail(err, whole ? WT_E_ARG : WT_E_MISSING,
-                               "the activated closure has a barrier and an activation volume");
-    wt_error_expected(err, "barrier and activation-volume, and neither critical-energy nor "
-                           "observed-thickness");
-    wt_error_found(err, whole ? "one of the latter" : "not both of the former");
-    wt_error_advice(err, "critical energy and observed thickness belong to the energy closure");
-    return status;
-}
 
 wt_status wt_layer_job_check(const wt_layer_job *job, wt_error *err)
 {
@@ -159,13 +171,6 @@ wt_status wt_layer_job_check(const wt_layer_job *job, wt_error *err)
     }
     if (status != WT_OK)
         return status;
-    if (job->shear.crack_energy > 0 && isnan(job->shear.spacing)) {
-        status = wt_fail(err, WT_E_MISSING, "the crack energy needs the spacing of the asperities");
-        wt_error_expected(err, "asperity-spacing, such as 10um");
-        return status;
-    }
-    if (job->closure == WT_CLOSURE_ACTIVATED)
-        return activated_check(job, err);
     if (energy == observed) {
         status = wt_fail(err, energy ? WT_E_ARG : WT_E_MISSING,
                          "a layer has either a critical energy or an observed thickness");

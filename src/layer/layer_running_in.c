@@ -2,8 +2,8 @@
  * values and, for the standard errors, by replicates.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "job/cost.h"
-#include "layer/feedback.h"
-#include "layer/layer_friction.h"
+#include "layer/layer_energy.h"
+#include "layer/monte_carlo.h"
 
 #include "core/base/array.h"
 #include "core/table/table_rows.h"
@@ -67,10 +67,8 @@ static wt_status compute_thickness(running_in_run *r, wt_error *err)
 {
     wt_layer_steady_state balance;
     wt_status status = WT_OK;
-    r->points = calloc(r->n + 1, sizeof *r->points);
-    r->friction = calloc(r->n + 1, sizeof *r->friction);
-    if (r->points == NULL || r->friction == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    r->points = wt_alloc(r->n + 1, sizeof *r->points);
+    r->friction = wt_alloc(r->n + 1, sizeof *r->friction);
     if (r->context->job->has_feedback)
         return compute_feedback_thickness(r, err);
     status = feedback_energy(0, r->context, &r->source, &r->parameters, err);
@@ -253,10 +251,7 @@ static const char *describe_feedback(const wt_layer_job *job)
     if (job->has_feedback)
         return "the layer acts back on the energy that makes it; by the rate balance "
                "(reconstructed)";
-    return job->closure == WT_CLOSURE_ACTIVATED && job->activation.ageing
-               ? "the energy is that of the bulk, friction that with the layer (reconstructed); "
-                 "not known (nan) once age has modified rubber of every depth"
-               : "the energy is that of the bulk, friction that with the layer (reconstructed)";
+    return "the energy is that of the bulk, friction that with the layer (reconstructed)";
 }
 
 static wt_status tabulate_running_in(running_task *task, wt_table **table, wt_error *err)
@@ -299,7 +294,7 @@ static wt_status choose_running_in_times(running_task *task, wt_error *err)
     if (status == WT_OK)
         status = wt_layer_steady_state_compute(&source, &p, &balance, err);
     if (status == WT_OK)
-        status = layer_times_choose(task->draws.values.job, &balance, &task->time, &task->n, err);
+        task->time = layer_times_choose(task->draws.values.job, &balance, &task->n);
     if (status == WT_OK)
         numbers_sort(task->time, task->n);
     wt_energy_source_clear(&source);

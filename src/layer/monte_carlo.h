@@ -6,7 +6,7 @@
 #include "friction/replicates.h"
 #include "layer/layer_energy.h"
 
-/* Adds the error sources of a layer: wear; critical energy, observed thickness or barrier; shear
+/* Adds the error sources of a layer: wear; critical energy or observed thickness; shear
  * stress if it modifies the rubber. Returns the standard error of the second. */
 double layer_replicates_add(replicates *r, const wt_sliding *sliding, const wt_layer_job *job);
 

@@ -213,10 +213,8 @@ static wt_status existence_replicate(const void *user, size_t i, double *out, wt
     layer_context context;
     edges found = {.status = WT_OK};
     const size_t rows = i < LAYER_ROW_REPLICATES ? task->n : 0;
-    regime_map_point *at = malloc((task->n + 1) * sizeof *at);
-    wt_status status = at != NULL
-                           ? layer_draws_replicate_context(&task->draws, i, &job, &context, err)
-                           : wt_fail(err, WT_E_MEMORY, "out of memory");
+    regime_map_point *at = wt_alloc(task->n + 1, sizeof *at);
+    wt_status status = layer_draws_replicate_context(&task->draws, i, &job, &context, err);
     if (status == WT_OK) {
         found = find_existence_edges(&context, err);
         status = found.status;
@@ -259,10 +257,10 @@ static bool assess_edge(regime_map_task *task, size_t end)
     if (!(missing > max_missing_share))
         return true;
     clocale_print(task->known + used, sizeof task->known - used,
-                  "%s: in %.3g %% of the replicates there is %s %s edge between the velocities of "
+                  "%s%s in %.3g %% of the replicates there is %s %s edge between the velocities of "
                   "the list; more velocities, or smaller errors of what is drawn, would settle it",
-                  used > 0 ? "" : stated_verdict_text(VERDICT_INCONCLUSIVE), 100 * missing,
-                  there ? "no" : "a", end == EDGE_FIRST ? "first" : "last");
+                  used > 0 ? "" : stated_verdict_text(VERDICT_INCONCLUSIVE), used > 0 ? ";" : ":",
+                  100 * missing, there ? "no" : "a", end == EDGE_FIRST ? "first" : "last");
     return false;
 }
 
@@ -343,20 +341,17 @@ static wt_status tabulate_regime_map(regime_map_task *task, wt_table **table, wt
 }
 
 /* The same with its velocities from the least on, between which edges are looked for. */
-static wt_status sort_velocities(regime_map_task *task, const wt_sliding *sliding, wt_error *err)
+static void sort_velocities(regime_map_task *task, const wt_sliding *sliding)
 {
     const size_t n = sliding->n_velocity;
     task->blocks = sliding->n_pressures > 0 ? sliding->n_pressures : 1;
     task->n = n * task->blocks;
-    task->velocity = malloc((n + 1) * sizeof *task->velocity);
-    task->at = malloc((task->n + 1) * sizeof *task->at);
-    if (task->velocity == NULL || task->at == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    task->velocity = wt_alloc(n + 1, sizeof *task->velocity);
+    task->at = wt_alloc(task->n + 1, sizeof *task->at);
     memcpy(task->velocity, sliding->velocity, n * sizeof *task->velocity);
     numbers_sort(task->velocity, n);
     task->sliding = *sliding;
     task->sliding.velocity = task->velocity;
-    return WT_OK;
 }
 
 wt_status wt_regime_map_compute(const wt_sliding *sliding, const wt_layer_job *job,
@@ -366,10 +361,9 @@ wt_status wt_regime_map_compute(const wt_sliding *sliding, const wt_layer_job *j
     if (sliding == NULL || job == NULL || work == NULL || table == NULL)
         return wt_fail(err, WT_E_ARG, "no existence of a layer to make");
     regime_map_task task = {.n = 0};
-    wt_status status = sort_velocities(&task, sliding, err);
-    if (status == WT_OK)
-        status = layer_draws_init(&task.draws, &task.sliding, job, observation, work, "existence",
-                                  true, err);
+    sort_velocities(&task, sliding);
+    wt_status status = layer_draws_init(&task.draws, &task.sliding, job, observation, work,
+                                        "existence", true, err);
     if (status == WT_OK) {
         task.edges = find_existence_edges(&task.draws.values, err);
         status = task.edges.status;

@@ -1,8 +1,8 @@
 /* Friction during the growth of a layer.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "job/random_draws.h"
-#include "layer/feedback.h"
-#include "layer/layer_friction.h"
+#include "layer/layer_energy.h"
+#include "layer/monte_carlo.h"
 #include "record/running_in_validation.h"
 
 #include <math.h>
@@ -148,8 +148,7 @@ static wt_status compute_draw(const growth_inputs *g, layer_context *scene, doub
         status = evaluate_friction(&d, d.thickness, &out[GROWTH_END], err);
     out[GROWTH_BARE] = d.bare;
     out[GROWTH_WEAR] = d.parameters.specific_wear_rate;
-    out[GROWTH_ENERGY] =
-        job->closure == WT_CLOSURE_ENERGY ? d.parameters.critical_energy : (double)NAN;
+    out[GROWTH_ENERGY] = d.parameters.critical_energy;
     layer_friction_model_clear(&d.friction_of);
     free(d.points);
     return status;
@@ -176,7 +175,7 @@ static wt_status choose_times(growth_inputs *g, growth *out, wt_error *err)
     if (status == WT_OK && balance.thickness.value <= 0 && !g->job.has_feedback)
         status = wt_fail(err, WT_E_RANGE, "no layer is predicted there: wear exceeds formation");
     if (status == WT_OK)
-        status = layer_times_choose(&job, &balance, &shown, &n, err);
+        shown = layer_times_choose(&job, &balance, &n);
     if (status == WT_OK) {
         /* With the rate balance the layer starts at once. The times start where the thinnest
          * relevant layer exists. */

@@ -21,8 +21,8 @@ static double *part_values(double *out, size_t n, prediction_part part)
     return out + (size_t)part * n;
 }
 
-/* Computes one contact. `hysteresis` is friction without a shear stress of the bulk: hysteresis and
- * crack losses. `friction_per_shear` is its derivative with respect to this stress. */
+/* Computes one contact. `friction_per_shear` is the derivative of the friction with respect to the
+ * shear stress of the bulk. */
 static wt_status compute_contact(const prediction_group *g, wt_material_cache *drawn,
                                  size_t replicate, wt_layer_state layer, wt_friction_point *points,
                                  double *hysteresis, double *friction_per_shear, wt_error *err)
@@ -34,14 +34,9 @@ static wt_status compute_contact(const prediction_group *g, wt_material_cache *d
         status = wt_friction_compute(c.workspace, c.pressure, g->velocity, g->n, points, err);
     for (size_t i = 0; status == WT_OK && i < g->n; i++) {
         const wt_layer_state sheared = sliding_layer_at_shear_rate(&c, layer, g->velocity[i]);
-        const double warm = points[i].temperature.value, area = points[i].area_ratio.value,
-                     cracks = sliding_layer_shear_stress(g->observation, 0, sheared, area),
-                     of_bulk = wt_shear_factor(&g->sliding.shear_law, g->velocity[i],
-                                               isnan(warm) ? c.temperature : warm);
-        hysteresis[i] = points[i].hysteresis.value + cracks * area / c.pressure;
-        friction_per_shear[i] =
-            (sliding_layer_shear_stress(g->observation, of_bulk, sheared, area) - cracks) * area /
-            c.pressure;
+        hysteresis[i] = points[i].hysteresis.value;
+        friction_per_shear[i] = sliding_layer_shear_stress(g->observation, 1, sheared) *
+                                points[i].area_ratio.value / c.pressure;
     }
     sliding_contact_clear(&c);
     return status;

@@ -382,13 +382,11 @@ static wt_status set_running_in_keys(const running_in_task *task, const run_set 
     set_running_in_interval(t, VALIDATION_RUNNING_IN_KEY_CHANGE_RATIO,
                             level_interval(all, RUN_RATIO));
     wt_status status = WT_OK;
-    if (task->job->layer->closure == WT_CLOSURE_ENERGY) {
-        set_running_in_interval(t, VALIDATION_RUNNING_IN_KEY_WEAR,
-                                exponential_interval(level_interval(all, RUN_WEAR)));
-        set_running_in_interval(t, VALIDATION_RUNNING_IN_KEY_ENERGY,
-                                exponential_interval(level_interval(all, RUN_ENERGY)));
-        status = set_wear_agreement(task, all, t, err);
-    }
+    set_running_in_interval(t, VALIDATION_RUNNING_IN_KEY_WEAR,
+                            exponential_interval(level_interval(all, RUN_WEAR)));
+    set_running_in_interval(t, VALIDATION_RUNNING_IN_KEY_ENERGY,
+                            exponential_interval(level_interval(all, RUN_ENERGY)));
+    status = set_wear_agreement(task, all, t, err);
     validation_running_in_set_print(t, VALIDATION_RUNNING_IN_KEY_RUNS, "%zu", task->n_compared);
     validation_running_in_set_text(t, VALIDATION_RUNNING_IN_KEY_INCLUDES,
                                    prediction_error_sources(task));

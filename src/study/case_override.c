@@ -14,13 +14,6 @@ const char *const case_quantity_names[CASE_QUANTITIES] = {
     [CASE_QUANTITY_THICKNESS] = "layer thickness",
     [CASE_QUANTITY_WITH_LAYER] = "friction coefficient with layer"};
 
-const char *const sensitivity_names[SENSITIVITIES] = {
-    "1 % of the modulus", "1 % of the power spectrum", "1 % of the pressure",
-    "1 % of the largest wavenumber q1"};
-static const friction_key sensitivity_keys[SENSITIVITIES] = {
-    FRICTION_KEY_BY_MODULUS, FRICTION_KEY_BY_DENSITY, FRICTION_KEY_BY_PRESSURE,
-    FRICTION_KEY_BY_CUTOFF};
-
 wt_status case_variant_create(const wt_sliding *sliding, const wt_layer_job *layer,
                               const wt_layer_observation *observation, const wt_job *work,
                               case_variant *s, wt_error *err)
@@ -42,7 +35,6 @@ wt_status case_variant_create(const wt_sliding *sliding, const wt_layer_job *lay
                         .has_known = observation != NULL,
                         .vertical = sliding->rubber->fit.vertical};
     s->sliding.n_velocity = 1;
-    s->sliding.sensitivities = false;
     s->sliding.reference_velocity = s->velocity;
     s->surface.q0 = law->q0;
     s->surface.q1 = law->q1;
@@ -88,8 +80,6 @@ static wt_status compute_variant_friction(case_variant *s, const wt_layer_observ
         number[CASE_QUANTITY_WITH_LAYER] = friction_value(&view, FRICTION_KEY_WITH_LAYER);
         const char *statement = friction_key_text(&view, FRICTION_KEY_MATERIAL_STATEMENT);
         snprintf(s->statement, sizeof s->statement, "%s", statement != NULL ? statement : "");
-        for (size_t k = 0; k < SENSITIVITIES; k++)
-            s->by[k] = friction_value(&view, sensitivity_keys[k]).value;
         s->extrapolated_share = friction_get(&view, 0, FRICTION_EXTRAPOLATED_SHARE);
     }
     wt_friction_tables_clear(&tables);

@@ -6,10 +6,6 @@
 
 #include "weartrack/layer.h"
 
-/* Relative sensitivities of the hysteresis friction, d ln mu / d ln x. */
-enum { SENSITIVITIES = 4 };
-extern const char *const sensitivity_names[SENSITIVITIES];
-
 typedef struct case_variant {
     wt_sliding sliding; /* refers to the velocity, rubber and surface below */
     double velocity;
@@ -27,7 +23,6 @@ typedef struct case_variant {
      * frequencies outside its range (NaN if not requested). */
     char statement[512];
     double extrapolated_share;
-    double by[SENSITIVITIES]; /* set if sliding.sensitivities; see sensitivity_names */
 } case_variant;
 
 /* Results at the reference velocity. */

@@ -3,7 +3,7 @@
  * isotherms.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dma/master.h"
-#include "friction/numerics/angular_weight.h"
+#include "friction/numerics/angular.h"
 #include "friction/sliding_contact.h"
 #include "job/cost.h"
 #include "study/case_override.h"

@@ -216,8 +216,6 @@ typedef struct error_budget_run {
     case_variant case_variant;
     wt_job work; /* options of one case variant */
     outcome values, all, of[SOURCES];
-    bool sensitivities; /* true if requested */
-    double by[SENSITIVITIES];
     char lacks[256];
 } error_budget_run;
 
@@ -239,9 +237,7 @@ static wt_status compute_budget_outcome(const error_budget_run *b, case_variant 
 static wt_status compute_budget(error_budget_run *b, wt_error *err)
 {
     case_variant whole = b->case_variant;
-    whole.sliding.sensitivities = b->sensitivities;
     wt_status status = compute_budget_outcome(b, &whole, 0, &b->values, err);
-    memcpy(b->by, whole.by, sizeof b->by);
     whole = b->case_variant;
     if (status == WT_OK)
         status = compute_budget_outcome(b, &whole, b->work.replicates, &b->all, err);
@@ -368,18 +364,6 @@ static void add_model_rows(const error_budget_run *b, case_quantity k, const tab
     }
 }
 
-/* Adds inputs without a stated error, too: the row shows how accurate they must be. */
-static void add_sensitivity_rows(const error_budget_run *b, table_writer *t)
-{
-    const double value = b->values.number[CASE_QUANTITY_HYSTERESIS].value;
-    for (size_t i = 0; i < SENSITIVITIES && b->sensitivities; i++)
-        if (isfinite(b->by[i]))
-            add_number_row(b, CASE_QUANTITY_HYSTERESIS,
-                           (row){sensitivity_names[i], ERROR_ONE_PER_CENT, "",
-                                 0.01 * fabs(b->by[i] * value), (double)NAN, (double)NAN},
-                           t);
-}
-
 static void set_advice(const error_budget_run *b, case_quantity k, const number_summary *v,
                        table_writer *t)
 {
@@ -439,8 +423,6 @@ static void add_number_rows(const error_budget_run *b, case_quantity k, const ta
                          (double)NAN, b->values.seconds},
                    t);
     add_model_rows(b, k, what_if, &v, t);
-    if (k == CASE_QUANTITY_HYSTERESIS)
-        add_sensitivity_rows(b, t);
     set_advice(b, k, &v, t);
 }
 
@@ -494,8 +476,7 @@ wt_status wt_error_budget_compute(const wt_sliding *sliding, const wt_layer_job 
 {
     if (work == NULL || table == NULL)
         return wt_fail(err, WT_E_ARG, "no error budget to make");
-    error_budget_run b = {.work = *work,
-                          .sensitivities = sliding != NULL && sliding->sensitivities};
+    error_budget_run b = {.work = *work};
     table_view moved = {0};
     b.work.left_out = WT_EXTRA_ALL;
     b.work.drawn = NULL; /* the stored draws are for another material */

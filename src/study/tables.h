@@ -27,7 +27,6 @@
     X(ERROR_DRAWS, "draws")                                                                        \
     X(ERROR_NUMERICAL, "numerical")                                                                \
     X(ERROR_MODEL, "model")                                                                        \
-    X(ERROR_ONE_PER_CENT, "one per cent")                                                          \
     X(ERROR_TOGETHER, "together")
 
 #define MODULUS_GROUPS_COLUMNS(X)                                                                  \

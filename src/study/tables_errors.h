@@ -12,8 +12,7 @@
     X(ERROR_BUDGET_KIND, IN(of, kind),                                                             \
       "measured: one standard error by this source alone; together: by all of them; draws: "       \
       "what the number of replicates leaves open of that, at most; numerical: a bound; model: "    \
-      "half the range of the what-if table; one per cent: what one per cent of the source does, "  \
-      "where sensitivities are asked for",                                                         \
+      "half the range of the what-if table",                                                       \
       ENUM(error_kind), LABEL("Kind"))                                                             \
     X(ERROR_BUDGET_RELATIVE_ERROR, "relative_error", "the error over the number", NUMBER,          \
       SHOWS(of.error), LABEL("Relative error"))                                                    \

@@ -58,7 +58,6 @@ static const struct {
     {"spring-constant-error", "0.2", NULL, NULL},
     {"sensitivity-error", "0.1", NULL, NULL},
     {"tip-error", "0.1", "cantilevers two", NULL},
-    {"modulus-ratio-df", "4", NULL, NULL},
     {"ratio-slope", "0.1", "ratio-frequency 100rad/s|ratio-lowest 10rad/s|ratio-highest 1000rad/s",
      NULL},
     {"ratio-frequency", "200rad/s", "ratio-slope 0.1|ratio-lowest 10rad/s|ratio-highest 1000rad/s",
@@ -67,8 +66,6 @@ static const struct {
      NULL},
     {"ratio-highest", "2000rad/s", "ratio-slope 0.1|ratio-frequency 100rad/s|ratio-lowest 10rad/s",
      NULL},
-    {"ratio-temperature", "40degC",
-     "ratio-slope 0.1|ratio-frequency 100rad/s|ratio-lowest 10rad/s|ratio-highest 1000rad/s", NULL},
     {"roughness", "self-affine:q0=2e3rad/m,q1=1e6rad/m,hurst=0.8,c0=2e-17m^4+-5%", NULL, NULL},
     {"pressure", "0.5MPa", NULL, NULL},
     {"velocity", "0.2m/s", NULL, NULL},
@@ -82,13 +79,6 @@ static const struct {
     {"contact-size", "5mm", "flash-temperature yes", NULL},
     {"heat-capacity", "1e6J/(m^3 K)", "flash-temperature yes", NULL},
     {"heat-diffusivity", "2e-7m^2/s", "flash-temperature yes", NULL},
-    {"macroscopic-area", "0.2", "flash-temperature yes", NULL},
-    {"clip-heat", "yes", "flash-temperature yes", NULL},
-    {"shear-peak-velocity", "1mm/s", "shear-law log-normal", NULL},
-    {"shear-width", "0.2", "shear-law log-normal", NULL},
-    {"shear-activation", "0.5eV", "shear-law log-normal", NULL},
-    {"shear-temperature", "40degC", "shear-law log-normal", NULL},
-    {"strain-factor", "2", "strain-softening " CASE "softening.txt", NULL},
     {"anisotropy", "0.6", NULL, NULL},
     {"texture-angle", "30deg", "anisotropy 0.6", NULL},
     {"anisotropy-fourth", "0.3", NULL, NULL},
@@ -110,21 +100,10 @@ static const struct {
     {"start-thickness", "1um", NULL, NULL},
     {"local-friction", "0.3", "profile incompressible", NULL},
     {"times", "1:1e4s:log:7", NULL, NULL},
-    {"shear-share", "0.5", "energy-from both", NULL},
     {"severity-power", "10kW/m^2", NULL, NULL},
     {"severity-exponent", "2", "severity-power 10kW/m^2", NULL},
-    {"closure", "activated", "barrier 1.4eV|activation-volume 0.8nm^3", "critical-energy"},
-    {"barrier", "1.3eV", "closure activated|activation-volume 0.8nm^3", "critical-energy"},
-    {"activation-volume", "1nm^3", "closure activated|barrier 1.4eV", "critical-energy"},
-    {"attempt", "h", "closure activated|barrier 1.4eV|activation-volume 0.8nm^3",
-     "critical-energy"},
-    {"ageing", "yes", "closure activated|barrier 1.4eV|activation-volume 0.8nm^3",
-     "critical-energy"},
     {"loads", "time=900s,velocity=1mm/s;pressure=1MPa", NULL, NULL},
-    {"shear-exponent", "0.5", "running-in-friction yes", NULL},
     {"shear-decay-length", "1um", "running-in-friction yes", NULL},
-    {"crack-energy", "1J/m^2", "asperity-spacing 10um|running-in-friction yes", NULL},
-    {"asperity-spacing", "10um", "crack-energy 1J/m^2|running-in-friction yes", NULL},
     {"layer-velocity", "0.2m/s", NULL, NULL},
     {"q0", "3e3rad/m", NULL, NULL},
     {"qr", "5e3rad/m", NULL, NULL},
@@ -190,7 +169,6 @@ static const struct {
     {NULL, "overrides", "a file of choices: tests/cli/choices.txt"},
     {"record", "profile", "files of profiles: unit_record_job"},
     {"layer", "modulus-ratio", "of tables that are asked for: tests/cli/layer_models.txt"},
-    {"layer", "bulk-shear", "the same"},
     {"layer", "modulus-ratio-df", "the same"},
     {"layer", "ratio-slope", "the same"},
     {"layer", "ratio-frequency", "the same"},
@@ -637,21 +615,15 @@ static void test_cases(void **state)
                 const char *name = case_param_name(case_sections[s].name, p->name);
                 char word[64], value[64];
                 int read = 0;
-                if (strcmp(name, "strain-factor") == 0)
-                    snprintf(further, sizeof further,
-                             "<strain-softening><file>softening.txt</file></strain-softening>");
-                else
-                    for (const char *w = with; sscanf(w, "%63s %63[^|]%n", word, value, &read) == 2;
-                         w += read + (w[read] == '|'))
-                        snprintf(further + strlen(further), sizeof further - strlen(further),
-                                 "<%s>%s</%s>", word, value, word);
+                for (const char *w = with; sscanf(w, "%63s %63[^|]%n", word, value, &read) == 2;
+                     w += read + (w[read] == '|'))
+                    snprintf(further + strlen(further), sizeof further - strlen(further),
+                             "<%s>%s</%s>", word, value, word);
                 make_case(s, name, NULL, further, without, xml[0], sizeof xml[0]);
                 make_case(s, name, text, further, without, xml[1], sizeof xml[1]);
                 /* the base cannot stand without either, nor what goes with the moved one */
-                const bool alone = strstr(with, "activated") != NULL ||
-                                   strncmp(with, "crack-energy", strlen("crack-energy")) == 0;
-                if (*without != '\0' || alone)
-                    make_case(s, name, NULL, alone ? "" : further, "", xml[0], sizeof xml[0]);
+                if (*without != '\0')
+                    make_case(s, name, NULL, further, "", xml[0], sizeof xml[0]);
                 size_t n;
                 if (!is_of_base(&base, xml[0]))
                     base.bytes = run_case(xml[0], &base.length);

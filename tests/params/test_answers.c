@@ -23,9 +23,6 @@ static const struct {
     {"pressure", "1MPa"},
     {"velocity", "1m/s"},
     {"specific-wear-rate", "1e-12m^2/N"},
-    {"asperity-spacing", "10um"}, /* and what goes with a closure */
-    {"barrier", "1.5eV"},
-    {"activation-volume", "1nm^3"},
     {"critical-energy", "1e10J/m^3"}, /* left out where its alternative is tried */
     {"q0", "1e3rad/m"},
     {"q1", "1e6rad/m"},
@@ -61,12 +58,6 @@ static const char *good_in(const char *section, const char *name, const char *tr
                : good_text(name, tried);
 }
 
-/* The activated closure is another alternative of the critical energy. */
-static const char *alternative_of(const char *tried, const char *text)
-{
-    return strcmp(text, "activated") == 0 ? "observed-thickness" : tried;
-}
-
 /* ---- as an option ---------------------------------------------------------------------------- */
 
 /* Files that do not exist end every call that was understood. */
@@ -82,19 +73,17 @@ static const struct {
     {"master", "absent", {wt_master_options_params}},
     {"friction",
      "--material absent --roughness absent --strain-softening absent",
-     {wt_sliding_params, wt_layer_observation_params, wt_job_params, wt_master_job_params,
-      wt_transverse_params, wt_rubber_options_params}},
+     {wt_sliding_params, wt_layer_observation_params, wt_job_params, wt_rubber_options_params}},
     {"layer",
      "--material absent --roughness absent --strain-softening absent",
-     {wt_sliding_params, wt_layer_job_params, wt_job_params, wt_master_job_params,
-      wt_transverse_params, wt_rubber_options_params}},
+     {wt_sliding_params, wt_layer_job_params, wt_job_params, wt_rubber_options_params}},
     {"run", "absent", {wt_run_params}},
 };
 
 /* What the energy of a layer knows nothing of is an option of friction alone. */
 static bool is_of_friction(const char *name)
 {
-    static const char *const names[] = {"temperatures", "decades", "sensitivities"};
+    static const char *const names[] = {"temperatures", "decades"};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
         if (strcmp(names[i], name) == 0)
             return true;
@@ -116,7 +105,7 @@ static bool is_refused_option(size_t s, const char *name, const char *text)
         const wt_params *params = subcommands[s].params[t]();
         for (size_t i = 0; i < wt_params_count(params); i++) {
             const wt_param *p = wt_params_get(params, i);
-            const char *value = good_text(p->name, alternative_of(name, text));
+            const char *value = good_text(p->name, name);
             if (value != NULL && is_option(s, p))
                 used += (size_t)snprintf(command + used, sizeof command - used, " --%s '%s'",
                                          p->name, value);
@@ -172,8 +161,7 @@ static bool is_refused_in_case(size_t s, const wt_param *tried, const char *text
         for (size_t i = 0; i < wt_params_count(params); i++) {
             const wt_param *p = wt_params_get(params, i);
             const char *name = case_param_name(section, p->name);
-            const char *value =
-                p == tried ? text : good_in(section, p->name, alternative_of(tried->name, text));
+            const char *value = p == tried ? text : good_in(section, p->name, tried->name);
             if (value != NULL && (p->flags & PARAM_NO_CASE) == 0)
                 used += (size_t)snprintf(xml + used, sizeof xml - used, "<%s>%s</%s>", name, value,
                                          name);

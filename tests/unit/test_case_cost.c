@@ -7,7 +7,7 @@
 #include "case/plan/plan.h"
 #include "core/base/array.h"
 #include "dma/numerics/posterior.h"
-#include "friction/numerics/angular_panels.h"
+#include "friction/numerics/angular.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -61,8 +61,6 @@ static const expectation list[] = {
     {&layer_schema, "thickness", "kkkn"},
     {&layer_schema, "hysteresis_power", "...."}, /* of the energy of shearing */
     {&layer_schema, "shear_power", "...."},
-    {&layer_schema, "unloaded_rate", "...."}, /* of the activated closure */
-    {&layer_schema, "shelf_life", "...."},
     {&layer_schema, "severe_wear_rate", "...."}, /* of the severity law */
 };
 
@@ -102,7 +100,6 @@ static void make(int way)
     sliding.shear_stress = stated(5e6, "Pa", all);
     sliding.velocity = velocity;
     sliding.n_velocity = 2;
-    sliding.sensitivities = true;
     job.critical_energy = stated(1e9, "J/m^3", all);
     job.specific_wear_rate = stated(1e-13, "m^2/N", all);
     work.threads = 1;

@@ -211,10 +211,8 @@ static void test_cases(void **state)
              "<anisotropy>0.6</anisotropy><decades>yes</decades>"
              "<texture-angle>30deg</texture-angle>"
              "<temperatures>20degC,90degC</temperatures>");
-    run_case("<temperature>30degC",
-             "<shear-law>log-normal</shear-law><area-law>yp08</area-law>"
-             "<sensitivities>yes</sensitivities><flash-temperature>yes</flash-temperature>"
-             "<temperature>30degC");
+    run_case("<temperature>30degC", "<flash-temperature>yes</flash-temperature>"
+                                    "<temperature>30degC");
     run_case("</dma>", "<transverse><axial-storage>1.2</axial-storage></transverse></dma>");
     run_case("<critical-energy>2e10J/m^3 +- 10%</critical-energy>",
              "<observed-thickness>3um</observed-thickness>");
@@ -766,14 +764,10 @@ static void test_layer_models(void **state)
     job.specific_wear_rate.value = 1e-12;
     job.energy = WT_LAYER_BOTH;
     job.severity_power = 25e3;
-    job.closure = WT_CLOSURE_ACTIVATED;
-    job.barrier.value = 1.4 * 1.602e-19;
-    job.activation.volume = 1e-27;
+    job.critical_energy = (wt_estimate){2e10, 1e9, 0, "J/m^3"};
     assert_int_equal(wt_layer_thickness_compute(&sliding, &job, &work, &tables, &err), WT_OK);
     see(tables.layer);
     wt_layer_tables_clear(&tables);
-    job.closure = WT_CLOSURE_ENERGY;
-    job.critical_energy = (wt_estimate){2e10, 1e9, 0, "J/m^3"};
     work.replicates = 2;
     assert_int_equal(wt_layer_bands_compute(&sliding, &job, &work, &table[0], &err), WT_OK);
     assert_int_equal(wt_running_in_compute(&sliding, &job, &observation, &work, &table[1], &err),
@@ -789,7 +783,7 @@ static void test_layer_models(void **state)
     }
     see_both_edges();
     sliding_set_up(velocity, 3);
-    const wt_layer_shear shear = {2, 1e-7, 1, 1e-5};
+    const wt_layer_shear shear = {2, 1e-7};
     wt_layer_observation sheared = observation;
     sheared.thickness = (wt_estimate){1e-6, 0, 0, "m"};
     sheared.shear = &shear;
@@ -878,7 +872,7 @@ static void test_flash(void **state)
     static const double temperature = 293.15;
     sliding.temperatures = &temperature;
     sliding.n_temperatures = 1;
-    if (wt_friction_map_compute(&sliding, NULL, &work, &table, &err) != WT_OK)
+    if (wt_friction_map_compute(&sliding, &work, &table, &err) != WT_OK)
         fail_msg("%s %s", err.message, err.found);
     assert_non_null(
         strstr(wt_table_key(table, "material_statement"), "no flash temperature is found"));

@@ -2,7 +2,7 @@
 #include "near.h"
 
 #include "dma/law/material.h"
-#include "friction/numerics/angular_panels.h"
+#include "friction/numerics/angular.h"
 #include "weartrack/dma.h"
 
 #include <float.h>

@@ -2,7 +2,7 @@
  * must obey. */
 #include "near.h"
 
-#include "friction/numerics/angular_weight.h"
+#include "friction/numerics/angular.h"
 #include "numeric/friction_scene.h"
 #include "weartrack/friction.h"
 

@@ -2,7 +2,6 @@
  * must hold of them. */
 #include "near.h"
 
-#include "friction/numerics/area_law.h"
 #include "friction/numerics/persson_contact.h"
 #include "numeric/friction_scene.h"
 #include "weartrack/layer.h"
@@ -30,15 +29,6 @@ static double given(const rig *r, const char *key, double missing)
 static double expected(const rig *r, const char *key)
 {
     return case_number(&r->c, true, key, (double)NAN);
-}
-
-static wt_area_law area_law_named(const char *word)
-{
-    static const char *const names[] = {"persson", "yp08", "wm17", "xu24"};
-    for (size_t i = 0; i < 4; i++)
-        if (strcmp(word, names[i]) == 0)
-            return (wt_area_law)i;
-    return WT_AREA_PERSSON;
 }
 
 static wt_shift_law reference_law(void)
@@ -72,7 +62,6 @@ static void rig_set(rig *r)
     r->within = given(r, "within", 0);
     r->options = wt_friction_defaults();
     r->options.gamma = given(r, "gamma", 1);
-    r->options.area_law = area_law_named(case_word(&r->c, false, "area_law"));
     if (!flash)
         return;
     r->options.temperature = temperature;
@@ -81,8 +70,7 @@ static void rig_set(rig *r)
                                   .contact_size = given(r, "contact_size", 0),
                                   .heat_capacity = given(r, "heat_capacity", 0),
                                   .diffusivity = given(r, "diffusivity", 0),
-                                  .macroscopic = given(r, "macroscopic_area", 0),
-                                  .clipped = given(r, "clipped", 0) > 0};
+                                  .macroscopic = given(r, "macroscopic_area", 0)};
 }
 
 static wt_friction_workspace *prepare(const rig *r, double tolerance)
@@ -141,12 +129,7 @@ static void check_near(const rig *r, const char *what, double actual, double wan
 
 static void check_area(rig *r)
 {
-    const wt_area_law kind = area_law_named(case_word(&r->c, false, "area_law"));
-    const area_law *law;
-    assert_int_equal(area_law_get(kind, &law, NULL), WT_OK);
-    const double g = area_law_variance(law, given(r, "variance", 0));
-    if (case_find(&r->c, true, "corrected") != NULL)
-        check_near(r, "G", g, expected(r, "corrected"), 5e-13);
+    const double g = given(r, "variance", 0);
     check_near(r, "P", contact_area(g), expected(r, "area_ratio"), 5e-13);
 }
 
@@ -167,37 +150,8 @@ static void check_partial(rig *r)
 static void test_area_cases(void **state)
 {
     (void)state;
-    assert_int_equal(for_cases("area_", check_area), 28);
-    assert_true(for_cases("S_", check_partial) >= 24);
-}
-
-/* At most by as much as S is smaller than 1 at small areas; the two laws of 0.42 and 0.58 differ by
- * up to 4 %. */
-static void test_area_limits(void **state)
-{
-    (void)state;
-    const area_law *law[4];
-    double most_apart = 0;
-    for (size_t k = 0; k < 4; k++)
-        assert_int_equal(area_law_get((wt_area_law)k, &law[k], NULL), WT_OK);
-    assert_null(law[WT_AREA_PERSSON]);
-    for (double x = -3; x < 16; x += 0.01) {
-        const double g0 = pow(10, x), plain = contact_area(g0);
-        double area[4], slope[4];
-        for (size_t k = 0; k < 4; k++) {
-            area[k] = contact_area(area_law_variance(law[k], g0));
-            slope[k] = area_law_variance(law[k], g0 * 1.001) / area_law_variance(law[k], g0);
-            assert_true(area[k] >= plain && area[k] <= 1);
-            assert_true(slope[k] > 1 && slope[k] < 1.0011);
-        }
-        assert_true(area[WT_AREA_YP08] <= plain / sqrt(0.42) * (1 + 1e-12));
-        assert_true(area[WT_AREA_XU24] <= plain / sqrt(0.42) * (1 + 1e-12));
-        most_apart = fmax(most_apart, fabs(area[WT_AREA_XU24] / area[WT_AREA_YP08] - 1));
-    }
-    assert_true(most_apart > 0.03 && most_apart < 0.045);
-    const double far = 1e14;
-    assert_near(contact_area(area_law_variance(law[WT_AREA_WM17], far)) / contact_area(far),
-                sqrt(9.0 / 5), 1e-6);
+    assert_int_equal(for_cases("area_", check_area), 7);
+    assert_true(for_cases("S_", check_partial) >= 9);
 }
 
 /* ---- flash temperature ------------------------------------------------------------------------
@@ -222,8 +176,7 @@ static void check_flash(rig *r)
 {
     rig_set(r);
     const bool hot = given(r, "rise_from", 0) > 0;
-    const double tolerance = 1e-12, clip_within = 2e-7; /* of a kink that no rule resolves */
-    const double within = r->options.flash.clipped ? clip_within : fmax(r->within, 4e-12);
+    const double tolerance = 1e-12, within = fmax(r->within, 4e-12);
     const wt_friction_point p = solve(r, tolerance);
     assert_false(p.has_no_solution);
     if (hot && !isnan(p.hot_branch.hysteresis)) {
@@ -237,13 +190,13 @@ static void check_flash(rig *r)
     }
     r->options.flash.on = false;
     check_near(r, "isothermal mu", solve(r, tolerance).hysteresis.value, expected(r, "isothermal"),
-               r->options.flash.clipped ? 1e-12 : fmax(r->within, 1e-12));
+               fmax(r->within, 1e-12));
 }
 
 static void test_flash_cases(void **state)
 {
     (void)state;
-    assert_int_equal(for_cases("flash_", check_flash), 15);
+    assert_int_equal(for_cases("flash_", check_flash), 14);
 }
 
 /* A rig of a case, by its whole name. */
@@ -446,129 +399,14 @@ static void test_flash_table(void **state)
     rig_free(r);
 }
 
-/* ---- shear stress -----------------------------------------------------------------------------
- */
-
-static void check_shear(rig *r)
-{
-    rig_set(r);
-    const wt_shear_law defaults = wt_shear_law_defaults();
-    wt_shear_law law = defaults;
-    law.kind = WT_SHEAR_LOG_NORMAL;
-    const double peak = 6.5e6, temperature = given(r, "temperature", 0);
-    /* the constant of Boltzmann is given to 10 digits there */
-    check_near(r, "v0", wt_shear_peak_velocity(&law, temperature), expected(r, "peak_velocity"),
-               1e-9);
-    const double shear = peak * wt_shear_factor(&law, r->velocity, temperature);
-    check_near(r, "tau_f", shear, expected(r, "shear_stress"), 1e-9);
-    const wt_friction_point p = solve(r, 1e-12);
-    check_near(r, "mu", p.hysteresis.value, expected(r, "hysteresis"), 1e-12);
-    check_near(r, "P", p.area_ratio.value, expected(r, "area_ratio"), 1e-12);
-    const wt_estimate of_shear = {.value = shear, .unit = "Pa"};
-    check_near(r, "total",
-               wt_friction_total(p.hysteresis, p.area_ratio, of_shear, r->pressure).value,
-               expected(r, "total"), 1e-9);
-    assert_true(wt_shear_factor(&defaults, r->velocity, temperature) == 1);
-    assert_true(wt_shear_factor(&law, 0, temperature) == 0);
-    law.width = 0;
-    assert_true(wt_shear_factor(&law, 0, temperature) == 1);
-}
-
-static void test_shear_cases(void **state)
-{
-    (void)state;
-    assert_int_equal(for_cases("shear_", check_shear), 5);
-}
-
-/* ---- sensitivities ----------------------------------------------------------------------------
- */
-
-static double log_friction(const rig *r, double pressure, double c0_factor, double modulus_factor,
-                           double q1)
-{
-    case_scene made;
-    wt_material *material = NULL;
-    wt_roughness *roughness = NULL;
-    wt_friction_workspace *ws = NULL;
-    wt_friction_point p;
-    case_to_scene(&r->c, &made);
-    made.s.c0 *= c0_factor;
-    made.s.e0 *= modulus_factor;
-    made.s.q1 = q1;
-    for (size_t k = 0; k < made.s.n; k++)
-        made.e[k] *= modulus_factor;
-    assert_int_equal(scene_material(&made.s, &material, NULL), WT_OK);
-    assert_int_equal(scene_roughness(&made.s, &roughness, NULL), WT_OK);
-    wt_friction_options options = r->options;
-    options.tolerance = 1e-12;
-    assert_int_equal(wt_friction_workspace_new(material, roughness, &options, &ws, NULL), WT_OK);
-    assert_int_equal(wt_friction_compute(ws, pressure, &r->velocity, 1, &p, NULL), WT_OK);
-    wt_friction_workspace_free(ws);
-    wt_roughness_free(roughness);
-    wt_material_free(material);
-    return log(p.hysteresis.value);
-}
-
-/* Against materials, surfaces and loads that are a little different. */
-static void check_sensitivities(rig *r, bool isothermal)
-{
-    const double h = 1e-3, up = exp(h), down = exp(-h), p = r->pressure, q1 = r->roughness->q1;
-    wt_friction_workspace *ws = prepare(r, 1e-12);
-    wt_friction_sensitivity s;
-    assert_int_equal(wt_friction_sensitivities(ws, p, r->velocity, &s, NULL), WT_OK);
-    wt_friction_workspace_free(ws);
-    assert_near_abs(s.density,
-                    (log_friction(r, p, up, 1, q1) - log_friction(r, p, down, 1, q1)) / (2 * h),
-                    1e-6);
-    assert_near_abs(s.modulus,
-                    (log_friction(r, p, 1, up, q1) - log_friction(r, p, 1, down, q1)) / (2 * h),
-                    1e-6);
-    assert_near_abs(
-        s.pressure,
-        (log_friction(r, p * up, 1, 1, q1) - log_friction(r, p * down, 1, 1, q1)) / (2 * h), 1e-6);
-    if (isothermal) {
-        assert_near_abs(s.pressure, -s.modulus, 1e-8);
-        assert_near_abs(s.cutoff,
-                        (log_friction(r, p, 1, 1, q1 * up) - log_friction(r, p, 1, 1, q1 * down)) /
-                            (2 * h),
-                        1e-6);
-    }
-}
-
-static void test_sensitivities(void **state)
-{
-    (void)state;
-    static const char *const cases[] = {"S_prony_0.3MPa_1e-2_persson_1",
-                                        "S_prony_0.3MPa_1e-2_yp08_0.5",
-                                        "S_prony_10MPa_1e-4_wm17_1"};
-    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        rig *r = rig_named(cases[i]);
-        check_sensitivities(r, true);
-        rig_free(r);
-    }
-    rig *heated = rig_named("flash_A_v10");
-    check_sensitivities(heated, false);
-    rig_free(heated);
-    rig *full = rig_named("S_prony_10MPa_1e-4_persson_1"); /* all in contact */
-    wt_friction_workspace *ws = prepare(full, 1e-12);
-    wt_friction_sensitivity s;
-    assert_int_equal(wt_friction_sensitivities(ws, 1e12, full->velocity, &s, NULL), WT_OK);
-    assert_near_abs(s.modulus, 1, 1e-9);
-    assert_near_abs(s.density, 1, 1e-9);
-    wt_friction_workspace_free(ws);
-    rig_free(full);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_area_cases),      cmocka_unit_test(test_area_limits),
-        cmocka_unit_test(test_flash_cases),     cmocka_unit_test(test_flash_off),
-        cmocka_unit_test(test_flash_alone),     cmocka_unit_test(test_flash_error),
-        cmocka_unit_test(test_flash_limits),    cmocka_unit_test(test_flash_branches),
-        cmocka_unit_test(test_flash_unsettled), cmocka_unit_test(test_flash_energy),
-        cmocka_unit_test(test_flash_table),     cmocka_unit_test(test_shear_cases),
-        cmocka_unit_test(test_sensitivities),
+        cmocka_unit_test(test_area_cases),     cmocka_unit_test(test_flash_cases),
+        cmocka_unit_test(test_flash_off),      cmocka_unit_test(test_flash_alone),
+        cmocka_unit_test(test_flash_error),    cmocka_unit_test(test_flash_limits),
+        cmocka_unit_test(test_flash_branches), cmocka_unit_test(test_flash_unsettled),
+        cmocka_unit_test(test_flash_energy),   cmocka_unit_test(test_flash_table),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

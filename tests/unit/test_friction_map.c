@@ -29,13 +29,11 @@ static void set_up(void)
     work.replicates = 0;
 }
 
-static const wt_layer_observation *layer; /* NULL: none */
-
 static wt_table *make_map(void)
 {
     wt_table *table = NULL;
     wt_error err = WT_ERROR_INIT;
-    if (wt_friction_map_compute(&sliding, layer, &work, &table, &err) != WT_OK)
+    if (wt_friction_map_compute(&sliding, &work, &table, &err) != WT_OK)
         fail_msg("%s %s", err.message, err.found);
     return table;
 }
@@ -47,7 +45,7 @@ static wt_table *make_friction(double temperature, double pressure)
     wt_friction_tables tables = {0};
     there.temperature.value = temperature;
     there.pressure.value = pressure;
-    assert_int_equal(wt_sliding_friction_compute(&there, layer, &work, &tables, NULL), WT_OK);
+    assert_int_equal(wt_sliding_friction_compute(&there, NULL, &work, &tables, NULL), WT_OK);
     return tables.friction;
 }
 
@@ -101,13 +99,6 @@ static void map_is_friction(void **state)
     sliding.pressures = pressures;
     sliding.n_pressures = PRESSURES;
     check_map();
-    /* opening cracks costs friction on the bare surface, too */
-    const wt_layer_shear cracks = {.exponent = 1, .crack_energy = 1, .spacing = 1e-5};
-    const wt_layer_observation cracked = {
-        .thickness = {1e-6, 0, 0, "m"}, .modulus_ratio = {0.6, 0, 0, "1"}, .shear = &cracks};
-    layer = &cracked;
-    check_map();
-    layer = NULL;
     sliding.anisotropy.amplitude[0] = 0.6;
     sliding.anisotropy.angle[0] = 0.5;
     sliding.gamma = 0.5;
@@ -144,17 +135,17 @@ static void map_that_cannot_be(void **state)
     wt_table *map = NULL;
     wt_error err = WT_ERROR_INIT;
     set_up();
-    assert_int_equal(wt_friction_map_compute(&sliding, NULL, &work, &map, &err), WT_E_ARG);
+    assert_int_equal(wt_friction_map_compute(&sliding, &work, &map, &err), WT_E_ARG);
     static const double cold[] = {150, 293.15};
     sliding.temperatures = cold;
     sliding.n_temperatures = 2;
-    assert_int_equal(wt_friction_map_compute(&sliding, NULL, &work, &map, &err), WT_E_RANGE);
+    assert_int_equal(wt_friction_map_compute(&sliding, &work, &map, &err), WT_E_RANGE);
     assert_non_null(strstr(err.found, "-123.15"));
     rubber.law.kind = WT_LAW_NONE;
-    assert_int_equal(wt_friction_map_compute(&sliding, NULL, &work, &map, &err), WT_E_MISSING);
+    assert_int_equal(wt_friction_map_compute(&sliding, &work, &map, &err), WT_E_MISSING);
     sliding.anisotropy.amplitude[0] = 0.9;
     sliding.anisotropy.amplitude[1] = -0.9;
-    assert_int_equal(wt_friction_map_compute(&sliding, NULL, &work, &map, &err), WT_E_RANGE);
+    assert_int_equal(wt_friction_map_compute(&sliding, &work, &map, &err), WT_E_RANGE);
     assert_non_null(strstr(err.message, "negative"));
     assert_null(map);
 }
@@ -168,7 +159,7 @@ static void decades_add_up(void **state)
     enum { DECADES = 4 };
     set_up();
     wt_table *table = NULL, *friction = make_friction((double)NAN, 0.4e6);
-    assert_int_equal(wt_friction_by_scale_compute(&sliding, NULL, &work, &table, NULL), WT_OK);
+    assert_int_equal(wt_friction_by_scale_compute(&sliding, &work, &table, NULL), WT_OK);
     assert_int_equal(wt_table_n_rows(table), 3 * DECADES);
     static const size_t shown[] = {0, VELOCITIES / 2, VELOCITIES - 1};
     for (size_t v = 0; v < 3; v++) {
@@ -195,33 +186,21 @@ static void decades_add_up(void **state)
     wt_table_free(friction);
 }
 
-/* Where the roughness ends at the last decade, shearing, cracks and all of it are those of the
- * contact; cracks are opened on the bare surface, too, and without their energy there are none. */
-static void decades_have_the_cracks(void **state)
+/* Where the roughness ends at the last decade, shearing and all of it are those of the contact. */
+static void decades_have_the_shearing(void **state)
 {
     (void)state;
     set_up();
-    const wt_layer_shear shear = {1, 0, 1, 1e-5};
-    const wt_layer_observation cracked = {
-        .thickness = {0, 0, 0, "m"}, .modulus_ratio = {1, 0, 0, "1"}, .shear = &shear};
     sliding.shear_stress.value = 5e6;
-    wt_table *table = NULL, *plain = NULL, *friction = make_friction((double)NAN, 0.4e6);
-    assert_int_equal(wt_friction_by_scale_compute(&sliding, &cracked, &work, &table, NULL), WT_OK);
-    assert_int_equal(wt_friction_by_scale_compute(&sliding, NULL, &work, &plain, NULL), WT_OK);
+    wt_table *table = NULL, *friction = make_friction((double)NAN, 0.4e6);
+    assert_int_equal(wt_friction_by_scale_compute(&sliding, &work, &table, NULL), WT_OK);
     const size_t last = wt_table_n_rows(table) - 1;
     const double area = number_cell(table, last, "area_ratio"), pressure = sliding.pressure.value;
-    const double cracks = 2 / (1e-5 * sqrt(M_PI * area)) * area / pressure;
-    assert_near(number_cell(table, last, "crack_opening"), cracks, 1e-12);
-    assert_near(number_cell(table, last, "shearing"), cracks + 5e6 * area / pressure, 1e-12);
-    assert_near(number_cell(plain, last, "crack_opening"), 0, 0);
-    assert_near_abs(number_cell(plain, last, "friction"),
+    assert_near(number_cell(table, last, "shearing"), 5e6 * area / pressure, 1e-12);
+    assert_near_abs(number_cell(table, last, "friction"),
                     number_cell(friction, VELOCITIES - 1, "hysteresis") + 5e6 * area / pressure,
                     1e-9);
-    for (size_t row = 0; row <= last; row++) /* the area falls, and the cracks with its root */
-        assert_true(row % 4 == 0 || number_cell(table, row, "crack_opening") <
-                                        number_cell(table, row - 1, "crack_opening"));
     wt_table_free(table);
-    wt_table_free(plain);
     wt_table_free(friction);
 }
 
@@ -234,12 +213,12 @@ static void decades_end_at_decades(void **state)
     surface.q0 = surface.qr = 1e3;
     surface.q1 = 1e6;
     sliding.n_velocity = 1;
-    assert_int_equal(wt_friction_by_scale_compute(&sliding, NULL, &work, &table, NULL), WT_OK);
+    assert_int_equal(wt_friction_by_scale_compute(&sliding, &work, &table, NULL), WT_OK);
     assert_int_equal(wt_table_n_rows(table), 3);
     wt_table_free(table);
     table = NULL;
     surface.q1 = 3e3;
-    assert_int_equal(wt_friction_by_scale_compute(&sliding, NULL, &work, &table, NULL), WT_OK);
+    assert_int_equal(wt_friction_by_scale_compute(&sliding, &work, &table, NULL), WT_OK);
     assert_int_equal(wt_table_n_rows(table), 1);
     assert_near(number_cell(table, 0, "share"), 1, 1e-14);
     wt_table_free(table);
@@ -290,7 +269,7 @@ int main(void)
         cmocka_unit_test(map_says_what_it_is),
         cmocka_unit_test(map_that_cannot_be),
         cmocka_unit_test(decades_add_up),
-        cmocka_unit_test(decades_have_the_cracks),
+        cmocka_unit_test(decades_have_the_shearing),
         cmocka_unit_test(decades_end_at_decades),
         cmocka_unit_test(sides),
     };

@@ -28,12 +28,11 @@ static void energies_add_up(void **state)
     job.energy = WT_LAYER_SHEAR;
     wt_table *shear = layer_of(&job);
     job.energy = WT_LAYER_BOTH;
-    job.shear_share = 0.25;
     wt_table *both = layer_of(&job);
     assert_near(key_number(shear, "hysteresis_power"), hysteresis, 1e-12);
     assert_near(key_number(shear, "surface_power"), key_number(shear, "shear_power"), 1e-12);
-    assert_near(key_number(both, "surface_power"),
-                hysteresis + 0.25 * key_number(shear, "shear_power"), 1e-12);
+    assert_near(key_number(both, "surface_power"), hysteresis + key_number(shear, "shear_power"),
+                1e-12);
     /* and that of the shearing is tau_f (A/A0) v */
     wt_friction_tables friction = {0};
     wt_error err = WT_ERROR_INIT;
@@ -68,27 +67,6 @@ static void severity_is_a_rate(void **state)
                 1e-12);
     wt_table_free(severe);
     wt_table_free(constant);
-}
-
-/* R is not better known than the closure lets it be. */
-static void closure_magnifies_errors(void **state)
-{
-    (void)state;
-    sliding_set_up(velocity, VELOCITIES);
-    wt_layer_job job = job_of();
-    job.critical_energy.value = (double)NAN;
-    job.closure = WT_CLOSURE_ACTIVATED;
-    job.barrier.value = 2e-19;
-    job.activation.volume = 5e-27;
-    sliding.temperature.value = rubber.prony.reference_temperature;
-    static const char *const keys[] = {"formation_wear_ratio", "critical_specific_wear_rate"};
-    wt_table *layer = layer_of(&job);
-    const double of_power = number_after(layer, "surface_power", "numerical_error=") /
-                            key_number(layer, "surface_power");
-    for (size_t i = 0; i < 2; i++)
-        assert_true(number_after(layer, keys[i], "numerical_error=") / key_number(layer, keys[i]) >
-                    2 * of_power);
-    wt_table_free(layer);
 }
 
 /* The deepest edge is the thickness of the table that was there before. */
@@ -231,13 +209,13 @@ static void running_in_joins_both(void **state)
     wt_table_free(running);
 }
 
-/* One law of the shear stress, in running-in and in friction: exponent, reach and cracks. */
+/* One law of the shear stress, in running-in and in friction: exponent and reach. */
 static void one_shear_stress(void **state)
 {
     (void)state;
     sliding_set_up(velocity, VELOCITIES);
     wt_layer_job job = job_of();
-    job.shear = (wt_layer_shear){2, 3e-6, 1, 1e-5};
+    job.shear = (wt_layer_shear){2, 3e-6};
     wt_table *running = NULL, *layer = layer_of(&job);
     wt_error err = WT_ERROR_INIT;
     wt_layer_observation observation = {
@@ -257,8 +235,9 @@ static void one_shear_stress(void **state)
             const double apart =
                 key_number(friction.friction, of_friction[i]) / key_number(running, of_running[i]) -
                 1;
-            assert_int_equal(fabs(apart) < 1e-9, with); /* without it they differ by per cents */
-            assert_int_equal(fabs(apart) > 1e-2, !with);
+            /* with a layer they differ by per cents without that law */
+            assert_int_equal(fabs(apart) < 1e-9, with || i == 0);
+            assert_int_equal(fabs(apart) > 1e-2, !with && i == 1);
         }
         wt_friction_tables_clear(&friction);
     }
@@ -452,14 +431,6 @@ static void refuses(void **state)
     job = job_of();
     job.severity_power = -1;
     assert_int_equal(wt_layer_job_check(&job, &err), WT_E_RANGE);
-    job = job_of();
-    job.closure = WT_CLOSURE_ACTIVATED;
-    assert_int_equal(wt_layer_job_check(&job, &err), WT_E_MISSING);
-    job.barrier.value = 2e-19;
-    job.activation.volume = 1e-27;
-    assert_int_equal(wt_layer_job_check(&job, &err), WT_E_ARG);
-    job.critical_energy.value = (double)NAN;
-    assert_int_equal(wt_layer_job_check(&job, &err), WT_OK);
 }
 
 int main(void)
@@ -467,7 +438,6 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(energies_add_up),
         cmocka_unit_test(severity_is_a_rate),
-        cmocka_unit_test(closure_magnifies_errors),
         cmocka_unit_test(bands_are_the_layer),
         cmocka_unit_test(loads_in_parts),
         cmocka_unit_test(loads_are_told),

@@ -18,7 +18,7 @@ enum { WORD = 64, DEPTH = 16 };
 /* ---- what no numeric case expects ------------------------------------------------------------ */
 
 typedef struct left_out {
-    const char *id, *key, *why;
+    const char *id, *key, *why; /* a NULL key stands for all of the case */
     size_t met;
 } left_out;
 
@@ -26,6 +26,7 @@ typedef struct left_out {
 #define SHARE "the share of time: under Hertz's pressure the effective duty stands in its place"
 #define POWER_LAW                                                                                  \
     "of a power law, whose exponent nobody gives: the program has the limit for small ones"
+#define CLOSURE "of bonds over a barrier, which the program does not have"
 #define GIVEN "given, in other words"
 
 static left_out list[] = {
@@ -37,10 +38,14 @@ static left_out list[] = {
     {"Q_step_in_severity", "sliding_distance_stage1_m", GIVEN, 0},
     {"R_pin_on_disc", "duty_2a_over_2pi_r", SHARE, 0},
     {"pin_on_disc_hertz", "time_share", SHARE, 0},
-    {"act_open", "k_mm3_per_Nm", GIVEN, 0},
-    {"act_clamped", "k_mm3_per_Nm", GIVEN, 0},
-    {"act_clamped_overflow", "k_mm3_per_Nm", GIVEN, 0},
-    {"act_contact_value", "e0_J_per_m3", "is in the rate only, which is compared", 0},
+    {"act_open", NULL, CLOSURE, 0},
+    {"act_clamped", NULL, CLOSURE, 0},
+    {"act_clamped_overflow", NULL, CLOSURE, 0},
+    {"act_shelf_life", NULL, CLOSURE, 0},
+    {"act_contact_value", NULL, CLOSURE, 0},
+    {"activated_temperature_steps", NULL, CLOSURE, 0},
+    {"J_friction", NULL, "of cracks at the rims of the contacts, which the program does not have",
+     0},
     {"velocity_ramp", "t_s", GIVEN ": as times at the last velocity that make the same distance",
      0},
     {"velocity_ramp", "sliding_distance_m", GIVEN ": likewise", 0},
@@ -58,7 +63,7 @@ enum { LIST = sizeof list / sizeof *list };
 static bool is_left_out(const char *id, const char *key)
 {
     for (size_t i = 0; i < LIST; i++)
-        if (strcmp(list[i].id, id) == 0 && strcmp(list[i].key, key) == 0)
+        if (strcmp(list[i].id, id) == 0 && (list[i].key == NULL || strcmp(list[i].key, key) == 0))
             return ++list[i].met > 0;
     return false;
 }
@@ -129,7 +134,6 @@ typedef struct walk {
     place place[DEPTH];
     char id[WORD]; /* of the case */
     size_t numbers, unknown;
-    double boltzmann, reduced, planck;
 } walk;
 
 /* The innermost name. */
@@ -155,17 +159,6 @@ static void take_word(walk *w)
     w->at = end + 1;
 }
 
-static void take_constant(walk *w, double value)
-{
-    const char *const key = key_of(w);
-    if (strcmp(key, "kB_J_per_K") == 0)
-        w->boltzmann = value;
-    if (strcmp(key, "hbar_J_s") == 0)
-        w->reduced = value;
-    if (strcmp(key, "h_J_s") == 0)
-        w->planck = value;
-}
-
 static void take_number(walk *w)
 {
     char *end = NULL;
@@ -177,8 +170,6 @@ static void take_number(walk *w)
         fail_msg("%s: not understood: %.20s", w->id, w->at);
     else
         w->at = end;
-    if (strcmp(w->place[0].key, "constants") == 0)
-        take_constant(w, value);
     if (w->depth < 4 || strcmp(w->place[2].key, "expected") != 0)
         return;
     w->numbers++;
@@ -251,24 +242,12 @@ static void every_number_is_expected(void **state)
     assert_int_equal(first.unknown + second.unknown, 0);
     for (size_t i = 0; i < LIST; i++)
         if (list[i].met == 0)
-            fail_msg("%s, %s is left out for nothing", list[i].id, list[i].key);
-}
-
-/* Without a barrier the unloaded rate is that of the attempts: kB T over either constant. */
-static void same_constants(void **state)
-{
-    (void)state;
-    const walk w = walk_through(REFERENCE "tribolayer.json");
-    wt_activation a = {.barrier = 1e-60, .volume = 1e-27, .temperature = 1, .area_ratio = 1};
-    a.attempt = WT_ATTEMPT_HBAR;
-    assert_near(wt_activation_unloaded_rate(&a), w.boltzmann / w.reduced, 1e-15);
-    a.attempt = WT_ATTEMPT_H;
-    assert_near(wt_activation_unloaded_rate(&a), w.boltzmann / w.planck, 1e-15);
+            fail_msg("%s, %s is left out for nothing", list[i].id,
+                     list[i].key != NULL ? list[i].key : "all");
 }
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(every_number_is_expected),
-                                       cmocka_unit_test(same_constants)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(every_number_is_expected)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -587,20 +587,6 @@ static void test_taken_for_granted(void **state)
     case_end();
 }
 
-/* Of the activated closure no k is asked for, as U_c belongs to it. */
-static void test_activated(void **state)
-{
-    (void)state;
-    change_case(energy, "<closure>activated</closure><barrier>1.5e-19J +- 1%</barrier>"
-                        "<activation-volume>1e-27m^3</activation-volume>");
-    change_record(0, 0, 0);
-    run_case(20);
-    assert_null(wt_table_key(runs, "specific_wear_rate_needed"));
-    assert_null(wt_table_key(runs, "wear_agrees"));
-    assert_true(number_cell(runs, 0, "time_ratio_low") > 1);
-    case_end();
-}
-
 /* Samples at rest before sliding are no friction, whether laps run on under them or not; of cycles
  * that have no friction the count of the laps tells that they slid. */
 static void test_before_the_first_friction(void **state)
@@ -639,7 +625,6 @@ int main(void)
         cmocka_unit_test(test_short_change),
         cmocka_unit_test(test_without_draws),
         cmocka_unit_test(test_taken_for_granted),
-        cmocka_unit_test(test_activated),
         cmocka_unit_test(test_before_the_first_friction),
         cmocka_unit_test(test_steady_by_itself),
         cmocka_unit_test(test_sentence_and_table),

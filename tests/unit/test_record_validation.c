@@ -177,12 +177,12 @@ static void test_endless_layer(void **state)
     wt_validation_tables_clear(&t);
 }
 
-/* Cracks and the law of the shear stress of a layer are in the prediction as they are in friction.
+/* The law of the shear stress of a layer is in the prediction as it is in friction.
  */
 static void test_layer_shear(void **state)
 {
     (void)state;
-    static const wt_layer_shear shear = {2, 1e-6, 2, 1e-5};
+    static const wt_layer_shear shear = {2, 1e-6};
     for (int layered = 0; layered < 2; layered++) {
         set_up();
         observation.shear = &shear;

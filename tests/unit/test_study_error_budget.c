@@ -132,25 +132,11 @@ static void test_measured_surface(void **state)
     wt_sliding pressure = sliding, roughness = sliding;
     pressure.surface = &without;
     roughness.pressure.standard_error = 0;
-    sliding.sensitivities = true;
     assert_int_equal(wt_error_budget_compute(&sliding, NULL, NULL, NULL, &work, &table, NULL),
                      WT_OK);
     assert_near(relative(table, number, "pressure"), alone(&pressure), 1e-12);
     assert_near(relative(table, number, "roughness"), alone(&roughness), 1e-12);
     assert_null(strstr(wt_table_key(table, "excluded_errors"), "roughness"));
-    wt_friction_tables f = {0};
-    assert_int_equal(wt_sliding_friction_compute(&sliding, NULL, &work, &f, NULL), WT_OK);
-    size_t n = 0;
-    for (size_t i = 0; i < wt_table_n_rows(table); i++)
-        if (strcmp(text_cell(table, i, "kind"), "one per cent") == 0) {
-            n++;
-            if (strcmp(text_cell(table, i, "source"), "1 % of the largest wavenumber q1") == 0)
-                assert_near(number_cell(table, i, "relative_error"),
-                            0.01 * fabs(key_estimate(f.friction, "sensitivity_to_cutoff").value),
-                            1e-9);
-        }
-    assert_int_equal(n, 4);
-    wt_friction_tables_clear(&f);
     wt_table_free(table);
 }
 

@@ -438,10 +438,8 @@ static void answer_thickness(answer_context *context)
     else if (isinf(thickness.number.value))
         answer_add_sentence(
             context, question_thickness, ANSWER_KIND_THICKNESS,
-            "%s; the table layer gives its thickness in time.",
-            layer_is_ageing(&context->values)
-                ? "It has no balance: the rubber ages, and in time all of it is modified"
-                : "Without wear it grows without end, ever more slowly");
+            "Without wear it grows without end, ever more slowly; the table layer gives its "
+            "thickness in time.");
     else
         answer_add_sentence(
             context, question_thickness, ANSWER_KIND_THICKNESS,

@@ -427,13 +427,8 @@ static void layer_caveats(answer_context *context)
     const number_text energy = format_known_estimate(layer_value(layer, LAYER_KEY_CRITICAL_ENERGY));
     char text[1100];
     text_builder t = {text, sizeof text, 0};
-    const char *closure = layer_key_text(layer, LAYER_KEY_CLOSURE),
-               *energy_from = layer_key_text(layer, LAYER_KEY_ENERGY_FROM);
-    if (closure != NULL)
-        text_append(
-            &t, "The barrier and the activation volume are given: nothing in this case measures "
-                "them.");
-    else if (is_thickness_put_in(&context->values))
+    const char *energy_from = layer_key_text(layer, LAYER_KEY_ENERGY_FROM);
+    if (is_thickness_put_in(&context->values))
         text_append(
             &t,
             "The critical energy U_c = %s is calibrated so that the observed thickness is the "
@@ -443,9 +438,8 @@ static void layer_caveats(answer_context *context)
         text_append(&t, "The critical energy U_c = %s is given: nothing in this case measures it.",
                     energy.text);
     text_append(&t,
-                " The layer model (%s closure, wear by Archard's law) is not validated against "
-                "measured thicknesses. ",
-                closure != NULL ? "activated" : "energy");
+                " The layer model (energy closure, wear by Archard's law) is not validated against "
+                "measured thicknesses. ");
     const char *const but =
         context->layer_feedback.table != NULL ? " but in the table layer_feedback" : "";
     if (energy_from != NULL)

@@ -237,14 +237,11 @@ number_text format_frequency(const result_value *f)
 
 bool is_thickness_put_in(const result_value_tables *tables)
 {
-    return layer_key_text(&tables->layer, LAYER_KEY_CLOSURE) == NULL &&
-           layer_key_enum(&tables->layer, LAYER_KEY_CRITICAL_ENERGY_FROM) == ENERGY_CALIBRATED;
+    return layer_key_enum(&tables->layer, LAYER_KEY_CRITICAL_ENERGY_FROM) == ENERGY_CALIBRATED;
 }
 
 const char *format_thickness_origin(const result_value_tables *tables)
 {
-    if (layer_key_text(&tables->layer, LAYER_KEY_CLOSURE) != NULL)
-        return "predicted from a given barrier";
     return is_thickness_put_in(tables) ? "put in, not predicted: U_c is calibrated to it"
                                        : "predicted from a given U_c";
 }
@@ -279,21 +276,13 @@ static const char *missing_ratio_text(const result_value *f)
                : "";
 }
 
-bool layer_is_ageing(const result_value_tables *tables)
-{
-    return isinf(layer_value(&tables->layer, LAYER_KEY_BALANCE_THICKNESS).value) &&
-           layer_value(&tables->layer, LAYER_KEY_WEAR_RATE).value > 0;
-}
-
 void append_thickness(text_builder *t, const result_value_tables *tables)
 {
     const result_value thickness = result_value_thickness(tables);
     const result_value_text range = format_model_range(&thickness);
     const char *open = range.text[0] != '\0' ? " (" : "", *close = *open != '\0' ? ")" : "";
     if (isinf(thickness.number.value))
-        text_append(t, "%s",
-                    layer_is_ageing(tables) ? "the rubber ages: in time all of it is modified"
-                                            : "without wear the layer grows without end");
+        text_append(t, "without wear the layer grows without end");
     else if (!(thickness.number.value > 0))
         text_append(t, "no layer where formation balances wear%s%s%s, %s", open, range.text, close,
                     format_thickness_origin(tables));

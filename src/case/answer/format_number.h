@@ -65,9 +65,6 @@ void append_modulus_ratio(text_builder *t, const result_value_tables *tables);
 /* Example: ", for the rates are ...; the moduli of all rates have the ratio 0.175", if the ratios
  * differ. */
 void append_rate_correction(text_builder *t, const result_value_tables *tables);
-/* True if there is no steady-state thickness because the rubber ages without load, not because wear
- * is absent. */
-bool layer_is_ageing(const result_value_tables *tables);
 /* Example: "layer of 3.16 um (...) where formation balances wear, predicted from a given U_c". */
 void append_thickness(text_builder *t, const result_value_tables *tables);
 /* Appends the effect of the feedback on a layer that acts back on its energy. */

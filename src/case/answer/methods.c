@@ -236,13 +236,6 @@ static void describe_flash(text_builder *t, const table_view *table)
 static void describe_layer(text_builder *t, const table_view *table)
 {
     const wt_estimate critical = layer_value(table, LAYER_KEY_CRITICAL_ENERGY);
-    const char *const closure = layer_key_text(table, LAYER_KEY_CLOSURE);
-    if (closure != NULL) {
-        text_append(
-            t, "The thickness of the modified layer follows from its formation by this law: %s.",
-            closure);
-        return;
-    }
     text_append(t,
                 "The thickness of the modified layer follows from the energy dissipated below the "
                 "surface over a critical energy of %s (%s).",

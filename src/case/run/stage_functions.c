@@ -446,23 +446,14 @@ wt_status flow_step_anisotropy(flow_run *run, wt_error *err)
 wt_status flow_step_friction_map(flow_run *run, wt_error *err)
 {
     const wt_sliding sliding = flow_run_sliding(run);
-    const wt_layer_observation *layer;
-    wt_layer_observation storage;
-    const wt_status status = load_optional_layer(run, &storage, &layer, err);
-    return status == WT_OK ? wt_friction_map_compute(&sliding, layer, &run->job,
-                                                     &run->table[FLOW_FRICTION_MAP], err)
-                           : status;
+    return wt_friction_map_compute(&sliding, &run->job, &run->table[FLOW_FRICTION_MAP], err);
 }
 
 wt_status flow_step_friction_decades(flow_run *run, wt_error *err)
 {
     const wt_sliding sliding = flow_run_sliding(run);
-    const wt_layer_observation *layer;
-    wt_layer_observation storage;
-    const wt_status status = load_optional_layer(run, &storage, &layer, err);
-    return status == WT_OK ? wt_friction_by_scale_compute(&sliding, layer, &run->job,
-                                                          &run->table[FLOW_FRICTION_DECADES], err)
-                           : status;
+    return wt_friction_by_scale_compute(&sliding, &run->job, &run->table[FLOW_FRICTION_DECADES],
+                                        err);
 }
 
 wt_status flow_step_flash_effect(flow_run *run, wt_error *err)

@@ -6,11 +6,7 @@
 #include "weartrack/core.h"
 
 /* Exact since the SI of 2019. */
-#define GAS_CONSTANT 8.31446261815324  /* J/(mol K) */
-#define BOLTZMANN 1.380649e-23         /* J/K */
-#define ELECTRONVOLT 1.602176634e-19   /* J */
-#define PLANCK 6.62607015e-34          /* J s */
-#define REDUCED_PLANCK 1.054571817e-34 /* J s, the digits that CODATA 2018 prints */
+#define GAS_CONSTANT 8.31446261815324 /* J/(mol K) */
 
 /* Returns an example of a value as the user types it, such as "250nm". */
 const char *quantity_example(wt_quantity quantity);

@@ -20,7 +20,7 @@
 #define FRICTION_GAMMA(type)                                                                       \
     {                                                                                              \
         PARAM("gamma", type, gamma, WT_Q_NONE, FROM_TO(0, 1)),                                     \
-            .value = "G",                                                                          \
+            .value = "G", .flags = PARAM_ONLY_C,                                                   \
             .help = "partial-contact factor S = G + (1-G)P^2 of the friction integral; 1 is "      \
                     "Persson 2001"                                                                 \
     }
@@ -28,7 +28,7 @@
 #define FRICTION_STRAIN_FACTOR(type)                                                               \
     {                                                                                              \
         PARAM("strain-factor", type, strain_factor, WT_Q_NONE, FROM_TO(0.01, 100)),                \
-            .value = "X",                                                                          \
+            .value = "X", .flags = PARAM_ONLY_C,                                                   \
             .help = "strain at a wavenumber over the rms slope of the roughness up "               \
                     "to there, for the softening"                                                  \
     }
@@ -53,13 +53,6 @@
             .value = "T", .help = "that of --anisotropy-fourth"                                    \
     }
 
-#define FRICTION_AREA_LAW(type)                                                                    \
-    {                                                                                              \
-        PARAM_CHOICE_OF("area-law", type, area_law, "persson|yp08|wm17|xu24"),                     \
-            .help = "contact area in partial contact: as Persson 2001 has it, or larger, as "      \
-                    "simulations do: Yang and Persson 2008, Wang and Mueser 2017, Xu 2024"         \
-    }
-
 /* `in` is a prefix of the member. */
 #define FLASH_ROWS(type, in)                                                                       \
     {PARAM_FLAG_OF("flash-temperature", type, in on),                                              \
@@ -73,31 +66,12 @@
          .value = "C", .help = "of the rubber by volume; 2.2 MJ/(m^3 K) is typical"},              \
         {PARAM("heat-diffusivity", type, in diffusivity, WT_Q_DIFFUSIVITY, FROM_TO(1e-12, 1)),     \
          .value = "D", .help = "of the rubber; 1e-7 m^2/s is typical"},                            \
-        {PARAM("macroscopic-area", type, in macroscopic, WT_Q_NONE, FROM_TO(0.01, 1)),             \
-         .value = "X",                                                                             \
-         .help = "share of the nominal area in macroscopic contacts, in which the heat is made "   \
-                 "(Persson 2006)"},                                                                \
     {                                                                                              \
-        PARAM_FLAG_OF("clip-heat", type, in clipped),                                              \
-            .help = "heat is made in no more than all of the area where the contact at a scale "   \
-                    "is larger than the macroscopic contacts"                                      \
-    }
-
-/* `in` is a prefix of the member. */
-#define SHEAR_LAW_ROWS(type, in)                                                                   \
-    {PARAM_CHOICE_OF("shear-law", type, in kind, "constant|log-normal"),                           \
-     .help = "the shear stress is that of every velocity and temperature, or of the peak of "      \
-             "tau_f exp(-c log10(v/v0)^2), v0 = v0* exp(E/kB (1/Tref - 1/T)) (Lorenz et al. "      \
-             "2015)"},                                                                             \
-        {PARAM("shear-peak-velocity", type, in peak_velocity, WT_Q_VELOCITY, ABOVE(0)),            \
-         .value = "V", .help = "v0* of the log-normal shear stress; 6 mm/s in that paper"},        \
-        {PARAM("shear-width", type, in width, WT_Q_NONE, AT_LEAST(0)), .value = "C",               \
-         .help = "c of the log-normal shear stress, per decade squared; 0.1 in that paper"},       \
-        {PARAM("shear-activation", type, in activation_energy, WT_Q_ENERGY, AT_LEAST(0)),          \
-         .value = "E", .help = "of the peak of the shear stress; 0.97 eV in that paper"},          \
-    {                                                                                              \
-        PARAM("shear-temperature", type, in reference_temperature, WT_Q_TEMPERATURE, ABOVE(0)),    \
-            .value = "T", .help = "Tref, at which the peak is at v0*; 20 degC in that paper"       \
+        PARAM("macroscopic-area", type, in macroscopic, WT_Q_NONE, FROM_TO(0.01, 1)),              \
+            .value = "X", .flags = PARAM_ONLY_C,                                                   \
+            .help =                                                                                \
+                "share of the nominal area in macroscopic contacts, in which the heat is made "    \
+                "(Persson 2006)"                                                                   \
     }
 
 /* State of the surface layer. `in` is a prefix of the member. */
@@ -129,33 +103,6 @@
     {                                                                                              \
         PARAM("severity-exponent", type, severity_exponent, WT_Q_NONE, ABOVE(0)),                  \
             .value = "M", .help = "m of the severity power"                                        \
-    }
-
-#define LAYER_CLOSURE(type)                                                                        \
-    {                                                                                              \
-        PARAM_CHOICE_OF("closure", type, closure, "energy|activated"),                             \
-            .help = "what modifies the rubber (both reconstructed): an energy per volume, or "     \
-                    "bonds that the energy helps over a barrier, at the temperature of the rubber" \
-    }
-
-/* `in` is a prefix of the member. The list of quantities has no volume; the activation volume uses
- * another quantity in m^3. */
-#define LAYER_ACTIVATION_ROWS(type, in, in_barrier)                                                \
-    {PARAM("barrier", type, in_barrier barrier, WT_Q_ENERGY, ABOVE(0)), .value = "E", .unset = "", \
-     .help = "of the activated closure, such as 1.5eV; literature: 1.3eV to 3.6eV"},               \
-        {PARAM("activation-volume", type, in volume, WT_Q_POWER_SPECTRUM_1D, ABOVE(0)),            \
-         .value = "V", .unset = "",                                                                \
-         .help = "V_a of the activated closure, by which energy per volume lowers the barrier, "   \
-                 "such as 0.8nm^3 (reconstructed: 0.01nm^3 to 1nm^3)"},                            \
-        {PARAM_CHOICE_OF("attempt", type, in attempt, "hbar|h"),                                   \
-         .help =                                                                                   \
-             "rate of the activated closure without a barrier: kB T over the reduced constant "    \
-             "of Planck, as the source lists it, or over the plain one, as Eyring has it"},        \
-    {                                                                                              \
-        PARAM_FLAG_OF("ageing", type, in ageing),                                                  \
-            .help = "of the activated closure: the unloaded rate counts as damage, too, so that "  \
-                    "all rubber is modified in time and there is no balance; by the transport "    \
-                    "of damage alone"                                                              \
     }
 
 #define ENERGY_PROFILE(type)                                                                       \

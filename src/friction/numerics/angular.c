@@ -9,7 +9,6 @@
 #include "core/math/chebyshev.h"
 #include "core/math/simd.h"
 #include "core/math/vector_exp.h"
-#include "friction/numerics/angular_panels.h"
 
 #include <float.h>
 #include <math.h>
@@ -190,33 +189,31 @@ static series series_fit(const angular_law *a, double low, double high, double a
     return s;
 }
 
-static bool series_push(series_list *list, const series *s)
+static void series_push(series_list *list, const series *s)
 {
-    series *items = array_grow(list->items, list->n, sizeof *items);
-    if (items == NULL)
-        return false;
-    list->items = items;
+    list->items = array_grow(list->items, list->n, sizeof *list->items);
     list->items[list->n++] = *s;
-    return true;
 }
 
 /* Adds a fitted segment, or its halves if its error is too large, as with close knots or steep
  * tables. A narrow segment may have a larger error, because it has less weight. `futile` counts the
  * halvings with little gain. */
-static bool series_add(const angular_law *a, series_list *list, const series *s, int halvings,
+static void series_add(const angular_law *a, series_list *list, const series *s, int halvings,
                        int futile)
 {
     const double middle = isnan(s->anchor) ? s->middle : s->anchor + s->middle * s->middle;
     const double allowed =
         2 * fmax(a->goal, s->value_error) * fmax(1, law_width / (s->high - s->low));
     if (s->error <= allowed || halvings == MAX_HALVINGS || futile == MAX_FUTILE_HALVINGS ||
-        !(middle > s->low && middle < s->high))
-        return series_push(list, s);
+        !(middle > s->low && middle < s->high)) {
+        series_push(list, s);
+        return;
+    }
     const series left = series_fit(a, s->low, middle, s->anchor),
                  right = series_fit(a, middle, s->high, s->anchor);
     futile += fmin(left.error, right.error) > 0.1 * s->error;
-    return series_add(a, list, &left, halvings + 1, futile) &&
-           series_add(a, list, &right, halvings + 1, futile);
+    series_add(a, list, &left, halvings + 1, futile);
+    series_add(a, list, &right, halvings + 1, futile);
 }
 
 static const double *material_knots(const angular_law *a, size_t *n)
@@ -241,7 +238,7 @@ static double preceding_knot(const double *knots, size_t n, double x)
 }
 
 /* Adds the segments between two multiples of the segment width. */
-static bool add_segments(const angular_law *a, long first, long last, double *bounds,
+static void add_segments(const angular_law *a, long first, long last, double *bounds,
                          series_list *list)
 {
     size_t n = 0, n_knots;
@@ -259,11 +256,9 @@ static bool add_segments(const angular_law *a, long first, long last, double *bo
             continue;
         const double anchor = preceding_knot(knots, n_knots, bounds[from]);
         const series s = series_fit(a, bounds[from], bounds[i], anchor);
-        if (!series_add(a, list, &s, 0, 0))
-            return false;
+        series_add(a, list, &s, 0, 0);
         from = i;
     }
-    return true;
 }
 
 /* Extends the subintervals to the union of this range and the present one. */
@@ -335,16 +330,12 @@ wt_status angular_extend(angular_law *angular, double w_min, double w_max, wt_er
     size_t n_knots;
     (void)material_knots(angular, &n_knots);
     series_list made = {0};
-    double *bounds = calloc((size_t)(last - first) + 1 + n_knots, sizeof *bounds);
-    bool succeeded = bounds && add_segments(angular, first, have_first, bounds, &made);
-    for (size_t i = 0; succeeded && i < have->n; i++)
-        succeeded = series_push(&made, &have->items[i]);
-    succeeded = succeeded && add_segments(angular, have_last, last, bounds, &made);
+    double *bounds = wt_alloc((size_t)(last - first) + 1 + n_knots, sizeof *bounds);
+    add_segments(angular, first, have_first, bounds, &made);
+    for (size_t i = 0; i < have->n; i++)
+        series_push(&made, &have->items[i]);
+    add_segments(angular, have_last, last, bounds, &made);
     free(bounds);
-    if (!succeeded) {
-        free(made.items);
-        return wt_fail(err, WT_E_MEMORY, "out of memory for the angular integrals");
-    }
     free(angular->segments.items);
     angular->segments = made;
     return WT_OK;
@@ -561,8 +552,6 @@ wt_status angular_new(const wt_material *material, double tolerance, arena *memo
                       angular_law **angular, wt_error *err)
 {
     angular_law *made = arena_alloc(memory, 1, sizeof *made);
-    if (made == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory for the angular integrals");
     made->material = material;
     compute_fit_matrices(made);
     made->tolerance = tolerance;

@@ -12,8 +12,41 @@
 #define WT_FRICTION_NUMERICS_ANGULAR_H
 
 #include "core/base/arena.h"
-#include "friction/numerics/angular_weight.h"
+#include "core/math/gauss_legendre.h"
 #include "weartrack/dma.h"
+#include "weartrack/surface.h"
+
+/* ---- weight of anisotropic roughness -----------------------------------------------------------
+ */
+
+/* Number of powers of cos^2 phi, and of terms of the series far below w: 4^-m falls to 1e-16 within
+ * it. */
+enum { WEIGHT_POWERS = WT_ANISOTROPY_ORDERS + 1, WEIGHT_SERIES_TERMS = 32 };
+
+/* Weights of J1 and of J2. */
+typedef struct angular_weight {
+    double power[2][WEIGHT_POWERS];     /* coefficients of cos^2k phi */
+    double far[2][WEIGHT_SERIES_TERMS]; /* coefficients of c^2m in the weight over sqrt(1 - c^2) */
+    double cancellation; /* factor by which relative errors can exceed those without a weight */
+} angular_weight;
+
+/* True if there is a preferred direction, and true if there is a lateral force. */
+bool anisotropy_is_present(const wt_anisotropy *a);
+bool anisotropy_has_lateral_force(const wt_anisotropy *a);
+/* Weight of J1 and J2. */
+angular_weight weight_longitudinal(const wt_anisotropy *a);
+/* Weight that changes J1 to `shift` J1 + K, which has no zero, unlike K. */
+angular_weight weight_lateral(const wt_anisotropy *a, double *shift);
+
+double weight_evaluate(const double power[WEIGHT_POWERS], double square);
+/* Weighted variants of the sums in angular_panels.c. */
+void weight_series_sum(const angular_weight *w, const double *s1, const double *s2, size_t terms,
+                       double square, double *sum1, double *sum2);
+void weight_node_sum(const angular_weight *w, size_t n, const double *omega, const double *f1,
+                     const double *f2, double at, double *j1, double *j2);
+
+/* ---- integrals of a material --------------------------------------------------------------------
+ */
 
 typedef struct angular_law angular_law;
 
@@ -54,5 +87,56 @@ void angular_extrapolated_part(const angular_law *angular, const double *w, cons
                                size_t n, double *outside);
 /* True if the material has at least one limit of its measured range. */
 bool angular_has_limits(const angular_law *angular);
+
+/* ---- subintervals of the frequency
+ * --------------------------------------------------------------- */
+
+enum { SUBINTERVAL_NODES = 10 }; /* see `max_width` in angular_panels.c */
+
+/* Group of many narrow subintervals. The values at its own nodes integrate any kernel that is a
+ * polynomial over the group exactly as all subintervals do. */
+enum { GROUP_NODES = 16, GROUP_LEAST = 8, GROUP_LEVELS = 20 };
+typedef struct subinterval_group {
+    double omega[GROUP_NODES], value[2][GROUP_NODES];
+} subinterval_group;
+
+/* With y = ln(omega / w) the integrals are 4 int K F dy of F1 = E'', F2 = |E|^2 with
+ *   K = c^s / sqrt(1 - c^2) = sum_m b_m c^(2m + s),   c = e^y,   s = 2 and 1. */
+typedef struct angular_subintervals {
+    const wt_material *material;
+    const gauss_rule *rule; /* of SUBINTERVAL_NODES */
+    size_t terms;           /* number of terms of the sum for c <= 1/2 */
+    size_t n;
+    double *edge;          /* [n + 1] ln omega */
+    double *edge_omega;    /* [n + 1] */
+    double *omega;         /* [n * SUBINTERVAL_NODES] */
+    double *value[2];      /* [n * SUBINTERVAL_NODES] F1 and F2 times weight and width */
+    double *below[2];      /* [(n + 1) * terms] int_-inf^edge F (omega / edge)^(2m + s) */
+    double *largest;       /* [n + 1] largest |ln E'| and |ln E''| up to each edge */
+    double start_error[2]; /* error of `below` at the first edge for m = 0 */
+    double *rounding[2];   /* [n + 1] error of `below` for m = 0 from the rounding of ln omega */
+    double *numbers;       /* memory of these arrays */
+    subinterval_group *group[GROUP_LEVELS]; /* groups of dense subintervals; level k has GROUP_LEAST
+                                         2^k of them in each group */
+    const angular_weight *weight; /* borrowed, set after creation; NULL for the weight 1 */
+} angular_subintervals;
+
+/* Creates subintervals for w from `low` to `high` > 0 with relative errors of about `goal`. The
+ * rule is borrowed. */
+wt_status angular_subintervals_new(const wt_material *material, const gauss_rule *rule, double low,
+                                   double high, double goal, angular_subintervals *subintervals,
+                                   wt_error *err) WT_NODISCARD;
+void angular_subintervals_clear(angular_subintervals *subintervals);
+
+/* J1 at n frequencies >= 2 `high`. */
+void angular_subintervals_far(const angular_subintervals *subintervals, const double *w, size_t n,
+                              double *j1);
+/* J1 and J2 at w from frequencies up to `high` only. */
+void angular_subintervals_integrate(const angular_subintervals *subintervals, double w, double *j1,
+                                    double *j2);
+/* Relative error of J1 and J2 at w. It excludes the effect of rounding on steep moduli within one
+ * subinterval of w: J1 and J2 are steep themselves there. */
+double angular_subintervals_error(const angular_subintervals *subintervals, double w, double j1,
+                                  double j2);
 
 #endif

@@ -3,7 +3,7 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
-#include "friction/numerics/angular_panels.h"
+#include "friction/numerics/angular.h"
 
 #include "core/math/simd.h"
 #include "core/math/vector_exp.h"
@@ -298,9 +298,7 @@ static wt_status group_subintervals(angular_subintervals *a, wt_error *err)
         const size_t n = a->n / ((size_t)GROUP_LEAST << k);
         if (n == 0)
             break;
-        a->group[k] = calloc(n, sizeof *a->group[k]);
-        if (a->group[k] == NULL)
-            return wt_fail(err, WT_E_MEMORY, "out of memory for the angular integrals");
+        a->group[k] = wt_alloc(n, sizeof *a->group[k]);
         for (size_t i = 0; i < n; i++)
             fill_group(a, rule, k, i);
     }
@@ -347,9 +345,7 @@ wt_status angular_subintervals_new(const wt_material *material, const gauss_rule
     set_subinterval_edges(material, rule, first, log(high), &list);
     a.n = list.n - 1;
     const size_t nodes = a.n * SUBINTERVAL_NODES, sums = (a.n + 1) * a.terms;
-    a.numbers = calloc(5 * (a.n + 1) + 3 * nodes + 2 * sums, sizeof *a.numbers);
-    if (a.numbers == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory for the angular integrals");
+    a.numbers = wt_alloc(5 * (a.n + 1) + 3 * nodes + 2 * sums, sizeof *a.numbers);
     a.edge = list.edge = a.numbers;
     a.edge_omega = a.edge + a.n + 1;
     a.omega = a.edge_omega + a.n + 1;

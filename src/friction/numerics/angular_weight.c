@@ -2,7 +2,7 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
-#include "friction/numerics/angular_weight.h"
+#include "friction/numerics/angular.h"
 
 #include "surface/law/roughness.h"
 

@@ -207,10 +207,10 @@ static void compute_heat(const flash_map *map)
     const flash_grid *grid = map->grid;
     const wt_friction_options *o = &map->ws->options;
     const size_t n = grid->rule->n;
-    const double ratio = map->ws->stiffness * map->at.modulus / map->at.pressure;
+    const double ratio = map->ws->stiffness / map->at.pressure;
     double variance = 0;
     for (size_t i = 0; i < grid->n; i++)
-        s->g[i] = 0.125 * ratio * ratio * map->at.density * grid->factor2[i] * s->j2[i];
+        s->g[i] = 0.125 * ratio * ratio * grid->factor2[i] * s->j2[i];
     for (size_t p = 0; p < grid->n_subintervals; p++) {
         double *running = s->running + p * n;
         for (size_t i = 0; i < grid->rule->row_stride; i++)
@@ -220,17 +220,14 @@ static void compute_heat(const flash_map *map)
             running[i] = fmax(running[i], i > 0 ? running[i - 1] : variance);
         variance = fmax(variance + part, running[n - 1]);
     }
-    for (size_t i = 0; map->ws->area != NULL && i < grid->n; i++)
-        s->running[i] = area_law_variance(map->ws->area, s->running[i]);
     contact_areas(s->running, grid->n, s->area);
     const double macroscopic = map->law->options.macroscopic, gamma = o->gamma;
     const double per_mu =
         2 * map->part * map->at.pressure * map->at.speed / map->law->options.heat_capacity;
     for (size_t i = 0; i < grid->n; i++) {
         const double area = s->area[i], partial = gamma + (1 - gamma) * area * area;
-        const double most = map->law->options.clipped ? fmax(area, macroscopic) : macroscopic;
-        s->mu[i] = 0.5 * ratio * map->at.density * grid->factor1[i] * s->j1[i] * area * partial;
-        s->heat[i] = per_mu * grid->q[i] * grid->weight[i] * s->mu[i] / most;
+        s->mu[i] = 0.5 * ratio * grid->factor1[i] * s->j1[i] * area * partial;
+        s->heat[i] = per_mu * grid->q[i] * grid->weight[i] * s->mu[i] / macroscopic;
     }
 }
 
@@ -368,31 +365,6 @@ static double lattice_error(const flash_grid *grid, double rise)
     return rise * (0.1 * exp(-0.5 * M_PI * M_PI / grid->step) + 2 * exp(-grid->below));
 }
 
-/* Error of the rise at q1 from the rules, where the heat has a kink that mu and G do not show. The
- * error of each subinterval is propagated as heat in its middle. */
-static double kink_error(const flash_map *map)
-{
-    flash_scratch *s = map->s;
-    const flash_grid *grid = map->grid;
-    const size_t n = grid->rule->n;
-    double rise_error = 0;
-    if (!map->law->options.clipped)
-        return 0;
-    for (size_t i = 0; i < grid->n; i++)
-        s->running[i] = s->heat[i] / grid->weight[i];
-    for (size_t p = 0; p < grid->n_subintervals; p++) {
-        legendre_top top, other;
-        gauss_rule_top_coefficients(grid->rule, s->running + p * n, s->g + p * n, &top, &other);
-        const size_t middle = p * n + n / 2;
-        const double error = gauss_rule_error(grid->rule, &top);
-        for (size_t j = 0; j < grid->n_k; j++)
-            rise_error += error * s->wave[j] * grid->in[middle * grid->n_k + j] *
-                          grid->out[j * grid->n + grid->n - 1];
-        rise_error += error * map->longest / grid->q[middle];
-    }
-    return rise_error;
-}
-
 static double sum_weighted(const flash_grid *grid, const double *value)
 {
     double sum = 0;
@@ -442,16 +414,15 @@ static flash_solution refine(const wt_friction_workspace *ws, flash_scratch *s,
                                .constant = map.constant};
     double rise;
     heat_rise(&heat, &ws->roughness->q1, 1, &rise);
-    return (flash_solution){
-        .found = found.found,
-        .rise = rise,
-        .gain = found.gain,
-        .rise_error = found.gain * (found.residual + lattice_error(fine, rise) + kink_error(&map)),
-        .hysteresis = sum_weighted(fine, s->mu),
-        .variance = sum_weighted(fine, s->g),
-        .steepest = steepest_shift(law, rise),
-        .maps = found.maps,
-        .heat = heat};
+    return (flash_solution){.found = found.found,
+                            .rise = rise,
+                            .gain = found.gain,
+                            .rise_error = found.gain * (found.residual + lattice_error(fine, rise)),
+                            .hysteresis = sum_weighted(fine, s->mu),
+                            .variance = sum_weighted(fine, s->g),
+                            .steepest = steepest_shift(law, rise),
+                            .maps = found.maps,
+                            .heat = heat};
 }
 
 static void set_uniform_rise(flash_scratch *s, const flash_grid *grid, double rise)

@@ -134,8 +134,8 @@ static void copy_nodes(flash_grid *grid, const double *q, const double *factor1,
     grid->n_subintervals++;
 }
 
-static wt_status fill_grid(const wt_friction_workspace *ws, flash_grid *grid,
-                           const subinterval_plan *plan, arena *memory, wt_error *err)
+static void fill_grid(const wt_friction_workspace *ws, flash_grid *grid,
+                      const subinterval_plan *plan, arena *memory)
 {
     scale_grid all;
     arena local_memory = {0};
@@ -146,34 +146,27 @@ static wt_status fill_grid(const wt_friction_workspace *ws, flash_grid *grid,
     const size_t n_numbers = ws->softening != NULL ? COUNT_OF(numbers) : 5;
     for (size_t i = 0; i < n_numbers; i++)
         *numbers[i] = arena_numbers(memory, capacity);
-    wt_status status = WT_OK;
-    if (local_memory.failed || memory->failed)
-        status = wt_fail(err, WT_E_MEMORY, "out of memory for a flash temperature");
-    if (status == WT_OK) {
-        const size_t core = plan->levels * grid->rule->n;
-        const wt_layer_state *layer = &ws->options.layer;
-        grid_fill_core(&all, plan, plan->levels, ws->roughness, layer);
-        grid_fill_subintervals(&all, plan, 0, plan->n_subintervals, ws->roughness, layer);
-        const bool soft = all.f != NULL;
-        copy_nodes(grid, all.core_q + core, all.core_factor1 + core, all.core_factor2 + core,
-                   soft ? all.core_f + core : NULL, soft ? all.core_g + core : NULL,
-                   all.core_half_width[plan->levels]);
-        for (size_t p = 0; p < plan->n_subintervals; p++) {
-            const size_t at = p * grid->rule->n;
-            copy_nodes(grid, all.q + at, all.factor1 + at, all.factor2 + at,
-                       soft ? all.f + at : NULL, soft ? all.g + at : NULL, all.half_width[p]);
-        }
+    const size_t core = plan->levels * grid->rule->n;
+    const wt_layer_state *layer = &ws->options.layer;
+    grid_fill_core(&all, plan, plan->levels, ws->roughness, layer);
+    grid_fill_subintervals(&all, plan, 0, plan->n_subintervals, ws->roughness, layer);
+    const bool soft = all.f != NULL;
+    copy_nodes(grid, all.core_q + core, all.core_factor1 + core, all.core_factor2 + core,
+               soft ? all.core_f + core : NULL, soft ? all.core_g + core : NULL,
+               all.core_half_width[plan->levels]);
+    for (size_t p = 0; p < plan->n_subintervals; p++) {
+        const size_t at = p * grid->rule->n;
+        copy_nodes(grid, all.q + at, all.factor1 + at, all.factor2 + at, soft ? all.f + at : NULL,
+                   soft ? all.g + at : NULL, all.half_width[p]);
     }
     arena_free(&local_memory);
-    return status;
 }
 
 /* ---- lattices -------------------------------------------------------------------------------- */
 
 /* The lattice ends at the k where the factor 4 q / (k^2 + 4 q^2) of any q differs by exp(-digits)
  * from that of k = 0. */
-static wt_status create_lattice(const flash_law *law, flash_grid *grid, double digits,
-                                arena *memory, wt_error *err)
+static void create_lattice(const flash_law *law, flash_grid *grid, double digits, arena *memory)
 {
     const size_t n = grid->n;
     const double last = log(law->q0) - 0.5 * digits;
@@ -182,8 +175,6 @@ static wt_status create_lattice(const flash_law *law, flash_grid *grid, double d
     grid->in = arena_numbers(memory, n_k * flash_padded_rows(n));
     grid->out = arena_numbers(memory, n_k * n);
     grid->n_k = n_k;
-    if (memory->failed)
-        return wt_fail(err, WT_E_MEMORY, "out of memory for a flash temperature");
     for (size_t j = 0; j < n_k; j++) {
         const double k = exp(grid->first - (double)j * grid->step);
         grid->square[j] = k * k;
@@ -193,7 +184,6 @@ static wt_status create_lattice(const flash_law *law, flash_grid *grid, double d
             grid->out[j * n + i] = lorentz * q;
         }
     }
-    return WT_OK;
 }
 
 /* ---- both grids ------------------------------------------------------------------------------ */
@@ -228,11 +218,8 @@ static wt_status create_grids(wt_friction_workspace *ws, flash_law *law, wt_erro
                           flash_core_levels(law->tolerance), NULL, NULL, 0, 0, ws->softening,
                           &local_memory);
     double *bounds = arena_numbers(&local_memory, plan.capacity + 1);
-    wt_status status = local_memory.failed
-                           ? wt_fail(err, WT_E_MEMORY, "out of memory for a flash temperature")
-                           : WT_OK;
-    if (status == WT_OK)
-        subinterval_plan_fill(&plan, ws->roughness, NULL, 0, NULL, 0, bounds);
+    wt_status status = WT_OK;
+    subinterval_plan_fill(&plan, ws->roughness, NULL, 0, NULL, 0, bounds);
     for (size_t k = 0; status == WT_OK && k < FLASH_GRIDS; k++) {
         flash_grid *grid = &law->grid[k];
         const double digits = -log(fmax(law->tolerance, min_tolerance));
@@ -241,10 +228,10 @@ static wt_status create_grids(wt_friction_workspace *ws, flash_law *law, wt_erro
                                      above it */
         grid->first = log(ws->roughness->q1) + grid->below / 5;
         status = gauss_rule_get(ladders[ladder].nodes[k], &grid->rule, err);
-        if (status == WT_OK)
-            status = fill_grid(ws, grid, &plan, &ws->memory, err);
-        if (status == WT_OK)
-            status = create_lattice(law, grid, digits, &ws->memory, err);
+        if (status == WT_OK) {
+            fill_grid(ws, grid, &plan, &ws->memory);
+            create_lattice(law, grid, digits, &ws->memory);
+        }
     }
     arena_free(&local_memory);
     return status;
@@ -276,11 +263,9 @@ wt_status flash_new(wt_friction_workspace *ws, wt_error *err)
 {
     const wt_friction_options *o = &ws->options;
     wt_status status = check_shift_law(o, &ws->layer_law, err);
-    flash_law *law = status == WT_OK ? arena_alloc(&ws->memory, 1, sizeof *law) : NULL;
-    if (status == WT_OK && law == NULL)
-        status = wt_fail(err, WT_E_MEMORY, "out of memory for a flash temperature");
     if (status != WT_OK)
         return status;
+    flash_law *law = arena_alloc(&ws->memory, 1, sizeof *law);
     law->options = o->flash;
     law->shift = o->shift;
     law->temperature = o->temperature;
@@ -295,11 +280,9 @@ wt_status flash_new(wt_friction_workspace *ws, wt_error *err)
     ws->flash = law;
     status = create_grids(ws, law, err);
     const gauss_rule *coarse = law->grid[FLASH_COARSE].rule, *fine = law->grid[FLASH_FINE].rule;
-    if (status == WT_OK)
-        law->refine = arena_numbers(&ws->memory, coarse->n * fine->n);
-    if (law->refine != NULL)
-        fill_interpolation_matrix(coarse, fine, law->refine);
-    else if (status == WT_OK)
-        status = wt_fail(err, WT_E_MEMORY, "out of memory for a flash temperature");
-    return status;
+    if (status != WT_OK)
+        return status;
+    law->refine = arena_numbers(&ws->memory, coarse->n * fine->n);
+    fill_interpolation_matrix(coarse, fine, law->refine);
+    return WT_OK;
 }

@@ -52,31 +52,29 @@ static void set_unsolved_point(wt_friction_point *point)
                                  .hot_branch = {(double)NAN, (double)NAN, (double)NAN}};
 }
 
-wt_status friction_heated_point(
-    const wt_friction_workspace *ws, friction_scratch *scratch, friction_load at,
-    wt_status (*compute)(const wt_friction_workspace *ws, friction_scratch *scratch,
-                         const friction_load *at, wt_friction_point *point),
-    wt_friction_point *point)
+void friction_heated_point(const wt_friction_workspace *ws, friction_scratch *scratch,
+                           friction_load at,
+                           void (*compute)(const wt_friction_workspace *ws,
+                                           friction_scratch *scratch, const friction_load *at,
+                                           wt_friction_point *point),
+                           wt_friction_point *point)
 {
-    wt_status status = WT_OK;
     const flash_solution cold = flash_solve(ws, scratch->flash, &at);
     set_unsolved_point(point);
     if (cold.found) {
         at.heat = &cold;
         point->has_no_solution = false;
-        status = compute(ws, scratch, &at, point);
+        compute(ws, scratch, &at, point);
         const flash_solution hot = flash_solve_hot(ws, scratch->flash, &at, &cold);
-        if (status == WT_OK && hot.found) {
+        if (hot.found) {
             wt_friction_point other;
             at.heat = &hot;
-            status = compute(ws, scratch, &at, &other);
-            if (status == WT_OK)
-                point->hot_branch = (wt_friction_branch){
-                    other.hysteresis.value, other.area_ratio.value, other.temperature.value};
+            compute(ws, scratch, &at, &other);
+            point->hot_branch = (wt_friction_branch){other.hysteresis.value, other.area_ratio.value,
+                                                     other.temperature.value};
         }
     }
     scratch->nodes += flash_reset_node_count(scratch->flash);
-    return status;
 }
 
 wt_status friction_solve_heat(const wt_friction_workspace *ws, friction_scratch *scratch,

@@ -4,7 +4,6 @@
  */
 #include "friction/numerics/friction_kernel.h"
 #include "core/base/shared_params.h"
-#include "friction/numerics/friction_lateral.h"
 
 #include "core/base/array.h"
 #include "friction/numerics/persson_contact.h"
@@ -44,14 +43,9 @@ static const wt_param rows[] = {
     FRICTION_TOLERANCE(wt_friction_options),     FRICTION_GAMMA(wt_friction_options),
     FRICTION_STRAIN_FACTOR(wt_friction_options), LAYER_STATE_ROWS(wt_friction_options, layer.),
     PARAM_THREADS(wt_friction_options),          FRICTION_ANISOTROPY(wt_friction_options),
-    FRICTION_AREA_LAW(wt_friction_options),      FLASH_ROWS(wt_friction_options, flash.),
+    FLASH_ROWS(wt_friction_options, flash.),
 };
 PARAM_TABLE(wt_friction_params, wt_friction_options, rows, wt_friction_defaults, NO_PARTS)
-
-static wt_status out_of_memory_error(wt_error *err)
-{
-    return wt_fail(err, WT_E_MEMORY, "out of memory for the friction integral");
-}
 
 /* The closed form in the core neglects the change of dmu/dG over the core, which is about its
  * length. The share of the core in mu is about the square root of its length. */
@@ -61,8 +55,8 @@ static size_t friction_core_levels(double tolerance)
     return (size_t)ceil(-0.5 * log2(core));
 }
 
-wt_status friction_scratch_init(friction_scratch *scratch, const wt_friction_workspace *ws,
-                                size_t n_cuts, arena *memory, wt_error *err)
+void friction_scratch_init(friction_scratch *scratch, const wt_friction_workspace *ws,
+                           size_t n_cuts, arena *memory)
 {
     *scratch = (friction_scratch){0};
     subinterval_plan_init(&scratch->plan, ws->roughness, ws->plan.width, ws->plan.levels, ws->knots,
@@ -89,7 +83,6 @@ wt_status friction_scratch_init(friction_scratch *scratch, const wt_friction_wor
         scratch->extra_shift = arena_numbers(memory, (subintervals + 2) * GAUSS_NODES_MAX);
     if (ws->flash != NULL)
         scratch->flash = flash_scratch_new(ws, memory);
-    return memory->failed ? out_of_memory_error(err) : WT_OK;
 }
 
 static double relative_rounding(const wt_friction_workspace *ws)
@@ -128,13 +121,10 @@ static wt_status choose_rules(wt_friction_workspace *ws, wt_error *err)
 }
 
 /* Prepares the common plan of all velocities. */
-static wt_status prepare_plan(wt_friction_workspace *ws, wt_error *err)
+static void prepare_plan(wt_friction_workspace *ws)
 {
     double *bounds = arena_alloc(&ws->memory, ws->plan.capacity + 1, sizeof *bounds);
-    if (ws->memory.failed)
-        return out_of_memory_error(err);
     subinterval_plan_fill(&ws->plan, ws->roughness, NULL, 0, NULL, 0, bounds);
-    return WT_OK;
 }
 
 static wt_status create_angular_law(wt_friction_workspace *ws, const wt_material *material,
@@ -175,8 +165,6 @@ static wt_status init_layer_moduli(wt_friction_workspace *ws, wt_error *err)
     if (!layer_has_moduli(layer))
         return WT_OK;
     ws->layer = arena_alloc(&ws->memory, 1, sizeof *ws->layer);
-    if (ws->layer == NULL)
-        return out_of_memory_error(err);
     const wt_status status =
         layer_slope_shift(&ws->options.shift, ws->options.temperature, &layer->slope, err);
     if (status != WT_OK)
@@ -193,8 +181,6 @@ static wt_status init_layer_moduli(wt_friction_workspace *ws, wt_error *err)
     if (more == 0)
         return WT_OK;
     double *all = arena_numbers(&ws->memory, ws->n_knots + more);
-    if (all == NULL)
-        return out_of_memory_error(err);
     for (size_t k = 0; k < ws->n_knots + more; k++)
         all[k] = k < ws->n_knots ? ws->knots[k] : edges[k - ws->n_knots];
     numbers_sort(all, ws->n_knots + more);
@@ -206,12 +192,10 @@ static wt_status init_layer_moduli(wt_friction_workspace *ws, wt_error *err)
 /* Prepares the data of the knots for the plans. */
 static void prepare_knots(wt_friction_workspace *ws)
 {
-    if (ws->n_knots > 0)
-        ws->slopes = arena_numbers(&ws->memory, ws->n_knots + 1);
-    if (ws->n_knots > 0)
-        ws->log_knots = arena_numbers(&ws->memory, ws->n_knots);
-    if (ws->slopes == NULL || ws->log_knots == NULL)
+    if (ws->n_knots == 0)
         return;
+    ws->slopes = arena_numbers(&ws->memory, ws->n_knots + 1);
+    ws->log_knots = arena_numbers(&ws->memory, ws->n_knots);
     material_slopes(ws->material, ws->knots, ws->n_knots, ws->slopes);
     for (size_t k = 0; k < ws->n_knots; k++)
         ws->log_knots[k] = log(ws->knots[k]);
@@ -241,9 +225,7 @@ wt_status wt_friction_workspace_new(const wt_material *material, const wt_roughn
     wt_status status = param_check(wt_friction_params(), &o, err);
     if (status != WT_OK)
         return status;
-    wt_friction_workspace *ws = calloc(1, sizeof *ws);
-    if (ws == NULL)
-        return out_of_memory_error(err);
+    wt_friction_workspace *ws = wt_alloc(1, sizeof *ws);
     ws->material = material;
     ws->roughness = roughness;
     ws->options = o;
@@ -266,16 +248,12 @@ wt_status wt_friction_workspace_new(const wt_material *material, const wt_roughn
         status = choose_rules(ws, err);
     if (status == WT_OK)
         ws->rounding = relative_rounding(ws);
-    if (status == WT_OK)
-        status = area_law_get(o.area_law, &ws->area, err);
     if (status == WT_OK && o.flash.on)
         status = flash_new(ws, err);
     if (status == WT_OK && ws->n_knots == 0)
-        status = prepare_plan(ws, err);
-    if (status == WT_OK && ws->memory.failed)
-        status = out_of_memory_error(err);
+        prepare_plan(ws);
     for (unsigned i = 0; status == WT_OK && i < ws->threads; i++)
-        status = friction_scratch_init(&ws->scratch[i], ws, 0, &ws->memory, err);
+        friction_scratch_init(&ws->scratch[i], ws, 0, &ws->memory);
     if (status != WT_OK) {
         wt_friction_workspace_free(ws);
         return status;
@@ -379,11 +357,8 @@ friction_load friction_load_create(const wt_friction_workspace *ws, double press
                                    double velocity)
 {
     const double speed = fabs(velocity);
-    return (friction_load){.pressure = pressure,
-                           .speed = speed,
-                           .log_lowest = log(ws->roughness->q0) + log(speed),
-                           .modulus = 1,
-                           .density = 1};
+    return (friction_load){
+        .pressure = pressure, .speed = speed, .log_lowest = log(ws->roughness->q0) + log(speed)};
 }
 
 const subinterval_plan *friction_plan(const wt_friction_workspace *ws, friction_scratch *scratch,
@@ -441,8 +416,8 @@ static bool needs_extrapolated_share(const wt_friction_workspace *ws)
 }
 
 /* Computes a load with known temperatures, for a positive velocity. */
-static wt_status compute_load(const wt_friction_workspace *ws, friction_scratch *scratch,
-                              const friction_load *at, wt_friction_point *point)
+static void compute_load(const wt_friction_workspace *ws, friction_scratch *scratch,
+                         const friction_load *at, wt_friction_point *point)
 {
     const double tolerance = ws->options.tolerance;
     const subinterval_plan *plan = friction_plan(ws, scratch, at, NULL, 0);
@@ -453,13 +428,12 @@ static wt_status compute_load(const wt_friction_workspace *ws, friction_scratch 
     const friction_relative relative = friction_relative_error(ws, &pass, *at);
     const double error_g = relative.variance * pass.variance + pass.variance_error;
     const double error_mu = relative.hysteresis * pass.hysteresis + pass.hysteresis_error;
-    const double corrected = area_law_variance(ws->area, pass.variance);
-    const double area = contact_area(corrected);
-    const double error_area = contact_area_error(corrected, error_g);
+    const double area = contact_area(pass.variance);
+    const double error_area = contact_area_error(pass.variance, error_g);
     point->stress_variance = dimensionless_estimate(pass.variance, error_g);
     point->area_ratio = dimensionless_estimate(area, error_area);
-    point->one_minus_area =
-        dimensionless_estimate(contact_gap(corrected), contact_gap_error(corrected, error_g));
+    point->one_minus_area = dimensionless_estimate(contact_gap(pass.variance),
+                                                   contact_gap_error(pass.variance, error_g));
     point->hysteresis = dimensionless_estimate(pass.hysteresis, error_mu);
     if (at->heat != NULL)
         point->temperature = (wt_estimate){.value = ws->options.temperature + at->heat->rise,
@@ -472,44 +446,37 @@ static wt_status compute_load(const wt_friction_workspace *ws, friction_scratch 
     point->extrapolated_share = ws->options.skip_extrapolated_share ? (double)NAN
                                 : pass.hysteresis > 0 ? fmin(pass.outside / pass.hysteresis, 1)
                                                       : 0;
-    point->lateral = dimensionless_estimate(0, 0);
-    const wt_status status =
-        ws->lateral != NULL ? lateral_force_compute(ws, *at, &record, error_mu, &point->lateral)
-                            : WT_OK;
+    point->lateral = ws->lateral != NULL ? lateral_force_compute(ws, *at, &record, error_mu)
+                                         : dimensionless_estimate(0, 0);
     free(record.q);
     free(record.mu);
-    return status;
 }
 
-static wt_status compute_point(const compute_job *job, friction_scratch *scratch, double velocity,
-                               wt_friction_point *point)
+static void compute_point(const compute_job *job, friction_scratch *scratch, double velocity,
+                          wt_friction_point *point)
 {
     const wt_friction_workspace *ws = job->ws;
-    wt_status status;
     friction_load at = friction_load_create(ws, job->pressure, velocity);
     const double sign = velocity < 0 ? -1 : velocity > 0 ? 1 : 0;
     if (ws->flash == NULL || sign == 0) {
-        status = compute_load(ws, scratch, &at, point);
+        compute_load(ws, scratch, &at, point);
         point->temperature = dimensionless_estimate((double)NAN, (double)NAN);
         point->hot_branch = (wt_friction_branch){(double)NAN, (double)NAN, (double)NAN};
         point->has_no_solution = false;
     } else {
-        status = friction_heated_point(ws, scratch, at, compute_load, point);
+        friction_heated_point(ws, scratch, at, compute_load, point);
     }
     point->velocity = velocity;
     point->hysteresis.value *= sign;
     point->lateral.value *= sign;
     point->hot_branch.hysteresis *= sign;
-    return status;
 }
 
 static wt_status compute_velocity(void *user, size_t i, unsigned worker)
 {
     const compute_job *job = user;
     wt_friction_point *point = &job->points[i];
-    const wt_status status = compute_point(job, &job->ws->scratch[worker], job->velocity[i], point);
-    if (status != WT_OK)
-        return status;
+    compute_point(job, &job->ws->scratch[worker], job->velocity[i], point);
     const bool number = isfinite(point->stress_variance.value) && isfinite(point->hysteresis.value);
     return number || point->has_no_solution ? WT_OK : WT_E_RANGE;
 }

@@ -6,11 +6,9 @@
 #define WT_FRICTION_NUMERICS_FRICTION_KERNEL_H
 
 #include "friction/numerics/angular.h"
-#include "friction/numerics/area_law.h"
 #include "friction/numerics/flash_temperature.h"
 #include "friction/numerics/layered_moduli.h"
 #include "friction/numerics/wavenumber_grid.h"
-
 #include <float.h>
 
 /* Rule for all subintervals, and rule that checks those where the first may be too coarse. */
@@ -54,7 +52,6 @@ struct wt_friction_workspace {
     layer_moduli *layer;           /* layer's own moduli; NULL if none */
     wt_shift_law layer_law;        /* shift law of its own material; none if it is shifted as the
                                       bulk */
-    const area_law *area;          /* NULL for Persson's law */
     flash_law *flash;              /* NULL if the rubber has the temperature of its surroundings */
     double stiffness;              /* 1 / (1 - nu^2) */
     double rounding; /* relative rounding error of the integrals, without that of J1 and J2 */
@@ -68,11 +65,10 @@ struct wt_friction_workspace {
     friction_scratch *scratch; /* [threads] */
 };
 
-/* Pressure and speed of a point, with factors for sensitivities. */
+/* Pressure and speed of a point. */
 typedef struct friction_load {
     double pressure, speed;     /* speed >= 0 */
     double log_lowest;          /* ln(q0 speed) */
-    double modulus, density;    /* factors of the moduli and of the spectrum; 1 by default */
     const flash_solution *heat; /* NULL if all scales have the temperature of the surroundings */
 } friction_load;
 
@@ -110,15 +106,14 @@ typedef struct friction_pass {
 typedef struct node_contributions {
     double *q, *mu;
     size_t n, capacity;
-    bool failed; /* true if out of memory */
 } node_contributions;
 void node_contributions_add(node_contributions *record, const double *q, const double *mu,
                             size_t n);
 
 /* Initialises the memory for plans with up to `n_cuts` cuts in addition to those of roughness and
  * material. */
-wt_status friction_scratch_init(friction_scratch *scratch, const wt_friction_workspace *ws,
-                                size_t n_cuts, arena *memory, wt_error *err) WT_NODISCARD;
+void friction_scratch_init(friction_scratch *scratch, const wt_friction_workspace *ws,
+                           size_t n_cuts, arena *memory);
 
 /* J1 and J2 at n wavenumbers and their frequencies omega, x = ln omega. `extra_shift` is ln of the
  * shift of a layer relative to the bulk; NULL for none. With softening, the integrals of the loss
@@ -127,6 +122,14 @@ wt_status friction_scratch_init(friction_scratch *scratch, const wt_friction_wor
 void friction_moduli(const wt_friction_workspace *ws, const double *q, const double *omega,
                      const double *x, const double *extra_shift, size_t n, double *j1, double *j2,
                      double *loss_j1, double *loss_j2, double *error);
+/* Adds the errors of a part from J1, J2 and rounding; its n nodes have ln omega = `x`, and G so far
+ * includes the part. The series have errors. Steep integrands also amplify the rounding of ln(q /
+ * q0), ln omega and the logarithms of the knots. */
+void friction_add_input_errors(const wt_friction_workspace *ws, double own_error,
+                               const grid_subinterval *subinterval, const double *x,
+                               const double *j1, const double *j2, size_t n, double log_lowest,
+                               double variance, double hysteresis, double variance_so_far,
+                               friction_pass *pass);
 /* Total number of nodes of all threads and calls. */
 size_t friction_node_count(const wt_friction_workspace *ws);
 
@@ -148,11 +151,12 @@ wt_status friction_solve_heat(const wt_friction_workspace *ws, friction_scratch 
                               friction_load *at, wt_error *err) WT_NODISCARD;
 
 /* Computes a point by `compute` at its self-consistent temperatures, and its second solution. */
-wt_status friction_heated_point(
-    const wt_friction_workspace *ws, friction_scratch *scratch, friction_load at,
-    wt_status (*compute)(const wt_friction_workspace *ws, friction_scratch *scratch,
-                         const friction_load *at, wt_friction_point *point),
-    wt_friction_point *point);
+void friction_heated_point(const wt_friction_workspace *ws, friction_scratch *scratch,
+                           friction_load at,
+                           void (*compute)(const wt_friction_workspace *ws,
+                                           friction_scratch *scratch, const friction_load *at,
+                                           wt_friction_point *point),
+                           wt_friction_point *point);
 /* Error of the temperatures [K], from a pass at them. */
 double friction_heat_error(const flash_solution *solution, const friction_pass *pass);
 /* Shifts the frequencies at n <= GAUSS_NODES_MAX wavenumbers by the temperatures there, and
@@ -176,5 +180,20 @@ friction_relative friction_relative_error(const wt_friction_workspace *ws,
 /* Relative rounding error of a sum of positive terms with some ulps each; the workspace holds the
  * additional error of steep integrands. */
 #define FRICTION_ROUNDING (32 * DBL_EPSILON)
+
+typedef struct lateral_force lateral_force;
+
+/* The object is allocated in the arena; clear it before the arena is freed. */
+wt_status lateral_force_new(const wt_material *material, const wt_friction_options *options,
+                            const layer_moduli *own, arena *memory, lateral_force **side,
+                            wt_error *err) WT_NODISCARD;
+void lateral_force_clear(lateral_force *side); /* no effect on NULL */
+/* Extends both integrals as angular_extend does. */
+wt_status lateral_force_extend(lateral_force *side, double lowest, double highest,
+                               wt_error *err) WT_NODISCARD;
+/* Computes the lateral friction of a pass with recorded nodes and this error of the hysteresis, for
+ * a positive velocity. */
+wt_estimate lateral_force_compute(const wt_friction_workspace *ws, friction_load at,
+                                  const node_contributions *record, double hysteresis_error);
 
 #endif

@@ -2,7 +2,7 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
-#include "friction/numerics/friction_lateral.h"
+#include "friction/numerics/friction_kernel.h"
 
 #include <float.h>
 #include <math.h>
@@ -23,8 +23,6 @@ wt_status lateral_force_new(const wt_material *material, const wt_friction_optio
                             wt_error *err)
 {
     lateral_force *made = arena_alloc(memory, 1, sizeof *made);
-    if (made == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory for the force to the side");
     *side = made;
     made->weight = weight_lateral(&options->anisotropy, &made->shift);
     wt_status status = angular_new(material, options->tolerance, memory, &made->plain, err);
@@ -61,30 +59,28 @@ typedef struct lateral_nodes {
     double *numbers;     /* memory of these arrays */
 } lateral_nodes;
 
-static bool fill_lateral_nodes(const node_contributions *record, friction_load at, bool extra_shift,
-                               lateral_nodes *nodes)
+static lateral_nodes lateral_nodes_create(const node_contributions *record, friction_load at,
+                                          bool extra_shift)
 {
     const size_t n = record->n;
-    double *numbers = malloc(7 * n * sizeof *numbers);
-    if (numbers == NULL)
-        return false;
-    *nodes = (lateral_nodes){numbers,
-                             numbers + n,
-                             numbers + 2 * n,
-                             numbers + 3 * n,
-                             numbers + 4 * n,
-                             numbers + 5 * n,
-                             extra_shift ? numbers + 6 * n : NULL,
-                             numbers};
+    double *numbers = wt_alloc(7 * n, sizeof *numbers);
+    const lateral_nodes nodes = {numbers,
+                                 numbers + n,
+                                 numbers + 2 * n,
+                                 numbers + 3 * n,
+                                 numbers + 4 * n,
+                                 numbers + 5 * n,
+                                 extra_shift ? numbers + 6 * n : NULL,
+                                 numbers};
     for (size_t i = 0; i < n; i++) {
-        nodes->omega[i] = record->q[i] * at.speed;
-        nodes->log_omega[i] = log(record->q[i]) + log(at.speed);
+        nodes.omega[i] = record->q[i] * at.speed;
+        nodes.log_omega[i] = log(record->q[i]) + log(at.speed);
     }
     for (size_t i = 0; at.heat != NULL && i < n; i += GAUSS_NODES_MAX)
         friction_shift_nodes(at.heat, record->q + i,
-                             n - i < GAUSS_NODES_MAX ? n - i : GAUSS_NODES_MAX, nodes->omega + i,
-                             nodes->log_omega + i, extra_shift ? nodes->extra_shift + i : NULL);
-    return true;
+                             n - i < GAUSS_NODES_MAX ? n - i : GAUSS_NODES_MAX, nodes.omega + i,
+                             nodes.log_omega + i, extra_shift ? nodes.extra_shift + i : NULL);
+    return nodes;
 }
 
 /* Relative error of J1 from a closed form, which has no series: a few roundings. */
@@ -93,20 +89,16 @@ static const double closed_error = 16 * DBL_EPSILON;
  * on the moduli at most doubles it. */
 static const double rule_error_factor = 2;
 
-wt_status lateral_force_compute(const wt_friction_workspace *ws, friction_load at,
-                                const node_contributions *record, double hysteresis_error,
-                                wt_estimate *side)
+wt_estimate lateral_force_compute(const wt_friction_workspace *ws, friction_load at,
+                                  const node_contributions *record, double hysteresis_error)
 {
     const lateral_force *s = ws->lateral;
     const size_t n = record->n;
-    lateral_nodes k;
-    *side = (wt_estimate){.unit = "1"};
-    if (record->failed ||
-        (n > 0 &&
-         !fill_lateral_nodes(record, at, at.heat != NULL && flash_has_layer_shift(ws->flash), &k)))
-        return WT_E_MEMORY;
+    wt_estimate side = {.unit = "1"};
     if (n == 0)
-        return WT_OK;
+        return side;
+    const lateral_nodes k =
+        lateral_nodes_create(record, at, at.heat != NULL && flash_has_layer_shift(ws->flash));
     size_t piece[2] = {0, 0};
     double own_error = 0;
     if (ws->layer != NULL) {
@@ -137,12 +129,12 @@ wt_status lateral_force_compute(const wt_friction_workspace *ws, friction_load a
         if (!(k.j1[i] > 0))
             continue;
         const double ratio = (k.shifted[i] - s->shift * k.plain[i]) / k.j1[i];
-        side->value += record->mu[i] * ratio;
+        side.value += record->mu[i] * ratio;
         largest = fmax(largest, fabs(ratio));
         error += record->mu[i] *
                  (error_shifted * k.shifted[i] + s->shift * error_plain * k.plain[i]) / k.j1[i];
     }
-    side->numerical_error = error + rule_error_factor * largest * hysteresis_error;
+    side.numerical_error = error + rule_error_factor * largest * hysteresis_error;
     free(k.numbers);
-    return WT_OK;
+    return side;
 }

@@ -54,13 +54,12 @@ static void fill_nodes(const wt_friction_workspace *workspace, friction_load at,
             error += scratch->error_mu[part];
             part++;
         }
-        const double corrected = area_law_variance(workspace->area, variance);
         nodes[i] = (wt_friction_node){.wavenumber = wavenumber[i],
                                       .stress_variance = variance,
-                                      .area_ratio = contact_area(corrected),
+                                      .area_ratio = contact_area(variance),
                                       .hysteresis = sign * hysteresis,
                                       .numerical_error = contact_area_error(
-                                          corrected, difference + relative.variance * variance),
+                                          variance, difference + relative.variance * variance),
                                       .hysteresis_error = error + relative.hysteresis * hysteresis,
                                       .temperature = (double)NAN};
         if (at.heat != NULL) {
@@ -87,9 +86,8 @@ wt_status wt_friction_profile(wt_friction_workspace *workspace, double pressure,
     friction_scratch scratch;
     arena memory = {0};
     double *cuts = arena_alloc(&memory, n, sizeof *cuts);
-    status = friction_scratch_init(&scratch, workspace, n, &memory, err);
-    if (status == WT_OK)
-        status = friction_solve_heat(workspace, &scratch, &at, err);
+    friction_scratch_init(&scratch, workspace, n, &memory);
+    status = friction_solve_heat(workspace, &scratch, &at, err);
     if (status == WT_OK)
         fill_nodes(workspace, at,
                    velocity < 0   ? -1

@@ -14,55 +14,6 @@
 
 #include <math.h>
 
-/* |d ln J| over n nodes. */
-static double steepness(const double *j, size_t n)
-{
-    const double ratio = j[0] > 0 && j[n - 1] > 0 ? j[n - 1] / j[0] : 1;
-    const double few = 8; /* below this ratio |sinh ln| is at most twice |ln| */
-    return ratio < few && ratio > 1 / few ? 0.5 * fabs(ratio - 1 / ratio) : fabs(log(ratio));
-}
-
-static double series_error(const wt_friction_workspace *ws, double own_error, double low,
-                           double high, friction_pass *pass)
-{
-    if (ws->layer != NULL)
-        return own_error * (ws->softening != NULL ? 2 * ws->softening->cancellation : 1);
-    if (ws->flash != NULL) /* frequencies need not rise from one subinterval to the next */
-        pass->piece = pass->loss_piece = 0;
-    const double error = angular_error(ws->angular, fmin(low, high), fmax(low, high), &pass->piece);
-    return ws->softening == NULL ? error
-                                 : ws->softening->cancellation *
-                                       (error + angular_error(ws->loss, fmin(low, high),
-                                                              fmax(low, high), &pass->loss_piece));
-}
-
-/* Adds the errors of a part from J1, J2 and rounding; its n nodes have ln omega = `x`, and G so far
- * includes the part. The series have errors. Steep integrands also amplify the rounding of ln(q /
- * q0), ln omega and the logarithms of the knots. */
-static void add_input_errors(const wt_friction_workspace *ws, double own_error,
-                             const grid_subinterval *subinterval, const double *x, const double *j1,
-                             const double *j2, size_t n, double log_lowest, double variance,
-                             double hysteresis, double variance_so_far, friction_pass *pass)
-{
-    const bool closed = ws->layer == NULL &&
-                        angular_uses_closed_form(ws->angular, x[0], x[n - 1]) &&
-                        (ws->loss == NULL || angular_uses_closed_form(ws->loss, x[0], x[n - 1]));
-    /* ln omega is a sum of two terms */
-    const double far = fmax(fabs(x[0]), fabs(x[n - 1])) + fabs(log_lowest);
-    const double moved = closed ? 0 : 4 * DBL_EPSILON * (1 + far);
-    const double series = closed ? 0 : series_error(ws, own_error, x[0], x[n - 1], pass);
-    const double steepest_closed = 2; /* largest slope of a term of a Prony series */
-    const double nodes =
-        DBL_EPSILON * (1 + subinterval->t_high) * (fabs(subinterval->power) + steepest_closed + 1);
-    pass->variance_input_error +=
-        variance * (nodes + series + (closed ? 0 : moved * steepness(j2, n)));
-    pass->hysteresis_input_error +=
-        hysteresis * (nodes + series + (closed ? 0 : moved * steepness(j1, n)));
-    if (variance_so_far > 0)
-        pass->hysteresis_input_error +=
-            hysteresis * FRICTION_AREA_POWER * (pass->variance_input_error / variance_so_far);
-}
-
 /* ---- nodes ----------------------------------------------------------------------------------- */
 
 /* Nodes of one subinterval, of a core, or of several adjacent subintervals. */
@@ -156,8 +107,8 @@ typedef struct pass_scale {
 
 static pass_scale compute_pass_scale(const wt_friction_workspace *ws, friction_load at)
 {
-    const double ratio = ws->stiffness * at.modulus / at.pressure;
-    return (pass_scale){.g = ratio * ratio / 8 * at.density, .mu = ratio / 2 * at.density};
+    const double ratio = ws->stiffness / at.pressure;
+    return (pass_scale){.g = ratio * ratio / 8, .mu = ratio / 2};
 }
 
 static void scale_parts(size_t n, double scale, const double *restrict factor,
@@ -283,7 +234,7 @@ static void integrate_core(const wt_friction_workspace *ws, const node_view *cor
                 least = fmin(least, mu[i] / g[i]);
                 most = fmax(most, mu[i] / g[i]);
             }
-        const double integral = area_law_integral(ws->area, part->variance, ws->options.gamma);
+        const double integral = contact_integral(part->variance, ws->options.gamma);
         contact = integral / part->variance;
         part->closed_error = (most - least) * integral;
     }
@@ -376,8 +327,6 @@ static void integrate_subinterval(const wt_friction_workspace *ws, const node_vi
         below += rule->weight[j] * g[j];
         running[j] = highest = here > highest ? here : highest;
     }
-    for (size_t j = 0; ws->area != NULL && j < rule->n; j++)
-        running[j] = area_law_variance(ws->area, running[j]);
     contact_areas(running, rule->n, area);
     for (size_t j = 0; j < rule->n; j++)
         mu[j] = full[j] * area[j] * (gamma + (1 - gamma) * area[j] * area[j]);
@@ -432,8 +381,9 @@ static void add_pass_part(pass_state *w, const grid_subinterval *subinterval, co
     if (w->with_outside)
         pass->outside += extrapolated_part(ws, view, part);
     pass->variance_error += part->variance_error;
-    add_input_errors(ws, scratch->own_error, subinterval, view->log_omega, view->j1, view->j2, n,
-                     w->at.log_lowest, part->variance, part->hysteresis, variance, pass);
+    friction_add_input_errors(ws, scratch->own_error, subinterval, view->log_omega, view->j1,
+                              view->j2, n, w->at.log_lowest, part->variance, part->hysteresis,
+                              variance, pass);
     double error = part->hysteresis_error + part->closed_error;
     if (part_index > 0 && variance > 0) /* G may be almost 0, where its quotients are undefined */
         error += FRICTION_AREA_POWER * part->hysteresis * (pass->variance_error / variance);

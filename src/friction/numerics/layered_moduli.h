@@ -7,7 +7,7 @@
 #ifndef WT_FRICTION_NUMERICS_LAYERED_MODULI_H
 #define WT_FRICTION_NUMERICS_LAYERED_MODULI_H
 
-#include "friction/numerics/angular_weight.h"
+#include "friction/numerics/angular.h"
 #include "weartrack/friction.h"
 
 /* Size of the quadrature over the angle. */

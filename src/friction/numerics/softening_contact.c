@@ -131,8 +131,6 @@ static wt_status find_strain_cuts(strain_law *s, arena *memory, wt_error *err)
     const wt_roughness *r = s->roughness;
     const double length = log1p((r->q1 - r->q0) / r->q0);
     s->cuts = arena_numbers(memory, s->n);
-    if (s->cuts == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory for a table of strain");
     double from = 0;
     for (size_t k = 0; k < s->n; k++) {
         strain_crossing m = {.s = s, .strain = exp(s->log_strain[k])};
@@ -166,8 +164,6 @@ wt_status softening_new(const wt_softening *table, double factor, const wt_mater
         return status;
     strain_law *s = arena_alloc(memory, 1, sizeof *s);
     double *numbers = arena_numbers(memory, 3 * table->n);
-    if (s == NULL || numbers == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory for a table of strain");
     *s = (strain_law){.roughness = roughness,
                       .factor = factor,
                       .n = table->n,

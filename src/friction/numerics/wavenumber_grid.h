@@ -53,8 +53,7 @@ typedef struct subinterval_plan {
 void material_slopes(const wt_material *material, const double *knots, size_t n_knots,
                      double *slopes);
 /* Initialises a plan for these knots (in any unit of frequency) with the slopes of the material
- * (borrowed; NULL without knots) and up to n_cuts additional cuts. `memory.failed` is set if out of
- * memory. */
+ * (borrowed; NULL without knots) and up to n_cuts additional cuts. */
 void subinterval_plan_init(subinterval_plan *plan, const wt_roughness *roughness, double width,
                            size_t levels, const double *knots, const double *slopes, size_t n_knots,
                            size_t n_cuts, const strain_law *softening, arena *memory);

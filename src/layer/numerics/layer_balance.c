@@ -49,17 +49,6 @@ static wt_estimate compute_relaxation_time(const layer_rates *rates, wt_estimate
                          moved + time * (2 * rates->error + rates->wear_error + 64 * DBL_EPSILON));
 }
 
-/* Sets the balance with ageing, which modifies rubber at every depth at any wear rate. */
-static void set_aged_balance(wt_layer_steady_state *b, bool skip_numerical_errors)
-{
-    b->formation_rate_zero = b->ratio = b->critical_specific_wear_rate = HUGE_VAL;
-    b->thickness.value = HUGE_VAL;
-    b->thickness.numerical_error = skip_numerical_errors ? (double)NAN : 0;
-    b->regime = WT_LAYER_THICK;
-    b->relaxation_time = time_estimate(HUGE_VAL, 0);
-    b->eigenvalue = 0;
-}
-
 wt_status wt_layer_steady_state_compute(const wt_energy_source *source,
                                         const wt_layer_parameters *parameters,
                                         wt_layer_steady_state *balance, wt_error *err)
@@ -75,10 +64,8 @@ wt_status wt_layer_steady_state_compute(const wt_energy_source *source,
     if (status == WT_OK && !parameters->balance_only)
         status = layer_damage_time(&r, parameters->incubation, (wt_estimate){.unit = "m"},
                                    &b.incubation_time, err);
-    if (status != WT_OK) {
-        layer_rates_clear(&r);
+    if (status != WT_OK)
         return status;
-    }
 
     b.surface_power = r.power;
     b.formation_rate_zero = r.formation;
@@ -96,16 +83,13 @@ wt_status wt_layer_steady_state_compute(const wt_energy_source *source,
     b.relaxation_time = compute_relaxation_time(&r, b.thickness);
     b.eigenvalue = b.regime == WT_LAYER_NONE ? 0 : -1 / b.relaxation_time.value;
     b.removal_time = time_estimate((double)NAN, (double)NAN);
-    if (r.background > 0) {
-        set_aged_balance(&b, r.skip_numerical_errors);
-    } else if (b.regime == WT_LAYER_NONE) {
+    if (b.regime == WT_LAYER_NONE) {
         if (parameters->incubation)
             b.removal_time = compute_removal_time(&r, parameters->start_thickness);
         else
             status = layer_integrate_time(&r, parameters->start_thickness,
                                           (wt_estimate){.unit = "m"}, &b.removal_time, err);
     }
-    layer_rates_clear(&r);
     if (status == WT_OK)
         *balance = b;
     return status;
@@ -120,10 +104,8 @@ wt_status wt_layer_growth_time(const wt_energy_source *source,
     layer_rates r;
     *time = time_estimate((double)NAN, (double)NAN);
     wt_status status = layer_rates_compute(source, parameters, &r, err);
-    if (status != WT_OK || !(thickness.value > 0)) {
-        layer_rates_clear(&r);
+    if (status != WT_OK || !(thickness.value > 0))
         return status;
-    }
     const double start = parameters->start_thickness;
     if (parameters->incubation)
         status = layer_damage_time(&r, true, thickness, time, err);
@@ -132,7 +114,6 @@ wt_status wt_layer_growth_time(const wt_energy_source *source,
     /* never reached, or the old layer is still thicker at that time */
     if (isinf(time->value) || start - r.wear * time->value >= thickness.value)
         *time = time_estimate((double)NAN, (double)NAN);
-    layer_rates_clear(&r);
     return status;
 }
 

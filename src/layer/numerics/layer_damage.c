@@ -46,41 +46,33 @@ static double shifted_depth(const damage *d, size_t i, double depth)
     return depth + d->past[i].worn + d->worn_depth;
 }
 
-/* ln(D / Lambda) due to the loads, without ageing. */
+/* ln(D / Lambda) due to the loads. */
 double damage_log_total(double depth, const damage *d)
 {
     double sum = -HUGE_VAL;
     if (d->rates->formation > 0 && d->time > 0)
-        sum = (d->worn ? rates_log_integral(d->rates, depth, d->worn_depth)
-                       : rates_log_density(d->rates, depth)) +
+        sum = (d->worn ? energy_log_integral(d->rates->source, depth, d->worn_depth)
+                       : energy_log_density(d->rates->source, depth)) +
               damage_scale(d);
     for (size_t i = 0; i < d->n_past; i++) {
         const damage_load *p = &d->past[i];
         const double shifted = shifted_depth(d, i, depth);
-        sum =
-            log_add(sum, p->log_scale + (p->worn_depth > 0
-                                             ? rates_log_integral(p->rates, shifted, p->worn_depth)
-                                             : rates_log_density(p->rates, shifted)));
+        sum = log_add(sum, p->log_scale +
+                               (p->worn_depth > 0
+                                    ? energy_log_integral(p->rates->source, shifted, p->worn_depth)
+                                    : energy_log_density(p->rates->source, shifted)));
     }
     return sum;
-}
-
-/* Returns the level that the loads must reach, given the damage without load. If that damage
- * suffices, the smallest number is used. */
-static double damage_required_level(const damage *d)
-{
-    const double unloaded = d->rates->background * d->time + d->past_background;
-    return unloaded > 0 ? log(fmax(DBL_MIN, exp(d->level) - unloaded)) : d->level;
 }
 
 double damage_excess(double depth, void *user)
 {
     const damage *d = user;
     if (d->n_past > 0)
-        return damage_log_total(depth, d) - damage_required_level(d);
-    const double energy = d->worn ? rates_log_integral(d->rates, depth, d->worn_depth)
-                                  : rates_log_density(d->rates, depth);
-    return energy + damage_scale(d) - damage_required_level(d);
+        return damage_log_total(depth, d) - d->level;
+    const double energy = d->worn ? energy_log_integral(d->rates->source, depth, d->worn_depth)
+                                  : energy_log_density(d->rates->source, depth);
+    return energy + damage_scale(d) - d->level;
 }
 
 double damage_error(const layer_rates *rates)
@@ -106,17 +98,20 @@ energy_expansion damage_expand(const damage *d, double depth, double reach)
 {
     energy_expansion sum;
     if (d->n_past == 0) {
-        sum = rates_expand(d->rates, depth, d->worn_depth, reach);
+        sum = energy_expand(d->rates->source, d->rates->q_min, depth, d->worn_depth, reach);
         sum.log_scale += damage_scale(d);
         return sum;
     }
     sum = (energy_expansion){.log_scale = -HUGE_VAL};
     if (d->rates->formation > 0 && d->time > 0)
-        add_expansion(&sum, rates_expand(d->rates, depth, d->worn_depth, reach), damage_scale(d));
+        add_expansion(&sum,
+                      energy_expand(d->rates->source, d->rates->q_min, depth, d->worn_depth, reach),
+                      damage_scale(d));
     for (size_t i = 0; i < d->n_past; i++) {
         const damage_load *p = &d->past[i];
         add_expansion(&sum,
-                      rates_expand(p->rates, shifted_depth(d, i, depth), p->worn_depth, reach),
+                      energy_expand(p->rates->source, p->rates->q_min, shifted_depth(d, i, depth),
+                                    p->worn_depth, reach),
                       p->log_scale);
     }
     return sum;
@@ -141,7 +136,7 @@ bool damage_find_rise(damage *d, depth_interval range, depth_interval *crossing,
         const double low = fmax(high - length, range.low);
         length = high - low;
         const energy_expansion c = damage_expand(d, low, length);
-        const double excess = c.log_scale - damage_required_level(d);
+        const double excess = c.log_scale - d->level;
         const double here = log(c.value) + excess;
         const double most =
             log(c.value + length * (fmax(0, c.slope) + 0.5 * length * c.curvature)) + excess;
@@ -203,7 +198,7 @@ static bool damage_find_fall(damage *d, double from, depth_interval *crossing)
         const double low = fmax(high - length, 0);
         length = high - low;
         const energy_expansion c = damage_expand(d, low, length);
-        const double excess = c.log_scale - damage_required_level(d);
+        const double excess = c.log_scale - d->level;
         const double least = c.value - length * (fmax(0, -c.slope) + 0.5 * length * c.curvature);
         const bool turns = fabs(c.slope) < length * c.curvature;
         if (turns && !(least > 0 && log(least) + excess >= 0) &&
@@ -287,9 +282,10 @@ static wt_status monotonic_thickness(damage *d, double error, double earlier,
     thickness->value = edge;
     if (d->rates->skip_numerical_errors)
         return WT_OK;
-    const double lost = exp(rates_log_density(d->rates, edge)) -
-                        exp(rates_log_density(d->rates, edge + d->worn_depth));
-    const double reach = error / lost * exp(rates_log_integral(d->rates, edge, d->worn_depth));
+    const double lost = exp(energy_log_density(d->rates->source, edge)) -
+                        exp(energy_log_density(d->rates->source, edge + d->worn_depth));
+    const double reach =
+        error / lost * exp(energy_log_integral(d->rates->source, edge, d->worn_depth));
     thickness->numerical_error = root_displacement(
         damage_excess, d, edge, error, fmax(2 * DBL_EPSILON * edge, isfinite(reach) ? reach : 0),
         error / d->rates->q_max);
@@ -305,10 +301,6 @@ wt_status layer_damage_depth(const layer_rates *rates, double time, double earli
         return WT_OK;
     const double error = damage_error(rates);
     damage_set_time(&d, time);
-    if (rates->background * time >= 1) { /* modified without load at any depth */
-        thickness->value = HUGE_VAL;
-        return WT_OK;
-    }
     if (energy_is_monotonic(rates->source))
         return monotonic_thickness(&d, error, earlier, thickness, err);
     d.level = -error;
@@ -354,15 +346,13 @@ static wt_status damage_log_time(damage *d, double depth, double level, double *
     damage_set_time(d, 1);
     if (!d->worn) {
         const double rate = damage_log_total(depth, d);
-        *log_time = level - (r->background > 0 ? log_add(rate, log(r->background)) : rate);
+        *log_time = level - rate;
         return WT_OK;
     }
     arrival p = {d, depth};
     /* from a worn depth of the shortest wave to one at which the longest wave has decayed */
     const double step = log(4);
-    double end = log(1e3 / r->q_min / r->wear);
-    if (r->background > 0) /* or the time at which ageing suffices */
-        end = fmax(end, level - log(r->background) + step);
+    const double end = log(1e3 / r->q_min / r->wear);
     double low = -log(r->q_max * r->wear);
     *log_time = (double)INFINITY;
     while (arrival_excess(low, &p) >= 0)
@@ -407,14 +397,8 @@ wt_status layer_damage_time(const layer_rates *rates, bool with_wear, wt_estimat
     if (!isfinite(depth.value))
         return WT_OK;
     const double error = damage_error(rates);
-    if (rates->formation == 0) {
-        if (rates->background > 0) {
-            time->value = 1 / rates->background;
-            time->numerical_error =
-                rates->skip_numerical_errors ? (double)NAN : error * time->value;
-        }
+    if (rates->formation == 0)
         return WT_OK;
-    }
     const double above = fmax(0, depth.value - depth.numerical_error);
     double log_time = 0, early = 0, late = 0;
     wt_status status = damage_first_log_time(&d, depth.value, 0, &log_time, err);

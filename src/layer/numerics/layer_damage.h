@@ -24,8 +24,7 @@ typedef struct damage {
     double level;            /* required ln(D / Lambda) */
     const damage_load *past; /* [n_past] borrowed */
     size_t n_past;
-    double past_background; /* D / Lambda without load until the start of the present load */
-    double q_max;           /* largest wavenumber of all loads */
+    double q_max; /* largest wavenumber of all loads */
 } damage;
 
 damage damage_create(const layer_rates *rates, bool with_wear);
@@ -34,7 +33,7 @@ void damage_set_time(damage *d, double time);
 damage_load damage_load_create(const damage *d);
 /* ln(D / Lambda) minus the level; `user` is a damage. */
 double damage_excess(double depth, void *user);
-/* ln(D / Lambda) due to the loads, without ageing. */
+/* ln(D / Lambda) due to the loads. */
 double damage_log_total(double depth, const damage *d);
 /* Relative error of D, from the energy and from the logarithms. */
 double damage_error(const layer_rates *rates);

@@ -4,7 +4,7 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
-#include "layer/numerics/layer_feedback_rate.h"
+#include "layer/numerics/layer_kernel.h"
 
 #include "core/math/root.h"
 
@@ -47,22 +47,16 @@ static loop_point compute_loop_point(loop_search *s, double thickness)
     s->status = s->energy(thickness, s->user, &source, &parameters, s->err);
     if (s->status == WT_OK)
         s->status = layer_rates_compute(&source, &parameters, &rates, s->err);
-    if (s->status == WT_OK && rates.background > 0) {
-        s->status = wt_fail(s->err, WT_E_ARG, "a layer that ages has no balance to act back on");
-        wt_error_place(s->err, "ageing");
-        wt_error_advice(s->err, "leave out ageing, or feedback");
-        layer_rates_clear(&rates);
-    }
     if (s->status == WT_OK) {
         p = (loop_point){.formation = layer_formation_rate(&rates, thickness),
                          .wear = rates.wear,
                          .decay = layer_decay_rate(&rates, thickness),
                          .wear_factor = parameters.specific_wear_rate,
                          .q_max = rates.q_max};
-        p.log_ratio = rates.formation > 0
-                          ? rates.log_ratio + rates_log_tail(&rates, thickness) - rates.log_power
-                          : -HUGE_VAL;
-        layer_rates_clear(&rates);
+        p.log_ratio =
+            rates.formation > 0
+                ? rates.log_ratio + energy_log_tail(rates.source, thickness) - rates.log_power
+                : -HUGE_VAL;
     }
     wt_energy_source_clear(&source);
     return p;
@@ -160,9 +154,7 @@ wt_status wt_layer_feedback_solve(wt_layer_energy_fn energy, void *user, double 
     if (energy == NULL || loop == NULL || !(low > 0) || !(high > low) || grid < 3)
         return wt_fail(err, WT_E_ARG, "a layer that acts back needs a range of thickness");
     loop_search s = {.energy = energy, .user = user, .err = err};
-    double *x = malloc(2 * grid * sizeof *x);
-    if (x == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory for a layer that acts back");
+    double *x = wt_alloc(2 * grid, sizeof *x);
     double *value = x + grid;
     wt_layer_feedback l = {.low = low, .high = high};
     const double bare = compute_loop_point(&s, 0).log_ratio;
@@ -248,9 +240,7 @@ wt_status wt_layer_feedback_history(wt_layer_energy_fn energy, void *user,
         wt_error_advice(err, "without wear, or with little, it has no balance: leave out feedback");
         return WT_E_RANGE;
     }
-    feedback_rate *feedback = calloc(1, sizeof *feedback);
-    if (feedback == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory for a layer that acts back");
+    feedback_rate *feedback = wt_alloc(1, sizeof *feedback);
     formation_search o = {&s, bare.wear};
     status = feedback_rate_create(compute_log_formation, &o, 1 / bare.q_max, target, feedback, err);
     if (status == WT_OK)

@@ -7,6 +7,7 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
+#include "core/base/memory.h"
 #include "layer/numerics/layer_kernel.h"
 
 #include "core/math/root.h"
@@ -71,7 +72,7 @@ static wt_status compute_worn_length_rates(growth *g, double *length, wt_error *
     gsl_function f = {worn_per_growth, g};
     gsl_integration_workspace *const w = gsl_integration_workspace_alloc(MAX_INTERVALS);
     if (w == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
+        out_of_memory(MAX_INTERVALS * sizeof(double));
     const int failed = gsl_integration_qag(&f, 0, g->from, 0, integral_tolerance, MAX_INTERVALS,
                                            GSL_INTEG_GAUSS61, w, length, &error);
     gsl_integration_workspace_free(w);

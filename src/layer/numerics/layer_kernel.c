@@ -1,29 +1,76 @@
 /* Rates of formation, Qf(d) = int_d^inf Omega dz / Lambda, and of wear, Qw = k sigma0 v, and the
- * thickness at which one is a given multiple of the other. Omega is w / U_c, or the rate of an
- * activated closure.
+ * thickness at which one is a given multiple of the other. Omega is w / U_c.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
+#include "layer/numerics/layer_kernel.h"
+#include "core/base/memory.h"
 #include "core/base/shared_params.h"
-#include "layer/numerics/layer_feedback_rate.h"
-
 #include "core/math/root.h"
 
 #include <float.h>
+#include <gsl/gsl_chebyshev.h>
 #include <math.h>
+
+/* Order for a function that is smooth over a factor of two: the last coefficients are rounding. */
+enum { ORDER = 24 };
+
+void feedback_rate_clear(feedback_rate *feedback)
+{
+    for (size_t i = 0; i < feedback->n; i++) {
+        gsl_cheb_free(feedback->subinterval[i].value);
+        gsl_cheb_free(feedback->subinterval[i].slope);
+    }
+    feedback->n = 0;
+}
+
+wt_status feedback_rate_create(feedback_formation_fn f, void *user, double first, double target,
+                               feedback_rate *feedback, wt_error *err)
+{
+    gsl_function function = {f, user};
+    *feedback = (feedback_rate){.target = target};
+    for (double low = 0, high = fmin(first, target); low < target; high *= 2) {
+        if (feedback->n == FEEDBACK_SUBINTERVALS)
+            return wt_fail(err, WT_E_RANGE, "a layer is too thick beside the shortest wave");
+        feedback_subinterval *p = &feedback->subinterval[feedback->n];
+        *p = (feedback_subinterval){low, 2 * high > target ? target : high, gsl_cheb_alloc(ORDER),
+                                    gsl_cheb_alloc(ORDER)};
+        feedback->n++;
+        if (p->value == NULL || p->slope == NULL)
+            out_of_memory(sizeof(gsl_cheb_series));
+        gsl_cheb_init(p->value, &function, p->low, p->high);
+        gsl_cheb_calc_deriv(p->slope, p->value);
+        low = p->high;
+    }
+    return WT_OK;
+}
+
+static const feedback_subinterval *find_subinterval(const feedback_rate *feedback, double thickness)
+{
+    size_t i = 0;
+    while (i + 1 < feedback->n && thickness > feedback->subinterval[i].high)
+        i++;
+    return &feedback->subinterval[i];
+}
+
+static double feedback_rate_log(const feedback_rate *feedback, double thickness)
+{
+    return gsl_cheb_eval(find_subinterval(feedback, thickness)->value, thickness);
+}
+
+static double feedback_rate_slope(const feedback_rate *feedback, double thickness)
+{
+    return gsl_cheb_eval(find_subinterval(feedback, thickness)->slope, thickness);
+}
 
 wt_layer_parameters wt_layer_defaults(void)
 {
-    return (wt_layer_parameters){.critical_energy = (double)NAN,
-                                 .damage = 1,
-                                 .duty = 1,
-                                 .severity_exponent = 1,
-                                 .closure = WT_CLOSURE_ENERGY,
-                                 .activation = {.attempt = WT_ATTEMPT_HBAR,
-                                                .barrier = (double)NAN,
-                                                .volume = (double)NAN,
-                                                .temperature = (double)NAN,
-                                                .area_ratio = 1}};
+    return (wt_layer_parameters){
+        .critical_energy = (double)NAN,
+        .damage = 1,
+        .duty = 1,
+        .severity_exponent = 1,
+    };
 }
 
 static const wt_param rows[] = {
@@ -31,13 +78,6 @@ static const wt_param rows[] = {
     {PARAM("severity-power", wt_layer_parameters, severity_power, WT_Q_NONE, AT_LEAST(0)),
      .flags = PARAM_ONLY_C, .help = "power at which the specific wear rate doubles, W/m^2"},
     LAYER_SEVERITY_EXPONENT(wt_layer_parameters),
-    LAYER_CLOSURE(wt_layer_parameters),
-    LAYER_ACTIVATION_ROWS(wt_layer_parameters, activation., activation.),
-    {PARAM("activation-temperature", wt_layer_parameters, activation.temperature, WT_Q_TEMPERATURE,
-           ABOVE(0)),
-     .unset = "", .flags = PARAM_ONLY_C, .help = "of the rubber"},
-    {PARAM("area-ratio", wt_layer_parameters, activation.area_ratio, WT_Q_NONE, ABOVE_TO(0, 1)),
-     .flags = PARAM_ONLY_C, .help = "real over nominal contact area"},
     {PARAM("critical-energy", wt_layer_parameters, critical_energy, WT_Q_ENERGY_DENSITY, ABOVE(0)),
      .flags = PARAM_ONLY_C, .help = "energy per volume that modifies the rubber"},
     {PARAM("pressure", wt_layer_parameters, pressure, WT_Q_PRESSURE, AT_LEAST(0)),
@@ -46,54 +86,6 @@ static const wt_param rows[] = {
      .flags = PARAM_ONLY_C, .help = "of sliding"},
 };
 PARAM_TABLE(wt_layer_params, wt_layer_parameters, rows, wt_layer_defaults, NO_PARTS)
-
-/* Checks the parameters that the closure requires. */
-static wt_status check_closure(const wt_layer_parameters *p, wt_error *err)
-{
-    const bool activated = p->closure == WT_CLOSURE_ACTIVATED;
-    const wt_activation *a = &p->activation;
-    if (activated && (isnan(a->barrier) || isnan(a->volume) || isnan(a->temperature)))
-        return wt_fail(err, WT_E_MISSING,
-                       "the activated closure of a layer needs a barrier, an activation volume "
-                       "and a temperature");
-    if (!activated || !a->ageing || p->incubation)
-        return WT_OK;
-    wt_fail(err, WT_E_ARG, "the balance of rates knows no ageing, which goes on at every depth");
-    wt_error_place(err, "ageing");
-    wt_error_advice(err, "leave out ageing, or no-incubation: the transport of damage has it");
-    return WT_E_ARG;
-}
-
-void layer_rates_clear(layer_rates *rates)
-{
-    activation_free(rates->activated);
-    rates->activated = NULL;
-}
-
-/* Sets the rates of the closure. */
-static wt_status apply_closure(layer_rates *r, const wt_layer_parameters *p, wt_error *err)
-{
-    r->error = r->source->numerical_error;
-    if (p->closure == WT_CLOSURE_ENERGY) {
-        r->log_power = r->power > 0 ? log(r->power) : 0;
-        r->threshold = log(p->critical_energy) + log(p->damage);
-        r->formation = p->duty * (r->power / p->critical_energy / p->damage);
-        return WT_OK;
-    }
-    r->threshold = log(p->damage);
-    if (p->activation.ageing)
-        r->background = wt_activation_unloaded_rate(&p->activation) / p->damage;
-    if (!(r->power > 0) || !(p->velocity > 0))
-        return WT_OK;
-    const wt_status status =
-        activation_new(r->source, &p->activation, p->velocity, &r->activated, err);
-    if (status != WT_OK || r->activated == NULL)
-        return status;
-    r->log_power = activation_log_tail(r->activated, 0);
-    r->formation = p->duty * exp(r->log_power - r->threshold);
-    r->error = activation_error(r->activated);
-    return WT_OK;
-}
 
 double layer_wear_rate(const wt_layer_parameters *p, double power)
 {
@@ -118,14 +110,8 @@ wt_status layer_rates_compute(const wt_energy_source *source, const wt_layer_par
     if (parameters == NULL)
         return wt_fail(err, WT_E_ARG, "a layer needs its parameters");
     wt_status status = energy_check(source, err);
-    if (status == WT_OK) {
-        wt_layer_parameters checked = *parameters;
-        if (checked.closure == WT_CLOSURE_ACTIVATED)
-            checked.critical_energy = 1; /* the activated closure has no critical energy */
-        status = param_check(wt_layer_params(), &checked, err);
-    }
     if (status == WT_OK)
-        status = check_closure(parameters, err);
+        status = param_check(wt_layer_params(), parameters, err);
     if (status != WT_OK)
         return status;
     const wt_layer_parameters *p = parameters;
@@ -135,18 +121,18 @@ wt_status layer_rates_compute(const wt_energy_source *source, const wt_layer_par
         r.q_min = 0;
     for (size_t i = 0; i < source->n; i++)
         r.power += source->power[i];
-    status = apply_closure(&r, p, err);
+    r.log_power = r.power > 0 ? log(r.power) : 0;
+    r.threshold = log(p->critical_energy) + log(p->damage);
+    r.formation = p->duty * (r.power / p->critical_energy / p->damage);
+    r.error = source->numerical_error;
     r.wear = p->duty * layer_wear_rate(p, r.power) * p->pressure * p->velocity;
     r.wear_error = wear_power_sensitivity(p, r.power) * source->numerical_error;
     /* the density of a wave is proportional to q, and its second derivative to q^3 */
     const double bends = r.power * r.q_max * r.q_max * r.q_max;
-    if (status == WT_OK && (!isfinite(r.formation) || !isfinite(r.wear) || !isfinite(bends))) {
+    if (!isfinite(r.formation) || !isfinite(r.wear) || !isfinite(bends)) {
         status = wt_fail(err, WT_E_RANGE, "formation or wear of a layer is faster than any number");
         wt_error_found(err, "formation %g m/s, wear %g m/s", r.formation, r.wear);
         wt_error_advice(err, "check the units: 1 mm^3/(N m) is 1e-9 m^2/N");
-    }
-    if (status != WT_OK) {
-        layer_rates_clear(&r);
         return status;
     }
     r.log_ratio = r.formation == 0 ? -HUGE_VAL : log(r.formation / r.wear);
@@ -156,38 +142,13 @@ wt_status layer_rates_compute(const wt_energy_source *source, const wt_layer_par
     return WT_OK;
 }
 
-double rates_log_density(const layer_rates *rates, double depth)
-{
-    return rates->activated != NULL ? activation_log_density(rates->activated, depth)
-                                    : energy_log_density(rates->source, depth);
-}
-
-double rates_log_tail(const layer_rates *rates, double depth)
-{
-    return rates->activated != NULL ? activation_log_tail(rates->activated, depth)
-                                    : energy_log_tail(rates->source, depth);
-}
-
-double rates_log_integral(const layer_rates *rates, double depth, double length)
-{
-    return rates->activated != NULL ? activation_log_integral(rates->activated, depth, length)
-                                    : energy_log_integral(rates->source, depth, length);
-}
-
-energy_expansion rates_expand(const layer_rates *rates, double depth, double length, double reach)
-{
-    return rates->activated != NULL
-               ? activation_expand(rates->activated, depth, length, reach)
-               : energy_expand(rates->source, rates->q_min, depth, length, reach);
-}
-
 double layer_formation_rate(const layer_rates *rates, double thickness)
 {
     if (rates->feedback != NULL)
         return exp(feedback_rate_log(rates->feedback, thickness));
     if (rates->formation == 0)
         return 0;
-    const double fall = rates_log_tail(rates, thickness) - rates->log_power;
+    const double fall = energy_log_tail(rates->source, thickness) - rates->log_power;
     const double lowest = -700; /* e^x does not underflow above this; a faster formation uses
                                    logarithms */
     return fall > lowest ? rates->formation * exp(fall) : exp(log(rates->formation) + fall);
@@ -199,7 +160,8 @@ double layer_decay_rate(const layer_rates *rates, double thickness)
         return fabs(feedback_rate_slope(rates->feedback, thickness));
     if (rates->formation == 0)
         return 0;
-    return exp(rates_log_density(rates, thickness) - rates_log_tail(rates, thickness));
+    return exp(energy_log_density(rates->source, thickness) -
+               energy_log_tail(rates->source, thickness));
 }
 
 /* ---- fixed point ----------------------------------------------------------------------------- */
@@ -212,7 +174,7 @@ typedef struct balance_root {
 static double log_formation_excess(double depth, void *user)
 {
     const balance_root *b = user;
-    return rates_log_tail(b->rates, depth) - b->rates->log_power - b->level;
+    return energy_log_tail(b->rates->source, depth) - b->rates->log_power - b->level;
 }
 
 /* Displacement of the root due to this error of ln Qf. */

@@ -5,13 +5,29 @@
 #ifndef WT_LAYER_NUMERICS_LAYER_KERNEL_H
 #define WT_LAYER_NUMERICS_LAYER_KERNEL_H
 
-#include "layer/numerics/activation.h"
+#include "layer/numerics/energy_density_kernel.h"
 
-/* Qf(d) = formation exp(log_tail(d) - log_power), Qw = wear; R = Qf(0)/Qw. Density, tail and
- * integral belong to the energy, or to the rate of an activated closure. */
+typedef struct feedback_subinterval {
+    double low, high;
+    struct gsl_cheb_series_struct *value, *slope; /* of ln Qf */
+} feedback_subinterval;
+
+/* Each subinterval is as long as all before it: a layer is never 2^64 times as thick as the
+ * shortest wave. */
+enum { FEEDBACK_SUBINTERVALS = 64 };
+
+typedef struct feedback_rate {
+    double target; /* final thickness [m] */
+    size_t n;
+    feedback_subinterval subinterval[FEEDBACK_SUBINTERVALS];
+} feedback_rate;
+
+/* ln Qf under a layer of this thickness. */
+typedef double (*feedback_formation_fn)(double thickness, void *user);
+
+/* Qf(d) = formation exp(log_tail(d) - log_power), Qw = wear; R = Qf(0)/Qw. */
 typedef struct layer_rates {
     const wt_energy_source *source;
-    activation *activated;                /* NULL for the energy closure */
     const struct feedback_rate *feedback; /* formation with feedback; NULL if as on the bulk */
     double q_min, q_max; /* range of the terms with power [rad/m]; 0 without power */
     double formation;    /* Qf(0) [m/s], duty included */
@@ -19,8 +35,7 @@ typedef struct layer_rates {
     double power;        /* power per area [W/m^2] */
     double log_power;    /* ln of the tail at the surface; 0 without power */
     double log_ratio;    /* ln R; -infinity without power, +infinity without wear */
-    double threshold;    /* ln(U_c Lambda), or ln Lambda of an activated closure */
-    double background;   /* damage rate without load over Lambda [1/s]; 0 if none */
+    double threshold;    /* ln(U_c Lambda) */
     double error;        /* relative error of a tail */
     double wear_error;   /* relative error of the wear if it depends on the power;
                             else 0 */
@@ -32,11 +47,6 @@ wt_status layer_rates_compute(const wt_energy_source *source, const wt_layer_par
                               layer_rates *rates, wt_error *err) WT_NODISCARD;
 /* Specific wear rate k with the effect of the power [m^2/N]. */
 double layer_wear_rate(const wt_layer_parameters *parameters, double power);
-void layer_rates_clear(layer_rates *rates);
-double rates_log_density(const layer_rates *rates, double depth);
-double rates_log_tail(const layer_rates *rates, double depth);
-double rates_log_integral(const layer_rates *rates, double depth, double length);
-energy_expansion rates_expand(const layer_rates *rates, double depth, double length, double reach);
 double layer_formation_rate(const layer_rates *rates, double thickness); /* Qf */
 /* Local decay rate of Qf, w / int w [1/m]. */
 double layer_decay_rate(const layer_rates *rates, double thickness);
@@ -70,5 +80,10 @@ wt_status layer_history_sorted(const layer_rates *rates, double start, bool tran
  * surface; infinite if it is not on the path. */
 wt_status layer_integrate_time(const layer_rates *rates, double start, wt_estimate goal,
                                wt_estimate *time, wt_error *err) WT_NODISCARD;
+/* Creates subintervals from 0 to the target; the first has the length `first`. The caller clears
+ * the rate, also on failure. */
+wt_status feedback_rate_create(feedback_formation_fn f, void *user, double first, double target,
+                               feedback_rate *feedback, wt_error *err) WT_NODISCARD;
+void feedback_rate_clear(feedback_rate *feedback);
 
 #endif
