@@ -136,7 +136,6 @@ static wt_status evaluate_friction(const growth_draw *d, double thickness, doubl
 static wt_status compute_draw(const growth_inputs *g, layer_context *scene, double *out,
                               wt_error *err)
 {
-    const wt_layer_job *const job = scene->job;
     growth_draw d = {.scene = scene, .points = wt_alloc(g->n, sizeof *d.points)};
     wt_status status = grow_layer(g, &d, err);
     if (status == WT_OK)
