@@ -149,28 +149,24 @@ void calibration_errors_clear(calibration_errors *errors)
 
 /* ---- curves ---------------------------------------------------------------------------------- */
 
-static wt_status copy_branch(const wt_force_curve *curve, wt_segment_kind kind, common_branch *to,
-                             wt_error *err)
+static void copy_branch(const wt_force_curve *curve, wt_segment_kind kind, common_branch *to)
 {
     const wt_segment *segment = wt_force_curve_segment(curve, kind);
     if (segment == NULL || segment->n_points == 0)
-        return WT_OK;
+        return;
     const size_t n = segment->n_points, bytes = n * sizeof(double);
-    double *store = malloc(3 * bytes);
-    if (store == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    double *store = wt_alloc(3, bytes);
     *to = (common_branch){.height = store, .force = store + n};
     const double *height = segment_height(segment),
                  *force = segment_force(segment, &curve->cantilever, to->force),
                  *time = segment_time(segment, store + 2 * n);
     if (height == NULL || force == NULL)
-        return WT_OK;
+        return;
     memcpy(to->height, height, bytes);
     memmove(to->force, force, bytes);
     if (time != NULL)
         to->time = memmove(store + 2 * n, time, bytes);
     to->n = n;
-    return WT_OK;
 }
 
 /* Keeps every second curve. The remaining curves are those that twice the stride selects from the
@@ -187,24 +183,22 @@ static void halve_curves(calibration_errors *to)
     to->stride *= 2;
 }
 
-wt_status calibration_errors_store(calibration_errors *to, const wt_force_curve *curve,
-                                   const wt_contact_table *contact, bool has_file_tip,
-                                   wt_error *err)
+void calibration_errors_store(calibration_errors *to, const wt_force_curve *curve,
+                              const wt_contact_table *contact, bool has_file_tip)
 {
     if (!to->stated || to->n_offered++ % to->stride != 0)
-        return WT_OK;
+        return;
     if (to->n == COMMON_CURVES) {
         halve_curves(to);
         if ((to->n_offered - 1) % to->stride != 0)
-            return WT_OK;
+            return;
     }
     common_curve *stored = &to->curve[to->n++];
     *stored = (common_curve){.spring_constant = curve->cantilever.spring_constant,
                              .contact = contact,
                              .has_file_tip = has_file_tip};
-    const wt_status status = copy_branch(curve, WT_SEGMENT_APPROACH, &stored->branch[0], err);
-    return status == WT_OK ? copy_branch(curve, WT_SEGMENT_RETRACT, &stored->branch[1], err)
-                           : status;
+    copy_branch(curve, WT_SEGMENT_APPROACH, &stored->branch[0]);
+    copy_branch(curve, WT_SEGMENT_RETRACT, &stored->branch[1]);
 }
 
 /* ---- fits ------------------------------------------------------------------------------------ */
@@ -289,21 +283,17 @@ wt_status calibration_errors_fit(calibration_errors *to, const wt_indent_options
     for (size_t i = 0; i < to->n; i++)
         if (f.capacity < to->curve[i].branch[0].n + to->curve[i].branch[1].n)
             f.capacity = to->curve[i].branch[0].n + to->curve[i].branch[1].n;
-    f.scratch = calloc(threads * f.capacity, sizeof *f.scratch);
-    f.errors = calloc(n, sizeof *f.errors);
-    wt_status status = WT_E_MEMORY;
-    if (f.scratch == NULL || f.errors == NULL) {
-        status = wt_fail(err, status, "out of memory");
-    } else {
-        status = wt_parallel_for(n, threads, measure_source_gain, &f, NULL, "fitting curves anew");
-        size_t first = 0;
-        while (first < n && f.errors[first].status == WT_OK)
-            first++;
-        if (status != WT_OK && first == n)
-            (void)wt_fail(err, status, "fitting in parallel failed");
-        else if (status != WT_OK && err != NULL)
-            *err = f.errors[first];
-    }
+    f.scratch = wt_alloc(threads * f.capacity, sizeof *f.scratch);
+    f.errors = wt_alloc(n, sizeof *f.errors);
+    const wt_status status =
+        wt_parallel_for(n, threads, measure_source_gain, &f, NULL, "fitting curves anew");
+    size_t first = 0;
+    while (first < n && f.errors[first].status == WT_OK)
+        first++;
+    if (status != WT_OK && first == n)
+        (void)wt_fail(err, status, "fitting in parallel failed");
+    else if (status != WT_OK && err != NULL)
+        *err = f.errors[first];
     free(f.scratch);
     free(f.errors);
     return status;

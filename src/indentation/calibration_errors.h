@@ -50,9 +50,8 @@ cached_tips calibration_errors_reset(wt_indent_workspace *workspace);
 void calibration_errors_apply_cached(const cached_tips *saved, wt_indent_workspace *workspace);
 /* Stores a copy of every n-th accepted curve. `contact` is the table of its tip and must outlive
  * the errors. `has_file_tip` states that this tip differs from the tip of the job. */
-wt_status calibration_errors_store(calibration_errors *to, const wt_force_curve *curve,
-                                   const wt_contact_table *contact, bool has_file_tip,
-                                   wt_error *err) WT_NODISCARD;
+void calibration_errors_store(calibration_errors *to, const wt_force_curve *curve,
+                              const wt_contact_table *contact, bool has_file_tip);
 /* Fits the stored curves. `workspaces` has one workspace for each thread. */
 wt_status calibration_errors_fit(calibration_errors *to, const wt_indent_options *options,
                                  unsigned threads, wt_indent_workspace *const *workspaces,

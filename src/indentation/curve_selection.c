@@ -64,9 +64,7 @@ wt_status curve_selection_begin(const wt_indent_job *job, curve_selection *selec
     for (size_t i = 0; status == WT_OK && i < job->n_curves; i++)
         status = read_selection_term(job->curves[i], selection, err);
     selection->median = selection->median || job->median_curve;
-    if (status == WT_OK && job->n_curves > 0 &&
-        (selection->matched = calloc(job->n_curves, sizeof *selection->matched)) == NULL)
-        status = wt_fail(err, WT_E_MEMORY, "out of memory");
+    selection->matched = wt_alloc(job->n_curves, sizeof *selection->matched);
     return status;
 }
 
@@ -187,18 +185,17 @@ static size_t collect_samples(const segment_origin *from, const wt_segment *segm
 
 /* Sets the fitted forces: 0 on the baseline, the contact law in contact. `first` receives the first
  * sample in contact. */
-static wt_status add_fitted_forces(const wt_indent_fit *fit, const wt_indent_options *options,
-                                   const wt_contact_table *contact, const wt_segment *approach,
-                                   const double *force, const segment_origin *from,
-                                   selection_scratch *s, size_t n, size_t *first, wt_error *err)
+static void add_fitted_forces(const wt_indent_fit *fit, const wt_indent_options *options,
+                              const wt_contact_table *contact, const wt_segment *approach,
+                              const double *force, const segment_origin *from, selection_scratch *s,
+                              size_t n, size_t *first)
 {
     *first = n;
     if (!isfinite(fit->modulus.value) || !isfinite(fit->contact_point.value))
-        return WT_OK;
+        return;
     const size_t m = wt_indent_plot_points(fit, segment_height(approach), force, approach->n_points,
                                            from->spring_constant, s->delta, s->out);
-    const wt_status status =
-        fitted_forces(fit, options, contact, approach, s->delta, m, s->time, s->model, err);
+    fitted_forces(fit, options, contact, approach, s->delta, m, s->time, s->model);
     size_t j = 0;
     for (size_t i = 0; i < n; i++) {
         const bool touches = s->sample[i].displacement >= 0;
@@ -206,26 +203,21 @@ static wt_status add_fitted_forces(const wt_indent_fit *fit, const wt_indent_opt
             *first = i;
         s->sample[i].fitted_force = !touches ? 0 : j < m ? s->model[j++] : (double)NAN;
     }
-    return status;
 }
 
-static wt_status add_curve_samples(selected_curve *to, const wt_force_curve *curve,
-                                   const wt_indent_fit *fit, const wt_contact_table *contact,
-                                   const wt_indent_options *options, selection_scratch *s,
-                                   wt_error *err)
+static void add_curve_samples(selected_curve *to, const wt_force_curve *curve,
+                              const wt_indent_fit *fit, const wt_contact_table *contact,
+                              const wt_indent_options *options, selection_scratch *s)
 {
     const wt_segment *approach = wt_force_curve_segment(curve, WT_SEGMENT_APPROACH);
     const wt_segment *retract = wt_force_curve_segment(curve, WT_SEGMENT_RETRACT);
     const double *force = segment_force(approach, &curve->cantilever, s->force);
     if (force == NULL)
-        return WT_OK;
+        return;
     const segment_origin from =
         find_segment_origin(fit, approach, curve->cantilever.spring_constant);
     size_t first = 0, n = collect_samples(&from, approach, force, s->sample);
-    const wt_status status =
-        add_fitted_forces(fit, options, contact, approach, force, &from, s, n, &first, err);
-    if (status != WT_OK)
-        return status;
+    add_fitted_forces(fit, options, contact, approach, force, &from, s, n, &first);
     if (first == n) /* without contact, all samples have equal density */
         first = n * BINS_BEFORE / (BINS_BEFORE + BINS_CONTACT);
     thin_samples(s->sample, first, BINS_BEFORE, to);
@@ -234,7 +226,7 @@ static wt_status add_curve_samples(selected_curve *to, const wt_force_curve *cur
                 ? NULL
                 : segment_force(retract, &curve->cantilever, s->force);
     if (force == NULL)
-        return WT_OK;
+        return;
     n = collect_samples(&from, retract, force, s->sample);
     for (first = 0; first < n && s->sample[first].displacement >= 0;)
         first++;
@@ -242,44 +234,38 @@ static wt_status add_curve_samples(selected_curve *to, const wt_force_curve *cur
         first = n / 2;
     thin_samples(s->sample, first, BINS_RETRACT, to);
     thin_samples(s->sample + first, n - first, BINS_RETRACT, to);
-    return WT_OK;
 }
 
-static wt_status store_samples(selected_curve *to, const wt_force_curve *curve,
-                               const wt_indent_fit *fit, const wt_contact_table *contact,
-                               const wt_indent_options *options, wt_error *err)
+static void store_samples(selected_curve *to, const wt_force_curve *curve, const wt_indent_fit *fit,
+                          const wt_contact_table *contact, const wt_indent_options *options)
 {
     const size_t arrays = 5, most = 2 * (BINS_BEFORE + BINS_CONTACT + 2 * BINS_RETRACT);
     const wt_segment *approach = wt_force_curve_segment(curve, WT_SEGMENT_APPROACH);
     const wt_segment *retract = wt_force_curve_segment(curve, WT_SEGMENT_RETRACT);
     if (approach == NULL || approach->n_points == 0 || segment_height(approach) == NULL)
-        return WT_OK; /* the verdict states the reason */
+        return; /* the verdict states the reason */
     const size_t longest = retract != NULL && retract->n_points > approach->n_points
                                ? retract->n_points
                                : approach->n_points;
-    double *numbers = malloc(arrays * longest * sizeof *numbers);
-    selection_scratch s = {.sample = malloc(longest * sizeof *s.sample),
+    double *numbers = wt_alloc(arrays * longest, sizeof *numbers);
+    selection_scratch s = {.sample = wt_alloc(longest, sizeof *s.sample),
                            .force = numbers,
                            .delta = numbers + longest,
                            .out = numbers + 2 * longest,
                            .time = numbers + 3 * longest,
                            .model = numbers + 4 * longest};
-    to->sample = malloc(most * sizeof *to->sample);
-    wt_status status = numbers == NULL || s.sample == NULL || to->sample == NULL
-                           ? wt_fail(err, WT_E_MEMORY, "out of memory for the curves to look at")
-                           : add_curve_samples(to, curve, fit, contact, options, &s, err);
+    to->sample = wt_alloc(most, sizeof *to->sample);
+    add_curve_samples(to, curve, fit, contact, options, &s);
     free(numbers);
     free(s.sample);
-    return status;
 }
 
-wt_status curve_selection_add(curve_selection *selection, const flow_file *file,
-                              const wt_force_curve *curve, const wt_indent_fit *fit,
-                              const wt_contact_table *contact, const wt_indent_options *options,
-                              wt_error *err)
+void curve_selection_add(curve_selection *selection, const flow_file *file,
+                         const wt_force_curve *curve, const wt_indent_fit *fit,
+                         const wt_contact_table *contact, const wt_indent_options *options)
 {
     if (selection->n_terms == 0)
-        return WT_OK;
+        return;
     const bool usable = wt_curve_verdict_is_usable(fit->verdict);
     const bool is_match = match_named_terms(selection, file, curve->index);
     selected_curve candidate = {.file = file->name, .curve = curve->index};
@@ -287,17 +273,13 @@ wt_status curve_selection_add(curve_selection *selection, const flow_file *file,
         candidate.error = fit->modulus.standard_error / fit->modulus.value;
     if (!is_match && !selection->all && !(selection->rejected && !usable)) {
         if (!usable || !make_place_among_worst(selection, candidate.error))
-            return WT_OK;
+            return;
         candidate.by_error = true;
     }
-    selected_curve *grown = array_grow(selection->curve, selection->n, sizeof *grown);
-    if (grown == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory for the curves to look at");
-    selection->curve = grown;
-    const wt_status status = store_samples(&candidate, curve, fit, contact, options, err);
+    selection->curve = array_grow(selection->curve, selection->n, sizeof *selection->curve);
+    store_samples(&candidate, curve, fit, contact, options);
     selection->n_worst += candidate.by_error;
     selection->curve[selection->n++] = candidate;
-    return status;
 }
 
 /* ---- the table ------------------------------------------------------------------------------- */

@@ -37,10 +37,9 @@ typedef struct curve_selection {
 wt_status curve_selection_begin(const wt_indent_job *job, curve_selection *selection,
                                 wt_error *err) WT_NODISCARD;
 /* Stores the samples of the curve of the next row if a term selects it. */
-wt_status curve_selection_add(curve_selection *selection, const flow_file *file,
-                              const wt_force_curve *curve, const wt_indent_fit *fit,
-                              const wt_contact_table *contact, const wt_indent_options *options,
-                              wt_error *err) WT_NODISCARD;
+void curve_selection_add(curve_selection *selection, const flow_file *file,
+                         const wt_force_curve *curve, const wt_indent_fit *fit,
+                         const wt_contact_table *contact, const wt_indent_options *options);
 /* Appends the curves to the table "curves" and creates the table if it is NULL. A named curve that
  * was not found is WT_E_NOT_FOUND. */
 wt_status curve_selection_table(const curve_selection *selection, const char *group,

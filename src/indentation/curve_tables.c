@@ -69,9 +69,7 @@ wt_status flow_curve_tables_add(wt_indent_tables *tables, const char *group, con
     size_t longest = approach->n_points;
     if (retract != NULL && retract->n_points > longest)
         longest = retract->n_points;
-    double *scratch = malloc(5 * longest * sizeof *scratch);
-    if (scratch == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    double *scratch = wt_alloc(5 * longest, sizeof *scratch);
     double *delta = scratch + longest, *shown = scratch + 2 * longest,
            *model = scratch + 3 * longest, *time = scratch + 4 * longest;
     const double *force = segment_force(approach, &curve->cantilever, scratch);
@@ -85,19 +83,17 @@ wt_status flow_curve_tables_add(wt_indent_tables *tables, const char *group, con
     add_displacement_segment(&whole, approach, fit, force);
 
     size_t n = wt_indent_plot_points(fit, height, force, approach->n_points, k, delta, shown);
-    wt_status status = fitted_forces(fit, options, contact, approach, delta, n, time, model, err);
-    if (status == WT_OK) {
-        table_writer branch =
-            next_block(&tables->force_indentation, &force_indentation_schema, group, err);
-        for (size_t i = 0; i < n; i++)
-            TABLE_ADD(force_indentation, &branch, group, delta[i], shown[i], model[i]);
-        force = retract == NULL ? NULL : segment_force(retract, &curve->cantilever, scratch);
-        if (force != NULL)
-            add_displacement_segment(&whole, retract, fit, force);
-        status = table_end(&whole, NULL);
-        if (status == WT_OK)
-            status = table_end(&branch, NULL);
-    }
+    fitted_forces(fit, options, contact, approach, delta, n, time, model);
+    table_writer branch =
+        next_block(&tables->force_indentation, &force_indentation_schema, group, err);
+    for (size_t i = 0; i < n; i++)
+        TABLE_ADD(force_indentation, &branch, group, delta[i], shown[i], model[i]);
+    force = retract == NULL ? NULL : segment_force(retract, &curve->cantilever, scratch);
+    if (force != NULL)
+        add_displacement_segment(&whole, retract, fit, force);
+    wt_status status = table_end(&whole, NULL);
+    if (status == WT_OK)
+        status = table_end(&branch, NULL);
     free(scratch);
     return status;
 }

@@ -264,8 +264,7 @@ wt_status wt_dwell_compute(const wt_indent_job *job, const wt_job *work, wt_dwel
     }
     if (status == WT_OK)
         status = indent_contact_table(&job->tip, &task.contact, err);
-    if (status == WT_OK && (task.workspace = wt_indent_workspace_new()) == NULL)
-        status = wt_fail(err, WT_E_MEMORY, "out of memory");
+    task.workspace = wt_indent_workspace_new();
     if (status == WT_OK)
         status = flow_files_list(job->sets, job->n_sets, work, &files, err);
     task.rows = table_begin(&dwell_schema, err);

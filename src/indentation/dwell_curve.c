@@ -50,18 +50,15 @@ static bool append_segment_samples(const wt_segment *s, const wt_cantilever *can
     return true;
 }
 
-static wt_status reserve_history(segment_history *h, const wt_force_curve *curve, wt_error *err)
+static void reserve_history(segment_history *h, const wt_force_curve *curve)
 {
     size_t n = 0, longest = 0;
     for (size_t i = 0; i < curve->n_segments; i++) {
         n += curve->segments[i].n_points;
         longest = curve->segments[i].n_points > longest ? curve->segments[i].n_points : longest;
     }
-    double *block = malloc((3 * n + 2 * longest + 1) * sizeof *block);
-    if (block == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory for the dwells of a curve");
+    double *block = wt_alloc(3 * n + 2 * longest + 1, sizeof *block);
     *h = (segment_history){block, block + n, block + 2 * n, block + 3 * n, 0};
-    return WT_OK;
 }
 
 /* Fits the sine in the samples from `from` on, at the frequency of the file or else at the
@@ -204,9 +201,7 @@ wt_status dwell_curve_fit(const wt_contact_table *contact, double poisson,
     const double k = curve->cantilever.spring_constant;
     segment_history h = {0};
     *to = (dwell_curve){.dwell.reason = "no time, height or force in it"};
-    wt_status status = reserve_history(&h, curve, err);
-    if (status != WT_OK)
-        return status;
+    reserve_history(&h, curve);
     double *const block = h.time;
     wt_dwell_history of = {.time = h.time,
                            .position = h.position,
@@ -217,7 +212,7 @@ wt_status dwell_curve_fit(const wt_contact_table *contact, double poisson,
                            .modulus = fit->modulus.value,
                            .baseline_offset = fit->baseline_offset.value,
                            .baseline_tilt = fit->baseline_tilt};
-    status = find_air_modulations(curve, approach, fit->direction, &h, to, err);
+    wt_status status = find_air_modulations(curve, approach, fit->direction, &h, to, err);
     if (status == WT_OK)
         status = collect_history(curve, approach, first, fit->direction, &h, &of, to, err);
     if (status == WT_OK && of.n_dwell > 0)

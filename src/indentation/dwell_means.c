@@ -70,24 +70,18 @@ wt_status dwell_means(const wt_table *moduli, dwell_mean **means, size_t *n, wt_
     *n = 0;
     if (status != WT_OK)
         return status;
-    moduli_row *at = calloc(v.n_rows + 1, sizeof *at);
-    double *values = calloc(v.n_rows + 1, sizeof *values);
-    long *units = calloc(v.n_rows + 1, sizeof *units);
-    dwell_mean *list = calloc(v.n_rows + 1, sizeof *list);
-    if (at == NULL || values == NULL || units == NULL || list == NULL) {
-        status = wt_fail(err, WT_E_MEMORY, "out of memory for the means of dwells");
-        free(list);
-        list = NULL;
-    }
-    for (size_t row = 0; status == WT_OK && row < v.n_rows; row++) {
+    moduli_row *at = wt_alloc(v.n_rows + 1, sizeof *at);
+    double *values = wt_alloc(v.n_rows + 1, sizeof *values);
+    long *units = wt_alloc(v.n_rows + 1, sizeof *units);
+    dwell_mean *list = wt_alloc(v.n_rows + 1, sizeof *list);
+    for (size_t row = 0; row < v.n_rows; row++) {
         const bool same = row > 0 && strcmp(dwell_moduli_text(&v, row, DWELL_MODULI_FILE),
                                             dwell_moduli_text(&v, row - 1, DWELL_MODULI_FILE)) == 0;
         at[row] = (moduli_row){dwell_moduli_get(&v, row, DWELL_MODULI_ANGULAR_FREQUENCY), row,
                                row == 0 ? 0 : at[row - 1].unit + (same ? 0 : 1)};
     }
-    if (status == WT_OK)
-        qsort(at, v.n_rows, sizeof *at, compare_frequencies);
-    for (size_t from = 0, to; status == WT_OK && from < v.n_rows; from = to) {
+    qsort(at, v.n_rows, sizeof *at, compare_frequencies);
+    for (size_t from = 0, to; from < v.n_rows; from = to) {
         for (to = from + 1;
              to < v.n_rows && at[to].frequency < at[from].frequency * (1 + same_frequency);)
             to++;

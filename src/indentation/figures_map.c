@@ -17,7 +17,7 @@ enum { MAP_POINTS = 9, MAP_LIMIT = 70000 }; /* smallest and largest number of cu
 static double grid_step(const table_view *table, indentation_column column)
 {
     size_t n = table->n_rows;
-    double *x = calloc(n, sizeof *x), step = 0;
+    double *x = wt_alloc(n, sizeof *x), step = 0;
     if (x == NULL)
         return 0;
     for (size_t row = 0; row < n; row++)

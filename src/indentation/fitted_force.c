@@ -12,15 +12,14 @@
 #include <stdlib.h>
 
 /* Replaces elastic forces over modulus by viscoelastic forces. */
-static wt_status apply_relaxation(const wt_prony *spectrum, const double *time, size_t n,
-                                  double *force, wt_error *err)
+static void apply_relaxation(const wt_prony *spectrum, const double *time, size_t n, double *force)
 {
     hereditary law = {0};
     double before = 0, shortest = (double)INFINITY;
-    wt_status status = hereditary_reserve(&law, spectrum->n, err);
+    hereditary_reserve(&law, spectrum->n);
     for (size_t i = 1; i < n; i++)
         shortest = fmin(shortest, time[i] - time[i - 1]);
-    if (status == WT_OK && n > 1 && shortest > 0) {
+    if (n > 1 && shortest > 0) {
         hereditary_begin(&law, spectrum, 1, shortest, time[n - 1] - time[0]);
         for (size_t i = 0; i < n; i++) {
             const double f = force[i];
@@ -31,20 +30,17 @@ static wt_status apply_relaxation(const wt_prony *spectrum, const double *time, 
         }
     }
     hereditary_clear(&law);
-    return status;
 }
 
 /* Computes forces with adhesion at the measured indentation. Infinite stiffness keeps the depth
  * fixed. */
-static wt_status apply_adhesion(const wt_indent_fit *fit, double reduced,
-                                const wt_contact_table *contact, const double *delta, size_t n,
-                                double *force, wt_error *err)
+static void apply_adhesion(const wt_indent_fit *fit, double reduced,
+                           const wt_contact_table *contact, const double *delta, size_t n,
+                           double *force)
 {
     const double at_fixed_depth = (double)INFINITY;
     const adhesion law = {contact, reduced, fit->work_of_adhesion.value};
-    double *bare = malloc((n > 0 ? n : 1) * sizeof *bare);
-    if (bare == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    double *bare = wt_alloc(n, sizeof *bare);
     adhesion_balance(&law, at_fixed_depth, adhesion_release(&law, at_fixed_depth), delta, n, bare);
     for (size_t i = 0; i < n; i += ADHESION_BLOCK) {
         const size_t m = n - i < ADHESION_BLOCK ? n - i : ADHESION_BLOCK;
@@ -54,12 +50,11 @@ static wt_status apply_adhesion(const wt_indent_fit *fit, double reduced,
             force[i + j] = at.force[j];
     }
     free(bare);
-    return WT_OK;
 }
 
-wt_status fitted_forces(const wt_indent_fit *fit, const wt_indent_options *options,
-                        const wt_contact_table *contact, const wt_segment *approach,
-                        const double *delta, size_t n, double *time, double *model, wt_error *err)
+void fitted_forces(const wt_indent_fit *fit, const wt_indent_options *options,
+                   const wt_contact_table *contact, const wt_segment *approach, const double *delta,
+                   size_t n, double *time, double *model)
 {
     const double *height = segment_height(approach), *all = segment_time(approach, time);
     const double reduced = 1 - options->poisson_ratio * options->poisson_ratio;
@@ -67,9 +62,10 @@ wt_status fitted_forces(const wt_indent_fit *fit, const wt_indent_options *optio
                               !isnan(fit->spectrum_factor.value);
     curve_power power;
     double modulus = fit->modulus.value;
-    wt_status status = WT_OK;
-    if (fit->work_of_adhesion.value > 0 && modulus > 0)
-        return apply_adhesion(fit, modulus / reduced, contact, delta, n, model, err);
+    if (fit->work_of_adhesion.value > 0 && modulus > 0) {
+        apply_adhesion(fit, modulus / reduced, contact, delta, n, model);
+        return;
+    }
     wt_contact_table_eval(contact, delta, n, model, NULL);
     if (all != NULL && (has_spectrum || fit->loss_power > 0)) {
         size_t m = 0; /* the samples that wt_indent_plot_points returns */
@@ -83,11 +79,9 @@ wt_status fitted_forces(const wt_indent_fit *fit, const wt_indent_options *optio
             modulus /=
                 (1 + fit->loss_shift) * hereditary_modulus(&power.series, 1 / fit->load_time);
         }
-        status =
-            apply_relaxation(has_spectrum ? options->spectrum : &power.series, time, m, model, err);
+        apply_relaxation(has_spectrum ? options->spectrum : &power.series, time, m, model);
     }
     for (size_t i = 0; i < n; i++)
         model[i] = model[i] * (modulus / reduced) -
                    (fit->contact_pull.value > 0 ? fit->contact_pull.value : 0);
-    return status;
 }

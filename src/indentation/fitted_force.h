@@ -7,9 +7,8 @@
 
 /* Computes the fitted forces of the n samples of the approach in contact. `delta` and the order are
  * those of wt_indent_plot_points. time (scratch), model: [n_points of the approach]. */
-wt_status fitted_forces(const wt_indent_fit *fit, const wt_indent_options *options,
-                        const wt_contact_table *contact, const wt_segment *approach,
-                        const double *delta, size_t n, double *time, double *model,
-                        wt_error *err) WT_NODISCARD;
+void fitted_forces(const wt_indent_fit *fit, const wt_indent_options *options,
+                   const wt_contact_table *contact, const wt_segment *approach, const double *delta,
+                   size_t n, double *time, double *model);
 
 #endif

@@ -56,8 +56,6 @@ static wt_status add_representative_curve(indent_task *task, wt_indent_tables *t
         wt_status next = wt_force_next(source, curve, &ignored);
         if (next == WT_END)
             break;
-        if (next == WT_E_MEMORY)
-            status = wt_fail(err, next, "no memory for the representative curve");
         if (next != WT_OK || curve->index != median->curve)
             continue;
         wt_indent_fit fit;
@@ -206,14 +204,11 @@ static wt_status prepare_task(indent_task *task, wt_error *err)
     task->n_workers = wt_thread_count(task->work->threads);
     if (task->n_workers > MAX_WORKERS)
         task->n_workers = MAX_WORKERS;
-    task->scratch = calloc(task->n_workers, sizeof(wt_indent_workspace *));
+    task->scratch = wt_alloc(task->n_workers, sizeof(wt_indent_workspace *));
     task->n_items = task->n_workers > 1 ? (size_t)task->n_workers * CURVES_PER_WORKER : 1;
-    task->items = calloc(task->n_items, sizeof *task->items);
-    if (task->scratch == NULL || task->items == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    task->items = wt_alloc(task->n_items, sizeof *task->items);
     for (unsigned i = 0; i < task->n_workers; i++) {
-        if ((task->scratch[i] = wt_indent_workspace_new()) == NULL)
-            return wt_fail(err, WT_E_MEMORY, "out of memory");
+        task->scratch[i] = wt_indent_workspace_new();
         calibration_errors_apply(&task->calibration, task->scratch[i]);
     }
     return WT_OK;
@@ -290,7 +285,7 @@ wt_status wt_indent_group(const wt_indent_job *job, const wt_job *work, wt_inden
                                         task.scratch, err);
     if (status == WT_OK) {
         set_indentation_keys(&task, &files, &task.rows);
-        status = indent_summary_report(&task.summary, job, work, &task.rows, err);
+        indent_summary_report(&task.summary, job, work, &task.rows);
     }
     if (status == WT_OK)
         status = indent_depths_table(&task.depths, job, task.contact, tables, err);

@@ -29,15 +29,15 @@ typedef struct indent_summary {
     double (*contacts)[WT_CONTACT_ESTIMATORS]; /* [n] contact points of other estimators; NULL if
                                                   not requested */
 } indent_summary;
-wt_status indent_summary_add(indent_summary *to, const wt_indent_fit *fit,
-                             const wt_indent_options *options, wt_error *err);
+void indent_summary_add(indent_summary *to, const wt_indent_fit *fit,
+                        const wt_indent_options *options);
 void indent_summary_clear(indent_summary *summary);
 /* Writes the systematic errors that curves of this depth cannot show, and how to detect them. */
 void indent_systematic_errors(const wt_indent_job *job, double depth, char *text, size_t size);
 /* Reports the shifts that all moduli share, tests the mean residual and reports the contact points
  * of other estimators. */
-wt_status indent_summary_report(const indent_summary *summary, const wt_indent_job *job,
-                                const wt_job *work, table_writer *rows, wt_error *err);
+void indent_summary_report(const indent_summary *summary, const wt_indent_job *job,
+                           const wt_job *work, table_writer *rows);
 
 /* True if the curve loses work and the effect on its modulus is not known. */
 bool indent_has_unknown_loss(const wt_indent_fit *fit);
@@ -53,8 +53,7 @@ typedef struct indent_depths {
  * NaN if there are none or `asked` is false. */
 bool indent_depth_curve(const wt_indent_fit *fit, const wt_force_curve *curve, bool asked,
                         wt_curve_residuals *to);
-wt_status indent_depths_add(indent_depths *to, const wt_curve_residuals *curve, const char *spot,
-                            wt_error *err);
+void indent_depths_add(indent_depths *to, const wt_curve_residuals *curve, const char *spot);
 /* Adds the table "modulus_depth" if there are such curves. */
 wt_status indent_depths_table(const indent_depths *depths, const wt_indent_job *job,
                               const wt_contact_table *contact, wt_indent_tables *tables,

@@ -113,19 +113,16 @@ static void mark_unreadable(wt_indent_fit *fit, const wt_error *error)
     utf8_copy(fit->reason, sizeof fit->reason, error->message);
 }
 
-static wt_status store_modulus(indent_task *task, const queued_curve *it, wt_error *err)
+static void store_modulus(indent_task *task, const queued_curve *it)
 {
-    accepted_modulus *moduli = array_grow(task->moduli, task->n_moduli, sizeof *moduli);
-    if (moduli == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
-    task->moduli = moduli;
+    task->moduli = array_grow(task->moduli, task->n_moduli, sizeof *task->moduli);
     task->moduli[task->n_moduli] = (accepted_modulus){.modulus = it->fit.modulus.value,
                                                       .file = task->file,
                                                       .curve = it->curve.index,
                                                       .choice = it->choice,
                                                       .order = task->n_moduli};
     task->n_moduli++;
-    return indent_summary_add(&task->summary, &it->fit, &task->options, err);
+    indent_summary_add(&task->summary, &it->fit, &task->options);
 }
 
 static bool has_same_description(const wt_tip *a, const wt_tip *b)
@@ -137,7 +134,7 @@ static bool has_same_description(const wt_tip *a, const wt_tip *b)
 }
 
 /* Records the calibration of the curve for the keys of the group. */
-static wt_status record_calibration(indent_task *task, const wt_cantilever *used, wt_error *err)
+static void record_calibration(indent_task *task, const wt_cantilever *used)
 {
     task->k_low = fmin(task->k_low, used->spring_constant);
     task->k_high = fmax(task->k_high, used->spring_constant);
@@ -146,19 +143,15 @@ static wt_status record_calibration(indent_task *task, const wt_cantilever *used
     task->has_given_sensitivity = task->has_given_sensitivity || used->sensitivity_is_overridden;
     for (size_t i = 0; i < task->n_tips; i++)
         if (task->tips[i] == task->file_tip || has_same_description(task->tips[i], task->file_tip))
-            return WT_OK;
-    const wt_tip **tips = array_grow(task->tips, task->n_tips, sizeof(const wt_tip *));
-    if (tips == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
-    task->tips = tips;
+            return;
+    task->tips = array_grow(task->tips, task->n_tips, sizeof(const wt_tip *));
     task->tips[task->n_tips++] = task->file_tip;
-    return WT_OK;
 }
 
 /* Writes the row of a curve. The row has data on depth only if the fit used the settings of the
  * job. */
-static wt_status write_row(indent_task *task, const queued_curve *it,
-                           const wt_indent_options *options, bool has_job_settings, wt_error *err)
+static void write_row(indent_task *task, const queued_curve *it, const wt_indent_options *options,
+                      bool has_job_settings, wt_error *err)
 {
     const unsigned left_out = task->work->left_out;
     const bool columns = (left_out & WT_EXTRA_DEPTH_CURVES) == 0,
@@ -173,7 +166,8 @@ static wt_status write_row(indent_task *task, const queued_curve *it,
     task->rows.err = err;
     flow_indentation_row_add(&task->rows, &job, task->file->name, task->spot, &it->curve, &it->fit,
                              &shown);
-    return has_depth ? indent_depths_add(&task->depths, &deep, task->spot, err) : WT_OK;
+    if (has_depth)
+        indent_depths_add(&task->depths, &deep, task->spot);
 }
 
 static wt_status write_item(indent_task *task, queued_curve *it, wt_error *err)
@@ -192,24 +186,20 @@ static wt_status write_item(indent_task *task, queued_curve *it, wt_error *err)
     const bool has_job_settings = !has_file_tip && has_fitted_contact;
     const wt_indent_options options = indent_curve_options(task, &it->choice);
     task->n_curves++;
-    status = write_row(task, it, &options, has_job_settings, err);
-    if (status == WT_OK)
-        status = curve_selection_add(&task->shown, task->file, &it->curve, &it->fit,
-                                     task->file_contact, &options, err);
-    if (status != WT_OK)
-        return status;
+    write_row(task, it, &options, has_job_settings, err);
+    curve_selection_add(&task->shown, task->file, &it->curve, &it->fit, task->file_contact,
+                        &options);
     if (task->rows.status != WT_OK || !wt_curve_verdict_is_usable(it->fit.verdict))
         return task->rows.status;
     task->n_accepted++;
     task->n_doubtful += it->fit.verdict == WT_CURVE_DOUBTFUL;
-    status = record_calibration(task, &it->curve.cantilever, err);
+    record_calibration(task, &it->curve.cantilever);
     const double error = it->fit.modulus.standard_error / it->fit.modulus.value;
     task->sum_squared_errors += error * error;
-    if (status == WT_OK &&
-        has_fitted_contact) /* shifted sources do not apply to a fixed contact point */
-        status = calibration_errors_store(&task->calibration, &it->curve, task->file_contact,
-                                          has_file_tip, err);
-    return status == WT_OK ? store_modulus(task, it, err) : status;
+    if (has_fitted_contact) /* shifted sources do not apply to a fixed contact point */
+        calibration_errors_store(&task->calibration, &it->curve, task->file_contact, has_file_tip);
+    store_modulus(task, it);
+    return WT_OK;
 }
 
 static bool is_cancelled(const indent_task *task)

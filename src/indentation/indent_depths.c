@@ -49,20 +49,15 @@ bool indent_depth_curve(const wt_indent_fit *fit, const wt_force_curve *curve, b
     return true;
 }
 
-wt_status indent_depths_add(indent_depths *to, const wt_curve_residuals *curve, const char *spot,
-                            wt_error *err)
+void indent_depths_add(indent_depths *to, const wt_curve_residuals *curve, const char *spot)
 {
-    wt_curve_residuals *grown = array_grow(to->curve, to->n, sizeof *grown);
-    if (grown == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
-    to->curve = grown;
-    grown += to->n++;
+    to->curve = array_grow(to->curve, to->n, sizeof *to->curve);
+    wt_curve_residuals *added = &to->curve[to->n++];
     if (to->last_spot == NULL || strcmp(spot, to->last_spot) != 0)
         to->n_spots++;
     to->last_spot = spot;
-    *grown = *curve;
-    grown->spot = to->n_spots;
-    return WT_OK;
+    *added = *curve;
+    added->spot = to->n_spots;
 }
 
 wt_status indent_depths_table(const indent_depths *depths, const wt_indent_job *job,

@@ -17,8 +17,8 @@ static void add_shift(indent_shift_sum *all, double shift)
     all->n++;
 }
 
-wt_status indent_summary_add(indent_summary *to, const wt_indent_fit *fit,
-                             const wt_indent_options *options, wt_error *err)
+void indent_summary_add(indent_summary *to, const wt_indent_fit *fit,
+                        const wt_indent_options *options)
 {
     to->max_depth = fmax(to->max_depth, fit->max_indentation);
     add_shift(&to->bend, fit->curvature_shift / fit->modulus.value);
@@ -28,22 +28,14 @@ wt_status indent_summary_add(indent_summary *to, const wt_indent_fit *fit,
     to->n_significant_misfit += fit->lack_of_fit_p < options->misfit_p_threshold;
     to->n_unknown_loss += indent_has_unknown_loss(fit);
     if (options->contact_estimators) {
-        double(*contacts_grown)[WT_CONTACT_ESTIMATORS] =
-            array_grow(to->contacts, to->n, sizeof *contacts_grown);
-        if (contacts_grown == NULL)
-            return wt_fail(err, WT_E_MEMORY, "out of memory");
-        to->contacts = contacts_grown;
-        memcpy(contacts_grown[to->n], fit->contact_by, sizeof *contacts_grown);
+        to->contacts = array_grow(to->contacts, to->n, sizeof *to->contacts);
+        memcpy(to->contacts[to->n], fit->contact_by, sizeof *to->contacts);
     }
     to->n++;
     if (isnan(fit->misfit[0]))
-        return WT_OK;
-    double(*misfits)[WT_MISFIT_TERMS] = array_grow(to->misfits, to->n_misfits, sizeof *misfits);
-    if (misfits == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
-    to->misfits = misfits;
-    memcpy(misfits[to->n_misfits++], fit->misfit, sizeof *misfits);
-    return WT_OK;
+        return;
+    to->misfits = array_grow(to->misfits, to->n_misfits, sizeof *to->misfits);
+    memcpy(to->misfits[to->n_misfits++], fit->misfit, sizeof *to->misfits);
 }
 
 void indent_summary_clear(indent_summary *summary)
@@ -142,16 +134,14 @@ static double median_contact_distance(const indent_summary *summary, int estimat
     return numbers_median(scratch, found);
 }
 
-static wt_status report_contact_estimates(const indent_summary *summary, const wt_indent_job *job,
-                                          const wt_job *work, wt_error *err)
+static void report_contact_estimates(const indent_summary *summary, const wt_indent_job *job,
+                                     const wt_job *work)
 {
     char text[512] = "";
     size_t length = 0;
     if (summary->contacts == NULL)
-        return WT_OK;
-    double *scratch = malloc(summary->n * sizeof *scratch);
-    if (scratch == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
+        return;
+    double *scratch = wt_alloc(summary->n, sizeof *scratch);
     for (int i = 0; i < WT_CONTACT_ESTIMATORS; i++) {
         const double distance_median = median_contact_distance(summary, i, scratch);
         char distance[32] = "not found";
@@ -166,7 +156,6 @@ static wt_status report_contact_estimates(const indent_summary *summary, const w
                "%s: contact by other estimators less that of the fit, medians of %zu "
                "accepted curves: %s",
                job->group, summary->n, text);
-    return WT_OK;
 }
 
 /* Smallest plausible indentation over the radius of a sphere. Below it only asperities touch and an
@@ -188,8 +177,8 @@ static void warn_implausible_radius(const indent_summary *summary, const wt_inde
                job->group, radius, job->tip.radius / summary->max_depth);
 }
 
-wt_status indent_summary_report(const indent_summary *summary, const wt_indent_job *job,
-                                const wt_job *work, table_writer *rows, wt_error *err)
+void indent_summary_report(const indent_summary *summary, const wt_indent_job *job,
+                           const wt_job *work, table_writer *rows)
 {
     char hidden_errors[512];
     warn_implausible_radius(summary, job, work);
@@ -198,5 +187,5 @@ wt_status indent_summary_report(const indent_summary *summary, const wt_indent_j
         indentation_set_text(rows, INDENTATION_KEY_NOT_SHOWN, hidden_errors);
     report_common_shifts(summary, job, work, rows);
     test_mean_residual(summary, job, work, rows);
-    return report_contact_estimates(summary, job, work, err);
+    report_contact_estimates(summary, job, work);
 }

@@ -101,10 +101,7 @@ static wt_status read_choice_row(const table_view *view, size_t row, const wt_in
                                  const wt_job *work, manual_overrides *to, wt_error *err)
 {
     const char *id = overrides_text(view, row, OVERRIDES_CHOICE);
-    manual_override *grown = array_grow(to->choice, to->n, sizeof *grown);
-    if (grown == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
-    to->choice = grown;
+    to->choice = array_grow(to->choice, to->n, sizeof *to->choice);
     manual_override *c = &to->choice[to->n++];
     *c = (manual_override){.kind = CHOICE_EXCLUDE,
                            .row = row,

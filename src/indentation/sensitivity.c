@@ -131,14 +131,9 @@ static wt_status read_sensitivity_curves(sensitivity_task *task, const flow_file
             if (*no_signal)
                 break;
         }
-        curve_slopes *items = array_grow(task->items, task->n, sizeof *items);
-        if (items == NULL) {
-            status = wt_fail(err, WT_E_MEMORY, "out of memory");
-            break;
-        }
-        task->items = items;
-        items[task->n] = (curve_slopes){.file = file, .unit = unit};
-        status = measure_slopes(task, &curve, signal, &items[task->n], err);
+        task->items = array_grow(task->items, task->n, sizeof *task->items);
+        task->items[task->n] = (curve_slopes){.file = file, .unit = unit};
+        status = measure_slopes(task, &curve, signal, &task->items[task->n], err);
         task->n++;
     }
     wt_force_curve_clear(&curve);
@@ -218,11 +213,9 @@ static void mark_file_outliers(curve_slopes *items, size_t n, size_t direction, 
             items[i].outlier = true;
 }
 
-static wt_status mark_outliers(sensitivity_task *task, wt_error *err)
+static void mark_outliers(sensitivity_task *task)
 {
-    double *values = malloc(task->n * sizeof *values);
-    if (values == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    double *values = wt_alloc(task->n, sizeof *values);
     for (size_t first = 0, end; first < task->n; first = end) {
         for (end = first + 1; end < task->n && task->items[end].unit == task->items[first].unit;)
             end++;
@@ -230,7 +223,6 @@ static wt_status mark_outliers(sensitivity_task *task, wt_error *err)
             mark_file_outliers(task->items + first, end - first, w, values);
     }
     free(values);
-    return WT_OK;
 }
 
 /* Checks that all curves use the same unit. Volts yield the sensitivity and metres its correction
@@ -414,15 +406,11 @@ static void add_direction_error(direction_group groups[ROWS])
     }
 }
 
-static wt_status compute_groups(const sensitivity_task *task, direction_group groups[ROWS],
-                                wt_error *err)
+static void compute_groups(const sensitivity_task *task, direction_group groups[ROWS])
 {
-    collected_values c = {malloc(task->n * sizeof *c.values), malloc(task->n * sizeof *c.units), 0,
-                          NULL};
-    wt_status status = WT_OK;
-    if (c.values == NULL || c.units == NULL)
-        status = wt_fail(err, WT_E_MEMORY, "out of memory");
-    for (size_t row = 0; row < ROWS && status == WT_OK; row++) {
+    collected_values c = {wt_alloc(task->n, sizeof *c.values), wt_alloc(task->n, sizeof *c.units),
+                          0, NULL};
+    for (size_t row = 0; row < ROWS; row++) {
         direction_group *g = &groups[row];
         size_t ignored;
         g->sensitivity = curve_mean(task, row, &c, &ignored, curve_sensitivity);
@@ -444,11 +432,9 @@ static wt_status compute_groups(const sensitivity_task *task, direction_group gr
             g->difference = curve_mean(task, row, &c, &ignored, retract_over_approach_ratio);
         assess_linearity(g, task->job->max_slope_change);
     }
-    if (status == WT_OK)
-        add_direction_error(groups);
+    add_direction_error(groups);
     free(c.values);
     free(c.units);
-    return status;
 }
 
 /* Relative bias of the sensitivity per slope change. On an elastic surface a sphere adds a travel ~
@@ -575,12 +561,10 @@ static size_t reported_row(const sensitivity_task *task, const direction_group g
 static wt_status create_group_table(const sensitivity_task *task, wt_table **table, wt_error *err)
 {
     direction_group groups[ROWS] = {{0}};
-    wt_status status = compute_groups(task, groups, err);
-    if (status != WT_OK)
-        return status;
+    compute_groups(task, groups);
     const size_t answer = reported_row(task, groups);
     if (groups[answer].n == 0) {
-        status = wt_fail(err, WT_E_RANGE, "no curve has a slope in contact");
+        const wt_status status = wt_fail(err, WT_E_RANGE, "no curve has a slope in contact");
         wt_error_place(err, "%s", task->items[0].file->name);
         for (size_t w = DIRECTIONS; w-- > 0;)
             if (task->items[0].has_segment[w] && !task->items[0].direction[w].found)
@@ -616,7 +600,7 @@ wt_status wt_sensitivity_compute(const wt_sensitivity_job *job, const wt_job *wo
     if (status == WT_OK)
         status = check_signals(&task, err);
     if (status == WT_OK)
-        status = mark_outliers(&task, err);
+        mark_outliers(&task);
     if (status == WT_OK)
         status = create_curve_table(&task, &result.sensitivity_curves, err);
     if (status == WT_OK)

@@ -86,13 +86,11 @@ static bool find_roughness_range(const wt_height_map *f, spot *s)
     return true;
 }
 
-static wt_status find_median_roughness(const wt_height_map *f, spot *s, wt_error *err)
+static void find_median_roughness(const wt_height_map *f, spot *s)
 {
     const spot_positions p = spot_positions_create(f, s->contact);
-    double *rms = malloc((p.nx * p.ny + 1) * sizeof *rms);
+    double *rms = wt_alloc((p.nx * p.ny + 1), sizeof *rms);
     size_t n = 0;
-    if (rms == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
     for (size_t j = 0; j < p.ny; j++)
         for (size_t i = 0; i < p.nx; i++) {
             const double local_rms = spot_plane_fit(f, p.radius * (2 * (double)i + 1),
@@ -103,7 +101,6 @@ static wt_status find_median_roughness(const wt_height_map *f, spot *s, wt_error
         }
     s->median = n > 0 ? numbers_median(rms, n) : (double)NAN;
     free(rms);
-    return WT_OK;
 }
 
 static double roughness_limit(const wt_spot_job *job, const spot *s)
@@ -162,8 +159,8 @@ static void assess_roughness(const wt_spot_job *job, const wt_height_map *f, boo
                       format_range(low, high, 2).text, limit);
 }
 
-static wt_status find_roughness(const wt_spot_job *job, const wt_image *image,
-                                const wt_height_map *f, spot *s, wt_error *err)
+static void find_roughness(const wt_spot_job *job, const wt_image *image, const wt_height_map *f,
+                           spot *s)
 {
     const double step = 1e-3, depth = job->depth;
     s->contact = contact_radius(&job->tip, depth);
@@ -179,13 +176,11 @@ static wt_status find_roughness(const wt_spot_job *job, const wt_image *image,
                         s->x <= image->width - s->contact - s->error &&
                         s->y <= image->height - s->contact - s->error;
     const bool covered = inside && find_roughness_range(f, s);
-    wt_status status = WT_OK;
     if (covered)
-        status = find_median_roughness(f, s, err);
+        find_median_roughness(f, s);
     else
         s->plane.rms = (double)NAN;
     assess_roughness(job, f, covered, s);
-    return status;
 }
 
 /* ---- the table ------------------------------------------------------------------------------- */
@@ -249,7 +244,7 @@ wt_status wt_spot_compute(const wt_spot_job *job, const char *path, const wt_job
         status = spot_image_read(job, path, "before", work, &image, err);
     if (status == WT_OK) {
         field = wt_image_height_map(&image);
-        status = find_roughness(job, &image, &field, &s, err);
+        find_roughness(job, &image, &field, &s);
     }
     if (status == WT_OK && job->after != NULL)
         status = spot_imprint_find(job, &image, &s, work, &left, err);

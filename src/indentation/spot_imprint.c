@@ -29,75 +29,61 @@ static wt_interval subtract_reference_mean(double value, const double *others, s
 }
 
 /* Measures the depressions at reference positions. depth, volume: space for all positions. */
-static wt_status measure_references(const wt_height_map *difference, const spot *s,
-                                    const spot_positions *p, double *depth, double *volume,
-                                    size_t *n, wt_error *err)
+static void measure_references(const wt_height_map *difference, const spot *s,
+                               const spot_positions *p, double *depth, double *volume, size_t *n)
 {
-    wt_status status = WT_OK;
-    for (size_t k = 0; k < p->nx * p->ny && status == WT_OK; k++) {
+    for (size_t k = 0; k < p->nx * p->ny; k++) {
         const double x = p->radius * (2 * (double)(k % p->nx) + 1),
                      y = p->radius * (2 * (double)(k / p->nx) + 1);
-        spot_depression other;
         if (hypot(x - s->x, y - s->y) < 6 * s->contact + s->error)
             continue;
-        status = spot_measure_depression(difference, x, y, s->contact, &other, err);
+        const spot_depression other = spot_measure_depression(difference, x, y, s->contact);
         if (isnan(other.depth) || isnan(other.volume))
             continue;
         depth[*n] = other.depth;
         volume[(*n)++] = other.volume;
     }
-    return status;
 }
 
 /* Finds the deepest change within the error of the position. */
-static wt_status find_deepest(const wt_height_map *difference, const spot *s, imprint *to,
-                              wt_error *err)
+static void find_deepest(const wt_height_map *difference, const spot *s, imprint *to)
 {
     enum { MAX_SEARCH_STEPS = 24 }; /* steps to each side; limits the run time */
     const double search_radius = fmin(s->error, SEARCH_RADII * s->contact);
     const int steps =
         (int)fmin(MAX_SEARCH_STEPS, ceil(STEPS_PER_RADIUS * search_radius / s->contact));
-    wt_status status = WT_OK;
-    for (int k = 0; k < (2 * steps + 1) * (2 * steps + 1) && status == WT_OK; k++) {
+    for (int k = 0; k < (2 * steps + 1) * (2 * steps + 1); k++) {
         const double x = s->x + search_radius * (k % (2 * steps + 1) - steps) / fmax(steps, 1),
                      y = s->y + search_radius * (k / (2 * steps + 1) - steps) / fmax(steps, 1);
-        spot_depression depression;
         if (hypot(x - s->x, y - s->y) > search_radius * (1 + 1e-9))
             continue;
-        status = spot_measure_depression(difference, x, y, s->contact, &depression, err);
+        const spot_depression depression = spot_measure_depression(difference, x, y, s->contact);
         if (isnan(depression.depth) || depression.depth <= to->deepest)
             continue;
         to->deepest = depression.depth;
         to->deepest_x = x;
         to->deepest_y = y;
     }
-    return status;
 }
 
-static wt_status measure_imprint(const wt_height_map *difference, const spot *s, imprint *to,
-                                 wt_error *err)
+static void measure_imprint(const wt_height_map *difference, const spot *s, imprint *to)
 {
     if (s->plane.n + s->plane.missing < SPOT_MIN_PIXELS)
-        return WT_OK; /* there are far more positions than pixels */
+        return; /* there are far more positions than pixels */
     const spot_positions p = spot_positions_create(difference, 2 * s->contact);
-    spot_depression imprint_value;
-    double *depth = malloc(2 * (p.nx * p.ny + 1) * sizeof *depth);
-    if (depth == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    double *depth = wt_alloc(2 * (p.nx * p.ny + 1), sizeof *depth);
     double *volume = depth + p.nx * p.ny + 1;
-    wt_status status =
-        spot_measure_depression(difference, s->x, s->y, s->contact, &imprint_value, err);
-    if (status == WT_OK)
-        status = measure_references(difference, s, &p, depth, volume, &to->places, err);
-    if (status == WT_OK && !isnan(imprint_value.depth) && !isnan(imprint_value.volume) &&
+    const spot_depression imprint_value =
+        spot_measure_depression(difference, s->x, s->y, s->contact);
+    measure_references(difference, s, &p, depth, volume, &to->places);
+    if (!isnan(imprint_value.depth) && !isnan(imprint_value.volume) &&
         to->places >= MIN_REFERENCES) {
         to->depth = subtract_reference_mean(imprint_value.depth, depth, to->places);
         to->volume = subtract_reference_mean(imprint_value.volume, volume, to->places);
-        status = find_deepest(difference, s, to, err);
+        find_deepest(difference, s, to);
         to->deepest -= imprint_value.depth - to->depth.value;
     }
     free(depth);
-    return status;
 }
 
 static void describe_failed_shift(const imprint *to, char *verdict, size_t size)
@@ -214,20 +200,18 @@ static double largest_strain(const double g[2][2])
 }
 
 /* Compares two images with equal pixels. */
-static wt_status compare_images(const wt_height_map *before, const wt_height_map *after,
-                                const spot *s, imprint *to, wt_error *err)
+static void compare_images(const wt_height_map *before, const wt_height_map *after, const spot *s,
+                           imprint *to)
 {
-    const wt_status status = spot_align(before, after, s->x, s->y, 3 * s->contact, &to->shift, err);
-    if (status != WT_OK || !to->shift.found)
-        return status;
-    to->difference = malloc(before->nx * before->ny * sizeof *to->difference);
-    if (to->difference == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    to->shift = spot_align(before, after, s->x, s->y, 3 * s->contact);
+    if (!to->shift.found)
+        return;
+    to->difference = wt_alloc(before->nx * before->ny, sizeof *to->difference);
     spot_difference(before, after, &to->shift, to->difference);
     wt_height_map changed = *before;
     changed.z = to->difference;
     to->strain = largest_strain((const double(*)[2])to->shift.gradient);
-    return measure_imprint(&changed, s, to, err);
+    measure_imprint(&changed, s, to);
 }
 
 imprint spot_empty_imprint(void)
@@ -258,9 +242,8 @@ wt_status spot_imprint_find(const wt_spot_job *job, const wt_image *before, cons
         const bool same =
             fabs(second.dx / first.dx - 1) < 1e-6 && fabs(second.dy / first.dy - 1) < 1e-6;
         if (!same)
-            status = spot_resample(&second, first.dx, first.dy, &resampled, err);
-        if (status == WT_OK)
-            status = compare_images(&first, same ? &second : &resampled, s, to, err);
+            resampled = spot_resample(&second, first.dx, first.dy);
+        compare_images(&first, same ? &second : &resampled, s, to);
         assess_imprint(before, s, to);
     }
     free((void *)resampled.z);

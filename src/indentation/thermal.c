@@ -406,9 +406,7 @@ static wt_status tabulate_thermal(const wt_thermal_job *job, const wt_job *work,
 {
     wt_status status = WT_OK;
     size_t n = 0, n_failed = 0;
-    cantilever_result *cantilevers = calloc(files->n + 1, sizeof *cantilevers);
-    if (cantilevers == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    cantilever_result *cantilevers = wt_alloc(files->n + 1, sizeof *cantilevers);
     table_writer t = table_begin(&thermal_schema, err);
     for (size_t i = 0; status == WT_OK && i < files->n; i++) {
         wt_error failure = WT_ERROR_INIT;

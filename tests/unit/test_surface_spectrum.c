@@ -326,7 +326,7 @@ static void test_stitch(void **state)
         double *z = duplicate_file(heights[i]), form[FORM_TERMS];
         const double step = 2 * M_PI / lengths[i];
         assert_int_equal(surface_remove_form(z, SIDE, SIDE, 1, form, NULL), WT_OK);
-        const wt_height_map map = {z, SIDE, SIDE, lengths[i] / SIDE, lengths[i] / SIDE};
+        const wt_height_map map = {z, SIDE, SIDE, lengths[i] / SIDE, lengths[i] / SIDE, false};
         const surface_bins bins = {1e4, 2 * step, 85 * step};
         assert_int_equal(surface_transform(&map, WT_WINDOW_HANN, false, &bins, &s[i], NULL), WT_OK);
         compare_bins(&s[i], i == 0 ? stitch_a : stitch_b,
@@ -567,7 +567,7 @@ static void check_grooved(wt_surface_window window)
     size_t amplitudes = 0, directions = 0, sectors = 0;
     for (uint64_t seed = 0; seed < SURFACES; seed++) {
         double *z = make_grooved(100 + 10 * seed, N);
-        const wt_height_map map = {z, N, N, 1e-6, 1e-6};
+        const wt_height_map map = {z, N, N, 1e-6, 1e-6, false};
         wt_surface_options options = wt_surface_options_defaults();
         wt_surface_spectrum s = {.n = 0};
         wt_surface_heights h;

@@ -108,9 +108,7 @@ wt_status wt_contact_table_new(const wt_tip *tip, double delta_min, double delta
     }
     if (n > MAX_PIECES)
         return wt_fail(err, WT_E_INTERNAL, "contact table of %zu pieces", n);
-    wt_contact_table *t = malloc(sizeof *t + n * sizeof t->pieces[0]);
-    if (t == NULL)
-        return wt_fail(err, WT_E_MEMORY, "no memory for a contact table of %zu pieces", n);
+    wt_contact_table *t = wt_alloc(1, sizeof *t + n * sizeof t->pieces[0]);
     t->tip = *tip;
     t->switch_depth = at;
     t->first = first;

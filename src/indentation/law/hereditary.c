@@ -14,21 +14,18 @@
  * dashpot or a spring. The relative error is exp(-20) and 1e-5. */
 static const double quickest = 0.05, slowest = 1e5;
 
-wt_status hereditary_reserve(hereditary *m, size_t terms, wt_error *err)
+void hereditary_reserve(hereditary *m, size_t terms)
 {
     enum { N_ARRAYS = 7 }; /* number of the arrays below */
     if (terms <= m->capacity && m->block != NULL)
-        return WT_OK;
-    double *block = calloc(N_ARRAYS * (terms + 1), sizeof *block);
-    if (block == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory for a Prony series of %zu terms", terms);
+        return;
+    double *block = wt_alloc(N_ARRAYS * (terms + 1), sizeof *block);
     free(m->block);
     *m = (hereditary){.block = block, .capacity = terms};
     double **const arrays[N_ARRAYS] = {&m->modulus,   &m->time,      &m->decay,    &m->gain,
                                        &m->memory[0], &m->memory[1], &m->memory[2]};
     for (size_t i = 0; i < N_ARRAYS; i++)
         *arrays[i] = block + i * (terms + 1);
-    return WT_OK;
 }
 
 void hereditary_clear(hereditary *m)

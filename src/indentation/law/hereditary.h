@@ -26,9 +26,8 @@ typedef struct hereditary {
     size_t capacity;
 } hereditary;
 
-/* Reserves space for the terms of a series. An empty structure is zero. Returns WT_E_MEMORY on
- * failure. */
-wt_status hereditary_reserve(hereditary *m, size_t terms, wt_error *err) WT_NODISCARD;
+/* Reserves space for the terms of a series. An empty structure is zero. */
+void hereditary_reserve(hereditary *m, size_t terms);
 void hereditary_clear(hereditary *m);
 /* Sets the moduli times `scale`. `shortest` is the shortest step, `longest` the duration of the
  * motion. */

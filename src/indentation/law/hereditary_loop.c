@@ -150,9 +150,7 @@ wt_status hereditary_loop(hereditary *law, const wt_contact_table *table, double
                           wt_error *err)
 {
     const size_t terms = law->n;
-    double *block = calloc(n * (2 + 2 * terms) + 2 * terms + 1, sizeof *block);
-    if (block == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory for %zu steps of an indentation", n);
+    double *block = wt_alloc(n * (2 + 2 * terms) + 2 * terms + 1, sizeof *block);
     indentation_loop l = {.law = law,
                           .table = table,
                           .compliance = compliance,

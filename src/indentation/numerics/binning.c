@@ -225,8 +225,6 @@ static double noise_covariance(const dwell_nodes *n, size_t i, size_t k, double 
 static bool factor_covariance(dwell_nodes *n, const dwell_noise *v, arena *memory)
 {
     n->factor = arena_matrix(memory, n->n, n->n);
-    if (memory->failed)
-        return false;
     for (size_t i = 0; i < n->n; i++)
         for (size_t k = i; k < n->n; k++) {
             const bool pressed = i >= n->first_loading && i < n->first_free;
@@ -249,8 +247,6 @@ const char *dwell_nodes_create(const wt_dwell_history *h, double stiffness, aren
     for (size_t i = 0; i < sizeof arrays / sizeof arrays[0]; i++)
         *arrays[i] = arena_numbers(memory, MOST_NODES);
     double *residual = arena_numbers(memory, h->n_approach);
-    if (memory->failed)
-        return "";
     const double end = h->position[h->n_approach - 1],
                  begin = h->contact_point - margin * (end - h->contact_point);
     size_t split = 0;

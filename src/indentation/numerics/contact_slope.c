@@ -316,9 +316,7 @@ wt_status wt_contact_slope_fit(const double *position, const double *signal, siz
         status = range_error("contact-to", options->to, "more than contact-from", err);
     if (status != WT_OK)
         return status;
-    double *block = malloc(3 * (n + 1) * sizeof *block);
-    if (block == NULL)
-        return wt_fail(err, WT_E_MEMORY, "no memory for %zu samples", n);
+    double *block = wt_alloc(3 * (n + 1), sizeof *block);
     slope_samples s = {.z = block, .v = block + n + 1, .scratch = block + 2 * (n + 1)};
     collect_finite_samples(&s, position, signal, n);
     measure_slope(&s, options, slope);

@@ -113,8 +113,8 @@ void curve_fit_empty(wt_indent_fit *fit);
  * one. */
 wt_status curve_range_check(const wt_indent_options *options, const wt_tip *tip, wt_error *err);
 
-/* Reserves space for n samples. Returns WT_E_MEMORY on failure. */
-wt_status curve_reserve(wt_indent_workspace *workspace, size_t n, wt_error *err);
+/* Reserves space for n samples. */
+void curve_reserve(wt_indent_workspace *workspace, size_t n);
 
 /* Dot product with several partial sums, which avoids a dependency between the terms. */
 static inline double curve_dot(const double *a, const double *b, size_t n)

@@ -2,6 +2,7 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
+#include "core/base/memory.h"
 #include "core/base/param.h"
 #include "core/math/gsl_quiet.h"
 #include "core/math/normal_quantile.h"
@@ -76,14 +77,10 @@ PARAM_TABLE(wt_indent_params, wt_indent_options, rows, wt_indent_defaults, NO_PA
 wt_indent_workspace *wt_indent_workspace_new(void)
 {
     gsl_quiet();
-    wt_indent_workspace *workspace = calloc(1, sizeof *workspace);
-    if (workspace == NULL)
-        return NULL;
+    wt_indent_workspace *workspace = wt_alloc(1, sizeof *workspace);
     workspace->minimizer = gsl_min_fminimizer_alloc(gsl_min_fminimizer_brent);
-    if (workspace->minimizer == NULL) {
-        free(workspace);
-        return NULL;
-    }
+    if (workspace->minimizer == NULL)
+        out_of_memory(sizeof *workspace->minimizer);
     return workspace;
 }
 
@@ -457,16 +454,13 @@ wt_status curve_fit_branches(const wt_contact_table *table, const wt_indent_opti
     const size_t n = approach->n;
     if (options == NULL)
         options = &defaults;
-    wt_status status =
+    const wt_status status =
         check_fit_arguments(options, contact_table_tip(table), n, spring_constant, err);
-    if (status == WT_OK)
-        status = curve_reserve(workspace, retract->n > n ? retract->n : n, err);
-    const size_t terms = options->spectrum != NULL ? options->spectrum->n : 0;
-    if (status == WT_OK)
-        status = hereditary_reserve(&workspace->memory,
-                                    terms > CURVE_POWER_TERMS ? terms : CURVE_POWER_TERMS, err);
     if (status != WT_OK)
         return status;
+    curve_reserve(workspace, retract->n > n ? retract->n : n);
+    const size_t terms = options->spectrum != NULL ? options->spectrum->n : 0;
+    hereditary_reserve(&workspace->memory, terms > CURVE_POWER_TERMS ? terms : CURVE_POWER_TERMS);
 
     const curve_fitting initial = {.table = table,
                                    .options = options,

@@ -72,17 +72,14 @@ wt_status wt_indent_fit_force_curve(const wt_contact_table *table, const wt_inde
                             "see what the file holds with: weartrack info FILE");
     const wt_segment *retract = wt_force_curve_segment(curve, WT_SEGMENT_RETRACT);
     const size_t n_out = retract != NULL ? retract->n_points : 0;
-    wt_status status =
-        curve_reserve(workspace, n_out > approach->n_points ? n_out : approach->n_points, err);
-    if (status != WT_OK)
-        return status;
+    curve_reserve(workspace, n_out > approach->n_points ? n_out : approach->n_points);
     const double *force = segment_force(approach, &curve->cantilever, workspace->input_force);
     if (force == NULL)
         return fail_no_force(err, approach);
     const curve_branch in = {height, force, segment_time(approach, workspace->input_time),
                              approach->n_points};
     const curve_branch out = retract_branch(retract, &curve->cantilever, workspace);
-    status = curve_fit_branches(table, options, &in, &out, k, workspace, fit, err);
+    const wt_status status = curve_fit_branches(table, options, &in, &out, k, workspace, fit, err);
     if (status == WT_OK && fit->verdict == WT_CURVE_ACCEPTED) {
         if (retract != NULL && retract < approach)
             strncat(fit->reason, "; the retract comes first in the file",

@@ -253,11 +253,11 @@ void depth_pool_create(depth_pool *d, const wt_contact_table *table, double pois
     wt_curve_residuals *sorted = arena_alloc(memory, n, sizeof *sorted);
     *d = (depth_pool){.curve = sorted, .value = arena_numbers(memory, n)};
     gsl_quiet();
-    for (size_t i = 0; i < n && !memory->failed; i++)
+    for (size_t i = 0; i < n; i++)
         if (!isnan(curve[i].loss_error))
             sorted[d->n++] = curve[i];
     d->n_excluded_by_loss = n - d->n;
-    if (memory->failed || d->n < WT_DEPTH_MIN_CURVES || d->n_excluded_by_loss >= d->n)
+    if (d->n < WT_DEPTH_MIN_CURVES || d->n_excluded_by_loss >= d->n)
         return;
     qsort(sorted, d->n, sizeof *sorted, by_spot);
     d->n_units = 1;

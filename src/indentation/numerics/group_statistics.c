@@ -62,8 +62,6 @@ static wt_status create_units(const wt_group *group, bool use_spots, arena *memo
     gsl_quiet();
     spot_modulus *curves = arena_alloc(memory, group->n, sizeof *curves);
     *u = (unit_means){arena_numbers(memory, group->n), 0};
-    if (memory->failed)
-        return wt_fail(err, WT_E_MEMORY, "no memory for a group of %zu moduli", group->n);
     for (size_t i = 0; i < group->n; i++)
         curves[i] = (spot_modulus){use_spots ? group->spot[i] : 0, group->modulus[i]};
     qsort(curves, group->n, sizeof *curves, by_spot);
@@ -103,8 +101,6 @@ static double within_cell_variance(const wt_group *group, arena *memory)
         return 0; /* each curve is a spot */
     curve_cell *cells = arena_alloc(memory, group->n, sizeof *cells);
     double sum = 0, freedom = 0;
-    if (cells == NULL)
-        return (double)NAN; /* memory->failed reports the failure */
     for (size_t i = 0; i < group->n; i++)
         cells[i] =
             (curve_cell){group->spot[i], group->rate_class != NULL ? group->rate_class[i] : 0,
@@ -124,12 +120,10 @@ static double within_cell_variance(const wt_group *group, arena *memory)
     return freedom > 0 ? sum / freedom / (double)group->n : 0;
 }
 
-static wt_status summarise_group(const wt_group *group, const unit_means *u, arena *memory,
-                                 wt_group_summary *summary, wt_error *err)
+static void summarise_group(const wt_group *group, const unit_means *u, arena *memory,
+                            wt_group_summary *summary)
 {
     double *sorted = arena_numbers(memory, group->n);
-    if (sorted == NULL)
-        return wt_fail(err, WT_E_MEMORY, "no memory for a group of %zu moduli", group->n);
     memcpy(sorted, group->modulus, group->n * sizeof *sorted);
     numbers_sort(sorted, group->n);
     moments curves = sample_moments(sorted, group->n), logs = sample_moments(u->log_modulus, u->n);
@@ -151,15 +145,12 @@ static wt_status summarise_group(const wt_group *group, const unit_means *u, are
         summary->log_standard_error =
             sqrt(group->spot_scatter * group->spot_scatter + within_cell_variance(group, memory));
         summary->df = (double)INFINITY;
-        if (memory->failed)
-            return wt_fail(err, WT_E_MEMORY, "no memory for a group of %zu moduli", group->n);
     }
     if (!isnan(summary->log_standard_error)) {
         const double half_width = students_t_quantile(summary->df) * summary->log_standard_error;
         summary->low = exp(logs.mean - half_width);
         summary->high = exp(logs.mean + half_width);
     }
-    return WT_OK;
 }
 
 wt_status wt_group_summarise(const wt_group *group, wt_group_summary *summary, wt_error *err)
@@ -168,7 +159,7 @@ wt_status wt_group_summarise(const wt_group *group, wt_group_summary *summary, w
     arena memory = {0};
     wt_status status = create_units(group, group->spot != NULL, &memory, &u, err);
     if (status == WT_OK)
-        status = summarise_group(group, &u, &memory, summary, err);
+        summarise_group(group, &u, &memory, summary);
     arena_free(&memory);
     return status;
 }
@@ -186,7 +177,7 @@ static wt_status summarise_groups(const wt_group *const groups[2], arena *memory
         unit_means u;
         status = create_units(groups[g], c->by_spot, memory, &u, err);
         if (status == WT_OK)
-            status = summarise_group(groups[g], &u, memory, summaries[g], err);
+            summarise_group(groups[g], &u, memory, summaries[g]);
     }
     return status;
 }
@@ -277,10 +268,9 @@ static wt_status compare_values(const compare_units *u, const wt_estimate *offse
             if (c->by_spot) /* scatter of the curves in the comparison */
                 given += within_cell_variance(groups[g], memory) * all / (double)u->curves[g];
         }
-    if (memory->failed)
-        return wt_fail(err, WT_E_MEMORY, "no memory for the scatter of curves");
     set_ratio_interval(u, a, b, known, given, c);
-    return compare_ranks(u, memory, c, err);
+    compare_ranks(u, memory, c);
+    return WT_OK;
 }
 
 wt_status wt_compare_moduli(const wt_group *bulk, const wt_group *track, const wt_estimate *offset,
@@ -303,9 +293,8 @@ wt_status wt_compare_moduli(const wt_group *bulk, const wt_group *track, const w
     arena memory = {0};
     compare_units u;
     wt_status status = summarise_groups(groups, &memory, &c, err);
-    if (status == WT_OK)
-        status = compare_units_create(groups, c.by_spot, &memory, &u, err);
     if (status == WT_OK) {
+        compare_units_create(groups, c.by_spot, &memory, &u);
         c.n_bulk = u.n[0];
         c.n_track = u.n[1];
         c.curves_bulk = u.curves[0];

@@ -20,15 +20,14 @@ typedef struct compare_units {
     double interaction_p;             /* p value of equal slopes in both groups; NaN if not known */
 } compare_units;
 
-wt_status compare_units_create(const wt_group *const groups[2], bool by_spot, arena *memory,
-                               compare_units *units, wt_error *err) WT_NODISCARD;
+void compare_units_create(const wt_group *const groups[2], bool by_spot, arena *memory,
+                          compare_units *units);
 
 /* Smallest number of spots that determine their scatter, for a comparison with a single spot. */
 enum { COMPARE_MIN_SPOTS = 3 };
 /* Standard error of the difference of two means, one of which has two units or more. `shift` adds
  * an error and `known` a normal variance. */
 t_error compare_welch(moments a, moments b, t_error shift, double known);
-wt_status compare_ranks(const compare_units *units, arena *memory, wt_comparison *result,
-                        wt_error *err) WT_NODISCARD;
+void compare_ranks(const compare_units *units, arena *memory, wt_comparison *result);
 
 #endif

@@ -95,13 +95,10 @@ typedef struct ranked_unit {
 
 /* Computes U of the track from the sum of its ranks, with mean ranks for ties. *ties is the sum of
  * t^3 - t over groups of t equal values. All values are integers or halves and exact. */
-static wt_status rank_units(const compare_units *units, arena *memory, double *u, double *ties,
-                            wt_error *err)
+static void rank_units(const compare_units *units, arena *memory, double *u, double *ties)
 {
     const size_t m = units->n[1], n = m + units->n[0];
     ranked_unit *all = arena_alloc(memory, n, sizeof *all);
-    if (all == NULL)
-        return wt_fail(err, WT_E_MEMORY, "no memory for the comparison of two groups");
     for (size_t i = 0; i < n; i++)
         all[i] = i < m ? (ranked_unit){units->value[1][i], true}
                        : (ranked_unit){units->value[0][i - m], false};
@@ -118,17 +115,13 @@ static wt_status rank_units(const compare_units *units, arena *memory, double *u
         *ties += t * t * t - t;
     }
     *u = ranks - 0.5 * (double)m * (double)(m + 1);
-    return WT_OK;
 }
 
-wt_status compare_ranks(const compare_units *units, arena *memory, wt_comparison *result,
-                        wt_error *err)
+void compare_ranks(const compare_units *units, arena *memory, wt_comparison *result)
 {
     const size_t m = units->n[1], n = units->n[0];
     double u = 0.0, ties = 0.0;
-    wt_status status = rank_units(units, memory, &u, &ties, err);
-    if (status != WT_OK)
-        return status;
+    rank_units(units, memory, &u, &ties);
     const double pairs = (double)m * (double)n, all = (double)(m + n);
     const double lower = fmin(u, pairs - u);
     result->mann_whitney_u = u;
@@ -140,11 +133,9 @@ wt_status compare_ranks(const compare_units *units, arena *memory, wt_comparison
         double distance = fmax(0.0, 0.5 * pairs - lower - 0.5); /* continuity correction */
         result->mann_whitney_p =
             variance > 0.0 ? fmin(1.0, 2.0 * gsl_cdf_ugaussian_Q(distance / sqrt(variance))) : 1.0;
-        return WT_OK;
+        return;
     }
     double *counts = arena_numbers(memory, m * n + 1);
-    if (counts == NULL)
-        return wt_fail(err, WT_E_MEMORY, "no memory for the comparison of two groups");
     count_rankings(m, n, counts);
     double tail = 0.0, total = 0.0;
     for (size_t i = 0; i <= m * n; i++) {
@@ -153,7 +144,6 @@ wt_status compare_ranks(const compare_units *units, arena *memory, wt_comparison
             tail += counts[i];
     }
     result->mann_whitney_p = fmin(1.0, 2.0 * tail / total);
-    return WT_OK;
 }
 
 void wt_holm_adjust(const double *p, size_t n, double *adjusted)

@@ -252,8 +252,8 @@ static void set_unit_values(const spot *spots, size_t n, compare_units *u)
     }
 }
 
-wt_status compare_units_create(const wt_group *const groups[2], bool by_spot, arena *memory,
-                               compare_units *units, wt_error *err)
+void compare_units_create(const wt_group *const groups[2], bool by_spot, arena *memory,
+                          compare_units *units)
 {
     const size_t all = groups[0]->n + groups[1]->n;
     cells c = {.cell = arena_alloc(memory, all, sizeof *c.cell)};
@@ -265,16 +265,12 @@ wt_status compare_units_create(const wt_group *const groups[2], bool by_spot, ar
                        .interaction_p = (double)NAN};
     for (int g = 0; g < 2; g++)
         u.value[g] = arena_numbers(memory, groups[g]->n);
-    if (!memory->failed)
-        for (int g = 0; g < 2; g++)
-            add_cells(groups[g], g, by_spot, curves, &c);
-    rate *rates = memory->failed ? NULL : arena_alloc(memory, count_rates(&c), sizeof *rates);
-    if (rates == NULL)
-        return wt_fail(err, WT_E_MEMORY, "no memory for the comparison of two groups");
+    for (int g = 0; g < 2; g++)
+        add_cells(groups[g], g, by_spot, curves, &c);
+    rate *rates = arena_alloc(memory, count_rates(&c), sizeof *rates);
     equalise_rates(&c, rates, &u.apart);
     const size_t n = sum_spots(&c, spots);
     fit_within_spot_slope(spots, n, &u);
     set_unit_values(spots, n, &u);
     *units = u;
-    return WT_OK;
 }

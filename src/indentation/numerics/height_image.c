@@ -179,8 +179,7 @@ static bool row_mean(const wt_height_map *f, size_t j, double low, double high, 
     return n > 0;
 }
 
-static wt_status extract_patch(const wt_height_map *f, double x, double y, double radius, patch *to,
-                               wt_error *err)
+static void extract_patch(const wt_height_map *f, double x, double y, double radius, patch *to)
 {
     size_t i[2], j[2];
     pixel_span(x, 2 * radius + INTERPOLATION_NODES * f->dx, f->dx, f->nx, &i[0], &i[1]);
@@ -189,10 +188,8 @@ static wt_status extract_patch(const wt_height_map *f, double x, double y, doubl
                   x - (double)i[0] * f->dx,
                   y - (double)j[0] * f->dy,
                   NULL};
-    double *z = to->z = malloc(to->field.nx * to->field.ny * sizeof *z);
+    double *z = to->z = wt_alloc(to->field.nx * to->field.ny, sizeof *z);
     to->field.z = to->z;
-    if (z == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
     for (size_t b = j[0]; b <= j[1]; b++) {
         double u[2] = {0}, h[2] = {0};
         const bool known = row_mean(f, b, x - 4 * radius, x - 2 * radius, &u[0], &h[0]) &&
@@ -202,7 +199,6 @@ static wt_status extract_patch(const wt_height_map *f, double x, double y, doubl
             *z++ = f->z[b * f->nx + a] - ((1 - t) * h[0] + t * h[1]);
         }
     }
-    return WT_OK;
 }
 
 /* Mean depth within a radius. Counted pixels would blur the rim of the disc by a pixel and reduce
@@ -233,18 +229,16 @@ static double mean_depth(const patch *p, double radius)
     return 10 * n >= 9 * rings * spokes ? sum / (double)n : (double)NAN;
 }
 
-wt_status spot_measure_depression(const wt_height_map *difference, double x, double y,
-                                  double radius, spot_depression *dent, wt_error *err)
+spot_depression spot_measure_depression(const wt_height_map *difference, double x, double y,
+                                        double radius)
 {
     patch p = {.z = NULL};
-    *dent = (spot_depression){(double)NAN, (double)NAN};
     if (!spot_disc_is_covered(difference, x, y, 4 * radius) ||
         !spot_disc_is_covered(difference, x, y, radius))
-        return WT_OK;
-    const wt_status status = extract_patch(difference, x, y, radius, &p, err);
-    if (status == WT_OK)
-        *dent = (spot_depression){mean_depth(&p, radius),
+        return (spot_depression){(double)NAN, (double)NAN};
+    extract_patch(difference, x, y, radius, &p);
+    const spot_depression dent = {mean_depth(&p, radius),
                                   mean_depth(&p, 2 * radius) * M_PI * 4 * radius * radius};
     free(p.z);
-    return status;
+    return dent;
 }

@@ -44,13 +44,11 @@ typedef struct spot_shift {
     bool found;             /* the blocks agree within half a pixel */
 } spot_shift;
 /* Finds the shift from the heights outside of the disc at the position. Both images must have equal
- * pixels. The search covers all shifts with an overlap of a quarter of the smaller image. Returns
- * WT_E_MEMORY on failure. */
-wt_status spot_align(const wt_height_map *before, const wt_height_map *after, double x, double y,
-                     double radius, spot_shift *shift, wt_error *err) WT_NODISCARD;
-/* Resamples an image from the same first pixel on. The caller frees to->z. */
-wt_status spot_resample(const wt_height_map *field, double dx, double dy, wt_height_map *to,
-                        wt_error *err) WT_NODISCARD;
+ * pixels. The search covers all shifts with an overlap of a quarter of the smaller image. */
+spot_shift spot_align(const wt_height_map *before, const wt_height_map *after, double x, double y,
+                      double radius);
+/* Resamples an image from the same first pixel on. The caller frees z. */
+wt_height_map spot_resample(const wt_height_map *field, double dx, double dy);
 /* Computes after(p + shift) - before(p) at each pixel of `before`; NaN if not known. */
 void spot_difference(const wt_height_map *before, const wt_height_map *after,
                      const spot_shift *shift, double *difference);
@@ -62,9 +60,8 @@ void spot_difference(const wt_height_map *before, const wt_height_map *after,
 typedef struct spot_depression {
     double depth, volume; /* mean within the radius [m], within two radii [m^3] */
 } spot_depression;
-/* Measures a depression. The result is NaN if the difference does not cover it. Returns WT_E_MEMORY
- * on failure. */
-wt_status spot_measure_depression(const wt_height_map *difference, double x, double y,
-                                  double radius, spot_depression *dent, wt_error *err) WT_NODISCARD;
+/* Measures a depression. The result is NaN if the difference does not cover it. */
+spot_depression spot_measure_depression(const wt_height_map *difference, double x, double y,
+                                        double radius);
 
 #endif

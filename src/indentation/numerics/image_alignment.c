@@ -121,13 +121,11 @@ static bool find_best_shift(const wt_height_map *before, const wt_height_map *af
 }
 
 /* Computes means of f x f pixels. */
-static wt_status coarsen_image(const wt_height_map *of, size_t f, wt_height_map *to, wt_error *err)
+static void coarsen_image(const wt_height_map *of, size_t f, wt_height_map *to)
 {
     *to = (wt_height_map){NULL, of->nx / f, of->ny / f, of->dx * (double)f, of->dy * (double)f,
                           false};
-    double *z = malloc((to->nx * to->ny + 1) * sizeof *z);
-    if (z == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    double *z = wt_alloc((to->nx * to->ny + 1), sizeof *z);
     for (size_t j = 0; j < to->ny; j++)
         for (size_t i = 0; i < to->nx; i++) {
             double sum = 0;
@@ -137,46 +135,41 @@ static wt_status coarsen_image(const wt_height_map *of, size_t f, wt_height_map 
             z[j * to->nx + i] = sum / (double)(f * f);
         }
     to->z = z;
-    return WT_OK;
 }
 
 /* Searches with pixels of f x f: all shifts, or those near the result of the next coarser pixels.
  */
-static wt_status search_level(const wt_height_map *before, const wt_height_map *after, region all,
-                              size_t f, bool first, long shift[2], bool *found, wt_error *err)
+static bool search_level(const wt_height_map *before, const wt_height_map *after, region all,
+                         size_t f, bool first, long shift[2])
 {
-    wt_height_map small[2] = {{0}, {0}};
-    wt_status status = coarsen_image(before, f, &small[0], err);
-    if (status == WT_OK)
-        status = coarsen_image(after, f, &small[1], err);
-    if (status == WT_OK) {
-        const size_t n = small[0].nx * small[0].ny, other = small[1].nx * small[1].ny;
-        const long low[2] = {first ? -(long)small[0].nx : 2 * shift[0] - SEARCH_RADIUS,
-                             first ? -(long)small[0].ny : 2 * shift[1] - SEARCH_RADIUS},
-                   high[2] = {first ? (long)small[1].nx : 2 * shift[0] + SEARCH_RADIUS,
-                              first ? (long)small[1].ny : 2 * shift[1] + SEARCH_RADIUS};
-        all.i[1] = small[0].nx;
-        all.j[1] = small[0].ny;
-        *found = find_best_shift(&small[0], &small[1], &all, low, high, (n < other ? n : other) / 4,
-                                 shift);
-    }
+    wt_height_map small[2];
+    coarsen_image(before, f, &small[0]);
+    coarsen_image(after, f, &small[1]);
+    const size_t n = small[0].nx * small[0].ny, other = small[1].nx * small[1].ny;
+    const long low[2] = {first ? -(long)small[0].nx : 2 * shift[0] - SEARCH_RADIUS,
+                         first ? -(long)small[0].ny : 2 * shift[1] - SEARCH_RADIUS},
+               high[2] = {first ? (long)small[1].nx : 2 * shift[0] + SEARCH_RADIUS,
+                          first ? (long)small[1].ny : 2 * shift[1] + SEARCH_RADIUS};
+    all.i[1] = small[0].nx;
+    all.j[1] = small[0].ny;
+    const bool found =
+        find_best_shift(&small[0], &small[1], &all, low, high, (n < other ? n : other) / 4, shift);
     free((void *)small[0].z);
     free((void *)small[1].z);
-    return status;
+    return found;
 }
 
-static wt_status find_pixel_shift(const wt_height_map *before, const wt_height_map *after,
-                                  const region *all, long shift[2], bool *found, wt_error *err)
+static bool find_pixel_shift(const wt_height_map *before, const wt_height_map *after,
+                             const region *all, long shift[2])
 {
     const size_t most = before->nx > before->ny ? before->nx : before->ny;
-    wt_status status = WT_OK;
     size_t f = 1;
+    bool found = true;
     while (most / f > COARSE_PIXELS)
         f *= 2;
-    *found = true;
-    for (bool first = true; f > 0 && status == WT_OK && *found; f /= 2, first = false)
-        status = search_level(before, after, *all, f, first, shift, found, err);
-    return status;
+    for (bool first = true; f > 0 && found; f /= 2, first = false)
+        found = search_level(before, after, *all, f, first, shift);
+    return found;
 }
 
 /* ---- subpixel shifts ------------------------------------------------------------------------- */
@@ -256,18 +249,14 @@ static bool refine_shift(const wt_height_map *before, const wt_height_map *after
 }
 
 /* Copies the image with NaN in the disc. */
-static wt_status blank_disc(const wt_height_map *f, const region *r, wt_height_map *to,
-                            wt_error *err)
+static void blank_disc(const wt_height_map *f, const region *r, wt_height_map *to)
 {
-    double *z = malloc(f->nx * f->ny * sizeof *z);
-    if (z == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    double *z = wt_alloc(f->nx * f->ny, sizeof *z);
     for (size_t j = 0; j < f->ny; j++)
         for (size_t i = 0; i < f->nx; i++)
             z[j * f->nx + i] = is_in_disc(f, r, i, j) ? (double)NAN : f->z[j * f->nx + i];
     *to = *f;
     to->z = z;
-    return WT_OK;
 }
 
 static size_t count_outside_disc(const wt_height_map *f, const region *r)
@@ -387,73 +376,68 @@ static bool fit_block_drift(image_block *parts, size_t *n, const region *all, do
     }
 }
 
-wt_status spot_align(const wt_height_map *before, const wt_height_map *after, double x, double y,
-                     double radius, spot_shift *shift, wt_error *err)
+spot_shift spot_align(const wt_height_map *before, const wt_height_map *after, double x, double y,
+                      double radius)
 {
     const region all = {{0, before->nx}, {0, before->ny}, x, y, radius};
     const double length = fmax((double)before->nx * before->dx, (double)before->ny * before->dy);
     long whole[2] = {0, 0};
-    bool found = false;
     image_block parts[PARTS];
     drift_plane d[2];
-    *shift = (spot_shift){.x = (double)NAN,
-                          .y = (double)NAN,
-                          .x_error = (double)NAN,
-                          .y_error = (double)NAN,
-                          .overlap = (double)NAN};
+    spot_shift shift = {.x = (double)NAN,
+                        .y = (double)NAN,
+                        .x_error = (double)NAN,
+                        .y_error = (double)NAN,
+                        .overlap = (double)NAN};
     wt_height_map cut = {.z = NULL};
     size_t n = 0;
-    wt_status status = blank_disc(before, &all, &cut, err);
-    if (status == WT_OK)
-        status = find_pixel_shift(&cut, after, &all, whole, &found, err);
-    if (status == WT_OK && found)
+    blank_disc(before, &all, &cut);
+    const bool found = find_pixel_shift(&cut, after, &all, whole);
+    if (found)
         n = find_block_shifts(before, &cut, after, &all, whole, parts);
     free((void *)cut.z);
-    if (status != WT_OK || !found)
-        return status;
+    if (!found)
+        return shift;
     const double left[2] = {fmax(0, -(double)whole[0]), fmax(0, -(double)whole[1])},
                  right[2] = {fmin((double)before->nx, (double)after->nx - (double)whole[0]),
                              fmin((double)before->ny, (double)after->ny - (double)whole[1])};
-    shift->overlap =
+    shift.overlap =
         (right[0] - left[0]) * (right[1] - left[1]) / ((double)before->nx * (double)before->ny);
     if (!fit_block_drift(parts, &n, &all, length, d))
-        return WT_OK;
-    shift->blocks = n;
-    shift->degrees = n - 3;
-    shift->found = true;
-    shift->x = d[0].at * before->dx;
-    shift->y = d[1].at * before->dy;
-    shift->x_error = d[0].error * before->dx;
-    shift->y_error = d[1].error * before->dy;
+        return shift;
+    shift.blocks = n;
+    shift.degrees = n - 3;
+    shift.found = true;
+    shift.x = d[0].at * before->dx;
+    shift.y = d[1].at * before->dy;
+    shift.x_error = d[0].error * before->dx;
+    shift.y_error = d[1].error * before->dy;
     for (int k = 0; k < 2; k++) {
-        shift->gradient[0][k] = d[0].gradient[k] * before->dx;
-        shift->gradient[1][k] = d[1].gradient[k] * before->dy;
+        shift.gradient[0][k] = d[0].gradient[k] * before->dx;
+        shift.gradient[1][k] = d[1].gradient[k] * before->dy;
     }
-    shift->at_x = x;
-    shift->at_y = y;
-    return WT_OK;
+    shift.at_x = x;
+    shift.at_y = y;
+    return shift;
 }
 
 /* ---- the second image on the pixels of the first --------------------------------------------- */
 
-wt_status spot_resample(const wt_height_map *field, double dx, double dy, wt_height_map *to,
-                        wt_error *err)
+wt_height_map spot_resample(const wt_height_map *field, double dx, double dy)
 {
-    *to = (wt_height_map){NULL,
-                          (size_t)floor((double)(field->nx - 1) * field->dx / dx) + 1,
-                          (size_t)floor((double)(field->ny - 1) * field->dy / dy) + 1,
-                          dx,
-                          dy,
-                          false};
-    double *z = malloc(to->nx * to->ny * sizeof *z);
-    if (z == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
-    for (size_t j = 0; j < to->ny; j++)
-        for (size_t i = 0; i < to->nx; i++)
-            z[j * to->nx + i] = spot_interpolate_height(field, (double)i * dx / field->dx,
-                                                        (double)j * dy / field->dy);
-    to->z = z;
-    return WT_OK;
+    wt_height_map to = {NULL,
+                        (size_t)floor((double)(field->nx - 1) * field->dx / dx) + 1,
+                        (size_t)floor((double)(field->ny - 1) * field->dy / dy) + 1,
+                        dx,
+                        dy,
+                        false};
+    double *z = wt_alloc(to.nx * to.ny, sizeof *z);
+    for (size_t j = 0; j < to.ny; j++)
+        for (size_t i = 0; i < to.nx; i++)
+            z[j * to.nx + i] = spot_interpolate_height(field, (double)i * dx / field->dx,
+                                                       (double)j * dy / field->dy);
+    to.z = z;
+    return to;
 }
 
 void spot_difference(const wt_height_map *before, const wt_height_map *after,

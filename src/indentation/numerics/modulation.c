@@ -7,6 +7,7 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
+#include "core/base/memory.h"
 #include "core/math/arena_gsl.h"
 #include "core/math/gsl_quiet.h"
 #include "core/math/root.h"
@@ -118,8 +119,9 @@ static double strongest_frequency(modulation_samples *s, arena *memory)
     gsl_fft_real_workspace *space = gsl_fft_real_workspace_alloc(n);
     size_t best = 0;
     double most = 0;
-    memory->failed = memory->failed || table == NULL || space == NULL;
-    if (!memory->failed && fit_columns(s, 2 * pi / (2 * s->step), c)) {
+    if (table == NULL || space == NULL)
+        out_of_memory(n * sizeof *work);
+    if (fit_columns(s, 2 * pi / (2 * s->step), c)) {
         for (size_t i = 0; i < s->n; i++) {
             fill_row(s, i, 0, row);
             work[i] = s->of[0][i] - s->of[0][0];
@@ -200,10 +202,7 @@ wt_status wt_modulation_fit(const double *time, const double *position, const do
     s.duration = s.step * (double)n;
     const double omega =
         angular_frequency > 0 ? angular_frequency : strongest_frequency(&s, &memory);
-    const bool failed = memory.failed;
     arena_free(&memory);
-    if (failed)
-        return wt_fail(err, WT_E_MEMORY, "out of memory for a modulation");
     modulation->angular_frequency = omega;
     if (!(omega * s.duration >= 2 * pi * LEAST_PERIODS) || !(omega * s.step < pi)) {
         modulation->reason = "no modulation with five periods and two samples in each";

@@ -208,9 +208,7 @@ wt_status wt_modulus_profile_fit(const wt_contact_table *table, double poisson_r
                                .layer_modulus = nothing,
                                .substrate_modulus = nothing,
                                .thickness = nothing};
-    if (memory.failed)
-        status = wt_fail(err, WT_E_MEMORY, "out of memory");
-    else if (d.has_mean)
+    if (d.has_mean)
         status = analyse_depth(&d, to, err);
     arena_free(&memory);
     return status;

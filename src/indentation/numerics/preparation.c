@@ -36,17 +36,13 @@ enum {
     CLASSES = 512,  /* size classes for a median */
 };
 
-wt_status curve_reserve(wt_indent_workspace *w, size_t n, wt_error *err)
+void curve_reserve(wt_indent_workspace *w, size_t n)
 {
     enum { N_ARRAYS = 25 }; /* number of the arrays below */
     if (n <= w->capacity)
-        return WT_OK;
+        return;
     size_t capacity = n + n / 4;
-    double *block = capacity < SIZE_MAX / sizeof(double) / N_ARRAYS
-                        ? malloc(N_ARRAYS * capacity * sizeof *block)
-                        : NULL;
-    if (block == NULL)
-        return wt_fail(err, WT_E_MEMORY, "no memory to fit a force curve of %zu samples", n);
+    double *block = wt_alloc(capacity, N_ARRAYS * sizeof *block);
     free(w->block);
     w->block = block;
     w->capacity = capacity;
@@ -77,7 +73,6 @@ wt_status curve_reserve(wt_indent_workspace *w, size_t n, wt_error *err)
                                        &w->wave_response};
     for (size_t i = 0; i < N_ARRAYS; i++)
         *arrays[i] = block + i * capacity;
-    return WT_OK;
 }
 
 WIDE_REGISTERS static double sample_mean(const double *x, size_t n)

@@ -527,7 +527,7 @@ static void fit_relaxation(relaxation_task *t, arena *memory, wt_dwell *to)
     t->shifted = arena_numbers(memory, t->nodes.n);
     t->depth = arena_numbers(memory, t->nodes.n);
     t->pressed = arena_numbers(memory, t->nodes.n);
-    if (to->reason[0] != '\0' || memory->failed)
+    if (to->reason[0] != '\0')
         return;
     start_elastic(t, p);
     set_relaxation_times(t);
@@ -546,12 +546,10 @@ wt_status wt_dwell_fit(const wt_contact_table *table, const wt_dwell_history *hi
     *dwell = (wt_dwell){.load_time = (double)NAN, .misfit = (double)NAN};
     dwell->reason = history_defect(history);
     gsl_quiet();
-    wt_status status = hereditary_reserve(&t.law, MOST_TERMS, err);
-    if (status == WT_OK && dwell->reason[0] == '\0')
+    hereditary_reserve(&t.law, MOST_TERMS);
+    if (dwell->reason[0] == '\0')
         fit_relaxation(&t, &memory, dwell);
-    if (status == WT_OK && memory.failed)
-        status = wt_fail(err, WT_E_MEMORY, "out of memory for a dwell");
     arena_free(&memory);
     hereditary_clear(&t.law);
-    return status;
+    return WT_OK;
 }

@@ -16,8 +16,7 @@ typedef struct dwell_nodes {
 } dwell_nodes;
 
 /* Computes the means. `stiffness` is dF/dz of cantilever and sample, by which motion of the height
- * causes noise in contact. Returns "" or the reason of a failure. memory->failed reports a lack of
- * memory. */
+ * causes noise in contact. Returns "" or the reason of a failure. */
 const char *dwell_nodes_create(const wt_dwell_history *h, double stiffness, arena *memory,
                                dwell_nodes *nodes);
 

@@ -333,11 +333,7 @@ wt_status wt_thermal_fit(const double *frequency, const double *density, size_t 
                             .averages = nan_,
                             .misfit_p = nan_,
                             .reason = ""};
-    if (n > SIZE_MAX / sizeof(double) / (P + 3))
-        return wt_fail(err, WT_E_MEMORY, "no memory for %zu points", n);
-    double *scratch = malloc((P + 3) * (n + 1) * sizeof *scratch);
-    if (scratch == NULL)
-        return wt_fail(err, WT_E_MEMORY, "no memory for %zu points", n);
+    double *scratch = wt_alloc(n + 1, (P + 3) * sizeof *scratch);
     double *const f = scratch, *const p = scratch + n + 1;
     size_t m = 0;
     for (size_t i = 0; i < n; i++)
