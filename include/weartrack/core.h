@@ -624,7 +624,7 @@ typedef struct wt_sweep {
 WT_API void wt_sweep_clear(wt_sweep *sweep);
 /* Optional arrays of a sweep. */
 enum { WT_SWEEP_HAS_STRAIN = 1, WT_SWEEP_HAS_LOSS_FACTOR = 2 };
-/* Appends an isotherm with uninitialised arrays of n points; NULL when out of memory. `with` is a
+/* Appends an isotherm with arrays of n points; never NULL. `with` is a
  * combination of the flags above. After the last one, wt_sweep_sort orders the isotherms by
  * temperature (then by source) and the points of each by frequency. */
 WT_API wt_isotherm *wt_sweep_add(wt_sweep *sweep, size_t n, unsigned with);

@@ -31,8 +31,9 @@ enum { MOST_FILES = 64 };
 
 typedef struct seen_file {
     char path[512];
-    size_t opened, bytes;
+    size_t opened, bytes; /* opened: to be read; the search for copies looks at the ends only */
     int descriptor;
+    bool is_read; /* through the descriptor */
 } seen_file;
 
 static seen_file seen[MOST_FILES];
@@ -62,8 +63,8 @@ int __wrap_open(const char *path, int flags, ...)
     const int descriptor = __real_open(path, flags, mode);
     if (descriptor >= 0 && (flags & O_ACCMODE) == O_RDONLY) {
         seen_file *f = find_seen(path);
-        f->opened++;
         f->descriptor = descriptor;
+        f->is_read = false;
     }
     return descriptor;
 }
@@ -74,8 +75,11 @@ ssize_t __wrap_read(int descriptor, void *buffer, size_t n)
 {
     const ssize_t got = __real_read(descriptor, buffer, n);
     for (size_t i = 0; got > 0 && i < n_seen; i++)
-        if (seen[i].descriptor == descriptor)
+        if (seen[i].descriptor == descriptor) {
+            seen[i].opened += !seen[i].is_read;
+            seen[i].is_read = true;
             seen[i].bytes += (size_t)got;
+        }
     return got;
 }
 

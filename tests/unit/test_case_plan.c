@@ -25,13 +25,6 @@
     "<layer><specific-wear-rate>1e-3mm^3/(N m)</specific-wear-rate>"                               \
     "<critical-energy>1e10J/m^3</critical-energy></layer>"
 
-#define LAYER_WITH_RATIO                                                                           \
-    "<layer><specific-wear-rate>1e-3mm^3/(N m)</specific-wear-rate>"                               \
-    "<critical-energy>1e10J/m^3</critical-energy><modulus-ratio>2</modulus-ratio></layer>"
-#define SLIDE_MAP                                                                                  \
-    "<sliding><pressure>0.4MPa</pressure><velocity>1m/s</velocity><decades>yes</decades>"          \
-    "<temperatures>25degC,60degC</temperatures></sliding>"
-
 static wt_table *plan_of(const char *text)
 {
     char path[] = "/tmp/weartrack-plan-XXXXXX";
@@ -199,13 +192,6 @@ static void test_reasons(void **state)
         "in <indentation>) and no modulus ratio");
     check_because(HEAD PRONY ROAD SLIDE "</case>", "what_if",
                   "without the layer, for the case has no layer parameters (<layer>)");
-    check_because(HEAD PRONY ROAD SLIDE_MAP LAYER "</case>", "friction_map",
-                  "without the layer, for the case has no bulk curves");
-    check_because(HEAD PRONY ROAD SLIDE_MAP LAYER "</case>", "friction_decades",
-                  "without the layer, for the case has no bulk curves");
-    check_because(HEAD PRONY ROAD SLIDE_MAP LAYER_WITH_RATIO
-                  "<report><result>friction_map</result></report></case>",
-                  "layer", "friction_map needs its layer");
     check_because(HEAD PRONY ROAD SLIDE LAYER "</case>", "what_if",
                   "without the modulus ratio of the layer, for the case has no bulk curves");
     check_because(HEAD "<indentation>" TIP BULK "</indentation></case>", "indentation_bulk",
