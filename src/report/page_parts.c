@@ -287,7 +287,8 @@ static void add_value_text(text_buffer *text, const wt_estimate *e, const displa
         text_add(text, SHORT_NUMBER(value, 4));
     else {
         const int digits = result_value_digits(value, value - error, value + error);
-        const int decimals = digits - 1 - leading;
+        const int decimals = value != 0 ? digits - 1 - leading /* zero: digits of the error */
+                                        : (int)fmin(5, 1 - floor(log10(error)));
         text_add(text, FIXED(round_to_power_of_ten(value, decimals), decimals));
     }
 }
