@@ -220,6 +220,7 @@ wt_status page_write(page_writer *page, wt_error *err)
 {
     // The body comes first, as the table of contents depends on it.
     text_buffer body = {0};
+    page_cards(page);
     page_answer(page);
     page_failures(page);
     page_numbers(page);

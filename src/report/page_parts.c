@@ -274,7 +274,7 @@ static void add_unit_label(text_buffer *text, const char *label)
         text_html(text, " %s", label);
 }
 
-/* Adds a value with the decimals that the larger error justifies, at most six digits. */
+/* Adds a value with the digits that its larger error justifies: at least three, at most six. */
 static void add_value_text(text_buffer *text, const wt_estimate *e, const display_unit *lab)
 {
     double value = to_display_value(lab, e->value), error = 0;
@@ -286,8 +286,9 @@ static void add_value_text(text_buffer *text, const wt_estimate *e, const displa
     if (!(error > 0) || !isfinite(value) || leading > 5 || leading < -4)
         text_add(text, SHORT_NUMBER(value, 4));
     else {
-        int decimals = 1 - (int)floor(log10(error));
-        decimals = decimals > 5 - leading ? 5 - leading : decimals;
+        const int digits = result_value_digits(value, value - error, value + error);
+        const int decimals = value != 0 ? digits - 1 - leading /* zero: digits of the error */
+                                        : (int)fmin(5, 1 - floor(log10(error)));
         text_add(text, FIXED(round_to_power_of_ten(value, decimals), decimals));
     }
 }

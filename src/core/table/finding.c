@@ -1,0 +1,120 @@
+/* Computes the findings from the result values. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "core/table/finding.h"
+
+#include <math.h>
+
+static finding_verdict difference_verdict(const result_value_tables *t, const result_value *f)
+{
+    if (t->comparison.table == NULL || isnan(f->number.value))
+        return FINDING_NOT_COMPUTED;
+    if (isnan(f->low) || isnan(f->high))
+        return FINDING_NOT_ENOUGH_DATA;
+    switch (comparison_key_enum(&t->comparison, COMPARISON_KEY_DIFFERS)) {
+    case VERDICT_YES:
+        return result_value_sign(f) != SIGN_UNDECIDED ? FINDING_YES : FINDING_INCONCLUSIVE;
+    case VERDICT_NO:
+        return FINDING_SAME;
+    default:
+        return FINDING_INCONCLUSIVE;
+    }
+}
+
+static finding_verdict change_verdict(const result_value *f)
+{
+    if (isnan(f->number.value))
+        return FINDING_NOT_COMPUTED;
+    if (isnan(f->low) || isnan(f->high))
+        return FINDING_NOT_ENOUGH_DATA;
+    return result_value_sign(f) != SIGN_UNDECIDED ? FINDING_YES : FINDING_INCONCLUSIVE;
+}
+
+/* True if the critical energy is calibrated to a stated thickness, which is then not predicted. */
+static bool is_thickness_given(const result_value_tables *t)
+{
+    return t->layer.table != NULL && layer_key_text(&t->layer, LAYER_KEY_CLOSURE) == NULL &&
+           layer_key_enum(&t->layer, LAYER_KEY_CRITICAL_ENERGY_FROM) == ENERGY_CALIBRATED;
+}
+
+size_t findings_compute(const result_value_tables *t, finding findings[FINDING_QUESTIONS])
+{
+    if (t->comparison.table == NULL && t->layer.table == NULL)
+        return 0;
+    finding *differs = &findings[FINDING_TRACK_DIFFERS],
+            *thickness = &findings[FINDING_LAYER_THICKNESS],
+            *change = &findings[FINDING_FRICTION_CHANGE];
+    *differs = (finding){.question = FINDING_TRACK_DIFFERS,
+                         .basis = FINDING_MEASURED,
+                         .value = result_value_ratio(t)};
+    differs->verdict = difference_verdict(t, &differs->value);
+    const bool assumed = t->comparison.table != NULL && differs->verdict != FINDING_YES;
+    *thickness = (finding){.question = FINDING_LAYER_THICKNESS,
+                           .basis = FINDING_FROM_THEORY,
+                           .as_if_layer = assumed,
+                           .value = result_value_thickness(t)};
+    thickness->verdict =
+        isnan(thickness->value.number.value) ? FINDING_NOT_COMPUTED : FINDING_PREDICTED;
+    if (is_thickness_given(t)) {
+        thickness->verdict = FINDING_NOT_COMPUTED;
+        thickness->basis = FINDING_GIVEN;
+    }
+    *change = (finding){.question = FINDING_FRICTION_CHANGE,
+                        .basis = FINDING_FROM_THEORY,
+                        .as_if_layer = assumed,
+                        .value = result_value_friction(t, FRICTION_KEY_RELATIVE_CHANGE)};
+    change->verdict = change_verdict(&change->value);
+    for (size_t i = 0; i < FINDING_QUESTIONS; i++)
+        if (findings[i].verdict == FINDING_YES)
+            findings[i].sign = result_value_sign(&findings[i].value);
+    return FINDING_QUESTIONS;
+}
+
+const char *finding_question_text(finding_question question)
+{
+    static const char *const text[FINDING_QUESTIONS] = {
+        [FINDING_TRACK_DIFFERS] = "Is the track different?",
+        [FINDING_LAYER_THICKNESS] = "How thick is the layer?",
+        [FINDING_FRICTION_CHANGE] = "What does it do to friction?"};
+    return text[question];
+}
+
+const char *finding_verdict_text(finding_verdict verdict)
+{
+    static const char *const text[FINDING_VERDICTS] = {[FINDING_YES] = "yes",
+                                                       [FINDING_SAME] = "same",
+                                                       [FINDING_PREDICTED] = "predicted",
+                                                       [FINDING_INCONCLUSIVE] = "inconclusive",
+                                                       [FINDING_NOT_ENOUGH_DATA] =
+                                                           "not enough data",
+                                                       [FINDING_NOT_COMPUTED] = "not computed"};
+    return text[verdict];
+}
+
+const char *finding_basis_text(finding_basis basis)
+{
+    return basis == FINDING_MEASURED      ? "measured"
+           : basis == FINDING_FROM_THEORY ? "predicted"
+                                          : "given";
+}
+
+const char *finding_sentence(const finding *f)
+{
+    static const char *const undecided[FINDING_VERDICTS] = {
+        [FINDING_YES] = "",
+        [FINDING_SAME] = "The moduli of track and bulk are equal within the margin of the test.",
+        [FINDING_PREDICTED] = "At this thickness the layer forms as fast as it wears.",
+        [FINDING_INCONCLUSIVE] = "The 95 % interval or the model choices include no difference.",
+        [FINDING_NOT_ENOUGH_DATA] = "The data do not allow a 95 % interval.",
+        [FINDING_NOT_COMPUTED] =
+            "The result has no number for this answer. The reasons are below."};
+    static const char *const decided[FINDING_QUESTIONS][2] = {
+        [FINDING_TRACK_DIFFERS] = {"The wear track is softer than the bulk.",
+                                   "The wear track is stiffer than the bulk."},
+        [FINDING_LAYER_THICKNESS] = {"", ""},
+        [FINDING_FRICTION_CHANGE] = {"The layer lowers the friction.",
+                                     "The layer raises the friction."}};
+    if (f->basis == FINDING_GIVEN)
+        return "The critical energy is calibrated to this stated thickness.";
+    if (f->verdict != FINDING_YES)
+        return undecided[f->verdict];
+    return decided[f->question][f->sign == SIGN_ABOVE];
+}

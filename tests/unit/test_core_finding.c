@@ -1,0 +1,58 @@
+/* Findings and the digits of their numbers.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "near.h"
+
+#include "core/table/finding.h"
+
+#include <math.h>
+#include <string.h>
+
+/* A value is never rounded away: at least three digits, whatever the width of its interval. */
+static void test_digits_of_every_interval(void **state)
+{
+    (void)state;
+    static const double values[] = {2.96e-7, 0.0075, 6.37, 296, 8.27e6};
+    static const double factors[] = {1.001, 1.01, 1.1, 2, 10, 1e3, 1e5};
+    for (size_t v = 0; v < sizeof values / sizeof *values; v++)
+        for (size_t i = 0; i < sizeof factors / sizeof *factors; i++) {
+            const double value = values[v];
+            const int digits = result_value_digits(value, value / factors[i], value * factors[i]);
+            assert_in_range(digits, 3, 6);
+            /* A narrow interval needs more digits than three, or its limits print alike. */
+            if (factors[i] < 1.01)
+                assert_true(digits > 3);
+        }
+    assert_int_equal(result_value_digits(296, (double)NAN, (double)NAN), 3);
+    assert_int_equal(result_value_digits(0, -1, 1), 3);
+}
+
+/* Without a comparison and a layer no question is asked. */
+static void test_no_findings(void **state)
+{
+    (void)state;
+    const result_value_tables none = {.comparison = {.schema = &comparison_schema}};
+    finding findings[FINDING_QUESTIONS];
+    assert_int_equal(findings_compute(&none, findings), 0);
+}
+
+/* Each verdict has a text of its own; the number of verdicts is that of the closed list. */
+static void test_verdicts(void **state)
+{
+    (void)state;
+    for (int i = 0; i < FINDING_VERDICTS; i++)
+        for (int j = 0; j < i; j++)
+            assert_string_not_equal(finding_verdict_text(i), finding_verdict_text(j));
+    assert_string_equal(finding_verdict_text(FINDING_INCONCLUSIVE), "inconclusive");
+    assert_string_equal(finding_verdict_text(FINDING_NOT_ENOUGH_DATA), "not enough data");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_digits_of_every_interval),
+        cmocka_unit_test(test_no_findings),
+        cmocka_unit_test(test_verdicts),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
