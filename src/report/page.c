@@ -51,13 +51,16 @@ static size_t write_folded_answers(page_writer *page, size_t row)
 }
 
 /* Writes the answers. Those to one question share a heading; caveats are in a second column if
- * there is space. */
-static void page_answer(page_writer *page)
+ * there is space. Below the cards, which tell the result, they are folded. */
+static void page_answer(page_writer *page, bool folded)
 {
     const table_view *table = &page->tables->answer;
     if (table->n_rows == 0)
         return;
     page_heading(page, "answer", "Answer");
+    if (folded)
+        text_add(&page->out, "<details class=\"printed\">\n<summary>The answer in full, with its "
+                             "limits</summary>\n");
     text_add(&page->out, "<div class=\"answers\">\n<div>\n");
     const char *question = NULL;
     bool beside = false;
@@ -79,6 +82,7 @@ static void page_answer(page_writer *page)
             row = end;
     }
     text_add(&page->out, "</section>\n</div>\n</div>\n");
+    text_add(&page->out, folded ? "</details>\n" : "");
 }
 
 /* Adds a download link with the content of a file. */
@@ -220,8 +224,8 @@ wt_status page_write(page_writer *page, wt_error *err)
 {
     // The body comes first, as the table of contents depends on it.
     text_buffer body = {0};
-    page_cards(page);
-    page_answer(page);
+    const bool has_cards = page_cards(page);
+    page_answer(page, has_cards);
     page_failures(page);
     page_numbers(page);
     wt_status status = page_figures(page, err);

@@ -29,7 +29,7 @@ wt_status page_write(page_writer *page, wt_error *err) WT_NODISCARD;
 
 /* ---- parts; each is empty without its tables ---------------------------------------------------
  */
-void page_cards(page_writer *page);       /* findings */
+bool page_cards(page_writer *page);       /* findings; false if there is none */
 void page_numbers(page_writer *page);     /* main numbers */
 void page_results(page_writer *page);     /* result tables */
 void page_indentation(page_writer *page); /* conditions of indentation, rejected curves */

@@ -31,7 +31,7 @@ static finding_verdict change_verdict(const result_value *f)
 /* True if the critical energy is calibrated to a stated thickness, which is then not predicted. */
 static bool is_thickness_given(const result_value_tables *t)
 {
-    return t->layer.table != NULL && layer_key_text(&t->layer, LAYER_KEY_CLOSURE) == NULL &&
+    return t->layer.table != NULL &&
            layer_key_enum(&t->layer, LAYER_KEY_CRITICAL_ENERGY_FROM) == ENERGY_CALIBRATED;
 }
 
