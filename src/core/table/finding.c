@@ -102,7 +102,7 @@ const char *finding_sentence(const finding *f)
         [FINDING_YES] = "",
         [FINDING_SAME] = "The moduli of track and bulk are equal within the margin of the test.",
         [FINDING_PREDICTED] = "At this thickness the layer forms as fast as it wears.",
-        [FINDING_INCONCLUSIVE] = "The 95 % interval or the model choices include no difference.",
+        [FINDING_INCONCLUSIVE] = "The 95 % interval includes no difference.",
         [FINDING_NOT_ENOUGH_DATA] = "The data do not allow a 95 % interval.",
         [FINDING_NOT_COMPUTED] =
             "The result has no number for this answer. The reasons are below."};
@@ -114,6 +114,9 @@ const char *finding_sentence(const finding *f)
                                      "The layer raises the friction."}};
     if (f->basis == FINDING_GIVEN)
         return "The critical energy is calibrated to this stated thickness.";
+    const double neutral = f->value.neutral;
+    if (f->verdict == FINDING_INCONCLUSIVE && (f->value.low > neutral || f->value.high < neutral))
+        return "The 95 % interval shows a difference, but other choices of the model do not.";
     if (f->verdict != FINDING_YES)
         return undecided[f->verdict];
     return decided[f->question][f->sign == SIGN_ABOVE];
