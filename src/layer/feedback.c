@@ -1,10 +1,10 @@
 /* Table of the balances of a layer with feedback on its own energy, with uncertainties from
  * replicates.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "layer/layer_energy.h"
-#include "layer/monte_carlo.h"
 #include "job/cost.h"
 #include "job/random_draws.h"
+#include "layer/layer_energy.h"
+#include "layer/monte_carlo.h"
 
 #include "core/table/table_rows.h"
 

@@ -1,9 +1,9 @@
 /* Parameters of the layer job, and their consistency.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "layer/layer_energy.h"
 #include "core/base/param.h"
 #include "core/base/shared_params.h"
 #include "dma/law_parse.h"
+#include "layer/layer_energy.h"
 #include "weartrack/layer.h"
 
 #include <math.h>

@@ -2,10 +2,10 @@
  * compared with.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "record/record.h"
-#include "job/conditioning.h"
 #include "core/base/array.h"
 #include "core/base/clocale.h"
 #include "core/table/table_rows.h"
+#include "job/conditioning.h"
 #include "job/cost.h"
 #include "record/numerics/pauses.h"
 

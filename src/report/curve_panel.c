@@ -127,8 +127,9 @@ static size_t add_heading_lines(text_buffer *to, const figure_drawing *d, const 
     text_add(to, verdict);
     if (c->kind != CURVE_REFUSED && isfinite(modulus.value))
         text_format(to, ", E = %s", ESTIMATE(&modulus));
-    if (indentation_enum(c->rows, c->row, INDENTATION_REASON) == WT_CURVE_DOUBTFUL)
-        reason += strlen(curve_verdict_text(WT_CURVE_DOUBTFUL)) + strlen(": ");
+    const char *const doubtful = curve_verdict_text(WT_CURVE_DOUBTFUL);
+    if (strncmp(reason, doubtful, strlen(doubtful)) == 0)
+        reason += strlen(doubtful) + strspn(reason + strlen(doubtful), ": ");
     if (c->kind != CURVE_ACCEPTED && reason[0] != '\0') {
         text_add(to, "\n");
         lines += add_wrapped_lines(to, reason, REASON_LINES);

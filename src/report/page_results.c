@@ -197,7 +197,8 @@ static void write_rejected_curves(page_writer *page, const table_view *table)
     enum { SHOWN = 200 };
     size_t rows[SHOWN], n = 0, others = 0, doubtful = 0;
     for (size_t row = 0; row < table->n_rows; row++) {
-        const wt_curve_verdict verdict = indentation_enum(table, row, INDENTATION_VERDICT);
+        const wt_curve_verdict verdict =
+            (wt_curve_verdict)indentation_enum(table, row, INDENTATION_VERDICT);
         if (verdict == WT_CURVE_ACCEPTED)
             continue;
         doubtful += verdict == WT_CURVE_DOUBTFUL;

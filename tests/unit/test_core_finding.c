@@ -42,7 +42,8 @@ static void test_verdicts(void **state)
     (void)state;
     for (int i = 0; i < FINDING_VERDICTS; i++)
         for (int j = 0; j < i; j++)
-            assert_string_not_equal(finding_verdict_text(i), finding_verdict_text(j));
+            assert_string_not_equal(finding_verdict_text((finding_verdict)i),
+                                    finding_verdict_text((finding_verdict)j));
     assert_string_equal(finding_verdict_text(FINDING_INCONCLUSIVE), "inconclusive");
     assert_string_equal(finding_verdict_text(FINDING_NOT_ENOUGH_DATA), "not enough data");
 }

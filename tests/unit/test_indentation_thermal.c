@@ -311,9 +311,9 @@ static void test_departing(void **state)
     job.sets = &set;
     job.n_sets = 1;
     assert_int_equal(wt_thermal_compute(&job, &work, &t, NULL), WT_OK);
-    assert_int_equal(wt_table_n_rows(t), N);
+    assert_int_equal(wt_table_n_rows(t), 1); /* links to one file count once */
     assert_true(cell(t, "misfit_p") < 1e-3);
-    assert_string_equal(wt_table_key(t, "n_spectra"), "3");
+    assert_string_equal(wt_table_key(t, "n_spectra"), "1");
     assert_non_null(strstr(wt_table_key(t, "spring_constant"), "standard_error=nan"));
     assert_null(wt_table_key(t, "compare_option"));
     wt_table_free(t);

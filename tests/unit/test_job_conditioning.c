@@ -61,7 +61,7 @@ static void test_sound_record(void **state)
 static void test_outliers(void **state)
 {
     (void)state;
-    static const double values[] = {99, -9999, 1e6, INFINITY};
+    static const double values[] = {99, -9999, 1e6, (double)INFINITY};
     for (size_t k = 0; k < sizeof values / sizeof *values; k++) {
         scene s;
         make_scene(&s);

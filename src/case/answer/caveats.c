@@ -18,7 +18,8 @@ static const char *const group_names[2] = {"bulk", "wear-track"};
 /* Curves with the verdict "doubtful" count as accepted: they have a modulus. */
 static bool is_usable_curve(const table_view *indentation, size_t row)
 {
-    return wt_curve_verdict_is_usable(indentation_enum(indentation, row, INDENTATION_VERDICT));
+    return wt_curve_verdict_is_usable(
+        (wt_curve_verdict)indentation_enum(indentation, row, INDENTATION_VERDICT));
 }
 
 /* Returns the median of a column over the accepted curves, NaN without accepted curves. */
@@ -315,7 +316,7 @@ static void material_caveats(answer_context *context)
         return;
     const char *reason = shift_factors_key_text(shifts, SHIFT_FACTORS_KEY_SUPERPOSITION);
     const wt_superposition superposition =
-        shift_factors_key_enum(shifts, SHIFT_FACTORS_KEY_SUPERPOSITION);
+        (wt_superposition)shift_factors_key_enum(shifts, SHIFT_FACTORS_KEY_SUPERPOSITION);
     size_t undetermined = 0;
     for (size_t i = 0; i < shifts->n_rows; i++)
         undetermined += !(shift_factors_get(shifts, i, SHIFT_FACTORS_DETERMINED) > 0);

@@ -30,7 +30,7 @@ static double plain_number(const char *key)
 
 static bool is_blunted(const table_view *table)
 {
-    const tip_form form = indentation_key_enum(table, INDENTATION_KEY_TIP);
+    const tip_form form = (tip_form)indentation_key_enum(table, INDENTATION_KEY_TIP);
     return form == TIP_BLUNTED_PYRAMID || form == SEVERAL_BLUNTED_PYRAMIDS;
 }
 

@@ -122,7 +122,8 @@ static void summarize_material(summary_line *s, const table_view *v)
                format_estimate(shift_factors_value(v, SHIFT_FACTORS_KEY_WLF_C2)).text);
     const char *verdict = shift_factors_key_text(v, SHIFT_FACTORS_KEY_SUPERPOSITION);
     /* A failed or inconclusive superposition is explained by a warning. */
-    const wt_superposition state = shift_factors_key_enum(v, SHIFT_FACTORS_KEY_SUPERPOSITION);
+    const wt_superposition state =
+        (wt_superposition)shift_factors_key_enum(v, SHIFT_FACTORS_KEY_SUPERPOSITION);
     const bool warned = v->n_rows > 1 && state != WT_SUPERPOSITION_HOLDS;
     append(s, ", superposition: %.*s", (int)(warned ? strcspn(verdict, ":") : strlen(verdict)),
            verdict);
@@ -285,7 +286,8 @@ static void summarize_sensitivity(summary_line *s, const table_view *v)
         return;
     const wt_estimate value = sensitivity_value(v, SENSITIVITY_KEY_SENSITIVITY),
                       factor = sensitivity_value(v, SENSITIVITY_KEY_FACTOR);
-    const slope_direction direction = sensitivity_key_enum(v, SENSITIVITY_KEY_DIRECTION);
+    const slope_direction direction =
+        (slope_direction)sensitivity_key_enum(v, SENSITIVITY_KEY_DIRECTION);
     const bool straight = sensitivity_key_enum(v, SENSITIVITY_KEY_VERDICT) == SLOPE_STRAIGHT;
     const char *option = sensitivity_key_text(v, SENSITIVITY_KEY_INDENT),
                *compare = sensitivity_key_text(v, SENSITIVITY_KEY_COMPARE),
