@@ -250,7 +250,8 @@ static wt_status find_systematic_errors(const wt_compared_material *m, double sa
     const wt_status status = table_bind(m->shift_factors, &shift_factors_schema, "", &view, err);
     if (status != WT_OK)
         return status;
-    const wt_superposition state = shift_factors_key_enum(&view, SHIFT_FACTORS_KEY_SUPERPOSITION);
+    const wt_superposition state =
+        (wt_superposition)shift_factors_key_enum(&view, SHIFT_FACTORS_KEY_SUPERPOSITION);
     const char *high = shift_factors_key_text(&view, SHIFT_FACTORS_KEY_MISFIT_HIGH);
     double misfit = 0;
     if (state == WT_SUPERPOSITION_HOLDS || high == NULL ||

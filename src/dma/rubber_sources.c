@@ -294,7 +294,7 @@ static void read_shift_factors(const table_view *shifts, wt_rubber *rubber)
                       c2 = shift_factors_value(shifts, SHIFT_FACTORS_KEY_WLF_C2);
     const size_t rows = shifts->n_rows;
     rubber->law = (wt_shift_law){
-        .kind = kind <= WT_LAW_WLF_ARRHENIUS ? kind : WT_LAW_NONE,
+        .kind = kind <= WT_LAW_WLF_ARRHENIUS ? (wt_law_kind)kind : WT_LAW_NONE,
         .wlf = {rubber->prony.reference_temperature, c1.value, c2.value},
         .activation_energy = shift_factors_value(shifts, SHIFT_FACTORS_KEY_ACTIVATION_ENERGY).value,
         .joint = shift_factors_value(shifts, SHIFT_FACTORS_KEY_JOINT).value};

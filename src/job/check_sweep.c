@@ -58,7 +58,7 @@ static void add_range(const double *x, size_t n, double *low, double *high)
  * end beyond that. */
 static void check_moduli(const wt_sweep *sweep, wt_log *log)
 {
-    double low = INFINITY, high = -INFINITY;
+    double low = (double)INFINITY, high = -(double)INFINITY;
     for (size_t i = 0; i < sweep->n_isotherms; i++)
         add_range(sweep->isotherms[i].storage_modulus, sweep->isotherms[i].n, &low, &high);
     for (size_t i = 0; i < sweep->n_ramps; i++)

@@ -82,7 +82,8 @@ void append_shared_pairs(text_builder *t, const table_view *v)
     const char *const settled_by = shared_pairs_key_text(v, SHARED_PAIRS_KEY_SETTLED_BY);
     bool open = false, is_first_appended = false;
     for (size_t i = 0; i < v->n_rows; i++) {
-        const sharing_verdict one_pair = shared_pairs_enum(v, i, SHARED_PAIRS_ONE_PAIR);
+        const sharing_verdict one_pair =
+            (sharing_verdict)shared_pairs_enum(v, i, SHARED_PAIRS_ONE_PAIR);
         const reported_pair p =
             read_reported_pair(v, i, SHARED_PAIRS_ENERGY, SHARED_PAIRS_CORRELATION);
         if (shared_pairs_enum(v, i, SHARED_PAIRS_OVER) != OF_ALL)

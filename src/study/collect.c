@@ -374,7 +374,7 @@ static wt_interval result_interval(const result_value *f)
 static stated_verdict short_verdict(const table_view *comparison)
 {
     const int verdict = comparison_key_enum(comparison, COMPARISON_KEY_DIFFERS);
-    return verdict <= VERDICT_NO ? verdict : VERDICT_NOT_ASKED;
+    return verdict <= VERDICT_NO ? (stated_verdict)verdict : VERDICT_NOT_ASKED;
 }
 
 static size_t count_different(const collected_case *cases, size_t n, bool condition)
@@ -415,7 +415,7 @@ static double shared_error(const result_value_tables *tables, const char *group)
     const table_view *budget = &tables->budget;
     double variance = 0;
     for (size_t row = 0; row < budget->n_rows; row++) {
-        const error_kind kind = modulus_budget_enum(budget, row, MODULUS_BUDGET_KIND);
+        const error_kind kind = (error_kind)modulus_budget_enum(budget, row, MODULUS_BUDGET_KIND);
         const double error = modulus_budget_get(budget, row, MODULUS_BUDGET_RELATIVE_ERROR);
         if (strcmp(modulus_budget_text(budget, row, MODULUS_BUDGET_GROUP), group) != 0)
             continue;

@@ -256,7 +256,8 @@ static wt_status find_accepted_rows(const table_view *t, wt_group_data *d, size_
     size_t n = 0;
     for (size_t row = 0; row < t->n_rows; row++) {
         const double modulus = indentation_get(t, row, INDENTATION_MODULUS);
-        if (!wt_curve_verdict_is_usable(indentation_enum(t, row, INDENTATION_VERDICT))) {
+        if (!wt_curve_verdict_is_usable(
+                (wt_curve_verdict)indentation_enum(t, row, INDENTATION_VERDICT))) {
             d->group.n_rejected++;
             continue;
         }
@@ -364,7 +365,7 @@ static void read_shared_inputs(const table_view *t, wt_group_data *d)
     d->tip = indentation_key_text(t, INDENTATION_KEY_TIP);
     d->has_several_cantilevers = indentation_key_text(t, INDENTATION_KEY_SPRING_CONSTANTS) != NULL;
     d->has_several_sensitivities = indentation_key_text(t, INDENTATION_KEY_SENSITIVITIES) != NULL;
-    const tip_form form = indentation_key_enum(t, INDENTATION_KEY_TIP);
+    const tip_form form = (tip_form)indentation_key_enum(t, INDENTATION_KEY_TIP);
     d->has_several_tips = form == SEVERAL_TIPS || form == SEVERAL_BLUNTED_PYRAMIDS;
     for (int i = 0; i < WT_SYSTEMATIC_SOURCES; i++) {
         const indentation_key error = (indentation_key)(INDENTATION_KEY_LEVER_ERROR + i),

@@ -209,7 +209,7 @@ static void draw_number(figure_drawing *d, const number_panel *p)
     plot_heading(d, p->number);
     error_kind last = ERROR_KIND_UNKNOWN;
     for (size_t row = p->first; row < p->first + p->n; row++) {
-        const error_kind kind = error_budget_enum(t, row, ERROR_BUDGET_KIND);
+        const error_kind kind = (error_kind)error_budget_enum(t, row, ERROR_BUDGET_KIND);
         if (kind != last)
             draw_bars(d, p, row, kind);
         last = kind;

@@ -371,7 +371,8 @@ static void add_curve_to_spot(const table_view *curves, size_t row, spot_line **
     const double x = log10(indentation_get(curves, row, INDENTATION_RATE)),
                  y = log(indentation_get(curves, row, INDENTATION_MODULUS));
     if (spot == NULL || !isfinite(x) || !isfinite(y) ||
-        !wt_curve_verdict_is_usable(indentation_enum(curves, row, INDENTATION_VERDICT)))
+        !wt_curve_verdict_is_usable(
+            (wt_curve_verdict)indentation_enum(curves, row, INDENTATION_VERDICT)))
         return;
     size_t i = 0;
     while (i < *n && strcmp((*lines)[i].spot, spot) != 0)

@@ -177,14 +177,14 @@ static double comparison_overall(const answer_context *context, comparison_colum
 
 static stated_verdict differs_verdict(const answer_context *context)
 {
-    return comparison_key_enum(&context->values.comparison, COMPARISON_KEY_DIFFERS);
+    return (stated_verdict)comparison_key_enum(&context->values.comparison, COMPARISON_KEY_DIFFERS);
 }
 
 /* "4 spots in the bulk and 5 in the track; p 0.01 by Welch, 0.03 by Mann and Whitney ..." */
 static void format_evidence(const answer_context *context, char *text, size_t size)
 {
-    const analysis_unit unit =
-        comparison_key_enum(&context->values.comparison, COMPARISON_KEY_UNIT_OF_ANALYSIS);
+    const analysis_unit unit = (analysis_unit)comparison_key_enum(&context->values.comparison,
+                                                                  COMPARISON_KEY_UNIT_OF_ANALYSIS);
     const double smallest = comparison_overall(context, COMPARISON_MANN_WHITNEY_SMALLEST_P);
     const double scatter =
         comparison_value(&context->values.comparison, COMPARISON_KEY_SPOT_SCATTER).value;

@@ -96,6 +96,9 @@ static void add_log_entry(wt_log *log, wt_severity severity, wt_log_topic topic,
 
 static void print_log_entry(wt_log *log, wt_severity severity, wt_log_topic topic, const char *file,
                             const char *place, const char *format, va_list arguments)
+    WT_PRINTF(6, 0);
+static void print_log_entry(wt_log *log, wt_severity severity, wt_log_topic topic, const char *file,
+                            const char *place, const char *format, va_list arguments)
 {
     if (log == NULL)
         return;
