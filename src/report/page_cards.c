@@ -31,12 +31,12 @@ static void bar_axis(const result_value *f, double *low, double *high)
     *high += margin;
 }
 
-/* Writes one bar with its limits in words; nothing if the limits are unknown. */
+/* Writes one bar with its limits; nothing if these or the value are not finite. */
 static void write_bar(page_writer *page, const char *name, const char *class, const result_value *f,
                       double low, double high)
 {
     double left = 0, right = 0;
-    if (isnan(low) || isnan(high))
+    if (!isfinite(low) || !isfinite(high) || !isfinite(f->number.value))
         return;
     const display_unit lab = card_unit(f);
     const int digits = result_value_digits(f->number.value, low, high);

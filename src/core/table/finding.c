@@ -112,6 +112,11 @@ const char *finding_sentence(const finding *f)
         [FINDING_LAYER_THICKNESS] = {"", ""},
         [FINDING_FRICTION_CHANGE] = {"The layer lowers the friction.",
                                      "The layer raises the friction."}};
+    const double value = f->value.number.value;
+    if (f->question == FINDING_LAYER_THICKNESS && value == 0)
+        return "There is no layer: wear removes the rubber faster than it is modified.";
+    if (f->question == FINDING_LAYER_THICKNESS && isinf(value))
+        return "The layer has no steady state: it grows without limit.";
     if (f->basis == FINDING_GIVEN)
         return "The critical energy is calibrated to this stated thickness.";
     const double neutral = f->value.neutral;
