@@ -157,11 +157,31 @@ typedef enum wt_log_topic {
     WT_TOPIC_SUPERPOSITION /* the verdict on time-temperature superposition of a sample */
 } wt_log_topic;
 
+/* What was done to data, or found in them, between reading and computing. */
+typedef enum wt_action {
+    WT_ACTION_NONE,
+    WT_LEFT_OUT,     /* values, rows or a file do not count */
+    WT_CORRECTED,    /* values were changed */
+    WT_CONTRADICTED, /* two statements of one input disagree */
+    WT_COPIED,       /* the data of another input, which count once */
+    WT_IMPLAUSIBLE   /* values that the quantity does not have; unchanged */
+} wt_action;
+#define WT_ACTION_LIST(X)                                                                          \
+    X(WT_ACTION_NONE, "none")                                                                      \
+    X(WT_LEFT_OUT, "left out")                                                                     \
+    X(WT_CORRECTED, "corrected")                                                                   \
+    X(WT_CONTRADICTED, "contradicted")                                                             \
+    X(WT_COPIED, "copied")                                                                         \
+    X(WT_IMPLAUSIBLE, "implausible")
+
 typedef struct wt_log_entry {
     wt_severity severity;
     wt_log_topic topic;
-    const char *file;  /* "" if none */
-    const char *place; /* "" if none */
+    wt_action action;
+    size_t n_values; /* number of values, rows or files that the action concerns; 0 unless known */
+    const char *option; /* the option or case element that overrides the action; "" if none */
+    const char *file;   /* "" if none */
+    const char *place;  /* "" if none */
     const char *text;
     size_t
         count; /* number of entries with this text for this file; place is that of the first one */
@@ -180,6 +200,12 @@ WT_API void wt_log_add(wt_log *log, wt_severity severity, const char *file, cons
 WT_API void wt_log_add_topic(wt_log *log, wt_severity severity, wt_log_topic topic,
                              const char *file, const char *place, const char *format, ...)
     WT_PRINTF(6, 7);
+/* Adds an entry of an action on data. n_values and option: see wt_log_entry; option may be NULL. */
+WT_API void wt_log_action(wt_log *log, wt_severity severity, wt_action action, size_t n_values,
+                          const char *option, const char *file, const char *place,
+                          const char *format, ...) WT_PRINTF(8, 9);
+/* Adds the entries of `from`. Texts begin with "PREFIX: " unless prefix is NULL. */
+WT_API void wt_log_append(wt_log *to, const wt_log *from, const char *prefix);
 WT_API size_t
 wt_log_count(const wt_log *log); /* Returns the number of distinct entries; 0 for NULL. */
 WT_API wt_log_entry wt_log_get(const wt_log *log, size_t i);

@@ -27,31 +27,30 @@ static void print_plan(const wt_table *plan)
     }
 }
 
-/* Prints the answer on standard output, as it is the data of this subcommand. Folded answers are
- * only counted. `brief`: only the first part, which tells the result. */
+/* Prints the answer on standard output, as it is the data of this subcommand. `brief`: only the
+ * first part, which tells the result. */
 static void print_answer(const wt_result *result, bool brief)
 {
-    const wt_table *answer = wt_result_find(result, "answer");
+    const wt_table *answer = wt_result_find(result, "answer"),
+                   *limits = wt_result_find(result, "limits");
     const char *last = "";
-    size_t folded = 0;
     for (size_t i = 0; answer != NULL && i < wt_table_n_rows(answer); i++) {
         const char *question = wt_table_text(answer, i, ANSWER_QUESTION);
-        if (wt_answer_is_folded(answer, i)) {
-            const bool more = i + 1 < wt_table_n_rows(answer) && wt_answer_is_folded(answer, i + 1);
-            folded++;
-            if (!more)
-                printf("  %zu more: on the page and in the table answer.\n", folded);
-            continue;
-        }
         if (brief && i > 0 && strcmp(question, last) != 0) {
             puts("\nThe whole answer: --verbose, the page, or the table answer of the result.");
-            break;
+            return;
         }
         if (strcmp(question, last) != 0)
             printf("%s%s\n", i > 0 ? "\n" : "", question);
         last = question;
         fputs("  ", stdout);
         cmd_wrap(stdout, 2, 4, wt_table_text(answer, i, ANSWER_ANSWER));
+    }
+    if (limits != NULL)
+        puts("\nLimits");
+    for (size_t i = 0; limits != NULL && i < wt_table_n_rows(limits); i++) {
+        fputs("  ", stdout);
+        cmd_wrap(stdout, 2, 4, wt_table_text(limits, i, LIMITS_LIMIT));
     }
 }
 

@@ -48,10 +48,10 @@ static usable_points select_usable_points(const wt_strain_sweep *sweep, arena *m
         u.loss[u.n++] = loss;
     }
     if (u.n < sweep->n)
-        wt_log_add(log, WT_WARNING, sweep->source, NULL,
-                   "strain sweep at %.4g rad/s: %zu of %zu points left out, no positive "
-                   "modulus",
-                   sweep->angular_frequency, sweep->n - u.n, sweep->n);
+        wt_log_action(log, WT_WARNING, WT_LEFT_OUT, 0, NULL, sweep->source, NULL,
+                      "strain sweep at %.4g rad/s: %zu of %zu points left out, no positive "
+                      "modulus",
+                      sweep->angular_frequency, sweep->n - u.n, sweep->n);
     return u;
 }
 

@@ -67,10 +67,11 @@ wt_status check_spring_constant(wt_force_source *source, const force_metadata *m
         return status;
     source->constant_checked = true;
     if (fabs(fitted / k - 1) > constant_tolerance + 1 - share)
-        wt_log_add(source->log, WT_WARNING, source->name, metadata->place,
-                   "force and deflection of the file mean a spring constant of %.4g N/m, %s "
-                   "%.4g N/m",
-                   fitted, own > 0 ? "the file says" : "given is", k);
+        wt_log_action(source->log, WT_WARNING, WT_CONTRADICTED, 0, NULL, source->name,
+                      metadata->place,
+                      "force and deflection of the file mean a spring constant of %.4g N/m, %s "
+                      "%.4g N/m",
+                      fitted, own > 0 ? "the file says" : "given is", k);
     return status;
 }
 

@@ -312,10 +312,10 @@ static void warn_difference(const wt_job *work, const wt_cycles *cycles, const c
     for (size_t i = 0; i < cycles->n; i++)
         sum += cycles->cycle[i].coefficient;
     if (cycles->difference > same_friction * sum / (double)cycles->n)
-        wt_log_add(work->log, WT_WARNING, file, NULL,
-                   "the friction coefficient of the file and its friction force over its load "
-                   "differ by up to %.3g; the first is used",
-                   cycles->difference);
+        wt_log_action(work->log, WT_WARNING, WT_CONTRADICTED, cycles->n, NULL, file, NULL,
+                      "the friction coefficient of the file and its friction force over its load "
+                      "differ by up to %.3g; the first is used",
+                      cycles->difference);
 }
 
 static void warn_pauses(const wt_job *work, const record_pauses *pauses, const char *file)
@@ -324,11 +324,11 @@ static void warn_pauses(const wt_job *work, const record_pauses *pauses, const c
     for (size_t i = 0; i < pauses->n; i++)
         all += pauses->of[i].time;
     if (pauses->n > 0)
-        wt_log_add(work->log, WT_WARNING, file, NULL,
-                   "%zu pause%s of %s%.4g s in mid-record, %s at %.4g s of sliding: no time "
-                   "of sliding, and left out",
-                   pauses->n, pauses->n > 1 ? "s" : "", pauses->n > 1 ? "together " : "", all,
-                   pauses->n > 1 ? "the first" : "behind which it goes on", pauses->of[0].at);
+        wt_log_action(work->log, WT_WARNING, WT_LEFT_OUT, pauses->n, NULL, file, NULL,
+                      "%zu pause%s of %s%.4g s in mid-record, %s at %.4g s of sliding: no time "
+                      "of sliding, and left out",
+                      pauses->n, pauses->n > 1 ? "s" : "", pauses->n > 1 ? "together " : "", all,
+                      pauses->n > 1 ? "the first" : "behind which it goes on", pauses->of[0].at);
     if (pauses->alike > 0)
         wt_log_add(work->log, WT_WARNING, file, NULL,
                    "%zu gaps in the time that are alike are taken for those of a recorder that "
@@ -469,9 +469,9 @@ static wt_status measure_file(const wt_record_job *job, const wt_job *work, flow
         check_friction_coefficient(cycles.cycle[cycles.n / 2].coefficient, file->name, work->log);
         warn_pauses(work, &pauses, file->name);
         if (cycles.n_unloaded > 0)
-            wt_log_add(work->log, WT_WARNING, file->name, NULL,
-                       "%zu of %zu samples are at no load and left out", cycles.n_unloaded,
-                       record.n);
+            wt_log_action(work->log, WT_WARNING, WT_LEFT_OUT, cycles.n_unloaded, NULL, file->name,
+                          NULL, "%zu of %zu samples are at no load and left out", cycles.n_unloaded,
+                          record.n);
         status = add_steps(job, work, &cycles, &pauses, file->name, w, err);
     }
     if (status == WT_OK && wear_is_requested(job))

@@ -275,16 +275,18 @@ static void warn_duplicate_inputs(const run_execution *d)
             const wt_provenance_input *b = wt_provenance_get_input(p, k);
             const bool again = strcmp(a->path, b->path) == 0 && strcmp(a->role, b->role) == 0;
             if (!again && a->bytes == b->bytes && a->fingerprint == b->fingerprint)
-                wt_log_add(d->run.job.log, WT_WARNING, b->path, NULL,
-                           "the same bytes as %s (%s and %s)", a->path, a->role, b->role);
+                wt_log_action(d->run.job.log, WT_WARNING, WT_COPIED, 1, NULL, b->path, NULL,
+                              "the same bytes as %s (%s and %s)", a->path, a->role, b->role);
         }
     }
 }
 
 static wt_status finish_result(run_execution *d, wt_error *err)
 {
-    wt_table *answer = NULL, *inputs = NULL, *methods = NULL, *notes = NULL, *cost = NULL;
-    wt_table **const last[] = {&answer, &inputs, &methods, &notes, &d->failures, &cost};
+    wt_table *answer = NULL, *limits = NULL, *inputs = NULL, *methods = NULL, *quality = NULL,
+             *notes = NULL, *cost = NULL;
+    wt_table **const last[] = {&answer,  &limits, &inputs,      &methods,
+                               &quality, &notes,  &d->failures, &cost};
     const wt_provenance *provenance = wt_result_provenance_const(d->result);
     warn_duplicate_inputs(d);
     wt_status status = publish_stages(d, err);
@@ -294,13 +296,15 @@ static wt_status finish_result(run_execution *d, wt_error *err)
             err);
     if (status == WT_OK)
         status = flow_answer(d->run.c, &d->run.plan, d->result, d->run.job.log, d->failures,
-                             &answer, err);
+                             &answer, &limits, err);
     if (status == WT_OK)
         wt_result_log_remarks(d->result, d->run.job.log);
     if (status == WT_OK)
         status = wt_provenance_table(provenance, "inputs", &inputs, err);
     if (status == WT_OK)
         status = wt_methods_table(d->result, &methods, err);
+    if (status == WT_OK)
+        status = wt_data_quality_table(d->run.job.log, d->run.c->folder, &quality, err);
     if (status == WT_OK)
         status = wt_notes_table(d->run.job.log, d->run.c->folder, &notes, err);
     if (status == WT_OK)

@@ -205,11 +205,13 @@ static result_value_range model_choice_range(const table_view *what_if, what_if_
     if (low == high || number(what_if, high) - number(what_if, low) <= error)
         return r; /* for example an observed thickness */
     for (size_t i = 1; i < what_if->n_rows;) {
-        const char *choice = what_if_text(what_if, i, WHAT_IF_CHOICE);
+        const char *choice = what_if_text(what_if, i, WHAT_IF_CHOICE),
+                   *remedy = what_if_text(what_if, i, WHAT_IF_REMEDY);
         const double reach = choice_effect(what_if, &i, number);
         if (reach > widest) {
             widest = reach;
             r.widest = choice;
+            r.remedy = remedy != NULL && remedy[0] != '\0' ? remedy : NULL;
         }
     }
     r.low = number(what_if, low);

@@ -14,6 +14,7 @@ typedef struct result_value_range {
     const char *high_choice, *high_tried;
     const char *
         widest; /* the choice with the largest effect, which a measurement should decide; or NULL */
+    const char *remedy; /* what to measure for the widest choice, or NULL */
 } result_value_range;
 
 typedef struct result_value {

@@ -191,9 +191,10 @@ static void ignore_count_column(const sweep_builder *b)
     const bool counts = numbers && n > 1 && 4 * n > 3 * t->n_rows;
     if (t->sample_cell == SIZE_MAX || !(counts || names->n >= SAMPLES_MAX))
         return;
-    wt_log_add(b->log, WT_WARNING, b->file->name, format_line_position(t->names_line).text,
-               "column %zu, which would name the sample, %s: left out", t->sample_cell + 1,
-               counts ? "is different in every row" : "has too many names");
+    wt_log_action(b->log, WT_WARNING, WT_LEFT_OUT, 0, NULL, b->file->name,
+                  format_line_position(t->names_line).text,
+                  "column %zu, which would name the sample, %s: left out", t->sample_cell + 1,
+                  counts ? "is different in every row" : "has too many names");
     for (size_t row = 0; row < t->n_rows; row++)
         t->samples[row] = NO_SAMPLE;
 }
@@ -212,9 +213,10 @@ static wt_status split_table(sweep_builder *b)
         if (sweep_is_valid_row(b, row))
             rows[n++] = row;
     if (status == WT_OK && n < t->n_rows)
-        wt_log_add(b->log, WT_NOTE, b->file->name, format_line_position(t->names_line).text,
-                   "%zu rows without a positive frequency or without a modulus left out",
-                   t->n_rows - n);
+        wt_log_action(b->log, WT_NOTE, WT_LEFT_OUT, t->n_rows - n, NULL, b->file->name,
+                      format_line_position(t->names_line).text,
+                      "%zu rows without a positive frequency or without a modulus left out",
+                      t->n_rows - n);
     while (status == WT_OK && n > 0) {
         const wt_sweep before = *b->sweep;
         size_t taken = 0, kept = 0;
