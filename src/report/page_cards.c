@@ -94,17 +94,18 @@ static void write_card(page_writer *page, const finding *f)
     text_add(&page->out, "</section>\n");
 }
 
-void page_cards(page_writer *page)
+bool page_cards(page_writer *page)
 {
     result_value_tables tables;
     finding findings[FINDING_QUESTIONS];
     if (result_values_bind(page->result, &tables, NULL) != WT_OK)
-        return; /* figure_tables_bind has reported this error */
+        return false; /* figure_tables_bind has reported this error */
     const size_t n = findings_compute(&tables, findings);
     if (n == 0)
-        return;
+        return false;
     text_add(&page->out, "<div class=\"findings\">\n");
     for (size_t i = 0; i < n; i++)
         write_card(page, &findings[i]);
     text_add(&page->out, "</div>\n");
+    return true;
 }
