@@ -3,7 +3,7 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
-#include "core/base/resource_error.h"
+#include "core/base/memory.h"
 #include "read/formats.h"
 #include "read/text/text.h"
 

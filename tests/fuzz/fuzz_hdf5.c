@@ -4,7 +4,7 @@
  * whose checksums are then made to agree. What is read can be written. SPDX-License-Identifier:
  * GPL-3.0-or-later */
 #include "core/store/store.h"
-#include "core/table/table_bytes.h"
+#include "core/table/table.h"
 #include "writers/hdf5_damage.h"
 
 #include <endian.h>

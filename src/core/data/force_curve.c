@@ -1,13 +1,60 @@
 /* Force curves, whose memory is reused from curve to curve. SPDX-License-Identifier:
  * GPL-3.0-or-later */
 #include "core/data/force_curve.h"
-
 #include "core/base/array.h"
 #include "core/math/simd.h"
+#include "weartrack/core.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+
+void wt_record_clear(wt_record *record)
+{
+    if (record == NULL)
+        return;
+    for (int c = 0; c < WT_RECORD_CHANNELS; c++)
+        free(record->channel[c]);
+    free(record->step);
+    *record = (wt_record){.n = 0};
+}
+
+void wt_noise_spectrum_clear(wt_noise_spectrum *spectrum)
+{
+    if (spectrum == NULL)
+        return;
+    free(spectrum->frequency);
+    free(spectrum->density);
+    *spectrum = (wt_noise_spectrum){.n = 0};
+}
+
+void wt_power_spectrum_clear(wt_power_spectrum *spectrum)
+{
+    if (spectrum == NULL)
+        return;
+    free(spectrum->wavenumber);
+    free(spectrum->density);
+    *spectrum = (wt_power_spectrum){0};
+}
+
+void wt_image_clear(wt_image *image)
+{
+    if (image == NULL)
+        return;
+    free(image->values);
+    *image = (wt_image){0};
+}
+
+wt_height_map wt_image_height_map(const wt_image *image)
+{
+    return (wt_height_map){image->values,
+                           image->n_columns,
+                           image->n_rows,
+                           image->width / (double)(image->n_columns - 1),
+                           image->n_rows > 1 ? image->height / (double)(image->n_rows - 1)
+                                             : (double)NAN,
+                           false};
+}
 
 const char *wt_segment_kind_name(wt_segment_kind kind)
 {

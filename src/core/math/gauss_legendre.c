@@ -4,8 +4,8 @@
 #include "core/math/gauss_legendre.h"
 
 #include "core/base/memory.h"
-#include "core/math/gsl_quiet.h"
 #include "core/math/simd.h"
+#include "core/math/special.h"
 
 #include <gsl/gsl_integration.h>
 #include <math.h>

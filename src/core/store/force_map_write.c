@@ -1,8 +1,8 @@
 /* Writes a map of force curves to the store, curve by curve. SPDX-License-Identifier:
  * GPL-3.0-or-later */
 #include "core/store/force_map.h"
-#include "core/store/hdf5_scope.h"
-#include "core/store/store_file.h"
+#include "core/store/hdf5_sandbox.h"
+#include "core/store/store.h"
 #include "core/table/table_rows.h"
 
 #include <math.h>

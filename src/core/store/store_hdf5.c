@@ -2,10 +2,11 @@
  * damaged or malicious. Types, ranks and lengths are checked before memory is allocated, and links
  * to other files are rejected. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/store/force_map.h"
-#include "core/store/hdf5_scope.h"
+#include "core/store/hdf5_sandbox.h"
 #include "core/store/store.h"
-#include "core/table/table_bytes.h"
+#include "core/table/table.h"
 
+#include <endian.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -460,6 +461,13 @@ static bool read_store_index(hdf5_reader *r, store_index *w)
     return good &&
            (w->n_digests == n || fail_corrupt_object(r, STORE_DIGESTS_ATTRIBUTE,
                                                      "not as many digests as there are tables"));
+}
+
+void store_tail_write(FILE *out, const store_tail *tail)
+{
+    const uint64_t words[] = {htole64(tail->has_origin), htole64(tail->n_tables),
+                              htole64(tail->case_length), htole64(tail->origin_length)};
+    (void)fwrite(words, sizeof words, 1, out);
 }
 
 static void write_table_digest(const hdf5_reader *r, const char *digest)

@@ -1,8 +1,8 @@
 /* Writes results to the HDF5 store. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "core/store/hdf5_scope.h"
-#include "core/store/store_file.h"
+#include "core/store/hdf5_sandbox.h"
+#include "core/store/store.h"
 #include "core/table/registry.h"
-#include "core/table/table_bytes.h"
+#include "core/table/table.h"
 
 #include <stdlib.h>
 #include <string.h>

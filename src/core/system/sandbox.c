@@ -3,7 +3,7 @@
 #include "core/system/sandbox.h"
 
 #include "core/base/array.h"
-#include "core/base/resource_error.h"
+#include "core/base/memory.h"
 #include "core/system/seccomp_filter.h"
 
 #include <errno.h>

@@ -3,7 +3,6 @@
  * errors and unit of an estimate, or 0 with a text; number of columns, and for each column its
  * name, 1 for text or 0, unit and long name; numbers of rows and blocks, and the first row of each
  * block; the cells by column. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "core/table/table_bytes.h"
 
 #include "core/base/memory.h"
 #include "core/table/table.h"

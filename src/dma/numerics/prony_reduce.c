@@ -3,7 +3,7 @@
  * so all are positive. After least squares the points are reweighted by their deviation
  * (Lawson), which equalises the largest deviations.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "core/math/gsl_quiet.h"
+#include "core/math/special.h"
 
 #include "core/base/array.h"
 #include "core/base/param.h"

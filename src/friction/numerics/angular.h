@@ -11,7 +11,7 @@
 #ifndef WT_FRICTION_NUMERICS_ANGULAR_H
 #define WT_FRICTION_NUMERICS_ANGULAR_H
 
-#include "core/base/arena.h"
+#include "core/base/array.h"
 #include "core/math/gauss_legendre.h"
 #include "weartrack/dma.h"
 #include "weartrack/surface.h"

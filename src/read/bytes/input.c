@@ -6,8 +6,10 @@
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
 #include "read/bytes/input.h"
-#include "core/store/hdf5_bytes.h"
-#include "read/bytes/scratch.h"
+#include "core/store/hdf5_sandbox.h"
+#include "core/system/temporary.h"
+#include "weartrack/core.h"
+#include "weartrack/read.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -17,6 +19,40 @@
 #include <sys/stat.h>
 #include <sys/vfs.h>
 #include <unistd.h>
+
+/* Opens a file in temporary_directory(); -1 if there is no such folder. The caller then uses
+ * memory. */
+static int scratch_open(void)
+{
+    const char *const folder = temporary_directory();
+    int file = open(folder, O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
+    if (file >= 0)
+        return file;
+    /* some file systems do not support O_TMPFILE */
+    char *const path = wt_path_join(folder, "weartrack-XXXXXX");
+    file = path != NULL ? mkostemp(path, O_CLOEXEC) : -1;
+    if (file >= 0)
+        (void)unlink(path);
+    free(path);
+    return file;
+}
+
+wt_status scratch_write(int file, const void *bytes, size_t n, const char *name, wt_error *err)
+{
+    for (size_t done = 0; done < n;) {
+        const ssize_t written = write(file, (const char *)bytes + done, n - done);
+        if (written < 0 && errno == EINTR)
+            continue;
+        if (written < 0) {
+            wt_fail(err, WT_E_IO, "cannot be kept while it is read: %s", strerror(errno));
+            wt_error_file(err, name);
+            wt_error_advice(err, "set TMPDIR to a folder with room for all of it, unpacked");
+            return WT_E_IO;
+        }
+        done += (size_t)written;
+    }
+    return WT_OK;
+}
 
 #define FIRST_READ ((size_t)64 * 1024)
 
@@ -149,7 +185,10 @@ wt_status input_from_bytes(char *bytes, size_t length, const char *name, wt_inpu
     return WT_OK;
 }
 
-wt_status input_from_file(int file, size_t size, const char *name, wt_input **input, wt_error *err)
+/* Creates an input from an open file of `size` bytes and takes ownership of the descriptor, also on
+ * failure. No other program writes to the file. */
+static wt_status input_from_file(int file, size_t size, const char *name, wt_input **input,
+                                 wt_error *err)
 {
     wt_input *in = NULL;
     wt_status status = input_new(name, &in, err);
@@ -376,4 +415,66 @@ wt_status wt_input_peek(wt_input *input, size_t want, const unsigned char **byte
     *length = input->length;
     *whole = input->whole;
     return WT_OK;
+}
+
+static wt_status reserve_spool(spool *to, size_t n, const char *name, wt_error *err)
+{
+    size_t capacity = to->capacity > 0 ? to->capacity : 1 << 16;
+    while (capacity - to->length < n) {
+        if (capacity > SIZE_MAX / 2) {
+            wt_fail(err, WT_E_MEMORY, "input too large");
+            wt_error_file(err, name);
+            return WT_E_MEMORY;
+        }
+        capacity *= 2;
+    }
+    unsigned char *const bytes = capacity > to->capacity ? realloc(to->bytes, capacity) : to->bytes;
+    if (bytes == NULL) {
+        wt_fail(err, WT_E_MEMORY, "no memory for %zu bytes of input", capacity);
+        wt_error_file(err, name);
+        return WT_E_MEMORY;
+    }
+    to->bytes = bytes;
+    to->capacity = capacity;
+    return WT_OK;
+}
+
+wt_status spool_add(spool *to, const void *bytes, size_t n, const char *name, wt_error *err)
+{
+    wt_status status = WT_OK;
+    if (!to->has_tried_file && n > SCRATCH_THRESHOLD - to->length) {
+        to->has_tried_file = true;
+        to->file = scratch_open();
+        to->has_file = to->file >= 0;
+        if (to->has_file)
+            status = scratch_write(to->file, to->bytes, to->length, name, err);
+        if (to->has_file) {
+            free(to->bytes);
+            to->bytes = NULL;
+            to->capacity = 0;
+        }
+    }
+    if (status == WT_OK && to->has_file)
+        status = scratch_write(to->file, bytes, n, name, err);
+    else if (status == WT_OK && (status = reserve_spool(to, n, name, err)) == WT_OK && n > 0)
+        memcpy(to->bytes + to->length, bytes, n);
+    to->length += status == WT_OK ? n : 0;
+    return status;
+}
+
+wt_status spool_to_input(spool *from, const char *name, wt_input **input, wt_error *err)
+{
+    const wt_status status =
+        from->has_file ? input_from_file(from->file, from->length, name, input, err)
+                       : input_from_bytes((char *)from->bytes, from->length, name, input, err);
+    *from = (spool){0};
+    return status;
+}
+
+void spool_discard(spool *from)
+{
+    if (from->has_file)
+        (void)close(from->file);
+    free(from->bytes);
+    *from = (spool){0};
 }

@@ -5,11 +5,10 @@
  */
 #include "read/hierarchy/curves_hdf5.h"
 
-#include "core/store/hdf5_scope.h"
+#include "core/store/hdf5_sandbox.h"
 #include "core/store/store.h"
 #include "read/bytes/input.h"
-#include "read/bytes/spool.h"
-#include "read/bytes/window.h"
+#include "read/bytes/samples.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,5 +1,5 @@
 /* Unpacks gzip archives (RFC 1952) with zlib. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "read/bytes/spool.h"
+#include "read/bytes/input.h"
 #include "read/packed/packed.h"
 
 #include <stdlib.h>

@@ -8,7 +8,7 @@
  */
 #include "core/base/array.h"
 #include "core/base/clocale.h"
-#include "core/base/resource_error.h"
+#include "core/base/memory.h"
 #include "read/bytes/bytes.h"
 #include "read/packed/ole2.h"
 #include "read/packed/packed.h"
