@@ -63,7 +63,7 @@ static wt_status check_spring_constant(wt_force_source *source, const force_meta
     if (source->constant_checked || !is_usable_signal(force) || !is_usable_signal(deflection) ||
         force->channel == deflection->channel || !(k > 0) || n < SAMPLES_MIN)
         return WT_OK;
-    double *values = calloc(2 * n, sizeof *values);
+    double *values = try_alloc(2 * n, sizeof *values);
     if (values == NULL)
         return wt_fail(err, WT_E_MEMORY, "no memory for %zu samples", n);
     wt_status status =
@@ -146,9 +146,7 @@ wt_status force_open(const force_stream *stream, const struct file_reader *self,
                      const wt_read_options *options, wt_log *log, wt_force_source **source,
                      wt_error *err)
 {
-    wt_force_source *s = calloc(1, stream->size);
-    if (s == NULL)
-        return wt_fail(err, WT_E_MEMORY, "no memory to read the file");
+    wt_force_source *s = wt_alloc(1, stream->size);
     s->stream = stream;
     s->name = wt_input_name(input);
     s->options = *options;

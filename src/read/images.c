@@ -3,6 +3,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
 #include "read/images.h"
+#include "core/base/memory.h"
 #include "core/base/utf8.h"
 #include "read/reader.h"
 
@@ -127,10 +128,8 @@ wt_status images_add(image_list *list, const wt_image *head, double **values, wt
         wt_error_found(err, "%zu x %zu", head->n_columns, head->n_rows);
         return WT_E_CORRUPT;
     }
-    wt_image *grown = realloc(list->images, (list->n + 1) * sizeof *grown);
-    if (grown != NULL)
-        list->images = grown;
-    *values = grown != NULL ? malloc(head->n_columns * head->n_rows * sizeof **values) : NULL;
+    list->images = wt_realloc(list->images, list->n + 1, sizeof *list->images);
+    *values = try_alloc(head->n_columns * head->n_rows, sizeof **values);
     if (*values == NULL)
         return wt_fail(err, WT_E_MEMORY, "no memory for an image of %zu x %zu points",
                        head->n_columns, head->n_rows);

@@ -3,6 +3,7 @@
 #include "weartrack/core.h"
 
 #include <errno.h>
+#include <stdarg.h>
 #include <stdatomic.h>
 #include <string.h>
 
@@ -53,6 +54,33 @@ void out_of_memory(size_t size)
     if (handler != NULL)
         handler(size);
     abort();
+}
+
+char *format_text(const char *format, ...)
+{
+    char *text = NULL;
+    va_list arguments;
+    va_start(arguments, format);
+    const int length = vasprintf(&text, format, arguments);
+    va_end(arguments);
+    if (length < 0)
+        out_of_memory(strlen(format));
+    return text;
+}
+
+FILE *text_stream_open(char **text, size_t *length)
+{
+    FILE *const stream = open_memstream(text, length);
+    if (stream == NULL)
+        out_of_memory(BUFSIZ);
+    return stream;
+}
+
+void text_stream_close(FILE *stream)
+{
+    /* a stream in memory has no other failure */
+    if ((ferror(stream) != 0) | (fclose(stream) != 0))
+        out_of_memory(BUFSIZ);
 }
 
 /* The size of n items. An overflow is larger than any memory. */

@@ -15,6 +15,11 @@ void *try_alloc(size_t n, size_t size) WT_NODISCARD;
 /* Calls the handler for an allocation of `size` bytes that failed in a library, and does not
  * return. */
 _Noreturn void out_of_memory(size_t size);
+/* Formats a text as asprintf does. Never NULL. Free with free(). */
+char *format_text(const char *format, ...) WT_PRINTF(1, 2);
+/* Opens a stream as open_memstream does. Never NULL. */
+FILE *text_stream_open(char **text, size_t *length);
+void text_stream_close(FILE *stream); /* completes the text, which the caller frees */
 void resource_error_clear(void);
 /* Records an errno: ENOMEM, or the reason why the units database of UDUNITS-2 or a character
  * converter cannot be read; -1 if the reason is unknown. */

@@ -1,6 +1,7 @@
 /* Exports a table for other programs: text with separators, JSON, or an SQLite database. A missing
  * number is an empty cell, or null. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/base/array.h"
+#include "core/base/memory.h"
 #include "core/base/utf8.h"
 #include "core/system/file_signatures.h"
 #include "core/table/table.h"
@@ -35,14 +36,14 @@ typedef struct database {
 
 static wt_status fail_sqlite(const database *d, int code)
 {
-    return code == SQLITE_NOMEM
-               ? wt_fail(d->err, WT_E_MEMORY, "out of memory")
-               : wt_fail(d->err, WT_E_INTERNAL, "SQLite: %s", sqlite3_errmsg(d->db));
+    if (code == SQLITE_NOMEM)
+        out_of_memory(0);
+    return wt_fail(d->err, WT_E_INTERNAL, "SQLite: %s", sqlite3_errmsg(d->db));
 }
 
 static wt_status execute_sql(const database *d, const char *words)
 {
-    const int code = sqlite3_exec(d->db, words, NULL, NULL, NULL);
+    const int code = words == NULL ? SQLITE_NOMEM : sqlite3_exec(d->db, words, NULL, NULL, NULL);
     return code == SQLITE_OK ? WT_OK : fail_sqlite(d, code);
 }
 
@@ -58,15 +59,13 @@ static wt_status prepare_statement(const database *d, const char *words, sqlite3
 static char *replace_invalid_utf8(const char *text)
 {
     static const char replacement[] = "\xef\xbf\xbd";
-    char *const whole = malloc((sizeof replacement - 1) * strlen(text) + 1);
+    char *const whole = wt_alloc((sizeof replacement - 1) * strlen(text) + 1, 1);
     char *to = whole;
-    for (size_t left = strlen(text), n; whole != NULL && left > 0; text += n, left -= n) {
+    for (size_t left = strlen(text), n; left > 0; text += n, left -= n) {
         n = utf8_character_length(text, left);
         to = n > 0 ? mempcpy(to, text, n) : mempcpy(to, replacement, sizeof replacement - 1);
         n += n == 0;
     }
-    if (whole != NULL)
-        *to = '\0';
     return whole;
 }
 
@@ -129,22 +128,18 @@ static bool is_name_used(const database *d, size_t n, const char *name)
 }
 
 /* SQLite ignores case, so that modulus_A equals modulus_a: the later name gets a number. */
-static wt_status choose_column_names(database *d)
+static void choose_column_names(database *d)
 {
     const size_t n = d->table->n_columns;
-    d->names = calloc(n + 1, sizeof *d->names);
-    bool good = d->names != NULL;
-    for (size_t i = 0; good && i < n; i++) {
-        char *name = strdup(d->table->columns[i].name);
-        for (size_t number = 2; name != NULL && is_name_used(d, i, name); number++) {
+    d->names = wt_alloc(n, sizeof *d->names);
+    for (size_t i = 0; i < n; i++) {
+        char *name = wt_strdup(d->table->columns[i].name);
+        for (size_t number = 2; is_name_used(d, i, name); number++) {
             free(name);
-            if (asprintf(&name, "%s_%zu", d->table->columns[i].name, number) < 0)
-                name = NULL;
+            name = format_text("%s_%zu", d->table->columns[i].name, number);
         }
         d->names[i] = name;
-        good = name != NULL;
     }
-    return good ? WT_OK : wt_fail(d->err, WT_E_MEMORY, "out of memory");
 }
 
 /* ---- tables ---------------------------------------------------------------------------------- */
@@ -175,7 +170,7 @@ static wt_status insert_table_rows(const database *d)
 {
     sqlite3_stmt *row = NULL;
     char *words = format_table_statement(d, true);
-    wt_status status = words != NULL ? execute_sql(d, words) : fail_sqlite(d, SQLITE_NOMEM);
+    wt_status status = execute_sql(d, words);
     sqlite3_free(words);
     words = status == WT_OK ? format_table_statement(d, false) : NULL;
     if (status == WT_OK)
@@ -273,10 +268,10 @@ static wt_status export_sqlite(FILE *out, const wt_table *table, bool blocks, wt
     const int opened = sqlite3_open_v2(
         ":memory:", &d.db, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE | SQLITE_OPEN_MEMORY, NULL);
     wt_status status = opened == SQLITE_OK ? check_database_table(&d) : fail_sqlite(&d, opened);
-    if (status == WT_OK)
-        status = choose_column_names(&d);
-    if (status == WT_OK)
+    if (status == WT_OK) {
+        choose_column_names(&d);
         status = execute_sql(&d, "BEGIN");
+    }
     if (status == WT_OK)
         status = set_application_id(&d);
     if (status == WT_OK)

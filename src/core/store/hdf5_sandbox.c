@@ -49,12 +49,12 @@ static bool hdf5_bytes_read(const hdf5_bytes *bytes, size_t from, void *to, size
 static H5FD_t *driver_open(const char *name, unsigned flags, hid_t access, haddr_t most)
 {
     const driver_info *const info = H5Pget_driver_info(access);
-    open_file *const f = info != NULL ? calloc(1, sizeof *f) : NULL;
     (void)name;
     (void)flags;
     (void)most;
-    if (f == NULL)
+    if (info == NULL)
         return NULL;
+    open_file *const f = wt_alloc(1, sizeof *f);
     f->source = info->source;
     f->eof = info->source->size;
     return &f->base;

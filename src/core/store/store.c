@@ -50,8 +50,7 @@ static wt_status store_inputs_read(const wt_table *table, wt_provenance *provena
             return wt_fail(err, WT_E_CORRUPT, "size or digest of an input is not one");
         input.bytes = (uint64_t)bytes;
         memcpy(input.sha256, sha256, strlen(sha256) + 1);
-        if (wt_provenance_add_input(provenance, &input) != WT_OK)
-            return wt_fail(err, WT_E_MEMORY, "out of memory");
+        wt_provenance_add_input(provenance, &input);
     }
     return WT_OK;
 }
@@ -150,7 +149,7 @@ wt_status store_decode(const char *bytes, size_t length, wt_result *result, wt_e
     if (status == WT_OK && p.tail.has_origin)
         decode_origin(p.origin, p.tail.origin_length, wt_result_provenance(result));
     if (status == WT_OK)
-        status = wt_result_set_case(result, p.case_file, p.tail.case_length, err);
+        wt_result_set_case(result, p.case_file, p.tail.case_length);
     return status;
 }
 
@@ -249,9 +248,9 @@ wt_status store_abstract_write(FILE *out, const wt_result *result, wt_error *err
 {
     store_tail tail = {.n_tables = 0};
     const size_t n = wt_result_n_tables(result);
-    char(*const digests)[STORE_DIGEST_SIZE] = calloc(n + 1, sizeof *digests);
+    char(*const digests)[STORE_DIGEST_SIZE] = wt_alloc(n, sizeof *digests);
     const long from = fseek(out, 0, SEEK_END) == 0 ? ftell(out) : -1;
-    wt_status status = digests != NULL ? WT_OK : wt_fail(err, WT_E_MEMORY, "out of memory");
+    wt_status status = WT_OK;
     for (size_t i = 0; status == WT_OK && i < n; i++) {
         const wt_table *const table = wt_result_table(result, i);
         if (store_has_headlines(table->name))
@@ -297,8 +296,7 @@ static bool is_current_abstract(const char *bytes, size_t length)
     return length >= sizeof of && memcmp(bytes + length - sizeof of, of, sizeof of) == 0;
 }
 
-/* Returns the bytes of the abstract, which the caller frees. NULL without a usable abstract or
- * without memory. */
+/* Returns the bytes of the abstract, which the caller frees. NULL without a usable abstract. */
 static char *read_abstract_bytes(int file, size_t size, size_t *length)
 {
     abstract_trailer end;
@@ -309,8 +307,8 @@ static char *read_abstract_bytes(int file, size_t size, size_t *length)
         return NULL;
     *length = (size_t)le64toh(end.length);
     const bool whole = *length > 0 && *length <= before && *length <= ABSTRACT_SIZE_MAX;
-    char *const bytes = whole ? malloc(*length) : NULL;
-    if (bytes != NULL && read_exactly(file, before - *length, bytes, *length) &&
+    char *const bytes = whole ? wt_alloc(*length, 1) : NULL;
+    if (whole && read_exactly(file, before - *length, bytes, *length) &&
         is_current_abstract(bytes, *length)) {
         *length -= STORE_DIGEST_SIZE;
         return bytes;
@@ -327,8 +325,7 @@ wt_status store_abstract_read(int file, size_t size, const char *name, wt_result
     if (bytes == NULL)
         return WT_END;
     wt_result *const read = wt_result_new();
-    const wt_status status = read != NULL ? store_decode(bytes, length, read, err)
-                                          : wt_fail(err, WT_E_MEMORY, "out of memory");
+    const wt_status status = store_decode(bytes, length, read, err);
     free(bytes);
     if (status == WT_OK) {
         *result = read;

@@ -61,8 +61,7 @@ bool store_has_headline_rows(
 void store_headlines_digest(char hex[STORE_DIGEST_SIZE]); /* digest of the names of these tables */
 /* Appends the tables with headlines to a result file that HDF5 has closed. */
 wt_status store_abstract_write(FILE *out, const wt_result *result, wt_error *err) WT_NODISCARD;
-/* Reads the tables with headlines. WT_END without an abstract, with another set of tables, or
- * without memory. */
+/* Reads the tables with headlines. WT_END without an abstract or with another set of tables. */
 wt_status store_abstract_read(int file, size_t size, const char *name, wt_result **result,
                               wt_error *err) WT_NODISCARD;
 /* Prints the samples of a map in blocks of all channels (core/store/force_map.h). Also an

@@ -49,18 +49,16 @@ static bool is_protected_file(const struct stat *info)
     return false;
 }
 
-wt_status wt_protect_input(const char *path, wt_error *err)
+void wt_protect_input(const char *path)
 {
     struct stat info;
     const bool standard = strcmp(path, "-") == 0;
-    (void)err;
     if ((standard ? fstat(STDIN_FILENO, &info) : stat(path, &info)) != 0 || !S_ISREG(info.st_mode))
-        return WT_OK;
+        return;
     (void)pthread_mutex_lock(&guard.lock);
     if (guard.started)
         protect_file(&info);
     (void)pthread_mutex_unlock(&guard.lock);
-    return WT_OK;
 }
 
 static bool contains_text(const unsigned char *block, size_t n, const char *mark)

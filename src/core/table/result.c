@@ -68,9 +68,7 @@ static void replace_member(const char *table, char **name)
         if ((members[i].table != NULL && strcmp(members[i].table, table) != 0) ||
             strncmp(members[i].former, *name, n) != 0 || (!is_prefix && (*name)[n] != '\0'))
             continue;
-        char *current = NULL;
-        if (asprintf(&current, "%s%s", members[i].name, *name + n) < 0)
-            out_of_memory(n);
+        char *const current = format_text("%s%s", members[i].name, *name + n);
         free(*name);
         *name = current;
         return;
@@ -182,14 +180,12 @@ const wt_provenance *wt_result_provenance_const(const wt_result *result)
     return result->provenance;
 }
 
-wt_status wt_result_set_case(wt_result *result, const char *xml, size_t length, wt_error *err)
+void wt_result_set_case(wt_result *result, const char *xml, size_t length)
 {
     char *const copy = length > 0 ? wt_strndup(xml, length) : NULL;
-    (void)err;
     free(result->case_file);
     result->case_file = copy;
     result->case_length = length;
-    return WT_OK;
 }
 
 const char *wt_result_case(const wt_result *result, size_t *length)

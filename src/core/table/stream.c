@@ -392,7 +392,7 @@ static wt_status read_stream_row(stream_reader *r, wt_error *err)
             if (!stream_unescape(cell, strlen(cell)))
                 return fail_corrupt_stream(r, column + 1, "an escape that is not known",
                                            "\\t, \\n, \\r, \\\\, \\#, \\- or \\x41", cell, err);
-            status = wt_table_set_text(table, column, cell, err);
+            wt_table_set_text(table, column, cell);
         } else {
             double value;
             if (!parse_stored_number(cell, strlen(cell), &value))
@@ -423,8 +423,10 @@ wt_status wt_stream_read(FILE *in, const char *name, wt_table **table, wt_error 
             begun = true;
         if (strcmp(r.line, "##") == 0)
             ended = begun; /* "##" before a table is ignored */
+        else if (r.length == 0 && header)
+            wt_table_new_block(r.table);
         else if (r.length == 0)
-            status = header ? wt_table_new_block(r.table, err) : WT_OK;
+            continue;
         else if (!header && strncmp(r.line, "##", 2) == 0)
             status = read_key_line(&r, err);
         else if (!header) {

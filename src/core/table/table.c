@@ -25,8 +25,7 @@ static const char *const part_suffixes[KEY_PARTS] = {
 void table_key_part_names(const char *key, char *names[KEY_PARTS])
 {
     for (size_t i = 0; i < KEY_PARTS; i++)
-        if (asprintf(&names[i], "%s%s", key, part_suffixes[i]) < 0)
-            out_of_memory(strlen(key));
+        names[i] = format_text("%s%s", key, part_suffixes[i]);
 }
 
 static void key_free(table_key *key)
@@ -48,16 +47,13 @@ static void table_free_keys(wt_table *table)
 static char *format_estimate_key(const wt_estimate *estimate)
 {
     char value[32], standard_error[32], numerical_error[32];
-    char *text = NULL;
     (void)wt_number_format(estimate->value, value);
     (void)wt_number_format(estimate->standard_error, standard_error);
     (void)wt_number_format(estimate->numerical_error, numerical_error);
     const char *const unit =
         estimate->unit != NULL && estimate->unit[0] != '\0' ? estimate->unit : "1";
-    if (asprintf(&text, "%s%s%s%s%s%s%s", value, standard_error_mark, standard_error,
-                 numerical_error_mark, numerical_error, unit_mark, unit) < 0)
-        out_of_memory(sizeof *text);
-    return text;
+    return format_text("%s%s%s%s%s%s%s", value, standard_error_mark, standard_error,
+                       numerical_error_mark, numerical_error, unit_mark, unit);
 }
 
 /* Parses the output of format_estimate_key; estimate->unit points into `text`. */
@@ -428,20 +424,18 @@ void wt_table_set_number(wt_table *table, size_t column, double value)
     table->columns[column].numbers[table->n_rows - 1] = value;
 }
 
-wt_status wt_table_set_text(wt_table *table, size_t column, const char *text, wt_error *err)
+void wt_table_set_text(wt_table *table, size_t column, const char *text)
 {
     assert(table->n_rows > 0 && column < table->n_columns &&
            table->columns[column].kind == WT_COLUMN_TEXT);
     char *copy = NULL;
     char **const cell = &table->columns[column].texts[table->n_rows - 1];
     char *const above = table->n_rows > 1 ? cell[-1] : NULL;
-    (void)err;
     if (text != NULL && text[0] != '\0')
         copy = above != NULL && strcmp(text, above) == 0 ? above : wt_strdup(text);
     if (*cell != above)
         free(*cell);
     *cell = copy;
-    return WT_OK;
 }
 
 double wt_table_number(const wt_table *table, size_t row, size_t column)
@@ -465,13 +459,11 @@ const double *wt_table_numbers(const wt_table *table, size_t column)
     return table->columns[column].numbers;
 }
 
-wt_status wt_table_new_block(wt_table *table, wt_error *err)
+void wt_table_new_block(wt_table *table)
 {
     /* A block without rows is not created. */
-    (void)err;
     if (table->n_blocks > 0 && table->blocks[table->n_blocks - 1] != table->n_rows)
         begin_block(table);
-    return WT_OK;
 }
 
 size_t wt_table_block(const wt_table *table, size_t row)

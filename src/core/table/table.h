@@ -41,8 +41,7 @@ struct wt_table {
 bool table_name_is_valid(const char *name);
 /* True for [A-Za-z0-9_]+. */
 bool table_name_part_is_valid(const char *word);
-/* Returns the names of the parts of an estimate key. The caller frees them, also on failure. False
- * when out of memory. */
+/* Returns the names of the parts of an estimate key. The caller frees them. */
 void table_key_part_names(const char *key, char *names[KEY_PARTS]);
 /* Returns the name of today of a table; the same name if it did not change. */
 const char *table_current_name(const char *name);

@@ -179,7 +179,7 @@ void table_row(table_writer *w)
 void table_block(table_writer *w)
 {
     if (w->status == WT_OK)
-        w->status = wt_table_new_block(w->table, w->err);
+        wt_table_new_block(w->table);
 }
 
 wt_status table_end(table_writer *w, wt_table **table)
@@ -226,7 +226,7 @@ void writer_number(table_writer *w, const table_schema *of, unsigned column, dou
 void writer_text(table_writer *w, const table_schema *of, unsigned column, const char *text)
 {
     if (accepts_cell(w, of, column, true))
-        w->status = wt_table_set_text(w->table, w->column[column], text, w->err);
+        wt_table_set_text(w->table, w->column[column], text);
 }
 
 static bool accepts_key(table_writer *w, const table_schema *of, unsigned key,

@@ -30,7 +30,7 @@ static int scratch_open(void)
         return file;
     /* some file systems do not support O_TMPFILE */
     char *const path = wt_path_join(folder, "weartrack-XXXXXX");
-    file = path != NULL ? mkostemp(path, O_CLOEXEC) : -1;
+    file = mkostemp(path, O_CLOEXEC);
     if (file >= 0)
         (void)unlink(path);
     free(path);
@@ -69,21 +69,12 @@ struct wt_input {
     bool lost;         /* true if bytes of a pipe were lost; then nothing more is read */
 };
 
-static wt_status input_new(const char *name, wt_input **input, wt_error *err)
+static wt_input *input_new(const char *name)
 {
-    wt_input *in = calloc(1, sizeof *in);
-    char *copy = strdup(name);
-    if (in == NULL || copy == NULL) {
-        free(in);
-        free(copy);
-        wt_fail(err, WT_E_MEMORY, "no memory to open the input");
-        wt_error_file(err, name);
-        return WT_E_MEMORY;
-    }
-    in->name = copy;
+    wt_input *in = wt_alloc(1, sizeof *in);
+    in->name = wt_strdup(name);
     in->fd = -1;
-    *input = in;
-    return WT_OK;
+    return in;
 }
 
 static wt_status fail_io(const wt_input *in, wt_error *err, int number, const char *what)
@@ -127,17 +118,15 @@ static wt_status open_standard_input(wt_input *in, struct stat *info, wt_error *
 
 wt_status wt_input_open(const char *path, wt_input **input, wt_error *err)
 {
-    wt_input *in = NULL;
     if (path == NULL || *path == '\0')
         return wt_fail(err, WT_E_ARG, "no file name given");
-    wt_status status = input_new(path, &in, err);
-    if (status != WT_OK)
-        return status;
+    wt_input *const in = input_new(path);
     const bool standard = strcmp(path, "-") == 0;
     struct stat st;
-    status = standard ? open_standard_input(in, &st, err) : open_input_file(in, path, &st, err);
+    wt_status status =
+        standard ? open_standard_input(in, &st, err) : open_input_file(in, path, &st, err);
     if (status == WT_OK)
-        status = wt_protect_input(path, err);
+        wt_protect_input(path);
     if (status == WT_OK && S_ISDIR(st.st_mode)) {
         status = wt_fail(err, WT_E_ARG, "is a folder");
         wt_error_file(err, path);
@@ -160,10 +149,7 @@ wt_status wt_input_open_memory(const void *bytes, size_t length, const char *nam
 {
     if (bytes == NULL && length > 0)
         return wt_fail(err, WT_E_ARG, "no bytes given");
-    wt_input *in = NULL;
-    wt_status status = input_new(name == NULL ? "memory" : name, &in, err);
-    if (status != WT_OK)
-        return status;
+    wt_input *const in = input_new(name == NULL ? "memory" : name);
     in->bytes = bytes;
     in->length = length;
     in->whole = true;
@@ -171,18 +157,13 @@ wt_status wt_input_open_memory(const void *bytes, size_t length, const char *nam
     return WT_OK;
 }
 
-wt_status input_from_bytes(char *bytes, size_t length, const char *name, wt_input **input,
-                           wt_error *err)
+wt_input *input_from_bytes(void *bytes, size_t length, const char *name)
 {
-    wt_input *in = NULL;
-    wt_status status = wt_input_open_memory(bytes, length, name, &in, err);
-    if (status != WT_OK) {
-        free(bytes);
-        return status;
-    }
-    in->buffer = (unsigned char *)bytes;
-    *input = in;
-    return WT_OK;
+    wt_input *const in = input_new(name);
+    in->bytes = in->buffer = bytes;
+    in->length = length;
+    in->whole = true;
+    return in;
 }
 
 /* Creates an input from an open file of `size` bytes and takes ownership of the descriptor, also on
@@ -190,19 +171,14 @@ wt_status input_from_bytes(char *bytes, size_t length, const char *name, wt_inpu
 static wt_status input_from_file(int file, size_t size, const char *name, wt_input **input,
                                  wt_error *err)
 {
-    wt_input *in = NULL;
-    wt_status status = input_new(name, &in, err);
-    if (status != WT_OK) {
-        (void)close(file);
-        return status;
-    }
+    wt_input *const in = input_new(name);
     in->fd = file;
     in->expected = size;
     if (lseek(file, 0, SEEK_SET) == 0) {
         *input = in;
         return WT_OK;
     }
-    status = fail_io(in, err, errno, "cannot be read");
+    const wt_status status = fail_io(in, err, errno, "cannot be read");
     wt_input_close(in);
     return status;
 }
@@ -212,17 +188,13 @@ wt_status wt_input_sibling(const wt_input *input, wt_input **sibling, wt_error *
     *sibling = NULL;
     if (input->whole || input->expected <= SCRATCH_THRESHOLD)
         return WT_OK;
-    wt_status status = input_new(input->name, sibling, err);
-    if (status != WT_OK)
-        return status;
+    const int fd = fcntl(input->fd, F_DUPFD_CLOEXEC, 0);
+    if (fd < 0)
+        return fail_io(input, err, errno, "cannot be opened once more");
+    *sibling = input_new(input->name);
     (*sibling)->expected = input->expected;
-    (*sibling)->fd = fcntl(input->fd, F_DUPFD_CLOEXEC, 0);
-    if ((*sibling)->fd >= 0)
-        return WT_OK;
-    status = fail_io(input, err, errno, "cannot be opened once more");
-    wt_input_close(*sibling);
-    *sibling = NULL;
-    return status;
+    (*sibling)->fd = fd;
+    return WT_OK;
 }
 
 void wt_input_close(wt_input *input)
@@ -314,11 +286,10 @@ static wt_status spool_pipe(wt_input *in, wt_error *err)
     const int file = scratch_open();
     if (file < 0)
         return fill_buffer(in, SIZE_MAX, err);
-    unsigned char *const piece = malloc(step);
+    unsigned char *const piece = wt_alloc(step, 1);
     size_t size = in->length;
     bool more = true;
-    status = piece != NULL ? scratch_write(file, in->bytes, size, in->name, err)
-                           : wt_fail(err, WT_E_MEMORY, "no memory to read a pipe");
+    status = scratch_write(file, in->bytes, size, in->name, err);
     while (status == WT_OK && more) {
         const ssize_t got = read(in->fd, piece, step);
         if (got < 0 && errno == EINTR)
@@ -420,14 +391,8 @@ wt_status wt_input_peek(wt_input *input, size_t want, const unsigned char **byte
 static wt_status reserve_spool(spool *to, size_t n, const char *name, wt_error *err)
 {
     size_t capacity = to->capacity > 0 ? to->capacity : 1 << 16;
-    while (capacity - to->length < n) {
-        if (capacity > SIZE_MAX / 2) {
-            wt_fail(err, WT_E_MEMORY, "input too large");
-            wt_error_file(err, name);
-            return WT_E_MEMORY;
-        }
+    while (capacity - to->length < n && capacity <= SIZE_MAX / 2)
         capacity *= 2;
-    }
     unsigned char *const bytes = capacity > to->capacity ? realloc(to->bytes, capacity) : to->bytes;
     if (bytes == NULL) {
         wt_fail(err, WT_E_MEMORY, "no memory for %zu bytes of input", capacity);
@@ -464,9 +429,11 @@ wt_status spool_add(spool *to, const void *bytes, size_t n, const char *name, wt
 
 wt_status spool_to_input(spool *from, const char *name, wt_input **input, wt_error *err)
 {
-    const wt_status status =
-        from->has_file ? input_from_file(from->file, from->length, name, input, err)
-                       : input_from_bytes((char *)from->bytes, from->length, name, input, err);
+    wt_status status = WT_OK;
+    if (from->has_file)
+        status = input_from_file(from->file, from->length, name, input, err);
+    else
+        *input = input_from_bytes(from->bytes, from->length, name);
     *from = (spool){0};
     return status;
 }

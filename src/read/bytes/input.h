@@ -19,9 +19,8 @@ typedef struct spool {
 /* Data up to this size stay in memory, and so does a file that is read in parts [byte]. */
 #define SCRATCH_THRESHOLD ((size_t)4 * 1024 * 1024)
 
-/* Creates an input from malloc'ed bytes and takes ownership of them, also on failure. */
-wt_status input_from_bytes(char *bytes, size_t length, const char *name, wt_input **input,
-                           wt_error *err) WT_NODISCARD;
+/* Creates an input from allocated bytes and takes ownership of them. */
+wt_input *input_from_bytes(void *bytes, size_t length, const char *name);
 
 /* Returns the bytes for HDF5 (core/store/hdf5_sandbox.h). They belong to the input, which must
  * outlive them, or to its file if the input is not yet complete in memory. */

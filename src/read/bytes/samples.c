@@ -29,24 +29,10 @@ wt_status window_open(input_window *w, wt_input *input, wt_error *err)
 wt_status windows_open(input_window **windows, size_t n, wt_input *input, wt_error *err)
 {
     wt_status status = WT_OK;
-    *windows = calloc(n, sizeof **windows);
-    if (*windows == NULL)
-        return wt_fail(err, WT_E_MEMORY, "no memory for the channels");
+    *windows = wt_alloc(n, sizeof **windows);
     for (size_t i = 0; status == WT_OK && i < n; i++)
         status = window_open(&(*windows)[i], input, err);
     return status;
-}
-
-static bool reserve_window(input_window *w, size_t n)
-{
-    if (n <= w->capacity)
-        return true;
-    unsigned char *const bytes = realloc(w->bytes, n);
-    if (bytes == NULL)
-        return false;
-    w->bytes = bytes;
-    w->capacity = n;
-    return true;
 }
 
 static wt_status fill_window(input_window *w, size_t at, size_t n, wt_error *err)
@@ -54,7 +40,12 @@ static wt_status fill_window(input_window *w, size_t at, size_t n, wt_error *err
     const size_t left = w->size - at, more = n > READ_AHEAD ? n : READ_AHEAD;
     const size_t read = more < left ? more : left;
     w->n = 0;
-    if (!reserve_window(w, read))
+    if (read > w->capacity) {
+        free(w->bytes);
+        w->bytes = try_alloc(read, 1);
+        w->capacity = w->bytes != NULL ? read : 0;
+    }
+    if (w->bytes == NULL)
         return wt_fail(err, WT_E_MEMORY, "no memory for a curve");
     const wt_status status = wt_input_copy(w->input, at, w->bytes, read, err);
     w->from = at;

@@ -6,6 +6,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
 #include "read/bytes/zip.h"
+#include "core/base/memory.h"
 #include "core/math/splitmix64.h"
 #include "read/bytes/bytes.h"
 
@@ -122,9 +123,9 @@ static unsigned char *write_central_record(unsigned char *at, const local_entry 
 
 /* Builds the directory of the complete entries at the beginning of `bytes`, as it would follow
  * them. *n is 0 if none is complete. The caller frees *directory. */
-static wt_status archive_rebuild_directory(const unsigned char *bytes, size_t length,
-                                           unsigned char **directory, uint64_t *directory_length,
-                                           uint64_t *n, wt_error *err)
+static void archive_rebuild_directory(const unsigned char *bytes, size_t length,
+                                      unsigned char **directory, uint64_t *directory_length,
+                                      uint64_t *n)
 {
     local_entry e;
     size_t count = 0, at = 0, size = 0;
@@ -134,21 +135,15 @@ static wt_status archive_rebuild_directory(const unsigned char *bytes, size_t le
         count++;
         at = e.end;
     }
-    *n = count;
-    if (count == 0)
-        return WT_OK;
-    unsigned char *out = malloc(size);
-    if (out == NULL)
-        return wt_fail(err, WT_E_MEMORY, "no memory for the directory of the archive");
-    unsigned char *to = out;
+    unsigned char *const out = wt_alloc(size, 1), *to = out;
     at = 0;
     for (size_t i = 0; i < count && read_local_entry(bytes, length, at, &e); i++) {
         to = write_central_record(to, &e, at);
         at = e.end;
     }
+    *n = count;
     *directory = out;
     *directory_length = size;
-    return WT_OK;
 }
 
 enum archive_packing { STORED, DEFLATED, ENCRYPTED, UNKNOWN };
@@ -204,9 +199,7 @@ static wt_status find_directory(zip_archive *a, zip_directory *d, wt_error *err)
 {
     const size_t length = a->length;
     const size_t n = length < END_SIZE + COMMENT_MAX ? length : END_SIZE + COMMENT_MAX;
-    unsigned char *const last = malloc(n + 1);
-    if (last == NULL)
-        return wt_fail(err, WT_E_MEMORY, "no memory for the archive");
+    unsigned char *const last = wt_alloc(n, 1);
     wt_status status = wt_input_copy(a->input, length - n, last, n, err);
     size_t at = n < END_SIZE ? 0 : n - END_SIZE + 1;
     while (status == WT_OK && at > 0 &&
@@ -311,9 +304,9 @@ static wt_status read_directory(zip_archive *a, const zip_directory *d, wt_error
     wt_status status = WT_OK;
     uint64_t at = 0;
     bool ended = false;
-    unsigned char *const piece = malloc(DIRECTORY_PIECE);
-    a->entries = calloc((size_t)(d->size / CENTRAL_SIZE) + 1, sizeof *a->entries);
-    if (piece == NULL || a->entries == NULL)
+    unsigned char *const piece = wt_alloc(DIRECTORY_PIECE, 1);
+    a->entries = try_alloc((size_t)(d->size / CENTRAL_SIZE), sizeof *a->entries);
+    if (a->entries == NULL)
         status = wt_fail(err, WT_E_MEMORY, "no memory for the archive");
     for (size_t n = 0, used = 0; status == WT_OK && !ended;) {
         const unsigned char *const r = piece + used;
@@ -352,7 +345,7 @@ static wt_status rebuild_entries(zip_archive *a, wt_error *err)
     wt_error ignored = WT_ERROR_INIT;
     wt_status status = wt_input_bytes(a->input, &bytes, &length, err);
     if (status == WT_OK)
-        status = archive_rebuild_directory(bytes, length, &made, &d.size, &d.n, err);
+        archive_rebuild_directory(bytes, length, &made, &d.size, &d.n);
     if (status == WT_OK && d.n == 0)
         status = WT_E_CORRUPT; /* the missing directory is reported already */
     if (status == WT_OK)
@@ -386,7 +379,7 @@ static size_t name_slot(const zip_archive *a, const char *name)
     return at;
 }
 
-static wt_status index_names(zip_archive *a, wt_error *err)
+static void index_names(zip_archive *a)
 {
     /* A random seed: names chosen to collide would cost quadratic time. */
     if (getrandom(&a->seed, sizeof a->seed, GRND_NONBLOCK) != (ssize_t)sizeof a->seed)
@@ -394,15 +387,12 @@ static wt_status index_names(zip_archive *a, wt_error *err)
     a->n_name_slots = 16;
     while (a->n_name_slots < 2 * a->n)
         a->n_name_slots *= 2;
-    a->slots = calloc(a->n_name_slots, sizeof *a->slots);
-    if (a->slots == NULL)
-        return wt_fail(err, WT_E_MEMORY, "no memory for the names of the archive");
+    a->slots = wt_alloc(a->n_name_slots, sizeof *a->slots);
     for (size_t k = 0; k < a->n; k++) {
         const size_t at = name_slot(a, archive_name(a, k));
         if (a->slots[at] == 0)
             a->slots[at] = (uint32_t)k + 1; /* of equal names the first counts */
     }
-    return WT_OK;
 }
 
 bool archive_find(const zip_archive *archive, const char *name, size_t *i)
@@ -419,9 +409,7 @@ bool archive_find(const zip_archive *archive, const char *name, size_t *i)
 wt_status archive_open(wt_input *input, zip_archive **archive, wt_error *err)
 {
     zip_directory d;
-    zip_archive *const a = calloc(1, sizeof *a);
-    if (a == NULL)
-        return wt_fail(err, WT_E_MEMORY, "no memory for the archive");
+    zip_archive *const a = wt_alloc(1, sizeof *a);
     a->input = input;
     wt_status status = window_open(&a->window, input, err);
     a->length = a->window.size;
@@ -439,13 +427,13 @@ wt_status archive_open(wt_input *input, zip_archive **archive, wt_error *err)
     }
     if (status == WT_OK && a->n == 0)
         status = wt_fail(err, WT_E_CORRUPT, "the ZIP archive is empty");
-    if (status == WT_OK)
-        status = index_names(a, err);
-    if (status == WT_OK)
-        *archive = a;
-    else
+    if (status != WT_OK) {
         archive_close(a);
-    return status;
+        return status;
+    }
+    index_names(a);
+    *archive = a;
+    return WT_OK;
 }
 
 void archive_close(zip_archive *archive)
@@ -489,18 +477,6 @@ wt_status archive_size(const zip_archive *archive, size_t i, size_t *size, wt_er
     return WT_OK;
 }
 
-static bool reserve_buffer(byte_buffer *buffer, size_t size)
-{
-    if (size <= buffer->capacity)
-        return true;
-    unsigned char *const grown = realloc(buffer->data, size);
-    if (grown == NULL)
-        return false;
-    buffer->data = grown;
-    buffer->capacity = size;
-    return true;
-}
-
 /* Returns the packed bytes of an entry, as many as the directory states; valid until the next
  * call. */
 static wt_status read_packed(zip_archive *a, size_t i, const unsigned char **packed, wt_error *err)
@@ -526,7 +502,7 @@ static wt_status inflate_entry(zip_archive *a, size_t i, const unsigned char *pa
 {
     const zip_entry *const e = &a->entries[i];
     if (a->unpacker == NULL && (a->unpacker = libdeflate_alloc_decompressor()) == NULL)
-        return fail_entry(a, i, err, WT_E_MEMORY, "no memory for an archive entry");
+        out_of_memory(0);
     switch (libdeflate_deflate_decompress(a->unpacker, packed, e->packed, buffer->data, e->size,
                                           NULL)) {
     case LIBDEFLATE_SUCCESS:
@@ -559,7 +535,12 @@ wt_status archive_read(zip_archive *archive, size_t i, size_t limit, byte_buffer
     if (e->packing == STORED && e->packed != e->size)
         return fail_entry(archive, i, err, WT_E_CORRUPT,
                           "archive entry is not of the size that it declares");
-    if (!reserve_buffer(buffer, size + 1))
+    if (size >= buffer->capacity) {
+        free(buffer->data);
+        buffer->data = try_alloc(size + 1, 1);
+        buffer->capacity = buffer->data != NULL ? size + 1 : 0;
+    }
+    if (buffer->data == NULL)
         return fail_entry(archive, i, err, WT_E_MEMORY, "no memory for an archive entry");
     status = read_packed(archive, i, &packed, err);
     if (status == WT_OK && e->packing == STORED)

@@ -44,9 +44,7 @@ static wt_status add_graph_profile(image_list *list, gwy_bytes graph, gwy_bytes 
         whole &&
         wt_unit_to_si(gwy_unit(graph, "x_unit"), WT_Q_LENGTH, &lateral, &offset, NULL) == WT_OK &&
         wt_unit_to_si(gwy_unit(graph, "y_unit"), WT_Q_LENGTH, &vertical, &offset, NULL) == WT_OK;
-    double *const positions = lengths ? malloc(x.n * sizeof *positions) : NULL;
-    if (lengths && positions == NULL)
-        return wt_fail(err, WT_E_MEMORY, "no memory for a profile");
+    double *const positions = lengths ? wt_alloc(x.n, sizeof *positions) : NULL;
     if (lengths)
         (void)samples_decode(SAMPLE_FLOAT64, false, x.value.at, x.n, lateral, 0, positions);
     wt_status status = WT_OK;
@@ -131,9 +129,7 @@ static wt_status apply_mask(wt_image *image, gwy_bytes container, unsigned long 
     if (!gwy_find_component(container, key, 'o', &mask))
         return WT_OK;
     const size_t n = image->n_columns * image->n_rows;
-    double *set = malloc(n * sizeof *set);
-    if (set == NULL)
-        return wt_fail(err, WT_E_MEMORY, "no memory for a mask");
+    double *set = wt_alloc(n, sizeof *set);
     wt_status status = WT_OK;
     if (!gwy_read_object(&mask.value, &name, &field) ||
         !gwy_find_component(field, "data", 'D', &data) || data.n != n)

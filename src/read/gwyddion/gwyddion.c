@@ -4,6 +4,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
 #include "read/gwyddion/gwyddion.h"
+#include "core/base/memory.h"
 #include "core/base/utf8.h"
 #include "core/system/subprocess.h"
 #include "core/system/temporary.h"
@@ -112,8 +113,9 @@ static wt_status check_pieces(surf_pieces *p, size_t max_size, wt_error *err)
 static wt_status unpack_pieces(const surf_pieces *p, char *to, size_t *end, wt_error *err)
 {
     struct libdeflate_decompressor *const unpacker = libdeflate_alloc_decompressor();
-    wt_status status =
-        unpacker != NULL ? WT_OK : wt_fail(err, WT_E_MEMORY, "no memory for a height map");
+    wt_status status = WT_OK;
+    if (unpacker == NULL)
+        out_of_memory(0);
     size_t at = p->packed, done = 0;
     for (size_t i = 0; status == WT_OK && i < p->n; i++) {
         if (libdeflate_zlib_decompress(unpacker, p->bytes + at, packed_size(p, i), to + done,
@@ -139,12 +141,11 @@ wt_status surf_unpack(wt_input *input, size_t max_size, wt_log *log, wt_input **
         status = check_pieces(&p, max_size, err);
     if (status != WT_OK)
         return status;
-    char *const plain = malloc(p.head + p.plain + 1);
+    char *const plain = try_alloc(p.head + p.plain + 1, 1);
     if (plain == NULL)
         return wt_fail(err, WT_E_MEMORY, "no memory for a height map");
     memcpy(plain, p.bytes, p.head);
     memcpy(plain, SURF_PLAIN, strlen(SURF_PLAIN));
-    plain[p.head + p.plain] = '\0';
     status = unpack_pieces(&p, plain + p.head, &end, err);
     if (status != WT_OK) {
         free(plain);
@@ -154,7 +155,8 @@ wt_status surf_unpack(wt_input *input, size_t max_size, wt_log *log, wt_input **
         wt_log_add(log, WT_WARNING, wt_input_name(input), NULL,
                    "%zu bytes behind the heights of the first surface are not read",
                    p.length - end);
-    return input_from_bytes(plain, p.head + p.plain, wt_input_name(input), unpacked, err);
+    *unpacked = input_from_bytes(plain, p.head + p.plain, wt_input_name(input));
+    return WT_OK;
 }
 
 #define CONVERTED_NAME "converted.gwy"
@@ -188,8 +190,6 @@ static wt_status write_copy(wt_input *input, const char *folder, const char *nam
     if (status != WT_OK)
         return status;
     char *const path = wt_path_join(folder, name);
-    if (path == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
     const int file = open(path, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
     if (file < 0)
         status = wt_fail(err, WT_E_IO, "no copy for Gwyddion: %s", strerror(errno));
@@ -252,9 +252,7 @@ static wt_status run_gwyddion(const char *folder, const char *const *arguments,
     /* Gwyddion must not see settings of the user or a display. */
     static const char *const hidden[] = {"HOME=", "XDG_",     "DISPLAY=", "WAYLAND_", "DBUS_",
                                          "GTK",   "GWYDDION", "G_",       "TMPDIR=",  NULL};
-    char *home = NULL;
-    if (asprintf(&home, "HOME=%s", folder) < 0)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    char *const home = format_text("HOME=%s", folder);
     const char *const added[] = {home, NULL};
     const program_call call = {.program = "gwyddion",
                                .arguments = arguments,
@@ -275,9 +273,7 @@ static wt_status read_converted(const char *folder, const char *name, size_t max
                                 wt_input **converted, wt_error *err)
 {
     struct stat known;
-    char *const path = wt_path_join(folder, CONVERTED_NAME), *bytes = NULL;
-    if (path == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    char *const path = wt_path_join(folder, CONVERTED_NAME);
     wt_status status = WT_OK;
     const int file = open(path, O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
     free(path);
@@ -289,22 +285,18 @@ static wt_status read_converted(const char *folder, const char *name, size_t max
         const size_t length = (size_t)known.st_size;
         size_t done = 0;
         ssize_t got = 1;
-        bytes = malloc(length + 1);
-        while (bytes != NULL && done < length && got > 0) {
+        char *const bytes = wt_alloc(length + 1, 1);
+        while (done < length && got > 0) {
             got = read(file, bytes + done, length - done);
             done += got > 0 ? (size_t)got : 0;
         }
-        if (bytes == NULL)
-            status = wt_fail(err, WT_E_MEMORY, "no memory for what Gwyddion wrote");
-        else if (done < length)
+        if (done < length) {
             status = fail_tool("what Gwyddion wrote cannot be read", err);
-        if (status == WT_OK) {
-            bytes[length] = '\0';
-            status = input_from_bytes(bytes, length, name, converted, err);
-            bytes = NULL;
+            free(bytes);
+        } else {
+            *converted = input_from_bytes(bytes, length, name);
         }
     }
-    free(bytes);
     if (file >= 0)
         close(file);
     return status;

@@ -386,12 +386,9 @@ static wt_status describe(const file_reader *self, wt_input *input, const wt_rea
     wt_status status = jpk_file_open(input, log, &file, metadata->err);
     if (status != WT_OK)
         return status;
-    jpk_segment *segment = calloc(1, sizeof *segment);
-    if (segment == NULL)
-        status = wt_fail(metadata->err, WT_E_MEMORY, "no memory to describe the file");
+    jpk_segment *segment = wt_alloc(1, sizeof *segment);
     for (size_t i = 0; i < file.n_refs && file.refs[i].curve == file.refs[0].curve; i++) {
-        if (status == WT_OK)
-            status = jpk_segment_read(&file, &file.refs[i], segment, metadata->err);
+        status = jpk_segment_read(&file, &file.refs[i], segment, metadata->err);
         if (status != WT_OK)
             break;
         if (i == 0) {
@@ -401,8 +398,7 @@ static wt_status describe(const file_reader *self, wt_input *input, const wt_rea
         }
         describe_segment(segment, file.refs[i].segment, options, metadata);
     }
-    if (segment != NULL)
-        properties_clear(&segment->header);
+    properties_clear(&segment->header);
     free(segment);
     jpk_file_close(&file);
     return status;

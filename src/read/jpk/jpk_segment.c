@@ -283,10 +283,7 @@ static wt_status find_shared_lcd(jpk_file *file, long id, const jpk_lcd **lcd, w
     wt_status status = jpk_lcd_read(&file->shared, prefix, &found, err);
     if (status != WT_OK)
         return status;
-    jpk_lcd *grown = realloc(file->lcds, (file->n_lcds + 1) * sizeof *grown);
-    if (grown == NULL)
-        return wt_fail(err, WT_E_MEMORY, "no memory for the calibration of a channel");
-    file->lcds = grown;
+    file->lcds = wt_realloc(file->lcds, file->n_lcds + 1, sizeof *file->lcds);
     found.id = id;
     file->lcds[file->n_lcds] = found;
     *lcd = &file->lcds[file->n_lcds++];

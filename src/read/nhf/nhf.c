@@ -3,6 +3,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
 #include "read/nhf/nhf.h"
+#include "core/base/memory.h"
 #include "core/store/hdf5_sandbox.h"
 #include "read/force_assembler.h"
 #include "read/text/curve_text.h"
@@ -218,11 +219,11 @@ static bool nhf_channel_open(const nhf_file *f, hid_t segment, const char *name,
 static wt_status nhf_channel_read(nhf_channel *c, size_t from, size_t n, wt_error *err)
 {
     if (n > c->capacity) {
-        double *const values = realloc(c->values, n * sizeof *values);
-        if (values == NULL)
+        free(c->values);
+        c->values = try_alloc(n, sizeof *c->values);
+        c->capacity = c->values != NULL ? n : 0;
+        if (c->values == NULL)
             return wt_fail(err, WT_E_MEMORY, "no memory for the numbers of a channel");
-        c->values = values;
-        c->capacity = n;
     }
     if (n > 0 && !hdf5_read_rows(c->data, from, n, c->values)) {
         wt_fail(err, WT_E_CORRUPT, "the numbers of a channel cannot be read");
@@ -343,9 +344,7 @@ static wt_status read_curve_sizes(const nhf_file *f, hid_t group, const char *so
     s->sizes = data >= 0 ? hdf5_read_values(data, f->size, &s->n_curves) : NULL;
     hdf5_close(data);
     if (s->sizes == NULL && (f->old || source[0] == '\0')) {
-        s->sizes = calloc(1, sizeof *s->sizes);
-        if (s->sizes == NULL)
-            return wt_fail(err, WT_E_MEMORY, "no memory for a segment");
+        s->sizes = wt_alloc(1, sizeof *s->sizes);
         s->sizes[0] = (double)n;
         s->n_curves = 1;
     }

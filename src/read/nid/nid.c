@@ -71,11 +71,9 @@ static wt_status fill_tune_spectrum(const nid_file *file, const nid_channel *c, 
         return WT_E_CORRUPT;
     }
     wt_noise_spectrum made = {.n = c->points, .amplitudes = true};
-    made.frequency = malloc(c->points * sizeof *made.frequency);
-    made.density = malloc(c->points * sizeof *made.density);
+    made.frequency = wt_alloc(c->points, sizeof *made.frequency);
+    made.density = wt_alloc(c->points, sizeof *made.density);
     *spectrum = made;
-    if (made.frequency == NULL || made.density == NULL)
-        return wt_fail(err, WT_E_MEMORY, "no memory for the spectrum");
     const wt_status status = nid_decode(file, c, 0, c->points, 1, made.density, err);
     for (size_t i = 0; status == WT_OK && i < c->points; i++) {
         made.frequency[i] = first + range * (double)i / (double)(c->points - 1);

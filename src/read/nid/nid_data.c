@@ -205,10 +205,7 @@ static wt_status add_file_channel(nid_file *file, size_t g, size_t c, const char
         return WT_E_CORRUPT;
     }
     *at += channel.points * channel.lines * width;
-    nid_channel *grown = realloc(file->channels, (file->n + 1) * sizeof *grown);
-    if (grown == NULL)
-        return wt_fail(err, WT_E_MEMORY, "no memory for the list of channels");
-    file->channels = grown;
+    file->channels = wt_realloc(file->channels, file->n + 1, sizeof *file->channels);
     file->channels[file->n++] = channel;
     return WT_OK;
 }

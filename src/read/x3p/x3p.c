@@ -133,9 +133,7 @@ static wt_status read_height_list(const xmlNode *list, x3p_document *to, wt_erro
     size_t n = 0;
     for (const xmlNode *c = list->children; c != NULL; c = c->next)
         n += is_element(c, "Datum") ? 1 : 0;
-    to->list = malloc((n + 1) * sizeof *to->list);
-    if (to->list == NULL)
-        return wt_fail(err, WT_E_MEMORY, "no memory for %zu heights", n);
+    to->list = wt_alloc(n, sizeof *to->list);
     for (const xmlNode *c = list->children; c != NULL; c = c->next) {
         size_t length;
         if (!is_element(c, "Datum"))
