@@ -124,29 +124,28 @@ static wt_status run_case_and_report(run_call *r)
     cmd_print_log(s, s->log, false);
     if (s->result != NULL && n_failed > 0)
         cmd_print_failures(s, wt_result_find(s->result, "failures"));
-    if (status == WT_OK)
-        status = cmd_record_provenance(s->result, &s->err);
-    if (status == WT_OK)
-        status = wt_store_write(r->result_name, s->result, s->common.provenance, &s->err);
-    return status;
+    if (status != WT_OK)
+        return status;
+    cmd_record_command(wt_result_provenance(s->result));
+    return wt_store_write(r->result_name, s->result, s->common.provenance, &s->err);
 }
 
 /* True if the existing result is up to date; it then becomes the result of the session. */
 static bool is_result_current(run_call *r)
 {
     wt_result *before = NULL;
-    wt_provenance *now = NULL;
     bool current = false;
     char why[256] = "";
     cmd_session *s = &r->s;
     if (!r->call_flags.keep || access(r->result_name, F_OK) != 0)
         return false;
+    wt_provenance *const now = wt_provenance_new();
+    cmd_record_command(now);
     if (s->common.formats != NULL) /* its descriptions are not in the provenance */
         snprintf(why, sizeof why, "--formats");
     else if (wt_store_read(r->result_name, &before, NULL) != WT_OK)
         snprintf(why, sizeof why, "it cannot be read");
-    else if ((now = wt_provenance_new()) == NULL || cmd_record_command(now) != WT_OK ||
-             wt_run_is_current(r->case_file, before, wt_provenance_command(now), &current, why,
+    else if (wt_run_is_current(r->case_file, before, wt_provenance_command(now), &current, why,
                                sizeof why, NULL) != WT_OK)
         snprintf(why, sizeof why, "out of memory");
     if (!current && !s->common.quiet)

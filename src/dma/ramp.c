@@ -5,7 +5,6 @@
 #include "job/cost.h"
 #include "job/inputs.h"
 
-#include "core/base/arena.h"
 #include "core/base/array.h"
 #include "core/base/quantity.h"
 #include "core/table/table_rows.h"

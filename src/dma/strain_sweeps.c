@@ -4,7 +4,7 @@
 #include "dma/sweep_input.h"
 #include "job/cost.h"
 
-#include "core/base/arena.h"
+#include "core/base/array.h"
 #include "core/table/table_rows.h"
 
 #include <math.h>

@@ -8,7 +8,7 @@
 #include "job/inputs.h"
 #include "job/random_draws.h"
 
-#include "core/base/range_text.h"
+#include "core/base/number.h"
 #include "core/table/registry.h"
 #include "indentation/numerics/curve.h"
 #include "read/force_assembler.h"

@@ -1,7 +1,119 @@
 /* Detects a format by the first bytes of a file. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "read/reader.h"
+#include "core/base/memory.h"
+#include "read/formats.h"
+#include "read/read_params.h"
 
+#include <math.h>
 #include <string.h>
+
+wt_read_options wt_read_defaults(void)
+{
+    return (wt_read_options){
+        .format = NULL,
+        .want = WT_Q_ALL,
+        .segments = WT_SEGMENT_ALL,
+        .spring_constant = (double)NAN,
+        .sensitivity = (double)NAN,
+        .temperature = (double)NAN,
+        .units = NULL,
+        .n_units = 0,
+        .sheet = NULL,
+        .strain = (double)NAN,
+        .frequency = (double)NAN,
+        .pixel_size = (double)NAN,
+        .height_unit = NULL,
+    };
+}
+
+static wt_status check_name_pattern(const void *member, wt_error *err)
+{
+    const char *pattern = *(const char *const *)member;
+    const char *place = pattern != NULL ? strchr(pattern, '#') : NULL;
+    if (pattern == NULL || (place != NULL && strchr(place + 1, '#') == NULL))
+        return WT_OK;
+    wt_fail(err, WT_E_ARG, "\"%s\" does not say where in a name the temperature stands", pattern);
+    wt_error_expected(err, "one # in its place, such as \"*_#degC*\"");
+    return WT_E_ARG;
+}
+
+static wt_status check_length_unit(const void *member, wt_error *err)
+{
+    const char *unit = *(const char *const *)member;
+    double factor = 1, offset = 0;
+    return unit == NULL ? WT_OK : wt_unit_to_si(unit, WT_Q_LENGTH, &factor, &offset, err);
+}
+
+static const wt_param rows[] = {
+    SPRING_CONSTANT(wt_read_options, PARAM_NO_CASE, NULL),
+    SENSITIVITY(wt_read_options, PARAM_NO_CASE, NULL),
+    {PARAM("temperature", wt_read_options, temperature, WT_Q_TEMPERATURE, ABOVE(0)), .value = "T",
+     .unset = "", .help = "temperature of DMA files that say none, such as 20degC"},
+    {PARAM_TEXT_OF("temperature-in-name", wt_read_options, temperature_in_name), .value = "PATTERN",
+     .unset = "",
+     .help = "where in the names of DMA files that say no temperature it stands, in degrees "
+             "Celsius: # is the number and * anything, such as \"*_#C.txt\"",
+     .check = check_name_pattern},
+    {PARAM("frequency", wt_read_options, frequency, WT_Q_FREQUENCY, ABOVE(0)), .value = "F",
+     .unset = "",
+     .help = "frequency of strain and temperature sweeps whose files say none, such as 10Hz"},
+    {PARAM_TEXTS_OF("units", wt_read_options, units, n_units), .value = "NAME=UNIT", .unset = "",
+     .help = "unit of a column that carries none, such as \"E'=MPa\"; repeatable"},
+    {PARAM("pixel-size", wt_read_options, pixel_size, WT_Q_LENGTH, ABOVE(0)), .value = "L",
+     .unset = "",
+     .help = "distance of the pixels of height maps whose files do not give their "
+             "size, such as 0.5um"},
+    {PARAM_TEXT_OF("height-unit", wt_read_options, height_unit), .value = "UNIT", .unset = "",
+     .help = "unit of the values of height maps whose files do not give it as a length, such as nm",
+     .check = check_length_unit},
+    {PARAM_CHOICE_OF("spectrum-convention", wt_read_options, spectrum_convention,
+                     "weartrack|contact-engineering"),
+     .help =
+         "what the densities of a power spectrum are: of contact.engineering (SurfaceTopography) "
+         "they are divided by (2 pi)^2 of an area, 2 pi of a profile"},
+    {PARAM_TEXT_OF("format", wt_read_options, format), .value = "ID", .unset = "",
+     .help = "read the files as this format (see weartrack formats list)"},
+    {PARAM_TEXT_OF("sheet", wt_read_options, sheet), .value = "NAME", .unset = "",
+     .help =
+         "sheet of a spreadsheet file; all: those that hold data, one after the other; default: "
+         "the only one that holds data"},
+    {PARAM_CHOICE_OF("deformation", wt_read_options, deformation, "of-file|tension|shear|bending"),
+     .help = "what the moduli of a DMA file are of where their names do not say it, as \"storage "
+             "modulus\"; bending gives E like tension"},
+    {PARAM("strain", wt_read_options, strain, WT_Q_STRAIN, ABOVE(0)), .value = "S", .unset = "",
+     .help =
+         "of DMA isotherms and temperature sweeps measured at several strain amplitudes take those "
+         "nearest to this one, "
+         "such as 0.1%"},
+    {PARAM_TEXT_OF("sample", wt_read_options, sample), .value = "NAME", .unset = "",
+     .help = "of DMA sweeps of several samples, or what weartrack master made of them, take those "
+             "of this one; all: the sweeps are of one material, whatever they are called"},
+    {PARAM_CHOICE_OF("sample-by", wt_read_options, sample_by, "name|file"),
+     .help = "what tells the samples of DMA sweeps apart: the name that a column or the header "
+             "gives, or the file"},
+};
+
+PARAM_TABLE(wt_read_params, wt_read_options, rows, wt_read_defaults, NO_PARTS)
+
+wt_status read_start(const wt_formats *formats, wt_input *input, const wt_read_options *given,
+                     unsigned kind, read_request *request, wt_error *err)
+{
+    resource_error_clear();
+    *request = (read_request){.options = given != NULL ? *given : wt_read_defaults()};
+    wt_status status = param_check(wt_read_params(), &request->options, err);
+    if (status != WT_OK)
+        return status;
+    return find_reader(formats, input, &request->options, kind, &request->reader, &request->content,
+                       err);
+}
+
+wt_status read_end(wt_input *input, wt_status status, wt_error *err)
+{
+    status = resource_error_finish(status, err);
+    if (status != WT_OK)
+        wt_error_file(err, wt_input_name(input));
+    return status;
+}
 
 bool peek_begins(const file_peek *peek, const char *bytes, size_t n)
 {

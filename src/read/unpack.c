@@ -3,6 +3,7 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
+#include "core/base/memory.h"
 #include "read/bytes/input.h"
 #include "read/collection.h"
 #include "read/formats.h"
@@ -41,19 +42,13 @@ static void format_sheet_names(const sheet_choice *c, bool chosen, char *names, 
                                      c->book->sheets[i].name);
 }
 
-static wt_status sheet_input(const sheet_choice *c, size_t i, wt_input **input)
+static wt_input *sheet_input(const sheet_choice *c, size_t i)
 {
     const book_sheet *s = &c->book->sheets[i];
-    char *name = NULL, *copy = malloc(s->length + 1);
-    if (copy == NULL || asprintf(&name, "%s, sheet %s", c->file, s->name) < 0) {
-        free(copy);
-        return wt_fail(c->err, WT_E_MEMORY, "no memory for a sheet");
-    }
-    memcpy(copy, s->text, s->length);
-    copy[s->length] = '\0';
-    const wt_status status = input_from_bytes(copy, s->length, name, input, c->err);
+    char *const name = format_text("%s, sheet %s", c->file, s->name);
+    wt_input *const input = input_from_bytes(wt_strndup(s->text, s->length), s->length, name);
     free(name);
-    return status;
+    return input;
 }
 
 /* Sets *yes if a reader of the requested kinds recognises the sheet. */
@@ -134,9 +129,9 @@ static wt_status choose_by_content(const sheet_choice *c)
 }
 
 /* Joins the chosen sheets to one text. */
-static wt_status join_sheets(const sheet_choice *c, wt_input **content)
+static wt_input *join_sheets(const sheet_choice *c)
 {
-    char *text = NULL, *name = NULL;
+    char *text = NULL;
     char names[200];
     size_t length = 0, n = 0, one = 0;
     for (size_t i = 0; i < c->book->n; i++) {
@@ -144,23 +139,17 @@ static wt_status join_sheets(const sheet_choice *c, wt_input **content)
         one = c->chosen[i] ? i : one;
     }
     if (n == 1)
-        return sheet_input(c, one, content);
-    FILE *out = open_memstream(&text, &length);
-    if (out == NULL)
-        return wt_fail(c->err, WT_E_MEMORY, "no memory for the sheets");
+        return sheet_input(c, one);
+    FILE *out = text_stream_open(&text, &length);
     for (size_t i = 0; i < c->book->n; i++)
         if (c->chosen[i])
             (void)fwrite(c->book->sheets[i].text, 1, c->book->sheets[i].length, out);
-    const bool failed = ferror(out) != 0;
+    text_stream_close(out);
     format_sheet_names(c, true, names, sizeof names);
-    if (fclose(out) != 0 || failed ||
-        asprintf(&name, "%s, sheets %s one after the other", c->file, names) < 0) {
-        free(text);
-        return wt_fail(c->err, WT_E_MEMORY, "no memory for the sheets");
-    }
-    const wt_status status = input_from_bytes(text, length, name, content, c->err);
+    char *const name = format_text("%s, sheets %s one after the other", c->file, names);
+    wt_input *const content = input_from_bytes(text, length, name);
     free(name);
-    return status;
+    return content;
 }
 
 static wt_status choose_sheet(const wt_formats *formats, wt_input *input, const workbook *book,
@@ -172,18 +161,16 @@ static wt_status choose_sheet(const wt_formats *formats, wt_input *input, const 
                             .kinds = kinds,
                             .book = book,
                             .file = wt_input_name(input),
-                            .chosen = calloc(book->n + 1, sizeof(bool)),
+                            .chosen = wt_alloc(book->n, sizeof(bool)),
                             .err = err};
     wt_status status = WT_OK;
-    if (c.chosen == NULL)
-        return wt_fail(err, WT_E_MEMORY, "no memory for the sheets");
     if (book->n == 0)
         status = wt_fail(err, WT_E_EMPTY, "the spreadsheet has no sheet with cells");
     else
         status = options->sheet != NULL && !uses_all_sheets(&c) ? choose_by_name(&c)
                                                                 : choose_by_content(&c);
     if (status == WT_OK)
-        status = join_sheets(&c, content);
+        *content = join_sheets(&c);
     free(c.chosen);
     return status;
 }

@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "record/running_in_validation.h"
 
-#include "core/math/normal_quantile.h"
+#include "core/math/students_t.h"
 
 #include <math.h>
 #include <stdlib.h>

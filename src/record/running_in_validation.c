@@ -3,7 +3,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "record/running_in_validation.h"
 #include "core/base/param.h"
-#include "core/math/normal_quantile.h"
+#include "core/math/students_t.h"
 #include "core/table/table_rows.h"
 #include "friction/sliding_contact.h"
 #include "job/cost.h"

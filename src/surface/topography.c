@@ -1,7 +1,7 @@
 /* The job of measured surfaces: converts height maps and profiles to one power spectrum.
  * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "core/base/number.h"
 #include "core/base/param.h"
-#include "core/base/range_text.h"
 #include "job/cost.h"
 #include "job/height_input.h"
 #include "surface/numerics/surface_analysis.h"

@@ -73,9 +73,9 @@ static wt_table *indentation(const char *group, double mean)
         bool good = i < SPOTS * RATES;
         snprintf(spot, sizeof spot, "s%d", s % n_names);
         assert_int_equal(wt_table_add_row(t, NULL), WT_OK);
-        assert_int_equal(wt_table_set_text(t, SPOT, spot, NULL), WT_OK);
+        wt_table_set_text(t, SPOT, spot);
         const char *said = good ? wt_curve_verdict_id(verdict_of_all) : "saturated";
-        assert_int_equal(wt_table_set_text(t, VERDICT, said, NULL), WT_OK);
+        wt_table_set_text(t, VERDICT, said);
         if (!good)
             break;
         wt_table_set_number(t, MODULUS, modulus(mean, r, s));

@@ -6,7 +6,6 @@
 #include "core/base/array.h"
 #include "core/base/clocale.h"
 #include "core/base/number.h"
-#include "core/base/range_text.h"
 
 #include <ctype.h>
 #include <math.h>

@@ -4,8 +4,7 @@
 
 #include "core/base/clocale.h"
 #include "core/base/number.h"
-#include "core/base/range_text.h"
-#include "core/math/normal_quantile.h"
+#include "core/math/students_t.h"
 #include "weartrack/indentation.h"
 
 #include <math.h>

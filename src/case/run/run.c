@@ -369,7 +369,7 @@ static unsigned find_excluded_outputs(const flow_plan *plan, const wt_run_option
     return left_out;
 }
 
-static wt_status add_case_input(run_execution *d, wt_error *err)
+static void add_case_input(run_execution *d)
 {
     const wt_case *c = d->run.c;
     wt_provenance_input input = {.path = wt_path_base(c->path),
@@ -378,9 +378,8 @@ static wt_status add_case_input(run_execution *d, wt_error *err)
                                  .bytes = c->xml_length};
     if (!d->run.no_provenance)
         wt_sha256(c->xml, c->xml_length, input.sha256);
-    if (wt_provenance_add_input(d->run.job.provenance, &input) != WT_OK)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
-    return wt_result_set_case(d->result, c->xml, c->xml_length, err);
+    wt_provenance_add_input(d->run.job.provenance, &input);
+    wt_result_set_case(d->result, c->xml, c->xml_length);
 }
 
 static wt_status prepare_execution(run_execution *d, const wt_run_options *options, wt_log *log,
@@ -410,7 +409,8 @@ static wt_status prepare_execution(run_execution *d, const wt_run_options *optio
         .cost = d->cost,
         .drawn = d->drawn,
     };
-    return status == WT_OK ? add_case_input(d, err) : status;
+    add_case_input(d);
+    return status;
 }
 
 wt_status wt_run_case(const wt_case *c, const wt_run_options *options, wt_log *log,

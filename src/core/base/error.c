@@ -6,6 +6,16 @@
 #include <stdarg.h>
 #include <string.h>
 
+#define STRINGIFY(x) #x
+
+#define STRINGIFY_VALUE(x) STRINGIFY(x)
+
+const char *wt_version(void)
+{
+    return STRINGIFY_VALUE(WT_VERSION_MAJOR) "." STRINGIFY_VALUE(
+        WT_VERSION_MINOR) "." STRINGIFY_VALUE(WT_VERSION_PATCH);
+}
+
 const char *wt_status_text(wt_status status)
 {
     static const char *const texts[] = {

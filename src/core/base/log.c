@@ -25,7 +25,6 @@ struct wt_log {
     log_entry **entries; /* in order of arrival */
     size_t n;
     void *tree; /* the same entries, for tsearch */
-    size_t lost;
 };
 
 static int compare_log_entries(const void *a, const void *b)
@@ -180,9 +179,4 @@ wt_log_entry wt_log_get(const wt_log *log, size_t i)
                           .place = e->place,
                           .text = e->text,
                           .count = e->count};
-}
-
-size_t wt_log_dropped(const wt_log *log)
-{
-    return log != NULL ? log->lost : 0;
 }

@@ -70,7 +70,7 @@ static char *quote_for_shell(char *to, const char *word)
     return to;
 }
 
-wt_status wt_provenance_set_command(wt_provenance *p, int argc, char *const argv[])
+void wt_provenance_set_command(wt_provenance *p, int argc, char *const argv[])
 {
     size_t size = 1;
     for (int i = 0; i < argc; i++)
@@ -86,7 +86,6 @@ wt_status wt_provenance_set_command(wt_provenance *p, int argc, char *const argv
     }
     free(p->command);
     p->command = command;
-    return WT_OK;
 }
 
 void provenance_restore(wt_provenance *p, const char *version_and_command)
@@ -101,7 +100,7 @@ void provenance_restore(wt_provenance *p, const char *version_and_command)
     p->command = command;
 }
 
-wt_status wt_provenance_add_input(wt_provenance *p, const wt_provenance_input *input)
+void wt_provenance_add_input(wt_provenance *p, const wt_provenance_input *input)
 {
     p->inputs = array_grow(p->inputs, p->n, sizeof *p->inputs);
     wt_provenance_input copy = *input;
@@ -111,7 +110,6 @@ wt_status wt_provenance_add_input(wt_provenance *p, const wt_provenance_input *i
     copy.format = share_text(input->format, before != NULL ? before->format : NULL);
     copy.sha256[sizeof copy.sha256 - 1] = '\0';
     p->inputs[p->n++] = copy;
-    return WT_OK;
 }
 
 const char *wt_provenance_version(const wt_provenance *p)

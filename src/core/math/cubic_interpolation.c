@@ -1,7 +1,7 @@
 /* Akima interpolation of points. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/math/cubic_interpolation.h"
 
-#include "core/math/gsl_quiet.h"
+#include "core/math/special.h"
 #include "weartrack/core.h"
 
 #include <gsl/gsl_spline.h>

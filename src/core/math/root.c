@@ -4,7 +4,7 @@
 #include "core/math/root.h"
 
 #include "core/base/memory.h"
-#include "core/math/gsl_quiet.h"
+#include "core/math/special.h"
 
 #include <float.h>
 #include <gsl/gsl_errno.h>

@@ -6,6 +6,18 @@
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_sf_psi.h>
 #include <math.h>
+#include <pthread.h>
+
+static void disable_gsl_handler(void)
+{
+    gsl_set_error_handler_off();
+}
+
+void gsl_quiet(void)
+{
+    static pthread_once_t once = PTHREAD_ONCE_INIT;
+    pthread_once(&once, disable_gsl_handler);
+}
 
 double digamma(double x)
 {

@@ -4,7 +4,7 @@
 #ifndef WT_CORE_STORE_FORCE_MAP_H
 #define WT_CORE_STORE_FORCE_MAP_H
 
-#include "core/store/hdf5_bytes.h"
+#include "core/store/hdf5_sandbox.h"
 #include "weartrack/core.h"
 
 #define MAP_SAMPLES_GROUP "force_map/samples"

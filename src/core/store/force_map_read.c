@@ -1,5 +1,6 @@
 /* Reads a map of force curves from the store, curve by curve. SPDX-License-Identifier:
  * GPL-3.0-or-later */
+#include "core/base/memory.h"
 #include "core/store/force_map.h"
 #include "core/store/store.h"
 #include "core/table/registry.h"
@@ -97,13 +98,9 @@ static wt_status check_counts(map_reader *r, size_t size, wt_error *err)
 
 wt_status map_open(const hdf5_bytes *from, wt_result *result, map_reader **reader, wt_error *err)
 {
-    map_reader *const r = calloc(1, sizeof *r);
+    map_reader *const r = wt_alloc(1, sizeof *r);
     const sandbox_limits limits = sandbox_limits_for(from->size);
     wt_status status = WT_OK;
-    if (r == NULL) {
-        wt_result_free(result);
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
-    }
     r->failure = (wt_error)WT_ERROR_INIT;
     r->result = result;
     if (wt_result_find(result, map_curves_schema.name) == NULL)
@@ -116,9 +113,7 @@ wt_status map_open(const hdf5_bytes *from, wt_result *result, map_reader **reade
         status = bind_map_table(result, &map_segments_schema, &r->segments, err);
     if (status == WT_OK)
         status = check_counts(r, from->size, err);
-    if (status == WT_OK &&
-        (r->block = malloc(r->n_channels * MAP_BLOCK * sizeof *r->block)) == NULL)
-        status = wt_fail(err, WT_E_MEMORY, "out of memory");
+    r->block = wt_alloc(r->n_channels * MAP_BLOCK, sizeof *r->block);
     if (status == WT_OK)
         status = hdf5_sandbox_start(from, &limits, store_extract_samples, &r->stream, err);
     if (status == WT_OK)
@@ -181,18 +176,15 @@ static wt_status reserve_segments(map_reader *r, size_t first, size_t n, wt_erro
     for (size_t i = 0; i < n; i++)
         samples += (size_t)map_segments_get(&r->segments, first + i, MAP_SEGMENTS_SAMPLES);
     if (n > r->n_found) {
-        map_segment *const found = realloc(r->found, n * sizeof *found);
-        if (found == NULL)
-            return wt_fail(err, WT_E_MEMORY, "out of memory");
-        r->found = found;
+        r->found = wt_realloc(r->found, n, sizeof *r->found);
         r->n_found = n;
     }
     if (samples * r->n_channels > r->capacity) {
-        double *const values = realloc(r->values, samples * r->n_channels * sizeof *values);
-        if (values == NULL)
-            return wt_fail(err, WT_E_MEMORY, "out of memory");
-        r->values = values;
+        free(r->values);
         r->capacity = samples * r->n_channels;
+        r->values = try_alloc(r->capacity, sizeof *r->values);
+        if (r->values == NULL)
+            return wt_fail(err, WT_E_MEMORY, "out of memory");
     }
     return WT_OK;
 }

@@ -1,8 +1,8 @@
 /* Writes a map of force curves to the store, curve by curve. SPDX-License-Identifier:
  * GPL-3.0-or-later */
 #include "core/store/force_map.h"
-#include "core/store/hdf5_scope.h"
-#include "core/store/store_file.h"
+#include "core/store/hdf5_sandbox.h"
+#include "core/store/store.h"
 #include "core/table/table_rows.h"
 
 #include <math.h>
@@ -111,9 +111,7 @@ static wt_status add_map_channel(wt_map_writer *w, const wt_channel *as)
 {
     hdf5_scope scope;
     channel *const c = &w->channels[w->n_channels];
-    *c = (channel){as->quantity, -1, malloc(MAP_BLOCK * sizeof *c->block)};
-    if (c->block == NULL)
-        return wt_fail(w->err, WT_E_MEMORY, "out of memory");
+    *c = (channel){as->quantity, -1, wt_alloc(MAP_BLOCK, sizeof *c->block)};
     w->n_channels++;
     fill_block_with_nan(c->block);
     hdf5_enter(&scope);
@@ -225,9 +223,7 @@ wt_status wt_map_add_curve(wt_map_writer *w, const wt_force_curve *curve, wt_err
 wt_status wt_map_open(const char *path, wt_map_writer **writer, wt_error *err)
 {
     hdf5_scope scope;
-    wt_map_writer *const w = calloc(1, sizeof *w);
-    if (w == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    wt_map_writer *const w = wt_alloc(1, sizeof *w);
     w->group = -1;
     w->err = err;
     w->curves = table_begin(&map_curves_schema, err);

@@ -3,7 +3,7 @@
 #include "core/table/result_value.h"
 
 #include "core/base/array.h"
-#include "core/math/normal_quantile.h"
+#include "core/math/students_t.h"
 
 #include <math.h>
 #include <stddef.h>
@@ -325,7 +325,8 @@ static sign_verdict sign_from_bounds(double low, double high, double neutral)
     return high < neutral ? SIGN_BELOW : low > neutral ? SIGN_ABOVE : SIGN_UNDECIDED;
 }
 
-sign_verdict result_value_sign_measured(const result_value *f)
+/* Sign by the interval only, and by the interval and all model choices. */
+static sign_verdict result_value_sign_measured(const result_value *f)
 {
     const bool known = !isnan(f->low) && !isnan(f->high);
     return sign_from_bounds(known ? f->low : f->number.value, known ? f->high : f->number.value,

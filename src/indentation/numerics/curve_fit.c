@@ -4,9 +4,9 @@
  */
 #include "core/base/memory.h"
 #include "core/base/param.h"
-#include "core/math/gsl_quiet.h"
-#include "core/math/normal_quantile.h"
 #include "core/math/root.h"
+#include "core/math/special.h"
+#include "core/math/students_t.h"
 #include "dma/law/material.h"
 #include "indentation/law/adhesion.h"
 #include "indentation/law/tip.h"

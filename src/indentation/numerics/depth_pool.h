@@ -6,7 +6,7 @@
 #ifndef WT_INDENTATION_NUMERICS_DEPTH_POOL_H
 #define WT_INDENTATION_NUMERICS_DEPTH_POOL_H
 
-#include "core/base/arena.h"
+#include "core/base/array.h"
 #include "core/math/students_t.h"
 #include "indentation/numerics/depth_residuals.h"
 

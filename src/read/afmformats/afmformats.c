@@ -3,7 +3,7 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
-#include "core/store/hdf5_scope.h"
+#include "core/store/hdf5_sandbox.h"
 #include "read/hierarchy/curves_hdf5.h"
 #include "read/text/curve_text.h"
 #include "read/text/text.h"

@@ -4,7 +4,7 @@
  */
 #include "read/description/description.h"
 
-#include "core/base/resource_error.h"
+#include "core/base/memory.h"
 
 #include <errno.h>
 #include <stdlib.h>

@@ -6,8 +6,8 @@
 #ifndef WT_READ_DESCRIPTION_H
 #define WT_READ_DESCRIPTION_H
 
-#include "core/base/arena.h"
-#include "core/system/embed.h"
+#include "core/base/array.h"
+#include "core/system/file_signatures.h"
 #include "read/reader.h"
 
 #include <regex.h>

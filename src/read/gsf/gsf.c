@@ -6,7 +6,7 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
-#include "read/bytes/window.h"
+#include "read/bytes/samples.h"
 #include "read/images.h"
 #include "read/reader.h"
 

@@ -19,8 +19,11 @@
 #include "read/reader.h"
 
 #define JPK_NAME 64
+
 #define JPK_SLOTS 12
+
 #define JPK_CHANNELS 64
+
 /* Maximum size of a header; real headers have a few kilobytes [byte]. */
 #define JPK_HEADER_MAX ((size_t)8 * 1024 * 1024)
 
@@ -47,9 +50,6 @@ typedef struct jpk_lcd {
     long id; /* number in the shared header, for a shared block */
 } jpk_lcd;
 
-/* Reads the block from keys that start with `prefix`, such as "lcd-info.1.". */
-wt_status jpk_lcd_read(const property_list *properties, const char *prefix, jpk_lcd *lcd,
-                       wt_error *err);
 const jpk_slot *jpk_lcd_slot(const jpk_lcd *lcd,
                              const char *name); /* NULL if the slot is absent or undefined */
 /* Computes the conversion from the base value to the value of a slot; false if the slots do not
@@ -125,10 +125,6 @@ wt_status jpk_segment_read(jpk_file *file, const jpk_segment_ref *ref, jpk_segme
 const jpk_channel *jpk_segment_channel(const jpk_segment *segment, const char *name);
 
 /* ---- calibration: jpk_calibration.c ------------------------------------------------------- */
-
-/* Returns the metadata of a segment except for index, place and start. The result borrows the
- * segment. */
-void jpk_segment_metadata(const jpk_segment *segment, force_metadata *metadata);
 
 /* ---- curves: jpk_force.c ------------------------------------------------------------------ */
 

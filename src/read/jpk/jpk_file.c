@@ -65,10 +65,7 @@ static wt_status find_segments(jpk_file *file, wt_error *err)
         bool map = false;
         if (!parse_entry_name(archive_name(file->archive, i), &ref, &map))
             continue;
-        jpk_segment_ref *refs = array_grow(file->refs, file->n_refs, sizeof *refs);
-        if (refs == NULL)
-            return wt_fail(err, WT_E_MEMORY, "no memory for the list of segments");
-        file->refs = refs;
+        file->refs = array_grow(file->refs, file->n_refs, sizeof *file->refs);
         file->map = file->map || map;
         file->refs[file->n_refs++] = ref;
     }

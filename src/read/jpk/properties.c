@@ -176,22 +176,16 @@ static int compare_entries(const void *a, const void *b)
     return x->key < y->key ? -1 : x->key > y->key;
 }
 
-static wt_status reserve_properties(property_list *p, size_t length, wt_error *err)
+static void reserve_properties(property_list *p, size_t length)
 {
-    if (length > SIZE_MAX / 64)
-        return wt_fail(err, WT_E_RANGE, "header too large");
     /* a property has at least one byte and a line break; the last one needs no break */
     const size_t items = length / 2 + 1;
     const size_t size = items * sizeof *p->items + 2 * length + 2;
     if (size > p->capacity) {
-        property_entry *grown = realloc(p->items, size);
-        if (grown == NULL)
-            return wt_fail(err, WT_E_MEMORY, "no memory for a header");
-        p->items = grown;
+        p->items = wt_realloc(p->items, size, 1);
         p->capacity = size;
     }
     p->text = (char *)(p->items + items);
-    return WT_OK;
 }
 
 static void sort_properties(property_list *p)
@@ -212,9 +206,7 @@ wt_status properties_parse(property_list *properties, const unsigned char *bytes
                            wt_error *err)
 {
     properties->n = 0;
-    wt_status status = reserve_properties(properties, length, err);
-    if (status != WT_OK)
-        return status;
+    reserve_properties(properties, length);
     property_parser p = {.at = bytes, .end = bytes + length, .out = properties->text, .line = 1};
     while (p.at < p.end) {
         skip_blanks(&p);

@@ -32,14 +32,6 @@ typedef struct nhf_channel {
     size_t capacity;
 } nhf_channel;
 
-/* Opens a channel with a known name, type and unit; the caller closes it. Returns false otherwise,
- * and sets *problem if the channel is required but not understood. */
-bool nhf_channel_open(const nhf_file *f, hid_t segment, const char *name, nhf_channel *channel,
-                      const char **problem);
-/* Reads the numbers [from, from + n), which exist, into `values`, in SI units. */
-wt_status nhf_channel_read(nhf_channel *channel, size_t from, size_t n, wt_error *err);
 void nhf_channel_close(nhf_channel *channel);
-/* Reads lateral positions [m]; the caller frees them. NULL if the numbers are not understood. */
-double *nhf_read_positions(const nhf_file *f, hid_t data, size_t *n);
 
 #endif

@@ -1,5 +1,6 @@
 /* Unpacks gzip archives (RFC 1952) with zlib. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "read/bytes/spool.h"
+#include "core/base/memory.h"
+#include "read/bytes/input.h"
 #include "read/packed/packed.h"
 
 #include <stdlib.h>
@@ -96,7 +97,7 @@ static wt_status unpack_members(gzip_state *u, wt_error *err)
         if (code == Z_STREAM_END)
             status = finish_member(u, &more, err);
         else if (code == Z_MEM_ERROR)
-            status = wt_fail(err, WT_E_MEMORY, "no memory to unpack a gzip archive");
+            out_of_memory(GZIP_PIECE);
         else if (code == Z_BUF_ERROR && at_end)
             status = fail_gzip(err, u, "the end of the archive is missing");
         else if (code != Z_OK && code != Z_BUF_ERROR)
@@ -111,15 +112,13 @@ wt_status gzip_unpack(wt_input *input, wt_input **content, wt_error *err)
     wt_status status = wt_input_size(input, &u.n, err);
     if (status != WT_OK)
         return status;
-    u.in = malloc(GZIP_PIECE);
-    u.out = malloc(GZIP_PIECE);
+    u.in = wt_alloc(GZIP_PIECE, 1);
+    u.out = wt_alloc(GZIP_PIECE, 1);
     /* 16 selects the gzip format alone */
-    if (u.in == NULL || u.out == NULL || inflateInit2(&u.z, 16 + MAX_WBITS) != Z_OK) {
-        status = wt_fail(err, WT_E_MEMORY, "no memory to unpack a gzip archive");
-    } else {
-        status = unpack_members(&u, err);
-        (void)inflateEnd(&u.z);
-    }
+    if (inflateInit2(&u.z, 16 + MAX_WBITS) != Z_OK)
+        out_of_memory(GZIP_PIECE);
+    status = unpack_members(&u, err);
+    (void)inflateEnd(&u.z);
     free(u.in);
     free(u.out);
     if (status == WT_OK)

@@ -17,12 +17,7 @@ static bool reserve_text(sheet_text *sheet, size_t n)
         capacity *= 2;
     if (capacity == sheet->capacity)
         return true;
-    char *bytes = realloc(sheet->bytes, capacity);
-    if (bytes == NULL) {
-        sheet->no_memory = true;
-        return false;
-    }
-    sheet->bytes = bytes;
+    sheet->bytes = wt_realloc(sheet->bytes, capacity, 1);
     sheet->capacity = capacity;
     return true;
 }
@@ -62,10 +57,8 @@ bool sheet_add_cell(sheet_text *sheet, size_t row, size_t column, const char *te
     return true;
 }
 
-wt_status sheet_fail(const sheet_text *sheet, const char *name, wt_error *err)
+wt_status sheet_fail(const char *name, wt_error *err)
 {
-    if (sheet->no_memory)
-        return wt_fail(err, WT_E_MEMORY, "no memory for a sheet");
     wt_fail(err, WT_E_CORRUPT, "a sheet gives more text than a file of this size can hold");
     wt_error_place(err, "sheet %s", name);
     wt_error_advice(err, "save the sheet as CSV");
@@ -86,18 +79,11 @@ wt_status workbook_add(workbook *book, const char *name, bool hidden, sheet_text
         wt_error_advice(err, "save the sheet with the data as CSV");
         return WT_E_UNSUPPORTED;
     }
-    book_sheet *sheets = array_grow(book->sheets, book->n, sizeof *sheets);
-    char *copy = strdup(name);
-    const bool ended = append_marks(text, '\n', 1);
-    if (sheets != NULL)
-        book->sheets = sheets;
-    if (sheets == NULL || copy == NULL || !ended) {
-        free(copy);
-        return ended ? wt_fail(err, WT_E_MEMORY, "no memory for a sheet")
-                     : sheet_fail(text, name, err);
-    }
-    book->sheets[book->n++] =
-        (book_sheet){.name = copy, .text = text->bytes, .length = text->length, .hidden = hidden};
+    if (!append_marks(text, '\n', 1))
+        return sheet_fail(name, err);
+    book->sheets = array_grow(book->sheets, book->n, sizeof *book->sheets);
+    book->sheets[book->n++] = (book_sheet){
+        .name = wt_strdup(name), .text = text->bytes, .length = text->length, .hidden = hidden};
     book->length += text->length;
     *text = (sheet_text){.bytes = NULL};
     return WT_OK;

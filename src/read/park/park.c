@@ -10,7 +10,6 @@
  */
 #include "read/bytes/bytes.h"
 #include "read/bytes/samples.h"
-#include "read/bytes/window.h"
 #include "read/force_assembler.h"
 #include "read/images.h"
 #include "read/metadata.h"

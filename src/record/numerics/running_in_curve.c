@@ -3,8 +3,8 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "record/numerics/running_in_curve.h"
 
-#include "core/base/arena.h"
-#include "core/math/normal_quantile.h"
+#include "core/base/array.h"
+#include "core/math/students_t.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -4,9 +4,7 @@
  * steady state with autocorrelated scatter, and its stick-slip.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "core/base/arena.h"
 #include "core/base/array.h"
-#include "core/math/normal_quantile.h"
 #include "core/math/students_t.h"
 #include "record/numerics/autocorrelation.h"
 #include "weartrack/record.h"

@@ -3,7 +3,6 @@
  * than the modulus (adhesion, lack of fit).
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "core/base/arena.h"
 #include "core/base/array.h"
 #include "core/math/students_t.h"
 #include "weartrack/study.h"

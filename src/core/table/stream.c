@@ -1,16 +1,178 @@
-/* The text stream to tables. Nothing is taken on trust: a stream may have been edited by hand or by
- * another program. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "core/table/former_names.h"
-#include "core/table/stream.h"
-#include "core/table/table.h"
-
+/* Writes tables as a text stream and reads them. Nothing is taken on trust: a stream may have been
+ * edited by hand or by another program. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/base/array.h"
 #include "core/base/number.h"
 #include "core/base/utf8.h"
+#include "core/table/table.h"
 
 #include <errno.h>
+#include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
+
+/* Unit of a text column in the header line. */
+#define STREAM_TEXT_UNIT "text"
+
+/* Escaped characters, and their letters after a backslash. The last two are escaped only at the
+ * start of a text. */
+static const char raw[] = "\t\n\r\\#-", letters[] = "tnr\\#-";
+
+enum { ALWAYS_ESCAPED = 4 };
+
+/* Writes a text as one cell: "-" for an empty text, with escapes for control characters, bytes that
+ * are not UTF-8, and a "#" or a single "-" at the start. */
+static void stream_write_text(FILE *out, const char *text)
+{
+    const size_t length = strlen(text);
+    if (length == 0) {
+        (void)putc('-', out);
+        return;
+    }
+    /* A row must differ from a comment, and a hyphen from the empty text. */
+    if (text[0] == '#' || strcmp(text, "-") == 0)
+        (void)putc('\\', out);
+    size_t i = 0;
+    while (i < length) {
+        const size_t n = utf8_character_length(text + i, length - i);
+        const unsigned char c = (unsigned char)text[i];
+        const char *const escaped = memchr(raw, c, ALWAYS_ESCAPED);
+        if (n > 1)
+            (void)fwrite(text + i, 1, n, out);
+        else if (escaped != NULL)
+            (void)fprintf(out, "\\%c", letters[escaped - raw]);
+        else if (n == 0 || c < ' ' || c == 0x7F)
+            (void)fprintf(out, "\\x%02X", c);
+        else
+            (void)putc(c, out);
+        i += n > 0 ? n : 1;
+    }
+}
+
+static int hex_digit_value(char c)
+{
+    static const char digits[] = "0123456789ABCDEF";
+    const char *const found = c != '\0' ? strchr(digits, c) : NULL;
+    return found != NULL ? (int)(found - digits) : -1;
+}
+
+/* Decodes a cell in place and adds a terminating zero. False for an invalid escape. */
+static bool stream_unescape(char *text, size_t length)
+{
+    if (length == 1 && text[0] == '-')
+        length = 0;
+    size_t to = 0;
+    for (size_t from = 0; from < length; from++) {
+        char c = text[from];
+        if (c == '\\') {
+            from++;
+            const char escape = from < length ? text[from] : '\0';
+            const char *const letter = memchr(letters, escape, sizeof letters - 1);
+            if (letter != NULL) {
+                c = raw[letter - letters];
+            } else if (escape == 'x' && length - from > 2) {
+                const int high = hex_digit_value(text[from + 1]),
+                          low = hex_digit_value(text[from + 2]);
+                if (high < 0 || low < 0 || (high == 0 && low == 0))
+                    return false;
+                c = (char)(high * 16 + low);
+                from += 2;
+            } else {
+                return false;
+            }
+        }
+        text[to++] = c;
+    }
+    text[to] = '\0';
+    return true;
+}
+
+static void write_key_line(FILE *out, const char *key, const char *text)
+{
+    (void)fprintf(out, "## %s: ", key);
+    stream_write_text(out, text);
+    (void)putc('\n', out);
+}
+
+static void write_stream_provenance(FILE *out, const wt_provenance *provenance)
+{
+    (void)fprintf(out, "## weartrack: %s\n", wt_version());
+    if (wt_provenance_command(provenance)[0] != '\0')
+        write_key_line(out, "command", wt_provenance_command(provenance));
+    for (size_t i = 0; i < wt_provenance_n_inputs(provenance); i++) {
+        const wt_provenance_input *const input = wt_provenance_get_input(provenance, i);
+        /* The fields are separated by tabs, so that a path may contain blanks. */
+        (void)fprintf(out, "## input: ");
+        stream_write_text(out, input->path);
+        (void)putc('\t', out);
+        stream_write_text(out, input->role);
+        (void)putc('\t', out);
+        stream_write_text(out, input->format);
+        (void)fprintf(out, "\t%" PRIu64 "\t%s\n", input->bytes,
+                      input->sha256[0] != '\0' ? input->sha256 : "-");
+    }
+}
+
+static void write_stream_columns(FILE *out, const wt_table *table)
+{
+    for (size_t i = 0; i < table->n_columns; i++) {
+        const table_column *const column = &table->columns[i];
+        if (column->long_name[0] != '\0') {
+            (void)fprintf(out, "## column: %s\t", column->name);
+            stream_write_text(out, column->long_name);
+            (void)putc('\n', out);
+        }
+    }
+    for (size_t i = 0; i < table->n_columns; i++) {
+        const table_column *const column = &table->columns[i];
+        (void)fprintf(out, "%s%s[%s]", i == 0 ? "# " : "\t", column->name,
+                      column->kind == WT_COLUMN_TEXT ? STREAM_TEXT_UNIT : column->unit);
+    }
+    (void)putc('\n', out);
+}
+
+static void write_stream_rows(FILE *out, const wt_table *table)
+{
+    size_t next_block = 1;
+    for (size_t row = 0; row < table->n_rows; row++) {
+        if (next_block < table->n_blocks && table->blocks[next_block] == row) {
+            (void)putc('\n', out);
+            next_block++;
+        }
+        for (size_t i = 0; i < table->n_columns; i++) {
+            if (i > 0)
+                (void)putc('\t', out);
+            if (table->columns[i].kind == WT_COLUMN_TEXT) {
+                stream_write_text(out, wt_table_text(table, row, i));
+            } else {
+                char number[32];
+                (void)wt_number_format(table->columns[i].numbers[row], number);
+                (void)fputs(number, out);
+            }
+        }
+        (void)putc('\n', out);
+    }
+}
+
+wt_status wt_stream_write(FILE *out, const wt_table *table, const wt_provenance *provenance,
+                          wt_error *err)
+{
+    if (!table_name_is_valid(table->name) || table->n_columns == 0) {
+        return wt_fail(err, WT_E_ARG, "table \"%s\" has no columns or no valid name", table->name);
+    }
+    if (provenance != NULL)
+        write_stream_provenance(out, provenance);
+    (void)fprintf(out, "## table: %s\n", table->name);
+    write_key_line(out, "title", table->title);
+    for (size_t i = 0; i < table->n_keys; i++)
+        write_key_line(out, table->keys[i].name, table->keys[i].text);
+    write_stream_columns(out, table);
+    write_stream_rows(out, table);
+    /* The end of a table is marked, so that a truncated stream is detected. */
+    (void)fputs("##\n", out);
+    if (ferror(out))
+        return wt_fail(err, WT_E_IO, "cannot write: %s", strerror(errno));
+    return WT_OK;
+}
 
 typedef struct stream_reader {
     FILE *in;
@@ -230,7 +392,7 @@ static wt_status read_stream_row(stream_reader *r, wt_error *err)
             if (!stream_unescape(cell, strlen(cell)))
                 return fail_corrupt_stream(r, column + 1, "an escape that is not known",
                                            "\\t, \\n, \\r, \\\\, \\#, \\- or \\x41", cell, err);
-            status = wt_table_set_text(table, column, cell, err);
+            wt_table_set_text(table, column, cell);
         } else {
             double value;
             if (!parse_stored_number(cell, strlen(cell), &value))
@@ -261,8 +423,10 @@ wt_status wt_stream_read(FILE *in, const char *name, wt_table **table, wt_error 
             begun = true;
         if (strcmp(r.line, "##") == 0)
             ended = begun; /* "##" before a table is ignored */
+        else if (r.length == 0 && header)
+            wt_table_new_block(r.table);
         else if (r.length == 0)
-            status = header ? wt_table_new_block(r.table, err) : WT_OK;
+            continue;
         else if (!header && strncmp(r.line, "##", 2) == 0)
             status = read_key_line(&r, err);
         else if (!header) {

@@ -1,7 +1,7 @@
 /* Built-in conversion factors of the units that most files and commands use. Internal to base.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef WT_CORE_BASE_UNIT_KNOWN_H
-#define WT_CORE_BASE_UNIT_KNOWN_H
+#ifndef WT_CORE_BASE_UNIT_H
+#define WT_CORE_BASE_UNIT_H
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -15,9 +15,5 @@ typedef struct builtin_unit {
 } builtin_unit;
 
 const builtin_unit *builtin_units(size_t *n);
-/* If false, the unit must be converted by UDUNITS. */
-bool builtin_unit_exists(const char *text);
-/* Finds the conversion of a built-in unit. False if it is not a multiple of `si`. */
-bool builtin_unit_find(const char *text, const char *si, double *factor, double *offset);
 
 #endif
