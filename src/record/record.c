@@ -202,6 +202,13 @@ static void note_step(const wt_job *work, const wt_cycles *cycles, const record_
         append_note(note, size, "nothing slides in it");
     else if (isnan(r->at.velocity) && !isnan(r->at.rotation))
         append_note(note, size, "velocity not known: give --track-radius");
+    if (fabs(r->zero) > r->steady.mean.value) {
+        clocale_print(words, sizeof words,
+                      "a zero of %.3g above the friction is left out: half the difference of the "
+                      "directions is told",
+                      r->zero);
+        append_note(note, size, words);
+    }
     if (cycles->kind == WT_CYCLE_STROKE && !cycles->has_zero)
         append_note(note, size, "friction has no sign, so that its zero is not known");
 }

@@ -19,9 +19,10 @@ typedef struct cycle_spans {
     size_t n;
 } cycle_spans;
 
-/* Mean friction of the forward and the return stroke without the ends of the stroke. */
+/* Mean friction of the forward and the return stroke without the ends of the stroke, and its
+ * variance about them. */
 typedef struct stroke_means {
-    double there, back;
+    double there, back, variance;
 } stroke_means;
 
 /* ---- strokes --------------------------------------------------------------------------------- */
@@ -151,10 +152,12 @@ static void strokes_find(const wt_record *record, const double *friction, cycle_
     }
 }
 
-/* Mean over the middle of one stroke, by position if measured, else by sample number. */
-static double middle_mean(const double *position, const double *friction, size_t first, size_t end)
+/* Mean over the middle of one stroke, by position if measured, else by sample number. *squares:
+ * sum of the squared deviations, added to. */
+static double middle_mean(const double *position, const double *friction, size_t first, size_t end,
+                          double *squares)
 {
-    double low = (double)INFINITY, high = -(double)INFINITY, sum = 0, n = 0;
+    double low = (double)INFINITY, high = -(double)INFINITY, mean = (double)NAN, n = 0;
     for (size_t i = first; i < end; i++) {
         const double at = position != NULL ? position[i] : (double)i;
         low = fmin(low, at);
@@ -165,17 +168,82 @@ static double middle_mean(const double *position, const double *friction, size_t
         const double at = position != NULL ? position[i] : (double)i;
         if (at < low + cut || at > high - cut || isnan(friction[i]))
             continue;
-        sum += friction[i];
+        const double off = n > 0 ? friction[i] - mean : 0;
+        mean = n > 0 ? mean + off / (n + 1) : friction[i];
         n++;
+        *squares += off * (friction[i] - mean);
     }
-    return n > 0 ? sum / n : (double)NAN;
+    return mean;
 }
 
 static stroke_means strokes_mean(const wt_record *record, const double *friction, cycle_span span)
 {
     const double *const position = record->channel[WT_RECORD_POSITION];
-    return (stroke_means){middle_mean(position, friction, span.first, span.turn),
-                          middle_mean(position, friction, span.turn, span.end)};
+    double squares = 0;
+    const double there = middle_mean(position, friction, span.first, span.turn, &squares),
+                 back = middle_mean(position, friction, span.turn, span.end, &squares);
+    const double n = (double)(span.end - span.first);
+    return (stroke_means){there, back, n > 2 ? squares / (n - 2) : 0};
+}
+
+/* ---- zero of strokes without a change of sign ------------------------------------------------ */
+
+/* A magnitude falls below this share of its lower level where the motion reverses. With few samples
+ * a part of the reversals shows it. */
+static const double dip_level = 0.5, least_dips = 0.05;
+/* Share of a stroke at its ends in which friction reverses. The sensor gives way. */
+static const double reversal_share = 0.2;
+/* Least friction as a share of the zero. A magnitude with a zero has two levels, too, and a fast
+ * reversal leaves no sample. Below it, half of the reversals must have a sample between the levels,
+ * which are apart by five standard deviations. */
+static const double least_friction = 0.25, least_between = 0.5, levels_apart = 5;
+
+/* Samples near a reversal from the lower level to the higher one. */
+static void inspect_reversal(const double *friction, size_t from, size_t to, signal_range level,
+                             double *dips, double *between)
+{
+    const double quarter = 0.25 * (level.high - level.low);
+    bool dip = false, inside = false;
+    for (size_t i = from; i < to; i++) {
+        const double f = fabs(friction[i]);
+        dip = dip || f < dip_level * level.low;
+        inside = inside || (f > level.low + quarter && f < level.high - quarter);
+    }
+    *dips += dip;
+    *between += inside;
+}
+
+/* True if friction of one sign is that of both directions, with a zero above it. A magnitude falls
+ * to zero at both reversals; friction with a zero changes from one level to the other. */
+static bool has_zero_above_friction(const wt_record *record, const double *friction,
+                                    const cycle_spans *spans)
+{
+    double there = 0, back = 0, variance = 0, n = 0, dips = 0, between = 0;
+    for (size_t k = 0; k < spans->n; k++) {
+        const stroke_means m = strokes_mean(record, friction, spans->span[k]);
+        if (isnan(m.there) || isnan(m.back))
+            continue;
+        there += m.there;
+        back += m.back;
+        variance += m.variance;
+        n++;
+    }
+    if (!(there * back > 0))
+        return false;
+    const signal_range level = {fmin(fabs(there), fabs(back)) / n,
+                                fmax(fabs(there), fabs(back)) / n};
+    for (size_t k = 0; k < spans->n; k++) {
+        const cycle_span s = spans->span[k];
+        const size_t turn = fabs(there) < fabs(back) ? s.turn : s.end,
+                     around = 1 + (size_t)(reversal_share * 0.5 * (double)(s.end - s.first)),
+                     from = turn > around ? turn - around : 0,
+                     to = turn + around < record->n ? turn + around : record->n;
+        inspect_reversal(friction, from, to, level, &dips, &between);
+    }
+    const double difference = level.high - level.low;
+    return dips < least_dips * n &&
+           (difference > least_friction * (level.high + level.low) ||
+            (between > least_between * n && difference > levels_apart * sqrt(variance / n)));
 }
 
 /* Limit of the number of time spans. A change is then located to 0.1 % of the record. */
@@ -442,8 +510,9 @@ static double cycle_velocity(const wt_record *record, double radius, cycle_span 
     return c->duration > 0 ? path / c->duration : (double)NAN;
 }
 
+/* `has_zero`: friction of one sign has a zero above it. */
 static void set_friction(const wt_record *record, const double *friction, wt_cycle_kind kind,
-                         cycle_span s, wt_cycle *c)
+                         bool has_zero, cycle_span s, wt_cycle *c)
 {
     c->zero = (double)NAN;
     c->coefficient = span_mean(friction, s);
@@ -457,7 +526,7 @@ static void set_friction(const wt_record *record, const double *friction, wt_cyc
                          k * pow(standard_deviation_in_span(friction, back, m.back), 2)) /
                         (n + k));
     c->coefficient = 0.5 * (fabs(m.there) + fabs(m.back));
-    if (m.there * m.back > 0)
+    if (m.there * m.back > 0 && !has_zero)
         return;
     c->coefficient = 0.5 * fabs(m.there - m.back);
     c->zero = 0.5 * (m.there + m.back);
@@ -515,10 +584,12 @@ static void make_step_friction_positive(wt_cycles *cycles)
 static void fill_cycles(const wt_record *record, double radius, double load, const double *friction,
                         const cycle_spans *spans, double *scratch, wt_cycles *cycles)
 {
+    const bool has_zero =
+        cycles->kind == WT_CYCLE_STROKE && has_zero_above_friction(record, friction, spans);
     for (size_t k = 0; k < spans->n; k++) {
         wt_cycle *const c = &cycles->cycle[cycles->n];
         const cycle_span s = sliding_span(record, cycles->kind, spans->span[k]);
-        set_friction(record, friction, cycles->kind, s, c);
+        set_friction(record, friction, cycles->kind, has_zero, s, c);
         set_cycle(record, radius, load, s, cycles->kind, c);
         if (isnan(c->coefficient))
             continue;
