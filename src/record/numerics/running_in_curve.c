@@ -102,9 +102,9 @@ static void fill_column(const running_in_series *s, const curve_integral *m, dou
                         double log_factor, double *column)
 {
     const double faster = exp(-log_factor);
-    double begin = faster * s->begin, before = curve_integral_at(m, begin);
+    double begin = faster * (s->begin - s->shift), before = curve_integral_at(m, begin);
     for (size_t i = 0; i < s->n; i++) {
-        const double end = faster * s->end[i], sum = curve_integral_at(m, end);
+        const double end = faster * (s->end[i] - s->shift), sum = curve_integral_at(m, end);
         column[i] = (sum - before) / ((end - begin) * height);
         begin = end;
         before = sum;
@@ -136,30 +136,34 @@ typedef struct factor_search {
     scatter_law law;
 } factor_search;
 
-static double profile_likelihood(const factor_search *p, double log_factor)
+static double profile_likelihood(void *user, double log_factor)
 {
+    const factor_search *const p = user;
     fill_column(p->s, &p->sums, p->height, log_factor, p->column);
     const scatter_sums sums = curve_scatter_sums(p->s, p->column, p->law);
-    return -log(scatter_solve(&sums, true).squares);
+    const double squares = scatter_solve(&sums, true).squares;
+    return squares > 0 ? -log(squares) : -(double)INFINITY; /* NaN without a change */
 }
 
-static double search_factor(const factor_search *p, double low, double high)
+/* Place of the maximum of a function between two limits, by the golden section. */
+static double find_maximum(double (*of)(void *user, double x), void *user, double low, double high,
+                           double tolerance)
 {
-    double a = high - golden * (high - low), b = low + golden * (high - low),
-           at_a = profile_likelihood(p, a), at_b = profile_likelihood(p, b);
-    while (high - low > finest) {
+    double a = high - golden * (high - low), b = low + golden * (high - low), at_a = of(user, a),
+           at_b = of(user, b);
+    while (high - low > tolerance) {
         if (at_a > at_b) {
             high = b;
             b = a;
             at_b = at_a;
             a = high - golden * (high - low);
-            at_a = profile_likelihood(p, a);
+            at_a = of(user, a);
         } else {
             low = a;
             a = b;
             at_a = at_b;
             b = low + golden * (high - low);
-            at_b = profile_likelihood(p, b);
+            at_b = of(user, b);
         }
     }
     return 0.5 * (low + high);
@@ -174,8 +178,9 @@ running_in_optimum running_in_optimum_find(const running_in_series *s, const run
     factor_search p = {s, curve_integral_compute(c, &memory), running_in_curve_height(c),
                        arena_numbers(&memory, s->n), law};
     if (p.height > 0 && isfinite(p.height) && isfinite(around)) {
-        place.log_factor =
-            within > 0 ? search_factor(&p, around - within, around + within) : around;
+        place.log_factor = within > 0 ? find_maximum(profile_likelihood, &p, around - within,
+                                                     around + within, finest)
+                                      : around;
         fill_column(s, &p.sums, p.height, place.log_factor, p.column);
         const scatter_sums sums = curve_scatter_sums(s, p.column, law);
         const double coefficient = scatter_solve(&sums, true).coefficient;
@@ -200,14 +205,15 @@ static const double tail = 0.025; /* on each side of a 95 % interval */
 
 /* One series with its curve. */
 typedef struct member {
-    const running_in_series *s;
+    running_in_series s; /* borrows the arrays; with the shift of the latest factor */
     curve_integral sums;
     double height, variance, least, settled;
+    double incubation;               /* before the curve changes [s] */
     double *column;                  /* [n] */
     bool kept[SCATTER_LAWS];         /* laws that are not excluded */
     double null[SCATTER_LAWS];       /* ln of their likelihoods about a constant */
     double likelihood[SCATTER_LAWS]; /* largest likelihood with the curve */
-    double best, best_level, best_scatter;
+    double best, best_level, best_scatter, best_shift;
     scatter_law best_law;
 } member;
 
@@ -232,17 +238,57 @@ static void add_curve_law(law_sum *sum, double weight, double ratio, double vari
                      old * sum->square + now * (ratio * ratio + variance)};
 }
 
+/* Places of the shift from which it is searched on. */
+enum { SHIFTS = 9 };
+
+typedef struct shift_search {
+    factor_search search; /* with the series of the member */
+    running_in_series *s;
+    double log_factor;
+} shift_search;
+
+static double shift_likelihood(void *user, double shift)
+{
+    shift_search *const p = user;
+    p->s->shift = shift;
+    return profile_likelihood(&p->search, p->log_factor);
+}
+
+static double shift_limit(const member *t, double log_factor)
+{
+    return t->s.unsure + t->incubation * exp(log_factor);
+}
+
+/* Most probable shift for the most probable law so far. */
+static void find_shift(member *t, double log_factor)
+{
+    const double most = shift_limit(t, log_factor), step = 2 * most / (SHIFTS - 1);
+    shift_search p = {{&t->s, t->sums, t->height, t->column, t->best_law}, &t->s, log_factor};
+    double best = -(double)INFINITY, centre = 0;
+    for (int i = 0; step > 0 && i < SHIFTS; i++) {
+        const double at = (i - SHIFTS / 2) * step, l = shift_likelihood(&p, at);
+        if (l > best) {
+            best = l;
+            centre = at;
+        }
+    }
+    t->s.shift = step > 0 ? find_maximum(shift_likelihood, &p, fmax(centre - step, -most),
+                                         fmin(centre + step, most), finest * most)
+                          : 0;
+}
+
 /* `first`: stores the likelihood of each law. */
 static law_sum evaluate_member(member *t, double log_factor, bool first)
 {
     law_sum sum = {-(double)INFINITY, 0, 0};
-    const double df = (double)t->s->n - 2;
-    fill_column(t->s, &t->sums, t->height, log_factor, t->column);
+    const double df = (double)t->s.n - 2;
+    find_shift(t, log_factor);
+    fill_column(&t->s, &t->sums, t->height, log_factor, t->column);
     for (size_t i = 0; i < SCATTER_LAWS; i++) {
         if (!t->kept[i])
             continue;
         const scatter_sums s =
-            curve_scatter_sums(t->s, t->column, scatter_law_at(SCATTER_FOR_CHANGE, i, t->s->n));
+            curve_scatter_sums(&t->s, t->column, scatter_law_at(SCATTER_FOR_CHANGE, i, t->s.n));
         const scatter_fit f = scatter_solve(&s, true);
         const double scatter = fmax(f.squares / df, t->least);
         /* The prior admits changes of the order of the total scatter. Without it, a curve outside
@@ -261,6 +307,7 @@ static law_sum evaluate_member(member *t, double log_factor, bool first)
             t->best_law = s.law;
             t->best_level = curve_level(&s, f.coefficient);
             t->best_scatter = scatter;
+            t->best_shift = t->s.shift;
         }
     }
     return sum;
@@ -356,7 +403,7 @@ static void factor_limits(const factor_scan *t, double limit[2])
     limit[0] = (double)INFINITY;
     limit[1] = -(double)INFINITY;
     for (size_t i = 0; i < t->n_of; i++) {
-        const running_in_series *const s = t->of[i].s;
+        const running_in_series *const s = &t->of[i].s;
         const double length = s->end[s->n - 1], mean = length / (double)s->n,
                      settled = t->of[i].settled;
         limit[0] = fmin(limit[0], log(least_part * fewest_means * mean / settled));
@@ -372,14 +419,17 @@ static void scan_coarsely(factor_scan *t, const double limit[2])
         exclude_unlikely_laws(&t->of[i]);
 }
 
-/* ln of the odds of the curve, with any factor, over constants. */
+/* ln of the odds of the curve, with any factor, over constants. The most probable shift counts as
+ * in the Bayesian information criterion. */
 static double log_odds(const factor_scan *t)
 {
     double any = -(double)INFINITY, none = 0;
     for (size_t i = 0; i < t->n; i++)
         any = log_add(any, t->weight[i]);
-    for (size_t i = 0; i < t->n_of; i++)
+    for (size_t i = 0; i < t->n_of; i++) {
         none += constant_log_likelihood(&t->of[i]);
+        none += shift_limit(&t->of[i], 0) > 0 ? 0.5 * log((double)t->of[i].s.n) : 0;
+    }
     return any - log((double)t->n) - none - 0.5 * log(2 * M_PI * change_prior_variance(t));
 }
 
@@ -450,7 +500,7 @@ static double factor_quantile(const factor_scan *t, double share)
 static bool is_after_end(const factor_scan *t, double log_factor)
 {
     for (size_t i = 0; i < t->n_of; i++)
-        if (exp(log_factor) * t->of[i].settled <= t->of[i].s->end[t->of[i].s->n - 1])
+        if (exp(log_factor) * t->of[i].settled <= t->of[i].s.end[t->of[i].s.n - 1])
             return false;
     return true;
 }
@@ -458,7 +508,7 @@ static bool is_after_end(const factor_scan *t, double log_factor)
 static bool is_within_first_means(const factor_scan *t, double log_factor)
 {
     for (size_t i = 0; i < t->n_of; i++)
-        if (exp(log_factor) * t->of[i].settled >= fewest_means * t->of[i].s->end[0])
+        if (exp(log_factor) * t->of[i].settled >= fewest_means * t->of[i].s.end[0])
             return false;
     return true;
 }
@@ -499,6 +549,7 @@ static void find_curve_fit(factor_scan *t, double expected, running_in_curve_fit
     fit->law = t->of[0].best_law;
     fit->level = t->of[0].best_level;
     fit->scatter = t->of[0].best_scatter;
+    fit->shift = t->of[0].best_shift;
 }
 
 static double series_variance(const running_in_series *s)
@@ -511,11 +562,21 @@ static double series_variance(const running_in_series *s)
     return sum / (double)s->n;
 }
 
+/* Time before the curve changes by a thousandth of its height. */
+static double incubation(const curve_integral *m, double height)
+{
+    const double *const value = m->c->value;
+    size_t i = 0;
+    while (i + 1 < m->c->n && fabs(value[i + 1] - value[0]) < 1e-3 * height)
+        i++;
+    return m->time[i];
+}
+
 static wt_status begin(const running_in_curve_pair *of, double settled_share, arena *memory,
                        member *m, wt_error *err)
 {
     const running_in_series *const s = of->series;
-    *m = (member){.s = s, .variance = series_variance(s), .best = -(double)INFINITY};
+    *m = (member){.s = *s, .variance = series_variance(s), .best = -(double)INFINITY};
     m->height = running_in_curve_height(of->running_in_curve);
     m->settled = running_in_curve_settling_time(of->running_in_curve, settled_share);
     m->least = SCATTER_RESOLUTION * SCATTER_RESOLUTION * m->variance;
@@ -524,6 +585,7 @@ static wt_status begin(const running_in_curve_pair *of, double settled_share, ar
     if (!(m->height > 0) || !(m->settled > 0))
         return wt_fail(err, WT_E_RANGE, "friction is predicted not to change");
     m->sums = curve_integral_compute(of->running_in_curve, memory);
+    m->incubation = incubation(&m->sums, m->height);
     m->column = arena_numbers(memory, s->n);
     for (size_t i = 0; i < SCATTER_LAWS; i++) {
         scatter_sums sums = scatter_begin(scatter_law_at(SCATTER_FOR_CHANGE, i, s->n));
