@@ -8,6 +8,7 @@
 #include "job/conditioning.h"
 #include "job/cost.h"
 #include "record/numerics/pauses.h"
+#include "record/numerics/steady_state.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -82,7 +83,7 @@ static const wt_interval not_known = {(double)NAN, (double)NAN, (double)NAN, (do
 TABLE_ROW(record, RECORD, record_conditions at; wt_steady steady;
           wt_interval drift, end, end_time, end_distance; const char *end_note; wt_stick_slip slips;
           double zero, difference, samples, pauses, paused; size_t cycles, step;
-          const char *averaged_over, *note, *file;)
+          const char *averaged_over, *note, *file; steady_decay decay;)
 
 TABLE_ROW(record_cycles, RECORD_CYCLES, wt_cycle cycle; size_t number; bool steady; size_t step;
           const char *file;)
@@ -177,6 +178,32 @@ static void count_pauses(const record_pauses *pauses, const wt_cycle *first, con
     append_note(note, size, words);
 }
 
+/* Replaces the mean by the plateau of a decay that goes on, if the plateau is known better than the
+ * mean is off it. */
+static void follow_decay(const double *y, size_t n, size_t from, record_row *r)
+{
+    steady_decay decay = steady_decay_find(y, n, from);
+    decay.is_detected &= !(fabs(decay.left) <= r->steady.mean.standard_error);
+    r->decay = decay;
+    if (decay.is_detected && decay.plateau.standard_error < fabs(decay.left))
+        r->steady.mean = decay.plateau;
+}
+
+static void note_decay(const wt_job *work, const record_row *r, char *note, size_t size)
+{
+    if (!r->decay.is_detected)
+        return;
+    const bool told = r->steady.mean.value == r->decay.plateau.value;
+    wt_log_add(work->log, WT_WARNING, r->file, NULL,
+               "step %zu ends before friction is steady: it still decays by about %.2g, and %s",
+               r->step, -r->decay.left_at_end,
+               told ? "the friction told is the plateau of this decay"
+                    : "to which value is not known; the mean of the last part is told");
+    append_note(note, size,
+                told ? "ends before it is steady: the plateau of its decay is told"
+                     : "ends before it is steady: the plateau of its decay is not known");
+}
+
 /* Notes the limitations of a step. */
 static void note_step(const wt_job *work, const wt_cycles *cycles, const record_row *r, char *note,
                       size_t size)
@@ -184,10 +211,11 @@ static void note_step(const wt_job *work, const wt_cycles *cycles, const record_
     char words[160];
     const bool periodic = cycles->kind == WT_CYCLE_LAP || cycles->kind == WT_CYCLE_STROKE;
     append_note(note, size, r->steady.note);
+    note_decay(work, r, note, size);
     if (periodic && cycles->samples < fewest_samples)
         append_note(note, size, "few samples in a cycle: its mean holds a part of its wave");
-    if (isnan(r->end.value) && r->steady.n < r->cycles) { /* no end was found, and yet a part is
-                                                             truncated */
+    if (isnan(r->end.value) && r->steady.n < r->cycles && !r->decay.is_detected) { /* no end was
+                                                             found, and yet a part is truncated */
         append_note(note, size, "not steady: the last tenth is told");
         wt_log_add(work->log, WT_WARNING, r->file, NULL,
                    "friction does not become steady before the last tenth of step %zu, whose "
@@ -230,10 +258,17 @@ static wt_status measure_step(const wt_record_job *job, const wt_cycles *all, co
     double *const y = wt_alloc(n, sizeof *y);
     for (size_t i = 0; i < n; i++)
         y[i] = cycle[i].coefficient;
-    const running_in_end end = find_running_in_end(job, y, n);
+    running_in_end end = find_running_in_end(job, y, n);
     const size_t from = end.steady_start < n ? end.steady_start : 0;
     const wt_cycle *const steady = cycle + from, *const last = cycle + n - 1;
     const wt_status status = wt_steady_mean(y + from, n - from, &r->steady, err);
+    if (status == WT_OK && job->running_in == WT_RUNNING_IN_LIKELIHOOD &&
+        (r->steady.drift.low * r->steady.drift.high > 0 || from > 0))
+        follow_decay(y, n, from, r);
+    if (r->decay.is_detected) {
+        end.cycles = not_known;
+        end.why_not = "it goes on to the end of the record";
+    }
     r->slips = all->kind == WT_CYCLE_STROKE
                    ? (wt_stick_slip){0, (double)NAN, (double)NAN}
                    : wt_stick_slip_find(all->friction + steady->first,

@@ -4,6 +4,8 @@
  * steady state with autocorrelated scatter, and its stick-slip.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "record/numerics/steady_state.h"
+
 #include "core/base/arena.h"
 #include "core/base/array.h"
 #include "core/math/normal_quantile.h"
@@ -138,6 +140,23 @@ static void add_change_law(likelihoods *l, const double *y, size_t i)
     }
 }
 
+static likelihoods change_likelihoods(const double *y, size_t n, double variance, arena *memory)
+{
+    likelihoods l = {n, arena_numbers(memory, n + 1), arena_numbers(memory, n + 1),
+                     SCATTER_RESOLUTION * SCATTER_RESOLUTION * variance};
+    for (size_t k = 0; k <= n; k++)
+        l.before[k] = l.behind[k] = -(double)INFINITY;
+    for (size_t i = 0; i < SCATTER_LAWS; i++)
+        add_change_law(&l, y, i);
+    return l;
+}
+
+/* Limits of the change. */
+static size_t last_change(size_t n)
+{
+    return n - (size_t)fmax(FEWEST_BEHIND, ceil(least_behind * (double)n)) + 1;
+}
+
 static void change_interval(const double *log_weight, size_t first, size_t end, wt_running_in *r)
 {
     double all = -(double)INFINITY, below = 0;
@@ -177,8 +196,7 @@ static double change_log_odds(const likelihoods *l, const double *log_weight, si
 
 static void assess_running_in(const likelihoods *l, double variance, wt_running_in *r)
 {
-    const size_t behind = (size_t)fmax(FEWEST_BEHIND, ceil(least_behind * (double)l->n));
-    const size_t first = FEWEST_BEFORE, end = l->n - behind + 1;
+    const size_t first = FEWEST_BEFORE, end = last_change(l->n);
     for (size_t k = first; k < end; k++)
         l->before[k] += l->behind[k];
     if (change_log_odds(l, l->before, first, end, variance) < log(least_odds)) {
@@ -191,7 +209,7 @@ static void assess_running_in(const likelihoods *l, double variance, wt_running_
         return;
     }
     *r = (wt_running_in){.end = {(double)NAN, (double)NAN, (double)NAN, (double)NAN},
-                         .steady_start = l->n - behind,
+                         .steady_start = end - 1,
                          .reason = "it does not become steady before the last tenth"};
 }
 
@@ -205,12 +223,7 @@ static void find_running_in(const double *y, size_t n, wt_running_in *r)
         r->reason = "the cycles do not scatter";
         return;
     }
-    likelihoods l = {n, arena_numbers(&memory, n + 1), arena_numbers(&memory, n + 1),
-                     SCATTER_RESOLUTION * SCATTER_RESOLUTION * variance};
-    for (size_t k = 0; k <= n; k++)
-        l.before[k] = l.behind[k] = -(double)INFINITY;
-    for (size_t i = 0; i < SCATTER_LAWS; i++)
-        add_change_law(&l, y, i);
+    const likelihoods l = change_likelihoods(y, n, variance, &memory);
     r->reason = "";
     assess_running_in(&l, variance, r);
     arena_free(&memory);
@@ -239,6 +252,104 @@ wt_running_in wt_running_in_find(const double *y, size_t n)
     find_running_in(parts.y, parts.n, &found);
     convert_parts_to_points(&parts, &found);
     free(scratch);
+    return found;
+}
+
+/* ---- decay that goes on ---------------------------------------------------------------------- */
+
+/* Times in equal ratios, from and to these multiples of the length of the series. */
+enum { DECAY_TIMES = 24, DECAY_MAX_BATCHES = 200 };
+static const double decay_shortest = 0.02, decay_longest = 5;
+static const double decay_power[] = {1, 0.5};
+
+/* Weighted sums over times, powers and laws. */
+typedef struct decay_sums {
+    double weight; /* as a logarithm */
+    double plateau, square, left, left_at_end;
+} decay_sums;
+
+static void add_decay_law(decay_sums *d, const scatter_sums *s, double weight, double least,
+                          double variance, const double column_left[2])
+{
+    const scatter_fit f = scatter_solve(s, true);
+    const double df = (double)s->n - 2, scatter = fmax(f.squares / df, least),
+                 slope = s->product[1] / s->product[0],
+                 plateau = s->product[3] / s->product[0] - f.coefficient * slope,
+                 error = scatter * (1 / s->product[0] + slope * slope * f.variance) * df / (df - 2);
+    /* the prior admits changes of the order of the scatter of the series */
+    weight += scatter_profile_likelihood(s, least) - 0.5 * log1p(f.variance * scatter / variance);
+    if (!isfinite(weight))
+        return;
+    const double all = log_add(d->weight, weight), old = exp(d->weight - all),
+                 now = exp(weight - all);
+    *d = (decay_sums){all, old * d->plateau + now * plateau,
+                      old * d->square + now * (plateau * plateau + error),
+                      old * d->left + now * f.coefficient * column_left[0],
+                      old * d->left_at_end + now * f.coefficient * column_left[1]};
+}
+
+/* Adds one time with all laws. column: [n] scratch. */
+static void add_decay(decay_sums *d, const double *y, size_t n, double power, double time,
+                      size_t steady, double variance, double *column)
+{
+    const double least = SCATTER_RESOLUTION * SCATTER_RESOLUTION * variance;
+    double left[2] = {0, exp(-pow((double)n / time, power))};
+    for (size_t k = 0; k < n; k++) {
+        column[k] = exp(-pow(((double)k + 0.5) / time, power));
+        left[0] += k >= steady ? column[k] / (double)(n - steady) : 0;
+    }
+    for (size_t i = 0; i < SCATTER_LAWS; i++) {
+        scatter_sums s = scatter_begin(scatter_law_at(SCATTER_FOR_CHANGE, i, n));
+        for (size_t k = 0; k < n; k++)
+            scatter_add_column(&s, column[k], y[k]);
+        add_decay_law(d, &s, scatter_prior(SCATTER_FOR_CHANGE, i), least, variance, left);
+    }
+}
+
+/* Compares a decay with a running-in that ends and with none. */
+static steady_decay assess_decay(const double *y, size_t n, size_t steady)
+{
+    enum { POWERS = COUNT_OF(decay_power) };
+    arena memory = {0};
+    const double variance = total_variance(y, n);
+    likelihoods l = change_likelihoods(y, n, variance, &memory);
+    double *const column = arena_numbers(&memory, n);
+    decay_sums d = {.weight = -(double)INFINITY};
+    for (size_t i = 0; i < POWERS * DECAY_TIMES; i++) {
+        const double part = (double)(i / POWERS) / (DECAY_TIMES - 1);
+        add_decay(&d, y, n, decay_power[i % POWERS],
+                  (double)n * decay_shortest * pow(decay_longest / decay_shortest, part), steady,
+                  variance, column);
+    }
+    for (size_t k = FEWEST_BEFORE; k < last_change(n); k++)
+        l.before[k] += l.behind[k];
+    const double odds =
+        d.weight - log(POWERS * DECAY_TIMES) - l.behind[0] - 0.5 * log(2 * M_PI * variance);
+    const double change = change_log_odds(&l, l.before, FEWEST_BEFORE, last_change(n), variance);
+    const double error = sqrt(fmax(d.square - d.plateau * d.plateau, 0));
+    arena_free(&memory);
+    return (steady_decay){
+        odds > fmax(change, 0) + log(least_odds),
+        {d.plateau, error, d.plateau - NORMAL_95 * error, d.plateau + NORMAL_95 * error},
+        d.left,
+        d.left_at_end};
+}
+
+steady_decay steady_decay_find(const double *y, size_t n, size_t steady_start)
+{
+    arena memory = {0};
+    const size_t length = (n + DECAY_MAX_BATCHES - 1) / DECAY_MAX_BATCHES;
+    steady_decay found = {.is_detected = false};
+    if (n < FEWEST_BEFORE + 2 * FEWEST_BEHIND || !(total_variance(y, n) > 0))
+        return found;
+    const size_t batches = n / length, rest = n % length;
+    double *const means = arena_numbers(&memory, batches);
+    for (size_t i = 0; i < batches * length; i++)
+        means[i / length] += y[rest + i] / (double)length;
+    const size_t steady = (steady_start > rest ? steady_start - rest : 0) / length;
+    if (total_variance(means, batches) > 0)
+        found = assess_decay(means, batches, steady < batches ? steady : batches - 1);
+    arena_free(&memory);
     return found;
 }
 

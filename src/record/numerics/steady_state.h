@@ -1,0 +1,20 @@
+/* Decay of a series towards a plateau that it does not reach. Internal to record.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef WT_RECORD_NUMERICS_STEADY_STATE_H
+#define WT_RECORD_NUMERICS_STEADY_STATE_H
+
+#include "weartrack/core.h"
+
+/* Model: plateau + change x exp(-(t / time)^power), with power 1 or 1/2. The likelihood is averaged
+ * over powers, times and laws of the scatter. */
+typedef struct steady_decay {
+    bool is_detected;    /* odds above 20 to 1 against a running-in that ends within the series */
+    wt_interval plateau; /* 95 % */
+    double left;         /* mean of what is left of the change in the steady part */
+    double left_at_end;
+} steady_decay;
+/* `steady_start`: first point of the steady part. */
+steady_decay steady_decay_find(const double *y, size_t n, size_t steady_start);
+
+#endif
