@@ -80,10 +80,18 @@ void wt_record_tables_clear(wt_record_tables *tables)
 
 static const wt_interval not_known = {(double)NAN, (double)NAN, (double)NAN, (double)NAN};
 
+/* A decay towards a plateau: whether the plateau is told, and whether it goes on at the end. */
+typedef enum decay_kind {
+    RECORD_DECAY_NONE,
+    RECORD_DECAY_TOLD,
+    RECORD_DECAY_GOES_ON,
+    RECORD_DECAY_UNKNOWN
+} decay_kind;
+
 TABLE_ROW(record, RECORD, record_conditions at; wt_steady steady;
           wt_interval drift, end, end_time, end_distance; const char *end_note; wt_stick_slip slips;
           double zero, difference, samples, pauses, paused; size_t cycles, step;
-          const char *averaged_over, *note, *file; steady_decay decay;)
+          const char *averaged_over, *note, *file; decay_kind decay; double left;)
 
 TABLE_ROW(record_cycles, RECORD_CYCLES, wt_cycle cycle; size_t number; bool steady; size_t step;
           const char *file;)
@@ -178,30 +186,40 @@ static void count_pauses(const record_pauses *pauses, const wt_cycle *first, con
     append_note(note, size, words);
 }
 
-/* Replaces the mean by the plateau of a decay that goes on, if the plateau is known better than the
- * mean is off it. */
-static void follow_decay(const double *y, size_t n, size_t from, record_row *r)
+/* Replaces the mean by the plateau of a decay that goes on in the steady part, if the plateau is
+ * known better than the mean is off it. */
+static void follow_decay(const double *y, size_t n, record_row *r)
 {
-    steady_decay decay = steady_decay_find(y, n, from);
-    decay.is_detected &= !(fabs(decay.left) <= r->steady.mean.standard_error);
-    r->decay = decay;
-    if (decay.is_detected && decay.plateau.standard_error < fabs(decay.left))
+    const wt_interval mean = r->steady.mean;
+    const steady_decay decay = steady_decay_find(y, n);
+    const double off = fabs(mean.value - decay.plateau.value);
+    if (!decay.is_detected || off <= mean.standard_error)
+        return;
+    if (decay.plateau.standard_error < off) {
+        r->decay = RECORD_DECAY_TOLD;
         r->steady.mean = decay.plateau;
+    }
+    if (!(fabs(decay.left) <= mean.standard_error)) {
+        r->decay = r->decay == RECORD_DECAY_TOLD ? RECORD_DECAY_GOES_ON : RECORD_DECAY_UNKNOWN;
+        r->left = decay.left;
+    }
 }
 
 static void note_decay(const wt_job *work, const record_row *r, char *note, size_t size)
 {
-    if (!r->decay.is_detected)
-        return;
-    const bool told = r->steady.mean.value == r->decay.plateau.value;
-    wt_log_add(work->log, WT_WARNING, r->file, NULL,
-               "step %zu ends before friction is steady: it still decays by about %.2g, and %s",
-               r->step, -r->decay.left_at_end,
-               told ? "the friction told is the plateau of this decay"
-                    : "to which value is not known; the mean of the last part is told");
-    append_note(note, size,
-                told ? "ends before it is steady: the plateau of its decay is told"
-                     : "ends before it is steady: the plateau of its decay is not known");
+    static const char *const words[] = {
+        "", "the plateau of a decay is told",
+        "ends before it is steady: the plateau of its decay is told",
+        "ends before it is steady: the plateau of its decay is not known"};
+    append_note(note, size, words[r->decay]);
+    if (r->decay >= RECORD_DECAY_GOES_ON)
+        wt_log_add(
+            work->log, WT_WARNING, r->file, NULL,
+            "step %zu ends before friction is steady: it still changes by about %.2g, and %s",
+            r->step, -r->left,
+            r->decay == RECORD_DECAY_GOES_ON
+                ? "the friction told is the plateau of this decay"
+                : "to which value is not known; the mean of the last part is told");
 }
 
 /* Notes the limitations of a step. */
@@ -214,8 +232,9 @@ static void note_step(const wt_job *work, const wt_cycles *cycles, const record_
     note_decay(work, r, note, size);
     if (periodic && cycles->samples < fewest_samples)
         append_note(note, size, "few samples in a cycle: its mean holds a part of its wave");
-    if (isnan(r->end.value) && r->steady.n < r->cycles && !r->decay.is_detected) { /* no end was
-                                                             found, and yet a part is truncated */
+    if (isnan(r->end.value) && r->steady.n < r->cycles &&
+        r->decay < RECORD_DECAY_GOES_ON) { /* no end was
+           found, and yet a part is truncated */
         append_note(note, size, "not steady: the last tenth is told");
         wt_log_add(work->log, WT_WARNING, r->file, NULL,
                    "friction does not become steady before the last tenth of step %zu, whose "
@@ -264,8 +283,8 @@ static wt_status measure_step(const wt_record_job *job, const wt_cycles *all, co
     const wt_status status = wt_steady_mean(y + from, n - from, &r->steady, err);
     if (status == WT_OK && job->running_in == WT_RUNNING_IN_LIKELIHOOD &&
         (r->steady.drift.low * r->steady.drift.high > 0 || from > 0))
-        follow_decay(y, n, from, r);
-    if (r->decay.is_detected) {
+        follow_decay(y, n, r);
+    if (r->decay >= RECORD_DECAY_GOES_ON) {
         end.cycles = not_known;
         end.why_not = "it goes on to the end of the record";
     }

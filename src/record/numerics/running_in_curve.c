@@ -213,12 +213,18 @@ typedef struct member {
     bool kept[SCATTER_LAWS];         /* laws that are not excluded */
     double null[SCATTER_LAWS];       /* ln of their likelihoods about a constant */
     double likelihood[SCATTER_LAWS]; /* largest likelihood with the curve */
-    double best, best_level, best_scatter, best_shift;
+    double best, best_scatter, best_shift;
     scatter_law best_law;
 } member;
 
+/* Mean and mean square. */
+typedef struct moment_sum {
+    double mean, square;
+} moment_sum;
+
 typedef struct law_sum {
-    double weight, ratio, square; /* weight as a logarithm; the others are weighted means */
+    double weight;           /* as a logarithm */
+    moment_sum ratio, level; /* weighted */
 } law_sum;
 
 typedef struct factor_scan {
@@ -227,15 +233,13 @@ typedef struct factor_scan {
     law_sum *each;               /* [n_of] for one factor */
     size_t n;                    /* number of factors so far */
     double *log_factor, *weight; /* [n] ln of the likelihood over all laws */
-    double *ratio, *square;      /* [n] mean and mean square of the ratio over the laws */
+    law_sum *sum;                /* [n] over the laws */
 } factor_scan;
 
-static void add_curve_law(law_sum *sum, double weight, double ratio, double variance)
+static moment_sum add_moments(moment_sum sum, double old, double now, double value, double variance)
 {
-    const double all = log_add(sum->weight, weight), old = exp(sum->weight - all),
-                 now = exp(weight - all);
-    *sum = (law_sum){all, old * sum->ratio + now * ratio,
-                     old * sum->square + now * (ratio * ratio + variance)};
+    return (moment_sum){old * sum.mean + now * value,
+                        old * sum.square + now * (value * value + variance)};
 }
 
 /* Places of the shift from which it is searched on. */
@@ -280,7 +284,7 @@ static void find_shift(member *t, double log_factor)
 /* `first`: stores the likelihood of each law. */
 static law_sum evaluate_member(member *t, double log_factor, bool first)
 {
-    law_sum sum = {-(double)INFINITY, 0, 0};
+    law_sum sum = {.weight = -(double)INFINITY};
     const double df = (double)t->s.n - 2;
     find_shift(t, log_factor);
     fill_column(&t->s, &t->sums, t->height, log_factor, t->column);
@@ -299,13 +303,18 @@ static law_sum evaluate_member(member *t, double log_factor, bool first)
         if (!isfinite(l)) /* the curve does not pass within the series */
             continue;
         const double variance = scatter * f.variance * df / (df - 2); /* of Student's t */
-        add_curve_law(&sum, l, f.coefficient / t->height, variance / (t->height * t->height));
+        const double all = log_add(sum.weight, l), old = exp(sum.weight - all), now = exp(l - all),
+                     slope = s.product[1] / s.product[0];
+        sum.ratio = add_moments(sum.ratio, old, now, f.coefficient / t->height,
+                                variance / (t->height * t->height));
+        sum.level = add_moments(sum.level, old, now, curve_level(&s, f.coefficient),
+                                scatter * df / (df - 2) / s.product[0] + slope * slope * variance);
+        sum.weight = all;
         if (first)
             t->likelihood[i] = fmax(t->likelihood[i], l);
         if (l > t->best) {
             t->best = l;
             t->best_law = s.law;
-            t->best_level = curve_level(&s, f.coefficient);
             t->best_scatter = scatter;
             t->best_shift = t->s.shift;
         }
@@ -345,7 +354,7 @@ static law_sum combine_members(const factor_scan *t)
     for (size_t i = 0; i < t->n_of; i++) {
         const member *const m = &t->of[i];
         const law_sum *const each = &t->each[i];
-        const double variance = each->square - each->ratio * each->ratio,
+        const double variance = each->ratio.square - each->ratio.mean * each->ratio.mean,
                      changes = variance * m->height * m->height, unit = t->of[0].height;
         if (!isfinite(each->weight) || !(variance > 0)) {
             weight += constant_log_likelihood(m);
@@ -353,16 +362,16 @@ static law_sum combine_members(const factor_scan *t)
         }
         weight += each->weight + 0.5 * log1p(changes / m->variance) - log(m->height / unit) -
                   0.5 * log(2 * M_PI * variance * unit * unit);
-        const double all = precision + 1 / variance, off = each->ratio - mean;
+        const double all = precision + 1 / variance, off = each->ratio.mean - mean;
         squares += off * off * precision / (variance * all); /* about the mean so far */
         mean += off / (variance * all);
         precision = all;
     }
     if (!(precision > 0))
-        return (law_sum){-(double)INFINITY, 0, 0};
+        return (law_sum){.weight = -(double)INFINITY};
     const double variance = 1 / precision, changes = variance * t->of[0].height * t->of[0].height;
     weight += 0.5 * (log(2 * M_PI * changes) - squares - log1p(changes / change_prior_variance(t)));
-    return (law_sum){weight, mean, mean * mean + variance};
+    return (law_sum){weight, {mean, mean * mean + variance}, t->each[0].level};
 }
 
 static law_sum evaluate_factor(factor_scan *t, double log_factor, bool first)
@@ -376,8 +385,7 @@ static void store_factor(factor_scan *t, double log_factor, law_sum sum)
 {
     t->log_factor[t->n] = log_factor;
     t->weight[t->n] = sum.weight;
-    t->ratio[t->n] = sum.ratio;
-    t->square[t->n++] = sum.square;
+    t->sum[t->n++] = sum;
 }
 
 /* Evaluates factors in equal steps from low to high. */
@@ -471,15 +479,20 @@ static void normalise_weights(factor_scan *t, double expected)
         t->weight[i] = exp(t->weight[i] - all);
 }
 
-static void set_mean_ratio(const factor_scan *t, running_in_curve_fit *fit)
+static void set_means(const factor_scan *t, running_in_curve_fit *fit)
 {
-    double mean = 0, square = 0;
+    moment_sum ratio = {0, 0}, level = {0, 0};
     for (size_t i = 0; i < t->n; i++) {
-        mean += t->weight[i] * t->ratio[i];
-        square += t->weight[i] * t->square[i];
+        const law_sum *const sum = &t->sum[i];
+        ratio.mean += t->weight[i] * sum->ratio.mean;
+        ratio.square += t->weight[i] * sum->ratio.square;
+        level.mean += t->weight[i] * sum->level.mean;
+        level.square += t->weight[i] * sum->level.square;
     }
-    fit->ratio = mean;
-    fit->ratio_error = sqrt(fmax(square - mean * mean, 0));
+    fit->ratio = ratio.mean;
+    fit->ratio_error = sqrt(fmax(ratio.square - ratio.mean * ratio.mean, 0));
+    fit->level = level.mean;
+    fit->level_error = sqrt(fmax(level.square - level.mean * level.mean, 0));
 }
 
 /* Quantile of the weights. */
@@ -545,9 +558,8 @@ static void find_curve_fit(factor_scan *t, double expected, running_in_curve_fit
         evaluate_factors(t, -wide, wide, FINE, false);
         normalise_weights(t, expected);
     }
-    set_mean_ratio(t, fit);
+    set_means(t, fit);
     fit->law = t->of[0].best_law;
-    fit->level = t->of[0].best_level;
     fit->scatter = t->of[0].best_scatter;
     fit->shift = t->of[0].best_shift;
 }
@@ -610,8 +622,7 @@ wt_status running_in_curve_fit_compute(const running_in_curve_pair *of, size_t n
                      .each = arena_alloc(&memory, n, sizeof *t.each),
                      .log_factor = arena_numbers(&memory, COARSE_MOST),
                      .weight = arena_numbers(&memory, COARSE_MOST),
-                     .ratio = arena_numbers(&memory, COARSE_MOST),
-                     .square = arena_numbers(&memory, COARSE_MOST)};
+                     .sum = arena_alloc(&memory, COARSE_MOST, sizeof *t.sum)};
     *fit = (running_in_curve_fit){.log_factor = none, .error = none, .low = none, .high = none};
     wt_status status = WT_OK;
     for (size_t i = 0; status == WT_OK && i < n; i++)

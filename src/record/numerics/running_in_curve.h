@@ -54,10 +54,10 @@ typedef struct running_in_curve_fit {
     double error;      /* standard deviation */
     double low, high;  /* 95 % limits; NaN for a limit that the series does not determine */
     double ratio, ratio_error;
-    double level;    /* most probable level in the first series */
-    double shift;    /* most probable shift in the first series [s] */
-    double scatter;  /* variance of the means about it */
-    scatter_law law; /* law of this scatter */
+    double level, level_error; /* of the first series */
+    double shift;              /* most probable shift in the first series [s] */
+    double scatter;            /* variance of the means about it */
+    scatter_law law;           /* law of this scatter */
 } running_in_curve_fit;
 
 /* `expected`: prior standard deviation of the logarithm of the factor. It determines the ratio if

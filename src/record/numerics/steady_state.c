@@ -11,6 +11,7 @@
 #include "core/math/normal_quantile.h"
 #include "core/math/students_t.h"
 #include "record/numerics/autocorrelation.h"
+#include "record/numerics/running_in_curve.h"
 #include "weartrack/record.h"
 
 #include <math.h>
@@ -257,99 +258,74 @@ wt_running_in wt_running_in_find(const double *y, size_t n)
 
 /* ---- decay that goes on ---------------------------------------------------------------------- */
 
-/* Times in equal ratios, from and to these multiples of the length of the series. */
-enum { DECAY_TIMES = 24, DECAY_MAX_BATCHES = 200 };
-static const double decay_shortest = 0.02, decay_longest = 5;
-static const double decay_power[] = {1, 0.5};
+/* Table of exp(-t^power), from a change of 3e-4 on to 7e-8. */
+enum { DECAY_POINTS = 240, DECAY_MAX_BATCHES = 120 };
+static const double decay_first = 1e-10, decay_last = 3000;
+static const double decay_power[] = {1, 0.8, 0.65, 0.5, 0.35};
+/* Remaining share that settles the decay: half, so that the times go far beyond the series. Prior
+ * error of its time. */
+static const double decay_settled = 0.5, decay_expected = 1;
+/* Standard error of what is left, as a share of it: the law of the decay is not known beyond the
+ * end of the series. */
+static const double decay_law_error = 0.25;
 
-/* Weighted sums over times, powers and laws. */
-typedef struct decay_sums {
-    double weight; /* as a logarithm */
-    double plateau, square, left, left_at_end;
-} decay_sums;
-
-static void add_decay_law(decay_sums *d, const scatter_sums *s, double weight, double least,
-                          double variance, const double column_left[2])
+/* Fits one power, in units of the length of the series. */
+static bool fit_decay(const running_in_series *s, double power, running_in_curve_fit *fit)
 {
-    const scatter_fit f = scatter_solve(s, true);
-    const double df = (double)s->n - 2, scatter = fmax(f.squares / df, least),
-                 slope = s->product[1] / s->product[0],
-                 plateau = s->product[3] / s->product[0] - f.coefficient * slope,
-                 error = scatter * (1 / s->product[0] + slope * slope * f.variance) * df / (df - 2);
-    /* the prior admits changes of the order of the scatter of the series */
-    weight += scatter_profile_likelihood(s, least) - 0.5 * log1p(f.variance * scatter / variance);
-    if (!isfinite(weight))
-        return;
-    const double all = log_add(d->weight, weight), old = exp(d->weight - all),
-                 now = exp(weight - all);
-    *d = (decay_sums){all, old * d->plateau + now * plateau,
-                      old * d->square + now * (plateau * plateau + error),
-                      old * d->left + now * f.coefficient * column_left[0],
-                      old * d->left_at_end + now * f.coefficient * column_left[1]};
+    double value[DECAY_POINTS];
+    const double step = log(decay_last / decay_first) / (DECAY_POINTS - 1);
+    for (size_t i = 0; i < DECAY_POINTS; i++)
+        value[i] = exp(-pow(decay_first * exp((double)i * step), power));
+    const running_in_curve c = {DECAY_POINTS, log(decay_first), step, value};
+    return running_in_curve_fit_compute(&(running_in_curve_pair){s, &c}, 1, decay_settled,
+                                        decay_expected, fit, NULL) == WT_OK &&
+           fit->seen;
 }
 
-/* Adds one time with all laws. column: [n] scratch. */
-static void add_decay(decay_sums *d, const double *y, size_t n, double power, double time,
-                      size_t steady, double variance, double *column)
+/* Averages the powers. */
+static steady_decay assess_decay(const running_in_series *s)
 {
-    const double least = SCATTER_RESOLUTION * SCATTER_RESOLUTION * variance;
-    double left[2] = {0, exp(-pow((double)n / time, power))};
-    for (size_t k = 0; k < n; k++) {
-        column[k] = exp(-pow(((double)k + 0.5) / time, power));
-        left[0] += k >= steady ? column[k] / (double)(n - steady) : 0;
-    }
-    for (size_t i = 0; i < SCATTER_LAWS; i++) {
-        scatter_sums s = scatter_begin(scatter_law_at(SCATTER_FOR_CHANGE, i, n));
-        for (size_t k = 0; k < n; k++)
-            scatter_add_column(&s, column[k], y[k]);
-        add_decay_law(d, &s, scatter_prior(SCATTER_FOR_CHANGE, i), least, variance, left);
-    }
-}
-
-/* Compares a decay with a running-in that ends and with none. */
-static steady_decay assess_decay(const double *y, size_t n, size_t steady)
-{
-    enum { POWERS = COUNT_OF(decay_power) };
     arena memory = {0};
-    const double variance = total_variance(y, n);
-    likelihoods l = change_likelihoods(y, n, variance, &memory);
-    double *const column = arena_numbers(&memory, n);
-    decay_sums d = {.weight = -(double)INFINITY};
-    for (size_t i = 0; i < POWERS * DECAY_TIMES; i++) {
-        const double part = (double)(i / POWERS) / (DECAY_TIMES - 1);
-        add_decay(&d, y, n, decay_power[i % POWERS],
-                  (double)n * decay_shortest * pow(decay_longest / decay_shortest, part), steady,
-                  variance, column);
+    const double variance = total_variance(s->friction, s->n), end = s->end[s->n - 1];
+    const likelihoods l = change_likelihoods(s->friction, s->n, variance, &memory);
+    double odds = -(double)INFINITY, plateau = 0, square = 0, left = 0;
+    for (size_t i = 0; i < COUNT_OF(decay_power); i++) {
+        running_in_curve_fit f;
+        if (!fit_decay(s, decay_power[i], &f))
+            continue;
+        const double all = log_add(odds, f.log_odds), old = exp(odds - all),
+                     now = exp(f.log_odds - all);
+        plateau = old * plateau + now * f.level;
+        square = old * square + now * (f.level * f.level + f.level_error * f.level_error);
+        left = old * left + now * f.ratio * exp(-pow(end * exp(-f.log_factor), decay_power[i]));
+        odds = all;
     }
-    for (size_t k = FEWEST_BEFORE; k < last_change(n); k++)
+    for (size_t k = FEWEST_BEFORE; k < last_change(s->n); k++)
         l.before[k] += l.behind[k];
-    const double odds =
-        d.weight - log(POWERS * DECAY_TIMES) - l.behind[0] - 0.5 * log(2 * M_PI * variance);
-    const double change = change_log_odds(&l, l.before, FEWEST_BEFORE, last_change(n), variance);
-    const double error = sqrt(fmax(d.square - d.plateau * d.plateau, 0));
+    const double change = change_log_odds(&l, l.before, FEWEST_BEFORE, last_change(s->n), variance);
+    const double error = hypot(sqrt(fmax(square - plateau * plateau, 0)), decay_law_error * left);
     arena_free(&memory);
     return (steady_decay){
-        odds > fmax(change, 0) + log(least_odds),
-        {d.plateau, error, d.plateau - NORMAL_95 * error, d.plateau + NORMAL_95 * error},
-        d.left,
-        d.left_at_end};
+        odds - log(COUNT_OF(decay_power)) > fmax(change, 0) + log(least_odds),
+        {plateau, error, plateau - NORMAL_95 * error, plateau + NORMAL_95 * error},
+        left};
 }
 
-steady_decay steady_decay_find(const double *y, size_t n, size_t steady_start)
+steady_decay steady_decay_find(const double *y, size_t n)
 {
-    arena memory = {0};
     const size_t length = (n + DECAY_MAX_BATCHES - 1) / DECAY_MAX_BATCHES;
-    steady_decay found = {.is_detected = false};
-    if (n < FEWEST_BEFORE + 2 * FEWEST_BEHIND || !(total_variance(y, n) > 0))
-        return found;
-    const size_t batches = n / length, rest = n % length;
-    double *const means = arena_numbers(&memory, batches);
-    for (size_t i = 0; i < batches * length; i++)
-        means[i / length] += y[rest + i] / (double)length;
-    const size_t steady = (steady_start > rest ? steady_start - rest : 0) / length;
-    if (total_variance(means, batches) > 0)
-        found = assess_decay(means, batches, steady < batches ? steady : batches - 1);
-    arena_free(&memory);
+    if (n < FEWEST_BEFORE + 2 * FEWEST_BEHIND || n / length < RUNNING_IN_CURVE_MIN_MEANS)
+        return (steady_decay){.is_detected = false};
+    running_in_series s = running_in_series_alloc(n / length);
+    const size_t rest = n % length;
+    for (size_t i = 0; i < s.n * length; i++)
+        s.friction[i / length] += y[rest + i] / (double)length;
+    for (size_t i = 0; i < s.n; i++)
+        s.end[i] = (double)(i + 1) / (double)s.n;
+    const steady_decay found = total_variance(s.friction, s.n) > 0
+                                   ? assess_decay(&s)
+                                   : (steady_decay){.is_detected = false};
+    running_in_series_clear(&s);
     return found;
 }
 

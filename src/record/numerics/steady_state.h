@@ -6,15 +6,13 @@
 
 #include "weartrack/core.h"
 
-/* Model: plateau + change x exp(-(t / time)^power), with power 1 or 1/2. The likelihood is averaged
- * over powers, times and laws of the scatter. */
+/* Model: plateau + change x exp(-(t / time)^power). The likelihood is averaged over powers from 1/2
+ * to 1, times and laws of the scatter. */
 typedef struct steady_decay {
     bool is_detected;    /* odds above 20 to 1 against a running-in that ends within the series */
-    wt_interval plateau; /* 95 % */
-    double left;         /* mean of what is left of the change in the steady part */
-    double left_at_end;
+    wt_interval plateau; /* 95 %, with an error for the law */
+    double left;         /* of the change at the end */
 } steady_decay;
-/* `steady_start`: first point of the steady part. */
-steady_decay steady_decay_find(const double *y, size_t n, size_t steady_start);
+steady_decay steady_decay_find(const double *y, size_t n);
 
 #endif
