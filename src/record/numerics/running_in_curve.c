@@ -427,8 +427,8 @@ static void scan_coarsely(factor_scan *t, const double limit[2])
         exclude_unlikely_laws(&t->of[i]);
 }
 
-/* ln of the odds of the curve, with any factor, over constants. The most probable shift counts as
- * in the Bayesian information criterion. */
+/* ln of the odds of the curve, with any factor, over constants. The prior of the shift is uniform
+ * over its range, in which it is known to one mean. */
 static double log_odds(const factor_scan *t)
 {
     double any = -(double)INFINITY, none = 0;
@@ -436,7 +436,7 @@ static double log_odds(const factor_scan *t)
         any = log_add(any, t->weight[i]);
     for (size_t i = 0; i < t->n_of; i++) {
         none += constant_log_likelihood(&t->of[i]);
-        none += shift_limit(&t->of[i], 0) > 0 ? 0.5 * log((double)t->of[i].s.n) : 0;
+        none += log1p(shift_limit(&t->of[i], 0) / (t->of[i].s.end[0] - t->of[i].s.begin));
     }
     return any - log((double)t->n) - none - 0.5 * log(2 * M_PI * change_prior_variance(t));
 }
@@ -581,7 +581,7 @@ static double incubation(const curve_integral *m, double height)
     size_t i = 0;
     while (i + 1 < m->c->n && fabs(value[i + 1] - value[0]) < 1e-3 * height)
         i++;
-    return m->time[i];
+    return i > 0 ? m->time[i] : 0;
 }
 
 static wt_status begin(const running_in_curve_pair *of, double settled_share, arena *memory,

@@ -265,9 +265,9 @@ static const double decay_power[] = {1, 0.8, 0.65, 0.5, 0.35};
 /* Remaining share that settles the decay: half, so that the times go far beyond the series. Prior
  * error of its time. */
 static const double decay_settled = 0.5, decay_expected = 1;
-/* Standard error of what is left, as a share of it: the law of the decay is not known beyond the
- * end of the series. */
-static const double decay_law_error = 0.25;
+/* The law of the decay is not known beyond the end of the series. Standard error for that: a share
+ * of what is left, and of the distance from the plateau of an exponential. */
+static const double decay_left_error = 0.25, decay_law_error = 0.5;
 
 /* Fits one power, in units of the length of the series. */
 static bool fit_decay(const running_in_series *s, double power, running_in_curve_fit *fit)
@@ -288,7 +288,7 @@ static steady_decay assess_decay(const running_in_series *s)
     arena memory = {0};
     const double variance = total_variance(s->friction, s->n), end = s->end[s->n - 1];
     const likelihoods l = change_likelihoods(s->friction, s->n, variance, &memory);
-    double odds = -(double)INFINITY, plateau = 0, square = 0, left = 0;
+    double odds = -(double)INFINITY, plateau = 0, square = 0, left = 0, exponential = (double)NAN;
     for (size_t i = 0; i < COUNT_OF(decay_power); i++) {
         running_in_curve_fit f;
         if (!fit_decay(s, decay_power[i], &f))
@@ -299,11 +299,14 @@ static steady_decay assess_decay(const running_in_series *s)
         square = old * square + now * (f.level * f.level + f.level_error * f.level_error);
         left = old * left + now * f.ratio * exp(-pow(end * exp(-f.log_factor), decay_power[i]));
         odds = all;
+        exponential = i == 0 ? f.level : exponential;
     }
     for (size_t k = FEWEST_BEFORE; k < last_change(s->n); k++)
         l.before[k] += l.behind[k];
     const double change = change_log_odds(&l, l.before, FEWEST_BEFORE, last_change(s->n), variance);
-    const double error = hypot(sqrt(fmax(square - plateau * plateau, 0)), decay_law_error * left);
+    const double law = isnan(exponential) ? 0 : decay_law_error * (plateau - exponential),
+                 error = hypot(sqrt(fmax(square - plateau * plateau, 0)),
+                               hypot(decay_left_error * left, law));
     arena_free(&memory);
     return (steady_decay){
         odds - log(COUNT_OF(decay_power)) > fmax(change, 0) + log(least_odds),
