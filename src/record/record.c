@@ -4,6 +4,7 @@
 #include "record/record.h"
 #include "core/base/array.h"
 #include "core/base/clocale.h"
+#include "core/math/normal_quantile.h"
 #include "core/table/table_rows.h"
 #include "job/conditioning.h"
 #include "job/cost.h"
@@ -187,7 +188,7 @@ static void count_pauses(const record_pauses *pauses, const wt_cycle *first, con
 }
 
 /* Replaces the mean by the plateau of a decay that goes on in the steady part, if the plateau is
- * known better than the mean is off it. */
+ * known better than the mean is off it. Else the error of the mean holds what it is off. */
 static void follow_decay(const double *y, size_t n, record_row *r)
 {
     const wt_interval mean = r->steady.mean;
@@ -202,6 +203,10 @@ static void follow_decay(const double *y, size_t n, record_row *r)
     if (!(fabs(decay.left) <= mean.standard_error)) {
         r->decay = r->decay == RECORD_DECAY_TOLD ? RECORD_DECAY_GOES_ON : RECORD_DECAY_UNKNOWN;
         r->left = decay.left;
+    }
+    if (r->decay == RECORD_DECAY_UNKNOWN) {
+        const double error = hypot(mean.standard_error, off), half = NORMAL_95 * error;
+        r->steady.mean = (wt_interval){mean.value, error, mean.value - half, mean.value + half};
     }
 }
 
