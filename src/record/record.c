@@ -4,7 +4,6 @@
 #include "record/record.h"
 #include "core/base/array.h"
 #include "core/base/clocale.h"
-#include "core/math/normal_quantile.h"
 #include "core/table/table_rows.h"
 #include "job/conditioning.h"
 #include "job/cost.h"
@@ -16,34 +15,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
-/* True if a file is a result of weartrack: a text stream or HDF5. */
-static bool is_stored_record(wt_input *input)
-{
-    static const char *const begins[] = {"\x89HDF\r\n\x1a\n", "## weartrack:"};
-    const unsigned char *bytes = NULL;
-    size_t length = 0;
-    if (wt_input_bytes(input, &bytes, &length, NULL) != WT_OK)
-        return false;
-    for (size_t i = 0; i < sizeof begins / sizeof *begins; i++)
-        if (length >= strlen(begins[i]) && memcmp(bytes, begins[i], strlen(begins[i])) == 0)
-            return true;
-    return false;
-}
-
-/* Copies all columns of a row. */
-static void copy_row(const table_view *from, size_t row, table_writer *t)
-{
-    const table_schema *const schema = from->schema;
-    table_row(t);
-    for (unsigned c = 0; schema->columns[c].name != NULL; c++)
-        if (!view_has_column(from, schema, c))
-            continue;
-        else if (schema->columns[c].kind == SCHEMA_TEXT)
-            writer_text(t, schema, c, view_text(from, schema, row, c));
-        else
-            writer_number(t, schema, c, view_number(from, schema, row, c));
-}
-
+/* Copies all columns of all rows. */
 static wt_status stored_record_copy_rows(const wt_result *result, const table_schema *schema,
                                          table_writer *t, stored_row_callback *each, void *user,
                                          wt_error *err)
@@ -54,7 +26,14 @@ static wt_status stored_record_copy_rows(const wt_result *result, const table_sc
         return status;
     table_block(t);
     for (size_t row = 0; row < view.n_rows; row++) {
-        copy_row(&view, row, t);
+        table_row(t);
+        for (unsigned c = 0; schema->columns[c].name != NULL; c++)
+            if (!view_has_column(&view, schema, c))
+                continue;
+            else if (schema->columns[c].kind == SCHEMA_TEXT)
+                writer_text(t, schema, c, view_text(&view, schema, row, c));
+            else
+                writer_number(t, schema, c, view_number(&view, schema, row, c));
         if (each != NULL)
             each(user, &view, row);
     }
@@ -81,18 +60,10 @@ void wt_record_tables_clear(wt_record_tables *tables)
 
 static const wt_interval not_known = {(double)NAN, (double)NAN, (double)NAN, (double)NAN};
 
-/* A decay towards a plateau: whether the plateau is told, and whether it goes on at the end. */
-typedef enum decay_kind {
-    RECORD_DECAY_NONE,
-    RECORD_DECAY_TOLD,
-    RECORD_DECAY_GOES_ON,
-    RECORD_DECAY_UNKNOWN
-} decay_kind;
-
 TABLE_ROW(record, RECORD, record_conditions at; wt_steady steady;
           wt_interval drift, end, end_time, end_distance; const char *end_note; wt_stick_slip slips;
           double zero, difference, samples, pauses, paused; size_t cycles, step;
-          const char *averaged_over, *note, *file; decay_kind decay; double left;)
+          const char *averaged_over, *note, *file; steady_decay_kind decay; double left;)
 
 TABLE_ROW(record_cycles, RECORD_CYCLES, wt_cycle cycle; size_t number; bool steady; size_t step;
           const char *file;)
@@ -187,29 +158,6 @@ static void count_pauses(const record_pauses *pauses, const wt_cycle *first, con
     append_note(note, size, words);
 }
 
-/* Replaces the mean by the plateau of a decay that goes on in the steady part, if the plateau is
- * known better than the mean is off it. Else the error of the mean holds what it is off. */
-static void follow_decay(const double *y, size_t n, record_row *r)
-{
-    const wt_interval mean = r->steady.mean;
-    const steady_decay decay = steady_decay_find(y, n);
-    const double off = fabs(mean.value - decay.plateau.value);
-    if (!decay.is_detected || off <= mean.standard_error)
-        return;
-    if (decay.plateau.standard_error < off) {
-        r->decay = RECORD_DECAY_TOLD;
-        r->steady.mean = decay.plateau;
-    }
-    if (!(fabs(decay.left) <= mean.standard_error)) {
-        r->decay = r->decay == RECORD_DECAY_TOLD ? RECORD_DECAY_GOES_ON : RECORD_DECAY_UNKNOWN;
-        r->left = decay.left;
-    }
-    if (r->decay == RECORD_DECAY_UNKNOWN) {
-        const double error = hypot(mean.standard_error, off), half = NORMAL_95 * error;
-        r->steady.mean = (wt_interval){mean.value, error, mean.value - half, mean.value + half};
-    }
-}
-
 static void note_decay(const wt_job *work, const record_row *r, char *note, size_t size)
 {
     static const char *const words[] = {
@@ -217,12 +165,12 @@ static void note_decay(const wt_job *work, const record_row *r, char *note, size
         "ends before it is steady: the plateau of its decay is told",
         "ends before it is steady: the plateau of its decay is not known"};
     append_note(note, size, words[r->decay]);
-    if (r->decay >= RECORD_DECAY_GOES_ON)
+    if (r->decay >= DECAY_GOES_ON)
         wt_log_add(
             work->log, WT_WARNING, r->file, NULL,
             "step %zu ends before friction is steady: it still changes by about %.2g, and %s",
             r->step, -r->left,
-            r->decay == RECORD_DECAY_GOES_ON
+            r->decay == DECAY_GOES_ON
                 ? "the friction told is the plateau of this decay"
                 : "to which value is not known; the mean of the last part is told");
 }
@@ -237,9 +185,8 @@ static void note_step(const wt_job *work, const wt_cycles *cycles, const record_
     note_decay(work, r, note, size);
     if (periodic && cycles->samples < fewest_samples)
         append_note(note, size, "few samples in a cycle: its mean holds a part of its wave");
-    if (isnan(r->end.value) && r->steady.n < r->cycles &&
-        r->decay < RECORD_DECAY_GOES_ON) { /* no end was
-           found, and yet a part is truncated */
+    if (isnan(r->end.value) && r->steady.n < r->cycles && r->decay < DECAY_GOES_ON) { /* no end was
+                                                             found, and yet a part is truncated */
         append_note(note, size, "not steady: the last tenth is told");
         wt_log_add(work->log, WT_WARNING, r->file, NULL,
                    "friction does not become steady before the last tenth of step %zu, whose "
@@ -288,8 +235,8 @@ static wt_status measure_step(const wt_record_job *job, const wt_cycles *all, co
     const wt_status status = wt_steady_mean(y + from, n - from, &r->steady, err);
     if (status == WT_OK && job->running_in == WT_RUNNING_IN_LIKELIHOOD &&
         (r->steady.drift.low * r->steady.drift.high > 0 || from > 0))
-        follow_decay(y, n, r);
-    if (r->decay >= RECORD_DECAY_GOES_ON) {
+        r->decay = steady_decay_follow(y, n, &r->steady.mean, &r->left);
+    if (r->decay >= DECAY_GOES_ON) {
         end.cycles = not_known;
         end.why_not = "it goes on to the end of the record";
     }
@@ -495,13 +442,21 @@ static wt_status read_stored_record(const wt_job *work, const flow_file *file, r
     return status;
 }
 
-/* A pipe, also a named one, can be read only once. It is treated as a measured record. */
+/* True if a file is a result of weartrack: a text stream or HDF5. A pipe, also a named one, can be
+ * read only once. It is treated as a measured record. */
 static bool is_stored(const flow_file *file)
 {
+    static const char *const begins[] = {"\x89HDF\r\n\x1a\n", "## weartrack:"};
     wt_input *input = NULL;
     struct stat found;
-    const bool stored = stat(file->path, &found) == 0 && S_ISREG(found.st_mode) &&
-                        wt_input_open(file->path, &input, NULL) == WT_OK && is_stored_record(input);
+    const unsigned char *bytes = NULL;
+    size_t length = 0;
+    const bool is_read = stat(file->path, &found) == 0 && S_ISREG(found.st_mode) &&
+                         wt_input_open(file->path, &input, NULL) == WT_OK &&
+                         wt_input_bytes(input, &bytes, &length, NULL) == WT_OK;
+    bool stored = false;
+    for (size_t i = 0; is_read && i < COUNT_OF(begins); i++)
+        stored |= length >= strlen(begins[i]) && memcmp(bytes, begins[i], strlen(begins[i])) == 0;
     wt_input_close(input);
     return stored;
 }

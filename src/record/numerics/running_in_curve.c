@@ -5,6 +5,7 @@
 
 #include "core/base/arena.h"
 #include "core/math/normal_quantile.h"
+#include "core/math/root.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -120,23 +121,18 @@ static scatter_sums curve_scatter_sums(const running_in_series *s, const double 
     return sums;
 }
 
-static double curve_level(const scatter_sums *s, double coefficient)
-{
-    return (s->product[3] - coefficient * s->product[1]) / s->product[0];
-}
-
-/* Tolerance of a maximum of the likelihood. */
-static const double finest = 1e-4;
-static const double golden = 0.6180339887498949; /* ratio of the golden section */
+/* Golden sections of a search: they leave 2e-4 of the range. */
+enum { SECTIONS = 18 };
 
 typedef struct factor_search {
-    const running_in_series *s;
+    running_in_series *s;
     curve_integral sums;
     double height, *column;
     scatter_law law;
+    double log_factor; /* held in a search of the shift */
 } factor_search;
 
-static double profile_likelihood(void *user, double log_factor)
+static double profile_likelihood(double log_factor, void *user)
 {
     const factor_search *const p = user;
     fill_column(p->s, &p->sums, p->height, log_factor, p->column);
@@ -145,47 +141,25 @@ static double profile_likelihood(void *user, double log_factor)
     return squares > 0 ? -log(squares) : -(double)INFINITY; /* NaN without a change */
 }
 
-/* Place of the maximum of a function between two limits, by the golden section. */
-static double find_maximum(double (*of)(void *user, double x), void *user, double low, double high,
-                           double tolerance)
-{
-    double a = high - golden * (high - low), b = low + golden * (high - low), at_a = of(user, a),
-           at_b = of(user, b);
-    while (high - low > tolerance) {
-        if (at_a > at_b) {
-            high = b;
-            b = a;
-            at_b = at_a;
-            a = high - golden * (high - low);
-            at_a = of(user, a);
-        } else {
-            low = a;
-            a = b;
-            at_a = at_b;
-            b = low + golden * (high - low);
-            at_b = of(user, b);
-        }
-    }
-    return 0.5 * (low + high);
-}
-
 running_in_optimum running_in_optimum_find(const running_in_series *s, const running_in_curve *c,
                                            scatter_law law, double around, double within)
 {
     const double none = (double)NAN;
-    running_in_optimum place = {none, none, none};
+    running_in_optimum place = {none, none};
     arena memory = {0};
-    factor_search p = {s, curve_integral_compute(c, &memory), running_in_curve_height(c),
-                       arena_numbers(&memory, s->n), law};
+    running_in_series own = *s;
+    factor_search p = {.s = &own,
+                       .sums = curve_integral_compute(c, &memory),
+                       .height = running_in_curve_height(c),
+                       .column = arena_numbers(&memory, s->n),
+                       .law = law};
     if (p.height > 0 && isfinite(p.height) && isfinite(around)) {
-        place.log_factor = within > 0 ? find_maximum(profile_likelihood, &p, around - within,
-                                                     around + within, finest)
+        place.log_factor = within > 0 ? root_maximum(profile_likelihood, &p, around - within,
+                                                     around + within, SECTIONS)
                                       : around;
         fill_column(s, &p.sums, p.height, place.log_factor, p.column);
         const scatter_sums sums = curve_scatter_sums(s, p.column, law);
-        const double coefficient = scatter_solve(&sums, true).coefficient;
-        place.ratio = coefficient / p.height;
-        place.level = curve_level(&sums, coefficient);
+        place.ratio = scatter_solve(&sums, true).coefficient / p.height;
     }
     arena_free(&memory);
     return place;
@@ -245,17 +219,11 @@ static moment_sum add_moments(moment_sum sum, double old, double now, double val
 /* Places of the shift from which it is searched on. */
 enum { SHIFTS = 9 };
 
-typedef struct shift_search {
-    factor_search search; /* with the series of the member */
-    running_in_series *s;
-    double log_factor;
-} shift_search;
-
-static double shift_likelihood(void *user, double shift)
+static double shift_likelihood(double shift, void *user)
 {
-    shift_search *const p = user;
+    factor_search *const p = user;
     p->s->shift = shift;
-    return profile_likelihood(&p->search, p->log_factor);
+    return profile_likelihood(p->log_factor, p);
 }
 
 static double shift_limit(const member *t, double log_factor)
@@ -267,17 +235,17 @@ static double shift_limit(const member *t, double log_factor)
 static void find_shift(member *t, double log_factor)
 {
     const double most = shift_limit(t, log_factor), step = 2 * most / (SHIFTS - 1);
-    shift_search p = {{&t->s, t->sums, t->height, t->column, t->best_law}, &t->s, log_factor};
+    factor_search p = {&t->s, t->sums, t->height, t->column, t->best_law, log_factor};
     double best = -(double)INFINITY, centre = 0;
     for (int i = 0; step > 0 && i < SHIFTS; i++) {
-        const double at = (i - SHIFTS / 2) * step, l = shift_likelihood(&p, at);
+        const double at = (i - SHIFTS / 2) * step, l = shift_likelihood(at, &p);
         if (l > best) {
             best = l;
             centre = at;
         }
     }
-    t->s.shift = step > 0 ? find_maximum(shift_likelihood, &p, fmax(centre - step, -most),
-                                         fmin(centre + step, most), finest * most)
+    t->s.shift = step > 0 ? root_maximum(shift_likelihood, &p, fmax(centre - step, -most),
+                                         fmin(centre + step, most), SECTIONS)
                           : 0;
 }
 
@@ -307,8 +275,9 @@ static law_sum evaluate_member(member *t, double log_factor, bool first)
                      slope = s.product[1] / s.product[0];
         sum.ratio = add_moments(sum.ratio, old, now, f.coefficient / t->height,
                                 variance / (t->height * t->height));
-        sum.level = add_moments(sum.level, old, now, curve_level(&s, f.coefficient),
-                                scatter * df / (df - 2) / s.product[0] + slope * slope * variance);
+        sum.level =
+            add_moments(sum.level, old, now, s.product[3] / s.product[0] - f.coefficient * slope,
+                        scatter * df / (df - 2) / s.product[0] + slope * slope * variance);
         sum.weight = all;
         if (first)
             t->likelihood[i] = fmax(t->likelihood[i], l);
@@ -564,16 +533,6 @@ static void find_curve_fit(factor_scan *t, double expected, running_in_curve_fit
     fit->shift = t->of[0].best_shift;
 }
 
-static double series_variance(const running_in_series *s)
-{
-    double mean = 0, sum = 0;
-    for (size_t i = 0; i < s->n; i++)
-        mean += s->friction[i] / (double)s->n;
-    for (size_t i = 0; i < s->n; i++)
-        sum += (s->friction[i] - mean) * (s->friction[i] - mean);
-    return sum / (double)s->n;
-}
-
 /* Time before the curve changes by a thousandth of its height. */
 static double incubation(const curve_integral *m, double height)
 {
@@ -588,7 +547,8 @@ static wt_status begin(const running_in_curve_pair *of, double settled_share, ar
                        member *m, wt_error *err)
 {
     const running_in_series *const s = of->series;
-    *m = (member){.s = *s, .variance = series_variance(s), .best = -(double)INFINITY};
+    *m = (member){
+        .s = *s, .variance = scatter_total_variance(s->friction, s->n), .best = -(double)INFINITY};
     m->height = running_in_curve_height(of->running_in_curve);
     m->settled = running_in_curve_settling_time(of->running_in_curve, settled_share);
     m->least = SCATTER_RESOLUTION * SCATTER_RESOLUTION * m->variance;

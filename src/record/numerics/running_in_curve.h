@@ -69,7 +69,7 @@ wt_status running_in_curve_fit_compute(const running_in_curve_pair *of, size_t n
 /* Most probable factor and ratio of another curve with one law. The factor is searched within
  * `within` about `around`; if `within` is 0 it is fixed at `around`. */
 typedef struct running_in_optimum {
-    double log_factor, ratio, level;
+    double log_factor, ratio;
 } running_in_optimum;
 running_in_optimum running_in_optimum_find(const running_in_series *s, const running_in_curve *c,
                                            scatter_law law, double around, double within);

@@ -112,16 +112,6 @@ typedef struct likelihoods {
     double least;
 } likelihoods;
 
-static double total_variance(const double *y, size_t n)
-{
-    double mean = 0, sum = 0;
-    for (size_t i = 0; i < n; i++)
-        mean += y[i] / (double)n;
-    for (size_t i = 0; i < n; i++)
-        sum += (y[i] - mean) * (y[i] - mean);
-    return sum / (double)n;
-}
-
 /* Evaluates all change points at once, since the scatter is the same from either end. */
 static void add_change_law(likelihoods *l, const double *y, size_t i)
 {
@@ -217,7 +207,7 @@ static void assess_running_in(const likelihoods *l, double variance, wt_running_
 static void find_running_in(const double *y, size_t n, wt_running_in *r)
 {
     arena memory = {0};
-    const double variance = total_variance(y, n);
+    const double variance = scatter_total_variance(y, n);
     if (n < FEWEST_BEFORE + 2 * FEWEST_BEHIND)
         return;
     if (!(variance > 0)) {
@@ -286,7 +276,7 @@ static bool fit_decay(const running_in_series *s, double power, running_in_curve
 static steady_decay assess_decay(const running_in_series *s)
 {
     arena memory = {0};
-    const double variance = total_variance(s->friction, s->n), end = s->end[s->n - 1];
+    const double variance = scatter_total_variance(s->friction, s->n), end = s->end[s->n - 1];
     const likelihoods l = change_likelihoods(s->friction, s->n, variance, &memory);
     double odds = -(double)INFINITY, plateau = 0, square = 0, left = 0, exponential = (double)NAN;
     for (size_t i = 0; i < COUNT_OF(decay_power); i++) {
@@ -325,11 +315,30 @@ steady_decay steady_decay_find(const double *y, size_t n)
         s.friction[i / length] += y[rest + i] / (double)length;
     for (size_t i = 0; i < s.n; i++)
         s.end[i] = (double)(i + 1) / (double)s.n;
-    const steady_decay found = total_variance(s.friction, s.n) > 0
+    const steady_decay found = scatter_total_variance(s.friction, s.n) > 0
                                    ? assess_decay(&s)
                                    : (steady_decay){.is_detected = false};
     running_in_series_clear(&s);
     return found;
+}
+
+steady_decay_kind steady_decay_follow(const double *y, size_t n, wt_interval *mean, double *left)
+{
+    const steady_decay d = steady_decay_find(y, n);
+    const double off = fabs(mean->value - d.plateau.value), least = mean->standard_error;
+    if (!d.is_detected || off <= least)
+        return DECAY_NONE;
+    const bool told = d.plateau.standard_error < off, ends = fabs(d.left) <= least;
+    *left = d.left;
+    if (told) {
+        *mean = d.plateau;
+    } else if (!ends) {
+        const double error = hypot(least, off), half = NORMAL_95 * error;
+        *mean = (wt_interval){mean->value, error, mean->value - half, mean->value + half};
+    }
+    if (ends)
+        return told ? DECAY_TOLD : DECAY_NONE;
+    return told ? DECAY_GOES_ON : DECAY_UNKNOWN;
 }
 
 /* ---- published rules ------------------------------------------------------------------------- */

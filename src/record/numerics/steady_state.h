@@ -15,4 +15,16 @@ typedef struct steady_decay {
 } steady_decay;
 steady_decay steady_decay_find(const double *y, size_t n);
 
+/* Whether the plateau is told, and whether the decay goes on at the end. */
+typedef enum steady_decay_kind {
+    DECAY_NONE,
+    DECAY_TOLD,
+    DECAY_GOES_ON,
+    DECAY_UNKNOWN
+} steady_decay_kind;
+/* Replaces the mean of the steady part by the plateau of a decay in it, if the plateau is known
+ * better than the mean is off it. Else the error of the mean holds what it is off. *left: of the
+ * change at the end, if the decay goes on. */
+steady_decay_kind steady_decay_follow(const double *y, size_t n, wt_interval *mean, double *left);
+
 #endif
