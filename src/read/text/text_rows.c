@@ -142,6 +142,8 @@ row_quality scan_read_row(text_scanner *s, size_t *bad)
     }
     if (texts > 0)
         return numbers > 0 ? ROW_BROKEN : ROW_TEXT;
+    if (numbers == 0 && t->has_qualifiers)
+        return ROW_UNUSED;
     return numbers > 0 || s->row.n >= t->n_names ? ROW_GOOD : ROW_TEXT;
 }
 

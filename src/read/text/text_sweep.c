@@ -300,7 +300,8 @@ static wt_status read_sweep_table(sweep_builder *b)
     b->c = sweep_find_columns(b->table, b->options->deformation);
     if ((b->c.step != NULL) != b->steps)
         return WT_OK;
-    if (b->c.frequency == NULL && b->c.step == NULL && isnan(b->options->frequency)) {
+    if (b->c.frequency == NULL && b->c.step == NULL && isnan(b->options->frequency) &&
+        isnan(b->table->header.value[HEADER_ANGULAR_FREQUENCY])) {
         b->is_frequency_missing = true;
         return text_table_problem(
             b->table, WT_Q_BIT(WT_Q_FREQUENCY) | WT_Q_BIT(WT_Q_ANGULAR_FREQUENCY), b->err);

@@ -56,8 +56,10 @@ double sweep_angular_frequency(const sweep_builder *b, size_t row)
 {
     if (b->c.step != NULL)
         return 1 / text_table_value(b->table, row, b->c.time);
-    if (b->c.frequency == NULL)
-        return 2 * M_PI * b->options->frequency;
+    if (b->c.frequency == NULL) {
+        const double stated = b->table->header.value[HEADER_ANGULAR_FREQUENCY];
+        return isnan(stated) ? 2 * M_PI * b->options->frequency : stated;
+    }
     return b->c.to_angular * text_table_value(b->table, row, b->c.frequency);
 }
 
@@ -200,7 +202,7 @@ static wt_status temperature_in_name(const sweep_builder *b, double *temperature
 wt_status sweep_set_temperature(const sweep_builder *b, double *temperature, double *spread)
 {
     const double header = b->table->header.value[HEADER_TEMPERATURE];
-    const bool fallback = b->table->header.fallback[HEADER_TEMPERATURE];
+    const header_priority priority = b->table->header.priority[HEADER_TEMPERATURE];
     double mean = 0, scatter = 0;
     size_t n = 0;
     /* Welford's recurrence keeps a standard deviation of 0.01 K at 300 K free of rounding
@@ -214,9 +216,9 @@ wt_status sweep_set_temperature(const sweep_builder *b, double *temperature, dou
         scatter += before * (t - mean);
     }
     *spread = n > 1 ? sqrt(scatter / (double)(n - 1)) : (double)NAN;
-    if (!isnan(header) && (!fallback || n == 0)) {
+    if (!isnan(header) && (priority == HEADER_OVERRIDES || n == 0)) {
         *temperature = header;
-        if (fallback)
+        if (priority == HEADER_FALLBACK)
             wt_log_add(b->log, WT_WARNING, b->file->name, NULL,
                        "the temperature of %.2f degC stands in the header text only",
                        header - WT_ZERO_CELSIUS);

@@ -208,6 +208,11 @@ void text_log_unknown(const text_file *file, wt_log *log)
     text_format_unknown(file, names, sizeof names);
     if (file->unknown.n > 0)
         wt_log_add(log, WT_NOTE, file->name, NULL, "columns not used: %s", names);
+    if (file->unclear_sign != NULL)
+        wt_log_add(log, WT_WARNING, file->name, NULL,
+                   "the temperature in the column name \"%s\" is read as negative; if the mark "
+                   "before it is a hyphen, write a blank instead",
+                   file->unclear_sign);
     if (file->has_repeated_moduli)
         wt_log_add(log, WT_WARNING, file->name, NULL,
                    "a modulus has several columns of one name: only the first is read; of a "
