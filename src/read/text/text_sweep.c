@@ -144,7 +144,9 @@ static void group_amplitudes(sweep_builder *b, size_t *rows, size_t n)
 static wt_status split_sample(sweep_builder *b, size_t *rows, size_t n)
 {
     const bool swept = b->c.step == NULL;
-    wt_status status = swept ? extract_strain_sweeps(b, rows, &n) : WT_OK;
+    wt_status status = collect_scattered_rows(b, rows, n);
+    if (status == WT_OK && swept)
+        status = extract_strain_sweeps(b, rows, &n);
     if (status == WT_OK && swept)
         status = extract_ramps(b, rows, &n);
     if (status == WT_OK && swept && b->c.strain != NULL)
@@ -250,14 +252,19 @@ static void report_derived_moduli(const sweep_builder *b)
                    c->has_storage ? "storage modulus"
                    : c->has_loss  ? "loss modulus"
                                   : "loss factor");
-    else if (c->storage == NULL)
+    const char *const angle = c->factor != NULL  ? "loss factor"
+                              : c->phase != NULL ? "phase angle"
+                                                 : NULL;
+    if (c->has_storage && c->has_loss && c->storage == NULL)
         wt_log_add(b->log, WT_NOTE, b->file->name, NULL,
                    "no column of the storage modulus: it follows from column \"%s\" and the %s",
                    (c->magnitude != NULL ? c->magnitude : c->loss)->name,
-                   c->factor != NULL ? "loss factor" : "loss modulus");
+                   angle != NULL ? angle : "loss modulus");
     if (c->has_loss && c->loss == NULL)
         wt_log_add(b->log, WT_NOTE, b->file->name, NULL,
-                   "no column of the loss modulus: storage modulus times loss factor");
+                   "no column of the loss modulus: it follows from the storage modulus and %s%s",
+                   angle != NULL ? "the " : "|E*| in column ",
+                   angle != NULL ? angle : c->magnitude->name);
 }
 
 /* Fails if the user contradicts the deformation that the column names state. */

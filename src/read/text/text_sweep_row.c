@@ -21,7 +21,7 @@ static void find_step_columns(const text_table *t, bool tension, sweep_columns *
     c->loading = modulus != NULL ? WT_RELAXATION : WT_CREEP;
     c->has_storage = true; /* the step modulus replaces it */
     c->has_loss = false;
-    c->strain = c->factor = NULL; /* a creep strain is no amplitude */
+    c->strain = c->factor = c->phase = NULL; /* a creep strain is no amplitude */
 }
 
 sweep_columns sweep_find_columns(const text_table *t, wt_read_deformation stated)
@@ -42,12 +42,14 @@ sweep_columns sweep_find_columns(const text_table *t, wt_read_deformation stated
     c.magnitude =
         text_table_column(t, tension ? WT_Q_COMPLEX_MODULUS : WT_Q_SHEAR_COMPLEX_MODULUS, -1);
     c.factor = text_table_column(t, WT_Q_LOSS_FACTOR, -1);
+    c.phase = text_table_column(t, WT_Q_PHASE, -1);
     c.temperature = text_table_column(t, WT_Q_TEMPERATURE, -1);
     c.strain = text_table_column(t, WT_Q_STRAIN, -1);
     c.time = text_table_column(t, WT_Q_TIME, -1);
-    const bool two = (c.loss != NULL) + (c.factor != NULL) + (c.magnitude != NULL) >= 2;
+    const bool has_angle = c.factor != NULL || c.phase != NULL;
+    const bool two = (c.loss != NULL) + has_angle + (c.magnitude != NULL) >= 2;
     c.has_storage = c.storage != NULL || two;
-    c.has_loss = c.loss != NULL || (c.has_storage && c.factor != NULL);
+    c.has_loss = c.loss != NULL || (c.has_storage && (has_angle || c.magnitude != NULL));
     find_step_columns(t, tension, &c);
     return c;
 }
@@ -65,42 +67,56 @@ double sweep_angular_frequency(const sweep_builder *b, size_t row)
 
 double sweep_loss_factor(const sweep_builder *b, size_t row)
 {
+    if (b->c.factor == NULL && b->c.phase != NULL)
+        return tan(text_table_value(b->table, row, b->c.phase));
     return b->c.factor != NULL ? text_table_value(b->table, row, b->c.factor) : (double)NAN;
+}
+
+/* Returns the other leg of a right triangle; NaN if the leg is longer than the hypotenuse. */
+static double other_leg(double hypotenuse, double leg)
+{
+    return sqrt((hypotenuse - leg) * (hypotenuse + leg));
 }
 
 double sweep_storage_modulus(const sweep_builder *b, size_t row)
 {
-    if (!b->c.has_storage)
+    const sweep_columns *const c = &b->c;
+    if (!c->has_storage)
         return (double)NAN;
-    if (b->c.step != NULL) {
-        const double value = text_table_value(b->table, row, b->c.step);
-        return b->c.loading == WT_CREEP ? 1 / value : value;
+    if (c->step != NULL) {
+        const double value = text_table_value(b->table, row, c->step);
+        return c->loading == WT_CREEP ? 1 / value : value;
     }
-    if (b->c.storage != NULL)
-        return text_table_value(b->table, row, b->c.storage);
-    if (b->c.magnitude == NULL) {
-        const double ratio = text_table_value(b->table, row, b->c.loss) / sweep_loss_factor(b, row);
+    if (c->storage != NULL)
+        return text_table_value(b->table, row, c->storage);
+    if (c->magnitude == NULL) {
+        const double ratio = text_table_value(b->table, row, c->loss) / sweep_loss_factor(b, row);
         return isfinite(ratio) ? ratio : (double)NAN;
     }
-    const double magnitude = text_table_value(b->table, row, b->c.magnitude);
-    if (b->c.factor != NULL)
+    const double magnitude = text_table_value(b->table, row, c->magnitude);
+    if (c->factor != NULL)
         return magnitude / hypot(1.0, sweep_loss_factor(b, row));
-    const double lost = text_table_value(b->table, row, b->c.loss);
-    return sqrt((magnitude - lost) * (magnitude + lost));
+    if (c->phase != NULL)
+        return magnitude * cos(text_table_value(b->table, row, c->phase));
+    return other_leg(magnitude, text_table_value(b->table, row, c->loss));
 }
 
 double sweep_loss_modulus(const sweep_builder *b, size_t row)
 {
-    if (!b->c.has_loss)
+    const sweep_columns *const c = &b->c;
+    if (!c->has_loss)
         return (double)NAN;
-    if (b->c.loss != NULL)
-        return text_table_value(b->table, row, b->c.loss);
-    return sweep_storage_modulus(b, row) * sweep_loss_factor(b, row);
+    if (c->loss != NULL)
+        return text_table_value(b->table, row, c->loss);
+    const double storage = sweep_storage_modulus(b, row);
+    if (c->factor == NULL && c->phase == NULL)
+        return other_leg(text_table_value(b->table, row, c->magnitude), storage);
+    return storage * sweep_loss_factor(b, row);
 }
 
 unsigned sweep_optional_arrays(const sweep_columns *c)
 {
-    const bool alone = c->factor != NULL && !c->has_storage && !c->has_loss;
+    const bool alone = (c->factor != NULL || c->phase != NULL) && !c->has_storage && !c->has_loss;
     return (c->strain != NULL ? (unsigned)WT_SWEEP_HAS_STRAIN : 0) |
            (alone ? (unsigned)WT_SWEEP_HAS_LOSS_FACTOR : 0);
 }

@@ -69,6 +69,8 @@ static const char *likely_units(wt_quantity quantity)
         return "1/MPa or 1/Pa";
     case WT_Q_TEMPERATURE:
         return "degC or K";
+    case WT_Q_PHASE:
+        return "deg or rad";
     case WT_Q_HEIGHT:
     case WT_Q_MEASURED_HEIGHT:
     case WT_Q_DEFLECTION:
@@ -157,6 +159,9 @@ static wt_quantity_set unread_moduli(const text_table *table)
     wt_quantity_set set = 0;
     for (size_t i = 0; i < sizeof pairs / sizeof *pairs; i++)
         set |= (table->quantities & pairs[i]) == 0 ? pairs[i] : 0;
+    /* the phase angle replaces a loss modulus */
+    if ((set & pairs[1]) != 0 && (table->quantities & WT_Q_BIT(WT_Q_LOSS_FACTOR)) == 0)
+        set |= WT_Q_BIT(WT_Q_PHASE);
     return set;
 }
 
