@@ -8,6 +8,7 @@
 #include "read/formats.h"
 #include "read/packed/packed.h"
 #include "read/text/text.h"
+#include "read/text/text_condition.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -41,19 +42,40 @@ static void format_sheet_names(const sheet_choice *c, bool chosen, char *names, 
                                      c->book->sheets[i].name);
 }
 
-static wt_status sheet_input(const sheet_choice *c, size_t i, wt_input **input)
+/* Formats the line above a sheet: the temperature that its name states, or an empty line. */
+static void format_sheet_line(const sheet_choice *c, size_t i, char *line, size_t size)
 {
-    const book_sheet *s = &c->book->sheets[i];
-    char *name = NULL, *copy = malloc(s->length + 1);
-    if (copy == NULL || asprintf(&name, "%s, sheet %s", c->file, s->name) < 0) {
-        free(copy);
-        return wt_fail(c->err, WT_E_MEMORY, "no memory for a sheet");
+    const char *const name = c->book->sheets[i].name, *const pattern =
+                                                          c->options->temperature_in_name;
+    text_condition condition;
+    line[0] = '\0';
+    if ((pattern != NULL && condition_match_name(pattern, name, &condition)) ||
+        condition_read_title((text_span){name, strlen(name)}, &condition))
+        condition_format(&condition, line, size);
+}
+
+/* Writes the chosen sheets, one after the other. */
+static wt_status write_sheets(const sheet_choice *c, char **text, size_t *length)
+{
+    size_t n = 0;
+    FILE *const out = open_memstream(text, length);
+    if (out == NULL)
+        return wt_fail(c->err, WT_E_MEMORY, "no memory for the sheets");
+    for (size_t i = 0; i < c->book->n; i++) {
+        char line[64];
+        if (!c->chosen[i])
+            continue;
+        format_sheet_line(c, i, line, sizeof line);
+        if (line[0] != '\0')
+            fprintf(out, "%s%s\n", n > 0 ? "\n" : "", line);
+        (void)fwrite(c->book->sheets[i].text, 1, c->book->sheets[i].length, out);
+        n++;
     }
-    memcpy(copy, s->text, s->length);
-    copy[s->length] = '\0';
-    const wt_status status = input_from_bytes(copy, s->length, name, input, c->err);
-    free(name);
-    return status;
+    const bool failed = ferror(out) != 0;
+    if (fclose(out) == 0 && !failed)
+        return WT_OK;
+    free(*text);
+    return wt_fail(c->err, WT_E_MEMORY, "no memory for the sheets");
 }
 
 /* Sets *yes if a reader of the requested kinds recognises the sheet. */
@@ -143,22 +165,17 @@ static wt_status join_sheets(const sheet_choice *c, wt_input **content)
         n += c->chosen[i];
         one = c->chosen[i] ? i : one;
     }
-    if (n == 1)
-        return sheet_input(c, one, content);
-    FILE *out = open_memstream(&text, &length);
-    if (out == NULL)
-        return wt_fail(c->err, WT_E_MEMORY, "no memory for the sheets");
-    for (size_t i = 0; i < c->book->n; i++)
-        if (c->chosen[i])
-            (void)fwrite(c->book->sheets[i].text, 1, c->book->sheets[i].length, out);
-    const bool failed = ferror(out) != 0;
+    wt_status status = write_sheets(c, &text, &length);
+    if (status != WT_OK)
+        return status;
     format_sheet_names(c, true, names, sizeof names);
-    if (fclose(out) != 0 || failed ||
-        asprintf(&name, "%s, sheets %s one after the other", c->file, names) < 0) {
+    const int made = n == 1 ? asprintf(&name, "%s, sheet %s", c->file, c->book->sheets[one].name)
+                            : asprintf(&name, "%s, sheets %s one after the other", c->file, names);
+    if (made < 0) {
         free(text);
         return wt_fail(c->err, WT_E_MEMORY, "no memory for the sheets");
     }
-    const wt_status status = input_from_bytes(text, length, name, content, c->err);
+    status = input_from_bytes(text, length, name, content, c->err);
     free(name);
     return status;
 }

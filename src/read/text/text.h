@@ -86,6 +86,8 @@ typedef enum cell_kind { CELL_NUMBER, CELL_MISSING, CELL_NOT_FINITE, CELL_TEXT }
  * unlisted "nan" or "inf"; or another text. *value is NaN unless it is a number. */
 cell_kind cell_parse(text_span cell, char decimal, const text_description *description,
                      double *value);
+/* True if the decimal mark of a number may separate thousands, as in "30.412". */
+bool cell_is_grouped(text_span cell, char decimal, bool *has_mark);
 /* Copies a text for messages and tables, without control characters, cut at a whole character. */
 void text_copy(char *to, size_t size, text_span text);
 /* Adds the numbers of cells with a decimal comma and with a decimal point. */
@@ -164,6 +166,9 @@ typedef struct text_table {
         *samples; /* [n_rows] index in the list of samples of the file; NO_SAMPLE without a name */
     size_t n_rows;
     text_header header;
+    size_t n_grouped;  /* number of cells whose decimal mark may separate thousands */
+    bool has_decimals; /* true if another cell shows that it does not */
+    char grouped[16];  /* one of those cells */
 } text_table;
 #define ROW_KIND_NONE 255u
 #define NO_SAMPLE SIZE_MAX

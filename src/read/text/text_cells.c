@@ -303,3 +303,19 @@ void cells_count_decimal_marks(const text_cells *cells, size_t *commas, size_t *
             *points += number_prefix_length(cell.text, cell.length, '.') == cell.length;
     }
 }
+
+bool cell_is_grouped(text_span cell, char decimal, bool *has_mark)
+{
+    const char *const mark = memchr(cell.text, decimal, cell.length);
+    *has_mark = mark != NULL;
+    if (mark == NULL)
+        return false;
+    const size_t sign = cell.text[0] == '-' || cell.text[0] == '+',
+                 before = (size_t)(mark - cell.text) - sign;
+    size_t after = 0;
+    while (after < 4 && mark + 1 + after < cell.text + cell.length &&
+           strchr("0123456789", mark[1 + after]) != NULL)
+        after++;
+    return before >= 1 && before <= 3 && cell.text[sign] != '0' && after == 3 &&
+           mark + 4 == cell.text + cell.length;
+}

@@ -499,3 +499,52 @@ bool condition_read_title(text_span title, text_condition *c)
     *c = condition_none();
     return flatten_line(title, text) && extract_all(text, c) && !has_other_word(text);
 }
+
+/* ---- names by a pattern ---------------------------------------------------------------------- */
+
+/* Returns the length of the longest number at the beginning of the text, or 0. */
+static size_t number_length(const char *text)
+{
+    const char *at = text + strspn(text, "+-");
+    const size_t whole = strspn(at, "0123456789");
+    if (at - text > 1 || whole == 0)
+        return 0;
+    at += whole;
+    if ((*at == '.' || *at == ',') && strspn(at + 1, "0123456789") > 0)
+        at += 1 + strspn(at + 1, "0123456789");
+    return (size_t)(at - text);
+}
+
+/* True if the name matches the pattern. *value is the number at "#", which is read as a whole. */
+static bool match_name(const char *pattern, const char *name, double *value)
+{
+    for (; *pattern != '\0'; pattern++, name++) {
+        if (*pattern == '*') {
+            for (;; name++) {
+                if (match_name(pattern + 1, name, value))
+                    return true;
+                if (*name == '\0')
+                    return false;
+            }
+        }
+        if (*pattern == '#') {
+            const size_t n = number_length(name);
+            const char mark = memchr(name, ',', n) != NULL ? ',' : '.';
+            return n > 0 && wt_number_parse(name, n, mark, value) &&
+                   match_name(pattern + 1, name + n, &(double){0});
+        }
+        if (*pattern != *name)
+            return false;
+    }
+    return *name == '\0';
+}
+
+bool condition_match_name(const char *pattern, const char *name, text_condition *c)
+{
+    double degrees = 0;
+    *c = condition_none();
+    if (!match_name(pattern, name, &degrees))
+        return false;
+    c->temperature = degrees + WT_ZERO_CELSIUS;
+    return true;
+}

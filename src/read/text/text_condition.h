@@ -32,5 +32,7 @@ bool condition_read_line(text_span line, text_condition *c);
 /* True if a title, such as the name of a sheet, states the temperature of the data: "SBR 20 °C".
  * It can contain other words, but none that names another temperature. */
 bool condition_read_title(text_span title, text_condition *c);
+/* True if a name matches the pattern of --temperature-in-name, which states the temperature. */
+bool condition_match_name(const char *pattern, const char *name, text_condition *c);
 
 #endif

@@ -64,6 +64,9 @@ static void new_table(text_scanner *s)
                        .separator = s->names.separator,
                        .decimal = '.'};
     memcpy(made.title, s->title, sizeof s->title);
+    /* a line between the tables began one without rows */
+    s->has_condition = s->has_condition ||
+                       (s->table != NULL && s->table->n_rows == 0 && s->table->has_own_condition);
     scan_apply_title(s);
     (void)add_table(s, &made);
 }

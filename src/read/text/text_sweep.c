@@ -378,11 +378,11 @@ wt_status text_build_sweep(const text_file *file, const wt_read_options *options
                            wt_sweep *sweep, wt_error *err)
 {
     wt_sweep made = {.n_isotherms = 0};
-    wt_status status = WT_OK;
+    wt_status status = sweep_check_temperatures(file, options, log, err);
     const text_table *lacking = NULL;
     size_t n_steps = 0;
     /* tests of relaxation or creep are read only if the file has no sweep */
-    for (int pass = 0; pass < 2 && count_sweeps(&made) == 0; pass++)
+    for (int pass = 0; pass < 2 && status == WT_OK && count_sweeps(&made) == 0; pass++)
         for (size_t i = 0; i < file->n_tables && status == WT_OK; i++) {
             sweep_builder b = {.file = file,
                                .table = &file->tables[i],
@@ -412,6 +412,8 @@ wt_status text_build_sweep(const text_file *file, const wt_read_options *options
     }
     if (status == WT_OK && count_sweeps(&made) == 0)
         status = text_fail_empty(file, "sweep of frequency, temperature or strain", err);
+    if (status == WT_OK)
+        sweep_warn_shared_temperature(file, options, &made, log);
     if (status == WT_OK)
         status = move_sweeps(sweep, &made, err);
     wt_sweep_clear(&made);

@@ -61,6 +61,14 @@ wt_status sweep_set_temperature(const sweep_builder *b, double *temperature, dou
 /* ---- text_sweep_check.c: warns of inconsistent rows. ----------------------------------------- */
 wt_status sweep_check_table(const text_file *file, text_table *table, wt_log *log, wt_error *err);
 
+/* Fails if the user states one temperature for tables that state different ones, and warns of
+ * tables without one among them. */
+wt_status sweep_check_temperatures(const text_file *file, const wt_read_options *options,
+                                   wt_log *log, wt_error *err);
+/* Warns if the temperature of the user applies to isotherms that differ much. */
+void sweep_warn_shared_temperature(const text_file *file, const wt_read_options *options,
+                                   const wt_sweep *sweep, wt_log *log);
+
 /* ---- text_order.c: collects the rows of isotherms that do not stand together. --------------- */
 wt_status collect_scattered_rows(sweep_builder *b, size_t *rows, size_t n);
 

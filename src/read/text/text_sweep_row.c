@@ -165,53 +165,17 @@ void sweep_format_source(const sweep_builder *b, char *source, size_t size)
     memcpy(source + strlen(source), end, length + 1);
 }
 
-/* Returns the length of the longest number at the beginning of the text, or 0. */
-static size_t number_length(const char *text)
-{
-    const char *at = text + strspn(text, "+-");
-    const size_t whole = strspn(at, "0123456789");
-    if (at - text > 1 || whole == 0)
-        return 0;
-    at += whole;
-    if ((*at == '.' || *at == ',') && strspn(at + 1, "0123456789") > 0)
-        at += 1 + strspn(at + 1, "0123456789");
-    return (size_t)(at - text);
-}
-
-/* True if the name matches the pattern. *value is the number at "#", which is read as a whole. */
-static bool match_file_name(const char *pattern, const char *name, double *value)
-{
-    for (; *pattern != '\0'; pattern++, name++) {
-        if (*pattern == '*') {
-            for (;; name++) {
-                if (match_file_name(pattern + 1, name, value))
-                    return true;
-                if (*name == '\0')
-                    return false;
-            }
-        }
-        if (*pattern == '#') {
-            const size_t n = number_length(name);
-            const char mark = memchr(name, ',', n) != NULL ? ',' : '.';
-            return n > 0 && wt_number_parse(name, n, mark, value) &&
-                   match_file_name(pattern + 1, name + n, &(double){0});
-        }
-        if (*pattern != *name)
-            return false;
-    }
-    return *name == '\0';
-}
-
 static wt_status temperature_in_name(const sweep_builder *b, double *temperature)
 {
     const char *pattern = b->options->temperature_in_name, *name = wt_path_base(b->file->name);
-    if (!match_file_name(pattern, name, temperature)) {
+    text_condition c;
+    if (!condition_match_name(pattern, name, &c)) {
         wt_fail(b->err, WT_E_MISSING, "no temperature in the name of the file");
         wt_error_expected(b->err, "a name like \"%s\"", pattern);
         wt_error_found(b->err, "\"%s\"", name);
         return WT_E_MISSING;
     }
-    *temperature += WT_ZERO_CELSIUS;
+    *temperature = c.temperature;
     return WT_OK;
 }
 
@@ -254,7 +218,8 @@ wt_status sweep_set_temperature(const sweep_builder *b, double *temperature, dou
         wt_error_place(b->err, "table at line %zu", b->table->names_line);
         wt_error_expected(b->err, "a column of temperature or a header line that tells it");
         wt_error_advice(b->err, "give it with --temperature 25degC, or say where it stands in the "
-                                "names of the files with --temperature-in-name \"*_#C*\"");
+                                "names of the sheets or files with --temperature-in-name "
+                                "\"*_#C*\"");
         return WT_E_MISSING;
     }
     if (*temperature <= 0) {

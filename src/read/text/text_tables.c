@@ -207,6 +207,30 @@ void text_log_assumed(const text_file *file, wt_log *log)
         }
 }
 
+/* Warns if each decimal mark of a table may separate thousands. A few numbers have three decimals
+ * by chance. */
+static void log_grouped(const text_file *file, wt_log *log)
+{
+    enum { CELLS_MIN = 6 };
+    size_t n = 0;
+    const text_table *first = NULL;
+    if ((file->description->kinds & (WT_KIND_SWEEP | WT_KIND_RECORD)) == 0)
+        return;
+    for (size_t t = 0; t < file->n_tables; t++) {
+        if (file->tables[t].has_decimals)
+            return;
+        n += file->tables[t].n_grouped;
+        first = first == NULL && file->tables[t].n_grouped > 0 ? &file->tables[t] : first;
+    }
+    if (first != NULL && n >= CELLS_MIN)
+        wt_log_add(log, WT_WARNING, file->name, format_line_position(first->names_line).text,
+                   "each number with a %s has three digits after it, such as \"%s\", which is read "
+                   "as a decimal; if the %s separates thousands, the values are 1000 times too "
+                   "small: export the table without a separator of thousands",
+                   first->decimal == ',' ? "comma" : "point", first->grouped,
+                   first->decimal == ',' ? "comma" : "point");
+}
+
 void text_log_unknown(const text_file *file, wt_log *log)
 {
     char names[256];
@@ -227,6 +251,7 @@ void text_log_unknown(const text_file *file, wt_log *log)
 void text_log_columns(const text_file *file, wt_log *log)
 {
     text_log_assumed(file, log);
+    log_grouped(file, log);
     text_log_unknown(file, log);
 }
 
