@@ -25,13 +25,14 @@ static size_t skip_digits(const char *text, size_t length, size_t i)
     return i;
 }
 
-/* Word processors and statistics programs write the minus sign U+2212. */
-static const char minus_sign[] = "\xe2\x88\x92";
-enum { MINUS_SIGN_LENGTH = sizeof minus_sign - 1 };
+/* Statistics programs write the minus sign U+2212, and word processors an en dash. Both have three
+ * bytes. */
+enum { MINUS_SIGN_LENGTH = 3 };
 
 static bool is_minus_sign(const char *text, size_t length)
 {
-    return length >= MINUS_SIGN_LENGTH && memcmp(text, minus_sign, MINUS_SIGN_LENGTH) == 0;
+    return length >= MINUS_SIGN_LENGTH && (memcmp(text, "\xe2\x88\x92", MINUS_SIGN_LENGTH) == 0 ||
+                                           memcmp(text, "\xe2\x80\x93", MINUS_SIGN_LENGTH) == 0);
 }
 
 static size_t skip_sign(const char *text, size_t length, size_t i)

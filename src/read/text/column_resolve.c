@@ -88,6 +88,7 @@ typedef struct column_resolver {
     char (*normalised)[COLUMN_NAME_SIZE];
     text_table *table;
     const wt_read_options *options;
+    bool uses_cells; /* true if cells above or below the names state conditions of the columns */
 } column_resolver;
 
 static size_t find_cell(const column_resolver *r, const char *name)
@@ -286,7 +287,7 @@ static wt_status resolve_matrix(const names_row *names, text_file *file, text_ta
                                 const wt_read_options *options, wt_error *err)
 {
     char normalised[1][COLUMN_NAME_SIZE];
-    const column_resolver r = {file->description, names, normalised, table, options};
+    const column_resolver r = {file->description, names, normalised, table, options, false};
     const text_span cell = names->names.cells[0];
     name_match known;
     const size_t n = names->names.n;
@@ -319,7 +320,7 @@ static wt_status set_condition(const column_resolver *r, text_file *file, const 
     text_table *const t = r->table;
     const size_t cell = column->cell;
     text_condition c = known->condition;
-    if (cell < r->names->n_above)
+    if (r->uses_cells && cell < r->names->n_above)
         condition_merge(&c, &r->names->above[cell]);
     if (condition_is_empty(&c))
         return WT_OK;
@@ -335,6 +336,42 @@ static wt_status set_condition(const column_resolver *r, text_file *file, const 
     if (i == t->n_conditions)
         t->conditions[t->n_conditions++] = c;
     column->condition = i;
+    return WT_OK;
+}
+
+/* The quantities below one condition. */
+typedef struct condition_set {
+    const text_condition *condition;
+    wt_quantity_set quantities;
+} condition_set;
+
+/* Sets uses_cells if each condition in the cells is above the same quantities. Otherwise the cells
+ * are a list that has nothing to do with the columns. */
+static wt_status compare_cells(column_resolver *r, wt_error *err)
+{
+    const names_row *const names = r->names;
+    condition_set *const sets = names->n_above > 0 ? calloc(names->n_above, sizeof *sets) : NULL;
+    size_t n = 0;
+    if (names->n_above == 0)
+        return WT_OK;
+    if (sets == NULL)
+        return wt_fail(err, WT_E_MEMORY, "no memory for the columns of a table");
+    for (size_t i = 0; i < names->n_above && i < names->names.n; i++) {
+        name_match known;
+        size_t k = 0;
+        if (condition_is_empty(&names->above[i]) ||
+            !find_column_name(r->d, names->names.cells[i], &known))
+            continue;
+        while (k < n && !condition_is_same(sets[k].condition, &names->above[i]))
+            k++;
+        n = k == n ? n + 1 : n;
+        sets[k].condition = &names->above[i];
+        sets[k].quantities |= WT_Q_BIT(r->d->rules[r->d->names[known.first].rule].quantity);
+    }
+    r->uses_cells = n > 0;
+    for (size_t k = 1; k < n; k++)
+        r->uses_cells = r->uses_cells && sets[k].quantities == sets[0].quantities;
+    free(sets);
     return WT_OK;
 }
 
@@ -389,6 +426,7 @@ wt_status names_resolve(const names_row *names, text_file *file, text_table *tab
         return wt_fail(err, WT_E_MEMORY, "no memory for the columns of a table");
     }
     normalise_names(&r);
+    status = compare_cells(&r, err);
     table->n_names = n_cells;
     table->has_qualifiers = names->qualifiers.n > 0;
     table->group_cell = find_cell(&r, d->group);

@@ -274,7 +274,15 @@ cell_kind cell_parse(text_span cell, char decimal, const text_description *descr
         *value = (double)NAN;
         return CELL_MISSING;
     }
-    static const char *const none[] = {"-", "--", "---", "n/a", "na", "#n/a"};
+    static const char *const none[] = {"-",
+                                       "--",
+                                       "---",
+                                       "n/a",
+                                       "na",
+                                       "#n/a",
+                                       "\xe2\x88\x92", /* minus sign, en dash and em dash */
+                                       "\xe2\x80\x93",
+                                       "\xe2\x80\x94"};
     static const char *const not_finite[] = {"nan",  "inf",     "-inf",   "+inf",
                                              "-nan", "1.#qnan", "1.#inf", "-1.#ind"};
     if (cell.length == 0 || is_listed_text(cell, none, COUNT_OF(none)) ||

@@ -270,9 +270,9 @@ static void remove_token(char *text, const condition_token *token)
         end++;
     }
     const bool joins = begin > 0 && text[end] != '\0' && strchr("([", text[begin - 1]) == NULL &&
-                       strchr(")]", text[end]) == NULL;
+                       strchr(")]/", text[end]) == NULL;
     if (joins)
-        text[begin++] = underscore ? '_' : ' ';
+        text[begin++] = underscore && strchr("([", text[end]) == NULL ? '_' : ' ';
     memmove(text + begin, text + end, strlen(text + end) + 1);
 }
 
@@ -487,17 +487,20 @@ bool condition_read_line(text_span line, text_condition *c)
     if (!flatten_line(line, text))
         return false;
     memcpy(copy, text, sizeof copy);
-    if (extract_all(copy, c))
-        return has_only_line_words(copy);
+    const bool stated = extract_all(copy, c);
+    if (stated && has_only_line_words(copy))
+        return true;
     *c = condition_none();
-    return read_labelled_number(text, c);
+    return !stated && read_labelled_number(text, c);
 }
 
 bool condition_read_title(text_span title, text_condition *c)
 {
     char text[COLUMN_NAME_SIZE];
+    if (flatten_line(title, text) && extract_all(text, c) && !has_other_word(text))
+        return true;
     *c = condition_none();
-    return flatten_line(title, text) && extract_all(text, c) && !has_other_word(text);
+    return false;
 }
 
 /* ---- names by a pattern ---------------------------------------------------------------------- */

@@ -26,6 +26,7 @@ void condition_format(const text_condition *c, char *text, size_t size);
 /* Copies a text without the conditions in it: "E' 20 °C (MPa)" becomes "E' (MPa)". False if it
  * states none, or different ones of one quantity. */
 bool condition_extract(text_span text, char rest[COLUMN_NAME_SIZE], text_condition *c);
+/* The following functions set *c to no condition where they return false. */
 /* True if a line or cell states conditions and nothing else, such as "Temperature: 20 °C",
  * "T (°C);20" or "Isotherm at 20 °C, 1 Hz". */
 bool condition_read_line(text_span line, text_condition *c);

@@ -128,6 +128,13 @@ static bool names_have_units(const text_scanner *s)
     return false;
 }
 
+/* True if the line states the condition of the rows below it, so that it is no row of units. */
+static bool is_condition_line(const text_scanner *s, text_span line)
+{
+    text_condition c;
+    return s->reads_conditions && condition_read_line(line, &c);
+}
+
 /* Splits the next line that is not blank, from line *i. False if it contains a number in a known
  * column. */
 static bool split_text_row(text_scanner *s, size_t *i, text_cells *cells)
@@ -140,7 +147,7 @@ static bool split_text_row(text_scanner *s, size_t *i, text_cells *cells)
             break;
         if (cells_are_blank(cells))
             continue;
-        if (is_units_row(s, cells))
+        if (is_units_row(s, cells) && !is_condition_line(s, line))
             return true;
         break;
     }
@@ -148,29 +155,28 @@ static bool split_text_row(text_scanner *s, size_t *i, text_cells *cells)
     return false;
 }
 
-/* Adds the conditions in a row of cells to those of the cells above the names. Returns their
- * number. */
-static size_t add_conditions(text_scanner *s, const text_cells *cells)
+/* Adds the conditions in a row of cells to those of the cells above the names. False if the row has
+ * fewer than two: it is a line about the rows below it. */
+static bool add_conditions(text_scanner *s, const text_cells *cells)
 {
     names_row *const names = &s->names;
     if (!s->reads_conditions || cells->n == 0)
-        return 0;
+        return false;
     text_condition *const conditions = calloc(cells->n, sizeof *conditions);
     if (conditions == NULL) {
         scan_no_memory(s);
-        return 0;
+        return false;
     }
-    const size_t n = cells_read_conditions(s->d, cells, conditions);
-    for (size_t i = 0; n > 0 && i < cells->n && i < names->n_above; i++)
-        condition_merge(&conditions[i], &names->above[i]);
-    if (n == 0) {
+    if (cells_read_conditions(s->d, cells, conditions) < 2) {
         free(conditions);
-        return 0;
+        return false;
     }
+    for (size_t i = 0; i < cells->n && i < names->n_above; i++)
+        condition_merge(&conditions[i], &names->above[i]);
     free(names->above);
     names->above = conditions;
     names->n_above = cells->n;
-    return n;
+    return true;
 }
 
 /* Looks for the rows of qualifiers and of units after the names row, and moves to the last one. */
@@ -182,7 +188,7 @@ static void find_units(text_scanner *s)
     names->qualifiers.n = 0;
     if (!split_text_row(s, &i, &names->units))
         return;
-    const bool has_conditions = add_conditions(s, &names->units) > 0;
+    const bool has_conditions = add_conditions(s, &names->units);
     if (has_conditions || !have_units)
         s->i = i;
     if (has_conditions || have_units)
@@ -199,7 +205,7 @@ static void find_units(text_scanner *s)
         names->qualifiers = names->units;
         names->units = last;
         s->i = i;
-    } else if (add_conditions(s, &names->qualifiers) > 0) {
+    } else if (add_conditions(s, &names->qualifiers)) {
         s->i = i;
     }
     names->qualifiers.n = are_units ? names->qualifiers.n : 0;
@@ -313,6 +319,23 @@ static bool match_names(text_scanner *s)
     return true;
 }
 
+/* True if the line is the title of a table, with its temperature, and the next one its names. */
+static bool is_table_title(text_scanner *s)
+{
+    text_condition c;
+    text_span line;
+    names_row names = {.separator = SEPARATOR_AUTO};
+    bool found = s->reads_conditions && s->d->n_steps == 0 && condition_read_title(s->line, &c);
+    for (size_t i = s->i + 1; found && (found = read_line(s, i, &line)) && line.length == 0;)
+        i++;
+    found = found && names_extract(s->d, &line) &&
+            names_match(&names, s->d, line, s->table->separator, s->kinds);
+    if (names.no_memory)
+        scan_no_memory(s);
+    names_free(&names);
+    return found;
+}
+
 /* ---- the scan -------------------------------------------------------------------------------- */
 
 static void scan_header_line(text_scanner *s)
@@ -398,8 +421,8 @@ static void scan_table_line(text_scanner *s)
         if (row == ROW_TEXT && !s->blank && t->n_rows > 0 && d->row_prefix == NULL &&
             rest_is_text(s))
             skip_rest(s);
-        else if (!s->blank || (row == ROW_BROKEN && s->row.n == t->n_names) ||
-                 d->row_prefix != NULL) {
+        else if ((!s->blank && !is_table_title(s)) ||
+                 (row == ROW_BROKEN && s->row.n == t->n_names) || d->row_prefix != NULL) {
             scan_fail_row(s, bad);
         } else {
             s->state = SCAN_HEADER;

@@ -59,6 +59,8 @@ static const char *likely_units(wt_quantity quantity)
         return "Hz or rad/s";
     case WT_Q_STORAGE_MODULUS:
     case WT_Q_LOSS_MODULUS:
+    case WT_Q_COMPLEX_MODULUS:
+    case WT_Q_SHEAR_COMPLEX_MODULUS:
     case WT_Q_SHEAR_STORAGE_MODULUS:
     case WT_Q_SHEAR_LOSS_MODULUS:
     case WT_Q_RELAXATION_MODULUS:
