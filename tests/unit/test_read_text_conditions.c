@@ -122,31 +122,18 @@ static void reads_lines(const char *line, const char *gap, bool names_once)
 static void lines_above(void **state)
 {
     (void)state;
-    static const char *const lines[] = {"Temperature: # \xc2\xb0"
-                                        "C",
-                                        "T = #\xc2\xb0"
-                                        "C",
-                                        "Temperature,#,\xc2\xb0"
-                                        "C",
-                                        "Temperature (\xc2\xb0"
-                                        "C): #",
-                                        "# degC",
-                                        "Isotherm at # \xc2\xba"
-                                        "C",
-                                        "Temperature: # \xc2\xb0"
-                                        "C,,"};
+    static const char *const lines[] = {
+        "Temperature: # \u00b0C",   "T = #\u00b0C", "Temperature,#,\u00b0C",
+        "Temperature (\u00b0C): #", "# degC",       "Isotherm at # \u00baC",
+        "Temperature: # \u00b0C,,"};
     for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
         reads_lines(lines[i], "\n", false);
         reads_lines(lines[i], "", false);
         reads_lines(lines[i], "", true);
     }
     /* a title directly above the names */
-    reads_lines("rubber, # \xc2\xb0"
-                "C",
-                "\n", false);
-    reads_lines("rubber, # \xc2\xb0"
-                "C",
-                "", false);
+    reads_lines("rubber, # \u00b0C", "\n", false);
+    reads_lines("rubber, # \u00b0C", "", false);
 }
 
 /* Reads a text that fails or warns; the words stand in the message. */
@@ -296,6 +283,15 @@ static void any_order(void **state)
         }
         reads_isotherms(t.text);
     }
+    /* by temperature, with the frequencies in any order */
+    static const size_t order[N_F] = {2, 0, 3, 1};
+    made_text t = {.n = 0};
+    add(&t, "f (Hz),E' (MPa),E'' (MPa),T (degC)\n");
+    for (size_t i = 0; i < N; i++) {
+        const double f = hertz[order[(i + i / N_F) % N_F]], celsius = degrees[i / N_F];
+        add(&t, "%g,%.10g,%.10g,%g\n", f, storage(celsius, f), loss(celsius, f), celsius);
+    }
+    reads_isotherms(t.text);
 }
 
 /* All temperatures of a frequency after another. Few frequencies are temperature sweeps. */
@@ -340,8 +336,8 @@ static void moduli_that_follow(void **state)
 {
     (void)state;
     reads_pair("E' (MPa)", "delta (deg)", false, 0);
-    reads_pair("E' (MPa)", "phase angle (\xc2\xb0)", false, 0);
-    reads_pair("E' (MPa)", "\xce\xb4 (rad)", false, 1);
+    reads_pair("E' (MPa)", "phase angle (\u00b0)", false, 0);
+    reads_pair("E' (MPa)", "\u03b4 (rad)", false, 1);
     reads_pair("E' (MPa)", "tan delta", false, 2);
     reads_pair("|E*| (MPa)", "delta (deg)", true, 0);
     reads_pair("|E*| (MPa)", "tan delta", true, 2);
@@ -360,12 +356,11 @@ static void signs_and_marks(void **state)
     (void)state;
     made_text t = {.n = 0};
     /* minus sign, look-alike of the degree sign, no-break space */
-    add(&t, "f (Hz),E' (MPa),E'' (MPa),T (\xc2\xba"
-            "C)\n");
+    add(&t, "f (Hz),E' (MPa),E'' (MPa),T (\u00baC)\n");
     for (size_t k = 0; k < N_T; k++)
         for (size_t i = 0; i < N_F; i++)
-            add(&t, "%g,%.10g,%.10g\xc2\xa0,%s%g\n", hertz[i], storage(degrees[k], hertz[i]),
-                loss(degrees[k], hertz[i]), degrees[k] < 0 ? "\xe2\x88\x92" : "", fabs(degrees[k]));
+            add(&t, "%g,%.10g,%.10g\u00a0,%s%g\n", hertz[i], storage(degrees[k], hertz[i]),
+                loss(degrees[k], hertz[i]), degrees[k] < 0 ? "\u2212" : "", fabs(degrees[k]));
     reads_isotherms(t.text);
     const wt_read_options options = wt_read_defaults();
     says("f (Hz);E' (kPa);E'' (kPa);T (degC)\n1;30.412;6.855;0\n10;53.038;8.808;0\n"

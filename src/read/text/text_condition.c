@@ -65,10 +65,8 @@ typedef struct condition_unit {
 } condition_unit;
 
 static const condition_unit known_units[] = {
-    {"\xc2\xb0"
-     "C",
-     true, 1, WT_ZERO_CELSIUS},
-    {"\xc2\xb0 C", true, 1, WT_ZERO_CELSIUS},
+    {"\u00b0C", true, 1, WT_ZERO_CELSIUS},
+    {"\u00b0 C", true, 1, WT_ZERO_CELSIUS},
     {"degC", true, 1, WT_ZERO_CELSIUS},
     {"deg C", true, 1, WT_ZERO_CELSIUS},
     {"deg_C", true, 1, WT_ZERO_CELSIUS},
@@ -97,7 +95,7 @@ static bool unit_continues(const char *after)
     for (size_t i = 0; i < COUNT_OF(rates); i++)
         if (strncmp(after, rates[i], strlen(rates[i])) == 0)
             return true;
-    return strncmp(after, "\xc2\xb7", 2) == 0; /* multiplication dot */
+    return strncmp(after, "\u00b7", 2) == 0; /* multiplication dot */
 }
 
 /* Returns the unit at the beginning of a text, also in brackets, and its length; NULL if there is
@@ -126,15 +124,10 @@ static bool normalise_text(text_span text, char copy[COLUMN_NAME_SIZE])
 {
     static const struct {
         const char *found, *spelled;
-    } spellings[] = {{"\xc2\xba", "\xc2\xb0"},
-                     {"\xcb\x9a", "\xc2\xb0"},
-                     {"\xe2\x84\x83", "\xc2\xb0"
-                                      "C"},
-                     {"\xe2\x88\x92", "-"}, /* minus sign */
-                     {"\xe2\x80\x93", "-"}, /* en dash */
-                     {"\xc2\xa0", " "},
-                     {"\xe2\x80\xaf", " "},
-                     {"\t", " "}};
+    } spellings[] = {{"\u00ba", "\u00b0"}, {"\u02da", "\u00b0"}, {"\u2103", "\u00b0C"},
+                     {"\u2212", "-"}, /* minus sign */
+                     {"\u2013", "-"}, /* en dash */
+                     {"\u00a0", " "},      {"\u202f", " "},      {"\t", " "}};
     size_t out = 0;
     for (size_t i = 0; i < text.length;) {
         const char *spelled = NULL;
@@ -168,11 +161,11 @@ static size_t read_number(const char *text, double *value)
 
 /* Labels that can stand before the number of a condition. */
 static const char *const temperature_labels[] = {
-    "T",           "temp", "temp.", "temperature", "temperatur", "temp\xc3\xa9rature",
-    "temperatura", "at",   "bei",   "\xc3\xa0",    "\xcf\x91",   "\xce\xb8"};
+    "T",           "temp", "temp.", "temperature", "temperatur", "temp\u00e9rature",
+    "temperatura", "at",   "bei",   "\u00e0",      "\u03d1",     "\u03b8"};
 static const char *const frequency_labels[] = {
-    "f",  "freq", "freq.",    "frequency", "frequenz", "fr\xc3\xa9quence", "frecuencia",
-    "at", "bei",  "\xc3\xa0", "omega",     "w",        "\xcf\x89"};
+    "f",  "freq", "freq.",  "frequency", "frequenz", "fr\u00e9quence", "frecuencia",
+    "at", "bei",  "\u00e0", "omega",     "w",        "\u03c9"};
 
 /* Returns the beginning of a label that ends at `end`, or `end`. */
 static size_t find_label(const char *text, size_t end, bool is_temperature)
@@ -306,7 +299,7 @@ static const char *const line_words[] = {"T",
                                          "temp.",
                                          "temperature",
                                          "temperatur",
-                                         "temp\xc3\xa9rature",
+                                         "temp\u00e9rature",
                                          "temperatura",
                                          "isotherm",
                                          "isotherme",
@@ -326,13 +319,13 @@ static const char *const line_words[] = {"T",
                                          "const.",
                                          "at",
                                          "bei",
-                                         "\xc3\xa0",
+                                         "\u00e0",
                                          "f",
                                          "freq",
                                          "freq.",
                                          "frequency",
                                          "frequenz",
-                                         "fr\xc3\xa9quence",
+                                         "fr\u00e9quence",
                                          "frecuencia",
                                          "sweep",
                                          "step",
@@ -342,47 +335,19 @@ static const char *const line_words[] = {"T",
                                          "curve",
                                          "run",
                                          "messtemperatur",
-                                         "pr\xc3\xbc"
-                                         "ftemperatur",
+                                         "pr\u00fcftemperatur",
                                          "solltemperatur",
                                          "probentemperatur"};
 
 /* Words that name another temperature than that of the data, or a state of the sample. */
-static const char *const other_words[] = {"ref",
-                                          "ref.",
-                                          "reference",
-                                          "referenz",
-                                          "r\xc3\xa9"
-                                          "f\xc3\xa9rence",
-                                          "tref",
-                                          "tg",
-                                          "glass",
-                                          "room",
-                                          "ambient",
-                                          "start",
-                                          "initial",
-                                          "end",
-                                          "final",
-                                          "max",
-                                          "max.",
-                                          "min",
-                                          "min.",
-                                          "from",
-                                          "to",
-                                          "bis",
-                                          "aged",
-                                          "ageing",
-                                          "aging",
-                                          "cured",
-                                          "curing",
-                                          "vulcanised",
-                                          "vulcanized",
-                                          "stored",
-                                          "storage",
-                                          "conditioned",
-                                          "dried",
-                                          "annealed",
-                                          "master"};
+static const char *const other_words[] = {
+    "ref",         "ref.",       "reference",  "referenz", "r\u00e9f\u00e9rence",
+    "tref",        "tg",         "glass",      "room",     "ambient",
+    "start",       "initial",    "end",        "final",    "max",
+    "max.",        "min",        "min.",       "from",     "to",
+    "bis",         "aged",       "ageing",     "aging",    "cured",
+    "curing",      "vulcanised", "vulcanized", "stored",   "storage",
+    "conditioned", "dried",      "annealed",   "master"};
 
 static bool is_listed(const char *word, size_t length, const char *const *list, size_t n)
 {

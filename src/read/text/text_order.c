@@ -19,6 +19,8 @@ enum { FREQUENCIES_MIN = 5 };
 static const double temperatures_most = 4;
 /* Change of temperature that counts as a reversal [K], and the share of the rows that reverse. */
 static const double turn = 1.5, share_turns = 0.25;
+/* Maximum number of rows for each frequency of an isotherm, above which it was swept repeatedly. */
+static const double repeats_most = 1.5;
 /* Minimum ratio of the distance of two temperatures to the scatter within each of them. */
 static const double least_separation = 4;
 /* Scatter of a set temperature that is always allowed [K]. */
@@ -125,6 +127,21 @@ static bool is_shuffled(const sweep_builder *b, const size_t *rows, size_t n)
     return (double)turns > share_turns * (double)n;
 }
 
+/* True if the frequency goes up and down from row to row at one temperature. */
+static bool is_shuffled_within(const sweep_builder *b, const size_t *rows, size_t n)
+{
+    size_t turns = 0;
+    for (size_t i = 2; i < n; i++) {
+        const double kelvin = sweep_temperature(b, rows[i - 1]);
+        turns += sweep_direction(b, rows[i - 2], rows[i - 1]) *
+                         sweep_direction(b, rows[i - 1], rows[i]) <
+                     0 &&
+                 fabs(sweep_temperature(b, rows[i - 2]) - kelvin) < turn &&
+                 fabs(sweep_temperature(b, rows[i]) - kelvin) < turn;
+    }
+    return (double)turns > share_turns * (double)n;
+}
+
 /* True if the rows are runs of one frequency, each over several temperatures, and the temperatures
  * make isotherms. */
 static bool is_by_frequency(const sweep_builder *b, const size_t *rows, size_t n,
@@ -157,8 +174,9 @@ static void order_rows(const sweep_builder *b, size_t *rows, size_t n, ordered_r
     const size_t n_temperatures = number_temperatures(ordered, n, gaps);
     const bool isotherms = n_temperatures > 0 && n_frequencies >= POINTS_MIN &&
                            (double)n_temperatures <= temperatures_most * (double)n_frequencies;
-    const bool shuffled = is_shuffled(b, rows, n);
-    if (!shuffled && !(isotherms && is_by_frequency(b, rows, n, n_frequencies, n_temperatures)))
+    const bool once = (double)n <= repeats_most * (double)(n_temperatures * n_frequencies);
+    if (!is_shuffled(b, rows, n) && !(isotherms && once && is_shuffled_within(b, rows, n)) &&
+        !(isotherms && is_by_frequency(b, rows, n, n_frequencies, n_temperatures)))
         return;
     qsort(ordered, n, sizeof *ordered, isotherms ? compare_isotherms : compare_sweeps);
     apply_order(b, ordered, rows, n);
