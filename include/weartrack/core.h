@@ -325,8 +325,8 @@ WT_API size_t wt_format_si(double value, const char *unit, int digits, char *buf
 /* ---- numbers -------------------------------------------------------------------------------- */
 
 /* Parses exactly `length` bytes as a number, independent of the locale. `decimal` is '.' or ','.
- * Blanks around the number are ignored. Returns false if the bytes are not one finite number
- * ("nan", "inf", "--" and "" are not). */
+ * Blanks around the number are ignored. A minus sign U+2212 or an en dash counts as "-". Returns
+ * false if the bytes are not one finite number ("nan", "inf", "--" and "" are not). */
 WT_API bool wt_number_parse(const char *text, size_t length, char decimal, double *value);
 /* Writes the shortest text that reads back to the same double; "nan", "inf" or "-inf" otherwise.
  * buffer has at least 32 bytes. Returns the length. */

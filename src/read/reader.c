@@ -51,8 +51,8 @@ static const wt_param rows[] = {
      .unset = "", .help = "temperature of DMA files that say none, such as 20degC"},
     {PARAM_TEXT_OF("temperature-in-name", wt_read_options, temperature_in_name), .value = "PATTERN",
      .unset = "",
-     .help = "where in the names of DMA files that say no temperature it stands, in degrees "
-             "Celsius: # is the number and * anything, such as \"*_#C.txt\"",
+     .help = "where in the names of DMA files, or sheets, that say no temperature it stands, in "
+             "degrees Celsius: # is the number and * anything, such as \"*_#C.txt\"",
      .check = check_name_pattern},
     {PARAM("frequency", wt_read_options, frequency, WT_Q_FREQUENCY, ABOVE(0)), .value = "F",
      .unset = "",

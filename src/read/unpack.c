@@ -9,6 +9,7 @@
 #include "read/formats.h"
 #include "read/packed/packed.h"
 #include "read/text/text.h"
+#include "read/text/text_condition.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -42,13 +43,34 @@ static void format_sheet_names(const sheet_choice *c, bool chosen, char *names, 
                                      c->book->sheets[i].name);
 }
 
-static wt_input *sheet_input(const sheet_choice *c, size_t i)
+/* Formats the line above a sheet: the temperature that its name states, or an empty line. */
+static void format_sheet_line(const sheet_choice *c, size_t i, char *line, size_t size)
 {
-    const book_sheet *s = &c->book->sheets[i];
-    char *const name = format_text("%s, sheet %s", c->file, s->name);
-    wt_input *const input = input_from_bytes(wt_strndup(s->text, s->length), s->length, name);
-    free(name);
-    return input;
+    const char *const name = c->book->sheets[i].name, *const pattern =
+                                                          c->options->temperature_in_name;
+    text_condition condition;
+    line[0] = '\0';
+    if ((pattern != NULL && condition_match_name(pattern, name, &condition)) ||
+        condition_read_title((text_span){name, strlen(name)}, &condition))
+        condition_format(&condition, line, size);
+}
+
+/* Writes the chosen sheets, one after the other. */
+static void write_sheets(const sheet_choice *c, char **text, size_t *length)
+{
+    size_t n = 0;
+    FILE *const out = text_stream_open(text, length);
+    for (size_t i = 0; i < c->book->n; i++) {
+        char line[64];
+        if (!c->chosen[i])
+            continue;
+        format_sheet_line(c, i, line, sizeof line);
+        if (line[0] != '\0')
+            fprintf(out, "%s%s\n", n > 0 ? "\n" : "", line);
+        (void)fwrite(c->book->sheets[i].text, 1, c->book->sheets[i].length, out);
+        n++;
+    }
+    text_stream_close(out);
 }
 
 /* Sets *yes if a reader of the requested kinds recognises the sheet. */
@@ -138,15 +160,11 @@ static wt_input *join_sheets(const sheet_choice *c)
         n += c->chosen[i];
         one = c->chosen[i] ? i : one;
     }
-    if (n == 1)
-        return sheet_input(c, one);
-    FILE *out = text_stream_open(&text, &length);
-    for (size_t i = 0; i < c->book->n; i++)
-        if (c->chosen[i])
-            (void)fwrite(c->book->sheets[i].text, 1, c->book->sheets[i].length, out);
-    text_stream_close(out);
+    write_sheets(c, &text, &length);
     format_sheet_names(c, true, names, sizeof names);
-    char *const name = format_text("%s, sheets %s one after the other", c->file, names);
+    char *const name = n == 1
+                           ? format_text("%s, sheet %s", c->file, c->book->sheets[one].name)
+                           : format_text("%s, sheets %s one after the other", c->file, names);
     wt_input *const content = input_from_bytes(text, length, name);
     free(name);
     return content;

@@ -129,14 +129,28 @@ static size_t skip_digits(const char *text, size_t length, size_t i)
     return i;
 }
 
+/* Statistics programs write the minus sign U+2212, and word processors an en dash. Both have three
+ * bytes. */
+enum { MINUS_SIGN_LENGTH = 3 };
+
+static bool is_minus_sign(const char *text, size_t length)
+{
+    return length >= MINUS_SIGN_LENGTH && (memcmp(text, "\xe2\x88\x92", MINUS_SIGN_LENGTH) == 0 ||
+                                           memcmp(text, "\xe2\x80\x93", MINUS_SIGN_LENGTH) == 0);
+}
+
+static size_t skip_sign(const char *text, size_t length, size_t i)
+{
+    if (i < length && (text[i] == '+' || text[i] == '-'))
+        return i + 1;
+    return is_minus_sign(text + i, length - i) ? i + MINUS_SIGN_LENGTH : i;
+}
+
 /* strtod alone would also accept hexadecimal digits, "nan" and "infinity". */
 size_t number_prefix_length(const char *text, size_t length, char decimal)
 {
-    size_t i = 0;
-    if (i < length && (text[i] == '+' || text[i] == '-'))
-        i++;
-    const size_t whole = i;
-    i = skip_digits(text, length, i);
+    const size_t whole = skip_sign(text, length, 0);
+    size_t i = skip_digits(text, length, whole);
     size_t digits = i - whole;
     if (i < length && text[i] == decimal) {
         const size_t fraction = i + 1;
@@ -147,14 +161,23 @@ size_t number_prefix_length(const char *text, size_t length, char decimal)
     if (digits == 0)
         return 0;
     if (i < length && (text[i] == 'e' || text[i] == 'E')) {
-        size_t exponent = i + 1;
-        if (exponent < length && (text[exponent] == '+' || text[exponent] == '-'))
-            exponent++;
+        const size_t exponent = skip_sign(text, length, i + 1);
         const size_t end = skip_digits(text, length, exponent);
         if (end > exponent)
             i = end;
     }
     return i;
+}
+
+/* Copies a number with ASCII minus signs, as strtod needs them. */
+static void copy_number(char *to, const char *text, size_t length)
+{
+    for (size_t i = 0; i < length;) {
+        const bool minus = is_minus_sign(text + i, length - i);
+        *to++ = minus ? '-' : text[i];
+        i += minus ? MINUS_SIGN_LENGTH : 1;
+    }
+    *to = '\0';
 }
 
 bool wt_number_parse(const char *text, size_t length, char decimal, double *value)
@@ -169,9 +192,8 @@ bool wt_number_parse(const char *text, size_t length, char decimal, double *valu
     if (length == 0 || length >= sizeof copy ||
         number_prefix_length(text, length, decimal) != length)
         return false;
-    memcpy(copy, text, length);
-    copy[length] = '\0';
-    char *const mark = decimal == '.' ? NULL : memchr(copy, decimal, length);
+    copy_number(copy, text, length);
+    char *const mark = decimal == '.' ? NULL : strchr(copy, decimal);
     if (mark != NULL)
         *mark = '.';
     const locale_t previous = clocale_enter();

@@ -312,6 +312,24 @@ static const char *skip_outer_blanks(const char *text, size_t *length)
     return text;
 }
 
+/* Replaces the characters that look like the degree sign, and the single character for degree
+ * Celsius, by the degree sign U+00B0. The result is not longer. */
+static void normalise_degree_signs(char *unit)
+{
+    static const struct {
+        const char *found, *means;
+    } signs[] = {{"\xc2\xba", "\xc2\xb0"}, /* U+00BA masculine ordinal indicator */
+                 {"\xcb\x9a", "\xc2\xb0"}, /* U+02DA ring above */
+                 {"\xe2\x84\x83", "\xc2\xb0"
+                                  "C"}}; /* U+2103 degree Celsius */
+    for (size_t i = 0; i < sizeof signs / sizeof *signs; i++)
+        for (char *at = unit; (at = strstr(at, signs[i].found)) != NULL;)
+            memcpy(at, signs[i].means, strlen(signs[i].means));
+    /* "° C" has a blank that no database knows */
+    for (char *at = unit; (at = strstr(at, "\xc2\xb0 C")) != NULL;)
+        memmove(at + 2, at + 3, strlen(at + 3) + 1);
+}
+
 /* Copies a unit without surrounding blanks and one pair of square brackets. False if it is too long
  * or not UTF-8. */
 static bool copy_trimmed_unit(const char *unit, char copy[UNIT_MAX])
@@ -330,6 +348,7 @@ static bool copy_trimmed_unit(const char *unit, char copy[UNIT_MAX])
             return false;
     memcpy(copy, unit, length);
     copy[length] = '\0';
+    normalise_degree_signs(copy);
     return true;
 }
 

@@ -74,6 +74,7 @@ typedef struct text_probe {
 /* Header values that a table stores. */
 typedef enum header_value {
     HEADER_TEMPERATURE,
+    HEADER_ANGULAR_FREQUENCY,
     HEADER_SPRING_CONSTANT,
     HEADER_SENSITIVITY,
     HEADER_POSITION_X,

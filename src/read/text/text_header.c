@@ -105,7 +105,7 @@ static void set_field(text_scanner *s, size_t f, const regmatch_t groups[REGEX_G
     const header_value h = find_header_value(field->quantity, field->sets);
     if (h < HEADER_COUNT) {
         s->header.value[h] = number;
-        s->header.fallback[h] = field->fallback;
+        s->header.priority[h] = field->fallback ? HEADER_FALLBACK : HEADER_OVERRIDES;
     }
 }
 
