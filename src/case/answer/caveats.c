@@ -54,6 +54,18 @@ static const char *format_spots_caveat(const answer_context *context, const tabl
                  "of one place, they are not independent and the intervals are too narrow";
 }
 
+/* Adds the text of a key that is the same for both groups. */
+static void add_shared_text(answer_context *context, indentation_key key, const char *begin)
+{
+    for (int g = 0; g < 2; g++) {
+        const char *text = indentation_key_text(&context->indentation[g], key);
+        if (text == NULL)
+            continue;
+        answer_add_caveat(context, CAVEAT_CONDITIONS, "%s: %s.", begin, text);
+        return;
+    }
+}
+
 /* A caveat that holds for both groups is added once. */
 static void indentation_caveats(answer_context *context)
 {
@@ -72,17 +84,10 @@ static void indentation_caveats(answer_context *context)
             append_spectrum_mismatch(&t, &context->indentation[g], g == 0 ? "bulk" : "track"))
             answer_add_caveat(context, CAVEAT_VERDICT, "%s.", text);
     }
-    for (int g = 0; g < 2; g++) {
-        const char *hidden =
-                       indentation_key_text(&context->indentation[g], INDENTATION_KEY_NOT_SHOWN),
-                   *before = g > 0 ? indentation_key_text(&context->indentation[0],
-                                                          INDENTATION_KEY_NOT_SHOWN)
-                                   : NULL;
-        if (hidden != NULL && before == NULL)
-            answer_add_caveat(context, CAVEAT_CONDITIONS,
-                              "No indentation curve shows, and no interval of a modulus holds: %s.",
-                              hidden);
-    }
+    add_shared_text(context, INDENTATION_KEY_ASSUMED,
+                    "The interval of a modulus holds errors that are assumed");
+    add_shared_text(context, INDENTATION_KEY_NOT_SHOWN,
+                    "No indentation curve shows, and no interval of a modulus holds");
     const bool both = spots[0] != NULL && spots[1] == spots[0];
     for (int g = 0; g < (both ? 1 : 2); g++)
         if (spots[g] != NULL)
@@ -138,8 +143,9 @@ static void calibration_caveats(answer_context *context)
         "An error of 1 %% in the deflection sensitivity changes the %s, one of the spring constant "
         "by about as much as itself. %s",
         gains, lever);
-    text_append(&t,
-                "; the intervals of the moduli hold what is stated, and nothing of what is not.");
+    text_append(
+        &t, "; the intervals of the moduli hold what is stated, and an assumed error where none "
+            "is.");
     /* A group without a modulus has no gain, and there is no ratio in which an error could
      * cancel. */
     const cantilever_count cantilevers =
