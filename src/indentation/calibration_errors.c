@@ -51,18 +51,19 @@ static double first_stated(double a, double b)
 static wt_tip shifted_tip(const wt_tip *tip, wt_systematic_source source, double factor)
 {
     wt_tip shifted = *tip;
-    /* A cap that was tangent to the faces stays tangent. */
-    const bool tangent =
+    /* A cap with the default transition has that of the shifted tip. */
+    const bool is_default =
         tip->transition_radius > 0 &&
-        tip->transition_radius == wt_tip_tangent_transition(tip->radius, tip->half_angle);
+        tip->transition_radius == tip_default_transition(tip->radius, tip->half_angle, tip->sides);
     *(source == WT_SYSTEMATIC_RADIUS ? &shifted.radius : &shifted.half_angle) *= factor;
-    const double smooth =
-        shifted.radius * tip_facet_factor(tip->sides) /
-        tan(shifted.half_angle); /* a larger transition radius makes the tip concave */
-    if (tangent)
-        shifted.transition_radius = wt_tip_tangent_transition(shifted.radius, shifted.half_angle);
+    /* A larger transition radius would make the tip concave. */
+    const double largest =
+        tip_largest_transition(shifted.radius, shifted.half_angle, shifted.sides);
+    if (is_default)
+        shifted.transition_radius =
+            tip_default_transition(shifted.radius, shifted.half_angle, shifted.sides);
     else if (tip->transition_radius > 0)
-        shifted.transition_radius = fmin(tip->transition_radius, smooth);
+        shifted.transition_radius = fmin(tip->transition_radius, largest);
     shifted.half_angle_error = shifted.radius_error = 0;
     return shifted;
 }
