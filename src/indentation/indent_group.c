@@ -4,6 +4,7 @@
 #include "core/base/array.h"
 #include "core/base/number.h"
 #include "indentation/indent.h"
+#include "indentation/numerics/curve.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -25,7 +26,8 @@ void indent_summary_add(indent_summary *to, const wt_indent_fit *fit,
     add_shift(&to->loss, fit->loss_bias);
     add_shift(&to->loss_error, fit->loss_error);
     add_shift(&to->misfit, fit->misfit_error / fit->modulus.value);
-    to->n_significant_misfit += fit->lack_of_fit_p < options->misfit_p_threshold;
+    to->n_significant_misfit +=
+        fit->lack_of_fit_p < options->misfit_p_threshold || curve_left_out_pull(fit) > 0;
     to->n_unknown_loss += indent_has_unknown_loss(fit);
     if (options->contact_estimators) {
         to->contacts = array_grow(to->contacts, to->n, sizeof *to->contacts);

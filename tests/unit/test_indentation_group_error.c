@@ -190,6 +190,37 @@ static void test_range_error(void **state)
     assert_true(calibration_errors_of_range(&e) == 0);
 }
 
+/* A snap-in that no law of adhesion follows up leaves plain contact. Its pull is an error that the
+ * group shares if it is not small against the largest force. */
+static void test_left_out_pull(void **state)
+{
+    (void)state;
+    const double largest = hertz_force(&(hertz){.modulus = 3e6}, hertz_standard().depth);
+    for (int large = 0; large < 2; large++) {
+        wt_table *t = NULL;
+        wt_indent_job job = settings_of(HERTZ_TIP "+-0.1%");
+        job.lever_error = job.sensitivity_error = 0.001;
+        for (int s = 0; s < SPOTS; s++) {
+            hertz h = hertz_standard();
+            h.snap = (large ? 0.2 : 0.05) * largest;
+            h.seed = 50 + (uint64_t)s;
+            strcpy(paths[s], "/tmp/weartrack-group-XXXXXX");
+            FILE *out = truth_file(paths[s]);
+            hertz_write(out, &h, 0);
+            fclose(out);
+        }
+        const group_result g = fit_group(&job, &t);
+        for (size_t row = 0; row < SPOTS; row++) {
+            if (large)
+                assert_string_equal(cell_text(t, row, "verdict"), "doubtful");
+            assert_true((strstr(cell_text(t, row, "reason"), "no law describes the pull") !=
+                         NULL) == large);
+        }
+        assert_true(!large || log(g.high / g.low) > 2 * 0.15);
+        wt_table_free(t);
+    }
+}
+
 static int open_formats(void **state)
 {
     (void)state;
@@ -207,6 +238,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_radius), cmocka_unit_test(test_stated),
                                        cmocka_unit_test(test_one_relaxation_time),
-                                       cmocka_unit_test(test_range_error)};
+                                       cmocka_unit_test(test_range_error),
+                                       cmocka_unit_test(test_left_out_pull)};
     return cmocka_run_group_tests_name("error of a group", tests, open_formats, close_formats);
 }
