@@ -347,10 +347,11 @@ static wt_status split_at_turning_point(const ibw_file *file, ibw_segment segmen
         if (position[i] > position[top] || isnan(position[top]))
             top = i;
     free(position);
-    if (top > 0)
-        segments[(*n)++] = (ibw_segment){WT_SEGMENT_APPROACH, 0, top + 1};
-    if (top + 1 < file->n)
-        segments[(*n)++] = (ibw_segment){WT_SEGMENT_RETRACT, top + 1, file->n - top - 1};
+    const size_t turn = top > 0 ? top + 1 : 0; /* falling from the start: a retract alone */
+    if (turn > 0)
+        segments[(*n)++] = (ibw_segment){WT_SEGMENT_APPROACH, 0, turn};
+    if (turn < file->n)
+        segments[(*n)++] = (ibw_segment){WT_SEGMENT_RETRACT, turn, file->n - turn};
     return WT_OK;
 }
 
