@@ -35,9 +35,9 @@ void indent_summary_clear(indent_summary *summary);
 /* Writes the systematic errors that curves of this depth cannot show, and how to detect them. */
 void indent_systematic_errors(const wt_indent_job *job, double depth, char *text, size_t size);
 /* Reports the shifts that all moduli share, tests the mean residual and reports the contact points
- * of other estimators. */
+ * of other estimators. `range_error` is that of calibration_errors_of_range. */
 void indent_summary_report(const indent_summary *summary, const wt_indent_job *job,
-                           const wt_job *work, table_writer *rows);
+                           double range_error, const wt_job *work, table_writer *rows);
 
 /* True if the curve loses work and the effect on its modulus is not known. */
 bool indent_has_unknown_loss(const wt_indent_fit *fit);

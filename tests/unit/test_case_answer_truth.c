@@ -220,7 +220,10 @@ static void check_verdict(double ratio, double scatter, const char *verdict)
     assert_near(number(to + 4), ratio * by_rate, 0.01);
     const wt_table *c = wt_result_find(result, "comparison");
     double p = fmax(cell(c, 1, "holm_p"), cell(c, 2, "holm_p"));
-    check("difference", "largest p after Holm's correction is ", p, 0.05);
+    if (p < 0.001)
+        (void)after("difference", "largest p after Holm's correction is below 0.001");
+    else
+        check("difference", "largest p after Holm's correction is ", p, 0.05);
 }
 
 static void test_verdicts(void **state)
@@ -497,7 +500,7 @@ static const char *short_line(const char *begins)
     return NULL;
 }
 
-/* Modulus of bulk or track, its interval that of the budget where there is one. */
+/* Modulus of bulk or track, with one interval in all tables. */
 static told of_group(const char *group)
 {
     const wt_table *groups = wt_result_find(result, "modulus_groups"),
@@ -506,12 +509,14 @@ static told of_group(const char *group)
     snprintf(low, sizeof low, "low_%s", group);
     snprintf(high, sizeof high, "high_%s", group);
     for (size_t i = 0; i < wt_table_n_rows(groups); i++)
-        if (strcmp(cell_text(groups, i, "group"), group) == 0)
-            return (told){cell(groups, i, "geometric_mean"),
-                          budget != NULL ? key_estimate(budget, low).value : cell(groups, i, "low"),
-                          budget != NULL ? key_estimate(budget, high).value
-                                         : cell(groups, i, "high"),
-                          (double)NAN, (double)NAN};
+        if (strcmp(cell_text(groups, i, "group"), group) == 0) {
+            if (budget != NULL && !isnan(cell(groups, i, "low"))) {
+                assert_near(cell(groups, i, "low"), key_estimate(budget, low).value, 1e-12);
+                assert_near(cell(groups, i, "high"), key_estimate(budget, high).value, 1e-12);
+            }
+            return (told){cell(groups, i, "geometric_mean"), cell(groups, i, "low"),
+                          cell(groups, i, "high"), (double)NAN, (double)NAN};
+        }
     fail_msg("no group %s", group);
     return (told){0};
 }

@@ -235,10 +235,14 @@ static void add_group_modulus(const answer_context *context, const char *name, c
         return;
     const result_value modulus = result_value_group(&context->values, row);
     const double n_spots = modulus_groups_get(groups, row, MODULUS_GROUPS_N_SPOTS);
-    char interval[480] = "no interval from fewer than two spots";
+    char interval[480] = "";
     if (!isnan(modulus.low))
         snprintf(interval, sizeof interval, "%s by %s", format_interval(&modulus).text,
                  modulus.includes);
+    else
+        snprintf(interval, sizeof interval, "%s",
+                 n_spots < 2 ? "no interval from fewer than two spots"
+                             : "no interval, because an error that all curves share is not known");
     if (!(modulus_groups_get(groups, row, MODULUS_GROUPS_N) > 0)) {
         const double rejected = modulus_groups_get(groups, row, MODULUS_GROUPS_N_REJECTED);
         if (rejected == 1)

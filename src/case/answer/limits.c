@@ -95,14 +95,8 @@ static void add_calibration_limits(limit_list *list, const answer_context *conte
 {
     static const char *const names[2] = {"bulk", "track"};
     double gain[2];
-    for (int g = 0; g < 2; g++) {
+    for (int g = 0; g < 2; g++)
         gain[g] = usable_median(&context->indentation[g], INDENTATION_SENSITIVITY_GAIN);
-        const wt_estimate lever =
-            indentation_value(&context->indentation[g], INDENTATION_KEY_SPRING_CONSTANT);
-        if (!isnan(gain[g]) && !(lever.standard_error > 0))
-            add(list, WT_NOTE, LIMITS_INDENTATION,
-                "The error of the spring constant of the %s is not stated.", names[g]);
-    }
     for (int g = 0; g < 2; g++)
         if (!isnan(gain[g]) && isnan(gain[1 - g]))
             add(list, WT_NOTE, LIMITS_INDENTATION,
@@ -117,6 +111,16 @@ static void add_calibration_limits(limit_list *list, const answer_context *conte
         "that of the track; with %s, %.2g %% of the ratio.",
         fabs(gain[0]), fabs(gain[1]), two ? "two cantilevers" : "one cantilever",
         two ? hypot(gain[0], gain[1]) : fabs(gain[0] - gain[1]));
+}
+
+/* Adds the text of a key, which is the same for both groups. */
+static void add_of_both_groups(limit_list *list, const answer_context *context, indentation_key key,
+                               const char *begin)
+{
+    const char *const bulk = indentation_key_text(&context->indentation[0], key),
+                      *const track = indentation_key_text(&context->indentation[1], key);
+    if (bulk != NULL || track != NULL)
+        add(list, WT_NOTE, LIMITS_INDENTATION, "%s: %s.", begin, bulk != NULL ? bulk : track);
 }
 
 static void add_comparison_limits(limit_list *list, const answer_context *context)
@@ -139,10 +143,8 @@ static void add_comparison_limits(limit_list *list, const answer_context *contex
     for (int g = 0; g < 2; g++)
         add_group_limits(list, context, g);
     add_calibration_limits(list, context);
-    const char *const hidden =
-        indentation_key_text(&context->indentation[0], INDENTATION_KEY_NOT_SHOWN);
-    if (hidden != NULL)
-        add(list, WT_NOTE, LIMITS_INDENTATION, "Not shown by any curve: %s.", hidden);
+    add_of_both_groups(list, context, INDENTATION_KEY_ASSUMED, "Assumed, as no error is stated");
+    add_of_both_groups(list, context, INDENTATION_KEY_NOT_SHOWN, "Not shown by any curve");
     if (comparison->table == NULL)
         return;
     if (comparison_key_enum(comparison, COMPARISON_KEY_UNIT_OF_ANALYSIS) == UNIT_IS_CURVE)

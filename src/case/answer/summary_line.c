@@ -37,9 +37,17 @@ static void append_undetectable_errors(summary_line *s, const char *text)
     append(s, "; what no curve shows is not in that: %s", all);
 }
 
+static void append_assumed_errors(summary_line *s, const char *text, bool in_interval)
+{
+    append(s, "; %s: %s; state %s to narrow it",
+           in_interval ? "in the interval" : "an interval would hold", text,
+           strchr(text, ';') != NULL ? "them" : "it");
+}
+
 static void summarize_groups(summary_line *s, const table_view *v)
 {
-    const char *hidden = NULL;
+    const char *hidden = NULL, *assumed = NULL;
+    bool has_interval = false;
     for (size_t i = 0; i < v->n_rows; i++) {
         const result_value modulus = result_value_group(&s->values, i);
         const double n = modulus_groups_get(v, i, MODULUS_GROUPS_N);
@@ -57,12 +65,17 @@ static void summarize_groups(summary_line *s, const table_view *v)
             continue;
         if (known && hidden == NULL)
             hidden = indentation_key_text(&curves, INDENTATION_KEY_NOT_SHOWN);
+        if (known && assumed == NULL)
+            assumed = indentation_key_text(&curves, INDENTATION_KEY_ASSUMED);
+        has_interval = has_interval || !isnan(modulus.low);
         append(s, ", E = %s%s", format_plain_number(&modulus).text,
                format_frequency(&modulus).text);
         if (!isnan(modulus.low))
             append(s, " (%s, from %.0f spots)", format_interval(&modulus).text,
                    modulus_groups_get(v, i, MODULUS_GROUPS_N_SPOTS));
     }
+    if (assumed != NULL)
+        append_assumed_errors(s, assumed, has_interval);
     if (hidden != NULL)
         append_undetectable_errors(s, hidden);
 }

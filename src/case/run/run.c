@@ -350,16 +350,16 @@ static unsigned find_excluded_outputs(const flow_plan *plan, const wt_run_option
     static const struct {
         unsigned extra;
         flow_resource_set shown_in;
-    } extras[] = {{WT_EXTRA_EXTRAPOLATED_SHARE, FLOW_BIT(FLOW_FRICTION)},
-                  {WT_EXTRA_MODULUS_DEPTH, FLOW_BIT(FLOW_DEPTH_BULK) | FLOW_BIT(FLOW_DEPTH_TRACK)},
-                  {WT_EXTRA_DEPTH_CURVES, FLOW_BIT(FLOW_TRACK_LAYER)},
-                  {WT_EXTRA_DRAWS, FLOW_BIT(FLOW_MATERIAL_DRAWS) | FLOW_BIT(FLOW_SERIES_DRAWS)},
-                  {WT_EXTRA_SPECTRUM, FLOW_BIT(FLOW_RELAXATION_SPECTRUM)},
-                  {WT_EXTRA_REDUCED_SERIES, FLOW_BIT(FLOW_PRONY_REDUCED)},
-                  {WT_EXTRA_SYSTEMATIC_ERRORS, FLOW_BIT(FLOW_MODULUS_BUDGET) |
-                                                   FLOW_BIT(FLOW_COMPARISON) |
-                                                   FLOW_BIT(FLOW_MODULUS_RATIO)},
-                  {WT_EXTRA_TRANSITION, FLOW_BIT(FLOW_GLASS_TRANSITION)}};
+    } extras[] = {
+        {WT_EXTRA_EXTRAPOLATED_SHARE, FLOW_BIT(FLOW_FRICTION)},
+        {WT_EXTRA_MODULUS_DEPTH, FLOW_BIT(FLOW_DEPTH_BULK) | FLOW_BIT(FLOW_DEPTH_TRACK)},
+        {WT_EXTRA_DEPTH_CURVES, FLOW_BIT(FLOW_TRACK_LAYER)},
+        {WT_EXTRA_DRAWS, FLOW_BIT(FLOW_MATERIAL_DRAWS) | FLOW_BIT(FLOW_SERIES_DRAWS)},
+        {WT_EXTRA_SPECTRUM, FLOW_BIT(FLOW_RELAXATION_SPECTRUM)},
+        {WT_EXTRA_REDUCED_SERIES, FLOW_BIT(FLOW_PRONY_REDUCED)},
+        {WT_EXTRA_SYSTEMATIC_ERRORS, FLOW_BIT(FLOW_MODULUS_BUDGET) | FLOW_BIT(FLOW_MODULUS_GROUPS) |
+                                         FLOW_BIT(FLOW_COMPARISON) | FLOW_BIT(FLOW_MODULUS_RATIO)},
+        {WT_EXTRA_TRANSITION, FLOW_BIT(FLOW_GLASS_TRANSITION)}};
     unsigned left_out = options->no_provenance ? WT_EXTRA_DIGESTS : 0;
     for (size_t i = 0; i < COUNT_OF(extras); i++)
         if ((plan->required & extras[i].shown_in) == 0)

@@ -92,16 +92,17 @@ result_value result_value_group(const result_value_tables *t, size_t row)
     f.low = modulus_groups_get(&t->groups, row, MODULUS_GROUPS_LOW);
     f.high = modulus_groups_get(&t->groups, row, MODULUS_GROUPS_HIGH);
     const bool lone = modulus_groups_get(&t->groups, row, MODULUS_GROUPS_N_SPOTS) == 1;
-    f.includes = lone ? "a given scatter of spots" : "scatter of the spots";
-    table_view budget = t->budget;
-    budget.suffix = group;
-    const double low = modulus_budget_value(&budget, MODULUS_BUDGET_KEY_LOW).value;
-    if (!isnan(low)) {
-        f.low = low;
-        f.high = modulus_budget_value(&budget, MODULUS_BUDGET_KEY_HIGH).value;
-        f.includes = lone ? "a given scatter of spots and what is stated of lever and tip"
-                          : "scatter of the spots and what is stated of lever and tip";
-    }
+    bool has_shared_error = false;
+    for (size_t i = 0; i < t->budget.n_rows; i++)
+        has_shared_error =
+            has_shared_error ||
+            (modulus_budget_enum(&t->budget, i, MODULUS_BUDGET_KIND) == ERROR_SHARED &&
+             strcmp(modulus_budget_text(&t->budget, i, MODULUS_BUDGET_GROUP), group) == 0);
+    if (has_shared_error)
+        f.includes = lone ? "a given scatter of spots and the errors that all curves share"
+                          : "scatter of the spots and the errors that all curves share";
+    else
+        f.includes = lone ? "a given scatter of spots" : "scatter of the spots";
     find_frequencies(t, group, 0, (double)INFINITY, f.frequency);
     return f;
 }

@@ -52,8 +52,9 @@ bool result_values_use_table(const char *table);
 /* Binds the tables of a result. A table that cannot be bound is an error and is then absent. */
 wt_status result_values_bind(const wt_result *result, result_value_tables *tables,
                              wt_error *err) WT_NODISCARD;
-/* Modulus of a group, for a row of modulus_groups. The interval includes the stated calibration
- * errors. */
+
+/* Modulus of a group, for a row of modulus_groups. The interval is the one of that row: the
+ * scatter of the spots and the errors that all curves share. */
 result_value result_value_group(const result_value_tables *tables, size_t row);
 /* Ratio of the moduli of the groups over all rates. */
 result_value result_value_ratio(const result_value_tables *tables);

@@ -197,6 +197,7 @@ static void check_row_number(text_scanner *s)
 void scan_add_row(text_scanner *s)
 {
     text_table *t = s->table;
+    s->row_line = s->i + 1;
     truncation_track_row(s);
     check_row_number(s);
     update_block(s);

@@ -60,6 +60,7 @@ typedef struct text_scanner {
     size_t block;
     size_t group_hash; /* hash of the cells whose change begins a block */
     bool has_group;
+    size_t row_line;                /* line of the last row; 0 before the first */
     size_t n_declared, n_rows;      /* rows that the header states (0: none), and rows read since */
     size_t sample;                  /* sample of the header, or NO_SAMPLE */
     bool has_sample_name;           /* true if the header named the sample since the last table */
