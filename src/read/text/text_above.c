@@ -152,9 +152,8 @@ bool scan_read_condition_line(text_scanner *s)
     }
     set_condition(s, &c);
     s->has_condition = s->state != SCAN_ROWS || s->table->n_rows > 0;
-    if (s->state == SCAN_ROWS && s->table->n_rows > 0)
-        scan_continue_table(s);
-    else if (s->state == SCAN_ROWS)
+    s->continues_table = s->state == SCAN_ROWS && s->table->n_rows > 0;
+    if (s->state == SCAN_ROWS && !s->continues_table)
         s->table->has_own_condition = true;
     return true;
 }

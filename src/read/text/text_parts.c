@@ -18,15 +18,6 @@ struct text_parts {
     wt_unit_usage *unit_uses; /* [n_units] use of the units of the user */
 };
 
-void text_table_free(text_table *t)
-{
-    free(t->values);
-    free(t->blocks);
-    free(t->kinds);
-    free(t->row_lines);
-    free(t->samples);
-}
-
 /* Drops tables without rows. */
 static void drop_empty_tables(text_file *file)
 {

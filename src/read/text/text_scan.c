@@ -71,15 +71,22 @@ static void new_table(text_scanner *s)
     (void)add_table(s, &made);
 }
 
-void scan_continue_table(text_scanner *s)
+/* Opens a table with the columns of the open one, if the line states the condition of further rows.
+ * Returns true if the line states a condition. */
+static bool read_condition_line(text_scanner *s)
 {
+    s->continues_table = false;
+    const bool is_condition = scan_read_condition_line(s);
+    if (!s->continues_table)
+        return is_condition;
     text_table made = *s->table;
     made.names_line = s->i + 1;
     made.values = NULL;
     made.blocks = made.row_lines = made.samples = NULL;
     made.kinds = NULL;
-    made.n_rows = 0;
+    made.n_rows = made.n_grouped = 0;
     (void)add_table(s, &made);
+    return true;
 }
 
 static bool split_line(text_scanner *s, text_cells *cells, text_span line, cell_separator separator)
@@ -348,7 +355,7 @@ static void scan_header_line(text_scanner *s)
     const bool mark = scan_match_markers(s);
     scan_header_fields(s);
     if (s->status == WT_OK && !mark && !match_names(s))
-        (void)scan_read_condition_line(s);
+        (void)read_condition_line(s);
 }
 
 /* Warns of rows after the end of a table, which would be lost otherwise. */
@@ -416,7 +423,7 @@ static void scan_table_line(text_scanner *s)
     } else if (row == ROW_GOOD) {
         s->last_row = end == END_NONE ? LAST_ROW_KEPT : LAST_ROW_NONE;
         scan_add_row(s);
-    } else if (row != ROW_UNUSED && !match_names(s) && !scan_read_condition_line(s) &&
+    } else if (row != ROW_UNUSED && !match_names(s) && !read_condition_line(s) &&
                s->status == WT_OK) {
         if (row == ROW_TEXT && !s->blank && t->n_rows > 0 && d->row_prefix == NULL &&
             rest_is_text(s))

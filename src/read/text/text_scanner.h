@@ -70,6 +70,7 @@ typedef struct text_scanner {
     last_row_state last_row;        /* treatment of a last line without a line end */
     bool unclosed;                  /* true if a step or table lacks its required end line */
     bool reads_conditions;          /* true if lines above a table can state its temperature */
+    bool continues_table;           /* true if rows under another condition follow */
     bool has_condition;             /* true if such a line was read since the last table */
     text_condition title_condition; /* of the last line that was not blank */
 } text_scanner;
@@ -78,14 +79,11 @@ typedef struct text_scanner {
  * step after a table. */
 void scan_lines(text_scanner *s);
 
-/* Opens a table with the columns of the open one, for rows under another condition. */
-void scan_continue_table(text_scanner *s);
-
 /* ---- text_above.c: conditions above and below the names row -----------------------------------
  */
 
 /* True if the line states the temperature or frequency of the following rows, or of the columns
- * below its cells. The following rows then belong to another table. */
+ * below its cells. Sets continues_table if the following rows belong to another table. */
 bool scan_read_condition_line(text_scanner *s);
 /* Applies the condition in the line above the names row, if no line stated one. */
 void scan_apply_title(text_scanner *s);

@@ -4,6 +4,7 @@
  */
 #include "read/text/text.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 wt_status text_list_add(text_file *file, text_list *list, size_t max_items, text_span text,
@@ -18,6 +19,15 @@ wt_status text_list_add(text_file *file, text_list *list, size_t max_items, text
         return wt_fail(err, WT_E_MEMORY, "no memory for the names in the file");
     list->items[list->n++] = copy;
     return WT_OK;
+}
+
+void text_table_free(text_table *t)
+{
+    free(t->values);
+    free(t->blocks);
+    free(t->kinds);
+    free(t->row_lines);
+    free(t->samples);
 }
 
 line_position_text format_line_position(size_t line)
