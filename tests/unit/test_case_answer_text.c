@@ -243,7 +243,7 @@ static void check_lever(void)
         "An error of 1 %% in the deflection sensitivity changes the bulk modulus by %.3g %% and "
         "that of the wear track by %.3g %%, one of the spring constant by about as much as "
         "itself. The stated error of the spring constant is 5 %%; the intervals of the moduli hold "
-        "what is stated, and nothing of what is not.",
+        "what is stated, and an assumed error where none is.",
         gain[0], gain[1]);
     says("caveat",
          "Track and bulk are taken to be indented with one cantilever, for no spring constants "
