@@ -285,8 +285,8 @@ wt_status wt_indent_group(const wt_indent_job *job, const wt_job *work, wt_inden
                                         task.scratch, err);
     if (status == WT_OK) {
         set_indentation_keys(&task, &files, &task.rows);
-        indent_summary_report(&task.summary, job, calibration_errors_of_range(&task.calibration),
-                              work, &task.rows);
+        task.summary.range_error = calibration_errors_of_range(&task.calibration);
+        indent_summary_report(&task.summary, job, work, &task.rows);
     }
     if (status == WT_OK)
         status = indent_depths_table(&task.depths, job, task.contact, tables, err);

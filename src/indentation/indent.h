@@ -22,6 +22,7 @@ typedef struct indent_summary {
     size_t n;
     indent_shift_sum bend, loss, loss_error, misfit; /* relative to the modulus */
     size_t n_significant_misfit;                     /* curves with a significant misfit */
+    double range_error;                              /* of calibration_errors_of_range */
     size_t n_unknown_loss;              /* curves with a loss of unknown effect on the modulus */
     double max_depth;                   /* largest indentation [m] */
     double (*misfits)[WT_MISFIT_TERMS]; /* [n_misfits] cosines of curves that have them */
@@ -35,9 +36,9 @@ void indent_summary_clear(indent_summary *summary);
 /* Writes the systematic errors that curves of this depth cannot show, and how to detect them. */
 void indent_systematic_errors(const wt_indent_job *job, double depth, char *text, size_t size);
 /* Reports the shifts that all moduli share, tests the mean residual and reports the contact points
- * of other estimators. `range_error` is that of calibration_errors_of_range. */
+ * of other estimators. */
 void indent_summary_report(const indent_summary *summary, const wt_indent_job *job,
-                           double range_error, const wt_job *work, table_writer *rows);
+                           const wt_job *work, table_writer *rows);
 
 /* True if the curve loses work and the effect on its modulus is not known. */
 bool indent_has_unknown_loss(const wt_indent_fit *fit);

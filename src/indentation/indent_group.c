@@ -96,18 +96,17 @@ static void report_common_shifts(const indent_summary *summary, const wt_indent_
 }
 
 /* Sets the error by the range of the fit without the part that misfit and loss explain. */
-static void set_range_error(const indent_summary *summary, double misfit_error, double range_error,
-                            table_writer *rows)
+static void set_range_error(const indent_summary *summary, double misfit_error, table_writer *rows)
 {
     const double misfit = fmax(misfit_error, 0), /* fmax ignores NaN */
         loss = fmax(loss_error(summary), 0);
-    const double rest = range_error * range_error - misfit * misfit - loss * loss;
+    const double rest = summary->range_error * summary->range_error - misfit * misfit - loss * loss;
     indentation_set_value(rows, INDENTATION_KEY_RANGE_ERROR, rest > 0 ? sqrt(rest) : 0, 0, 0);
 }
 
 /* Tests the mean residual of the accepted curves. */
 static void test_mean_residual(const indent_summary *summary, const wt_indent_job *job,
-                               double range_error, const wt_job *work, table_writer *rows)
+                               const wt_job *work, table_writer *rows)
 {
     const size_t n = summary->n_misfits;
     const wt_pooled_misfit pool =
@@ -121,7 +120,7 @@ static void test_mean_residual(const indent_summary *summary, const wt_indent_jo
         is_significant || is_unknown || 2 * summary->n_significant_misfit > summary->n;
     const double error = is_common ? summary->misfit.sum / (double)summary->misfit.n : 0;
     indentation_set_value(rows, INDENTATION_KEY_MISFIT_ERROR, error, 0, 0);
-    set_range_error(summary, error, range_error, rows);
+    set_range_error(summary, error, rows);
     if (isnan(pool.p_value))
         return;
     indentation_set_print(rows, INDENTATION_KEY_POOLED_MISFIT, "%.3g", pool.misfit);
@@ -191,7 +190,7 @@ static void warn_implausible_radius(const indent_summary *summary, const wt_inde
 }
 
 void indent_summary_report(const indent_summary *summary, const wt_indent_job *job,
-                           double range_error, const wt_job *work, table_writer *rows)
+                           const wt_job *work, table_writer *rows)
 {
     char hidden_errors[512];
     warn_implausible_radius(summary, job, work);
@@ -199,6 +198,6 @@ void indent_summary_report(const indent_summary *summary, const wt_indent_job *j
     if (*hidden_errors != '\0')
         indentation_set_text(rows, INDENTATION_KEY_NOT_SHOWN, hidden_errors);
     report_common_shifts(summary, job, work, rows);
-    test_mean_residual(summary, job, range_error, work, rows);
+    test_mean_residual(summary, job, work, rows);
     report_contact_estimates(summary, job, work);
 }

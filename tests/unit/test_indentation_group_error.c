@@ -190,35 +190,25 @@ static void test_range_error(void **state)
     assert_true(calibration_errors_of_range(&e) == 0);
 }
 
-/* A snap-in that no law of adhesion follows up leaves plain contact. Its pull is an error that the
- * group shares if it is not small against the largest force. */
+/* A pull before contact that no law of adhesion describes is returned if it is above a tenth of the
+ * largest force; the larger pull of the retract takes its place. */
 static void test_left_out_pull(void **state)
 {
     (void)state;
-    const double largest = hertz_force(&(hertz){.modulus = 3e6}, hertz_standard().depth);
-    for (int large = 0; large < 2; large++) {
-        wt_table *t = NULL;
-        wt_indent_job job = settings_of(HERTZ_TIP "+-0.1%");
-        job.lever_error = job.sensitivity_error = 0.001;
-        for (int s = 0; s < SPOTS; s++) {
-            hertz h = hertz_standard();
-            h.snap = (large ? 0.2 : 0.05) * largest;
-            h.seed = 50 + (uint64_t)s;
-            strcpy(paths[s], "/tmp/weartrack-group-XXXXXX");
-            FILE *out = truth_file(paths[s]);
-            hertz_write(out, &h, 0);
-            fclose(out);
-        }
-        const group_result g = fit_group(&job, &t);
-        for (size_t row = 0; row < SPOTS; row++) {
-            if (large)
-                assert_string_equal(cell_text(t, row, "verdict"), "doubtful");
-            assert_true((strstr(cell_text(t, row, "reason"), "no law describes the pull") !=
-                         NULL) == large);
-        }
-        assert_true(!large || log(g.high / g.low) > 2 * 0.15);
-        wt_table_free(t);
-    }
+    const double none = (double)NAN;
+    wt_indent_fit fit = {.max_force = 40e-9, .adhesion_force = 7e-9, .pull_off_force = none};
+    fit.work_of_adhesion.value = fit.contact_pull.value = none;
+    assert_near(curve_left_out_pull(&fit), 7e-9, 1e-12);
+    fit.pull_off_force = 18e-9;
+    assert_near(curve_left_out_pull(&fit), 18e-9, 1e-12);
+    fit.work_of_adhesion.value = 0.05; /* the law describes it */
+    assert_true(curve_left_out_pull(&fit) == 0);
+    fit.work_of_adhesion.value = none;
+    fit.max_force = 200e-9; /* small */
+    assert_true(curve_left_out_pull(&fit) == 0);
+    fit.max_force = 40e-9;
+    fit.adhesion_force = 0; /* a pull-off alone leaves the approach as it is */
+    assert_true(curve_left_out_pull(&fit) == 0);
 }
 
 static int open_formats(void **state)

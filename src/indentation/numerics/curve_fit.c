@@ -271,18 +271,6 @@ static double added_error(double error, const curve_alternative *other)
     return sqrt(with_other * with_other - error * error);
 }
 
-/* Smallest pull over the largest force that changes a fit without it. */
-static const double small_pull = 0.1;
-
-double curve_left_out_pull(const wt_indent_fit *fit)
-{
-    const bool is_described =
-        !isnan(fit->work_of_adhesion.value) || !isnan(fit->contact_pull.value);
-    const double pull = fmax(fit->adhesion_force, fit->pull_off_force); /* fmax ignores NaN */
-    return fit->adhesion_force > 0.0 && !is_described && pull > small_pull * fit->max_force ? pull
-                                                                                            : 0.0;
-}
-
 /* Adds the error of a snap-in that was left out of a fit without adhesion. The pull acts on in the
  * contact, so the force of the law may be larger by it. That is the limit of the 95 % interval. */
 static void add_left_out_pull(const curve_fitting *f, wt_indent_fit *fit)
