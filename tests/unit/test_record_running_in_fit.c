@@ -216,7 +216,7 @@ static double uniform(uint64_t *seed)
 static void test_rows(void **state)
 {
     (void)state;
-    enum { DRAWS = COUNTED(26), ALL = 2 * ROW_KINDS * DRAWS, LEAST = ALL * 90 / 100 };
+    enum { DRAWS = COUNTED(14), ALL = 2 * ROW_KINDS * DRAWS, LEAST = ALL * 90 / 100 };
     uint64_t seed = 77;
     int held = 0, seen = 0;
     for (int i = 0; i < ALL; i++) {
