@@ -9,6 +9,8 @@
 #include "read/metadata.h"
 #include "weartrack/read.h"
 
+#include <string.h>
+
 /* Answers of a detector. */
 typedef enum detector_answer {
     ANSWER_NO,          /* another format */
@@ -78,13 +80,24 @@ static inline bool reader_is_text(const file_reader *reader)
 
 /* peek_begins: true if the file begins with these bytes. peek_contains: true if the visible part
  * contains them. */
-bool peek_begins(const file_peek *peek, const char *bytes, size_t n);
-bool peek_contains(const file_peek *peek, const char *bytes, size_t n);
+static inline bool peek_begins(const file_peek *peek, const char *bytes, size_t n)
+{
+    return peek->length >= n && memcmp(peek->bytes, bytes, n) == 0;
+}
+
+static inline bool peek_contains(const file_peek *peek, const char *bytes, size_t n)
+{
+    return memmem(peek->bytes, peek->length, bytes, n) != NULL;
+}
 #define PEEK_BEGINS(peek, text) peek_begins(peek, text, sizeof(text) - 1)
 #define PEEK_CONTAINS(peek, text) peek_contains(peek, text, sizeof(text) - 1)
 #define HDF5_SIGNATURE "\211HDF\r\n\032\n"
 /* Returns ANSWER_YES with this score, or ANSWER_NO. */
-recognition recognition_result(bool matches, int score);
+static inline recognition recognition_result(bool matches, int score)
+{
+    return matches ? (recognition){.answer = ANSWER_YES, .score = score}
+                   : (recognition){.answer = ANSWER_NO};
+}
 
 #define READER(id) extern const file_reader reader_##id;
 #include "read/readers.def"

@@ -7,7 +7,7 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
-#include "core/system/digest.h"
+#include "core/system/temporary.h"
 #include "read/bytes/samples.h"
 #include "read/bytes/zip.h"
 #include "read/images.h"
