@@ -1,5 +1,4 @@
 /* weartrack run: runs a whole case. SPDX-License-Identifier: GPL-3.0-or-later */
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>

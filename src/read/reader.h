@@ -1,8 +1,6 @@
 /* Declares the descriptor of a reader, for the binary readers and for the engine of the XML
  * descriptions. Detection never opens a file itself and never relies on the file name.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_READ_READER_H
 #define WT_READ_READER_H
 

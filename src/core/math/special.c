@@ -1,6 +1,5 @@
-/* Special functions from GSL, and the nodes of a quadrature rule.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later */
+/* Special functions from GSL, and the nodes of a quadrature rule. SPDX-License-Identifier:
+ * GPL-3.0-or-later */
 #include "core/math/special.h"
 #include "core/base/memory.h"
 
@@ -9,7 +8,6 @@
 #include <gsl/gsl_spline.h>
 #include <math.h>
 #include <pthread.h>
-#include <stddef.h>
 #include <stdlib.h>
 
 struct akima_curve {

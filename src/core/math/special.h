@@ -1,6 +1,5 @@
-/* Special functions and a quadrature rule. Internal to the library.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later */
+/* Special functions and a quadrature rule. Internal to the library. SPDX-License-Identifier:
+ * GPL-3.0-or-later */
 #ifndef WT_CORE_MATH_SPECIAL_H
 #define WT_CORE_MATH_SPECIAL_H
 

@@ -2,13 +2,11 @@
  * GPL-3.0-or-later */
 #include "core/system/file_signatures.h"
 #include "core/system/temporary.h"
-#include "weartrack/core.h"
 
 #include <errno.h>
 #include <fcntl.h>
 #include <limits.h>
 #include <pthread.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>

@@ -1,6 +1,5 @@
 /* Temporary files and folders. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/system/temporary.h"
-#include "weartrack/core.h"
 
 #include <dirent.h>
 #include <errno.h>
@@ -16,9 +15,8 @@
 /* The interface of OpenSSL 1.1 needs no memory and cannot fail. */
 #define OPENSSL_API_COMPAT 0x10100000L
 
-#include "core/system/temporary.h"
-
 #include "core/math/splitmix64.h"
+#include "core/system/temporary.h"
 
 #include <openssl/md5.h>
 

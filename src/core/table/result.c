@@ -3,7 +3,6 @@
 #include "core/base/memory.h"
 #include "core/table/table.h"
 
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 

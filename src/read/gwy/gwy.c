@@ -1,18 +1,13 @@
 /* Reads Gwyddion files (.gwy): "GWYP", then a container of objects. The data fields "/N/data" are
  * images, and graphs may be profiles. The top line of an image comes first.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "read/gwy/gwy.h"
 #include "read/bytes/bytes.h"
 #include "read/bytes/samples.h"
 #include "read/images.h"
 #include "read/reader.h"
-#include "weartrack/core.h"
 
 #include <math.h>
-#include <stdbool.h>
-#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 

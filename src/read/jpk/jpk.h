@@ -5,10 +5,7 @@
  *
  * Keys that many segments share are stored once in shared-data/header.properties.
  * `channel.C.lcd-info.*=N` means that channel C has the keys `lcd-info.N.…` of that file. The
- * segment header has such references as well.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * segment header has such references as well. SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_READ_JPK_H
 #define WT_READ_JPK_H
 

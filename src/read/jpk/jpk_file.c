@@ -1,13 +1,10 @@
-/* Opens a JPK file: its curves and segments, headers and grid.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+/* Opens a JPK file: its curves and segments, headers and grid. SPDX-License-Identifier:
+ * GPL-3.0-or-later */
 #include "core/base/array.h"
 #include "core/base/number.h"
 #include "read/jpk/jpk.h"
 
 #include <math.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
