@@ -2,7 +2,6 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cmd/master.h"
 
-#include <stdio.h>
 #include <string.h>
 
 enum { TABLES = 7, NAME_SIZE = 48 };

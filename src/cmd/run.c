@@ -1,5 +1,4 @@
 /* weartrack run: runs a whole case. SPDX-License-Identifier: GPL-3.0-or-later */
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -147,7 +146,7 @@ static bool is_result_current(run_call *r)
         snprintf(why, sizeof why, "it cannot be read");
     else if (wt_run_is_current(r->case_file, before, wt_provenance_command(now), &current, why,
                                sizeof why, NULL) != WT_OK)
-        snprintf(why, sizeof why, "out of memory");
+        snprintf(why, sizeof why, "it cannot be compared with the case");
     if (!current && !s->common.quiet)
         cmd_message("%s: made again: %s\n", r->result_name, why);
     if (current) {

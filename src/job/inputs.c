@@ -7,7 +7,7 @@
 #include "core/base/array.h"
 #include "core/base/memory.h"
 #include "core/base/shared_params.h"
-#include "core/system/digest.h"
+#include "core/system/temporary.h"
 #include "core/table/table_rows.h"
 
 #include <search.h>

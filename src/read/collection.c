@@ -1,9 +1,6 @@
-/* Reads a ZIP archive whose entries are files of force curves.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+/* Reads a ZIP archive whose entries are files of force curves. SPDX-License-Identifier:
+ * GPL-3.0-or-later */
 #include "read/collection.h"
-
 #include "core/base/memory.h"
 #include "read/bytes/input.h"
 #include "read/bytes/zip.h"

@@ -1,8 +1,5 @@
 /* Builds a description from columns that the user names: the description of a plain table (such as
- * table-units) with these columns in front.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * table-units) with these columns in front. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/base/memory.h"
 #include "read/formats.h"
 #include "read/text/text.h"

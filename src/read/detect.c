@@ -1,8 +1,5 @@
 /* Detects the format of a file. Every reader is queried; one that cannot decide yet sees more of
- * the file. The order of the list never decides a tie.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * the file. The order of the list never decides a tie. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/base/memory.h"
 #include "read/formats.h"
 #include "read/text/text.h"

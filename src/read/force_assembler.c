@@ -1,7 +1,5 @@
 /* Builds force curves from the segments and channels that a reader decodes, for all formats.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "read/force_assembler.h"
 #include "core/base/array.h"
 #include "core/base/memory.h"

@@ -1,10 +1,6 @@
 /* Manages the set of formats: binary readers, descriptions embedded in the library, and those of a
- * folder.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * folder. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "read/formats.h"
-
 #include "core/base/array.h"
 #include "read/embedded_formats.h"
 #include "read/text/text.h"

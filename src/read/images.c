@@ -1,7 +1,5 @@
-/* Implements the list of images that a reader creates from a file.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+/* Implements the list of images that a reader creates from a file. SPDX-License-Identifier:
+ * GPL-3.0-or-later */
 #include "read/images.h"
 #include "core/base/memory.h"
 #include "core/base/utf8.h"

@@ -1,10 +1,7 @@
 /* Declares the list of images that a reader creates from a file.
  *
- * Row 0 is the bottom line. Width and height are the distances between the centres of the first
- * and the last pixel [m].
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * Row 0 is the bottom line. Width and height are the distances between the centres of the first and
+ * the last pixel [m]. SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_READ_IMAGES_H
 #define WT_READ_IMAGES_H
 

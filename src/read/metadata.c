@@ -1,9 +1,6 @@
-/* Fills the table of metadata that a reader returns for `info`.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+/* Fills the table of metadata that a reader returns for `info`. SPDX-License-Identifier:
+ * GPL-3.0-or-later */
 #include "read/metadata.h"
-
 #include "core/base/clocale.h"
 #include "core/base/memory.h"
 #include "core/table/registry.h"

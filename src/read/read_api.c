@@ -1,7 +1,5 @@
 /* Reads DMA sweeps, spectra, friction records and images with the reader that recognises the file.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/table/registry.h"
 #include "read/collection.h"
 #include "read/formats.h"

@@ -1,8 +1,5 @@
 /* Unpacks a file that contains another one: the content of a gzip archive, or the data sheet of a
- * spreadsheet as text.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * spreadsheet as text. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/base/memory.h"
 #include "read/bytes/input.h"
 #include "read/collection.h"

@@ -4,7 +4,7 @@
  * functions (see CMakeLists.txt), so the library has none.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cells.h"
-#include "core/system/digest.h"
+#include "core/system/temporary.h"
 
 #include "case/plan/plan.h"
 #include "core/math/root.h"

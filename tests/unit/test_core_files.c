@@ -1,6 +1,5 @@
 /* Patterns, output files, digests, provenance. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/math/splitmix64.h"
-#include "core/system/digest.h"
 #include "core/system/temporary.h"
 #include "near.h"
 

@@ -2,9 +2,6 @@
 #include "core/base/array.h"
 #include "weartrack/core.h"
 
-#include <stdbool.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 

@@ -1,7 +1,6 @@
 /* Implements the status codes and the error object. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/base/clocale.h"
 #include "core/base/utf8.h"
-#include "weartrack/core.h"
 
 #include <stdarg.h>
 #include <string.h>

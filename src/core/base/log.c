@@ -4,7 +4,6 @@
 #include "core/base/clocale.h"
 #include "core/base/memory.h"
 #include "core/base/utf8.h"
-#include "weartrack/core.h"
 
 #include <search.h>
 #include <stdarg.h>

@@ -1,6 +1,5 @@
 /* Allocation with a handler for the lack of memory. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/base/memory.h"
-#include "weartrack/core.h"
 
 #include <errno.h>
 #include <stdarg.h>

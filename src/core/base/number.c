@@ -2,11 +2,9 @@
  * GPL-3.0-or-later */
 #include "core/base/number.h"
 #include "core/base/clocale.h"
-#include "weartrack/core.h"
 
 #include <float.h>
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 

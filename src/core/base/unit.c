@@ -7,13 +7,10 @@
 #include "core/base/number.h"
 #include "core/base/quantity.h"
 #include "core/base/utf8.h"
-#include "weartrack/core.h"
 
 #include <errno.h>
 #include <math.h>
 #include <pthread.h>
-#include <stdbool.h>
-#include <stddef.h>
 #include <string.h>
 #include <udunits2.h>
 

@@ -3,7 +3,6 @@
 #include "core/data/force_curve.h"
 #include "core/base/array.h"
 #include "core/math/simd.h"
-#include "weartrack/core.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,12 +1,9 @@
 /* DMA sweeps: memory, sorting, removal of duplicates and selection of a sample.
  * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "core/base/clocale.h"
 #include "core/data/sweep_points.h"
 
-#include "core/base/clocale.h"
-
 #include <math.h>
-#include <stdint.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 

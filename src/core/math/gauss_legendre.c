@@ -1,8 +1,5 @@
-/* Gauss-Legendre rules and their running integrals.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later */
+/* Gauss-Legendre rules and their running integrals. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/math/gauss_legendre.h"
-
 #include "core/base/memory.h"
 #include "core/math/simd.h"
 #include "core/math/special.h"

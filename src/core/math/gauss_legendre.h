@@ -1,5 +1,4 @@
 /* Gauss-Legendre rules with the matrix of their running integral. Internal to math.
- *
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_CORE_MATH_GAUSS_LEGENDRE_H
 #define WT_CORE_MATH_GAUSS_LEGENDRE_H

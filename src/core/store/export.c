@@ -5,7 +5,6 @@
 #include "core/base/utf8.h"
 #include "core/system/file_signatures.h"
 #include "core/table/table.h"
-#include "weartrack/core.h"
 
 #include <endian.h>
 #include <errno.h>

@@ -1,7 +1,6 @@
 /* Reads results from the HDF5 store, or only their headlines. The data from the sandbox must be
  * complete and agree with their digests. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/store/store.h"
-#include "core/base/provenance.h"
 #include "core/table/registry.h"
 #include "core/table/table.h"
 

@@ -2,13 +2,11 @@
  * GPL-3.0-or-later */
 #include "core/system/file_signatures.h"
 #include "core/system/temporary.h"
-#include "weartrack/core.h"
 
 #include <errno.h>
 #include <fcntl.h>
 #include <limits.h>
 #include <pthread.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -205,7 +203,7 @@ static int create_unnamed(const char *folder, char **name)
 static void sync_folder(const char *path)
 {
     char *const folder = wt_path_folder(path);
-    const int descriptor = folder != NULL ? open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC) : -1;
+    const int descriptor = open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (descriptor >= 0) {
         (void)fsync(descriptor);
         (void)close(descriptor);
@@ -227,10 +225,8 @@ static bool link_unnamed(wt_atomic_file *file)
         return false;
     char *const folder = wt_path_folder(file->final);
     bool named = false;
-    errno = ENOMEM;
-    if (folder != NULL)
-        temporary_remove_abandoned(folder);
-    for (int attempt = 0; folder != NULL && attempt < ATTEMPTS && !named; attempt++) {
+    temporary_remove_abandoned(folder);
+    for (int attempt = 0; attempt < ATTEMPTS && !named; attempt++) {
         char *const path = temporary_name(folder);
         if (path == NULL)
             break;

@@ -1,7 +1,6 @@
 /* Runs a library in a separate process with limits and a system-call filter.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/system/sandbox.h"
-
 #include "core/base/array.h"
 #include "core/base/memory.h"
 #include "core/system/seccomp_filter.h"

@@ -4,9 +4,7 @@
  *
  * For a table `layer` this header defines the types layer_column and layer_key, the schema
  * layer_schema, and the functions below. These functions accept the columns and keys of this table
- * only; others are a compiler error.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later */
+ * only; others are a compiler error. SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_CORE_TABLE_REGISTRY_H
 #define WT_CORE_TABLE_REGISTRY_H
 

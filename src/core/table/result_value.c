@@ -1,12 +1,10 @@
 /* Computes the result values from the tables of a result. SPDX-License-Identifier:
  * GPL-3.0-or-later */
 #include "core/table/result_value.h"
-
 #include "core/base/array.h"
 #include "core/math/students_t.h"
 
 #include <math.h>
-#include <stddef.h>
 #include <string.h>
 
 /* Offset of the view of each table. */

@@ -55,4 +55,8 @@ wt_status table_bytes_read(const char **at, const char *end, wt_table **table,
 /* Computes the SHA-256 of the encoded table. */
 wt_status table_bytes_digest(const wt_table *table, char hex[65], wt_error *err) WT_NODISCARD;
 
+/* Sets version and command from the texts of wt_provenance_version and wt_provenance_command,
+ * separated by a line feed. */
+void provenance_restore(wt_provenance *p, const char *version_and_command);
+
 #endif

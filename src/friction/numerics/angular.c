@@ -8,7 +8,6 @@
 #include "core/base/array.h"
 #include "core/math/chebyshev.h"
 #include "core/math/simd.h"
-#include "core/math/vector_exp.h"
 
 #include <float.h>
 #include <math.h>

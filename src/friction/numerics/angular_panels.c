@@ -6,7 +6,6 @@
 #include "friction/numerics/angular.h"
 
 #include "core/math/simd.h"
-#include "core/math/vector_exp.h"
 
 #include <float.h>
 #include <math.h>

@@ -1,14 +1,11 @@
 /* Implements inputs: the bytes of a file or pipe, read as far as requested, or of borrowed memory.
  *
  * A file is never mapped, since another program that shortens it would end this one with a signal.
- * A large pipe is stored in a file if parts of it are requested.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * A large pipe is stored in a file if parts of it are requested. SPDX-License-Identifier:
+ * GPL-3.0-or-later */
 #include "read/bytes/input.h"
 #include "core/store/hdf5_sandbox.h"
 #include "core/system/temporary.h"
-#include "weartrack/core.h"
 #include "weartrack/read.h"
 
 #include <errno.h>

@@ -1,7 +1,5 @@
 /* Declares inputs of computed bytes, and an input that contains another one.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_READ_INPUT_H
 #define WT_READ_INPUT_H
 

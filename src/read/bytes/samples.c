@@ -1,7 +1,5 @@
-/* Decodes the samples of a channel as an instrument stores them.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+/* Decodes the samples of a channel as an instrument stores them. SPDX-License-Identifier:
+ * GPL-3.0-or-later */
 #include "read/bytes/samples.h"
 #include "core/base/memory.h"
 #include "core/math/simd.h"

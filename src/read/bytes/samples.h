@@ -1,13 +1,9 @@
-/* Declares the decoding of samples as an instrument stores them.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+/* Declares the decoding of samples as an instrument stores them. SPDX-License-Identifier:
+ * GPL-3.0-or-later */
 #ifndef WT_READ_SAMPLES_H
 #define WT_READ_SAMPLES_H
 
 #include "weartrack/read.h"
-#include <stdbool.h>
-#include <stddef.h>
 
 typedef struct input_window {
     wt_input *input;

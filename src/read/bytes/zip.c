@@ -2,9 +2,7 @@
  * format, sections 4.3 and 4.5.3.
  *
  * Maps have half a million entries, so an entry stores only its name and its position.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "read/bytes/zip.h"
 #include "core/base/memory.h"
 #include "core/math/splitmix64.h"

@@ -1,7 +1,5 @@
-/* Declares access to ZIP archives, also to one whose end is missing.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+/* Declares access to ZIP archives, also to one whose end is missing. SPDX-License-Identifier:
+ * GPL-3.0-or-later */
 #ifndef WT_READ_BYTES_ZIP_H
 #define WT_READ_BYTES_ZIP_H
 

@@ -1,8 +1,5 @@
 /* Reads height maps of other manufacturers with the program Gwyddion. The program converts them to
- * .gwy, and the result is read.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * .gwy, and the result is read. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "read/gwyddion/gwyddion.h"
 #include "core/base/memory.h"
 #include "core/base/utf8.h"

@@ -1,7 +1,5 @@
 /* Declares the program Gwyddion as a converter of height maps without a reader in this program.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_READ_GWYDDION_H
 #define WT_READ_GWYDDION_H
 

@@ -1,10 +1,6 @@
 /* Reads attributes and data sets of HDF5 files of force curves, and runs the conversion to text in
- * the sandbox.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * the sandbox. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "read/hierarchy/curves_hdf5.h"
-
 #include "core/base/memory.h"
 #include "core/store/hdf5_sandbox.h"
 #include "core/store/store.h"

@@ -1,8 +1,5 @@
 /* Reads JPK force curves, maps and quantitative imaging (ZIP): descriptor, detection, and the
- * metadata for `info`.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * metadata for `info`. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "read/jpk/jpk.h"
 #include "read/bytes/samples.h"
 #include "read/metadata.h"

@@ -1,7 +1,5 @@
 /* Reads a segment of a JPK curve: its header with inherited keys, and its channels.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/base/number.h"
 #include "read/jpk/jpk.h"
 

@@ -1,7 +1,5 @@
 /* Reads NanoScope files: descriptor, detection, and the metadata for `info`.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "read/nanoscope/nanoscope.h"
 #include "core/base/number.h"
 #include "read/bytes/bytes.h"

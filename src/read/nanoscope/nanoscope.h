@@ -3,10 +3,8 @@
  *
  * A file is a text of lines "\key: value" in sections "\*Name", then blocks of little-endian
  * integers. A "Ciao force image list" describes the block of one channel with all curves. A curve
- * is the approach, stored from the contact outwards, then the retract.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * is the approach, stored from the contact outwards, then the retract. SPDX-License-Identifier:
+ * GPL-3.0-or-later */
 #ifndef WT_READ_NANOSCOPE_H
 #define WT_READ_NANOSCOPE_H
 

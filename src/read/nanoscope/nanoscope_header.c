@@ -1,10 +1,7 @@
-/* Parses the text at the beginning of a NanoScope file.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
+/* Parses the text at the beginning of a NanoScope file. SPDX-License-Identifier: GPL-3.0-or-later
  */
-#include "read/nanoscope/nanoscope.h"
-
 #include "core/base/number.h"
+#include "read/nanoscope/nanoscope.h"
 
 #include <ctype.h>
 #include <math.h>

@@ -1,7 +1,5 @@
 /* Reads Nanosurf Studio files: measurements, segments and curves, and the descriptor.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "read/nhf/nhf.h"
 #include "core/base/memory.h"
 #include "core/store/hdf5_sandbox.h"

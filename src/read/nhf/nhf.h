@@ -3,10 +3,8 @@
  *
  * A group of the file is a measurement. Its groups are the segments, named by "name" in version 1
  * and "segment_name" in version 2. Their data sets are the channels. One data set contains all
- * curves of a map; another one states the number of samples of each.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * curves of a map; another one states the number of samples of each. SPDX-License-Identifier:
+ * GPL-3.0-or-later */
 #ifndef WT_READ_NHF_H
 #define WT_READ_NHF_H
 

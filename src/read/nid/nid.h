@@ -2,9 +2,7 @@
  *
  * A file is an INI text, the two bytes "#!", then one block of little-endian integers for each
  * channel. Groups name the kind of measurement ("Scan forward", "Spec backward", "Spectrum FFT").
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_READ_NID_H
 #define WT_READ_NID_H
 

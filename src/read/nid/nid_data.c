@@ -1,10 +1,7 @@
 /* Reads the channels of a .nid file: positions of the blocks, scaling of the numbers, and images.
  *
  * Value of a sample: Dim2Min + Dim2Range (raw + 2^(bits-1)) / 2^bits. Rows run from the bottom
- * upwards.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * upwards. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/base/number.h"
 #include "read/bytes/samples.h"
 #include "read/images.h"

@@ -1,12 +1,9 @@
 /* Parses the INI text at the beginning of a .nid file, in Latin-1 or UTF-8 as the bytes show.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
-#include "read/nid/nid.h"
-
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/base/array.h"
 #include "core/base/number.h"
 #include "core/base/utf8.h"
+#include "read/nid/nid.h"
 
 #include <math.h>
 #include <stdlib.h>

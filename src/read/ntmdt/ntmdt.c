@@ -5,10 +5,7 @@
  * sample. Rows that the curve did not reach repeat its first sample.
  *
  * The format is known from one measured file, which contains neither the unit of the signal nor a
- * calibration.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * calibration. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/base/memory.h"
 #include "read/bytes/input.h"
 #include "read/text/curve_text.h"

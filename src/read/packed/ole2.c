@@ -1,11 +1,7 @@
 /* Reads compound files. A stream is a chain of sectors; a table (FAT) contains the successor of
- * each sector. Every number of the file is checked where it is used. A chain has no more steps
- * than the file has sectors.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * each sector. Every number of the file is checked where it is used. A chain has no more steps than
+ * the file has sectors. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "read/packed/ole2.h"
-
 #include "read/bytes/bytes.h"
 
 #include <stdlib.h>

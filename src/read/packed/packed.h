@@ -1,7 +1,5 @@
 /* Declares the unpacking of files: a gzip archive to bytes, the sheets of a spreadsheet to text.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_READ_PACKED_H
 #define WT_READ_PACKED_H
 

@@ -3,9 +3,7 @@
  *
  * Instruments write variants that Excel does not, such as BIFF5 under the stream name of BIFF8.
  * Values are read as stored; a formula has the value that was saved with it.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/base/array.h"
 #include "core/base/clocale.h"
 #include "core/base/memory.h"

@@ -1,8 +1,6 @@
-/* Reads Office Open XML spreadsheets: a ZIP archive of XML. Numbers are read as written, texts
- * from the shared strings; a formula has the value that was saved with it.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+/* Reads Office Open XML spreadsheets: a ZIP archive of XML. Numbers are read as written, texts from
+ * the shared strings; a formula has the value that was saved with it. SPDX-License-Identifier:
+ * GPL-3.0-or-later */
 #include "core/base/array.h"
 #include "core/base/memory.h"
 #include "read/bytes/zip.h"

@@ -1,8 +1,6 @@
 /* Reads measurements in HDF5 files of this program, weartrack-hdf5(5), which `weartrack convert`
  * writes. The tables are converted to a text stream, which its description reads.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/base/memory.h"
 #include "core/store/store.h"
 #include "read/bytes/input.h"

@@ -3,16 +3,12 @@
  *
  * Integers are scaled: z = raw * Increment + Offset. Floating-point numbers are used directly,
  * since the programs that write them do not apply the increment. The first line is at the bottom,
- * as y increases with its index.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
-#include "core/system/digest.h"
+ * as y increases with its index. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "core/system/temporary.h"
 #include "read/bytes/samples.h"
 #include "read/bytes/zip.h"
 #include "read/images.h"
 #include "read/reader.h"
-#include "weartrack/core.h"
 
 #include <libxml/parser.h>
 #include <math.h>

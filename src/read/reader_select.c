@@ -1,8 +1,10 @@
-/* Detects a format by the first bytes of a file. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "read/reader.h"
+/* Selects the reader of a file and the options of reading. SPDX-License-Identifier:
+ * GPL-3.0-or-later
+ */
 #include "core/base/memory.h"
 #include "read/formats.h"
 #include "read/read_params.h"
+#include "read/reader.h"
 
 #include <math.h>
 #include <string.h>
@@ -113,20 +115,4 @@ wt_status read_end(wt_input *input, wt_status status, wt_error *err)
     if (status != WT_OK)
         wt_error_file(err, wt_input_name(input));
     return status;
-}
-
-bool peek_begins(const file_peek *peek, const char *bytes, size_t n)
-{
-    return peek->length >= n && memcmp(peek->bytes, bytes, n) == 0;
-}
-
-bool peek_contains(const file_peek *peek, const char *bytes, size_t n)
-{
-    return memmem(peek->bytes, peek->length, bytes, n) != NULL;
-}
-
-recognition recognition_result(bool matches, int score)
-{
-    return matches ? (recognition){.answer = ANSWER_YES, .score = score}
-                   : (recognition){.answer = ANSWER_NO};
 }
