@@ -123,12 +123,13 @@ static wt_status test_part(const master_work *whole, size_t first, size_t last, 
                            wt_error *err)
 {
     master_work work = {.options = whole->options, .part = true, .set = whole->set};
+    const double base = whole->set.curves[whole->anchor].temperature;
     work.options.reference_temperature = whole->reference;
     work.set.curves += first;
     work.set.n = work.last = last - first + 1;
     *holds = false;
     master_work_alloc(&work);
-    wt_status status = master_choose_anchor(&work, err);
+    wt_status status = master_choose_anchor(&work, base, err);
     if (status == WT_OK)
         status = master_find_initial_shifts(&work, err);
     if (status == WT_OK)
@@ -279,10 +280,10 @@ static wt_status fit_by_best_route(master_work *work, wt_error *err)
     return status == WT_OK ? master_estimate_noise(work, err) : status;
 }
 
-/* Fits for the reference of the options. *better: after a lack of overlap, the temperature of a
- * steeper isotherm; otherwise NaN. */
+/* Fits from the isotherm nearest to `*base`, or from the middle one. *base: after a lack of
+ * overlap, the temperature of a steeper isotherm; otherwise NaN. */
 static wt_status master_fit_once(const wt_sweep *sweep, const wt_master_options *options,
-                                 wt_log *log, wt_master *master, double *better, wt_error *err)
+                                 wt_log *log, wt_master *master, double *base, wt_error *err)
 {
     master_work work = {.options = *options};
     wt_status status = param_check(wt_master_options_params(), &work.options, err);
@@ -292,7 +293,7 @@ static wt_status master_fit_once(const wt_sweep *sweep, const wt_master_options 
         status = master_check_vertical(&work, err);
     if (status == WT_OK) {
         master_work_alloc(&work);
-        status = master_choose_anchor(&work, err);
+        status = master_choose_anchor(&work, *base, err);
     }
     if (status == WT_OK) {
         closed_form_shifts(&work.set, work.anchor, work.posterior->closed_form);
@@ -300,12 +301,15 @@ static wt_status master_fit_once(const wt_sweep *sweep, const wt_master_options 
     }
     if (status == WT_OK)
         status = master_fit_widths(&work, err);
-    if (status == WT_OK)
+    if (status == WT_OK) {
+        master_refer_errors(&work);
+        work.posterior->reference_a = master_reference_shift(&work);
         status = posterior_finish(work.posterior, work.reference, err);
+    }
     if (status == WT_OK)
         status = master_report(&work, sweep, log, master, err);
     const size_t steeper = status == WT_E_NO_OVERLAP ? master_steeper_isotherm(&work) : work.anchor;
-    *better = steeper != work.anchor ? work.set.curves[steeper].temperature : (double)NAN;
+    *base = steeper != work.anchor ? work.set.curves[steeper].temperature : (double)NAN;
     posterior_free(work.posterior);
     arena_free(&work.memory);
     return status;
@@ -400,30 +404,31 @@ static void forward_log(const wt_log *from, wt_log *to)
     }
 }
 
-/* Fits, and if the middle isotherm is too flat repeats the fit with the steepest one as
- * reference, unless a reference is stated. */
-static wt_status fit_with_fallback_reference(const wt_sweep *sweep, wt_master_options options,
-                                             wt_log *log, wt_master *master, wt_error *err)
+/* Fits, and if the middle isotherm is too flat repeats the fit from the steepest one, which is the
+ * reference unless one is stated. */
+static wt_status fit_with_fallback_start(const wt_sweep *sweep, wt_master_options options,
+                                         wt_log *log, wt_master *master, wt_error *err)
 {
-    double better;
+    double base = (double)NAN;
     wt_error flat = WT_ERROR_INIT;
     wt_log *first_log = wt_log_new(); /* buffered, because a second fit repeats the messages */
-    const wt_status status = master_fit_once(sweep, &options, first_log, master, &better, &flat);
-    const bool is_final = isnan(better) || !isnan(options.reference_temperature);
-    if (is_final)
+    const wt_status status = master_fit_once(sweep, &options, first_log, master, &base, &flat);
+    if (isnan(base))
         forward_log(first_log, log);
     wt_log_free(first_log);
-    if (is_final) {
+    if (isnan(base)) {
         if (status != WT_OK && err != NULL)
             *err = flat;
         return status;
     }
-    wt_log_add(log, WT_WARNING, NULL, NULL,
-               "the isotherm in the middle is too flat to shift others onto it: the reference "
-               "is %.2f °C, where the modulus changes most with frequency",
-               better - WT_ZERO_CELSIUS);
-    options.reference_temperature = better;
-    return master_fit_once(sweep, &options, log, master, &better, err);
+    if (isnan(options.reference_temperature)) {
+        wt_log_add(log, WT_WARNING, NULL, NULL,
+                   "the isotherm in the middle is too flat to shift others onto it: the reference "
+                   "is %.2f °C, where the modulus changes most with frequency",
+                   base - WT_ZERO_CELSIUS);
+        options.reference_temperature = base;
+    }
+    return master_fit_once(sweep, &options, log, master, &base, err);
 }
 
 wt_status wt_master_fit(const wt_sweep *sweep, const wt_master_options *options, wt_log *log,
@@ -431,7 +436,7 @@ wt_status wt_master_fit(const wt_sweep *sweep, const wt_master_options *options,
 {
     wt_master_options adjusted = options != NULL ? *options : wt_master_options_defaults();
     if (adjusted.reference_at != WT_REFERENCE_TAN_DELTA_PEAK)
-        return fit_with_fallback_reference(sweep, adjusted, log, master, err);
+        return fit_with_fallback_start(sweep, adjusted, log, master, err);
     if (!isnan(adjusted.reference_temperature)) {
         wt_fail(err, WT_E_ARG, "two references: a temperature and the peak of tan delta");
         wt_error_place(err, "reference-at");
@@ -439,10 +444,9 @@ wt_status wt_master_fit(const wt_sweep *sweep, const wt_master_options *options,
         return WT_E_ARG;
     }
     wt_master first = {0};
-    wt_status status = fit_with_fallback_reference(sweep, adjusted, NULL, &first, err);
+    wt_status status = fit_with_fallback_start(sweep, adjusted, NULL, &first, err);
     if (status == WT_OK)
         status = find_transition_temperature(&first, &adjusted.reference_temperature, err);
     wt_master_clear(&first);
-    return status == WT_OK ? fit_with_fallback_reference(sweep, adjusted, log, master, err)
-                           : status;
+    return status == WT_OK ? fit_with_fallback_start(sweep, adjusted, log, master, err) : status;
 }
