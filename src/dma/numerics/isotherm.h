@@ -25,6 +25,7 @@ typedef struct shift_curve {
     double fixed_log_a; /* stated log10 a; only differences to other stated shifts count [decade] */
     bool is_vertical_fixed; /* the vertical shift is stated, too */
     double fixed_log_b;     /* stated log10 b [decade] */
+    char exclusion[128];    /* reason why the isotherm is left out, with n = 0; otherwise empty */
 } shift_curve;
 
 /* All isotherms by rising temperature. */

@@ -11,7 +11,8 @@ typedef struct master_work {
     arena memory;
     wt_master_options options;
     shift_set set;
-    double reference;        /* [K] */
+    const shift_curve *whole_curves; /* in a fit without one isotherm: the curves with it */
+    double reference;                /* [K] */
     size_t anchor;           /* isotherm to which the fit refers; it depends on the data only */
     size_t at;               /* isotherm at the reference temperature, or set.n: the law gives the
                                 reference */
@@ -102,6 +103,19 @@ bool master_misfit_is_likely(const lack_of_fit *lack);
 bool master_loss_is_inconsistent(const lack_of_fit *lack);
 /* Returns true if that factor is the only misfit. It does not affect the shifts. */
 bool master_misfit_is_loss_factor(const lack_of_fit *lack);
+
+/* Fits one spectrum with free shifts. */
+wt_status master_fit_free_shifts(master_work *work, wt_error *err) WT_NODISCARD;
+/* Returns true if one spectrum does not describe the placed isotherms. */
+bool master_objects(const master_work *work);
+/* Finds the one isotherm without which one spectrum describes the others, and writes the reason.
+ * *found: its index, or set.n. */
+wt_status master_find_objecting(master_work *work, size_t *found, wt_error *err) WT_NODISCARD;
+/* Finds an isotherm whose frequencies are off by 2 pi, and writes the reason. Returns false if
+ * there is none. */
+bool master_find_unit_slip(master_work *work, size_t *found);
+/* Leaves an isotherm out of the fit. */
+void master_exclude(master_work *work, size_t i);
 
 /* Fills `master` and transfers the posterior to it. */
 wt_status master_report(master_work *work, const wt_sweep *sweep, wt_log *log, wt_master *master,

@@ -101,6 +101,8 @@ static double misfit_to_shift(const master_work *work, double missed, size_t fro
     double sum = 0.0;
     for (; i != from; i = i < from ? i + 1 : i - 1) {
         const shift_curve *c = &work->set.curves[i];
+        if (c->n < SHIFT_MIN_POINTS)
+            continue;
         sum += missed / M_LN10 * (c->x[c->n - 1] - c->x[0]) / curve_modulus_change(&work->set, i);
     }
     return sum;

@@ -209,8 +209,7 @@ static wt_status refit_without_restart(master_work *work, wt_error *err)
     return status == WT_OK ? master_test_superposition(work, err) : status;
 }
 
-/* Fits one spectrum with free shifts. */
-static wt_status fit_free_shifts(master_work *work, wt_error *err)
+wt_status master_fit_free_shifts(master_work *work, wt_error *err)
 {
     wt_status status = master_find_initial_shifts(work, err);
     if (status == WT_OK && work->is_gross) { /* fixed vertical shifts may cause the whole misfit */
@@ -241,12 +240,46 @@ static bool misfit_is_relevant(const master_work *work)
                              fabs(lack->factor) < fmax(work->missed[STORAGE], work->missed[LOSS]));
 }
 
-/* Fits one spectrum. If it fails or is far off, the function fits a part around the reference,
- * or else a spectrum at the overlap shifts. */
+/* Leaves an isotherm out and fits the others. */
+static wt_status refit_without(master_work *work, size_t i, wt_error *err)
+{
+    const double base = work->set.curves[work->anchor].temperature;
+    work->options.reference_temperature = work->reference;
+    master_exclude(work, i);
+    work->plain = work->is_gross = work->exceeds_noise = work->tested = false;
+    work->lack = (lack_of_fit){0};
+    wt_status status = master_choose_anchor(work, base, err);
+    if (status == WT_OK) {
+        closed_form_shifts(&work->set, work->anchor, work->posterior->closed_form);
+        status = master_fit_free_shifts(work, err);
+    }
+    return status;
+}
+
+/* Fits one spectrum, without an isotherm that does not belong to the others if there is one. */
+static wt_status fit_one_spectrum(master_work *work, wt_error *err)
+{
+    size_t i = work->set.n;
+    wt_status status = master_fit_free_shifts(work, err);
+    for (size_t k = 0; k < work->set.n; k++)
+        if (work->set.curves[k].is_shift_fixed)
+            return status; /* stated shifts may cause the misfit */
+    if (status != WT_OK || work->set.loading != WT_OSCILLATION)
+        return status;
+    if (master_find_unit_slip(work, &i))
+        status = refit_without(work, i, err);
+    if (status != WT_OK || !work->tested || !master_objects(work))
+        return status;
+    status = master_find_objecting(work, &i, err);
+    return status == WT_OK && i < work->set.n ? refit_without(work, i, err) : status;
+}
+
+/* Fits one spectrum. If it fails or is far off, the function fits a part around the anchor, or else
+ * a spectrum at the overlap shifts. */
 static wt_status fit_by_best_route(master_work *work, wt_error *err)
 {
     wt_error failure = WT_ERROR_INIT;
-    wt_status status = fit_free_shifts(work, &failure);
+    wt_status status = fit_one_spectrum(work, &failure);
     if (status == WT_E_CONVERGENCE)
         snprintf(work->no_spectrum, sizeof work->no_spectrum, "%s", failure.message);
     bool overlap = false;
@@ -273,7 +306,7 @@ static wt_status fit_by_best_route(master_work *work, wt_error *err)
     if (status == WT_OK && work->part) {
         work->whole = work->lack;
         memcpy(work->missed_whole, work->missed, sizeof work->missed);
-        return fit_free_shifts(work, err);
+        return master_fit_free_shifts(work, err);
     }
     if (status == WT_OK)
         status = master_use_overlap_shifts(work, err);

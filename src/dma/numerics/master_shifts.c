@@ -32,7 +32,9 @@ static bool note_undetermined(const master_work *work, size_t i, wt_master_shift
     const double own = work->placed[i]
                            ? hypot(posterior_fit_error(work->posterior, work->curve[i]), extra)
                            : (double)NAN;
-    if (work->set.curves[i].n < SHIFT_MIN_POINTS)
+    if (work->set.curves[i].exclusion[0] != '\0')
+        master_add_note(shift, "%s", work->set.curves[i].exclusion);
+    else if (work->set.curves[i].n < SHIFT_MIN_POINTS)
         master_add_note(shift, "not determined: only %zu points", work->set.curves[i].n);
     else if (!work->placed[i])
         master_add_note(shift, work->route == WT_SHIFTS_FROM_OVERLAP
