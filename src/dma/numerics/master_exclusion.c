@@ -73,9 +73,12 @@ static size_t find_suspects(const master_work *work, size_t suspect[MOST_TRIALS]
     return n;
 }
 
-/* Describes by how much an isotherm deviates from the spectrum of the others, at the shift at which
- * E' deviates least. */
-static void describe_deviation(const master_work *others, size_t i, char *reason, size_t size)
+/* Error of the level of E' [decade]: half width of its prior (master_route.c). */
+static const double level_error = 0.01;
+
+/* Finds the shift of an isotherm at which its E' deviates least from the spectrum of the others,
+ * and describes by how much it deviates there. */
+static void describe_deviation(const master_work *others, size_t i, shift_curve *found)
 {
     const spectrum *s = others->s;
     const shift_curve *curves = others->set.curves, *c = others->whole_curves + i;
@@ -104,15 +107,20 @@ static void describe_deviation(const master_work *others, size_t i, char *reason
             least = fabs(mean[STORAGE]);
             memcpy(at, mean, sizeof at);
             all = rms;
+            found->excluded_a = expected + a;
         }
     }
     free(term);
+    found->has_excluded_shift = true;
+    found->excluded_error =
+        level_error * (c->x[c->n - 1] - c->x[0]) / fabs(c->y[STORAGE][c->n - 1] - c->y[STORAGE][0]);
     if (fabs(at[LOSS]) > named_deviation)
-        clocale_print(reason, size, "left out: its E'' is %+.0f %% off what the others demand",
+        clocale_print(found->exclusion, sizeof found->exclusion,
+                      "left out: its E'' is %+.0f %% off what the others demand",
                       100.0 * expm1(at[LOSS]));
     else
-        clocale_print(reason, size, "left out: it misses the spectrum of the others by %.1f %%",
-                      100.0 * all);
+        clocale_print(found->exclusion, sizeof found->exclusion,
+                      "left out: it misses the spectrum of the others by %.1f %%", 100.0 * all);
 }
 
 bool master_objects(const master_work *work)
@@ -123,8 +131,8 @@ bool master_objects(const master_work *work)
 
 /* Fits the others without isotherm i. *misfit: the remaining misfit [ln], HUGE_VAL if one spectrum
  * does not describe them. */
-static wt_status try_without(const master_work *whole, size_t i, double *misfit, char *reason,
-                             size_t size, wt_error *err)
+static wt_status try_without(const master_work *whole, size_t i, double *misfit,
+                             shift_curve *described, wt_error *err)
 {
     master_work work = {
         .options = whole->options, .set = whole->set, .whole_curves = whole->set.curves};
@@ -147,7 +155,7 @@ static wt_status try_without(const master_work *whole, size_t i, double *misfit,
     *misfit = good ? fmax(work.lack.misfit_high, hypot(work.missed[STORAGE], work.missed[LOSS]))
                    : HUGE_VAL;
     if (good)
-        describe_deviation(&work, i, reason, size);
+        describe_deviation(&work, i, described);
     posterior_free(work.posterior);
     arena_free(&work.memory);
     const bool none = status == WT_E_CONVERGENCE || status == WT_E_RANGE ||
@@ -165,7 +173,7 @@ wt_status master_find_objecting(master_work *work, size_t *found, wt_error *err)
 {
     size_t suspect[MOST_TRIALS], n_left = 0;
     double best = HUGE_VAL, second = HUGE_VAL;
-    char reason[sizeof work->set.curves->exclusion];
+    shift_curve chosen = {0};
     wt_status status = WT_OK;
     *found = work->set.n;
     for (size_t i = 0; i < work->set.n; i++)
@@ -175,22 +183,22 @@ wt_status master_find_objecting(master_work *work, size_t *found, wt_error *err)
     const size_t n = find_suspects(work, suspect);
     for (size_t k = 0; status == WT_OK && k < n; k++) {
         double misfit;
-        char text[sizeof reason];
-        status = try_without(work, suspect[k], &misfit, text, sizeof text, err);
+        shift_curve described = work->set.curves[suspect[k]];
+        status = try_without(work, suspect[k], &misfit, &described, err);
         if (status != WT_OK || !(misfit < second))
             continue;
         second = misfit < best ? best : misfit;
         if (misfit < best) {
             best = misfit;
             *found = suspect[k];
-            memcpy(reason, text, sizeof reason);
+            chosen = described;
         }
     }
     if (*found == work->set.n || !(best < clear_share * second)) {
         *found = work->set.n;
         return status;
     }
-    memcpy(work->set.curves[*found].exclusion, reason, sizeof reason);
+    work->set.curves[*found] = chosen;
     return status;
 }
 

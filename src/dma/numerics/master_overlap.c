@@ -272,6 +272,12 @@ bool master_shift_outside_part(const master_work *work, size_t i, double *a, dou
 {
     const size_t end = i < work->first ? work->first : work->last;
     const overlap_edge *edge = work->edge;
+    const shift_curve *c = &work->set.curves[i];
+    if (c->has_excluded_shift) {
+        *a = c->excluded_a;
+        *error = c->excluded_error;
+        return true;
+    }
     if (!work->part || (i >= work->first && i <= work->last) || !edge[i].placed ||
         !edge[end].placed || !work->placed[end])
         return false;

@@ -102,7 +102,11 @@ static bool fill_shift_outside_part(const master_work *work, size_t i, wt_master
     a += anchor.value;
     error = i == work->at ? 0.0 : hypot(error, anchor.standard_error);
     shift->log_a = (wt_interval){a, error, a - NORMAL_95 * error, a + NORMAL_95 * error};
-    master_add_note(shift, "by the overlap of E' with its neighbour, not in the curve");
+    const shift_curve *c = &work->set.curves[i];
+    master_add_note(shift, "%s",
+                    c->has_excluded_shift
+                        ? c->exclusion
+                        : "by the overlap of E' with its neighbour, not in the curve");
     return true;
 }
 
