@@ -78,7 +78,8 @@ FILE *text_stream_open(char **text, size_t *length)
 void text_stream_close(FILE *stream)
 {
     /* a stream in memory has no other failure */
-    if ((ferror(stream) != 0) | (fclose(stream) != 0))
+    const bool failed = ferror(stream) != 0;
+    if (fclose(stream) != 0 || failed)
         out_of_memory(BUFSIZ);
 }
 
