@@ -73,6 +73,8 @@ static void test_measured(void **state)
                                          "energy_density",
                                          "what_if",
                                          "answer",
+                                         "limits",
+                                         "modulus_budget",
                                          "inputs",
                                          "methods",
                                          "notes",
