@@ -9,6 +9,7 @@
 
 #include "read/text/text_condition.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -429,14 +430,61 @@ static void names_with_conditions(void **state)
     assert_near(c.temperature, 253.15, 1e-12);
 }
 
+/* ---- columns that state one quantity -----------------------------------------------------------
+ */
+
+/* Columns that contradict one another are named with the factor; those that agree are not. */
+static void columns_that_contradict_are_named(void **state)
+{
+    (void)state;
+    static const struct {
+        double of_omega, of_factor; /* times the true value */
+        const char *warning;        /* NULL: none */
+    } cases[] = {{1, 1, NULL},
+                 {1, 1.05, NULL}, /* rounded to one digit */
+                 {1 / (2 * M_PI), 1, "0.159 times 2 pi f"},
+                 {1, 2, "2 times E''/E'"}};
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        made_text t = {.n = 0};
+        const wt_read_options options = wt_read_defaults();
+        wt_log *log = wt_log_new();
+        wt_sweep sweep;
+        wt_error err;
+        size_t n = 0;
+        add(&t, "f (Hz),omega (rad/s),E' (MPa),E'' (MPa),tan delta,T (degC)\n");
+        for (size_t i = 0; i < N_T; i++)
+            for (size_t f = 0; f < N_F; f++) {
+                const double e1 = storage(degrees[i], hertz[f]), e2 = loss(degrees[i], hertz[f]);
+                add(&t, "%g,%.6g,%.6g,%.6g,%.6g,%g\n", hertz[f],
+                    2 * M_PI * hertz[f] * cases[k].of_omega, e1, e2, e2 / e1 * cases[k].of_factor,
+                    degrees[i]);
+            }
+        assert_int_equal(read_sweep(t.text, &options, &sweep, log, &err), WT_OK);
+        for (size_t i = 0; i < wt_log_count(log); i++) {
+            const wt_log_entry e = wt_log_get(log, i);
+            n += e.action == WT_CONTRADICTED;
+            if (e.action == WT_CONTRADICTED && strstr(e.text, cases[k].warning) == NULL)
+                fail_msg("%s", e.text);
+        }
+        assert_int_equal(n, cases[k].warning != NULL);
+        wt_sweep_clear(&sweep);
+        wt_log_free(log);
+    }
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(lines_above),          cmocka_unit_test(other_temperatures),
-        cmocka_unit_test(wide_tables),          cmocka_unit_test(wide_by_rows),
-        cmocka_unit_test(frequencies_in_names), cmocka_unit_test(any_order),
-        cmocka_unit_test(by_frequency),         cmocka_unit_test(moduli_that_follow),
-        cmocka_unit_test(signs_and_marks),      cmocka_unit_test(qualifiers),
-        cmocka_unit_test(names_with_conditions)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(columns_that_contradict_are_named),
+                                       cmocka_unit_test(lines_above),
+                                       cmocka_unit_test(other_temperatures),
+                                       cmocka_unit_test(wide_tables),
+                                       cmocka_unit_test(wide_by_rows),
+                                       cmocka_unit_test(frequencies_in_names),
+                                       cmocka_unit_test(any_order),
+                                       cmocka_unit_test(by_frequency),
+                                       cmocka_unit_test(moduli_that_follow),
+                                       cmocka_unit_test(signs_and_marks),
+                                       cmocka_unit_test(qualifiers),
+                                       cmocka_unit_test(names_with_conditions)};
     return cmocka_run_group_tests(tests, open_formats, free_formats);
 }

@@ -280,6 +280,7 @@ cell_kind cell_parse(text_span cell, char decimal, const text_description *descr
                                        "n/a",
                                        "na",
                                        "#n/a",
+                                       "bad", /* a point that the instrument did not measure */
                                        "\xe2\x88\x92", /* minus sign, en dash and em dash */
                                        "\xe2\x80\x93",
                                        "\xe2\x80\x94"};

@@ -6,6 +6,7 @@
 #include "read/text/text_sweep.h"
 
 #include "core/base/array.h"
+#include "core/base/memory.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -96,9 +97,74 @@ static wt_status warn_loss_factors(const text_file *file, const text_table *t, w
     return WT_OK;
 }
 
+/* ---- redundant columns ----------------------------------------------------------------------- */
+
+/* Ratio of two statements of one quantity in a row; 1 if they agree. NaN if one is missing. */
+typedef double statement_ratio(const text_table *t, const sweep_columns *c, size_t row);
+
+static double ratio_of_loss_factor(const text_table *t, const sweep_columns *c, size_t row)
+{
+    return text_table_value(t, row, c->factor) * text_table_value(t, row, c->storage) /
+           text_table_value(t, row, c->loss);
+}
+
+static double ratio_of_frequency(const text_table *t, const sweep_columns *c, size_t row)
+{
+    (void)c;
+    return text_table_value(t, row, text_table_column(t, WT_Q_ANGULAR_FREQUENCY, -1)) /
+           (2 * M_PI * text_table_value(t, row, text_table_column(t, WT_Q_FREQUENCY, -1)));
+}
+
+/* Median of the ratio over the rows. NaN without a row. */
+static double usual_ratio(const text_table *t, const sweep_columns *c, statement_ratio *ratio)
+{
+    size_t n = 0;
+    double *const ratios = wt_alloc(t->n_rows, sizeof *ratios);
+    for (size_t i = 0; i < t->n_rows; i++) {
+        const double value = ratio(t, c, i);
+        if (isfinite(value) && value > 0)
+            ratios[n++] = value;
+    }
+    const double median = n > 0 ? numbers_median(ratios, n) : (double)NAN;
+    free(ratios);
+    return median;
+}
+
+static bool is_outside(double ratio, double factor)
+{
+    return ratio > factor || ratio < 1 / factor;
+}
+
+/* Warns of columns that state one quantity and disagree in most rows. Instruments round and average
+ * each column by itself, which leaves a few percent of a loss factor. */
+static void warn_contradictions(const text_file *file, const text_table *t, wt_log *log)
+{
+    static const double same_factor = 1.2, same_frequency = 1.01;
+    const sweep_columns c = sweep_find_columns(t, WT_DEFORMATION_FROM_FILE);
+    const line_position_text place = format_line_position(t->names_line);
+    if (c.storage != NULL && c.loss != NULL && c.factor != NULL) {
+        const double usual = usual_ratio(t, &c, ratio_of_loss_factor);
+        if (is_outside(usual, same_factor))
+            wt_log_action(log, WT_WARNING, WT_CONTRADICTED, t->n_rows, NULL, file->name, place.text,
+                          "the loss factor is %.3g times E''/E' in most rows; the moduli are used",
+                          usual);
+    }
+    if (text_table_column(t, WT_Q_ANGULAR_FREQUENCY, -1) != NULL &&
+        text_table_column(t, WT_Q_FREQUENCY, -1) != NULL) {
+        const double usual = usual_ratio(t, &c, ratio_of_frequency);
+        if (is_outside(usual, same_frequency))
+            wt_log_action(log, WT_WARNING, WT_CONTRADICTED, t->n_rows, NULL, file->name, place.text,
+                          "the angular frequency disagrees with the frequency: it is %.3g times "
+                          "2 pi f in most rows; a unit of one of them is wrong, and the angular "
+                          "frequency is used",
+                          usual);
+    }
+}
+
 wt_status sweep_check_table(const text_file *file, text_table *t, wt_log *log, wt_error *err)
 {
     const wt_status status = warn_duplicate_rows(file, t, log, err);
+    warn_contradictions(file, t, log);
     return status == WT_OK ? warn_loss_factors(file, t, log, err) : status;
 }
 
