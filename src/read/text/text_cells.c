@@ -70,10 +70,10 @@ static bool reserve_unquoted(text_cells *cells, text_span line)
  * cell in the line, which is also free in the unquoted text. */
 static void undouble_quotes(text_cells *cells, text_span *cell, size_t at)
 {
-    char *const to = cells->unquoted + at;
     size_t n = 0;
     if (cell->length < 2 || memmem(cell->text, cell->length, "\"\"", 2) == NULL)
         return;
+    char *const to = cells->unquoted + at;
     for (size_t i = 0; i < cell->length; i++) {
         to[n++] = cell->text[i];
         i += cell->text[i] == '"' && i + 1 < cell->length && cell->text[i + 1] == '"';
