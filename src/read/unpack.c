@@ -159,9 +159,8 @@ static wt_input *join_sheets(const sheet_choice *c)
     }
     write_sheets(c, &text, &length);
     format_sheet_names(c, true, names, sizeof names);
-    char *const name = n == 1
-                           ? format_text("%s, sheet %s", c->file, c->book->sheets[one].name)
-                           : format_text("%s, sheets %s one after the other", c->file, names);
+    char *const name = n == 1 ? format_text("%s, sheet %s", c->file, c->book->sheets[one].name)
+                              : format_text("%s, sheets %s one after the other", c->file, names);
     wt_input *const content = input_from_bytes(text, length, name);
     free(name);
     return content;
