@@ -193,12 +193,16 @@ static void add_material_limits(limit_list *list, const answer_context *context)
     for (size_t i = 0; i < shifts->n_rows; i++)
         undetermined += !(shift_factors_get(shifts, i, SHIFT_FACTORS_DETERMINED) > 0);
     const char *const verdict = shift_factors_key_text(shifts, SHIFT_FACTORS_KEY_SUPERPOSITION);
+    const wt_superposition superposition =
+        (wt_superposition)shift_factors_key_enum(shifts, SHIFT_FACTORS_KEY_SUPERPOSITION);
     if (shifts->n_rows < 2)
         add(list, WT_WARNING, LIMITS_MATERIAL, "The material is known from one isotherm only.");
-    else if (shift_factors_key_enum(shifts, SHIFT_FACTORS_KEY_SUPERPOSITION) !=
-             WT_SUPERPOSITION_HOLDS)
+    else if (superposition == WT_SUPERPOSITION_FAILS)
         add(list, WT_WARNING, LIMITS_MATERIAL,
             "Time-temperature superposition %s: the master curve is doubtful.", verdict);
+    else if (superposition == WT_SUPERPOSITION_INCONCLUSIVE)
+        add(list, WT_WARNING, LIMITS_MATERIAL,
+            "Whether time-temperature superposition holds, the data %s.", verdict);
     if (undetermined > 0)
         add(list, WT_WARNING, LIMITS_MATERIAL,
             "The data do not determine the shift of %zu of %zu isotherms; they are left out.",
@@ -369,7 +373,8 @@ void wt_result_log_remarks(const wt_result *result, wt_log *log)
         return; /* the command that wrote the table has failed already */
     const limit_list list = find_limits(&context);
     for (size_t i = 0; i < list.n; i++)
-        if (list.limit[i].severity == WT_WARNING)
+        /* the fit of the material has told its own limits */
+        if (list.limit[i].severity == WT_WARNING && list.limit[i].subject != LIMITS_MATERIAL)
             wt_log_add(log, WT_WARNING, NULL, NULL, "%s", list.limit[i].text);
     free(list.limit);
 }
