@@ -177,7 +177,7 @@ static void add_depth_limits(limit_list *list, const answer_context *context)
         depth.suffix = g == 0 ? "bulk" : "track";
         const char *const reading = modulus_depth_key_text(&depth, MODULUS_DEPTH_KEY_READING);
         if (reading != NULL)
-            add(list, WT_WARNING, LIMITS_INDENTATION, "Modulus of the %s against depth: %s.",
+            add(list, WT_NOTE, LIMITS_INDENTATION, "Modulus of the %s against depth: %s.",
                 depth.suffix, reading);
     }
 }
