@@ -19,12 +19,12 @@
  * longer be accepted after a larger shift. */
 static const double default_step = 0.01, max_step = 0.3;
 
-/* Relative standard errors of sources for which none is stated. They are those of usual practice,
- * not limits. Spring constants by thermal noise and by the shape of the cantilever agree within
- * 10 % between laboratories (te Riet et al., Ultramicroscopy 111 (2011) 1659). The slope on a hard
- * sample repeats within a few per cent (Schillers et al., Sci. Rep. 7 (2017) 5117). Manufacturers
- * state half-angles within +-2 degrees, which is taken as two standard errors. Radii of spheres are
- * stated within 10 %; a sharp tip after use is not known any better. */
+/* Relative standard errors of sources for which none is stated. They are assumptions about usual
+ * practice, not limits: 10 % for a spring constant by thermal noise (te Riet et al.,
+ * Ultramicroscopy 111 (2011) 1659, compare the methods between laboratories), and a few per cent
+ * for the slope on a hard sample. Manufacturers state half-angles within +-2 degrees, which is
+ * taken as two standard errors. Radii of spheres are stated within 10 %; a sharp tip after use is
+ * not known any better. */
 static const double assumed_spring_constant = 0.1, assumed_sensitivity = 0.03,
                     assumed_half_angle = M_PI / 180, assumed_radius = 0.1;
 

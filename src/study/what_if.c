@@ -291,7 +291,7 @@ static const model_choice choices[] = {
      "0.5 is that of rubber, 0.4 that of a glass, as which the shortest waves feel it",
      "a transversely isotropic material has two others", has_poisson, value_poisson, NULL,
      move_poisson, TRIED(0.4, 0.5)},
-    {"vertical shift", "State the thermal expansion (--vertical-shift physical).", NULL,
+    {"vertical shift", "Measure the thermal expansion of the rubber.", NULL,
      "all four; which of them is right the isotherms do not say", "no isotherms to fit again",
      has_vertical, NULL, name_vertical, move_vertical,
      TRIED(WT_VERTICAL_NONE, WT_VERTICAL_PHYSICAL, WT_VERTICAL_FREE, WT_VERTICAL_TIED)},

@@ -102,8 +102,8 @@ static void add_calibration_limits(limit_list *list, const answer_context *conte
             add(list, WT_NOTE, LIMITS_INDENTATION,
                 "1 %% of the deflection sensitivity is %.3g %% of the modulus of the %s.",
                 fabs(gain[g]), names[g]);
-    if (isnan(gain[0]) || isnan(gain[1]))
-        return;
+    if (isnan(gain[0]) || isnan(gain[1]) || context->values.comparison.table == NULL)
+        return; /* no ratio */
     const bool two = comparison_key_enum(&context->values.comparison, COMPARISON_KEY_CANTILEVERS) ==
                      TWO_CANTILEVERS;
     add(list, WT_NOTE, LIMITS_INDENTATION,
@@ -159,8 +159,7 @@ static void add_comparison_limits(limit_list *list, const answer_context *contex
         job->track_temperature.value != job->temperature.value)
         add(list, WT_NOTE, LIMITS_INDENTATION,
             "The track was indented at %s: the ratio is corrected to the temperature of the bulk "
-            "by "
-            "%s.",
+            "by %s.",
             format_celsius(job->track_temperature.value).text,
             isnan(job->temperature_slope.value) ? "the DMA" : "the stated temperature slope");
     const result_value ratio = result_value_ratio(&context->values);
