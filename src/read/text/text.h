@@ -306,7 +306,7 @@ bool description_unit_to_si(const text_description *description, wt_quantity qua
 size_t names_count_units(const names_row *names, const text_description *description,
                          const text_cells *cells);
 /* Splits the tables whose columns have different conditions into a table for each of them. */
-wt_status tables_split_conditions(text_file *file, wt_error *err);
+void tables_split_conditions(text_file *file);
 void text_table_free(text_table *table); /* frees the rows */
 /* True if a name contains its unit ("f (Hz)", "E' / MPa", "f/Hz", "q[1/m]"). It splits them. */
 bool split_name_unit(text_span *name, text_span *unit);

@@ -4,6 +4,8 @@
  */
 #include "read/text/text_scanner.h"
 
+#include "core/base/memory.h"
+
 #include <math.h>
 #include <stdlib.h>
 
@@ -103,14 +105,12 @@ static bool read_condition_cells(text_scanner *s)
         return false;
     for (size_t i = 0; i < sizeof all / sizeof *all && !found; i++) {
         text_cells cells = {0};
-        text_condition *conditions = NULL;
-        if (cells_split(&cells, s->line, all[i], s->d))
-            conditions = calloc(cells.n, sizeof *conditions);
-        if (conditions == NULL) {
+        if (!cells_split(&cells, s->line, all[i], s->d)) {
             cells_free(&cells);
             scan_no_memory(s);
             return false;
         }
+        text_condition *const conditions = wt_alloc(cells.n, sizeof *conditions);
         found = cells_read_conditions(s->d, &cells, conditions) >= 2;
         if (found) {
             free(s->names.above);

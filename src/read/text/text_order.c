@@ -6,6 +6,7 @@
 #include "read/text/text_sweep.h"
 
 #include "core/base/array.h"
+#include "core/base/memory.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -185,19 +186,16 @@ static void order_rows(const sweep_builder *b, size_t *rows, size_t n, ordered_r
                isotherms ? "temperature" : "frequency");
 }
 
-wt_status collect_scattered_rows(sweep_builder *b, size_t *rows, size_t n)
+void collect_scattered_rows(sweep_builder *b, size_t *rows, size_t n)
 {
     if (b->c.temperature == NULL || b->c.step != NULL || n < ROWS_MIN)
-        return WT_OK;
+        return;
     for (size_t i = 0; i < n; i++)
         if (isnan(sweep_temperature(b, rows[i])))
-            return WT_OK;
-    ordered_row *const ordered = malloc(n * sizeof *ordered);
-    double *const gaps = malloc(n * sizeof *gaps);
-    const bool good = ordered != NULL && gaps != NULL;
-    if (good)
-        order_rows(b, rows, n, ordered, gaps);
+            return;
+    ordered_row *const ordered = wt_alloc(n, sizeof *ordered);
+    double *const gaps = wt_alloc(n, sizeof *gaps);
+    order_rows(b, rows, n, ordered, gaps);
     free(ordered);
     free(gaps);
-    return good ? WT_OK : wt_fail(b->err, WT_E_MEMORY, "no memory for an isotherm");
 }

@@ -205,7 +205,7 @@ static wt_status scan_next_part(text_parts *p, wt_error *err)
     wt_status status = p->s.ended ? check_unit_options(p, err) : WT_OK;
     drop_empty_tables(file);
     if (status == WT_OK)
-        status = tables_split_conditions(file, err);
+        tables_split_conditions(file);
     file->n_seen += file->n_tables;
     for (size_t i = 0; i < file->n_tables; i++)
         file->quantities |= file->tables[i].quantities;

@@ -144,8 +144,9 @@ static void group_amplitudes(sweep_builder *b, size_t *rows, size_t n)
 static wt_status split_sample(sweep_builder *b, size_t *rows, size_t n)
 {
     const bool swept = b->c.step == NULL;
-    wt_status status = collect_scattered_rows(b, rows, n);
-    if (status == WT_OK && swept)
+    wt_status status = WT_OK;
+    collect_scattered_rows(b, rows, n);
+    if (swept)
         status = extract_strain_sweeps(b, rows, &n);
     if (status == WT_OK && swept)
         status = extract_ramps(b, rows, &n);

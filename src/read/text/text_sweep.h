@@ -70,7 +70,7 @@ void sweep_warn_shared_temperature(const text_file *file, const wt_read_options 
                                    const wt_sweep *sweep, wt_log *log);
 
 /* ---- text_order.c: collects the rows of isotherms that do not stand together. --------------- */
-wt_status collect_scattered_rows(sweep_builder *b, size_t *rows, size_t n);
+void collect_scattered_rows(sweep_builder *b, size_t *rows, size_t n);
 
 /* ---- text_strain.c: removes the rows of strain sweeps from `rows` and adds these sweeps. ----- */
 wt_status extract_strain_sweeps(sweep_builder *b, size_t *rows, size_t *n);

@@ -6,6 +6,7 @@
 #include "read/text/text.h"
 
 #include "core/base/array.h"
+#include "core/base/memory.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -62,16 +63,13 @@ static void set_condition(text_table *to, const text_condition *c)
     memcpy(to->title, title, sizeof title);
 }
 
-static bool alloc_rows(text_table *t, size_t n_rows)
+static void alloc_rows(text_table *t, size_t n_rows)
 {
-    const size_t n = n_rows > 0 ? n_rows : 1, width = t->n_columns > 0 ? t->n_columns : 1;
-    t->values = calloc(n, width * sizeof *t->values);
-    t->blocks = calloc(n, sizeof *t->blocks);
-    t->kinds = calloc(n, sizeof *t->kinds);
-    t->row_lines = calloc(n, sizeof *t->row_lines);
-    t->samples = calloc(n, sizeof *t->samples);
-    return t->values != NULL && t->blocks != NULL && t->kinds != NULL && t->row_lines != NULL &&
-           t->samples != NULL;
+    t->values = wt_alloc(n_rows, t->n_columns * sizeof *t->values);
+    t->blocks = wt_alloc(n_rows, sizeof *t->blocks);
+    t->kinds = wt_alloc(n_rows, sizeof *t->kinds);
+    t->row_lines = wt_alloc(n_rows, sizeof *t->row_lines);
+    t->samples = wt_alloc(n_rows, sizeof *t->samples);
 }
 
 /* Copies the rows of a condition. `cells` are the columns of `t` that `to` has. */
@@ -92,10 +90,9 @@ static void copy_rows(const text_table *t, size_t condition, const size_t *cells
 }
 
 /* Creates the table of a condition. *to has no rows if its columns do not make a sweep. */
-static wt_status make_table(text_file *file, const text_table *t, size_t condition, text_table *to,
-                            wt_error *err)
+static void make_table(text_file *file, const text_table *t, size_t condition, text_table *to)
 {
-    size_t *const cells = calloc(t->n_columns, sizeof *cells);
+    size_t *const cells = wt_alloc(t->n_columns, sizeof *cells);
     *to = *t;
     to->values = NULL;
     to->blocks = to->row_lines = to->samples = NULL;
@@ -104,8 +101,7 @@ static wt_status make_table(text_file *file, const text_table *t, size_t conditi
     to->n_conditions = to->n_rows = to->n_columns = 0;
     to->quantities = 0;
     to->columns = arena_alloc(&file->table_memory, t->n_columns, sizeof *to->columns);
-    bool good = cells != NULL && to->columns != NULL;
-    for (size_t i = 0; i < t->n_columns && good; i++) {
+    for (size_t i = 0; i < t->n_columns; i++) {
         const text_column *const c = &t->columns[i];
         if (!is_own_column(c, condition) && !shares_column(t, c, condition))
             continue;
@@ -115,55 +111,46 @@ static wt_status make_table(text_file *file, const text_table *t, size_t conditi
     }
     const bool own_moduli =
         condition != ALL_CONDITIONS || quantities_suffice(to->quantities, WT_KIND_SWEEP);
-    if (good && own_moduli) {
-        good = alloc_rows(to, t->n_rows);
-        if (good)
-            copy_rows(t, condition, cells, to);
+    if (own_moduli) {
+        alloc_rows(to, t->n_rows);
+        copy_rows(t, condition, cells, to);
         if (condition != ALL_CONDITIONS)
             set_condition(to, &t->conditions[condition]);
     }
     free(cells);
-    return good ? WT_OK : wt_fail(err, WT_E_MEMORY, "no memory for the tables of the file");
 }
 
 /* Adds the tables of all conditions of a table to `tables`, which has space for them. */
-static wt_status split_table(text_file *file, const text_table *t, text_table *tables, size_t *n,
-                             wt_error *err)
+static void split_table(text_file *file, const text_table *t, text_table *tables, size_t *n)
 {
-    wt_status status = WT_OK;
-    for (size_t i = 0; i <= t->n_conditions && status == WT_OK; i++) {
+    for (size_t i = 0; i <= t->n_conditions; i++) {
         text_table made;
-        status = make_table(file, t, i == 0 ? ALL_CONDITIONS : i - 1, &made, err);
-        if (status == WT_OK && made.n_rows > 0)
+        make_table(file, t, i == 0 ? ALL_CONDITIONS : i - 1, &made);
+        if (made.n_rows > 0)
             tables[(*n)++] = made;
         else
             text_table_free(&made);
     }
-    return status;
 }
 
-wt_status tables_split_conditions(text_file *file, wt_error *err)
+void tables_split_conditions(text_file *file)
 {
     size_t n_max = file->n_tables, n = 0;
     for (size_t i = 0; i < file->n_tables; i++)
         n_max += file->tables[i].n_conditions;
     if (n_max == file->n_tables)
-        return WT_OK;
-    text_table *const tables = calloc(n_max, sizeof *tables);
-    if (tables == NULL)
-        return wt_fail(err, WT_E_MEMORY, "no memory for the tables of the file");
-    wt_status status = WT_OK;
+        return;
+    text_table *const tables = wt_alloc(n_max, sizeof *tables);
     for (size_t i = 0; i < file->n_tables; i++) {
         text_table *const t = &file->tables[i];
-        if (t->n_conditions == 0 || status != WT_OK) {
+        if (t->n_conditions == 0) {
             tables[n++] = *t;
             continue;
         }
-        status = split_table(file, t, tables, &n, err);
+        split_table(file, t, tables, &n);
         text_table_free(t);
     }
     free(file->tables);
     file->tables = tables;
     file->n_tables = n;
-    return status;
 }

@@ -65,7 +65,7 @@ void running_in_series_clear(running_in_series *s)
  * which most of a curve may pass. */
 typedef struct curve_integral {
     const running_in_curve *c;
-    double *time, *sum; /* [n] times [s], and the integral up to them; NULL if out of memory */
+    double *time, *sum; /* [n] times [s], and the integral up to them */
 } curve_integral;
 
 /* Integral within interval i, in which the curve is linear in the logarithm of time. */
