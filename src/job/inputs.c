@@ -10,7 +10,6 @@
 #include "core/system/temporary.h"
 #include "core/table/table_rows.h"
 
-#include <search.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -150,20 +149,12 @@ static void files_add(flow_files *files, char *path, const char *pattern, const 
 {
     files->file = array_grow(files->file, files->n, sizeof *files->file);
     const char *name = relative_path(set->folder, path);
-    files->file[files->n++] = (flow_file){.path = path,
-                                          .name = name,
-                                          .set = set,
-                                          .from_folder = path_depth(name) > path_depth(pattern)};
-}
-
-static int compare_path_texts(const void *a, const void *b)
-{
-    return strcmp(a, b);
-}
-
-static void free_no_path(void *path)
-{
-    (void)path; /* the list owns the paths */
+    files->file[files->n] = (flow_file){.path = path,
+                                        .number = files->n,
+                                        .name = name,
+                                        .set = set,
+                                        .from_folder = path_depth(name) > path_depth(pattern)};
+    files->n++;
 }
 
 static wt_status list_pattern(const wt_file_set *set, const char *pattern, const wt_job *work,
@@ -181,14 +172,6 @@ static wt_status list_pattern(const wt_file_set *set, const char *pattern, const
     if (status != WT_OK)
         return wt_job_add_failure(work, pattern, status, &failure, err);
     for (size_t i = 0; i < n; i++) {
-        char *const *const found = tsearch(paths[i], &files->paths, compare_path_texts);
-        if (found == NULL)
-            out_of_memory(sizeof *found);
-        if (*found != paths[i]) {
-            wt_log_action(work->log, WT_WARNING, WT_COPIED, 1, NULL, paths[i], NULL,
-                          "named more than once; it is taken once");
-            continue;
-        }
         files_add(files, paths[i], pattern, set);
         paths[i] = NULL;
     }
@@ -199,19 +182,38 @@ static wt_status list_pattern(const wt_file_set *set, const char *pattern, const
 static int compare_file_paths(const void *a, const void *b)
 {
     const flow_file *const p = a, *const q = b;
-    return strcmp(p->path, q->path);
+    const int order = strcmp(p->path, q->path);
+    return order != 0 ? order : (p->number > q->number) - (p->number < q->number);
+}
+
+/* Of a path that several patterns name, the first entry stays. */
+static void repeated_paths_remove(flow_files *files, const wt_job *work)
+{
+    size_t n = 0;
+    for (size_t i = 0; i < files->n; i++) {
+        flow_file *const file = &files->file[i];
+        if (n == 0 || strcmp(files->file[n - 1].path, file->path) != 0) {
+            files->file[n++] = *file;
+            continue;
+        }
+        wt_log_action(work->log, WT_WARNING, WT_COPIED, 1, NULL, file->path, NULL,
+                      "named more than once; it is taken once");
+        free((void *)file->path);
+    }
+    files->n = n;
 }
 
 wt_status flow_files_list(const wt_file_set *sets, size_t n_sets, const wt_job *work,
                           flow_files *files, wt_error *err)
 {
     wt_status status = WT_OK;
-    *files = (flow_files){NULL, 0, NULL};
+    *files = (flow_files){NULL, 0};
     for (size_t i = 0; status == WT_OK && i < n_sets; i++)
         for (size_t j = 0; status == WT_OK && j < sets[i].n_patterns; j++)
             status = list_pattern(&sets[i], sets[i].patterns[j], work, files, err);
     if (files->n > 1)
         qsort(files->file, files->n, sizeof *files->file, compare_file_paths);
+    repeated_paths_remove(files, work);
     if (status == WT_OK && files->n > 1)
         file_copies_remove(files, work);
     else if (status != WT_OK)
@@ -224,8 +226,7 @@ void flow_files_clear(flow_files *files)
     for (size_t i = 0; i < files->n; i++)
         free((void *)files->file[i].path);
     free(files->file);
-    tdestroy(files->paths, free_no_path);
-    *files = (flow_files){NULL, 0, NULL};
+    *files = (flow_files){NULL, 0};
 }
 
 static bool is_path_suffix(const char *end, size_t n_end, const char *path, size_t n)

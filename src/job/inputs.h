@@ -19,6 +19,7 @@
 typedef struct flow_file {
     const char *path; /* for opening; owned by the list */
     const char *name; /* for messages: `path` without the folder of the set; points into `path` */
+    size_t number;    /* in the order of the arguments */
     const wt_file_set *set; /* set with the options for this file */
     bool from_folder;       /* found in a folder, not named itself */
     /* set by flow_open: */
@@ -28,7 +29,6 @@ typedef struct flow_file {
 typedef struct flow_files {
     flow_file *file;
     size_t n;
-    void *paths; /* the same paths, for tsearch */
 } flow_files;
 
 /* Lists all files of the sets in the order of their paths, so that sums do not depend on the order

@@ -578,7 +578,7 @@ wt_status wt_record_compute(const wt_record_job *job, const wt_job *work, wt_rec
 {
     if (job == NULL || work == NULL || tables == NULL)
         return wt_fail(err, WT_E_ARG, "no job of records");
-    flow_files files = {NULL, 0, NULL};
+    flow_files files = {NULL, 0};
     wt_record_tables made = {0};
     wt_status status = param_check(wt_record_job_params(), job, err);
     if (status == WT_OK)

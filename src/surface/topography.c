@@ -193,7 +193,7 @@ wt_status wt_topography_compute(const wt_topography_job *job, const wt_job *work
 {
     if (job == NULL || work == NULL || tables == NULL)
         return wt_fail(err, WT_E_ARG, "no job of a surface");
-    flow_files files = {NULL, 0, NULL};
+    flow_files files = {NULL, 0};
     surface_result whole = {.steep = (double)NAN};
     surface_scan *scans = NULL;
     size_t n = 0;
