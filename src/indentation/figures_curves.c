@@ -42,8 +42,8 @@ static void draw_sheet(figure_drawing *d, const curve_list *list)
 static void draw_curves(figure_drawing *d)
 {
     curve_list list;
-    d->status = curve_list_init(d->tables, &list, d->err);
-    if (d->status == WT_OK && list.n > 0)
+    curve_list_init(d->tables, &list);
+    if (list.n > 0)
         draw_sheet(d, &list);
     curve_list_clear(&list);
 }

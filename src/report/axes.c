@@ -47,7 +47,7 @@ static void write_label(figure_drawing *d, const char *axis, const char *label,
     text_format(&d->script, "set %slabel ", axis);
     text_quoted(&d->script, text_string(&words));
     text_add(&d->script, "\n");
-    text_free_part(&words, &d->script);
+    text_free(&words);
 }
 
 static void write_unit(figure_drawing *d, const char *axis, const char *unit,
@@ -60,7 +60,7 @@ static void write_unit(figure_drawing *d, const char *axis, const char *unit,
     text_format(&words, "from %s to %s", unit, lab->label[0] != '\0' ? lab->label : "1");
     text_add(&d->script, "  ");
     text_comment(&d->script, text_string(&words));
-    text_free_part(&words, &d->script);
+    text_free(&words);
 }
 
 static void write_range(figure_drawing *d, const char *axis, double low, double high)

@@ -64,9 +64,8 @@ wt_status wt_curve_browser_write(const wt_result *result, const char *path, bool
         status = figure_tables_bind(result, &tables, err);
     if (status == WT_OK)
         status = check_curve_samples(&tables, err);
-    if (status == WT_OK)
-        status = append_browse_data(&tables, &data, err);
     if (status == WT_OK) {
+        append_browse_data(&tables, &data);
         text_html(&licence, "%s", copyright);
         append_provenance(result, with_provenance, &source);
         const page_part parts[] = {{"dygraph.css", style},
@@ -77,9 +76,7 @@ wt_status wt_curve_browser_write(const wt_result *result, const char *path, bool
                                    {"licence", text_string(&licence)},
                                    {"source", text_string(&source)}};
         append_page_template(parts, sizeof parts / sizeof parts[0], &page);
-        page.failed = page.failed || data.failed || licence.failed || source.failed;
-        status = page.failed ? wt_fail(err, WT_E_MEMORY, "out of memory")
-                             : write_user_file(path, &page, err);
+        status = write_user_file(path, &page, err);
     }
     text_free(&data);
     text_free(&licence);

@@ -9,7 +9,6 @@
 
 /* Appends the curves of all groups, their samples and the earlier manual choices as JSON that is
  * safe inside a script element. */
-wt_status append_browse_data(const figure_tables *tables, text_buffer *to,
-                             wt_error *err) WT_NODISCARD;
+void append_browse_data(const figure_tables *tables, text_buffer *to);
 
 #endif

@@ -129,8 +129,7 @@ static double cantilever_compliance(const table_view *view, curve_block b)
 /* Appends [number of samples, of approach samples, index of the first fitted sample in contact,
  * lowest and highest displacement, lowest and highest force, compliance of the cantilever, base64
  * of displacements, forces and fitted forces in contact]. */
-static wt_status add_samples_json(const table_view *view, curve_block b, text_buffer *to,
-                                  wt_error *err)
+static void add_samples_json(const table_view *view, curve_block b, text_buffer *to)
 {
     const size_t n = b.to - b.from;
     size_t approach = 0, contact = 0;
@@ -146,9 +145,7 @@ static wt_status add_samples_json(const table_view *view, curve_block b, text_bu
     const number_range f =
         column_range(view, b, CURVES_FITTED_FORCE, column_range(view, b, CURVES_FORCE, none));
     const size_t length = 2 * (2 * n + approach - contact);
-    uint8_t *bytes = malloc(length > 0 ? length : 1), *end = bytes;
-    if (bytes == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    uint8_t *bytes = wt_alloc(length, 1), *end = bytes;
     for (size_t i = b.from; i < b.to; i++)
         end = write_packed(end, pack_value(curves_get(view, i, CURVES_DISPLACEMENT), z));
     for (size_t i = b.from; i < b.to; i++)
@@ -165,15 +162,14 @@ static wt_status add_samples_json(const table_view *view, curve_block b, text_bu
     add_base64(to, bytes, length);
     text_add(to, "]");
     free(bytes);
-    return WT_OK;
 }
 
 /* ---- curves ---------------------------------------------------------------------------------- */
 
 /* Appends [file, curve, verdict, reason, modulus, its error, contact point, x, y, samples or null];
  * `file` is an index into the list of files. */
-static wt_status add_curve_json(const table_view *rows, size_t row, size_t file, curve_finder *f,
-                                text_buffer *to, wt_error *err)
+static void add_curve_json(const table_view *rows, size_t row, size_t file, curve_finder *f,
+                           text_buffer *to)
 {
     static const indentation_column numbers[] = {INDENTATION_MODULUS,
                                                  INDENTATION_MODULUS_STANDARD_ERROR};
@@ -194,39 +190,34 @@ static wt_status add_curve_json(const table_view *rows, size_t row, size_t file,
     add_json_number(to, indentation_get(rows, row, INDENTATION_Y));
     text_add(to, ",");
     const curve_block *b = curve_finder_next(f, rows, row);
-    wt_status status = WT_OK;
     if (b != NULL)
-        status = add_samples_json(f->view, *b, to, err);
+        add_samples_json(f->view, *b, to);
     else
         text_add(to, "null");
     text_add(to, "]");
-    return status;
 }
 
-static wt_status add_group_json(const table_view *rows, curve_finder *f, text_buffer *to,
-                                wt_error *err)
+static void add_group_json(const table_view *rows, curve_finder *f, text_buffer *to)
 {
     text_buffer files = {0};
-    wt_status status = WT_OK;
     const char *last = NULL;
     size_t n_files = 0;
     text_add(to, "{\"name\":");
     add_json_string(to, rows->suffix);
     text_add(to, ",\"curves\":[");
-    for (size_t row = 0; status == WT_OK && row < rows->n_rows; row++) {
+    for (size_t row = 0; row < rows->n_rows; row++) {
         const char *file = indentation_text(rows, row, INDENTATION_FILE);
         if (last == NULL || strcmp(file, last) != 0) {
             text_add(&files, n_files++ > 0 ? "," : "");
             add_json_string(&files, file);
             last = file;
         }
-        status = add_curve_json(rows, row, n_files - 1, f, to, err);
+        add_curve_json(rows, row, n_files - 1, f, to);
     }
     text_add(to, "],\"files\":[");
     text_add(to, text_string(&files));
     text_add(to, "]}");
-    text_free_part(&files, to);
-    return status;
+    text_free(&files);
 }
 
 /* Appends the earlier choices, which the page exports together with its own. */
@@ -245,18 +236,17 @@ static void add_choice_rows(const table_view *choices, text_buffer *to)
     }
 }
 
-wt_status append_browse_data(const figure_tables *tables, text_buffer *to, wt_error *err)
+void append_browse_data(const figure_tables *tables, text_buffer *to)
 {
     curve_finder f = {.view = &tables->curves};
-    wt_status status = curve_finder_init(&f, err);
+    curve_finder_init(&f);
     text_add(to, "{\"groups\":[");
-    for (size_t i = 0; status == WT_OK && i < tables->n_indentation; i++) {
+    for (size_t i = 0; i < tables->n_indentation; i++) {
         text_add(to, i > 0 ? "," : "");
-        status = add_group_json(&tables->indentation[i], &f, to, err);
+        add_group_json(&tables->indentation[i], &f, to);
     }
     text_add(to, "],\"choices\":[");
     add_choice_rows(&tables->overrides, to);
     text_add(to, "]}");
     curve_finder_clear(&f);
-    return status;
 }

@@ -59,14 +59,12 @@ wt_status wt_report_check_curves(const wt_result *result, wt_error *err)
 
 /* ---- samples by row -------------------------------------------------------------------------- */
 
-wt_status curve_finder_init(curve_finder *finder, wt_error *err)
+void curve_finder_init(curve_finder *finder)
 {
     const table_view *view = finder->view;
     size_t last = 0;
     finder->n = finder->next = 0;
-    finder->blocks = malloc((view->n_rows > 0 ? view->n_rows : 1) * sizeof *finder->blocks);
-    if (finder->blocks == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    finder->blocks = wt_alloc(view->n_rows, sizeof *finder->blocks);
     for (size_t i = 0; i < view->n_rows; i++) {
         const size_t number = wt_table_block(view->table, i);
         if (finder->n == 0 || number != last)
@@ -74,7 +72,6 @@ wt_status curve_finder_init(curve_finder *finder, wt_error *err)
         finder->blocks[finder->n - 1].to = i + 1;
         last = number;
     }
-    return WT_OK;
 }
 
 static bool block_matches_row(const table_view *curves, curve_block b, const table_view *rows,

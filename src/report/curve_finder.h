@@ -28,7 +28,7 @@ curve_kind row_curve_kind(const table_view *rows, size_t row);
 wt_status check_curve_samples(const figure_tables *tables, wt_error *err) WT_NODISCARD;
 
 /* Initialises a finder with a view. Call curve_finder_clear also after a failure. */
-wt_status curve_finder_init(curve_finder *finder, wt_error *err) WT_NODISCARD;
+void curve_finder_init(curve_finder *finder);
 /* Returns the samples of the curve of a row, NULL if it has none. */
 const curve_block *curve_finder_next(curve_finder *finder, const table_view *rows, size_t row);
 void curve_finder_clear(curve_finder *finder);

@@ -37,21 +37,18 @@ static void sort_by_kind(listed_curve *to, const curve_list *list)
         to[at[list->curves[i].kind]++] = list->curves[i];
 }
 
-wt_status curve_list_init(const figure_tables *tables, curve_list *list, wt_error *err)
+void curve_list_init(const figure_tables *tables, curve_list *list)
 {
     curve_finder finder = {.view = &tables->curves};
     *list = (curve_list){.n = 0};
-    wt_status status = curve_finder_init(&finder, err);
-    const size_t most = finder.n > 0 ? finder.n : 1;
-    listed_curve *found = status == WT_OK ? malloc(most * sizeof *found) : NULL;
-    listed_curve *sorted = status == WT_OK ? malloc(most * sizeof *sorted) : NULL;
-    if (status == WT_OK && (found == NULL || sorted == NULL))
-        status = wt_fail(err, WT_E_MEMORY, "out of memory");
+    curve_finder_init(&finder);
+    listed_curve *found = wt_alloc(finder.n, sizeof *found);
+    listed_curve *sorted = wt_alloc(finder.n, sizeof *sorted);
     list->curves = found;
-    for (size_t i = 0; status == WT_OK && i < tables->n_indentation; i++) {
+    for (size_t i = 0; i < tables->n_indentation; i++) {
         const table_view *rows = &tables->indentation[i];
         list->n_rows += rows->n_rows;
-        for (size_t row = 0; row < rows->n_rows && list->n < most; row++) {
+        for (size_t row = 0; row < rows->n_rows && list->n < finder.n; row++) {
             const curve_block *b = curve_finder_next(&finder, rows, row);
             if (b == NULL || !has_finite_samples(&tables->curves, *b))
                 continue;
@@ -60,15 +57,10 @@ wt_status curve_list_init(const figure_tables *tables, curve_list *list, wt_erro
             list->of_kind[kind]++;
         }
     }
-    if (status == WT_OK) {
-        sort_by_kind(sorted, list);
-        list->curves = sorted;
-        sorted = NULL;
-        free(found);
-    }
-    free(sorted);
+    sort_by_kind(sorted, list);
+    list->curves = sorted;
+    free(found);
     curve_finder_clear(&finder);
-    return status;
 }
 
 void curve_list_clear(curve_list *list)
@@ -161,7 +153,7 @@ static void add_heading(figure_drawing *d, const listed_curve *c)
         text_free(&line);
         s += length + (s[length] == '\n');
     }
-    text_free_part(&words, &d->script);
+    text_free(&words);
 }
 
 /* ---- panel ----------------------------------------------------------------------------------- */
@@ -172,12 +164,8 @@ static int curve_section(figure_drawing *d, curve_block b, wt_segment_kind segme
     static const char *const columns[] = {"displacement", "force", "fitted_force", NULL};
     static const char *const units[] = {"m", "N", "N", NULL};
     enum { COLUMNS = 3 };
-    double *values = malloc((b.to - b.from) * COLUMNS * sizeof *values);
+    double *values = wt_alloc((b.to - b.from) * COLUMNS, sizeof *values);
     size_t n = 0;
-    if (values == NULL) {
-        d->status = wt_fail(d->err, WT_E_MEMORY, "out of memory");
-        return NO_SECTION;
-    }
     for (size_t i = b.from; i < b.to; i++) {
         if (curves_enum(d->table, i, CURVES_SEGMENT) != (int)segment)
             continue;

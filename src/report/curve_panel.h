@@ -23,8 +23,7 @@ typedef struct curve_list {
 
 /* Lists all curves with samples: rejected ones first, then doubtful ones, each kind in the order of
  * the table. Call curve_list_clear also after a failure. */
-wt_status curve_list_init(const figure_tables *tables, curve_list *list,
-                          wt_error *err) WT_NODISCARD;
+void curve_list_init(const figure_tables *tables, curve_list *list);
 void curve_list_clear(curve_list *list);
 
 /* Returns the number of lines of the heading of a curve. */

@@ -57,10 +57,6 @@ static wt_status write_sheet_file(const sheets *s, const char *name, const char 
     char file[64];
     (void)snprintf(file, sizeof file, "%s%s", name, ending);
     char *path = wt_path_join(s->folder, file);
-    if (path == NULL || text->failed) {
-        free(path);
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
-    }
     const wt_status status = write_temporary_file(path, text_string(text), text->length, err);
     free(path);
     return status;
@@ -82,7 +78,7 @@ static void add_sheet_title(sheets *s, size_t sheet)
                 ".\"\\n%s\" noenhanced layout %d,%d margins 0.085,0.985,0.05,0.87 "
                 "spacing 0.085,0.135\n",
                 curve_panel_legend, ROWS, COLUMNS);
-    text_free_part(&words, &s->script);
+    text_free(&words);
 }
 
 /* Writes the data of a sheet and appends its script. */
@@ -102,7 +98,6 @@ static wt_status write_sheet(sheets *s, size_t sheet, wt_error *err)
         draw_curve_panel(&d, &s->list.curves[i]);
     text_add(&s->script, text_string(&d.script));
     text_add(&s->script, "unset multiplot\n");
-    s->script.failed = s->script.failed || d.script.failed;
     wt_status status = d.status;
     if (status == WT_OK)
         status = figure_append_data(&d, &data, err);
@@ -148,8 +143,6 @@ static wt_status create_sheets_folder(sheets *s, const char *path, wt_error *err
     struct stat info;
     const bool beside = stat(path, &info) != 0 || S_ISREG(info.st_mode);
     char *const parent = beside ? wt_path_folder(path) : realpath(temporary_directory(), NULL);
-    if (parent == NULL && (beside || errno == ENOMEM))
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
     if (parent != NULL) {
         temporary_remove_abandoned(parent);
         s->folder = temporary_folder_create(parent, &s->in_use);
@@ -199,13 +192,9 @@ static wt_status draw_sheets(sheets *s, const char *path, wt_error *err)
     s->begin_time = wt_time_wall();
     wt_status status = gnuplot_run(&call, err);
     char *pdf = status == WT_OK ? wt_path_join(s->folder, "sheets.pdf") : NULL;
-    if (status == WT_OK && pdf == NULL)
-        status = wt_fail(err, WT_E_MEMORY, "out of memory");
     if (status == WT_OK)
         status = read_whole_file(pdf, s->n * sheet_size, &made, err);
     text_add(&made, PDF_SIGNATURE);
-    if (status == WT_OK && made.failed)
-        status = wt_fail(err, WT_E_MEMORY, "out of memory");
     if (status == WT_OK)
         status = write_user_file(path, &made, err);
     free(pdf);
@@ -237,7 +226,7 @@ wt_status wt_curve_sheets_write(const wt_result *result, const char *path,
     if (status == WT_OK)
         status = check_curve_samples(&s.tables, err);
     if (status == WT_OK)
-        status = curve_list_init(&s.tables, &s.list, err);
+        curve_list_init(&s.tables, &s.list);
     s.n = (s.list.n + CURVES - 1) / CURVES;
     if (status == WT_OK && s.n == 0)
         status = wt_fail(err, WT_E_EMPTY, "no curve has samples of displacement and force");

@@ -39,10 +39,7 @@ static wt_table *create_section(figure_drawing *d, const char *title)
 {
     char name[96];
     (void)snprintf(name, sizeof name, "%s/%zu", d->figure->name, d->n_sections);
-    wt_table *table = wt_table_new(name, title);
-    if (table == NULL)
-        d->status = wt_fail(d->err, WT_E_MEMORY, "out of memory");
-    return table;
+    return wt_table_new(name, title);
 }
 
 /* Stores a section with data and returns its index; else frees it and returns NO_SECTION. */

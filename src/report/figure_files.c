@@ -3,6 +3,8 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "report/figure_files.h"
 
+#include "core/base/memory.h"
+
 #include "report/gnuplot.h"
 #include "report/report_files.h"
 #include "report/svg.h"
@@ -67,16 +69,13 @@ wt_status figure_append_data(const figure_drawing *d, text_buffer *to, wt_error 
     wt_status status = WT_OK;
     char *bytes = NULL;
     size_t length = 0;
-    FILE *stream = open_memstream(&bytes, &length);
-    if (stream == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    FILE *stream = text_stream_open(&bytes, &length);
     for (size_t i = 0; i < d->n_sections && status == WT_OK; i++) {
         if (i > 0) // gnuplot's `index` counts sections that two blank lines separate
             (void)fputs("\n\n", stream);
         status = wt_stream_write(stream, d->sections[i], NULL, err);
     }
-    if (fclose(stream) != 0 && status == WT_OK)
-        status = wt_fail(err, WT_E_MEMORY, "out of memory");
+    text_stream_close(stream);
     if (status == WT_OK)
         text_bytes(to, bytes, length);
     free(bytes);
@@ -127,9 +126,7 @@ static wt_status write_figure_script(const report_folder *folder, const wt_repor
     text_add(script, text_string(&d->script));
     text_add(script, "set output\n");
     (void)snprintf(name, sizeof name, "plots/%s.gp", figure);
-    return script->failed || drawn->data.failed
-               ? wt_fail(err, WT_E_MEMORY, "out of memory")
-               : folder_write(folder, name, text_string(script), script->length, err);
+    return folder_write(folder, name, text_string(script), script->length, err);
 }
 
 wt_status figure_write(const report_folder *folder, const wt_report_options *options,
@@ -149,8 +146,6 @@ static wt_status read_figure_picture(const report_folder *folder, const drawn_fi
 {
     (void)snprintf(name, 128, "plots/%s.%s", figure->drawing.figure->name, ending);
     char *path = wt_path_join(folder_plots_path(folder), wt_path_base(name));
-    if (path == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
     const wt_status status = read_whole_file(path, GNUPLOT_PICTURE_LIMIT, picture, err);
     free(path);
     return status;
@@ -183,8 +178,7 @@ static wt_status set_bitmap_resolution(const report_folder *folder, const drawn_
         text_bytes(&sized, picture.bytes, HEAD);
         text_bytes(&sized, (const char *)chunk, CHUNK);
         text_bytes(&sized, picture.bytes + HEAD, picture.length - HEAD);
-        status = sized.failed ? wt_fail(err, WT_E_MEMORY, "out of memory")
-                              : folder_write(folder, name, sized.bytes, sized.length, err);
+        status = folder_write(folder, name, sized.bytes, sized.length, err);
     }
     text_free(&picture);
     text_free(&sized);
@@ -199,8 +193,7 @@ wt_status figure_collect(const report_folder *folder, const wt_report_options *o
     if (status == WT_OK && (options->figures & WT_FIGURE_SVG) != 0) {
         text_buffer sized = {0};
         svg_append_sized(&sized, text_string(&figure->svg), figure->svg.length, 1e3 * unit_length);
-        status = sized.failed ? wt_fail(err, WT_E_MEMORY, "out of memory")
-                              : folder_write(folder, name, text_string(&sized), sized.length, err);
+        status = folder_write(folder, name, text_string(&sized), sized.length, err);
         text_free(&sized);
     }
     if (status == WT_OK && (options->figures & WT_FIGURE_PNG) != 0)

@@ -272,7 +272,7 @@ static void plot_curve(figure_drawing *d, size_t group, const figure_curve *curv
                     curve->style + (curve->form == CURVE_FIT ? 0 : drawing_group_style(d, group)));
     plot_item(d, d->data[group], "%s", text_string(&item));
     add_curve_title(d, group, curve);
-    text_free_part(&item, &d->script);
+    text_free(&item);
 }
 
 static bool has_number(const figure_drawing *d, size_t group, const figure_curve *curve)

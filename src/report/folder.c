@@ -68,7 +68,7 @@ bool path_is_page(const char *target)
 
 char *wt_report_page_path(const char *target)
 {
-    return path_is_page(target) ? strdup(target) : wt_path_join(target, "index.html");
+    return path_is_page(target) ? wt_strdup(target) : wt_path_join(target, "index.html");
 }
 
 /* True if weartrack wrote the page of a report. */
@@ -77,7 +77,7 @@ static bool is_weartrack_report(const char *target)
     enum { HEAD = 4096 };
     char head[HEAD + 1];
     char *path = wt_report_page_path(target);
-    FILE *file = path == NULL ? NULL : fopen(path, "rb");
+    FILE *file = fopen(path, "rb");
     free(path);
     if (file == NULL)
         return false;
@@ -147,17 +147,13 @@ static wt_status check_replaceable(const char *path, wt_error *err)
     wt_status status = WT_OK;
     char name[REPORT_NAME];
     char *plots = wt_path_join(path, "plots");
-    if (plots == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
     if (lstat(plots, &info) == 0 && !S_ISDIR(info.st_mode))
         status = fail_not_replaceable(err, path, "plots, which is no folder");
     free(plots);
     const char *own;
     for (size_t i = 0; status == WT_OK && (own = report_file_name(i, name)) != NULL; i++) {
         char *file = wt_path_join(path, own);
-        if (file == NULL)
-            status = wt_fail(err, WT_E_MEMORY, "out of memory");
-        else if (!is_bitmap_or_pdf(own))
+        if (!is_bitmap_or_pdf(own))
             status = wt_check_overwrite(file, err);
         free(file);
     }
@@ -180,10 +176,8 @@ static void folder_free(report_folder *folder)
 /* Resolves the path: removes slashes at the end and follows symbolic links. */
 static wt_status resolve_report_path(const char *path, char **target, wt_error *err)
 {
-    char *plain = strdup(path), *real = NULL;
+    char *plain = wt_strdup(path), *real = NULL;
     wt_status status = WT_OK;
-    if (plain == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
     for (size_t n = strlen(plain); n > 1 && plain[n - 1] == '/'; n--)
         plain[n - 1] = '\0';
     const char *base = wt_path_base(plain);
@@ -209,10 +203,8 @@ static wt_status create_temporary_folder(report_folder *folder, wt_error *err)
 {
     struct stat info;
     char *parent = !folder->is_page && stat(folder->target, &info) == 0
-                       ? strdup(folder->target)
+                       ? wt_strdup(folder->target)
                        : wt_path_folder(folder->target);
-    if (parent == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
     temporary_remove_abandoned(parent);
     folder->temporary = temporary_folder_create(parent, &folder->lock_file);
     free(parent);
@@ -225,9 +217,7 @@ static wt_status create_temporary_folder(report_folder *folder, wt_error *err)
 
 wt_status folder_open(const char *path, report_folder **out, wt_error *err)
 {
-    report_folder *folder = calloc(1, sizeof *folder);
-    if (folder == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    report_folder *folder = wt_alloc(1, sizeof *folder);
     folder->lock_file = -1;
     wt_status status = resolve_report_path(path, &folder->target, err);
     folder->is_page = status == WT_OK && path_is_page(folder->target);
@@ -235,10 +225,11 @@ wt_status folder_open(const char *path, report_folder **out, wt_error *err)
         status = check_replaceable(folder->target, err);
     if (status == WT_OK)
         status = create_temporary_folder(folder, err);
-    if (status == WT_OK && (folder->plots = wt_path_join(folder->temporary, "plots")) == NULL)
-        status = wt_fail(err, WT_E_MEMORY, "out of memory");
-    if (status == WT_OK && mkdir(folder->plots, 0777) != 0)
-        status = io_error(err, "cannot be made", folder->plots);
+    if (status == WT_OK) {
+        folder->plots = wt_path_join(folder->temporary, "plots");
+        if (mkdir(folder->plots, 0777) != 0)
+            status = io_error(err, "cannot be made", folder->plots);
+    }
     if (status == WT_OK)
         *out = folder;
     else
@@ -255,8 +246,6 @@ wt_status folder_write(const report_folder *folder, const char *name, const char
                        size_t length, wt_error *err)
 {
     char *path = wt_path_join(folder->temporary, name);
-    if (path == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
     const wt_status status = write_temporary_file(path, bytes, length, err);
     free(path);
     return status;
@@ -269,9 +258,7 @@ static wt_status move_file(const report_folder *folder, const char *name, wt_err
     wt_status status = WT_OK;
     struct stat info;
     char *from = wt_path_join(folder->temporary, name), *to = wt_path_join(folder->target, name);
-    if (from == NULL || to == NULL)
-        status = wt_fail(err, WT_E_MEMORY, "out of memory");
-    else if (lstat(from, &info) != 0)
+    if (lstat(from, &info) != 0)
         (void)unlink(to);
     else if ((lstat(to, &info) == 0 && S_ISREG(info.st_mode) &&
               chmod(from, info.st_mode & 0777) != 0) ||
@@ -290,10 +277,8 @@ static wt_status move_page(const report_folder *folder, wt_error *err)
     if (status != WT_OK)
         return status;
     char *page = wt_path_join(folder->temporary, "index.html");
-    if (page == NULL)
-        status = wt_fail(err, WT_E_MEMORY, "out of memory");
-    else if ((lstat(folder->target, &info) == 0 && chmod(page, info.st_mode & 0777) != 0) ||
-             rename(page, folder->target) != 0)
+    if ((lstat(folder->target, &info) == 0 && chmod(page, info.st_mode & 0777) != 0) ||
+        rename(page, folder->target) != 0)
         status = io_error(err, "cannot be written", folder->target);
     free(page);
     return status;
@@ -309,8 +294,6 @@ static wt_status move_files(const report_folder *folder, wt_error *err)
         (void)flock(lock, LOCK_EX);
     wt_status status = check_replaceable(folder->target, err); // again, as it may have changed
     char *plots = wt_path_join(folder->target, "plots");
-    if (status == WT_OK && plots == NULL)
-        status = wt_fail(err, WT_E_MEMORY, "out of memory");
     if (status == WT_OK)
         status = move_file(folder, report_file_name(0, name), err);
     if (status == WT_OK && mkdir(plots, 0777) != 0 && errno != EEXIST)

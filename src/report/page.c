@@ -182,7 +182,7 @@ static wt_status page_section_write(page_writer *page, page_section section, siz
         [SECTION_COLLECTION] = {"collection", "Collection", "more-collection"},
         [SECTION_UNCERTAINTY] = {"uncertainty", "Uncertainty", "more-uncertainty"}};
     text_buffer before = page->out;
-    page->out = (text_buffer){.failed = before.failed};
+    page->out = (text_buffer){0};
     page_numbers(page, section);
     wt_status status = add_figures(page, section, false, number, err);
     add_missing_figures(page, section);
@@ -201,7 +201,7 @@ static wt_status page_section_write(page_writer *page, page_section section, siz
         page_heading(page, about[section].id, about[section].heading);
         text_bytes(&page->out, text_string(&content), content.length);
     }
-    text_free_part(&content, &page->out);
+    text_free(&content);
     return status;
 }
 
@@ -220,7 +220,7 @@ static wt_status page_sections(page_writer *page, wt_error *err)
         text_add(&page->out, " and ");
         add_file(page, "output", "gp", &output);
         text_add(&page->out, ".</p>\n");
-        text_free_part(&output, &page->out);
+        text_free(&output);
     }
     return status;
 }
@@ -266,12 +266,10 @@ wt_status page_write(page_writer *page, wt_error *err)
         page_cost(page);
         page_record(page);
         body = page->out;
-        page->out = (text_buffer){.failed = body.failed || page->contents.failed};
+        page->out = (text_buffer){0};
         page_head(page, &page->out, page_title(page));
         text_bytes(&page->out, text_string(&body), body.length);
         text_add(&page->out, "</main>\n</body>\n</html>\n");
-        if (page->out.failed)
-            status = wt_fail(err, WT_E_MEMORY, "out of memory");
     }
     text_free(&body);
     text_free(&page->contents);

@@ -37,7 +37,7 @@ static void write_result_value_row(page_writer *page, const char *name, const re
         text_add(remark, " over all choices of the model");
     }
     page_estimate(page, name, &estimate, f->quantity, text_string(&interval), text_string(remark));
-    text_free_part(&interval, &page->out);
+    text_free(&interval);
 }
 
 static void write_ratio_row(page_writer *page, const result_value_tables *found)
@@ -55,7 +55,7 @@ static void write_ratio_row(page_writer *page, const result_value_tables *found)
         text_format(&remark, ", unit of analysis: %s", unit);
     f.number.numerical_error = 0;
     write_result_value_row(page, f.words, &f, &remark);
-    text_free_part(&remark, &page->out);
+    text_free(&remark);
 }
 
 static void write_group_rows(page_writer *page, const result_value_tables *found)
@@ -75,8 +75,8 @@ static void write_group_rows(page_writer *page, const result_value_tables *found
                     modulus_groups_get(table, row, MODULUS_GROUPS_N_REJECTED), f.includes);
         f.number.numerical_error = 0;
         write_result_value_row(page, text_string(&name), &f, &remark);
-        text_free_part(&name, &page->out);
-        text_free_part(&remark, &page->out);
+        text_free(&name);
+        text_free(&remark);
     }
 }
 
@@ -98,7 +98,7 @@ static void headline_rows(page_writer *page, const result_value_tables *found,
             write_result_value_row(page, key->headline, &f, &words);
         else
             page_estimate(page, key->headline, &estimate, key->quantity, NULL, text_string(&words));
-        text_free_part(&words, &page->out);
+        text_free(&words);
     }
 }
 
@@ -111,7 +111,7 @@ static void write_reference_rows(page_writer *page, const result_value_tables *f
         &remark, "at the reference velocity, %s",
         VALUE(WT_Q_VELOCITY, NULL, friction_value(table, FRICTION_KEY_REFERENCE_VELOCITY).value));
     headline_rows(page, found, table, EVERY_KEY, text_string(&remark));
-    text_free_part(&remark, &page->out);
+    text_free(&remark);
 }
 
 static void write_largest_friction_row(page_writer *page)
@@ -138,7 +138,7 @@ static void write_largest_friction_row(page_writer *page)
                                   friction_get(table, best, FRICTION_TOTAL_NUMERICAL_ERROR), "1"};
     page_estimate(page, "Friction coefficient, largest", &estimate, WT_Q_NONE, NULL,
                   text_string(&remark));
-    text_free_part(&remark, &page->out);
+    text_free(&remark);
 }
 
 /* Writes the constants of the shift law, with the verdict on superposition. */
@@ -151,7 +151,7 @@ static void write_law_rows(page_writer *page, const result_value_tables *found)
     text_format(&remark, "correlated with C₂, see the table of constants; superposition: %s",
                 shift_factors_key_text(table, SHIFT_FACTORS_KEY_SUPERPOSITION));
     headline_rows(page, found, table, SHIFT_FACTORS_KEY_WLF_C1, text_string(&remark));
-    text_free_part(&remark, &page->out);
+    text_free(&remark);
 }
 
 static void write_transition_rows(page_writer *page, const result_value_tables *found)
@@ -164,7 +164,7 @@ static void write_transition_rows(page_writer *page, const result_value_tables *
     text_buffer remark = {0};
     text_format(&remark, "at %s", VALUE(WT_Q_ANGULAR_FREQUENCY, NULL, frequency.value));
     headline_rows(page, found, table, EVERY_KEY, text_string(&remark));
-    text_free_part(&remark, &page->out);
+    text_free(&remark);
 }
 
 /* True if the result has a table with main numbers of the section. */

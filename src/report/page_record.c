@@ -68,7 +68,7 @@ void page_record(page_writer *page)
         page_fold(page, "case", "Case file", PAGE_UNPRINTED);
         text_html(&page->out, "<pre tabindex=\"0\"><code>%s</code></pre>\n", text_string(&copy));
         page_fold_end(page);
-        text_free_part(&copy, &page->out);
+        text_free(&copy);
     }
     const wt_provenance *provenance = wt_result_provenance_const(page->result);
     if (!page->with_provenance || provenance == NULL)

@@ -215,7 +215,7 @@ static void write_rejected_curves(page_writer *page, const table_view *table)
         text_html(&page->out, "<p>%s.</p>\n", text_string(&caption));
     else
         page_table(page, table, text_string(&caption), NULL, 0, rows, n);
-    text_free_part(&caption, &page->out);
+    text_free(&caption);
 }
 
 void page_indentation(page_writer *page)
@@ -228,7 +228,7 @@ void page_indentation(page_writer *page)
         write_rejected_curves(page, table);
         text_format(&caption, "%s: how it was indented", table->suffix);
         page_keys(page, table, text_string(&caption));
-        text_free_part(&caption, &page->out);
+        text_free(&caption);
     }
     if (page->tables->n_indentation > 0)
         page_fold_end(page);

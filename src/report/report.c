@@ -84,7 +84,7 @@ static bool is_picture_begun(const report *r, const picture *p)
     char name[96];
     (void)snprintf(name, sizeof name, "%s.%s", figure_find(p->figure)->name, p->format);
     char *path = wt_path_join(folder_plots_path(r->folder), name);
-    const bool there = path != NULL && access(path, F_OK) == 0;
+    const bool there = access(path, F_OK) == 0;
     free(path);
     return there;
 }
@@ -109,8 +109,6 @@ static wt_status write_figure(report *r, size_t i, wt_error *err)
     const wt_status status = drawing_build(d, figure_find(i), &r->tables, err);
     if (status != WT_OK)
         return status;
-    if (d->script.failed || d->caption.failed)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
     return d->script.length == 0 ? WT_OK
                                  : figure_write(r->folder, &r->options, &r->figures[i], err);
 }
@@ -139,34 +137,30 @@ static void list_pictures(report *r)
 static wt_status draw_pictures(report *r, wt_error *err)
 {
     enum { EACH = 2 + 1, NAME = 96 }; // `-e FORMAT` if it changes, and the script
-    const char **arguments = calloc(EACH * r->n_pictures + 2, sizeof *arguments);
-    char(*names)[NAME] = calloc(2 * r->n_pictures, sizeof *names);
-    wt_status status = WT_E_MEMORY;
+    const char **arguments = wt_alloc(EACH * r->n_pictures + 2, sizeof *arguments);
+    char(*names)[NAME] = wt_alloc(2 * r->n_pictures, sizeof *names);
     size_t n = 0, used = 0;
-    if (arguments != NULL && names != NULL) {
-        arguments[n++] = "--default-settings";
-        for (size_t i = 0; i < r->n_pictures; i++) {
-            const picture *p = &r->pictures[i];
-            if (i == 0 || p->format != r->pictures[i - 1].format) {
-                (void)snprintf(names[used], NAME, "figure_format = '%s'", p->format);
-                arguments[n++] = "-e";
-                arguments[n++] = names[used++];
-            }
-            (void)snprintf(names[used], NAME, "%s.gp", figure_find(p->figure)->name);
+    arguments[n++] = "--default-settings";
+    for (size_t i = 0; i < r->n_pictures; i++) {
+        const picture *p = &r->pictures[i];
+        if (i == 0 || p->format != r->pictures[i - 1].format) {
+            (void)snprintf(names[used], NAME, "figure_format = '%s'", p->format);
+            arguments[n++] = "-e";
             arguments[n++] = names[used++];
         }
-        r->begin_time = wt_time_wall();
-        const gnuplot_call call = {.program = r->options.gnuplot,
-                                   .folder = folder_plots_path(r->folder),
-                                   .arguments = arguments,
-                                   .size = GNUPLOT_PICTURE_LIMIT,
-                                   .limit = r->options.gnuplot_time,
-                                   .timed_out = &r->timed_out,
-                                   .go_on = may_continue_pictures,
-                                   .user = r};
-        status = gnuplot_run(&call, err);
-    } else
-        wt_fail(err, status, "out of memory");
+        (void)snprintf(names[used], NAME, "%s.gp", figure_find(p->figure)->name);
+        arguments[n++] = names[used++];
+    }
+    r->begin_time = wt_time_wall();
+    const gnuplot_call call = {.program = r->options.gnuplot,
+                               .folder = folder_plots_path(r->folder),
+                               .arguments = arguments,
+                               .size = GNUPLOT_PICTURE_LIMIT,
+                               .limit = r->options.gnuplot_time,
+                               .timed_out = &r->timed_out,
+                               .go_on = may_continue_pictures,
+                               .user = r};
+    const wt_status status = gnuplot_run(&call, err);
     free(arguments);
     free(names);
     return status;
@@ -254,11 +248,9 @@ wt_status wt_report_write(const wt_result *result, const char *folder,
     const size_t n = wt_figure_count();
     report r = {.options = options != NULL ? *options : wt_report_defaults(),
                 .progress = progress,
-                .figures = calloc(n, sizeof *r.figures),
-                .pictures = calloc(FORMATS * n, sizeof *r.pictures)};
+                .figures = wt_alloc(n, sizeof *r.figures),
+                .pictures = wt_alloc(FORMATS * n, sizeof *r.pictures)};
     wt_status status = check_report_options(folder, &r.options, err);
-    if (status == WT_OK && (r.figures == NULL || r.pictures == NULL))
-        status = wt_fail(err, WT_E_MEMORY, "out of memory");
     if (status == WT_OK)
         status = figure_tables_bind(result, &r.tables, err);
     if (status == WT_OK)

@@ -34,8 +34,6 @@ wt_status read_whole_file(const char *path, size_t limit, text_buffer *text, wt_
         status = wt_fail(err, WT_E_RANGE, "larger than %zu bytes", limit);
     if (status != WT_OK)
         wt_error_file(err, path);
-    else if (text->failed)
-        status = wt_fail(err, WT_E_MEMORY, "out of memory");
     if (file != NULL)
         fclose(file);
     return status;
@@ -112,5 +110,5 @@ wt_status read_style(const char *style, text_buffer *text, wt_error *err)
     if (status != WT_OK)
         return status;
     text_add(text, built_in);
-    return text->failed ? wt_fail(err, WT_E_MEMORY, "out of memory") : WT_OK;
+    return WT_OK;
 }

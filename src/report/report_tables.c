@@ -10,9 +10,7 @@ static wt_status bind_indentation(const wt_result *result, figure_tables *tables
 {
     const char *const prefix = indentation_schema.name;
     const size_t length = strlen(prefix), n = wt_result_n_tables(result);
-    tables->indentation = calloc(n > 0 ? n : 1, sizeof *tables->indentation);
-    if (tables->indentation == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    tables->indentation = wt_alloc(n, sizeof *tables->indentation);
     for (size_t i = 0; i < n; i++) {
         const wt_table *table = wt_result_table(result, i);
         const char *name = wt_table_name(table);

@@ -3,6 +3,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "report/report_text.h"
 
+#include "core/base/memory.h"
 #include "core/base/utf8.h"
 
 #include <stdlib.h>
@@ -14,45 +15,29 @@ void text_free(text_buffer *text)
     *text = (text_buffer){0};
 }
 
-void text_free_part(text_buffer *part, text_buffer *whole)
-{
-    whole->failed = whole->failed || part->failed;
-    text_free(part);
-}
-
 const char *text_string(const text_buffer *text)
 {
     return text->bytes != NULL ? text->bytes : "";
 }
 
-static bool reserve_bytes(text_buffer *text, size_t more)
+static void reserve_bytes(text_buffer *text, size_t more)
 {
-    if (text->failed)
-        return false;
-    if (more > SIZE_MAX / 4 || text->length > SIZE_MAX / 4) {
-        text->failed = true;
-        return false;
-    }
-    size_t needed = text->length + more + 1;
+    enum { FIRST = 256 };
+    if (more > SIZE_MAX / 4 || text->length > SIZE_MAX / 4)
+        out_of_memory(more);
+    const size_t needed = text->length + more + 1;
     if (needed <= text->capacity)
-        return true;
-    size_t capacity = text->capacity < 256 ? 256 : text->capacity;
-    while (capacity < needed)
-        capacity *= 2;
-    char *bytes = realloc(text->bytes, capacity);
-    if (bytes == NULL) {
-        text->failed = true;
-        return false;
-    }
-    text->bytes = bytes;
-    text->capacity = capacity;
-    return true;
+        return;
+    if (text->capacity < FIRST)
+        text->capacity = FIRST;
+    while (text->capacity < needed)
+        text->capacity *= 2;
+    text->bytes = wt_realloc(text->bytes, text->capacity, 1);
 }
 
 void text_bytes(text_buffer *text, const char *bytes, size_t length)
 {
-    if (!reserve_bytes(text, length))
-        return;
+    reserve_bytes(text, length);
     memcpy(text->bytes + text->length, bytes, length);
     text->length += length;
     text->bytes[text->length] = '\0';
@@ -67,10 +52,9 @@ void text_vformat(text_buffer *text, const char *format, va_list arguments)
 {
     va_list again;
     va_copy(again, arguments);
-    int length = vsnprintf(NULL, 0, format, arguments);
-    if (length < 0)
-        text->failed = true;
-    else if (reserve_bytes(text, (size_t)length)) {
+    const int length = vsnprintf(NULL, 0, format, arguments);
+    if (length > 0) {
+        reserve_bytes(text, (size_t)length);
         (void)vsnprintf(text->bytes + text->length, (size_t)length + 1, format, again);
         text->length += (size_t)length;
     }
@@ -142,9 +126,7 @@ void text_html(text_buffer *text, const char *markup, ...)
     va_start(arguments, markup);
     for (const char *mark = strchr(markup, '%'); mark != NULL; mark = strchr(markup, '%')) {
         text_bytes(text, markup, (size_t)(mark - markup));
-        text->failed = text->failed || mark[1] != 's';
-        if (!text->failed)
-            add_escaped(text, va_arg(arguments, const char *));
+        add_escaped(text, va_arg(arguments, const char *));
         markup = mark + strlen("%s");
     }
     text_add(text, markup);
@@ -206,7 +188,7 @@ void text_tic_label(text_buffer *text, const char *string)
     for (const char *s = string; *s != '\0'; s++)
         text_bytes(&format, *s == '%' ? "%%" : s, *s == '%' ? 2 : 1);
     text_quoted(text, text_string(&format));
-    text_free_part(&format, text);
+    text_free(&format);
 }
 
 void text_comment(text_buffer *text, const char *string)

@@ -8,18 +8,14 @@
 
 #include <stdarg.h>
 
-/* A text buffer; zero-initialised it is empty. Running out of memory sets `failed`, and later
- * writes do nothing, so that one check at the end is enough. */
+/* A text buffer; zero-initialised it is empty. */
 typedef struct text_buffer {
     char *bytes; /* NULL while empty, else zero-terminated */
     size_t length, capacity;
-    bool failed;
 } text_buffer;
 
 void text_free(text_buffer *text);                /* empty again */
 const char *text_string(const text_buffer *text); /* "" while empty; borrowed */
-/* Frees a part that was appended to `whole` and passes on its failure. */
-void text_free_part(text_buffer *part, text_buffer *whole);
 void text_bytes(text_buffer *text, const char *bytes, size_t length);
 void text_add(text_buffer *text, const char *string);
 void text_format(text_buffer *text, const char *format, ...) WT_PRINTF(2, 3);

@@ -214,7 +214,7 @@ static void name_members(figure_drawing *d, const constant_panel *panel)
         text_buffer name = {0};
         text_file_name(&name, shared_members_text(d->table, row, SHARED_MEMBERS_MEMBER), NAME);
         text_tic_label(&d->script, text_string(&name));
-        text_free_part(&name, &d->script);
+        text_free(&name);
         text_format(&d->script, " %.0f", shared_members_get(d->table, row, SHARED_MEMBERS_NUMBER));
         before = ", ";
     }
@@ -245,7 +245,7 @@ static void draw_constants(figure_drawing *d)
         text_add(&d->script, ".\"\\n\".");
         text_quoted(&d->script, text_string(&of));
         text_add(&d->script, " noenhanced\n");
-        text_free_part(&of, &d->script);
+        text_free(&of);
         text_format(&d->script, "set xrange [0.5:%zu.5]\n", drawing_row_count(d, shown[i].section));
         name_members(d, &shown[i]);
         plot_expression(d, "y_unit with lines ls 12");

@@ -54,8 +54,7 @@ static char *data_of(const wt_result *result)
     figure_tables tables;
     text_buffer text = {0};
     assert_int_equal(figure_tables_bind(result, &tables, NULL), WT_OK);
-    assert_int_equal(append_browse_data(&tables, &text, NULL), WT_OK);
-    assert_false(text.failed);
+    append_browse_data(&tables, &text);
     figure_tables_clear(&tables);
     return text.bytes;
 }

@@ -71,7 +71,7 @@ static void test_order(void **state)
     figure_tables tables;
     curve_list list;
     assert_int_equal(figure_tables_bind(result, &tables, NULL), WT_OK);
-    assert_int_equal(curve_list_init(&tables, &list, NULL), WT_OK);
+    curve_list_init(&tables, &list);
     assert_int_equal(list.n_rows, MANY);
     assert_int_equal(list.n, MANY - 1);
     assert_int_equal(list.of_kind[CURVE_REFUSED], 10);
@@ -103,7 +103,7 @@ static void test_words(void **state)
     figure_tables tables;
     curve_list list;
     assert_int_equal(figure_tables_bind(result, &tables, NULL), WT_OK);
-    assert_int_equal(curve_list_init(&tables, &list, NULL), WT_OK);
+    curve_list_init(&tables, &list);
     char *refused = script_of(&tables, &list.curves[1]);
     assert_non_null(strstr(refused, "set label 1 \"a'file with \\\\ and \xc2\xb5.txt:3\""));
     assert_non_null(strstr(refused, "set label 2 'poor_fit'"));
