@@ -3,16 +3,19 @@
 #ifndef WT_CASE_TABLES_H
 #define WT_CASE_TABLES_H
 
-#define ANSWER_KINDS(X)                                                                            \
-    X(ANSWER_KIND_SHORT, "short")                                                                  \
-    X(ANSWER_KIND_MATERIAL, "material")                                                            \
-    X(ANSWER_KIND_LAYER, "layer")                                                                  \
-    X(ANSWER_KIND_DIFFERENCE, "difference")                                                        \
-    X(ANSWER_KIND_THICKNESS, "thickness")                                                          \
-    X(ANSWER_KIND_FRICTION, "friction")                                                            \
-    X(ANSWER_KIND_SURFACE, "surface")                                                              \
-    X(ANSWER_KIND_RECORD, "record")                                                                \
-    X(ANSWER_KIND_VALIDATION, "validation")
+/* Closed list of the verdicts of a finding; the text of each is the same in all outputs. */
+#define FINDING_VERDICTS(X)                                                                        \
+    X(FINDING_YES, "yes")             /* interval and model range on one side of the reference */  \
+    X(FINDING_SAME, "same")           /* interval within the margin of equivalence */              \
+    X(FINDING_PREDICTED, "predicted") /* a theoretical value that no measurement here tests */     \
+    X(FINDING_INCONCLUSIVE, "inconclusive") /* interval or model range includes the reference */   \
+    X(FINDING_NOT_ENOUGH_DATA, "not enough data") /* a value without an interval */                \
+    X(FINDING_NOT_COMPUTED, "not computed")       /* an input is missing */
+
+#define FINDING_BASES(X)                                                                           \
+    X(FINDING_MEASURED, "measured")                                                                \
+    X(FINDING_FROM_THEORY, "predicted")                                                            \
+    X(FINDING_GIVEN, "given")
 
 #define LIMIT_SUBJECTS(X)                                                                          \
     X(LIMITS_DATA, "data")                                                                         \
@@ -30,11 +33,24 @@
 #define LIMITS_KEYS(X)
 
 #define ANSWER_COLUMNS(X)                                                                          \
-    X(ANSWER_QUESTION, "question", "question", TEXT)                                               \
-    X(ANSWER_ANSWER, "answer", "answer", TEXT)                                                     \
-    X(ANSWER_KIND, "kind",                                                                         \
-      "short, material, layer, difference, thickness, friction, surface or record",                \
-      ENUM(answer_kind))
+    X(ANSWER_QUESTION, AS(question), "question of the user", TEXT, LABEL("Question"))              \
+    X(ANSWER_VERDICT, AS(verdict),                                                                 \
+      "yes, same, predicted, inconclusive, not enough data or not computed",                       \
+      ENUM(finding_verdict), OPTIONAL, LABEL("Verdict"))                                           \
+    X(ANSWER_BASIS, AS(basis), "measured, predicted or given", ENUM(finding_basis), OPTIONAL,      \
+      LABEL("Basis"))                                                                              \
+    X(ANSWER_VALUE, AS(value), "number behind the verdict, in the unit beside it", NUMBER,         \
+      OPTIONAL, LABEL("Value"))                                                                    \
+    X(ANSWER_LOW, AS(low), "lower end of its 95 % interval", NUMBER, OPTIONAL)                     \
+    X(ANSWER_HIGH, AS(high), "upper end of its 95 % interval", NUMBER, OPTIONAL)                   \
+    X(ANSWER_RANGE_LOW, AS(range_low), "least value over the model choices", NUMBER, OPTIONAL)     \
+    X(ANSWER_RANGE_HIGH, AS(range_high), "largest value over the model choices", NUMBER, OPTIONAL) \
+    X(ANSWER_UNIT, AS(unit), "unit of the number, its interval and range", TEXT, OPTIONAL)         \
+    X(ANSWER_WIDEST, AS(widest), "model choice that changes the number most", TEXT, OPTIONAL)      \
+    X(ANSWER_ANSWER, AS(answer), "the verdict in one sentence, or why there is none", TEXT,        \
+      LABEL("Answer"))                                                                             \
+    X(ANSWER_REMEDY, AS(remedy), "what would make the answer more certain", TEXT, OPTIONAL,        \
+      LABEL("To settle it"))
 #define ANSWER_KEYS(X)                                                                             \
     X(ANSWER_KEY_CASE_TITLE, "case_title", TEXT, OPTIONAL)                                         \
     X(ANSWER_KEY_CASE_SAMPLE, "case_sample", TEXT, OPTIONAL)                                       \

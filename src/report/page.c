@@ -33,43 +33,6 @@ static void page_head(const page_writer *page, text_buffer *out, const char *tit
     text_add(out, "</ul>\n</nav>\n</header>\n");
 }
 
-/* Writes the answers to the first question, which tell the result, where it has no cards. */
-static void page_short_answer(page_writer *page)
-{
-    const table_view *table = &page->tables->answer;
-    if (table->n_rows == 0)
-        return;
-    text_html(&page->out, "<section class=\"answer\">\n<h3>%s</h3>\n",
-              answer_text(table, 0, ANSWER_QUESTION));
-    for (size_t row = 0; row < table->n_rows && strcmp(answer_text(table, row, ANSWER_QUESTION),
-                                                       answer_text(table, 0, ANSWER_QUESTION)) == 0;
-         row++)
-        text_html(&page->out, "<p>%s</p>\n", answer_text(table, row, ANSWER_ANSWER));
-    text_add(&page->out, "</section>\n");
-}
-
-/* Writes the answer in full, folded. Sentences on one question share a heading. */
-static void page_answer(page_writer *page)
-{
-    const table_view *table = &page->tables->answer;
-    const char *question = NULL;
-    if (table->n_rows == 0)
-        return;
-    page_fold(page, "answer", "The answer in full", PAGE_UNPRINTED);
-    text_add(&page->out, "<div class=\"answers\">\n");
-    for (size_t row = 0; row < table->n_rows; row++) {
-        const char *next = answer_text(table, row, ANSWER_QUESTION);
-        if (question == NULL || strcmp(question, next) != 0) {
-            text_add(&page->out, question == NULL ? "" : "</section>\n");
-            text_html(&page->out, "<section class=\"answer\">\n<h3>%s</h3>\n", next);
-            question = next;
-        }
-        text_html(&page->out, "<p>%s</p>\n", answer_text(table, row, ANSWER_ANSWER));
-    }
-    text_add(&page->out, "</section>\n</div>\n");
-    page_fold_end(page);
-}
-
 /* Adds a download link with the content of a file. */
 static void add_file(page_writer *page, const char *name, const char *ending,
                      const text_buffer *file)
@@ -253,13 +216,11 @@ wt_status page_write(page_writer *page, wt_error *err)
 {
     // The body comes first, as the table of contents depends on it.
     text_buffer body = {0};
-    if (!page_cards(page))
-        page_short_answer(page);
+    page_cards(page);
     page_failures(page);
     page_summary(page);
     wt_status status = page_sections(page, err);
     if (status == WT_OK) {
-        page_answer(page);
         page_results(page);
         page_indentation(page);
         page_inputs(page);

@@ -32,7 +32,7 @@ wt_status page_write(page_writer *page, wt_error *err) WT_NODISCARD;
 
 /* ---- parts; each is empty without its tables ---------------------------------------------------
  */
-bool page_cards(page_writer *page);   /* findings; false if there is none */
+void page_cards(page_writer *page);   /* findings */
 void page_summary(page_writer *page); /* remedies, limits, data used */
 /* Main numbers of one section; nothing if the result has none. */
 void page_numbers(page_writer *page, page_section section);

@@ -57,7 +57,7 @@ static void write_bar(page_writer *page, const char *name, const char *class, co
 
 static void write_card(page_writer *page, const finding *f)
 {
-    static const char *const class[FINDING_VERDICTS] = {[FINDING_YES] = "v-yes",
+    static const char *const class[FINDING_VERDICT_UNKNOWN] = {[FINDING_YES] = "v-yes",
                                                         [FINDING_SAME] = "v-yes",
                                                         [FINDING_PREDICTED] = "v-pred",
                                                         [FINDING_INCONCLUSIVE] = "v-open",
@@ -80,7 +80,12 @@ static void write_card(page_writer *page, const finding *f)
         write_bar(page, "Model choices", "choices", value, value->range.low, value->range.high);
         text_add(&page->out, "</dl>\n");
     }
-    text_html(&page->out, "<p>%s%s</p>\n", finding_sentence(f),
+    /* a run states why a number is missing */
+    const table_view *const answer = &page->tables->answer;
+    const bool stated = f->verdict == FINDING_NOT_COMPUTED && answer_has(answer, ANSWER_VERDICT) &&
+                        (size_t)f->question < answer->n_rows;
+    text_html(&page->out, "<p>%s%s</p>\n",
+              stated ? answer_text(answer, f->question, ANSWER_ANSWER) : finding_sentence(f),
               f->as_if_layer && !isnan(value->number.value)
                   ? " The track is not shown to differ: the number is as if there were a layer."
                   : "");
@@ -94,18 +99,16 @@ static void write_card(page_writer *page, const finding *f)
     text_add(&page->out, "</section>\n");
 }
 
-bool page_cards(page_writer *page)
+void page_cards(page_writer *page)
 {
     result_value_tables tables;
     finding findings[FINDING_QUESTIONS];
     if (result_values_bind(page->result, &tables, NULL) != WT_OK)
-        return false; /* figure_tables_bind has reported this error */
-    const size_t n = findings_compute(&tables, findings);
-    if (n == 0)
-        return false;
+        return; /* figure_tables_bind has reported this error */
+    if (!findings_compute(&tables, findings))
+        return;
     text_add(&page->out, "<div class=\"findings\">\n");
-    for (size_t i = 0; i < n; i++)
+    for (size_t i = 0; i < FINDING_QUESTIONS; i++)
         write_card(page, &findings[i]);
     text_add(&page->out, "</div>\n");
-    return true;
 }

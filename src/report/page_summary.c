@@ -40,10 +40,10 @@ static bool has_remedy(const finding *f)
            (f->value.range.widest != NULL && f->value.range.remedy != NULL);
 }
 
-static void write_remedies(page_writer *page, const finding *findings, size_t n)
+static void write_remedies(page_writer *page, const finding *findings)
 {
     size_t n_rows = 0;
-    for (size_t i = 0; i < n; i++)
+    for (size_t i = 0; i < FINDING_QUESTIONS; i++)
         n_rows += has_remedy(&findings[i]);
     if (n_rows == 0)
         return;
@@ -52,7 +52,7 @@ static void write_remedies(page_writer *page, const finding *findings, size_t n)
              "<table>\n<caption>Widest uncertainty of each answer</caption>\n<thead><tr><th "
              "scope=\"col\">Answer</th><th scope=\"col\">Held "
              "back by</th><th scope=\"col\">Do this</th></tr></thead>\n<tbody>\n");
-    for (size_t i = n; i-- > 0;) /* friction first: it rests on the other answers */
+    for (size_t i = FINDING_QUESTIONS; i-- > 0;) /* friction first: it rests on the other answers */
         if (has_remedy(&findings[i]))
             write_remedy_row(page, &findings[i]);
     text_add(&page->out, "</tbody>\n</table>\n</section>\n");
@@ -204,11 +204,10 @@ void page_summary(page_writer *page)
 {
     result_value_tables tables;
     finding findings[FINDING_QUESTIONS];
-    size_t n = 0;
-    if (result_values_bind(page->result, &tables, NULL) == WT_OK)
-        n = findings_compute(&tables, findings);
     text_add(&page->out, "<div class=\"summary\">\n");
-    write_remedies(page, findings, n);
+    if (result_values_bind(page->result, &tables, NULL) == WT_OK &&
+        findings_compute(&tables, findings))
+        write_remedies(page, findings);
     write_limits(page);
     text_add(&page->out, "</div>\n");
     write_data_used(page);

@@ -1,34 +1,8 @@
-/* Binds the tables of an answer, and adds its sentences. SPDX-License-Identifier: GPL-3.0-or-later
+/* Binds the tables of an answer. SPDX-License-Identifier: GPL-3.0-or-later
  */
 #include "case/answer/answer_context.h"
 
 #include "core/base/array.h"
-#include "core/base/clocale.h"
-
-#include <string.h>
-
-/* Length of a sentence in bytes; longer sentences are truncated. */
-enum { LONGEST = 1200 };
-
-static void add_answer_row(const answer_context *context, const char *question, answer_kind kind,
-                           const char *text)
-{
-    table_row(context->answer);
-    answer_put_text(context->answer, ANSWER_QUESTION, question);
-    answer_put_text(context->answer, ANSWER_ANSWER, text);
-    answer_put_text(context->answer, ANSWER_KIND, answer_kind_text(kind));
-}
-
-void answer_add_sentence(const answer_context *context, const char *question, answer_kind kind,
-                         const char *format, ...)
-{
-    char text[LONGEST];
-    va_list list;
-    va_start(list, format);
-    clocale_vprint(text, sizeof text, format, list);
-    va_end(list);
-    add_answer_row(context, question, kind, text);
-}
 
 wt_status answer_context_bind(answer_context *context, const wt_result *result, wt_error *err)
 {

@@ -8,8 +8,6 @@
 
 typedef struct answer_context {
     const wt_case *c; /* NULL for the result of a single command */
-    const flow_plan *plan;
-    const wt_log *log;
     result_value_tables values;
     table_view failures;
     table_view indentation[2]; /* bulk, track */
@@ -20,32 +18,10 @@ typedef struct answer_context {
     table_view validation, validation_sources, validation_running_in;
     table_view layer_bands, layer_feedback, layer_regime_map, running_in, track_layer,
         identification;
-    table_writer *answer;
 } answer_context;
 
-/* Adds a row to the answer. The sentence is a printf format. */
-void answer_add_sentence(const answer_context *context, const char *question, answer_kind kind,
-                         const char *format, ...) WT_PRINTF(4, 5);
 /* Binds the views of the tables of a result. */
 wt_status answer_context_bind(answer_context *context, const wt_result *result,
                               wt_error *err) WT_NODISCARD;
-/* Describes the rubber, only if no later stage uses it: then the rubber is a result, not a step. */
-void answer_rubber(const answer_context *context);
-/* States the thickness of the layer that the curves allow, and compares it with the theory. */
-void answer_track_layer(const answer_context *context);
-/* Names the source of the specific wear rate of the layer, if a record measured one. */
-void answer_layer_wear_rate(const answer_context *context, const char *question);
-/* Describes the layer under a sequence of loads, its feedback and its regime map; answer_running_in
- * describes its friction during running-in. */
-void answer_layer_models(const answer_context *context);
-void answer_running_in(const answer_context *context);
-/* Describes a measured counter surface. */
-void answer_surface(const answer_context *context);
-/* States the critical energy and the wear rate identified from observations of the layer. */
-void answer_identification(const answer_context *context);
-/* States the measured friction and wear. */
-void answer_record(const answer_context *context);
-/* States whether the theory explains the measured friction. */
-void answer_validation(const answer_context *context);
 
 #endif

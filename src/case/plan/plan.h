@@ -28,6 +28,7 @@ typedef struct flow_plan {
     /* level of a stage that ran; below `level` if the higher one failed */
     unsigned achieved_level[FLOW_N_STAGES];
     flow_outcome full_outcome[FLOW_N_STAGES];
+    char failure[FLOW_N_STAGES][512]; /* message of a stage that failed at some level */
     flow_resource_set unmeasured; /* outputs that a stage did not find in its files, and all that
                                depends on them */
     char unmeasured_reason[256];  /* reason: "the records tell nothing of ...; give ..." */

@@ -148,6 +148,7 @@ static wt_status run_stage(run_execution *d, size_t i, unsigned level, const cha
     plan->outcome[i] = FLOW_FAILED;
     d->failure = status;
     flow_add_case_advice(&failure);
+    wt_error_format(&failure, plan->failure[i], sizeof plan->failure[i]);
     const bool again = may_retry(d, level);
     snprintf(stage, sizeof stage, "stage %s%s%s", flow_stages[i].id, again ? " with " : "",
              again ? flow_stages[i].optional_inputs[level - 1].label : "");
@@ -295,8 +296,7 @@ static wt_status finish_result(run_execution *d, wt_error *err)
             d->failures, wt_result_n_tables(d->result) > 0 ? WT_RESULT_PARTIAL : WT_RESULT_EMPTY,
             err);
     if (status == WT_OK)
-        status = flow_answer(d->run.c, &d->run.plan, d->result, d->run.job.log, d->failures,
-                             &answer, &limits, err);
+        status = flow_answer(d->run.c, &d->run.plan, d->result, d->failures, &answer, &limits, err);
     if (status == WT_OK)
         wt_result_log_remarks(d->result, d->run.job.log);
     if (status == WT_OK)

@@ -35,10 +35,8 @@ static bool is_thickness_given(const result_value_tables *t)
            layer_key_enum(&t->layer, LAYER_KEY_CRITICAL_ENERGY_FROM) == ENERGY_CALIBRATED;
 }
 
-size_t findings_compute(const result_value_tables *t, finding findings[FINDING_QUESTIONS])
+bool findings_compute(const result_value_tables *t, finding findings[FINDING_QUESTIONS])
 {
-    if (t->comparison.table == NULL && t->layer.table == NULL)
-        return 0;
     finding *differs = &findings[FINDING_TRACK_DIFFERS],
             *thickness = &findings[FINDING_LAYER_THICKNESS],
             *change = &findings[FINDING_FRICTION_CHANGE];
@@ -65,7 +63,7 @@ size_t findings_compute(const result_value_tables *t, finding findings[FINDING_Q
     for (size_t i = 0; i < FINDING_QUESTIONS; i++)
         if (findings[i].verdict == FINDING_YES)
             findings[i].sign = result_value_sign(&findings[i].value);
-    return FINDING_QUESTIONS;
+    return t->comparison.table != NULL || t->layer.table != NULL;
 }
 
 const char *finding_question_text(finding_question question)
@@ -86,28 +84,9 @@ const char *finding_subject_text(finding_question question)
     return text[question];
 }
 
-const char *finding_verdict_text(finding_verdict verdict)
-{
-    static const char *const text[FINDING_VERDICTS] = {[FINDING_YES] = "yes",
-                                                       [FINDING_SAME] = "same",
-                                                       [FINDING_PREDICTED] = "predicted",
-                                                       [FINDING_INCONCLUSIVE] = "inconclusive",
-                                                       [FINDING_NOT_ENOUGH_DATA] =
-                                                           "not enough data",
-                                                       [FINDING_NOT_COMPUTED] = "not computed"};
-    return text[verdict];
-}
-
-const char *finding_basis_text(finding_basis basis)
-{
-    return basis == FINDING_MEASURED      ? "measured"
-           : basis == FINDING_FROM_THEORY ? "predicted"
-                                          : "given";
-}
-
 const char *finding_sentence(const finding *f)
 {
-    static const char *const undecided[FINDING_VERDICTS] = {
+    static const char *const undecided[FINDING_VERDICT_UNKNOWN] = {
         [FINDING_YES] = "",
         [FINDING_SAME] = "The moduli of track and bulk are equal within the margin of the test.",
         [FINDING_PREDICTED] = "At this thickness the layer forms as fast as it wears.",

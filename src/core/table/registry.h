@@ -218,7 +218,8 @@
  * of an unknown text. */
 #define TABLE_TEXT_LISTS(X)                                                                        \
     X(stated_verdict, STATED_VERDICTS, VERDICT_UNKNOWN)                                            \
-    X(answer_kind, ANSWER_KINDS, ANSWER_KIND_UNKNOWN)                                              \
+    X(finding_verdict, FINDING_VERDICTS, FINDING_VERDICT_UNKNOWN)                                  \
+    X(finding_basis, FINDING_BASES, FINDING_BASIS_UNKNOWN)                                         \
     X(limit_subject, LIMIT_SUBJECTS, LIMIT_SUBJECT_UNKNOWN)                                        \
     X(tip_form, TIP_FORMS, TIP_FORM_UNKNOWN)                                                       \
     X(error_source, ERROR_SOURCES, ERROR_SOURCE_UNKNOWN)                                           \
