@@ -49,7 +49,7 @@ static wt_status run_accuracy_case(cmd_session *s, wt_run_options *run)
     }
     if (status == WT_OK)
         status = cmd_record_provenance(s->result, &s->err);
-    return status == WT_OK ? cmd_write_result(s) : status;
+    return status == WT_OK && !cmd_shows_short_table(s) ? cmd_write_result(s) : status;
 }
 
 int cmd_accuracy(int argc, char **argv)

@@ -40,7 +40,10 @@ static const wt_param common_rows[] = {
      .help = "what is said on standard error: for people, or one object of JSON a line with all "
              "messages, failures, the progress every second, and the exit status"},
     {PARAM_FLAG_OF("quiet", cmd_common_options, quiet), .letter = 'q',
-     .help = "no progress and no warnings on standard error; errors are printed all the same"},
+     .help = "print errors only: no table of the main numbers, no progress, no warnings"},
+    {PARAM_FLAG_OF("verbose", cmd_common_options, verbose), .letter = 'v',
+     .help = "print every main number with its reasons, and all warnings in full; a terminal gets "
+             "at most 20 lines without this"},
     {PARAM_FLAG_OF("strict", cmd_common_options, strict),
      .help = "exit status 1 if there is a remark (warning), too"},
     {PARAM_FLAG_OF("help", cmd_common_options, help), .letter = 'h',
@@ -219,7 +222,7 @@ static void print_subcommand_help(const cmd_usage *usage, const option_list *lis
     } else {
         printf("\noptions that most need, of %zu; --help all has every one:\n", count_shown(list));
         print_listed_options(list, usage->first);
-        print_listed_options(list, "quiet help");
+        print_listed_options(list, "quiet verbose help");
     }
     if (usage->notes != NULL) {
         putchar('\n');
@@ -451,7 +454,7 @@ bool cmd_parse(cmd_session *s, const cmd_usage *usage, cmd_option_group *parts, 
     char names[TEXT_SIZE];
     size_t n_inputs = 0, n_pipes = 0;
     const char **inputs = wt_alloc((size_t)argc + 1, sizeof *inputs);
-    snprintf(names, sizeof names, "%s log quiet strict help", usage->common);
+    snprintf(names, sizeof names, "%s log quiet verbose strict help", usage->common);
     cmd_option_group last = {common_params(), &s->common, names, 0};
     s->name = usage->name;
     s->parts = parts;

@@ -28,8 +28,8 @@ static void print_plan(const wt_table *plan)
 }
 
 /* Prints the answer on standard output, as it is the data of this subcommand. Folded answers are
- * only counted. `brief`: only the first part, which tells the result. */
-static void print_answer(const wt_result *result, bool brief)
+ * only counted. */
+static void print_answer(const wt_result *result)
 {
     const wt_table *answer = wt_result_find(result, "answer");
     const char *last = "";
@@ -43,10 +43,6 @@ static void print_answer(const wt_result *result, bool brief)
                 printf("  %zu more: on the page and in the table answer.\n", folded);
             continue;
         }
-        if (brief && i > 0 && strcmp(question, last) != 0) {
-            puts("\nThe whole answer: --verbose, the page, or the table answer of the result.");
-            break;
-        }
         if (strcmp(question, last) != 0)
             printf("%s%s\n", i > 0 ? "\n" : "", question);
         last = question;
@@ -55,8 +51,19 @@ static void print_answer(const wt_result *result, bool brief)
     }
 }
 
+/* A terminal gets the findings as a table, and with --verbose the whole answer behind it; a pipe
+ * gets the whole answer. */
+static void print_whole_or_short_answer(cmd_session *s)
+{
+    const bool screen = isatty(STDOUT_FILENO) != 0;
+    if (screen)
+        cmd_print_short_table(s, true);
+    if (!screen || s->common.verbose)
+        print_answer(s->result);
+}
+
 typedef struct run_flags {
-    bool plan, no_report, keep, verbose;
+    bool plan, no_report, keep;
     const char *report;
 } run_flags;
 
@@ -75,8 +82,6 @@ static const wt_param run_flag_rows[] = {
      .help = "where the report goes: one page if it ends in .html, else a folder; a report that is "
              "there is replaced, anything else is not"},
     {PARAM_FLAG_OF("no-report", run_flags, no_report), .help = "write no report"},
-    {PARAM_FLAG_OF("verbose", run_flags, verbose),
-     .help = "print the whole answer on a terminal, too; a pipe always gets the whole"},
     {PARAM_FLAG_OF("keep", run_flags, keep),
      .help = "do not run again what would give the same: the result is there, and neither version, "
              "command line, case nor any file that was read has changed; nothing was missing, and "
@@ -224,7 +229,7 @@ static wt_status run_whole_case(run_call *r, const cmd_option_group *report_give
         status = run_case_and_report(r);
     if (status != WT_OK)
         return status;
-    print_answer(r->s.result, !r->call_flags.verbose && isatty(STDOUT_FILENO));
+    print_whole_or_short_answer(&r->s);
     fflush(stdout); /* the answer is complete even if drawing fails */
     if (!r->s.common.quiet)
         cmd_message("result: %s%s\n", r->result_name,

@@ -41,7 +41,7 @@ static wt_status run_validation_case(cmd_session *s, wt_run_options *run, cmd_op
         status = fail_missing_validation(s);
     if (status == WT_OK)
         status = cmd_record_provenance(s->result, &s->err);
-    return status == WT_OK ? cmd_write_result(s) : status;
+    return status == WT_OK && !cmd_shows_short_table(s) ? cmd_write_result(s) : status;
 }
 
 int cmd_validate(int argc, char **argv)
