@@ -98,6 +98,7 @@ typedef struct cmd_usage {
     const char *master; /* options that weartrack master documents; NULL: none */
     const char *notes;  /* text after the options; NULL if none */
     bool exports;       /* writes tables for other programs, including databases */
+    bool one_by_one;    /* writes each table when it is read: no CSV and no JSON */
     int n_files;        /* required number of files; CMD_ONE_OR_MORE: one or more; 0: any */
     const char *files;  /* message for another number: "two files are needed" */
 } cmd_usage;
@@ -122,6 +123,7 @@ typedef struct cmd_session {
     size_t n_arguments, n_files; /* the names of files_from */
     char *names;                 /* text of files_from */
     int status;                  /* exit status */
+    size_t lines_left;           /* that a terminal has room for, of CMD_SCREEN_LINES */
     wt_error err;
     wt_formats *formats;
     wt_log *log;
@@ -205,8 +207,8 @@ void cmd_message(const char *format, ...) WT_PRINTF(1, 2);
 void cmd_print_safely(FILE *out, const char *text, size_t length);
 /* Removes a progress line from the terminal. */
 void cmd_erase_progress(void);
-/* Width of what a terminal shows. */
-enum { CMD_SCREEN_WIDTH = 80 };
+/* Width and largest number of lines of what a terminal shows without --verbose. */
+enum { CMD_SCREEN_WIDTH = 80, CMD_SCREEN_LINES = 20 };
 /* True if remarks are printed in short: standard error is a terminal, without --verbose. */
 bool cmd_is_brief(const cmd_session *s);
 /* Prints the path of the page of a report. */
@@ -245,8 +247,8 @@ wt_status cmd_sink_open(const char *output, cmd_sink *sink, wt_error *err);
 /* Closes the sink; after a failure no file appears. Returns the first failure. */
 wt_status cmd_sink_close(cmd_sink *sink, wt_status written, wt_error *err);
 
-/* Writes the result to -o: HDF5 for a name that ends in .h5 or .hdf5, else a text stream; without
- * -o or with "-" on standard output. */
+/* Writes the result to -o: HDF5 for a name that ends in .h5 or .hdf5, its first table for .csv, all
+ * tables for .json, else a text stream; without -o or with "-" on standard output. */
 wt_status cmd_write_result(cmd_session *s);
 /* True if the short table takes the place of the tables on standard output: it is a terminal, -o
  * was not given, and the result has rows for it. */

@@ -23,6 +23,7 @@ void cmd_erase_progress(void)
 {
     if (progress_is_shown)
         fputs("\r\033[K", stderr);
+    fflush(stderr); /* standard output may follow */
     progress_is_shown = false;
 }
 

@@ -18,7 +18,8 @@ static const wt_param common_rows[] = {
     {PARAM_TEXT_OF("output", cmd_common_options, output), .value = "FILE", .letter = 'o',
      .unset = "", .flags = PARAM_WRITTEN,
      .help = "write there instead of standard output, tables of results as HDF5 if the name ends "
-             "in .h5 or .hdf5; - is standard output"},
+             "in .h5 or .hdf5, as JSON for .json, the first of them as CSV for .csv; - is standard "
+             "output"},
     {PARAM_TEXT_OF("formats", cmd_common_options, formats), .value = "FOLDER", .unset = "",
      .help =
          "use the format descriptions (*.xml) of this folder too; one with the id of a built-in "
@@ -283,18 +284,22 @@ static bool check_output_suffix(cmd_session *s, const cmd_usage *usage)
     static const char of_database[] = "TABLE.sqlite` gives a table as a database";
     static const struct {
         const char *ending, *what, *instead;
-        bool exported;
-    } others[] = {{".xlsx", "spreadsheet", of_sheet, false},
-                  {".xlsm", "spreadsheet", of_sheet, false},
-                  {".xls", "spreadsheet", of_sheet, false},
-                  {".ods", "spreadsheet", of_sheet, false},
-                  {".parquet", "Parquet file", of_database, false},
-                  {".sqlite", "database", of_database, true},
-                  {".sqlite3", "database", of_database, true}};
+        bool exported, whole;
+    } others[] = {{".xlsx", "spreadsheet", of_sheet, false, false},
+                  {".xlsm", "spreadsheet", of_sheet, false, false},
+                  {".xls", "spreadsheet", of_sheet, false, false},
+                  {".ods", "spreadsheet", of_sheet, false, false},
+                  {".parquet", "Parquet file", of_database, false, false},
+                  {".sqlite", "database", of_database, true, false},
+                  {".sqlite3", "database", of_database, true, false},
+                  {".db", "database", of_database, true, false},
+                  {".csv", "CSV file", of_sheet, false, true},
+                  {".json", "JSON file", "TABLE.json` gives a table in it", false, true}};
     const char *const output = s->common.output;
     const char *const dot = output != NULL ? strrchr(output, '.') : NULL;
     for (size_t i = 0; dot != NULL && i < COUNT_OF(others); i++) {
-        if (strcasecmp(dot, others[i].ending) != 0 || (others[i].exported && usage->exports))
+        if (strcasecmp(dot, others[i].ending) != 0 || (others[i].exported && usage->exports) ||
+            (others[i].whole && !usage->one_by_one))
             continue;
         if (usage->exports)
             return cmd_usage_error(s,

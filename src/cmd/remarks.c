@@ -48,7 +48,7 @@ static size_t group_equal_entries(log_group *folds, size_t n)
 
 /* ---- on a terminal --------------------------------------------------------------------------- */
 
-enum { LABEL_WIDTH = 9, BRIEF_LINES = 4 };
+enum { LABEL_WIDTH = 9, LINES_OF_REMARKS = 2 };
 
 bool cmd_is_brief(const cmd_session *s)
 {
@@ -97,19 +97,23 @@ static void print_remark(const char *label, const char *text, bool whole)
 
 /* Prints remarks with one label each: whole where all of them take few lines, else a line each, the
  * first ones. */
-static void print_remarks(const char *const labels[], char *const texts[], size_t n)
+static void print_remarks(cmd_session *s, const char *const labels[], char *const texts[], size_t n,
+                          size_t most)
 {
     size_t lines = 0;
     for (size_t i = 0; i < n; i++)
         lines += count_lines(texts[i]);
-    const bool whole = lines <= BRIEF_LINES;
-    const size_t shown = n <= BRIEF_LINES ? n : BRIEF_LINES - 1;
+    most = most > LINES_OF_REMARKS ? most : LINES_OF_REMARKS;
+    const bool whole = lines <= most;
+    const size_t shown = n < most || whole ? n : most - 1;
     for (size_t i = 0; i < shown; i++)
         print_remark(labels[i], texts[i], whole);
     if (n > shown)
         cmd_message("%-*sand %zu more kinds: --verbose\n", LABEL_WIDTH, "", n - shown);
     else if (!whole)
         cmd_message("%-*sin full: --verbose\n", LABEL_WIDTH, "");
+    const size_t used = whole ? lines : shown + 1;
+    s->lines_left -= used < s->lines_left ? used : s->lines_left;
 }
 
 static char *describe_group(const log_group *f)
@@ -137,7 +141,7 @@ static int compare_severity(const void *a, const void *b)
 }
 
 /* The worst first. */
-static void print_groups_briefly(log_group *groups, size_t n)
+static void print_groups_briefly(cmd_session *s, log_group *groups, size_t n)
 {
     const char **labels = wt_alloc(n + 1, sizeof *labels);
     char **texts = wt_alloc(n + 1, sizeof *texts);
@@ -146,12 +150,12 @@ static void print_groups_briefly(log_group *groups, size_t n)
         labels[i] = wt_severity_name(groups[i].entry.severity);
         texts[i] = describe_group(&groups[i]);
     }
-    print_remarks(labels, texts, n);
+    print_remarks(s, labels, texts, n, s->lines_left);
     wt_strings_free(texts, n);
     free(labels);
 }
 
-static void print_failures_briefly(const wt_table *failures)
+static void print_failures_briefly(cmd_session *s, const wt_table *failures)
 {
     const size_t n = wt_table_n_rows(failures);
     const char **labels = wt_alloc(n + 1, sizeof *labels);
@@ -166,7 +170,8 @@ static void print_failures_briefly(const wt_table *failures)
         if (asprintf(&texts[i], "%s: %s", wt_path_base(where), what) < 0)
             cmd_exit_without_memory(strlen(what));
     }
-    print_remarks(labels, texts, n);
+    print_remarks(s, labels, texts, n,
+                  s->lines_left - (s->lines_left > LINES_OF_REMARKS ? LINES_OF_REMARKS : 0));
     wt_strings_free(texts, n);
     free(labels);
 }
@@ -210,7 +215,7 @@ void cmd_print_log(cmd_session *s, const wt_log *log, bool notes)
     }
     n_folds = group_equal_entries(folds, n_folds);
     if (cmd_is_brief(s))
-        print_groups_briefly(folds, n_folds);
+        print_groups_briefly(s, folds, n_folds);
     for (size_t i = 0; i < n_folds && !cmd_is_brief(s); i++)
         print_log_group(s->name, &folds[i]);
     free(folds);
@@ -232,7 +237,7 @@ bool cmd_print_failures(cmd_session *s, const wt_table *failures)
     if (n == 0)
         return false;
     if (cmd_is_brief(s))
-        print_failures_briefly(failures);
+        print_failures_briefly(s, failures);
     else if (!cmd_log_is_json())
         cmd_message("weartrack %s: %zu failed:\n", s->name, n);
     for (size_t i = 0; i < n; i++) {

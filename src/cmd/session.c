@@ -6,8 +6,11 @@
 
 cmd_session cmd_session_defaults(void)
 {
-    return (cmd_session){
-        .common = cmd_common_defaults(), .err = WT_ERROR_INIT, .work = wt_job_defaults()};
+    return (cmd_session){.common = cmd_common_defaults(),
+                         .err = WT_ERROR_INIT,
+                         .work = wt_job_defaults(),
+                         .lines_left =
+                             CMD_SCREEN_LINES - 1 /* the last line says where the rest is */};
 }
 
 bool cmd_begin(cmd_session *s)

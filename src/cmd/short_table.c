@@ -223,6 +223,9 @@ void cmd_print_short_table(cmd_session *s, bool findings)
         if (n > t.n_shown)
             fprintf(t.out, "  and %zu more rows: --verbose\n", n - t.n_shown);
         fputc('\n', t.out);
+        enum { AROUND = 4 }; /* heading, headings of the columns, empty lines */
+        const size_t used = AROUND + t.n_shown + (n > t.n_shown);
+        s->lines_left -= used < s->lines_left ? used : s->lines_left;
         fflush(t.out);
     }
     wt_result_rows_free(rows);

@@ -160,7 +160,7 @@ static void add_transition(rows_source *s, const table_view *v)
         rows_condition(s, at, "rad/s");
     }
     if (isnan(factor.value) && isnan(loss.value))
-        rows_note(rows_add_text(s, 0, "none", "glass transition"), "none in the range measured");
+        rows_note(rows_add_text(s, 0, "none", "glass transition"), "in the range measured");
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
         if (!isnan(rows[i].estimate.value))
             rows_note(rows_add_number(s, 0, rows_temperature(rows[i].estimate), "glass transition"),

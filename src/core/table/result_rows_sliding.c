@@ -96,6 +96,7 @@ static void add_identification(rows_source *s, const table_view *v)
         if (!isnan(identification_get(v, i, IDENTIFICATION_CORRELATION)))
             rows_note(row, "correlation %.2f",
                       identification_get(v, i, IDENTIFICATION_CORRELATION));
+        rows_reason(row, "known least", identification_text(v, i, IDENTIFICATION_LOOSE));
         rows_reason(row, by, identification_text(v, i, IDENTIFICATION_NOTE));
     }
 }
@@ -103,6 +104,7 @@ static void add_identification(rows_source *s, const table_view *v)
 /* All errors of a number together, and the source with the largest share of the variance. */
 static void add_error_budget(rows_source *s, const table_view *v)
 {
+    clocale_append(s->rows->heading, sizeof s->rows->heading, "relative standard errors");
     for (size_t from = 0, to; from < v->n_rows; from = to) {
         const char *number = error_budget_text(v, from, ERROR_BUDGET_NUMBER);
         double together = (double)NAN;
@@ -200,8 +202,7 @@ static void add_validation_step(rows_source *s, const table_view *v, size_t i)
                               validation_get(v, i, VALIDATION_RATIO_LOW),
                               validation_get(v, i, VALIDATION_RATIO_HIGH), "1"),
         "at %s", rows_short(validation_get(v, i, VALIDATION_VELOCITY), "m/s").value);
-    rows_note(row, "measured %s, predicted %s",
-              rows_short(validation_get(v, i, VALIDATION_MEASURED), "1").value,
+    rows_note(row, "%s / %s", rows_short(validation_get(v, i, VALIDATION_MEASURED), "1").value,
               rows_short(predicted, "1").value);
     rows_reason(row, "step", validation_text(v, i, VALIDATION_NOTE));
 }
@@ -271,12 +272,13 @@ static void add_validation_running_in(rows_source *s, const table_view *v)
 void rows_of_records(rows_source *s)
 {
     table_view view;
-    if (rows_bind(s, &record_schema, &view))
+    const bool compared = rows_bind(s, &validation_schema, &view);
+    if (compared)
+        add_validation(s, &view); /* it has the steps of the record, too */
+    if (!compared && rows_bind(s, &record_schema, &view))
         add_record(s, &view);
     if (rows_bind(s, &wear_schema, &view))
         add_wear(s, &view);
-    if (rows_bind(s, &validation_schema, &view))
-        add_validation(s, &view);
     if (rows_bind(s, &validation_running_in_schema, &view))
         add_validation_running_in(s, &view);
 }
@@ -327,18 +329,23 @@ static void add_pairs(rows_source *s, const table_view *v)
         rows_note(row, "by %s", shared_pairs_text(v, i, SHARED_PAIRS_BY));
         rows_reason(row, "what would settle it",
                     shared_pairs_key_text(v, SHARED_PAIRS_KEY_SETTLED_BY));
-        rows_add_number(s, 1,
-                        rows_number(shared_pairs_get(v, i, SHARED_PAIRS_ENERGY),
-                                    shared_pairs_get(v, i, SHARED_PAIRS_ENERGY_LOW),
-                                    shared_pairs_get(v, i, SHARED_PAIRS_ENERGY_HIGH), "J/m^3"),
-                        "critical energy U_c");
+        row =
+            rows_add_number(s, 1,
+                            rows_number(shared_pairs_get(v, i, SHARED_PAIRS_ENERGY),
+                                        shared_pairs_get(v, i, SHARED_PAIRS_ENERGY_LOW),
+                                        shared_pairs_get(v, i, SHARED_PAIRS_ENERGY_HIGH), "J/m^3"),
+                            "critical energy U_c");
+        rows_note(row, "%s", shared_pairs_text(v, i, SHARED_PAIRS_ONE_ENERGY));
+        rows_reason(row, "known least", shared_pairs_text(v, i, SHARED_PAIRS_LOOSE));
         row = rows_add_number(s, 1,
                               rows_number(shared_pairs_get(v, i, SHARED_PAIRS_WEAR),
                                           shared_pairs_get(v, i, SHARED_PAIRS_WEAR_LOW),
                                           shared_pairs_get(v, i, SHARED_PAIRS_WEAR_HIGH), "m^2/N"),
                               "specific wear rate");
+        rows_note(row, "%s", shared_pairs_text(v, i, SHARED_PAIRS_ONE_WEAR));
         if (!isnan(shared_pairs_get(v, i, SHARED_PAIRS_CORRELATION)))
-            rows_note(row, "correlation %.2f", shared_pairs_get(v, i, SHARED_PAIRS_CORRELATION));
+            clocale_append(row->note, sizeof row->note, "; correlation %.2f",
+                           shared_pairs_get(v, i, SHARED_PAIRS_CORRELATION));
     }
 }
 
