@@ -209,7 +209,14 @@ static void apply_case_report_options(run_call *r, const cmd_option_group *given
 
 static wt_status run_whole_case(run_call *r, const cmd_option_group *report_given)
 {
-    wt_status status = wt_case_read(r->s.files[0], &r->case_file, &r->s.err);
+    struct stat info;
+    const char *path = r->s.files[0];
+    wt_status status = wt_case_read(path, &r->case_file, &r->s.err);
+    if (status != WT_OK && stat(path, &info) == 0 && S_ISDIR(info.st_mode)) {
+        wt_error_expected(&r->s.err, "a case file");
+        wt_error_advice(&r->s.err, "`weartrack new-case %s -o case.xml` writes one for its files",
+                        path);
+    }
     if (status == WT_OK)
         status = wt_plan(r->case_file, &r->plan, &r->s.err);
     if (status == WT_OK && r->call_flags.plan) {

@@ -442,7 +442,7 @@ static void test_pairs(void **state)
     says(&t, "one", "one", "one");
     prints(&t, "one U_c and k of 2 cases|one||by thickness and wear rate",
            "critical energy U_c|12.2 GJ/m^3|9.28 to 16.2|one",
-           "specific wear rate|0.000816 mm^3/(N m)|0.000619 to 0.001075|one; correlation -0.99");
+           "specific wear rate|0.000816 mm^3/(N m)|0.000619 to 0.001077|one; correlation -0.99");
     wt_collection_tables_clear(&t);
     t = pairs(1e11, 1e-12, 0, 0.5, NULL);
     says(&t, "differs", "one", "differs");
