@@ -71,7 +71,10 @@ int cmd_indent(int argc, char **argv)
         status = wt_modulus_budget_table(indentation, 1, &budget, &s.err);
     if (status == WT_OK && tables.n_accepted == 0) {
         cmd_message("weartrack indent: no curve has a modulus; the column verdict says why\n");
-        cmd_set_partial(&s); /* an answer, with a table of the reasons */
+        /* An answer, with a table of the reasons, unless no curve could be read. */
+        cmd_set_partial(&s);
+        if (wt_table_n_rows(s.work.failures) >= wt_table_n_rows(tables.indentation))
+            s.status = CMD_FAILED;
     }
     wt_table **const made_tables[] = {&tables.indentation,
                                       &groups,
