@@ -215,7 +215,7 @@ void cmd_print_short_table(cmd_session *s, bool findings)
             t.n_shown = ROWS_SHOWN;
         t.out = on_screen ? stdout : stderr;
         cmd_erase_progress();
-        measure_columns(&t, !s->common.verbose);
+        measure_columns(&t, !s->common.verbose && isatty(fileno(t.out)));
         print_heading(s, t.out, rows);
         print_rows(&t);
         if (s->common.verbose)

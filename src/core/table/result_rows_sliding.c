@@ -183,8 +183,15 @@ static void add_wear(rows_source *s, const table_view *v)
                             rows_number(wear_get(v, i, WEAR_RATE), wear_get(v, i, WEAR_RATE_LOW),
                                         wear_get(v, i, WEAR_RATE_HIGH), "m^2/N"),
                             "specific wear rate");
-        rows_note(row, "%s", wear_text(v, i, WEAR_OF));
+        const bool known = !isnan(wear_get(v, i, WEAR_RATE));
+        rows_note(row, "%s", wear_text(v, i, known ? WEAR_OF : WEAR_NOTE));
         rows_reason(row, "specific wear rate", wear_text(v, i, WEAR_NOTE));
+        const double pressure = wear_get(v, i, WEAR_PRESSURE), none = (double)NAN;
+        if (isnan(pressure))
+            continue;
+        row = rows_add_number(s, 0, rows_number(pressure, none, none, "Pa"),
+                              "pressure under the ball");
+        rows_note(row, "duty %s", rows_short(wear_get(v, i, WEAR_DUTY), "1").value);
     }
 }
 
