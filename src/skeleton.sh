@@ -63,7 +63,7 @@ reader() {
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
 #include "read/bytes/bytes.h"
-#include "read/bytes/window.h"
+#include "read/bytes/samples.h"
 #include "read/images.h"
 #include "read/reader.h"
 

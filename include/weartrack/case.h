@@ -74,9 +74,6 @@ WT_API wt_status wt_run_is_current(const wt_case *c, const wt_result *result, co
 WT_API wt_status wt_methods_table(const wt_result *result, wt_table **table,
                                   wt_error *err) WT_NODISCARD;
 
-/* True if a row of the table "answer" is a caveat that changes less than those before. */
-WT_API bool wt_answer_is_folded(const wt_table *answer, size_t row);
-
 /* Logs remarks on the tables of a result: a tolerance that is not reached, extrapolation. */
 WT_API void wt_result_log_remarks(const wt_result *result, wt_log *log);
 /* A main number or verdict of a result, as a row of a short table. Texts are owned by the rows. */

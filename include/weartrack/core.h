@@ -157,11 +157,31 @@ typedef enum wt_log_topic {
     WT_TOPIC_SUPERPOSITION /* the verdict on time-temperature superposition of a sample */
 } wt_log_topic;
 
+/* What was done to data, or found in them, between reading and computing. */
+typedef enum wt_action {
+    WT_ACTION_NONE,
+    WT_LEFT_OUT,     /* values, rows or a file do not count */
+    WT_CORRECTED,    /* values were changed */
+    WT_CONTRADICTED, /* two statements of one input disagree */
+    WT_COPIED,       /* the data of another input, which count once */
+    WT_IMPLAUSIBLE   /* values that the quantity does not have; unchanged */
+} wt_action;
+#define WT_ACTION_LIST(X)                                                                          \
+    X(WT_ACTION_NONE, "none")                                                                      \
+    X(WT_LEFT_OUT, "left out")                                                                     \
+    X(WT_CORRECTED, "corrected")                                                                   \
+    X(WT_CONTRADICTED, "contradicted")                                                             \
+    X(WT_COPIED, "copied")                                                                         \
+    X(WT_IMPLAUSIBLE, "implausible")
+
 typedef struct wt_log_entry {
     wt_severity severity;
     wt_log_topic topic;
-    const char *file;  /* "" if none */
-    const char *place; /* "" if none */
+    wt_action action;
+    size_t n_values; /* number of values, rows or files that the action concerns; 0 unless known */
+    const char *option; /* the option or case element that overrides the action; "" if none */
+    const char *file;   /* "" if none */
+    const char *place;  /* "" if none */
     const char *text;
     size_t
         count; /* number of entries with this text for this file; place is that of the first one */
@@ -171,19 +191,23 @@ typedef struct wt_log_entry {
  * repeated. Only one thread at a time may use a log. */
 typedef struct wt_log wt_log;
 
-WT_API wt_log *wt_log_new(void); /* NULL when out of memory */
+WT_API wt_log *wt_log_new(void);
 WT_API void wt_log_free(wt_log *log);
-/* Adds an entry. log, file and place may be NULL. An entry that cannot be allocated is counted by
- * wt_log_dropped. */
+/* Adds an entry. log, file and place may be NULL. */
 WT_API void wt_log_add(wt_log *log, wt_severity severity, const char *file, const char *place,
                        const char *format, ...) WT_PRINTF(5, 6);
 WT_API void wt_log_add_topic(wt_log *log, wt_severity severity, wt_log_topic topic,
                              const char *file, const char *place, const char *format, ...)
     WT_PRINTF(6, 7);
+/* Adds an entry of an action on data. n_values and option: see wt_log_entry; option may be NULL. */
+WT_API void wt_log_action(wt_log *log, wt_severity severity, wt_action action, size_t n_values,
+                          const char *option, const char *file, const char *place,
+                          const char *format, ...) WT_PRINTF(8, 9);
+/* Adds the entries of `from`. Texts begin with "PREFIX: " unless prefix is NULL. */
+WT_API void wt_log_append(wt_log *to, const wt_log *from, const char *prefix);
 WT_API size_t
 wt_log_count(const wt_log *log); /* Returns the number of distinct entries; 0 for NULL. */
 WT_API wt_log_entry wt_log_get(const wt_log *log, size_t i);
-WT_API size_t wt_log_dropped(const wt_log *log);
 
 /* ---- quantities and units ------------------------------------------------------------------- */
 
@@ -301,8 +325,8 @@ WT_API size_t wt_format_si(double value, const char *unit, int digits, char *buf
 /* ---- numbers -------------------------------------------------------------------------------- */
 
 /* Parses exactly `length` bytes as a number, independent of the locale. `decimal` is '.' or ','.
- * Blanks around the number are ignored. Returns false if the bytes are not one finite number
- * ("nan", "inf", "--" and "" are not). */
+ * Blanks around the number are ignored. A minus sign U+2212 or an en dash counts as "-". Returns
+ * false if the bytes are not one finite number ("nan", "inf", "--" and "" are not). */
 WT_API bool wt_number_parse(const char *text, size_t length, char decimal, double *value);
 /* Writes the shortest text that reads back to the same double; "nan", "inf" or "-inf" otherwise.
  * buffer has at least 32 bytes. Returns the length. */
@@ -360,8 +384,7 @@ WT_API size_t wt_params_default(const wt_params *params, size_t i, char *buffer,
 
 /* ---- paths, files --------------------------------------------------------------------------- */
 
-/* Joins a folder and a name. Returns a new string, NULL when out of memory. An absolute `name` is
- * returned unchanged. */
+/* Joins a folder and a name. Returns a new string. An absolute `name` is returned unchanged. */
 WT_API char *wt_path_join(const char *folder, const char *name);
 WT_API char *wt_path_folder(const char *path);     /* folder of a path, "." if none; new */
 WT_API const char *wt_path_base(const char *path); /* name after the last '/'; borrowed */
@@ -390,8 +413,7 @@ wt_outfile_discard(wt_atomic_file *file); /* Removes the temporary file and free
  * input included: outputs refuse them with WT_E_ARG. It also refuses files that are neither text
  * nor HDF5, such as instrument files. */
 WT_API void wt_protect_begin(void);
-WT_API wt_status wt_protect_input(const char *path, wt_error *err)
-    WT_NODISCARD; /* Protects one more file; "-" is standard input. */
+WT_API void wt_protect_input(const char *path); /* Protects a file; "-" is standard input. */
 WT_API wt_status wt_check_overwrite(const char *path, wt_error *err)
     WT_NODISCARD; /* WT_E_ARG if the file is protected. */
 
@@ -410,12 +432,11 @@ typedef struct wt_provenance_input {
 } wt_provenance_input;
 
 typedef struct wt_provenance wt_provenance;
-WT_API wt_provenance *wt_provenance_new(void); /* NULL when out of memory */
+WT_API wt_provenance *wt_provenance_new(void);
 WT_API void wt_provenance_free(wt_provenance *p);
-WT_API wt_status wt_provenance_set_command(wt_provenance *p, int argc,
-                                           char *const argv[]) WT_NODISCARD;
-WT_API wt_status wt_provenance_add_input(wt_provenance *p, const wt_provenance_input *input)
-    WT_NODISCARD; /* Copies the input. */
+WT_API void wt_provenance_set_command(wt_provenance *p, int argc, char *const argv[]);
+/* Copies the input. */
+WT_API void wt_provenance_add_input(wt_provenance *p, const wt_provenance_input *input);
 /* Returns the version of the program that wrote the result: this one, unless a file was read.
  * Borrowed. */
 WT_API const char *wt_provenance_version(const wt_provenance *p);
@@ -711,7 +732,7 @@ typedef struct wt_prony {
 } wt_prony;
 WT_API void wt_prony_clear(wt_prony *prony);
 /* Allocates n terms of zero in an empty series and sets unknown values to NaN. */
-WT_API wt_status wt_prony_alloc(wt_prony *prony, size_t n, wt_error *err) WT_NODISCARD;
+WT_API void wt_prony_alloc(wt_prony *prony, size_t n);
 
 /* ---- table ---------------------------------------------------------------------------------- */
 
@@ -723,7 +744,7 @@ typedef enum wt_column_kind { WT_COLUMN_NUMBER, WT_COLUMN_TEXT } wt_column_kind;
 
 /* Creates a table. name: [a-z0-9_]+ parts joined by '/', unique in a result ("indentation/bulk");
  * title: plain text. */
-WT_API wt_table *wt_table_new(const char *name, const char *title); /* NULL when out of memory */
+WT_API wt_table *wt_table_new(const char *name, const char *title);
 WT_API void wt_table_free(wt_table *table);
 WT_API const char *wt_table_name(const wt_table *table);
 WT_API const char *wt_table_title(const wt_table *table);
@@ -748,15 +769,14 @@ WT_API const char *wt_table_column_long_name(const wt_table *table, size_t colum
 WT_API long wt_table_find(const wt_table *table, const char *column_name);
 /* Sets a cell of the last row by column number. */
 WT_API void wt_table_set_number(wt_table *table, size_t column, double value);
-WT_API wt_status wt_table_set_text(wt_table *table, size_t column, const char *text,
-                                   wt_error *err) WT_NODISCARD;
+WT_API void wt_table_set_text(wt_table *table, size_t column, const char *text);
 WT_API double wt_table_number(const wt_table *table, size_t row, size_t column);
 WT_API const char *wt_table_text(const wt_table *table, size_t row, size_t column);
 WT_API const double *wt_table_numbers(const wt_table *table, size_t column); /* [n_rows] */
 
 /* Starts a new block of rows (a new curve, a new velocity). In the stream it is a blank line.
  * Blocks are never empty. wt_table_block returns the block of a row, from 0. */
-WT_API wt_status wt_table_new_block(wt_table *table, wt_error *err) WT_NODISCARD;
+WT_API void wt_table_new_block(wt_table *table);
 WT_API size_t wt_table_block(const wt_table *table, size_t row);
 
 /* Sets a key: one line of text. Keys keep their order; setting one again replaces it. key: letters,
@@ -778,7 +798,7 @@ WT_API bool wt_table_estimate(const wt_table *table, const char *key, wt_estimat
 /* Result: the tables of one run with their provenance. It is the content of the HDF5 file and the
  * input of the report. */
 typedef struct wt_result wt_result;
-WT_API wt_result *wt_result_new(void); /* NULL when out of memory */
+WT_API wt_result *wt_result_new(void);
 WT_API void wt_result_free(wt_result *result);
 WT_API wt_status wt_result_add(wt_result *result, wt_table *table, wt_error *err)
     WT_NODISCARD; /* Takes ownership of the table, also on failure. */
@@ -787,8 +807,8 @@ WT_API const wt_table *wt_result_table(const wt_result *result, size_t i);
 WT_API const wt_table *wt_result_find(const wt_result *result, const char *name); /* or NULL */
 WT_API wt_provenance *wt_result_provenance(wt_result *result); /* Borrowed from the result. */
 WT_API const wt_provenance *wt_result_provenance_const(const wt_result *result);
-WT_API wt_status wt_result_set_case(wt_result *result, const char *xml, size_t length,
-                                    wt_error *err) WT_NODISCARD; /* the case file, whole */
+/* Sets the case file, whole. */
+WT_API void wt_result_set_case(wt_result *result, const char *xml, size_t length);
 WT_API const char *wt_result_case(const wt_result *result, size_t *length); /* NULL if none */
 
 /* Creates a table `name` of the inputs of a provenance: path, role, format, bytes [byte], sha256.

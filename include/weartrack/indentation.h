@@ -589,10 +589,14 @@ typedef struct wt_group_data {
      * unknown. */
     double common_error[WT_SYSTEMATIC_SOURCES];
     wt_estimate common_gain[WT_SYSTEMATIC_SOURCES];
+    /* Relative standard errors that are assumed where none is stated, and of the modulus by the
+     * shape of the tip, which replaces the assumed ones of the tip; NaN if there is none. */
+    double assumed_error[WT_SYSTEMATIC_SOURCES], tip_error;
     double loss_error,
         bend_error; /* systematic errors of all moduli by loss and baseline curvature, the latter
                        with its sign; 0 if not detected, NaN if detected with unknown size */
     double misfit_error;          /* the same by lack of fit of the contact law */
+    double range_error;           /* the same by the choice of the range of the fit */
     const char *tip;              /* description; borrowed from the table; NULL if unknown */
     bool has_several_cantilevers; /* the curves have several spring constants */
     bool has_several_sensitivities, has_several_tips;

@@ -4,7 +4,7 @@
 #define WT_CASE_CASE_H
 
 #include "case/resources.h"
-#include "core/base/arena.h"
+#include "core/base/array.h"
 #include "weartrack/case.h"
 
 /* Input files of one role, such as the bulk curves. */

@@ -36,8 +36,9 @@ void flow_resources_list(flow_resource_set resources, char *text, size_t size)
 
 bool flow_table_resources(const char *table, flow_resource_set *resources)
 {
-    static const table_schema *const always[] = {&answer_schema, &inputs_schema,   &methods_schema,
-                                                 &notes_schema,  &failures_schema, &cost_schema};
+    static const table_schema *const always[] = {
+        &answer_schema, &limits_schema,   &inputs_schema, &methods_schema,
+        &notes_schema,  &failures_schema, &cost_schema,   &data_quality_schema};
     *resources = 0;
     for (size_t i = 0; i < COUNT_OF(always); i++)
         if (strcmp(table, always[i]->name) == 0)

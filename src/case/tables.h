@@ -12,16 +12,28 @@
     X(ANSWER_KIND_FRICTION, "friction")                                                            \
     X(ANSWER_KIND_SURFACE, "surface")                                                              \
     X(ANSWER_KIND_RECORD, "record")                                                                \
-    X(ANSWER_KIND_VALIDATION, "validation")                                                        \
-    X(ANSWER_KIND_CAVEAT, "caveat")                                                                \
-    X(ANSWER_KIND_FOLDED, "folded") /* a caveat that changes less than those before */
+    X(ANSWER_KIND_VALIDATION, "validation")
+
+#define LIMIT_SUBJECTS(X)                                                                          \
+    X(LIMITS_DATA, "data")                                                                         \
+    X(LIMITS_MATERIAL, "material")                                                                 \
+    X(LIMITS_INDENTATION, "indentation")                                                           \
+    X(LIMITS_FRICTION, "friction")                                                                 \
+    X(LIMITS_LAYER, "layer")
+
+#define LIMITS_COLUMNS(X)                                                                          \
+    X(LIMITS_SEVERITY, AS(severity), "warning: a number may be off; note: what it assumes",        \
+      ENUM(severity), LABEL("Severity"))                                                           \
+    X(LIMITS_SUBJECT, AS(subject), "data, material, indentation, friction or layer",               \
+      ENUM(limit_subject), LABEL("Subject"))                                                       \
+    X(LIMITS_LIMIT, AS(limit), "limit of the result", TEXT, LABEL("Limit"))
+#define LIMITS_KEYS(X)
 
 #define ANSWER_COLUMNS(X)                                                                          \
     X(ANSWER_QUESTION, "question", "question", TEXT)                                               \
     X(ANSWER_ANSWER, "answer", "answer", TEXT)                                                     \
     X(ANSWER_KIND, "kind",                                                                         \
-      "short, material, layer, difference, thickness, friction, surface, record, caveat or "       \
-      "folded: a caveat that changes less than those before",                                      \
+      "short, material, layer, difference, thickness, friction, surface or record",                \
       ENUM(answer_kind))
 #define ANSWER_KEYS(X)                                                                             \
     X(ANSWER_KEY_CASE_TITLE, "case_title", TEXT, OPTIONAL)                                         \
@@ -43,6 +55,17 @@
     X(NOTES_TEXT, IN(entry, text), "what was noticed", TEXT, LABEL("Note"))                        \
     X(NOTES_COUNT, IN(entry, count), "how often", NUMBER, LABEL("Times"))
 #define NOTES_KEYS(X)
+
+#define DATA_QUALITY_COLUMNS(X)                                                                    \
+    X(DATA_QUALITY_FILE, AS(file), "file it is about", TEXT, LABEL("File"))                        \
+    X(DATA_QUALITY_PLACE, IN(entry, place), "first place in the file", TEXT, LABEL("Place"))       \
+    X(DATA_QUALITY_ACTION, AS(action), "left out, corrected, contradicted, copied or implausible", \
+      ENUM(action), LABEL("Action"))                                                               \
+    X(DATA_QUALITY_VALUES, AS(n_values), "number of values, rows or files; nan unless known",      \
+      NUMBER, LABEL("Number"))                                                                     \
+    X(DATA_QUALITY_REASON, IN(entry, text), "why", TEXT, LABEL("Reason"))                          \
+    X(DATA_QUALITY_OPTION, IN(entry, option), "option that overrides it", TEXT, LABEL("Option"))
+#define DATA_QUALITY_KEYS(X)
 
 #define METHODS_COLUMNS(X)                                                                         \
     X(METHODS_METHOD, AS(method), "method", TEXT, LABEL("Method"))                                 \

@@ -47,8 +47,6 @@ static wt_status run_accuracy_case(cmd_session *s, wt_run_options *run)
         if (wt_result_find(s->result, "work_precision") != NULL)
             print_text_keys(s, wt_result_find(s->result, "work_precision"));
     }
-    if (status == WT_OK)
-        status = cmd_record_provenance(s->result, &s->err);
     return status == WT_OK && !cmd_shows_short_table(s) ? cmd_write_result(s) : status;
 }
 

@@ -269,12 +269,10 @@ wt_status cmd_check_output(const char *path, wt_error *err);
 /* Returns a default name: "case/road.xml" -> "road" + ending, in the current folder; NULL when out
  * of memory. */
 char *cmd_default_name(const char *path, const char *ending);
-/* Records the command line in the provenance of the result. */
-wt_status cmd_record_provenance(wt_result *result, wt_error *err);
 
 /* Stores the command line as the user typed it; main calls this first. */
 void cmd_set_command_line(int argc, char **argv);
-/* Copies the stored command line into a provenance. WT_E_MEMORY. */
-wt_status cmd_record_command(wt_provenance *provenance);
+/* Copies the stored command line into a provenance. */
+void cmd_record_command(wt_provenance *provenance);
 
 #endif

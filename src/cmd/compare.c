@@ -162,7 +162,7 @@ static bool read_compare_inputs(compare_call *call, size_t least)
     call->input = wt_alloc(s->n_files, sizeof *call->input);
     if (!cmd_begin(s))
         return false;
-    for (size_t i = 0; call->input != NULL && i < s->n_files; i++) {
+    for (size_t i = 0; i < s->n_files; i++) {
         compare_input *input = &call->input[i];
         input->path = s->files[i];
         const wt_tables_role role = {i == 0 ? "bulk" : "track", "material", NULL};

@@ -54,10 +54,9 @@ int cmd_convert(int argc, char **argv)
     destination d = {.session = &s};
     if (cmd_parse(&s, &usage, &group, 1, argc, argv) && cmd_begin_reading(&s, job.read.format)) {
         const bool store = cmd_is_hdf5_path(s.common.output);
-        wt_status status = cmd_record_provenance(s.result, &s.err);
-        if (status == WT_OK)
-            status = wt_convert_file(&job, s.files[0], &s.work, write_converted_table,
-                                     store ? write_curve : NULL, &d, &s.err);
+        cmd_record_command(wt_result_provenance(s.result));
+        wt_status status = wt_convert_file(&job, s.files[0], &s.work, write_converted_table,
+                                           store ? write_curve : NULL, &d, &s.err);
         if (status == WT_OK)
             status = cmd_write_record(&s, write_converted_table, &d);
         if (d.sink.stream != NULL)

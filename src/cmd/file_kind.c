@@ -78,6 +78,7 @@ static void read_metadata_item(const char *item, const char *value, const char *
                  (int)strcspn(of, " "), of);
     }
     const bool unread = strcmp(item, "not readable as it is") == 0;
+    found->unread = found->unread || unread;
     found->nothing = found->nothing || (unread && strstr(value, " not read;") != NULL);
     const char *advice = unread ? value : strcmp(item, "missing") == 0 ? source : "";
     for (size_t i = 0; i < FILE_KIND_N_MISSING; i++) {
@@ -137,6 +138,11 @@ static void read_metadata(const wt_formats *formats, const wt_table *metadata, f
         read_metadata_item(item, value, wt_table_text(metadata, row, FACTS_UNIT),
                            wt_table_text(metadata, row, FACTS_SOURCE), found);
     }
+    /* no command reads a file whose fault no option mends */
+    bool can_mend = *found->unitless != '\0';
+    for (size_t i = 0; i < FILE_KIND_N_MISSING; i++)
+        can_mend = can_mend || found->missing[i];
+    found->nothing = found->nothing || (found->unread && found->kind == 0 && !can_mend);
     found->is_result =
         found->is_result && format != NULL && strncmp(format->id, "weartrack-", 10) == 0;
     /* a file that is not readable yet does not show its kind */

@@ -5,7 +5,7 @@
 #include <time.h>
 
 #include "cmd/cmd.h"
-#include "core/base/json.h"
+#include "core/base/utf8.h"
 
 static const char *subcommand_name; /* name of the subcommand; NULL: messages are plain text */
 

@@ -2,7 +2,6 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cmd/master.h"
 
-#include <stdio.h>
 #include <string.h>
 
 enum { TABLES = 7, NAME_SIZE = 48 };
@@ -48,16 +47,6 @@ static const char *display_name(const char *sample)
     return sample[0] != '\0' ? sample : "sweeps without a sample";
 }
 
-/* Copies log entries with the name of the sample. */
-static void copy_log(const wt_log *from, const char *sample, wt_log *to)
-{
-    for (size_t i = 0; i < wt_log_count(from); i++) {
-        const wt_log_entry e = wt_log_get(from, i);
-        wt_log_add(to, e.severity, e.file[0] != 0 ? e.file : NULL, e.place[0] != 0 ? e.place : NULL,
-                   "%s: %s", sample, e.text);
-    }
-}
-
 static wt_status rename_sample_tables(sample_fit *f, wt_error *err)
 {
     wt_table **const made[TABLES] = {
@@ -94,7 +83,7 @@ static wt_status fit_sample(cmd_session *s, wt_master_job *job, wt_file_set *set
         status = wt_rubber_from_tables(&of, job->poisson_ratio, &f->rubber, &failure);
     }
     f->fitted = status == WT_OK;
-    copy_log(log, display_name(sample), s->work.log);
+    wt_log_append(s->work.log, log, display_name(sample));
     wt_log_free(log);
     return status == WT_OK
                ? WT_OK

@@ -213,7 +213,7 @@ static wt_status report_and_continue(new_case *c, wt_status status)
 static bool is_report_folder(const char *folder)
 {
     char head[1024] = "", *const page = wt_path_join(folder, "index.html");
-    FILE *const file = page != NULL ? fopen(page, "rb") : NULL;
+    FILE *const file = fopen(page, "rb");
     if (file != NULL) {
         head[fread(head, 1, sizeof head - 1, file)] = '\0';
         fclose(file);

@@ -3,8 +3,6 @@
 #ifndef WT_CMD_NEW_CASE_H
 #define WT_CMD_NEW_CASE_H
 
-#include <stdio.h>
-
 #include "cmd/file_kind.h"
 
 /* Placeholder for unknown values, which is no valid quantity or tip. */

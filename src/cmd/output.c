@@ -94,15 +94,9 @@ void cmd_set_command_line(int argc, char **argv)
     full_argv = argv;
 }
 
-wt_status cmd_record_command(wt_provenance *provenance)
+void cmd_record_command(wt_provenance *provenance)
 {
-    return wt_provenance_set_command(provenance, full_argc, full_argv);
-}
-
-wt_status cmd_record_provenance(wt_result *result, wt_error *err)
-{
-    const wt_status status = cmd_record_command(wt_result_provenance(result));
-    return status == WT_OK ? WT_OK : wt_fail(err, status, "out of memory");
+    wt_provenance_set_command(provenance, full_argc, full_argv);
 }
 
 /* Adds the table "methods" to a stored result. A stream does not need it. */
@@ -150,15 +144,14 @@ static wt_status write_first_table(cmd_session *s, FILE *out)
 wt_status cmd_write_result(cmd_session *s)
 {
     const char *output = s->common.output;
-    wt_status status = cmd_record_provenance(s->result, &s->err);
-    if (status == WT_OK && cmd_is_hdf5_path(output))
-        status = add_methods(s->result, &s->err);
-    if (status != WT_OK)
-        return status;
-    if (cmd_is_hdf5_path(output))
-        return wt_store_write(output, s->result, s->common.provenance, &s->err);
+    cmd_record_command(wt_result_provenance(s->result));
+    if (cmd_is_hdf5_path(output)) {
+        const wt_status added = add_methods(s->result, &s->err);
+        return added == WT_OK ? wt_store_write(output, s->result, s->common.provenance, &s->err)
+                              : added;
+    }
     cmd_sink sink;
-    status = cmd_sink_open(output, &sink, &s->err);
+    wt_status status = cmd_sink_open(output, &sink, &s->err);
     const wt_export_form form = export_form_of_suffix(output, WT_EXPORT_STREAM);
     if (status == WT_OK && form == WT_EXPORT_JSON)
         status = write_json_tables(sink.stream, s->result, &s->err);

@@ -203,8 +203,8 @@ static void print_log_group(const char *name, const log_group *f)
 void cmd_print_log(cmd_session *s, const wt_log *log, bool notes)
 {
     const bool quiet = s->common.quiet, strict = s->common.strict;
-    const size_t n = wt_log_count(log), n_unkept = wt_log_dropped(log);
-    size_t n_folds = 0, n_remarks = n_unkept, n_losses = 0;
+    const size_t n = wt_log_count(log);
+    size_t n_folds = 0, n_remarks = 0, n_losses = 0;
     log_group *folds = wt_alloc(n + 1, sizeof *folds);
     for (size_t i = 0; i < n; i++) {
         const wt_log_entry e = wt_log_get(log, i);
@@ -219,9 +219,6 @@ void cmd_print_log(cmd_session *s, const wt_log *log, bool notes)
     for (size_t i = 0; i < n_folds && !cmd_is_brief(s); i++)
         print_log_group(s->name, &folds[i]);
     free(folds);
-    if (n_unkept > 0 && !quiet)
-        cmd_message("weartrack %s: warning: %zu notes were lost for lack of memory\n", s->name,
-                    n_unkept);
     if (n_remarks > 0 && (strict || (!quiet && !cmd_is_brief(s))))
         cmd_message("weartrack %s: %zu remark%s%s\n", s->name, n_remarks, n_remarks == 1 ? "" : "s",
                     strict ? ": exit status 1 (--strict)" : "");

@@ -110,9 +110,8 @@ static bool is_same_path(const char *a, const char *b)
     if (a == NULL || b == NULL || strcmp(wt_path_base(a), wt_path_base(b)) != 0)
         return false;
     char *const in_a = wt_path_folder(a), *const in_b = wt_path_folder(b);
-    const bool same = in_a != NULL && in_b != NULL && stat(in_a, &of_a) == 0 &&
-                      stat(in_b, &of_b) == 0 && of_a.st_dev == of_b.st_dev &&
-                      of_a.st_ino == of_b.st_ino;
+    const bool same = stat(in_a, &of_a) == 0 && stat(in_b, &of_b) == 0 &&
+                      of_a.st_dev == of_b.st_dev && of_a.st_ino == of_b.st_ino;
     free(in_a);
     free(in_b);
     return same || strcmp(a, b) == 0;

@@ -1,5 +1,4 @@
 /* weartrack run: runs a whole case. SPDX-License-Identifier: GPL-3.0-or-later */
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -27,27 +26,25 @@ static void print_plan(const wt_table *plan)
     }
 }
 
-/* Prints the answer on standard output, as it is the data of this subcommand. Folded answers are
- * only counted. */
+/* Prints the answer on standard output, as it is the data of this subcommand. */
 static void print_answer(const wt_result *result)
 {
-    const wt_table *answer = wt_result_find(result, "answer");
+    const wt_table *answer = wt_result_find(result, "answer"),
+                   *limits = wt_result_find(result, "limits");
     const char *last = "";
-    size_t folded = 0;
     for (size_t i = 0; answer != NULL && i < wt_table_n_rows(answer); i++) {
         const char *question = wt_table_text(answer, i, ANSWER_QUESTION);
-        if (wt_answer_is_folded(answer, i)) {
-            const bool more = i + 1 < wt_table_n_rows(answer) && wt_answer_is_folded(answer, i + 1);
-            folded++;
-            if (!more)
-                printf("  %zu more: on the page and in the table answer.\n", folded);
-            continue;
-        }
         if (strcmp(question, last) != 0)
             printf("%s%s\n", i > 0 ? "\n" : "", question);
         last = question;
         fputs("  ", stdout);
         cmd_wrap(stdout, 2, 4, wt_table_text(answer, i, ANSWER_ANSWER));
+    }
+    if (limits != NULL)
+        puts("\nLimits");
+    for (size_t i = 0; limits != NULL && i < wt_table_n_rows(limits); i++) {
+        fputs("  ", stdout);
+        cmd_wrap(stdout, 2, 4, wt_table_text(limits, i, LIMITS_LIMIT));
     }
 }
 
@@ -130,31 +127,30 @@ static wt_status run_case_and_report(run_call *r)
     cmd_print_log(s, s->log, false);
     if (s->result != NULL && n_failed > 0)
         cmd_print_failures(s, wt_result_find(s->result, "failures"));
-    if (status == WT_OK)
-        status = cmd_record_provenance(s->result, &s->err);
-    if (status == WT_OK)
-        status = wt_store_write(r->result_name, s->result, s->common.provenance, &s->err);
-    return status;
+    if (status != WT_OK)
+        return status;
+    cmd_record_command(wt_result_provenance(s->result));
+    return wt_store_write(r->result_name, s->result, s->common.provenance, &s->err);
 }
 
 /* True if the existing result is up to date; it then becomes the result of the session. */
 static bool is_result_current(run_call *r)
 {
     wt_result *before = NULL;
-    wt_provenance *now = NULL;
     bool current = false;
     char why[256] = "";
     cmd_session *s = &r->s;
     if (!r->call_flags.keep || access(r->result_name, F_OK) != 0)
         return false;
+    wt_provenance *const now = wt_provenance_new();
+    cmd_record_command(now);
     if (s->common.formats != NULL) /* its descriptions are not in the provenance */
         snprintf(why, sizeof why, "--formats");
     else if (wt_store_read(r->result_name, &before, NULL) != WT_OK)
         snprintf(why, sizeof why, "it cannot be read");
-    else if ((now = wt_provenance_new()) == NULL || cmd_record_command(now) != WT_OK ||
-             wt_run_is_current(r->case_file, before, wt_provenance_command(now), &current, why,
+    else if (wt_run_is_current(r->case_file, before, wt_provenance_command(now), &current, why,
                                sizeof why, NULL) != WT_OK)
-        snprintf(why, sizeof why, "out of memory");
+        snprintf(why, sizeof why, "it cannot be compared with the case");
     if (!current && !s->common.quiet)
         cmd_message("%s: made again: %s\n", r->result_name, why);
     if (current) {

@@ -116,7 +116,7 @@ wt_status cmd_write_record(cmd_session *s, wt_table_sink sink, void *user)
     warn_unused_columns(s);
     warn_unused_units(s);
     wt_status status = WT_OK;
-    wt_table *failures = s->work.failures, *notes = NULL;
+    wt_table *failures = s->work.failures, *quality = NULL, *notes = NULL;
     if (cmd_print_failures(s, failures)) {
         status = wt_failures_set_status(
             failures, s->status == CMD_FAILED ? WT_RESULT_EMPTY : WT_RESULT_PARTIAL, &s->err);
@@ -125,7 +125,11 @@ wt_status cmd_write_record(cmd_session *s, wt_table_sink sink, void *user)
             status = sink(user, failures, &s->err);
     }
     if (status == WT_OK && wt_log_count(s->log) > 0) {
-        status = wt_notes_table(s->log, NULL, &notes, &s->err);
+        status = wt_data_quality_table(s->log, NULL, &quality, &s->err);
+        if (status == WT_OK && quality != NULL)
+            status = sink(user, quality, &s->err);
+        if (status == WT_OK)
+            status = wt_notes_table(s->log, NULL, &notes, &s->err);
         if (status == WT_OK)
             status = sink(user, notes, &s->err);
     }

@@ -39,8 +39,6 @@ static wt_status run_validation_case(cmd_session *s, wt_run_options *run, cmd_op
         cmd_print_failures(s, wt_result_find(s->result, "failures"));
     if (status == WT_OK && wt_result_find(s->result, "validation") == NULL)
         status = fail_missing_validation(s);
-    if (status == WT_OK)
-        status = cmd_record_provenance(s->result, &s->err);
     return status == WT_OK && !cmd_shows_short_table(s) ? cmd_write_result(s) : status;
 }
 

@@ -13,7 +13,7 @@
 
 #include "core/base/array.h"
 #include "core/base/clocale.h"
-#include "core/base/range_text.h"
+#include "core/base/number.h"
 #include "core/table/registry.h"
 #include "dma/law/material.h"
 

@@ -5,8 +5,8 @@
 #include "job/inputs.h"
 
 #include "core/base/clocale.h"
-#include "core/base/range_text.h"
-#include "core/math/normal_quantile.h"
+#include "core/base/number.h"
+#include "core/math/students_t.h"
 #include "core/table/table_rows.h"
 
 #include <math.h>

@@ -5,7 +5,7 @@
 
 #include "core/base/array.h"
 #include "core/base/clocale.h"
-#include "core/math/normal_quantile.h"
+#include "core/math/students_t.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -5,7 +5,6 @@
 #include "job/cost.h"
 #include "job/inputs.h"
 
-#include "core/base/arena.h"
 #include "core/base/array.h"
 #include "core/base/quantity.h"
 #include "core/table/table_rows.h"
@@ -151,10 +150,10 @@ static usable_points select_usable_points(const wt_ramp *ramp, arena *memory, wt
         u.n++;
     }
     if (u.n < ramp->n)
-        wt_log_add(log, WT_WARNING, ramp->source, NULL,
-                   "temperature sweep at %.4g rad/s: %zu of %zu points left out, no positive "
-                   "modulus",
-                   ramp->angular_frequency, ramp->n - u.n, ramp->n);
+        wt_log_action(log, WT_WARNING, WT_LEFT_OUT, 0, NULL, ramp->source, NULL,
+                      "temperature sweep at %.4g rad/s: %zu of %zu points left out, no positive "
+                      "modulus",
+                      ramp->angular_frequency, ramp->n - u.n, ramp->n);
     return u;
 }
 

@@ -5,7 +5,6 @@
 #include "job/random_draws.h"
 
 #include "core/base/clocale.h"
-#include "core/data/prony_series.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -159,22 +158,20 @@ wt_shift_law flow_rubber_shift_law(const wt_rubber *rubber, uint64_t seed, size_
 }
 
 /* Copies the series, with times multiplied by a and moduli divided by b. */
-static wt_status shifted_series(const wt_rubber *rubber, const wt_rubber_draw *draw,
-                                double temperature, double a, double b, wt_prony *prony,
-                                wt_error *err)
+static void shifted_series(const wt_rubber *rubber, const wt_rubber_draw *draw, double temperature,
+                           double a, double b, wt_prony *prony)
 {
-    wt_status status = prony_copy(draw != NULL ? &draw->prony : &rubber->prony, prony, err);
-    if (status != WT_OK)
-        return status;
+    const wt_prony *const from = draw != NULL ? &draw->prony : &rubber->prony;
+    wt_prony_alloc(prony, from->n);
+    prony->deformation = from->deformation;
     prony->reference_temperature = temperature;
-    prony->frequency_min /= a;
-    prony->frequency_max /= a;
-    prony->equilibrium_modulus /= b;
-    for (size_t i = 0; i < prony->n; i++) {
-        prony->relaxation_time[i] *= a;
-        prony->modulus[i] /= b;
+    prony->frequency_min = from->frequency_min / a;
+    prony->frequency_max = from->frequency_max / a;
+    prony->equilibrium_modulus = from->equilibrium_modulus / b;
+    for (size_t i = 0; i < from->n; i++) {
+        prony->relaxation_time[i] = from->relaxation_time[i] * a;
+        prony->modulus[i] = from->modulus[i] / b;
     }
-    return WT_OK;
 }
 
 static wt_status series_material(const wt_rubber *rubber, const wt_rubber_draw *draw,
@@ -182,9 +179,8 @@ static wt_status series_material(const wt_rubber *rubber, const wt_rubber_draw *
                                  wt_error *err)
 {
     wt_prony prony = {0};
-    wt_status status = shifted_series(rubber, draw, temperature, a, b, &prony, err);
-    if (status == WT_OK)
-        status = wt_material_prony(&prony, rubber->poisson_ratio, material, err);
+    shifted_series(rubber, draw, temperature, a, b, &prony);
+    const wt_status status = wt_material_prony(&prony, rubber->poisson_ratio, material, err);
     wt_prony_clear(&prony);
     return status;
 }
@@ -298,7 +294,7 @@ wt_status flow_rubber_spectrum(const wt_rubber *rubber, double temperature, wt_p
     wt_status status =
         temperature_factors(rubber, NULL, 1, WT_NO_REPLICATE, &temperature, &a, &b, &held, err);
     if (status == WT_OK)
-        status = shifted_series(rubber, NULL, temperature, a, b, prony, err);
+        shifted_series(rubber, NULL, temperature, a, b, prony);
     if (status == WT_OK)
         status = wt_material_prony(prony, rubber->poisson_ratio, &checked, err);
     wt_material_free(checked);

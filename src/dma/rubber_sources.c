@@ -6,7 +6,7 @@
 
 #include "core/base/array.h"
 #include "core/base/clocale.h"
-#include "core/base/range_text.h"
+#include "core/base/number.h"
 #include "core/table/registry.h"
 #include "dma/law_parse.h"
 #include "dma/sweep_input.h"
@@ -324,9 +324,7 @@ static void read_shift_factors(const table_view *shifts, wt_rubber *rubber)
 static wt_status read_prony(const table_view *table, wt_prony *prony, wt_error *err)
 {
     const int deformation = prony_key_enum(table, PRONY_KEY_DEFORMATION);
-    wt_status status = wt_prony_alloc(prony, table->n_rows, err);
-    if (status != WT_OK)
-        return status;
+    wt_prony_alloc(prony, table->n_rows);
     prony->frequency_min = prony_value(table, PRONY_KEY_FREQUENCY_MIN).value;
     prony->frequency_max = prony_value(table, PRONY_KEY_FREQUENCY_MAX).value;
     prony->reference_temperature = prony_value(table, PRONY_KEY_REFERENCE_TEMPERATURE).value;
@@ -403,9 +401,7 @@ static wt_status read_one_draw(const table_view *material, const table_view *ser
     wt_rubber_draw *d = &rubber->draws[draw];
     const size_t first = draw * (material->n_rows / rubber->n_draws),
                  n = series->n_rows / rubber->n_draws;
-    const wt_status status = wt_prony_alloc(&d->prony, n, err);
-    if (status != WT_OK)
-        return status;
+    wt_prony_alloc(&d->prony, n);
     d->log_b = wt_alloc(rubber->n_vertical, sizeof *d->log_b);
     d->prony.deformation = rubber->prony.deformation;
     d->prony.reference_temperature = rubber->prony.reference_temperature;

@@ -4,8 +4,8 @@
 
 #include "core/base/array.h"
 #include "core/base/clocale.h"
-#include "core/base/range_text.h"
-#include "core/math/normal_quantile.h"
+#include "core/base/number.h"
+#include "core/math/students_t.h"
 #include "core/table/registry.h"
 #include "job/random_draws.h"
 

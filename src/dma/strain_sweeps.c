@@ -4,7 +4,7 @@
 #include "dma/sweep_input.h"
 #include "job/cost.h"
 
-#include "core/base/arena.h"
+#include "core/base/array.h"
 #include "core/table/table_rows.h"
 
 #include <math.h>
@@ -48,10 +48,10 @@ static usable_points select_usable_points(const wt_strain_sweep *sweep, arena *m
         u.loss[u.n++] = loss;
     }
     if (u.n < sweep->n)
-        wt_log_add(log, WT_WARNING, sweep->source, NULL,
-                   "strain sweep at %.4g rad/s: %zu of %zu points left out, no positive "
-                   "modulus",
-                   sweep->angular_frequency, sweep->n - u.n, sweep->n);
+        wt_log_action(log, WT_WARNING, WT_LEFT_OUT, 0, NULL, sweep->source, NULL,
+                      "strain sweep at %.4g rad/s: %zu of %zu points left out, no positive "
+                      "modulus",
+                      sweep->angular_frequency, sweep->n - u.n, sweep->n);
     return u;
 }
 

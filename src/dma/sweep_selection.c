@@ -296,10 +296,10 @@ static wt_status apply_exclusion(const char *text, wt_sweep *sweep, wt_log *log,
         exclude_ramps(&c, sweep, &g);
         const size_t isotherms = g.sweep.n_isotherms, ramps = g.sweep.n_ramps;
         const bool none = isotherms + ramps + g.points == 0;
-        wt_log_add(log, none ? WT_WARNING : WT_NOTE, NULL, NULL,
-                   "left out by %s: %zu isotherms, %zu temperature sweeps, %zu points of "
-                   "others%s",
-                   text, isotherms, ramps, g.points, none ? "; nothing lies there" : "");
+        wt_log_action(log, none ? WT_WARNING : WT_NOTE, WT_LEFT_OUT, 0, NULL, NULL, NULL,
+                      "left out by %s: %zu isotherms, %zu temperature sweeps, %zu points of "
+                      "others%s",
+                      text, isotherms, ramps, g.points, none ? "; nothing lies there" : "");
     }
     wt_sweep_clear(&g.sweep);
     return status;
@@ -455,13 +455,14 @@ static void remove_other_amplitudes(wt_sweep *sweep, const sweep_entry *entries,
     sweep->n_isotherms = isotherms;
     sweep->n_ramps = kept;
     if (dropped.n_isotherms > 0)
-        wt_log_add(log, WT_WARNING, dropped.isotherms[0].source, NULL,
-                   "%zu isotherm%s of other strain amplitudes left out", dropped.n_isotherms,
-                   dropped.n_isotherms > 1 ? "s" : "");
+        wt_log_action(log, WT_WARNING, WT_LEFT_OUT, dropped.n_isotherms, NULL,
+                      dropped.isotherms[0].source, NULL,
+                      "%zu isotherm%s of other strain amplitudes left out", dropped.n_isotherms,
+                      dropped.n_isotherms > 1 ? "s" : "");
     if (dropped.n_ramps > 0)
-        wt_log_add(log, WT_WARNING, dropped.ramps[0].source, NULL,
-                   "%zu temperature sweep%s of other strain amplitudes left out", dropped.n_ramps,
-                   dropped.n_ramps > 1 ? "s" : "");
+        wt_log_action(log, WT_WARNING, WT_LEFT_OUT, dropped.n_ramps, NULL, dropped.ramps[0].source,
+                      NULL, "%zu temperature sweep%s of other strain amplitudes left out",
+                      dropped.n_ramps, dropped.n_ramps > 1 ? "s" : "");
     wt_sweep_clear(&dropped);
 }
 

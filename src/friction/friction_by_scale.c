@@ -2,7 +2,7 @@
  * wavenumber.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/base/clocale.h"
-#include "core/base/range_text.h"
+#include "core/base/number.h"
 #include "core/table/table_rows.h"
 #include "friction/sliding_contact.h"
 #include "job/cost.h"

@@ -2,10 +2,9 @@
  * and shear stress. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "friction/layer_observation.h"
 #include "core/base/clocale.h"
+#include "core/base/number.h"
 #include "core/base/quantity.h"
-#include "core/base/range_text.h"
 #include "core/base/shared_params.h"
-#include "core/math/normal_quantile.h"
 #include "core/math/students_t.h"
 #include "core/table/registry.h"
 #include "dma/rubber.h"

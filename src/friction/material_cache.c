@@ -120,13 +120,7 @@ static wt_status create_material(const wt_material_cache *d, size_t replicate,
         d->rubber, flow_draw_value(d->temperature, d->seed, replicate, FLOW_DRAW_TEMPERATURE),
         d->seed, replicate, &content->material, NULL, err);
     if (status == WT_OK)
-        status = angular_new(content->material, REPLICATE_TOLERANCE, &item->memory,
-                             &content->series, err);
-    if (status != WT_OK) { /* the next contact reports the error again */
-        wt_material_free(content->material);
-        arena_free(&item->memory);
-        *item = (cached_material){0};
-    }
+        content->series = angular_new(content->material, REPLICATE_TOLERANCE, &item->memory);
     return status;
 }
 
@@ -139,10 +133,10 @@ wt_status material_cache_get(wt_material_cache *d, size_t replicate, replicate_m
     cached_material *item = &d->items[d->is_single ? 0 : replicate];
     wt_status status =
         item->content.material == NULL ? create_material(d, replicate, item, err) : WT_OK;
-    if (status == WT_OK)
-        status = angular_extend(item->content.series, d->lowest, d->highest, err);
-    if (status == WT_OK)
+    if (status == WT_OK) {
+        angular_extend(item->content.series, d->lowest, d->highest);
         *material = item->content;
+    }
     return status;
 }
 
@@ -157,8 +151,7 @@ static wt_status create_stated_material(stated_material *stated, const wt_slidin
     wt_status status = wt_rubber_material(sliding->rubber, stated->temperature, 0, WT_NO_REPLICATE,
                                           &item->content.material, stated->statement, err);
     if (status == WT_OK && item->content.material->law->angular == NULL)
-        status = angular_new(item->content.material, tolerance, &item->memory,
-                             &item->content.series, err);
+        item->content.series = angular_new(item->content.material, tolerance, &item->memory);
     if (status == WT_OK)
         stated->rubber = sliding->rubber;
     else
@@ -181,7 +174,8 @@ static wt_status extend_stated_series(stated_material *stated, const wt_sliding 
     if (status != WT_OK || !(lowest >= ANGULAR_MIN_FREQUENCY && highest <= DBL_MAX) ||
         (m->law->check != NULL && m->law->check(m, lowest, highest, ignored, NULL) != WT_OK))
         return status;
-    return angular_extend(stated->item.content.series, lowest, highest, err);
+    angular_extend(stated->item.content.series, lowest, highest);
+    return WT_OK;
 }
 
 wt_status material_cache_get_stated(wt_material_cache *drawn, const wt_sliding *sliding,

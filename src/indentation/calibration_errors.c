@@ -1,10 +1,12 @@
 /* Propagation of shared calibration errors to the moduli of a group. A few curves are fitted again
  * with spring constant, sensitivity, half-angle or radius shifted down and up by one standard
- * error. The method assumes no exponent of a contact law.
+ * error. The method assumes no exponent of a contact law. A source without a stated error has an
+ * assumed one, because no residual and no scatter shows it.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "indentation/calibration_errors.h"
 #include "indentation/indent.h"
 
+#include "core/base/clocale.h"
 #include "core/data/force_curve.h"
 #include "indentation/law/tip.h"
 #include "indentation/numerics/curve.h"
@@ -16,6 +18,15 @@
 /* Relative shift of a source without a stated error, and upper limit of each shift. A curve may no
  * longer be accepted after a larger shift. */
 static const double default_step = 0.01, max_step = 0.3;
+
+/* Relative standard errors of sources for which none is stated. They are assumptions about usual
+ * practice, not limits: 10 % for a spring constant by thermal noise (te Riet et al.,
+ * Ultramicroscopy 111 (2011) 1659, compare the methods between laboratories), and a few per cent
+ * for the slope on a hard sample. Manufacturers state half-angles within +-2 degrees, which is
+ * taken as two standard errors. Radii of spheres are stated within 10 %; a sharp tip after use is
+ * not known any better. */
+static const double assumed_spring_constant = 0.1, assumed_sensitivity = 0.03,
+                    assumed_half_angle = M_PI / 180, assumed_radius = 0.1;
 
 const char *calibration_source_text(wt_systematic_source source)
 {
@@ -40,18 +51,19 @@ static double first_stated(double a, double b)
 static wt_tip shifted_tip(const wt_tip *tip, wt_systematic_source source, double factor)
 {
     wt_tip shifted = *tip;
-    /* A cap that was tangent to the faces stays tangent. */
-    const bool tangent =
+    /* A cap with the default transition has that of the shifted tip. */
+    const bool is_default =
         tip->transition_radius > 0 &&
-        tip->transition_radius == wt_tip_tangent_transition(tip->radius, tip->half_angle);
+        tip->transition_radius == tip_default_transition(tip->radius, tip->half_angle, tip->sides);
     *(source == WT_SYSTEMATIC_RADIUS ? &shifted.radius : &shifted.half_angle) *= factor;
-    const double smooth =
-        shifted.radius * tip_facet_factor(tip->sides) /
-        tan(shifted.half_angle); /* a larger transition radius makes the tip concave */
-    if (tangent)
-        shifted.transition_radius = wt_tip_tangent_transition(shifted.radius, shifted.half_angle);
+    /* A larger transition radius would make the tip concave. */
+    const double largest =
+        tip_largest_transition(shifted.radius, shifted.half_angle, shifted.sides);
+    if (is_default)
+        shifted.transition_radius =
+            tip_default_transition(shifted.radius, shifted.half_angle, shifted.sides);
     else if (tip->transition_radius > 0)
-        shifted.transition_radius = fmin(tip->transition_radius, smooth);
+        shifted.transition_radius = fmin(tip->transition_radius, largest);
     shifted.half_angle_error = shifted.radius_error = 0;
     return shifted;
 }
@@ -83,21 +95,25 @@ wt_status calibration_errors_begin(const wt_indent_job *job, calibration_errors 
                   [WT_SYSTEMATIC_HALF_ANGLE] =
                       stated_relative_error(tip->half_angle, tip->half_angle_error),
                   [WT_SYSTEMATIC_RADIUS] = stated_relative_error(tip->radius, tip->radius_error)},
+        .assumed = {[WT_SYSTEMATIC_SPRING_CONSTANT] = assumed_spring_constant,
+                    [WT_SYSTEMATIC_SENSITIVITY] = assumed_sensitivity,
+                    [WT_SYSTEMATIC_HALF_ANGLE] = assumed_half_angle / tip->half_angle,
+                    [WT_SYSTEMATIC_RADIUS] = assumed_radius},
+        .active = true,
         .stride = 1};
     for (int i = 0; i < WT_SYSTEMATIC_SOURCES; i++) {
         to->stated = to->stated || to->error[i] > 0;
+        if (to->error[i] > 0)
+            to->assumed[i] = (double)NAN;
         to->step[i] = fmin(to->error[i] > 0 ? to->error[i] : default_step, max_step);
     }
     if (!(tip->half_angle > 0))
         to->step[WT_SYSTEMATIC_HALF_ANGLE] = 0;
     if (!(tip->radius > 0))
         to->step[WT_SYSTEMATIC_RADIUS] = 0;
-    const bool tests_misfit = job->options.misfit_p_threshold >
-                              0; /* the misfit test needs the effect of an unstated radius */
     wt_status status = WT_OK;
     for (int i = WT_SYSTEMATIC_HALF_ANGLE; i <= WT_SYSTEMATIC_RADIUS; i++)
-        if (status == WT_OK && to->step[i] > 0 &&
-            (to->stated || (i == WT_SYSTEMATIC_RADIUS && tests_misfit)))
+        if (status == WT_OK && to->step[i] > 0)
             status = create_shifted_tables(tip, (wt_systematic_source)i, to, err);
     return status;
 }
@@ -183,18 +199,29 @@ static void halve_curves(calibration_errors *to)
     to->stride *= 2;
 }
 
-void calibration_errors_store(calibration_errors *to, const wt_force_curve *curve,
-                              const wt_contact_table *contact, bool has_file_tip)
+/* Variance of ln E without the part of the misfit. */
+static double noise_variance(const wt_indent_fit *fit)
 {
-    if (!to->stated || to->n_offered++ % to->stride != 0)
+    const double e = fit->modulus.value, misfit = fmax(fit->misfit_error, 0); /* NaN becomes 0 */
+    return fmax(pow(fit->modulus.standard_error / e, 2) - pow(misfit / e, 2), 0);
+}
+
+void calibration_errors_store(calibration_errors *to, const wt_force_curve *curve,
+                              const wt_indent_fit *fit, const wt_contact_table *contact,
+                              bool has_file_tip)
+{
+    if (!to->active || to->n_offered++ % to->stride != 0)
         return;
-    if (to->n == COMMON_CURVES) {
+    if (to->n == (to->stated ? COMMON_CURVES : ASSUMED_CURVES)) {
         halve_curves(to);
         if ((to->n_offered - 1) % to->stride != 0)
             return;
     }
     common_curve *stored = &to->curve[to->n++];
     *stored = (common_curve){.spring_constant = curve->cantilever.spring_constant,
+                             .sensitivity_gain = fit->sensitivity_gain,
+                             .log_modulus = log(fit->modulus.value),
+                             .variance = noise_variance(fit),
                              .contact = contact,
                              .has_file_tip = has_file_tip};
     copy_branch(curve, WT_SEGMENT_APPROACH, &stored->branch[0]);
@@ -209,6 +236,7 @@ typedef struct refit {
     wt_indent_workspace *const *workspaces;
     double *scratch; /* scaled forces, [capacity] for each thread */
     size_t capacity;
+    bool tests_ranges;
     wt_error *errors; /* one error for each item */
 } refit;
 
@@ -250,11 +278,18 @@ static wt_status fit_shifted_source(const refit *f, size_t item, int side, unsig
     return status;
 }
 
+/* Effect of an assumed error of the cantilever without a fit: force and lever scale together with
+ * the spring constant, and the fit has the gain of the sensitivity. NaN without a lever. */
+static void set_assumed_gain(const common_curve *curve, wt_systematic_source source, double *gain)
+{
+    if (curve->spring_constant > 0 && isfinite(curve->spring_constant))
+        *gain = source == WT_SYSTEMATIC_SPRING_CONSTANT ? 1 : curve->sensitivity_gain;
+}
+
 /* Computes d ln E / d ln source from one step in each direction. The tip of a single file has no
  * stated error, so its sources are not shifted. */
-static wt_status measure_source_gain(void *user, size_t item, unsigned worker)
+static wt_status measure_source_gain(const refit *f, size_t item, unsigned worker)
 {
-    const refit *f = user;
     calibration_errors *to = f->to;
     const size_t at = item / WT_SYSTEMATIC_SOURCES;
     const wt_systematic_source source = (wt_systematic_source)(item % WT_SYSTEMATIC_SOURCES);
@@ -262,6 +297,10 @@ static wt_status measure_source_gain(void *user, size_t item, unsigned worker)
     const double step = is_tip_source && to->curve[at].has_file_tip ? 0 : to->step[source];
     double log_modulus[2] = {0, 0};
     to->gain[at][source] = (double)NAN;
+    if (!to->stated && !is_tip_source) {
+        set_assumed_gain(&to->curve[at], source, &to->gain[at][source]);
+        return WT_OK;
+    }
     for (int side = 0; side < 2 && step > 0; side++) {
         const wt_status status = fit_shifted_source(f, item, side, worker, &log_modulus[side]);
         if (status != WT_OK)
@@ -272,12 +311,80 @@ static wt_status measure_source_gain(void *user, size_t item, unsigned worker)
     return WT_OK;
 }
 
+/* Limits of the other ranges, relative to the largest force. */
+static const double other_ranges[OTHER_RANGES][2] = {{0, 0.5}, {0.3, 1}, {0.15, 0.7}};
+
+/* Fits a curve in another range of forces. A law that fails shows as a change of the modulus. */
+static wt_status measure_range_shift(const refit *f, size_t at, size_t range, unsigned worker,
+                                     wt_error *err)
+{
+    calibration_errors *to = f->to;
+    const common_curve *curve = &to->curve[at];
+    double *scratch = f->scratch + worker * f->capacity;
+    const curve_branch branches[2] = {
+        scale_branch(&curve->branch[0], 1, scratch),
+        scale_branch(&curve->branch[1], 1, scratch + curve->branch[0].n)};
+    wt_indent_options options = *f->options;
+    options.fit_force_fraction_from = other_ranges[range][0];
+    options.fit_force_fraction = other_ranges[range][1];
+    wt_indent_fit fit;
+    const wt_status status =
+        curve_fit_branches(curve->contact, &options, &branches[0], &branches[1],
+                           curve->spring_constant, f->workspaces[worker], &fit, err);
+    if (status != WT_OK || !wt_curve_verdict_is_usable(fit.verdict))
+        return status;
+    to->range_shift[at][range] = log(fit.modulus.value) - curve->log_modulus;
+    to->range_variance[at][range] = fmax(noise_variance(&fit) - curve->variance, 0);
+    return WT_OK;
+}
+
+static wt_status measure_stored_curve(void *user, size_t item, unsigned worker)
+{
+    const refit *f = user;
+    const size_t n_gains = f->to->n * WT_SYSTEMATIC_SOURCES;
+    if (item < n_gains)
+        return measure_source_gain(f, item, worker);
+    const size_t at = (item - n_gains) / OTHER_RANGES, range = (item - n_gains) % OTHER_RANGES;
+    f->to->range_shift[at][range] = (double)NAN;
+    f->to->range_variance[at][range] = (double)NAN;
+    return f->tests_ranges ? measure_range_shift(f, at, range, worker, &f->errors[item]) : WT_OK;
+}
+
+double calibration_errors_of_range(const calibration_errors *of)
+{
+    double low = 0, high = 0, noise = 0;
+    for (size_t range = 0; range < OTHER_RANGES; range++) {
+        double shift = 0, variance = 0;
+        size_t n = 0;
+        for (size_t at = 0; at < of->n; at++)
+            if (isfinite(of->range_shift[at][range]) && isfinite(of->range_variance[at][range])) {
+                shift += of->range_shift[at][range];
+                variance += of->range_variance[at][range];
+                n++;
+            }
+        if (n == 0)
+            continue;
+        low = fmin(low, shift / (double)n);
+        high = fmax(high, shift / (double)n);
+        noise = fmax(noise, variance / (double)(n * n));
+    }
+    return sqrt(fmax(pow((high - low) / 2, 2) - noise, 0));
+}
+
 wt_status calibration_errors_fit(calibration_errors *to, const wt_indent_options *options,
                                  unsigned threads, wt_indent_workspace *const *workspaces,
                                  wt_error *err)
 {
-    const size_t n = to->n * WT_SYSTEMATIC_SOURCES;
-    refit f = {.to = to, .options = options, .workspaces = workspaces};
+    const size_t n = to->n * (WT_SYSTEMATIC_SOURCES + OTHER_RANGES);
+    char range[256];
+    /* A stated range is not questioned. A modulus on a spectrum depends on the time of the range.
+     */
+    refit f = {.to = to,
+               .options = options,
+               .workspaces = workspaces,
+               .tests_ranges = options->spectrum == NULL && !options->plain_least_squares &&
+                               options->misfit_p_threshold > 0 &&
+                               !indent_range_text(options, range, sizeof range)};
     if (n == 0)
         return WT_OK;
     for (size_t i = 0; i < to->n; i++)
@@ -286,7 +393,7 @@ wt_status calibration_errors_fit(calibration_errors *to, const wt_indent_options
     f.scratch = wt_alloc(threads * f.capacity, sizeof *f.scratch);
     f.errors = wt_alloc(n, sizeof *f.errors);
     const wt_status status =
-        wt_parallel_for(n, threads, measure_source_gain, &f, NULL, "fitting curves anew");
+        wt_parallel_for(n, threads, measure_stored_curve, &f, NULL, "fitting curves anew");
     size_t first = 0;
     while (first < n && f.errors[first].status == WT_OK)
         first++;
@@ -299,24 +406,50 @@ wt_status calibration_errors_fit(calibration_errors *to, const wt_indent_options
     return status;
 }
 
+/* Mean gain of a source over the stored curves, with its standard error; NaN if unknown. */
+static wt_estimate mean_gain(const calibration_errors *of, wt_systematic_source source)
+{
+    double sum = 0, squares = 0;
+    size_t n = 0;
+    for (size_t j = 0; j < of->n; j++) {
+        if (isnan(of->gain[j][source]))
+            continue;
+        const double step = of->gain[j][source] - sum;
+        sum += step / (double)++n;
+        squares += step * (of->gain[j][source] - sum);
+    }
+    return (wt_estimate){n > 0 ? sum : (double)NAN,
+                         n > 1 ? sqrt(squares / (double)((n - 1) * n)) : (double)NAN, 0, "1"};
+}
+
+/* Names an assumed error and its effect on the modulus. */
+static void append_assumed_error(const calibration_errors *of, wt_systematic_source source,
+                                 double gain, char *text, size_t size)
+{
+    const double error = of->assumed[source];
+    clocale_append(text, size, "%s%s: not stated, %.2g %% assumed (%.2g %% of E)",
+                   *text != '\0' ? "; " : "", calibration_source_text(source), 100 * error,
+                   100 * fabs(gain) * error);
+}
+
 void calibration_errors_set_keys(const calibration_errors *of, table_writer *rows)
 {
-    for (int i = 0; i < WT_SYSTEMATIC_SOURCES && of->stated; i++) {
-        const indentation_key error = (indentation_key)(INDENTATION_KEY_LEVER_ERROR + i),
-                              gain = (indentation_key)(INDENTATION_KEY_LEVER_GAIN + i);
-        double sum = 0, squares = 0;
-        size_t n = 0;
-        for (size_t j = 0; j < of->n; j++) {
-            if (isnan(of->gain[j][i]))
-                continue;
-            const double step = of->gain[j][i] - sum;
-            sum += step / (double)++n;
-            squares += step * (of->gain[j][i] - sum);
-        }
+    char text[400] = "";
+    for (int i = 0; i < WT_SYSTEMATIC_SOURCES && of->active; i++) {
+        const wt_estimate gain = mean_gain(of, (wt_systematic_source)i);
         if (of->error[i] > 0)
-            indentation_set_value(rows, error, of->error[i], 0, 0);
-        if (n > 0)
-            indentation_set_value(rows, gain, sum,
-                                  n > 1 ? sqrt(squares / (double)((n - 1) * n)) : (double)NAN, 0);
+            indentation_set_value(rows, (indentation_key)(INDENTATION_KEY_LEVER_ERROR + i),
+                                  of->error[i], 0, 0);
+        if (isnan(gain.value))
+            continue;
+        indentation_set_value(rows, (indentation_key)(INDENTATION_KEY_LEVER_GAIN + i), gain.value,
+                              gain.standard_error, 0);
+        if (!(of->assumed[i] > 0))
+            continue;
+        indentation_set_value(rows, (indentation_key)(INDENTATION_KEY_LEVER_ERROR_ASSUMED + i),
+                              of->assumed[i], 0, 0);
+        append_assumed_error(of, (wt_systematic_source)i, gain.value, text, sizeof text);
     }
+    if (text[0] != '\0')
+        indentation_set_text(rows, INDENTATION_KEY_ASSUMED, text);
 }

@@ -8,8 +8,12 @@
 #include "indentation/numerics/curve.h"
 #include "weartrack/indentation.h"
 
-/* Largest number of curves of a group that are fitted again. */
-enum { COMMON_CURVES = 8 };
+/* Largest number of curves of a group that are fitted again, and the number if each error is an
+ * assumed one, whose effect need not be known as well. */
+enum { COMMON_CURVES = 8, ASSUMED_CURVES = 3 };
+
+/* Number of other ranges of the fit. */
+enum { OTHER_RANGES = 3 };
 
 /* Copy of one branch as measured. */
 typedef struct common_branch {
@@ -20,7 +24,8 @@ typedef struct common_branch {
 
 typedef struct common_curve {
     common_branch branch[2]; /* approach, retract */
-    double spring_constant;
+    double spring_constant, sensitivity_gain;
+    double log_modulus, variance;    /* of the fit; the variance by noise alone */
     const wt_contact_table *contact; /* table of the tip of the fit; borrowed */
     bool has_file_tip; /* the tip belongs to the file, so the shifted tips do not apply */
 } common_curve;
@@ -28,12 +33,16 @@ typedef struct common_curve {
 /* Effect of each error source on the modulus, from curves that are fitted again with a shifted
  * source. */
 typedef struct calibration_errors {
-    bool stated;                         /* if false, nothing is computed */
-    double error[WT_SYSTEMATIC_SOURCES]; /* relative; NaN if not stated */
-    double step[WT_SYSTEMATIC_SOURCES];  /* step of ln(source); 0 if the tip lacks this size */
+    bool active;                           /* if false, nothing is computed */
+    bool stated;                           /* an error is stated */
+    double error[WT_SYSTEMATIC_SOURCES];   /* relative; NaN if not stated */
+    double assumed[WT_SYSTEMATIC_SOURCES]; /* relative, if none is stated; else NaN */
+    double step[WT_SYSTEMATIC_SOURCES];    /* step of ln(source); 0 if the tip lacks this size */
     wt_contact_table *tip[WT_SYSTEMATIC_SOURCES][2]; /* tables of the tips shifted down and up */
     common_curve curve[COMMON_CURVES];
     double gain[COMMON_CURVES][WT_SYSTEMATIC_SOURCES];
+    /* Change of ln E with another range of the fit, and its variance by noise; NaN if unknown. */
+    double range_shift[COMMON_CURVES][OTHER_RANGES], range_variance[COMMON_CURVES][OTHER_RANGES];
     size_t n, n_offered, stride;
 } calibration_errors;
 
@@ -51,18 +60,27 @@ void calibration_errors_apply_cached(const cached_tips *saved, wt_indent_workspa
 /* Stores a copy of every n-th accepted curve. `contact` is the table of its tip and must outlive
  * the errors. `has_file_tip` states that this tip differs from the tip of the job. */
 void calibration_errors_store(calibration_errors *to, const wt_force_curve *curve,
-                              const wt_contact_table *contact, bool has_file_tip);
+                              const wt_indent_fit *fit, const wt_contact_table *contact,
+                              bool has_file_tip);
 /* Fits the stored curves. `workspaces` has one workspace for each thread. */
 wt_status calibration_errors_fit(calibration_errors *to, const wt_indent_options *options,
                                  unsigned threads, wt_indent_workspace *const *workspaces,
                                  wt_error *err) WT_NODISCARD;
+/* Relative error of the modulus that the choice of the range of the fit shows: half of the spread
+ * of the moduli over the ranges, without the part of the noise. 0 if unknown. */
+double calibration_errors_of_range(const calibration_errors *of);
+/* Sets the keys of the errors and of their effects. */
 void calibration_errors_set_keys(const calibration_errors *of, table_writer *rows);
 void calibration_errors_clear(calibration_errors *errors);
 
 const char *calibration_source_text(wt_systematic_source source);
 
-/* Creates the table modulus_budget. The table is NULL if no group states a shared error. names:
- * [n]; a group without curves has no row. */
+/* Summarises a group. Its interval includes the scatter of the spots and the errors that all curves
+ * share; it is NaN if one of them is unknown. */
+wt_status modulus_budget_interval(const wt_group_data *group, wt_group_summary *summary,
+                                  wt_error *err) WT_NODISCARD;
+/* Creates the table modulus_budget. The table is NULL if no group has a shared error. names: [n]; a
+ * group without curves has no row. */
 wt_status modulus_budget_create(const wt_group_data *groups, const char *const *names, size_t n,
                                 wt_table **table, wt_error *err) WT_NODISCARD;
 

@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "indentation/dwell.h"
 
-#include "core/math/normal_quantile.h"
+#include "core/math/students_t.h"
 
 #include "core/data/force_curve.h"
 #include "indentation/law/tip.h"

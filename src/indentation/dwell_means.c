@@ -4,7 +4,7 @@
 
 #include "core/table/registry.h"
 
-#include "core/math/normal_quantile.h"
+#include "core/math/students_t.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -18,8 +18,6 @@ static double grid_step(const table_view *table, indentation_column column)
 {
     size_t n = table->n_rows;
     double *x = wt_alloc(n, sizeof *x), step = 0;
-    if (x == NULL)
-        return 0;
     for (size_t row = 0; row < n; row++)
         x[row] = indentation_get(table, row, column);
     numbers_sort(x, n);

@@ -8,7 +8,7 @@
 #include "job/inputs.h"
 #include "job/random_draws.h"
 
-#include "core/base/range_text.h"
+#include "core/base/number.h"
 #include "core/table/registry.h"
 #include "indentation/numerics/curve.h"
 #include "read/force_assembler.h"
@@ -285,6 +285,7 @@ wt_status wt_indent_group(const wt_indent_job *job, const wt_job *work, wt_inden
                                         task.scratch, err);
     if (status == WT_OK) {
         set_indentation_keys(&task, &files, &task.rows);
+        task.summary.range_error = calibration_errors_of_range(&task.calibration);
         indent_summary_report(&task.summary, job, work, &task.rows);
     }
     if (status == WT_OK)

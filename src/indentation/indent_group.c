@@ -4,6 +4,7 @@
 #include "core/base/array.h"
 #include "core/base/number.h"
 #include "indentation/indent.h"
+#include "indentation/numerics/curve.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -25,7 +26,8 @@ void indent_summary_add(indent_summary *to, const wt_indent_fit *fit,
     add_shift(&to->loss, fit->loss_bias);
     add_shift(&to->loss_error, fit->loss_error);
     add_shift(&to->misfit, fit->misfit_error / fit->modulus.value);
-    to->n_significant_misfit += fit->lack_of_fit_p < options->misfit_p_threshold;
+    to->n_significant_misfit +=
+        fit->lack_of_fit_p < options->misfit_p_threshold || curve_left_out_pull(fit) > 0;
     to->n_unknown_loss += indent_has_unknown_loss(fit);
     if (options->contact_estimators) {
         to->contacts = array_grow(to->contacts, to->n, sizeof *to->contacts);
@@ -93,6 +95,15 @@ static void report_common_shifts(const indent_summary *summary, const wt_indent_
             job->group, summary->n_unknown_loss, summary->n);
 }
 
+/* Sets the error by the range of the fit without the part that misfit and loss explain. */
+static void set_range_error(const indent_summary *summary, double misfit_error, table_writer *rows)
+{
+    const double misfit = fmax(misfit_error, 0), /* fmax ignores NaN */
+        loss = fmax(loss_error(summary), 0);
+    const double rest = summary->range_error * summary->range_error - misfit * misfit - loss * loss;
+    indentation_set_value(rows, INDENTATION_KEY_RANGE_ERROR, rest > 0 ? sqrt(rest) : 0, 0, 0);
+}
+
 /* Tests the mean residual of the accepted curves. */
 static void test_mean_residual(const indent_summary *summary, const wt_indent_job *job,
                                const wt_job *work, table_writer *rows)
@@ -107,8 +118,9 @@ static void test_mean_residual(const indent_summary *summary, const wt_indent_jo
                             summary->n > 0 && !job->options.plain_least_squares;
     const bool is_common =
         is_significant || is_unknown || 2 * summary->n_significant_misfit > summary->n;
-    indentation_set_value(rows, INDENTATION_KEY_MISFIT_ERROR,
-                          is_common ? summary->misfit.sum / (double)summary->misfit.n : 0, 0, 0);
+    const double error = is_common ? summary->misfit.sum / (double)summary->misfit.n : 0;
+    indentation_set_value(rows, INDENTATION_KEY_MISFIT_ERROR, error, 0, 0);
+    set_range_error(summary, error, rows);
     if (isnan(pool.p_value))
         return;
     indentation_set_print(rows, INDENTATION_KEY_POOLED_MISFIT, "%.3g", pool.misfit);

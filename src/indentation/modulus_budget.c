@@ -11,13 +11,13 @@
 #include <string.h>
 
 /* Order: systematic errors from the calibration, systematic errors from the curves, scatter. */
-enum { LOSS = WT_SYSTEMATIC_SOURCES, BEND, MISFIT, SCATTER, PARTS };
+enum { TIP = WT_SYSTEMATIC_SOURCES, LOSS, BEND, MISFIT, RANGE, SCATTER, PARTS };
 
 typedef struct part {
     const char *words;
     double source_error, error; /* relative errors of source and modulus; NaN if not known */
     wt_estimate gain;
-    bool applies;
+    bool applies, is_assumed;
 } part;
 
 TABLE_ROW(modulus_budget, MODULUS_BUDGET, const char *group; error_kind kind; double share;
@@ -44,6 +44,29 @@ static double log_standard_deviation(const wt_group *group)
     return group->n > 1 ? sqrt(squares / (double)(group->n - 1)) : (double)NAN;
 }
 
+/* Part of a source of calibration with its stated error, or else the assumed one. An assumed error
+ * of unknown effect does not apply. */
+static part source_part(const wt_group_data *d, wt_systematic_source source)
+{
+    const wt_estimate gain = d->common_gain[source];
+    const bool is_assumed =
+        !(d->common_error[source] > 0) && d->assumed_error[source] > 0 && !isnan(gain.value);
+    const double error = is_assumed ? d->assumed_error[source] : d->common_error[source];
+    return (part){.words = calibration_source_text(source),
+                  .source_error = error,
+                  .error = fabs(gain.value) * error,
+                  .gain = gain,
+                  .applies = error > 0 || !isnan(gain.value),
+                  .is_assumed = is_assumed};
+}
+
+/* Part that is a relative error of the modulus itself. An error of 0 does not apply; NaN is
+ * unknown. */
+static part shown_part(const char *words, double error)
+{
+    return (part){words, error, error, {1, 0, 0, "1"}, error != 0, false};
+}
+
 static wt_status compute_budget(const wt_group_data *d, budget *b, wt_error *err)
 {
     *b = (budget){.curves = log_standard_deviation(&d->group)};
@@ -52,23 +75,12 @@ static wt_status compute_budget(const wt_group_data *d, budget *b, wt_error *err
         return status;
     double variance = 0;
     for (int i = 0; i < WT_SYSTEMATIC_SOURCES; i++)
-        b->part[i] = (part){.words = calibration_source_text((wt_systematic_source)i),
-                            .source_error = d->common_error[i],
-                            .error = fabs(d->common_gain[i].value) * d->common_error[i],
-                            .gain = d->common_gain[i],
-                            .applies = d->common_error[i] > 0 || !isnan(d->common_gain[i].value)};
-    b->part[LOSS] = (part){"loss of unknown spectrum",
-                           d->loss_error,
-                           d->loss_error,
-                           {1, 0, 0, "1"},
-                           d->loss_error != 0};
-    const double bend = fabs(d->bend_error);
-    b->part[BEND] = (part){"bend of the baselines", bend, bend, {1, 0, 0, "1"}, bend != 0};
-    b->part[MISFIT] = (part){"misfit of the contact law",
-                             d->misfit_error,
-                             d->misfit_error,
-                             {1, 0, 0, "1"},
-                             d->misfit_error > 0};
+        b->part[i] = source_part(d, (wt_systematic_source)i);
+    b->part[TIP] = shown_part("shape of the tip", isnan(d->tip_error) ? 0 : d->tip_error);
+    b->part[LOSS] = shown_part("loss of unknown spectrum", d->loss_error);
+    b->part[BEND] = shown_part("bend of the baselines", fabs(d->bend_error));
+    b->part[MISFIT] = shown_part("misfit of the contact law", fmax(d->misfit_error, 0));
+    b->part[RANGE] = shown_part("range of the fit", fmax(d->range_error, 0));
     for (int i = 0; i < SCATTER; i++) /* an error of unknown effect makes the total unknown */
         if (b->part[i].applies && (b->part[i].source_error > 0 || i >= WT_SYSTEMATIC_SOURCES))
             variance += b->part[i].error * b->part[i].error;
@@ -85,7 +97,8 @@ static wt_status compute_budget(const wt_group_data *d, budget *b, wt_error *err
                               (double)NAN,
                               b->scatter.error,
                               {(double)NAN, (double)NAN, 0, "1"},
-                              true};
+                              true,
+                              false};
     return WT_OK;
 }
 
@@ -97,9 +110,9 @@ static double variance_share(const budget *b, double error)
 static void add_budget_rows(table_writer *t, const char *group, const budget *b)
 {
     const wt_estimate none = {(double)NAN, (double)NAN, 0, NULL};
-    const part all = {"all that is stated", (double)NAN, b->all.error, none, true},
-               spot = {"one spot", (double)NAN, b->spots, none, true},
-               curve = {"one curve", (double)NAN, b->curves, none, true};
+    const part all = {"all together", (double)NAN, b->all.error, none, true, false},
+               spot = {"one spot", (double)NAN, b->spots, none, true, false},
+               curve = {"one curve", (double)NAN, b->curves, none, true, false};
     for (int i = 0; i < PARTS; i++)
         if (b->part[i].applies)
             TABLE_ADD(modulus_budget, t, group, i == SCATTER ? ERROR_SCATTER : ERROR_SHARED,
@@ -124,8 +137,9 @@ static void append_contributions(const budget *b, char *text, size_t size)
         if (largest < 0)
             break;
         is_listed[largest] = true;
-        clocale_append(text, size, "%s%.2g %% by the %s", before,
-                       100 * variance_share(b, b->part[largest].error), b->part[largest].words);
+        clocale_append(text, size, "%s%.2g %% by the %s%s", before,
+                       100 * variance_share(b, b->part[largest].error), b->part[largest].words,
+                       b->part[largest].is_assumed ? " (assumed)" : "");
         before = ", ";
     }
 }
@@ -184,12 +198,27 @@ static void add_budget_group(table_writer *t, const char *name, const wt_group_d
               e * exp(-half_width), e * exp(half_width), text);
 }
 
-static bool has_stated_error(const wt_group_data *d)
+/* True if the curves share an error. Without one the table would repeat the scatter. */
+static bool has_shared_error(const wt_group_data *d)
 {
-    bool any = false;
+    bool any = d->tip_error > 0 || d->loss_error != 0 || d->bend_error != 0 ||
+               d->misfit_error > 0 || d->range_error > 0;
     for (int i = 0; i < WT_SYSTEMATIC_SOURCES; i++)
-        any = any || d->common_error[i] > 0;
+        any = any || d->common_error[i] > 0 || d->assumed_error[i] > 0;
     return any && d->group.n > 0;
+}
+
+wt_status modulus_budget_interval(const wt_group_data *d, wt_group_summary *summary, wt_error *err)
+{
+    budget b;
+    const wt_status status = compute_budget(d, &b, err);
+    if (status != WT_OK)
+        return status;
+    const double half_width = students_t_quantile(b.all.df) * b.all.error;
+    *summary = b.group;
+    summary->low = b.group.geometric_mean * exp(-half_width);
+    summary->high = b.group.geometric_mean * exp(half_width);
+    return WT_OK;
 }
 
 wt_status modulus_budget_create(const wt_group_data *groups, const char *const *names, size_t n,
@@ -200,7 +229,7 @@ wt_status modulus_budget_create(const wt_group_data *groups, const char *const *
     wt_status status = WT_OK;
     for (size_t i = 0; status == WT_OK && i < n; i++) {
         table_writer t = {0};
-        if (!has_stated_error(&groups[i]))
+        if (!has_shared_error(&groups[i]))
             continue;
         if (result == NULL) {
             t = table_begin(&modulus_budget_schema, err);

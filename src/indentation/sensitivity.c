@@ -3,7 +3,7 @@
  * detector.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/base/param.h"
-#include "core/math/normal_quantile.h"
+#include "core/math/students_t.h"
 #include "job/cost.h"
 #include "job/inputs.h"
 #include "job/outliers.h"

@@ -8,7 +8,7 @@
 
 #include "core/base/array.h"
 #include "core/base/clocale.h"
-#include "core/base/range_text.h"
+#include "core/base/number.h"
 #include "core/table/table_rows.h"
 #include "indentation/spot.h"
 

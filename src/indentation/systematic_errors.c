@@ -1,5 +1,5 @@
-/* Text on systematic errors that leave no residual: sizes of the tip, cantilever and piezo as
- * stated, and a base below the sample. The text states the effect and how to detect it.
+/* Text on systematic errors that leave no residual and that no interval holds: a base below the
+ * sample and a piezo that bends. The text states the effect and how to detect it.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/base/clocale.h"
 #include "core/math/root.h"
@@ -11,8 +11,6 @@
 
 /* Smallest relative effect of a base that is reported; most stated errors exceed a smaller one. */
 static const double min_base_effect = 0.05;
-static const double one_degree = M_PI / 180;
-static const double radius_step = 0.1; /* relative step of a radius */
 /* Range of the thickness over the depth. A sample of a thousand depths is thick for any tip. */
 static const double min_thickness_ratio = 0.1, max_thickness_ratio = 1e3;
 
@@ -45,44 +43,12 @@ static double required_thickness(const wt_tip *tip, double depth)
     return exp(found);
 }
 
-/* Appends the effect of a half-angle that is larger by one degree. */
-static void append_half_angle_error(const wt_tip *tip, double depth, char *text, size_t size)
-{
-    wt_tip wider = *tip;
-    wider.half_angle += one_degree;
-    if (!(tip->half_angle > 0) || tip->half_angle_error > 0 || wider.half_angle >= M_PI_2)
-        return;
-    const double g = contact_values(tip, depth).g, g_wider = contact_values(&wider, depth).g;
-    clocale_append(
-        text, size,
-        "half-angle of the tip (a degree wider: a modulus about %.2g %% smaller; state its "
-        "error), ",
-        100 * (1 - g / g_wider));
-}
-
-/* Appends the effect of a larger radius if the tip is a cap alone. There the radius is nearly a
- * factor of the force. */
-static void append_radius_error(const wt_tip *tip, double depth, char *text, size_t size)
-{
-    wt_tip larger = *tip;
-    larger.radius *= 1.0 + radius_step;
-    if (!(tip->radius > 0) || tip->half_angle > 0 || tip->radius_error > 0)
-        return;
-    const double g = contact_values(tip, depth).g, g_larger = contact_values(&larger, depth).g;
-    clocale_append(text, size,
-                   "radius of the tip (%g %% larger: a modulus about %.2g %% smaller; state its "
-                   "error), ",
-                   100 * radius_step, 100 * (1 - g / g_larger));
-}
-
 void indent_systematic_errors(const wt_indent_job *job, double depth, char *text, size_t size)
 {
     const wt_tip *tip = &job->tip;
     *text = '\0';
     if (!(depth > 0))
         return;
-    append_half_angle_error(tip, depth, text, size);
-    append_radius_error(tip, depth, text, size);
     const double thin = tip->sample_thickness > 0 ? (double)NAN : required_thickness(tip, depth);
     if (thin > 0) {
         char thickness_text[32];

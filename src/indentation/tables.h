@@ -149,21 +149,26 @@
       "does is not known",                                                                         \
       NUMBER, SHOWS(deep.loss_error), OPTIONAL)
 
-/* Keys of the systematic errors if one is stated. They have the relative standard error of each
- * source, d ln E / d ln source and its standard error. The order is that of wt_systematic_source.
- */
+/* Keys of the systematic errors. They have the relative standard error of each source, stated or
+ * else assumed, d ln E / d ln source and its standard error. The order is that of
+ * wt_systematic_source. */
 #define INDENTATION_COMMON_KEYS(X)                                                                 \
     X(INDENTATION_KEY_LEVER_ERROR, "spring_constant_error", NUMBER, OPTIONAL)                      \
     X(INDENTATION_KEY_SENSITIVITY_ERROR, "sensitivity_error", NUMBER, OPTIONAL)                    \
     X(INDENTATION_KEY_HALF_ANGLE_ERROR, "half_angle_error", NUMBER, OPTIONAL)                      \
     X(INDENTATION_KEY_RADIUS_ERROR, "radius_error", NUMBER, OPTIONAL)                              \
+    X(INDENTATION_KEY_LEVER_ERROR_ASSUMED, "spring_constant_error_assumed", NUMBER, OPTIONAL)      \
+    X(INDENTATION_KEY_SENSITIVITY_ERROR_ASSUMED, "sensitivity_error_assumed", NUMBER, OPTIONAL)    \
+    X(INDENTATION_KEY_HALF_ANGLE_ERROR_ASSUMED, "half_angle_error_assumed", NUMBER, OPTIONAL)      \
+    X(INDENTATION_KEY_RADIUS_ERROR_ASSUMED, "radius_error_assumed", NUMBER, OPTIONAL)              \
     X(INDENTATION_KEY_LEVER_GAIN, "spring_constant_gain", NUMBER, OPTIONAL)                        \
     X(INDENTATION_KEY_SENSITIVITY_GAIN, "sensitivity_gain", NUMBER, OPTIONAL)                      \
     X(INDENTATION_KEY_HALF_ANGLE_GAIN, "half_angle_gain", NUMBER, OPTIONAL)                        \
     X(INDENTATION_KEY_RADIUS_GAIN, "radius_gain", NUMBER, OPTIONAL)                                \
     X(INDENTATION_KEY_LOSS_ERROR, "loss_error", NUMBER, OPTIONAL)                                  \
     X(INDENTATION_KEY_BEND_ERROR, "bend_error", NUMBER, OPTIONAL)                                  \
-    X(INDENTATION_KEY_MISFIT_ERROR, "misfit_error", NUMBER, OPTIONAL)
+    X(INDENTATION_KEY_MISFIT_ERROR, "misfit_error", NUMBER, OPTIONAL)                              \
+    X(INDENTATION_KEY_RANGE_ERROR, "range_error", NUMBER, OPTIONAL)
 
 /* Form of the tip as wt_tip_describe writes it. Several tips are described one after another. */
 #define TIP_FORMS(X)                                                                               \
@@ -187,6 +192,8 @@
       LABEL("Mean residual of all curves, of the largest force"), OPTIONAL)                        \
     X(INDENTATION_KEY_POOLED_MISFIT_CHANCE, "pooled_misfit_p", PLAIN,                              \
       LABEL("Chance of more by scatter alone"), OPTIONAL)                                          \
+    X(INDENTATION_KEY_ASSUMED, "assumed_errors", TEXT, LABEL("Errors assumed, as none is stated"), \
+      OPTIONAL)                                                                                    \
     X(INDENTATION_KEY_NOT_SHOWN, "not_shown", TEXT, LABEL("What no curve shows"), OPTIONAL)        \
     X(INDENTATION_KEY_N_ACCEPTED, "n_accepted", PLAIN, LABEL("Curves with a modulus"), OPTIONAL)   \
     X(INDENTATION_KEY_N_DOUBTFUL, "n_doubtful", PLAIN, LABEL("Of them doubtful"), OPTIONAL)        \

@@ -36,9 +36,9 @@ static void check_value(double value, size_t which, const char *place, wt_log *l
     const bool below = value < r->low;
     if (isnan(value) || (!below && !(value > r->high)))
         return;
-    wt_log_add(log, WT_WARNING, place, NULL,
-               "a %s of %.4g %s is implausible; the likely cause is %s", r->quantity, value,
-               r->unit, below ? r->cause_below : r->cause_above);
+    wt_log_action(log, WT_WARNING, WT_IMPLAUSIBLE, 0, NULL, place, NULL,
+                  "a %s of %.4g %s is implausible; the likely cause is %s", r->quantity, value,
+                  r->unit, below ? r->cause_below : r->cause_above);
 }
 
 void check_friction_coefficient(double typical, const char *file, wt_log *log)
@@ -119,12 +119,13 @@ static void check_repeated(const wt_sweep *sweep, wt_log *log)
         largest = fmax(largest, fabs(difference));
     }
     if (n > 0)
-        wt_log_add(log, WT_WARNING, first->source, NULL,
-                   "two isotherms of the same temperature differ by %.0f %% in the storage modulus "
-                   "(at %.4g degC%s): two specimens, or a material that changed between two runs; "
-                   "separate the runs into files and take one",
-                   100 * expm1(largest), first->temperature - WT_ZERO_CELSIUS,
-                   n > 1 ? " and at other temperatures" : "");
+        wt_log_action(
+            log, WT_WARNING, WT_CONTRADICTED, n, NULL, first->source, NULL,
+            "two isotherms of the same temperature differ by %.0f %% in the storage modulus "
+            "(at %.4g degC%s): two specimens, or a material that changed between two runs; "
+            "separate the runs into files and take one",
+            100 * expm1(largest), first->temperature - WT_ZERO_CELSIUS,
+            n > 1 ? " and at other temperatures" : "");
 }
 
 void check_sweep(const wt_sweep *sweep, wt_log *log)

@@ -58,10 +58,10 @@ static void leave_out_outliers(double *x, size_t n, const char *what, const char
             x[k] = (double)NAN;
     }
     if (count > 0)
-        wt_log_add(log, WT_WARNING, file, NULL,
-                   "%zu of %zu samples of the %s left out as outliers, more than %.0f times the "
-                   "usual value; the first is %.6g at sample %zu",
-                   count, n, what, outlier_factor, value, first + 1);
+        wt_log_action(log, WT_WARNING, WT_LEFT_OUT, count, NULL, file, NULL,
+                      "%zu of %zu samples of the %s left out as outliers, more than %.0f times the "
+                      "usual value; the first is %.6g at sample %zu",
+                      count, n, what, outlier_factor, value, first + 1);
 }
 
 /* An unloaded sensor scatters around zero: as far above it as below. */
@@ -102,10 +102,11 @@ static void subtract_zero(double *force, const double *load, size_t n, const cha
         return;
     for (size_t i = 0; i < n; i++)
         force[i] -= mean;
-    wt_log_add(log, WT_WARNING, file, NULL,
-               "a zero of the friction force of %.4g N is seen in %zu samples before loading, and "
-               "is subtracted",
-               mean, count);
+    wt_log_action(
+        log, WT_WARNING, WT_CORRECTED, n, NULL, file, NULL,
+        "a zero of the friction force of %.4g N is seen in %zu samples before loading, and "
+        "is subtracted",
+        mean, count);
 }
 
 void condition_record(wt_record *record, const char *file, wt_log *log)

@@ -111,9 +111,9 @@ static void remove_marked(flow_files *files, const size_t *copy_of, const wt_job
     size_t n = 0;
     for (size_t i = 0; i < files->n; i++)
         if (copy_of[i] != i)
-            wt_log_add(work->log, WT_WARNING, files->file[i].name, NULL,
-                       "the same bytes as %s: a copy, left out; both count as one measurement",
-                       files->file[copy_of[i]].name);
+            wt_log_action(work->log, WT_WARNING, WT_COPIED, 1, NULL, files->file[i].name, NULL,
+                          "the same bytes as %s: a copy, left out; both count as one measurement",
+                          files->file[copy_of[i]].name);
     for (size_t i = 0; i < files->n; i++) {
         if (copy_of[i] == i)
             files->file[n++] = files->file[i];

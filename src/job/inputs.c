@@ -7,7 +7,7 @@
 #include "core/base/array.h"
 #include "core/base/memory.h"
 #include "core/base/shared_params.h"
-#include "core/system/digest.h"
+#include "core/system/temporary.h"
 #include "core/table/table_rows.h"
 
 #include <search.h>
@@ -64,6 +64,31 @@ wt_status wt_notes_table(const wt_log *log, const char *folder, wt_table **table
                   entry);
     }
     return table_end(&t, table);
+}
+
+TABLE_ROW(data_quality, DATA_QUALITY, const char *file, *action; double n_values;
+          wt_log_entry entry;)
+
+wt_status wt_data_quality_table(const wt_log *log, const char *folder, wt_table **table,
+                                wt_error *err)
+{
+    *table = NULL;
+    table_writer t = table_begin(&data_quality_schema, err);
+    size_t n = 0;
+    for (size_t i = 0; i < wt_log_count(log); i++) {
+        const wt_log_entry entry = wt_log_get(log, i);
+        if (entry.action == WT_ACTION_NONE)
+            continue;
+        n++;
+        TABLE_ADD(data_quality, &t, relative_path(folder, entry.file), action_text(entry.action),
+                  entry.n_values > 0 ? (double)entry.n_values : (double)NAN, entry);
+    }
+    const wt_status status = table_end(&t, table);
+    if (n == 0) {
+        wt_table_free(*table);
+        *table = NULL;
+    }
+    return status;
 }
 
 bool flow_may_continue(const wt_job *work, wt_status status)
@@ -160,8 +185,8 @@ static wt_status list_pattern(const wt_file_set *set, const char *pattern, const
         if (found == NULL)
             out_of_memory(sizeof *found);
         if (*found != paths[i]) {
-            wt_log_add(work->log, WT_WARNING, paths[i], NULL,
-                       "named more than once; it is taken once");
+            wt_log_action(work->log, WT_WARNING, WT_COPIED, 1, NULL, paths[i], NULL,
+                          "named more than once; it is taken once");
             continue;
         }
         files_add(files, paths[i], pattern, set);
@@ -242,8 +267,8 @@ wt_status wt_job_add_input(const wt_job *work, wt_provenance_input input, wt_inp
                            &input.fingerprint, err);
     if (status != WT_OK)
         return status;
-    status = wt_provenance_add_input(work->provenance, &input);
-    return status == WT_OK ? WT_OK : wt_fail(err, status, "cannot keep the list of inputs");
+    wt_provenance_add_input(work->provenance, &input);
+    return WT_OK;
 }
 
 wt_status flow_record_input(const wt_job *work, wt_input *input, const flow_file *file,
@@ -312,8 +337,9 @@ bool flow_skip_file(const wt_job *work, const flow_file *file, const wt_error *f
     const bool unknown = failure->status == WT_E_FORMAT && file->format == NULL;
     if (!file->from_folder || !(unknown || failure->status == WT_E_EMPTY))
         return false;
-    wt_log_add(work->log, WT_WARNING, file->name, NULL, "left out of its folder: %s%s%s",
-               failure->message, failure->found[0] != '\0' ? "; found " : "", failure->found);
+    wt_log_action(work->log, WT_WARNING, WT_LEFT_OUT, 1, NULL, file->name, NULL,
+                  "left out of its folder: %s%s%s", failure->message,
+                  failure->found[0] != '\0' ? "; found " : "", failure->found);
     return true;
 }
 

@@ -1,6 +1,8 @@
 /* Reads tables of an earlier call as input. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "weartrack/job.h"
 
+#include "core/base/memory.h"
+
 #include <string.h>
 
 static wt_status read_stream_tables(FILE *in, const char *name, wt_result *tables, wt_error *err)
@@ -23,10 +25,10 @@ static wt_status read_stream_memory(const unsigned char *bytes, size_t length, c
 {
     wt_result *const read = wt_result_new();
     FILE *const in = fmemopen((void *)(uintptr_t)bytes, length, "r");
-    wt_status status = in == NULL ? wt_fail(err, WT_E_MEMORY, "out of memory")
-                                  : read_stream_tables(in, path, read, err);
-    if (in != NULL)
-        (void)fclose(in);
+    if (in == NULL)
+        out_of_memory(BUFSIZ);
+    wt_status status = read_stream_tables(in, path, read, err);
+    (void)fclose(in);
     if (status == WT_OK && wt_result_n_tables(read) == 0) {
         status = wt_fail(err, WT_E_EMPTY, "no table");
         wt_error_expected(err, "a weartrack text stream or HDF5 result");

@@ -1,7 +1,7 @@
 /* Sentences of the answer about balances, existence, bands, running-in, identification and the
  * thickness from the curves. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "case/answer/answer_context.h"
-#include "core/math/normal_quantile.h"
+#include "core/math/students_t.h"
 
 #include <ctype.h>
 #include <math.h>

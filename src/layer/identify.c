@@ -9,8 +9,8 @@
 #include "layer/numerics/correlated_pair.h"
 
 #include "core/base/clocale.h"
-#include "core/base/range_text.h"
-#include "core/math/normal_quantile.h"
+#include "core/base/number.h"
+#include "core/math/students_t.h"
 #include "core/table/table_rows.h"
 #include "weartrack/layer.h"
 

@@ -2,7 +2,7 @@
  * surface or both), operating point, friction on the layer and default times.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "layer/layer_energy.h"
-#include "core/math/cubic_interpolation.h"
+#include "core/math/special.h"
 #include "job/random_draws.h"
 
 #include <math.h>
@@ -47,11 +47,8 @@ wt_status layer_friction_model_create(const layer_context *context, double thinn
     for (size_t k = 0; k < N_NODE_QUANTITIES; k++)
         friction->value[k] = all + (k + 1) * n;
     wt_status status = compute_nodes(friction, thinnest, thickest, n, err);
-    for (size_t k = 0; status == WT_OK && k < N_NODE_QUANTITIES; k++) {
+    for (size_t k = 0; status == WT_OK && k < N_NODE_QUANTITIES; k++)
         friction->curve[k] = akima_curve_new(friction->log_thickness, friction->value[k], n);
-        if (friction->curve[k] == NULL)
-            status = wt_fail(err, WT_E_MEMORY, "out of memory");
-    }
 
     if (status != WT_OK)
         layer_friction_model_clear(friction);

@@ -4,7 +4,7 @@
 #ifndef WT_LAYER_LAYER_ENERGY_H
 #define WT_LAYER_LAYER_ENERGY_H
 
-#include "core/math/cubic_interpolation.h"
+#include "core/math/special.h"
 #include "friction/sliding_contact.h"
 #include "weartrack/layer.h"
 
@@ -103,7 +103,7 @@ typedef struct layer_friction_model {
     double *log_thickness;        /* [n] rising */
     double pressure;
     double *value[N_NODE_QUANTITIES]; /* [n] each */
-    curve *curve[N_NODE_QUANTITIES];
+    akima_curve *curve[N_NODE_QUANTITIES];
 } layer_friction_model;
 
 /* Creates n nodes from the thinnest to the thickest layer, in equal ratios. There are none if n <

@@ -4,7 +4,6 @@
 #include "core/base/array.h"
 #include "core/base/clocale.h"
 #include "core/math/cholesky.h"
-#include "core/math/normal_quantile.h"
 #include "core/math/students_t.h"
 #include "core/table/registry.h"
 #include "friction/replicates.h"

@@ -1,9 +1,7 @@
-/* Reads a ZIP archive whose entries are files of force curves.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+/* Reads a ZIP archive whose entries are files of force curves. SPDX-License-Identifier:
+ * GPL-3.0-or-later */
 #include "read/collection.h"
-
+#include "core/base/memory.h"
 #include "read/bytes/input.h"
 #include "read/bytes/zip.h"
 #include "read/metadata.h"
@@ -56,11 +54,7 @@ static wt_status open_collection(wt_input *input, collection *c, wt_error *err)
     wt_status status = archive_open(input, &c->archive, err);
     if (status != WT_OK)
         return status;
-    c->entries = calloc(c->archive->n, sizeof *c->entries);
-    if (c->entries == NULL) {
-        close_collection(c);
-        return wt_fail(err, WT_E_MEMORY, "no memory for the entries of an archive");
-    }
+    c->entries = wt_alloc(c->archive->n, sizeof *c->entries);
     for (size_t i = 0; i < c->archive->n; i++)
         if (is_file(archive_name(c->archive, i)))
             c->entries[c->n++] = (collection_entry){archive_name(c->archive, i), i};
@@ -71,19 +65,17 @@ static wt_status open_collection(wt_input *input, collection *c, wt_error *err)
 /* Unpacks entry `i` into a new input, which the caller closes. */
 static wt_status unpack_entry(const collection *c, size_t i, wt_input **input, wt_error *err)
 {
-    char *name = NULL;
     byte_buffer buffer = {.data = NULL};
-    wt_status status = archive_read(c->archive, c->entries[i].number, MAX_ENTRY_SIZE, &buffer, err);
-    if (status == WT_OK && asprintf(&name, "%s, %s", c->name, c->entries[i].name) < 0) {
-        name = NULL;
-        status = wt_fail(err, WT_E_MEMORY, "no memory for an archive entry");
-    }
-    if (status == WT_OK)
-        status = input_from_bytes((char *)buffer.data, buffer.length, name, input, err);
-    else
+    const wt_status status =
+        archive_read(c->archive, c->entries[i].number, MAX_ENTRY_SIZE, &buffer, err);
+    if (status != WT_OK) {
         free(buffer.data);
+        return status;
+    }
+    char *const name = format_text("%s, %s", c->name, c->entries[i].name);
+    *input = input_from_bytes(buffer.data, buffer.length, name);
     free(name);
-    return status;
+    return WT_OK;
 }
 
 wt_status collection_visit(wt_input *input, collection_visitor *look, void *user, wt_error *err)

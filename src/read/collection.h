@@ -1,7 +1,5 @@
 /* Declares the reader of a ZIP archive whose entries are files of force curves, such as a map.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_READ_COLLECTION_H
 #define WT_READ_COLLECTION_H
 

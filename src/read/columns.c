@@ -1,8 +1,6 @@
 /* Builds a description from columns that the user names: the description of a plain table (such as
- * table-units) with these columns in front.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * table-units) with these columns in front. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "core/base/memory.h"
 #include "read/formats.h"
 #include "read/text/text.h"
 
@@ -108,10 +106,10 @@ static wt_status write_description(const base_table *base, const char *xml,
     const char *const detect = strstr(xml, "<detect>");
     const char *const scored = detect != NULL ? strstr(detect, score) : NULL;
     const char *const first = scored != NULL ? strstr(scored, "<column ") : NULL;
-    FILE *out = first != NULL ? open_memstream(text, length) : NULL;
-    if (out == NULL)
-        return wt_fail(err, first != NULL ? WT_E_MEMORY : WT_E_SCHEMA,
-                       "no description %s that columns could be added to", base->id);
+    if (first == NULL)
+        return wt_fail(err, WT_E_SCHEMA, "no description %s that columns could be added to",
+                       base->id);
+    FILE *const out = text_stream_open(text, length);
     (void)fprintf(out,
                   "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<format id=\"given-columns\" "
                   "version=\"1\" kinds=\"%s\" verified=\"false\">\n"
@@ -123,7 +121,8 @@ static wt_status write_description(const base_table *base, const char *xml,
     (void)fwrite(scored + strlen(score), 1, (size_t)(first - scored) - strlen(score), out);
     write_columns(out, columns, n);
     (void)fputs(first, out);
-    return fclose(out) == 0 ? WT_OK : wt_fail(err, WT_E_MEMORY, "no memory for a description");
+    text_stream_close(out);
+    return WT_OK;
 }
 
 wt_status wt_formats_add_columns(wt_formats *formats, const char *const *columns, size_t n,
@@ -135,9 +134,7 @@ wt_status wt_formats_add_columns(wt_formats *formats, const char *const *columns
     description_xsd *schema = NULL;
     if (n == 0)
         return WT_OK;
-    column_option *parsed = calloc(n, sizeof *parsed);
-    if (parsed == NULL)
-        return wt_fail(err, WT_E_MEMORY, "no memory for the columns");
+    column_option *parsed = wt_alloc(n, sizeof *parsed);
     wt_status status = WT_OK;
     for (size_t i = 0; i < n && status == WT_OK; i++)
         status = parse_column_option(columns[i], &parsed[i], err);

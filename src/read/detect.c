@@ -1,9 +1,6 @@
 /* Detects the format of a file. Every reader is queried; one that cannot decide yet sees more of
- * the file. The order of the list never decides a tie.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
-#include "core/base/resource_error.h"
+ * the file. The order of the list never decides a tie. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "core/base/memory.h"
 #include "read/formats.h"
 #include "read/text/text.h"
 
@@ -151,9 +148,7 @@ static wt_status query_readers(const wt_formats *formats, wt_input *input, detec
 {
     const size_t n = wt_formats_count(formats);
     wt_status status = WT_OK;
-    const file_reader **open = calloc(n + 1, sizeof *open);
-    if (open == NULL)
-        return wt_fail(err, WT_E_MEMORY, "no memory to detect the format");
+    const file_reader **open = wt_alloc(n, sizeof *open);
     size_t n_open = 0;
     for (size_t i = 0; i < n; i++)
         if (is_in_pass(formats_reader(formats, i), q, kinds))

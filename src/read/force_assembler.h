@@ -2,10 +2,7 @@
  *
  * A reader decodes the layout of its file: segments, channels, units and calibration. This module
  * computes the requested quantities (force, deflection, time) from them. It reports each quantity
- * that it cannot compute.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * that it cannot compute. SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_READ_FORCE_ASSEMBLER_H
 #define WT_READ_FORCE_ASSEMBLER_H
 

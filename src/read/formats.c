@@ -1,10 +1,6 @@
 /* Manages the set of formats: binary readers, descriptions embedded in the library, and those of a
- * folder.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * folder. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "read/formats.h"
-
 #include "core/base/array.h"
 #include "read/embedded_formats.h"
 #include "read/text/text.h"
@@ -25,14 +21,10 @@ static const file_reader *const binary[] = {
 
 /* ---- building a set -------------------------------------------------------------------------- */
 
-static wt_status add_reader(wt_formats *f, const file_reader *reader, wt_error *err)
+static void add_reader(wt_formats *f, const file_reader *reader)
 {
-    file_reader *grown = array_grow(f->readers, f->n, sizeof *grown);
-    if (grown == NULL)
-        return wt_fail(err, WT_E_MEMORY, "no memory for the formats");
-    f->readers = grown;
+    f->readers = array_grow(f->readers, f->n, sizeof *f->readers);
     f->readers[f->n++] = *reader;
-    return WT_OK;
 }
 
 const file_reader *formats_find_reader(const wt_formats *formats, const char *id)
@@ -62,7 +54,7 @@ wt_status formats_add_description(wt_formats *f, text_description *d, wt_log *lo
         description_free(same->description);
         f->readers[same - f->readers] = reader;
     } else if (status == WT_OK) {
-        status = add_reader(f, &reader, err);
+        add_reader(f, &reader);
     }
     if (status != WT_OK)
         description_free(d);
@@ -72,11 +64,7 @@ wt_status formats_add_description(wt_formats *f, text_description *d, wt_log *lo
 wt_status formats_from_description(text_description *d, const char *path, wt_formats **formats,
                                    wt_error *err)
 {
-    wt_formats *f = calloc(1, sizeof *f);
-    if (f == NULL) {
-        description_free(d);
-        return wt_fail(err, WT_E_MEMORY, "no memory for the formats");
-    }
+    wt_formats *f = wt_alloc(1, sizeof *f);
     const wt_status status = formats_add_description(f, d, NULL, path, err);
     if (status == WT_OK)
         *formats = f;
@@ -121,37 +109,32 @@ static wt_status add_description_folder(wt_formats *f, const char *folder, wt_lo
 }
 
 /* Adds the binary readers. Those that run a description are added after it and borrow it. */
-static wt_status add_binary_readers(wt_formats *f, bool running, wt_error *err)
+static void add_binary_readers(wt_formats *f, bool running)
 {
-    wt_status status = WT_OK;
-    for (size_t i = 0; i < N_BINARY && status == WT_OK; i++) {
+    for (size_t i = 0; i < N_BINARY; i++) {
         file_reader reader = *binary[i];
         if ((reader.runs != NULL) != running)
             continue;
         if (running)
             reader.description = formats_find_reader(f, reader.runs)->description;
-        status = add_reader(f, &reader, err);
+        add_reader(f, &reader);
     }
-    return status;
 }
 
 wt_status wt_formats_new(const char *folder, wt_formats **formats, wt_log *log, wt_error *err)
 {
-    wt_formats *f = calloc(1, sizeof *f);
-    if (f == NULL)
-        return wt_fail(err, WT_E_MEMORY, "no memory for the formats");
-    wt_status status = add_binary_readers(f, false, err);
-    if (status == WT_OK)
-        status = add_library_descriptions(f, err);
+    wt_formats *f = wt_alloc(1, sizeof *f);
+    add_binary_readers(f, false);
+    wt_status status = add_library_descriptions(f, err);
     if (status == WT_OK && folder != NULL)
         status = add_description_folder(f, folder, log, err);
-    if (status == WT_OK)
-        status = add_binary_readers(f, true, err);
-    if (status == WT_OK)
-        *formats = f;
-    else
+    if (status != WT_OK) {
         wt_formats_free(f);
-    return status;
+        return status;
+    }
+    add_binary_readers(f, true);
+    *formats = f;
+    return WT_OK;
 }
 
 void wt_formats_free(wt_formats *formats)

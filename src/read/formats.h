@@ -1,7 +1,5 @@
 /* Declares the set of formats for the files of this folder, and how the reader of a file is found.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_READ_FORMATS_H
 #define WT_READ_FORMATS_H
 

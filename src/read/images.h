@@ -1,10 +1,7 @@
 /* Declares the list of images that a reader creates from a file.
  *
- * Row 0 is the bottom line. Width and height are the distances between the centres of the first
- * and the last pixel [m].
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * Row 0 is the bottom line. Width and height are the distances between the centres of the first and
+ * the last pixel [m]. SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_READ_IMAGES_H
 #define WT_READ_IMAGES_H
 
@@ -39,11 +36,11 @@ wt_status images_finish(image_list *list, wt_status status, const char *file, wt
  * of an unknown size and of spikes. */
 wt_status images_apply_options(wt_image *images, size_t n, const wt_read_options *options,
                                const char *file, wt_log *log, wt_error *err);
-/* Warns of single heights that dominate the slopes of a height image. */
-void images_check_spikes(const wt_image *image, const char *file, wt_log *log);
+
 /* Adds the rows of the images for `info` after those of the force curves, whose status is `curves`
  * and whose error is `curves_error`. A file with images but without curves is no failure. */
 struct file_reader;
+
 wt_status images_add_metadata(const struct file_reader *reader, wt_input *input,
                               const wt_read_options *options, wt_log *log, table_writer *metadata,
                               wt_status curves, const wt_error *curves_error);

@@ -1,28 +1,22 @@
-/* Fills the table of metadata that a reader returns for `info`.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+/* Fills the table of metadata that a reader returns for `info`. SPDX-License-Identifier:
+ * GPL-3.0-or-later */
 #include "read/metadata.h"
-
 #include "core/base/clocale.h"
+#include "core/base/memory.h"
 #include "core/table/registry.h"
 
 #include <math.h>
-#include <stdlib.h>
+#include <string.h>
 
 void metadata_add(table_writer *metadata, const char *item, const char *unit, const char *source,
                   const char *format, ...)
 {
-    if (metadata->status != WT_OK)
-        return;
     char *value = NULL;
     va_list arguments;
     va_start(arguments, format);
     const locale_t previous = clocale_enter();
-    if (vasprintf(&value, format, arguments) < 0) {
-        value = NULL;
-        metadata->status = wt_fail(metadata->err, WT_E_MEMORY, "no memory to describe the file");
-    }
+    if (vasprintf(&value, format, arguments) < 0)
+        out_of_memory(strlen(format));
     clocale_leave(previous);
     va_end(arguments);
     table_row(metadata);

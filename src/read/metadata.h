@@ -1,8 +1,5 @@
 /* Declares the table of metadata that a reader fills for `info`. The writer keeps the first
- * failure.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * failure. SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_READ_METADATA_H
 #define WT_READ_METADATA_H
 

@@ -1,7 +1,5 @@
-/* Defines the parameters of reading that other structures share.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+/* Defines the parameters of reading that other structures share. SPDX-License-Identifier:
+ * GPL-3.0-or-later */
 #ifndef WT_READ_READ_PARAMS_H
 #define WT_READ_READ_PARAMS_H
 

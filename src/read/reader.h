@@ -1,13 +1,13 @@
 /* Declares the descriptor of a reader, for the binary readers and for the engine of the XML
  * descriptions. Detection never opens a file itself and never relies on the file name.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_READ_READER_H
 #define WT_READ_READER_H
 
 #include "read/metadata.h"
 #include "weartrack/read.h"
+
+#include <string.h>
 
 /* Answers of a detector. */
 typedef enum detector_answer {
@@ -78,13 +78,24 @@ static inline bool reader_is_text(const file_reader *reader)
 
 /* peek_begins: true if the file begins with these bytes. peek_contains: true if the visible part
  * contains them. */
-bool peek_begins(const file_peek *peek, const char *bytes, size_t n);
-bool peek_contains(const file_peek *peek, const char *bytes, size_t n);
+static inline bool peek_begins(const file_peek *peek, const char *bytes, size_t n)
+{
+    return peek->length >= n && memcmp(peek->bytes, bytes, n) == 0;
+}
+
+static inline bool peek_contains(const file_peek *peek, const char *bytes, size_t n)
+{
+    return memmem(peek->bytes, peek->length, bytes, n) != NULL;
+}
 #define PEEK_BEGINS(peek, text) peek_begins(peek, text, sizeof(text) - 1)
 #define PEEK_CONTAINS(peek, text) peek_contains(peek, text, sizeof(text) - 1)
 #define HDF5_SIGNATURE "\211HDF\r\n\032\n"
 /* Returns ANSWER_YES with this score, or ANSWER_NO. */
-recognition recognition_result(bool matches, int score);
+static inline recognition recognition_result(bool matches, int score)
+{
+    return matches ? (recognition){.answer = ANSWER_YES, .score = score}
+                   : (recognition){.answer = ANSWER_NO};
+}
 
 #define READER(id) extern const file_reader reader_##id;
 #include "read/readers.def"

@@ -1,10 +1,10 @@
-/* Begins each read: checks the options and selects the reader of the file.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
+/* Selects the reader of a file and the options of reading. SPDX-License-Identifier:
+ * GPL-3.0-or-later
  */
-#include "core/base/resource_error.h"
+#include "core/base/memory.h"
 #include "read/formats.h"
 #include "read/read_params.h"
+#include "read/reader.h"
 
 #include <math.h>
 #include <string.h>
@@ -53,8 +53,8 @@ static const wt_param rows[] = {
      .unset = "", .help = "temperature of DMA files that say none, such as 20degC"},
     {PARAM_TEXT_OF("temperature-in-name", wt_read_options, temperature_in_name), .value = "PATTERN",
      .unset = "",
-     .help = "where in the names of DMA files that say no temperature it stands, in degrees "
-             "Celsius: # is the number and * anything, such as \"*_#C.txt\"",
+     .help = "where in the names of DMA files, or sheets, that say no temperature it stands, in "
+             "degrees Celsius: # is the number and * anything, such as \"*_#C.txt\"",
      .check = check_name_pattern},
     {PARAM("frequency", wt_read_options, frequency, WT_Q_FREQUENCY, ABOVE(0)), .value = "F",
      .unset = "",
@@ -94,6 +94,7 @@ static const wt_param rows[] = {
      .help = "what tells the samples of DMA sweeps apart: the name that a column or the header "
              "gives, or the file"},
 };
+
 PARAM_TABLE(wt_read_params, wt_read_options, rows, wt_read_defaults, NO_PARTS)
 
 wt_status read_start(const wt_formats *formats, wt_input *input, const wt_read_options *given,

@@ -1,13 +1,12 @@
 /* Unpacks a file that contains another one: the content of a gzip archive, or the data sheet of a
- * spreadsheet as text.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * spreadsheet as text. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "core/base/memory.h"
 #include "read/bytes/input.h"
 #include "read/collection.h"
 #include "read/formats.h"
 #include "read/packed/packed.h"
 #include "read/text/text.h"
+#include "read/text/text_condition.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -41,19 +40,34 @@ static void format_sheet_names(const sheet_choice *c, bool chosen, char *names, 
                                      c->book->sheets[i].name);
 }
 
-static wt_status sheet_input(const sheet_choice *c, size_t i, wt_input **input)
+/* Formats the line above a sheet: the temperature that its name states, or an empty line. */
+static void format_sheet_line(const sheet_choice *c, size_t i, char *line, size_t size)
 {
-    const book_sheet *s = &c->book->sheets[i];
-    char *name = NULL, *copy = malloc(s->length + 1);
-    if (copy == NULL || asprintf(&name, "%s, sheet %s", c->file, s->name) < 0) {
-        free(copy);
-        return wt_fail(c->err, WT_E_MEMORY, "no memory for a sheet");
+    const char *const name = c->book->sheets[i].name, *const pattern =
+                                                          c->options->temperature_in_name;
+    text_condition condition;
+    line[0] = '\0';
+    if ((pattern != NULL && condition_match_name(pattern, name, &condition)) ||
+        condition_read_title((text_span){name, strlen(name)}, &condition))
+        condition_format(&condition, line, size);
+}
+
+/* Writes the chosen sheets, one after the other. */
+static void write_sheets(const sheet_choice *c, char **text, size_t *length)
+{
+    size_t n = 0;
+    FILE *const out = text_stream_open(text, length);
+    for (size_t i = 0; i < c->book->n; i++) {
+        char line[64];
+        if (!c->chosen[i])
+            continue;
+        format_sheet_line(c, i, line, sizeof line);
+        if (line[0] != '\0')
+            fprintf(out, "%s%s\n", n > 0 ? "\n" : "", line);
+        (void)fwrite(c->book->sheets[i].text, 1, c->book->sheets[i].length, out);
+        n++;
     }
-    memcpy(copy, s->text, s->length);
-    copy[s->length] = '\0';
-    const wt_status status = input_from_bytes(copy, s->length, name, input, c->err);
-    free(name);
-    return status;
+    text_stream_close(out);
 }
 
 /* Sets *yes if a reader of the requested kinds recognises the sheet. */
@@ -134,33 +148,22 @@ static wt_status choose_by_content(const sheet_choice *c)
 }
 
 /* Joins the chosen sheets to one text. */
-static wt_status join_sheets(const sheet_choice *c, wt_input **content)
+static wt_input *join_sheets(const sheet_choice *c)
 {
-    char *text = NULL, *name = NULL;
+    char *text = NULL;
     char names[200];
     size_t length = 0, n = 0, one = 0;
     for (size_t i = 0; i < c->book->n; i++) {
         n += c->chosen[i];
         one = c->chosen[i] ? i : one;
     }
-    if (n == 1)
-        return sheet_input(c, one, content);
-    FILE *out = open_memstream(&text, &length);
-    if (out == NULL)
-        return wt_fail(c->err, WT_E_MEMORY, "no memory for the sheets");
-    for (size_t i = 0; i < c->book->n; i++)
-        if (c->chosen[i])
-            (void)fwrite(c->book->sheets[i].text, 1, c->book->sheets[i].length, out);
-    const bool failed = ferror(out) != 0;
+    write_sheets(c, &text, &length);
     format_sheet_names(c, true, names, sizeof names);
-    if (fclose(out) != 0 || failed ||
-        asprintf(&name, "%s, sheets %s one after the other", c->file, names) < 0) {
-        free(text);
-        return wt_fail(c->err, WT_E_MEMORY, "no memory for the sheets");
-    }
-    const wt_status status = input_from_bytes(text, length, name, content, c->err);
+    char *const name = n == 1 ? format_text("%s, sheet %s", c->file, c->book->sheets[one].name)
+                              : format_text("%s, sheets %s one after the other", c->file, names);
+    wt_input *const content = input_from_bytes(text, length, name);
     free(name);
-    return status;
+    return content;
 }
 
 static wt_status choose_sheet(const wt_formats *formats, wt_input *input, const workbook *book,
@@ -172,18 +175,16 @@ static wt_status choose_sheet(const wt_formats *formats, wt_input *input, const 
                             .kinds = kinds,
                             .book = book,
                             .file = wt_input_name(input),
-                            .chosen = calloc(book->n + 1, sizeof(bool)),
+                            .chosen = wt_alloc(book->n, sizeof(bool)),
                             .err = err};
     wt_status status = WT_OK;
-    if (c.chosen == NULL)
-        return wt_fail(err, WT_E_MEMORY, "no memory for the sheets");
     if (book->n == 0)
         status = wt_fail(err, WT_E_EMPTY, "the spreadsheet has no sheet with cells");
     else
         status = options->sheet != NULL && !uses_all_sheets(&c) ? choose_by_name(&c)
                                                                 : choose_by_content(&c);
     if (status == WT_OK)
-        status = join_sheets(&c, content);
+        *content = join_sheets(&c);
     free(c.chosen);
     return status;
 }

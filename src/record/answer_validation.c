@@ -1,7 +1,7 @@
 /* Sentences of the answer that compare measured and predicted friction.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "case/answer/answer_context.h"
-#include "core/base/range_text.h"
+#include "core/base/number.h"
 
 #include <ctype.h>
 #include <math.h>

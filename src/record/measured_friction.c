@@ -196,14 +196,30 @@ size_t measured_group_length(const measured *m, size_t first)
 /* Longer series are replaced by means over equal numbers of cycles, which bounds the work. */
 enum { MOST_MEANS = 1000 };
 
+/* A sample at the start is that of the bare surface at one time, and no mean of a cycle. */
+static double remove_start(recorded_run *r)
+{
+    const double start = r->end[0];
+    r->n--;
+    memmove(r->end, r->end + 1, r->n * sizeof *r->end);
+    memmove(r->friction, r->friction + 1, r->n * sizeof *r->friction);
+    return start;
+}
+
 /* Converts middles of cycles to their ends, half-way to the next. Missing cycles before the first
  * have its duration. */
-static bool convert_midpoints_to_ends(recorded_run *r, double lost)
+static bool convert_midpoints_to_ends(recorded_run *r, double lost, bool from_start)
 {
     double *const t = r->end;
-    const double first = t[1] - t[0], last = t[r->n - 1] - t[r->n - 2];
+    const double first = t[1] - t[0];
+    double start = t[0] - (0.5 + lost) * first;
     r->begin = lost * first;
-    const double start = t[0] - 0.5 * first - r->begin;
+    if (from_start) {
+        start = remove_start(r);
+        r->begin = 0.5 * first;
+    }
+    const double last = t[r->n - 1] - t[r->n - 2];
+    r->unsure = 0.5 * first / fmax(r->samples, 1);
     for (size_t i = 0; i + 1 < r->n; i++) {
         if (!(t[i + 1] > t[i]))
             return false;
@@ -250,13 +266,15 @@ static void read_cycles(const table_view *cycles, recorded_run *r)
         r->friction[r->n++] = friction;
     }
     const double lost = isnan(laps[0]) ? cycles_before(slid) : cycles_before(laps);
+    const bool from_start =
+        r->samples <= 1 && (laps[0] == 0 || slid[0] == 0 || (r->n > 0 && r->end[0] == 0));
     if (r->at.note[0] != '\0')
         r->note = r->at.note;
-    else if (r->n < RUNNING_IN_CURVE_MIN_MEANS)
+    else if (r->n < RUNNING_IN_CURVE_MIN_MEANS + (size_t)from_start)
         r->note = "too few cycles to follow friction in time";
     else if (!timed)
         r->note = "neither time nor distance of its cycles is known";
-    else if (!convert_midpoints_to_ends(r, lost))
+    else if (!convert_midpoints_to_ends(r, lost, from_start))
         r->note = "the times of its cycles do not rise";
 }
 
@@ -285,6 +303,7 @@ recorded_run *recorded_read(const table_view *record, const table_view *cycles,
                             .step = (size_t)record_get(record, row, RECORD_STEP),
                             .end = wt_alloc(cycles->n_rows, sizeof *r->end),
                             .friction = wt_alloc(cycles->n_rows, sizeof *r->friction),
+                            .samples = record_get(record, row, RECORD_SAMPLES),
                             .running_in = record_get(record, row, RECORD_RUNNING_IN),
                             .note = ""};
         read_cycles(cycles, r);
@@ -331,6 +350,7 @@ running_in_series recorded_read_series(const recorded_run *r, double until)
                  length = cycles > 0 ? mean_length(cycles) : 1;
     running_in_series s = running_in_series_alloc(recorded_mean_count(r, until));
     s.begin = r->begin;
+    s.unsure = r->unsure;
     for (size_t i = 0; i < s.n; i++) {
         s.end[i] = r->end[(i + 1) * length - 1];
         for (size_t k = 0; k < length; k++)

@@ -46,6 +46,8 @@ typedef struct recorded_run {
     size_t n, step;    /* cycles; number of the step in its file, from 1 on */
     double begin;      /* start of the first cycle with a friction, from the start of sliding on
                           [s] */
+    double samples;    /* samples in a cycle */
+    double unsure;     /* largest error of the start [s]: half a sample */
     double *end;       /* [n] ends of the cycles, from the start of the step on [s] */
     double *friction;  /* [n] */
     double running_in; /* cycles of running-in, by the scatter alone; NaN if unknown */

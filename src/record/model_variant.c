@@ -3,7 +3,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/base/clocale.h"
 #include "core/math/cholesky.h"
-#include "core/math/normal_quantile.h"
+#include "core/math/students_t.h"
 #include "record/validation.h"
 
 #include <math.h>

@@ -8,40 +8,14 @@
 #include "job/conditioning.h"
 #include "job/cost.h"
 #include "record/numerics/pauses.h"
+#include "record/numerics/steady_state.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 
-/* True if a file is a result of weartrack: a text stream or HDF5. */
-static bool is_stored_record(wt_input *input)
-{
-    static const char *const begins[] = {"\x89HDF\r\n\x1a\n", "## weartrack:"};
-    const unsigned char *bytes = NULL;
-    size_t length = 0;
-    if (wt_input_bytes(input, &bytes, &length, NULL) != WT_OK)
-        return false;
-    for (size_t i = 0; i < sizeof begins / sizeof *begins; i++)
-        if (length >= strlen(begins[i]) && memcmp(bytes, begins[i], strlen(begins[i])) == 0)
-            return true;
-    return false;
-}
-
-/* Copies all columns of a row. */
-static void copy_row(const table_view *from, size_t row, table_writer *t)
-{
-    const table_schema *const schema = from->schema;
-    table_row(t);
-    for (unsigned c = 0; schema->columns[c].name != NULL; c++)
-        if (!view_has_column(from, schema, c))
-            continue;
-        else if (schema->columns[c].kind == SCHEMA_TEXT)
-            writer_text(t, schema, c, view_text(from, schema, row, c));
-        else
-            writer_number(t, schema, c, view_number(from, schema, row, c));
-}
-
+/* Copies all columns of all rows. */
 static wt_status stored_record_copy_rows(const wt_result *result, const table_schema *schema,
                                          table_writer *t, stored_row_callback *each, void *user,
                                          wt_error *err)
@@ -52,7 +26,14 @@ static wt_status stored_record_copy_rows(const wt_result *result, const table_sc
         return status;
     table_block(t);
     for (size_t row = 0; row < view.n_rows; row++) {
-        copy_row(&view, row, t);
+        table_row(t);
+        for (unsigned c = 0; schema->columns[c].name != NULL; c++)
+            if (!view_has_column(&view, schema, c))
+                continue;
+            else if (schema->columns[c].kind == SCHEMA_TEXT)
+                writer_text(t, schema, c, view_text(&view, schema, row, c));
+            else
+                writer_number(t, schema, c, view_number(&view, schema, row, c));
         if (each != NULL)
             each(user, &view, row);
     }
@@ -82,7 +63,7 @@ static const wt_interval not_known = {(double)NAN, (double)NAN, (double)NAN, (do
 TABLE_ROW(record, RECORD, record_conditions at; wt_steady steady;
           wt_interval drift, end, end_time, end_distance; const char *end_note; wt_stick_slip slips;
           double zero, difference, samples, pauses, paused; size_t cycles, step;
-          const char *averaged_over, *note, *file;)
+          const char *averaged_over, *note, *file; steady_decay_kind decay; double left;)
 
 TABLE_ROW(record_cycles, RECORD_CYCLES, wt_cycle cycle; size_t number; bool steady; size_t step;
           const char *file;)
@@ -177,6 +158,23 @@ static void count_pauses(const record_pauses *pauses, const wt_cycle *first, con
     append_note(note, size, words);
 }
 
+static void note_decay(const wt_job *work, const record_row *r, char *note, size_t size)
+{
+    static const char *const words[] = {
+        "", "the plateau of a decay is told",
+        "ends before it is steady: the plateau of its decay is told",
+        "ends before it is steady: the plateau of its decay is not known"};
+    append_note(note, size, words[r->decay]);
+    if (r->decay >= DECAY_GOES_ON)
+        wt_log_add(
+            work->log, WT_WARNING, r->file, NULL,
+            "step %zu ends before friction is steady: it still changes by about %.2g, and %s",
+            r->step, -r->left,
+            r->decay == DECAY_GOES_ON
+                ? "the friction told is the plateau of this decay"
+                : "to which value is not known; the mean of the last part is told");
+}
+
 /* Notes the limitations of a step. */
 static void note_step(const wt_job *work, const wt_cycles *cycles, const record_row *r, char *note,
                       size_t size)
@@ -184,10 +182,11 @@ static void note_step(const wt_job *work, const wt_cycles *cycles, const record_
     char words[160];
     const bool periodic = cycles->kind == WT_CYCLE_LAP || cycles->kind == WT_CYCLE_STROKE;
     append_note(note, size, r->steady.note);
+    note_decay(work, r, note, size);
     if (periodic && cycles->samples < fewest_samples)
         append_note(note, size, "few samples in a cycle: its mean holds a part of its wave");
-    if (isnan(r->end.value) && r->steady.n < r->cycles) { /* no end was found, and yet a part is
-                                                             truncated */
+    if (isnan(r->end.value) && r->steady.n < r->cycles && r->decay < DECAY_GOES_ON) { /* no end was
+                                                             found, and yet a part is truncated */
         append_note(note, size, "not steady: the last tenth is told");
         wt_log_add(work->log, WT_WARNING, r->file, NULL,
                    "friction does not become steady before the last tenth of step %zu, whose "
@@ -202,6 +201,13 @@ static void note_step(const wt_job *work, const wt_cycles *cycles, const record_
         append_note(note, size, "nothing slides in it");
     else if (isnan(r->at.velocity) && !isnan(r->at.rotation))
         append_note(note, size, "velocity not known: give --track-radius");
+    if (fabs(r->zero) > r->steady.mean.value) {
+        clocale_print(words, sizeof words,
+                      "a zero of %.3g above the friction is left out: half the difference of the "
+                      "directions is told",
+                      r->zero);
+        append_note(note, size, words);
+    }
     if (cycles->kind == WT_CYCLE_STROKE && !cycles->has_zero)
         append_note(note, size, "friction has no sign, so that its zero is not known");
 }
@@ -223,10 +229,17 @@ static wt_status measure_step(const wt_record_job *job, const wt_cycles *all, co
     double *const y = wt_alloc(n, sizeof *y);
     for (size_t i = 0; i < n; i++)
         y[i] = cycle[i].coefficient;
-    const running_in_end end = find_running_in_end(job, y, n);
+    running_in_end end = find_running_in_end(job, y, n);
     const size_t from = end.steady_start < n ? end.steady_start : 0;
     const wt_cycle *const steady = cycle + from, *const last = cycle + n - 1;
     const wt_status status = wt_steady_mean(y + from, n - from, &r->steady, err);
+    if (status == WT_OK && job->running_in == WT_RUNNING_IN_LIKELIHOOD &&
+        (r->steady.drift.low * r->steady.drift.high > 0 || from > 0))
+        r->decay = steady_decay_follow(y, n, &r->steady.mean, &r->left);
+    if (r->decay >= DECAY_GOES_ON) {
+        end.cycles = not_known;
+        end.why_not = "it goes on to the end of the record";
+    }
     r->slips = all->kind == WT_CYCLE_STROKE
                    ? (wt_stick_slip){0, (double)NAN, (double)NAN}
                    : wt_stick_slip_find(all->friction + steady->first,
@@ -312,10 +325,10 @@ static void warn_difference(const wt_job *work, const wt_cycles *cycles, const c
     for (size_t i = 0; i < cycles->n; i++)
         sum += cycles->cycle[i].coefficient;
     if (cycles->difference > same_friction * sum / (double)cycles->n)
-        wt_log_add(work->log, WT_WARNING, file, NULL,
-                   "the friction coefficient of the file and its friction force over its load "
-                   "differ by up to %.3g; the first is used",
-                   cycles->difference);
+        wt_log_action(work->log, WT_WARNING, WT_CONTRADICTED, cycles->n, NULL, file, NULL,
+                      "the friction coefficient of the file and its friction force over its load "
+                      "differ by up to %.3g; the first is used",
+                      cycles->difference);
 }
 
 static void warn_pauses(const wt_job *work, const record_pauses *pauses, const char *file)
@@ -324,11 +337,11 @@ static void warn_pauses(const wt_job *work, const record_pauses *pauses, const c
     for (size_t i = 0; i < pauses->n; i++)
         all += pauses->of[i].time;
     if (pauses->n > 0)
-        wt_log_add(work->log, WT_WARNING, file, NULL,
-                   "%zu pause%s of %s%.4g s in mid-record, %s at %.4g s of sliding: no time "
-                   "of sliding, and left out",
-                   pauses->n, pauses->n > 1 ? "s" : "", pauses->n > 1 ? "together " : "", all,
-                   pauses->n > 1 ? "the first" : "behind which it goes on", pauses->of[0].at);
+        wt_log_action(work->log, WT_WARNING, WT_LEFT_OUT, pauses->n, NULL, file, NULL,
+                      "%zu pause%s of %s%.4g s in mid-record, %s at %.4g s of sliding: no time "
+                      "of sliding, and left out",
+                      pauses->n, pauses->n > 1 ? "s" : "", pauses->n > 1 ? "together " : "", all,
+                      pauses->n > 1 ? "the first" : "behind which it goes on", pauses->of[0].at);
     if (pauses->alike > 0)
         wt_log_add(work->log, WT_WARNING, file, NULL,
                    "%zu gaps in the time that are alike are taken for those of a recorder that "
@@ -429,13 +442,21 @@ static wt_status read_stored_record(const wt_job *work, const flow_file *file, r
     return status;
 }
 
-/* A pipe, also a named one, can be read only once. It is treated as a measured record. */
+/* True if a file is a result of weartrack: a text stream or HDF5. A pipe, also a named one, can be
+ * read only once. It is treated as a measured record. */
 static bool is_stored(const flow_file *file)
 {
+    static const char *const begins[] = {"\x89HDF\r\n\x1a\n", "## weartrack:"};
     wt_input *input = NULL;
     struct stat found;
-    const bool stored = stat(file->path, &found) == 0 && S_ISREG(found.st_mode) &&
-                        wt_input_open(file->path, &input, NULL) == WT_OK && is_stored_record(input);
+    const unsigned char *bytes = NULL;
+    size_t length = 0;
+    const bool is_read = stat(file->path, &found) == 0 && S_ISREG(found.st_mode) &&
+                         wt_input_open(file->path, &input, NULL) == WT_OK &&
+                         wt_input_bytes(input, &bytes, &length, NULL) == WT_OK;
+    bool stored = false;
+    for (size_t i = 0; is_read && i < COUNT_OF(begins); i++)
+        stored |= length >= strlen(begins[i]) && memcmp(bytes, begins[i], strlen(begins[i])) == 0;
     wt_input_close(input);
     return stored;
 }
@@ -469,9 +490,9 @@ static wt_status measure_file(const wt_record_job *job, const wt_job *work, flow
         check_friction_coefficient(cycles.cycle[cycles.n / 2].coefficient, file->name, work->log);
         warn_pauses(work, &pauses, file->name);
         if (cycles.n_unloaded > 0)
-            wt_log_add(work->log, WT_WARNING, file->name, NULL,
-                       "%zu of %zu samples are at no load and left out", cycles.n_unloaded,
-                       record.n);
+            wt_log_action(work->log, WT_WARNING, WT_LEFT_OUT, cycles.n_unloaded, NULL, file->name,
+                          NULL, "%zu of %zu samples are at no load and left out", cycles.n_unloaded,
+                          record.n);
         status = add_steps(job, work, &cycles, &pauses, file->name, w, err);
     }
     if (status == WT_OK && wear_is_requested(job))

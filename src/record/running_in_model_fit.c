@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "record/running_in_validation.h"
 
-#include "core/math/normal_quantile.h"
+#include "core/math/students_t.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -78,7 +78,9 @@ static void set_run_values(const run_fit *run, size_t k, double margin, double l
     out[RUN_BELOW_UPPER] = height * (most - ratio);
     out[RUN_RATIO] = ratio;
     out[RUN_PREDICTED] = log(settling_time(g, k));
+    /* of the growth, and of what is before it */
     out[RUN_MEASURED] = out[RUN_TIME_RATIO] + out[RUN_PREDICTED];
+    out[RUN_MEASURED] += log1p(fmax(run->fit.shift / exp(out[RUN_MEASURED]), -0.5));
     /* formation and wear scale with time together, at the same thickness */
     out[RUN_WEAR] = log(growth_quantity_value(g, k, GROWTH_WEAR)) - out[RUN_TIME_RATIO];
     out[RUN_ENERGY] = log(growth_quantity_value(g, k, GROWTH_ENERGY)) + out[RUN_TIME_RATIO];
@@ -92,6 +94,7 @@ static void fit_draws(run_fit *run, double margin)
     const running_in_curve_fit *const fit = &run->fit;
     const running_in_curve nominal = growth_curve(g, 0);
     running_in_series s = recorded_read_series(run->rec, run->until);
+    s.shift = fit->shift;
     const double within = fit->seen ? fmax(errors_around * fit->error, least_around) : 0,
                  centre = fit->seen ? fit->log_factor : 0, settled = log(settling_time(g, 0));
     const running_in_optimum base = running_in_optimum_find(&s, &nominal, fit->law, centre, within);

@@ -3,7 +3,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "record/running_in_validation.h"
 #include "core/base/param.h"
-#include "core/math/normal_quantile.h"
+#include "core/math/students_t.h"
 #include "core/table/table_rows.h"
 #include "friction/sliding_contact.h"
 #include "job/cost.h"
@@ -50,9 +50,10 @@ static void add_running_in_row(const run_fit *run, const running_in_series *s, s
         .measured = {mean, error, mean - half, mean + half},
         .layered = predicted_estimate(run->growth, growth_friction_at, time),
         .bare = predicted_estimate(run->growth, friction_without_layer, time),
-        .fitted = fit->seen ? fit->level +
-                                  fit->ratio * running_in_curve_at(&c, log(time) - fit->log_factor)
-                            : (double)NAN,
+        .fitted = fit->seen
+                      ? fit->level + fit->ratio * running_in_curve_at(&c, log(time - fit->shift) -
+                                                                              fit->log_factor)
+                      : (double)NAN,
         .file = run->rec->at.file};
     validation_course_add_row(t, &row);
 }

@@ -4,7 +4,7 @@
 #include "record/validation.h"
 
 #include "core/base/clocale.h"
-#include "core/math/normal_quantile.h"
+#include "core/math/students_t.h"
 #include "job/random_draws.h"
 
 #include <math.h>

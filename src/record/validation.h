@@ -3,7 +3,7 @@
 #ifndef WT_RECORD_VALIDATION_H
 #define WT_RECORD_VALIDATION_H
 
-#include "core/base/range_text.h"
+#include "core/base/number.h"
 #include "friction/replicates.h"
 #include "record/measured_friction.h"
 #include "record/numerics/agreement.h"

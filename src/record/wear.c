@@ -4,7 +4,7 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/base/array.h"
-#include "core/math/normal_quantile.h"
+#include "core/math/students_t.h"
 #include "core/table/table_rows.h"
 #include "job/height_input.h"
 #include "record/record.h"

@@ -77,9 +77,8 @@ int drawing_section(figure_drawing *d, const table_view *table, const char *titl
             continue;
         size_t block = wt_table_block(table->table, row);
         if (!first && block != last_block)
-            d->status = wt_table_new_block(section, d->err);
-        if (d->status == WT_OK)
-            d->status = wt_table_add_row(section, d->err);
+            wt_table_new_block(section);
+        d->status = wt_table_add_row(section, d->err);
         if (d->status != WT_OK)
             break;
         first = false;

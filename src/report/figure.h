@@ -73,6 +73,18 @@ typedef struct figure_description {
     void (*caption)(struct figure_drawing *d); /* extends the caption; NULL: nothing */
 } figure_description;
 
+/* Sections of the page, one for each subject. */
+typedef enum page_section {
+    SECTION_INDENTATION,
+    SECTION_MATERIAL,
+    SECTION_SURFACE,
+    SECTION_FRICTION,
+    SECTION_LAYER,
+    SECTION_COLLECTION,
+    SECTION_UNCERTAINTY,
+    PAGE_SECTIONS
+} page_section;
+
 /* Figures in the order of the page; each list ends with a row without a name. */
 extern const figure_description figures_indentation[], figures_curves[], figures_spot[],
     figures_surface[], figures_materials[], figures_master[], figures_dma[], figures_payne[],
@@ -80,6 +92,7 @@ extern const figure_description figures_indentation[], figures_curves[], figures
     figures_layer[], figures_existence[], figures_what_if[], figures_accuracy[],
     figures_collection[], figures_constants[];
 const figure_description *figure_find(size_t i); /* NULL past the last one */
+page_section figure_section(size_t i);           /* PAGE_SECTIONS past the last one */
 
 /* Draws the modulus map of each group whose curves are on a grid. */
 void draw_modulus_map(struct figure_drawing *d);

@@ -3,21 +3,53 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "report/figure.h"
 
+#include "core/base/array.h"
 #include "weartrack/report.h"
 
-const figure_description *figure_find(size_t i)
+typedef struct figure_list {
+    const figure_description *figures; /* ends with a row without a name */
+    page_section section;
+} figure_list;
+
+static const figure_list lists[] = {{figures_indentation, SECTION_INDENTATION},
+                                    {figures_curves, SECTION_INDENTATION},
+                                    {figures_spot, SECTION_INDENTATION},
+                                    {figures_surface, SECTION_SURFACE},
+                                    {figures_materials, SECTION_MATERIAL},
+                                    {figures_master, SECTION_MATERIAL},
+                                    {figures_dma, SECTION_INDENTATION},
+                                    {figures_payne, SECTION_MATERIAL},
+                                    {figures_friction, SECTION_FRICTION},
+                                    {figures_friction_maps, SECTION_FRICTION},
+                                    {figures_record, SECTION_FRICTION},
+                                    {figures_validation, SECTION_FRICTION},
+                                    {figures_layer, SECTION_LAYER},
+                                    {figures_existence, SECTION_LAYER},
+                                    {figures_what_if, SECTION_UNCERTAINTY},
+                                    {figures_collection, SECTION_COLLECTION},
+                                    {figures_constants, SECTION_COLLECTION},
+                                    {figures_accuracy, SECTION_UNCERTAINTY}};
+
+/* Returns the figure, and the list that has it. */
+static const figure_description *find_in_lists(size_t i, const figure_list **list)
 {
-    static const figure_description *const lists[] = {
-        figures_indentation, figures_curves,        figures_spot,    figures_surface,
-        figures_materials,   figures_master,        figures_dma,     figures_payne,
-        figures_friction,    figures_friction_maps, figures_record,  figures_validation,
-        figures_layer,       figures_existence,     figures_what_if, figures_collection,
-        figures_constants,   figures_accuracy};
-    for (size_t list = 0; list < sizeof lists / sizeof *lists; list++)
-        for (const figure_description *figure = lists[list]; figure->name != NULL; figure++)
+    for (*list = lists; *list < lists + COUNT_OF(lists); ++*list)
+        for (const figure_description *figure = (*list)->figures; figure->name != NULL; figure++)
             if (i-- == 0)
                 return figure;
     return NULL;
+}
+
+const figure_description *figure_find(size_t i)
+{
+    const figure_list *list;
+    return find_in_lists(i, &list);
+}
+
+page_section figure_section(size_t i)
+{
+    const figure_list *list;
+    return find_in_lists(i, &list) != NULL ? list->section : PAGE_SECTIONS;
 }
 
 size_t wt_figure_count(void)

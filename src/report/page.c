@@ -8,6 +8,7 @@
 #include "report/report_files.h"
 #include "report/svg.h"
 
+#include <stdio.h>
 #include <string.h>
 
 static void page_head(const page_writer *page, text_buffer *out, const char *title)
@@ -32,57 +33,41 @@ static void page_head(const page_writer *page, text_buffer *out, const char *tit
     text_add(out, "</ul>\n</nav>\n</header>\n");
 }
 
-/* Writes the folded rows from `row` on; returns the row after them. */
-static size_t write_folded_answers(page_writer *page, size_t row)
-{
-    const table_view *table = &page->tables->answer;
-    size_t end = row;
-    while (end < table->n_rows && answer_enum(table, end, ANSWER_KIND) == ANSWER_KIND_FOLDED)
-        end++;
-    if (end == row)
-        return end;
-    text_add(&page->out, "<details class=\"printed\">\n<summary>");
-    text_format(&page->out, "%zu more", end - row);
-    text_add(&page->out, "</summary>\n");
-    for (; row < end; row++)
-        text_html(&page->out, "<p>%s</p>\n", answer_text(table, row, ANSWER_ANSWER));
-    text_add(&page->out, "</details>\n");
-    return end;
-}
-
-/* Writes the answers. Those to one question share a heading; caveats are in a second column if
- * there is space. Below the cards, which tell the result, they are folded. */
-static void page_answer(page_writer *page, bool folded)
+/* Writes the answers to the first question, which tell the result, where it has no cards. */
+static void page_short_answer(page_writer *page)
 {
     const table_view *table = &page->tables->answer;
     if (table->n_rows == 0)
         return;
-    page_heading(page, "answer", "Answer");
-    if (folded)
-        text_add(&page->out, "<details class=\"printed\">\n<summary>The answer in full, with its "
-                             "limits</summary>\n");
-    text_add(&page->out, "<div class=\"answers\">\n<div>\n");
+    text_html(&page->out, "<section class=\"answer\">\n<h3>%s</h3>\n",
+              answer_text(table, 0, ANSWER_QUESTION));
+    for (size_t row = 0; row < table->n_rows && strcmp(answer_text(table, row, ANSWER_QUESTION),
+                                                       answer_text(table, 0, ANSWER_QUESTION)) == 0;
+         row++)
+        text_html(&page->out, "<p>%s</p>\n", answer_text(table, row, ANSWER_ANSWER));
+    text_add(&page->out, "</section>\n");
+}
+
+/* Writes the answer in full, folded. Sentences on one question share a heading. */
+static void page_answer(page_writer *page)
+{
+    const table_view *table = &page->tables->answer;
     const char *question = NULL;
-    bool beside = false;
-    for (size_t row = 0; row < table->n_rows;) {
+    if (table->n_rows == 0)
+        return;
+    page_fold(page, "answer", "The answer in full", PAGE_UNPRINTED);
+    text_add(&page->out, "<div class=\"answers\">\n");
+    for (size_t row = 0; row < table->n_rows; row++) {
         const char *next = answer_text(table, row, ANSWER_QUESTION);
         if (question == NULL || strcmp(question, next) != 0) {
-            bool caveat = answer_enum(table, row, ANSWER_KIND) == ANSWER_KIND_CAVEAT;
             text_add(&page->out, question == NULL ? "" : "</section>\n");
-            text_add(&page->out, caveat && !beside ? "</div>\n<div>\n" : "");
-            beside = beside || caveat;
-            text_html(&page->out, "<section class=\"%s\">\n<h3>%s</h3>\n",
-                      caveat ? "answer caveat" : "answer", next);
+            text_html(&page->out, "<section class=\"answer\">\n<h3>%s</h3>\n", next);
             question = next;
         }
-        const size_t end = write_folded_answers(page, row);
-        if (end == row)
-            text_html(&page->out, "<p>%s</p>\n", answer_text(table, row++, ANSWER_ANSWER));
-        else
-            row = end;
+        text_html(&page->out, "<p>%s</p>\n", answer_text(table, row, ANSWER_ANSWER));
     }
-    text_add(&page->out, "</section>\n</div>\n</div>\n");
-    text_add(&page->out, folded ? "</details>\n" : "");
+    text_add(&page->out, "</section>\n</div>\n");
+    page_fold_end(page);
 }
 
 /* Adds a download link with the content of a file. */
@@ -96,7 +81,7 @@ static void add_file(page_writer *page, const char *name, const char *ending,
 
 /* Largest data of one figure in the page [byte], as the page must be small enough to mail. Larger
  * data are only in the folder. */
-static const size_t data_limit = (size_t)128 << 10;
+static const size_t data_limit = (size_t)4 << 10;
 
 static void add_figure_source(page_writer *page, const drawn_figure *drawn)
 {
@@ -121,8 +106,10 @@ static wt_status add_figure(page_writer *page, const drawn_figure *drawn, size_t
     const figure_description *figure = drawn->drawing.figure;
     text_html(&page->out, "<figure id=\"figure-%s\" class=\"%s\">\n<div class=\"card\">",
               figure->name, drawing_is_wide(&drawn->drawing) ? "wide" : "single");
-    if (!svg_append_inline(&page->out, text_string(&drawn->svg), drawn->svg.length, figure->name,
-                           figure->title)) {
+    char id[16]; /* short, as each symbol of the figure repeats it */
+    snprintf(id, sizeof id, "f%zu", number);
+    if (!svg_append_inline(&page->out, text_string(&drawn->svg), drawn->svg.length, id,
+                           figure->title, &page->symbols)) {
         wt_status status =
             wt_fail(err, WT_E_TOOL, "the picture of figure %s is not SVG", figure->name);
         wt_error_advice(err, "a plot style must use `set terminal svg`");
@@ -130,58 +117,100 @@ static wt_status add_figure(page_writer *page, const drawn_figure *drawn, size_t
     }
     text_add(&page->out, "</div>\n<figcaption><strong>");
     text_format(&page->out, "Figure %zu. ", number);
-    text_html(&page->out, "%s.</strong> %s", figure->title, text_string(&drawn->drawing.caption));
+    text_html(&page->out,
+              "%s.</strong>\n<details><summary>What it shows, data and script</summary>\n"
+              "<p>%s</p>\n<p>",
+              figure->title, text_string(&drawn->drawing.caption));
     add_figure_source(page, drawn);
-    text_add(&page->out, "</figcaption>\n</figure>\n");
+    text_add(&page->out, "</p>\n</details>\n</figcaption>\n</figure>\n");
     return WT_OK;
 }
 
-/* Adds the main or the folded figures; *number continues counting. */
-static wt_status add_figures(page_writer *page, bool in_depth, size_t *number, wt_error *err)
+/* True if figure i is drawn, belongs to the section, and is a main or a folded one. */
+static bool is_of_section(const page_writer *page, size_t i, page_section section, bool in_depth)
+{
+    return page->figures[i].svg.length > 0 && figure_section(i) == section &&
+           page->figures[i].drawing.figure->in_depth == in_depth;
+}
+
+static size_t count_figures(const page_writer *page, page_section section, bool in_depth)
+{
+    size_t n = 0;
+    for (size_t i = 0; i < page->n_figures; i++)
+        n += is_of_section(page, i, section, in_depth);
+    return n;
+}
+
+/* Adds the main or the folded figures of a section; *number continues counting. */
+static wt_status add_figures(page_writer *page, page_section section, bool in_depth, size_t *number,
+                             wt_error *err)
 {
     wt_status status = WT_OK;
+    if (count_figures(page, section, in_depth) == 0)
+        return WT_OK;
     text_add(&page->out, "<div class=\"figures\">\n");
     for (size_t i = 0; i < page->n_figures && status == WT_OK; i++)
-        if (page->figures[i].svg.length > 0 &&
-            page->figures[i].drawing.figure->in_depth == in_depth)
+        if (is_of_section(page, i, section, in_depth))
             status = add_figure(page, &page->figures[i], ++*number, err);
     text_add(&page->out, "</div>\n");
     return status;
 }
 
-static void add_missing_figures(page_writer *page)
+static void add_missing_figures(page_writer *page, page_section section)
 {
     for (size_t i = 0; i < page->n_figures; i++) {
         const figure_description *figure = page->figures[i].drawing.figure;
-        if (figure != NULL && page->figures[i].svg.length == 0 && figure->empty_reason != NULL)
+        if (figure != NULL && page->figures[i].svg.length == 0 && figure->empty_reason != NULL &&
+            figure_section(i) == section)
             text_html(&page->out, "<p class=\"omitted\">Not drawn: %s – %s.</p>\n", figure->title,
                       figure->empty_reason);
     }
 }
 
-static wt_status page_figures(page_writer *page, wt_error *err)
+/* Writes a section: its main numbers and figures, then its further figures, folded. */
+static wt_status page_section_write(page_writer *page, page_section section, size_t *number,
+                                    wt_error *err)
+{
+    static const struct {
+        const char *id, *heading, *more_id;
+    } about[PAGE_SECTIONS] = {
+        [SECTION_INDENTATION] = {"indentation", "Indentation", "more-indentation"},
+        [SECTION_MATERIAL] = {"material", "Material", "more-material"},
+        [SECTION_SURFACE] = {"surface", "Surface", "more-surface"},
+        [SECTION_FRICTION] = {"friction", "Friction", "more-friction"},
+        [SECTION_LAYER] = {"layer", "Layer", "more-layer"},
+        [SECTION_COLLECTION] = {"collection", "Collection", "more-collection"},
+        [SECTION_UNCERTAINTY] = {"uncertainty", "Uncertainty", "more-uncertainty"}};
+    text_buffer before = page->out;
+    page->out = (text_buffer){.failed = before.failed};
+    page_numbers(page, section);
+    wt_status status = add_figures(page, section, false, number, err);
+    add_missing_figures(page, section);
+    const size_t n_more = count_figures(page, section, true);
+    if (status == WT_OK && n_more > 0) {
+        text_format(&page->out, "<details class=\"part unprinted\" id=\"%s\">\n",
+                    about[section].more_id);
+        text_format(&page->out, "<summary>%zu more figure%s</summary>\n<div>\n", n_more,
+                    n_more == 1 ? "" : "s");
+        status = add_figures(page, section, true, number, err);
+        text_add(&page->out, "</div>\n</details>\n");
+    }
+    text_buffer content = page->out;
+    page->out = before;
+    if (content.length > 0) {
+        page_heading(page, about[section].id, about[section].heading);
+        text_bytes(&page->out, text_string(&content), content.length);
+    }
+    text_free_part(&content, &page->out);
+    return status;
+}
+
+static wt_status page_sections(page_writer *page, wt_error *err)
 {
     wt_status status = WT_OK;
-    size_t number = 0, n = 0, drawn[2] = {0, 0};
-    for (size_t i = 0; i < page->n_figures; i++) {
-        const figure_description *figure = page->figures[i].drawing.figure;
-        n += figure != NULL;
-        if (figure != NULL && page->figures[i].svg.length > 0)
-            drawn[figure->in_depth]++;
-    }
-    if (n == 0)
-        return WT_OK;
-    page_heading(page, "figures", "Figures");
-    if (drawn[false] > 0)
-        status = add_figures(page, false, &number, err);
-    add_missing_figures(page);
-    if (status == WT_OK && drawn[true] > 0) {
-        if (drawn[false] > 0)
-            page_fold(page, "more-figures", "More figures", PAGE_UNPRINTED);
-        status = add_figures(page, true, &number, err);
-        if (drawn[false] > 0)
-            page_fold_end(page);
-    }
+    size_t number = 0;
+    for (int section = 0; section < PAGE_SECTIONS && status == WT_OK; section++)
+        status = page_section_write(page, (page_section)section, &number, err);
     if (number > 0) {
         text_add(&page->out, "<p class=\"source\">");
         text_add(&page->out, "The scripts are of gnuplot, and load ");
@@ -224,12 +253,13 @@ wt_status page_write(page_writer *page, wt_error *err)
 {
     // The body comes first, as the table of contents depends on it.
     text_buffer body = {0};
-    const bool has_cards = page_cards(page);
-    page_answer(page, has_cards);
+    if (!page_cards(page))
+        page_short_answer(page);
     page_failures(page);
-    page_numbers(page);
-    wt_status status = page_figures(page, err);
+    page_summary(page);
+    wt_status status = page_sections(page, err);
     if (status == WT_OK) {
+        page_answer(page);
         page_results(page);
         page_indentation(page);
         page_inputs(page);

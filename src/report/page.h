@@ -4,7 +4,9 @@
 #ifndef WT_REPORT_PAGE_H
 #define WT_REPORT_PAGE_H
 
+#include "core/table/result_value.h"
 #include "report/drawing.h"
+#include "report/svg.h"
 
 /* A figure of the library, drawn or not. */
 typedef struct drawn_figure {
@@ -20,6 +22,7 @@ typedef struct page_writer {
     const text_buffer *style; /* style that the scripts load */
     const char *font;         /* font of the figures; NULL: that of the style */
     bool with_provenance;
+    svg_symbols symbols; /* of all figures */
     const drawn_figure *figures;
     size_t n_figures;
 } page_writer;
@@ -29,14 +32,19 @@ wt_status page_write(page_writer *page, wt_error *err) WT_NODISCARD;
 
 /* ---- parts; each is empty without its tables ---------------------------------------------------
  */
-bool page_cards(page_writer *page);       /* findings; false if there is none */
-void page_numbers(page_writer *page);     /* main numbers */
+bool page_cards(page_writer *page);   /* findings; false if there is none */
+void page_summary(page_writer *page); /* remedies, limits, data used */
+/* Main numbers of one section; nothing if the result has none. */
+void page_numbers(page_writer *page, page_section section);
 void page_results(page_writer *page);     /* result tables */
 void page_indentation(page_writer *page); /* conditions of indentation, rejected curves */
 void page_failures(page_writer *page);    /* failed files and stages */
 void page_inputs(page_writer *page);      /* inputs, notes */
 void page_cost(page_writer *page);
 void page_record(page_writer *page); /* case file, provenance */
+
+/* Unit in which the value of a finding is shown. A relative change is shown in percent. */
+display_unit select_finding_unit(const result_value *f);
 
 /* ---- shared by the parts ------------------------------------------------------------------------
  */

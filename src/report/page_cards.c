@@ -9,7 +9,7 @@
 #include <string.h>
 
 /* A ratio without a unit that has the neutral value 0 is a relative change and shown in percent. */
-static display_unit card_unit(const result_value *f)
+display_unit select_finding_unit(const result_value *f)
 {
     if (f->neutral == 0)
         return (display_unit){.factor = 100, .offset = 0, .label = "%"};
@@ -38,7 +38,7 @@ static void write_bar(page_writer *page, const char *name, const char *class, co
     double left = 0, right = 0;
     if (!isfinite(low) || !isfinite(high) || !isfinite(f->number.value))
         return;
-    const display_unit lab = card_unit(f);
+    const display_unit lab = select_finding_unit(f);
     const int digits = result_value_digits(f->number.value, low, high);
     bar_axis(f, &left, &right);
     text_html(&page->out, "<div><dt>%s</dt><dd class=\"limits\">", name);
@@ -71,7 +71,7 @@ static void write_card(page_writer *page, const finding *f)
         text_html(&page->out, " <span class=\"basis\">%s</span>", finding_basis_text(f->basis));
     text_add(&page->out, "</p>\n");
     if (!isnan(value->number.value) && !isnan(value->low)) {
-        const display_unit lab = card_unit(value);
+        const display_unit lab = select_finding_unit(value);
         text_format(&page->out, "<p class=\"number\">%s <span class=\"unit\">%s</span></p>\n<dl>\n",
                     NUMBER(to_display_value(&lab, value->number.value), 3),
                     f->question == FINDING_TRACK_DIFFERS ? "modulus of the track over bulk"
@@ -87,6 +87,10 @@ static void write_card(page_writer *page, const finding *f)
     if (value->range.widest != NULL)
         text_html(&page->out, "<p class=\"widest\">Widest model choice: %s.</p>\n",
                   value->range.widest);
+    text_html(&page->out, "<p><a href=\"#%s\">Why</a></p>\n",
+              f->question == FINDING_TRACK_DIFFERS     ? "indentation"
+              : f->question == FINDING_LAYER_THICKNESS ? "layer"
+                                                       : "friction");
     text_add(&page->out, "</section>\n");
 }
 

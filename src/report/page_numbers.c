@@ -167,28 +167,41 @@ static void write_transition_rows(page_writer *page, const result_value_tables *
     text_free_part(&remark, &page->out);
 }
 
-void page_numbers(page_writer *page)
+/* True if the result has a table with main numbers of the section. */
+static bool has_numbers(const figure_tables *t, page_section section)
+{
+    switch (section) {
+    case SECTION_INDENTATION:
+        return t->comparison.table != NULL || t->modulus_groups.table != NULL;
+    case SECTION_MATERIAL:
+        return t->shift_factors.table != NULL || t->glass_transition.table != NULL;
+    case SECTION_FRICTION:
+        return t->friction.table != NULL;
+    case SECTION_LAYER:
+        return t->layer.table != NULL;
+    default:
+        return false;
+    }
+}
+
+void page_numbers(page_writer *page, page_section section)
 {
     const figure_tables *t = page->tables;
-    if (t->comparison.table == NULL && t->modulus_groups.table == NULL &&
-        t->shift_factors.table == NULL && t->glass_transition.table == NULL &&
-        t->friction.table == NULL && t->layer.table == NULL)
-        return;
     result_value_tables found;
-    if (result_values_bind(page->result, &found, NULL) != WT_OK)
+    if (!has_numbers(t, section) || result_values_bind(page->result, &found, NULL) != WT_OK)
         return; /* figure_tables_bind has reported this error */
-    page_heading(page, "numbers", "Numbers");
-    page_estimates_begin(page,
-                         "Main results. Statistical error: one standard error, or the "
-                         "interval stated; numerical error: of the computation",
-                         true);
-    write_ratio_row(page, &found);
-    write_group_rows(page, &found);
-    write_law_rows(page, &found);
-    write_transition_rows(page, &found);
-    write_reference_rows(page, &found);
-    write_largest_friction_row(page);
-    headline_rows(page, &found, &t->layer, LAYER_KEY_BALANCE_THICKNESS,
-                  "where formation and wear are equally fast");
+    page_estimates_begin(page, "Main numbers; ±: one standard error", true);
+    if (section == SECTION_INDENTATION) {
+        write_ratio_row(page, &found);
+        write_group_rows(page, &found);
+    } else if (section == SECTION_MATERIAL) {
+        write_law_rows(page, &found);
+        write_transition_rows(page, &found);
+    } else if (section == SECTION_FRICTION) {
+        write_reference_rows(page, &found);
+        write_largest_friction_row(page);
+    } else
+        headline_rows(page, &found, &t->layer, LAYER_KEY_BALANCE_THICKNESS,
+                      "where formation and wear are equally fast");
     page_table_end(page);
 }

@@ -105,8 +105,8 @@ wt_status read_style(const char *style, text_buffer *text, wt_error *err)
     const char *name = style != NULL ? style : "paper", *built_in = NULL;
     size_t length = strlen(name);
     if (strchr(name, '/') != NULL || (length > 3 && strcmp(name + length - 3, ".gp") == 0)) {
-        wt_status read = wt_protect_input(name, err);
-        return read != WT_OK ? read : read_whole_file(name, STYLE_LIMIT, text, err);
+        wt_protect_input(name);
+        return read_whole_file(name, STYLE_LIMIT, text, err);
     }
     wt_status status = find_built_in_style(name, &built_in, err);
     if (status != WT_OK)

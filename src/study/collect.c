@@ -6,7 +6,7 @@
 #include "core/base/array.h"
 #include "core/base/clocale.h"
 #include "core/base/equivalence_margin.h"
-#include "core/math/normal_quantile.h"
+#include "core/math/students_t.h"
 #include "core/table/table_rows.h"
 
 #include <math.h>

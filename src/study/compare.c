@@ -6,7 +6,7 @@
 #include "core/base/clocale.h"
 #include "core/base/equivalence_margin.h"
 #include "core/base/param.h"
-#include "core/math/normal_quantile.h"
+#include "core/math/students_t.h"
 #include "core/table/table_rows.h"
 #include "dma/rubber.h"
 #include "indentation/calibration_errors.h"
@@ -192,13 +192,13 @@ static wt_interval summary_interval(const wt_group_summary *s)
     return (wt_interval){s->geometric_mean, (double)NAN, s->low, s->high};
 }
 
-static void group_row(table_writer *t, const char *name, const wt_group *group)
+static void group_row(table_writer *t, const char *name, const wt_group_data *d)
 {
     const double none = (double)NAN;
     wt_group_summary s = {0, 0, 0, none, none, none, none, none, none, none, none};
-    if (group->n > 0 && t->status == WT_OK)
-        t->status = wt_group_summarise(group, &s, t->err);
-    TABLE_ADD(modulus_groups, t, name, *group, s, summary_interval(&s));
+    if (d->group.n > 0 && t->status == WT_OK)
+        t->status = modulus_budget_interval(d, &s, t->err);
+    TABLE_ADD(modulus_groups, t, name, d->group, s, summary_interval(&s));
 }
 
 /* Returns the group name of an indentation table. */
@@ -219,7 +219,7 @@ wt_status wt_modulus_groups_table(const wt_table *const *indentation, size_t n, 
         wt_group_data data = {0};
         if (t.status == WT_OK)
             t.status = wt_group_from_table(indentation[i], false, &data, err);
-        group_row(&t, group_name(indentation[i]), &data.group);
+        group_row(&t, group_name(indentation[i]), &data);
         wt_group_data_clear(&data);
     }
     return table_end(&t, result);
@@ -252,7 +252,7 @@ static wt_status make_groups_table(const compare_pair *p, wt_table **table, wt_e
     table_writer t = table_begin(&modulus_groups_schema, err);
     for (int g = 0; g < 2; g++)
         if (p->present[g])
-            group_row(&t, compare_group_name[g], &p->data[g].group);
+            group_row(&t, compare_group_name[g], &p->data[g]);
     return table_end(&t, table);
 }
 

@@ -130,14 +130,34 @@ static bool compares_factors(const wt_compare_job *job, const compare_pair *p)
     return all;
 }
 
+/* Replaces the assumed errors of a group by those that the job states. */
+static void replace_assumed_errors(const wt_compare_job *job, wt_group_data *d)
+{
+    const double stated[] = {[WT_SYSTEMATIC_SPRING_CONSTANT] = job->lever_error,
+                             [WT_SYSTEMATIC_SENSITIVITY] = job->sensitivity_error};
+    for (size_t i = 0; i < COUNT_OF(stated); i++)
+        if (stated[i] > 0 && d->assumed_error[i] > 0) {
+            d->common_error[i] = stated[i];
+            d->assumed_error[i] = (double)NAN;
+        }
+    double *const angle = &d->assumed_error[WT_SYSTEMATIC_HALF_ANGLE],
+                  *const radius = &d->assumed_error[WT_SYSTEMATIC_RADIUS];
+    if (job->tip_error > 0 && (*angle > 0 || *radius > 0)) {
+        d->tip_error = job->tip_error;
+        *angle = *radius = (double)NAN;
+    }
+}
+
 wt_status compare_read_groups(const wt_compare_job *job, compare_pair *p, wt_error *err)
 {
     const wt_table *given[2] = {job->bulk, job->track};
     wt_status status = WT_OK;
     for (int g = 0; status == WT_OK && g < 2; g++) {
         p->present[g] = given[g] != NULL;
-        if (p->present[g])
+        if (p->present[g]) {
             status = wt_group_from_table(given[g], job->map_spots, &p->data[g], err);
+            replace_assumed_errors(job, &p->data[g]);
+        }
         p->data[g].group.spot_scatter = sqrt(log1p(job->spot_scatter * job->spot_scatter));
     }
     if (status == WT_OK)
@@ -372,7 +392,11 @@ static void read_shared_inputs(const table_view *t, wt_group_data *d)
                               gain = (indentation_key)(INDENTATION_KEY_LEVER_GAIN + i);
         d->common_error[i] = indentation_value(t, error).value;
         d->common_gain[i] = indentation_value(t, gain);
+        d->assumed_error[i] =
+            indentation_value(t, (indentation_key)(INDENTATION_KEY_LEVER_ERROR_ASSUMED + i)).value;
     }
+    d->tip_error = (double)NAN;
+    d->range_error = shown_key_error(t, INDENTATION_KEY_RANGE_ERROR);
     d->loss_error = shown_key_error(t, INDENTATION_KEY_LOSS_ERROR);
     d->bend_error = shown_key_error(t, INDENTATION_KEY_BEND_ERROR);
     d->misfit_error = shown_key_error(t, INDENTATION_KEY_MISFIT_ERROR);

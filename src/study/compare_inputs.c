@@ -53,9 +53,10 @@ static bool has_two_cantilevers(const compare_pair *p, wt_cantilever_sharing lev
            fabs(track - bulk) > 1e-9 * fabs(bulk);
 }
 
-/* Relative error of one source and the gain of ln E; NaN if not stated. */
+/* Relative error of one source, stated or assumed, and the gain of ln E; NaN if there is none. */
 typedef struct calibration_error {
     double error, gain;
+    bool is_stated;
 } calibration_error;
 
 static calibration_error group_calibration(const wt_group_data *d, const wt_compare_job *job,
@@ -71,9 +72,12 @@ static calibration_error group_calibration(const wt_group_data *d, const wt_comp
                                                  [WT_SYSTEMATIC_SENSITIVITY] = d->sensitivity_gain,
                                                  [WT_SYSTEMATIC_HALF_ANGLE] = (double)NAN,
                                                  [WT_SYSTEMATIC_RADIUS] = (double)NAN};
-    calibration_error c = {d->common_error[source], d->common_gain[source].value};
+    calibration_error c = {d->common_error[source], d->common_gain[source].value, true};
     if (!(c.error > 0))
         c.error = stated[source] > 0 ? stated[source] : given[source];
+    c.is_stated = c.error > 0;
+    if (!c.is_stated && d->assumed_error[source] > 0)
+        c.error = d->assumed_error[source];
     if (isnan(c.gain))
         c.gain = usual[source];
     return c;
@@ -82,7 +86,9 @@ static calibration_error group_calibration(const wt_group_data *d, const wt_comp
 static bool has_tip_error(const wt_group_data *d)
 {
     return d->common_error[WT_SYSTEMATIC_HALF_ANGLE] > 0 ||
-           d->common_error[WT_SYSTEMATIC_RADIUS] > 0;
+           d->common_error[WT_SYSTEMATIC_RADIUS] > 0 ||
+           d->assumed_error[WT_SYSTEMATIC_HALF_ANGLE] > 0 ||
+           d->assumed_error[WT_SYSTEMATIC_RADIUS] > 0;
 }
 
 static void cancel_error(comparison_inputs *k, const char *words)
@@ -97,8 +103,10 @@ static void add_calibration_error(const compare_pair *p, const wt_compare_job *j
                                   wt_systematic_source source, bool separate, const char *words,
                                   comparison_inputs *k)
 {
-    const calibration_error bulk = group_calibration(&p->data[0], job, source),
-                            track = group_calibration(&p->data[1], job, source);
+    calibration_error bulk = group_calibration(&p->data[0], job, source),
+                      track = group_calibration(&p->data[1], job, source);
+    if (!separate && bulk.is_stated != track.is_stated) /* one source: what is stated of it holds */
+        (bulk.is_stated ? &track : &bulk)->error = (double)NAN;
     const double of_bulk = bulk.error > 0 ? bulk.gain * bulk.error : 0,
                  of_track = track.error > 0 ? track.gain * track.error : 0;
     if (separate) {
@@ -140,7 +148,7 @@ static void add_calibration_errors(const compare_pair *p, const wt_compare_job *
     if (!k->has_two_cantilevers)
         return;
     for (int g = 0; g < 2; g++)
-        if (!(group_calibration(&p->data[g], job, WT_SYSTEMATIC_SPRING_CONSTANT).error > 0))
+        if (!group_calibration(&p->data[g], job, WT_SYSTEMATIC_SPRING_CONSTANT).is_stated)
             k->lacks_spring_constant_error = true;
 }
 
@@ -148,23 +156,27 @@ static void add_calibration_errors(const compare_pair *p, const wt_compare_job *
  * shape are shared by both groups. The spectra of bulk and track may differ. */
 static void add_curve_errors(const compare_pair *p, comparison_inputs *k)
 {
-    double loss[2], bend[2], misfit[2];
+    double loss[2], bend[2], misfit[2], range[2];
     for (int g = 0; g < 2; g++) {
         const wt_group_data *d = &p->data[g];
         loss[g] = p->by_factor ? 0 : d->loss_error;
         bend[g] = d->bend_error;
         misfit[g] = d->misfit_error;
+        range[g] = d->range_error;
     }
     const double of_loss = hypot(loss[0], loss[1]),
                  of_bend =
                      k->has_two_cantilevers ? hypot(bend[0], bend[1]) : fabs(bend[1] - bend[0]),
                  of_misfit = k->has_two_cantilevers ? hypot(misfit[0], misfit[1])
-                                                    : fabs(misfit[1] - misfit[0]);
-    k->loss_and_curvature_error = hypot(hypot(of_loss, of_bend), of_misfit);
+                                                    : fabs(misfit[1] - misfit[0]),
+                 of_range =
+                     k->has_two_cantilevers ? hypot(range[0], range[1]) : fabs(range[1] - range[0]);
+    k->loss_and_curvature_error = hypot(hypot(of_loss, of_bend), hypot(of_misfit, of_range));
     k->lacks_loss_effect = isnan(of_loss);
     add_offset_error(k, of_loss, "loss of unknown spectrum");
     add_offset_error(k, of_bend, "bend of the baselines");
     add_offset_error(k, of_misfit, "misfit of the contact law");
+    add_offset_error(k, of_range, "range of the fit");
 }
 
 /* ---- temperature and rate -------------------------------------------------------------------- */

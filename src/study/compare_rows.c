@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "study/compare.h"
 
-#include "core/base/range_text.h"
+#include "core/base/number.h"
 #include "core/table/table_rows.h"
 
 #include <math.h>

@@ -4,10 +4,9 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "study/collect.h"
 
-#include "core/base/arena.h"
 #include "core/base/array.h"
 #include "core/base/clocale.h"
-#include "core/math/normal_quantile.h"
+#include "core/math/students_t.h"
 #include "core/table/table_rows.h"
 #include "layer/numerics/correlated_pair.h"
 #include "study/numerics/shared_value.h"

@@ -4,7 +4,6 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/base/array.h"
-#include "core/math/normal_quantile.h"
 #include "core/math/students_t.h"
 #include "core/table/registry.h"
 #include "study/collect.h"

@@ -87,6 +87,8 @@
     WHAT_IF_NUMBER(X, WHAT_IF_WITH_LAYER, "friction_with_layer",                                   \
                    "friction coefficient with the modified layer", NUMBER, "With layer")           \
     X(WHAT_IF_WHY, "why", "why this range", TEXT, LABEL("Why this range"))                         \
+    X(WHAT_IF_REMEDY, "remedy", "what to measure to settle the choice", TEXT, OPTIONAL,            \
+      LABEL("To settle it"))                                                                       \
     X(WHAT_IF_NOTE, "note", "why there is no number", TEXT, LABEL("Not computed because"))
 
 #define WHAT_IF_KEYS(X)                                                                            \

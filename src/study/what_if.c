@@ -20,10 +20,11 @@ enum { MOST_TRIED = 4, WORDS = 64 }; /* length of the longest list below; length
 
 /* A choice without a measurement. */
 typedef struct model_choice {
-    const char *words; /* name in a sentence, after "if the" */
-    const char *unit;  /* unit of its value; NULL if it is a text */
-    const char *why;   /* reason of the range */
-    const char *lacks; /* reason why it does not apply; NULL: not reported */
+    const char *words;  /* name in a sentence, after "if the" */
+    const char *remedy; /* what to measure to settle it */
+    const char *unit;   /* unit of its value; NULL if it is a text */
+    const char *why;    /* reason of the range */
+    const char *lacks;  /* reason why it does not apply; NULL: not reported */
     bool (*applies)(const case_variant *s);
     double (*value)(const case_variant *s);                /* if it has a unit */
     void (*name)(const case_variant *s, char text[WORDS]); /* otherwise */
@@ -256,49 +257,50 @@ static void move_shear(const case_variant *used, double other, case_variant *s)
 }
 
 static const model_choice choices[] = {
-    {"largest wavenumber q1", "rad/m",
+    {"largest wavenumber q1", "Compare with a friction record (weartrack validate).", "rad/m",
      "a decade down and up, as far as the counter surface is known: nothing measures which waves "
      "still reach the rubber",
      "", always_applies, value_q1, NULL, move_q1, TRIED(0.1, 0.3, 3, 10)},
-    {"end of the measured spectrum", "rad/m",
+    {"end of the measured spectrum", "Scan the counter surface with a finer step.", "rad/m",
      "where its reliable range ends, and where the rms slope reaches 1.3, by practice the last "
      "that rubber follows",
      NULL, is_measured_surface, value_q1, NULL, move_measured_cutoff, TRIED(0, 1)},
-    {"smallest wavenumber q0", "rad/m",
+    {"smallest wavenumber q0", "Scan a larger part of the counter surface.", "rad/m",
      "half and twice, as far as the counter surface is known: the longest waves of a measured "
      "spectrum are its least certain",
      "the roughness has no roll-off", has_q0, value_q0, NULL, move_q0, TRIED(0.5, 2)},
-    {"factor gamma of partial contact", "1",
+    {"factor gamma of partial contact", "Compare with a friction record (weartrack validate).", "1",
      "1 is Persson's theory of 2001, 0.5 its later correction for partial contact", "",
      always_applies, value_gamma, NULL, move_gamma, TRIED(0.5, 1)},
-    {"strain over slope", "1",
+    {"strain over slope", "Compare with a friction record (weartrack validate).", "1",
      "half and twice: the strain at a wavenumber is of the order of the rms slope up to there, no "
      "more is known",
      NULL, has_strain, value_strain, NULL, move_strain, TRIED(0.5, 2)},
-    {"flash temperature", NULL,
+    {"flash temperature", "Measure friction at low velocity, where sliding does not heat.", NULL,
      "counted or not: it is not validated against measured friction here, and the heat of shearing "
      "the contact is not in it",
      NULL, has_flash, NULL, name_flash, move_flash, TRIED(0)},
-    {"heat conductivity of the rubber", "W/(m K)",
+    {"heat conductivity of the rubber", "Measure the heat conductivity of the rubber.", "W/(m K)",
      "half and twice: fillers make it up to some times that of the rubber alone, and it is seldom "
      "measured",
      NULL, has_flash, value_conductivity, NULL, move_conductivity, TRIED(0.5, 2)},
-    {"size of a macroscopic contact", "m",
-     "half and twice: how long a place is warmed is known by its order only", NULL, has_flash,
+    {"size of a macroscopic contact", "Measure the length of the contact in the sliding direction.",
+     "m", "half and twice: how long a place is warmed is known by its order only", NULL, has_flash,
      value_contact_size, NULL, move_contact_size, TRIED(0.5, 2)},
-    {"Poisson ratio", "1",
+    {"Poisson ratio", "Measure the Poisson ratio, or the bulk modulus.", "1",
      "0.5 is that of rubber, 0.4 that of a glass, as which the shortest waves feel it",
      "a transversely isotropic material has two others", has_poisson, value_poisson, NULL,
      move_poisson, TRIED(0.4, 0.5)},
-    {"vertical shift", NULL, "all four; which of them is right the isotherms do not say",
-     "no isotherms to fit again", has_vertical, NULL, name_vertical, move_vertical,
+    {"vertical shift", "Measure the thermal expansion of the rubber.", NULL,
+     "all four; which of them is right the isotherms do not say", "no isotherms to fit again",
+     has_vertical, NULL, name_vertical, move_vertical,
      TRIED(WT_VERTICAL_NONE, WT_VERTICAL_PHYSICAL, WT_VERTICAL_FREE, WT_VERTICAL_TIED)},
-    {"depth profile", NULL,
+    {"depth profile", "Indent bulk and track deeper than the predicted thickness.", NULL,
      "exponential, or of a half-space that keeps its volume, without local friction and with m = "
      "1: how energy falls off with depth is not measured",
      "no thickness is calculated from the energy", has_profile, NULL, name_profile, move_profile,
      TRIED(-1, 0, 1)},
-    {"shear stress of the layer", NULL,
+    {"shear stress of the layer", "Measure friction on a run-in track.", NULL,
      "scaled by the modulus ratio or not: it is not measured on the layer",
      "no layer with a modulus ratio, or no shear stress", has_layer_shear, NULL, name_shear,
      move_shear, TRIED(1)},
@@ -463,6 +465,7 @@ static void add_outcome_row(const what_if_run *w, const outcome *o, table_writer
         what_if_put(t, numbers[k].change, used != 0 ? o->number[k] / used - 1 : (double)NAN);
     }
     what_if_put_text(t, WHAT_IF_WHY, o->model_choice != NULL ? o->model_choice->why : "");
+    what_if_put_text(t, WHAT_IF_REMEDY, o->model_choice != NULL ? o->model_choice->remedy : "");
     what_if_put_text(t, WHAT_IF_NOTE, o->note);
 }
 

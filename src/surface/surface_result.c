@@ -4,9 +4,9 @@
 #include "surface/surface.h"
 
 #include "core/base/clocale.h"
+#include "core/base/number.h"
 #include "core/base/param.h"
-#include "core/base/range_text.h"
-#include "core/math/normal_quantile.h"
+#include "core/math/students_t.h"
 #include "core/table/registry.h"
 #include "surface/numerics/surface_analysis.h"
 

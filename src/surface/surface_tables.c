@@ -3,7 +3,7 @@
 
 #include "core/base/clocale.h"
 #include "core/base/param.h"
-#include "core/math/normal_quantile.h"
+#include "core/math/students_t.h"
 #include "core/table/table_rows.h"
 #include "surface/numerics/surface_analysis.h"
 #include "weartrack/surface.h"

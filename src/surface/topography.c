@@ -1,7 +1,7 @@
 /* The job of measured surfaces: converts height maps and profiles to one power spectrum.
  * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "core/base/number.h"
 #include "core/base/param.h"
-#include "core/base/range_text.h"
 #include "job/cost.h"
 #include "job/height_input.h"
 #include "surface/numerics/surface_analysis.h"
@@ -68,27 +68,31 @@ static void condition_scan(const wt_topography_job *job, const wt_job *work, con
                            double *z, wt_height_map *map)
 {
     const bool mend = job->scan_lines == WT_SCAN_LINES_MEND;
+    const char *const keep = mend ? "--scan-lines keep" : NULL;
     const scan_line_faults found = surface_scan_lines(z, map, mend);
     if (found.scars > 0)
-        wt_log_add(
-            work->log, WT_WARNING, file, NULL,
+        wt_log_action(
+            work->log, WT_WARNING, mend ? WT_CORRECTED : WT_IMPLAUSIBLE, found.scars, keep, file,
+            NULL,
             "scars: %zu parts of scan lines stand out from the lines before and behind them%s",
             found.scars,
             mend ? "; they are replaced by the mean of these lines (--scan-lines keep "
                    "leaves them)"
                  : " and raise the spectrum");
     if (found.offsets > 0)
-        wt_log_add(work->log, WT_WARNING, file, NULL,
-                   "the scan lines have random offsets of %.3g nm (standard deviation)%s",
-                   1e9 * found.offsets,
-                   mend ? "; each line loses its mean, and waves across the lines are left out of "
-                          "the spectrum (--scan-lines keep leaves the offsets)"
-                        : ", which raise the spectrum");
+        wt_log_action(
+            work->log, WT_WARNING, mend ? WT_CORRECTED : WT_IMPLAUSIBLE, 0, keep, file, NULL,
+            "the scan lines have random offsets of %.3g nm (standard deviation)%s",
+            1e9 * found.offsets,
+            mend ? "; each line loses its mean, and waves across the lines are left out of "
+                   "the spectrum (--scan-lines keep leaves the offsets)"
+                 : ", which raise the spectrum");
     else if (found.suspected)
-        wt_log_add(work->log, WT_WARNING, file, NULL,
-                   "adjacent scan lines differ more than adjacent columns do: a texture along the "
-                   "lines, or a drift of the scanner, which raises the spectrum; scan the surface "
-                   "again at 90 degrees to tell");
+        wt_log_action(
+            work->log, WT_WARNING, WT_IMPLAUSIBLE, 0, NULL, file, NULL,
+            "adjacent scan lines differ more than adjacent columns do: a texture along the "
+            "lines, or a drift of the scanner, which raises the spectrum; scan the surface "
+            "again at 90 degrees to tell");
 }
 
 static wt_status measure_scan(const wt_topography_job *job, const wt_job *work, size_t n_files,

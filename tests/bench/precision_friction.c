@@ -54,9 +54,7 @@ static wt_status create_prony_material(const reference_contact *c, wt_material *
                                        wt_error *err)
 {
     wt_prony prony = {0};
-    wt_status status = wt_prony_alloc(&prony, c->material.n, err);
-    if (status != WT_OK)
-        return status;
+    wt_prony_alloc(&prony, c->material.n);
     prony.deformation = WT_TENSION;
     prony.reference_temperature = prony.frequency_min = prony.frequency_max = (double)NAN;
     prony.equilibrium_modulus = c->material.e0;
@@ -64,7 +62,7 @@ static wt_status create_prony_material(const reference_contact *c, wt_material *
         prony.modulus[k] = c->material.e[k];
         prony.relaxation_time[k] = c->material.tau[k];
     }
-    status = wt_material_prony(&prony, c->poisson_ratio, material, err);
+    const wt_status status = wt_material_prony(&prony, c->poisson_ratio, material, err);
     wt_prony_clear(&prony);
     return status;
 }

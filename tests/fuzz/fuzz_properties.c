@@ -2,7 +2,7 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
-#include "read/jpk/properties.h"
+#include "read/jpk/jpk.h"
 
 #include <stdlib.h>
 #include <string.h>

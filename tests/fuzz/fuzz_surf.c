@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "read_all.h"
 
-#include "read/gwyddion/surf.h"
+#include "read/gwyddion/gwyddion.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 

@@ -96,6 +96,18 @@ static double mean_friction(const growth_scene *s, const growth_made *m, double 
     return sum / WITHIN;
 }
 
+/* One row of a lap. */
+static void write_row(const growth_scene *s, const growth_made *m, int i, double lap, double off,
+                      FILE *out)
+{
+    const double label = i + (s->rows == ROWS_ABOUT   ? 0.5
+                              : s->rows == ROWS_UNTIL ? 1
+                                                      : 0),
+                 friction = s->rows == ROWS_AT ? friction_at(s, m, lap * i)
+                                               : mean_friction(s, m, lap * i, lap);
+    fprintf(out, "%.9g,%.9g,%.9g,%.9g\n", lap * label, label, 1e3 * velocity, friction + off);
+}
+
 bool growth_write_record(const growth_scene *s, const growth_made *m, const char *path,
                          random_source *random)
 {
@@ -111,6 +123,10 @@ bool growth_write_record(const growth_scene *s, const growth_made *m, const char
     for (int i = 0; i < laps; i++) {
         slow = memory * slow + sqrt(1 - memory * memory) * random_normal(random);
         const double off = noise * (sqrt(share) * slow + sqrt(1 - share) * random_normal(random));
+        if (s->rows != ROWS_IN_LAP) {
+            write_row(s, m, i, lap, off, out);
+            continue;
+        }
         for (int k = 0; k < samples; k++)
             fprintf(out, "%.9g,%.9g,%.9g,%.9g\n", lap * (i + k / (double)samples),
                     i + k / (double)samples, 1e3 * velocity,

@@ -4,6 +4,10 @@
 
 #include "facts.h"
 
+/* What a row of a record is: several means in a lap, or one in a lap, at its start, middle or end,
+ * or friction at one time, of which the first is that of the bare surface. */
+typedef enum growth_rows { ROWS_IN_LAP, ROWS_FROM, ROWS_ABOUT, ROWS_UNTIL, ROWS_AT } growth_rows;
+
 /* A pin on a disc of fresh rubber, whose friction is that of a layer which grows by formation and
  * wear, in another time and by another change where the theory is wrong. The case states its inputs
  * with errors, from which the truth is drawn. */
@@ -19,9 +23,10 @@ typedef struct growth_scene {
     double weighed;              /* error of the mass that was lost; 0: it was not */
     int laps, samples;           /* 0: 600, and 8 in a lap */
     int records;                 /* 0: 1 */
-    bool transport;              /* of damage, with an incubation; else by rates */
-    bool flat;                   /* friction does not change */
-    bool unsaid;                 /* the case has no shear stress */
+    growth_rows rows;
+    bool transport; /* of damage, with an incubation; else by rates */
+    bool flat;      /* friction does not change */
+    bool unsaid;    /* the case has no shear stress */
 } growth_scene;
 
 extern const growth_scene growth_scenes[];

@@ -5,6 +5,9 @@
 #define PROMISED .facts.intervals_promised = true, .facts.verdict_promised = true
 /* Where few draws tell a time, or none. */
 #define VERDICT_ALONE .facts.verdict_promised = true
+/* As a recorder writes them, few of them in the change. */
+#define ROWS                                                                                       \
+    .of_inputs = 0.03, .of_layer = 0.05, .of_ratio = 0.03, .noise = 0.001, .laps = 400, .lengths = 8
 #define NOT_NO .facts.right = RIGHT(YES) | RIGHT(CANNOT_SAY)
 #define NOT_YES .facts.right = RIGHT(NO) | RIGHT(CANNOT_SAY)
 
@@ -38,5 +41,14 @@ const growth_scene growth_scenes[] = {
      .transport = true},
     {NAMED("R14", "no shear stress in the case"), PROMISED, .facts.right = RIGHT(CANNOT_SAY),
      .of_inputs = 0.05, .of_layer = 0.05, .of_ratio = 0.05, .unsaid = true},
+    {NAMED("R15", "one row a lap, at its start"), PROMISED, NOT_NO, ROWS, .rows = ROWS_FROM},
+    {NAMED("R16", "one row a lap, at its middle, by transport"), PROMISED, NOT_NO, ROWS,
+     .rows = ROWS_ABOUT, .transport = true},
+    {NAMED("R17", "one row a lap, at its end, by transport"), PROMISED, NOT_NO, ROWS,
+     .rows = ROWS_UNTIL, .transport = true},
+    {NAMED("R18", "friction at one time of a lap, the first of the bare surface"), PROMISED, NOT_NO,
+     ROWS, .rows = ROWS_AT},
+    {NAMED("R19", "the same by transport"), PROMISED, NOT_NO, ROWS, .rows = ROWS_AT,
+     .transport = true},
 };
 const int n_growth_scenes = sizeof growth_scenes / sizeof growth_scenes[0];

@@ -3,7 +3,7 @@
 #include "near.h"
 
 #include "case/answer/format_number.h"
-#include "core/base/range_text.h"
+#include "core/base/number.h"
 #include "weartrack/indentation.h"
 
 #include <math.h>

@@ -4,7 +4,7 @@
  * functions (see CMakeLists.txt), so the library has none.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cells.h"
-#include "core/system/digest.h"
+#include "core/system/temporary.h"
 
 #include "case/plan/plan.h"
 #include "core/math/root.h"
@@ -454,8 +454,8 @@ static void check_curves(const char *asks, const ran *r)
     /* With the error of the cantilever stated, at most 8 of them, here every eighth, are fitted
      * again with four sources moved down and up. */
     const size_t moved = fitted / 8 * 4 * 2;
-    const bool common =
-        shown(r, FLOW_MODULUS_BUDGET) || shown(r, FLOW_COMPARISON) || shown(r, FLOW_MODULUS_RATIO);
+    const bool common = shown(r, FLOW_MODULUS_GROUPS) || shown(r, FLOW_MODULUS_BUDGET) ||
+                        shown(r, FLOW_COMPARISON) || shown(r, FLOW_MODULUS_RATIO);
     check(asks, AGAIN, count[CURVES] + (common ? groups * moved : 0));
     check(asks, DEPTHS,
           (size_t)shown(r, FLOW_DEPTH_BULK) + (size_t)shown(r, FLOW_DEPTH_TRACK) +

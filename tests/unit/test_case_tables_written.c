@@ -1377,6 +1377,19 @@ static void test_identification(void **state)
     wt_table_free(table);
 }
 
+static void test_data_quality(void **state)
+{
+    (void)state;
+    wt_log *log = wt_log_new();
+    wt_table *table = NULL;
+    wt_log_action(log, WT_WARNING, WT_CORRECTED, 2, "--scan-lines keep", "map.gsf", "line 3",
+                  "scars");
+    assert_int_equal(wt_data_quality_table(log, NULL, &table, NULL), WT_OK);
+    see(table);
+    wt_table_free(table);
+    wt_log_free(log);
+}
+
 /* ---- what was not put ------------------------------------------------------------------------ */
 
 /* Every fit of isotherms that was tried ends settled; the key warns of one that does not. */
@@ -1453,6 +1466,7 @@ int main(void)
         cmocka_unit_test(test_directions),
         cmocka_unit_test(test_spot),
         cmocka_unit_test(test_surface),
+        cmocka_unit_test(test_data_quality),
         cmocka_unit_test(test_all_put),
     };
     return cmocka_run_group_tests_name("tables put", tests, open_formats, free_formats);

@@ -182,7 +182,7 @@ static void small_types(void **state)
 {
     (void)state;
     wt_prony prony = {0};
-    assert_int_equal(wt_prony_alloc(&prony, 3, NULL), WT_OK);
+    wt_prony_alloc(&prony, 3);
     assert_int_equal(prony.n, 3);
     assert_near(prony.reference_temperature, (double)NAN, 0);
     prony.modulus[2] = 2.385e6;
@@ -213,15 +213,15 @@ static void table_columns(void **state)
     for (int i = 0; i < 100; i++) {
         if (i % 10 == 0) {
             /* An empty block does not exist. */
-            assert_int_equal(wt_table_new_block(t, &err), WT_OK);
-            assert_int_equal(wt_table_new_block(t, &err), WT_OK);
+            wt_table_new_block(t);
+            wt_table_new_block(t);
         }
         assert_int_equal(wt_table_add_row(t, &err), WT_OK);
         assert_near(wt_table_number(t, (size_t)i, 0), (double)NAN, 0);
         assert_string_equal(wt_table_text(t, (size_t)i, 1), "");
         wt_table_set_number(t, 0, i);
-        assert_int_equal(wt_table_set_text(t, 1, "first", &err), WT_OK);
-        assert_int_equal(wt_table_set_text(t, 1, i % 2 == 0 ? "second" : NULL, &err), WT_OK);
+        wt_table_set_text(t, 1, "first");
+        wt_table_set_text(t, 1, i % 2 == 0 ? "second" : NULL);
     }
     assert_int_equal(wt_table_add_column(t, "late", "m", "", &err), WT_E_ARG);
     assert_int_equal(wt_table_n_rows(t), 100);

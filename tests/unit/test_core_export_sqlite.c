@@ -64,7 +64,7 @@ static wt_table *make_table(const char *name)
 static void add_row(wt_table *t, const char *file, double a, double b, double c)
 {
     assert_int_equal(wt_table_add_row(t, NULL), WT_OK);
-    assert_int_equal(wt_table_set_text(t, 0, file, NULL), WT_OK);
+    wt_table_set_text(t, 0, file);
     wt_table_set_number(t, 1, a);
     wt_table_set_number(t, 2, b);
     wt_table_set_number(t, 3, c);
@@ -123,7 +123,7 @@ static void blocks(void **state)
     wt_table *const t = make_table("sweep");
     for (int i = 0; i < 6; i++) {
         if (i % 3 == 0)
-            assert_int_equal(wt_table_new_block(t, NULL), WT_OK);
+            wt_table_new_block(t);
         add_row(t, "a", i, i, i);
     }
     sqlite3 *const db = database_of(t);

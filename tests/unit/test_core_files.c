@@ -1,6 +1,5 @@
 /* Patterns, output files, digests, provenance. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/math/splitmix64.h"
-#include "core/system/digest.h"
 #include "core/system/temporary.h"
 #include "near.h"
 
@@ -298,10 +297,10 @@ static void guarded(void **state)
     path_of("read.txt", path);
     path_of("hard.txt", other);
     write_file("read.txt", "mine");
-    assert_int_equal(wt_protect_input(path, &err), WT_OK);
+    wt_protect_input(path);
     assert_int_equal(wt_check_overwrite(path, &err), WT_OK); /* not yet started */
     wt_protect_begin();
-    assert_int_equal(wt_protect_input(path, &err), WT_OK);
+    wt_protect_input(path);
     assert_int_equal(link(path, other), 0);
     assert_int_equal(wt_outfile_open(path, &file, &err), WT_E_ARG);
     assert_string_equal(err.file, path);
@@ -320,9 +319,9 @@ static void guarded(void **state)
     assert_int_equal(unlink(pdf), 0);
     assert_int_equal(unlink(path) + unlink(other), 0);
     for (int i = 0; i < 300; i++) /* many */
-        assert_int_equal(wt_protect_input("/proc/self/exe", &err), WT_OK);
+        wt_protect_input("/proc/self/exe");
     assert_int_equal(wt_check_overwrite("/proc/self/exe", &err), WT_E_ARG);
-    assert_int_equal(wt_protect_input(folder, &err), WT_OK);
+    wt_protect_input(folder);
     assert_int_equal(wt_check_overwrite(folder, &err), WT_OK);
 }
 
@@ -467,7 +466,7 @@ static void provenance(void **state)
     assert_string_equal(wt_provenance_command(p), "");
     char *const argv[] = {"/usr/bin/weartrack", "indent", "--tip", "sphere:radius=2um",
                           "my file.txt",        "it's",   "",      "a*b"};
-    assert_int_equal(wt_provenance_set_command(p, 8, argv), WT_OK);
+    wt_provenance_set_command(p, 8, argv);
     assert_string_equal(
         wt_provenance_command(p),
         "weartrack indent --tip sphere:radius=2um 'my file.txt' 'it'\\''s' '' 'a*b'");
@@ -476,7 +475,7 @@ static void provenance(void **state)
         name[0] = (char)('a' + i % 26);
         wt_provenance_input input = {
             .path = name, .role = "bulk", .bytes = (uint64_t)i, .sha256 = "ff"};
-        assert_int_equal(wt_provenance_add_input(p, &input), WT_OK);
+        wt_provenance_add_input(p, &input);
     }
     assert_int_equal(wt_provenance_n_inputs(p), 40);
     assert_string_equal(wt_provenance_get_input(p, 2)->path, "c.txt");

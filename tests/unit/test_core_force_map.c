@@ -2,7 +2,7 @@
  * reads it as weartrack-hdf5(5) says. A changed sample costs its curve and no other; counts that do
  * not agree are refused. */
 #include "core/store/force_map.h"
-#include "core/store/hdf5_scope.h"
+#include "core/store/hdf5_sandbox.h"
 #include "weartrack/read.h"
 
 #include <endian.h>

@@ -44,11 +44,11 @@ static wt_result *make_result(void)
         wt_table_set_estimate(t, "value", (wt_estimate){0.1, (double)NAN, 0, "N/m"}, NULL), WT_OK);
     for (size_t i = 0; i < 4; i++) {
         assert_int_equal(wt_table_add_row(t, NULL), WT_OK);
-        assert_int_equal(wt_table_set_text(t, 0, "a", NULL), WT_OK);
+        wt_table_set_text(t, 0, "a");
         wt_table_set_number(t, 1, 1e6 + (double)i);
     }
     assert_int_equal(wt_result_add(result, t, NULL), WT_OK);
-    assert_int_equal(wt_result_set_case(result, "<case/>", 7, NULL), WT_OK);
+    wt_result_set_case(result, "<case/>", 7);
     return result;
 }
 

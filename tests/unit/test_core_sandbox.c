@@ -2,7 +2,7 @@
  * is stopped before it is done, and named. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "near.h"
 
-#include "core/base/resource_error.h"
+#include "core/base/memory.h"
 #include "core/system/sandbox.h"
 
 #include <errno.h>

@@ -49,9 +49,9 @@ static void add_table(wt_result *result, const char *name, size_t n_rows)
         if (i % 5 != 1)
             (void)snprintf(text, sizeof text, "curve \xC2\xB5 %zu\n", i);
         if (i % 7 == 0)
-            assert_int_equal(wt_table_new_block(t, NULL), WT_OK);
+            wt_table_new_block(t);
         assert_int_equal(wt_table_add_row(t, NULL), WT_OK);
-        assert_int_equal(wt_table_set_text(t, 0, text, NULL), WT_OK);
+        wt_table_set_text(t, 0, text);
         wt_table_set_number(t, 1, i % 4 == 0 ? (double)NAN : 1e6 / (double)(i + 3));
         wt_table_set_number(t, 2, i % 4 == 1 ? -(double)INFINITY : -0.0);
     }
@@ -67,12 +67,12 @@ static wt_result *make_result(void)
     add_table(result, "indentation/bulk", 0);
     wt_provenance *const p = wt_result_provenance(result);
     char *const argv[] = {"weartrack", "run", "a case.xml"};
-    assert_int_equal(wt_provenance_set_command(p, 3, argv), WT_OK);
+    wt_provenance_set_command(p, 3, argv);
     wt_provenance_input input = {
         .path = "a case.xml", .role = "case", .format = "weartrack-case 1", .bytes = 54321};
     wt_sha256("abc", 3, input.sha256);
-    assert_int_equal(wt_provenance_add_input(p, &input), WT_OK);
-    assert_int_equal(wt_result_set_case(result, case_text, sizeof case_text - 1, NULL), WT_OK);
+    wt_provenance_add_input(p, &input);
+    wt_result_set_case(result, case_text, sizeof case_text - 1);
     return result;
 }
 
@@ -140,7 +140,7 @@ static void block_without_rows(void **state)
     for (int i = 0; i < 4; i++) {
         assert_int_equal(wt_table_add_row(t, NULL), WT_OK);
         if (i % 2 == 1)
-            assert_int_equal(wt_table_new_block(t, NULL), WT_OK);
+            wt_table_new_block(t);
     }
     assert_int_equal(wt_result_add(result, t, NULL), WT_OK);
     assert_int_equal(wt_store_write(path, result, true, NULL), WT_OK);

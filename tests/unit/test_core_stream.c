@@ -31,9 +31,9 @@ static wt_table *make_table(void)
                 {"\x01\x7F raw \xFF byte \xC3\xA9", -(double)INFINITY, 0.30000000000000004}};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         if (i == 2)
-            assert_int_equal(wt_table_new_block(t, NULL), WT_OK);
+            wt_table_new_block(t);
         assert_int_equal(wt_table_add_row(t, NULL), WT_OK);
-        assert_int_equal(wt_table_set_text(t, 0, rows[i].text, NULL), WT_OK);
+        wt_table_set_text(t, 0, rows[i].text);
         wt_table_set_number(t, 1, rows[i].a);
         wt_table_set_number(t, 2, rows[i].b);
     }
@@ -119,7 +119,7 @@ static void exact_text(void **state)
     assert_int_equal(wt_table_add_column(t, "velocity", "m/s", "sliding velocity", NULL), WT_OK);
     assert_int_equal(wt_table_add_text_column(t, "note", "", NULL), WT_OK);
     for (int i = 0; i < 2; i++) {
-        assert_int_equal(wt_table_new_block(t, NULL), WT_OK);
+        wt_table_new_block(t);
         assert_int_equal(wt_table_add_row(t, NULL), WT_OK);
         wt_table_set_number(t, 0, 0.001 * (i + 1));
     }
@@ -127,10 +127,10 @@ static void exact_text(void **state)
                      WT_OK);
     wt_provenance *const p = wt_provenance_new();
     char *const argv[] = {"/opt/x/weartrack", "friction", "it's"};
-    assert_int_equal(wt_provenance_set_command(p, 3, argv), WT_OK);
+    wt_provenance_set_command(p, 3, argv);
     wt_provenance_input input = {
         .path = "my file", .role = "dma", .format = "dma-text 1", .bytes = 12, .sha256 = "ab"};
-    assert_int_equal(wt_provenance_add_input(p, &input), WT_OK);
+    wt_provenance_add_input(p, &input);
     char *text = write_text(t, p);
     char expected[1000];
     (void)snprintf(expected, sizeof expected,

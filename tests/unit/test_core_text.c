@@ -136,12 +136,10 @@ static void parse_log(void **state)
     assert_int_equal(first.count, 501);
     assert_string_equal(wt_log_get(log, 2).file, "");
     assert_string_equal(wt_log_get(log, 3).text, "value odd");
-    assert_int_equal(wt_log_dropped(log), 0);
     wt_log_free(log);
     wt_log_free(NULL);
     wt_log_add(NULL, WT_NOTE, NULL, NULL, "nobody listens");
     assert_int_equal(wt_log_count(NULL), 0);
-    assert_int_equal(wt_log_dropped(NULL), 0);
 }
 
 static void check_number(const char *text, char decimal, bool good, double expected)

@@ -3,7 +3,7 @@
 #include "near.h"
 
 #include "core/math/arena_gsl.h"
-#include "core/math/cholesky_dense.h"
+#include "core/math/cholesky.h"
 #include "dma/numerics/bordered_matrix.h"
 
 #include <math.h>

@@ -66,8 +66,8 @@ static void closed_form_against_quadrature(void **state)
     const gauss_rule *rule = NULL;
     angular_subintervals panels;
     assert_int_equal(wt_material_prony(&prony, 0.5, &m, NULL), WT_OK);
-    assert_int_equal(gauss_rule_get(SUBINTERVAL_NODES, &rule, NULL), WT_OK);
-    assert_int_equal(angular_subintervals_new(m, rule, 1e-3, 1e12, 1e-16, &panels, NULL), WT_OK);
+    rule = gauss_rule_get(SUBINTERVAL_NODES);
+    angular_subintervals_new(m, rule, 1e-3, 1e12, 1e-16, &panels);
     for (double w = 1e-3; w < 1e12; w *= 17) {
         double j1, j2, closed_j1[2], closed_j2[2];
         angular_subintervals_integrate(&panels, w, &j1, &j2);
@@ -95,8 +95,8 @@ static void frequencies_below_a_limit(void **state)
     const gauss_rule *rule = NULL;
     angular_subintervals panels;
     assert_int_equal(wt_material_prony(&prony, 0.5, &m, NULL), WT_OK);
-    assert_int_equal(gauss_rule_get(SUBINTERVAL_NODES, &rule, NULL), WT_OK);
-    assert_int_equal(angular_subintervals_new(m, rule, limit, limit, 1e-10, &panels, NULL), WT_OK);
+    rule = gauss_rule_get(SUBINTERVAL_NODES);
+    angular_subintervals_new(m, rule, limit, limit, 1e-10, &panels);
     for (double w = 1.001 * limit; w < 1e6; w *= 1.7) {
         double sum1 = 0, sum2 = 0, j1, j2;
         const double first = acos(limit / w), step = (M_PI / 2 - first) / ANGLES;

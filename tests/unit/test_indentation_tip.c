@@ -92,7 +92,7 @@ static void refused_in_clear_words(void **state)
         {"pyramid:half-angle=35deg,radius=20nm,sides=3.5", WT_E_RANGE, "whole number"},
         {"pyramid:half-angle=35deg,radius=20nm,sides=2", WT_E_RANGE, "3 or more"},
         {"pyramid:half-angle=35deg,radius=20nm,sides=-4", WT_E_RANGE, "3 or more"},
-        {"pyramid:half-angle=65deg,radius=20nm", WT_E_RANGE, "concave"},
+        {"pyramid:half-angle=65deg,radius=20nm,transition=9nm", WT_E_RANGE, "transition=8.39nm"},
         {"pyramid:half-angle=95deg,radius=20nm", WT_E_RANGE, "between 1 and 90"},
         {"sphere:radius=-5um", WT_E_RANGE, "above 0"},
         {"punch:radius=0um", WT_E_RANGE, "above 0"},
@@ -199,14 +199,41 @@ static void within_declared_limits(void **state)
     }
 }
 
+/* Flat pyramids of few sides: the default cap is as large as a convex tip allows, and this radius
+ * may be stated with three digits. Others keep R cos(half-angle). */
+static void test_default_transition(void **state)
+{
+    (void)state;
+    const struct {
+        const char *text;
+        double transition;
+    } cases[] = {
+        /* R m(n) cot: 3 sin(60 deg)/pi cot(65.27 deg) and 4 sin(45 deg)/pi cot(68 deg) */
+        {"pyramid:half-angle=65.27deg,radius=100nm,sides=3", 38.0898e-9},
+        {"pyramid:half-angle=65.27deg,radius=100nm,sides=3,transition=38.1nm", 38.0898e-9},
+        {"pyramid:half-angle=65.27deg,radius=100nm,sides=3,transition=38nm", 38e-9},
+        {"pyramid:half-angle=68deg,radius=100nm", 36.3751e-9},
+        {"pyramid:half-angle=35deg,radius=100nm", 81.9152e-9},
+        {"cone:half-angle=68deg,radius=100nm", 37.4607e-9},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        wt_tip tip;
+        assert_int_equal(wt_tip_parse(cases[i].text, &tip, NULL), WT_OK);
+        assert_near(tip.transition_radius, cases[i].transition, 1e-5);
+    }
+    wt_tip tip;
+    assert_int_equal(wt_tip_parse("pyramid:half-angle=65.27deg,radius=100nm,sides=3,"
+                                  "transition=38.5nm",
+                                  &tip, NULL),
+                     WT_E_RANGE);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(understood),
-        cmocka_unit_test(refused_in_clear_words),
-        cmocka_unit_test(errors_of_angle_and_radius),
-        cmocka_unit_test(described_with_all_numbers),
-        cmocka_unit_test(within_declared_limits),
+        cmocka_unit_test(test_default_transition),    cmocka_unit_test(understood),
+        cmocka_unit_test(refused_in_clear_words),     cmocka_unit_test(errors_of_angle_and_radius),
+        cmocka_unit_test(described_with_all_numbers), cmocka_unit_test(within_declared_limits),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,6 @@
 /* Conditioning: copies of files, outliers and zeros of records, plausible values, scan lines. Each
  * fault is planted into data of known truth, and the data without it are left as they are. */
+#include "core/table/registry.h"
 #include "near.h"
 
 #include "job/conditioning.h"
@@ -74,6 +75,38 @@ static void test_outliers(void **state)
         assert_true(log_has(log, "at sample 124"));
         wt_log_free(log);
     }
+}
+
+/* Each action is a row with its kind, file, number and reason; a sound record has no table. */
+static void test_table_of_actions(void **state)
+{
+    (void)state;
+    scene s;
+    wt_log *log = wt_log_new();
+    wt_table *table = NULL;
+    make_scene(&s);
+    condition_record(&s.record, "/data/sound.csv", log);
+    assert_int_equal(wt_data_quality_table(log, "/data", &table, NULL), WT_OK);
+    assert_null(table);
+    s.force[10] = s.force[20] = 1e6;
+    condition_record(&s.record, "/data/faulty.csv", log);
+    wt_log_add(log, WT_WARNING, "other", NULL, "no action on data");
+    assert_int_equal(wt_data_quality_table(log, "/data", &table, NULL), WT_OK);
+    assert_int_equal(wt_table_n_rows(table), 1);
+    assert_string_equal(wt_table_text(table, 0, DATA_QUALITY_FILE), "faulty.csv");
+    assert_string_equal(wt_table_text(table, 0, DATA_QUALITY_ACTION), "left out");
+    assert_near(wt_table_number(table, 0, DATA_QUALITY_VALUES), 2, 0);
+    assert_non_null(strstr(wt_table_text(table, 0, DATA_QUALITY_REASON), "as outliers"));
+    wt_table_free(table);
+    /* a copy of a log keeps the action, its number and its count */
+    wt_log *copy = wt_log_new();
+    wt_log_append(copy, log, "sample");
+    assert_int_equal(wt_log_count(copy), 2);
+    assert_int_equal(wt_log_get(copy, 0).action, WT_LEFT_OUT);
+    assert_int_equal(wt_log_get(copy, 0).n_values, 2);
+    assert_true(log_has(copy, "sample: 2 of 400 samples"));
+    wt_log_free(copy);
+    wt_log_free(log);
 }
 
 /* A longer part at another load is no fault. */
@@ -262,10 +295,11 @@ static void test_scan_lines(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_sound_record),        cmocka_unit_test(test_outliers),
-        cmocka_unit_test(test_other_load),          cmocka_unit_test(test_unloaded_scatter),
-        cmocka_unit_test(test_zero_before_loading), cmocka_unit_test(test_repeated_isotherms),
-        cmocka_unit_test(test_plausible_moduli),    cmocka_unit_test(test_scan_lines),
+        cmocka_unit_test(test_sound_record),       cmocka_unit_test(test_outliers),
+        cmocka_unit_test(test_table_of_actions),   cmocka_unit_test(test_other_load),
+        cmocka_unit_test(test_unloaded_scatter),   cmocka_unit_test(test_zero_before_loading),
+        cmocka_unit_test(test_repeated_isotherms), cmocka_unit_test(test_plausible_moduli),
+        cmocka_unit_test(test_scan_lines),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

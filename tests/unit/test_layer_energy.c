@@ -1,7 +1,7 @@
 /* Energy density with depth, its source in friction, and the stiffness of a layered half-space. */
 #include "near.h"
 
-#include "core/math/vector_exp.h"
+#include "core/math/simd.h"
 #include "friction/numerics/persson_contact.h"
 #include "layer/numerics/energy_density_kernel.h"
 #include "weartrack/layer.h"

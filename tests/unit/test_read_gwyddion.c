@@ -6,7 +6,6 @@
 
 #include "read/bytes/input.h"
 #include "read/gwyddion/gwyddion.h"
-#include "read/gwyddion/surf.h"
 #include "writers/surf_writer.h"
 
 #include <math.h>

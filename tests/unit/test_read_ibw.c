@@ -67,6 +67,34 @@ static void test_curve(void **state)
     }
 }
 
+/* A curve without Indexes and Direction, as extracted from a map, is split where the piezo turns:
+ * the sample of the turn ends the approach. */
+static void test_turning_point(void **state)
+{
+    (void)state;
+    static const double falling[N] = {5e-7, 4e-7, 3e-7, 2e-7, 1e-7, 0, -1e-7};
+    for (int way = 0; way < 3; way++) {
+        const double *own[] = {way == 1 ? falling : raw, deflection, sensor};
+        ibw_writer_file f = usual(NOTE);
+        reading r;
+        f.values = own;
+        static const char *const without_raw[] = {"Other", "Defl", "ZSnsr"};
+        if (way == 2)
+            f.labels = without_raw;
+        assert_int_equal(ibw_write(&f), 0);
+        assert_int_equal(open_force(&r, path, NULL), WT_OK);
+        next_curve(&r);
+        const size_t last = r.curve.n_segments - 1;
+        assert_int_equal(last, way == 1 ? 0 : 1);
+        assert_int_equal(r.curve.segments[0].kind,
+                         way == 1 ? WT_SEGMENT_RETRACT : WT_SEGMENT_APPROACH);
+        assert_int_equal(r.curve.segments[0].n_points, way == 1 ? N : 5);
+        assert_int_equal(r.curve.segments[last].kind, WT_SEGMENT_RETRACT);
+        assert_int_equal(r.curve.segments[last].n_points, way == 1 ? N : 2);
+        close_all(&r);
+    }
+}
+
 /* The value at which the approach ends, in newtons, metres or volts. */
 static void test_trigger(void **state)
 {
@@ -100,7 +128,8 @@ static void test_refused(void **state)
 {
     (void)state;
     static const char *const parts[] = {
-        "",
+        "Indexes: 0,4,6\r", /* no Direction */
+        "Direction: NaN,1,-1\r",
         "Indexes: 0,4,7\rDirection: NaN,1,-1\r", /* behind the last sample */
         "Indexes: 0,4,4\rDirection: NaN,1,-1\r",
         "Indexes: 0,4,2\rDirection: NaN,1,-1\r",
@@ -113,6 +142,10 @@ static void test_refused(void **state)
         const ibw_writer_file f = usual(parts[i]);
         is_refused(&f, WT_E_CORRUPT, "approach and retract");
     }
+    static const char *const no_position[] = {"Other", "Defl", "Phase"};
+    ibw_writer_file flat = usual(NOTE);
+    flat.labels = no_position;
+    is_refused(&flat, WT_E_CORRUPT, "approach and retract");
     ibw_writer_file line = usual(PARTED);
     line.n_channels = 0;
     is_refused(&line, WT_E_EMPTY, "two dimensions");
@@ -184,8 +217,9 @@ static void test_old(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_curve),   cmocka_unit_test(test_trigger),
-        cmocka_unit_test(test_refused), cmocka_unit_test(test_shifted),
-        cmocka_unit_test(test_damaged), cmocka_unit_test(test_old)};
+        cmocka_unit_test(test_curve),   cmocka_unit_test(test_turning_point),
+        cmocka_unit_test(test_trigger), cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_shifted), cmocka_unit_test(test_damaged),
+        cmocka_unit_test(test_old)};
     return cmocka_run_group_tests(tests, set_up, clean);
 }

@@ -5,7 +5,7 @@
  */
 #include "near.h"
 
-#include "read/jpk/properties.h"
+#include "read/jpk/jpk.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -49,7 +49,7 @@ static void test_many_cells(void **state)
                     assert_true(cell_equals(cells.cells[i], expected));
                 }
             }
-            free(cells.cells);
+            cells_free(&cells);
             free((char *)line.text);
         }
 }
@@ -65,7 +65,7 @@ static void splits(const char *line, cell_separator separator, const text_descri
         snprintf(joined + strlen(joined), sizeof joined - strlen(joined), "%s%.*s",
                  i > 0 ? "|" : "", (int)cells.cells[i].length, cells.cells[i].text);
     assert_string_equal(joined, expected);
-    free(cells.cells);
+    cells_free(&cells);
 }
 
 static void test_separators(void **state)
@@ -151,7 +151,7 @@ static void test_marks(void **state)
     assert_string_equal(copy, "abcdef"); /* half of a character is none */
     text_copy(copy, sizeof copy, (text_span){"ab", 2});
     assert_string_equal(copy, "ab");
-    free(cells.cells);
+    cells_free(&cells);
 }
 
 /* ---- files and results ----------------------------------------------------------------------- */
@@ -216,7 +216,7 @@ static wt_table *wide_table(size_t n)
             char text[24];
             snprintf(text, sizeof text, "t%zu-%zu", r, c);
             if (c % 3 == 2)
-                assert_int_equal(wt_table_set_text(t, c, text, NULL), WT_OK);
+                wt_table_set_text(t, c, text);
             else
                 wt_table_set_number(t, c, wide_value(r, c));
         }

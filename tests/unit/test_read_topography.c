@@ -3,7 +3,7 @@
 #include "made_file.h"
 
 #include "core/base/array.h"
-#include "core/system/digest.h"
+#include "core/system/temporary.h"
 #include "fuzz/pack_list.h"
 #include "surface/numerics/surface_analysis.h"
 

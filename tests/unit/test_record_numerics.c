@@ -4,6 +4,7 @@
 #include "near.h"
 #include "record/numerics/autocorrelation.h"
 #include "record/numerics/pauses.h"
+#include "record/numerics/steady_state.h"
 #include "weartrack/record.h"
 
 #include <stdio.h>
@@ -363,6 +364,54 @@ static void test_of_stick_slip(void **state)
     assert_int_equal(s.n, 0);
 }
 
+/* ---- decay at the end ------------------------------------------------------------------------ */
+
+/* From 0.42 + `change` to 0.42 in `time` of the length, with scatter of 0.01. `kind`: 0
+ * exponential, 1 its square root of the time, 2 a step half-way. */
+static void decay_series(double *y, size_t n, double change, double time, int kind, uint64_t *seed)
+{
+    for (size_t i = 0; i < n; i++) {
+        const double t = (double)i / (double)n;
+        y[i] = 0.42 + 0.01 * normal(seed) +
+               change * (kind == 0   ? exp(-t / time)
+                         : kind == 1 ? exp(-sqrt(t / time))
+                                     : t < 0.5);
+    }
+}
+
+/* Plateaus beyond the end of the series are held by their intervals; a constant and a step are no
+ * decay. */
+static void test_decay(void **state)
+{
+    (void)state;
+    enum { N_POINTS = 750, DRAWS = COUNTED(10) };
+    static const struct {
+        double change, time;
+        int kind;
+        bool decays;
+    } tried[] = {{0.25, 0.53, 0, true}, {0.25, 0.25, 0, true}, {-0.2, 0.53, 0, true},
+                 {0.3, 0.1, 1, true},   {0, 1, 0, false},      {0.1, 1, 2, false}};
+    static double y[N_POINTS];
+    uint64_t seed = 31;
+    for (size_t k = 0; k < sizeof tried / sizeof *tried; k++) {
+        int found = 0, held = 0;
+        for (int i = 0; i < DRAWS; i++) {
+            decay_series(y, N_POINTS, tried[k].change, tried[k].time, tried[k].kind, &seed);
+            const steady_decay d = steady_decay_find(y, N_POINTS);
+            found += d.is_detected;
+            held += d.plateau.low < 0.42 && d.plateau.high > 0.42;
+        }
+        print_message("decay %zu of seed 31: %d found, %d held of %d\n", k, found, held,
+                      (int)DRAWS);
+        if (!SHARES_COUNT)
+            continue;
+        assert_in_range(found, tried[k].decays ? DRAWS - 1 : 0, tried[k].decays ? DRAWS : 1);
+        if (tried[k].decays)
+            assert_in_range(held, DRAWS - 2, DRAWS);
+    }
+    assert_false(steady_decay_find(y, 10).is_detected);
+}
+
 /* ---- cycles ---------------------------------------------------------------------------------- */
 
 enum { SAMPLES = 4000 };
@@ -407,6 +456,41 @@ static void test_of_strokes(void **state)
         for (size_t i = 0; i < c.n; i++) {
             assert_near(c.cycle[i].coefficient, 0.4, by_position ? 1e-9 : 0.01);
             assert_near(c.cycle[i].zero, 0.07, by_position ? 1e-9 : 0.02);
+        }
+        wt_cycles_clear(&c);
+    }
+}
+
+/* Strokes of one sign: friction of 4 N with a zero above it, to either side, and the magnitude of
+ * friction without one, which falls to 0 where the motion reverses. The coefficient is 0.4. */
+static void test_of_one_sign(void **state)
+{
+    static const double zeros[] = {6.3, -6.3, 4.5, 40, 0};
+    (void)state;
+    uint64_t seed = 8;
+    for (size_t k = 0; k < sizeof zeros / sizeof *zeros; k++) {
+        wt_record record = empty_record();
+        double *position = with(&record, WT_RECORD_POSITION), *time = with(&record, WT_RECORD_TIME),
+               *force = with(&record, WT_RECORD_FRICTION_FORCE),
+               *load = with(&record, WT_RECORD_NORMAL_FORCE);
+        for (int i = 0; i < SAMPLES; i++) {
+            const double phase = 2 * M_PI * (i + 0.5) / 100, side = sin(phase),
+                         signed_force =
+                             zeros[k] + 4 * fmax(-1, fmin(1, 8 * side)) + 0.05 * normal(&seed);
+            time[i] = 0.01 * i;
+            load[i] = 10;
+            position[i] = -5e-3 * cos(phase);
+            force[i] = zeros[k] == 0 ? fabs(signed_force) : signed_force;
+        }
+        wt_cycles c;
+        assert_int_equal(
+            wt_cycles_compute(&record, WT_CYCLE_AUTO, (double)NAN, (double)NAN, &c, NULL), WT_OK);
+        assert_int_equal(c.kind, WT_CYCLE_STROKE);
+        assert_int_equal(c.has_zero, zeros[k] != 0);
+        for (size_t i = 0; i < c.n; i++) {
+            assert_near_abs(c.cycle[i].coefficient, 0.4, 0.01);
+            if (zeros[k] != 0)
+                assert_near_abs(c.cycle[i].zero, zeros[k] / 10, 0.01);
         }
         wt_cycles_clear(&c);
     }
@@ -772,7 +856,9 @@ int main(void)
         cmocka_unit_test(test_of_few_points),
         cmocka_unit_test(test_of_the_end_of_a_running_in),
         cmocka_unit_test(test_of_stick_slip),
+        cmocka_unit_test(test_decay),
         cmocka_unit_test(test_of_strokes),
+        cmocka_unit_test(test_of_one_sign),
         cmocka_unit_test(test_of_laps),
         cmocka_unit_test(test_of_short_spans),
         cmocka_unit_test(test_of_spans_of_time),

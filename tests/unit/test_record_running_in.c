@@ -3,7 +3,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "truth.h"
 
-#include "core/math/normal_quantile.h"
+#include "core/math/students_t.h"
 #include "record/running_in_validation.h"
 #include "weartrack/case.h"
 

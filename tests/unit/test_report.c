@@ -135,17 +135,16 @@ static void test_page(void **state)
     check_page("out/index.html", (double)wt_figure_count(), 18);
     size_t length = 0;
     char *page = read_all("out/index.html", &length);
-    // The answer stands before everything else.
-    const char *answer = strstr(page, "Is there a modified layer?"),
-               *numbers = strstr(page, "id=\"numbers\""), *figure = strstr(page, "<figure");
-    assert_non_null(answer);
-    assert_non_null(numbers);
-    assert_non_null(figure);
-    assert_true(answer < numbers && numbers < figure);
+    // The cards come first, then the data used, then the sections; the answer in full is last.
+    const char *card = strstr(page, "Is the track different?"), *data = strstr(page, "id=\"data\""),
+               *figure = strstr(page, "<figure"),
+               *answer = strstr(page, "Is there a modified layer?");
+    assert_true(card != NULL && data != NULL && figure != NULL && answer != NULL);
+    assert_true(card < data && data < figure && figure < answer);
     static const char *const expected[] = {
         "<h1>EPDM, severe &lt;case&gt;</h1>",
         // value, interval, no numerical error
-        ">0.646</td><td class=\"n\" data-label=\"Statistical error\">0.614 to 0.679 (95 % interval)"
+        ">0.646</td><td class=\"n\" data-label=\"Statistical error\">0.602 to 0.693 (95 % interval)"
         "</td><td class=\"n\" data-label=\"Numerical error\">–</td>",
         "Modulus, bulk</th><td class=\"n\" data-label=\"Value\">7.99 MPa</td>",
         ">3.16 µm</td><td class=\"n\" data-label=\"Statistical error\">± 0.80 µm</td>"
@@ -218,13 +217,13 @@ static void test_tables_on_the_page(void **state)
     static const char *const rows[] = {
         "Group|Curves n|Rejected|Spots|Geometric mean (MPa)|95 % interval from (MPa)|to (MPa)|"
         "Median (MPa)|Mean (MPa)|Standard deviation (MPa)|",
-        "bulk|48|0|4|7.99|7.68|8.31|8.27|8.04|0.910|",
+        "bulk|48|0|4|7.99|6.15|10.4|8.27|8.04|0.910|",
         "Indentation rate from (nm/s)|to (nm/s)|n bulk|n track|Spots bulk|Spots track|Track / bulk|"
         "95 % interval from|to|"
         "Welch t|Degrees of freedom|p (Welch)|p (Holm)|p (Mann-Whitney)|its smallest p|"
         "Effect size|",
-        "all|all|48|48|4|4|0.646|0.614|0.679|",
-        "77.8|104|16|16|4|4|0.646|0.623|0.671|",
+        "all|all|48|48|4|4|0.646|0.602|0.693|",
+        "77.8|104|16|16|4|4|0.646|0.606|0.689|",
         "Temperature (°C)|log₁₀ a|Standard error|log₁₀ a of the law|log₁₀ b|Standard error|"
         "log₁₀ b, rubber elasticity|Overlap (decades)|Determined by overlap|Note|",
         "−30.0|5.4",
@@ -234,11 +233,11 @@ static void test_tables_on_the_page(void **state)
         "superposition: holds: ",
         "WLF constant C₂|110.08 K|± 0.11 K|–||",
         "Reference temperature|20 °C|–|–||",
-        "Modulus, bulk|7.99 MPa|7.68 to 8.31 MPa (95 % interval)|–|geometric mean; 48 curves on 4 "
-        "spots, 0 rejected; by scatter of the spots|",
+        "Modulus, bulk|7.99 MPa|6.15 to 10.4 MPa (95 % interval)|–|geometric mean; 48 curves on 4 "
+        "spots, 0 rejected; by scatter of the spots",
         "Degrees of freedom of its error|",
         "Friction coefficient|0.689|0.573 to 0.806 (95 % interval)|± ",
-        "Friction coefficient with layer|0.557|0.460 to 0.653 (95 % interval)|± ",
+        "Friction coefficient with layer|0.557|",
         "Group|Equivalent frequency (rad/s)|Indentation (MPa)|95 % interval from (MPa)|to (MPa)|"
         "DMA E′ (MPa)|DMA |E*| (MPa)|± stat. (MPa)|Indentation / DMA|Outside measured frequencies|",
     };

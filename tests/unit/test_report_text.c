@@ -152,13 +152,36 @@ static void test_svg_is_made_fit_for_a_page(void **state)
         "<desc>Produced</desc><g id=\"a\"><title>x</title><use xlink:href='#a' "
         "clip-path='url(#c)'/><text> id='a' url(#c)</text></g></svg>";
     text_buffer text = {0};
-    assert_true(svg_append_inline(&text, svg, sizeof svg - 1, "mu", "a < b"));
+    svg_symbols symbols = {0};
+    assert_true(svg_append_inline(&text, svg, sizeof svg - 1, "mu", "a < b", &symbols));
     assert_text(&text, "<svg role=\"img\" aria-label=\"a &lt; b\" "
                        "style=\"max-width:35.0rem\" viewBox=\"0 0 600 1\">\n"
-                       "<g id=\"mu-a\"><use xlink:href='#mu-a' clip-path='url(#mu-c)'/>"
+                       "<g id=\"mu-a\"><use href='#mu-a' clip-path='url(#mu-c)'/>"
                        "<text> id='a' url(#c)</text></g></svg>");
-    assert_false(svg_append_inline(&text, "%PDF-1.4", 8, "mu", ""));
+    assert_false(svg_append_inline(&text, "%PDF-1.4", 8, "mu", "", &symbols));
     text_free(&text);
+}
+
+/* Symbols that pictures have in common stand once on a page; colours and empty groups are short. */
+static void test_svg_symbols_are_shared(void **state)
+{
+    (void)state;
+    static const char svg[] = "<svg viewBox=\"0 0 600 1\"><defs><path id='gpPt1'/></defs>"
+                              "<g fill=\"none\" color=\"black\">\n</g>"
+                              "<use xlink:href='#gpPt1' color='rgb( 11,  79, 255)'/></svg>";
+    static const char *const expected[] = {
+        "<svg role=\"img\" aria-label=\"x\" style=\"max-width:35.0rem\" viewBox=\"0 0 600 1\">"
+        "<defs><path id='gpPt1'/></defs><use href='#gpPt1' color='#0b4fff'/></svg>",
+        "<svg role=\"img\" aria-label=\"x\" style=\"max-width:35.0rem\" viewBox=\"0 0 600 1\">"
+        "<use href='#gpPt1' color='#0b4fff'/></svg>"};
+    svg_symbols symbols = {0};
+    for (int i = 0; i < 2; i++) {
+        text_buffer text = {0};
+        assert_true(
+            svg_append_inline(&text, svg, sizeof svg - 1, i == 0 ? "a" : "b", "x", &symbols));
+        assert_text(&text, expected[i]);
+        text_free(&text);
+    }
 }
 
 /* ---- axes ------------------------------------------------------------------------------------ */
@@ -256,6 +279,7 @@ int main(void)
         cmocka_unit_test(test_escaping),
         cmocka_unit_test(test_lab_units),
         cmocka_unit_test(test_svg_is_made_fit_for_a_page),
+        cmocka_unit_test(test_svg_symbols_are_shared),
         cmocka_unit_test(test_data_links),
         cmocka_unit_test(test_wide_labels_have_a_margin),
         cmocka_unit_test(test_logarithmic_tics_are_at_whole_decades),

@@ -19,8 +19,9 @@ static wt_group_data make_group(void)
         spot[i] = i / 2;
         modulus[i] = 3e6 * exp(of_spot[i / 2] + (i % 2 == 0 ? 0.02 : -0.02));
     }
+    d.tip_error = (double)NAN;
     for (int i = 0; i < WT_SYSTEMATIC_SOURCES; i++) {
-        d.common_error[i] = (double)NAN;
+        d.common_error[i] = d.assumed_error[i] = (double)NAN;
         d.common_gain[i] = (wt_estimate){(double)NAN, (double)NAN, 0, "1"};
     }
     return d;
@@ -91,7 +92,7 @@ static void test_every_source(void **state)
         if (d.bend_error < 0)
             check_row(t, row++, "bend of the baselines", "shared", 0.06, 1, 0.06, all);
         check_row(t, row++, "scatter of the spots", "scatter", none, none, sqrt(scatter), all);
-        check_row(t, row++, "all that is stated", "together", none, none, all, all);
+        check_row(t, row++, "all together", "together", none, none, all, all);
         assert_string_equal(cell_text(t, row, "source"), "one spot");
         assert_string_equal(cell_text(t, row, "kind"), "beside");
         assert_near(cell(t, row, "relative_error"), sqrt(SPOTS * scatter), 1e-9);

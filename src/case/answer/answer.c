@@ -1,12 +1,11 @@
 /* Writes the answer of a run: a summary and one section for each question of the user.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "case/answer/answer.h"
-#include "case/answer/caveats.h"
+#include "case/answer/limits.h"
 
 #include "core/base/array.h"
 #include "core/base/clocale.h"
 #include "core/base/number.h"
-#include "core/base/range_text.h"
 
 #include <ctype.h>
 #include <math.h>
@@ -175,11 +174,6 @@ static double comparison_overall(const answer_context *context, comparison_colum
     return comparison_get(&context->values.comparison, 0, column);
 }
 
-static stated_verdict differs_verdict(const answer_context *context)
-{
-    return (stated_verdict)comparison_key_enum(&context->values.comparison, COMPARISON_KEY_DIFFERS);
-}
-
 /* "4 spots in the bulk and 5 in the track; p 0.01 by Welch, 0.03 by Mann and Whitney ..." */
 static void format_evidence(const answer_context *context, char *text, size_t size)
 {
@@ -241,10 +235,14 @@ static void add_group_modulus(const answer_context *context, const char *name, c
         return;
     const result_value modulus = result_value_group(&context->values, row);
     const double n_spots = modulus_groups_get(groups, row, MODULUS_GROUPS_N_SPOTS);
-    char interval[480] = "no interval from fewer than two spots";
+    char interval[480] = "";
     if (!isnan(modulus.low))
         snprintf(interval, sizeof interval, "%s by %s", format_interval(&modulus).text,
                  modulus.includes);
+    else
+        snprintf(interval, sizeof interval, "%s",
+                 n_spots < 2 ? "no interval from fewer than two spots"
+                             : "no interval, because an error that all curves share is not known");
     if (!(modulus_groups_get(groups, row, MODULUS_GROUPS_N) > 0)) {
         const double rejected = modulus_groups_get(groups, row, MODULUS_GROUPS_N_REJECTED);
         if (rejected == 1)
@@ -269,16 +267,12 @@ static void add_depth_verdict(answer_context *context, const char *name, const c
     table_view depth = context->modulus_depth;
     depth.suffix = name;
     const char *changes = modulus_depth_key_text(&depth, MODULUS_DEPTH_KEY_CHANGES);
-    const char *reading = modulus_depth_key_text(&depth, MODULUS_DEPTH_KEY_READING);
     if (changes == NULL)
         return;
     answer_add_sentence(context, question_difference, ANSWER_KIND_DIFFERENCE,
                         "Does the modulus of the %s change with depth? "
                         "%c%s.",
                         words, toupper((unsigned char)changes[0]), changes + 1);
-    if (reading != NULL)
-        answer_add_caveat(context, CAVEAT_VERDICT, "%c%s.", toupper((unsigned char)reading[0]),
-                          reading + 1);
 }
 
 static void add_rate_ratios(const answer_context *context)
@@ -376,26 +370,6 @@ static void add_formation_times(const answer_context *context)
                         format_known_estimate(incubation).text, then);
 }
 
-/* Indentation and the layer model may disagree. In this case the answer has a caveat. */
-static void add_layer_disagreement(answer_context *context, bool modelled)
-{
-    if (context->values.comparison.table == NULL)
-        return;
-    if (differs_verdict(context) == VERDICT_YES && !modelled)
-        answer_add_caveat(
-            context, CAVEAT_THICKNESS,
-            "That there is no layer does not agree with the indentation, which shows a "
-            "modified track: the specific wear rate, the critical energy or the model "
-            "does not fit it.");
-    if (differs_verdict(context) != VERDICT_YES && modelled)
-        answer_add_caveat(
-            context, CAVEAT_THICKNESS,
-            "The indentation %s this layer: it is what the model makes of the specific "
-            "wear rate and the critical energy given.",
-            differs_verdict(context) == VERDICT_NO ? "does not show"
-                                                   : "cannot say whether there is");
-}
-
 /* The text includes the model choices that cause the limits of the range. */
 static result_value_text format_thickness(const answer_context *context)
 {
@@ -454,7 +428,6 @@ static void answer_thickness(answer_context *context)
         answer_add_sentence(context, question_thickness, ANSWER_KIND_THICKNESS,
                             "What would settle it most: a measurement that settles the %s.",
                             thickness.range.widest);
-    add_layer_disagreement(context, !none);
 }
 
 /* ---- friction -------------------------------------------------------------------------------- */
@@ -536,45 +509,12 @@ static void answer_friction(const answer_context *context)
 
 /* ---- the answer ------------------------------------------------------------------------------ */
 
-static wt_status bind_answer_tables(const wt_result *result, answer_context *context, wt_error *err)
-{
-    const struct {
-        const table_schema *schema;
-        const char *suffix;
-        table_view *view;
-    } tables[] = {
-        {&indentation_schema, "bulk", &context->indentation[0]},
-        {&indentation_schema, "track", &context->indentation[1]},
-        {&modulus_depth_schema, "", &context->modulus_depth},
-        {&dma_comparison_schema, "", &context->dma_comparison},
-        {&shift_factors_schema, "", &context->shift_factors},
-        {&prony_schema, "", &context->prony},
-        {&roughness_schema, "", &context->roughness},
-        {&power_spectrum_schema, "", &context->power_spectrum},
-        {&surfaces_schema, "", &context->surfaces},
-        {&record_schema, "", &context->record},
-        {&wear_schema, "", &context->wear},
-        {&validation_schema, "", &context->validation},
-        {&validation_sources_schema, "", &context->validation_sources},
-        {&validation_running_in_schema, "", &context->validation_running_in},
-        {&layer_bands_schema, "", &context->layer_bands},
-        {&layer_feedback_schema, "", &context->layer_feedback},
-        {&layer_regime_map_schema, "", &context->layer_regime_map},
-        {&running_in_schema, "", &context->running_in},
-        {&track_layer_schema, "", &context->track_layer},
-        {&identification_schema, "", &context->identification},
-    };
-    wt_status status = result_values_bind(result, &context->values, err);
-    for (size_t i = 0; status == WT_OK && i < COUNT_OF(tables); i++)
-        status = table_bind_result(result, tables[i].schema, tables[i].suffix, tables[i].view, err);
-    return status;
-}
-
 wt_status flow_answer(const wt_case *c, const flow_plan *plan, const wt_result *result,
-                      const wt_log *log, const wt_table *failures, wt_table **table, wt_error *err)
+                      const wt_log *log, const wt_table *failures, wt_table **table,
+                      wt_table **limits, wt_error *err)
 {
     answer_context context = {.c = c, .plan = plan, .log = log};
-    wt_status status = bind_answer_tables(result, &context, err);
+    wt_status status = answer_context_bind(&context, result, err);
     if (status == WT_OK)
         status = table_bind(failures, &failures_schema, "", &context.failures, err);
     if (status != WT_OK)
@@ -594,10 +534,7 @@ wt_status flow_answer(const wt_case *c, const flow_plan *plan, const wt_result *
     answer_validation(&context);
     answer_surface(&context);
     answer_record(&context);
-    answer_caveats(&context);
-    answer_write_caveats(&context);
     add_not_requested(&context);
-    answer_context_clear(&context);
     if (wt_case_title(c)[0] != '\0')
         answer_set_text(&answer, ANSWER_KEY_CASE_TITLE, wt_case_title(c));
     if (c->sample[0] != '\0')
@@ -606,8 +543,8 @@ wt_status flow_answer(const wt_case *c, const flow_plan *plan, const wt_result *
         answer_set_text(&answer, ANSWER_KEY_CASE_CONDITION, c->condition);
     wt_table *made = NULL;
     status = table_end(&answer, &made);
-    if (status == WT_OK && context.status != WT_OK)
-        status = wt_fail(err, context.status, "out of memory");
+    if (status == WT_OK)
+        status = limits_table(&context, limits, err);
     if (status == WT_OK)
         *table = made;
     else

@@ -6,9 +6,9 @@
 #include "case/plan/plan.h"
 
 /* Creates the table "answer" from the tables of the result, the log and the failures. The caller
- * owns *table. */
+ * owns *table and *limits; *limits is NULL without limits. */
 wt_status flow_answer(const wt_case *c, const flow_plan *plan, const wt_result *result,
                       const wt_log *log, const wt_table *failures, wt_table **table,
-                      wt_error *err) WT_NODISCARD;
+                      wt_table **limits, wt_error *err) WT_NODISCARD;
 
 #endif

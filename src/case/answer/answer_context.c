@@ -1,10 +1,10 @@
-/* Adds sentences and caveats to an answer. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Binds the tables of an answer, and adds its sentences. SPDX-License-Identifier: GPL-3.0-or-later
+ */
 #include "case/answer/answer_context.h"
 
 #include "core/base/array.h"
 #include "core/base/clocale.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 /* Length of a sentence in bytes; longer sentences are truncated. */
@@ -19,13 +19,6 @@ static void add_answer_row(const answer_context *context, const char *question, 
     answer_put_text(context->answer, ANSWER_KIND, answer_kind_text(kind));
 }
 
-bool wt_answer_is_folded(const wt_table *answer, size_t row)
-{
-    table_view view;
-    return table_bind(answer, &answer_schema, "", &view, NULL) == WT_OK &&
-           answer_enum(&view, row, ANSWER_KIND) == ANSWER_KIND_FOLDED;
-}
-
 void answer_add_sentence(const answer_context *context, const char *question, answer_kind kind,
                          const char *format, ...)
 {
@@ -37,39 +30,38 @@ void answer_add_sentence(const answer_context *context, const char *question, an
     add_answer_row(context, question, kind, text);
 }
 
-void answer_add_caveat(answer_context *context, caveat_topic topic, const char *format, ...)
+wt_status answer_context_bind(answer_context *context, const wt_result *result, wt_error *err)
 {
-    char text[LONGEST];
-    va_list list;
-    va_start(list, format);
-    clocale_vprint(text, sizeof text, format, list);
-    va_end(list);
-    caveat *grown = array_grow(context->caveats, context->n_caveats, sizeof *grown);
-    char *copy = grown != NULL ? strdup(text) : NULL;
-    if (grown != NULL)
-        context->caveats = grown;
-    if (copy == NULL) {
-        context->status = WT_E_MEMORY;
-        return;
-    }
-    grown[context->n_caveats++] = (caveat){topic, copy};
-}
-
-void answer_write_caveats(answer_context *context)
-{
-    size_t n_written = 0;
-    for (int topic = 0; topic < CAVEAT_TOPICS; topic++)
-        for (size_t i = 0; i < context->n_caveats; i++)
-            if (context->caveats[i].topic == (caveat_topic)topic)
-                add_answer_row(context, "What must be kept in mind?",
-                               n_written++ < CAVEATS_SHOWN ? ANSWER_KIND_CAVEAT
-                                                           : ANSWER_KIND_FOLDED,
-                               context->caveats[i].text);
-}
-
-void answer_context_clear(answer_context *context)
-{
-    for (size_t i = 0; i < context->n_caveats; i++)
-        free(context->caveats[i].text);
-    free(context->caveats);
+    const struct {
+        const table_schema *schema;
+        const char *suffix;
+        table_view *view;
+    } tables[] = {
+        {&indentation_schema, "bulk", &context->indentation[0]},
+        {&indentation_schema, "track", &context->indentation[1]},
+        {&modulus_depth_schema, "", &context->modulus_depth},
+        {&dma_comparison_schema, "", &context->dma_comparison},
+        {&shift_factors_schema, "", &context->shift_factors},
+        {&prony_schema, "", &context->prony},
+        {&softening_schema, "", &context->softening},
+        {&flash_schema, "", &context->flash},
+        {&roughness_schema, "", &context->roughness},
+        {&power_spectrum_schema, "", &context->power_spectrum},
+        {&surfaces_schema, "", &context->surfaces},
+        {&record_schema, "", &context->record},
+        {&wear_schema, "", &context->wear},
+        {&validation_schema, "", &context->validation},
+        {&validation_sources_schema, "", &context->validation_sources},
+        {&validation_running_in_schema, "", &context->validation_running_in},
+        {&layer_bands_schema, "", &context->layer_bands},
+        {&layer_feedback_schema, "", &context->layer_feedback},
+        {&layer_regime_map_schema, "", &context->layer_regime_map},
+        {&running_in_schema, "", &context->running_in},
+        {&track_layer_schema, "", &context->track_layer},
+        {&identification_schema, "", &context->identification},
+    };
+    wt_status status = result_values_bind(result, &context->values, err);
+    for (size_t i = 0; status == WT_OK && i < COUNT_OF(tables); i++)
+        status = table_bind_result(result, tables[i].schema, tables[i].suffix, tables[i].view, err);
+    return status;
 }

@@ -1,57 +1,34 @@
-/* Context of an answer: views of the result tables, the log of the run and the caveats so far.
- * Internal to case. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Context of an answer: views of the result tables, and the log of the run. Internal to case.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_CASE_ANSWER_ANSWER_CONTEXT_H
 #define WT_CASE_ANSWER_ANSWER_CONTEXT_H
 
 #include "case/answer/format_number.h"
 #include "case/plan/plan.h"
 
-/* Subject of a caveat, in the order in which caveats are written. */
-typedef enum caveat_topic {
-    CAVEAT_FAILURES, /* failed files or stages */
-    CAVEAT_DATA,     /* doubtful or inconsistent data */
-    CAVEAT_VERDICT,
-    CAVEAT_THICKNESS,
-    CAVEAT_FRICTION,
-    CAVEAT_MODULI,
-    CAVEAT_CONDITIONS, /* assumed conditions */
-    CAVEAT_TOPICS
-} caveat_topic;
-
-enum { CAVEATS_SHOWN = 5 }; /* number of caveats that are shown; the page folds the others */
-
-typedef struct caveat {
-    caveat_topic topic;
-    char *text;
-} caveat;
-
 typedef struct answer_context {
-    const wt_case *c;
+    const wt_case *c; /* NULL for the result of a single command */
     const flow_plan *plan;
     const wt_log *log;
     result_value_tables values;
     table_view failures;
     table_view indentation[2]; /* bulk, track */
     table_view modulus_depth, dma_comparison, shift_factors, prony, roughness;
+    table_view softening, flash;
     table_view power_spectrum, surfaces; /* of a measured counter surface */
     table_view record, wear;
     table_view validation, validation_sources, validation_running_in;
     table_view layer_bands, layer_feedback, layer_regime_map, running_in, track_layer,
         identification;
     table_writer *answer;
-    caveat *caveats;
-    size_t n_caveats;
-    wt_status status; /* WT_E_MEMORY if a caveat could not be stored */
 } answer_context;
 
 /* Adds a row to the answer. The sentence is a printf format. */
 void answer_add_sentence(const answer_context *context, const char *question, answer_kind kind,
                          const char *format, ...) WT_PRINTF(4, 5);
-/* Stores a caveat until answer_write_caveats writes all of them in order. */
-void answer_add_caveat(answer_context *context, caveat_topic topic, const char *format, ...)
-    WT_PRINTF(3, 4);
-/* Writes the caveats. The first CAVEATS_SHOWN rows have the kind "caveat", the others "folded". */
-void answer_write_caveats(answer_context *context);
+/* Binds the views of the tables of a result. */
+wt_status answer_context_bind(answer_context *context, const wt_result *result,
+                              wt_error *err) WT_NODISCARD;
 /* Describes the rubber, only if no later stage uses it: then the rubber is a result, not a step. */
 void answer_rubber(const answer_context *context);
 /* States the thickness of the layer that the curves allow, and compares it with the theory. */
@@ -70,6 +47,5 @@ void answer_identification(const answer_context *context);
 void answer_record(const answer_context *context);
 /* States whether the theory explains the measured friction. */
 void answer_validation(const answer_context *context);
-void answer_context_clear(answer_context *context);
 
 #endif

@@ -4,8 +4,7 @@
 
 #include "core/base/clocale.h"
 #include "core/base/number.h"
-#include "core/base/range_text.h"
-#include "core/math/normal_quantile.h"
+#include "core/math/students_t.h"
 #include "weartrack/indentation.h"
 
 #include <math.h>
@@ -372,11 +371,8 @@ bool append_spectrum_mismatch(text_builder *t, const table_view *indentation, co
         return false;
     text_append(
         t,
-        "%zu of %zu curves of the %s are not of the spectrum of the DMA: their moduli are fitted "
-        "without it, and the ratio of track and bulk is one of moduli at the rates that both "
-        "have, not of factors on the spectrum; another temperature than that stated or another "
-        "rubber would do it, or a layer of another spectrum, to which no one ratio holds at all "
-        "frequencies",
+        "%zu of %zu curves of the %s do not fit the spectrum of the DMA and are fitted without it: "
+        "another temperature than the stated one, another rubber, or a layer of another spectrum",
         others, tried, group);
     return true;
 }

@@ -104,7 +104,7 @@ number_text format_share(double share);
 bool find_dma_ratio(const table_view *dma, double *low, double *high);
 bool is_different_rubber(double low, double high);
 size_t count_extrapolated(const table_view *dma);
-/* Example: "3 of 48 curves of the bulk are not of the spectrum of the DMA: ...". False without
+/* Example: "3 of 48 curves of the bulk do not fit the spectrum of the DMA ...". False without
  * output if all tested curves agree, or none was tested. */
 bool append_spectrum_mismatch(text_builder *t, const table_view *indentation, const char *group);
 /* Writes the reasons of the rejected curves, such as "3 poor fit, 1 saturated", and returns the

@@ -275,16 +275,18 @@ static void warn_duplicate_inputs(const run_execution *d)
             const wt_provenance_input *b = wt_provenance_get_input(p, k);
             const bool again = strcmp(a->path, b->path) == 0 && strcmp(a->role, b->role) == 0;
             if (!again && a->bytes == b->bytes && a->fingerprint == b->fingerprint)
-                wt_log_add(d->run.job.log, WT_WARNING, b->path, NULL,
-                           "the same bytes as %s (%s and %s)", a->path, a->role, b->role);
+                wt_log_action(d->run.job.log, WT_WARNING, WT_COPIED, 1, NULL, b->path, NULL,
+                              "the same bytes as %s (%s and %s)", a->path, a->role, b->role);
         }
     }
 }
 
 static wt_status finish_result(run_execution *d, wt_error *err)
 {
-    wt_table *answer = NULL, *inputs = NULL, *methods = NULL, *notes = NULL, *cost = NULL;
-    wt_table **const last[] = {&answer, &inputs, &methods, &notes, &d->failures, &cost};
+    wt_table *answer = NULL, *limits = NULL, *inputs = NULL, *methods = NULL, *quality = NULL,
+             *notes = NULL, *cost = NULL;
+    wt_table **const last[] = {&answer,  &limits, &inputs,      &methods,
+                               &quality, &notes,  &d->failures, &cost};
     const wt_provenance *provenance = wt_result_provenance_const(d->result);
     warn_duplicate_inputs(d);
     wt_status status = publish_stages(d, err);
@@ -294,13 +296,15 @@ static wt_status finish_result(run_execution *d, wt_error *err)
             err);
     if (status == WT_OK)
         status = flow_answer(d->run.c, &d->run.plan, d->result, d->run.job.log, d->failures,
-                             &answer, err);
+                             &answer, &limits, err);
     if (status == WT_OK)
         wt_result_log_remarks(d->result, d->run.job.log);
     if (status == WT_OK)
         status = wt_provenance_table(provenance, "inputs", &inputs, err);
     if (status == WT_OK)
         status = wt_methods_table(d->result, &methods, err);
+    if (status == WT_OK)
+        status = wt_data_quality_table(d->run.job.log, d->run.c->folder, &quality, err);
     if (status == WT_OK)
         status = wt_notes_table(d->run.job.log, d->run.c->folder, &notes, err);
     if (status == WT_OK)
@@ -346,16 +350,16 @@ static unsigned find_excluded_outputs(const flow_plan *plan, const wt_run_option
     static const struct {
         unsigned extra;
         flow_resource_set shown_in;
-    } extras[] = {{WT_EXTRA_EXTRAPOLATED_SHARE, FLOW_BIT(FLOW_FRICTION)},
-                  {WT_EXTRA_MODULUS_DEPTH, FLOW_BIT(FLOW_DEPTH_BULK) | FLOW_BIT(FLOW_DEPTH_TRACK)},
-                  {WT_EXTRA_DEPTH_CURVES, FLOW_BIT(FLOW_TRACK_LAYER)},
-                  {WT_EXTRA_DRAWS, FLOW_BIT(FLOW_MATERIAL_DRAWS) | FLOW_BIT(FLOW_SERIES_DRAWS)},
-                  {WT_EXTRA_SPECTRUM, FLOW_BIT(FLOW_RELAXATION_SPECTRUM)},
-                  {WT_EXTRA_REDUCED_SERIES, FLOW_BIT(FLOW_PRONY_REDUCED)},
-                  {WT_EXTRA_SYSTEMATIC_ERRORS, FLOW_BIT(FLOW_MODULUS_BUDGET) |
-                                                   FLOW_BIT(FLOW_COMPARISON) |
-                                                   FLOW_BIT(FLOW_MODULUS_RATIO)},
-                  {WT_EXTRA_TRANSITION, FLOW_BIT(FLOW_GLASS_TRANSITION)}};
+    } extras[] = {
+        {WT_EXTRA_EXTRAPOLATED_SHARE, FLOW_BIT(FLOW_FRICTION)},
+        {WT_EXTRA_MODULUS_DEPTH, FLOW_BIT(FLOW_DEPTH_BULK) | FLOW_BIT(FLOW_DEPTH_TRACK)},
+        {WT_EXTRA_DEPTH_CURVES, FLOW_BIT(FLOW_TRACK_LAYER)},
+        {WT_EXTRA_DRAWS, FLOW_BIT(FLOW_MATERIAL_DRAWS) | FLOW_BIT(FLOW_SERIES_DRAWS)},
+        {WT_EXTRA_SPECTRUM, FLOW_BIT(FLOW_RELAXATION_SPECTRUM)},
+        {WT_EXTRA_REDUCED_SERIES, FLOW_BIT(FLOW_PRONY_REDUCED)},
+        {WT_EXTRA_SYSTEMATIC_ERRORS, FLOW_BIT(FLOW_MODULUS_BUDGET) | FLOW_BIT(FLOW_MODULUS_GROUPS) |
+                                         FLOW_BIT(FLOW_COMPARISON) | FLOW_BIT(FLOW_MODULUS_RATIO)},
+        {WT_EXTRA_TRANSITION, FLOW_BIT(FLOW_GLASS_TRANSITION)}};
     unsigned left_out = options->no_provenance ? WT_EXTRA_DIGESTS : 0;
     for (size_t i = 0; i < COUNT_OF(extras); i++)
         if ((plan->required & extras[i].shown_in) == 0)
@@ -365,7 +369,7 @@ static unsigned find_excluded_outputs(const flow_plan *plan, const wt_run_option
     return left_out;
 }
 
-static wt_status add_case_input(run_execution *d, wt_error *err)
+static void add_case_input(run_execution *d)
 {
     const wt_case *c = d->run.c;
     wt_provenance_input input = {.path = wt_path_base(c->path),
@@ -374,9 +378,8 @@ static wt_status add_case_input(run_execution *d, wt_error *err)
                                  .bytes = c->xml_length};
     if (!d->run.no_provenance)
         wt_sha256(c->xml, c->xml_length, input.sha256);
-    if (wt_provenance_add_input(d->run.job.provenance, &input) != WT_OK)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
-    return wt_result_set_case(d->result, c->xml, c->xml_length, err);
+    wt_provenance_add_input(d->run.job.provenance, &input);
+    wt_result_set_case(d->result, c->xml, c->xml_length);
 }
 
 static wt_status prepare_execution(run_execution *d, const wt_run_options *options, wt_log *log,
@@ -406,7 +409,8 @@ static wt_status prepare_execution(run_execution *d, const wt_run_options *optio
         .cost = d->cost,
         .drawn = d->drawn,
     };
-    return status == WT_OK ? add_case_input(d, err) : status;
+    add_case_input(d);
+    return status;
 }
 
 wt_status wt_run_case(const wt_case *c, const wt_run_options *options, wt_log *log,

@@ -21,11 +21,9 @@ static flow_file find_stated_file(const case_files *files, char **path)
 
 /* ---- material -------------------------------------------------------------------------------- */
 
-static wt_status create_stated_series(const wt_case *c, wt_rubber *rubber, wt_error *err)
+static wt_status create_stated_series(const wt_case *c, wt_rubber *rubber)
 {
-    const wt_status status = wt_prony_alloc(&rubber->prony, c->prony.n, err);
-    if (status != WT_OK)
-        return status;
+    wt_prony_alloc(&rubber->prony, c->prony.n);
     rubber->prony.deformation = c->prony.deformation;
     rubber->prony.equilibrium_modulus = c->prony.equilibrium_modulus;
     rubber->prony.frequency_min = c->prony.frequency_min;
@@ -55,7 +53,7 @@ wt_status flow_run_create_stated_rubber(const wt_case *c, const wt_job *work, wt
     wt_status status = c->kind == WT_RUBBER_TABLE ? read_stated_points(c, work, rubber, err)
                        : c->kind == WT_RUBBER_ZENER
                            ? flow_rubber_zener(&c->zener, c->master.poisson_ratio, rubber, err)
-                           : create_stated_series(c, rubber, err);
+                           : create_stated_series(c, rubber);
     if (status != WT_OK)
         return status;
     if (!isnan(reference))

@@ -2,7 +2,15 @@
 #ifndef WT_CORE_BASE_ARRAY_H
 #define WT_CORE_BASE_ARRAY_H
 
+#include <stdbool.h>
 #include <stddef.h>
+
+/* A zero-initialised arena is empty. */
+typedef struct arena {
+    void **blocks;
+    size_t n;
+    bool failed; /* set by a failed allocation, so that several allocations need one check */
+} arena;
 
 #define COUNT_OF(array) (sizeof(array) / sizeof((array)[0]))
 
@@ -19,5 +27,11 @@ double numbers_median(double *x, size_t n);
 /* Returns the mean of the numbers, summed in their order; n > 0. */
 double numbers_mean(const double *x, size_t n);
 void numbers_reverse(double *x, size_t n);
+/* Allocates n zeroed items; never NULL. */
+void *arena_alloc(arena *memory, size_t n, size_t size);
+double *arena_numbers(arena *memory, size_t n);
+/* Copies a text and adds a terminating zero. */
+char *arena_text(arena *memory, const char *text, size_t length);
+void arena_free(arena *memory);
 
 #endif

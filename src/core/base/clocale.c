@@ -3,7 +3,6 @@
 #include "core/base/clocale.h"
 
 #include <pthread.h>
-#include <stdio.h>
 #include <string.h>
 
 static pthread_once_t once = PTHREAD_ONCE_INIT;

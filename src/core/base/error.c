@@ -1,10 +1,19 @@
 /* Implements the status codes and the error object. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/base/clocale.h"
 #include "core/base/utf8.h"
-#include "weartrack/core.h"
 
 #include <stdarg.h>
 #include <string.h>
+
+#define STRINGIFY(x) #x
+
+#define STRINGIFY_VALUE(x) STRINGIFY(x)
+
+const char *wt_version(void)
+{
+    return STRINGIFY_VALUE(WT_VERSION_MAJOR) "." STRINGIFY_VALUE(
+        WT_VERSION_MINOR) "." STRINGIFY_VALUE(WT_VERSION_PATCH);
+}
 
 const char *wt_status_text(wt_status status)
 {

@@ -4,7 +4,6 @@
 #include "core/base/clocale.h"
 #include "core/base/memory.h"
 #include "core/base/utf8.h"
-#include "weartrack/core.h"
 
 #include <search.h>
 #include <stdarg.h>
@@ -14,6 +13,9 @@
 typedef struct log_entry {
     wt_severity severity;
     wt_log_topic topic;
+    wt_action action;
+    size_t n_values;
+    char *option; /* NULL if none */
     char *file, *place, *text;
     size_t count;
 } log_entry;
@@ -22,7 +24,6 @@ struct wt_log {
     log_entry **entries; /* in order of arrival */
     size_t n;
     void *tree; /* the same entries, for tsearch */
-    size_t lost;
 };
 
 static int compare_log_entries(const void *a, const void *b)
@@ -36,6 +37,7 @@ static int compare_log_entries(const void *a, const void *b)
 
 static void entry_free(log_entry *e)
 {
+    free(e->option);
     free(e->file);
     free(e->place);
     free(e->text);
@@ -71,17 +73,9 @@ void wt_log_free(wt_log *log)
     free(log);
 }
 
-/* Adds a copy of a text, or increments the count of an equal entry. */
-static void add_log_entry(wt_log *log, wt_severity severity, wt_log_topic topic, const char *file,
-                          const char *place, const char *text)
+/* Adds an entry, or increments the count of an equal one. The log owns new_entry. */
+static void add_log_entry(wt_log *log, log_entry *new_entry)
 {
-    log_entry *new_entry = wt_alloc(1, sizeof *new_entry);
-    new_entry->severity = severity;
-    new_entry->topic = topic;
-    new_entry->file = wt_strdup(file != NULL ? file : "");
-    new_entry->place = wt_strdup(place != NULL ? place : "");
-    new_entry->text = wt_strdup(text);
-    new_entry->count = 1;
     log_entry *const *const found = tsearch(new_entry, &log->tree, compare_log_entries);
     if (found == NULL)
         out_of_memory(sizeof *new_entry);
@@ -90,27 +84,33 @@ static void add_log_entry(wt_log *log, wt_severity severity, wt_log_topic topic,
         log->entries[log->n++] = new_entry;
         return;
     }
-    (*found)->count++;
+    (*found)->count += new_entry->count;
+    (*found)->n_values += new_entry->n_values;
     entry_free(new_entry);
 }
 
-static void print_log_entry(wt_log *log, wt_severity severity, wt_log_topic topic, const char *file,
+/* Completes a copy of `shape` with its texts and adds it. */
+static void print_log_entry(wt_log *log, const log_entry *shape, const char *file,
                             const char *place, const char *format, va_list arguments)
-    WT_PRINTF(6, 0);
-static void print_log_entry(wt_log *log, wt_severity severity, wt_log_topic topic, const char *file,
+    WT_PRINTF(5, 0);
+static void print_log_entry(wt_log *log, const log_entry *shape, const char *file,
                             const char *place, const char *format, va_list arguments)
 {
     if (log == NULL)
         return;
-    char *text = NULL;
+    log_entry *const e = wt_alloc(1, sizeof *e);
+    *e = *shape;
+    e->count = shape->count > 0 ? shape->count : 1;
+    e->option = shape->option != NULL ? wt_strdup(shape->option) : NULL;
+    e->file = wt_strdup(file != NULL ? file : "");
+    e->place = wt_strdup(place != NULL ? place : "");
     const locale_t previous = clocale_enter();
-    const int length = vasprintf(&text, format, arguments);
+    const int length = vasprintf(&e->text, format, arguments);
     clocale_leave(previous);
     if (length < 0)
-        out_of_memory(sizeof *text);
-    utf8_sanitize(text);
-    add_log_entry(log, severity, topic, file, place, text);
-    free(text);
+        out_of_memory(sizeof *e->text);
+    utf8_sanitize(e->text);
+    add_log_entry(log, e);
 }
 
 void wt_log_add(wt_log *log, wt_severity severity, const char *file, const char *place,
@@ -118,7 +118,7 @@ void wt_log_add(wt_log *log, wt_severity severity, const char *file, const char 
 {
     va_list arguments;
     va_start(arguments, format);
-    print_log_entry(log, severity, WT_TOPIC_NONE, file, place, format, arguments);
+    print_log_entry(log, &(log_entry){.severity = severity}, file, place, format, arguments);
     va_end(arguments);
 }
 
@@ -127,8 +127,38 @@ void wt_log_add_topic(wt_log *log, wt_severity severity, wt_log_topic topic, con
 {
     va_list arguments;
     va_start(arguments, format);
-    print_log_entry(log, severity, topic, file, place, format, arguments);
+    print_log_entry(log, &(log_entry){.severity = severity, .topic = topic}, file, place, format,
+                    arguments);
     va_end(arguments);
+}
+
+void wt_log_action(wt_log *log, wt_severity severity, wt_action action, size_t n_values,
+                   const char *option, const char *file, const char *place, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    print_log_entry(
+        log,
+        &(log_entry){
+            .severity = severity, .action = action, .n_values = n_values, .option = (char *)option},
+        file, place, format, arguments);
+    va_end(arguments);
+}
+
+static void append_entry(wt_log *log, const log_entry *e, const char *format, ...) WT_PRINTF(3, 4);
+static void append_entry(wt_log *log, const log_entry *e, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    print_log_entry(log, e, e->file, e->place, format, arguments);
+    va_end(arguments);
+}
+
+void wt_log_append(wt_log *to, const wt_log *from, const char *prefix)
+{
+    for (size_t i = 0; to != NULL && i < wt_log_count(from); i++)
+        append_entry(to, from->entries[i], "%s%s%s", prefix != NULL ? prefix : "",
+                     prefix != NULL ? ": " : "", from->entries[i]->text);
 }
 
 size_t wt_log_count(const wt_log *log)
@@ -139,10 +169,13 @@ size_t wt_log_count(const wt_log *log)
 wt_log_entry wt_log_get(const wt_log *log, size_t i)
 {
     const log_entry *const e = log->entries[i];
-    return (wt_log_entry){e->severity, e->topic, e->file, e->place, e->text, e->count};
-}
-
-size_t wt_log_dropped(const wt_log *log)
-{
-    return log != NULL ? log->lost : 0;
+    return (wt_log_entry){.severity = e->severity,
+                          .topic = e->topic,
+                          .action = e->action,
+                          .n_values = e->n_values,
+                          .option = e->option != NULL ? e->option : "",
+                          .file = e->file,
+                          .place = e->place,
+                          .text = e->text,
+                          .count = e->count};
 }

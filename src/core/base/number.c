@@ -2,13 +2,115 @@
  * GPL-3.0-or-later */
 #include "core/base/number.h"
 #include "core/base/clocale.h"
-#include "weartrack/core.h"
 
 #include <float.h>
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+/* Range of the SI prefixes of a unit, as powers of 1000. */
+typedef struct prefix_range {
+    const char *unit;
+    const char *text;
+    int low, high;
+} prefix_range;
+
+/* Finds the prefixes of the first factor of the unit, unless it is raised to a power. */
+static prefix_range find_prefix_range(const char *unit)
+{
+    static const prefix_range known[] = {
+        {"Pa", "Pa", -8, 8}, {"Hz", "Hz", -8, 8}, {"N", "N", -8, 8},
+        {"m", "m", -8, 1},   {"V", "V", -8, 8},   {"J", "J", -8, 8},
+        {"W", "W", -8, 8},   {"s", "s", -8, 0},   {"byte", "B", 0, 8}};
+    for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
+        const size_t n = strlen(known[i].unit);
+        if (strncmp(unit, known[i].unit, n) == 0 && (unit[n] == '\0' || strchr("/ .", unit[n])))
+            return known[i];
+    }
+    return (prefix_range){"", "", 0, 0};
+}
+
+static int floor_divide_by_three(int exponent)
+{
+    return exponent >= 0 ? exponent / 3 : -((2 - exponent) / 3);
+}
+
+/* Formats the significant digits of value / 10^shift: plain for short numbers, otherwise with an
+ * exponent. */
+static void format_scaled_number(double value, int digits, int shift, char *buffer, size_t size)
+{
+    char scientific[48], shifted[64];
+    (void)snprintf(scientific, sizeof scientific, "%.*e", digits - 1, value);
+    char *const e = strchr(scientific, 'e');
+    const int exponent = atoi(e + 1) - shift;
+    *e = '\0';
+    if (exponent < -3 || exponent > 5) {
+        (void)snprintf(buffer, size, "%se%d", scientific, exponent);
+        return;
+    }
+    (void)snprintf(shifted, sizeof shifted, "%se%d", scientific, exponent);
+    const int decimals = digits - 1 - exponent;
+    (void)snprintf(buffer, size, "%.*f", decimals > 0 ? decimals : 0, strtod(shifted, NULL));
+}
+
+size_t wt_format_si(double value, const char *unit, int digits, char *buffer, size_t size)
+{
+    static const char *const names[] = {"y", "z", "a", "f", "p", "n", "\xC2\xB5", "m", "",
+                                        "k", "M", "G", "T", "P", "E", "Z",        "Y"};
+    char number[64];
+    int step = 0;
+    prefix_range prefix = find_prefix_range(unit);
+    const bool celsius = strcmp(unit, "degC") == 0 || strcmp(unit, "\xC2\xB0"
+                                                                   "C") == 0;
+    if (celsius) {
+        value -= WT_ZERO_CELSIUS;
+        unit = "\xC2\xB0"
+               "C";
+    }
+    digits = digits < 1 ? 1 : digits > 17 ? 17 : digits;
+    const locale_t previous = clocale_enter();
+    if (!isfinite(value)) {
+        (void)wt_number_format(value, number);
+    } else {
+        if (value != 0.0 && prefix.unit[0] != '\0') {
+            /* The exponent is that after rounding: 999.96 kPa is 1.00 MPa. */
+            char scientific[48];
+            (void)snprintf(scientific, sizeof scientific, "%.*e", digits - 1, value);
+            step = floor_divide_by_three(atoi(strchr(scientific, 'e') + 1));
+            step = step < prefix.low ? prefix.low : step > prefix.high ? prefix.high : step;
+        }
+        format_scaled_number(value, digits, 3 * step, number, sizeof number);
+    }
+    const bool bare = unit[0] == '\0' || strcmp(unit, "1") == 0;
+    const int needed =
+        snprintf(buffer, size, "%s%s%s%s%s", number, bare ? "" : " ", names[step + 8], prefix.text,
+                 bare ? "" : unit + strlen(prefix.unit));
+    clocale_leave(previous);
+    return needed > 0 ? (size_t)needed : 0;
+}
+
+/* Limits that agree to this number of digits are printed as equal. */
+enum { RANGE_DIGITS_MAX = 9 };
+
+int range_digits(double low, double high, int least)
+{
+    for (int digits = least; digits <= RANGE_DIGITS_MAX; digits++) {
+        char first[32], second[32];
+        clocale_print(first, sizeof first, "%.*g", digits, low);
+        clocale_print(second, sizeof second, "%.*g", digits, high);
+        if (strcmp(first, second) != 0)
+            return digits;
+    }
+    return least;
+}
+
+range_text format_range(double low, double high, int least)
+{
+    const int digits = range_digits(low, high, least);
+    range_text ends;
+    clocale_print(ends.text, sizeof ends.text, "%.*g to %.*g", digits, low, digits, high);
+    return ends;
+}
 
 /* Limit for the length of a number. Instruments write far fewer digits. */
 enum { NUMBER_MAX = 512 };
@@ -25,14 +127,28 @@ static size_t skip_digits(const char *text, size_t length, size_t i)
     return i;
 }
 
+/* Statistics programs write the minus sign U+2212, and word processors an en dash. Both have three
+ * bytes. */
+enum { MINUS_SIGN_LENGTH = 3 };
+
+static bool is_minus_sign(const char *text, size_t length)
+{
+    return length >= MINUS_SIGN_LENGTH && (memcmp(text, "\xe2\x88\x92", MINUS_SIGN_LENGTH) == 0 ||
+                                           memcmp(text, "\xe2\x80\x93", MINUS_SIGN_LENGTH) == 0);
+}
+
+static size_t skip_sign(const char *text, size_t length, size_t i)
+{
+    if (i < length && (text[i] == '+' || text[i] == '-'))
+        return i + 1;
+    return is_minus_sign(text + i, length - i) ? i + MINUS_SIGN_LENGTH : i;
+}
+
 /* strtod alone would also accept hexadecimal digits, "nan" and "infinity". */
 size_t number_prefix_length(const char *text, size_t length, char decimal)
 {
-    size_t i = 0;
-    if (i < length && (text[i] == '+' || text[i] == '-'))
-        i++;
-    const size_t whole = i;
-    i = skip_digits(text, length, i);
+    const size_t whole = skip_sign(text, length, 0);
+    size_t i = skip_digits(text, length, whole);
     size_t digits = i - whole;
     if (i < length && text[i] == decimal) {
         const size_t fraction = i + 1;
@@ -43,14 +159,23 @@ size_t number_prefix_length(const char *text, size_t length, char decimal)
     if (digits == 0)
         return 0;
     if (i < length && (text[i] == 'e' || text[i] == 'E')) {
-        size_t exponent = i + 1;
-        if (exponent < length && (text[exponent] == '+' || text[exponent] == '-'))
-            exponent++;
+        const size_t exponent = skip_sign(text, length, i + 1);
         const size_t end = skip_digits(text, length, exponent);
         if (end > exponent)
             i = end;
     }
     return i;
+}
+
+/* Copies a number with ASCII minus signs, as strtod needs them. */
+static void copy_number(char *to, const char *text, size_t length)
+{
+    for (size_t i = 0; i < length;) {
+        const bool minus = is_minus_sign(text + i, length - i);
+        *to++ = minus ? '-' : text[i];
+        i += minus ? MINUS_SIGN_LENGTH : 1;
+    }
+    *to = '\0';
 }
 
 bool wt_number_parse(const char *text, size_t length, char decimal, double *value)
@@ -65,9 +190,8 @@ bool wt_number_parse(const char *text, size_t length, char decimal, double *valu
     if (length == 0 || length >= sizeof copy ||
         number_prefix_length(text, length, decimal) != length)
         return false;
-    memcpy(copy, text, length);
-    copy[length] = '\0';
-    char *const mark = decimal == '.' ? NULL : memchr(copy, decimal, length);
+    copy_number(copy, text, length);
+    char *const mark = decimal == '.' ? NULL : strchr(copy, decimal);
     if (mark != NULL)
         *mark = '.';
     const locale_t previous = clocale_enter();

@@ -5,6 +5,11 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+/* Text of a range, such as "0.79 to 0.812", returned by value for use in a format. */
+typedef struct range_text {
+    char text[64];
+} range_text;
+
 /* Returns the length of the longest number at the start of `text`, 0 if there is none. An "e"
  * without a digit after it belongs to the following text ("5eV"). */
 size_t number_prefix_length(const char *text, size_t length, char decimal);
@@ -20,5 +25,8 @@ typedef struct probability_text {
     char text[16];
 } probability_text;
 probability_text format_probability(double chance);
+/* Returns the number of digits, at least `least`, with which two numbers differ in print. */
+int range_digits(double low, double high, int least);
+range_text format_range(double low, double high, int least);
 
 #endif

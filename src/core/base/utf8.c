@@ -1,7 +1,28 @@
 /* Checks UTF-8 text (Unicode standard, table 3-7). SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/base/utf8.h"
 
+#include <stdio.h>
 #include <string.h>
+
+void json_write_text(FILE *out, const char *text)
+{
+    (void)putc('"', out);
+    for (size_t left = strlen(text), n; left > 0; text += n, left -= n) {
+        const unsigned char c = (unsigned char)*text;
+        n = utf8_character_length(text, left);
+        if (n == 0) {
+            (void)fputs("\\ufffd", out);
+            n = 1;
+        } else if (c < ' ') {
+            (void)fprintf(out, "\\u%04x", c);
+        } else {
+            if (c == '"' || c == '\\')
+                (void)putc('\\', out);
+            (void)fwrite(text, 1, n, out);
+        }
+    }
+    (void)putc('"', out);
+}
 
 size_t utf8_character_length(const char *text, size_t length)
 {

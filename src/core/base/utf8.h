@@ -4,6 +4,7 @@
 
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdio.h>
 
 /* Returns the length in bytes (1 to 4) of the well-formed character at `text`, 0 if there is none
  * within `length` bytes. Overlong forms and surrogates are not well-formed. */
@@ -17,5 +18,7 @@ void utf8_copy(char *to, size_t size, const char *text);
 /* Sanitizes text for one line of a terminal or a page: control characters become blanks, bytes that
  * are not UTF-8 become '?'. */
 void utf8_sanitize(char *text);
+/* Writes a text in quotes with the JSON escapes. A byte that is not UTF-8 becomes U+FFFD. */
+void json_write_text(FILE *out, const char *text);
 
 #endif

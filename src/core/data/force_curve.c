@@ -1,13 +1,59 @@
 /* Force curves, whose memory is reused from curve to curve. SPDX-License-Identifier:
  * GPL-3.0-or-later */
 #include "core/data/force_curve.h"
-
 #include "core/base/array.h"
 #include "core/math/simd.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+
+void wt_record_clear(wt_record *record)
+{
+    if (record == NULL)
+        return;
+    for (int c = 0; c < WT_RECORD_CHANNELS; c++)
+        free(record->channel[c]);
+    free(record->step);
+    *record = (wt_record){.n = 0};
+}
+
+void wt_noise_spectrum_clear(wt_noise_spectrum *spectrum)
+{
+    if (spectrum == NULL)
+        return;
+    free(spectrum->frequency);
+    free(spectrum->density);
+    *spectrum = (wt_noise_spectrum){.n = 0};
+}
+
+void wt_power_spectrum_clear(wt_power_spectrum *spectrum)
+{
+    if (spectrum == NULL)
+        return;
+    free(spectrum->wavenumber);
+    free(spectrum->density);
+    *spectrum = (wt_power_spectrum){0};
+}
+
+void wt_image_clear(wt_image *image)
+{
+    if (image == NULL)
+        return;
+    free(image->values);
+    *image = (wt_image){0};
+}
+
+wt_height_map wt_image_height_map(const wt_image *image)
+{
+    return (wt_height_map){image->values,
+                           image->n_columns,
+                           image->n_rows,
+                           image->width / (double)(image->n_columns - 1),
+                           image->n_rows > 1 ? image->height / (double)(image->n_rows - 1)
+                                             : (double)NAN,
+                           false};
+}
 
 const char *wt_segment_kind_name(wt_segment_kind kind)
 {
@@ -52,15 +98,10 @@ static bool resize_channels(wt_segment *segment, size_t n_points, size_t n_chann
     if (n_points > SIZE_MAX / sizeof(double) || n_channels > SIZE_MAX / sizeof(wt_channel))
         return false;
     free_channels(segment, n_channels);
-    if (n_channels > segment->n_channels || segment->channels == NULL) {
-        const size_t n = n_channels > 0 ? n_channels : 1;
-        wt_channel *const channels = realloc(segment->channels, n * sizeof *channels);
-        if (channels == NULL)
-            return false;
-        segment->channels = channels;
-        memset(channels + segment->n_channels, 0, (n - segment->n_channels) * sizeof *channels);
-        segment->n_channels = n_channels;
-    }
+    segment->channels = wt_realloc(segment->channels, n_channels, sizeof *segment->channels);
+    for (size_t i = segment->n_channels; i < n_channels; i++)
+        segment->channels[i] = (wt_channel){.values = NULL};
+    segment->n_channels = n_channels;
     for (size_t i = 0; i < n_channels; i++) {
         wt_channel *const channel = &segment->channels[i];
         double *const values =
@@ -77,14 +118,9 @@ wt_segment *wt_force_curve_add_segment(wt_force_curve *curve, wt_segment_kind ki
 {
     if (curve->n_segments == curve->capacity) {
         const size_t capacity = curve->capacity > 0 ? 2 * curve->capacity : 4;
-        if (capacity > SIZE_MAX / sizeof(wt_segment))
-            return NULL;
-        wt_segment *const segments = realloc(curve->segments, capacity * sizeof *segments);
-        if (segments == NULL)
-            return NULL;
-        memset(segments + curve->capacity, 0, (capacity - curve->capacity) * sizeof *segments);
-        curve->segments = segments;
-        curve->capacity = capacity;
+        curve->segments = wt_realloc(curve->segments, capacity, sizeof *curve->segments);
+        for (; curve->capacity < capacity; curve->capacity++)
+            curve->segments[curve->capacity] = (wt_segment){.channels = NULL};
     }
     wt_segment *const segment = &curve->segments[curve->n_segments];
     if (!resize_channels(segment, n_points, n_channels))
@@ -190,4 +226,26 @@ const double *segment_time(const wt_segment *segment, double *scratch)
         return NULL;
     sample_times(0, segment->duration, segment->n_points, scratch);
     return scratch;
+}
+
+void wt_prony_clear(wt_prony *prony)
+{
+    if (prony == NULL)
+        return;
+    free(prony->relaxation_time);
+    free(prony->modulus);
+    *prony = (wt_prony){0};
+}
+
+void wt_prony_alloc(wt_prony *prony, size_t n)
+{
+    double *const relaxation_time = wt_alloc(n, sizeof *relaxation_time);
+    double *const modulus = wt_alloc(n, sizeof *modulus);
+    *prony = (wt_prony){.deformation = WT_TENSION,
+                        .reference_temperature = (double)NAN,
+                        .n = n,
+                        .relaxation_time = relaxation_time,
+                        .modulus = modulus,
+                        .frequency_min = (double)NAN,
+                        .frequency_max = (double)NAN};
 }

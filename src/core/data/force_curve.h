@@ -2,9 +2,7 @@
  * sample.
  *
  * The deflection is the detector voltage times the sensitivity. The force is the deflection times
- * the spring constant.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later */
+ * the spring constant. SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_CORE_DATA_FORCE_CURVE_H
 #define WT_CORE_DATA_FORCE_CURVE_H
 

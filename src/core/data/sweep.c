@@ -1,12 +1,9 @@
 /* DMA sweeps: memory, sorting, removal of duplicates and selection of a sample.
  * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "core/base/clocale.h"
 #include "core/data/sweep_points.h"
 
-#include "core/base/clocale.h"
-
 #include <math.h>
-#include <stdint.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -266,10 +263,10 @@ static void remove_duplicate_points(wt_isotherm *t, wt_log *log)
 {
     const size_t dropped = remove_repeated_points(t);
     if (dropped > 0)
-        wt_log_add(log, WT_WARNING, t->source, NULL,
-                   "%zu points of the isotherm at %.1f degC stand there twice; the copies are "
-                   "left out",
-                   dropped, t->temperature - WT_ZERO_CELSIUS);
+        wt_log_action(log, WT_WARNING, WT_COPIED, dropped, NULL, t->source, NULL,
+                      "%zu points of the isotherm at %.1f degC stand there twice; the copies are "
+                      "left out",
+                      dropped, t->temperature - WT_ZERO_CELSIUS);
 }
 
 /* Ramps of equal frequency are adjacent after sorting. */
@@ -284,8 +281,8 @@ static void remove_duplicate_ramps(wt_sweep *sweep, wt_log *log)
             sweep->ramps[kept++] = *t;
             continue;
         }
-        wt_log_add(log, WT_WARNING, t->source, NULL,
-                   "this temperature sweep is a copy of that of %s and left out", b->source);
+        wt_log_action(log, WT_WARNING, WT_COPIED, 1, NULL, t->source, NULL,
+                      "this temperature sweep is a copy of that of %s and left out", b->source);
         free_points(ramp_points(t));
     }
     sweep->n_ramps = kept;
@@ -303,8 +300,8 @@ static void remove_duplicate_strain_sweeps(wt_sweep *sweep, wt_log *log)
             sweep->strain_sweeps[kept++] = *t;
             continue;
         }
-        wt_log_add(log, WT_WARNING, t->source, NULL,
-                   "this strain sweep is a copy of that of %s and left out", b->source);
+        wt_log_action(log, WT_WARNING, WT_COPIED, 1, NULL, t->source, NULL,
+                      "this strain sweep is a copy of that of %s and left out", b->source);
         free_points(strain_sweep_points(t));
     }
     sweep->n_strain_sweeps = kept;
@@ -346,9 +343,9 @@ void wt_sweep_remove_duplicates(wt_sweep *sweep, wt_log *log)
     remove_duplicate_ramps(sweep, log);
     remove_duplicate_strain_sweeps(sweep, log);
     if (n > 0)
-        wt_log_add(log, WT_WARNING, NULL, NULL, "%zu %s and left out; the first: %s", n,
-                   n > 1 ? "isotherms are copies of others" : "isotherm is a copy of another",
-                   first);
+        wt_log_action(
+            log, WT_WARNING, WT_COPIED, n, NULL, NULL, NULL, "%zu %s and left out; the first: %s",
+            n, n > 1 ? "isotherms are copies of others" : "isotherm is a copy of another", first);
 }
 
 /* ---- samples --------------------------------------------------------------------------------- */

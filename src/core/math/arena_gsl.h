@@ -3,7 +3,7 @@
 #ifndef WT_CORE_MATH_ARENA_GSL_H
 #define WT_CORE_MATH_ARENA_GSL_H
 
-#include "core/base/arena.h"
+#include "core/base/array.h"
 
 #include <gsl/gsl_matrix.h>
 #include <gsl/gsl_vector.h>

@@ -1,8 +1,5 @@
-/* Chebyshev interpolation and its truncation error.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later */
+/* Chebyshev interpolation and its truncation error. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/math/chebyshev.h"
-
 #include "core/math/simd.h"
 
 #include <float.h>

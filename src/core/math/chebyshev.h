@@ -1,6 +1,5 @@
-/* Polynomials through values at cos(pi k / degree). Internal to math.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later */
+/* Polynomials through values at cos(pi k / degree). Internal to math. SPDX-License-Identifier:
+ * GPL-3.0-or-later */
 #ifndef WT_CORE_MATH_CHEBYSHEV_H
 #define WT_CORE_MATH_CHEBYSHEV_H
 

@@ -1,5 +1,4 @@
 /* Gauss-Legendre rules with the matrix of their running integral. Internal to math.
- *
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_CORE_MATH_GAUSS_LEGENDRE_H
 #define WT_CORE_MATH_GAUSS_LEGENDRE_H
@@ -23,7 +22,7 @@ typedef struct gauss_rule {
 enum { GAUSS_NODES_MAX = 20, LEGENDRE_TOP = 6, LEGENDRE_TOP_STRIDE = 8 };
 /* Returns the rule with n nodes. n must be one of the sizes that GSL tabulates to full precision, 2
  * to 20. A rule is created at the first request of any thread and shared by all. */
-wt_status gauss_rule_get(size_t n, const gauss_rule **rule, wt_error *err) WT_NODISCARD;
+const gauss_rule *gauss_rule_get(size_t n);
 
 /* Adds the integrals of f from -1 to each node to running[row_stride]. Returns the integral to 1.
  */

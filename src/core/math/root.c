@@ -1,10 +1,8 @@
 /* Bracketed roots by Brent's method and by bisection; maxima by golden section search.
- *
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/math/root.h"
-
 #include "core/base/memory.h"
-#include "core/math/gsl_quiet.h"
+#include "core/math/special.h"
 
 #include <float.h>
 #include <gsl/gsl_errno.h>

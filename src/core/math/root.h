@@ -1,12 +1,9 @@
-/* Roots and maxima of functions of one variable. Internal to the library.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later */
+/* Roots and maxima of functions of one variable. Internal to the library. SPDX-License-Identifier:
+ * GPL-3.0-or-later */
 #ifndef WT_CORE_MATH_ROOT_H
 #define WT_CORE_MATH_ROOT_H
 
 #include "weartrack/core.h"
-
-#include <stdbool.h>
 
 typedef double (*root_fn)(double x, void *user);
 

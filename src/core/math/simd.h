@@ -4,6 +4,7 @@
 #ifndef WT_CORE_MATH_SIMD_H
 #define WT_CORE_MATH_SIMD_H
 
+#include <stddef.h>
 #include <stdint.h>
 #include <stdlib.h> /* defines __GLIBC__, whose resolver target_clones needs */
 #include <string.h>
@@ -51,5 +52,10 @@ static inline double simd_sum(const wide *x)
 {
     return ((*x)[0] + (*x)[1]) + ((*x)[2] + (*x)[3]);
 }
+
+/* Compute e^x[i] and e^x[i] - 1 for x[i] from -infinity to 700, with a relative error of at most 2
+ * DBL_EPSILON. Results below 1e-307 are 0. */
+void vector_exp(const double *restrict x, size_t n, double *restrict power);
+void vector_expm1(const double *restrict x, size_t n, double *restrict power);
 
 #endif

@@ -1,7 +1,5 @@
 /* Hash of 64 bits for seeds: splitmix64 (Steele, Lea, Flood, OOPSLA 2014). Neighbouring seeds and
- * indices become unrelated.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later */
+ * indices become unrelated. SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_CORE_MATH_SPLITMIX64_H
 #define WT_CORE_MATH_SPLITMIX64_H
 

@@ -1,8 +1,7 @@
 /* Quantiles of Student's t, and sums of errors with different degrees of freedom.
  *
- * Source: Satterthwaite, Biometrics Bull. 2 (1946) 110.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later */
+ * Source: Satterthwaite, Biometrics Bull. 2 (1946) 110. SPDX-License-Identifier: GPL-3.0-or-later
+ */
 #include "core/math/students_t.h"
 #include "core/base/array.h"
 #include "weartrack/core.h"

@@ -24,4 +24,7 @@ t_error t_error_sum(const t_error *parts, size_t n);
 /* Adds a normal variance without uncertainty. */
 t_error t_error_add_normal(t_error part, double known);
 
+/* Half width of the central 95 % interval, in standard deviations. */
+#define NORMAL_95 1.959963984540054
+
 #endif

@@ -1,6 +1,5 @@
 /* Computes e^x of an array: x = k ln 2 + r, with a polynomial in r. SPDX-License-Identifier:
  * GPL-3.0-or-later */
-#include "core/math/vector_exp.h"
 
 #include "core/math/simd.h"
 

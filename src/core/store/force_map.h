@@ -4,16 +4,14 @@
 #ifndef WT_CORE_STORE_FORCE_MAP_H
 #define WT_CORE_STORE_FORCE_MAP_H
 
-#include "core/store/hdf5_bytes.h"
+#include "core/store/hdf5_sandbox.h"
 #include "weartrack/core.h"
 
 #define MAP_SAMPLES_GROUP "force_map/samples"
+
 /* Number of samples of an array that are written, read and transmitted together. */
 enum { MAP_BLOCK = 1 << 12 };
 
-/* CRC-32 of the samples of a curve: values of 8 bytes in little-endian order, by segment and by
- * channel. A channel without a number in a segment is skipped. */
-uint32_t map_checksum(uint32_t before, const double *values, size_t n);
 bool map_channel_has_samples(const double *values, size_t n);
 
 typedef struct map_reader map_reader;

@@ -2,11 +2,51 @@
  * GPL-3.0-or-later */
 #include "core/base/array.h"
 #include "core/store/store.h"
+#include "core/table/registry.h"
 #include "core/table/result_value.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+
+wt_status wt_result_contents(const wt_result *result, wt_table **list, wt_error *err)
+{
+    table_writer t = table_begin(&contents_schema, err);
+    for (size_t i = 0; i < wt_result_n_tables(result); i++) {
+        const wt_table *table = wt_result_table(result, i);
+        table_row(&t);
+        contents_put_text(&t, CONTENTS_TABLE, wt_table_name(table));
+        contents_put(&t, CONTENTS_ROWS_OF, (double)wt_table_n_rows(table));
+        contents_put(&t, CONTENTS_COLUMNS_OF, (double)wt_table_n_columns(table));
+        contents_put(&t, CONTENTS_KEYS_OF, (double)wt_table_n_keys(table));
+        contents_put_text(&t, CONTENTS_TITLE, wt_table_title(table));
+    }
+    return table_end(&t, list);
+}
+
+wt_status wt_table_keys(const wt_table *table, wt_table **list, wt_error *err)
+{
+    table_writer t = table_begin(&keys_schema, err);
+    for (size_t i = 0; i < wt_table_n_keys(table); i++) {
+        const char *name = wt_table_key_name(table, i), *text = wt_table_key(table, name);
+        wt_estimate e = {0};
+        double plain = 0;
+        const bool is_estimate = wt_table_estimate(table, name, &e);
+        table_row(&t);
+        keys_put_text(&t, KEYS_KEY, name);
+        if (is_estimate) {
+            keys_put(&t, KEYS_VALUE, e.value);
+            keys_put(&t, KEYS_STANDARD_ERROR, e.standard_error);
+            keys_put(&t, KEYS_NUMERICAL_ERROR, e.numerical_error);
+            keys_put_text(&t, KEYS_UNIT, e.unit);
+        } else if (wt_number_parse(text, strlen(text), '.', &plain)) {
+            keys_put(&t, KEYS_VALUE, plain);
+        } else {
+            keys_put_text(&t, KEYS_WORDS, text);
+        }
+    }
+    return table_end(&t, list);
+}
 
 /* ---- headlines of one result ----------------------------------------------------------------- */
 
@@ -239,7 +279,7 @@ typedef struct columns {
 } columns;
 
 /* Merges the headlines of a result into the list. A new one is inserted after its predecessor. */
-static wt_status merge_headline_columns(columns *list, const table_view *headlines, wt_error *err)
+static void merge_headline_columns(columns *list, const table_view *headlines)
 {
     size_t place = 0;
     for (size_t row = 0; row < headlines->n_rows; row++) {
@@ -251,8 +291,6 @@ static wt_status merge_headline_columns(columns *list, const table_view *headlin
             i++;
         if (i == list->n) {
             column *grown = array_grow(list->column, list->n, sizeof *grown);
-            if (grown == NULL)
-                return wt_fail(err, WT_E_MEMORY, "out of memory");
             list->column = grown;
             memmove(grown + place + 1, grown + place, (list->n - place) * sizeof *grown);
             grown[place] = (column){name,
@@ -266,7 +304,6 @@ static wt_status merge_headline_columns(columns *list, const table_view *headlin
             list->column[i].has_error[e] |= keys_get(headlines, row, error_of[e]) > 0;
         place = i + 1;
     }
-    return WT_OK;
 }
 
 static wt_status add_summary_columns(wt_table *table, const columns *list, wt_error *err)
@@ -291,7 +328,7 @@ static wt_status add_summary_row(wt_table *table, const columns *list, const cha
 {
     wt_status status = wt_table_add_row(table, err);
     if (status == WT_OK)
-        status = wt_table_set_text(table, 0, file, err);
+        wt_table_set_text(table, 0, file);
     for (size_t i = 0, place = 1, next = 0; status == WT_OK && i < list->n; i++) {
         const column *c = &list->column[i];
         size_t row = next; /* most results have the same order */
@@ -302,7 +339,7 @@ static wt_status add_summary_row(wt_table *table, const columns *list, const cha
         const bool found = row < headlines->n_rows;
         next = found ? row + 1 : next;
         if (found && c->unit[0] == '\0')
-            status = wt_table_set_text(table, place, keys_text(headlines, row, KEYS_WORDS), err);
+            wt_table_set_text(table, place, keys_text(headlines, row, KEYS_WORDS));
         else if (found)
             wt_table_set_number(table, place, keys_get(headlines, row, KEYS_VALUE));
         place++;
@@ -320,14 +357,12 @@ wt_status wt_summary_table(const char *const *files, const wt_table *const *head
 {
     columns list = {NULL, 0};
     wt_status status = WT_OK;
-    table_view *views = calloc(n + 1, sizeof *views);
+    table_view *views = wt_alloc(n, sizeof *views);
     wt_table *table = wt_table_new("summary", "Headlines of the results");
-    if (views == NULL || table == NULL)
-        status = wt_fail(err, WT_E_MEMORY, "out of memory");
     for (size_t i = 0; status == WT_OK && i < n; i++) {
         status = table_bind(headlines[i], &keys_schema, "", &views[i], err);
         if (status == WT_OK)
-            status = merge_headline_columns(&list, &views[i], err);
+            merge_headline_columns(&list, &views[i]);
     }
     if (status == WT_OK)
         status = add_summary_columns(table, &list, err);

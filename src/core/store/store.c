@@ -1,18 +1,17 @@
-/* Encodes the inputs and the tail of a store, independently of HDF5. SPDX-License-Identifier:
- * GPL-3.0-or-later */
+/* Reads results from the HDF5 store, or only their headlines. The data from the sandbox must be
+ * complete and agree with their digests. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/store/store.h"
 #include "core/table/registry.h"
+#include "core/table/table.h"
 
 #include <endian.h>
+#include <errno.h>
+#include <fcntl.h>
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
-
-void store_tail_write(FILE *out, const store_tail *tail)
-{
-    const uint64_t words[] = {htole64(tail->has_origin), htole64(tail->n_tables),
-                              htole64(tail->case_length), htole64(tail->origin_length)};
-    (void)fwrite(words, sizeof words, 1, out);
-}
+#include <sys/stat.h>
+#include <unistd.h>
 
 wt_status wt_provenance_table(const wt_provenance *provenance, const char *name, wt_table **table,
                               wt_error *err)
@@ -30,7 +29,8 @@ wt_status wt_provenance_table(const wt_provenance *provenance, const char *name,
     return table_end(&t, table);
 }
 
-wt_status store_inputs_read(const wt_table *table, wt_provenance *provenance, wt_error *err)
+/* Converts a table of wt_provenance_table back to the inputs of a provenance. */
+static wt_status store_inputs_read(const wt_table *table, wt_provenance *provenance, wt_error *err)
 {
     table_view t;
     if (table_bind(table, &inputs_schema, "", &t, err) != WT_OK) {
@@ -49,8 +49,311 @@ wt_status store_inputs_read(const wt_table *table, wt_provenance *provenance, wt
             return wt_fail(err, WT_E_CORRUPT, "size or digest of an input is not one");
         input.bytes = (uint64_t)bytes;
         memcpy(input.sha256, sha256, strlen(sha256) + 1);
-        if (wt_provenance_add_input(provenance, &input) != WT_OK)
-            return wt_fail(err, WT_E_MEMORY, "out of memory");
+        wt_provenance_add_input(provenance, &input);
     }
     return WT_OK;
+}
+
+wt_status store_corrupt_error(wt_error *err, const char *place, const char *message)
+{
+    (void)wt_fail(err, WT_E_CORRUPT, "%s", message);
+    wt_error_place(err, "%s", place);
+    wt_error_advice(err, "make the file again");
+    return WT_E_CORRUPT;
+}
+
+static void decode_origin(const char *text, size_t length, wt_provenance *provenance)
+{
+    char *const origin = wt_strndup(text, length);
+    provenance_restore(provenance, origin);
+    free(origin);
+}
+
+static wt_status check_digest(const char *bytes, const char *end, const char *expected,
+                              const char *place, wt_error *err)
+{
+    char digest[STORE_DIGEST_SIZE];
+    wt_sha256(bytes, (size_t)(end - bytes), digest);
+    return memcmp(digest, expected, sizeof digest) == 0
+               ? WT_OK
+               : store_corrupt_error(err, place, "the content does not agree with its digest");
+}
+
+/* Parts of the data from the sandbox. */
+typedef struct store_parts {
+    const char *tables, *case_file, *origin, *digests; /* each ends where the next begins */
+    store_tail tail;
+} store_parts;
+
+static bool split_store_bytes(const char *bytes, size_t length, store_parts *p)
+{
+    store_tail *const t = &p->tail;
+    if (length < sizeof *t)
+        return false;
+    length -= sizeof *t;
+    uint64_t words[sizeof *t / sizeof(uint64_t)];
+    memcpy(words, bytes + length, sizeof words);
+    *t = (store_tail){.has_origin = le64toh(words[0]) != 0,
+                      .n_tables = le64toh(words[1]),
+                      .case_length = le64toh(words[2]),
+                      .origin_length = le64toh(words[3])};
+    const size_t n = t->n_tables + t->has_origin + (t->case_length > 0);
+    const size_t digests = n * STORE_DIGEST_SIZE;
+    if (t->n_tables > RESULT_TABLES_MAX || digests > length ||
+        t->origin_length > length - digests || t->case_length > length - digests - t->origin_length)
+        return false;
+    p->tables = bytes;
+    p->digests = bytes + length - digests;
+    p->origin = p->digests - t->origin_length;
+    p->case_file = p->origin - t->case_length;
+    return true;
+}
+
+/* Decodes the tables. The table of inputs goes to the provenance. */
+static wt_status decode_tables(const store_parts *p, wt_result *result, wt_error *err)
+{
+    const char *at = p->tables, *digest = p->digests;
+    wt_status status = WT_OK;
+    for (uint64_t i = 0; status == WT_OK && i < p->tail.n_tables + p->tail.has_origin; i++) {
+        const char *const from = at;
+        wt_table *table = NULL;
+        status = table_bytes_read(&at, p->case_file, &table, err);
+        if (status == WT_OK)
+            status = check_digest(from, at, digest, table->name, err);
+        digest += STORE_DIGEST_SIZE;
+        if (status == WT_OK && i < p->tail.n_tables) {
+            table_use_current_names(table);
+            status = wt_result_add(result, table, err);
+            continue;
+        }
+        if (status == WT_OK)
+            status = store_inputs_read(table, wt_result_provenance(result), err);
+        wt_table_free(table);
+    }
+    if (status == WT_E_ARG)
+        status = store_corrupt_error(err, STORE_TABLES_ATTRIBUTE, "not names of tables");
+    if (status == WT_OK && at != p->case_file)
+        status = store_corrupt_error(err, "", "the content is more than it says");
+    if (status == WT_OK && p->tail.case_length > 0)
+        status = check_digest(p->case_file, p->origin, digest, STORE_CASE_DATASET, err);
+    return status;
+}
+
+wt_status store_decode(const char *bytes, size_t length, wt_result *result, wt_error *err)
+{
+    store_parts p;
+    if (!split_store_bytes(bytes, length, &p))
+        return store_corrupt_error(err, "", "the content is not whole");
+    wt_status status = decode_tables(&p, result, err);
+    if (status == WT_OK && p.tail.has_origin)
+        decode_origin(p.origin, p.tail.origin_length, wt_result_provenance(result));
+    if (status == WT_OK)
+        wt_result_set_case(result, p.case_file, p.tail.case_length);
+    return status;
+}
+
+wt_status store_read_bytes(const hdf5_bytes *from, hdf5_read_function *pass, const char *name,
+                           wt_result **result, wt_error *err)
+{
+    const sandbox_limits limits = sandbox_limits_for(from->size);
+    size_t n = 0;
+    char *answer = NULL;
+    wt_result *const read = wt_result_new();
+    wt_status status = hdf5_sandbox_read(from, &limits, pass, &answer, &n, err);
+    if (status == WT_OK)
+        status = store_decode(answer, n, read, err);
+    free(answer);
+    if (status == WT_OK) {
+        *result = read;
+    } else {
+        wt_error_file(err, name);
+        wt_result_free(read);
+    }
+    return status;
+}
+
+wt_status wt_store_read_memory(const void *bytes, size_t length, const char *name,
+                               wt_result **result, wt_error *err)
+{
+    /* A file without bytes must not be mistaken for a descriptor. */
+    const hdf5_bytes from = {.bytes = length > 0 ? bytes : (const void *)"", .size = length};
+    return store_read_bytes(&from, store_extract, name, result, err);
+}
+
+/* Opens a regular file. On failure *file is -1 or open; the caller closes it.
+ * Opening a pipe without O_NONBLOCK would wait for a writer. */
+static wt_status store_open_regular(const char *path, int *file, struct stat *info, wt_error *err)
+{
+    *file = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+    const bool opened = *file >= 0 && fstat(*file, info) == 0;
+    wt_status status = WT_OK;
+    if (!opened) {
+        status = wt_fail(err, errno == ENOENT ? WT_E_NOT_FOUND : WT_E_IO, "%s", strerror(errno));
+    } else if (!S_ISREG(info->st_mode)) {
+        status = wt_fail(err, WT_E_IO, "not a regular file");
+        wt_error_expected(err, "an HDF5 file, which cannot come through a pipe");
+    } else if (info->st_size == 0) {
+        status = wt_fail(err, WT_E_FORMAT, "an empty file");
+    }
+    if (status != WT_OK)
+        wt_error_file(err, path);
+    return status;
+}
+
+wt_status wt_store_read(const char *path, wt_result **result, wt_error *err)
+{
+    struct stat info;
+    int file = -1;
+    wt_status status = store_open_regular(path, &file, &info, err);
+    if (status == WT_OK) {
+        const hdf5_bytes from = {.file = file, .size = (size_t)info.st_size};
+        status = store_read_bytes(&from, store_extract, path, result, err);
+    }
+    if (file >= 0)
+        (void)close(file);
+    return status;
+}
+
+/* ---- abstract --------------------------------------------------------------------------------
+ *
+ * A copy of the tables with headlines after the end of the HDF5 data, encoded as in store.h. It is
+ * read without HDF5 and without a process, so that the headlines of thousands of files are read
+ * fast. Its bytes are validated like the output of the sandbox. A program that opens the file for
+ * writing truncates the abstract, so that it is never outdated. Without an abstract, or with one
+ * for another set of tables, the file is read with HDF5. */
+
+/* The last bytes of the file: the length of the abstract before them, and a mark. A new layout gets
+ * a new mark. */
+typedef struct abstract_trailer {
+    uint64_t length; /* little-endian */
+    char mark[8];
+} abstract_trailer;
+
+static const char mark[8] = {'W', 'T', 'A', 'B', 'S', 'T', '2', '\n'};
+
+static wt_status write_table_abstract(FILE *out, const wt_table *table, char *digest, wt_error *err)
+{
+    /* Most tables have headlines in their keys only, and some of these tables are long. */
+    wt_table part = *table;
+    if (!store_has_headline_rows(table->name)) {
+        part.n_rows = 0;
+        part.n_blocks = 0;
+    }
+    const wt_status status = table_bytes_digest(&part, digest, err);
+    return status == WT_OK ? table_bytes_write(out, &part, err) : status;
+}
+
+wt_status store_abstract_write(FILE *out, const wt_result *result, wt_error *err)
+{
+    store_tail tail = {.n_tables = 0};
+    const size_t n = wt_result_n_tables(result);
+    char(*const digests)[STORE_DIGEST_SIZE] = wt_alloc(n, sizeof *digests);
+    const long from = fseek(out, 0, SEEK_END) == 0 ? ftell(out) : -1;
+    wt_status status = WT_OK;
+    for (size_t i = 0; status == WT_OK && i < n; i++) {
+        const wt_table *const table = wt_result_table(result, i);
+        if (store_has_headlines(table->name))
+            status = write_table_abstract(out, table, digests[tail.n_tables++], err);
+    }
+    if (status == WT_OK) {
+        (void)fwrite(digests, sizeof *digests, tail.n_tables, out);
+        store_tail_write(out, &tail);
+        char of[STORE_DIGEST_SIZE];
+        store_headlines_digest(of);
+        (void)fwrite(of, sizeof of, 1, out);
+        const long to = ftell(out);
+        abstract_trailer end = {.length = htole64((uint64_t)(to - from))};
+        memcpy(end.mark, mark, sizeof mark);
+        if (from < 0 || to < from || fwrite(&end, sizeof end, 1, out) != 1 || fflush(out) != 0)
+            status = wt_fail(err, WT_E_IO, "cannot write the file: %s", strerror(errno));
+    }
+    free(digests);
+    return status;
+}
+
+static bool read_exactly(int file, size_t at, void *to, size_t n)
+{
+    for (size_t got = 0; got < n;) {
+        const ssize_t more = pread(file, (char *)to + got, n - got, (off_t)(at + got));
+        if (more == 0 || (more < 0 && errno != EINTR))
+            return false;
+        got += more > 0 ? (size_t)more : 0;
+    }
+    return true;
+}
+
+/* Larger abstracts are ignored. A malicious abstract needs at most some twenty times this memory: a
+ * text of two bytes needs a pointer and an allocation. The abstract of a whole case has about 40
+ * kB. */
+#define ABSTRACT_SIZE_MAX ((size_t)2 << 20)
+
+/* True if the abstract has the current set of tables with headlines. */
+static bool is_current_abstract(const char *bytes, size_t length)
+{
+    char of[STORE_DIGEST_SIZE];
+    store_headlines_digest(of);
+    return length >= sizeof of && memcmp(bytes + length - sizeof of, of, sizeof of) == 0;
+}
+
+/* Returns the bytes of the abstract, which the caller frees. NULL without a usable abstract. */
+static char *read_abstract_bytes(int file, size_t size, size_t *length)
+{
+    abstract_trailer end;
+    if (size < sizeof end)
+        return NULL;
+    const size_t before = size - sizeof end;
+    if (!read_exactly(file, before, &end, sizeof end) || memcmp(end.mark, mark, sizeof mark) != 0)
+        return NULL;
+    *length = (size_t)le64toh(end.length);
+    const bool whole = *length > 0 && *length <= before && *length <= ABSTRACT_SIZE_MAX;
+    char *const bytes = whole ? wt_alloc(*length, 1) : NULL;
+    if (whole && read_exactly(file, before - *length, bytes, *length) &&
+        is_current_abstract(bytes, *length)) {
+        *length -= STORE_DIGEST_SIZE;
+        return bytes;
+    }
+    free(bytes);
+    return NULL;
+}
+
+wt_status store_abstract_read(int file, size_t size, const char *name, wt_result **result,
+                              wt_error *err)
+{
+    size_t length = 0;
+    char *const bytes = read_abstract_bytes(file, size, &length);
+    if (bytes == NULL)
+        return WT_END;
+    wt_result *const read = wt_result_new();
+    const wt_status status = store_decode(bytes, length, read, err);
+    free(bytes);
+    if (status == WT_OK) {
+        *result = read;
+    } else {
+        wt_error_file(err, name);
+        wt_result_free(read);
+    }
+    return status;
+}
+
+wt_status wt_store_read_main_values(const char *path, wt_result **result, wt_error *err)
+{
+    static const unsigned char signature[8] = {0x89, 'H', 'D', 'F', '\r', '\n', 0x1a, '\n'};
+    unsigned char begin[sizeof signature];
+    struct stat info;
+    int file = -1;
+    wt_status status = store_open_regular(path, &file, &info, err);
+    if (status == WT_OK && (pread(file, begin, sizeof begin, 0) != (ssize_t)sizeof begin ||
+                            memcmp(begin, signature, sizeof begin) != 0)) {
+        status = wt_fail(err, WT_E_FORMAT, "not an HDF5 file");
+        wt_error_file(err, path);
+    }
+    if (status == WT_OK)
+        status = store_abstract_read(file, (size_t)info.st_size, path, result, err);
+    if (status == WT_END) {
+        const hdf5_bytes from = {.file = file, .size = (size_t)info.st_size};
+        status = store_read_bytes(&from, store_extract_headlines, path, result, err);
+    }
+    if (file >= 0)
+        (void)close(file);
+    return status;
 }

@@ -1,11 +1,13 @@
 /* Converts the HDF5 file of a result to bytes, in the sandbox (hdf5_sandbox.h). The file may be
  * damaged or malicious. Types, ranks and lengths are checked before memory is allocated, and links
  * to other files are rejected. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "core/base/memory.h"
 #include "core/store/force_map.h"
-#include "core/store/hdf5_scope.h"
+#include "core/store/hdf5_sandbox.h"
 #include "core/store/store.h"
-#include "core/table/table_bytes.h"
+#include "core/table/table.h"
 
+#include <endian.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -44,38 +46,34 @@ static bool hdf5_accepts_name(hdf5_reader *r, wt_status status)
 }
 
 /* Copies n texts, each with up to `width` bytes of `packed`. An empty text becomes NULL. */
-static bool unpack_texts(const char *packed, size_t width, size_t n, char **texts)
+static void unpack_texts(const char *packed, size_t width, size_t n, char **texts)
 {
     for (size_t i = 0; i < n; i++) {
         const char *const text = packed + i * width;
         const size_t length = strnlen(text, width);
-        if (length > 0) {
-            texts[i] = strndup(text, length);
-            if (texts[i] == NULL)
-                return false;
-        }
+        if (length > 0)
+            texts[i] = wt_strndup(text, length);
     }
-    return true;
 }
 
 /* Reads n texts of an attribute or a data set into new copies. */
 static bool read_fixed_texts(hdf5_reader *r, hid_t source, bool is_attribute, const char *name,
                              size_t n, char **texts)
 {
-    bool good = false;
+    bool good = true;
     char *packed = NULL;
     const hid_t type = is_attribute ? H5Aget_type(source) : H5Dget_type(source);
     const size_t width = type >= 0 ? H5Tget_size(type) : 0;
     if (width == 0 || H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) != 0 ||
         n > r->file_size / width)
         good = fail_corrupt_object(r, name, "not text of fixed length");
-    else if ((packed = malloc(n > 0 ? n * width : 1)) == NULL)
+    else if ((packed = try_alloc(n, width)) == NULL)
         good = fail_out_of_memory(r);
     else if ((is_attribute ? H5Aread(source, type, packed)
                            : H5Dread(source, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, packed)) < 0)
         good = fail_corrupt_object(r, name, "text cannot be read");
     else
-        good = unpack_texts(packed, width, n, texts) || fail_out_of_memory(r);
+        unpack_texts(packed, width, n, texts);
     free(packed);
     hdf5_close(type);
     return good;
@@ -105,9 +103,7 @@ static char *read_text_attribute(hdf5_reader *r, hid_t object, const char *name)
                           ? fail_corrupt_object(r, name, "attribute missing or not one text")
                           : read_fixed_texts(r, attribute, true, name, 1, &found);
     hdf5_close(attribute);
-    if (good && found == NULL && (found = strdup("")) == NULL)
-        (void)fail_out_of_memory(r);
-    return found;
+    return good && found == NULL ? wt_strdup("") : found;
 }
 
 /* Reads a list of names. An empty list is not stored in the file. */
@@ -118,10 +114,9 @@ static bool read_name_list(hdf5_reader *r, hid_t object, const char *name, size_
     if (H5Aexists(object, name) == 0)
         return true;
     const hid_t attribute = open_sized_attribute(object, name, &n);
-    char **const found = attribute >= 0 && n <= max ? calloc(n + 1, sizeof *found) : NULL;
-    bool good = attribute < 0 || n > max ? fail_corrupt_object(r, name, "not a list of names")
-                : found == NULL          ? fail_out_of_memory(r)
-                                         : read_fixed_texts(r, attribute, true, name, n, found);
+    char **const found = attribute >= 0 && n <= max ? wt_alloc(n, sizeof *found) : NULL;
+    bool good = found != NULL ? read_fixed_texts(r, attribute, true, name, n, found)
+                              : fail_corrupt_object(r, name, "not a list of names");
     for (size_t i = 0; good && i < n; i++)
         good = found[i] != NULL || fail_corrupt_object(r, name, "an empty name");
     hdf5_close(attribute);
@@ -168,10 +163,8 @@ static bool is_internal_link(hid_t group, const char *name)
 /* Opens a group step by step; -1 if a step is missing or leads out of the file. */
 static hid_t open_group(hdf5_reader *r, const char *path)
 {
-    char *const steps = strdup(path);
-    if (steps == NULL)
-        (void)fail_out_of_memory(r);
-    hid_t group = steps != NULL ? H5Gopen2(r->file, "/", H5P_DEFAULT) : -1;
+    char *const steps = wt_strdup(path);
+    hid_t group = H5Gopen2(r->file, "/", H5P_DEFAULT);
     for (char *step = steps; group >= 0 && step != NULL;) {
         char *const slash = strchr(step, '/');
         if (slash != NULL)
@@ -301,7 +294,7 @@ static bool read_column(hdf5_reader *r, hid_t group, const char *name, hsize_t n
 /* Adds the rows and their blocks. */
 static bool read_row_blocks(hdf5_reader *r, hid_t dataset, hsize_t n, wt_table *table)
 {
-    uint64_t *const blocks = calloc((size_t)n + 1, sizeof *blocks);
+    uint64_t *const blocks = try_alloc((size_t)n, sizeof *blocks);
     bool good = blocks != NULL || fail_out_of_memory(r);
     if (good && n > 0 &&
         H5Dread(dataset, H5T_NATIVE_UINT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, blocks) < 0)
@@ -311,7 +304,7 @@ static bool read_row_blocks(hdf5_reader *r, hid_t dataset, hsize_t n, wt_table *
         if (blocks[row] != before && blocks[row] != before + (row > 0))
             good = fail_corrupt_object(r, STORE_BLOCK_DATASET, "blocks are not numbered in order");
         else if (blocks[row] != before)
-            good = hdf5_accepts_name(r, wt_table_new_block(table, r->err));
+            wt_table_new_block(table);
         good = good && hdf5_accepts_name(r, wt_table_add_row(table, r->err));
     }
     free(blocks);
@@ -339,9 +332,7 @@ static bool read_table_columns(hdf5_reader *r, hid_t group, wt_table *table)
     if (blocks < 0)
         return fail_corrupt_object(r, STORE_BLOCK_DATASET, "blocks missing");
     bool good = read_name_list(r, group, STORE_COLUMNS_ATTRIBUTE, TABLE_COLUMNS_MAX, &columns, &n);
-    hid_t *const opened = good ? calloc(n + 1, sizeof *opened) : NULL;
-    if (good && opened == NULL)
-        good = fail_out_of_memory(r);
+    hid_t *const opened = wt_alloc(n, sizeof *opened);
     for (; good && n_opened < n; n_opened++)
         good = read_column(r, group, columns[n_opened], n_rows, table, &opened[n_opened]);
     good = good && read_row_blocks(r, blocks, n_rows, table);
@@ -364,8 +355,8 @@ static wt_table *read_stored_table(hdf5_reader *r, const char *name)
     char *const title = group >= 0 ? read_text_attribute(r, group, STORE_TITLE_ATTRIBUTE) : NULL;
     if (group < 0 && r->status == WT_OK)
         (void)fail_corrupt_object(r, "", "table missing or misnamed");
-    else if (title != NULL && (table = wt_table_new(name, title)) == NULL)
-        (void)fail_out_of_memory(r);
+    else if (title != NULL)
+        table = wt_table_new(name, title);
     if (table != NULL &&
         !(read_table_keys(r, group, table) && read_table_columns(r, group, table))) {
         wt_table_free(table);
@@ -401,7 +392,7 @@ static bool write_case_text(hdf5_reader *r, uint64_t *passed)
     const size_t length = is_text ? H5Tget_size(type) : 0;
     if (!is_text)
         good = fail_corrupt_object(r, STORE_CASE_DATASET, "not one text of fixed length");
-    else if ((text = malloc(length)) == NULL)
+    else if ((text = try_alloc(length, 1)) == NULL)
         good = fail_out_of_memory(r);
     else if (H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text) < 0)
         good = fail_corrupt_object(r, STORE_CASE_DATASET, "cannot be read");
@@ -460,6 +451,13 @@ static bool read_store_index(hdf5_reader *r, store_index *w)
     return good &&
            (w->n_digests == n || fail_corrupt_object(r, STORE_DIGESTS_ATTRIBUTE,
                                                      "not as many digests as there are tables"));
+}
+
+void store_tail_write(FILE *out, const store_tail *tail)
+{
+    const uint64_t words[] = {htole64(tail->has_origin), htole64(tail->n_tables),
+                              htole64(tail->case_length), htole64(tail->origin_length)};
+    (void)fwrite(words, sizeof words, 1, out);
 }
 
 static void write_table_digest(const hdf5_reader *r, const char *digest)

@@ -1,15 +1,13 @@
 /* Writes results to the HDF5 store. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "core/store/hdf5_scope.h"
-#include "core/store/store_file.h"
+#include "core/store/hdf5_sandbox.h"
+#include "core/store/store.h"
 #include "core/table/registry.h"
-#include "core/table/table_bytes.h"
+#include "core/table/table.h"
 
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <time.h>
-
-typedef store_file store_writer;
 
 static bool write_attribute(hid_t object, const char *name, hid_t file_type, hid_t memory_type,
                             hid_t space, const void *value)
@@ -42,7 +40,7 @@ bool store_write_text_attribute(const store_file *w, hid_t object, const char *n
     return type >= 0 && H5Tclose(type) >= 0 && good;
 }
 
-/* Packs texts into an array of one width; NULL when out of memory. The caller frees it. */
+/* Packs texts into an array of one width. The caller frees it. */
 static char *pack_texts(const char *const *texts, size_t n, size_t *width)
 {
     *width = 1;
@@ -51,13 +49,13 @@ static char *pack_texts(const char *const *texts, size_t n, size_t *width)
         if (length > *width)
             *width = length;
     }
-    char *const packed = calloc(n > 0 ? n : 1, *width);
-    for (size_t i = 0; packed != NULL && i < n; i++)
+    char *const packed = wt_alloc(n, *width);
+    for (size_t i = 0; i < n; i++)
         memcpy(packed + i * *width, texts[i], strlen(texts[i]));
     return packed;
 }
 
-static bool write_number_attribute(const store_writer *w, hid_t object, const char *name,
+static bool write_number_attribute(const store_file *w, hid_t object, const char *name,
                                    double value)
 {
     return write_attribute(object, name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, w->scalar, &value);
@@ -73,17 +71,15 @@ bool store_write_text_list(hid_t object, const char *name, const char *const *wo
     char *const packed = pack_texts(words, n, &width);
     const hid_t type = create_text_type(width);
     const hid_t space = H5Screate_simple(1, &size, NULL);
-    const bool good = packed != NULL && type >= 0 && space >= 0 &&
-                      write_attribute(object, name, type, type, space, packed);
+    const bool good =
+        type >= 0 && space >= 0 && write_attribute(object, name, type, type, space, packed);
     free(packed);
-    if (type >= 0)
-        (void)H5Tclose(type);
-    if (space >= 0)
-        (void)H5Sclose(space);
+    hdf5_close(type);
+    hdf5_close(space);
     return good;
 }
 
-static bool write_dataset(const store_writer *w, hid_t group, const char *name, hid_t file_type,
+static bool write_dataset(const store_file *w, hid_t group, const char *name, hid_t file_type,
                           hid_t memory_type, const void *values, size_t n, const char *units,
                           const char *long_name)
 {
@@ -104,7 +100,7 @@ static bool write_dataset(const store_writer *w, hid_t group, const char *name, 
 /* Opens a group by its path and creates missing groups. */
 hid_t store_create_group(const store_file *w, const char *path)
 {
-    char *const partial = strdup(path);
+    char *const partial = wt_strdup(path);
     hid_t group = -1;
     for (char *slash = partial; slash != NULL;) {
         slash = strchr(slash, '/');
@@ -125,10 +121,10 @@ hid_t store_create_group(const store_file *w, const char *path)
     return group;
 }
 
-static bool write_keys(const store_writer *w, hid_t group, const wt_table *table)
+static bool write_keys(const store_file *w, hid_t group, const wt_table *table)
 {
-    const char **const words = calloc(table->n_keys + 1, sizeof *words);
-    bool good = words != NULL;
+    const char **const words = wt_alloc(table->n_keys, sizeof *words);
+    bool good = true;
     for (size_t i = 0; good && i < table->n_keys; i++) {
         const table_key *const key = &table->keys[i];
         words[i] = key->name;
@@ -152,15 +148,14 @@ static bool write_keys(const store_writer *w, hid_t group, const wt_table *table
     return good;
 }
 
-static bool write_hdf5_columns(const store_writer *w, hid_t group, const wt_table *table)
+static bool write_hdf5_columns(const store_file *w, hid_t group, const wt_table *table)
 {
     const size_t n = table->n_rows > table->n_columns ? table->n_rows : table->n_columns;
-    const char **const words = calloc(n + 1, sizeof *words);
-    uint64_t *const blocks = calloc(table->n_rows + 1, sizeof *blocks);
-    bool good = words != NULL && blocks != NULL;
-    for (size_t i = 0; good && i < table->n_columns; i++)
+    const char **const words = wt_alloc(n, sizeof *words);
+    uint64_t *const blocks = wt_alloc(table->n_rows, sizeof *blocks);
+    for (size_t i = 0; i < table->n_columns; i++)
         words[i] = table->columns[i].name;
-    good = good && store_write_text_list(group, STORE_COLUMNS_ATTRIBUTE, words, table->n_columns);
+    bool good = store_write_text_list(group, STORE_COLUMNS_ATTRIBUTE, words, table->n_columns);
     for (size_t i = 0; good && i < table->n_columns; i++) {
         const table_column *const column = &table->columns[i];
         if (column->kind == WT_COLUMN_NUMBER) {
@@ -173,12 +168,10 @@ static bool write_hdf5_columns(const store_writer *w, hid_t group, const wt_tabl
         size_t width = 0;
         char *const packed = pack_texts(words, table->n_rows, &width);
         const hid_t type = create_text_type(width);
-        good = packed != NULL && type >= 0 &&
-               write_dataset(w, group, column->name, type, type, packed, table->n_rows, "",
-                             column->long_name);
+        good = type >= 0 && write_dataset(w, group, column->name, type, type, packed, table->n_rows,
+                                          "", column->long_name);
         free(packed);
-        if (type >= 0)
-            (void)H5Tclose(type);
+        hdf5_close(type);
     }
     for (size_t row = 0; good && row < table->n_rows; row++)
         blocks[row] = wt_table_block(table, row);
@@ -189,7 +182,7 @@ static bool write_hdf5_columns(const store_writer *w, hid_t group, const wt_tabl
     return good;
 }
 
-static bool write_hdf5_table(const store_writer *w, const wt_table *table)
+static bool write_hdf5_table(const store_file *w, const wt_table *table)
 {
     const hid_t group = store_create_group(w, table->name);
     if (group < 0)
@@ -200,7 +193,7 @@ static bool write_hdf5_table(const store_writer *w, const wt_table *table)
 }
 
 /* Stores the case file as one string of its length, so that it need not be UTF-8. */
-static bool write_case_dataset(const store_writer *w, const char *text, size_t length)
+static bool write_case_dataset(const store_file *w, const char *text, size_t length)
 {
     const hid_t type = create_text_type(length);
     const hid_t dataset = H5Dcreate2(w->file, STORE_CASE_DATASET, type, w->scalar, H5P_DEFAULT,
@@ -214,7 +207,7 @@ static bool write_case_dataset(const store_writer *w, const char *text, size_t l
     return type >= 0 && H5Tclose(type) >= 0 && good;
 }
 
-static bool write_origin(const store_writer *w, const wt_provenance *provenance,
+static bool write_origin(const store_file *w, const wt_provenance *provenance,
                          const wt_table *inputs)
 {
     char created[32];
@@ -247,7 +240,7 @@ static wt_status compute_digests(const wt_result *result, const wt_table *inputs
     return status;
 }
 
-static bool write_result_objects(const store_writer *w, const wt_result *result,
+static bool write_result_objects(const store_file *w, const wt_result *result,
                                  const wt_table *inputs, char (*digests)[STORE_DIGEST_SIZE],
                                  size_t n_digests)
 {
@@ -256,9 +249,9 @@ static bool write_result_objects(const store_writer *w, const wt_result *result,
     const size_t n = wt_result_n_tables(result);
     size_t case_length = 0;
     const char *const case_file = wt_result_case(result, &case_length);
-    const char **const words = calloc(n_digests + 1, sizeof *words);
-    bool good = words != NULL && write_attribute(w->file, STORE_FORMAT_ATTRIBUTE, H5T_STD_I32LE,
-                                                 H5T_NATIVE_INT, w->scalar, &format);
+    const char **const words = wt_alloc(n_digests, sizeof *words);
+    bool good = write_attribute(w->file, STORE_FORMAT_ATTRIBUTE, H5T_STD_I32LE, H5T_NATIVE_INT,
+                                w->scalar, &format);
     for (size_t i = 0; good && i < n; i++)
         words[i] = wt_table_name(wt_result_table(result, i));
     good = good && store_write_text_list(w->file, STORE_TABLES_ATTRIBUTE, words, n);
@@ -333,9 +326,7 @@ wt_status store_begin(const char *path, store_file **file, wt_error *err)
 {
     struct stat info;
     hdf5_scope scope;
-    store_file *const w = calloc(1, sizeof *w);
-    if (w == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    store_file *const w = wt_alloc(1, sizeof *w);
     *w = (store_file){
         .path = path, .file = -1, .scalar = -1, .group_creation = -1, .dataset_creation = -1};
     wt_status status = wt_outfile_open(path, &w->out, err);
@@ -364,9 +355,9 @@ wt_status store_end(store_file *w, const wt_result *result, bool with_provenance
     size_t n_digests = 0;
     wt_table *inputs = NULL;
     char(*const digests)[STORE_DIGEST_SIZE] =
-        calloc(wt_result_n_tables(result) + 2, sizeof *digests);
-    wt_status status = digests != NULL ? WT_OK : wt_fail(err, WT_E_MEMORY, "out of memory");
-    if (status == WT_OK && with_provenance)
+        wt_alloc(wt_result_n_tables(result) + 2, sizeof *digests);
+    wt_status status = WT_OK;
+    if (with_provenance)
         status = wt_provenance_table(wt_result_provenance_const(result), STORE_INPUTS_TABLE,
                                      &inputs, err);
     if (status == WT_OK)

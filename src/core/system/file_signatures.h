@@ -4,6 +4,8 @@
 #ifndef WT_CORE_SYSTEM_FILE_SIGNATURES_H
 #define WT_CORE_SYSTEM_FILE_SIGNATURES_H
 
+#include <stddef.h>
+
 #define STORE_FORMAT_ATTRIBUTE "weartrack_format"
 /* First attribute of a file with a force map, which identifies the file without HDF5. */
 #define STORE_MAP_ATTRIBUTE "weartrack_force_map"
@@ -15,5 +17,11 @@
 #define SQLITE_SIGNATURE "SQLite format 3"
 #define SQLITE_APPLICATION_ID "wtrk"
 enum { SQLITE_APPLICATION_ID_OFFSET = 68, SQLITE_APPLICATION_ID_SIZE = 4 };
+
+typedef struct embedded_text {
+    const char *name; /* file name without its folder; NULL ends the list */
+    const char *text; /* followed by a terminating zero that `length` does not count */
+    size_t length;
+} embedded_text;
 
 #endif

@@ -1,7 +1,6 @@
 /* Expands shell patterns to sorted lists of files. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/base/array.h"
 #include "core/base/memory.h"
-#include "weartrack/core.h"
 
 #include <dirent.h>
 #include <errno.h>

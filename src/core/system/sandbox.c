@@ -1,9 +1,8 @@
 /* Runs a library in a separate process with limits and a system-call filter.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/system/sandbox.h"
-
 #include "core/base/array.h"
-#include "core/base/resource_error.h"
+#include "core/base/memory.h"
 #include "core/system/seccomp_filter.h"
 
 #include <errno.h>
@@ -381,9 +380,7 @@ wt_status sandbox_start(const sandbox_call *request, const sandbox_limits *limit
 {
     int channel[2];
     size_t data = 0;
-    sandbox_stream *const stream = calloc(1, sizeof *stream);
-    if (stream == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    sandbox_stream *const stream = wt_alloc(1, sizeof *stream);
     *stream = (sandbox_stream){.what = request->what, .limits = *limits};
     if (data_segment_size(&data) != 0 || pipe2(channel, O_CLOEXEC) != 0) {
         free(stream);

@@ -20,8 +20,6 @@
 
 #include "weartrack/core.h"
 
-#include <stdio.h>
-
 typedef struct sandbox_limits {
     size_t memory, answer;        /* bytes */
     unsigned cpu_time, wall_time; /* s */

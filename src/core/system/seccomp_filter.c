@@ -1,6 +1,5 @@
 /* System-call filter of the sandbox. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/system/seccomp_filter.h"
-
 #include "core/base/array.h"
 
 #include <errno.h>

@@ -1,6 +1,4 @@
-/* Starts another program and waits for its end.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later */
+/* Starts another program and waits for its end. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/system/subprocess.h"
 
 #include <errno.h>

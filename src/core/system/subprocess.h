@@ -1,5 +1,4 @@
 /* Runs other programs. This is the only place of the library that does so, except for the sandbox.
- *
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_CORE_SYSTEM_SUBPROCESS_H
 #define WT_CORE_SYSTEM_SUBPROCESS_H

@@ -77,6 +77,15 @@ const char *finding_question_text(finding_question question)
     return text[question];
 }
 
+const char *finding_subject_text(finding_question question)
+{
+    static const char *const text[FINDING_QUESTIONS] = {
+        [FINDING_TRACK_DIFFERS] = "Modulus ratio",
+        [FINDING_LAYER_THICKNESS] = "Layer thickness",
+        [FINDING_FRICTION_CHANGE] = "Change of friction"};
+    return text[question];
+}
+
 const char *finding_verdict_text(finding_verdict verdict)
 {
     static const char *const text[FINDING_VERDICTS] = {[FINDING_YES] = "yes",

@@ -40,6 +40,7 @@ typedef struct finding {
 size_t findings_compute(const result_value_tables *tables, finding findings[FINDING_QUESTIONS]);
 
 const char *finding_question_text(finding_question question); /* "Is the track different?" */
+const char *finding_subject_text(finding_question question);  /* "Layer thickness" */
 const char *finding_verdict_text(finding_verdict verdict);    /* "inconclusive" */
 const char *finding_basis_text(finding_basis basis);          /* "measured" */
 /* One sentence that explains the verdict. */

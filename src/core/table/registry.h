@@ -4,9 +4,7 @@
  *
  * For a table `layer` this header defines the types layer_column and layer_key, the schema
  * layer_schema, and the functions below. These functions accept the columns and keys of this table
- * only; others are a compiler error.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later */
+ * only; others are a compiler error. SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_CORE_TABLE_REGISTRY_H
 #define WT_CORE_TABLE_REGISTRY_H
 
@@ -66,8 +64,10 @@
  * tables share a name: the computed counter surface and a measured spectrum. */
 #define TABLES(X)                                                                                  \
     X(answer, ANSWER, "answer", "The answer", "run")                                               \
+    X(limits, LIMITS, "limits", "Limits of the result", "run")                                     \
     X(inputs, INPUTS, "inputs", "Files that were read", "run")                                     \
     X(notes, NOTES, "notes", "Notes and warnings", "run")                                          \
+    X(data_quality, DATA_QUALITY, "data_quality", "What was done to the data", "run")              \
     X(methods, METHODS, "methods", "Methods and where they are described", "run")                  \
     X(failures, FAILURES, "failures", "What could not be used", "run")                             \
     X(cost, COST, "cost", "Stages, their time and their numerical error", "run")                   \
@@ -206,6 +206,7 @@
 /* Closed lists of texts whose enum is public: name of the list, enum, rows. */
 #define PUBLIC_TEXT_LISTS(X)                                                                       \
     X(severity, wt_severity, WT_SEVERITY_LIST)                                                     \
+    X(action, wt_action, WT_ACTION_LIST)                                                           \
     X(deformation, wt_deformation, WT_DEFORMATION_LIST)                                            \
     X(segment_kind, wt_segment_kind, WT_SEGMENT_KIND_LIST)                                         \
     X(curve_verdict, wt_curve_verdict, WT_CURVE_VERDICT_LIST)                                      \
@@ -218,6 +219,7 @@
 #define TABLE_TEXT_LISTS(X)                                                                        \
     X(stated_verdict, STATED_VERDICTS, VERDICT_UNKNOWN)                                            \
     X(answer_kind, ANSWER_KINDS, ANSWER_KIND_UNKNOWN)                                              \
+    X(limit_subject, LIMIT_SUBJECTS, LIMIT_SUBJECT_UNKNOWN)                                        \
     X(tip_form, TIP_FORMS, TIP_FORM_UNKNOWN)                                                       \
     X(error_source, ERROR_SOURCES, ERROR_SOURCE_UNKNOWN)                                           \
     X(spot_naming, SPOT_NAMINGS, SPOT_NAMING_UNKNOWN)                                              \

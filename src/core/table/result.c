@@ -1,11 +1,216 @@
 /* Results: the tables of one run. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "core/table/former_names.h"
-#include "core/table/table.h"
-
 #include "core/base/array.h"
+#include "core/base/memory.h"
+#include "core/table/table.h"
 
 #include <stdlib.h>
 #include <string.h>
+
+struct wt_provenance {
+    char *version, *command; /* NULL: version of this program; no command */
+    wt_provenance_input *inputs;
+    size_t n;
+};
+
+wt_provenance *wt_provenance_new(void)
+{
+    return wt_alloc(1, sizeof(wt_provenance));
+}
+
+/* Consecutive inputs often have the same role and format and share these texts. */
+static void input_free(wt_provenance_input *input, const wt_provenance_input *before)
+{
+    free((char *)input->path);
+    if (before == NULL || input->role != before->role)
+        free((char *)input->role);
+    if (before == NULL || input->format != before->format)
+        free((char *)input->format);
+}
+
+static const char *share_text(const char *text, const char *before)
+{
+    const char *const given = text != NULL ? text : "";
+    return before != NULL && strcmp(given, before) == 0 ? before : wt_strdup(given);
+}
+
+void wt_provenance_free(wt_provenance *p)
+{
+    if (p == NULL)
+        return;
+    for (size_t i = p->n; i > 0; i--)
+        input_free(&p->inputs[i - 1], i > 1 ? &p->inputs[i - 2] : NULL);
+    free(p->inputs);
+    free(p->version);
+    free(p->command);
+    free(p);
+}
+
+static bool is_shell_safe(const char *word)
+{
+    return word[0] != '\0' && word[strspn(word, "abcdefghijklmnopqrstuvwxyz"
+                                                "ABCDEFGHIJKLMNOPQRSTUVWXYZ"
+                                                "0123456789_@%+=:,./-")] == '\0';
+}
+
+/* Writes a word with shell quoting and returns the end of the text. */
+static char *quote_for_shell(char *to, const char *word)
+{
+    if (is_shell_safe(word))
+        return stpcpy(to, word);
+    *to++ = '\'';
+    for (; *word != '\0'; word++) {
+        if (*word == '\'')
+            to = stpcpy(to, "'\\''");
+        else
+            *to++ = *word;
+    }
+    *to++ = '\'';
+    *to = '\0';
+    return to;
+}
+
+void wt_provenance_set_command(wt_provenance *p, int argc, char *const argv[])
+{
+    size_t size = 1;
+    for (int i = 0; i < argc; i++)
+        size += 4 * strlen(argv[i]) + 3;
+    char *const command = wt_alloc(size, 1);
+    char *to = command;
+    *to = '\0';
+    for (int i = 0; i < argc; i++) {
+        if (i > 0)
+            *to++ = ' ';
+        /* The folder of the program does not affect the result. */
+        to = quote_for_shell(to, i == 0 ? wt_path_base(argv[i]) : argv[i]);
+    }
+    free(p->command);
+    p->command = command;
+}
+
+void provenance_restore(wt_provenance *p, const char *version_and_command)
+{
+    const size_t length = strcspn(version_and_command, "\n");
+    const char *const rest = version_and_command + length;
+    char *const version = wt_strndup(version_and_command, length);
+    char *const command = wt_strdup(rest[0] != '\0' ? rest + 1 : rest);
+    free(p->version);
+    free(p->command);
+    p->version = version;
+    p->command = command;
+}
+
+void wt_provenance_add_input(wt_provenance *p, const wt_provenance_input *input)
+{
+    p->inputs = array_grow(p->inputs, p->n, sizeof *p->inputs);
+    wt_provenance_input copy = *input;
+    const wt_provenance_input *const before = p->n > 0 ? &p->inputs[p->n - 1] : NULL;
+    copy.path = wt_strdup(input->path != NULL ? input->path : "");
+    copy.role = share_text(input->role, before != NULL ? before->role : NULL);
+    copy.format = share_text(input->format, before != NULL ? before->format : NULL);
+    copy.sha256[sizeof copy.sha256 - 1] = '\0';
+    p->inputs[p->n++] = copy;
+}
+
+const char *wt_provenance_version(const wt_provenance *p)
+{
+    return p->version != NULL ? p->version : wt_version();
+}
+
+const char *wt_provenance_command(const wt_provenance *p)
+{
+    return p->command != NULL ? p->command : "";
+}
+
+size_t wt_provenance_n_inputs(const wt_provenance *p)
+{
+    return p->n;
+}
+
+const wt_provenance_input *wt_provenance_get_input(const wt_provenance *p, size_t i)
+{
+    return &p->inputs[i];
+}
+
+/* Tables, and figures that have the name of their table. */
+static const struct {
+    const char *former, *name;
+} tables[] = {
+    {"choices", "overrides"},
+    {"common_law", "shared_shift_law"},
+    {"directions", "transverse_isotropy"},
+    {"existence", "layer_regime_map"},
+    {"existence_friction", "layer_regime_map_friction"},
+    {"existence_thickness", "layer_regime_map_thickness"},
+    {"layer_balances", "layer_feedback"},
+};
+
+/* A former name that ends in '_' stands for all names that begin with it. */
+static const struct {
+    const char *table; /* name of today of the table; NULL: any table */
+    const char *former, *name;
+} members[] = {
+    {"angular_spectrum", "chance", "p_value"},
+    {"angular_spectrum", "chance_fourth", "p_value_fourth"},
+    {"cost", "because", "reason"},
+    {"error_budget", "lacks", "excluded_errors"},
+    {"modulus_depth", "chance_", "p_value_"},
+    {"plan", "because", "reason"},
+    {"plan", "gives", "produces"},
+    {"prony_reduced", "better", "preferred_model"},
+    {"shared_shift_law", "furthest", "largest_deviation"},
+    {"validation_choices", "tried", "alternative"},
+    {"what_if", "tried", "alternative"},
+    {NULL, "anisotropy_chance", "anisotropy_p"},
+    {NULL, "baseline_chance", "baseline_p"},
+    {NULL, "each_moved", "sample_shifts"},
+    {NULL, "first_appearance", "onset_time"},
+    {NULL, "holds_from", "valid_from"},
+    {NULL, "holds_to", "valid_to"},
+    {NULL, "interval_lacks", "interval_excludes"},
+    {NULL, "lack_of_fit_chance", "lack_of_fit_p"},
+    {NULL, "misfit_chance", "misfit_p"},
+    {NULL, "misfit_chance_", "misfit_p_"},
+    {NULL, "pooled_misfit_chance", "pooled_misfit_p"},
+    {NULL, "standard_error_lacks", "standard_error_excludes"},
+    {NULL, "ways_error", "direction_error"},
+};
+
+const char *table_current_name(const char *name)
+{
+    for (size_t i = 0; i < COUNT_OF(tables); i++)
+        if (strcmp(tables[i].former, name) == 0)
+            return tables[i].name;
+    return name;
+}
+
+/* Replaces *name if it is a former name of a column or key of the table. */
+static void replace_member(const char *table, char **name)
+{
+    for (size_t i = 0; i < COUNT_OF(members); i++) {
+        const size_t n = strlen(members[i].former);
+        const bool is_prefix = members[i].former[n - 1] == '_';
+        if ((members[i].table != NULL && strcmp(members[i].table, table) != 0) ||
+            strncmp(members[i].former, *name, n) != 0 || (!is_prefix && (*name)[n] != '\0'))
+            continue;
+        char *const current = format_text("%s%s", members[i].name, *name + n);
+        free(*name);
+        *name = current;
+        return;
+    }
+}
+
+void table_use_current_names(wt_table *table)
+{
+    const char *current = table_current_name(table->name);
+    if (current != table->name) {
+        free(table->name);
+        table->name = wt_strdup(current);
+    }
+    for (size_t i = 0; i < table->n_columns; i++)
+        replace_member(table->name, &table->columns[i].name);
+    for (size_t i = 0; i < table->n_keys; i++)
+        replace_member(table->name, &table->keys[i].name);
+}
 
 struct wt_result {
     wt_table **tables;
@@ -99,14 +304,12 @@ const wt_provenance *wt_result_provenance_const(const wt_result *result)
     return result->provenance;
 }
 
-wt_status wt_result_set_case(wt_result *result, const char *xml, size_t length, wt_error *err)
+void wt_result_set_case(wt_result *result, const char *xml, size_t length)
 {
     char *const copy = length > 0 ? wt_strndup(xml, length) : NULL;
-    (void)err;
     free(result->case_file);
     result->case_file = copy;
     result->case_length = length;
-    return WT_OK;
 }
 
 const char *wt_result_case(const wt_result *result, size_t *length)

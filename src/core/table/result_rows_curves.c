@@ -23,6 +23,16 @@ static verdict_counts count_verdicts(const table_view *curves)
     return counts;
 }
 
+static const char *verdict_text(int verdict)
+{
+    static const char *const texts[] = {
+#define VERDICT_TEXT(name, id, text) text,
+        WT_CURVE_VERDICT_LIST(VERDICT_TEXT)
+#undef VERDICT_TEXT
+    };
+    return texts[verdict];
+}
+
 /* Numbers of accepted and doubtful curves, and why the others are rejected. */
 static void add_counts(rows_source *s, const table_view *curves)
 {
@@ -40,7 +50,7 @@ static void add_counts(rows_source *s, const table_view *curves)
         if (counts.of[v] > 0)
             clocale_append(row->note, sizeof row->note, "%s%zu %s",
                            row->note[0] != '\0' ? ", " : "", counts.of[v],
-                           wt_curve_verdict_text((wt_curve_verdict)v));
+                           verdict_text(v));
 }
 
 static void add_group(rows_source *s, size_t i)
@@ -67,6 +77,8 @@ static void add_group(rows_source *s, size_t i)
     if (table_bind_result(s->result, &indentation_schema, group, &curves, NULL) != WT_OK ||
         curves.table == NULL)
         return;
+    rows_reason(row, "assumed errors in the interval, until they are stated",
+                indentation_key_text(&curves, INDENTATION_KEY_ASSUMED));
     rows_reason(row, "errors that no curve shows",
                 indentation_key_text(&curves, INDENTATION_KEY_NOT_SHOWN));
     add_counts(s, &curves);

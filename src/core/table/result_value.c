@@ -1,12 +1,10 @@
 /* Computes the result values from the tables of a result. SPDX-License-Identifier:
  * GPL-3.0-or-later */
 #include "core/table/result_value.h"
-
 #include "core/base/array.h"
-#include "core/math/normal_quantile.h"
+#include "core/math/students_t.h"
 
 #include <math.h>
-#include <stddef.h>
 #include <string.h>
 
 /* Offset of the view of each table. */
@@ -92,16 +90,17 @@ result_value result_value_group(const result_value_tables *t, size_t row)
     f.low = modulus_groups_get(&t->groups, row, MODULUS_GROUPS_LOW);
     f.high = modulus_groups_get(&t->groups, row, MODULUS_GROUPS_HIGH);
     const bool lone = modulus_groups_get(&t->groups, row, MODULUS_GROUPS_N_SPOTS) == 1;
-    f.includes = lone ? "a given scatter of spots" : "scatter of the spots";
-    table_view budget = t->budget;
-    budget.suffix = group;
-    const double low = modulus_budget_value(&budget, MODULUS_BUDGET_KEY_LOW).value;
-    if (!isnan(low)) {
-        f.low = low;
-        f.high = modulus_budget_value(&budget, MODULUS_BUDGET_KEY_HIGH).value;
-        f.includes = lone ? "a given scatter of spots and what is stated of lever and tip"
-                          : "scatter of the spots and what is stated of lever and tip";
-    }
+    bool has_shared_error = false;
+    for (size_t i = 0; i < t->budget.n_rows; i++)
+        has_shared_error =
+            has_shared_error ||
+            (modulus_budget_enum(&t->budget, i, MODULUS_BUDGET_KIND) == ERROR_SHARED &&
+             strcmp(modulus_budget_text(&t->budget, i, MODULUS_BUDGET_GROUP), group) == 0);
+    if (has_shared_error)
+        f.includes = lone ? "a given scatter of spots and the errors that all curves share"
+                          : "scatter of the spots and the errors that all curves share";
+    else
+        f.includes = lone ? "a given scatter of spots" : "scatter of the spots";
     find_frequencies(t, group, 0, (double)INFINITY, f.frequency);
     return f;
 }
@@ -205,11 +204,13 @@ static result_value_range model_choice_range(const table_view *what_if, what_if_
     if (low == high || number(what_if, high) - number(what_if, low) <= error)
         return r; /* for example an observed thickness */
     for (size_t i = 1; i < what_if->n_rows;) {
-        const char *choice = what_if_text(what_if, i, WHAT_IF_CHOICE);
+        const char *choice = what_if_text(what_if, i, WHAT_IF_CHOICE),
+                   *remedy = what_if_text(what_if, i, WHAT_IF_REMEDY);
         const double reach = choice_effect(what_if, &i, number);
         if (reach > widest) {
             widest = reach;
             r.widest = choice;
+            r.remedy = remedy != NULL && remedy[0] != '\0' ? remedy : NULL;
         }
     }
     r.low = number(what_if, low);
@@ -323,7 +324,8 @@ static sign_verdict sign_from_bounds(double low, double high, double neutral)
     return high < neutral ? SIGN_BELOW : low > neutral ? SIGN_ABOVE : SIGN_UNDECIDED;
 }
 
-sign_verdict result_value_sign_measured(const result_value *f)
+/* Sign by the interval only, and by the interval and all model choices. */
+static sign_verdict result_value_sign_measured(const result_value *f)
 {
     const bool known = !isnan(f->low) && !isnan(f->high);
     return sign_from_bounds(known ? f->low : f->number.value, known ? f->high : f->number.value,

@@ -14,6 +14,7 @@ typedef struct result_value_range {
     const char *high_choice, *high_tried;
     const char *
         widest; /* the choice with the largest effect, which a measurement should decide; or NULL */
+    const char *remedy; /* what to measure for the widest choice, or NULL */
 } result_value_range;
 
 typedef struct result_value {
@@ -48,13 +49,12 @@ typedef struct result_value_tables {
 const char *result_values_table(size_t i);
 /* Returns true if result values use the table. */
 bool result_values_use_table(const char *table);
-
 /* Binds the tables of a result. A table that cannot be bound is an error and is then absent. */
 wt_status result_values_bind(const wt_result *result, result_value_tables *tables,
                              wt_error *err) WT_NODISCARD;
 
-/* Modulus of a group, for a row of modulus_groups. The interval includes the stated calibration
- * errors. */
+/* Modulus of a group, for a row of modulus_groups. The interval is the one of that row: the
+ * scatter of the spots and the errors that all curves share. */
 result_value result_value_group(const result_value_tables *tables, size_t row);
 /* Ratio of the moduli of the groups over all rates. */
 result_value result_value_ratio(const result_value_tables *tables);
@@ -67,13 +67,9 @@ result_value result_value_thickness(const result_value_tables *tables);
 /* Variant for a key of any schema. False if the key is not a result value. */
 bool result_value_from_key(const result_value_tables *tables, const schema_field *key,
                            result_value *f);
-
 /* Number of digits for a value and the limits of its interval: three, or as many as print two
  * digits of the half width, at most six. */
 int result_value_digits(double value, double low, double high);
-
-/* Sign by the interval only, and by the interval and all model choices. */
-sign_verdict result_value_sign_measured(const result_value *f);
 sign_verdict result_value_sign(const result_value *f);
 
 #endif

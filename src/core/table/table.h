@@ -41,9 +41,22 @@ struct wt_table {
 bool table_name_is_valid(const char *name);
 /* True for [A-Za-z0-9_]+. */
 bool table_name_part_is_valid(const char *word);
-void table_free_keys(wt_table *table);
-/* Returns the names of the parts of an estimate key. The caller frees them, also on failure. False
- * when out of memory. */
+/* Returns the names of the parts of an estimate key. The caller frees them. */
 void table_key_part_names(const char *key, char *names[KEY_PARTS]);
+/* Returns the name of today of a table; the same name if it did not change. */
+const char *table_current_name(const char *name);
+/* Gives a table, its columns and its keys the names of today. */
+void table_use_current_names(wt_table *table);
+/* Writes a table. WT_E_ARG for a table without columns or with an invalid name. */
+wt_status table_bytes_write(FILE *out, const wt_table *table, wt_error *err) WT_NODISCARD;
+/* Decodes a table at *at with validation, and moves *at to its end. */
+wt_status table_bytes_read(const char **at, const char *end, wt_table **table,
+                           wt_error *err) WT_NODISCARD;
+/* Computes the SHA-256 of the encoded table. */
+wt_status table_bytes_digest(const wt_table *table, char hex[65], wt_error *err) WT_NODISCARD;
+
+/* Sets version and command from the texts of wt_provenance_version and wt_provenance_command,
+ * separated by a line feed. */
+void provenance_restore(wt_provenance *p, const char *version_and_command);
 
 #endif

@@ -10,7 +10,6 @@
  * TABLE_KEYS and TABLE_SET do the same for keys: those that are optional are left out if they are
  * NaN, NULL or "". A column that is an estimate or an interval fills the columns of its errors and
  * ends, as far as it has them. unit_case_tables_members looks at all of them.
- *
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_CORE_TABLE_TABLE_ROWS_H
 #define WT_CORE_TABLE_TABLE_ROWS_H

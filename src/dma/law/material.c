@@ -3,7 +3,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dma/law/material.h"
 
-#include "core/math/vector_exp.h"
+#include "core/math/simd.h"
 
 #include <gsl/gsl_interp.h>
 #include <math.h>

@@ -5,7 +5,7 @@
 
 #include "core/math/arena_gsl.h"
 #include "core/math/blocked_product.h"
-#include "core/math/cholesky_dense.h"
+#include "core/math/cholesky.h"
 
 #include <math.h>
 #include <string.h>

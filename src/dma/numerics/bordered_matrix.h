@@ -5,7 +5,7 @@
 #ifndef WT_DMA_NUMERICS_BORDERED_MATRIX_H
 #define WT_DMA_NUMERICS_BORDERED_MATRIX_H
 
-#include "core/base/arena.h"
+#include "core/base/array.h"
 
 #include <gsl/gsl_matrix.h>
 #include <stdbool.h>

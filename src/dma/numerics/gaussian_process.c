@@ -5,9 +5,9 @@
 #include "core/base/array.h"
 #include "core/base/memory.h"
 #include "core/math/arena_gsl.h"
-#include "core/math/gsl_quiet.h"
-#include "core/math/normal_quantile.h"
 #include "core/math/root.h"
+#include "core/math/special.h"
+#include "core/math/students_t.h"
 
 #include <gsl/gsl_blas.h>
 #include <gsl/gsl_cdf.h>

@@ -4,7 +4,7 @@
 #ifndef WT_DMA_NUMERICS_GAUSSIAN_PROCESS_H
 #define WT_DMA_NUMERICS_GAUSSIAN_PROCESS_H
 
-#include "core/base/arena.h"
+#include "core/base/array.h"
 #include "weartrack/core.h"
 
 /* Coefficients of the parabola, maximum and minimum number of points. More points are merged,

@@ -4,7 +4,7 @@
 #ifndef WT_DMA_NUMERICS_ISOTHERM_H
 #define WT_DMA_NUMERICS_ISOTHERM_H
 
-#include "core/base/arena.h"
+#include "core/base/array.h"
 #include "weartrack/dma.h"
 
 enum { STORAGE, LOSS, MODULI };

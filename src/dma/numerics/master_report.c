@@ -3,7 +3,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dma/numerics/master_fit.h"
 
-#include "core/math/normal_quantile.h"
+#include "core/math/students_t.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -278,14 +278,12 @@ static void fill_master_curve(const master_work *work, wt_master *m)
 /* Converts unknowns of the spectrum to a series at the reference temperature. `reached` returns
  * the probability that the spectrum extends to a term. The rest of the term counts as
  * equilibrium modulus. */
-static wt_status terms_to_prony(const wt_posterior *p, const double *value, double offset,
-                                double (*reached)(const spectrum *s, size_t term, size_t place),
-                                size_t place, wt_prony *prony, wt_error *err)
+static void terms_to_prony(const wt_posterior *p, const double *value, double offset,
+                           double (*reached)(const spectrum *s, size_t term, size_t place),
+                           size_t place, wt_prony *prony)
 {
     const spectrum *s = &p->frame;
-    wt_status status = wt_prony_alloc(prony, s->n_terms, err);
-    if (status != WT_OK)
-        return status;
+    wt_prony_alloc(prony, s->n_terms);
     prony->equilibrium_modulus = s->liquid ? 0.0 : exp(value[s->n_terms]);
     for (size_t j = 0; j < s->n_terms; j++) {
         const double share = s->liquid ? 1.0 : reached(s, j, place);
@@ -293,7 +291,6 @@ static wt_status terms_to_prony(const wt_posterior *p, const double *value, doub
         prony->modulus[j] = share * exp(value[j]);
         prony->equilibrium_modulus += (1.0 - share) * exp(value[j]);
     }
-    return WT_OK;
 }
 
 static double term_is_reached(const spectrum *s, size_t term, size_t place)
@@ -344,13 +341,9 @@ static wt_status fill_series(master_work *work, wt_master *m, wt_error *err)
     double unknown[LAW_MAX_UNKNOWNS];
     posterior_mean(p, value);
     posterior_mean_law(p, unknown);
-    wt_status status =
-        has_modulus_level(p->by)
-            ? terms_to_prony(p, value, unknown[0], mean_term_reached, 0, &m->prony, err)
-            : WT_OK;
+    if (has_modulus_level(p->by))
+        terms_to_prony(p, value, unknown[0], mean_term_reached, 0, &m->prony);
     free(value);
-    if (status != WT_OK)
-        return status;
     m->prony.deformation = m->deformation;
     m->prony.reference_temperature = m->reference_temperature;
     if (m->n > 0) {
@@ -369,7 +362,7 @@ static wt_status fill_series(master_work *work, wt_master *m, wt_error *err)
     if (!m->equilibrium_limit)
         return WT_OK;
     double limit;
-    status = find_equilibrium_limit(work, &limit, err);
+    const wt_status status = find_equilibrium_limit(work, &limit, err);
     m->equilibrium.low = 0.0;
     m->equilibrium.high = fmax(exp(limit), m->equilibrium.high);
     m->equilibrium.standard_error = (double)NAN;
@@ -488,19 +481,17 @@ wt_status wt_master_draw(const wt_master *master, uint64_t seed, size_t index, w
     double *value = wt_alloc(p->frame.n_unknowns + n, sizeof *value);
     double *b = value + p->frame.n_unknowns;
     posterior_draw(p, seed, index, value, unknown, b);
-    const wt_status status = terms_to_prony(p, value, unknown[0], term_is_reached,
-                                            posterior_end_index(seed, index), prony, err);
-    if (status == WT_OK) {
-        prony->deformation = master->deformation;
-        prony->reference_temperature = master->reference_temperature;
-        prony->frequency_min = master->prony.frequency_min;
-        prony->frequency_max = master->prony.frequency_max;
-        *law = master->law;
-        if (master->law.kind != WT_LAW_NONE)
-            *law = law_constants(&p->shape, unknown);
-        for (size_t i = 0; log_b != NULL && i < master->n_shifts; i++)
-            log_b[i] = master->shifts[i].determined ? b[p->curve[i]] : (double)NAN;
-    }
+    (void)err;
+    terms_to_prony(p, value, unknown[0], term_is_reached, posterior_end_index(seed, index), prony);
+    prony->deformation = master->deformation;
+    prony->reference_temperature = master->reference_temperature;
+    prony->frequency_min = master->prony.frequency_min;
+    prony->frequency_max = master->prony.frequency_max;
+    *law = master->law;
+    if (master->law.kind != WT_LAW_NONE)
+        *law = law_constants(&p->shape, unknown);
+    for (size_t i = 0; log_b != NULL && i < master->n_shifts; i++)
+        log_b[i] = master->shifts[i].determined ? b[p->curve[i]] : (double)NAN;
     free(value);
-    return status;
+    return WT_OK;
 }

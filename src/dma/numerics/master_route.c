@@ -391,15 +391,6 @@ static wt_status find_transition_temperature(const wt_master *m, double *tempera
     return WT_OK;
 }
 
-static void forward_log(const wt_log *from, wt_log *to)
-{
-    for (size_t i = 0; i < wt_log_count(from); i++) {
-        const wt_log_entry e = wt_log_get(from, i);
-        for (size_t k = 0; k < e.count; k++)
-            wt_log_add_topic(to, e.severity, e.topic, e.file, e.place, "%s", e.text);
-    }
-}
-
 /* Fits, and if the middle isotherm is too flat repeats the fit with the steepest one as
  * reference, unless a reference is stated. */
 static wt_status fit_with_fallback_reference(const wt_sweep *sweep, wt_master_options options,
@@ -411,7 +402,7 @@ static wt_status fit_with_fallback_reference(const wt_sweep *sweep, wt_master_op
     const wt_status status = master_fit_once(sweep, &options, first_log, master, &better, &flat);
     const bool is_final = isnan(better) || !isnan(options.reference_temperature);
     if (is_final)
-        forward_log(first_log, log);
+        wt_log_append(log, first_log, NULL);
     wt_log_free(first_log);
     if (is_final) {
         if (status != WT_OK && err != NULL)

@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dma/numerics/master_fit.h"
 
-#include "core/math/normal_quantile.h"
+#include "core/math/students_t.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -2,8 +2,8 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dma/numerics/mixture.h"
 
-#include "core/math/normal_quantile.h"
 #include "core/math/root.h"
+#include "core/math/students_t.h"
 
 #include <gsl/gsl_cdf.h>
 #include <math.h>

@@ -2,8 +2,8 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dma/numerics/gaussian_process.h"
 
-#include "core/math/normal_quantile.h"
 #include "core/math/root.h"
+#include "core/math/students_t.h"
 #include "weartrack/dma.h"
 
 #include <math.h>

@@ -4,7 +4,7 @@
 #include "dma/numerics/posterior.h"
 
 #include "core/math/arena_gsl.h"
-#include "core/math/cholesky_dense.h"
+#include "core/math/cholesky.h"
 
 #include <gsl/gsl_blas.h>
 #include <math.h>

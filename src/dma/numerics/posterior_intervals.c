@@ -3,9 +3,9 @@
 #include "dma/numerics/posterior.h"
 
 #include "core/math/arena_gsl.h"
-#include "core/math/cholesky_dense.h"
-#include "core/math/normal_quantile.h"
+#include "core/math/cholesky.h"
 #include "core/math/splitmix64.h"
+#include "core/math/students_t.h"
 
 #include <gsl/gsl_blas.h>
 #include <gsl/gsl_cdf.h>

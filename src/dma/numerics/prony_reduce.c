@@ -3,7 +3,7 @@
  * so all are positive. After least squares the points are reweighted by their deviation
  * (Lawson), which equalises the largest deviations.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "core/math/gsl_quiet.h"
+#include "core/math/special.h"
 
 #include "core/base/array.h"
 #include "core/base/param.h"
@@ -418,13 +418,10 @@ void wt_prony_deviation(const wt_prony *from, const wt_prony *to, double deviati
     }
 }
 
-static wt_status terms_to_series(const reducer *r, const double *best_terms, size_t terms,
-                                 wt_prony *to, wt_error *err)
+static void terms_to_series(const reducer *r, const double *best_terms, size_t terms, wt_prony *to)
 {
-    wt_prony made = {0};
-    const wt_status status = wt_prony_alloc(&made, terms, err);
-    if (status != WT_OK)
-        return status;
+    wt_prony made;
+    wt_prony_alloc(&made, terms);
     for (size_t i = 0; i < terms; i++) {
         made.relaxation_time[i] = exp(best_terms[2 * i]);
         made.modulus[i] = exp(best_terms[2 * i + 1]);
@@ -435,7 +432,6 @@ static wt_status terms_to_series(const reducer *r, const double *best_terms, siz
     made.frequency_min = r->from->frequency_min;
     made.frequency_max = r->from->frequency_max;
     *to = made;
-    return WT_OK;
 }
 
 wt_status wt_prony_reduce(const wt_prony *from, const wt_reduction *options, wt_prony *to,
@@ -459,7 +455,7 @@ wt_status wt_prony_reduce(const wt_prony *from, const wt_reduction *options, wt_
         } else {
             terms = fewest_terms(&r, o.error * (1 - interpolation_margin), best_terms);
         }
-        status = terms_to_series(&r, best_terms, terms, to, err);
+        terms_to_series(&r, best_terms, terms, to);
     }
     arena_free(&r.memory);
     return status;

@@ -6,7 +6,7 @@
 
 #include "core/base/quantity.h"
 #include "core/math/arena_gsl.h"
-#include "core/math/gsl_quiet.h"
+#include "core/math/special.h"
 
 #include <gsl/gsl_blas.h>
 #include <gsl/gsl_linalg.h>

@@ -4,7 +4,7 @@
 #ifndef WT_DMA_NUMERICS_SHARED_SHIFT_LAW_FIT_H
 #define WT_DMA_NUMERICS_SHARED_SHIFT_LAW_FIT_H
 
-#include "core/base/arena.h"
+#include "core/base/array.h"
 #include "dma/numerics/shift_law.h"
 
 /* Unknowns that a shift of one sample depends on: its offset, the main constant, ln of the pole

@@ -3,7 +3,7 @@
 #include "dma/numerics/shared_shift_law_fit.h"
 
 #include "core/base/quantity.h"
-#include "core/math/normal_quantile.h"
+#include "core/math/students_t.h"
 #include "dma/numerics/mixture.h"
 
 #include <gsl/gsl_cdf.h>

@@ -5,7 +5,7 @@
 
 #include "core/base/quantity.h"
 #include "core/math/arena_gsl.h"
-#include "core/math/cholesky_dense.h"
+#include "core/math/cholesky.h"
 
 #include <gsl/gsl_blas.h>
 #include <gsl/gsl_errno.h>

@@ -74,7 +74,7 @@ wt_shift_law law_constants(const law_shape *shape, const double *unknown);
  * Returns WT_E_RANGE if the shifts do not fall with temperature. */
 wt_status law_select(law_data *data, double reference, gsl_matrix *root, law_shape *chosen,
                      wt_error *err) WT_NODISCARD;
-/* Computes the Cholesky factor (core/math/cholesky_dense.h) of covariance + (spread * slope)^2. */
+/* Computes the Cholesky factor (core/math/cholesky.h) of covariance + (spread * slope)^2. */
 wt_status law_gls_covariance(const law_data *data, double spread, gsl_matrix *root,
                              wt_error *err) WT_NODISCARD;
 /* Computes the design matrix x[n * law_unknowns]. */

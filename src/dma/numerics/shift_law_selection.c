@@ -3,8 +3,8 @@
 #include "dma/numerics/shift_law.h"
 
 #include "core/math/arena_gsl.h"
-#include "core/math/cholesky_dense.h"
-#include "core/math/gsl_quiet.h"
+#include "core/math/cholesky.h"
+#include "core/math/special.h"
 
 #include <gsl/gsl_blas.h>
 #include <gsl/gsl_linalg.h>

@@ -5,7 +5,7 @@
 #ifndef WT_DMA_NUMERICS_SPECTRUM_H
 #define WT_DMA_NUMERICS_SPECTRUM_H
 
-#include "core/base/arena.h"
+#include "core/base/array.h"
 #include "dma/numerics/bordered_matrix.h"
 #include "dma/numerics/isotherm.h"
 #include <gsl/gsl_matrix.h>

@@ -4,7 +4,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dma/numerics/spectrum.h"
 
-#include "core/math/gsl_quiet.h"
+#include "core/math/special.h"
 #include <float.h>
 #include <math.h>
 #include <string.h>

@@ -5,7 +5,6 @@
 
 #include "core/math/arena_gsl.h"
 #include "core/math/cholesky.h"
-#include "core/math/cholesky_dense.h"
 
 #include <float.h>
 #include <math.h>

@@ -7,7 +7,6 @@
 #include "core/base/memory.h"
 #include "core/math/arena_gsl.h"
 #include "core/math/cholesky.h"
-#include "core/math/cholesky_dense.h"
 #include "core/math/root.h"
 
 #include <gsl/gsl_cdf.h>

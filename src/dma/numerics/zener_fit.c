@@ -1,7 +1,7 @@
 /* Fits a fractional Zener law to the points of a master curve and compares it with the series.
  * The constants have no errors, because the residuals are not noise.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "core/math/gsl_quiet.h"
+#include "core/math/special.h"
 #include "dma/law/prony_law.h"
 #include "weartrack/dma.h"
 

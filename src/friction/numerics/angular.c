@@ -8,7 +8,6 @@
 #include "core/base/array.h"
 #include "core/math/chebyshev.h"
 #include "core/math/simd.h"
-#include "core/math/vector_exp.h"
 
 #include <float.h>
 #include <math.h>
@@ -262,7 +261,7 @@ static void add_segments(const angular_law *a, long first, long last, double *bo
 }
 
 /* Extends the subintervals to the union of this range and the present one. */
-static wt_status extend_subintervals(angular_law *a, double low, double high, wt_error *err)
+static void extend_subintervals(angular_law *a, double low, double high)
 {
     if (a->subintervals.n > 0) {
         low = fmin(low, a->subintervals_low);
@@ -273,10 +272,8 @@ static wt_status extend_subintervals(angular_law *a, double low, double high, wt
     a->subintervals_high = high;
     /* Beyond the end, because rounding may place a frequency there, where the integrand has a pole.
      */
-    const wt_status status = angular_subintervals_new(a->material, a->rule, low, 1.01 * high,
-                                                      a->goal, &a->subintervals, err);
+    angular_subintervals_new(a->material, a->rule, low, 1.01 * high, a->goal, &a->subintervals);
     a->subintervals.weight = a->weight;
-    return status;
 }
 
 /* Range in integer multiples of the segment width: the union of the present and the requested
@@ -312,21 +309,18 @@ bool angular_covers_range(const angular_law *angular, double w_min, double w_max
     return r.first == r.have_first && r.last == r.have_last;
 }
 
-wt_status angular_extend(angular_law *angular, double w_min, double w_max, wt_error *err)
+void angular_extend(angular_law *angular, double w_min, double w_max)
 {
     if (angular_covers_range(angular, w_min, w_max))
-        return WT_OK;
+        return;
     const double segment_width = angular->segment_width;
     const series_list *have = &angular->segments;
     const series_range range = extended_range(angular, w_min, w_max);
     const long first = range.first, last = range.last, have_first = range.have_first,
                have_last = range.have_last;
-    const wt_status status = angular->closed
-                                 ? WT_OK
-                                 : extend_subintervals(angular, exp((double)first * segment_width),
-                                                       exp((double)last * segment_width), err);
-    if (status != WT_OK)
-        return status;
+    if (!angular->closed)
+        extend_subintervals(angular, exp((double)first * segment_width),
+                            exp((double)last * segment_width));
     size_t n_knots;
     (void)material_knots(angular, &n_knots);
     series_list made = {0};
@@ -338,7 +332,6 @@ wt_status angular_extend(angular_law *angular, double w_min, double w_max, wt_er
     free(bounds);
     free(angular->segments.items);
     angular->segments = made;
-    return WT_OK;
 }
 
 /* Returns the index of the first segment that reaches x, or of the last one. */
@@ -476,18 +469,16 @@ bool angular_has_limits(const angular_law *angular)
     return !isnan(angular->limit[0]) || !isnan(angular->limit[1]);
 }
 
-wt_status angular_prepare_outside(angular_law *angular, wt_error *err)
+void angular_prepare_outside(angular_law *angular)
 {
     const double *limit = angular->limit;
     const double low = fmin(limit[0], limit[1]);
-    wt_status status = WT_OK;
-    for (size_t k = 0; k < 2 && status == WT_OK; k++)
+    for (size_t k = 0; k < 2; k++)
         if (!isnan(limit[k]) && angular->below[k].n == 0) {
-            status = angular_subintervals_new(angular->material, angular->rule, low, limit[k],
-                                              max_goal, &angular->below[k], err);
+            angular_subintervals_new(angular->material, angular->rule, low, limit[k], max_goal,
+                                     &angular->below[k]);
             angular->below[k].weight = angular->weight;
         }
-    return status;
 }
 
 /* Parts of J1 from frequencies below a limit. */
@@ -548,8 +539,7 @@ void angular_set_weight(angular_law *angular, const angular_weight *weight)
     choose_segments(angular, false);
 }
 
-wt_status angular_new(const wt_material *material, double tolerance, arena *memory,
-                      angular_law **angular, wt_error *err)
+angular_law *angular_new(const wt_material *material, double tolerance, arena *memory)
 {
     angular_law *made = arena_alloc(memory, 1, sizeof *made);
     made->material = material;
@@ -558,8 +548,8 @@ wt_status angular_new(const wt_material *material, double tolerance, arena *memo
     choose_segments(made, material->law->angular != NULL);
     made->limit[0] = frequency_limit(material->frequency_min);
     made->limit[1] = frequency_limit(material->frequency_max);
-    *angular = made;
-    return gauss_rule_get(SUBINTERVAL_NODES, &made->rule, err);
+    made->rule = gauss_rule_get(SUBINTERVAL_NODES);
+    return made;
 }
 
 void angular_clear(angular_law *angular)

@@ -11,7 +11,7 @@
 #ifndef WT_FRICTION_NUMERICS_ANGULAR_H
 #define WT_FRICTION_NUMERICS_ANGULAR_H
 
-#include "core/base/arena.h"
+#include "core/base/array.h"
 #include "core/math/gauss_legendre.h"
 #include "weartrack/dma.h"
 #include "weartrack/surface.h"
@@ -56,8 +56,7 @@ typedef struct angular_law angular_law;
 
 /* The material is borrowed. The relative errors are far below `tolerance`. The law is allocated in
  * the arena, its series are not: call angular_clear before the arena is freed. */
-wt_status angular_new(const wt_material *material, double tolerance, arena *memory,
-                      angular_law **angular, wt_error *err) WT_NODISCARD;
+angular_law *angular_new(const wt_material *material, double tolerance, arena *memory);
 void angular_clear(angular_law *angular); /* no effect on NULL */
 /* Sets the weight of both integrals; call it before the first angular_extend. The weight is
  * borrowed. */
@@ -66,12 +65,11 @@ void angular_set_weight(angular_law *angular, const angular_weight *weight);
 /* Prepares the series for w from w_min to w_max > 0; a short closed form needs none. Existing
  * series do not change. A closed form with a series is read from the series from then on, which
  * changes results within the stated errors. */
-wt_status angular_extend(angular_law *angular, double w_min, double w_max,
-                         wt_error *err) WT_NODISCARD;
+void angular_extend(angular_law *angular, double w_min, double w_max);
 /* True if angular_extend has nothing to do for this range. */
 bool angular_covers_range(const angular_law *angular, double w_min, double w_max);
 /* Prepares angular_extrapolated_part. */
-wt_status angular_prepare_outside(angular_law *angular, wt_error *err) WT_NODISCARD;
+void angular_prepare_outside(angular_law *angular);
 /* Evaluates J1 and J2 at n values of w in the covered range; x = ln w. The first and the last value
  * must both be inside or both outside the range of the series. Rising values are fastest. */
 void angular_eval(const angular_law *angular, const double *w, const double *x, size_t n,
@@ -123,9 +121,8 @@ typedef struct angular_subintervals {
 
 /* Creates subintervals for w from `low` to `high` > 0 with relative errors of about `goal`. The
  * rule is borrowed. */
-wt_status angular_subintervals_new(const wt_material *material, const gauss_rule *rule, double low,
-                                   double high, double goal, angular_subintervals *subintervals,
-                                   wt_error *err) WT_NODISCARD;
+void angular_subintervals_new(const wt_material *material, const gauss_rule *rule, double low,
+                              double high, double goal, angular_subintervals *subintervals);
 void angular_subintervals_clear(angular_subintervals *subintervals);
 
 /* J1 at n frequencies >= 2 `high`. */

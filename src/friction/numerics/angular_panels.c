@@ -6,7 +6,6 @@
 #include "friction/numerics/angular.h"
 
 #include "core/math/simd.h"
-#include "core/math/vector_exp.h"
 
 #include <float.h>
 #include <math.h>
@@ -287,14 +286,13 @@ static void fill_group(const angular_subintervals *a, const gauss_rule *rule, si
 
 /* Groups make the cost of one frequency logarithmic in the number of narrow subintervals near it.
  */
-static wt_status group_subintervals(angular_subintervals *a, wt_error *err)
+static void group_subintervals(angular_subintervals *a)
 {
-    const gauss_rule *rule;
-    const wt_status status = gauss_rule_get(GROUP_NODES, &rule, err);
+    const gauss_rule *const rule = gauss_rule_get(GROUP_NODES);
     bool dense = false;
     for (size_t p = 0; !dense && p + 4 * GROUP_LEAST <= a->n; p += GROUP_LEAST)
         dense = a->edge[p + 4 * GROUP_LEAST] - a->edge[p] <= group_max_width;
-    for (size_t k = 0; status == WT_OK && dense && k < GROUP_LEVELS; k++) {
+    for (size_t k = 0; dense && k < GROUP_LEVELS; k++) {
         const size_t n = a->n / ((size_t)GROUP_LEAST << k);
         if (n == 0)
             break;
@@ -302,7 +300,6 @@ static wt_status group_subintervals(angular_subintervals *a, wt_error *err)
         for (size_t i = 0; i < n; i++)
             fill_group(a, rule, k, i);
     }
-    return status;
 }
 
 /* Returns the number of subintervals from p on in a group far enough below x; 0 if there is none.
@@ -324,9 +321,8 @@ static size_t find_group(const angular_subintervals *a, size_t p, double x,
     return size;
 }
 
-wt_status angular_subintervals_new(const wt_material *material, const gauss_rule *rule, double low,
-                                   double high, double goal, angular_subintervals *subintervals,
-                                   wt_error *err)
+void angular_subintervals_new(const wt_material *material, const gauss_rule *rule, double low,
+                              double high, double goal, angular_subintervals *subintervals)
 {
     size_t n_breaks = 0;
     const double *breaks =
@@ -362,10 +358,7 @@ wt_status angular_subintervals_new(const wt_material *material, const gauss_rule
         evaluate_subinterval(&a, p);
     sum_subintervals(&a);
     *subintervals = a;
-    const wt_status status = group_subintervals(subintervals, err);
-    if (status != WT_OK)
-        angular_subintervals_clear(subintervals);
-    return status;
+    group_subintervals(subintervals);
 }
 
 void angular_subintervals_clear(angular_subintervals *subintervals)

@@ -7,7 +7,6 @@
 #include "core/base/array.h"
 #include "core/math/cholesky.h"
 #include "core/math/simd.h"
-#include "core/math/vector_exp.h"
 #include "friction/numerics/persson_contact.h"
 
 #include <math.h>
@@ -61,8 +60,6 @@ static size_t max_nodes(const flash_law *law)
 flash_scratch *flash_scratch_new(const wt_friction_workspace *ws, arena *memory)
 {
     flash_scratch *s = arena_alloc(memory, 1, sizeof *s);
-    if (s == NULL)
-        return NULL;
     const size_t n = max_nodes(ws->flash);
     double **const by_node[] = {
         &s->rise,  &s->next,    &s->residual, &s->last_rise, &s->last_residual, &s->shift,

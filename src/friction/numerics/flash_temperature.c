@@ -207,7 +207,7 @@ static size_t flash_core_levels(double tolerance)
     return (size_t)fmin(fmax(levels, MIN_LEVELS), MAX_LEVELS);
 }
 
-static wt_status create_grids(wt_friction_workspace *ws, flash_law *law, wt_error *err)
+static void create_grids(wt_friction_workspace *ws, flash_law *law)
 {
     arena local_memory = {0};
     subinterval_plan plan;
@@ -218,23 +218,19 @@ static wt_status create_grids(wt_friction_workspace *ws, flash_law *law, wt_erro
                           flash_core_levels(law->tolerance), NULL, NULL, 0, 0, ws->softening,
                           &local_memory);
     double *bounds = arena_numbers(&local_memory, plan.capacity + 1);
-    wt_status status = WT_OK;
     subinterval_plan_fill(&plan, ws->roughness, NULL, 0, NULL, 0, bounds);
-    for (size_t k = 0; status == WT_OK && k < FLASH_GRIDS; k++) {
+    for (size_t k = 0; k < FLASH_GRIDS; k++) {
         flash_grid *grid = &law->grid[k];
         const double digits = -log(fmax(law->tolerance, min_tolerance));
         grid->step = ladders[ladder].step[k];
         grid->below = digits + 3; /* the neglected part falls as k below the lattice and as k^-5
                                      above it */
         grid->first = log(ws->roughness->q1) + grid->below / 5;
-        status = gauss_rule_get(ladders[ladder].nodes[k], &grid->rule, err);
-        if (status == WT_OK) {
-            fill_grid(ws, grid, &plan, &ws->memory);
-            create_lattice(law, grid, digits, &ws->memory);
-        }
+        grid->rule = gauss_rule_get(ladders[ladder].nodes[k]);
+        fill_grid(ws, grid, &plan, &ws->memory);
+        create_lattice(law, grid, digits, &ws->memory);
     }
     arena_free(&local_memory);
-    return status;
 }
 
 /* ---- construction ---------------------------------------------------------------------------- */
@@ -278,10 +274,8 @@ wt_status flash_new(wt_friction_workspace *ws, wt_error *err)
     law->tolerance = o->tolerance;
     law->q0 = ws->roughness->q0;
     ws->flash = law;
-    status = create_grids(ws, law, err);
+    create_grids(ws, law);
     const gauss_rule *coarse = law->grid[FLASH_COARSE].rule, *fine = law->grid[FLASH_FINE].rule;
-    if (status != WT_OK)
-        return status;
     law->refine = arena_numbers(&ws->memory, coarse->n * fine->n);
     fill_interpolation_matrix(coarse, fine, law->refine);
     return WT_OK;

@@ -14,7 +14,7 @@
 #ifndef WT_FRICTION_NUMERICS_FLASH_TEMPERATURE_H
 #define WT_FRICTION_NUMERICS_FLASH_TEMPERATURE_H
 
-#include "core/base/arena.h"
+#include "core/base/array.h"
 #include "core/math/gauss_legendre.h"
 #include "weartrack/friction.h"
 

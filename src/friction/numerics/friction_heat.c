@@ -6,7 +6,7 @@
 
 #include "core/base/array.h"
 #include "core/math/root.h"
-#include "core/math/vector_exp.h"
+#include "core/math/simd.h"
 
 #include <math.h>
 

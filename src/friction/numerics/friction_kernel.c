@@ -107,17 +107,15 @@ static void choose_subinterval_width(wt_friction_workspace *ws)
         friction_core_levels(ws->options.tolerance), NULL, NULL, 0, 0, ws->softening, &ws->memory);
 }
 
-static wt_status choose_rules(wt_friction_workspace *ws, wt_error *err)
+static void choose_rules(wt_friction_workspace *ws)
 {
     /* between knots, subintervals are narrow */
     const size_t last = COUNT_OF(ladders) - (ws->n_knots > 0 ? 2 : 1);
     size_t ladder = 0;
-    wt_status status = WT_OK;
     while (ladder < last && ws->options.tolerance < ladders[ladder].tolerance)
         ladder++;
-    for (size_t k = 0; status == WT_OK && k < FRICTION_RULES; k++)
-        status = gauss_rule_get(ladders[ladder].nodes[k], &ws->rules[k], err);
-    return status;
+    for (size_t k = 0; k < FRICTION_RULES; k++)
+        ws->rules[k] = gauss_rule_get(ladders[ladder].nodes[k]);
 }
 
 /* Prepares the common plan of all velocities. */
@@ -127,13 +125,12 @@ static void prepare_plan(wt_friction_workspace *ws)
     subinterval_plan_fill(&ws->plan, ws->roughness, NULL, 0, NULL, 0, bounds);
 }
 
-static wt_status create_angular_law(wt_friction_workspace *ws, const wt_material *material,
-                                    angular_law **made, wt_error *err)
+static angular_law *create_angular_law(wt_friction_workspace *ws, const wt_material *material)
 {
-    const wt_status status = angular_new(material, ws->options.tolerance, &ws->memory, made, err);
-    if (status == WT_OK && ws->anisotropic)
-        angular_set_weight(*made, &ws->weight);
-    return status;
+    angular_law *const made = angular_new(material, ws->options.tolerance, &ws->memory);
+    if (ws->anisotropic)
+        angular_set_weight(made, &ws->weight);
+    return made;
 }
 
 /* Sets the weight of the roughness. Shared series do not include it and are discarded. */
@@ -154,7 +151,9 @@ static wt_status init_softening(wt_friction_workspace *ws, wt_error *err)
     const wt_status status = softening_new(o->softening, o->strain_factor, ws->material,
                                            ws->roughness, &ws->memory, &ws->softening, err);
     ws->options.softening = NULL; /* the table was borrowed for this call only */
-    return status == WT_OK ? create_angular_law(ws, &ws->softening->loss, &ws->loss, err) : status;
+    if (status == WT_OK)
+        ws->loss = create_angular_law(ws, &ws->softening->loss);
+    return status;
 }
 
 /* Prepares a layer with its own moduli, which are then part of J1 and J2. Subintervals end where
@@ -203,16 +202,12 @@ static void prepare_knots(wt_friction_workspace *ws)
 
 /* Creates the angular integrals of the material, unless they are shared, and those of the lateral
  * force. */
-static wt_status init_angular(wt_friction_workspace *ws, wt_error *err)
+static void init_angular(wt_friction_workspace *ws)
 {
     const wt_friction_options *o = &ws->options;
-    ws->angular = o->series;
-    wt_status status = WT_OK;
-    if (o->series == NULL)
-        status = create_angular_law(ws, ws->material, &ws->angular, err);
-    if (status == WT_OK && anisotropy_has_lateral_force(&o->anisotropy))
-        status = lateral_force_new(ws->material, o, ws->layer, &ws->memory, &ws->lateral, err);
-    return status;
+    ws->angular = o->series != NULL ? o->series : create_angular_law(ws, ws->material);
+    if (anisotropy_has_lateral_force(&o->anisotropy))
+        ws->lateral = lateral_force_new(ws->material, o, ws->layer, &ws->memory);
 }
 
 wt_status wt_friction_workspace_new(const wt_material *material, const wt_roughness *roughness,
@@ -241,13 +236,11 @@ wt_status wt_friction_workspace_new(const wt_material *material, const wt_roughn
     if (status == WT_OK && o.softening != NULL)
         status = init_softening(ws, err);
     choose_subinterval_width(ws);
-
-    if (status == WT_OK)
-        status = init_angular(ws, err);
-    if (status == WT_OK)
-        status = choose_rules(ws, err);
-    if (status == WT_OK)
+    if (status == WT_OK) {
+        init_angular(ws);
+        choose_rules(ws);
         ws->rounding = relative_rounding(ws);
+    }
     if (status == WT_OK && o.flash.on)
         status = flash_new(ws, err);
     if (status == WT_OK && ws->n_knots == 0)
@@ -284,19 +277,12 @@ size_t friction_node_count(const wt_friction_workspace *ws)
 
 /* Other threads may read a shared series. If it does not cover the range, the workspace creates its
  * own series. */
-static wt_status replace_shared_series(wt_friction_workspace *ws, double lowest, double highest,
-                                       wt_error *err)
+static void replace_shared_series(wt_friction_workspace *ws, double lowest, double highest)
 {
-    angular_law *own = NULL;
     if (ws->options.series == NULL || angular_covers_range(ws->angular, lowest, highest))
-        return WT_OK;
-    const wt_status status =
-        angular_new(ws->material, ws->options.tolerance, &ws->memory, &own, err);
-    if (status == WT_OK) {
-        ws->angular = own;
-        ws->options.series = NULL;
-    }
-    return status;
+        return;
+    ws->angular = angular_new(ws->material, ws->options.tolerance, &ws->memory);
+    ws->options.series = NULL;
 }
 
 /* Factor of the lowest frequency for the hottest possible rubber. */
@@ -342,15 +328,15 @@ wt_status friction_prepare(wt_friction_workspace *ws, double pressure, const dou
     }
     if (!material->law->angular && material->law->check != NULL)
         status = material->law->check(material, lowest, highest, NULL, err);
-    if (status == WT_OK)
-        status = replace_shared_series(ws, lowest, highest, err);
-    if (status == WT_OK)
-        status = angular_extend(ws->angular, lowest, highest, err);
-    if (status == WT_OK && ws->softening != NULL)
-        status = angular_extend(ws->loss, lowest, highest, err);
-    return status == WT_OK && ws->lateral != NULL
-               ? lateral_force_extend(ws->lateral, lowest, highest, err)
-               : status;
+    if (status != WT_OK)
+        return status;
+    replace_shared_series(ws, lowest, highest);
+    angular_extend(ws->angular, lowest, highest);
+    if (ws->softening != NULL)
+        angular_extend(ws->loss, lowest, highest);
+    if (ws->lateral != NULL)
+        lateral_force_extend(ws->lateral, lowest, highest);
+    return WT_OK;
 }
 
 friction_load friction_load_create(const wt_friction_workspace *ws, double pressure,
@@ -488,10 +474,10 @@ wt_status wt_friction_compute(wt_friction_workspace *workspace, double pressure,
     if (workspace == NULL || velocity == NULL || points == NULL)
         return wt_fail(err, WT_E_ARG, "friction needs velocities and a place for the results");
     wt_status status = friction_prepare(workspace, pressure, velocity, n, err);
-    if (status == WT_OK && n > 0 && workspace->layer == NULL && needs_extrapolated_share(workspace))
-        status = angular_prepare_outside(workspace->angular, err);
     if (status != WT_OK)
         return status;
+    if (n > 0 && workspace->layer == NULL && needs_extrapolated_share(workspace))
+        angular_prepare_outside(workspace->angular);
     compute_job job = {
         .ws = workspace, .pressure = pressure, .velocity = velocity, .n = n, .points = points};
     status = wt_parallel_for(n, workspace->threads, compute_velocity, &job, NULL, "friction");

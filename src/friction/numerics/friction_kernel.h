@@ -184,13 +184,11 @@ friction_relative friction_relative_error(const wt_friction_workspace *ws,
 typedef struct lateral_force lateral_force;
 
 /* The object is allocated in the arena; clear it before the arena is freed. */
-wt_status lateral_force_new(const wt_material *material, const wt_friction_options *options,
-                            const layer_moduli *own, arena *memory, lateral_force **side,
-                            wt_error *err) WT_NODISCARD;
+lateral_force *lateral_force_new(const wt_material *material, const wt_friction_options *options,
+                                 const layer_moduli *own, arena *memory);
 void lateral_force_clear(lateral_force *side); /* no effect on NULL */
 /* Extends both integrals as angular_extend does. */
-wt_status lateral_force_extend(lateral_force *side, double lowest, double highest,
-                               wt_error *err) WT_NODISCARD;
+void lateral_force_extend(lateral_force *side, double lowest, double highest);
 /* Computes the lateral friction of a pass with recorded nodes and this error of the hysteresis, for
  * a positive velocity. */
 wt_estimate lateral_force_compute(const wt_friction_workspace *ws, friction_load at,

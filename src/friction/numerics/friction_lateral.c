@@ -18,24 +18,20 @@ struct lateral_force {
     layer_moduli own[2];  /* both for a layer with its own moduli */
 };
 
-wt_status lateral_force_new(const wt_material *material, const wt_friction_options *options,
-                            const layer_moduli *own, arena *memory, lateral_force **side,
-                            wt_error *err)
+lateral_force *lateral_force_new(const wt_material *material, const wt_friction_options *options,
+                                 const layer_moduli *own, arena *memory)
 {
     lateral_force *made = arena_alloc(memory, 1, sizeof *made);
-    *side = made;
     made->weight = weight_lateral(&options->anisotropy, &made->shift);
-    wt_status status = angular_new(material, options->tolerance, memory, &made->plain, err);
-    if (status == WT_OK)
-        status = angular_new(material, options->tolerance, memory, &made->shifted, err);
-    if (status == WT_OK)
-        angular_set_weight(made->shifted, &made->weight);
+    made->plain = angular_new(material, options->tolerance, memory);
+    made->shifted = angular_new(material, options->tolerance, memory);
+    angular_set_weight(made->shifted, &made->weight);
     if (own != NULL) {
         made->own[0] = made->own[1] = *own;
         made->own[0].weight = &made->weight;
         made->own[1].weight = NULL;
     }
-    return status;
+    return made;
 }
 
 void lateral_force_clear(lateral_force *side)
@@ -46,10 +42,10 @@ void lateral_force_clear(lateral_force *side)
     angular_clear(side->plain);
 }
 
-wt_status lateral_force_extend(lateral_force *side, double lowest, double highest, wt_error *err)
+void lateral_force_extend(lateral_force *side, double lowest, double highest)
 {
-    const wt_status status = angular_extend(side->plain, lowest, highest, err);
-    return status == WT_OK ? angular_extend(side->shifted, lowest, highest, err) : status;
+    angular_extend(side->plain, lowest, highest);
+    angular_extend(side->shifted, lowest, highest);
 }
 
 /* Values at the nodes of a record. */

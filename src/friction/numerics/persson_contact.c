@@ -6,7 +6,6 @@
 
 #include "core/math/simd.h"
 #include "core/math/special.h"
-#include "core/math/vector_exp.h"
 
 #include <float.h>
 #include <math.h>

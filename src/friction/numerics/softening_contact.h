@@ -10,7 +10,7 @@
 #ifndef WT_FRICTION_NUMERICS_SOFTENING_CONTACT_H
 #define WT_FRICTION_NUMERICS_SOFTENING_CONTACT_H
 
-#include "core/base/arena.h"
+#include "core/base/array.h"
 #include "weartrack/dma.h"
 #include "weartrack/surface.h"
 

@@ -5,7 +5,7 @@
 #include "friction/numerics/wavenumber_grid.h"
 
 #include "core/base/array.h"
-#include "core/math/vector_exp.h"
+#include "core/math/simd.h"
 #include "friction/numerics/persson_contact.h"
 
 #include <math.h>
@@ -134,8 +134,7 @@ void subinterval_plan_init(subinterval_plan *plan, const wt_roughness *roughness
     plan->core = arena_alloc(memory, levels + 1, sizeof *plan->core);
     plan->subintervals = arena_alloc(memory, plan->capacity, sizeof *plan->subintervals);
     plan->powers = arena_numbers(memory, n_roughness + 1);
-    if (plan->powers != NULL)
-        (void)spectrum_slopes(roughness, plan->powers);
+    (void)spectrum_slopes(roughness, plan->powers);
 }
 
 /* Returns the number of knots at or below t. */

@@ -10,7 +10,7 @@
 #ifndef WT_FRICTION_NUMERICS_WAVENUMBER_GRID_H
 #define WT_FRICTION_NUMERICS_WAVENUMBER_GRID_H
 
-#include "core/base/arena.h"
+#include "core/base/array.h"
 #include "core/math/gauss_legendre.h"
 #include "friction/numerics/softening_contact.h"
 #include "weartrack/friction.h"

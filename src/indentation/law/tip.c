@@ -32,6 +32,17 @@ double wt_tip_tangent_transition(double radius, double half_angle)
     return radius * cos(half_angle);
 }
 
+double tip_largest_transition(double radius, double half_angle, unsigned sides)
+{
+    return radius * tip_facet_factor(sides) / tan(half_angle);
+}
+
+double tip_default_transition(double radius, double half_angle, unsigned sides)
+{
+    return fmin(wt_tip_tangent_transition(radius, half_angle),
+                tip_largest_transition(radius, half_angle, sides));
+}
+
 static wt_status check_positive(double value, const char *name, wt_error *err)
 {
     if (value > 0.0 && is_valid_dimension(TIP_RADIUS, value))
@@ -64,7 +75,7 @@ static wt_status check_cap(const wt_tip *tip, wt_error *err)
     }
     /* The slope of the cap at b must not exceed that of the faces. A smooth cap with equal slopes
      * is valid; its computed b may have a rounding error. */
-    double b_max = tip->radius * tip_facet_factor(tip->sides) / tan(tip->half_angle);
+    double b_max = tip_largest_transition(tip->radius, tip->half_angle, tip->sides);
     if (b <= b_max * (1.0 + 4.0 * DBL_EPSILON))
         return WT_OK;
     wt_status status = wt_fail(err, WT_E_RANGE, "the tip is concave where the cap meets the faces");
@@ -73,7 +84,7 @@ static wt_status check_cap(const wt_tip *tip, wt_error *err)
     wt_error_found(err, "%.4g nm", b * 1e9);
     wt_error_advice(err,
                     "check that half-angle is measured from the axis to a face, or give a smaller "
-                    "transition radius, e.g. transition=%.3gnm",
+                    "transition radius, e.g. transition=%gnm",
                     floor(b_max * 1e11) / 1e2);
     return status;
 }

@@ -22,6 +22,12 @@ extern const wt_param tip_dimensions[TIP_N_DIMENSIONS];
 /* m(n) = (n/pi) sin(pi/n), the ratio of the mean to the largest distance of the faces from the axis
  * in Rico's averaging; 1 for sides = 0. */
 double tip_facet_factor(unsigned sides);
+/* Transition radius of a tip that states none: R cos(half-angle), where a sphere is tangent to the
+ * faces, but at most the radius of equal slopes. Beyond that the averaged faces of a flat tip with
+ * few sides, such as that of Berkovich, would be concave. */
+double tip_default_transition(double radius, double half_angle, unsigned sides);
+/* Largest transition radius of a convex tip. */
+double tip_largest_transition(double radius, double half_angle, unsigned sides);
 
 /* Contact function of a half-space: G, dG/ddelta = 2a and d2G/ddelta2 at delta > 0. The curvature
  * jumps at the switch depth b^2/R; there it is the value above. */

@@ -129,6 +129,17 @@ static wt_status find_shape(const char *text, size_t length, size_t *shape, wt_e
                            &suggestion);
 }
 
+/* Returns the stated transition radius, or the default one for NaN. A stated value with three
+ * digits may exceed the largest one by its rounding. */
+static double read_transition(const wt_tip *tip, double stated)
+{
+    const double rounding = 0.005;
+    const double largest = tip_largest_transition(tip->radius, tip->half_angle, tip->sides);
+    if (isnan(stated))
+        return tip_default_transition(tip->radius, tip->half_angle, tip->sides);
+    return stated > largest && stated <= largest * (1 + rounding) ? largest : stated;
+}
+
 wt_status wt_tip_parse(const char *text, wt_tip *tip, wt_error *err)
 {
     const char *colon = strchr(text, ':');
@@ -177,10 +188,8 @@ wt_status wt_tip_parse(const char *text, wt_tip *tip, wt_error *err)
         parsed.shape = WT_TIP_BLUNTED_PYRAMID;
         if (shape == PYRAMID)
             parsed.sides = seen & 1u << TIP_SIDES ? (unsigned)values[TIP_SIDES].value : 4;
-        parsed.transition_radius =
-            seen & 1u << TIP_TRANSITION
-                ? values[TIP_TRANSITION].value
-                : wt_tip_tangent_transition(parsed.radius, parsed.half_angle);
+        parsed.transition_radius = read_transition(
+            &parsed, seen & 1u << TIP_TRANSITION ? values[TIP_TRANSITION].value : (double)NAN);
     }
     status = wt_tip_check(&parsed, err);
     if (status != WT_OK) {

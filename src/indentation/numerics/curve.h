@@ -290,4 +290,8 @@ void curve_score(const wt_contact_table *table, const curve_samples *samples,
 double curve_weights(const wt_contact_table *table, const curve_samples *samples,
                      const curve_minimum *minimum, wt_indent_workspace *workspace);
 
+/* Returns the pull of a snap-in that the fit left out, because no law of adhesion describes it, or
+ * the pull-off if that is larger [N]. 0 if there is none or if it is small. */
+double curve_left_out_pull(const wt_indent_fit *fit);
+
 #endif

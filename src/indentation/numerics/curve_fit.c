@@ -4,9 +4,9 @@
  */
 #include "core/base/memory.h"
 #include "core/base/param.h"
-#include "core/math/gsl_quiet.h"
-#include "core/math/normal_quantile.h"
 #include "core/math/root.h"
+#include "core/math/special.h"
+#include "core/math/students_t.h"
 #include "dma/law/material.h"
 #include "indentation/law/adhesion.h"
 #include "indentation/law/tip.h"
@@ -271,6 +271,18 @@ static double added_error(double error, const curve_alternative *other)
     return sqrt(with_other * with_other - error * error);
 }
 
+/* Adds the error of a snap-in that was left out of a fit without adhesion. The pull acts on in the
+ * contact, so the force of the law may be larger by it. That is the limit of the 95 % interval. */
+static void add_left_out_pull(const curve_fitting *f, wt_indent_fit *fit)
+{
+    const double pull = curve_left_out_pull(fit);
+    if (!(pull > 0.0) || f->options->plain_least_squares)
+        return;
+    const double error = fit->modulus.value * pull / fit->max_force / NORMAL_95;
+    fit->misfit_error = hypot(fit->misfit_error, error); /* NaN stays unknown */
+    fit->modulus.standard_error = hypot(fit->modulus.standard_error, error);
+}
+
 static void report_fit(curve_fitting *f, wt_indent_fit *fit)
 {
     const curve_solution *s = &f->solution;
@@ -325,6 +337,7 @@ static void report_fit(curve_fitting *f, wt_indent_fit *fit)
         fit->interference_amplitude = 0.0;
     }
     report_adhesion(f, fit);
+    add_left_out_pull(f, fit);
     if (f->n_minima > 1) {
         fit->second_minimum_ratio = f->minima[1].cost / f->minima[0].cost;
         fit->second_contact_point = f->minima[1].contact_point + f->input.position_origin;

@@ -306,6 +306,16 @@ static wt_curve_verdict law_verdict(curve_fitting *f, const wt_indent_fit *fit, 
         f->misfit_is_named = true;
         return WT_CURVE_DOUBTFUL;
     }
+    const double left_out = f->kind.plain ? 0.0 : curve_left_out_pull(fit);
+    if (left_out > 0.0) {
+        curve_set_reason(reason,
+                         "doubtful: adhesion: no law describes the pull of %s, %.0f %% of the "
+                         "largest force: %s",
+                         curve_format_si(left_out, "N").buffer, 100.0 * left_out / fit->max_force,
+                         misfit_text(fit).buffer);
+        f->misfit_is_named = true;
+        return WT_CURVE_DOUBTFUL;
+    }
     const double pull = fmax(f->snap_in_pull, f->pull_off > 0.0 ? f->pull_off : 0.0);
     if (departure > baseline_bend * fit->max_force && pull > 0.0) {
         curve_set_reason(reason, "doubtful: adhesion: a pull of %s, and %s before contact; %s",

@@ -10,7 +10,7 @@
  */
 #include "indentation/numerics/depth_pool.h"
 
-#include "core/math/gsl_quiet.h"
+#include "core/math/special.h"
 #include "core/math/students_t.h"
 
 #include <gsl/gsl_blas.h>

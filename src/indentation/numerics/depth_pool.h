@@ -6,7 +6,7 @@
 #ifndef WT_INDENTATION_NUMERICS_DEPTH_POOL_H
 #define WT_INDENTATION_NUMERICS_DEPTH_POOL_H
 
-#include "core/base/arena.h"
+#include "core/base/array.h"
 #include "core/math/students_t.h"
 #include "indentation/numerics/depth_residuals.h"
 
@@ -40,8 +40,7 @@ typedef struct depth_value {
     double bend, loss;
 } depth_value;
 
-/* Sorts the curves and computes their mean if there are enough. memory.failed is true if memory is
- * short. */
+/* Sorts the curves and computes their mean if there are enough. */
 void depth_pool_create(depth_pool *d, const wt_contact_table *table, double poisson_ratio,
                        const wt_curve_residuals *curve, size_t n, arena *memory);
 /* Fits a law by least squares from `start`. The member `tie` of the mean has the constraint of a

@@ -6,7 +6,7 @@
  */
 #include "indentation/numerics/curve.h"
 
-#include "core/math/gsl_quiet.h"
+#include "core/math/special.h"
 
 #include <gsl/gsl_cdf.h>
 #include <gsl/gsl_errno.h>

@@ -8,7 +8,6 @@
  */
 #include "indentation/numerics/group_statistics.h"
 #include "core/base/array.h"
-#include "core/math/gsl_quiet.h"
 #include "core/math/special.h"
 
 #include <gsl/gsl_cdf.h>

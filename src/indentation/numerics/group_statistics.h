@@ -3,7 +3,7 @@
 #ifndef WT_INDENTATION_NUMERICS_GROUP_STATISTICS_H
 #define WT_INDENTATION_NUMERICS_GROUP_STATISTICS_H
 
-#include "core/base/arena.h"
+#include "core/base/array.h"
 #include "core/math/students_t.h"
 #include "weartrack/indentation.h"
 

@@ -257,10 +257,8 @@ wt_status wt_layer_profile_compute(const wt_contact_table *const table[2], doubl
         profile->n_units[g] = t.arena[g].n_units;
         thick = thick && !(contact_table_tip(table[g])->sample_thickness > 0.0);
     }
-    if (memory.failed) {
-        status = wt_fail(err, WT_E_MEMORY, "out of memory");
-    } else if (t.arena[0].has_mean && t.arena[1].has_mean && thick && isfinite(log_ratio.value) &&
-               log_ratio.standard_error >= 0.0) {
+    if (t.arena[0].has_mean && t.arena[1].has_mean && thick && isfinite(log_ratio.value) &&
+        log_ratio.standard_error >= 0.0) {
         profile->depth = t.arena[1].mean.depth;
         profile->contact_radius = 0.5 * t.arena[1].mean.widest;
         status = compute_profile(&t, profile, err);

@@ -29,7 +29,7 @@
 #include "indentation/numerics/residual_blocks.h"
 
 #include "core/math/cholesky.h"
-#include "core/math/normal_quantile.h"
+#include "core/math/students_t.h"
 
 #include <gsl/gsl_linalg.h>
 #include <math.h>

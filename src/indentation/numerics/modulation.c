@@ -9,8 +9,8 @@
  */
 #include "core/base/memory.h"
 #include "core/math/arena_gsl.h"
-#include "core/math/gsl_quiet.h"
 #include "core/math/root.h"
+#include "core/math/special.h"
 #include "weartrack/indentation.h"
 
 #include <complex.h>

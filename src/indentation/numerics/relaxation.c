@@ -11,7 +11,7 @@
  */
 #include "indentation/numerics/relaxation.h"
 
-#include "core/math/gsl_quiet.h"
+#include "core/math/special.h"
 #include "dma/law/prony_law.h"
 #include "indentation/law/hereditary.h"
 #include "indentation/law/tip.h"

@@ -4,7 +4,7 @@
  */
 #include "indentation/numerics/curve_fitting.h"
 
-#include "core/math/normal_quantile.h"
+#include "core/math/students_t.h"
 #include "indentation/law/adhesion.h"
 #include "indentation/law/tip.h"
 

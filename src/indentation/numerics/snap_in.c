@@ -133,3 +133,15 @@ void curve_exclude_samples(curve_fitting *f, size_t start, size_t end)
     s->n -= end - start;
     f->n_snap += end - start;
 }
+
+/* Smallest pull over the largest force that changes a fit without it. */
+static const double small_pull = 0.1;
+
+double curve_left_out_pull(const wt_indent_fit *fit)
+{
+    const bool is_described =
+        !isnan(fit->work_of_adhesion.value) || !isnan(fit->contact_pull.value);
+    const double pull = fmax(fit->adhesion_force, fit->pull_off_force); /* fmax ignores NaN */
+    return fit->adhesion_force > 0.0 && !is_described && pull > small_pull * fit->max_force ? pull
+                                                                                            : 0.0;
+}

@@ -2,9 +2,9 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "layer/numerics/correlated_pair.h"
 
-#include "core/base/arena.h"
+#include "core/base/array.h"
 #include "core/base/clocale.h"
-#include "core/math/gsl_quiet.h"
+#include "core/math/special.h"
 
 #include <gsl/gsl_blas.h>
 #include <gsl/gsl_cdf.h>

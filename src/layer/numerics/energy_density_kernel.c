@@ -11,7 +11,6 @@
 #include "layer/numerics/energy_density_kernel.h"
 #include "core/base/shared_params.h"
 #include "core/math/simd.h"
-#include "core/math/vector_exp.h"
 #include "friction/numerics/friction_kernel.h"
 
 #include <math.h>

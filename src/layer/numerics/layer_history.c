@@ -177,10 +177,8 @@ static wt_status begin_integration(integration *m, const layer_rates *rates, dou
         *target = (wt_estimate){.value = rates->feedback->target, .unit = "m"};
     else
         status = layer_fixed_point(rates, 0, target, err);
-    if (status == WT_OK)
-        status = gauss_rule_get(LOW_NODES, &m->low, err);
-    if (status == WT_OK)
-        status = gauss_rule_get(HIGH_NODES, &m->high, err);
+    m->low = gauss_rule_get(LOW_NODES);
+    m->high = gauss_rule_get(HIGH_NODES);
     m->target = target->value;
     m->direction = net_rate(rates, start) > 0 ? 1 : -1;
     if (m->direction < 0)

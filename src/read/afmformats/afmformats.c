@@ -1,9 +1,7 @@
 /* Reads HDF5 files of afmformats (.h5). Each curve is a group with a data set for each column,
- * among them the segment number. The metadata are attributes.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
-#include "core/store/hdf5_scope.h"
+ * among them the segment number. The metadata are attributes. SPDX-License-Identifier:
+ * GPL-3.0-or-later */
+#include "core/store/hdf5_sandbox.h"
 #include "read/hierarchy/curves_hdf5.h"
 #include "read/text/curve_text.h"
 #include "read/text/text.h"

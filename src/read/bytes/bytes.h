@@ -1,8 +1,5 @@
 /* Decodes numbers from bytes of a stated order, independent of the byte order of the machine. The
- * caller has checked that the bytes exist.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * caller has checked that the bytes exist. SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_READ_BYTES_H
 #define WT_READ_BYTES_H
 

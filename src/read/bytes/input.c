@@ -1,13 +1,12 @@
 /* Implements inputs: the bytes of a file or pipe, read as far as requested, or of borrowed memory.
  *
  * A file is never mapped, since another program that shortens it would end this one with a signal.
- * A large pipe is stored in a file if parts of it are requested.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * A large pipe is stored in a file if parts of it are requested. SPDX-License-Identifier:
+ * GPL-3.0-or-later */
 #include "read/bytes/input.h"
-#include "core/store/hdf5_bytes.h"
-#include "read/bytes/scratch.h"
+#include "core/store/hdf5_sandbox.h"
+#include "core/system/temporary.h"
+#include "weartrack/read.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -17,6 +16,40 @@
 #include <sys/stat.h>
 #include <sys/vfs.h>
 #include <unistd.h>
+
+/* Opens a file in temporary_directory(); -1 if there is no such folder. The caller then uses
+ * memory. */
+static int scratch_open(void)
+{
+    const char *const folder = temporary_directory();
+    int file = open(folder, O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
+    if (file >= 0)
+        return file;
+    /* some file systems do not support O_TMPFILE */
+    char *const path = wt_path_join(folder, "weartrack-XXXXXX");
+    file = mkostemp(path, O_CLOEXEC);
+    if (file >= 0)
+        (void)unlink(path);
+    free(path);
+    return file;
+}
+
+wt_status scratch_write(int file, const void *bytes, size_t n, const char *name, wt_error *err)
+{
+    for (size_t done = 0; done < n;) {
+        const ssize_t written = write(file, (const char *)bytes + done, n - done);
+        if (written < 0 && errno == EINTR)
+            continue;
+        if (written < 0) {
+            wt_fail(err, WT_E_IO, "cannot be kept while it is read: %s", strerror(errno));
+            wt_error_file(err, name);
+            wt_error_advice(err, "set TMPDIR to a folder with room for all of it, unpacked");
+            return WT_E_IO;
+        }
+        done += (size_t)written;
+    }
+    return WT_OK;
+}
 
 #define FIRST_READ ((size_t)64 * 1024)
 
@@ -33,21 +66,12 @@ struct wt_input {
     bool lost;         /* true if bytes of a pipe were lost; then nothing more is read */
 };
 
-static wt_status input_new(const char *name, wt_input **input, wt_error *err)
+static wt_input *input_new(const char *name)
 {
-    wt_input *in = calloc(1, sizeof *in);
-    char *copy = strdup(name);
-    if (in == NULL || copy == NULL) {
-        free(in);
-        free(copy);
-        wt_fail(err, WT_E_MEMORY, "no memory to open the input");
-        wt_error_file(err, name);
-        return WT_E_MEMORY;
-    }
-    in->name = copy;
+    wt_input *in = wt_alloc(1, sizeof *in);
+    in->name = wt_strdup(name);
     in->fd = -1;
-    *input = in;
-    return WT_OK;
+    return in;
 }
 
 static wt_status fail_io(const wt_input *in, wt_error *err, int number, const char *what)
@@ -91,17 +115,15 @@ static wt_status open_standard_input(wt_input *in, struct stat *info, wt_error *
 
 wt_status wt_input_open(const char *path, wt_input **input, wt_error *err)
 {
-    wt_input *in = NULL;
     if (path == NULL || *path == '\0')
         return wt_fail(err, WT_E_ARG, "no file name given");
-    wt_status status = input_new(path, &in, err);
-    if (status != WT_OK)
-        return status;
+    wt_input *const in = input_new(path);
     const bool standard = strcmp(path, "-") == 0;
     struct stat st;
-    status = standard ? open_standard_input(in, &st, err) : open_input_file(in, path, &st, err);
+    wt_status status =
+        standard ? open_standard_input(in, &st, err) : open_input_file(in, path, &st, err);
     if (status == WT_OK)
-        status = wt_protect_input(path, err);
+        wt_protect_input(path);
     if (status == WT_OK && S_ISDIR(st.st_mode)) {
         status = wt_fail(err, WT_E_ARG, "is a folder");
         wt_error_file(err, path);
@@ -124,10 +146,7 @@ wt_status wt_input_open_memory(const void *bytes, size_t length, const char *nam
 {
     if (bytes == NULL && length > 0)
         return wt_fail(err, WT_E_ARG, "no bytes given");
-    wt_input *in = NULL;
-    wt_status status = input_new(name == NULL ? "memory" : name, &in, err);
-    if (status != WT_OK)
-        return status;
+    wt_input *const in = input_new(name == NULL ? "memory" : name);
     in->bytes = bytes;
     in->length = length;
     in->whole = true;
@@ -135,35 +154,28 @@ wt_status wt_input_open_memory(const void *bytes, size_t length, const char *nam
     return WT_OK;
 }
 
-wt_status input_from_bytes(char *bytes, size_t length, const char *name, wt_input **input,
-                           wt_error *err)
+wt_input *input_from_bytes(void *bytes, size_t length, const char *name)
 {
-    wt_input *in = NULL;
-    wt_status status = wt_input_open_memory(bytes, length, name, &in, err);
-    if (status != WT_OK) {
-        free(bytes);
-        return status;
-    }
-    in->buffer = (unsigned char *)bytes;
-    *input = in;
-    return WT_OK;
+    wt_input *const in = input_new(name);
+    in->bytes = in->buffer = bytes;
+    in->length = length;
+    in->whole = true;
+    return in;
 }
 
-wt_status input_from_file(int file, size_t size, const char *name, wt_input **input, wt_error *err)
+/* Creates an input from an open file of `size` bytes and takes ownership of the descriptor, also on
+ * failure. No other program writes to the file. */
+static wt_status input_from_file(int file, size_t size, const char *name, wt_input **input,
+                                 wt_error *err)
 {
-    wt_input *in = NULL;
-    wt_status status = input_new(name, &in, err);
-    if (status != WT_OK) {
-        (void)close(file);
-        return status;
-    }
+    wt_input *const in = input_new(name);
     in->fd = file;
     in->expected = size;
     if (lseek(file, 0, SEEK_SET) == 0) {
         *input = in;
         return WT_OK;
     }
-    status = fail_io(in, err, errno, "cannot be read");
+    const wt_status status = fail_io(in, err, errno, "cannot be read");
     wt_input_close(in);
     return status;
 }
@@ -173,17 +185,13 @@ wt_status wt_input_sibling(const wt_input *input, wt_input **sibling, wt_error *
     *sibling = NULL;
     if (input->whole || input->expected <= SCRATCH_THRESHOLD)
         return WT_OK;
-    wt_status status = input_new(input->name, sibling, err);
-    if (status != WT_OK)
-        return status;
+    const int fd = fcntl(input->fd, F_DUPFD_CLOEXEC, 0);
+    if (fd < 0)
+        return fail_io(input, err, errno, "cannot be opened once more");
+    *sibling = input_new(input->name);
     (*sibling)->expected = input->expected;
-    (*sibling)->fd = fcntl(input->fd, F_DUPFD_CLOEXEC, 0);
-    if ((*sibling)->fd >= 0)
-        return WT_OK;
-    status = fail_io(input, err, errno, "cannot be opened once more");
-    wt_input_close(*sibling);
-    *sibling = NULL;
-    return status;
+    (*sibling)->fd = fd;
+    return WT_OK;
 }
 
 void wt_input_close(wt_input *input)
@@ -275,11 +283,10 @@ static wt_status spool_pipe(wt_input *in, wt_error *err)
     const int file = scratch_open();
     if (file < 0)
         return fill_buffer(in, SIZE_MAX, err);
-    unsigned char *const piece = malloc(step);
+    unsigned char *const piece = wt_alloc(step, 1);
     size_t size = in->length;
     bool more = true;
-    status = piece != NULL ? scratch_write(file, in->bytes, size, in->name, err)
-                           : wt_fail(err, WT_E_MEMORY, "no memory to read a pipe");
+    status = scratch_write(file, in->bytes, size, in->name, err);
     while (status == WT_OK && more) {
         const ssize_t got = read(in->fd, piece, step);
         if (got < 0 && errno == EINTR)
@@ -376,4 +383,62 @@ wt_status wt_input_peek(wt_input *input, size_t want, const unsigned char **byte
     *length = input->length;
     *whole = input->whole;
     return WT_OK;
+}
+
+static wt_status reserve_spool(spool *to, size_t n, const char *name, wt_error *err)
+{
+    size_t capacity = to->capacity > 0 ? to->capacity : 1 << 16;
+    while (capacity - to->length < n && capacity <= SIZE_MAX / 2)
+        capacity *= 2;
+    unsigned char *const bytes = capacity > to->capacity ? realloc(to->bytes, capacity) : to->bytes;
+    if (bytes == NULL) {
+        wt_fail(err, WT_E_MEMORY, "no memory for %zu bytes of input", capacity);
+        wt_error_file(err, name);
+        return WT_E_MEMORY;
+    }
+    to->bytes = bytes;
+    to->capacity = capacity;
+    return WT_OK;
+}
+
+wt_status spool_add(spool *to, const void *bytes, size_t n, const char *name, wt_error *err)
+{
+    wt_status status = WT_OK;
+    if (!to->has_tried_file && n > SCRATCH_THRESHOLD - to->length) {
+        to->has_tried_file = true;
+        to->file = scratch_open();
+        to->has_file = to->file >= 0;
+        if (to->has_file)
+            status = scratch_write(to->file, to->bytes, to->length, name, err);
+        if (to->has_file) {
+            free(to->bytes);
+            to->bytes = NULL;
+            to->capacity = 0;
+        }
+    }
+    if (status == WT_OK && to->has_file)
+        status = scratch_write(to->file, bytes, n, name, err);
+    else if (status == WT_OK && (status = reserve_spool(to, n, name, err)) == WT_OK && n > 0)
+        memcpy(to->bytes + to->length, bytes, n);
+    to->length += status == WT_OK ? n : 0;
+    return status;
+}
+
+wt_status spool_to_input(spool *from, const char *name, wt_input **input, wt_error *err)
+{
+    wt_status status = WT_OK;
+    if (from->has_file)
+        status = input_from_file(from->file, from->length, name, input, err);
+    else
+        *input = input_from_bytes(from->bytes, from->length, name);
+    *from = (spool){0};
+    return status;
+}
+
+void spool_discard(spool *from)
+{
+    if (from->has_file)
+        (void)close(from->file);
+    free(from->bytes);
+    *from = (spool){0};
 }

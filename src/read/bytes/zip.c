@@ -2,11 +2,9 @@
  * format, sections 4.3 and 4.5.3.
  *
  * Maps have half a million entries, so an entry stores only its name and its position.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "read/bytes/zip.h"
-
+#include "core/base/memory.h"
 #include "core/math/splitmix64.h"
 #include "read/bytes/bytes.h"
 
@@ -31,6 +29,120 @@
 /* The directory is read in pieces of this size [byte]; no record is longer. */
 #define DIRECTORY_PIECE ((size_t)256 * 1024)
 #define FLAG_ENCRYPTED 1u
+#define DESCRIPTOR_SIZE ((size_t)16)
+#define FLAG_DESCRIPTOR 8u
+
+/* A complete entry. */
+typedef struct local_entry {
+    const unsigned char *header;
+    const unsigned char *name;
+    size_t name_length;
+    uint32_t crc, packed, size;
+    size_t end; /* offset at which the next header is expected */
+} local_entry;
+
+/* Finds the data descriptor of an entry whose sizes were unknown when its header was written. It
+ * follows the data after a signature. The match is the one whose packed size equals its distance
+ * from the start of the data. */
+static bool find_data_descriptor(const unsigned char *bytes, size_t length, size_t start,
+                                 local_entry *e)
+{
+    static const unsigned char signature[] = {'P', 'K', 7, 8};
+    size_t at = start;
+    while (at < length) {
+        const unsigned char *hit = memmem(bytes + at, length - at, signature, sizeof signature);
+        if (hit == NULL)
+            return false;
+        size_t position = (size_t)(hit - bytes);
+        if (length - position < DESCRIPTOR_SIZE)
+            return false;
+        if (le32(hit + 8) == position - start) {
+            e->crc = le32(hit + 4);
+            e->packed = le32(hit + 8);
+            e->size = le32(hit + 12);
+            e->end = position + DESCRIPTOR_SIZE;
+            return true;
+        }
+        at = position + 1;
+    }
+    return false;
+}
+
+static bool read_local_entry(const unsigned char *bytes, size_t length, size_t at, local_entry *e)
+{
+    static const unsigned char signature[] = {'P', 'K', 3, 4};
+    if (length - at < LOCAL_SIZE || memcmp(bytes + at, signature, sizeof signature) != 0)
+        return false;
+    const unsigned char *h = bytes + at;
+    size_t name_length = le16(h + 26);
+    size_t start = LOCAL_SIZE + name_length + le16(h + 28);
+    if (length - at < start)
+        return false;
+    start += at;
+    *e = (local_entry){.header = h, .name = h + LOCAL_SIZE, .name_length = name_length};
+    if ((le16(h + 6) & FLAG_DESCRIPTOR) != 0)
+        return find_data_descriptor(bytes, length, start, e);
+    e->crc = le32(h + 14);
+    e->packed = le32(h + 18);
+    e->size = le32(h + 22);
+    if (e->packed > length - start)
+        return false;
+    e->end = start + e->packed;
+    return true;
+}
+
+static unsigned char *write_le16(unsigned char *at, uint32_t value)
+{
+    at[0] = (unsigned char)(value & 0xff);
+    at[1] = (unsigned char)(value >> 8 & 0xff);
+    return at + 2;
+}
+
+static unsigned char *write_le32(unsigned char *at, uint32_t value)
+{
+    return write_le16(write_le16(at, value & 0xffff), value >> 16);
+}
+
+static unsigned char *write_central_record(unsigned char *at, const local_entry *e, size_t offset)
+{
+    const unsigned char *h = e->header;
+    at = write_le32(at, 0x02014b50);
+    at = write_le16(at, 20); /* created by version 2.0 */
+    memcpy(at, h + 4, 10);   /* needed version, flags, method, time, date */
+    at = write_le32(at + 10, e->crc);
+    at = write_le32(at, e->packed);
+    at = write_le32(at, e->size);
+    at = write_le16(at, (uint32_t)e->name_length);
+    memset(at, 0, 12); /* no extra field, no comment, first disk, no attributes */
+    at = write_le32(at + 12, (uint32_t)offset);
+    memcpy(at, e->name, e->name_length);
+    return at + e->name_length;
+}
+
+/* Builds the directory of the complete entries at the beginning of `bytes`, as it would follow
+ * them. *n is 0 if none is complete. The caller frees *directory. */
+static void archive_rebuild_directory(const unsigned char *bytes, size_t length,
+                                      unsigned char **directory, uint64_t *directory_length,
+                                      uint64_t *n)
+{
+    local_entry e;
+    size_t count = 0, at = 0, size = 0;
+    /* Offsets above 32 bits would need an extra field in each entry, so the search stops there. */
+    while (at < UINT32_MAX && read_local_entry(bytes, length, at, &e)) {
+        size += CENTRAL_SIZE + e.name_length;
+        count++;
+        at = e.end;
+    }
+    unsigned char *const out = wt_alloc(size, 1), *to = out;
+    at = 0;
+    for (size_t i = 0; i < count && read_local_entry(bytes, length, at, &e); i++) {
+        to = write_central_record(to, &e, at);
+        at = e.end;
+    }
+    *n = count;
+    *directory = out;
+    *directory_length = size;
+}
 
 enum archive_packing { STORED, DEFLATED, ENCRYPTED, UNKNOWN };
 
@@ -85,9 +197,7 @@ static wt_status find_directory(zip_archive *a, zip_directory *d, wt_error *err)
 {
     const size_t length = a->length;
     const size_t n = length < END_SIZE + COMMENT_MAX ? length : END_SIZE + COMMENT_MAX;
-    unsigned char *const last = malloc(n + 1);
-    if (last == NULL)
-        return wt_fail(err, WT_E_MEMORY, "no memory for the archive");
+    unsigned char *const last = wt_alloc(n, 1);
     wt_status status = wt_input_copy(a->input, length - n, last, n, err);
     size_t at = n < END_SIZE ? 0 : n - END_SIZE + 1;
     while (status == WT_OK && at > 0 &&
@@ -192,9 +302,9 @@ static wt_status read_directory(zip_archive *a, const zip_directory *d, wt_error
     wt_status status = WT_OK;
     uint64_t at = 0;
     bool ended = false;
-    unsigned char *const piece = malloc(DIRECTORY_PIECE);
-    a->entries = calloc((size_t)(d->size / CENTRAL_SIZE) + 1, sizeof *a->entries);
-    if (piece == NULL || a->entries == NULL)
+    unsigned char *const piece = wt_alloc(DIRECTORY_PIECE, 1);
+    a->entries = try_alloc((size_t)(d->size / CENTRAL_SIZE), sizeof *a->entries);
+    if (a->entries == NULL)
         status = wt_fail(err, WT_E_MEMORY, "no memory for the archive");
     for (size_t n = 0, used = 0; status == WT_OK && !ended;) {
         const unsigned char *const r = piece + used;
@@ -233,7 +343,7 @@ static wt_status rebuild_entries(zip_archive *a, wt_error *err)
     wt_error ignored = WT_ERROR_INIT;
     wt_status status = wt_input_bytes(a->input, &bytes, &length, err);
     if (status == WT_OK)
-        status = archive_rebuild_directory(bytes, length, &made, &d.size, &d.n, err);
+        archive_rebuild_directory(bytes, length, &made, &d.size, &d.n);
     if (status == WT_OK && d.n == 0)
         status = WT_E_CORRUPT; /* the missing directory is reported already */
     if (status == WT_OK)
@@ -267,7 +377,7 @@ static size_t name_slot(const zip_archive *a, const char *name)
     return at;
 }
 
-static wt_status index_names(zip_archive *a, wt_error *err)
+static void index_names(zip_archive *a)
 {
     /* A random seed: names chosen to collide would cost quadratic time. */
     if (getrandom(&a->seed, sizeof a->seed, GRND_NONBLOCK) != (ssize_t)sizeof a->seed)
@@ -275,15 +385,12 @@ static wt_status index_names(zip_archive *a, wt_error *err)
     a->n_name_slots = 16;
     while (a->n_name_slots < 2 * a->n)
         a->n_name_slots *= 2;
-    a->slots = calloc(a->n_name_slots, sizeof *a->slots);
-    if (a->slots == NULL)
-        return wt_fail(err, WT_E_MEMORY, "no memory for the names of the archive");
+    a->slots = wt_alloc(a->n_name_slots, sizeof *a->slots);
     for (size_t k = 0; k < a->n; k++) {
         const size_t at = name_slot(a, archive_name(a, k));
         if (a->slots[at] == 0)
             a->slots[at] = (uint32_t)k + 1; /* of equal names the first counts */
     }
-    return WT_OK;
 }
 
 bool archive_find(const zip_archive *archive, const char *name, size_t *i)
@@ -300,9 +407,7 @@ bool archive_find(const zip_archive *archive, const char *name, size_t *i)
 wt_status archive_open(wt_input *input, zip_archive **archive, wt_error *err)
 {
     zip_directory d;
-    zip_archive *const a = calloc(1, sizeof *a);
-    if (a == NULL)
-        return wt_fail(err, WT_E_MEMORY, "no memory for the archive");
+    zip_archive *const a = wt_alloc(1, sizeof *a);
     a->input = input;
     wt_status status = window_open(&a->window, input, err);
     a->length = a->window.size;
@@ -320,13 +425,13 @@ wt_status archive_open(wt_input *input, zip_archive **archive, wt_error *err)
     }
     if (status == WT_OK && a->n == 0)
         status = wt_fail(err, WT_E_CORRUPT, "the ZIP archive is empty");
-    if (status == WT_OK)
-        status = index_names(a, err);
-    if (status == WT_OK)
-        *archive = a;
-    else
+    if (status != WT_OK) {
         archive_close(a);
-    return status;
+        return status;
+    }
+    index_names(a);
+    *archive = a;
+    return WT_OK;
 }
 
 void archive_close(zip_archive *archive)
@@ -370,18 +475,6 @@ wt_status archive_size(const zip_archive *archive, size_t i, size_t *size, wt_er
     return WT_OK;
 }
 
-static bool reserve_buffer(byte_buffer *buffer, size_t size)
-{
-    if (size <= buffer->capacity)
-        return true;
-    unsigned char *const grown = realloc(buffer->data, size);
-    if (grown == NULL)
-        return false;
-    buffer->data = grown;
-    buffer->capacity = size;
-    return true;
-}
-
 /* Returns the packed bytes of an entry, as many as the directory states; valid until the next
  * call. */
 static wt_status read_packed(zip_archive *a, size_t i, const unsigned char **packed, wt_error *err)
@@ -407,7 +500,7 @@ static wt_status inflate_entry(zip_archive *a, size_t i, const unsigned char *pa
 {
     const zip_entry *const e = &a->entries[i];
     if (a->unpacker == NULL && (a->unpacker = libdeflate_alloc_decompressor()) == NULL)
-        return fail_entry(a, i, err, WT_E_MEMORY, "no memory for an archive entry");
+        out_of_memory(0);
     switch (libdeflate_deflate_decompress(a->unpacker, packed, e->packed, buffer->data, e->size,
                                           NULL)) {
     case LIBDEFLATE_SUCCESS:
@@ -440,7 +533,12 @@ wt_status archive_read(zip_archive *archive, size_t i, size_t limit, byte_buffer
     if (e->packing == STORED && e->packed != e->size)
         return fail_entry(archive, i, err, WT_E_CORRUPT,
                           "archive entry is not of the size that it declares");
-    if (!reserve_buffer(buffer, size + 1))
+    if (size >= buffer->capacity) {
+        free(buffer->data);
+        buffer->data = try_alloc(size + 1, 1);
+        buffer->capacity = buffer->data != NULL ? size + 1 : 0;
+    }
+    if (buffer->data == NULL)
         return fail_entry(archive, i, err, WT_E_MEMORY, "no memory for an archive entry");
     status = read_packed(archive, i, &packed, err);
     if (status == WT_OK && e->packing == STORED)

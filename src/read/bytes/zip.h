@@ -1,11 +1,9 @@
-/* Declares access to ZIP archives, also to one whose end is missing.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+/* Declares access to ZIP archives, also to one whose end is missing. SPDX-License-Identifier:
+ * GPL-3.0-or-later */
 #ifndef WT_READ_BYTES_ZIP_H
 #define WT_READ_BYTES_ZIP_H
 
-#include "read/bytes/window.h"
+#include "read/bytes/samples.h"
 
 /* A growing buffer that is reused; zero-initialised is empty; free with free(data). */
 typedef struct byte_buffer {
@@ -15,6 +13,7 @@ typedef struct byte_buffer {
 } byte_buffer;
 
 typedef struct zip_entry zip_entry;
+
 typedef struct zip_archive {
     wt_input *input;
     size_t length;      /* size of the file */
@@ -43,11 +42,5 @@ wt_status archive_size(const zip_archive *archive, size_t i, size_t *size,
 /* Unpacks an entry of at most `limit` bytes and checks its size and checksum. */
 wt_status archive_read(zip_archive *archive, size_t i, size_t limit, byte_buffer *buffer,
                        wt_error *err) WT_NODISCARD;
-
-/* Builds the directory of the complete entries at the beginning of `bytes`, as it would follow
- * them. *n is 0 if none is complete. The caller frees *directory. */
-wt_status archive_rebuild_directory(const unsigned char *bytes, size_t length,
-                                    unsigned char **directory, uint64_t *directory_length,
-                                    uint64_t *n, wt_error *err) WT_NODISCARD;
 
 #endif

@@ -4,7 +4,7 @@
  */
 #include "read/description/description.h"
 
-#include "core/base/resource_error.h"
+#include "core/base/memory.h"
 
 #include <errno.h>
 #include <stdlib.h>
@@ -42,11 +42,17 @@ bool description_find_name(const text_description *d, const char *name, size_t *
 header_value find_header_value(wt_quantity quantity, field_sets sets)
 {
     static const wt_quantity quantities[HEADER_VALUE_FACTOR] = {
-        [HEADER_TEMPERATURE] = WT_Q_TEMPERATURE, [HEADER_SPRING_CONSTANT] = WT_Q_SPRING_CONSTANT,
-        [HEADER_SENSITIVITY] = WT_Q_SENSITIVITY, [HEADER_POSITION_X] = WT_Q_POSITION_X,
-        [HEADER_POSITION_Y] = WT_Q_POSITION_Y,   [HEADER_VELOCITY] = WT_Q_VELOCITY,
-        [HEADER_DURATION] = WT_Q_TIME,           [HEADER_SETPOINT] = WT_Q_FORCE,
-        [HEADER_LOAD] = WT_Q_NORMAL_FORCE,       [HEADER_RADIUS] = WT_Q_LENGTH};
+        [HEADER_TEMPERATURE] = WT_Q_TEMPERATURE,
+        [HEADER_ANGULAR_FREQUENCY] = WT_Q_ANGULAR_FREQUENCY,
+        [HEADER_SPRING_CONSTANT] = WT_Q_SPRING_CONSTANT,
+        [HEADER_SENSITIVITY] = WT_Q_SENSITIVITY,
+        [HEADER_POSITION_X] = WT_Q_POSITION_X,
+        [HEADER_POSITION_Y] = WT_Q_POSITION_Y,
+        [HEADER_VELOCITY] = WT_Q_VELOCITY,
+        [HEADER_DURATION] = WT_Q_TIME,
+        [HEADER_SETPOINT] = WT_Q_FORCE,
+        [HEADER_LOAD] = WT_Q_NORMAL_FORCE,
+        [HEADER_RADIUS] = WT_Q_LENGTH};
     header_value value = HEADER_TEMPERATURE;
     if (sets >= FIELD_SETS_VALUE_FACTOR)
         return quantity == WT_Q_LENGTH
@@ -104,14 +110,15 @@ static const struct {
                                                Q(SHEAR_STORAGE_MODULUS) | Q(SHEAR_LOSS_MODULUS)}},
     {WT_KIND_SWEEP,
      "sweep",
-     "columns of frequency and complex modulus, and of loss modulus or loss factor",
+     "columns of frequency and complex modulus, and of loss modulus, loss factor or phase angle",
      {Q(FREQUENCY) | Q(ANGULAR_FREQUENCY), Q(COMPLEX_MODULUS) | Q(SHEAR_COMPLEX_MODULUS),
-      Q(LOSS_MODULUS) | Q(SHEAR_LOSS_MODULUS) | Q(LOSS_FACTOR)}},
+      Q(LOSS_MODULUS) | Q(SHEAR_LOSS_MODULUS) | Q(LOSS_FACTOR) | Q(PHASE)}},
     {WT_KIND_SWEEP,
      "sweep",
      "columns of strain or temperature, and of storage and loss modulus, and the frequency",
-     {Q(STRAIN) | Q(TEMPERATURE), Q(STORAGE_MODULUS) | Q(SHEAR_STORAGE_MODULUS),
-      Q(LOSS_MODULUS) | Q(SHEAR_LOSS_MODULUS) | Q(LOSS_FACTOR)}},
+     {Q(STRAIN) | Q(TEMPERATURE),
+      Q(STORAGE_MODULUS) | Q(SHEAR_STORAGE_MODULUS) | Q(COMPLEX_MODULUS) | Q(SHEAR_COMPLEX_MODULUS),
+      Q(LOSS_MODULUS) | Q(SHEAR_LOSS_MODULUS) | Q(LOSS_FACTOR) | Q(PHASE)}},
     {WT_KIND_SWEEP,
      "sweep",
      "columns of time, and of relaxation modulus or creep compliance",

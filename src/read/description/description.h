@@ -6,8 +6,8 @@
 #ifndef WT_READ_DESCRIPTION_H
 #define WT_READ_DESCRIPTION_H
 
-#include "core/base/arena.h"
-#include "core/system/embed.h"
+#include "core/base/array.h"
+#include "core/system/file_signatures.h"
 #include "read/reader.h"
 
 #include <regex.h>
@@ -74,6 +74,7 @@ typedef struct text_probe {
 /* Header values that a table stores. */
 typedef enum header_value {
     HEADER_TEMPERATURE,
+    HEADER_ANGULAR_FREQUENCY,
     HEADER_SPRING_CONSTANT,
     HEADER_SENSITIVITY,
     HEADER_POSITION_X,

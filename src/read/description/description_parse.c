@@ -1,5 +1,5 @@
 /* Parses the XML of a format description. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "core/base/resource_error.h"
+#include "core/base/memory.h"
 #include "read/description/description_xml.h"
 #include "read/embedded_formats.h"
 

@@ -146,7 +146,8 @@ static void read_header_element(description_parser *p, const xmlNode *node)
         if (find_header_value(field->quantity, field->sets) == HEADER_COUNT)
             parse_fail(
                 p, c, "a header line cannot give this quantity",
-                "temperature, spring_constant, sensitivity, position_x, position_y, velocity, "
+                "temperature, angular_frequency, spring_constant, sensitivity, position_x, "
+                "position_y, velocity, "
                 "time (duration), force (set-point), normal_force, or length for a radius or what "
                 "sets a size or a factor",
                 wt_quantity_id(field->quantity));

@@ -2,11 +2,8 @@
  *
  * A file has a line with the name of the format and lines "key = value". One to four zero bytes
  * follow, up to a multiple of four. Then come little-endian floats line by line, the top line
- * first.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
-#include "read/bytes/window.h"
+ * first. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "read/bytes/samples.h"
 #include "read/images.h"
 #include "read/reader.h"
 

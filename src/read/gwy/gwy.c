@@ -1,17 +1,247 @@
 /* Reads Gwyddion files (.gwy): "GWYP", then a container of objects. The data fields "/N/data" are
  * images, and graphs may be profiles. The top line of an image comes first.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "read/gwy/gwy.h"
-
-#include "read/gwy/gwy_graph.h"
+#include "read/bytes/bytes.h"
+#include "read/bytes/samples.h"
 #include "read/images.h"
 #include "read/reader.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+
+/* The bytes that are not read yet. */
+typedef struct gwy_bytes {
+    const unsigned char *at, *end;
+} gwy_bytes;
+
+typedef struct gwy_component {
+    const char *key; /* zero-terminated */
+    char type;       /* b, c, i, q, d, s or o; capitals for arrays */
+    gwy_bytes value; /* items of an array; name, size and components of an object */
+    size_t n;        /* number of items */
+} gwy_component;
+
+static size_t bytes_left(const gwy_bytes *b)
+{
+    return (size_t)(b->end - b->at);
+}
+
+/* Reads a text and its terminating zero. */
+static bool read_text(gwy_bytes *b, const char **text)
+{
+    const unsigned char *zero = bytes_left(b) > 0 ? memchr(b->at, 0, bytes_left(b)) : NULL;
+    if (zero == NULL)
+        return false;
+    *text = (const char *)b->at;
+    b->at = zero + 1;
+    return true;
+}
+
+static bool read_size(gwy_bytes *b, size_t *size)
+{
+    if (bytes_left(b) < 4)
+        return false;
+    *size = le32(b->at);
+    b->at += 4;
+    return true;
+}
+
+/* Reads the name and the components of the object at *from and moves *from to its end; false if it
+ * is truncated. */
+static bool gwy_read_object(gwy_bytes *from, const char **name, gwy_bytes *components)
+{
+    size_t size = 0;
+    if (!read_text(from, name) || !read_size(from, &size) || size > bytes_left(from))
+        return false;
+    *components = (gwy_bytes){from->at, from->at + size};
+    from->at += size;
+    return true;
+}
+
+/* Returns the item size of a type with items of equal size; 0 for other types [byte]. */
+static size_t item_width(char type)
+{
+    switch (type) {
+    case 'b':
+    case 'c':
+        return 1;
+    case 'i':
+        return 4;
+    case 'q':
+    case 'd':
+        return 8;
+    default:
+        return 0;
+    }
+}
+
+static bool skip_item(gwy_bytes *b, char type)
+{
+    const size_t width = item_width(type);
+    const char *name = NULL;
+    gwy_bytes inner;
+    if (type == 's')
+        return read_text(b, &name);
+    if (type == 'o')
+        return gwy_read_object(b, &name, &inner);
+    if (width == 0 || width > bytes_left(b))
+        return false;
+    b->at += width;
+    return true;
+}
+
+static bool skip_value(gwy_bytes *b, gwy_component *to)
+{
+    const bool array = to->type >= 'A' && to->type <= 'Z';
+    const char item = (char)(array ? to->type - 'A' + 'a' : to->type);
+    const size_t width = item_width(item);
+    to->n = 1;
+    if (array && !read_size(b, &to->n))
+        return false;
+    to->value.at = b->at;
+    if (width > 0) {
+        if (to->n > bytes_left(b) / width)
+            return false;
+        b->at += to->n * width;
+    } else {
+        /* Each item has at least one byte, so a large count ends with the bytes. */
+        for (size_t i = 0; i < to->n; i++)
+            if (!skip_item(b, item))
+                return false;
+    }
+    to->value.end = b->at;
+    return true;
+}
+
+/* Reads the next component; false at the end, or on damage with *status = WT_E_CORRUPT. */
+static bool gwy_next_component(gwy_bytes *components, gwy_component *to, wt_status *status)
+{
+    if (bytes_left(components) == 0)
+        return false;
+    if (read_text(components, &to->key) && bytes_left(components) > 0) {
+        to->type = (char)*components->at++;
+        if (skip_value(components, to))
+            return true;
+    }
+    *status = WT_E_CORRUPT;
+    return false;
+}
+
+/* Finds the component with this key and type; false if there is none. */
+static bool gwy_find_component(gwy_bytes components, const char *key, char type, gwy_component *to)
+{
+    wt_status status = WT_OK;
+    while (gwy_next_component(&components, to, &status))
+        if (to->type == type && strcmp(to->key, key) == 0)
+            return true;
+    return false;
+}
+
+/* Returns the unit stored at a key, an object with a text; "" if it is absent. */
+static const char *gwy_unit(gwy_bytes components, const char *key)
+{
+    gwy_component unit, text;
+    gwy_bytes inside;
+    const char *name = NULL;
+    if (!gwy_find_component(components, key, 'o', &unit) ||
+        !gwy_read_object(&unit.value, &name, &inside) ||
+        !gwy_find_component(inside, "unitstr", 's', &text))
+        return "";
+    return (const char *)text.value.at;
+}
+
+static double gwy_double(const gwy_component *component)
+{
+    double value;
+    samples_decode(SAMPLE_FLOAT64, false, component->value.at, 1, 1, 0, &value);
+    return isfinite(value) ? value : (double)NAN;
+}
+
+static size_t gwy_count(const gwy_component *component)
+{
+    double value;
+    samples_decode(SAMPLE_INT32, false, component->value.at, 1, 1, 0, &value);
+    return value > 0 ? (size_t)value : 0;
+}
+
+/* Tolerance of equal steps, relative to a step. It changes no spectrum noticeably. */
+static const double step_tolerance = 1e-3;
+
+static const char prefix[] = "/0/graph/graph/";
+
+/* True if the key belongs to a graph of the container. */
+static bool gwy_is_graph(const char *key)
+{
+    return strncmp(key, prefix, sizeof prefix - 1) == 0 &&
+           strspn(key + sizeof prefix - 1, "0123456789") == strlen(key + sizeof prefix - 1);
+}
+
+static bool has_equal_steps(const double *x, size_t n)
+{
+    const double step = (x[n - 1] - x[0]) / (double)(n - 1);
+    bool equal = step > 0 && isfinite(step);
+    for (size_t i = 0; equal && i < n; i++)
+        equal = fabs(x[i] - x[0] - step * (double)i) <= step_tolerance * step;
+    return equal;
+}
+
+static wt_status add_graph_profile(image_list *list, gwy_bytes graph, gwy_bytes curve,
+                                   const char *key, const char *file, wt_log *log, wt_error *err)
+{
+    gwy_component x, y, title;
+    double lateral = 1, vertical = 1, offset = 0, *values = NULL;
+    const bool whole = gwy_find_component(curve, "xdata", 'D', &x) &&
+                       gwy_find_component(curve, "ydata", 'D', &y) && x.n == y.n && x.n > 1;
+    const bool lengths =
+        whole &&
+        wt_unit_to_si(gwy_unit(graph, "x_unit"), WT_Q_LENGTH, &lateral, &offset, NULL) == WT_OK &&
+        wt_unit_to_si(gwy_unit(graph, "y_unit"), WT_Q_LENGTH, &vertical, &offset, NULL) == WT_OK;
+    double *const positions = lengths ? wt_alloc(x.n, sizeof *positions) : NULL;
+    if (lengths)
+        (void)samples_decode(SAMPLE_FLOAT64, false, x.value.at, x.n, lateral, 0, positions);
+    wt_status status = WT_OK;
+    if (!lengths || !has_equal_steps(positions, x.n)) {
+        wt_log_add(log, WT_NOTE, file, key,
+                   "a graph that is no profile is left out: lengths against lengths at equal "
+                   "steps would be one");
+    } else {
+        wt_image head = {.n_columns = x.n,
+                         .n_rows = 1,
+                         .unit = "m",
+                         .x_unit = "m",
+                         .width = positions[x.n - 1] - positions[0],
+                         .x_min = positions[0]};
+        images_set_name(&head, gwy_find_component(graph, "title", 's', &title)
+                                   ? (const char *)title.value.at
+                                   : "profile");
+        status = images_add(list, &head, &values, err);
+        if (status == WT_OK)
+            (void)samples_decode(SAMPLE_FLOAT64, false, y.value.at, y.n, vertical, 0, values);
+    }
+    free(positions);
+    return status;
+}
+
+/* Adds the curves of a graph (the components of its object) that are profiles: lengths against
+ * lengths at equal steps. Other curves are skipped with a note. */
+static wt_status gwy_add_profiles(image_list *list, gwy_bytes graph, const char *key,
+                                  const char *file, wt_log *log, wt_error *err)
+{
+    gwy_component curves;
+    wt_status status = WT_OK;
+    if (!gwy_find_component(graph, "curves", 'O', &curves))
+        return WT_OK;
+    for (size_t i = 0; status == WT_OK && i < curves.n; i++) {
+        const char *name = NULL;
+        gwy_bytes curve;
+        if (!gwy_read_object(&curves.value, &name, &curve))
+            break; /* all objects were checked before */
+        status = add_graph_profile(list, graph, curve, key, file, log, err);
+    }
+    return status;
+}
 
 /* Limit on the fields of a file, since each searches the container for its title. */
 enum { MAX_FIELDS = 1000 };
@@ -53,9 +283,7 @@ static wt_status apply_mask(wt_image *image, gwy_bytes container, unsigned long 
     if (!gwy_find_component(container, key, 'o', &mask))
         return WT_OK;
     const size_t n = image->n_columns * image->n_rows;
-    double *set = malloc(n * sizeof *set);
-    if (set == NULL)
-        return wt_fail(err, WT_E_MEMORY, "no memory for a mask");
+    double *set = wt_alloc(n, sizeof *set);
     wt_status status = WT_OK;
     if (!gwy_read_object(&mask.value, &name, &field) ||
         !gwy_find_component(field, "data", 'D', &data) || data.n != n)

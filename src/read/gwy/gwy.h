@@ -1,6 +1,4 @@
-/* Declares the reader of the data fields of a .gwy file.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
+/* Declares the reader of the data fields of a .gwy file. SPDX-License-Identifier: GPL-3.0-or-later
  */
 #ifndef WT_READ_GWY_H
 #define WT_READ_GWY_H

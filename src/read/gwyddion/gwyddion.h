@@ -1,7 +1,5 @@
 /* Declares the program Gwyddion as a converter of height maps without a reader in this program.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_READ_GWYDDION_H
 #define WT_READ_GWYDDION_H
 
@@ -20,5 +18,10 @@ extern const gwyddion_limits gwyddion_default_limits;
  * program. WT_E_TOOL if it is missing, fails, exceeds a limit or writes nothing. */
 wt_status gwyddion_convert(wt_input *input, const gwyddion_limits *limits, wt_input **converted,
                            char version[64], wt_error *err) WT_NODISCARD;
+/* Returns the file with plain heights, since Gwyddion 2.62 cannot read compressed ones. It has the
+ * name of the input; the caller closes it. WT_E_CORRUPT; WT_E_UNSUPPORTED if the heights exceed the
+ * size limit. */
+wt_status surf_unpack(wt_input *input, size_t max_size, wt_log *log, wt_input **unpacked,
+                      wt_error *err) WT_NODISCARD;
 
 #endif

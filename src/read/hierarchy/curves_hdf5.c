@@ -1,15 +1,11 @@
 /* Reads attributes and data sets of HDF5 files of force curves, and runs the conversion to text in
- * the sandbox.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * the sandbox. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "read/hierarchy/curves_hdf5.h"
-
-#include "core/store/hdf5_scope.h"
+#include "core/base/memory.h"
+#include "core/store/hdf5_sandbox.h"
 #include "core/store/store.h"
 #include "read/bytes/input.h"
-#include "read/bytes/spool.h"
-#include "read/bytes/window.h"
+#include "read/bytes/samples.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -62,9 +58,10 @@ bool hdf5_text_attribute(hid_t object, const char *name, char text[HDF5_TEXT])
         if (H5Tis_variable_str(type) > 0) {
             if (H5Aread(attribute, type, &moving) >= 0 && moving != NULL)
                 snprintf(text, HDF5_TEXT, "%s", moving);
-        } else if (width <= WIDTH_MAX && (fixed = calloc(width + 1, 1)) != NULL &&
-                   H5Aread(attribute, type, fixed) >= 0) {
-            snprintf(text, HDF5_TEXT, "%s", fixed);
+        } else if (width <= WIDTH_MAX) {
+            fixed = wt_alloc(width + 1, 1);
+            if (H5Aread(attribute, type, fixed) >= 0)
+                snprintf(text, HDF5_TEXT, "%s", fixed);
         }
     }
     (void)H5free_memory(moving);
@@ -179,7 +176,7 @@ bool hdf5_read_rows(hid_t data, size_t from, size_t n, double *values)
 double *hdf5_read_values(hid_t data, size_t size, size_t *n)
 {
     const size_t count = hdf5_value_count(data, size);
-    double *values = count > 0 ? calloc(count, sizeof *values) : NULL;
+    double *values = count > 0 ? try_alloc(count, sizeof *values) : NULL;
     *n = count > 0 ? count : *n;
     if (values != NULL && !hdf5_read_rows(data, 0, count, values)) {
         free(values);

@@ -1,8 +1,6 @@
 /* Declares access to HDF5 files of force curves in the sandbox (core/store/hdf5_sandbox.h), where
  * the files may be damaged or malicious. The curves leave the sandbox as text.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_READ_CURVES_HDF5_H
 #define WT_READ_CURVES_HDF5_H
 

@@ -107,7 +107,7 @@ static wt_status describe_curve(wt_input *input, const wt_read_options *options,
     for (size_t i = 0; i < n; i++) {
         char item[32];
         snprintf(item, sizeof item, "segment %zu", i);
-        metadata_add(metadata, item, "", "Indexes, Direction", "%s, %zu points",
+        metadata_add(metadata, item, "", "Indexes, Direction or turning point", "%s, %zu points",
                      wt_segment_kind_name(segments[i].kind), segments[i].n);
     }
     force_describe_calibration(&read, options, "note, SpringConstant", "note, InvOLS", metadata);

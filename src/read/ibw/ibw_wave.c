@@ -1,6 +1,7 @@
 /* Parses an Igor wave: header, labels and note. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "read/ibw/ibw.h"
 
+#include "core/base/array.h"
 #include "core/base/clocale.h"
 #include "read/bytes/bytes.h"
 
@@ -316,15 +317,58 @@ static double parse_next_number(char **text)
     return value;
 }
 
+/* Returns the channel of the piezo position, by preference the signal without noise; NULL if there
+ * is none. */
+static const ibw_channel *position_channel(const ibw_file *file)
+{
+    static const char *const names[] = {"Raw", "ZSnsr"};
+    for (size_t i = 0; i < COUNT_OF(names); i++)
+        for (size_t c = 0; c < file->n_channels; c++)
+            if (strcmp(file->channels[c].name, names[i]) == 0)
+                return &file->channels[c];
+    return NULL;
+}
+
+/* Splits the samples where the piezo turns. A curve that was extracted from a map has no keys that
+ * state it. Positions increase towards the sample. */
+static wt_status split_at_turning_point(const ibw_file *file, ibw_segment segments[IBW_SEGMENTS],
+                                        size_t *n, wt_error *err)
+{
+    const ibw_channel *channel = position_channel(file);
+    if (channel == NULL || file->n < 2)
+        return fail_segments("no such lines, and no channel Raw or ZSnsr that turns", err);
+    double *position = wt_alloc(file->n, sizeof *position);
+    size_t top = 0;
+    samples_decode(file->type, file->big_endian,
+                   file->bytes + file->data +
+                       sample_width(file->type) * (channel->number * file->n),
+                   file->n, 1, 0, position);
+    for (size_t i = 1; i < file->n; i++)
+        if (position[i] > position[top] || isnan(position[top]))
+            top = i;
+    free(position);
+    const size_t turn = top > 0 ? top + 1 : 0; /* falling from the start: a retract alone */
+    if (turn > 0)
+        segments[(*n)++] = (ibw_segment){WT_SEGMENT_APPROACH, 0, turn};
+    if (turn < file->n)
+        segments[(*n)++] = (ibw_segment){WT_SEGMENT_RETRACT, turn, file->n - turn};
+    return WT_OK;
+}
+
 /* Splits the samples by the keys of the note. "0,1008,2015" and "NaN,1,-1," mean an approach from 0
- * to 1008 and a retract from there to the end. */
+ * to 1008 and a retract from there to the end. Without both keys the samples are split where the
+ * piezo turns. */
 wt_status ibw_read_segments(const ibw_file *file, ibw_segment segments[IBW_SEGMENTS], size_t *n,
                             wt_error *err)
 {
     char indexes[IBW_TEXT], directions[IBW_TEXT];
     *n = 0;
-    if (!ibw_note_text(file, "Indexes", indexes) || !ibw_note_text(file, "Direction", directions))
-        return fail_segments("no such lines", err);
+    const bool has_indexes = ibw_note_text(file, "Indexes", indexes),
+               has_directions = ibw_note_text(file, "Direction", directions);
+    if (!has_indexes && !has_directions)
+        return split_at_turning_point(file, segments, n, err);
+    if (!has_indexes || !has_directions)
+        return fail_segments(has_indexes ? "no Direction" : "no Indexes", err);
     char *index = indexes, *direction = directions;
     unsigned long from = strtoul(index, &index, 10);
     (void)parse_next_number(&direction);

@@ -5,22 +5,55 @@
  *
  * Keys that many segments share are stored once in shared-data/header.properties.
  * `channel.C.lcd-info.*=N` means that channel C has the keys `lcd-info.N.…` of that file. The
- * segment header has such references as well.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * segment header has such references as well. SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_READ_JPK_H
 #define WT_READ_JPK_H
 
 #include "read/bytes/samples.h"
 #include "read/bytes/zip.h"
 #include "read/force_assembler.h"
-#include "read/jpk/properties.h"
 #include "read/reader.h"
+#include "weartrack/core.h"
+
+typedef struct property_entry {
+    const char *key;
+    const char *value;
+} property_entry;
+
+/* A table of properties; zero-initialised is empty. Parsing again reuses the memory, so one table
+ * serves the headers of all segments of a map. */
+typedef struct property_list {
+    property_entry *items; /* [n] sorted by key; of equal keys the last one in the file */
+    size_t n;
+    size_t capacity; /* size of the block of items and text [byte] */
+    char *text;      /* keys and values, UTF-8 */
+} property_list;
+
+/* Parses Latin-1 text with `#` and `!` comments, and `=`, `:` or blank between key and value. It
+ * knows the escapes \t \n \r \f \uXXXX and continued lines. Returns WT_E_CORRUPT and an empty table
+ * for a zero byte or an invalid \u. */
+wt_status properties_parse(property_list *properties, const unsigned char *bytes, size_t length,
+                           wt_error *err) WT_NODISCARD;
+void properties_clear(
+    property_list *properties); /* frees the memory; the table is empty afterwards */
+
+/* Returns the value of a key, or NULL. */
+const char *properties_get(const property_list *properties, const char *key);
+/* Returns the value of the key prefix + suffix, or NULL; NULL also for a key that is too long. */
+const char *properties_find(const property_list *properties, const char *prefix,
+                            const char *suffix);
+/* Reads the next word of a list and moves *list past it. Returns false if there is none or it does
+ * not fit; *list is then the rest. *list may be NULL. */
+bool property_next_token(const char **list, char *word, size_t size);
+/* Returns the number of the key prefix + suffix; NaN if it is absent or no number. */
+double properties_number(const property_list *properties, const char *prefix, const char *suffix);
 
 #define JPK_NAME 64
+
 #define JPK_SLOTS 12
+
 #define JPK_CHANNELS 64
+
 /* Maximum size of a header; real headers have a few kilobytes [byte]. */
 #define JPK_HEADER_MAX ((size_t)8 * 1024 * 1024)
 
@@ -47,9 +80,6 @@ typedef struct jpk_lcd {
     long id; /* number in the shared header, for a shared block */
 } jpk_lcd;
 
-/* Reads the block from keys that start with `prefix`, such as "lcd-info.1.". */
-wt_status jpk_lcd_read(const property_list *properties, const char *prefix, jpk_lcd *lcd,
-                       wt_error *err);
 const jpk_slot *jpk_lcd_slot(const jpk_lcd *lcd,
                              const char *name); /* NULL if the slot is absent or undefined */
 /* Computes the conversion from the base value to the value of a slot; false if the slots do not
@@ -125,10 +155,6 @@ wt_status jpk_segment_read(jpk_file *file, const jpk_segment_ref *ref, jpk_segme
 const jpk_channel *jpk_segment_channel(const jpk_segment *segment, const char *name);
 
 /* ---- calibration: jpk_calibration.c ------------------------------------------------------- */
-
-/* Returns the metadata of a segment except for index, place and start. The result borrows the
- * segment. */
-void jpk_segment_metadata(const jpk_segment *segment, force_metadata *metadata);
 
 /* ---- curves: jpk_force.c ------------------------------------------------------------------ */
 

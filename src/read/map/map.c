@@ -1,8 +1,5 @@
 /* Reads maps of force curves in HDF5 files of this program, weartrack-hdf5(5), which `weartrack
- * convert` writes.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * convert` writes. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/store/force_map.h"
 #include "core/store/store.h"
 #include "read/bytes/input.h"

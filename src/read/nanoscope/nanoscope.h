@@ -3,15 +3,12 @@
  *
  * A file is a text of lines "\key: value" in sections "\*Name", then blocks of little-endian
  * integers. A "Ciao force image list" describes the block of one channel with all curves. A curve
- * is the approach, stored from the contact outwards, then the retract.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * is the approach, stored from the contact outwards, then the retract. SPDX-License-Identifier:
+ * GPL-3.0-or-later */
 #ifndef WT_READ_NANOSCOPE_H
 #define WT_READ_NANOSCOPE_H
 
 #include "read/bytes/samples.h"
-#include "read/bytes/window.h"
 #include "read/force_assembler.h"
 #include "read/reader.h"
 
@@ -19,6 +16,7 @@
  */
 
 enum { NANOSCOPE_TEXT = 64, NANOSCOPE_CHANNELS = 16 };
+
 /* Maximum header size; headers of measured files end before 40,960 bytes [byte]. */
 #define NANOSCOPE_HEADER_MAX ((size_t)1 << 20)
 
@@ -100,16 +98,9 @@ double nanoscope_sample(const nanoscope_file *file, const nanoscope_channel *cha
 /* ---- nanoscope_force.c ------------------------------------------------------------------------
  */
 
-/* Returns the metadata of segment `s` (0 approach, 1 hold, 2 retract); the signals point to the
- * file. */
-force_metadata nanoscope_metadata(const nanoscope_file *file, size_t s);
 extern const force_stream nanoscope_force;
 
 /* ---- nanoscope_image.c ------------------------------------------------------------------------
  */
-
-/* Reads all images of measured values, of an image file or of a force volume. */
-wt_status nanoscope_images(const file_reader *self, wt_input *input, const wt_read_options *options,
-                           wt_log *log, wt_image **images, size_t *n_images, wt_error *err);
 
 #endif

@@ -1,10 +1,7 @@
 /* Opens a NanoScope file of force curves and checks its header against the stored bytes.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
-#include "read/nanoscope/nanoscope.h"
-
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "read/bytes/bytes.h"
+#include "read/nanoscope/nanoscope.h"
 
 #include <math.h>
 #include <stdlib.h>

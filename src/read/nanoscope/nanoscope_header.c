@@ -1,10 +1,7 @@
-/* Parses the text at the beginning of a NanoScope file.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
+/* Parses the text at the beginning of a NanoScope file. SPDX-License-Identifier: GPL-3.0-or-later
  */
-#include "read/nanoscope/nanoscope.h"
-
 #include "core/base/number.h"
+#include "read/nanoscope/nanoscope.h"
 
 #include <ctype.h>
 #include <math.h>
@@ -65,18 +62,13 @@ wt_status nanoscope_header_read(const unsigned char *bytes, size_t length, nanos
         wt_error_expected(err, "the byte 1A behind the line \"\\*File list end\"");
         return WT_E_CORRUPT;
     }
-    header->text = malloc(n + 1);
+    header->text = wt_alloc(n + 1, 1);
     for (size_t i = 0; i < n; i++)
         lines += bytes[i] == '\n';
-    header->lines = calloc(lines, sizeof *header->lines);
-    if (header->text == NULL || header->lines == NULL) {
-        nanoscope_header_clear(header);
-        return wt_fail(err, WT_E_MEMORY, "no memory for the header");
-    }
+    header->lines = wt_alloc(lines, sizeof *header->lines);
     /* all texts that are used are ASCII */
     for (size_t i = 0; i < n; i++)
         header->text[i] = (char)(bytes[i] == 0 || bytes[i] >= 0x80 ? '?' : bytes[i]);
-    header->text[n] = '\0';
     for (char *line = header->text; line != NULL;) {
         char *next = strchr(line, '\n');
         if (next != NULL)

@@ -3,10 +3,8 @@
  *
  * A group of the file is a measurement. Its groups are the segments, named by "name" in version 1
  * and "segment_name" in version 2. Their data sets are the channels. One data set contains all
- * curves of a map; another one states the number of samples of each.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * curves of a map; another one states the number of samples of each. SPDX-License-Identifier:
+ * GPL-3.0-or-later */
 #ifndef WT_READ_NHF_H
 #define WT_READ_NHF_H
 
@@ -32,14 +30,6 @@ typedef struct nhf_channel {
     size_t capacity;
 } nhf_channel;
 
-/* Opens a channel with a known name, type and unit; the caller closes it. Returns false otherwise,
- * and sets *problem if the channel is required but not understood. */
-bool nhf_channel_open(const nhf_file *f, hid_t segment, const char *name, nhf_channel *channel,
-                      const char **problem);
-/* Reads the numbers [from, from + n), which exist, into `values`, in SI units. */
-wt_status nhf_channel_read(nhf_channel *channel, size_t from, size_t n, wt_error *err);
 void nhf_channel_close(nhf_channel *channel);
-/* Reads lateral positions [m]; the caller frees them. NULL if the numbers are not understood. */
-double *nhf_read_positions(const nhf_file *f, hid_t data, size_t *n);
 
 #endif

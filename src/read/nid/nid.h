@@ -2,13 +2,11 @@
  *
  * A file is an INI text, the two bytes "#!", then one block of little-endian integers for each
  * channel. Groups name the kind of measurement ("Scan forward", "Spec backward", "Spectrum FFT").
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_READ_NID_H
 #define WT_READ_NID_H
 
-#include "read/bytes/window.h"
+#include "read/bytes/samples.h"
 #include "read/force_assembler.h"
 #include "read/reader.h"
 
@@ -21,6 +19,7 @@ typedef struct nid_item {
 } nid_item;
 
 typedef struct nid_line_lengths nid_line_lengths;
+
 typedef struct nid_header {
     nid_item *items; /* [n] sorted by section and key; of equal ones the first */
     size_t n;
@@ -89,15 +88,11 @@ wt_status nid_read_images(const file_reader *self, wt_input *input, const wt_rea
 
 /* ---- thermal tune: nid_noise.c ------------------------------------------------------------ */
 
-/* Returns the channel of the measured spectrum; NULL if the file is no thermal tune. */
-const nid_channel *nid_find_tune(const nid_file *file);
-wt_status nid_read_noise(const file_reader *self, wt_input *input, const wt_read_options *options,
-                         wt_log *log, wt_noise_spectrum *spectrum, wt_error *err);
-
 /* ---- force curves: nid_force.c ------------------------------------------------------------ */
 
 /* Number of the groups of a force curve, in temporal order. */
 #define NID_PHASES 4
+
 typedef struct nid_phase {
     const char *group; /* name of the group in the file */
     double interval;   /* time between samples [s]; NaN if unknown */
@@ -112,9 +107,6 @@ typedef struct nid_spectroscopy {
     long columns, rows;       /* 0 if there is no grid */
 } nid_spectroscopy;
 
-/* Finds the force curves. WT_E_EMPTY if there are none. */
-wt_status nid_find_spectroscopy(const nid_file *file, nid_spectroscopy *spectroscopy,
-                                wt_error *err);
 extern const force_stream nid_force;
 
 /* ---- positions of the curves: ---------------------------------------------------------------- */

@@ -1,24 +1,19 @@
 /* Parses the INI text at the beginning of a .nid file, in Latin-1 or UTF-8 as the bytes show.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
-#include "read/nid/nid.h"
-
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/base/array.h"
 #include "core/base/number.h"
 #include "core/base/utf8.h"
+#include "read/nid/nid.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* Returns a copy in UTF-8 with a terminating zero; NULL without memory. */
+/* Returns a copy in UTF-8 with a terminating zero. */
 static char *convert_to_utf8(const unsigned char *bytes, size_t n, bool latin1)
 {
-    char *text = malloc(2 * n + 1);
+    char *text = wt_alloc(2 * n + 1, 1);
     char *to = text;
-    if (text == NULL)
-        return NULL;
     for (size_t i = 0; i < n; i++) {
         if (latin1 && bytes[i] >= 0x80) {
             *to++ = (char)(0xc0 | bytes[i] >> 6);
@@ -78,50 +73,40 @@ static bool has_prefix(const char *text, size_t n, const char *prefix)
     return n >= length && memcmp(text, prefix, length) == 0;
 }
 
-/* Adds the length of a line. A length out of sequence is kept as an ordinary item. */
-static bool add_line_length(nid_header *header, size_t section, uint32_t line, uint32_t points,
-                            bool *is_consumed)
+/* Adds the length of a line. False for a length out of sequence, which is an ordinary item. */
+static bool add_line_length(nid_header *header, size_t section, uint32_t line, uint32_t points)
 {
     nid_line_lengths *list = header->n_lengths > 0 ? &header->lengths[header->n_lengths - 1] : NULL;
     if (list == NULL || list->number != section) {
-        list = array_grow(header->lengths, header->n_lengths, sizeof *list);
-        if (list == NULL)
-            return false;
-        header->lengths = list;
-        list += header->n_lengths++;
+        header->lengths = array_grow(header->lengths, header->n_lengths, sizeof *list);
+        list = &header->lengths[header->n_lengths++];
         *list = (nid_line_lengths){.number = section, .section = ""};
     }
-    *is_consumed = line == list->n;
-    uint32_t *const grown =
-        *is_consumed ? array_grow(list->points, list->n, sizeof *grown) : list->points;
-    if (*is_consumed && grown == NULL)
+    if (line != list->n)
         return false;
-    list->points = grown;
-    if (*is_consumed)
-        list->points[list->n++] = points;
+    list->points = array_grow(list->points, list->n, sizeof *list->points);
+    list->points[list->n++] = points;
     return true;
 }
 
 /* Parses a "LineDim" key of a channel. Its number of samples is stored; its position is not used.
- * Returns false if there is no memory. */
-static bool parse_line_length(nid_header *header, size_t section, const char *line, size_t n,
-                              bool *is_consumed)
+ * Returns false for another line. */
+static bool parse_line_length(nid_header *header, size_t section, const char *line, size_t n)
 {
     static const char first[] = "LineDim", last[] = "Points=";
     const size_t begin = sizeof first - 1, end = sizeof last - 1;
     uint32_t number = 0, points = 0;
     if (!has_prefix(line, n, first))
-        return true;
+        return false;
     const size_t digits = parse_digits(line + begin, n - begin, &number);
     const char *const key = line + begin + digits;
     const size_t left = n - begin - digits;
     if (digits == 0)
-        return true;
-    *is_consumed = has_prefix(key, left, "Min=") || has_prefix(key, left, "Range=");
+        return false;
     if (has_prefix(key, left, last) && left > end &&
         parse_digits(key + end, left - end, &points) == left - end)
-        return add_line_length(header, section, number, points, is_consumed);
-    return true;
+        return add_line_length(header, section, number, points);
+    return has_prefix(key, left, "Min=") || has_prefix(key, left, "Range=");
 }
 
 bool nid_line_length(const nid_header *header, const char *section, size_t line, size_t *n)
@@ -165,14 +150,12 @@ static void parse_line(nid_header *header, char *line, const char **section)
     header->items[header->n++] = (nid_item){*section, line, equals + 1};
 }
 
-static wt_status parse_items(nid_header *header, wt_error *err)
+static void parse_items(nid_header *header)
 {
     size_t lines = 1, n_sections = 0, n_named = 0;
     for (const char *p = header->text; *p != '\0'; p++)
         lines += *p == '\n';
-    header->items = calloc(lines, sizeof *header->items);
-    if (header->items == NULL)
-        return wt_fail(err, WT_E_MEMORY, "no memory for the header");
+    header->items = wt_alloc(lines, sizeof *header->items);
     const char *section = "";
     char *line = header->text;
     while (line != NULL) {
@@ -191,7 +174,6 @@ static wt_status parse_items(nid_header *header, wt_error *err)
         if (kept == 0 || compare_items(&header->items[kept - 1], &header->items[i]) != 0)
             header->items[kept++] = header->items[i];
     header->n = kept;
-    return WT_OK;
 }
 
 /* The lines that are parsed later. */
@@ -200,19 +182,14 @@ typedef struct header_lines {
     size_t n, capacity, n_sections;
 } header_lines;
 
-static bool append_line(header_lines *lines, const char *line, size_t n)
+static void append_line(header_lines *lines, const char *line, size_t n)
 {
     if (n > lines->capacity - lines->n) {
-        const size_t capacity = 2 * lines->capacity + n;
-        unsigned char *const bytes = realloc(lines->bytes, capacity);
-        if (bytes == NULL)
-            return false;
-        lines->bytes = bytes;
-        lines->capacity = capacity;
+        lines->capacity = 2 * lines->capacity + n;
+        lines->bytes = wt_realloc(lines->bytes, lines->capacity, 1);
     }
     memcpy(lines->bytes + lines->n, line, n);
     lines->n += n;
-    return true;
 }
 
 /* Splits a piece into complete lines. *used is the number of bytes consumed; *end is true where the
@@ -229,7 +206,6 @@ static wt_status split_lines(nid_header *header, header_lines *lines, const char
         if (stop == NULL)
             break;
         size_t length = (size_t)(stop - line);
-        bool is_consumed = false;
         at += length + 1;
         if (memchr(line, '\0', length) != NULL)
             return wt_fail(err, WT_E_CORRUPT, "the header holds zero bytes");
@@ -237,9 +213,8 @@ static wt_status split_lines(nid_header *header, header_lines *lines, const char
         const size_t whole = length + 1;
         while (length > 0 && (line[length - 1] == '\r' || line[length - 1] == ' '))
             length--;
-        if (!parse_line_length(header, lines->n_sections, line, length, &is_consumed) ||
-            (!is_consumed && !append_line(lines, line, whole)))
-            return wt_fail(err, WT_E_MEMORY, "no memory for the header");
+        if (!parse_line_length(header, lines->n_sections, line, length))
+            append_line(lines, line, whole);
     }
     *used = at;
     return WT_OK;
@@ -287,14 +262,11 @@ wt_status nid_header_read(wt_input *input, nid_header *header, wt_error *err)
     if (status == WT_OK) {
         header->latin1 = utf8_valid_length((const char *)lines.bytes, lines.n) < lines.n;
         header->text = convert_to_utf8(lines.bytes, lines.n, header->latin1);
-        status =
-            header->text != NULL ? WT_OK : wt_fail(err, WT_E_MEMORY, "no memory for the header");
+        parse_items(header);
+    } else {
+        nid_header_clear(header);
     }
     free(lines.bytes);
-    if (status == WT_OK)
-        status = parse_items(header, err);
-    if (status != WT_OK)
-        nid_header_clear(header);
     return status;
 }
 

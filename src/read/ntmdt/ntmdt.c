@@ -5,10 +5,8 @@
  * sample. Rows that the curve did not reach repeat its first sample.
  *
  * The format is known from one measured file, which contains neither the unit of the signal nor a
- * calibration.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * calibration. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "core/base/memory.h"
 #include "read/bytes/input.h"
 #include "read/text/curve_text.h"
 #include "read/text/text.h"
@@ -72,9 +70,7 @@ static wt_status read_ntmdt_ramp(const char *line, size_t length, ntmdt_ramp *r,
     double row[COLUMNS];
     bool commas = true;
     r->capacity = length / (2 * COLUMNS) + 1;
-    r->values = calloc(COLUMNS * r->capacity, sizeof *r->values);
-    if (r->values == NULL)
-        return wt_fail(err, WT_E_MEMORY, "no memory for a curve");
+    r->values = wt_alloc(COLUMNS * r->capacity, sizeof *r->values);
     while (r->n < r->capacity && parse_row(&line, end, row, &commas)) {
         r->values[r->n] = 1e-9 * row[0];
         for (size_t c = 1; c < COLUMNS; c++)
@@ -129,10 +125,8 @@ static wt_status convert_ntmdt_to_text(const file_reader *self, wt_input *input,
     wt_status status = wt_input_bytes(input, &bytes, &length, err);
     if (status == WT_OK)
         status = read_ntmdt_ramp((const char *)bytes, length, &r, &idle, err);
-    FILE *out = status == WT_OK ? open_memstream(&made, &n_text) : NULL;
-    if (status == WT_OK && out == NULL)
-        status = wt_fail(err, WT_E_MEMORY, "no memory for a curve");
     if (status == WT_OK) {
+        FILE *const out = text_stream_open(&made, &n_text);
         curve_text curve = {
             .x = (double)NAN,
             .y = (double)NAN,
@@ -145,8 +139,8 @@ static wt_status convert_ntmdt_to_text(const file_reader *self, wt_input *input,
         curve.columns[1].values = r.values + 2 * r.capacity;
         curve_text_rows(out, &curve, WT_SEGMENT_RETRACT, idle, r.n - idle, false);
         curve_text_end(out);
-        if (fclose(out) != 0)
-            status = wt_fail(err, WT_E_MEMORY, "no memory for a curve");
+        text_stream_close(out);
+        *text = input_from_bytes(made, n_text, wt_input_name(input));
         wt_log_add(log, WT_WARNING, wt_input_name(input), NULL,
                    "the file does not say the unit of the deflection signal: its numbers are "
                    "taken as volts, and the sensitivity must be that of one such unit");
@@ -156,9 +150,6 @@ static wt_status convert_ntmdt_to_text(const file_reader *self, wt_input *input,
                        "%zu rows that repeat the first sample are left out", idle);
     }
     free(r.values);
-    if (status == WT_OK)
-        return input_from_bytes(made, n_text, wt_input_name(input), text, err);
-    free(made);
     return status;
 }
 

@@ -1,11 +1,7 @@
 /* Reads compound files. A stream is a chain of sectors; a table (FAT) contains the successor of
- * each sector. Every number of the file is checked where it is used. A chain has no more steps
- * than the file has sectors.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * each sector. Every number of the file is checked where it is used. A chain has no more steps than
+ * the file has sectors. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "read/packed/ole2.h"
-
 #include "read/bytes/bytes.h"
 
 #include <stdlib.h>
@@ -59,11 +55,6 @@ static wt_status fail_compound(wt_error *err)
     return WT_E_CORRUPT;
 }
 
-static wt_status no_memory(wt_error *err)
-{
-    return wt_fail(err, WT_E_MEMORY, "no memory for a spreadsheet");
-}
-
 /* Returns the bytes of a sector; the last sector may be short. NULL if there are none. */
 static const unsigned char *sector_bytes(const compound *c, uint32_t i, size_t *n)
 {
@@ -91,9 +82,7 @@ static wt_status read_sector_table(compound *c, wt_error *err)
 {
     const size_t per = c->sector / 4 - 1;
     uint32_t more = le32(c->bytes + HEADER_MORE);
-    c->table = malloc((c->n_sectors + IN_HEADER) * sizeof *c->table);
-    if (c->table == NULL)
-        return no_memory(err);
+    c->table = wt_alloc(c->n_sectors + IN_HEADER, sizeof *c->table);
     for (size_t i = 0; i < IN_HEADER; i++) {
         const uint32_t sector = le32(c->bytes + HEADER_TABLE + 4 * i);
         if (sector > LAST_SECTOR)
@@ -124,8 +113,8 @@ static wt_status read_chain(const compound *c, uint32_t sector, size_t max_lengt
 {
     const size_t limit = max_length < c->length ? max_length : c->length;
     size_t used = 0, steps = 0;
-    unsigned char *to = malloc(limit > 0 ? limit : 1);
-    bool good = to != NULL;
+    unsigned char *to = wt_alloc(limit, 1);
+    bool good = true;
     while (good && used < max_length && sector <= LAST_SECTOR) {
         size_t length = 0;
         const unsigned char *at = sector_bytes(c, sector, &length);
@@ -144,9 +133,8 @@ static wt_status read_chain(const compound *c, uint32_t sector, size_t max_lengt
         *chain = to;
         return WT_OK;
     }
-    const wt_status status = to == NULL ? no_memory(err) : fail_compound(err);
     free(to);
-    return status;
+    return fail_compound(err);
 }
 
 /* Reads a stream of small sectors, which are in the stream of the root. */
@@ -156,9 +144,7 @@ static wt_status read_small_chain(const compound *c, uint32_t sector, size_t max
     const size_t unit = (size_t)1 << SMALL_SHIFT;
     if (max_length > c->small_length)
         return fail_compound(err);
-    unsigned char *to = malloc(max_length > 0 ? max_length : 1);
-    if (to == NULL)
-        return no_memory(err);
+    unsigned char *to = wt_alloc(max_length, 1);
     size_t used = 0;
     while (used < max_length) {
         const size_t left = max_length - used, step_size = left < unit ? left : unit;
@@ -204,24 +190,22 @@ static bool entry_has_name(const unsigned char *entry, const char *name)
 }
 
 /* Finds a stream of the root folder, whose entries are a tree. Subfolders are skipped, since an
- * embedded object has streams with the same names. *found is NULL if there is none. */
-static wt_status find_stream_entry(const compound *c, const char *name, const unsigned char **found,
-                                   wt_error *err)
+ * embedded object has streams with the same names. NULL if there is none. */
+static const unsigned char *find_stream_entry(const compound *c, const char *name)
 {
     const size_t n = c->folder_length / ENTRY;
-    uint32_t *waiting = malloc((n + 1) * sizeof *waiting);
-    bool *seen = calloc(n + 1, sizeof *seen);
-    const bool good = waiting != NULL && seen != NULL;
+    uint32_t *waiting = wt_alloc(n, sizeof *waiting);
+    bool *seen = wt_alloc(n, sizeof *seen);
+    const unsigned char *found = NULL;
     size_t n_waiting = 0;
-    *found = NULL;
-    if (good && n > 0 && le32(c->folder + ENTRY_CHILD) < n) {
+    if (n > 0 && le32(c->folder + ENTRY_CHILD) < n) {
         waiting[n_waiting++] = le32(c->folder + ENTRY_CHILD);
         seen[waiting[0]] = true;
     }
-    while (n_waiting > 0 && *found == NULL) {
+    while (n_waiting > 0 && found == NULL) {
         const unsigned char *entry = folder_entry(c, waiting[--n_waiting]);
         if (entry[ENTRY_KIND] == KIND_STREAM && entry_has_name(entry, name))
-            *found = entry;
+            found = entry;
         for (size_t side = ENTRY_LEFT; side <= ENTRY_RIGHT; side += ENTRY_RIGHT - ENTRY_LEFT) {
             const uint32_t i = le32(entry + side);
             if (i >= n || seen[i])
@@ -232,7 +216,7 @@ static wt_status find_stream_entry(const compound *c, const char *name, const un
     }
     free(seen);
     free(waiting);
-    return good ? WT_OK : no_memory(err);
+    return found;
 }
 
 /* Returns the size of a stream. Version 3 has undefined bytes in the upper half. */
@@ -275,7 +259,7 @@ wt_status compound_read_stream(const unsigned char *bytes, size_t length, const 
         status =
             read_chain(&c, le32(bytes + HEADER_FOLDER), SIZE_MAX, &c.folder, &c.folder_length, err);
     for (size_t i = 0; i < n_names && status == WT_OK && entry == NULL; i++)
-        status = find_stream_entry(&c, names[i], &entry, err);
+        entry = find_stream_entry(&c, names[i]);
     if (status == WT_OK)
         status = entry != NULL ? read_entry_stream(&c, entry, stream, n, err) : WT_E_NOT_FOUND;
     free(c.small_table);

@@ -1,7 +1,5 @@
 /* Declares the unpacking of files: a gzip archive to bytes, the sheets of a spreadsheet to text.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_READ_PACKED_H
 #define WT_READ_PACKED_H
 
@@ -44,13 +42,12 @@ typedef struct sheet_text {
     char *bytes;
     size_t length, capacity, max_length;
     size_t row, column; /* position of the next cell, from 0 */
-    bool no_memory;     /* true if memory was missing; else a failure means too long a text */
 } sheet_text;
 /* Adds a cell at or below the last row; tabs and line ends in it become blanks. False if it does
  * not fit. */
 bool sheet_add_cell(sheet_text *sheet, size_t row, size_t column, const char *text, size_t length);
 /* Returns the failure of a text that does not fit. */
-wt_status sheet_fail(const sheet_text *sheet, const char *name, wt_error *err);
+wt_status sheet_fail(const char *name, wt_error *err);
 /* Returns the maximum text of the next sheet, `usual` at most. */
 size_t workbook_text_limit(const workbook *book, size_t usual);
 /* Adds a sheet: the name is copied, and the book takes ownership of the text. */

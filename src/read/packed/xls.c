@@ -3,12 +3,10 @@
  *
  * Instruments write variants that Excel does not, such as BIFF5 under the stream name of BIFF8.
  * Values are read as stored; a formula has the value that was saved with it.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/base/array.h"
 #include "core/base/clocale.h"
-#include "core/base/resource_error.h"
+#include "core/base/memory.h"
 #include "read/bytes/bytes.h"
 #include "read/packed/ole2.h"
 #include "read/packed/packed.h"
@@ -73,11 +71,6 @@ typedef struct xls_book {
     size_t n_cells;
     size_t used; /* bytes of the stream that were read for sheets */
 } xls_book;
-
-static wt_status no_memory(wt_error *err)
-{
-    return wt_fail(err, WT_E_MEMORY, "no memory for a spreadsheet");
-}
 
 static wt_status fail_workbook(const char *what, wt_error *err)
 {
@@ -154,70 +147,59 @@ static bool read_uint(biff_record *r, size_t width, uint32_t *value)
 /* ---- texts ----------------------------------------------------------------------------------- */
 
 /* Reserves n bytes in the pool. A byte becomes at most 4 bytes of UTF-8 in any encoding. */
-static bool pool_reserved(xls_book *book, size_t n)
+static void reserve_pool(xls_book *book, size_t n)
 {
     if (book->pool_reserved - book->pool_length >= n)
-        return true;
-    const size_t space = 2 * (book->pool_reserved + n);
-    char *pool = realloc(book->pool, space);
-    if (pool == NULL)
-        return false;
-    book->pool = pool;
-    book->pool_reserved = space;
-    return true;
+        return;
+    book->pool_reserved = 2 * (book->pool_reserved + n);
+    book->pool = wt_realloc(book->pool, book->pool_reserved, 1);
 }
 
 /* Converts a text to UTF-8 in the pool; an invalid sequence becomes U+FFFD. */
-static bool pool_add(xls_book *book, iconv_t converter, const unsigned char *bytes, size_t n)
+static void pool_add(xls_book *book, iconv_t converter, const unsigned char *bytes, size_t n)
 {
     static const char replacement[] = "\xef\xbf\xbd";
     char *in = (char *)(uintptr_t)bytes; /* iconv does not write to its input */
     size_t left = n;
-    if (!pool_reserved(book, 4 * n + 4))
-        return false;
+    reserve_pool(book, 4 * n + 4);
     (void)iconv(converter, NULL, NULL, NULL, NULL);
     while (left > 0) {
         char *out = book->pool + book->pool_length;
         size_t space = book->pool_reserved - book->pool_length;
         const bool done = iconv(converter, &in, &left, &out, &space) != (size_t)-1;
         book->pool_length = book->pool_reserved - space;
-        if (done)
+        if (done || space < 4)
             break;
-        if (errno == E2BIG || space < 4)
-            return false;
         memcpy(book->pool + book->pool_length, replacement, 3);
         book->pool_length += 3;
         const size_t unit = converter == book->wide && left >= 2 ? 2 : 1;
         in += unit;
         left -= unit;
     }
-    return true;
 }
 
-/* Reads n characters. Each continued record of BIFF8 states their width again. Returns WT_E_CORRUPT
- * without a message if they are incomplete. */
-static wt_status read_characters(xls_book *book, biff_record *r, size_t n, bool wide,
-                                 pool_text *text, wt_error *err)
+/* Reads n characters. Each continued record of BIFF8 states their width again. Returns false if
+ * they are incomplete. */
+static bool read_characters(xls_book *book, biff_record *r, size_t n, bool wide, pool_text *text)
 {
     *text = (pool_text){.at = book->pool_length};
     while (n > 0) {
         const size_t width = wide ? 2 : 1, fit = bytes_left(r) / width, now = fit < n ? fit : n;
-        if (now > 0 &&
-            !pool_add(book, wide ? book->wide : book->narrow, r->stream + r->at, now * width))
-            return no_memory(err);
+        if (now > 0)
+            pool_add(book, wide ? book->wide : book->narrow, r->stream + r->at, now * width);
         r->at += now * width;
         n -= now;
         uint32_t flags = 0;
         if (n > 0 && (bytes_left(r) > 0 || !next_continue_record(r)))
-            return WT_E_CORRUPT;
+            return false;
         if (n > 0 && book->version == BIFF8) {
             if (!read_uint(r, 1, &flags))
-                return WT_E_CORRUPT;
+                return false;
             wide = (flags & 1) != 0;
         }
     }
     text->length = book->pool_length - text->at;
-    return WT_OK;
+    return true;
 }
 
 /* Reads a text with its length (of `width` bytes) and, in BIFF8, its flags, as in cells and sheet
@@ -226,55 +208,40 @@ static wt_status read_counted_text(xls_book *book, biff_record *r, size_t width,
                                    wt_error *err)
 {
     uint32_t n = 0, flags = 0;
-    wt_status status = read_uint(r, width, &n) ? WT_OK : WT_E_CORRUPT;
-    if (status == WT_OK && book->version == BIFF8 && !read_uint(r, 1, &flags))
-        status = WT_E_CORRUPT;
-    if (status == WT_OK)
-        status = read_characters(book, r, n, (flags & 1) != 0, text, err);
-    return status == WT_E_CORRUPT ? fail_workbook("a text of the spreadsheet is cut off", err)
-                                  : status;
+    return read_uint(r, width, &n) && (book->version != BIFF8 || read_uint(r, 1, &flags)) &&
+                   read_characters(book, r, n, (flags & 1) != 0, text)
+               ? WT_OK
+               : fail_workbook("a text of the spreadsheet is cut off", err);
 }
 
 /* Reads the shared strings of BIFF8. Font runs and phonetic guides are skipped. */
 static wt_status read_shared_strings(xls_book *book, biff_record *r, wt_error *err)
 {
     uint32_t total = 0, n = 0;
-    wt_status status = read_uint(r, 4, &total) && read_uint(r, 4, &n) ? WT_OK : WT_E_CORRUPT;
-    for (uint32_t i = 0; i < n && status == WT_OK; i++) {
+    bool good = read_uint(r, 4, &total) && read_uint(r, 4, &n);
+    for (uint32_t i = 0; i < n && good; i++) {
         uint32_t length = 0, flags = 0, runs = 0, phonetic = 0;
         pool_text text;
-        if (!read_uint(r, 2, &length) || !read_uint(r, 1, &flags) ||
-            ((flags & 8) != 0 && !read_uint(r, 2, &runs)) ||
-            ((flags & 4) != 0 && !read_uint(r, 4, &phonetic)))
-            status = WT_E_CORRUPT;
-        if (status == WT_OK)
-            status = read_characters(book, r, length, (flags & 1) != 0, &text, err);
-        if (status == WT_OK && !skip_bytes(r, 4 * (size_t)runs + phonetic))
-            status = WT_E_CORRUPT;
-        pool_text *shared =
-            status == WT_OK ? array_grow(book->shared, book->n_shared, sizeof text) : NULL;
-        if (status == WT_OK && shared == NULL)
-            status = no_memory(err);
-        if (status != WT_OK)
-            break;
-        book->shared = shared;
-        book->shared[book->n_shared++] = text;
+        good = read_uint(r, 2, &length) && read_uint(r, 1, &flags) &&
+               ((flags & 8) == 0 || read_uint(r, 2, &runs)) &&
+               ((flags & 4) == 0 || read_uint(r, 4, &phonetic)) &&
+               read_characters(book, r, length, (flags & 1) != 0, &text) &&
+               skip_bytes(r, 4 * (size_t)runs + phonetic);
+        if (good) {
+            book->shared = array_grow(book->shared, book->n_shared, sizeof text);
+            book->shared[book->n_shared++] = text;
+        }
     }
-    return status == WT_E_CORRUPT ? fail_workbook("the texts of the spreadsheet are cut off", err)
-                                  : status;
+    return good ? WT_OK : fail_workbook("the texts of the spreadsheet are cut off", err);
 }
 
 /* ---- cells ----------------------------------------------------------------------------------- */
 
-static wt_status add_cell(xls_book *book, xls_cell cell, wt_error *err)
+static void add_cell(xls_book *book, xls_cell cell)
 {
-    xls_cell *cells = array_grow(book->cells, book->n_cells, sizeof *cells);
-    if (cells == NULL)
-        return no_memory(err);
+    book->cells = array_grow(book->cells, book->n_cells, sizeof *book->cells);
     cell.order = book->n_cells;
-    book->cells = cells;
     book->cells[book->n_cells++] = cell;
-    return WT_OK;
 }
 
 /* Decodes a number of 30 bits: an integer or the upper bits of a double, optionally divided by
@@ -286,29 +253,24 @@ static double decode_packed_number(uint32_t rk)
     return (rk & 1) != 0 ? value / 100.0 : value;
 }
 
-static wt_status add_packed_cells(xls_book *book, xls_cell cell, const unsigned char *at, size_t n,
-                                  wt_error *err)
+static void add_packed_cells(xls_book *book, xls_cell cell, const unsigned char *at, size_t n)
 {
-    wt_status status = WT_OK;
-    for (size_t i = 0; i < n && status == WT_OK; i++) {
+    for (size_t i = 0; i < n; i++) {
         cell.number = decode_packed_number(le32(at + 6 * i + 2));
-        status = add_cell(book, cell, err);
+        add_cell(book, cell);
         cell.column++;
     }
-    return status;
 }
 
-/* Adds the stored result of a formula; *text is true if a STRING record with the result follows. */
-static wt_status add_formula(xls_book *book, xls_cell cell, const unsigned char *result, bool *text,
-                             wt_error *err)
+/* Adds the stored result of a formula. Returns true if a STRING record with the result follows. */
+static bool add_formula(xls_book *book, xls_cell cell, const unsigned char *result)
 {
     enum { RESULT_TEXT = 0, RESULT_BOOLEAN = 1 };
     const bool is_number = le16(result + 6) != 0xFFFF;
-    *text = !is_number && result[0] == RESULT_TEXT;
-    if (!is_number && result[0] != RESULT_BOOLEAN)
-        return WT_OK; /* an error value, or an empty result */
     cell.number = is_number ? float64(le64(result)) : result[2];
-    return add_cell(book, cell, err);
+    if (is_number || result[0] == RESULT_BOOLEAN)
+        add_cell(book, cell); /* else an error value, or an empty result */
+    return !is_number && result[0] == RESULT_TEXT;
 }
 
 /* Returns the minimum size of a cell record without row, column and format; 0 for any other record
@@ -341,32 +303,35 @@ static wt_status read_cell(xls_book *book, biff_record *r, xls_cell *formula, wt
     if (need > 0 && bytes_left(r) < 6 + need)
         return fail_workbook("a cell of the spreadsheet is cut off", err);
     xls_cell cell = {.row = 0};
-    wt_status status = WT_OK;
-    bool text = false;
     if (need > 0)
         cell = (xls_cell){.row = le16(at), .column = le16(at + 2)};
     switch (r->id) {
     case R_NUMBER:
         cell.number = float64(le64(at + 6));
-        return add_cell(book, cell, err);
+        add_cell(book, cell);
+        return WT_OK;
     case R_RK:
-        return add_packed_cells(book, cell, at + 4, 1, err);
+        add_packed_cells(book, cell, at + 4, 1);
+        return WT_OK;
     case R_MULRK:
-        return add_packed_cells(book, cell, at + 4, (bytes_left(r) - 6) / 6, err);
+        add_packed_cells(book, cell, at + 4, (bytes_left(r) - 6) / 6);
+        return WT_OK;
     case R_BOOLERR:
         cell.number = at[6];
-        return at[7] == 0 ? add_cell(book, cell, err) : WT_OK;
+        if (at[7] == 0)
+            add_cell(book, cell);
+        return WT_OK;
     case R_FORMULA:
-        status = add_formula(book, cell, at + 6, &text, err);
         *formula = cell;
-        formula->row = text ? cell.row : SIZE_MAX;
-        return status;
+        formula->row = add_formula(book, cell, at + 6) ? cell.row : SIZE_MAX;
+        return WT_OK;
     case R_LABELSST:
         if (le32(at + 6) >= book->n_shared)
             return fail_workbook("a cell names a text that is not there", err);
         cell.text = book->shared[le32(at + 6)];
         cell.is_text = true;
-        return add_cell(book, cell, err);
+        add_cell(book, cell);
+        return WT_OK;
     case R_LABEL:
     case R_RSTRING:
         r->at += 6;
@@ -381,8 +346,10 @@ static wt_status read_cell(xls_book *book, biff_record *r, xls_cell *formula, wt
         return WT_OK;
     }
     cell.is_text = true;
-    status = read_counted_text(book, r, 2, &cell.text, err);
-    return status == WT_OK ? add_cell(book, cell, err) : status;
+    const wt_status status = read_counted_text(book, r, 2, &cell.text, err);
+    if (status == WT_OK)
+        add_cell(book, cell);
+    return status;
 }
 
 static int compare_cell_positions(const void *a, const void *b)
@@ -423,7 +390,7 @@ static wt_status write_cells(xls_book *book, const char *name, sheet_text *text,
         space = again || write_cell(book, cell, text);
     }
     clocale_leave(previous);
-    return space ? WT_OK : sheet_fail(text, name, err);
+    return space ? WT_OK : sheet_fail(name, err);
 }
 
 /* ---- sheets ---------------------------------------------------------------------------------- */
@@ -466,9 +433,9 @@ static wt_status add_sheet(xls_book *book, biff_record *r, size_t max_length, wo
     wt_status status = read_counted_text(book, r, 1, &name, err);
     if (status != WT_OK || kind != 0)
         return status;
-    char *copy = strndup(name.length > 0 ? book->pool + name.at : "", name.length);
+    char *copy = wt_strndup(name.length > 0 ? book->pool + name.at : "", name.length);
     sheet_text text = {.max_length = workbook_text_limit(made, max_length)};
-    status = copy != NULL ? read_sheet_cells(book, place, err) : no_memory(err);
+    status = read_sheet_cells(book, place, err);
     if (status == WT_OK)
         status = write_cells(book, copy, &text, err);
     if (status == WT_OK)
@@ -493,7 +460,7 @@ static wt_status open_converters(xls_book *book, wt_error *err)
         book->wide = iconv_open("UTF-8", "UTF-16LE");
     if (book->narrow != (iconv_t)-1 && book->wide != (iconv_t)-1)
         return WT_OK;
-    return errno == EMFILE || errno == ENFILE ? resource_error_fail(errno, err) : no_memory(err);
+    return resource_error_fail(errno == EMFILE || errno == ENFILE ? errno : ENOMEM, err);
 }
 
 /* Reads the global records: first the encodings and shared strings (`made` is NULL), then the

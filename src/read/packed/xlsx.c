@@ -1,9 +1,8 @@
-/* Reads Office Open XML spreadsheets: a ZIP archive of XML. Numbers are read as written, texts
- * from the shared strings; a formula has the value that was saved with it.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+/* Reads Office Open XML spreadsheets: a ZIP archive of XML. Numbers are read as written, texts from
+ * the shared strings; a formula has the value that was saved with it. SPDX-License-Identifier:
+ * GPL-3.0-or-later */
 #include "core/base/array.h"
+#include "core/base/memory.h"
 #include "read/bytes/zip.h"
 #include "read/packed/packed.h"
 
@@ -61,7 +60,7 @@ static wt_status part_open(zip_archive *zip, const char *name, xml_part *p, wt_e
         p->xml = xmlReaderForMemory((const char *)p->bytes.data, (int)p->bytes.length, NULL, NULL,
                                     XML_PARSE_NONET | XML_PARSE_NOERROR | XML_PARSE_NOWARNING);
         if (p->xml == NULL)
-            status = wt_fail(err, WT_E_MEMORY, "no memory for a part of the spreadsheet");
+            out_of_memory(0);
     }
     if (status != WT_OK)
         part_close(p);
@@ -122,7 +121,7 @@ static char *copy_attribute(const xml_part *p, const char *name)
     for (; more == 1 && copy == NULL; more = xmlTextReaderMoveToNextAttribute(p->xml)) {
         const char *value = (const char *)xmlTextReaderConstValue(p->xml);
         if (value != NULL && strcmp((const char *)xmlTextReaderConstLocalName(p->xml), name) == 0)
-            copy = strdup(value);
+            copy = wt_strdup(value);
     }
     (void)xmlTextReaderMoveToElement(p->xml);
     return copy;
@@ -145,35 +144,23 @@ static void string_pool_clear(string_pool *t)
     *t = (string_pool){.bytes = NULL};
 }
 
-static bool string_pool_append(string_pool *t, const char *piece)
+static void string_pool_append(string_pool *t, const char *piece)
 {
     const size_t n = strlen(piece);
+    if (n == 0)
+        return;
     if (t->capacity - t->length < n) {
-        const size_t capacity = 2 * (t->capacity + n);
-        char *bytes = realloc(t->bytes, capacity);
-        if (bytes == NULL)
-            return false;
-        t->bytes = bytes;
-        t->capacity = capacity;
+        t->capacity = 2 * (t->capacity + n);
+        t->bytes = wt_realloc(t->bytes, t->capacity, 1);
     }
     memcpy(t->bytes + t->length, piece, n);
     t->length += n;
-    return true;
 }
 
-static bool string_pool_end_text(string_pool *t)
+static void string_pool_end_text(string_pool *t)
 {
-    size_t *end = array_grow(t->end, t->n, sizeof *end);
-    if (end == NULL)
-        return false;
-    t->end = end;
+    t->end = array_grow(t->end, t->n, sizeof *t->end);
     t->end[t->n++] = t->length;
-    return true;
-}
-
-static wt_status no_memory(wt_error *err)
-{
-    return wt_fail(err, WT_E_MEMORY, "no memory for a spreadsheet");
 }
 
 /* Reads the shared strings; phonetic guides (rPh) are skipped. */
@@ -186,8 +173,8 @@ static wt_status read_string_table(zip_archive *zip, string_pool *strings, wt_er
         return WT_OK;
     while (status == WT_OK && (status = part_next(&p, err)) == WT_OK) {
         const char *piece = node_text(&p);
-        if (piece != NULL && in_text && !is_phonetic && !string_pool_append(strings, piece))
-            status = no_memory(err);
+        if (piece != NULL && in_text && !is_phonetic)
+            string_pool_append(strings, piece);
         if (is_element_start(&p, "rPh"))
             is_phonetic = true;
         if (is_element_end(&p, "rPh"))
@@ -196,8 +183,8 @@ static wt_status read_string_table(zip_archive *zip, string_pool *strings, wt_er
             in_text = true;
         if (is_element_end(&p, "t"))
             in_text = false;
-        if (is_element_end(&p, "si") && !string_pool_end_text(strings))
-            status = no_memory(err);
+        if (is_element_end(&p, "si"))
+            string_pool_end_text(strings);
     }
     part_close(&p);
     return status == WT_END ? WT_OK : status;
@@ -288,7 +275,7 @@ static wt_status end_sheet_cell(const xml_part *p, sheet_cell *c, const string_p
         return WT_OK;
     if (c->kind == CELL_SHARED) {
         size_t i = 0;
-        if (!string_pool_append(&c->text, "") || length >= 20)
+        if (length >= 20)
             return fail_part(p, err, "a cell names no text");
         char number[20];
         memcpy(number, text, length);
@@ -301,7 +288,7 @@ static wt_status end_sheet_cell(const xml_part *p, sheet_cell *c, const string_p
     }
     return length == 0 || sheet_add_cell(out, c->row, c->column, text, length)
                ? WT_OK
-               : sheet_fail(out, p->name, err);
+               : sheet_fail(p->name, err);
 }
 
 /* Processes one node of a sheet. */
@@ -311,8 +298,8 @@ static wt_status read_sheet_node(const xml_part *p, sheet_cell *c, const string_
     wt_status status = WT_OK;
     const char *mark = c->kind == CELL_INLINE ? "t" : "v";
     const char *piece = node_text(p);
-    if (piece != NULL && c->in_text && !string_pool_append(&c->text, piece))
-        return no_memory(err);
+    if (piece != NULL && c->in_text)
+        string_pool_append(&c->text, piece);
     if (is_element_start(p, "row"))
         status = begin_sheet_row(p, c, err);
     else if (is_element_start(p, "c"))
@@ -363,12 +350,13 @@ static wt_status read_relations(zip_archive *zip, string_pool *relations, wt_err
             continue;
         char *id = copy_attribute(&p, "Id"), *target = copy_attribute(&p, "Target");
         const bool absolute = target != NULL && target[0] == '/';
-        if (id != NULL && target != NULL &&
-            !(string_pool_append(relations, id) && string_pool_end_text(relations) &&
-              string_pool_append(relations, absolute ? "" : "xl/") &&
-              string_pool_append(relations, absolute ? target + 1 : target) &&
-              string_pool_end_text(relations)))
-            status = no_memory(err);
+        if (id != NULL && target != NULL) {
+            string_pool_append(relations, id);
+            string_pool_end_text(relations);
+            string_pool_append(relations, absolute ? "" : "xl/");
+            string_pool_append(relations, absolute ? target + 1 : target);
+            string_pool_end_text(relations);
+        }
         free(id);
         free(target);
     }
@@ -376,14 +364,14 @@ static wt_status read_relations(zip_archive *zip, string_pool *relations, wt_err
     return status == WT_END ? WT_OK : status;
 }
 
-/* Returns a copy of the entry of a relation; NULL if there is none or no memory. */
+/* Returns a copy of the entry of a relation; NULL if there is none. */
 static char *find_relation_entry(const string_pool *relations, const char *id)
 {
     const size_t length = strlen(id);
     for (size_t i = 0; i + 1 < relations->n; i += 2) {
         const size_t from = i > 0 ? relations->end[i - 1] : 0, middle = relations->end[i];
         if (middle - from == length && memcmp(relations->bytes + from, id, length) == 0)
-            return strndup(relations->bytes + middle, relations->end[i + 1] - middle);
+            return wt_strndup(relations->bytes + middle, relations->end[i + 1] - middle);
     }
     return NULL;
 }

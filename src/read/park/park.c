@@ -4,13 +4,10 @@
  * block is ordered by curve, then by channel. Each curve has two halves, approach and retract.
  * Only the first samples of a half were measured; the others repeat the last one.
  *
- * The format is known from one measured file of seven curves.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * The format is known from one measured file of seven curves. SPDX-License-Identifier:
+ * GPL-3.0-or-later */
 #include "read/bytes/bytes.h"
 #include "read/bytes/samples.h"
-#include "read/bytes/window.h"
 #include "read/force_assembler.h"
 #include "read/images.h"
 #include "read/metadata.h"

@@ -8,6 +8,7 @@
 
 #include "read/description/description.h"
 #include "read/reader.h"
+#include "read/text/text_condition.h"
 
 /* ---- lines -------------------------------------------------------------------------------- */
 
@@ -68,12 +69,15 @@ void feed_free(text_feed *feed);
 typedef struct text_cells {
     text_span *cells;
     size_t n, capacity;
+    char *unquoted; /* text of the cells with doubled quotes; NULL without one */
+    size_t unquoted_size;
 } text_cells;
 
 const char *separator_name(cell_separator separator); /* static name such as "tab" */
 /* Splits a line; SEPARATOR_AUTO is not allowed here. Returns false if memory is missing. */
 bool cells_split(text_cells *cells, text_span line, cell_separator separator,
                  const text_description *description);
+void cells_free(text_cells *cells);
 bool cells_are_blank(const text_cells *cells);
 bool cell_equals(text_span cell, const char *text);
 
@@ -82,6 +86,8 @@ typedef enum cell_kind { CELL_NUMBER, CELL_MISSING, CELL_NOT_FINITE, CELL_TEXT }
  * unlisted "nan" or "inf"; or another text. *value is NaN unless it is a number. */
 cell_kind cell_parse(text_span cell, char decimal, const text_description *description,
                      double *value);
+/* True if the decimal mark of a number may separate thousands, as in "30.412". */
+bool cell_is_grouped(text_span cell, char decimal, bool *has_mark);
 /* Copies a text for messages and tables, without control characters, cut at a whole character. */
 void text_copy(char *to, size_t size, text_span text);
 /* Adds the numbers of cells with a decimal comma and with a decimal point. */
@@ -108,6 +114,7 @@ typedef enum column_problem {
 /* A column of a table with a known name. */
 typedef struct text_column {
     size_t cell;
+    size_t condition; /* index in the conditions of the table; ALL_CONDITIONS without one */
     column_problem problem;
     const column_rule *rule;
     double factor, offset; /* conversion to SI units, with the sign of a negated column */
@@ -118,9 +125,18 @@ typedef struct text_column {
         *overruled; /* unit of the user that differs from that of the file, which has priority */
 } text_column;
 
+#define ALL_CONDITIONS SIZE_MAX
+
+/* Priority of a header value over a column of the same quantity. */
+typedef enum header_priority {
+    HEADER_OVERRIDES,
+    HEADER_YIELDS,  /* used if there is no such column */
+    HEADER_FALLBACK /* the same, with a warning */
+} header_priority;
+
 typedef struct text_header {
     double value[HEADER_COUNT]; /* in SI units; NaN if absent */
-    bool fallback[HEADER_COUNT];
+    header_priority priority[HEADER_COUNT];
 } text_header;
 
 /* The rows under a names row. */
@@ -133,7 +149,11 @@ typedef struct text_table {
     size_t n_names;       /* number of cells of the names row */
     text_column *columns; /* columns that are understood */
     size_t n_columns;
-    text_column *problems; /* columns with a problem */
+    text_condition *conditions; /* conditions of columns, which split the table */
+    size_t n_conditions;
+    bool has_own_condition; /* true if a line above this table states its temperature */
+    bool has_qualifiers;    /* true if a row qualifies the names, so that rows may lack values */
+    text_column *problems;  /* columns with a problem */
     size_t n_problems;
     wt_quantity_set quantities; /* quantities of `columns` */
     size_t group_cell, segment_cell, curve_cell, sample_cell,
@@ -146,6 +166,9 @@ typedef struct text_table {
         *samples; /* [n_rows] index in the list of samples of the file; NO_SAMPLE without a name */
     size_t n_rows;
     text_header header;
+    size_t n_grouped;  /* number of cells whose decimal mark may separate thousands */
+    bool has_decimals; /* true if another cell shows that it does not */
+    char grouped[16];  /* one of those cells */
 } text_table;
 #define ROW_KIND_NONE 255u
 #define NO_SAMPLE SIZE_MAX
@@ -175,6 +198,7 @@ typedef struct text_file {
     field_value *values;        /* [n_fields] last value of each field of the description */
     text_list unknown;          /* names of columns without a rule, each once */
     bool has_repeated_moduli;   /* true if a table has a modulus twice under one name */
+    const char *unclear_sign;   /* name whose temperature may have a minus or a hyphen, or NULL */
     text_list steps;            /* titles of steps without a table */
     text_list samples;          /* names of samples, each once */
     arena memory;               /* memory of the lists and the values */
@@ -241,6 +265,9 @@ wt_status text_fail_empty(const text_file *file, const char *what, wt_error *err
 /* The names and units of a possible names row. */
 typedef struct names_row {
     text_cells names, units; /* units.n is 0 without a units row */
+    text_cells qualifiers;   /* row between names and units, or below both; n is 0 without one */
+    text_condition *above;   /* [n_above] conditions of the cells above the names */
+    size_t n_above;
     cell_separator separator;
     char value_unit[32]; /* unit of a matrix in its header; "" if absent */
     bool no_memory;
@@ -249,7 +276,9 @@ typedef struct names_row {
 /* The possible meanings of a name: a range of the description's `names`. */
 typedef struct name_match {
     size_t first, n;
-    text_span unit; /* unit within the name, or empty */
+    text_span unit;              /* unit within the name, or empty */
+    text_condition condition;    /* condition within the name, or none */
+    char rest[COLUMN_NAME_SIZE]; /* name without the condition, in which `unit` then is */
 } name_match;
 /* True if the description knows the name of a cell. */
 bool find_column_name(const text_description *description, text_span cell, name_match *known);
@@ -269,6 +298,16 @@ bool names_match_row(names_row *names, const text_description *description, text
  * file->unknown. */
 wt_status names_resolve(const names_row *names, text_file *file, text_table *table,
                         const wt_read_options *options, wt_error *err);
+/* Returns the conversion of a unit, also one that the description names; false if it does not
+ * measure the quantity. */
+bool description_unit_to_si(const text_description *description, wt_quantity quantity,
+                            const char *unit, double *factor, double *offset);
+/* Counts the cells that are a unit of the name above them. */
+size_t names_count_units(const names_row *names, const text_description *description,
+                         const text_cells *cells);
+/* Splits the tables whose columns have different conditions into a table for each of them. */
+void tables_split_conditions(text_file *file);
+void text_table_free(text_table *table); /* frees the rows */
 /* True if a name contains its unit ("f (Hz)", "E' / MPa", "f/Hz", "q[1/m]"). It splits them. */
 bool split_name_unit(text_span *name, text_span *unit);
 void names_free(names_row *names);

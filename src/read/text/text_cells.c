@@ -25,14 +25,60 @@ static bool is_blank(char c)
     return c == ' ' || (c >= '\t' && c <= '\r') || c == '\0';
 }
 
+/* Returns the length of the blank at the beginning or the end of a cell, 0 without one. A
+ * spreadsheet also pads with no-break spaces. */
+static size_t outer_blank_length(text_span cell, bool at_end)
+{
+    static const char *const no_break[] = {"\xc2\xa0", "\xe2\x80\xaf"};
+    if (cell.length > 0 && is_blank(cell.text[at_end ? cell.length - 1 : 0]))
+        return 1;
+    for (size_t i = 0; i < COUNT_OF(no_break); i++) {
+        const size_t n = strlen(no_break[i]);
+        if (cell.length >= n &&
+            memcmp(cell.text + (at_end ? cell.length - n : 0), no_break[i], n) == 0)
+            return n;
+    }
+    return 0;
+}
+
 static void trim_cell(text_span *cell)
 {
-    while (cell->length > 0 && is_blank(cell->text[0])) {
-        cell->text++;
-        cell->length--;
+    size_t n;
+    while ((n = outer_blank_length(*cell, false)) > 0) {
+        cell->text += n;
+        cell->length -= n;
     }
-    while (cell->length > 0 && is_blank(cell->text[cell->length - 1]))
-        cell->length--;
+    while ((n = outer_blank_length(*cell, true)) > 0)
+        cell->length -= n;
+}
+
+/* Provides space for the unquoted cells of a line, which never exceed it. It must not move while
+ * cells point into it. */
+static bool reserve_unquoted(text_cells *cells, text_span line)
+{
+    if (memmem(line.text, line.length, "\"\"", 2) == NULL || cells->unquoted_size >= line.length)
+        return true;
+    char *const grown = realloc(cells->unquoted, line.length);
+    if (grown == NULL)
+        return false;
+    cells->unquoted = grown;
+    cells->unquoted_size = line.length;
+    return true;
+}
+
+/* Undoes the doubled quotes in a quoted cell: "it's ""x""" is it's "x". `at` is the position of the
+ * cell in the line, which is also free in the unquoted text. */
+static void undouble_quotes(text_cells *cells, text_span *cell, size_t at)
+{
+    size_t n = 0;
+    if (cell->length < 2 || memmem(cell->text, cell->length, "\"\"", 2) == NULL)
+        return;
+    char *const to = cells->unquoted + at;
+    for (size_t i = 0; i < cell->length; i++) {
+        to[n++] = cell->text[i];
+        i += cell->text[i] == '"' && i + 1 < cell->length && cell->text[i + 1] == '"';
+    }
+    *cell = (text_span){to, n};
 }
 
 static bool append_cell(text_cells *cells, const char *text, size_t length)
@@ -58,22 +104,35 @@ static bool append_cell(text_cells *cells, const char *text, size_t length)
     return true;
 }
 
+/* Returns the position of the quote that closes a quoted cell, or `length`. A doubled quote is part
+ * of the text. */
+static size_t find_closing_quote(const char *line, size_t from, size_t length)
+{
+    for (size_t i = from; i < length; i++) {
+        if (line[i] != '"')
+            continue;
+        if (i + 1 == length || line[i + 1] != '"')
+            return i;
+        i++;
+    }
+    return length;
+}
+
 /* Returns the end of the cell at `from`. A separator inside quotes is ignored. A single quotation
  * mark (E" is the loss modulus) is an ordinary character. */
-static size_t find_cell_end(const char *line, size_t from, size_t length, char mark)
+static size_t find_cell_end(const char *line, size_t from, size_t length, char mark, bool *quoted)
 {
     size_t i = from;
+    *quoted = false;
     while (i < length && line[i] == ' ')
         i++;
     if (i < length && line[i] == '"') {
-        const char *close = memchr(line + i + 1, '"', length - i - 1);
-        if (close != NULL) {
-            size_t after = (size_t)(close - line) + 1;
-            while (after < length && line[after] == ' ')
-                after++;
-            if (after == length || line[after] == mark)
-                return after;
-        }
+        size_t after = find_closing_quote(line, i + 1, length) + 1;
+        while (after < length && line[after] == ' ')
+            after++;
+        *quoted = after <= length && (after == length || line[after] == mark);
+        if (*quoted)
+            return after;
     }
     const char *end = memchr(line + from, mark, length - from);
     return end != NULL ? (size_t)(end - line) : length;
@@ -81,10 +140,15 @@ static size_t find_cell_end(const char *line, size_t from, size_t length, char m
 
 static bool split_separated(text_cells *cells, const char *line, size_t length, char mark)
 {
+    if (!reserve_unquoted(cells, (text_span){line, length}))
+        return false;
     for (size_t from = 0;;) {
-        size_t end = find_cell_end(line, from, length, mark);
+        bool quoted;
+        size_t end = find_cell_end(line, from, length, mark, &quoted);
         if (!append_cell(cells, line + from, end - from))
             return false;
+        if (quoted)
+            undouble_quotes(cells, &cells->cells[cells->n - 1], from);
         if (end >= length)
             return true;
         from = end + 1;
@@ -162,6 +226,13 @@ bool cells_split(text_cells *cells, text_span line, cell_separator separator,
     }
 }
 
+void cells_free(text_cells *cells)
+{
+    free(cells->cells);
+    free(cells->unquoted);
+    *cells = (text_cells){0};
+}
+
 bool cells_are_blank(const text_cells *cells)
 {
     for (size_t i = 0; i < cells->n; i++)
@@ -203,7 +274,16 @@ cell_kind cell_parse(text_span cell, char decimal, const text_description *descr
         *value = (double)NAN;
         return CELL_MISSING;
     }
-    static const char *const none[] = {"-", "--", "---", "n/a", "na", "#n/a"};
+    static const char *const none[] = {"-",
+                                       "--",
+                                       "---",
+                                       "n/a",
+                                       "na",
+                                       "#n/a",
+                                       "bad", /* a point that the instrument did not measure */
+                                       "\xe2\x88\x92", /* minus sign, en dash and em dash */
+                                       "\xe2\x80\x93",
+                                       "\xe2\x80\x94"};
     static const char *const not_finite[] = {"nan",  "inf",     "-inf",   "+inf",
                                              "-nan", "1.#qnan", "1.#inf", "-1.#ind"};
     if (cell.length == 0 || is_listed_text(cell, none, COUNT_OF(none)) ||
@@ -231,4 +311,20 @@ void cells_count_decimal_marks(const text_cells *cells, size_t *commas, size_t *
         else if (point != NULL && comma == NULL)
             *points += number_prefix_length(cell.text, cell.length, '.') == cell.length;
     }
+}
+
+bool cell_is_grouped(text_span cell, char decimal, bool *has_mark)
+{
+    const char *const mark = memchr(cell.text, decimal, cell.length);
+    *has_mark = mark != NULL;
+    if (mark == NULL)
+        return false;
+    const size_t sign = cell.text[0] == '-' || cell.text[0] == '+',
+                 before = (size_t)(mark - cell.text) - sign;
+    size_t after = 0;
+    while (after < 4 && mark + 1 + after < cell.text + cell.length &&
+           strchr("0123456789", mark[1 + after]) != NULL)
+        after++;
+    return before >= 1 && before <= 3 && cell.text[sign] != '0' && after == 3 &&
+           mark + 4 == cell.text + cell.length;
 }

@@ -2,7 +2,7 @@
 #include "read/text/text.h"
 
 #include "core/base/clocale.h"
-#include "core/base/range_text.h"
+#include "core/base/number.h"
 #include "read/force_assembler.h"
 
 #include "read/images.h"

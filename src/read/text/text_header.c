@@ -83,12 +83,33 @@ static bool parse_field_number(const text_scanner *s, const header_field *field,
     return true;
 }
 
+/* Reports a second value of the cantilever in one header that differs from the first one. Headers
+ * of several curves may differ, so rows in between end a header. */
+static void check_second_value(const text_scanner *s, const header_field *field, header_value h,
+                               double number, size_t first_line)
+{
+    const double before = s->header.value[h], tolerance = 1e-3; /* rounding of a printed value */
+    const bool is_calibration = h == HEADER_SPRING_CONSTANT || h == HEADER_SENSITIVITY;
+    if (!is_calibration || isnan(before) || first_line == 0 || first_line < s->row_line ||
+        fabs(number - before) <= tolerance * fabs(before))
+        return;
+    const char *unit = h == HEADER_SPRING_CONSTANT ? "N/m" : "m/V";
+    char first[32], second[32];
+    wt_format_si(before, unit, 4, first, sizeof first);
+    wt_format_si(number, unit, 4, second, sizeof second);
+    wt_log_add(s->log, WT_WARNING, s->file->name, format_line_position(s->i + 1).text,
+               "the header states the %s twice, %s in line %zu and %s here; the last one is used: "
+               "delete the wrong line or state the value by an option",
+               field->name, first, first_line, second);
+}
+
 static void set_field(text_scanner *s, size_t f, const regmatch_t groups[REGEX_GROUPS])
 {
     const header_field *field = &s->d->fields[f];
     field_value *value = &s->file->values[f];
     const text_span text = pattern_group(s->line, groups[field->group]);
     const size_t kept = utf8_truncated_length(text.text, text.length, 200);
+    const size_t first_line = value->text[0] != '\0' ? value->line : 0;
     double number;
     memcpy(value->text, text.text, kept);
     value->text[kept] = '\0';
@@ -104,8 +125,9 @@ static void set_field(text_scanner *s, size_t f, const regmatch_t groups[REGEX_G
         return;
     const header_value h = find_header_value(field->quantity, field->sets);
     if (h < HEADER_COUNT) {
+        check_second_value(s, field, h, number, first_line);
         s->header.value[h] = number;
-        s->header.fallback[h] = field->fallback;
+        s->header.priority[h] = field->fallback ? HEADER_FALLBACK : HEADER_OVERRIDES;
     }
 }
 

@@ -1,7 +1,7 @@
 /* Decodes bytes of the usual encodings to UTF-8 lines. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "read/text/text.h"
 
-#include "core/base/resource_error.h"
+#include "core/base/memory.h"
 #include "core/base/utf8.h"
 
 #include <errno.h>

@@ -18,22 +18,13 @@ struct text_parts {
     wt_unit_usage *unit_uses; /* [n_units] use of the units of the user */
 };
 
-static void free_table(text_table *t)
-{
-    free(t->values);
-    free(t->blocks);
-    free(t->kinds);
-    free(t->row_lines);
-    free(t->samples);
-}
-
 /* Drops tables without rows. */
 static void drop_empty_tables(text_file *file)
 {
     size_t kept = 0;
     for (size_t i = 0; i < file->n_tables; i++) {
         if (file->tables[i].n_rows == 0)
-            free_table(&file->tables[i]);
+            text_table_free(&file->tables[i]);
         else
             file->tables[kept++] = file->tables[i];
     }
@@ -145,6 +136,16 @@ wt_status text_choose_piece(text_description *description, wt_input *input, size
     return status;
 }
 
+/* True if lines above a table can state its temperature: the description itself finds neither a
+ * temperature nor steps in them. */
+static bool reads_conditions(const text_description *d, unsigned kinds)
+{
+    bool is_found = d->n_steps > 0;
+    for (size_t i = 0; i < d->n_fields; i++)
+        is_found = is_found || d->fields[i].quantity == WT_Q_TEMPERATURE;
+    return (d->kinds & kinds & WT_KIND_SWEEP) != 0 && !is_found;
+}
+
 wt_status text_parts_begin(const file_reader *reader, wt_input *input, size_t piece, unsigned kinds,
                            const wt_read_options *options, wt_log *log, text_parts **parts,
                            wt_error *err)
@@ -173,7 +174,9 @@ wt_status text_parts_begin(const file_reader *reader, wt_input *input, size_t pi
                           .kinds = kinds & d->kinds,
                           .kind = ROW_KIND_NONE,
                           .sample = NO_SAMPLE,
-                          .halts = piece != SIZE_MAX};
+                          .halts = piece != SIZE_MAX,
+                          .reads_conditions = reads_conditions(d, kinds),
+                          .title_condition = condition_none()};
     for (size_t i = 0; i < HEADER_COUNT; i++)
         p->s.header.value[i] = (double)NAN;
     *parts = p;
@@ -183,7 +186,7 @@ wt_status text_parts_begin(const file_reader *reader, wt_input *input, size_t pi
 static void free_tables(text_parts *p)
 {
     for (size_t i = 0; i < p->file.n_tables; i++)
-        free_table(&p->file.tables[i]);
+        text_table_free(&p->file.tables[i]);
     p->file.n_tables = 0;
     arena_free(&p->file.table_memory);
     p->s.table = NULL;
@@ -199,8 +202,10 @@ static wt_status scan_next_part(text_parts *p, wt_error *err)
     if (p->s.status != WT_OK)
         return p->s.status;
     record_unit_use(p);
-    const wt_status status = p->s.ended ? check_unit_options(p, err) : WT_OK;
+    wt_status status = p->s.ended ? check_unit_options(p, err) : WT_OK;
     drop_empty_tables(file);
+    if (status == WT_OK)
+        tables_split_conditions(file);
     file->n_seen += file->n_tables;
     for (size_t i = 0; i < file->n_tables; i++)
         file->quantities |= file->tables[i].quantities;
@@ -236,7 +241,7 @@ void text_parts_free(text_parts *p)
     if (p == NULL)
         return;
     names_free(&p->s.names);
-    free(p->s.row.cells);
+    cells_free(&p->s.row);
     text_file_free(&p->file);
     free(p);
 }
@@ -267,7 +272,7 @@ wt_status text_scan(const file_reader *reader, wt_input *input, unsigned kinds,
 void text_file_free(text_file *file)
 {
     for (size_t i = 0; i < file->n_tables; i++)
-        free_table(&file->tables[i]);
+        text_table_free(&file->tables[i]);
     free(file->tables);
     arena_free(&file->memory);
     arena_free(&file->table_memory);

@@ -86,10 +86,10 @@ static wt_status add_temperature_sweeps(sweep_builder *b, const size_t *all, siz
     }
     *is_sweep = used > 0;
     if (*is_sweep && n < n_all)
-        wt_log_add(b->log, WT_WARNING, b->file->name,
-                   format_line_position(b->table->names_line).text,
-                   "%zu points at %g rad/s without a temperature above absolute zero left out",
-                   n_all - n, sweep_angular_frequency(b, rows[0]));
+        wt_log_action(b->log, WT_WARNING, WT_LEFT_OUT, 0, NULL, b->file->name,
+                      format_line_position(b->table->names_line).text,
+                      "%zu points at %g rad/s without a temperature above absolute zero left out",
+                      n_all - n, sweep_angular_frequency(b, rows[0]));
     if (*is_sweep && used < n)
         wt_log_add(b->log, WT_NOTE, b->file->name, format_line_position(b->table->names_line).text,
                    "%zu points beside the temperature sweeps at %g rad/s left out", n - used,

@@ -104,9 +104,22 @@ static void warn_ignored_cell(text_scanner *s, const text_column *column)
 {
     char found[16];
     text_copy(found, sizeof found, s->row.cells[column->cell]);
-    wt_log_add(s->log, WT_WARNING, s->file->name, format_line_position(s->i + 1).text,
-               "\"%s\" in column %zu (%s) is no value and is left out", found, column->cell + 1,
-               column->name);
+    wt_log_action(s->log, WT_WARNING, WT_LEFT_OUT, 1, NULL, s->file->name,
+                  format_line_position(s->i + 1).text,
+                  "\"%s\" in column %zu (%s) is no value and is left out", found, column->cell + 1,
+                  column->name);
+}
+
+/* Counts the cells whose decimal mark may separate thousands, until one shows that it does not. */
+static void track_decimal_mark(text_table *t, text_span cell)
+{
+    bool has_mark;
+    if (t->has_decimals)
+        return;
+    const bool is_grouped = cell_is_grouped(cell, t->decimal, &has_mark);
+    if (is_grouped && t->n_grouped++ == 0)
+        text_copy(t->grouped, sizeof t->grouped, cell);
+    t->has_decimals = has_mark && !is_grouped;
 }
 
 row_quality scan_read_row(text_scanner *s, size_t *bad)
@@ -124,6 +137,7 @@ row_quality scan_read_row(text_scanner *s, size_t *bad)
         case CELL_NUMBER:
             values[c] = column->factor * value + column->offset;
             numbers++;
+            track_decimal_mark(t, s->row.cells[column->cell]);
             if (!isfinite(values[c])) { /* overflow in SI units */
                 values[c] = (double)NAN;
                 warn_ignored_cell(s, column);
@@ -142,6 +156,8 @@ row_quality scan_read_row(text_scanner *s, size_t *bad)
     }
     if (texts > 0)
         return numbers > 0 ? ROW_BROKEN : ROW_TEXT;
+    if (numbers == 0 && t->has_qualifiers)
+        return ROW_UNUSED;
     return numbers > 0 || s->row.n >= t->n_names ? ROW_GOOD : ROW_TEXT;
 }
 
@@ -181,6 +197,7 @@ static void check_row_number(text_scanner *s)
 void scan_add_row(text_scanner *s)
 {
     text_table *t = s->table;
+    s->row_line = s->i + 1;
     truncation_track_row(s);
     check_row_number(s);
     update_block(s);

@@ -7,7 +7,8 @@
 typedef enum row_quality {
     ROW_GOOD,
     ROW_BROKEN, /* some cells are numbers, at least one is not */
-    ROW_TEXT    /* no number in the columns that are read */
+    ROW_TEXT,   /* no number in the columns that are read */
+    ROW_UNUSED  /* the columns that are read are empty, as in rows of a waveform */
 } row_quality;
 
 /* Splits the line into s->row and reserves a row of the table; false on failure. */

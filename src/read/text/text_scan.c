@@ -27,25 +27,25 @@ static bool read_line(text_scanner *s, size_t i, text_span *line)
 
 /* ---- beginning of a table ----------------------------------------------------------------- */
 
-static void new_table(text_scanner *s)
+/* Adds a table without rows; false on failure. */
+static bool add_table(text_scanner *s, const text_table *made)
 {
     text_file *file = s->file;
     if (file->n_tables >= TABLES_MAX) {
         s->status = wt_fail(s->err, WT_E_RANGE, "more than %zu tables in one file", TABLES_MAX);
-        return;
+        return false;
     }
+    const text_table copy = *made; /* may be one of the tables that are moved */
     text_table *tables = array_grow(file->tables, file->n_tables, sizeof *tables);
     if (tables == NULL) {
         scan_no_memory(s);
-        return;
+        return false;
     }
     file->tables = tables;
     s->table = &file->tables[file->n_tables++];
-    *s->table = (text_table){.names_line = s->i + 1,
-                             .step_line = s->step_line,
-                             .separator = s->names.separator,
-                             .decimal = '.'};
-    memcpy(s->table->title, s->title, sizeof s->title);
+    *s->table = copy;
+    s->table->has_own_condition = s->has_condition;
+    s->has_condition = false;
     s->step_has_table = true;
     s->has_group = false;
     s->has_sample_name = false;
@@ -54,6 +54,39 @@ static void new_table(text_scanner *s)
     s->last = (last_cell_stats){0};
     s->last_number = (double)NAN;
     s->unclosed = s->d->end_required;
+    return true;
+}
+
+static void new_table(text_scanner *s)
+{
+    text_table made = {.names_line = s->i + 1,
+                       .step_line = s->step_line,
+                       .separator = s->names.separator,
+                       .decimal = '.'};
+    memcpy(made.title, s->title, sizeof s->title);
+    /* a line between the tables began one without rows */
+    s->has_condition = s->has_condition ||
+                       (s->table != NULL && s->table->n_rows == 0 && s->table->has_own_condition);
+    scan_apply_title(s);
+    (void)add_table(s, &made);
+}
+
+/* Opens a table with the columns of the open one, if the line states the condition of further rows.
+ * Returns true if the line states a condition. */
+static bool read_condition_line(text_scanner *s)
+{
+    s->continues_table = false;
+    const bool is_condition = scan_read_condition_line(s);
+    if (!s->continues_table)
+        return is_condition;
+    text_table made = *s->table;
+    made.names_line = s->i + 1;
+    made.values = NULL;
+    made.blocks = made.row_lines = made.samples = NULL;
+    made.kinds = NULL;
+    made.n_rows = made.n_grouped = 0;
+    (void)add_table(s, &made);
+    return true;
 }
 
 static bool split_line(text_scanner *s, text_cells *cells, text_span line, cell_separator separator)
@@ -62,6 +95,15 @@ static bool split_line(text_scanner *s, text_cells *cells, text_span line, cell_
         return true;
     scan_no_memory(s);
     return false;
+}
+
+/* True if a number can be the unit of the quantity of a name: "1" of a loss factor. */
+static bool is_unit_one(const text_description *d, const name_match *known, text_span cell)
+{
+    bool one = cell_equals(cell, "1");
+    for (size_t k = known->first; k < known->first + known->n && one; k++)
+        one = strcmp(wt_quantity_unit(d->rules[d->names[k].rule].quantity), "1") == 0;
+    return one;
 }
 
 /* True if the row may contain units; a number in a known column excludes it. */
@@ -76,7 +118,8 @@ static bool is_units_row(text_scanner *s, const text_cells *cells)
         double value;
         if (find_column_name(d, s->names.names.cells[i], &known) &&
             (wt_number_parse(cell.text, cell.length, '.', &value) ||
-             wt_number_parse(cell.text, cell.length, ',', &value)))
+             wt_number_parse(cell.text, cell.length, ',', &value)) &&
+            !is_unit_one(d, &known, cell))
             return false;
     }
     return true;
@@ -92,26 +135,87 @@ static bool names_have_units(const text_scanner *s)
     return false;
 }
 
-/* Looks for the units row after the names row, and moves there if it exists. */
-static void find_units(text_scanner *s)
+/* True if the line states the condition of the rows below it, so that it is no row of units. */
+static bool is_condition_line(const text_scanner *s, text_span line)
+{
+    text_condition c;
+    return s->reads_conditions && condition_read_line(line, &c);
+}
+
+/* Splits the next line that is not blank, from line *i. False if it contains a number in a known
+ * column. */
+static bool split_text_row(text_scanner *s, size_t *i, text_cells *cells)
 {
     text_span line;
-    if (s->d->units == UNITS_NAME_OR_ROW && names_have_units(s))
-        return;
-    for (size_t i = s->i + 1; i <= s->i + 4 && read_line(s, i, &line); i++) {
+    for (const size_t end = *i + 4; *i < end && read_line(s, *i, &line); ++*i) {
         if (s->comment_names)
             (void)line_uncomment(s->d, &line);
-        if (!split_line(s, &s->names.units, line, s->names.separator))
-            return;
-        if (cells_are_blank(&s->names.units))
+        if (!split_line(s, cells, line, s->names.separator))
+            break;
+        if (cells_are_blank(cells))
             continue;
-        if (is_units_row(s, &s->names.units)) {
-            s->i = i;
-            return;
-        }
+        if (is_units_row(s, cells) && !is_condition_line(s, line))
+            return true;
         break;
     }
-    s->names.units.n = 0;
+    cells->n = 0;
+    return false;
+}
+
+/* Adds the conditions in a row of cells to those of the cells above the names. False if the row has
+ * fewer than two: it is a line about the rows below it. */
+static bool add_conditions(text_scanner *s, const text_cells *cells)
+{
+    names_row *const names = &s->names;
+    if (!s->reads_conditions || cells->n == 0)
+        return false;
+    text_condition *const conditions = calloc(cells->n, sizeof *conditions);
+    if (conditions == NULL) {
+        scan_no_memory(s);
+        return false;
+    }
+    if (cells_read_conditions(s->d, cells, conditions) < 2) {
+        free(conditions);
+        return false;
+    }
+    for (size_t i = 0; i < cells->n && i < names->n_above; i++)
+        condition_merge(&conditions[i], &names->above[i]);
+    free(names->above);
+    names->above = conditions;
+    names->n_above = cells->n;
+    return true;
+}
+
+/* Looks for the rows of qualifiers and of units after the names row, and moves to the last one. */
+static void find_units(text_scanner *s)
+{
+    names_row *const names = &s->names;
+    const bool have_units = s->d->units == UNITS_NAME_OR_ROW && names_have_units(s);
+    size_t i = s->i + 1;
+    names->qualifiers.n = 0;
+    if (!split_text_row(s, &i, &names->units))
+        return;
+    const bool has_conditions = add_conditions(s, &names->units);
+    if (has_conditions || !have_units)
+        s->i = i;
+    if (has_conditions || have_units)
+        names->units.n = 0;
+    if (have_units)
+        return;
+    i = s->i + 1;
+    if (!split_text_row(s, &i, &names->qualifiers))
+        return;
+    const bool are_units = names_count_units(names, s->d, &names->qualifiers) >
+                           names_count_units(names, s->d, &names->units);
+    const text_cells last = names->qualifiers;
+    if (are_units) {
+        names->qualifiers = names->units;
+        names->units = last;
+        s->i = i;
+    } else if (add_conditions(s, &names->qualifiers)) {
+        s->i = i;
+    }
+    names->qualifiers.n = are_units ? names->qualifiers.n : 0;
 }
 
 static cell_separator row_separator(const text_scanner *s)
@@ -144,6 +248,8 @@ static char choose_decimal(text_scanner *s)
 static void begin_rows(text_scanner *s)
 {
     s->status = names_resolve(&s->names, s->file, s->table, s->options, s->err);
+    s->names.n_above = 0;
+    s->names.qualifiers.n = 0;
     if (s->status != WT_OK)
         return;
     s->table->separator = row_separator(s);
@@ -220,6 +326,23 @@ static bool match_names(text_scanner *s)
     return true;
 }
 
+/* True if the line is the title of a table, with its temperature, and the next one its names. */
+static bool is_table_title(text_scanner *s)
+{
+    text_condition c;
+    text_span line;
+    names_row names = {.separator = SEPARATOR_AUTO};
+    bool found = s->reads_conditions && s->d->n_steps == 0 && condition_read_title(s->line, &c);
+    for (size_t i = s->i + 1; found && (found = read_line(s, i, &line)) && line.length == 0;)
+        i++;
+    found = found && names_extract(s->d, &line) &&
+            names_match(&names, s->d, line, s->table->separator, s->kinds);
+    if (names.no_memory)
+        scan_no_memory(s);
+    names_free(&names);
+    return found;
+}
+
 /* ---- the scan -------------------------------------------------------------------------------- */
 
 static void scan_header_line(text_scanner *s)
@@ -231,8 +354,8 @@ static void scan_header_line(text_scanner *s)
     }
     const bool mark = scan_match_markers(s);
     scan_header_fields(s);
-    if (s->status == WT_OK && !mark)
-        (void)match_names(s);
+    if (s->status == WT_OK && !mark && !match_names(s))
+        (void)read_condition_line(s);
 }
 
 /* Warns of rows after the end of a table, which would be lost otherwise. */
@@ -300,12 +423,13 @@ static void scan_table_line(text_scanner *s)
     } else if (row == ROW_GOOD) {
         s->last_row = end == END_NONE ? LAST_ROW_KEPT : LAST_ROW_NONE;
         scan_add_row(s);
-    } else if (!match_names(s) && s->status == WT_OK) {
+    } else if (row != ROW_UNUSED && !match_names(s) && !read_condition_line(s) &&
+               s->status == WT_OK) {
         if (row == ROW_TEXT && !s->blank && t->n_rows > 0 && d->row_prefix == NULL &&
             rest_is_text(s))
             skip_rest(s);
-        else if (!s->blank || (row == ROW_BROKEN && s->row.n == t->n_names) ||
-                 d->row_prefix != NULL) {
+        else if ((!s->blank && !is_table_title(s)) ||
+                 (row == ROW_BROKEN && s->row.n == t->n_names) || d->row_prefix != NULL) {
             scan_fail_row(s, bad);
         } else {
             s->state = SCAN_HEADER;

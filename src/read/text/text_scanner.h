@@ -60,19 +60,37 @@ typedef struct text_scanner {
     size_t block;
     size_t group_hash; /* hash of the cells whose change begins a block */
     bool has_group;
-    size_t n_declared, n_rows; /* rows that the header states (0: none), and rows read since */
-    size_t sample;             /* sample of the header, or NO_SAMPLE */
-    bool has_sample_name;      /* true if the header named the sample since the last table */
-    last_cell_stats last;      /* formats in the table */
-    double last_number;        /* number of the previous row; NaN if absent */
-    bool last_is_short;        /* true if the previous line was the first incomplete row */
-    last_row_state last_row;   /* treatment of a last line without a line end */
-    bool unclosed;             /* true if a step or table lacks its required end line */
+    size_t row_line;                /* line of the last row; 0 before the first */
+    size_t n_declared, n_rows;      /* rows that the header states (0: none), and rows read since */
+    size_t sample;                  /* sample of the header, or NO_SAMPLE */
+    bool has_sample_name;           /* true if the header named the sample since the last table */
+    last_cell_stats last;           /* formats in the table */
+    double last_number;             /* number of the previous row; NaN if absent */
+    bool last_is_short;             /* true if the previous line was the first incomplete row */
+    last_row_state last_row;        /* treatment of a last line without a line end */
+    bool unclosed;                  /* true if a step or table lacks its required end line */
+    bool reads_conditions;          /* true if lines above a table can state its temperature */
+    bool continues_table;           /* true if rows under another condition follow */
+    bool has_condition;             /* true if such a line was read since the last table */
+    text_condition title_condition; /* of the last line that was not blank */
 } text_scanner;
 
 /* Scans from line s->i to the end. If the scan stops at steps, it ends after a line that begins a
  * step after a table. */
 void scan_lines(text_scanner *s);
+
+/* ---- text_above.c: conditions above and below the names row -----------------------------------
+ */
+
+/* True if the line states the temperature or frequency of the following rows, or of the columns
+ * below its cells. Sets continues_table if the following rows belong to another table. */
+bool scan_read_condition_line(text_scanner *s);
+/* Applies the condition in the line above the names row, if no line stated one. */
+void scan_apply_title(text_scanner *s);
+/* Reads the conditions of a row of cells; an empty cell has that of the cell before it. Returns the
+ * number of cells with a condition; 0 if another cell is neither empty nor the label of the row. */
+size_t cells_read_conditions(const text_description *d, const text_cells *cells,
+                             text_condition *conditions);
 
 /* Records the format of the row that was read. */
 void truncation_track_row(text_scanner *s);

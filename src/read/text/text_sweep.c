@@ -144,7 +144,10 @@ static void group_amplitudes(sweep_builder *b, size_t *rows, size_t n)
 static wt_status split_sample(sweep_builder *b, size_t *rows, size_t n)
 {
     const bool swept = b->c.step == NULL;
-    wt_status status = swept ? extract_strain_sweeps(b, rows, &n) : WT_OK;
+    wt_status status = WT_OK;
+    collect_scattered_rows(b, rows, n);
+    if (swept)
+        status = extract_strain_sweeps(b, rows, &n);
     if (status == WT_OK && swept)
         status = extract_ramps(b, rows, &n);
     if (status == WT_OK && swept && b->c.strain != NULL)
@@ -191,9 +194,10 @@ static void ignore_count_column(const sweep_builder *b)
     const bool counts = numbers && n > 1 && 4 * n > 3 * t->n_rows;
     if (t->sample_cell == SIZE_MAX || !(counts || names->n >= SAMPLES_MAX))
         return;
-    wt_log_add(b->log, WT_WARNING, b->file->name, format_line_position(t->names_line).text,
-               "column %zu, which would name the sample, %s: left out", t->sample_cell + 1,
-               counts ? "is different in every row" : "has too many names");
+    wt_log_action(b->log, WT_WARNING, WT_LEFT_OUT, 0, NULL, b->file->name,
+                  format_line_position(t->names_line).text,
+                  "column %zu, which would name the sample, %s: left out", t->sample_cell + 1,
+                  counts ? "is different in every row" : "has too many names");
     for (size_t row = 0; row < t->n_rows; row++)
         t->samples[row] = NO_SAMPLE;
 }
@@ -212,9 +216,10 @@ static wt_status split_table(sweep_builder *b)
         if (sweep_is_valid_row(b, row))
             rows[n++] = row;
     if (status == WT_OK && n < t->n_rows)
-        wt_log_add(b->log, WT_NOTE, b->file->name, format_line_position(t->names_line).text,
-                   "%zu rows without a positive frequency or without a modulus left out",
-                   t->n_rows - n);
+        wt_log_action(b->log, WT_NOTE, WT_LEFT_OUT, t->n_rows - n, NULL, b->file->name,
+                      format_line_position(t->names_line).text,
+                      "%zu rows without a positive frequency or without a modulus left out",
+                      t->n_rows - n);
     while (status == WT_OK && n > 0) {
         const wt_sweep before = *b->sweep;
         size_t taken = 0, kept = 0;
@@ -250,14 +255,19 @@ static void report_derived_moduli(const sweep_builder *b)
                    c->has_storage ? "storage modulus"
                    : c->has_loss  ? "loss modulus"
                                   : "loss factor");
-    else if (c->storage == NULL)
+    const char *const angle = c->factor != NULL  ? "loss factor"
+                              : c->phase != NULL ? "phase angle"
+                                                 : NULL;
+    if (c->has_storage && c->has_loss && c->storage == NULL)
         wt_log_add(b->log, WT_NOTE, b->file->name, NULL,
                    "no column of the storage modulus: it follows from column \"%s\" and the %s",
                    (c->magnitude != NULL ? c->magnitude : c->loss)->name,
-                   c->factor != NULL ? "loss factor" : "loss modulus");
+                   angle != NULL ? angle : "loss modulus");
     if (c->has_loss && c->loss == NULL)
         wt_log_add(b->log, WT_NOTE, b->file->name, NULL,
-                   "no column of the loss modulus: storage modulus times loss factor");
+                   "no column of the loss modulus: it follows from the storage modulus and %s%s",
+                   angle != NULL ? "the " : "|E*| in column ",
+                   angle != NULL ? angle : c->magnitude->name);
 }
 
 /* Fails if the user contradicts the deformation that the column names state. */
@@ -300,7 +310,8 @@ static wt_status read_sweep_table(sweep_builder *b)
     b->c = sweep_find_columns(b->table, b->options->deformation);
     if ((b->c.step != NULL) != b->steps)
         return WT_OK;
-    if (b->c.frequency == NULL && b->c.step == NULL && isnan(b->options->frequency)) {
+    if (b->c.frequency == NULL && b->c.step == NULL && isnan(b->options->frequency) &&
+        isnan(b->table->header.value[HEADER_ANGULAR_FREQUENCY])) {
         b->is_frequency_missing = true;
         return text_table_problem(
             b->table, WT_Q_BIT(WT_Q_FREQUENCY) | WT_Q_BIT(WT_Q_ANGULAR_FREQUENCY), b->err);
@@ -370,11 +381,11 @@ wt_status text_build_sweep(const text_file *file, const wt_read_options *options
                            wt_sweep *sweep, wt_error *err)
 {
     wt_sweep made = {.n_isotherms = 0};
-    wt_status status = WT_OK;
+    wt_status status = sweep_check_temperatures(file, options, log, err);
     const text_table *lacking = NULL;
     size_t n_steps = 0;
     /* tests of relaxation or creep are read only if the file has no sweep */
-    for (int pass = 0; pass < 2 && count_sweeps(&made) == 0; pass++)
+    for (int pass = 0; pass < 2 && status == WT_OK && count_sweeps(&made) == 0; pass++)
         for (size_t i = 0; i < file->n_tables && status == WT_OK; i++) {
             sweep_builder b = {.file = file,
                                .table = &file->tables[i],
@@ -404,6 +415,8 @@ wt_status text_build_sweep(const text_file *file, const wt_read_options *options
     }
     if (status == WT_OK && count_sweeps(&made) == 0)
         status = text_fail_empty(file, "sweep of frequency, temperature or strain", err);
+    if (status == WT_OK)
+        sweep_warn_shared_temperature(file, options, &made, log);
     if (status == WT_OK)
         status = move_sweeps(sweep, &made, err);
     wt_sweep_clear(&made);

@@ -13,9 +13,9 @@
 #define SAME_FREQUENCY 0.01
 
 typedef struct sweep_columns {
-    const text_column *frequency, *storage, *loss, *magnitude, *factor, *temperature, *strain,
-        *time, *step;  /* `step`: relaxation modulus or creep compliance */
-    double to_angular; /* 2 pi for a frequency in Hz */
+    const text_column *frequency, *storage, *loss, *magnitude, *factor, *phase, *temperature,
+        *strain, *time, *step; /* `step`: relaxation modulus or creep compliance */
+    double to_angular;         /* 2 pi for a frequency in Hz */
     wt_loading loading;
     wt_deformation deformation;
     bool has_storage, has_loss; /* measured or derived */
@@ -60,6 +60,17 @@ wt_status sweep_set_temperature(const sweep_builder *b, double *temperature, dou
 
 /* ---- text_sweep_check.c: warns of inconsistent rows. ----------------------------------------- */
 wt_status sweep_check_table(const text_file *file, text_table *table, wt_log *log, wt_error *err);
+
+/* Fails if the user states one temperature for tables that state different ones, and warns of
+ * tables without one among them. */
+wt_status sweep_check_temperatures(const text_file *file, const wt_read_options *options,
+                                   wt_log *log, wt_error *err);
+/* Warns if the temperature of the user applies to isotherms that differ much. */
+void sweep_warn_shared_temperature(const text_file *file, const wt_read_options *options,
+                                   const wt_sweep *sweep, wt_log *log);
+
+/* ---- text_order.c: collects the rows of isotherms that do not stand together. --------------- */
+void collect_scattered_rows(sweep_builder *b, size_t *rows, size_t n);
 
 /* ---- text_strain.c: removes the rows of strain sweeps from `rows` and adds these sweeps. ----- */
 wt_status extract_strain_sweeps(sweep_builder *b, size_t *rows, size_t *n);

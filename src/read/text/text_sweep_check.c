@@ -6,6 +6,7 @@
 #include "read/text/text_sweep.h"
 
 #include "core/base/array.h"
+#include "core/base/memory.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -96,8 +97,177 @@ static wt_status warn_loss_factors(const text_file *file, const text_table *t, w
     return WT_OK;
 }
 
+/* ---- redundant columns ----------------------------------------------------------------------- */
+
+/* Ratio of two statements of one quantity in a row; 1 if they agree. NaN if one is missing. */
+typedef double statement_ratio(const text_table *t, const sweep_columns *c, size_t row);
+
+static double ratio_of_loss_factor(const text_table *t, const sweep_columns *c, size_t row)
+{
+    return text_table_value(t, row, c->factor) * text_table_value(t, row, c->storage) /
+           text_table_value(t, row, c->loss);
+}
+
+static double ratio_of_frequency(const text_table *t, const sweep_columns *c, size_t row)
+{
+    (void)c;
+    return text_table_value(t, row, text_table_column(t, WT_Q_ANGULAR_FREQUENCY, -1)) /
+           (2 * M_PI * text_table_value(t, row, text_table_column(t, WT_Q_FREQUENCY, -1)));
+}
+
+/* Median of the ratio over the rows. NaN without a row. */
+static double usual_ratio(const text_table *t, const sweep_columns *c, statement_ratio *ratio)
+{
+    size_t n = 0;
+    double *const ratios = wt_alloc(t->n_rows, sizeof *ratios);
+    for (size_t i = 0; i < t->n_rows; i++) {
+        const double value = ratio(t, c, i);
+        if (isfinite(value) && value > 0)
+            ratios[n++] = value;
+    }
+    const double median = n > 0 ? numbers_median(ratios, n) : (double)NAN;
+    free(ratios);
+    return median;
+}
+
+static bool is_outside(double ratio, double factor)
+{
+    return ratio > factor || ratio < 1 / factor;
+}
+
+/* Warns of columns that state one quantity and disagree in most rows. Instruments round and average
+ * each column by itself, which leaves a few percent of a loss factor. */
+static void warn_contradictions(const text_file *file, const text_table *t, wt_log *log)
+{
+    static const double same_factor = 1.2, same_frequency = 1.01;
+    const sweep_columns c = sweep_find_columns(t, WT_DEFORMATION_FROM_FILE);
+    const line_position_text place = format_line_position(t->names_line);
+    if (c.storage != NULL && c.loss != NULL && c.factor != NULL) {
+        const double usual = usual_ratio(t, &c, ratio_of_loss_factor);
+        if (is_outside(usual, same_factor))
+            wt_log_action(log, WT_WARNING, WT_CONTRADICTED, t->n_rows, NULL, file->name, place.text,
+                          "the loss factor is %.3g times E''/E' in most rows; the moduli are used",
+                          usual);
+    }
+    if (text_table_column(t, WT_Q_ANGULAR_FREQUENCY, -1) != NULL &&
+        text_table_column(t, WT_Q_FREQUENCY, -1) != NULL) {
+        const double usual = usual_ratio(t, &c, ratio_of_frequency);
+        if (is_outside(usual, same_frequency))
+            wt_log_action(log, WT_WARNING, WT_CONTRADICTED, t->n_rows, NULL, file->name, place.text,
+                          "the angular frequency disagrees with the frequency: it is %.3g times "
+                          "2 pi f in most rows; a unit of one of them is wrong, and the angular "
+                          "frequency is used",
+                          usual);
+    }
+}
+
 wt_status sweep_check_table(const text_file *file, text_table *t, wt_log *log, wt_error *err)
 {
     const wt_status status = warn_duplicate_rows(file, t, log, err);
+    warn_contradictions(file, t, log);
     return status == WT_OK ? warn_loss_factors(file, t, log, err) : status;
+}
+
+/* ---- temperatures ---------------------------------------------------------------------------- */
+
+static double stated_temperature(const text_table *t)
+{
+    return t->has_own_condition ? t->header.value[HEADER_TEMPERATURE] : (double)NAN;
+}
+
+/* Temperatures that lines above the tables, or names, state. */
+typedef struct stated_temperatures {
+    size_t n_tables;         /* number of tables with one */
+    const text_table *first; /* first of these tables */
+    bool differ;
+} stated_temperatures;
+
+static stated_temperatures find_stated_temperatures(const text_file *file)
+{
+    stated_temperatures found = {0};
+    for (size_t i = 0; i < file->n_tables; i++) {
+        const double kelvin = stated_temperature(&file->tables[i]);
+        if (isnan(kelvin))
+            continue;
+        found.first = found.n_tables++ == 0 ? &file->tables[i] : found.first;
+        found.differ = found.differ || fabs(kelvin - stated_temperature(found.first)) > 0.01;
+    }
+    return found;
+}
+
+/* Warns of tables that have no temperature of their own among tables that have different ones. */
+static void warn_inherited_temperature(const text_file *file, wt_log *log)
+{
+    for (size_t i = 0; i < file->n_tables; i++) {
+        const text_table *const t = &file->tables[i];
+        if (isnan(stated_temperature(t)) && text_table_column(t, WT_Q_TEMPERATURE, -1) == NULL &&
+            !isnan(t->header.value[HEADER_TEMPERATURE]))
+            wt_log_add(log, WT_WARNING, file->name, format_line_position(t->names_line).text,
+                       "no temperature above this table, but above others: %.2f degC of the table "
+                       "before it is used",
+                       t->header.value[HEADER_TEMPERATURE] - WT_ZERO_CELSIUS);
+    }
+}
+
+wt_status sweep_check_temperatures(const text_file *file, const wt_read_options *options,
+                                   wt_log *log, wt_error *err)
+{
+    const stated_temperatures found = find_stated_temperatures(file);
+    if (found.differ)
+        warn_inherited_temperature(file, log);
+    if (isnan(options->temperature) || found.n_tables == 0)
+        return WT_OK;
+    const double first = stated_temperature(found.first);
+    const line_position_text place = format_line_position(found.first->names_line);
+    if (found.differ) {
+        wt_fail(err, WT_E_ARG, "one temperature is given for %zu tables that state their own",
+                found.n_tables);
+        wt_error_place(err, "table at %s", place.text);
+        wt_error_found(err, "--temperature %gdegC, and %g degC in the file",
+                       options->temperature - WT_ZERO_CELSIUS, first - WT_ZERO_CELSIUS);
+        wt_error_advice(err, "leave --temperature out: it is for files that state none");
+        return WT_E_ARG;
+    }
+    if (fabs(first - options->temperature) > 0.01)
+        wt_log_add(
+            log, WT_WARNING, file->name, place.text,
+            "the file states a temperature of %.2f degC, which is used; --temperature is for "
+            "files that state none",
+            first - WT_ZERO_CELSIUS);
+    return WT_OK;
+}
+
+/* Returns the mean logarithm of the modulus of an isotherm; NaN if it has no storage modulus. */
+static double mean_log_modulus(const wt_isotherm *isotherm)
+{
+    double sum = 0;
+    for (size_t i = 0; i < isotherm->n; i++)
+        sum += log(isotherm->storage_modulus[i]);
+    return sum / (double)isotherm->n;
+}
+
+void sweep_warn_shared_temperature(const text_file *file, const wt_read_options *options,
+                                   const wt_sweep *sweep, wt_log *log)
+{
+    /* repeated measurements at one temperature are closer than a factor of 2 */
+    static const double most = M_LN2;
+    double low = (double)INFINITY, high = -(double)INFINITY;
+    size_t n = 0;
+    if (isnan(options->temperature) || file->samples.n > 1)
+        return;
+    for (size_t i = 0; i < sweep->n_isotherms; i++) {
+        const wt_isotherm *const s = &sweep->isotherms[i];
+        if (fabs(s->temperature - options->temperature) > 1e-6 || !isnan(s->temperature_spread))
+            continue;
+        low = fmin(low, mean_log_modulus(s));
+        high = fmax(high, mean_log_modulus(s));
+        n++;
+    }
+    if (n > 1 && high - low > most)
+        wt_log_add(
+            log, WT_WARNING, file->name, NULL,
+            "one temperature, %.2f degC, is given for %zu isotherms of this file whose moduli "
+            "differ by a factor of %.2g: state the temperature of each in a line above its "
+            "table, such as \"Temperature: 20 degC\"",
+            options->temperature - WT_ZERO_CELSIUS, n, exp(high - low));
 }

@@ -21,7 +21,7 @@ static void find_step_columns(const text_table *t, bool tension, sweep_columns *
     c->loading = modulus != NULL ? WT_RELAXATION : WT_CREEP;
     c->has_storage = true; /* the step modulus replaces it */
     c->has_loss = false;
-    c->strain = c->factor = NULL; /* a creep strain is no amplitude */
+    c->strain = c->factor = c->phase = NULL; /* a creep strain is no amplitude */
 }
 
 sweep_columns sweep_find_columns(const text_table *t, wt_read_deformation stated)
@@ -42,12 +42,14 @@ sweep_columns sweep_find_columns(const text_table *t, wt_read_deformation stated
     c.magnitude =
         text_table_column(t, tension ? WT_Q_COMPLEX_MODULUS : WT_Q_SHEAR_COMPLEX_MODULUS, -1);
     c.factor = text_table_column(t, WT_Q_LOSS_FACTOR, -1);
+    c.phase = text_table_column(t, WT_Q_PHASE, -1);
     c.temperature = text_table_column(t, WT_Q_TEMPERATURE, -1);
     c.strain = text_table_column(t, WT_Q_STRAIN, -1);
     c.time = text_table_column(t, WT_Q_TIME, -1);
-    const bool two = (c.loss != NULL) + (c.factor != NULL) + (c.magnitude != NULL) >= 2;
+    const bool has_angle = c.factor != NULL || c.phase != NULL;
+    const bool two = (c.loss != NULL) + has_angle + (c.magnitude != NULL) >= 2;
     c.has_storage = c.storage != NULL || two;
-    c.has_loss = c.loss != NULL || (c.has_storage && c.factor != NULL);
+    c.has_loss = c.loss != NULL || (c.has_storage && (has_angle || c.magnitude != NULL));
     find_step_columns(t, tension, &c);
     return c;
 }
@@ -56,49 +58,65 @@ double sweep_angular_frequency(const sweep_builder *b, size_t row)
 {
     if (b->c.step != NULL)
         return 1 / text_table_value(b->table, row, b->c.time);
-    if (b->c.frequency == NULL)
-        return 2 * M_PI * b->options->frequency;
+    if (b->c.frequency == NULL) {
+        const double stated = b->table->header.value[HEADER_ANGULAR_FREQUENCY];
+        return isnan(stated) ? 2 * M_PI * b->options->frequency : stated;
+    }
     return b->c.to_angular * text_table_value(b->table, row, b->c.frequency);
 }
 
 double sweep_loss_factor(const sweep_builder *b, size_t row)
 {
+    if (b->c.factor == NULL && b->c.phase != NULL)
+        return tan(text_table_value(b->table, row, b->c.phase));
     return b->c.factor != NULL ? text_table_value(b->table, row, b->c.factor) : (double)NAN;
+}
+
+/* Returns the other leg of a right triangle; NaN if the leg is longer than the hypotenuse. */
+static double other_leg(double hypotenuse, double leg)
+{
+    return sqrt((hypotenuse - leg) * (hypotenuse + leg));
 }
 
 double sweep_storage_modulus(const sweep_builder *b, size_t row)
 {
-    if (!b->c.has_storage)
+    const sweep_columns *const c = &b->c;
+    if (!c->has_storage)
         return (double)NAN;
-    if (b->c.step != NULL) {
-        const double value = text_table_value(b->table, row, b->c.step);
-        return b->c.loading == WT_CREEP ? 1 / value : value;
+    if (c->step != NULL) {
+        const double value = text_table_value(b->table, row, c->step);
+        return c->loading == WT_CREEP ? 1 / value : value;
     }
-    if (b->c.storage != NULL)
-        return text_table_value(b->table, row, b->c.storage);
-    if (b->c.magnitude == NULL) {
-        const double ratio = text_table_value(b->table, row, b->c.loss) / sweep_loss_factor(b, row);
+    if (c->storage != NULL)
+        return text_table_value(b->table, row, c->storage);
+    if (c->magnitude == NULL) {
+        const double ratio = text_table_value(b->table, row, c->loss) / sweep_loss_factor(b, row);
         return isfinite(ratio) ? ratio : (double)NAN;
     }
-    const double magnitude = text_table_value(b->table, row, b->c.magnitude);
-    if (b->c.factor != NULL)
+    const double magnitude = text_table_value(b->table, row, c->magnitude);
+    if (c->factor != NULL)
         return magnitude / hypot(1.0, sweep_loss_factor(b, row));
-    const double lost = text_table_value(b->table, row, b->c.loss);
-    return sqrt((magnitude - lost) * (magnitude + lost));
+    if (c->phase != NULL)
+        return magnitude * cos(text_table_value(b->table, row, c->phase));
+    return other_leg(magnitude, text_table_value(b->table, row, c->loss));
 }
 
 double sweep_loss_modulus(const sweep_builder *b, size_t row)
 {
-    if (!b->c.has_loss)
+    const sweep_columns *const c = &b->c;
+    if (!c->has_loss)
         return (double)NAN;
-    if (b->c.loss != NULL)
-        return text_table_value(b->table, row, b->c.loss);
-    return sweep_storage_modulus(b, row) * sweep_loss_factor(b, row);
+    if (c->loss != NULL)
+        return text_table_value(b->table, row, c->loss);
+    const double storage = sweep_storage_modulus(b, row);
+    if (c->factor == NULL && c->phase == NULL)
+        return other_leg(text_table_value(b->table, row, c->magnitude), storage);
+    return storage * sweep_loss_factor(b, row);
 }
 
 unsigned sweep_optional_arrays(const sweep_columns *c)
 {
-    const bool alone = c->factor != NULL && !c->has_storage && !c->has_loss;
+    const bool alone = (c->factor != NULL || c->phase != NULL) && !c->has_storage && !c->has_loss;
     return (c->strain != NULL ? (unsigned)WT_SWEEP_HAS_STRAIN : 0) |
            (alone ? (unsigned)WT_SWEEP_HAS_LOSS_FACTOR : 0);
 }
@@ -147,60 +165,24 @@ void sweep_format_source(const sweep_builder *b, char *source, size_t size)
     memcpy(source + strlen(source), end, length + 1);
 }
 
-/* Returns the length of the longest number at the beginning of the text, or 0. */
-static size_t number_length(const char *text)
-{
-    const char *at = text + strspn(text, "+-");
-    const size_t whole = strspn(at, "0123456789");
-    if (at - text > 1 || whole == 0)
-        return 0;
-    at += whole;
-    if ((*at == '.' || *at == ',') && strspn(at + 1, "0123456789") > 0)
-        at += 1 + strspn(at + 1, "0123456789");
-    return (size_t)(at - text);
-}
-
-/* True if the name matches the pattern. *value is the number at "#", which is read as a whole. */
-static bool match_file_name(const char *pattern, const char *name, double *value)
-{
-    for (; *pattern != '\0'; pattern++, name++) {
-        if (*pattern == '*') {
-            for (;; name++) {
-                if (match_file_name(pattern + 1, name, value))
-                    return true;
-                if (*name == '\0')
-                    return false;
-            }
-        }
-        if (*pattern == '#') {
-            const size_t n = number_length(name);
-            const char mark = memchr(name, ',', n) != NULL ? ',' : '.';
-            return n > 0 && wt_number_parse(name, n, mark, value) &&
-                   match_file_name(pattern + 1, name + n, &(double){0});
-        }
-        if (*pattern != *name)
-            return false;
-    }
-    return *name == '\0';
-}
-
 static wt_status temperature_in_name(const sweep_builder *b, double *temperature)
 {
     const char *pattern = b->options->temperature_in_name, *name = wt_path_base(b->file->name);
-    if (!match_file_name(pattern, name, temperature)) {
+    text_condition c;
+    if (!condition_match_name(pattern, name, &c)) {
         wt_fail(b->err, WT_E_MISSING, "no temperature in the name of the file");
         wt_error_expected(b->err, "a name like \"%s\"", pattern);
         wt_error_found(b->err, "\"%s\"", name);
         return WT_E_MISSING;
     }
-    *temperature += WT_ZERO_CELSIUS;
+    *temperature = c.temperature;
     return WT_OK;
 }
 
 wt_status sweep_set_temperature(const sweep_builder *b, double *temperature, double *spread)
 {
     const double header = b->table->header.value[HEADER_TEMPERATURE];
-    const bool fallback = b->table->header.fallback[HEADER_TEMPERATURE];
+    const header_priority priority = b->table->header.priority[HEADER_TEMPERATURE];
     double mean = 0, scatter = 0;
     size_t n = 0;
     /* Welford's recurrence keeps a standard deviation of 0.01 K at 300 K free of rounding
@@ -214,9 +196,9 @@ wt_status sweep_set_temperature(const sweep_builder *b, double *temperature, dou
         scatter += before * (t - mean);
     }
     *spread = n > 1 ? sqrt(scatter / (double)(n - 1)) : (double)NAN;
-    if (!isnan(header) && (!fallback || n == 0)) {
+    if (!isnan(header) && (priority == HEADER_OVERRIDES || n == 0)) {
         *temperature = header;
-        if (fallback)
+        if (priority == HEADER_FALLBACK)
             wt_log_add(b->log, WT_WARNING, b->file->name, NULL,
                        "the temperature of %.2f degC stands in the header text only",
                        header - WT_ZERO_CELSIUS);
@@ -236,7 +218,8 @@ wt_status sweep_set_temperature(const sweep_builder *b, double *temperature, dou
         wt_error_place(b->err, "table at line %zu", b->table->names_line);
         wt_error_expected(b->err, "a column of temperature or a header line that tells it");
         wt_error_advice(b->err, "give it with --temperature 25degC, or say where it stands in the "
-                                "names of the files with --temperature-in-name \"*_#C*\"");
+                                "names of the sheets or files with --temperature-in-name "
+                                "\"*_#C*\"");
         return WT_E_MISSING;
     }
     if (*temperature <= 0) {

@@ -4,6 +4,7 @@
  */
 #include "read/text/text.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 wt_status text_list_add(text_file *file, text_list *list, size_t max_items, text_span text,
@@ -18,6 +19,15 @@ wt_status text_list_add(text_file *file, text_list *list, size_t max_items, text
         return wt_fail(err, WT_E_MEMORY, "no memory for the names in the file");
     list->items[list->n++] = copy;
     return WT_OK;
+}
+
+void text_table_free(text_table *t)
+{
+    free(t->values);
+    free(t->blocks);
+    free(t->kinds);
+    free(t->row_lines);
+    free(t->samples);
 }
 
 line_position_text format_line_position(size_t line)
@@ -59,6 +69,8 @@ static const char *likely_units(wt_quantity quantity)
         return "Hz or rad/s";
     case WT_Q_STORAGE_MODULUS:
     case WT_Q_LOSS_MODULUS:
+    case WT_Q_COMPLEX_MODULUS:
+    case WT_Q_SHEAR_COMPLEX_MODULUS:
     case WT_Q_SHEAR_STORAGE_MODULUS:
     case WT_Q_SHEAR_LOSS_MODULUS:
     case WT_Q_RELAXATION_MODULUS:
@@ -69,6 +81,8 @@ static const char *likely_units(wt_quantity quantity)
         return "1/MPa or 1/Pa";
     case WT_Q_TEMPERATURE:
         return "degC or K";
+    case WT_Q_PHASE:
+        return "deg or rad";
     case WT_Q_HEIGHT:
     case WT_Q_MEASURED_HEIGHT:
     case WT_Q_DEFLECTION:
@@ -157,6 +171,9 @@ static wt_quantity_set unread_moduli(const text_table *table)
     wt_quantity_set set = 0;
     for (size_t i = 0; i < sizeof pairs / sizeof *pairs; i++)
         set |= (table->quantities & pairs[i]) == 0 ? pairs[i] : 0;
+    /* the phase angle replaces a loss modulus */
+    if ((set & pairs[1]) != 0 && (table->quantities & WT_Q_BIT(WT_Q_LOSS_FACTOR)) == 0)
+        set |= WT_Q_BIT(WT_Q_PHASE);
     return set;
 }
 
@@ -202,12 +219,41 @@ void text_log_assumed(const text_file *file, wt_log *log)
         }
 }
 
+/* Warns if each decimal mark of a table may separate thousands. A few numbers have three decimals
+ * by chance. */
+static void log_grouped(const text_file *file, wt_log *log)
+{
+    enum { CELLS_MIN = 6 };
+    size_t n = 0;
+    const text_table *first = NULL;
+    if ((file->description->kinds & (WT_KIND_SWEEP | WT_KIND_RECORD)) == 0)
+        return;
+    for (size_t t = 0; t < file->n_tables; t++) {
+        if (file->tables[t].has_decimals)
+            return;
+        n += file->tables[t].n_grouped;
+        first = first == NULL && file->tables[t].n_grouped > 0 ? &file->tables[t] : first;
+    }
+    if (first != NULL && n >= CELLS_MIN)
+        wt_log_add(log, WT_WARNING, file->name, format_line_position(first->names_line).text,
+                   "each number with a %s has three digits after it, such as \"%s\", which is read "
+                   "as a decimal; if the %s separates thousands, the values are 1000 times too "
+                   "small: export the table without a separator of thousands",
+                   first->decimal == ',' ? "comma" : "point", first->grouped,
+                   first->decimal == ',' ? "comma" : "point");
+}
+
 void text_log_unknown(const text_file *file, wt_log *log)
 {
     char names[256];
     text_format_unknown(file, names, sizeof names);
     if (file->unknown.n > 0)
         wt_log_add(log, WT_NOTE, file->name, NULL, "columns not used: %s", names);
+    if (file->unclear_sign != NULL)
+        wt_log_add(log, WT_WARNING, file->name, NULL,
+                   "the temperature in the column name \"%s\" is read as negative; if the mark "
+                   "before it is a hyphen, write a blank instead",
+                   file->unclear_sign);
     if (file->has_repeated_moduli)
         wt_log_add(log, WT_WARNING, file->name, NULL,
                    "a modulus has several columns of one name: only the first is read; of a "
@@ -217,6 +263,7 @@ void text_log_unknown(const text_file *file, wt_log *log)
 void text_log_columns(const text_file *file, wt_log *log)
 {
     text_log_assumed(file, log);
+    log_grouped(file, log);
     text_log_unknown(file, log);
 }
 

@@ -1,8 +1,7 @@
 /* Reads measurements in HDF5 files of this program, weartrack-hdf5(5), which `weartrack convert`
  * writes. The tables are converted to a text stream, which its description reads.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "core/base/memory.h"
 #include "core/store/store.h"
 #include "read/bytes/input.h"
 #include "read/metadata.h"
@@ -71,16 +70,13 @@ static wt_status convert_tables_to_text(const file_reader *self, wt_input *input
                                         wt_input **text, wt_error *err)
 {
     wt_result *result = NULL;
-    FILE *stream = NULL;
     char *bytes = NULL;
     size_t length = 0, n_measured = 0;
     (void)self;
     wt_status status = read_stored_result(input, &result, err);
     if (status != WT_OK)
         return status;
-    stream = open_memstream(&bytes, &length);
-    if (stream == NULL)
-        status = wt_fail(err, WT_E_MEMORY, "no memory for the tables of the file");
+    FILE *const stream = text_stream_open(&bytes, &length);
     for (size_t i = 0; i < wt_result_n_tables(result) && status == WT_OK; i++) {
         const wt_table *table = wt_result_table(result, i);
         if (!is_measurement(result, wt_table_name(table)))
@@ -88,8 +84,7 @@ static wt_status convert_tables_to_text(const file_reader *self, wt_input *input
         n_measured++;
         status = wt_stream_write(stream, table, NULL, err);
     }
-    if (stream != NULL && fclose(stream) != 0 && status == WT_OK)
-        status = wt_fail(err, WT_E_MEMORY, "no memory for the tables of the file");
+    text_stream_close(stream);
     if (status == WT_OK && n_measured == 0) {
         status = wt_fail(err, WT_E_EMPTY, "no force curve, sweep, spectrum or image in it");
         wt_error_expected(err, "what `weartrack convert` writes of measurements");
@@ -102,8 +97,9 @@ static wt_status convert_tables_to_text(const file_reader *self, wt_input *input
         warn_skipped_tables(log, wt_input_name(input), result);
     wt_result_free(result);
     if (status == WT_OK)
-        return input_from_bytes(bytes, length, wt_input_name(input), text, err);
-    free(bytes);
+        *text = input_from_bytes(bytes, length, wt_input_name(input));
+    else
+        free(bytes);
     return status;
 }
 

@@ -6,7 +6,6 @@
 #include "core/base/array.h"
 #include "core/math/arena_gsl.h"
 #include "core/math/cholesky.h"
-#include "core/math/cholesky_dense.h"
 #include "core/math/students_t.h"
 
 #include <gsl/gsl_cdf.h>

@@ -114,6 +114,16 @@ double scatter_mean_variance(scatter_law law, size_t n)
     return law.share * slow + (1 - law.share) / m;
 }
 
+double scatter_total_variance(const double *y, size_t n)
+{
+    double mean = 0, sum = 0;
+    for (size_t i = 0; i < n; i++)
+        mean += y[i] / (double)n;
+    for (size_t i = 0; i < n; i++)
+        sum += (y[i] - mean) * (y[i] - mean);
+    return sum / (double)n;
+}
+
 scatter_batches scatter_batch(const double *y, size_t n, double **room)
 {
     const size_t length = (n + SCATTER_MAX_BATCHES - 1) / SCATTER_MAX_BATCHES;

@@ -66,6 +66,9 @@ double scatter_profile_likelihood(const scatter_sums *s, double least);
 /* Variance of the plain mean of n points per unit variance. */
 double scatter_mean_variance(scatter_law law, size_t n);
 
+/* Variance of the points about their mean, whatever their law. */
+double scatter_total_variance(const double *y, size_t n);
+
 /* Longer series are replaced by means of equal batches, which bounds the work. Points that do not
  * fill a batch are skipped at the start. */
 enum { SCATTER_MAX_BATCHES = 4000 };

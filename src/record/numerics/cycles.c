@@ -1,182 +1,13 @@
-/* Division of a friction record into cycles, the strokes of a reciprocating record, and means over
- * the cycles.
+/* Division of a friction record into cycles, and means over the cycles.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/base/array.h"
+#include "record/numerics/strokes.h"
 #include "weartrack/core.h"
 #include "weartrack/record.h"
 
 #include <math.h>
 #include <stdlib.h>
-
-/* Samples of one cycle. `turn`: first sample of the return stroke of a double stroke. */
-typedef struct cycle_span {
-    size_t first, turn, end;
-} cycle_span;
-
-typedef struct cycle_spans {
-    cycle_span *span; /* [n], allocated for one per sample */
-    size_t n;
-} cycle_spans;
-
-/* Mean friction of the forward and the return stroke without the ends of the stroke. */
-typedef struct stroke_means {
-    double there, back;
-} stroke_means;
-
-/* ---- strokes --------------------------------------------------------------------------------- */
-
-/* Smallest return motion as a fraction of the stroke. Smaller ones are scatter of the sensor. */
-static const double least_way = 0.25;
-
-/* Fraction of the stroke skipped at either end, where motion and friction reverse. */
-static const double end_share = 0.1;
-
-/* Smallest ratio of the smaller to the larger level of a friction that changes sign with the
- * strokes. */
-static const double least_side = 0.2;
-
-/* Turning points of a signal with hysteresis. NaN is skipped. */
-typedef struct turn_detector {
-    double low, high; /* extremes since the last turn */
-    size_t at_low, at_high;
-    int direction; /* 1 up, -1 down, 0 unknown */
-} turn_detector;
-
-/* True at a turn; *at is then the sample of the extreme. */
-static bool detect_turn(turn_detector *t, double value, size_t i, double hysteresis, size_t *at)
-{
-    if (isnan(value))
-        return false;
-    if (value > t->high) {
-        t->high = value;
-        t->at_high = i;
-    }
-    if (value < t->low) {
-        t->low = value;
-        t->at_low = i;
-    }
-    if (t->direction >= 0 && t->high - value > hysteresis) {
-        *at = t->at_high;
-        t->low = value;
-        t->at_low = i;
-        const bool turned = t->direction > 0;
-        t->direction = -1;
-        return turned;
-    }
-    if (t->direction <= 0 && value - t->low > hysteresis) {
-        *at = t->at_low;
-        t->high = value;
-        t->at_high = i;
-        const bool turned = t->direction < 0;
-        t->direction = 1;
-        return turned;
-    }
-    return false;
-}
-
-/* Levels of a signal: its means below and above the middle of its range. */
-typedef struct signal_range {
-    double low, high;
-} signal_range;
-
-static signal_range signal_levels(const double *x, size_t n)
-{
-    double low = (double)INFINITY, high = -(double)INFINITY, sum[2] = {0, 0}, count[2] = {0, 0};
-    for (size_t i = 0; i < n; i++) {
-        low = fmin(low, x[i]);
-        high = fmax(high, x[i]);
-    }
-    for (size_t i = 0; i < n; i++)
-        if (!isnan(x[i])) {
-            const int side = x[i] > 0.5 * (low + high);
-            sum[side] += x[i];
-            count[side]++;
-        }
-    return (signal_range){sum[0] / count[0], sum[1] / count[1]};
-}
-
-/* Returns the signal whose turns are those of the stroke, and its hysteresis. NULL if there is
- * none. Friction reverses abruptly at the ends of a stroke. */
-static const double *turning_signal(const wt_record *record, const double *friction,
-                                    double *hysteresis)
-{
-    const double *const position = record->channel[WT_RECORD_POSITION];
-    const signal_range f = signal_levels(friction, record->n);
-    if (position != NULL) {
-        const signal_range p = signal_levels(position, record->n);
-        *hysteresis = least_way * (p.high - p.low);
-        return p.high > p.low ? position : NULL;
-    }
-    *hysteresis = 0.5 * (f.high - f.low);
-    const double small = fmin(-f.low, f.high), large = fmax(-f.low, f.high);
-    return f.low < 0 && f.high > 0 && small > least_side * large ? friction : NULL;
-}
-
-/* Returns the first sample after a sign change of friction. Position turns at its extreme. */
-static size_t turn_at(const double *signal, bool leaps, size_t at, size_t now)
-{
-    size_t i = at;
-    while (leaps && i < now && (signal[i] > 0) == (signal[at] > 0))
-        i++;
-    return i;
-}
-
-/* Finds double strokes within the steps by turning points of the position, else by sign changes of
- * the friction. Finds none without either. */
-static void strokes_find(const wt_record *record, const double *friction, cycle_spans *spans)
-{
-    double hysteresis;
-    const double *const signal = turning_signal(record, friction, &hysteresis);
-    const bool leaps = signal == friction;
-    turn_detector t = {0};
-    size_t turn[2] = {0, 0}, n_turns = 0;
-    spans->n = 0;
-    for (size_t i = 0; signal != NULL && i < record->n; i++) {
-        size_t at;
-        if (i == 0 || record->step[i] != record->step[i - 1]) {
-            t = (turn_detector){signal[i], signal[i], i, i, 0};
-            n_turns = 0;
-        }
-        if (!detect_turn(&t, signal[i], i, hysteresis, &at))
-            continue;
-        at = turn_at(signal, leaps, at, i);
-        if (n_turns == 2) {
-            spans->span[spans->n++] = (cycle_span){turn[0], turn[1], at};
-            turn[0] = at;
-            n_turns = 1;
-        } else {
-            turn[n_turns++] = at;
-        }
-    }
-}
-
-/* Mean over the middle of one stroke, by position if measured, else by sample number. */
-static double middle_mean(const double *position, const double *friction, size_t first, size_t end)
-{
-    double low = (double)INFINITY, high = -(double)INFINITY, sum = 0, n = 0;
-    for (size_t i = first; i < end; i++) {
-        const double at = position != NULL ? position[i] : (double)i;
-        low = fmin(low, at);
-        high = fmax(high, at);
-    }
-    const double cut = end_share * (high - low);
-    for (size_t i = first; i < end; i++) {
-        const double at = position != NULL ? position[i] : (double)i;
-        if (at < low + cut || at > high - cut || isnan(friction[i]))
-            continue;
-        sum += friction[i];
-        n++;
-    }
-    return n > 0 ? sum / n : (double)NAN;
-}
-
-static stroke_means strokes_mean(const wt_record *record, const double *friction, cycle_span span)
-{
-    const double *const position = record->channel[WT_RECORD_POSITION];
-    return (stroke_means){middle_mean(position, friction, span.first, span.turn),
-                          middle_mean(position, friction, span.turn, span.end)};
-}
 
 /* Limit of the number of time spans. A change is then located to 0.1 % of the record. */
 static const double most_spans = 1000;
@@ -442,8 +273,9 @@ static double cycle_velocity(const wt_record *record, double radius, cycle_span 
     return c->duration > 0 ? path / c->duration : (double)NAN;
 }
 
+/* `has_zero`: friction of one sign has a zero above it. */
 static void set_friction(const wt_record *record, const double *friction, wt_cycle_kind kind,
-                         cycle_span s, wt_cycle *c)
+                         bool has_zero, cycle_span s, wt_cycle *c)
 {
     c->zero = (double)NAN;
     c->coefficient = span_mean(friction, s);
@@ -457,7 +289,7 @@ static void set_friction(const wt_record *record, const double *friction, wt_cyc
                          k * pow(standard_deviation_in_span(friction, back, m.back), 2)) /
                         (n + k));
     c->coefficient = 0.5 * (fabs(m.there) + fabs(m.back));
-    if (m.there * m.back > 0)
+    if (m.there * m.back > 0 && !has_zero)
         return;
     c->coefficient = 0.5 * fabs(m.there - m.back);
     c->zero = 0.5 * (m.there + m.back);
@@ -515,10 +347,12 @@ static void make_step_friction_positive(wt_cycles *cycles)
 static void fill_cycles(const wt_record *record, double radius, double load, const double *friction,
                         const cycle_spans *spans, double *scratch, wt_cycles *cycles)
 {
+    const bool has_zero =
+        cycles->kind == WT_CYCLE_STROKE && strokes_have_zero(record, friction, spans);
     for (size_t k = 0; k < spans->n; k++) {
         wt_cycle *const c = &cycles->cycle[cycles->n];
         const cycle_span s = sliding_span(record, cycles->kind, spans->span[k]);
-        set_friction(record, friction, cycles->kind, s, c);
+        set_friction(record, friction, cycles->kind, has_zero, s, c);
         set_cycle(record, radius, load, s, cycles->kind, c);
         if (isnan(c->coefficient))
             continue;

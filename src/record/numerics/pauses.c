@@ -4,7 +4,6 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "record/numerics/pauses.h"
 
-#include "core/base/arena.h"
 #include "core/base/array.h"
 
 #include <math.h>

@@ -3,8 +3,9 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "record/numerics/running_in_curve.h"
 
-#include "core/base/arena.h"
-#include "core/math/normal_quantile.h"
+#include "core/base/array.h"
+#include "core/math/root.h"
+#include "core/math/students_t.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -64,7 +65,7 @@ void running_in_series_clear(running_in_series *s)
  * which most of a curve may pass. */
 typedef struct curve_integral {
     const running_in_curve *c;
-    double *time, *sum; /* [n] times [s], and the integral up to them; NULL if out of memory */
+    double *time, *sum; /* [n] times [s], and the integral up to them */
 } curve_integral;
 
 /* Integral within interval i, in which the curve is linear in the logarithm of time. */
@@ -102,9 +103,9 @@ static void fill_column(const running_in_series *s, const curve_integral *m, dou
                         double log_factor, double *column)
 {
     const double faster = exp(-log_factor);
-    double begin = faster * s->begin, before = curve_integral_at(m, begin);
+    double begin = faster * (s->begin - s->shift), before = curve_integral_at(m, begin);
     for (size_t i = 0; i < s->n; i++) {
-        const double end = faster * s->end[i], sum = curve_integral_at(m, end);
+        const double end = faster * (s->end[i] - s->shift), sum = curve_integral_at(m, end);
         column[i] = (sum - before) / ((end - begin) * height);
         begin = end;
         before = sum;
@@ -120,67 +121,45 @@ static scatter_sums curve_scatter_sums(const running_in_series *s, const double 
     return sums;
 }
 
-static double curve_level(const scatter_sums *s, double coefficient)
-{
-    return (s->product[3] - coefficient * s->product[1]) / s->product[0];
-}
-
-/* Tolerance of a maximum of the likelihood. */
-static const double finest = 1e-4;
-static const double golden = 0.6180339887498949; /* ratio of the golden section */
+/* Golden sections of a search: they leave 2e-4 of the range. */
+enum { SECTIONS = 18 };
 
 typedef struct factor_search {
-    const running_in_series *s;
+    running_in_series *s;
     curve_integral sums;
     double height, *column;
     scatter_law law;
+    double log_factor; /* held in a search of the shift */
 } factor_search;
 
-static double profile_likelihood(const factor_search *p, double log_factor)
+static double profile_likelihood(double log_factor, void *user)
 {
+    const factor_search *const p = user;
     fill_column(p->s, &p->sums, p->height, log_factor, p->column);
     const scatter_sums sums = curve_scatter_sums(p->s, p->column, p->law);
-    return -log(scatter_solve(&sums, true).squares);
-}
-
-static double search_factor(const factor_search *p, double low, double high)
-{
-    double a = high - golden * (high - low), b = low + golden * (high - low),
-           at_a = profile_likelihood(p, a), at_b = profile_likelihood(p, b);
-    while (high - low > finest) {
-        if (at_a > at_b) {
-            high = b;
-            b = a;
-            at_b = at_a;
-            a = high - golden * (high - low);
-            at_a = profile_likelihood(p, a);
-        } else {
-            low = a;
-            a = b;
-            at_a = at_b;
-            b = low + golden * (high - low);
-            at_b = profile_likelihood(p, b);
-        }
-    }
-    return 0.5 * (low + high);
+    const double squares = scatter_solve(&sums, true).squares;
+    return squares > 0 ? -log(squares) : -(double)INFINITY; /* NaN without a change */
 }
 
 running_in_optimum running_in_optimum_find(const running_in_series *s, const running_in_curve *c,
                                            scatter_law law, double around, double within)
 {
     const double none = (double)NAN;
-    running_in_optimum place = {none, none, none};
+    running_in_optimum place = {none, none};
     arena memory = {0};
-    factor_search p = {s, curve_integral_compute(c, &memory), running_in_curve_height(c),
-                       arena_numbers(&memory, s->n), law};
+    running_in_series own = *s;
+    factor_search p = {.s = &own,
+                       .sums = curve_integral_compute(c, &memory),
+                       .height = running_in_curve_height(c),
+                       .column = arena_numbers(&memory, s->n),
+                       .law = law};
     if (p.height > 0 && isfinite(p.height) && isfinite(around)) {
-        place.log_factor =
-            within > 0 ? search_factor(&p, around - within, around + within) : around;
+        place.log_factor = within > 0 ? root_maximum(profile_likelihood, &p, around - within,
+                                                     around + within, SECTIONS)
+                                      : around;
         fill_column(s, &p.sums, p.height, place.log_factor, p.column);
         const scatter_sums sums = curve_scatter_sums(s, p.column, law);
-        const double coefficient = scatter_solve(&sums, true).coefficient;
-        place.ratio = coefficient / p.height;
-        place.level = curve_level(&sums, coefficient);
+        place.ratio = scatter_solve(&sums, true).coefficient / p.height;
     }
     arena_free(&memory);
     return place;
@@ -200,19 +179,26 @@ static const double tail = 0.025; /* on each side of a 95 % interval */
 
 /* One series with its curve. */
 typedef struct member {
-    const running_in_series *s;
+    running_in_series s; /* borrows the arrays; with the shift of the latest factor */
     curve_integral sums;
     double height, variance, least, settled;
+    double incubation;               /* before the curve changes [s] */
     double *column;                  /* [n] */
     bool kept[SCATTER_LAWS];         /* laws that are not excluded */
     double null[SCATTER_LAWS];       /* ln of their likelihoods about a constant */
     double likelihood[SCATTER_LAWS]; /* largest likelihood with the curve */
-    double best, best_level, best_scatter;
+    double best, best_scatter, best_shift;
     scatter_law best_law;
 } member;
 
+/* Mean and mean square. */
+typedef struct moment_sum {
+    double mean, square;
+} moment_sum;
+
 typedef struct law_sum {
-    double weight, ratio, square; /* weight as a logarithm; the others are weighted means */
+    double weight;           /* as a logarithm */
+    moment_sum ratio, level; /* weighted */
 } law_sum;
 
 typedef struct factor_scan {
@@ -221,28 +207,60 @@ typedef struct factor_scan {
     law_sum *each;               /* [n_of] for one factor */
     size_t n;                    /* number of factors so far */
     double *log_factor, *weight; /* [n] ln of the likelihood over all laws */
-    double *ratio, *square;      /* [n] mean and mean square of the ratio over the laws */
+    law_sum *sum;                /* [n] over the laws */
 } factor_scan;
 
-static void add_curve_law(law_sum *sum, double weight, double ratio, double variance)
+static moment_sum add_moments(moment_sum sum, double old, double now, double value, double variance)
 {
-    const double all = log_add(sum->weight, weight), old = exp(sum->weight - all),
-                 now = exp(weight - all);
-    *sum = (law_sum){all, old * sum->ratio + now * ratio,
-                     old * sum->square + now * (ratio * ratio + variance)};
+    return (moment_sum){old * sum.mean + now * value,
+                        old * sum.square + now * (value * value + variance)};
+}
+
+/* Places of the shift from which it is searched on. */
+enum { SHIFTS = 9 };
+
+static double shift_likelihood(double shift, void *user)
+{
+    factor_search *const p = user;
+    p->s->shift = shift;
+    return profile_likelihood(p->log_factor, p);
+}
+
+static double shift_limit(const member *t, double log_factor)
+{
+    return t->s.unsure + t->incubation * exp(log_factor);
+}
+
+/* Most probable shift for the most probable law so far. */
+static void find_shift(member *t, double log_factor)
+{
+    const double most = shift_limit(t, log_factor), step = 2 * most / (SHIFTS - 1);
+    factor_search p = {&t->s, t->sums, t->height, t->column, t->best_law, log_factor};
+    double best = -(double)INFINITY, centre = 0;
+    for (int i = 0; step > 0 && i < SHIFTS; i++) {
+        const double at = (i - SHIFTS / 2) * step, l = shift_likelihood(at, &p);
+        if (l > best) {
+            best = l;
+            centre = at;
+        }
+    }
+    t->s.shift = step > 0 ? root_maximum(shift_likelihood, &p, fmax(centre - step, -most),
+                                         fmin(centre + step, most), SECTIONS)
+                          : 0;
 }
 
 /* `first`: stores the likelihood of each law. */
 static law_sum evaluate_member(member *t, double log_factor, bool first)
 {
-    law_sum sum = {-(double)INFINITY, 0, 0};
-    const double df = (double)t->s->n - 2;
-    fill_column(t->s, &t->sums, t->height, log_factor, t->column);
+    law_sum sum = {.weight = -(double)INFINITY};
+    const double df = (double)t->s.n - 2;
+    find_shift(t, log_factor);
+    fill_column(&t->s, &t->sums, t->height, log_factor, t->column);
     for (size_t i = 0; i < SCATTER_LAWS; i++) {
         if (!t->kept[i])
             continue;
         const scatter_sums s =
-            curve_scatter_sums(t->s, t->column, scatter_law_at(SCATTER_FOR_CHANGE, i, t->s->n));
+            curve_scatter_sums(&t->s, t->column, scatter_law_at(SCATTER_FOR_CHANGE, i, t->s.n));
         const scatter_fit f = scatter_solve(&s, true);
         const double scatter = fmax(f.squares / df, t->least);
         /* The prior admits changes of the order of the total scatter. Without it, a curve outside
@@ -253,14 +271,21 @@ static law_sum evaluate_member(member *t, double log_factor, bool first)
         if (!isfinite(l)) /* the curve does not pass within the series */
             continue;
         const double variance = scatter * f.variance * df / (df - 2); /* of Student's t */
-        add_curve_law(&sum, l, f.coefficient / t->height, variance / (t->height * t->height));
+        const double all = log_add(sum.weight, l), old = exp(sum.weight - all), now = exp(l - all),
+                     slope = s.product[1] / s.product[0];
+        sum.ratio = add_moments(sum.ratio, old, now, f.coefficient / t->height,
+                                variance / (t->height * t->height));
+        sum.level =
+            add_moments(sum.level, old, now, s.product[3] / s.product[0] - f.coefficient * slope,
+                        scatter * df / (df - 2) / s.product[0] + slope * slope * variance);
+        sum.weight = all;
         if (first)
             t->likelihood[i] = fmax(t->likelihood[i], l);
         if (l > t->best) {
             t->best = l;
             t->best_law = s.law;
-            t->best_level = curve_level(&s, f.coefficient);
             t->best_scatter = scatter;
+            t->best_shift = t->s.shift;
         }
     }
     return sum;
@@ -298,7 +323,7 @@ static law_sum combine_members(const factor_scan *t)
     for (size_t i = 0; i < t->n_of; i++) {
         const member *const m = &t->of[i];
         const law_sum *const each = &t->each[i];
-        const double variance = each->square - each->ratio * each->ratio,
+        const double variance = each->ratio.square - each->ratio.mean * each->ratio.mean,
                      changes = variance * m->height * m->height, unit = t->of[0].height;
         if (!isfinite(each->weight) || !(variance > 0)) {
             weight += constant_log_likelihood(m);
@@ -306,16 +331,16 @@ static law_sum combine_members(const factor_scan *t)
         }
         weight += each->weight + 0.5 * log1p(changes / m->variance) - log(m->height / unit) -
                   0.5 * log(2 * M_PI * variance * unit * unit);
-        const double all = precision + 1 / variance, off = each->ratio - mean;
+        const double all = precision + 1 / variance, off = each->ratio.mean - mean;
         squares += off * off * precision / (variance * all); /* about the mean so far */
         mean += off / (variance * all);
         precision = all;
     }
     if (!(precision > 0))
-        return (law_sum){-(double)INFINITY, 0, 0};
+        return (law_sum){.weight = -(double)INFINITY};
     const double variance = 1 / precision, changes = variance * t->of[0].height * t->of[0].height;
     weight += 0.5 * (log(2 * M_PI * changes) - squares - log1p(changes / change_prior_variance(t)));
-    return (law_sum){weight, mean, mean * mean + variance};
+    return (law_sum){weight, {mean, mean * mean + variance}, t->each[0].level};
 }
 
 static law_sum evaluate_factor(factor_scan *t, double log_factor, bool first)
@@ -329,8 +354,7 @@ static void store_factor(factor_scan *t, double log_factor, law_sum sum)
 {
     t->log_factor[t->n] = log_factor;
     t->weight[t->n] = sum.weight;
-    t->ratio[t->n] = sum.ratio;
-    t->square[t->n++] = sum.square;
+    t->sum[t->n++] = sum;
 }
 
 /* Evaluates factors in equal steps from low to high. */
@@ -356,7 +380,7 @@ static void factor_limits(const factor_scan *t, double limit[2])
     limit[0] = (double)INFINITY;
     limit[1] = -(double)INFINITY;
     for (size_t i = 0; i < t->n_of; i++) {
-        const running_in_series *const s = t->of[i].s;
+        const running_in_series *const s = &t->of[i].s;
         const double length = s->end[s->n - 1], mean = length / (double)s->n,
                      settled = t->of[i].settled;
         limit[0] = fmin(limit[0], log(least_part * fewest_means * mean / settled));
@@ -372,14 +396,17 @@ static void scan_coarsely(factor_scan *t, const double limit[2])
         exclude_unlikely_laws(&t->of[i]);
 }
 
-/* ln of the odds of the curve, with any factor, over constants. */
+/* ln of the odds of the curve, with any factor, over constants. The prior of the shift is uniform
+ * over its range, in which it is known to one mean. */
 static double log_odds(const factor_scan *t)
 {
     double any = -(double)INFINITY, none = 0;
     for (size_t i = 0; i < t->n; i++)
         any = log_add(any, t->weight[i]);
-    for (size_t i = 0; i < t->n_of; i++)
+    for (size_t i = 0; i < t->n_of; i++) {
         none += constant_log_likelihood(&t->of[i]);
+        none += log1p(shift_limit(&t->of[i], 0) / (t->of[i].s.end[0] - t->of[i].s.begin));
+    }
     return any - log((double)t->n) - none - 0.5 * log(2 * M_PI * change_prior_variance(t));
 }
 
@@ -421,15 +448,20 @@ static void normalise_weights(factor_scan *t, double expected)
         t->weight[i] = exp(t->weight[i] - all);
 }
 
-static void set_mean_ratio(const factor_scan *t, running_in_curve_fit *fit)
+static void set_means(const factor_scan *t, running_in_curve_fit *fit)
 {
-    double mean = 0, square = 0;
+    moment_sum ratio = {0, 0}, level = {0, 0};
     for (size_t i = 0; i < t->n; i++) {
-        mean += t->weight[i] * t->ratio[i];
-        square += t->weight[i] * t->square[i];
+        const law_sum *const sum = &t->sum[i];
+        ratio.mean += t->weight[i] * sum->ratio.mean;
+        ratio.square += t->weight[i] * sum->ratio.square;
+        level.mean += t->weight[i] * sum->level.mean;
+        level.square += t->weight[i] * sum->level.square;
     }
-    fit->ratio = mean;
-    fit->ratio_error = sqrt(fmax(square - mean * mean, 0));
+    fit->ratio = ratio.mean;
+    fit->ratio_error = sqrt(fmax(ratio.square - ratio.mean * ratio.mean, 0));
+    fit->level = level.mean;
+    fit->level_error = sqrt(fmax(level.square - level.mean * level.mean, 0));
 }
 
 /* Quantile of the weights. */
@@ -450,7 +482,7 @@ static double factor_quantile(const factor_scan *t, double share)
 static bool is_after_end(const factor_scan *t, double log_factor)
 {
     for (size_t i = 0; i < t->n_of; i++)
-        if (exp(log_factor) * t->of[i].settled <= t->of[i].s->end[t->of[i].s->n - 1])
+        if (exp(log_factor) * t->of[i].settled <= t->of[i].s.end[t->of[i].s.n - 1])
             return false;
     return true;
 }
@@ -458,7 +490,7 @@ static bool is_after_end(const factor_scan *t, double log_factor)
 static bool is_within_first_means(const factor_scan *t, double log_factor)
 {
     for (size_t i = 0; i < t->n_of; i++)
-        if (exp(log_factor) * t->of[i].settled >= fewest_means * t->of[i].s->end[0])
+        if (exp(log_factor) * t->of[i].settled >= fewest_means * t->of[i].s.end[0])
             return false;
     return true;
 }
@@ -495,27 +527,28 @@ static void find_curve_fit(factor_scan *t, double expected, running_in_curve_fit
         evaluate_factors(t, -wide, wide, FINE, false);
         normalise_weights(t, expected);
     }
-    set_mean_ratio(t, fit);
+    set_means(t, fit);
     fit->law = t->of[0].best_law;
-    fit->level = t->of[0].best_level;
     fit->scatter = t->of[0].best_scatter;
+    fit->shift = t->of[0].best_shift;
 }
 
-static double series_variance(const running_in_series *s)
+/* Time before the curve changes by a thousandth of its height. */
+static double incubation(const curve_integral *m, double height)
 {
-    double mean = 0, sum = 0;
-    for (size_t i = 0; i < s->n; i++)
-        mean += s->friction[i] / (double)s->n;
-    for (size_t i = 0; i < s->n; i++)
-        sum += (s->friction[i] - mean) * (s->friction[i] - mean);
-    return sum / (double)s->n;
+    const double *const value = m->c->value;
+    size_t i = 0;
+    while (i + 1 < m->c->n && fabs(value[i + 1] - value[0]) < 1e-3 * height)
+        i++;
+    return i > 0 ? m->time[i] : 0;
 }
 
 static wt_status begin(const running_in_curve_pair *of, double settled_share, arena *memory,
                        member *m, wt_error *err)
 {
     const running_in_series *const s = of->series;
-    *m = (member){.s = s, .variance = series_variance(s), .best = -(double)INFINITY};
+    *m = (member){
+        .s = *s, .variance = scatter_total_variance(s->friction, s->n), .best = -(double)INFINITY};
     m->height = running_in_curve_height(of->running_in_curve);
     m->settled = running_in_curve_settling_time(of->running_in_curve, settled_share);
     m->least = SCATTER_RESOLUTION * SCATTER_RESOLUTION * m->variance;
@@ -524,6 +557,7 @@ static wt_status begin(const running_in_curve_pair *of, double settled_share, ar
     if (!(m->height > 0) || !(m->settled > 0))
         return wt_fail(err, WT_E_RANGE, "friction is predicted not to change");
     m->sums = curve_integral_compute(of->running_in_curve, memory);
+    m->incubation = incubation(&m->sums, m->height);
     m->column = arena_numbers(memory, s->n);
     for (size_t i = 0; i < SCATTER_LAWS; i++) {
         scatter_sums sums = scatter_begin(scatter_law_at(SCATTER_FOR_CHANGE, i, s->n));
@@ -548,8 +582,7 @@ wt_status running_in_curve_fit_compute(const running_in_curve_pair *of, size_t n
                      .each = arena_alloc(&memory, n, sizeof *t.each),
                      .log_factor = arena_numbers(&memory, COARSE_MOST),
                      .weight = arena_numbers(&memory, COARSE_MOST),
-                     .ratio = arena_numbers(&memory, COARSE_MOST),
-                     .square = arena_numbers(&memory, COARSE_MOST)};
+                     .sum = arena_alloc(&memory, COARSE_MOST, sizeof *t.sum)};
     *fit = (running_in_curve_fit){.log_factor = none, .error = none, .low = none, .high = none};
     wt_status status = WT_OK;
     for (size_t i = 0; status == WT_OK && i < n; i++)

@@ -26,6 +26,8 @@ double running_in_curve_settling_time(const running_in_curve *c, double share);
 typedef struct running_in_series {
     size_t n;
     double begin;     /* start of the first mean [s]; 0 unless earlier cycles are missing */
+    double unsure;    /* largest error of the times [s], the same for all means */
+    double shift;     /* time [s] at which growth starts; 0 unless fitted */
     double *end;      /* [n] ends from the start on [s]; each begins where the previous one ends */
     double *friction; /* [n] */
 } running_in_series;
@@ -37,9 +39,11 @@ typedef struct running_in_curve_pair {
     const running_in_curve *running_in_curve; /* predicted for this series */
 } running_in_curve_pair;
 
-/* Model: friction = level + ratio x curve(time / factor), with slow and white scatter of one law.
- * The likelihood is averaged over laws and, except for the factor itself, over factors. Several
- * series share factor and ratio, and have a level and a law each. */
+/* Model: friction = level + ratio x curve((time - shift) / factor), with slow and white scatter of
+ * one law. The shift is within the error of the times and the incubation of the curve either way,
+ * so that the factor is that of the growth. The likelihood is averaged over laws and, except for
+ * the factor itself, over factors; of the shifts it is the largest. Several series share factor and
+ * ratio, and have a level, a law and a shift each. */
 #define RUNNING_IN_CURVE_MIN_ODDS                                                                  \
     20 /* as for the running-in: at most one false alarm in twenty                                 \
         */
@@ -50,9 +54,10 @@ typedef struct running_in_curve_fit {
     double error;      /* standard deviation */
     double low, high;  /* 95 % limits; NaN for a limit that the series does not determine */
     double ratio, ratio_error;
-    double level;    /* most probable level in the first series */
-    double scatter;  /* variance of the means about it */
-    scatter_law law; /* law of this scatter */
+    double level, level_error; /* of the first series */
+    double shift;              /* most probable shift in the first series [s] */
+    double scatter;            /* variance of the means about it */
+    scatter_law law;           /* law of this scatter */
 } running_in_curve_fit;
 
 /* `expected`: prior standard deviation of the logarithm of the factor. It determines the ratio if
@@ -64,7 +69,7 @@ wt_status running_in_curve_fit_compute(const running_in_curve_pair *of, size_t n
 /* Most probable factor and ratio of another curve with one law. The factor is searched within
  * `within` about `around`; if `within` is 0 it is fixed at `around`. */
 typedef struct running_in_optimum {
-    double log_factor, ratio, level;
+    double log_factor, ratio;
 } running_in_optimum;
 running_in_optimum running_in_optimum_find(const running_in_series *s, const running_in_curve *c,
                                            scatter_law law, double around, double within);

@@ -4,11 +4,12 @@
  * steady state with autocorrelated scatter, and its stick-slip.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "core/base/arena.h"
+#include "record/numerics/steady_state.h"
+
 #include "core/base/array.h"
-#include "core/math/normal_quantile.h"
 #include "core/math/students_t.h"
 #include "record/numerics/autocorrelation.h"
+#include "record/numerics/running_in_curve.h"
 #include "weartrack/record.h"
 
 #include <math.h>
@@ -109,16 +110,6 @@ typedef struct likelihoods {
     double least;
 } likelihoods;
 
-static double total_variance(const double *y, size_t n)
-{
-    double mean = 0, sum = 0;
-    for (size_t i = 0; i < n; i++)
-        mean += y[i] / (double)n;
-    for (size_t i = 0; i < n; i++)
-        sum += (y[i] - mean) * (y[i] - mean);
-    return sum / (double)n;
-}
-
 /* Evaluates all change points at once, since the scatter is the same from either end. */
 static void add_change_law(likelihoods *l, const double *y, size_t i)
 {
@@ -136,6 +127,23 @@ static void add_change_law(likelihoods *l, const double *y, size_t i)
         if (s.n >= FEWEST_BEHIND)
             l->behind[k] = log_add(l->behind[k], prior + scatter_likelihood(&s, false, l->least));
     }
+}
+
+static likelihoods change_likelihoods(const double *y, size_t n, double variance, arena *memory)
+{
+    likelihoods l = {n, arena_numbers(memory, n + 1), arena_numbers(memory, n + 1),
+                     SCATTER_RESOLUTION * SCATTER_RESOLUTION * variance};
+    for (size_t k = 0; k <= n; k++)
+        l.before[k] = l.behind[k] = -(double)INFINITY;
+    for (size_t i = 0; i < SCATTER_LAWS; i++)
+        add_change_law(&l, y, i);
+    return l;
+}
+
+/* Limits of the change. */
+static size_t last_change(size_t n)
+{
+    return n - (size_t)fmax(FEWEST_BEHIND, ceil(least_behind * (double)n)) + 1;
 }
 
 static void change_interval(const double *log_weight, size_t first, size_t end, wt_running_in *r)
@@ -177,8 +185,7 @@ static double change_log_odds(const likelihoods *l, const double *log_weight, si
 
 static void assess_running_in(const likelihoods *l, double variance, wt_running_in *r)
 {
-    const size_t behind = (size_t)fmax(FEWEST_BEHIND, ceil(least_behind * (double)l->n));
-    const size_t first = FEWEST_BEFORE, end = l->n - behind + 1;
+    const size_t first = FEWEST_BEFORE, end = last_change(l->n);
     for (size_t k = first; k < end; k++)
         l->before[k] += l->behind[k];
     if (change_log_odds(l, l->before, first, end, variance) < log(least_odds)) {
@@ -191,26 +198,21 @@ static void assess_running_in(const likelihoods *l, double variance, wt_running_
         return;
     }
     *r = (wt_running_in){.end = {(double)NAN, (double)NAN, (double)NAN, (double)NAN},
-                         .steady_start = l->n - behind,
+                         .steady_start = end - 1,
                          .reason = "it does not become steady before the last tenth"};
 }
 
 static void find_running_in(const double *y, size_t n, wt_running_in *r)
 {
     arena memory = {0};
-    const double variance = total_variance(y, n);
+    const double variance = scatter_total_variance(y, n);
     if (n < FEWEST_BEFORE + 2 * FEWEST_BEHIND)
         return;
     if (!(variance > 0)) {
         r->reason = "the cycles do not scatter";
         return;
     }
-    likelihoods l = {n, arena_numbers(&memory, n + 1), arena_numbers(&memory, n + 1),
-                     SCATTER_RESOLUTION * SCATTER_RESOLUTION * variance};
-    for (size_t k = 0; k <= n; k++)
-        l.before[k] = l.behind[k] = -(double)INFINITY;
-    for (size_t i = 0; i < SCATTER_LAWS; i++)
-        add_change_law(&l, y, i);
+    const likelihoods l = change_likelihoods(y, n, variance, &memory);
     r->reason = "";
     assess_running_in(&l, variance, r);
     arena_free(&memory);
@@ -240,6 +242,101 @@ wt_running_in wt_running_in_find(const double *y, size_t n)
     convert_parts_to_points(&parts, &found);
     free(scratch);
     return found;
+}
+
+/* ---- decay that goes on ---------------------------------------------------------------------- */
+
+/* Table of exp(-t^power), from a change of 3e-4 on to 7e-8. */
+enum { DECAY_POINTS = 240, DECAY_MAX_BATCHES = 120 };
+static const double decay_first = 1e-10, decay_last = 3000;
+static const double decay_power[] = {1, 0.8, 0.65, 0.5, 0.35};
+/* Remaining share that settles the decay: half, so that the times go far beyond the series. Prior
+ * error of its time. */
+static const double decay_settled = 0.5, decay_expected = 1;
+/* The law of the decay is not known beyond the end of the series. Standard error for that: a share
+ * of what is left, and of the distance from the plateau of an exponential. */
+static const double decay_left_error = 0.25, decay_law_error = 0.5;
+
+/* Fits one power, in units of the length of the series. */
+static bool fit_decay(const running_in_series *s, double power, running_in_curve_fit *fit)
+{
+    double value[DECAY_POINTS];
+    const double step = log(decay_last / decay_first) / (DECAY_POINTS - 1);
+    for (size_t i = 0; i < DECAY_POINTS; i++)
+        value[i] = exp(-pow(decay_first * exp((double)i * step), power));
+    const running_in_curve c = {DECAY_POINTS, log(decay_first), step, value};
+    return running_in_curve_fit_compute(&(running_in_curve_pair){s, &c}, 1, decay_settled,
+                                        decay_expected, fit, NULL) == WT_OK &&
+           fit->seen;
+}
+
+/* Averages the powers. */
+static steady_decay assess_decay(const running_in_series *s)
+{
+    arena memory = {0};
+    const double variance = scatter_total_variance(s->friction, s->n), end = s->end[s->n - 1];
+    const likelihoods l = change_likelihoods(s->friction, s->n, variance, &memory);
+    double odds = -(double)INFINITY, plateau = 0, square = 0, left = 0, exponential = (double)NAN;
+    for (size_t i = 0; i < COUNT_OF(decay_power); i++) {
+        running_in_curve_fit f;
+        if (!fit_decay(s, decay_power[i], &f))
+            continue;
+        const double all = log_add(odds, f.log_odds), old = exp(odds - all),
+                     now = exp(f.log_odds - all);
+        plateau = old * plateau + now * f.level;
+        square = old * square + now * (f.level * f.level + f.level_error * f.level_error);
+        left = old * left + now * f.ratio * exp(-pow(end * exp(-f.log_factor), decay_power[i]));
+        odds = all;
+        exponential = i == 0 ? f.level : exponential;
+    }
+    for (size_t k = FEWEST_BEFORE; k < last_change(s->n); k++)
+        l.before[k] += l.behind[k];
+    const double change = change_log_odds(&l, l.before, FEWEST_BEFORE, last_change(s->n), variance);
+    const double law = isnan(exponential) ? 0 : decay_law_error * (plateau - exponential),
+                 error = hypot(sqrt(fmax(square - plateau * plateau, 0)),
+                               hypot(decay_left_error * left, law));
+    arena_free(&memory);
+    return (steady_decay){
+        odds - log(COUNT_OF(decay_power)) > fmax(change, 0) + log(least_odds),
+        {plateau, error, plateau - NORMAL_95 * error, plateau + NORMAL_95 * error},
+        left};
+}
+
+steady_decay steady_decay_find(const double *y, size_t n)
+{
+    const size_t length = (n + DECAY_MAX_BATCHES - 1) / DECAY_MAX_BATCHES;
+    if (n < FEWEST_BEFORE + 2 * FEWEST_BEHIND || n / length < RUNNING_IN_CURVE_MIN_MEANS)
+        return (steady_decay){.is_detected = false};
+    running_in_series s = running_in_series_alloc(n / length);
+    const size_t rest = n % length;
+    for (size_t i = 0; i < s.n * length; i++)
+        s.friction[i / length] += y[rest + i] / (double)length;
+    for (size_t i = 0; i < s.n; i++)
+        s.end[i] = (double)(i + 1) / (double)s.n;
+    const steady_decay found = scatter_total_variance(s.friction, s.n) > 0
+                                   ? assess_decay(&s)
+                                   : (steady_decay){.is_detected = false};
+    running_in_series_clear(&s);
+    return found;
+}
+
+steady_decay_kind steady_decay_follow(const double *y, size_t n, wt_interval *mean, double *left)
+{
+    const steady_decay d = steady_decay_find(y, n);
+    const double off = fabs(mean->value - d.plateau.value), least = mean->standard_error;
+    if (!d.is_detected || off <= least)
+        return DECAY_NONE;
+    const bool told = d.plateau.standard_error < off, ends = fabs(d.left) <= least;
+    *left = d.left;
+    if (told) {
+        *mean = d.plateau;
+    } else if (!ends) {
+        const double error = hypot(least, off), half = NORMAL_95 * error;
+        *mean = (wt_interval){mean->value, error, mean->value - half, mean->value + half};
+    }
+    if (ends)
+        return told ? DECAY_TOLD : DECAY_NONE;
+    return told ? DECAY_GOES_ON : DECAY_UNKNOWN;
 }
 
 /* ---- published rules ------------------------------------------------------------------------- */

@@ -2,7 +2,7 @@
  * duty of a point of the track.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "core/base/arena.h"
+#include "core/base/array.h"
 #include "weartrack/record.h"
 
 #include <gsl/gsl_fit.h>

@@ -70,5 +70,5 @@ set style line 61 lc rgb '#c4c4c4'
 # 51 and 52 points that take their colour from the palette: full and open
 set style line 51 lw 1.2 pt 7 ps 0.6
 set style line 52 lw 1.2 pt 6 ps 0.6
-set palette defined (0 '#2b0b57', 0.25 '#31558c', 0.5 '#1f8f8b', 0.75 '#5fc161', 1 '#d9c80f') maxcolors 64
+set palette defined (0 '#2b0b57', 0.25 '#31558c', 0.5 '#1f8f8b', 0.75 '#5fc161', 1 '#d9c80f') maxcolors 32
 set colorbox user origin graph 1.03, graph 0 size graph 0.035, graph 1

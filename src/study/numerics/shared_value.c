@@ -6,7 +6,7 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "study/numerics/shared_value.h"
-#include "core/math/gsl_quiet.h"
+#include "core/math/special.h"
 #include "core/math/students_t.h"
 #include "weartrack/study.h"
 

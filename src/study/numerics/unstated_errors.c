@@ -3,9 +3,9 @@
  * than the modulus (adhesion, lack of fit).
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "core/base/arena.h"
 #include "core/base/array.h"
 #include "core/math/students_t.h"
+#include "indentation/law/tip.h"
 #include "weartrack/study.h"
 
 #include <gsl/gsl_cdf.h>
@@ -48,7 +48,7 @@ wt_status wt_tip_wear_fit(const wt_tip *tip, double radius, double depth, double
     wt_contact_table *table = NULL;
     wt_tip worn = *tip;
     worn.radius = radius;
-    worn.transition_radius = wt_tip_tangent_transition(radius, tip->half_angle);
+    worn.transition_radius = tip_default_transition(radius, tip->half_angle, tip->sides);
     wt_status status = wt_contact_table_new(tip, 1e-3 * depth, 2 * depth, &table, err);
     if (status != WT_OK)
         return status;

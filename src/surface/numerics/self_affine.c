@@ -4,9 +4,8 @@
 #include "surface/numerics/surface_analysis.h"
 
 #include "core/math/cholesky.h"
-#include "core/math/gsl_quiet.h"
-#include "core/math/normal_quantile.h"
 #include "core/math/root.h"
+#include "core/math/special.h"
 #include "core/math/students_t.h"
 #include "surface/law/roughness.h"
 

@@ -3,8 +3,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "surface/numerics/surface_analysis.h"
 
-#include "core/math/gsl_quiet.h"
-#include "core/math/normal_quantile.h"
+#include "core/math/special.h"
 #include "core/math/students_t.h"
 
 #include <gsl/gsl_cdf.h>

@@ -1,0 +1,215 @@
+/* Writes what follows the cards: what would make the answers more certain, the limits, and the data
+ * that were used. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "report/page.h"
+
+#include "core/base/array.h"
+#include "core/table/finding.h"
+
+#include <math.h>
+#include <string.h>
+
+/* ---- more certain ---------------------------------------------------------------------------- */
+
+static void add_range(text_buffer *out, const result_value *f)
+{
+    const display_unit lab = select_finding_unit(f);
+    text_format(out, ": %s to %s%s%s", NUMBER(to_display_value(&lab, f->range.low), 3),
+                NUMBER(to_display_value(&lab, f->range.high), 3), lab.label[0] != '\0' ? " " : "",
+                lab.label);
+}
+
+static void write_remedy_row(page_writer *page, const finding *f)
+{
+    const result_value *const value = &f->value;
+    const char *const remedy = value->remedy != NULL ? value->remedy : value->range.remedy;
+    text_html(&page->out, "<tr><th scope=\"row\">%s</th><td data-label=\"Held back by\">",
+              finding_subject_text(f->question));
+    if (value->remedy == NULL) {
+        text_html(&page->out, "%s", value->range.widest);
+        add_range(&page->out, value);
+    } else
+        text_add(&page->out, "the 95 % interval");
+    text_html(&page->out, "</td><td data-label=\"Do this\">%s</td></tr>\n", remedy);
+}
+
+static bool has_remedy(const finding *f)
+{
+    const bool inconclusive =
+        f->verdict == FINDING_INCONCLUSIVE || f->verdict == FINDING_NOT_ENOUGH_DATA;
+    return (inconclusive && f->value.remedy != NULL) ||
+           (f->value.range.widest != NULL && f->value.range.remedy != NULL);
+}
+
+static void write_remedies(page_writer *page, const finding *findings, size_t n)
+{
+    size_t n_rows = 0;
+    for (size_t i = 0; i < n; i++)
+        n_rows += has_remedy(&findings[i]);
+    if (n_rows == 0)
+        return;
+    text_add(&page->out,
+             "<section>\n<h2 id=\"certain\">What would make this more certain</h2>\n"
+             "<table>\n<caption>Widest uncertainty of each answer</caption>\n<thead><tr><th "
+             "scope=\"col\">Answer</th><th scope=\"col\">Held "
+             "back by</th><th scope=\"col\">Do this</th></tr></thead>\n<tbody>\n");
+    for (size_t i = n; i-- > 0;) /* friction first: it rests on the other answers */
+        if (has_remedy(&findings[i]))
+            write_remedy_row(page, &findings[i]);
+    text_add(&page->out, "</tbody>\n</table>\n</section>\n");
+}
+
+/* ---- limits ---------------------------------------------------------------------------------- */
+
+static void write_limit_items(page_writer *page, size_t from, size_t to)
+{
+    const table_view *const limits = &page->tables->limits;
+    text_add(&page->out, "<ul>\n");
+    for (size_t i = from; i < to; i++)
+        text_html(&page->out, "<li%s>%s</li>\n",
+                  limits_enum(limits, i, LIMITS_SEVERITY) == WT_WARNING ? " class=\"warned\"" : "",
+                  limits_text(limits, i, LIMITS_LIMIT));
+    text_add(&page->out, "</ul>\n");
+}
+
+static void write_limits(page_writer *page)
+{
+    enum { SHOWN = 5 }; /* what is read on one screen */
+    const size_t n = page->tables->limits.n_rows;
+    if (n == 0)
+        return;
+    text_add(&page->out, "<section>\n<h2 id=\"limits\">Limits</h2>\n");
+    write_limit_items(page, 0, n < SHOWN ? n : SHOWN);
+    if (n > SHOWN) {
+        text_format(&page->out, "<details class=\"printed\">\n<summary>%zu more</summary>\n",
+                    n - SHOWN);
+        write_limit_items(page, SHOWN, n);
+        text_add(&page->out, "</details>\n");
+    }
+    text_add(&page->out, "</section>\n");
+}
+
+/* ---- data used ------------------------------------------------------------------------------- */
+
+/* True if the rows name one file: paths of notes are relative to the case. */
+static bool is_same_file(const char *path, const char *named)
+{
+    const size_t n = strlen(path), m = strlen(named);
+    return m > 0 && n >= m && strcmp(path + n - m, named) == 0 &&
+           (n == m || path[n - m - 1] == '/');
+}
+
+/* Number of warnings and losses of the files of a role. */
+static size_t count_warnings(const figure_tables *t, const char *role)
+{
+    size_t n = 0;
+    for (size_t i = 0; i < t->notes.n_rows; i++) {
+        if (notes_enum(&t->notes, i, NOTES_SEVERITY) == WT_NOTE)
+            continue;
+        for (size_t k = 0; k < t->inputs.n_rows; k++)
+            if (strcmp(inputs_text(&t->inputs, k, INPUTS_ROLE), role) == 0 &&
+                is_same_file(inputs_text(&t->inputs, k, INPUTS_PATH),
+                             notes_text(&t->notes, i, NOTES_FILE))) {
+                n++;
+                break;
+            }
+    }
+    return n;
+}
+
+static bool write_group_use(text_buffer *out, const figure_tables *t, const char *role)
+{
+    const table_view *const groups = &t->modulus_groups;
+    for (size_t row = 0; row < groups->n_rows; row++) {
+        if (strcmp(modulus_groups_text(groups, row, MODULUS_GROUPS_GROUP), role) != 0)
+            continue;
+        const double spots = modulus_groups_get(groups, row, MODULUS_GROUPS_N_SPOTS),
+                     rejected = modulus_groups_get(groups, row, MODULUS_GROUPS_N_REJECTED);
+        text_format(out, "%.0f curves on %.0f spot%s, %.0f rejected",
+                    modulus_groups_get(groups, row, MODULUS_GROUPS_N), spots, spots == 1 ? "" : "s",
+                    rejected);
+        return true;
+    }
+    return false;
+}
+
+/* Writes what came out of the files of a role. */
+static void write_use(text_buffer *out, const figure_tables *t, const char *role)
+{
+    if (write_group_use(out, t, role))
+        return;
+    if (strcmp(role, "dma") == 0 && t->shift_factors.n_rows > 0) {
+        size_t used = 0;
+        for (size_t i = 0; i < t->shift_factors.n_rows; i++)
+            used += shift_factors_get(&t->shift_factors, i, SHIFT_FACTORS_DETERMINED) > 0;
+        text_format(out, "%zu of %zu isotherms", used, t->shift_factors.n_rows);
+    } else if (strcmp(role, "record") == 0 && t->record.n_rows > 0)
+        text_format(out, "%zu step%s", t->record.n_rows, t->record.n_rows == 1 ? "" : "s");
+    else
+        text_add(out, "used");
+}
+
+static void write_role_row(page_writer *page, size_t first)
+{
+    const figure_tables *const t = page->tables;
+    const char *const role = inputs_text(&t->inputs, first, INPUTS_ROLE), *const format =
+                                                                              inputs_text(
+                                                                                  &t->inputs, first,
+                                                                                  INPUTS_FORMAT);
+    size_t n = 0;
+    bool one_format = true;
+    for (size_t i = 0; i < t->inputs.n_rows; i++)
+        if (strcmp(inputs_text(&t->inputs, i, INPUTS_ROLE), role) == 0) {
+            n++;
+            one_format =
+                one_format && strcmp(inputs_text(&t->inputs, i, INPUTS_FORMAT), format) == 0;
+        }
+    const size_t warnings = count_warnings(t, role);
+    text_html(&page->out, "<tr><th scope=\"row\">%s</th><td data-label=\"Files\">", role);
+    text_format(&page->out, "%zu file%s", n, n == 1 ? "" : "s");
+    text_html(&page->out, ", %s</td><td data-label=\"Used\">",
+              one_format ? format : "several formats");
+    write_use(&page->out, t, role);
+    text_add(&page->out, "</td><td data-label=\"Remarks\">");
+    if (warnings > 0)
+        text_format(&page->out, "<a class=\"warned\" href=\"#notes\">%zu warning%s</a>", warnings,
+                    warnings == 1 ? "" : "s");
+    else
+        text_add(&page->out, "none");
+    text_add(&page->out, "</td></tr>\n");
+}
+
+static void write_data_used(page_writer *page)
+{
+    const table_view *const inputs = &page->tables->inputs;
+    if (inputs->n_rows == 0)
+        return;
+    page_heading(page, "data", "Data used");
+    text_add(&page->out,
+             "<table>\n<caption>Input files by role</caption>\n<thead><tr><th "
+             "scope=\"col\">Input</th><th scope=\"col\">Files</th><th "
+             "scope=\"col\">Used</th><th scope=\"col\">Remarks</th></tr></thead>\n<tbody>\n");
+    for (size_t i = 0; i < inputs->n_rows; i++) {
+        const char *const role = inputs_text(inputs, i, INPUTS_ROLE);
+        size_t before = 0;
+        while (before < i && strcmp(inputs_text(inputs, before, INPUTS_ROLE), role) != 0)
+            before++;
+        if (before == i && strcmp(role, "case") != 0)
+            write_role_row(page, i);
+    }
+    text_add(&page->out, "</tbody>\n</table>\n");
+    page_whole_table(page, &page->tables->data_quality, "What was done to the data", NULL, 0);
+}
+
+void page_summary(page_writer *page)
+{
+    result_value_tables tables;
+    finding findings[FINDING_QUESTIONS];
+    size_t n = 0;
+    if (result_values_bind(page->result, &tables, NULL) == WT_OK)
+        n = findings_compute(&tables, findings);
+    text_add(&page->out, "<div class=\"summary\">\n");
+    write_remedies(page, findings, n);
+    write_limits(page);
+    text_add(&page->out, "</div>\n");
+    write_data_used(page);
+}
