@@ -76,9 +76,29 @@ WT_API wt_status wt_methods_table(const wt_result *result, wt_table **table,
 
 /* Logs remarks on the tables of a result: a tolerance that is not reached, extrapolation. */
 WT_API void wt_result_log_remarks(const wt_result *result, wt_log *log);
-/* Formats the summary line of a result, its main numbers, "" if it has none. Returns the length as
- * snprintf does. */
-WT_API size_t wt_result_summary_line(const wt_result *result, char *buffer, size_t size);
+/* A main number or verdict of a result, as a row of a short table. Texts are owned by the rows. */
+enum { WT_RESULT_ROW_REASONS = 4 };
+typedef struct wt_result_row {
+    const char *name;                               /* of the quantity */
+    int level;                                      /* 1: part of the last row of level 0 */
+    double value, low, high, range_low, range_high; /* NaN for a text or if it is unknown */
+    const char *unit; /* of the numbers: SI, "degC" (then they are in K) or "%" (of 1) */
+    /* As people read it: value with unit, or text; 95 % interval and range over choices of the
+     * model, "" if unknown; note. */
+    const char *text, *interval, *range, *note;
+    struct {
+        const char *heading, *text; /* NULL after the last one */
+    } reasons[WT_RESULT_ROW_REASONS];
+} wt_result_row;
+typedef struct wt_result_rows wt_result_rows;
+
+/* Creates the rows of a result: its findings if `findings` and it has some, else its main numbers.
+ * The result must exist as long as the rows. */
+WT_API wt_result_rows *wt_result_rows_new(const wt_result *result, bool findings);
+WT_API void wt_result_rows_free(wt_result_rows *rows);
+WT_API size_t wt_result_rows_count(const wt_result_rows *rows);
+WT_API wt_result_row wt_result_rows_get(const wt_result_rows *rows, size_t i);
+WT_API const char *wt_result_rows_heading(const wt_result_rows *rows); /* conditions, or "" */
 
 #ifdef __cplusplus
 }

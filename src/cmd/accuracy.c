@@ -42,12 +42,12 @@ static wt_status run_accuracy_case(cmd_session *s, wt_run_options *run)
     const wt_table *budget = s->result != NULL ? wt_result_find(s->result, "error_budget") : NULL;
     if (status == WT_OK && budget == NULL)
         status = fail_missing_budget(s);
-    if (status == WT_OK) {
+    if (status == WT_OK && !cmd_is_brief(s)) {
         print_text_keys(s, budget);
         if (wt_result_find(s->result, "work_precision") != NULL)
             print_text_keys(s, wt_result_find(s->result, "work_precision"));
     }
-    return status == WT_OK ? cmd_write_result(s) : status;
+    return status == WT_OK && !cmd_shows_short_table(s) ? cmd_write_result(s) : status;
 }
 
 int cmd_accuracy(int argc, char **argv)

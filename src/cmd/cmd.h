@@ -84,7 +84,7 @@ typedef struct cmd_common_options {
     const char *files_from; /* file with file names, NULL = none */
     cmd_log log;
     bool provenance, cost;
-    bool quiet, strict, help;
+    bool quiet, verbose, strict, help;
 } cmd_common_options;
 cmd_common_options cmd_common_defaults(void);
 
@@ -92,12 +92,13 @@ typedef struct cmd_usage {
     const char *name;        /* name of the subcommand */
     const char *arguments;   /* "[OPTION]... FILE..." */
     const char *description; /* description, a few lines */
-    const char *
-        common; /* names of common options, as `only`; quiet, strict and help are always included */
+    const char *common; /* names of common options, as `only`; quiet, verbose, strict, help and log
+                           are always included */
     const char *first;  /* most important options, for --help without "all"; NULL: all */
     const char *master; /* options that weartrack master documents; NULL: none */
     const char *notes;  /* text after the options; NULL if none */
     bool exports;       /* writes tables for other programs, including databases */
+    bool one_by_one;    /* writes each table when it is read: no CSV and no JSON */
     int n_files;        /* required number of files; CMD_ONE_OR_MORE: one or more; 0: any */
     const char *files;  /* message for another number: "two files are needed" */
 } cmd_usage;
@@ -122,6 +123,7 @@ typedef struct cmd_session {
     size_t n_arguments, n_files; /* the names of files_from */
     char *names;                 /* text of files_from */
     int status;                  /* exit status */
+    size_t lines_left;           /* that a terminal has room for, of CMD_SCREEN_LINES */
     wt_error err;
     wt_formats *formats;
     wt_log *log;
@@ -195,9 +197,20 @@ typedef struct cmd_json_member {
 /* Writes an event; no effect without --log json. Empty texts are omitted. */
 void cmd_log_event(const char *event, const cmd_json_member *words, size_t n);
 
+/* Writes a row of a result as the event "row"; no effect without --log json. */
+void cmd_log_row(const wt_result_row *row);
+
 /* Prints on standard error. Control characters, such as in file names, are shown as \\x1b. Only the
  * format itself may end a line. */
 void cmd_message(const char *format, ...) WT_PRINTF(1, 2);
+/* Prints text with control characters and bytes that are not UTF-8 as \\x1b. */
+void cmd_print_safely(FILE *out, const char *text, size_t length);
+/* Removes a progress line from the terminal. */
+void cmd_erase_progress(void);
+/* Width and largest number of lines of what a terminal shows without --verbose. */
+enum { CMD_SCREEN_WIDTH = 80, CMD_SCREEN_LINES = 20 };
+/* True if remarks are printed in short: standard error is a terminal, without --verbose. */
+bool cmd_is_brief(const cmd_session *s);
 /* Prints the path of the page of a report. */
 void cmd_print_page_location(const char *place);
 /* Warns of a missing font; with --strict the call fails. */
@@ -234,9 +247,17 @@ wt_status cmd_sink_open(const char *output, cmd_sink *sink, wt_error *err);
 /* Closes the sink; after a failure no file appears. Returns the first failure. */
 wt_status cmd_sink_close(cmd_sink *sink, wt_status written, wt_error *err);
 
-/* Writes the result to -o: HDF5 for a name that ends in .h5 or .hdf5, else a text stream; without
- * -o or with "-" on standard output. */
+/* Writes the result to -o: HDF5 for a name that ends in .h5 or .hdf5, its first table for .csv, all
+ * tables for .json, else a text stream; without -o or with "-" on standard output. */
 wt_status cmd_write_result(cmd_session *s);
+/* True if the short table takes the place of the tables on standard output: it is a terminal, -o
+ * was not given, and the result has rows for it. */
+bool cmd_shows_short_table(const cmd_session *s);
+/* Prints the main numbers of the result as a short table: on standard output where it takes the
+ * place of the tables, else on standard error. With --verbose all rows and the reasons. */
+void cmd_print_short_table(cmd_session *s, bool findings);
+/* Prints where the tables are. */
+void cmd_print_place_of_rest(const cmd_session *s);
 /* True if the name requests HDF5. */
 bool cmd_is_hdf5_path(const char *path);
 /* True for standard output: no name, or "-". */

@@ -117,6 +117,10 @@ void compare_materials(compare_call *call)
         const wt_table *shifts = input->shift_factors;
         if (status == WT_OK && input->tables != NULL && shifts == NULL)
             shifts = cmd_sample_table(input->tables, "shift_factors", call->set.read.sample);
+        if (status == WT_E_EMPTY && input->tables == NULL)
+            wt_error_advice(&s->err,
+                            "force curves go to `weartrack indent` first, bulk and track each: "
+                            "compare takes what it writes");
         compared[i] = (wt_compared_material){
             .name = material_name(call, i), .rubber = &input->rubber, .shift_factors = shifts};
     }

@@ -45,6 +45,7 @@ int cmd_convert(int argc, char **argv)
             "Writes an instrument file as a text stream (weartrack-stream(5)), or as HDF5 if "
             "the name after -o ends in .h5 or .hdf5, in SI units. - is standard input.",
         .common = "output formats columns provenance",
+        .one_by_one = true,
         .n_files = 1,
         .files = "one file is needed"};
     wt_convert_job job = wt_convert_job_defaults();

@@ -20,12 +20,8 @@ static const wt_param rows[] = {
 };
 PARAM_TABLE(export_params, export_options, rows, export_options_defaults, NO_PARTS)
 
-static wt_export_form select_export_form(const char *output, const cmd_option_group *part)
+wt_export_form export_form_of_suffix(const char *output, wt_export_form otherwise)
 {
-    const export_options *options = part->structure;
-    const char *dot = output != NULL ? strrchr(output, '.') : NULL;
-    if (cmd_option_is_set(part, "format") || dot == NULL)
-        return options->form;
     static const struct {
         const char *ending;
         wt_export_form form;
@@ -34,10 +30,18 @@ static wt_export_form select_export_form(const char *output, const cmd_option_gr
                  {".sqlite", WT_EXPORT_SQLITE},
                  {".sqlite3", WT_EXPORT_SQLITE},
                  {".db", WT_EXPORT_SQLITE}};
-    for (size_t i = 0; i < COUNT_OF(known); i++)
+    const char *dot = output != NULL ? strrchr(output, '.') : NULL;
+    for (size_t i = 0; dot != NULL && i < COUNT_OF(known); i++)
         if (strcasecmp(dot, known[i].ending) == 0)
             return known[i].form;
-    return options->form;
+    return otherwise;
+}
+
+static wt_export_form select_export_form(const char *output, const cmd_option_group *part)
+{
+    const export_options *options = part->structure;
+    return cmd_option_is_set(part, "format") ? options->form
+                                             : export_form_of_suffix(output, options->form);
 }
 
 wt_status export_table(cmd_session *s, const cmd_option_group *part, const wt_table *table)

@@ -26,8 +26,8 @@ int cmd_indent(int argc, char **argv)
         .first = "tip spring-constant sensitivity spring-constant-error poisson-ratio fit-depth "
                  "fit-force sample-thickness master group curves output",
         .notes =
-            "Exit status 3 if a file or curve could not be read and others are answered, 1 if no "
-            "curve has a modulus.",
+            "Exit status 3 if a file or curve could not be read and others are answered, and if no "
+            "curve has a modulus: the table says why; 1 if no curve could be read.",
         .n_files = CMD_ONE_OR_MORE};
     wt_indent_job job = wt_indent_job_defaults();
     wt_file_set set = {.read = wt_read_defaults()};
@@ -71,7 +71,10 @@ int cmd_indent(int argc, char **argv)
         status = wt_modulus_budget_table(indentation, 1, &budget, &s.err);
     if (status == WT_OK && tables.n_accepted == 0) {
         cmd_message("weartrack indent: no curve has a modulus; the column verdict says why\n");
-        s.status = CMD_FAILED;
+        /* An answer, with a table of the reasons, unless no curve could be read. */
+        cmd_set_partial(&s);
+        if (wt_table_n_rows(s.work.failures) >= wt_table_n_rows(tables.indentation))
+            s.status = CMD_FAILED;
     }
     wt_table **const made_tables[] = {&tables.indentation,
                                       &groups,

@@ -74,6 +74,17 @@ static int dispatch(int argc, char **argv)
 {
     const char *name = argv[0];
     spell_suggestion near = spell_suggestion_begin(name, strlen(name));
+    /* what other programs call it */
+    static const struct {
+        const char *other, *name;
+    } synonyms[] = {{"plot", "report"}, {"draw", "report"}, {"show", "info"}};
+    for (size_t i = 0; i < COUNT_OF(synonyms); i++)
+        if (strcmp(synonyms[i].other, name) == 0) {
+            cmd_message("weartrack: there is no subcommand '%s'; it is called %s, see weartrack %s "
+                        "--help\n",
+                        name, synonyms[i].name, synonyms[i].name);
+            return CMD_USAGE;
+        }
     for (const cmd_command *c = cmd_commands; c->name != NULL; c++) {
         if (c->run != NULL && strcmp(c->name, name) == 0)
             return c->run(argc, argv);

@@ -18,7 +18,8 @@ static const wt_param common_rows[] = {
     {PARAM_TEXT_OF("output", cmd_common_options, output), .value = "FILE", .letter = 'o',
      .unset = "", .flags = PARAM_WRITTEN,
      .help = "write there instead of standard output, tables of results as HDF5 if the name ends "
-             "in .h5 or .hdf5; - is standard output"},
+             "in .h5 or .hdf5, as JSON for .json, the first of them as CSV for .csv; - is standard "
+             "output"},
     {PARAM_TEXT_OF("formats", cmd_common_options, formats), .value = "FOLDER", .unset = "",
      .help =
          "use the format descriptions (*.xml) of this folder too; one with the id of a built-in "
@@ -40,7 +41,10 @@ static const wt_param common_rows[] = {
      .help = "what is said on standard error: for people, or one object of JSON a line with all "
              "messages, failures, the progress every second, and the exit status"},
     {PARAM_FLAG_OF("quiet", cmd_common_options, quiet), .letter = 'q',
-     .help = "no progress and no warnings on standard error; errors are printed all the same"},
+     .help = "print errors only: no table of the main numbers, no progress, no warnings"},
+    {PARAM_FLAG_OF("verbose", cmd_common_options, verbose), .letter = 'v',
+     .help = "print every main number with its reasons, and all warnings in full; a terminal gets "
+             "at most 20 lines without this"},
     {PARAM_FLAG_OF("strict", cmd_common_options, strict),
      .help = "exit status 1 if there is a remark (warning), too"},
     {PARAM_FLAG_OF("help", cmd_common_options, help), .letter = 'h',
@@ -219,7 +223,7 @@ static void print_subcommand_help(const cmd_usage *usage, const option_list *lis
     } else {
         printf("\noptions that most need, of %zu; --help all has every one:\n", count_shown(list));
         print_listed_options(list, usage->first);
-        print_listed_options(list, "quiet help");
+        print_listed_options(list, "quiet verbose help");
     }
     if (usage->notes != NULL) {
         putchar('\n');
@@ -280,18 +284,22 @@ static bool check_output_suffix(cmd_session *s, const cmd_usage *usage)
     static const char of_database[] = "TABLE.sqlite` gives a table as a database";
     static const struct {
         const char *ending, *what, *instead;
-        bool exported;
-    } others[] = {{".xlsx", "spreadsheet", of_sheet, false},
-                  {".xlsm", "spreadsheet", of_sheet, false},
-                  {".xls", "spreadsheet", of_sheet, false},
-                  {".ods", "spreadsheet", of_sheet, false},
-                  {".parquet", "Parquet file", of_database, false},
-                  {".sqlite", "database", of_database, true},
-                  {".sqlite3", "database", of_database, true}};
+        bool exported, whole;
+    } others[] = {{".xlsx", "spreadsheet", of_sheet, false, false},
+                  {".xlsm", "spreadsheet", of_sheet, false, false},
+                  {".xls", "spreadsheet", of_sheet, false, false},
+                  {".ods", "spreadsheet", of_sheet, false, false},
+                  {".parquet", "Parquet file", of_database, false, false},
+                  {".sqlite", "database", of_database, true, false},
+                  {".sqlite3", "database", of_database, true, false},
+                  {".db", "database", of_database, true, false},
+                  {".csv", "CSV file", of_sheet, false, true},
+                  {".json", "JSON file", "TABLE.json` gives a table in it", false, true}};
     const char *const output = s->common.output;
     const char *const dot = output != NULL ? strrchr(output, '.') : NULL;
     for (size_t i = 0; dot != NULL && i < COUNT_OF(others); i++) {
-        if (strcasecmp(dot, others[i].ending) != 0 || (others[i].exported && usage->exports))
+        if (strcasecmp(dot, others[i].ending) != 0 || (others[i].exported && usage->exports) ||
+            (others[i].whole && !usage->one_by_one))
             continue;
         if (usage->exports)
             return cmd_usage_error(s,
@@ -450,7 +458,7 @@ bool cmd_parse(cmd_session *s, const cmd_usage *usage, cmd_option_group *parts, 
     char names[TEXT_SIZE];
     size_t n_inputs = 0, n_pipes = 0;
     const char **inputs = wt_alloc((size_t)argc + 1, sizeof *inputs);
-    snprintf(names, sizeof names, "%s log quiet strict help", usage->common);
+    snprintf(names, sizeof names, "%s log quiet verbose strict help", usage->common);
     cmd_option_group last = {common_params(), &s->common, names, 0};
     s->name = usage->name;
     s->parts = parts;

@@ -3,6 +3,7 @@
 #include <sys/stat.h>
 
 #include "cmd/cmd.h"
+#include "cmd/export.h"
 
 static bool ends_with(const char *text, const char *end)
 {
@@ -112,6 +113,34 @@ static wt_status add_methods(wt_result *result, wt_error *err)
     return wt_result_add(result, methods, err);
 }
 
+/* Writes all tables as one array of JSON. */
+static wt_status write_json_tables(FILE *out, const wt_result *result, wt_error *err)
+{
+    wt_status status = WT_OK;
+    const size_t n = wt_result_n_tables(result);
+    fputs("[", out);
+    for (size_t i = 0; status == WT_OK && i < n; i++) {
+        fputs(i > 0 ? ",\n" : "", out);
+        status = wt_table_export(out, wt_result_table(result, i), WT_EXPORT_JSON, false, err);
+    }
+    fputs("]\n", out);
+    return status;
+}
+
+/* A CSV file has one table. The first one is the main one; a message names the others. */
+static wt_status write_first_table(cmd_session *s, FILE *out)
+{
+    const size_t n = wt_result_n_tables(s->result);
+    if (n == 0)
+        return wt_fail(&s->err, WT_E_EMPTY, "the result has no table");
+    const wt_table *first = wt_result_table(s->result, 0);
+    if (n > 1 && !s->common.quiet)
+        cmd_message("weartrack %s: note: %s has the table %s only, of %zu; -o NAME.h5 or NAME.json "
+                    "has all of them\n",
+                    s->name, s->common.output, wt_table_name(first), n);
+    return wt_table_export(out, first, WT_EXPORT_CSV, false, &s->err);
+}
+
 wt_status cmd_write_result(cmd_session *s)
 {
     const char *output = s->common.output;
@@ -123,7 +152,12 @@ wt_status cmd_write_result(cmd_session *s)
     }
     cmd_sink sink;
     wt_status status = cmd_sink_open(output, &sink, &s->err);
-    if (status == WT_OK)
+    const wt_export_form form = export_form_of_suffix(output, WT_EXPORT_STREAM);
+    if (status == WT_OK && form == WT_EXPORT_JSON)
+        status = write_json_tables(sink.stream, s->result, &s->err);
+    else if (status == WT_OK && form == WT_EXPORT_CSV)
+        status = write_first_table(s, sink.stream);
+    else if (status == WT_OK)
         status = write_stream(sink.stream, s->result, s->common.provenance, &s->err);
     return cmd_sink_close(&sink, status, &s->err);
 }

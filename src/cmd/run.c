@@ -26,19 +26,14 @@ static void print_plan(const wt_table *plan)
     }
 }
 
-/* Prints the answer on standard output, as it is the data of this subcommand. `brief`: only the
- * first part, which tells the result. */
-static void print_answer(const wt_result *result, bool brief)
+/* Prints the answer on standard output, as it is the data of this subcommand. */
+static void print_answer(const wt_result *result)
 {
     const wt_table *answer = wt_result_find(result, "answer"),
                    *limits = wt_result_find(result, "limits");
     const char *last = "";
     for (size_t i = 0; answer != NULL && i < wt_table_n_rows(answer); i++) {
         const char *question = wt_table_text(answer, i, ANSWER_QUESTION);
-        if (brief && i > 0 && strcmp(question, last) != 0) {
-            puts("\nThe whole answer: --verbose, the page, or the table answer of the result.");
-            return;
-        }
         if (strcmp(question, last) != 0)
             printf("%s%s\n", i > 0 ? "\n" : "", question);
         last = question;
@@ -53,8 +48,19 @@ static void print_answer(const wt_result *result, bool brief)
     }
 }
 
+/* A terminal gets the findings as a table, and with --verbose the whole answer behind it; a pipe
+ * gets the whole answer. */
+static void print_whole_or_short_answer(cmd_session *s)
+{
+    const bool screen = isatty(STDOUT_FILENO) != 0;
+    if (screen)
+        cmd_print_short_table(s, true);
+    if (!screen || s->common.verbose)
+        print_answer(s->result);
+}
+
 typedef struct run_flags {
-    bool plan, no_report, keep, verbose;
+    bool plan, no_report, keep;
     const char *report;
 } run_flags;
 
@@ -73,8 +79,6 @@ static const wt_param run_flag_rows[] = {
      .help = "where the report goes: one page if it ends in .html, else a folder; a report that is "
              "there is replaced, anything else is not"},
     {PARAM_FLAG_OF("no-report", run_flags, no_report), .help = "write no report"},
-    {PARAM_FLAG_OF("verbose", run_flags, verbose),
-     .help = "print the whole answer on a terminal, too; a pipe always gets the whole"},
     {PARAM_FLAG_OF("keep", run_flags, keep),
      .help = "do not run again what would give the same: the result is there, and neither version, "
              "command line, case nor any file that was read has changed; nothing was missing, and "
@@ -201,7 +205,14 @@ static void apply_case_report_options(run_call *r, const cmd_option_group *given
 
 static wt_status run_whole_case(run_call *r, const cmd_option_group *report_given)
 {
-    wt_status status = wt_case_read(r->s.files[0], &r->case_file, &r->s.err);
+    struct stat info;
+    const char *path = r->s.files[0];
+    wt_status status = wt_case_read(path, &r->case_file, &r->s.err);
+    if (status != WT_OK && stat(path, &info) == 0 && S_ISDIR(info.st_mode)) {
+        wt_error_expected(&r->s.err, "a case file");
+        wt_error_advice(&r->s.err, "`weartrack new-case %s -o case.xml` writes one for its files",
+                        path);
+    }
     if (status == WT_OK)
         status = wt_plan(r->case_file, &r->plan, &r->s.err);
     if (status == WT_OK && r->call_flags.plan) {
@@ -221,7 +232,7 @@ static wt_status run_whole_case(run_call *r, const cmd_option_group *report_give
         status = run_case_and_report(r);
     if (status != WT_OK)
         return status;
-    print_answer(r->s.result, !r->call_flags.verbose && isatty(STDOUT_FILENO));
+    print_whole_or_short_answer(&r->s);
     fflush(stdout); /* the answer is complete even if drawing fails */
     if (!r->s.common.quiet)
         cmd_message("result: %s%s\n", r->result_name,

@@ -6,8 +6,11 @@
 
 cmd_session cmd_session_defaults(void)
 {
-    return (cmd_session){
-        .common = cmd_common_defaults(), .err = WT_ERROR_INIT, .work = wt_job_defaults()};
+    return (cmd_session){.common = cmd_common_defaults(),
+                         .err = WT_ERROR_INIT,
+                         .work = wt_job_defaults(),
+                         .lines_left =
+                             CMD_SCREEN_LINES - 1 /* the last line says where the rest is */};
 }
 
 bool cmd_begin(cmd_session *s)
@@ -135,14 +138,15 @@ wt_status cmd_write_record(cmd_session *s, wt_table_sink sink, void *user)
 
 void cmd_end(cmd_session *s, wt_status status)
 {
-    char sentence[2048];
     cmd_progress_end(s);
+    if (status == WT_OK)
+        cmd_print_short_table(s, false);
     cmd_print_failures(s, s->work.failures);
     cmd_print_log(s, s->log, false);
     if (status != WT_OK)
         cmd_fail(s);
-    else if (!s->common.quiet && wt_result_summary_line(s->result, sentence, sizeof sentence) > 0)
-        cmd_message("weartrack %s: %s\n", s->name, sentence);
+    else
+        cmd_print_place_of_rest(s);
 }
 
 static wt_status add_result_table(void *result, wt_table *table, wt_error *err)
@@ -171,7 +175,7 @@ void cmd_finish(cmd_session *s, wt_status status, wt_table **const tables[], siz
         wt_result_log_remarks(s->result, s->log);
         status = cmd_write_record(s, add_result_table, s->result);
     }
-    if (status == WT_OK)
+    if (status == WT_OK && !cmd_shows_short_table(s))
         status = cmd_write_result(s);
     cmd_end(s, status);
 }

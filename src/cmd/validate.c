@@ -39,7 +39,7 @@ static wt_status run_validation_case(cmd_session *s, wt_run_options *run, cmd_op
         cmd_print_failures(s, wt_result_find(s->result, "failures"));
     if (status == WT_OK && wt_result_find(s->result, "validation") == NULL)
         status = fail_missing_validation(s);
-    return status == WT_OK ? cmd_write_result(s) : status;
+    return status == WT_OK && !cmd_shows_short_table(s) ? cmd_write_result(s) : status;
 }
 
 int cmd_validate(int argc, char **argv)

@@ -405,15 +405,24 @@ static void says(const wt_collection_tables *t, const char *one_u_c, const char 
     assert_string_equal(wt_table_key(t->shared_pairs, "one_layer_constants"), both);
 }
 
-/* The one sentence about them; the table goes with it. */
-static void tells(wt_collection_tables *t, const char *expected)
+/* The rows about them: verdict and both constants; the table goes with them. */
+static void prints(wt_collection_tables *t, const char *both, const char *energy, const char *rate)
 {
-    char sentence[1000];
+    char line[3][300];
     wt_result *result = wt_result_new();
     add(result, t->shared_pairs);
     t->shared_pairs = NULL;
-    assert_true(wt_result_summary_line(result, sentence, sizeof sentence) < sizeof sentence);
-    assert_string_equal(sentence, expected);
+    wt_result_rows *rows = wt_result_rows_new(result, false);
+    assert_int_equal(wt_result_rows_count(rows), 3);
+    for (size_t i = 0; i < 3; i++) {
+        const wt_result_row row = wt_result_rows_get(rows, i);
+        snprintf(line[i], sizeof line[i], "%s|%s|%s|%s", row.name, row.text, row.interval,
+                 row.note);
+    }
+    assert_string_equal(line[0], both);
+    assert_string_equal(line[1], energy);
+    assert_string_equal(line[2], rate);
+    wt_result_rows_free(rows);
     wt_result_free(result);
 }
 
@@ -431,15 +440,14 @@ static void test_pairs(void **state)
     wt_collection_tables_clear(&t);
     t = pairs(1.5e10, 1e-12 / 1.5, -0.99, 3, NULL); /* along what is known least */
     says(&t, "one", "one", "one");
-    tells(&t, "one U_c and k of 2 cases by thickness and wear rate: one, U_c = 12.2 GJ/m^3 "
-              "(95 %: 9.28 GJ/m^3 to 16.2 GJ/m^3), k = 0.000816 mm^3/(N m) "
-              "(95 %: 0.000619 mm^3/(N m) to 0.00108 mm^3/(N m)), "
-              "correlation -0.99; known least is U_c k^-1.00, to a factor of 1.48");
+    prints(&t, "one U_c and k of 2 cases|one||by thickness and wear rate",
+           "critical energy U_c|12.2 GJ/m^3|9.28 to 16.2|one",
+           "specific wear rate|0.000816 mm^3/(N m)|0.000619 to 0.001077|one; correlation -0.99");
     wt_collection_tables_clear(&t);
     t = pairs(1e11, 1e-12, 0, 0.5, NULL);
     says(&t, "differs", "one", "differs");
-    tells(&t,
-          "one U_c and k of 2 cases by thickness and wear rate: differs (U_c: differs; k: one)");
+    prints(&t, "one U_c and k of 2 cases|differs||by thickness and wear rate",
+           "critical energy U_c|not known||differs", "specific wear rate|not known||one");
     wt_collection_tables_clear(&t);
     t = pairs(1e10, 1e-12, -0.5, 0.1, NULL); /* alike, and too vague to be called one */
     says(&t, "cannot say", "cannot say", "cannot say");

@@ -806,12 +806,11 @@ static void test_temperature_error(void **state)
         assert_near(key_estimate(dma, "temperature").standard_error, error, 1e-12);
         assert_string_equal(wt_table_key(dma, "standard_error_excludes"),
                             i == 2 ? "material, temperature" : "material");
-        char sentence[1024];
         wt_result *result = wt_result_new();
         assert_int_equal(wt_result_add(result, dma, &err), WT_OK);
-        wt_result_summary_line(result, sentence, sizeof sentence);
-        wt_result_free(result);
-        assert_non_null(strstr(sentence, "without the error of the DMA"));
+        wt_result_rows *rows = wt_result_rows_new(result, false);
+        assert_non_null(strstr(wt_result_rows_get(rows, 1).note, "without the error of: material"));
+        wt_result_rows_free(rows);
         const material_state at = {303.15, sqrt(frequency[0] * frequency[1])};
         double relative = 1;
         assert_int_equal(compare_temperature_error(&rubber, at, error, &work, &relative, &err),

@@ -4,6 +4,7 @@
 #include "core/base/memory.h"
 #include "core/base/utf8.h"
 #include "core/system/file_signatures.h"
+#include "core/table/registry.h"
 #include "core/table/table.h"
 
 #include <endian.h>
@@ -386,8 +387,31 @@ static void write_json_member(FILE *out, const char *before, const char *name, c
     json_write_text(out, text);
 }
 
+/* True if the schema of the table declares the key as a number that is stored as text. */
+static bool is_plain_number(const wt_table *table, const char *key)
+{
+    const char *name = wt_table_name(table);
+    for (size_t i = 0; i < table_n_schemas; i++) {
+        const table_schema *schema = table_schemas[i];
+        const size_t length = strlen(schema->name);
+        if (strcmp(schema->name, name) != 0 && (length == 0 || schema->name[length - 1] != '/' ||
+                                                strncmp(schema->name, name, length) != 0))
+            continue;
+        for (size_t k = 0; k < schema->n_keys; k++) {
+            const schema_field *field = &schema->keys[k];
+            const size_t own = strlen(field->name);
+            if (field->kind == SCHEMA_PLAIN &&
+                (strcmp(field->name, key) == 0 ||
+                 (field->name[own - 1] == '_' && strncmp(field->name, key, own) == 0)))
+                return true;
+        }
+    }
+    return false;
+}
+
 static void write_json_keys(FILE *out, const wt_table *table)
 {
+    double plain;
     (void)fputs(",\n \"keys\": {", out);
     for (size_t i = 0; i < wt_table_n_keys(table); i++) {
         const char *name = wt_table_key_name(table, i);
@@ -396,6 +420,11 @@ static void write_json_keys(FILE *out, const wt_table *table)
         json_write_text(out, name);
         (void)fputs(": ", out);
         if (!wt_table_estimate(table, name, &e)) {
+            const char *text = wt_table_key(table, name);
+            if (is_plain_number(table, name) && wt_number_parse(text, strlen(text), '.', &plain)) {
+                write_json_number(out, plain);
+                continue;
+            }
             json_write_text(out, wt_table_key(table, name));
             continue;
         }

@@ -1,0 +1,74 @@
+/* Collects the rows of a result. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "core/table/result_row.h"
+
+#include "core/base/clocale.h"
+#include "core/table/finding.h"
+#include "core/table/result_rows_parts.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+void result_rows_compute(const wt_result *result, result_rows *rows)
+{
+    static void (*const parts[])(rows_source *) = {rows_of_curves,  rows_of_material,
+                                                   rows_of_surface, rows_of_records,
+                                                   rows_of_sliding, rows_of_collection};
+    rows_source s = {.result = result, .rows = rows};
+    *rows = (result_rows){.n = 0};
+    if (result_values_bind(result, &s.values, NULL) != WT_OK) {
+        /* A table without a required column adds no row; the other tables do. */
+    }
+    for (size_t i = 0; i < sizeof parts / sizeof *parts; i++)
+        parts[i](&s);
+}
+
+/* Row of the number behind a finding. */
+static void add_finding_number(rows_source *s, const finding *f)
+{
+    static const char *const names[FINDING_QUESTIONS] = {[FINDING_TRACK_DIFFERS] = "track / bulk",
+                                                         [FINDING_LAYER_THICKNESS] = "at balance",
+                                                         [FINDING_FRICTION_CHANGE] = "change"};
+    if (isnan(f->value.number.value))
+        return;
+    result_row *row = rows_add_value(s, 1, &f->value, names[f->question]);
+    if (!isnan(f->value.velocity))
+        clocale_append(row->name, sizeof row->name, ", %s",
+                       rows_short(f->value.velocity, "m/s").value);
+}
+
+bool result_rows_of_findings(const wt_result *result, result_rows *rows)
+{
+    finding findings[FINDING_QUESTIONS];
+    rows_source s = {.result = result, .rows = rows};
+    *rows = (result_rows){.n = 0};
+    if (result_values_bind(result, &s.values, NULL) != WT_OK) {
+        /* A table without a required column adds nothing. */
+    }
+    const size_t n = findings_compute(&s.values, findings);
+    const result_value friction = result_value_friction(&s.values, FRICTION_KEY_HYSTERESIS);
+    rows_condition(&s, friction.velocity, "m/s");
+    rows_condition(&s, friction.pressure, "Pa");
+    for (size_t i = 0; i < n; i++) {
+        const finding *f = &findings[i];
+        result_row *row = rows_add_text(&s, 0, finding_verdict_text(f->verdict), "%s",
+                                        finding_question_text(f->question));
+        if (f->question == FINDING_TRACK_DIFFERS && f->sign != SIGN_UNDECIDED)
+            clocale_append(row->text, sizeof row->text, "%s",
+                           f->sign == SIGN_BELOW ? ", softer" : ", stiffer");
+        if (f->question == FINDING_FRICTION_CHANGE && f->sign != SIGN_UNDECIDED)
+            clocale_append(row->text, sizeof row->text, "%s",
+                           f->sign == SIGN_BELOW ? ", lower" : ", higher");
+        if (f->as_if_layer)
+            rows_note(row, "as if there were a layer");
+        rows_reason(row, finding_basis_text(f->basis), finding_sentence(f));
+        rows_reason(row, "to settle it", f->value.remedy);
+        add_finding_number(&s, f);
+    }
+    return n > 0;
+}
+
+void result_rows_clear(result_rows *rows)
+{
+    free(rows->rows);
+    *rows = (result_rows){.n = 0};
+}

@@ -1,0 +1,40 @@
+/* Rows of a result: its main numbers and verdicts, one list for every kind of result. The command
+ * prints it as a table; it computes nothing. SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef WT_CORE_TABLE_RESULT_ROW_H
+#define WT_CORE_TABLE_RESULT_ROW_H
+
+#include "core/table/result_value.h"
+#include "core/table/row_number.h"
+
+typedef enum result_row_kind { RESULT_ROW_NUMBER, RESULT_ROW_TEXT } result_row_kind;
+
+/* A whole text behind a row, such as the reason of a verdict; borrowed from the result. */
+typedef struct result_row_reason {
+    const char *heading, *text;
+} result_row_reason;
+enum { RESULT_ROW_REASONS = 4 };
+
+typedef struct result_row {
+    char name[64]; /* of the quantity */
+    int level;     /* 1: part of the row before that has level 0 */
+    result_row_kind kind;
+    row_number number; /* of RESULT_ROW_NUMBER */
+    char text[64];     /* of RESULT_ROW_TEXT: a verdict or a count */
+    char note[96];
+    result_row_reason reasons[RESULT_ROW_REASONS]; /* unused ones have no text */
+} result_row;
+
+typedef struct result_rows {
+    char heading[160]; /* "0.3 m/s, 400 kPa, 30.0 degC", or "" */
+    result_row *rows;
+    size_t n, size;
+} result_rows;
+
+/* Computes the rows of a result, which must exist as long as the rows. A table that lacks a
+ * required column adds no row. */
+void result_rows_compute(const wt_result *result, result_rows *rows);
+/* Variant with a row for each finding of the result and its number. False without findings. */
+bool result_rows_of_findings(const wt_result *result, result_rows *rows);
+void result_rows_clear(result_rows *rows);
+
+#endif

@@ -1,0 +1,368 @@
+/* Rows of a result: sliding friction, layer, friction records and collected cases.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "core/base/clocale.h"
+#include "core/table/result_rows_parts.h"
+
+#include <math.h>
+#include <string.h>
+
+static void add_friction(rows_source *s, const table_view *v)
+{
+    const result_value_tables *t = &s->values;
+    const result_value hysteresis = result_value_friction(t, FRICTION_KEY_HYSTERESIS),
+                       area = result_value_friction(t, FRICTION_KEY_AREA_RATIO),
+                       total = result_value_friction(t, FRICTION_KEY_FRICTION),
+                       layered = result_value_friction(t, FRICTION_KEY_WITH_LAYER),
+                       change = result_value_friction(t, FRICTION_KEY_RELATIVE_CHANGE);
+    const bool known = !isnan(total.number.value);
+    const double none = (double)NAN;
+    rows_condition(s, hysteresis.velocity, "m/s");
+    rows_condition(s, hysteresis.pressure, "Pa");
+    rows_condition(s, friction_value(v, FRICTION_KEY_TEMPERATURE).value, "degC");
+    if (known)
+        rows_add_value(s, 0, &total, "friction coefficient");
+    rows_add_value(s, known, &hysteresis, known ? "hysteresis" : "friction by hysteresis");
+    if (known)
+        rows_add_number(s, 1,
+                        rows_number(total.number.value - hysteresis.number.value, none, none, "1"),
+                        "shearing");
+    else
+        rows_note(&s->rows->rows[s->rows->n - 1], "no shear stress: without shearing");
+    rows_add_value(s, 0, &area, "real contact area");
+    if (!isnan(layered.number.value)) {
+        rows_add_value(s, 0, &layered, "friction with layer");
+        rows_add_value(s, 1, &change, "change");
+    } else if (friction_value(v, FRICTION_KEY_LAYER_THICKNESS).value > 0) {
+        rows_note(rows_add_text(s, 0, "not known", "friction with layer"), "no shear stress");
+    }
+}
+
+static void add_layer(rows_source *s, const table_view *v)
+{
+    const result_value thickness = result_value_thickness(&s->values);
+    const bool given = layer_key_enum(v, LAYER_KEY_CRITICAL_ENERGY_FROM) == ENERGY_CALIBRATED;
+    const double value = thickness.number.value, none = (double)NAN;
+    rows_condition(s, thickness.velocity, "m/s");
+    rows_condition(s, thickness.pressure, "Pa");
+    result_row *row;
+    if (isinf(value)) {
+        row = rows_add_text(s, 0, "no limit", "layer thickness");
+        rows_note(row, "without wear the layer grows without limit");
+    } else if (!(value > 0)) {
+        row = rows_add_text(s, 0, value == 0 ? "no layer" : "not known", "layer thickness");
+        row->number.range_low = thickness.range.low;
+        row->number.range_high = thickness.range.high;
+        row->number.unit = "m";
+    } else {
+        row = rows_add_value(s, 0, &thickness, "layer thickness");
+    }
+    if (row->note[0] == '\0')
+        rows_note(row, given ? "given: U_c is calibrated to it" : "predicted from U_c");
+    if (value > 0 && isfinite(value))
+        rows_add_number(s, 1, rows_estimate(layer_value(v, LAYER_KEY_TIME_TO_90_PERCENT)),
+                        "time to 90 %%");
+    rows_add_number(
+        s, 0, rows_number(layer_value(v, LAYER_KEY_FORMATION_WEAR_RATIO).value, none, none, "1"),
+        "formation / wear at the surface");
+    rows_add_number(s, 0, rows_estimate(layer_value(v, LAYER_KEY_CRITICAL_ENERGY)),
+                    "critical energy U_c");
+    rows_add_number(s, 0, rows_estimate(layer_value(v, LAYER_KEY_WEAR_RATE)), "specific wear rate");
+}
+
+static void add_feedback(rows_source *s, const table_view *v)
+{
+    const char *words = layer_feedback_key_text(v, LAYER_FEEDBACK_KEY_WORDS);
+    result_row *row = rows_add_text(s, 0, "see --verbose", "layer with feedback");
+    rows_reason(row, "a layer that acts back on its energy", words);
+}
+
+static void add_identification(rows_source *s, const table_view *v)
+{
+    for (size_t i = 0; i < v->n_rows; i++) {
+        const char *by = identification_text(v, i, IDENTIFICATION_BY);
+        result_row *row = rows_add_number(
+            s, 0,
+            rows_number(identification_get(v, i, IDENTIFICATION_ENERGY),
+                        identification_get(v, i, IDENTIFICATION_ENERGY_LOW),
+                        identification_get(v, i, IDENTIFICATION_ENERGY_HIGH), "J/m^3"),
+            "critical energy U_c");
+        rows_note(row, "%s", by);
+        row = rows_add_number(s, 1,
+                              rows_number(identification_get(v, i, IDENTIFICATION_WEAR),
+                                          identification_get(v, i, IDENTIFICATION_WEAR_LOW),
+                                          identification_get(v, i, IDENTIFICATION_WEAR_HIGH),
+                                          "m^2/N"),
+                              "specific wear rate");
+        if (!isnan(identification_get(v, i, IDENTIFICATION_CORRELATION)))
+            rows_note(row, "correlation %.2f",
+                      identification_get(v, i, IDENTIFICATION_CORRELATION));
+        rows_reason(row, "known least", identification_text(v, i, IDENTIFICATION_LOOSE));
+        rows_reason(row, by, identification_text(v, i, IDENTIFICATION_NOTE));
+    }
+}
+
+/* All errors of a number together, and the source with the largest share of the variance. */
+static void add_error_budget(rows_source *s, const table_view *v)
+{
+    clocale_append(s->rows->heading, sizeof s->rows->heading, "relative standard errors");
+    for (size_t from = 0, to; from < v->n_rows; from = to) {
+        const char *number = error_budget_text(v, from, ERROR_BUDGET_NUMBER);
+        double together = (double)NAN;
+        size_t largest = SIZE_MAX;
+        for (to = from;
+             to < v->n_rows && strcmp(error_budget_text(v, to, ERROR_BUDGET_NUMBER), number) == 0;
+             to++) {
+            if (error_budget_enum(v, to, ERROR_BUDGET_KIND) == ERROR_TOGETHER)
+                together = error_budget_get(v, to, ERROR_BUDGET_RELATIVE_ERROR);
+            else if (error_budget_get(v, to, ERROR_BUDGET_SHARE) > 0 &&
+                     (largest == SIZE_MAX || error_budget_get(v, to, ERROR_BUDGET_SHARE) >
+                                                 error_budget_get(v, largest, ERROR_BUDGET_SHARE)))
+                largest = to;
+        }
+        const double none = (double)NAN;
+        result_row *row =
+            rows_add_number(s, 0, rows_number(together, none, none, "%"), "%s", number);
+        if (largest != SIZE_MAX)
+            rows_note(row, "most by %s", error_budget_text(v, largest, ERROR_BUDGET_SOURCE));
+    }
+}
+
+void rows_of_sliding(rows_source *s)
+{
+    table_view view;
+    if (rows_bind(s, &friction_schema, &view))
+        add_friction(s, &view);
+    if (rows_bind(s, &layer_schema, &view))
+        add_layer(s, &view);
+    if (rows_bind(s, &layer_feedback_schema, &view))
+        add_feedback(s, &view);
+    if (rows_bind(s, &identification_schema, &view))
+        add_identification(s, &view);
+    if (rows_bind(s, &error_budget_schema, &view))
+        add_error_budget(s, &view);
+}
+
+/* ---- records --------------------------------------------------------------------------------- */
+
+static void append_condition(result_row *row, double value, const char *unit)
+{
+    if (!isnan(value))
+        clocale_append(row->note, sizeof row->note, "%s%s", row->note[0] != '\0' ? ", " : "",
+                       rows_short(value, unit).value);
+}
+
+static void add_record(rows_source *s, const table_view *v)
+{
+    const wt_estimate mean = record_value(v, RECORD_KEY_FRICTION);
+    clocale_append(s->rows->heading, sizeof s->rows->heading, "friction coefficient, %zu step%s",
+                   v->n_rows, v->n_rows == 1 ? "" : "s");
+    if (!isnan(mean.value) && v->n_rows > 1)
+        rows_add_number(s, 0, rows_estimate(mean), "mean of the steps");
+    for (size_t i = 0; i < v->n_rows; i++) {
+        const double end = record_get(v, i, RECORD_RUNNING_IN);
+        result_row *row = rows_add_number(s, v->n_rows > 1 && !isnan(mean.value),
+                                          rows_number(record_get(v, i, RECORD_FRICTION),
+                                                      record_get(v, i, RECORD_FRICTION_LOW),
+                                                      record_get(v, i, RECORD_FRICTION_HIGH), "1"),
+                                          "step %zu", i + 1);
+        append_condition(row, record_get(v, i, RECORD_VELOCITY), "m/s");
+        append_condition(row, record_get(v, i, RECORD_NORMAL_FORCE), "N");
+        if (!isnan(end))
+            clocale_append(row->note, sizeof row->note, "%srun-in %.3g cycles",
+                           row->note[0] != '\0' ? ", " : "", end);
+        rows_reason(row, record_text(v, i, RECORD_FILE), record_text(v, i, RECORD_NOTE));
+        rows_reason(row, "running-in", record_text(v, i, RECORD_RUNNING_IN_NOTE));
+    }
+}
+
+static void add_wear(rows_source *s, const table_view *v)
+{
+    for (size_t i = 0; i < v->n_rows; i++) {
+        result_row *row =
+            rows_add_number(s, 0,
+                            rows_number(wear_get(v, i, WEAR_RATE), wear_get(v, i, WEAR_RATE_LOW),
+                                        wear_get(v, i, WEAR_RATE_HIGH), "m^2/N"),
+                            "specific wear rate");
+        const bool known = !isnan(wear_get(v, i, WEAR_RATE));
+        rows_note(row, "%s", wear_text(v, i, known ? WEAR_OF : WEAR_NOTE));
+        rows_reason(row, "specific wear rate", wear_text(v, i, WEAR_NOTE));
+        const double pressure = wear_get(v, i, WEAR_PRESSURE), none = (double)NAN;
+        if (isnan(pressure))
+            continue;
+        row = rows_add_number(s, 0, rows_number(pressure, none, none, "Pa"),
+                              "pressure under the ball");
+        rows_note(row, "duty %s", rows_short(wear_get(v, i, WEAR_DUTY), "1").value);
+    }
+}
+
+static void add_validation_step(rows_source *s, const table_view *v, size_t i)
+{
+    const bool layered = !isnan(validation_get(v, i, VALIDATION_RATIO_LAYER));
+    const double predicted =
+        validation_get(v, i, layered ? VALIDATION_WITH_LAYER : VALIDATION_PREDICTED);
+    result_row *row = rows_add_number(
+        s, 1,
+        layered ? rows_number(validation_get(v, i, VALIDATION_RATIO_LAYER),
+                              validation_get(v, i, VALIDATION_RATIO_LAYER_LOW),
+                              validation_get(v, i, VALIDATION_RATIO_LAYER_HIGH), "1")
+                : rows_number(validation_get(v, i, VALIDATION_RATIO),
+                              validation_get(v, i, VALIDATION_RATIO_LOW),
+                              validation_get(v, i, VALIDATION_RATIO_HIGH), "1"),
+        "at %s", rows_short(validation_get(v, i, VALIDATION_VELOCITY), "m/s").value);
+    rows_note(row, "%s / %s", rows_short(validation_get(v, i, VALIDATION_MEASURED), "1").value,
+              rows_short(predicted, "1").value);
+    rows_reason(row, "step", validation_text(v, i, VALIDATION_NOTE));
+}
+
+static void add_validation(rows_source *s, const table_view *v)
+{
+    const char *verdict = validation_key_text(v, VALIDATION_KEY_VERDICT),
+               *plausible = validation_key_text(v, VALIDATION_KEY_PLAUSIBLE);
+    result_row *row =
+        rows_add_verdict(s, 0, verdict != NULL ? verdict : "not tested", "theory explains it");
+    const char *judged = validation_key_text(v, VALIDATION_KEY_JUDGED);
+    if (judged != NULL)
+        rows_note(row, "%s", judged);
+    rows_reason(row, "what would settle it", validation_key_text(v, VALIDATION_KEY_SETTLED_BY));
+    rows_reason(row, "taken for granted", validation_key_text(v, VALIDATION_KEY_REMARKS));
+    rows_add_number(s, 0,
+                    rows_number(validation_value(v, VALIDATION_KEY_RATIO).value,
+                                validation_value(v, VALIDATION_KEY_RATIO_LOW).value,
+                                validation_value(v, VALIDATION_KEY_RATIO_HIGH).value, "1"),
+                    "measured / predicted");
+    for (size_t i = 0; i < v->n_rows; i++)
+        add_validation_step(s, v, i);
+    const wt_estimate needed = validation_value(v, VALIDATION_KEY_NEEDED);
+    if (isnan(needed.value))
+        return;
+    row = rows_add_number(s, 0,
+                          rows_number(needed.value,
+                                      validation_value(v, VALIDATION_KEY_NEEDED_LOW).value,
+                                      validation_value(v, VALIDATION_KEY_NEEDED_HIGH).value, "Pa"),
+                          "shear stress needed");
+    rows_note(row, "used: %s",
+              rows_short(validation_value(v, VALIDATION_KEY_SHEAR).value, "Pa").value);
+    rows_reason(row, "is that shear stress plausible", plausible);
+    rows_reason(row, "with it", validation_key_text(v, VALIDATION_KEY_SHAPE));
+}
+
+static void add_validation_running_in(rows_source *s, const table_view *v)
+{
+    const char *verdict = validation_running_in_key_text(v, VALIDATION_RUNNING_IN_KEY_VERDICT);
+    const wt_estimate ratio = validation_running_in_value(v, VALIDATION_RUNNING_IN_KEY_TIME_RATIO),
+                      wear = validation_running_in_value(v, VALIDATION_RUNNING_IN_KEY_WEAR);
+    result_row *row =
+        rows_add_verdict(s, 0, verdict != NULL ? verdict : "not tested", "explains running-in");
+    rows_reason(row, "what would settle it",
+                validation_running_in_key_text(v, VALIDATION_RUNNING_IN_KEY_SETTLED_BY));
+    if (!isnan(ratio.value))
+        rows_add_number(
+            s, 1,
+            rows_number(
+                ratio.value,
+                validation_running_in_value(v, VALIDATION_RUNNING_IN_KEY_TIME_RATIO_LOW).value,
+                validation_running_in_value(v, VALIDATION_RUNNING_IN_KEY_TIME_RATIO_HIGH).value,
+                "1"),
+            "time, measured / predicted");
+    if (isnan(wear.value))
+        return;
+    row = rows_add_number(
+        s, 1,
+        rows_number(
+            wear.value, validation_running_in_value(v, VALIDATION_RUNNING_IN_KEY_WEAR_LOW).value,
+            validation_running_in_value(v, VALIDATION_RUNNING_IN_KEY_WEAR_HIGH).value, "m^2/N"),
+        "wear rate needed");
+    rows_reason(row, "that wear rate against the measured one",
+                validation_running_in_key_text(v, VALIDATION_RUNNING_IN_KEY_AGREES));
+}
+
+void rows_of_records(rows_source *s)
+{
+    table_view view;
+    const bool compared = rows_bind(s, &validation_schema, &view);
+    if (compared)
+        add_validation(s, &view); /* it has the steps of the record, too */
+    if (!compared && rows_bind(s, &record_schema, &view))
+        add_record(s, &view);
+    if (rows_bind(s, &wear_schema, &view))
+        add_wear(s, &view);
+    if (rows_bind(s, &validation_running_in_schema, &view))
+        add_validation_running_in(s, &view);
+}
+
+/* ---- several cases --------------------------------------------------------------------------- */
+
+static void add_collection(rows_source *s, const table_view *v)
+{
+    for (size_t i = 0; i < v->n_rows; i++) {
+        result_row *row =
+            rows_add_number(s, 0,
+                            rows_number(collection_get(v, i, COLLECTION_RATIO),
+                                        collection_get(v, i, COLLECTION_RATIO_LOW),
+                                        collection_get(v, i, COLLECTION_RATIO_HIGH), "1"),
+                            "%s, %s", collection_text(v, i, COLLECTION_SAMPLE),
+                            collection_text(v, i, COLLECTION_CONDITION));
+        const char *differs = collection_text(v, i, COLLECTION_DIFFERS);
+        rows_note(row, "track / bulk%s%.*s", *differs != '\0' ? "; differs: " : "",
+                  (int)length_without_reason(differs), differs);
+    }
+}
+
+static void add_constants(rows_source *s, const table_view *v)
+{
+    for (size_t i = 0; i < v->n_rows; i++) {
+        result_row *row =
+            rows_add_number(s, 0,
+                            rows_number(shared_constants_get(v, i, SHARED_CONSTANTS_VALUE),
+                                        shared_constants_get(v, i, SHARED_CONSTANTS_VALUE_LOW),
+                                        shared_constants_get(v, i, SHARED_CONSTANTS_VALUE_HIGH),
+                                        shared_constants_text(v, i, SHARED_CONSTANTS_UNIT)),
+                            "%s", shared_constants_text(v, i, SHARED_CONSTANTS_CONSTANT));
+        rows_note(row, "%s%s%s: %s", shared_constants_text(v, i, SHARED_CONSTANTS_OVER),
+                  *shared_constants_text(v, i, SHARED_CONSTANTS_OF) != '\0' ? " " : "",
+                  shared_constants_text(v, i, SHARED_CONSTANTS_OF),
+                  shared_constants_text(v, i, SHARED_CONSTANTS_SUFFICES));
+        rows_reason(row, "what would settle it",
+                    shared_constants_key_text(v, SHARED_CONSTANTS_KEY_SETTLED_BY));
+    }
+}
+
+static void add_pairs(rows_source *s, const table_view *v)
+{
+    for (size_t i = 0; i < v->n_rows; i++) {
+        result_row *row =
+            rows_add_text(s, 0, shared_pairs_text(v, i, SHARED_PAIRS_ONE_PAIR),
+                          "one U_c and k of %.0f cases", shared_pairs_get(v, i, SHARED_PAIRS_N));
+        rows_note(row, "by %s", shared_pairs_text(v, i, SHARED_PAIRS_BY));
+        rows_reason(row, "what would settle it",
+                    shared_pairs_key_text(v, SHARED_PAIRS_KEY_SETTLED_BY));
+        row =
+            rows_add_number(s, 1,
+                            rows_number(shared_pairs_get(v, i, SHARED_PAIRS_ENERGY),
+                                        shared_pairs_get(v, i, SHARED_PAIRS_ENERGY_LOW),
+                                        shared_pairs_get(v, i, SHARED_PAIRS_ENERGY_HIGH), "J/m^3"),
+                            "critical energy U_c");
+        rows_note(row, "%s", shared_pairs_text(v, i, SHARED_PAIRS_ONE_ENERGY));
+        rows_reason(row, "known least", shared_pairs_text(v, i, SHARED_PAIRS_LOOSE));
+        row = rows_add_number(s, 1,
+                              rows_number(shared_pairs_get(v, i, SHARED_PAIRS_WEAR),
+                                          shared_pairs_get(v, i, SHARED_PAIRS_WEAR_LOW),
+                                          shared_pairs_get(v, i, SHARED_PAIRS_WEAR_HIGH), "m^2/N"),
+                              "specific wear rate");
+        rows_note(row, "%s", shared_pairs_text(v, i, SHARED_PAIRS_ONE_WEAR));
+        if (!isnan(shared_pairs_get(v, i, SHARED_PAIRS_CORRELATION)))
+            clocale_append(row->note, sizeof row->note, "; correlation %.2f",
+                           shared_pairs_get(v, i, SHARED_PAIRS_CORRELATION));
+    }
+}
+
+void rows_of_collection(rows_source *s)
+{
+    table_view view;
+    if (rows_bind(s, &collection_schema, &view))
+        add_collection(s, &view);
+    if (rows_bind(s, &shared_constants_schema, &view))
+        add_constants(s, &view);
+    if (rows_bind(s, &shared_pairs_schema, &view))
+        add_pairs(s, &view);
+}
