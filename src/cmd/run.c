@@ -26,37 +26,21 @@ static void print_plan(const wt_table *plan)
     }
 }
 
-/* Prints the answer on standard output, as it is the data of this subcommand. */
-static void print_answer(const wt_result *result)
+/* Prints the findings on standard output, as they are the data of this subcommand. A pipe gets their
+ * reasons and the limits, too; a terminal gets these with --verbose. */
+static void print_answer(cmd_session *s)
 {
-    const wt_table *answer = wt_result_find(result, "answer"),
-                   *limits = wt_result_find(result, "limits");
-    const char *last = "";
-    for (size_t i = 0; answer != NULL && i < wt_table_n_rows(answer); i++) {
-        const char *question = wt_table_text(answer, i, ANSWER_QUESTION);
-        if (strcmp(question, last) != 0)
-            printf("%s%s\n", i > 0 ? "\n" : "", question);
-        last = question;
-        fputs("  ", stdout);
-        cmd_wrap(stdout, 2, 4, wt_table_text(answer, i, ANSWER_ANSWER));
-    }
-    if (limits != NULL)
-        puts("\nLimits");
-    for (size_t i = 0; limits != NULL && i < wt_table_n_rows(limits); i++) {
+    const wt_table *const limits = wt_result_find(s->result, "limits");
+    const bool whole = s->common.verbose || isatty(STDOUT_FILENO) == 0;
+    s->common.verbose = whole;
+    cmd_print_short_table(s, true);
+    if (limits == NULL || !whole)
+        return;
+    puts("Limits");
+    for (size_t i = 0; i < wt_table_n_rows(limits); i++) {
         fputs("  ", stdout);
         cmd_wrap(stdout, 2, 4, wt_table_text(limits, i, LIMITS_LIMIT));
     }
-}
-
-/* A terminal gets the findings as a table, and with --verbose the whole answer behind it; a pipe
- * gets the whole answer. */
-static void print_whole_or_short_answer(cmd_session *s)
-{
-    const bool screen = isatty(STDOUT_FILENO) != 0;
-    if (screen)
-        cmd_print_short_table(s, true);
-    if (!screen || s->common.verbose)
-        print_answer(s->result);
 }
 
 typedef struct run_flags {
@@ -232,7 +216,7 @@ static wt_status run_whole_case(run_call *r, const cmd_option_group *report_give
         status = run_case_and_report(r);
     if (status != WT_OK)
         return status;
-    print_whole_or_short_answer(&r->s);
+    print_answer(&r->s);
     fflush(stdout); /* the answer is complete even if drawing fails */
     if (!r->s.common.quiet)
         cmd_message("result: %s%s\n", r->result_name,

@@ -58,11 +58,12 @@ static void write_bar(page_writer *page, const char *name, const char *class, co
 static void write_card(page_writer *page, const finding *f)
 {
     static const char *const class[FINDING_VERDICT_UNKNOWN] = {[FINDING_YES] = "v-yes",
-                                                        [FINDING_SAME] = "v-yes",
-                                                        [FINDING_PREDICTED] = "v-pred",
-                                                        [FINDING_INCONCLUSIVE] = "v-open",
-                                                        [FINDING_NOT_ENOUGH_DATA] = "v-nodata",
-                                                        [FINDING_NOT_COMPUTED] = "v-nodata"};
+                                                               [FINDING_SAME] = "v-yes",
+                                                               [FINDING_PREDICTED] = "v-pred",
+                                                               [FINDING_INCONCLUSIVE] = "v-open",
+                                                               [FINDING_NOT_ENOUGH_DATA] =
+                                                                   "v-nodata",
+                                                               [FINDING_NOT_COMPUTED] = "v-nodata"};
     const result_value *value = &f->value;
     text_html(&page->out, "<section class=\"finding %s\">\n<h2>%s</h2>\n<p class=\"verdict\">",
               class[f->verdict], finding_question_text(f->question));
@@ -85,7 +86,7 @@ static void write_card(page_writer *page, const finding *f)
     const bool stated = f->verdict == FINDING_NOT_COMPUTED && answer_has(answer, ANSWER_VERDICT) &&
                         (size_t)f->question < answer->n_rows;
     text_html(&page->out, "<p>%s%s</p>\n",
-              stated ? answer_text(answer, f->question, ANSWER_ANSWER) : finding_sentence(f),
+              stated ? answer_text(answer, f->question, ANSWER_ANSWER) : f->sentence,
               f->as_if_layer && !isnan(value->number.value)
                   ? " The track is not shown to differ: the number is as if there were a layer."
                   : "");

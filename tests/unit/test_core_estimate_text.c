@@ -121,10 +121,6 @@ static void check_words(void)
                         "0.25 \xc2\xb1 0.12");
     assert_string_equal(format_with_unit(5, "1").text, "5.00");
     assert_string_equal(format_with_unit(123, "1").text, "123");
-    assert_string_equal(format_known_estimate((wt_estimate){1.2, 0.15, 0, "s"}).text,
-                        "1.20 s (95 %: 906 ms to 1.49 s)");
-    assert_string_equal(format_known_estimate((wt_estimate){1.2, (double)NAN, 0, "s"}).text,
-                        "1.20 s (error not known)");
     static const struct {
         wt_estimate e;
         const char *words;

@@ -12,8 +12,8 @@
 #include <string.h>
 
 TABLE_ROW(answer, ANSWER, const char *question, *verdict, *basis;
-          double value, low, high, range_low, range_high; const char *unit, *widest, *answer,
-          *remedy;)
+          double value, low, high, range_low, range_high;
+          const char *unit, *widest, *answer, *remedy;)
 
 /* Returns the stage that keeps `stage` from running. It is the first failed stage among those whose
  * outputs `stage` needs; blocked stages are followed to their own cause. */
@@ -47,9 +47,8 @@ static reason_text explain_outcome(const flow_plan *plan, flow_stage_id stage, f
         clocale_print(reason.text, sizeof reason.text, "The stage failed: %s.",
                       plan->failure[stage]);
     else if (outcome == FLOW_BLOCKED)
-        clocale_print(reason.text, sizeof reason.text,
-                      "A stage that %s needs failed (%s): %s.", flow_stages[stage].id,
-                      flow_stages[root].id, plan->failure[root]);
+        clocale_print(reason.text, sizeof reason.text, "A stage that %s needs failed (%s): %s.",
+                      flow_stages[stage].id, flow_stages[root].id, plan->failure[root]);
     else if (outcome == FLOW_UNMEASURED)
         clocale_print(reason.text, sizeof reason.text, "Not measured: %s.",
                       plan->unmeasured_reason);
@@ -66,19 +65,20 @@ static void add_finding(table_writer *t, const flow_plan *plan, const finding *f
         [FINDING_LAYER_THICKNESS] = FLOW_STAGE_LAYER,
         [FINDING_FRICTION_CHANGE] = FLOW_STAGE_FRICTION};
     const flow_stage_id stage = stages[f->question];
-    /* friction without the layer is a lower level of its stage */
-    const bool lower = plan->outcome[stage] == FLOW_DONE;
+    const flow_outcome outcome = plan->outcome[stage];
     reason_text reason = {""};
-    if (f->verdict == FINDING_NOT_COMPUTED)
-        reason = explain_outcome(plan, stage,
-                                 lower ? plan->full_outcome[stage] : plan->outcome[stage],
-                                 lower ? plan->lower_level_reason[stage] : plan->reason[stage]);
+    if (f->verdict == FINDING_NOT_COMPUTED && outcome != FLOW_DONE)
+        reason = explain_outcome(plan, stage, outcome, plan->reason[stage]);
+    else if (f->verdict == FINDING_NOT_COMPUTED && f->question == FINDING_FRICTION_CHANGE)
+        /* friction without the layer is a lower level of its stage */
+        reason = explain_outcome(plan, stage, plan->full_outcome[stage],
+                                 plan->lower_level_reason[stage]);
     const result_value *const v = &f->value;
     const char *const remedy = v->remedy != NULL ? v->remedy : v->range.remedy;
     TABLE_ADD(answer, t, finding_question_text(f->question), finding_verdict_text(f->verdict),
               finding_basis_text(f->basis), v->number.value, v->low, v->high, v->range.low,
               v->range.high, v->number.unit, v->range.widest,
-              reason.text[0] != '\0' ? reason.text : finding_sentence(f), remedy);
+              reason.text[0] != '\0' ? reason.text : f->sentence, remedy);
 }
 
 wt_status flow_answer(const wt_case *c, const flow_plan *plan, const wt_result *result,

@@ -57,19 +57,6 @@ number_text format_with_unit(double value, const char *unit)
     return format_with_digits(value, unit, 3);
 }
 
-number_text format_pair(double low, double high, int digits)
-{
-    number_text result = {""};
-    digits = range_digits(low, high, digits);
-    const double larger = fmax(fabs(low), fabs(high));
-    const int decimals = larger > 0 ? digits - 1 - (int)floor(log10(larger)) : 0;
-    const bool plain = decimals >= 0 && decimals < 9; /* otherwise with a power of ten */
-    clocale_print(result.text, sizeof result.text,
-                  plain ? "from %.*f to %.*f" : "from %.*g to %.*g", plain ? decimals : digits, low,
-                  plain ? decimals : digits, high);
-    return result;
-}
-
 number_text format_value(wt_estimate e)
 {
     return format_with_unit(e.value, e.unit);
@@ -109,31 +96,6 @@ number_text format_estimate(wt_estimate e)
     return words;
 }
 
-number_text format_estimate_interval(wt_estimate e, double low, double high)
-{
-    const int digits = result_value_digits(e.value, low, high);
-    number_text result = format_with_digits(e.value, e.unit, digits);
-    text_builder t = {result.text, sizeof result.text, strlen(result.text)};
-    if (isfinite(e.value) && isnan(high))
-        text_append(&t, " (error not known)");
-    else if (isfinite(e.value) && high > e.value)
-        text_append(&t, " (95 %%: %s to %s)", format_with_digits(low, e.unit, digits).text,
-                    format_with_digits(high, e.unit, digits).text);
-    return result;
-}
-
-number_text format_known_estimate(wt_estimate e)
-{
-    const double half = NORMAL_95 * e.standard_error;
-    return format_estimate_interval(e, e.value - half, e.value + half);
-}
-
-number_text format_positive_estimate(wt_estimate e)
-{
-    const double factor = exp(NORMAL_95 * e.standard_error / e.value);
-    return format_estimate_interval(e, e.value / factor, e.value * factor);
-}
-
 number_text format_celsius(double kelvin)
 {
     number_text result;
@@ -145,82 +107,6 @@ number_text format_celsius(double kelvin)
 }
 
 /* ---- result values --------------------------------------------------------------------------- */
-
-/* A relative change is printed in percent. */
-static bool is_relative_change(const result_value *f)
-{
-    return f->neutral == 0;
-}
-
-static number_text format_result_number(const result_value *f, double value, int digits)
-{
-    if (!is_relative_change(f) || !isfinite(value))
-        return format_with_digits(value, f->number.unit, digits);
-    const double half = 100 * (f->high - f->low) /
-                        2; /* enough decimals to distinguish the limits of a narrow interval */
-    const int decimals = half > 0 && half < 1 ? (int)fmin(3, ceil(-log10(half))) : 0;
-    number_text result;
-    clocale_print(result.text, sizeof result.text, "%+.*f %%", decimals, 100 * value);
-    return result;
-}
-
-number_text format_plain_number(const result_value *f)
-{
-    return format_result_number(f, f->number.value,
-                                result_value_digits(f->number.value, f->low, f->high));
-}
-
-result_value_text format_interval(const result_value *f)
-{
-    const int digits = result_value_digits(f->number.value, f->low, f->high);
-    result_value_text result;
-    if (isnan(f->low) || isnan(f->high))
-        snprintf(result.text, sizeof result.text, "error not known");
-    else
-        clocale_print(result.text, sizeof result.text, "95 %% interval %s to %s",
-                      format_result_number(f, f->low, digits).text,
-                      format_result_number(f, f->high, digits).text);
-    return result;
-}
-
-result_value_text format_model_range(const result_value *f)
-{
-    result_value_text result = {""};
-    if (!isnan(f->range.low))
-        clocale_print(result.text, sizeof result.text, "%s to %s over all choices of the model",
-                      format_result_number(f, f->range.low, 3).text,
-                      format_result_number(f, f->range.high, 3).text);
-    return result;
-}
-
-result_value_text format_choices(const result_value *f)
-{
-    result_value_text result = {""};
-    text_builder t = {result.text, sizeof result.text, 0};
-    const result_value_range *r = &f->range;
-    const struct {
-        double value;
-        const char *choice, *tried;
-    } limits[2] = {{r->low, r->low_choice, r->low_tried}, {r->high, r->high_choice, r->high_tried}};
-    for (int i = 0; i < 2 && !isnan(r->low); i++) {
-        text_append(&t, "%s%s", i > 0 ? " to " : "over all choices of the model ",
-                    format_result_number(f, limits[i].value, 3).text);
-        if (limits[i].choice[0] != '\0')
-            text_append(&t, " (%s: %s)", limits[i].choice, limits[i].tried);
-        else
-            text_append(&t, " (as used)");
-    }
-    return result;
-}
-
-result_value_text format_result_value(const result_value *f)
-{
-    const result_value_text range = format_model_range(f);
-    result_value_text result;
-    clocale_print(result.text, sizeof result.text, "%s (%s%s%s)", format_plain_number(f).text,
-                  format_interval(f).text, range.text[0] != '\0' ? "; " : "", range.text);
-    return result;
-}
 
 number_text format_frequency(const result_value *f)
 {
@@ -237,77 +123,6 @@ number_text format_frequency(const result_value *f)
 bool is_thickness_put_in(const result_value_tables *tables)
 {
     return layer_key_enum(&tables->layer, LAYER_KEY_CRITICAL_ENERGY_FROM) == ENERGY_CALIBRATED;
-}
-
-const char *format_thickness_origin(const result_value_tables *tables)
-{
-    return is_thickness_put_in(tables) ? "put in, not predicted: U_c is calibrated to it"
-                                       : "predicted from a given U_c";
-}
-
-/* The correction concerns the rates of both groups, if the moduli of all rates have a different
- * ratio. */
-void append_rate_correction(text_builder *t, const result_value_tables *tables)
-{
-    const char *rates = comparison_key_text(&tables->comparison, COMPARISON_KEY_RATES);
-    const double of_all = result_value_ratio_all_rates(tables);
-    if (!isnan(of_all) && rates != NULL)
-        text_append(t, ", for the rates are %s; the moduli of all rates have the ratio %s", rates,
-                    format_with_unit(of_all, "1").text);
-}
-
-void append_modulus_ratio(text_builder *t, const result_value_tables *tables)
-{
-    const result_value ratio = result_value_ratio(tables);
-    text_append(t, "%s", ratio.verdict != NULL ? ratio.verdict : "");
-    if (isnan(ratio.low))
-        return;
-    text_append(t, "; E_track/E_bulk = %s%s", format_result_value(&ratio).text,
-                format_frequency(&ratio).text);
-    append_rate_correction(t, tables);
-}
-
-/* The ratio of one spot has no error. The text states that the interval lacks this contribution. */
-static const char *missing_ratio_text(const result_value *f)
-{
-    return f->lacks_modulus_ratio && !isnan(f->low)
-               ? ", without the error of the modulus ratio, which is not known"
-               : "";
-}
-
-void append_thickness(text_builder *t, const result_value_tables *tables)
-{
-    const result_value thickness = result_value_thickness(tables);
-    const result_value_text range = format_model_range(&thickness);
-    const char *open = range.text[0] != '\0' ? " (" : "", *close = *open != '\0' ? ")" : "";
-    if (isinf(thickness.number.value))
-        text_append(t, "without wear the layer grows without end");
-    else if (!(thickness.number.value > 0))
-        text_append(t, "no layer where formation balances wear%s%s%s, %s", open, range.text, close,
-                    format_thickness_origin(tables));
-    else
-        text_append(t, "layer of %s where formation balances wear, %s%s",
-                    format_result_value(&thickness).text, format_thickness_origin(tables),
-                    missing_ratio_text(&thickness));
-}
-
-void append_friction_change(text_builder *t, const result_value_tables *tables, bool with_choices)
-{
-    const result_value change = result_value_friction(tables, FRICTION_KEY_RELATIVE_CHANGE);
-    const sign_verdict sign = result_value_sign(&change);
-    const result_value_text range =
-        with_choices ? format_choices(&change) : format_model_range(&change);
-    const char *and = range.text[0] != '\0' ? "; " : "";
-    if (!(friction_value(&tables->friction, FRICTION_KEY_LAYER_THICKNESS).value > 0)) {
-        text_append(t, "no change, for wear leaves no layer%s%s", and, range.text);
-        return;
-    }
-    text_append(t, "%s: %s (%s%s)%s%s",
-                sign == SIGN_UNDECIDED ? "open whether the layer lowers or raises friction"
-                : sign == SIGN_BELOW   ? "less friction with the layer"
-                                       : "more friction with the layer",
-                format_plain_number(&change).text, format_interval(&change).text,
-                missing_ratio_text(&change), and, range.text);
 }
 
 /* ---- values of several sentences ------------------------------------------------------------- */

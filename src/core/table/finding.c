@@ -1,7 +1,9 @@
 /* Computes the findings from the result values. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/table/finding.h"
 
+#include <ctype.h>
 #include <math.h>
+#include <string.h>
 
 static finding_verdict difference_verdict(const result_value_tables *t, const result_value *f)
 {
@@ -35,56 +37,8 @@ static bool is_thickness_given(const result_value_tables *t)
            layer_key_enum(&t->layer, LAYER_KEY_CRITICAL_ENERGY_FROM) == ENERGY_CALIBRATED;
 }
 
-bool findings_compute(const result_value_tables *t, finding findings[FINDING_QUESTIONS])
-{
-    finding *differs = &findings[FINDING_TRACK_DIFFERS],
-            *thickness = &findings[FINDING_LAYER_THICKNESS],
-            *change = &findings[FINDING_FRICTION_CHANGE];
-    *differs = (finding){.question = FINDING_TRACK_DIFFERS,
-                         .basis = FINDING_MEASURED,
-                         .value = result_value_ratio(t)};
-    differs->verdict = difference_verdict(t, &differs->value);
-    const bool assumed = t->comparison.table != NULL && differs->verdict != FINDING_YES;
-    *thickness = (finding){.question = FINDING_LAYER_THICKNESS,
-                           .basis = FINDING_FROM_THEORY,
-                           .as_if_layer = assumed,
-                           .value = result_value_thickness(t)};
-    thickness->verdict =
-        isnan(thickness->value.number.value) ? FINDING_NOT_COMPUTED : FINDING_PREDICTED;
-    if (is_thickness_given(t)) {
-        thickness->verdict = FINDING_NOT_COMPUTED;
-        thickness->basis = FINDING_GIVEN;
-    }
-    *change = (finding){.question = FINDING_FRICTION_CHANGE,
-                        .basis = FINDING_FROM_THEORY,
-                        .as_if_layer = assumed,
-                        .value = result_value_friction(t, FRICTION_KEY_RELATIVE_CHANGE)};
-    change->verdict = change_verdict(&change->value);
-    for (size_t i = 0; i < FINDING_QUESTIONS; i++)
-        if (findings[i].verdict == FINDING_YES)
-            findings[i].sign = result_value_sign(&findings[i].value);
-    return t->comparison.table != NULL || t->layer.table != NULL;
-}
-
-const char *finding_question_text(finding_question question)
-{
-    static const char *const text[FINDING_QUESTIONS] = {
-        [FINDING_TRACK_DIFFERS] = "Is the track different?",
-        [FINDING_LAYER_THICKNESS] = "How thick is the layer?",
-        [FINDING_FRICTION_CHANGE] = "What does it do to friction?"};
-    return text[question];
-}
-
-const char *finding_subject_text(finding_question question)
-{
-    static const char *const text[FINDING_QUESTIONS] = {
-        [FINDING_TRACK_DIFFERS] = "Modulus ratio",
-        [FINDING_LAYER_THICKNESS] = "Layer thickness",
-        [FINDING_FRICTION_CHANGE] = "Change of friction"};
-    return text[question];
-}
-
-const char *finding_sentence(const finding *f)
+/* Returns a sentence that explains a verdict by the kind of its question alone. */
+static const char *general_sentence(const finding *f)
 {
     static const char *const undecided[FINDING_VERDICT_UNKNOWN] = {
         [FINDING_YES] = "",
@@ -113,4 +67,67 @@ const char *finding_sentence(const finding *f)
     if (f->verdict != FINDING_YES)
         return undecided[f->verdict];
     return decided[f->question][f->sign == SIGN_ABOVE];
+}
+
+/* The test of the moduli states its own reason: "cannot say: too few spots". */
+static void write_sentence(finding *f)
+{
+    const char *stated = f->value.verdict != NULL ? f->value.verdict : "";
+    stated += length_without_reason(stated);
+    if (stated[0] == '\0' || f->question != FINDING_TRACK_DIFFERS)
+        snprintf(f->sentence, sizeof f->sentence, "%s", general_sentence(f));
+    else
+        snprintf(f->sentence, sizeof f->sentence, "%c%s.", toupper((unsigned char)stated[2]),
+                 stated + 3);
+}
+
+bool findings_compute(const result_value_tables *t, finding findings[FINDING_QUESTIONS])
+{
+    finding *differs = &findings[FINDING_TRACK_DIFFERS],
+            *thickness = &findings[FINDING_LAYER_THICKNESS],
+            *change = &findings[FINDING_FRICTION_CHANGE];
+    *differs = (finding){.question = FINDING_TRACK_DIFFERS,
+                         .basis = FINDING_MEASURED,
+                         .value = result_value_ratio(t)};
+    differs->verdict = difference_verdict(t, &differs->value);
+    const bool assumed = t->comparison.table != NULL && differs->verdict != FINDING_YES;
+    *thickness = (finding){.question = FINDING_LAYER_THICKNESS,
+                           .basis = FINDING_FROM_THEORY,
+                           .as_if_layer = assumed,
+                           .value = result_value_thickness(t)};
+    thickness->verdict =
+        isnan(thickness->value.number.value) ? FINDING_NOT_COMPUTED : FINDING_PREDICTED;
+    if (is_thickness_given(t)) {
+        thickness->verdict = FINDING_NOT_COMPUTED;
+        thickness->basis = FINDING_GIVEN;
+    }
+    *change = (finding){.question = FINDING_FRICTION_CHANGE,
+                        .basis = FINDING_FROM_THEORY,
+                        .as_if_layer = assumed,
+                        .value = result_value_friction(t, FRICTION_KEY_RELATIVE_CHANGE)};
+    change->verdict = change_verdict(&change->value);
+    for (size_t i = 0; i < FINDING_QUESTIONS; i++)
+        if (findings[i].verdict == FINDING_YES)
+            findings[i].sign = result_value_sign(&findings[i].value);
+    for (size_t i = 0; i < FINDING_QUESTIONS; i++)
+        write_sentence(&findings[i]);
+    return t->comparison.table != NULL || t->layer.table != NULL;
+}
+
+const char *finding_question_text(finding_question question)
+{
+    static const char *const text[FINDING_QUESTIONS] = {
+        [FINDING_TRACK_DIFFERS] = "Is the track different?",
+        [FINDING_LAYER_THICKNESS] = "How thick is the layer?",
+        [FINDING_FRICTION_CHANGE] = "What does it do to friction?"};
+    return text[question];
+}
+
+const char *finding_subject_text(finding_question question)
+{
+    static const char *const text[FINDING_QUESTIONS] = {
+        [FINDING_TRACK_DIFFERS] = "Modulus ratio",
+        [FINDING_LAYER_THICKNESS] = "Layer thickness",
+        [FINDING_FRICTION_CHANGE] = "Change of friction"};
+    return text[question];
 }

@@ -20,6 +20,7 @@ typedef struct finding {
     sign_verdict sign;  /* side of the reference; SIGN_UNDECIDED unless the verdict is yes */
     bool as_if_layer;   /* true if the track is not shown to differ, so that a layer is assumed */
     result_value value; /* number, interval, range over model choices, remedy */
+    char sentence[400]; /* explains the verdict */
 } finding;
 
 /* Computes the findings in the order of the questions; those without a number are "not computed".
@@ -28,7 +29,5 @@ bool findings_compute(const result_value_tables *tables, finding findings[FINDIN
 
 const char *finding_question_text(finding_question question); /* "Is the track different?" */
 const char *finding_subject_text(finding_question question);  /* "Layer thickness" */
-/* One sentence that explains the verdict. */
-const char *finding_sentence(const finding *f);
 
 #endif

@@ -44,11 +44,16 @@ bool result_rows_of_findings(const wt_result *result, result_rows *rows)
     if (result_values_bind(result, &s.values, NULL) != WT_OK) {
         /* A table without a required column adds nothing. */
     }
-    const size_t n = findings_compute(&s.values, findings);
+    table_view answer;
+    if (!findings_compute(&s.values, findings))
+        return false;
+    /* a run states why a number is missing */
+    const bool stated =
+        rows_bind(&s, &answer_schema, &answer) && answer.n_rows == FINDING_QUESTIONS;
     const result_value friction = result_value_friction(&s.values, FRICTION_KEY_HYSTERESIS);
     rows_condition(&s, friction.velocity, "m/s");
     rows_condition(&s, friction.pressure, "Pa");
-    for (size_t i = 0; i < n; i++) {
+    for (size_t i = 0; i < FINDING_QUESTIONS; i++) {
         const finding *f = &findings[i];
         result_row *row = rows_add_text(&s, 0, finding_verdict_text(f->verdict), "%s",
                                         finding_question_text(f->question));
@@ -60,11 +65,13 @@ bool result_rows_of_findings(const wt_result *result, result_rows *rows)
                            f->sign == SIGN_BELOW ? ", lower" : ", higher");
         if (f->as_if_layer)
             rows_note(row, "as if there were a layer");
-        rows_reason(row, finding_basis_text(f->basis), finding_sentence(f));
-        rows_reason(row, "to settle it", f->value.remedy);
+        rows_reason(row, finding_basis_text(f->basis),
+                    stated ? answer_text(&answer, i, ANSWER_ANSWER) : f->sentence);
+        rows_reason(row, "to settle it",
+                    f->value.remedy != NULL ? f->value.remedy : f->value.range.remedy);
         add_finding_number(&s, f);
     }
-    return n > 0;
+    return true;
 }
 
 void result_rows_clear(result_rows *rows)

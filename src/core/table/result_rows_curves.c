@@ -49,8 +49,7 @@ static void add_counts(rows_source *s, const table_view *curves)
     for (int v = WT_CURVE_DOUBTFUL + 1; v <= WT_CURVE_UNREADABLE; v++)
         if (counts.of[v] > 0)
             clocale_append(row->note, sizeof row->note, "%s%zu %s",
-                           row->note[0] != '\0' ? ", " : "", counts.of[v],
-                           verdict_text(v));
+                           row->note[0] != '\0' ? ", " : "", counts.of[v], verdict_text(v));
 }
 
 static void add_group(rows_source *s, size_t i)
