@@ -67,7 +67,8 @@ static void write_card(page_writer *page, const finding *f)
     const result_value *value = &f->value;
     text_html(&page->out, "<section class=\"finding %s\">\n<h2>%s</h2>\n<p class=\"verdict\">",
               class[f->verdict], finding_question_text(f->question));
-    text_html(&page->out, "<strong>%s</strong>", finding_verdict_text(f->verdict));
+    text_html(&page->out, "<strong>%s%s</strong>", finding_verdict_text(f->verdict),
+              finding_side_text(f));
     if (!isnan(value->number.value) && f->verdict != FINDING_PREDICTED)
         text_html(&page->out, " <span class=\"basis\">%s</span>", finding_basis_text(f->basis));
     text_add(&page->out, "</p>\n");

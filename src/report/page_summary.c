@@ -4,6 +4,7 @@
 
 #include "core/base/array.h"
 #include "core/table/finding.h"
+#include "core/table/result_row.h"
 
 #include <math.h>
 #include <string.h>
@@ -200,6 +201,34 @@ static void write_data_used(page_writer *page)
     page_whole_table(page, &page->tables->data_quality, "What was done to the data", NULL, 0);
 }
 
+/* ---- without findings ------------------------------------------------------------------------ */
+
+/* Writes the main numbers of a result that answers none of the questions of a case. */
+static void write_main_numbers(page_writer *page)
+{
+    result_rows list;
+    result_rows_compute(page->result, &list);
+    if (list.n > 0)
+        text_html(&page->out,
+                  "<table class=\"few\" id=\"main\">\n<caption>%s</caption>\n<thead><tr>"
+                  "<th scope=\"col\">Quantity</th><th scope=\"col\">Value</th>"
+                  "<th scope=\"col\">95 &#37; interval</th><th scope=\"col\">Note</th></tr></thead>\n"
+                  "<tbody>\n",
+                  list.heading[0] != '\0' ? list.heading : "Main numbers");
+    for (size_t i = 0; i < list.n; i++) {
+        const result_row *const row = &list.rows[i];
+        const row_number_text number = row_number_format(&row->number);
+        text_html(&page->out,
+                  "<tr><th scope=\"row\">%s</th><td data-label=\"Value\">%s</td>"
+                  "<td data-label=\"95 &#37; interval\">%s</td><td data-label=\"Note\">%s</td></tr>\n",
+                  row->name, row->kind == RESULT_ROW_TEXT ? row->text : number.value,
+                  number.interval, row->note);
+    }
+    if (list.n > 0)
+        text_add(&page->out, "</tbody>\n</table>\n");
+    result_rows_clear(&list);
+}
+
 void page_summary(page_writer *page)
 {
     result_value_tables tables;
@@ -208,6 +237,8 @@ void page_summary(page_writer *page)
     if (result_values_bind(page->result, &tables, NULL) == WT_OK &&
         findings_compute(&tables, findings))
         write_remedies(page, findings);
+    else
+        write_main_numbers(page);
     write_limits(page);
     text_add(&page->out, "</div>\n");
     write_data_used(page);

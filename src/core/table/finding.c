@@ -131,3 +131,12 @@ const char *finding_subject_text(finding_question question)
         [FINDING_FRICTION_CHANGE] = "Change of friction"};
     return text[question];
 }
+
+const char *finding_side_text(const finding *f)
+{
+    static const char *const text[FINDING_QUESTIONS][2] = {
+        [FINDING_TRACK_DIFFERS] = {", softer", ", stiffer"},
+        [FINDING_LAYER_THICKNESS] = {"", ""},
+        [FINDING_FRICTION_CHANGE] = {", lower", ", higher"}};
+    return f->sign == SIGN_UNDECIDED ? "" : text[f->question][f->sign == SIGN_ABOVE];
+}

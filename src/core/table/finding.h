@@ -30,4 +30,7 @@ bool findings_compute(const result_value_tables *tables, finding findings[FINDIN
 const char *finding_question_text(finding_question question); /* "Is the track different?" */
 const char *finding_subject_text(finding_question question);  /* "Layer thickness" */
 
+/* Side of the reference behind the verdict: ", softer"; "" where no side is shown. */
+const char *finding_side_text(const finding *f);
+
 #endif

@@ -57,12 +57,7 @@ bool result_rows_of_findings(const wt_result *result, result_rows *rows)
         const finding *f = &findings[i];
         result_row *row = rows_add_text(&s, 0, finding_verdict_text(f->verdict), "%s",
                                         finding_question_text(f->question));
-        if (f->question == FINDING_TRACK_DIFFERS && f->sign != SIGN_UNDECIDED)
-            clocale_append(row->text, sizeof row->text, "%s",
-                           f->sign == SIGN_BELOW ? ", softer" : ", stiffer");
-        if (f->question == FINDING_FRICTION_CHANGE && f->sign != SIGN_UNDECIDED)
-            clocale_append(row->text, sizeof row->text, "%s",
-                           f->sign == SIGN_BELOW ? ", lower" : ", higher");
+        clocale_append(row->text, sizeof row->text, "%s", finding_side_text(f));
         if (f->as_if_layer)
             rows_note(row, "as if there were a layer");
         rows_reason(row, finding_basis_text(f->basis),
