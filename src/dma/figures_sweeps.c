@@ -84,30 +84,6 @@ static void caption_payne(figure_drawing *d)
         text_format(&d->caption, " In which half of the storage modulus is not lost: %zu.", half);
 }
 
-const figure_description figures_payne[] = {
-    {.name = "payne",
-     .title = "Softening with strain",
-     .table = &payne_sweep_schema,
-     .other_tables = "payne",
-     .data_title = "strain sweeps",
-     .x = {PAYNE_SWEEP_STRAIN, AXIS_LOG, "Strain amplitude"},
-     .y = {{PAYNE_SWEEP_STORAGE_MODULUS, AXIS_FROM_ZERO, "Storage modulus"},
-           {PAYNE_SWEEP_LOSS_MODULUS, AXIS_FROM_ZERO, "Loss modulus"}},
-     .colour = {PAYNE_SWEEP_ANGULAR_FREQUENCY, AXIS_LOG, "Angular frequency"},
-     .curves = {CURVE(PAYNE_SWEEP_STORAGE_MODULUS, OWN),
-                CURVE(PAYNE_SWEEP_LOSS_MODULUS, OWN, .panel = 1),
-                CURVE(PAYNE_SWEEP_STORAGE_KRAUS, DATA), CURVE(PAYNE_SWEEP_LOSS_KRAUS, DATA)},
-     .empty_reason = "no modulus above zero at any amplitude",
-     .caption_text =
-         "Storage modulus and, below, loss modulus against the amplitude of strain, with the "
-         "law of Kraus (lines) and the amplitudes at which a tenth and half of the storage "
-         "modulus are lost. A filled rubber falls between two plateaus, and the loss modulus "
-         "has its maximum where half of that fall is reached.",
-     .draw = draw_payne,
-     .caption = caption_payne},
-    {.name = NULL},
-};
-
 /* ---- comparison with the indentation --------------------------------------------------------- */
 
 /* The DMA moduli at the frequencies of all groups form one line, or one line for each
@@ -234,6 +210,10 @@ const figure_description figures_dma[] = {
          "tip a small volume strongly: agreement is not expected to be exact.",
      .draw = draw_dma_comparison,
      .caption = caption_dma_comparison},
+    {.name = NULL},
+};
+
+const figure_description figures_payne[] = {
     {.name = "relaxation_spectrum",
      .in_depth = true,
      .title = "Relaxation spectrum",
@@ -267,5 +247,25 @@ const figure_description figures_dma[] = {
          "tell the glass transition.",
      .draw = draw_ramp,
      .caption = caption_ramp},
+    {.name = "payne",
+     .title = "Softening with strain",
+     .table = &payne_sweep_schema,
+     .other_tables = "payne",
+     .data_title = "strain sweeps",
+     .x = {PAYNE_SWEEP_STRAIN, AXIS_LOG, "Strain amplitude"},
+     .y = {{PAYNE_SWEEP_STORAGE_MODULUS, AXIS_FROM_ZERO, "Storage modulus"},
+           {PAYNE_SWEEP_LOSS_MODULUS, AXIS_FROM_ZERO, "Loss modulus"}},
+     .colour = {PAYNE_SWEEP_ANGULAR_FREQUENCY, AXIS_LOG, "Angular frequency"},
+     .curves = {CURVE(PAYNE_SWEEP_STORAGE_MODULUS, OWN),
+                CURVE(PAYNE_SWEEP_LOSS_MODULUS, OWN, .panel = 1),
+                CURVE(PAYNE_SWEEP_STORAGE_KRAUS, DATA), CURVE(PAYNE_SWEEP_LOSS_KRAUS, DATA)},
+     .empty_reason = "no modulus above zero at any amplitude",
+     .caption_text =
+         "Storage modulus and, below, loss modulus against the amplitude of strain, with the "
+         "law of Kraus (lines) and the amplitudes at which a tenth and half of the storage "
+         "modulus are lost. A filled rubber falls between two plateaus, and the loss modulus "
+         "has its maximum where half of that fall is reached.",
+     .draw = draw_payne,
+     .caption = caption_payne},
     {.name = NULL},
 };
