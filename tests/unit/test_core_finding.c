@@ -33,14 +33,16 @@ static void test_no_findings(void **state)
     (void)state;
     const result_value_tables none = {.comparison = {.schema = &comparison_schema}};
     finding findings[FINDING_QUESTIONS];
-    assert_int_equal(findings_compute(&none, findings), 0);
+    assert_false(findings_compute(&none, findings));
+    for (size_t i = 0; i < FINDING_QUESTIONS; i++)
+        assert_int_equal(findings[i].verdict, FINDING_NOT_COMPUTED);
 }
 
 /* Each verdict has a text of its own; the number of verdicts is that of the closed list. */
 static void test_verdicts(void **state)
 {
     (void)state;
-    for (int i = 0; i < FINDING_VERDICTS; i++)
+    for (int i = 0; i < FINDING_VERDICT_UNKNOWN; i++)
         for (int j = 0; j < i; j++)
             assert_string_not_equal(finding_verdict_text((finding_verdict)i),
                                     finding_verdict_text((finding_verdict)j));
