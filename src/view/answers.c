@@ -44,9 +44,8 @@ static wt_status append_table(const wt_table *table, text_buffer *to, wt_error *
     char *bytes = NULL;
     size_t length = 0;
     FILE *stream = open_memstream(&bytes, &length);
-    wt_status status = stream != NULL
-                           ? wt_table_export(stream, table, WT_EXPORT_JSON, false, err)
-                           : wt_fail(err, WT_E_MEMORY, "out of memory");
+    wt_status status = stream != NULL ? wt_table_export(stream, table, WT_EXPORT_JSON, false, err)
+                                      : wt_fail(err, WT_E_MEMORY, "out of memory");
     if (stream != NULL && fclose(stream) != 0 && status == WT_OK)
         status = wt_fail(err, WT_E_MEMORY, "out of memory");
     if (status == WT_OK)
@@ -220,8 +219,8 @@ static wt_status answer_curve(wt_view *view, const view_request *request, const 
     const double start = wt_time_wall();
     const refit_curve which = {request->group, request->file, request->number,
                                request->contact_point};
-    wt_status status = case_refit_curve(view->refit, body, length, view->case_path, &which, NULL,
-                                        &tables, err);
+    wt_status status =
+        case_refit_curve(view->refit, body, length, view->case_path, &which, NULL, &tables, err);
     if (status == WT_OK) {
         const wt_table *const made[] = {tables.indentation, tables.curves};
         text_add(to, "{");
@@ -298,8 +297,8 @@ static wt_status start_run(wt_view *view, wt_error *err)
     const wt_status status = wt_case_read(view->case_path, &c, &failure);
     if (status == WT_OK)
         wt_case_free(c);
-    const char *const run[] = {"run", view->case_name, "-o", view->result_name, "--report",
-                               view->report_name};
+    const char *const run[] = {"run",      view->case_name,  "-o", view->result_name,
+                               "--report", view->report_name};
     const char *const report[] = {"report", view->result_name, "-o", view->report_name};
     if (status == WT_OK)
         return view_program_start(view->program, view->folder.path, run, COUNT_OF(run), err);
@@ -320,8 +319,8 @@ static wt_status start_new_case(wt_view *view, wt_error *err)
     arguments[FIRST_FILE] = ".";
     for (size_t i = 0; i < view->n_given; i++)
         arguments[FIRST_FILE + i] = view->given[i];
-    const wt_status status = view_program_start(view->program, view->folder.path, arguments,
-                                                FIRST_FILE + n, err);
+    const wt_status status =
+        view_program_start(view->program, view->folder.path, arguments, FIRST_FILE + n, err);
     free(arguments);
     return status;
 }
@@ -331,9 +330,8 @@ static void append_progress(const wt_view *view, text_buffer *to)
     const view_program_state state = view_program_get(view->program);
     text_format(to, "{\"running\":%s,\"ended\":%zu,\"time\":%.2f,\"succeeded\":%s,\"words\":",
                 state.running ? "true" : "false", state.n_ended, state.time,
-                state.end.outcome == PROGRAM_EXITED &&
-                        (state.end.code == WT_RESULT_COMPLETE ||
-                         state.end.code == WT_RESULT_PARTIAL)
+                state.end.outcome == PROGRAM_EXITED && (state.end.code == WT_RESULT_COMPLETE ||
+                                                        state.end.code == WT_RESULT_PARTIAL)
                     ? "true"
                     : "false");
     text_json(to, state.end.words);

@@ -37,8 +37,10 @@ static wt_status fail_on_file(const char *name, const char *what, wt_error *err)
 
 wt_status case_folder_open(const char *path, case_folder *folder, wt_error *err)
 {
-    folder->path = wt_strdup(path);
-    folder->descriptor = open(path, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    /* An absolute path, because the page shows it and programs run in the folder. */
+    folder->path = realpath(path, NULL);
+    folder->descriptor =
+        open(folder->path != NULL ? folder->path : path, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     return folder->descriptor >= 0 ? WT_OK : fail_on_file(path, strerror(errno), err);
 }
 
@@ -74,11 +76,11 @@ wt_status case_folder_read(const case_folder *folder, const char *name, size_t l
     const int file =
         openat(folder->descriptor, name, O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
     if (file < 0)
-        return errno == ENOENT ? WT_OK
-                               : fail_on_file(name,
-                                              errno == ELOOP ? "symbolic links are not followed"
-                                                             : strerror(errno),
-                                              err);
+        return errno == ENOENT
+                   ? WT_OK
+                   : fail_on_file(
+                         name, errno == ELOOP ? "symbolic links are not followed" : strerror(errno),
+                         err);
     wt_status status = fstat(file, &state) == 0 && S_ISREG(state.st_mode) ? WT_OK : WT_E_IO;
     if (status != WT_OK)
         fail_on_file(name, "not a regular file", err);
@@ -123,8 +125,7 @@ wt_status case_folder_write(const case_folder *folder, const char *name, const c
     wt_status status = file >= 0 ? write_descriptor(file, bytes, length) : WT_E_IO;
     if (status == WT_OK && exists && fchmod(file, before.st_mode & PERMISSIONS) != 0)
         status = WT_E_IO;
-    if (status == WT_OK &&
-        renameat(folder->descriptor, temporary, folder->descriptor, name) != 0)
+    if (status == WT_OK && renameat(folder->descriptor, temporary, folder->descriptor, name) != 0)
         status = WT_E_IO;
     if (status != WT_OK) {
         fail_on_file(name, strerror(errno), err);

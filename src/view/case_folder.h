@@ -7,7 +7,7 @@
 #include "report/report_text.h"
 
 typedef struct case_folder {
-    char *path;     /* as the user named it */
+    char *path;     /* absolute */
     int descriptor; /* open folder, -1: none */
 } case_folder;
 

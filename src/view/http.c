@@ -29,17 +29,18 @@ typedef struct http_connection {
 } http_connection;
 
 /* The policy lets the page load and call this server only. */
-static const char *const headers[][2] = {
-    {"Cache-Control", "no-store"},
-    {"X-Content-Type-Options", "nosniff"},
-    {"Referrer-Policy", "no-referrer"},
-    {"Cross-Origin-Resource-Policy", "same-origin"},
-    {"Cross-Origin-Opener-Policy", "same-origin"},
-    {"X-Frame-Options", "SAMEORIGIN"},
-    {"Content-Security-Policy",
-     "default-src 'none'; script-src 'self'; style-src 'self' 'unsafe-inline'; img-src 'self' data:; "
-     "font-src data:; connect-src 'self'; frame-src 'self'; frame-ancestors 'self'; base-uri 'none'; "
-     "form-action 'none'"}};
+static const char *const headers[][2] = {{"Cache-Control", "no-store"},
+                                         {"X-Content-Type-Options", "nosniff"},
+                                         {"Referrer-Policy", "no-referrer"},
+                                         {"Cross-Origin-Resource-Policy", "same-origin"},
+                                         {"Cross-Origin-Opener-Policy", "same-origin"},
+                                         {"X-Frame-Options", "SAMEORIGIN"},
+                                         {"Content-Security-Policy",
+                                          "default-src 'none'; script-src 'self'; style-src 'self' "
+                                          "'unsafe-inline'; img-src 'self' data:; "
+                                          "font-src data:; connect-src 'self'; frame-src 'self'; "
+                                          "frame-ancestors 'self'; base-uri 'none'; "
+                                          "form-action 'none'"}};
 
 static void *start_connection(void *user, const char *target, struct MHD_Connection *connection)
 {

@@ -9,9 +9,9 @@
 /* The answer to a request. */
 typedef struct view_reply {
     unsigned status;
-    const char *media;  /* static */
-    text_buffer text;   /* owned; or */
-    const char *bytes;  /* [length] static bytes; NULL: text */
+    const char *media; /* static */
+    text_buffer text;  /* owned; or */
+    const char *bytes; /* [length] static bytes; NULL: text */
     size_t length;
 } view_reply;
 

@@ -15,9 +15,9 @@ void view_program_stop(view_program *program);
 
 typedef struct view_program_state {
     bool running;
-    size_t n_ended;       /* number of programs that have ended */
-    double time;          /* since the start, or duration [s] */
-    program_result end;   /* of the last one */
+    size_t n_ended;               /* number of programs that have ended */
+    double time;                  /* since the start, or duration [s] */
+    program_result end;           /* of the last one */
     const char *const *arguments; /* [n_arguments] of the last one, borrowed until the next start */
     size_t n_arguments;
 } view_program_state;

@@ -146,10 +146,10 @@ static bool store_parameter(const char *name, size_t name_length, const char *va
         const char *name;
         char *to;
         size_t size;
-    } texts[] = {{"name", to->name, sizeof to->name},       {"group", to->group, sizeof to->group},
-                 {"file", to->file, sizeof to->file},       {"was", to->digest, sizeof to->digest},
-                 {"page", to->page, sizeof to->page},       {"number", number, sizeof number},
-                 {"contact", number, sizeof number},        {"replicates", number, sizeof number}};
+    } texts[] = {{"name", to->name, sizeof to->name}, {"group", to->group, sizeof to->group},
+                 {"file", to->file, sizeof to->file}, {"was", to->digest, sizeof to->digest},
+                 {"page", to->page, sizeof to->page}, {"number", number, sizeof number},
+                 {"contact", number, sizeof number},  {"replicates", number, sizeof number}};
     size_t k = 0;
     while (k < sizeof texts / sizeof texts[0] &&
            (strlen(texts[k].name) != name_length || memcmp(texts[k].name, name, name_length) != 0))
@@ -178,7 +178,8 @@ static bool parse_query(const char *query, view_request *to)
 {
     while (*query != '\0') {
         const size_t length = strcspn(query, "&"), name = strcspn(query, "=&");
-        if (name == length || !store_parameter(query, name, query + name + 1, length - name - 1, to))
+        if (name == length ||
+            !store_parameter(query, name, query + name + 1, length - name - 1, to))
             return false;
         query += length + (query[length] == '&');
     }
@@ -220,5 +221,5 @@ unsigned view_request_parse(const view_head *head, const char *token, unsigned p
     if (strcmp(head->method, actions[request->action].post ? "POST" : "GET") != 0)
         return HTTP_METHOD;
     return path[length] == '\0' || parse_query(path + length + 1, request) ? HTTP_OK
-                                                                          : HTTP_BAD_REQUEST;
+                                                                           : HTTP_BAD_REQUEST;
 }

@@ -39,15 +39,15 @@ typedef struct view_request {
     view_action action;
     char name[256]; /* of an embedded file, or names of tables separated by blanks */
     char group[64], file[1024];
-    size_t number;         /* of a file or a curve */
-    double contact_point;  /* [m]; NaN: fitted */
-    unsigned replicates;   /* draws of a trial */
-    char digest[65];       /* SHA-256 of the text that the page replaces */
-    char page[33];         /* random name of a page */
+    size_t number;        /* of a file or a curve */
+    double contact_point; /* [m]; NaN: fitted */
+    unsigned replicates;  /* draws of a trial */
+    char digest[65];      /* SHA-256 of the text that the page replaces */
+    char page[33];        /* random name of a page */
 } view_request;
 
-/* Parses and checks the head of a request for the server on this port. Returns the HTTP status: 200,
- * or the reason for the refusal. */
+/* Parses and checks the head of a request for the server on this port. Returns the HTTP status:
+ * 200, or the reason for the refusal. */
 unsigned view_request_parse(const view_head *head, const char *token, unsigned port,
                             view_request *request);
 /* True if the action needs a body. */

@@ -145,8 +145,8 @@ static void append_file(const case_folder *folder, const char *prefix, const cha
     bool exists = false;
     wt_error failure = WT_ERROR_INIT;
     text_buffer text = {0};
-    if (name != NULL && case_folder_read(folder, name, VIEW_BODY_LIMIT, &exists, &text, &failure) ==
-                            WT_OK &&
+    if (name != NULL &&
+        case_folder_read(folder, name, VIEW_BODY_LIMIT, &exists, &text, &failure) == WT_OK &&
         exists)
         wt_sha256(text_string(&text), text.length, digest);
     (void)snprintf(key, sizeof key, "%sText", prefix);
@@ -220,9 +220,7 @@ wt_status view_append_state(wt_view *view, text_buffer *to, wt_error *err)
     list_files(view, c);
     char *overrides = overrides_of_case(c);
     text_format(to, "{\"version\":\"%s\"", wt_version());
-    char *folder = realpath(view->folder.path, NULL);
-    append_member(to, "folder", folder != NULL ? folder : view->folder.path);
-    free(folder);
+    append_member(to, "folder", view->folder.path);
     append_member(to, "caseName", view->case_name);
     append_member(to, "title", c != NULL ? wt_case_title(c) : "");
     append_member(to, "caseProblem", message);

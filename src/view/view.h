@@ -39,7 +39,8 @@ struct wt_view {
     view_program *program;
     open_page pages[VIEW_PAGES];
     size_t n_pages;
-    double close_time; /* without a page the server ends at this time [s]; 0: no page was open yet */
+    double
+        close_time; /* without a page the server ends at this time [s]; 0: no page was open yet */
 };
 
 /* Answers an admitted request (http_answer). */

@@ -42,9 +42,9 @@ static const char *dma_section(const wt_case *c, size_t *length)
 {
     static const char begin[] = "<dma", end[] = "</dma>";
     const char *from = memmem(c->xml, c->xml_length, begin, sizeof begin - 1);
-    const char *to = from == NULL ? NULL
-                                  : memmem(from, c->xml_length - (size_t)(from - c->xml), end,
-                                           sizeof end - 1);
+    const char *to =
+        from == NULL ? NULL
+                     : memmem(from, c->xml_length - (size_t)(from - c->xml), end, sizeof end - 1);
     *length = to != NULL ? (size_t)(to - from) : 0;
     return from;
 }
