@@ -140,7 +140,9 @@
     }
   };
   const lengthText = (value) => Number(value.toPrecision(12)) + 'm';
-  const drag = View.guard(async (curve, contact, done) => {
+  /* The text of the override is what is fitted, so that its digits are those of the shell. */
+  const drag = View.guard(async (curve, position, done) => {
+    const contact = Number(position.toPrecision(12));
     await update(curve, contact, null, false);
     if (done) await choose(curve, 'contact-point', lengthText(contact), ui.note.value);
   });

@@ -18,7 +18,7 @@
     return [...made].sort((a, b) => a[0] - b[0]);
   };
   /* An isotherm is excluded by a range of temperatures around its mean. */
-  const rangeOf = (temperature) => `temperature:${(temperature - 273.15 - 0.2).toFixed(1)}..` +
+  const rangeOf = (temperature) => `temperature:${(temperature - 273.15 - 0.2).toFixed(1)}degC..` +
     `${(temperature - 273.15 + 0.2).toFixed(1)}degC`;
   const toggle = (text) => View.editDocument((doc, child, insert, remove) => {
     const section = child(doc.documentElement, 'dma');

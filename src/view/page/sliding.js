@@ -45,8 +45,16 @@
     return at ? at.textContent.trim() : null;
   };
   const names = () => View.has('layer') ? 'friction contact_area layer' : 'friction contact_area';
+  /* While a slider moves, the measured modulus ratio is stated in place of the curves, which do not
+   * depend on the sliders. The values are the same. */
+  const quick = (values) => {
+    const ratio = found.friction && found.friction.keys.layer_modulus_ratio;
+    return ratio && View.has('layer') && !View.has('layer/modulus-ratio') && !View.has('layer/material') ?
+      View.changed({...values, 'layer/modulus-ratio': String(ratio.value)}, ['indentation', 'compare']) :
+      View.changed(values);
+  };
   const compute = View.guard(async (values) => {
-    const made = await View.trial(names(), 0, values ? View.changed(values) : undefined);
+    const made = await View.trial(names(), 0, values ? quick(values) : undefined);
     if (made === null) return;
     if (!made.friction) throw new Error(made.failures && made.failures.n ? made.failures.rows.map((r) =>
       `${r.file}: ${r.message}`).join('\n') : 'Friction needs <dma>, <roughness> and <sliding>.');

@@ -185,11 +185,15 @@ const View = (() => {
     const head = source.slice(0, Math.max(0, source.search(/<case[\s>]/)));
     return head + new XMLSerializer().serializeToString(doc.documentElement) + '\n';
   };
-  /* Text of the case with other values: {path: text or null}. */
-  const changed = (values) => {
+  /* Text of the case with other values, {path: text or null}, and without some sections. */
+  const changed = (values, without = []) => {
     const doc = parse(text);
     if (!doc) throw new Error('The case is not well-formed XML; see the panel Start.');
     for (const path in values) put(doc, path, values[path]);
+    for (const name of without) {
+      const section = child(doc.documentElement, name);
+      if (section) remove(section);
+    }
     return serialize(doc, text);
   };
   const replace = (made) => {
