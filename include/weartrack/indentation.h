@@ -528,6 +528,10 @@ typedef struct wt_indent_job {
     const struct wt_rubber *rubber; /* a factor on its spectrum is fitted; NULL (default) = none */
     wt_estimate
         temperature; /* temperature of the curves [K]; NaN = reference temperature of the rubber */
+    /* Only this curve of this file is fitted; NULL (default) = all. A fixed contact point of the
+     * options then replaces the one of the manual overrides. */
+    const char *only_file;
+    size_t only_curve;
 } wt_indent_job;
 WT_API wt_indent_job wt_indent_job_defaults(void);
 WT_API const wt_params *wt_indent_job_params(void);

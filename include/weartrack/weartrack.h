@@ -14,5 +14,6 @@
 #include "weartrack/report.h"
 #include "weartrack/study.h"
 #include "weartrack/surface.h"
+#include "weartrack/view.h"
 
 #endif

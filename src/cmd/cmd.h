@@ -47,6 +47,7 @@ int cmd_collect(int argc, char **argv);
 int cmd_run(int argc, char **argv);
 int cmd_report(int argc, char **argv);
 int cmd_identify(int argc, char **argv);
+int cmd_view(int argc, char **argv);
 int cmd_validate(int argc, char **argv);
 int cmd_table(int argc, char **argv);
 int cmd_summary(int argc, char **argv);

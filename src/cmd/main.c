@@ -34,6 +34,7 @@ const cmd_command cmd_commands[] = {
     {"run", cmd_run, "a whole case from one case file; --plan shows what it would do"},
     {"validate", cmd_validate, "whether a case explains friction as measured"},
     {"accuracy", cmd_accuracy, "error budget and error against run time of a case"},
+    {"view", cmd_view, "a case in the browser: curves, master curve, friction; local only"},
     {"report", cmd_report, "plots and one page from a result file"},
     {"table", cmd_table, "a table of a result as TSV, CSV, JSON or SQLite"},
     {"collect", cmd_collect, "cases of several samples and conditions side by side"},

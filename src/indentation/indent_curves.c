@@ -6,6 +6,7 @@
 #include "core/base/array.h"
 #include "core/base/utf8.h"
 #include "indentation/numerics/curve.h"
+#include "read/force_assembler.h"
 
 #include <math.h>
 #include <string.h>
@@ -78,6 +79,13 @@ static bool may_read_curve(const indent_task *task)
            (task->n_busy < task->n_workers || task->n_samples < MAX_QUEUED_SAMPLES);
 }
 
+/* True if the curve precedes the only curve that is requested. */
+static bool is_before_only_curve(const indent_task *task, const queued_curve *it)
+{
+    return task->job->only_file != NULL && it->status != WT_END &&
+           it->curve.index < task->job->only_curve;
+}
+
 /* Reads the next curve. Returns NULL if there is none. */
 static queued_curve *read_next_curve(indent_task *task)
 {
@@ -88,9 +96,16 @@ static queued_curve *read_next_curve(indent_task *task)
     queued_curve *it = task->items;
     while (it->state != ITEM_FREE)
         it++;
-    it->error = (wt_error)WT_ERROR_INIT;
-    it->status = wt_force_next(task->source, &it->curve, &it->error);
+    do {
+        it->error = (wt_error)WT_ERROR_INIT;
+        it->status = wt_force_next(task->source, &it->curve, &it->error);
+    } while (is_before_only_curve(task, it));
     if (it->status == WT_END) {
+        wt_force_close(task->source);
+        task->source = NULL;
+        return NULL;
+    }
+    if (task->job->only_file != NULL && it->curve.index > task->job->only_curve) {
         wt_force_close(task->source);
         task->source = NULL;
         return NULL;
@@ -99,6 +114,8 @@ static queued_curve *read_next_curve(indent_task *task)
     for (size_t i = 0; it->status == WT_OK && i < it->curve.n_segments; i++)
         it->samples += it->curve.segments[i].n_points * it->curve.segments[i].n_channels;
     it->choice = manual_overrides_curve_choice(&task->choices, task->file, it->curve.index);
+    if (task->job->only_file != NULL && !isnan(task->options.fixed_contact_point))
+        it->choice.contact_point = task->options.fixed_contact_point;
     it->state = ITEM_BUSY;
     it->order = task->n_read++;
     task->n_busy++;
@@ -290,6 +307,8 @@ static wt_status read_curve_file(indent_task *task, wt_error *err)
              i++) /* an earlier file may have failed in the middle */
             task->items[i].state = ITEM_FREE;
         task->n_expected = count;
+        if (task->job->only_file != NULL)
+            force_seek(task->source, task->job->only_curve);
         task->n_read = task->n_written = task->n_busy = task->n_samples = 0;
         task->status = WT_OK;
         task->err = err;
@@ -318,6 +337,8 @@ static wt_status process_curve_file(void *user, flow_file *file, size_t i, wt_er
     task->file = file;
     task->file_number = i + 1;
     task->spot = file->set->spot != NULL ? file->set->spot : file->name;
+    if (task->job->only_file != NULL && strcmp(file->name, task->job->only_file) != 0)
+        return WT_OK;
     return read_curve_file(task, err);
 }
 

@@ -4,7 +4,6 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "report/browse.h"
 
-#include "core/base/utf8.h"
 #include "report/curve_finder.h"
 
 #include <math.h>
@@ -17,27 +16,6 @@ enum { PACKED_MAX = 65534, PACKED_NONE = 65535 };
 
 /* ---- strings and numbers -----------------------------------------------------------------------
  */
-
-/* Appends a JSON string without '<' and other markup. Invalid UTF-8 becomes U+FFFD. */
-static void add_json_string(text_buffer *to, const char *text)
-{
-    static const char escaped[] = "\"\\<>&\x7f";
-    size_t left = strlen(text);
-    text_add(to, "\"");
-    for (const char *c = text; left > 0;) {
-        const size_t length = utf8_character_length(c, left), step = length > 0 ? length : 1;
-        const unsigned char byte = (unsigned char)*c;
-        if (length == 0)
-            text_add(to, "\\ufffd");
-        else if (byte < ' ' || strchr(escaped, byte) != NULL)
-            text_format(to, "\\u%04x", byte);
-        else
-            text_bytes(to, c, length);
-        c += step;
-        left -= step;
-    }
-    text_add(to, "\"");
-}
 
 static void add_json_number(text_buffer *to, double value)
 {
@@ -175,9 +153,9 @@ static void add_curve_json(const table_view *rows, size_t row, size_t file, curv
                                                  INDENTATION_MODULUS_STANDARD_ERROR};
     text_format(to, "%s[%zu,%.0f,", row > 0 ? ",\n" : "", file,
                 indentation_get(rows, row, INDENTATION_CURVE));
-    add_json_string(to, indentation_text(rows, row, INDENTATION_VERDICT));
+    text_json(to, indentation_text(rows, row, INDENTATION_VERDICT));
     text_add(to, ",");
-    add_json_string(to, indentation_text(rows, row, INDENTATION_REASON));
+    text_json(to, indentation_text(rows, row, INDENTATION_REASON));
     for (size_t k = 0; k < sizeof numbers / sizeof numbers[0]; k++) {
         text_add(to, ",");
         add_json_number(to, indentation_get(rows, row, numbers[k]));
@@ -203,13 +181,13 @@ static void add_group_json(const table_view *rows, curve_finder *f, text_buffer 
     const char *last = NULL;
     size_t n_files = 0;
     text_add(to, "{\"name\":");
-    add_json_string(to, rows->suffix);
+    text_json(to, rows->suffix);
     text_add(to, ",\"curves\":[");
     for (size_t row = 0; row < rows->n_rows; row++) {
         const char *file = indentation_text(rows, row, INDENTATION_FILE);
         if (last == NULL || strcmp(file, last) != 0) {
             text_add(&files, n_files++ > 0 ? "," : "");
-            add_json_string(&files, file);
+            text_json(&files, file);
             last = file;
         }
         add_curve_json(rows, row, n_files - 1, f, to);
@@ -228,7 +206,7 @@ static void add_choice_rows(const table_view *choices, text_buffer *to)
     for (size_t row = 0; row < choices->n_rows; row++) {
         text_add(to, row > 0 ? ",[" : "[");
         for (size_t k = 0; k < sizeof texts / sizeof texts[0]; k++) {
-            add_json_string(to, overrides_text(choices, row, texts[k]));
+            text_json(to, overrides_text(choices, row, texts[k]));
             text_add(to, ",");
         }
         add_exact_number(to, overrides_get(choices, row, OVERRIDES_CURVE));

@@ -204,3 +204,23 @@ void text_comment(text_buffer *text, const char *string)
     }
     text_add(text, "\n");
 }
+
+void text_json(text_buffer *text, const char *string)
+{
+    static const char escaped[] = "\"\\<>&\x7f";
+    size_t left = strlen(string);
+    text_add(text, "\"");
+    for (const char *c = string; left > 0;) {
+        const size_t length = utf8_character_length(c, left), step = length > 0 ? length : 1;
+        const unsigned char byte = (unsigned char)*c;
+        if (length == 0)
+            text_add(text, "\\ufffd");
+        else if (byte < ' ' || strchr(escaped, byte) != NULL)
+            text_format(text, "\\u%04x", byte);
+        else
+            text_bytes(text, c, length);
+        c += step;
+        left -= step;
+    }
+    text_add(text, "\"");
+}

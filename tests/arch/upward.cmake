@@ -18,7 +18,8 @@ set(below_layer friction dma surface job read)
 set(below_study indentation dma friction layer surface job read)
 set(below_record study indentation layer friction dma surface job read)
 set(below_case record study indentation layer friction dma surface job read report)
-set(below_cmd case record study indentation layer friction dma surface job read report)
+set(below_view case record study indentation layer friction dma surface job read report)
+set(below_cmd view case record study indentation layer friction dma surface job read report)
 
 # The registries name what all slices offer.
 set(registries core/table/registry.c report/figures.c)

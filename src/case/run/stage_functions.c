@@ -43,7 +43,7 @@ static wt_estimate indentation_temperature_of_group(const wt_case *c, int g)
                                                          : job->temperature;
 }
 
-static wt_status indent_group(flow_run *run, int g, wt_error *err)
+wt_indent_job flow_group_job(const flow_run *run, int g)
 {
     static const flow_resource curve[2] = {FLOW_CURVE_BULK, FLOW_CURVE_TRACK};
     static const char *const names[2] = {"bulk", "track"};
@@ -62,6 +62,12 @@ static wt_status indent_group(flow_run *run, int g, wt_error *err)
     job.median_curve = (run->plan.wanted & FLOW_BIT(curve[g])) != 0;
     job.rubber = run->level > 0 ? &run->rubber : NULL;
     job.temperature = indentation_temperature_of_group(run->c, g);
+    return job;
+}
+
+static wt_status indent_group(flow_run *run, int g, wt_error *err)
+{
+    const wt_indent_job job = flow_group_job(run, g);
     wt_status status = wt_indent_group(&job, &run->job, &run->curves, err);
     flow_run_store_table(run, g == 0 ? FLOW_INDENTATION_BULK : FLOW_INDENTATION_TRACK,
                          &run->curves.indentation);

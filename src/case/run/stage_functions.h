@@ -37,6 +37,8 @@ wt_sliding flow_run_sliding(const flow_run *run);
 wt_status flow_run_layer_observation(const flow_run *run, wt_layer_observation *observation,
                                      wt_error *err) WT_NODISCARD;
 
+/* Returns the indentation job of the bulk (0) or the track (1). */
+wt_indent_job flow_group_job(const flow_run *run, int g);
 /* Moves a table into the run. A table from an earlier attempt is freed. */
 void flow_run_store_table(flow_run *run, flow_resource resource, wt_table **table);
 

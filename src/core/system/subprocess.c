@@ -5,6 +5,7 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <signal.h>
+#include <spawn.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/prctl.h>
@@ -234,4 +235,28 @@ wt_status program_run(const program_call *call, program_result *end, wt_error *e
     else if (end->outcome == PROGRAM_EXITED)
         end->code = WEXITSTATUS(state);
     return status;
+}
+
+bool program_detach(const char *program, const char *argument)
+{
+    /* posix_spawn does not change the arguments. */
+    char *const line[] = {(char *)(size_t)program, (char *)(size_t)argument, NULL};
+    posix_spawnattr_t attributes;
+    posix_spawn_file_actions_t files;
+    pid_t child = 0;
+    if (posix_spawnattr_init(&attributes) != 0)
+        return false;
+    if (posix_spawn_file_actions_init(&files) != 0) {
+        (void)posix_spawnattr_destroy(&attributes);
+        return false;
+    }
+    const bool started =
+        posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSID) == 0 &&
+        posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0) == 0 &&
+        posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, "/dev/null", O_WRONLY, 0) == 0 &&
+        posix_spawn_file_actions_addopen(&files, STDERR_FILENO, "/dev/null", O_WRONLY, 0) == 0 &&
+        posix_spawnp(&child, program, &files, &attributes, line, environ) == 0;
+    (void)posix_spawn_file_actions_destroy(&files);
+    (void)posix_spawnattr_destroy(&attributes);
+    return started;
 }

@@ -38,5 +38,8 @@ typedef struct program_result {
  * this process, and its children end with it unless they leave its process group. WT_OK means that
  * *end is set, whatever the result; WT_E_MEMORY, WT_E_IO or WT_E_TOOL mean that it is not. */
 wt_status program_run(const program_call *call, program_result *end, wt_error *err) WT_NODISCARD;
+/* Starts a program that stays when this process ends, without input and output. False if it cannot
+ * be started. */
+bool program_detach(const char *program, const char *argument);
 
 #endif

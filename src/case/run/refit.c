@@ -1,0 +1,118 @@
+/* Fits one curve of a case: the stages before the fit run once for each <dma> section.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "case/run/refit.h"
+
+#include "case/run/stage_functions.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+struct case_refit {
+    const wt_formats *formats;
+    wt_case *c;   /* case of the material, which borrows from it */
+    flow_run run; /* with the material */
+    bool has_material;
+};
+
+case_refit *case_refit_new(const wt_formats *formats)
+{
+    case_refit *refit = wt_alloc(1, sizeof *refit);
+    *refit = (case_refit){.formats = formats};
+    return refit;
+}
+
+void case_refit_forget(case_refit *refit)
+{
+    flow_run_clear(&refit->run);
+    wt_case_free(refit->c);
+    refit->c = NULL;
+    refit->has_material = false;
+}
+
+void case_refit_free(case_refit *refit)
+{
+    if (refit != NULL)
+        case_refit_forget(refit);
+    free(refit);
+}
+
+/* Returns the bytes of the section <dma> in the text of a case. */
+static const char *dma_section(const wt_case *c, size_t *length)
+{
+    static const char begin[] = "<dma", end[] = "</dma>";
+    const char *from = memmem(c->xml, c->xml_length, begin, sizeof begin - 1);
+    const char *to =
+        from == NULL ? NULL
+                     : memmem(from, c->xml_length - (size_t)(from - c->xml), end, sizeof end - 1);
+    *length = to != NULL ? (size_t)(to - from) : 0;
+    return from;
+}
+
+static bool has_same_material(const wt_case *a, const wt_case *b)
+{
+    size_t length_a, length_b;
+    const char *of_a = dma_section(a, &length_a), *of_b = dma_section(b, &length_b);
+    return length_a == length_b && (length_a == 0 || memcmp(of_a, of_b, length_a) == 0);
+}
+
+static wt_job refit_work(const case_refit *refit, wt_log *log)
+{
+    wt_job work = wt_job_defaults();
+    work.formats = refit->formats;
+    work.log = log;
+    work.left_out = WT_EXTRA_ALL;
+    return work;
+}
+
+/* Computes the material that the fit of the curves uses. Without one each curve has the modulus of
+ * its own rate, as in a run whose DMA stage fails. */
+static void find_material(case_refit *refit, const flow_plan *plan, wt_log *log)
+{
+    static const flow_stage_id stages[] = {FLOW_STAGE_MASTER_CURVE, FLOW_STAGE_GIVEN_MATERIAL};
+    wt_status (*const steps[])(flow_run *, wt_error *) = {flow_step_master,
+                                                          flow_step_given_material};
+    refit->run = (flow_run){.c = refit->c, .job = refit_work(refit, log), .plan = *plan};
+    for (size_t i = 0; i < COUNT_OF(stages) && !refit->has_material; i++)
+        if (plan->chosen[stages[i]])
+            refit->has_material = steps[i](&refit->run, NULL) == WT_OK;
+}
+
+wt_status case_refit_curve(case_refit *refit, const char *xml, size_t length, const char *path,
+                           const refit_curve *which, wt_log *log, wt_indent_tables *tables,
+                           wt_error *err)
+{
+    static const char *const samples[] = {"all"};
+    const int g = strcmp(which->group, "track") == 0;
+    const flow_stage_id stage = g ? FLOW_STAGE_INDENTATION_TRACK : FLOW_STAGE_INDENTATION_BULK;
+    wt_case *c = NULL;
+    flow_run run = {0};
+    wt_status status = case_from_bytes(xml, length, path, &c, err);
+    if (status != WT_OK)
+        return status;
+    flow_plan_create(c, &run.plan);
+    if (refit->c == NULL || !has_same_material(refit->c, c)) {
+        case_refit_forget(refit);
+        status = case_from_bytes(xml, length, path, &refit->c, err);
+        if (status == WT_OK)
+            find_material(refit, &run.plan, log);
+    }
+    if (status == WT_OK) {
+        run.c = c;
+        run.job = refit_work(refit, log);
+        run.job.threads = 1;
+        run.rubber = refit->run.rubber; /* borrowed */
+        run.level = refit->has_material ? run.plan.level[stage] : 0;
+        wt_indent_job job = flow_group_job(&run, g);
+        job.only_file = which->file;
+        job.only_curve = which->curve;
+        job.median_curve = false;
+        job.curves = samples;
+        job.n_curves = COUNT_OF(samples);
+        if (!isnan(which->contact_point))
+            job.options.fixed_contact_point = which->contact_point;
+        status = wt_indent_group(&job, &run.job, tables, err);
+    }
+    wt_case_free(c);
+    return status;
+}

@@ -1,0 +1,148 @@
+/* Panel Master curve: isotherms in colour, excluded ones, reference temperature, options of the shift.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+'use strict';
+(() => {
+  const {element} = View;
+  let ui = null, found = {};
+  const celsius = (kelvin) => Number((kelvin - 273.15).toFixed(2));
+  const tables = 'shift_factors master_curve prony';
+
+  /* Isotherms by block, with their measured temperature. */
+  const isotherms = () => {
+    const t = found.master_curve, made = new Map();
+    for (const row of t.rows) {
+      const key = row.temperature;
+      if (!made.has(key)) made.set(key, []);
+      made.get(key).push(row);
+    }
+    return [...made].sort((a, b) => a[0] - b[0]);
+  };
+  /* An isotherm is excluded by a range of temperatures around its mean. */
+  const rangeOf = (temperature) => `temperature:${(temperature - 273.15 - 0.2).toFixed(1)}degC..` +
+    `${(temperature - 273.15 + 0.2).toFixed(1)}degC`;
+  const toggle = (text) => View.editDocument((doc, child, insert, remove) => {
+    const section = child(doc.documentElement, 'dma');
+    const there = [...section.children].find((c) => c.localName === 'exclude' && c.textContent.trim() === text);
+    if (there) {
+      remove(there);
+      return;
+    }
+    const made = doc.createElementNS(section.namespaceURI, 'exclude');
+    made.textContent = text;
+    insert(section, made);
+  });
+  const excluded = () => View.all('dma/exclude');
+  const quantities = {storage: ['storage_modulus', 'fitted_storage', 'Pa', "E' or G'"],
+    loss: ['loss_modulus', 'fitted_loss', 'Pa', "E'' or G''"],
+    loss_factor: ['loss_factor', 'fitted_loss_factor', '1', 'tan delta'],
+    own_storage: ['own_storage', null, 'Pa', "E' or G' as measured"]};
+  const draw = () => {
+    const all = isotherms(), n = Math.max(1, all.length - 1);
+    const [name, fitted, unit, label] = quantities[ui.quantity.value];
+    const own = name.startsWith('own_');
+    const series = all.map(([temperature, rows], k) => ({name: null, color: Plot.heat(k / n), kind: 'points',
+      width: 5, x: rows.map((r) => own ? r.own_frequency : r.angular_frequency), y: rows.map((r) => r[name])}));
+    if (fitted) {
+      const rows = [...found.master_curve.rows].sort((a, b) => a.angular_frequency - b.angular_frequency);
+      const x = rows.map((r) => r.angular_frequency);
+      series.unshift({kind: 'band', color: 'var(--s4)', x, low: rows.map((r) => r[fitted + '_low']),
+        high: rows.map((r) => r[fitted + '_high']), y: []});
+      series.push({x, y: rows.map((r) => r[fitted]), color: 'var(--ink)', width: 1});
+    }
+    Plot.draw(ui.plot, {title: `Master curve, ${label}`, height: 360,
+      x: {label: own ? 'angular frequency as measured (rad/s)' : 'reduced angular frequency (rad/s)', log: true},
+      y: {label, unit, log: true}, series});
+    const s = found.shift_factors, x = s.column('temperature').map(celsius);
+    Plot.draw(ui.shifts, {title: 'Shift factors', height: 240, x: {label: 'temperature (°C)'},
+      y: {label: 'log a_T'}, series: [
+        {name: 'shift factors', x, y: s.column('log_a'), kind: 'points', width: 6, color: 'var(--s0)'},
+        {name: s.keys.law || 'law', x, y: s.column('law_log_a'), color: 'var(--s1)'}]});
+    Plot.draw(ui.vertical, {title: 'Vertical shifts', height: 240, x: {label: 'temperature (°C)'},
+      y: {label: 'log b_T'}, series: [
+        {name: 'vertical shift', x, y: s.column('log_b'), kind: 'points', width: 6, color: 'var(--s0)'},
+        {name: 'physical', x, y: s.column('log_b_physical'), color: 'var(--s1)'}]});
+    const p = found.prony;
+    if (p) Plot.draw(ui.prony, {title: 'Prony series', height: 240, x: {label: 'relaxation time (s)', log: true},
+      y: {label: 'modulus (Pa)', log: true}, series: [{x: p.column('relaxation_time'), y: p.column('modulus'),
+        kind: 'points', width: 5, color: 'var(--s0)'}]});
+  };
+  const describe = () => {
+    const keys = found.shift_factors.keys;
+    const number = (name, digits) => keys[name] ? Plot.inUnit(keys[name].value, keys[name].unit, digits) : '';
+    ui.verdict.textContent = keys.superposition || '';
+    ui.law.textContent = [keys.law, keys.wlf_c1 && `C1 = ${number('wlf_c1', 4)}, C2 = ${number('wlf_c2', 4)}`,
+      keys.law_rms && `rms of the law ${number('law_rms', 2)} decade`,
+      `at ${celsius(keys.reference_temperature.value)} °C`,
+      `computed in ${(found.time * 1000).toFixed(0)} ms`].filter(Boolean).join('; ');
+    const all = isotherms(), n = Math.max(1, all.length - 1);
+    ui.isotherms.replaceChildren(...all.map(([temperature, rows], k) => {
+      const i = element('i', {});
+      i.style.cssText = `display:inline-block;width:.8rem;height:.8rem;margin:0 .3rem;background:${Plot.heat(k / n)}`;
+      return element('label', {}, element('input', {type: 'checkbox', checked: true,
+        onchange: () => toggle(rangeOf(temperature))}), i, `${celsius(temperature)} °C, ${rows.length} points`);
+    }), ...excluded().map((text) => element('label', {}, element('input', {type: 'checkbox',
+      onchange: () => toggle(text)}), ` ${text}, excluded`)));
+    const [low, high] = Plot.range(all.map(([t]) => celsius(t)));
+    ui.reference.min = Math.floor(low);
+    ui.reference.max = Math.ceil(high);
+    ui.reference.value = celsius(keys.reference_temperature.value);
+    ui.shown.textContent = `${ui.reference.value} °C`;
+    document.documentElement.dataset.reference = ui.reference.value;
+    document.documentElement.dataset.isotherms = all.length;
+  };
+  const compute = async (source) => {
+    const made = await View.trial(tables, 0, source);
+    if (made === null) return;
+    if (!made.master_curve) throw new Error(made.failures && made.failures.n > 0 ?
+      made.failures.rows.map((row) => `${row.file}: ${row.message}`).join('\n') :
+      'The case has no sweeps (<dma> with <files>).');
+    found = made;
+    draw();
+  };
+  /* Ends up in the case when the slider is released. */
+  const move = View.guard(async (done) => {
+    const values = {'dma/reference-temperature': `${ui.reference.value}degC`};
+    ui.shown.textContent = `${ui.reference.value} °C`;
+    if (done) View.edit(values);
+    else await compute(View.changed(values));
+  });
+  const choices = {'dma/vertical-shift': ['Vertical shift', ['', 'none', 'physical', 'free', 'tied']],
+    'dma/shift-by': ['Shift by', ['', 'moduli', 'storage', 'loss', 'loss-factor']]};
+
+  View.add({
+    id: 'master', title: 'Master curve',
+    build(host) {
+      const options = (values) => values.map((v) => element('option', {value: v}, v === '' ? 'default' : v));
+      ui = {selects: {}, plot: element('div', {}), shifts: element('div', {}), vertical: element('div', {}),
+        prony: element('div', {}), verdict: element('p', {class: 'card'}), law: element('p', {class: 'soft'}),
+        isotherms: element('div', {style: 'display:grid;gap:.15rem'}), shown: element('output', {}),
+        quantity: element('select', {onchange: draw}, ...[['storage', 'storage modulus'],
+          ['loss', 'loss modulus'], ['loss_factor', 'tan delta'], ['own_storage', 'isotherms as measured']]
+          .map(([value, text]) => element('option', {value}, text))),
+        reference: element('input', {type: 'range', step: 1, 'aria-label': 'Reference temperature',
+          oninput: () => move(false), onchange: () => move(true)})};
+      for (const path in choices) {
+        const [label, values] = choices[path];
+        const select = element('select', {onchange: () => View.edit({[path]: select.value || null})},
+          ...options(values));
+        ui.selects[path] = element('label', {}, label + ' ', select);
+        ui.selects[path].select = select;
+      }
+      host.append(element('div', {class: 'tools'}, element('label', {}, 'Show ', ui.quantity),
+        ...Object.values(ui.selects), element('label', {}, 'Reference temperature ', ui.reference), ui.shown),
+      ui.verdict, ui.law, element('div', {class: 'columns'},
+        element('div', {}, element('h2', {}, 'Isotherms'), ui.isotherms), ui.plot),
+      element('div', {class: 'halves'}, element('div', {}, element('h2', {}, 'Shift factors'), ui.shifts),
+        element('div', {}, element('h2', {}, 'Vertical shifts'), ui.vertical),
+        element('div', {}, element('h2', {}, 'Prony series'), ui.prony)));
+    },
+    async show() {
+      if (!View.has('dma/files')) throw new Error('The case has no sweeps (<dma> with <files>).');
+      for (const path in ui.selects) ui.selects[path].select.value = View.get(path) || '';
+      await compute();
+      describe();
+    },
+    resize: () => found.master_curve && draw(),
+    command: () => [`weartrack table ${View.quote(View.state().resultName || 'case.h5')} shift_factors`],
+  });
+})();

@@ -1,0 +1,142 @@
+/* Panels Start and Answer: files, what conditioning found, the text of the case, the report.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+'use strict';
+(() => {
+  const {element, call} = View;
+  let files, conditioning, form, source, status, create;
+
+  const info = async (number, host) => {
+    const {tables} = await call('info', {number});
+    const [metadata, ...remarks] = tables.map(View.table);
+    const value = (item) => {
+      const row = metadata.column('item').indexOf(item);
+      return row < 0 ? '' : metadata.column('value')[row];
+    };
+    host.replaceChildren(element('summary', {}, element('b', {}, host.dataset.name), ' ',
+      element('span', {class: 'soft'}, value('format') || value('kind') || ''),
+      remarks.some((t) => t.n > 0) ? element('span', {}, ' – with remarks') : null),
+    ...remarks.map((t) => View.show(t)), View.show(metadata));
+  };
+  const list = async (state) => {
+    const entries = state.files.map((path) => {
+      const name = path.startsWith(state.folder + '/') ? path.slice(state.folder.length + 1) : path;
+      const host = element('details', {class: 'card'}, element('summary', {}, name));
+      host.dataset.name = name;
+      return host;
+    });
+    files.replaceChildren(...entries);
+    for (let i = 0; i < entries.length && i < 200; i++)
+      await info(i, entries[i]).catch((problem) => {
+        entries[i].replaceChildren(element('summary', {}, element('b', {}, entries[i].dataset.name),
+          ' – not read'), element('p', {class: 'problem'}, problem.message));
+      });
+  };
+
+  /* Values that most cases need, with their units checked while typing. */
+  const fields = [['indentation/tip', 'Tip'], ['indentation/fit-depth', 'Largest indentation of the fit'],
+    ['indentation/temperature', 'Temperature of the indentation'],
+    ['dma/reference-temperature', 'Reference temperature'], ['sliding/pressure', 'Nominal pressure'],
+    ['sliding/temperature', 'Temperature of sliding'], ['sliding/velocity', 'Velocity'],
+    ['sliding/shear-stress', 'Shear stress of the contact'],
+    ['layer/critical-energy', 'Critical energy U_c'], ['layer/specific-wear-rate', 'Specific wear rate'],
+    ['layer/damage', 'Damage']];
+  const check = View.latest(async (text) => {
+    await call('check', {}, text);
+    return true;
+  });
+  const field = ([path, label]) => {
+    const id = 'field-' + path.replace('/', '-');
+    const problem = element('span', {class: 'problem wide', role: 'status', id: id + '-problem'});
+    const input = element('input', {type: 'text', id, value: View.get(path) || '',
+      placeholder: 'not stated', 'aria-describedby': id + '-problem'});
+    const made = () => View.changed({[path]: input.value.trim() === '' ? null : input.value.trim()});
+    input.addEventListener('input', async () => {
+      try {
+        await check(made());
+        problem.textContent = '';
+        input.removeAttribute('aria-invalid');
+      } catch (error) {
+        problem.textContent = error.message;
+        input.setAttribute('aria-invalid', true);
+      }
+    });
+    input.addEventListener('change', async () => {
+      if (!input.hasAttribute('aria-invalid')) View.replace(made());
+    });
+    return [element('label', {for: id}, label), input, problem];
+  };
+  const showForm = () => {
+    if (form.contains(document.activeElement)) return;
+    form.replaceChildren(...fields.filter(([path]) => View.has(path.split('/')[0])).flatMap(field));
+  };
+  const checkText = async () => {
+    try {
+      await check(source.value);
+      status.textContent = 'The case is valid.';
+    } catch (problem) {
+      status.textContent = problem.message;
+    }
+  };
+  const conditions = async (state) => {
+    const names = ['data_quality', 'notes', 'failures'].filter((name) => state.tables.includes(name));
+    if (names.length === 0) {
+      conditioning.replaceChildren(element('p', {class: 'soft'}, state.resultName ?
+        'The data needed no correction.' : 'Run the case to see what was corrected or left out.'));
+      return;
+    }
+    const found = View.tables(await call('table', {name: names.join(' ')}));
+    conditioning.replaceChildren(...names.filter((name) => found[name]).flatMap((name) =>
+      [element('h3', {}, found[name].title), View.show(found[name])]));
+  };
+
+  View.add({
+    id: 'start', title: 'Start',
+    build(host) {
+      create = element('p', {hidden: true}, 'There is no case file yet. ',
+        element('button', {class: 'main', onclick: View.guard(() => View.create())},
+          'Write a case for these files'));
+      files = element('div', {});
+      conditioning = element('div', {});
+      form = element('div', {class: 'form card'});
+      status = element('p', {role: 'status'});
+      source = element('textarea', {spellcheck: 'false', 'aria-label': 'Text of the case', oninput: checkText,
+        onchange: () => View.replace(source.value)});
+      host.append(create, element('div', {class: 'halves'},
+        element('div', {}, element('h2', {}, 'Files'), files,
+          element('h2', {}, 'What conditioning found'), conditioning),
+        element('div', {}, element('h2', {}, 'Values'), form,
+          element('h2', {}, 'Case file'), source, status)));
+    },
+    async show(state) {
+      create.hidden = state.caseText !== null;
+      if (document.activeElement !== source) source.value = View.text();
+      status.textContent = state.caseText === null ? '' : state.caseProblem;
+      showForm();
+      if (files.dataset.of !== state.files.join('\n')) {
+        files.dataset.of = state.files.join('\n');
+        list(state);
+      }
+      await conditions(state);
+    },
+    command: () => View.state().caseText === null ?
+      [`weartrack new-case -o ${View.quote(View.state().caseName)} .`] : [],
+  });
+
+  let frame, none, page, loads = 0; /* another address loads the frame again */
+  View.add({
+    id: 'answer', title: 'Answer',
+    build(host) {
+      none = element('p', {}, 'There is no report yet: run the case.');
+      page = element('p', {}, element('a', {href: 'report', target: '_blank'}, 'Open the report as a page'));
+      frame = element('iframe', {title: 'Report', sandbox: 'allow-same-origin allow-popups'});
+      host.append(none, page, frame);
+    },
+    async show(state) {
+      const has = state.reportName !== null;
+      none.hidden = has;
+      page.hidden = frame.hidden = !has;
+      if (has) frame.src = 'report?number=' + ++loads;
+    },
+    command: () => [`weartrack report ${View.quote(View.state().resultName || 'case.h5')} -o answer.html`],
+  });
+})();

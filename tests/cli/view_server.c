@@ -1,0 +1,360 @@
+/* The local server of `weartrack view`, asked by a small client over sockets: what the page gets,
+ * what is refused, that the numbers are those of `weartrack run` to the last digit, and how it
+ * ends. Usage: view_server PROGRAM FIXTURES WORK. SPDX-License-Identifier: GPL-3.0-or-later */
+#include <arpa/inet.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <netinet/in.h>
+#include <signal.h>
+#include <spawn.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <time.h>
+#include <unistd.h>
+
+extern char **environ;
+
+enum { ANSWER_SIZE = 32 << 20 };
+static char *answer; /* [ANSWER_SIZE] head and body of the last answer */
+static unsigned port;
+static char token[64];
+static const char *program;
+
+static _Noreturn void fail(const char *what)
+{
+    fprintf(stderr, "FAIL %s: %.600s\n", what, answer);
+    exit(1);
+}
+
+static void check(bool holds, const char *what)
+{
+    if (!holds)
+        fail(what);
+}
+
+static double now(void)
+{
+    struct timespec t;
+    (void)clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+/* ---- client ---------------------------------------------------------------------------------- */
+
+static int connect_to_server(void)
+{
+    const struct sockaddr_in to = {.sin_family = AF_INET,
+                                   .sin_port = htons((uint16_t)port),
+                                   .sin_addr.s_addr = htonl(INADDR_LOOPBACK)};
+    const int s = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+    const struct timeval limit = {.tv_sec = 60};
+    check(s >= 0 && connect(s, (const struct sockaddr *)&to, sizeof to) == 0, "no connection");
+    (void)setsockopt(s, SOL_SOCKET, SO_RCVTIMEO, &limit, sizeof limit);
+    return s;
+}
+
+/* Sends bytes; false if the server has closed the connection. */
+static bool send_bytes(int s, const char *bytes, size_t n)
+{
+    while (n > 0) {
+        const ssize_t sent = send(s, bytes, n, MSG_NOSIGNAL);
+        if (sent <= 0)
+            return false;
+        bytes += sent;
+        n -= (size_t)sent;
+    }
+    return true;
+}
+
+/* Reads to the end of the connection and returns the status, 0 without an answer. */
+static int receive_answer(int s)
+{
+    size_t n = 0;
+    for (ssize_t got;
+         n + 1 < ANSWER_SIZE && (got = recv(s, answer + n, ANSWER_SIZE - 1 - n, 0)) > 0;)
+        n += (size_t)got;
+    answer[n] = '\0';
+    close(s);
+    return strncmp(answer, "HTTP/1.1 ", 9) == 0 ? atoi(answer + 9) : 0;
+}
+
+/* Sends a request whose head is complete but for the length of its body. */
+static int send_request(const char *head, const char *body, size_t length)
+{
+    char lines[2048];
+    const int s = connect_to_server();
+    (void)snprintf(lines, sizeof lines, "%sConnection: close\r\nContent-Length: %zu\r\n\r\n", head,
+                   length);
+    if (send_bytes(s, lines, strlen(lines)))
+        (void)send_bytes(s, body, length);
+    return receive_answer(s);
+}
+
+/* Asks as the page does. `target` follows the token. */
+static int ask(const char *method, const char *target, const char *body)
+{
+    char head[1024];
+    (void)snprintf(head, sizeof head,
+                   "%s /%s/%s HTTP/1.1\r\nHost: 127.0.0.1:%u\r\nOrigin: http://127.0.0.1:%u\r\n"
+                   "Sec-Fetch-Site: same-origin\r\n",
+                   method, token, target, port, port);
+    return send_request(head, body, strlen(body));
+}
+
+static void expect(int status, const char *method, const char *target, const char *body,
+                   const char *part)
+{
+    const int found = ask(method, target, body);
+    if (found != status || strstr(answer, part) == NULL) {
+        fprintf(stderr, "%s %s: %d instead of %d, or without \"%s\"\n", method, target, found,
+                status, part);
+        fail("answer");
+    }
+}
+
+/* The text after `"name": ` behind the first `after`, as it stands, up to a comma or the end. */
+static void member(const char *after, const char *name, char *to, size_t size)
+{
+    char key[64];
+    const char *at = strstr(answer, after);
+    (void)snprintf(key, sizeof key, "\"%s\":", name);
+    at = at != NULL ? strstr(at, key) : NULL;
+    check(at != NULL, name);
+    at += strlen(key);
+    at += strspn(at, " \"");
+    (void)snprintf(to, size, "%.*s", (int)strcspn(at, ",}\""), at);
+}
+
+/* ---- server ---------------------------------------------------------------------------------- */
+
+static pid_t start_server(char *argument)
+{
+    char *const words[] = {
+        (char *)(size_t)program, "view", "--no-open", "--port", "0", argument, NULL};
+    int out[2];
+    pid_t child = 0;
+    posix_spawn_file_actions_t files;
+    check(pipe(out) == 0 && posix_spawn_file_actions_init(&files) == 0, "pipe");
+    (void)posix_spawn_file_actions_adddup2(&files, out[1], STDOUT_FILENO);
+    (void)posix_spawn_file_actions_addclose(&files, out[0]);
+    check(posix_spawn(&child, program, &files, NULL, words, environ) == 0, "start");
+    (void)posix_spawn_file_actions_destroy(&files);
+    close(out[1]);
+    FILE *stream = fdopen(out[0], "r");
+    check(stream != NULL && fscanf(stream, "http://127.0.0.1:%u/%63[0-9a-f]/", &port, token) == 2,
+          "no address");
+    (void)fclose(stream);
+    return child;
+}
+
+/* Waits for the end and returns the exit status, or 128 and the signal; -1 if it does not end. */
+static int end_of(pid_t child, double limit)
+{
+    int state = 0;
+    for (const double end = now() + limit; now() < end;) {
+        if (waitpid(child, &state, WNOHANG) == child)
+            return WIFEXITED(state) ? WEXITSTATUS(state) : 128 + WTERMSIG(state);
+        (void)usleep(20000);
+    }
+    (void)kill(child, SIGKILL);
+    return -1;
+}
+
+static int run(char *const words[])
+{
+    pid_t child = 0;
+    posix_spawn_file_actions_t files;
+    check(posix_spawn_file_actions_init(&files) == 0 &&
+              posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, "/dev/null", O_WRONLY, 0) ==
+                  0 &&
+              posix_spawn(&child, words[0], &files, NULL, words, environ) == 0,
+          words[1]);
+    (void)posix_spawn_file_actions_destroy(&files);
+    return end_of(child, 300);
+}
+
+static char *read_file(const char *name)
+{
+    FILE *file = fopen(name, "r");
+    check(file != NULL, name);
+    char *text = calloc(1, 1 << 20);
+    check(text != NULL && fread(text, 1, (1 << 20) - 1, file) > 0, name);
+    (void)fclose(file);
+    return text;
+}
+
+static void copy(const char *from, const char *to)
+{
+    char *const words[] = {"/bin/cp", (char *)(size_t)from, (char *)(size_t)to, NULL};
+    check(run(words) == 0, from);
+}
+
+/* ---- tests ----------------------------------------------------------------------------------- */
+
+static void test_refusals(const char *case_text)
+{
+    char head[1024];
+    (void)snprintf(head, sizeof head, "GET /%s/state HTTP/1.1\r\nHost: evil.example:%u\r\n", token,
+                   port);
+    check(send_request(head, "", 0) == 403, "another host name");
+    (void)snprintf(
+        head, sizeof head,
+        "GET /%s/state HTTP/1.1\r\nHost: 127.0.0.1:%u\r\nOrigin: http://evil.example\r\n", token,
+        port);
+    check(send_request(head, "", 0) == 403, "another origin");
+    (void)snprintf(head, sizeof head, "GET /state HTTP/1.1\r\nHost: 127.0.0.1:%u\r\n", port);
+    check(send_request(head, "", 0) == 403 && strstr(answer, token) == NULL, "no token");
+    expect(404, "GET", "../../etc/passwd", "", "");
+    expect(405, "GET", "case", "", "");
+    expect(400, "GET", "info?number=x", "", "");
+    expect(422, "GET", "info?number=99999", "", "error");
+    expect(422, "POST", "check", "<case", "error");
+    expect(422, "POST", "curve?group=bulk&file=..%2F..%2Fetc%2Fpasswd&number=0", case_text,
+           "error");
+    /* a body that is larger than allowed is not read to its end */
+    enum { HUGE = 8 << 20 };
+    char *huge = malloc(HUGE);
+    check(huge != NULL, "memory");
+    memset(huge, 'x', HUGE);
+    (void)snprintf(head, sizeof head, "POST /%s/check HTTP/1.1\r\nHost: 127.0.0.1:%u\r\n", token,
+                   port);
+    check(send_request(head, huge, HUGE) != 200, "a huge body");
+    /* what is no HTTP, and a client that sends nothing, do not stop the server */
+    const int garbage = connect_to_server(), silent = connect_to_server();
+    (void)send_bytes(garbage, huge, 100000);
+    check(receive_answer(garbage) != 200, "garbage");
+    free(huge);
+    expect(200, "GET", "state", "", "caseText");
+    close(silent);
+}
+
+/* The fit of one curve by the server, by its trial and by `run` have the same digits. */
+static void test_digits(const char *case_text)
+{
+    char of_curve[64], of_trial[64], of_run[64], contact[64], moved[64];
+    expect(200, "POST", "curve?group=bulk&file=bulk-1.jpk-force-map&number=0", case_text,
+           "\"curves\"");
+    member("\"rows\"", "modulus", of_curve, sizeof of_curve);
+    member("\"rows\"", "contact_point", contact, sizeof contact);
+    expect(200, "POST", "trial?name=indentation/bulk&replicates=0", case_text, "bulk-1");
+    member("\"rows\"", "modulus", of_trial, sizeof of_trial);
+    char *const words[] = {(char *)(size_t)program, "run", "-q", "--no-report", "case.xml", NULL};
+    check(run(words) == 0, "run");
+    expect(200, "GET", "table?name=indentation/bulk", "", "bulk-1");
+    member("\"rows\"", "modulus", of_run, sizeof of_run);
+    printf("modulus of the curve %s, of the trial %s, of the run %s\n", of_curve, of_trial, of_run);
+    check(strcmp(of_curve, of_run) == 0 && strcmp(of_trial, of_run) == 0, "digits");
+    /* another contact point, as an override that the shell repeats */
+    char target[256], overrides[512];
+    (void)snprintf(target, sizeof target,
+                   "curve?group=bulk&file=bulk-1.jpk-force-map&number=0&contact=%.12g",
+                   atof(contact) + 5e-9);
+    expect(200, "POST", target, case_text, "contact point by hand");
+    member("\"rows\"", "modulus", moved, sizeof moved);
+    check(strcmp(moved, of_run) != 0, "a moved contact point changes the modulus");
+    (void)snprintf(
+        overrides, sizeof overrides,
+        "## table: choices\n# group[text]\tfile[text]\tcurve[1]\tchoice[text]\tvalue[text]\t"
+        "note[text]\nbulk\tbulk-1.jpk-force-map\t0\tcontact-point\t%.12gm\t-\n##\n",
+        atof(contact) + 5e-9);
+    expect(200, "POST", "overrides?was=", overrides, "digest");
+    expect(409, "POST", "overrides?was=", overrides, "error"); /* the file is not new any more */
+    const char *section = "<indentation>";
+    const char *at = strstr(case_text, section);
+    char *changed = calloc(1, strlen(case_text) + 256), digest[80];
+    check(at != NULL && changed != NULL, section);
+    (void)sprintf(changed, "%.*s%s<overrides>overrides.tsv</overrides>%s", (int)(at - case_text),
+                  case_text, section, at + strlen(section));
+    expect(200, "GET", "state", "", "caseDigest");
+    member("caseText", "caseDigest", digest, sizeof digest);
+    (void)snprintf(target, sizeof target, "case?was=%s", digest);
+    expect(200, "POST", target, changed, "digest");
+    check(run(words) == 0, "run with overrides");
+    expect(200, "GET", "table?name=indentation/bulk", "", "by hand");
+    member("\"rows\"", "modulus", of_run, sizeof of_run);
+    printf("with the contact point by hand %s, of the run %s\n", moved, of_run);
+    check(strcmp(moved, of_run) == 0, "the override gives the digits of the page");
+    free(changed);
+}
+
+/* A link in place of the overrides is neither read nor replaced. */
+static void test_link(void)
+{
+    copy("case.xml", "secret.txt");
+    check(unlink("overrides.tsv") == 0 && symlink("secret.txt", "overrides.tsv") == 0, "link");
+    expect(422, "POST", "overrides?was=", "x", "error");
+    expect(200, "GET", "state", "", "symbolic links are not followed");
+    char *text = read_file("secret.txt");
+    check(strncmp(text, "<?xml", 5) == 0, "the file behind a link is unchanged");
+    free(text);
+    check(unlink("overrides.tsv") == 0, "link");
+}
+
+/* Latencies, which depend on the machine: shown, and wrong only if they are out of all bounds. */
+static void test_latency(const char *case_text)
+{
+    double start = now();
+    for (int i = 0; i < 20; i++)
+        expect(200, "POST", "curve?group=track&file=track-2.jpk-force-map&number=3", case_text,
+               "curves");
+    const double curve = (now() - start) / 20;
+    start = now();
+    expect(200, "POST", "trial?name=friction&replicates=0", case_text, "friction_at_reference");
+    const double friction = now() - start;
+    printf("one curve %.1f ms, friction %.0f ms\n", 1e3 * curve, 1e3 * friction);
+    check(curve < 5 && friction < 60, "latency");
+}
+
+int main(int argc, char **argv)
+{
+    static const char *const names[] = {"case.xml",
+                                        "dma.txt",
+                                        "bulk-1.jpk-force-map",
+                                        "bulk-2.jpk-force-map",
+                                        "bulk-3.jpk-force-map",
+                                        "bulk-4.jpk-force-map",
+                                        "track-1.jpk-force-map",
+                                        "track-2.jpk-force-map",
+                                        "track-3.jpk-force-map",
+                                        "track-4.jpk-force-map",
+                                        "road-1.gsf",
+                                        "road-2.gsf",
+                                        "road-1-near.gsf",
+                                        "road-2-near.gsf"};
+    char path[4096];
+    answer = calloc(1, ANSWER_SIZE);
+    if (argc != 4 || answer == NULL)
+        return 2;
+    program = argv[1];
+    char *const clean[] = {"/bin/rm", "-rf", argv[3], NULL}, *const make[] = {"/bin/mkdir", "-p",
+                                                                              argv[3], NULL};
+    check(run(clean) == 0 && run(make) == 0 && chdir(argv[3]) == 0, argv[3]);
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
+        (void)snprintf(path, sizeof path, "%s/case/%s", argv[2], names[i]);
+        copy(path, names[i]);
+    }
+    pid_t server = start_server("case.xml");
+    char *case_text = read_file("case.xml");
+    expect(200, "GET", "", "", "Content-Security-Policy");
+    expect(200, "GET", "view.js", "", "text/javascript");
+    expect(200, "GET", "state", "", "road-1.gsf"); /* numbers the files */
+    expect(200, "GET", "info?number=0", "", "gsf");
+    test_refusals(case_text);
+    test_digits(case_text);
+    test_link();
+    test_latency(case_text);
+    /* Ctrl-C ends it at once; the end of the last page after a few seconds */
+    check(kill(server, SIGINT) == 0 && end_of(server, 20) == 128 + SIGINT, "Ctrl-C");
+    server = start_server(".");
+    expect(200, "POST", "alive?page=00ff", "", "{}");
+    expect(200, "POST", "leave?page=00ff", "", "{}");
+    check(end_of(server, 30) == 0, "the end of the last page");
+    free(case_text);
+    free(answer);
+    return 0;
+}
