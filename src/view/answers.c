@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "view/view.h"
 
+#include "core/base/memory.h"
 #include "report/report_files.h"
 #include "view/view_embedded.h"
 
@@ -43,11 +44,9 @@ static wt_status append_table(const wt_table *table, text_buffer *to, wt_error *
 {
     char *bytes = NULL;
     size_t length = 0;
-    FILE *stream = open_memstream(&bytes, &length);
-    wt_status status = stream != NULL ? wt_table_export(stream, table, WT_EXPORT_JSON, false, err)
-                                      : wt_fail(err, WT_E_MEMORY, "out of memory");
-    if (stream != NULL && fclose(stream) != 0 && status == WT_OK)
-        status = wt_fail(err, WT_E_MEMORY, "out of memory");
+    FILE *stream = text_stream_open(&bytes, &length);
+    const wt_status status = wt_table_export(stream, table, WT_EXPORT_JSON, false, err);
+    text_stream_close(stream);
     if (status == WT_OK)
         text_bytes(to, bytes, length);
     free(bytes);

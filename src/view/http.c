@@ -127,10 +127,6 @@ static enum MHD_Result handle(void *user, struct MHD_Connection *connection, con
     }
     view_reply reply = {.status = HTTP_OK, .media = "application/json"};
     server->answer(server->user, &c->request, text_string(&c->body), c->body.length, &reply);
-    if (reply.text.failed) {
-        text_free(&reply.text);
-        return MHD_NO;
-    }
     return send_reply(connection, &reply);
 }
 
