@@ -263,6 +263,8 @@ void cmd_print_place_of_rest(const cmd_session *s);
 bool cmd_is_hdf5_path(const char *path);
 /* True for standard output: no name, or "-". */
 bool cmd_is_standard_stream(const char *path);
+/* Returns the form that the end of a name asks for. */
+wt_export_form export_form_of_suffix(const char *output, wt_export_form otherwise);
 /* For subcommands that write only text: usage error if the name after -o requests HDF5. */
 bool cmd_require_text_output(cmd_session *s);
 /* Checks before the computation that the file can be written. NULL and "-" are always possible. */

@@ -20,23 +20,6 @@ static const wt_param rows[] = {
 };
 PARAM_TABLE(export_params, export_options, rows, export_options_defaults, NO_PARTS)
 
-wt_export_form export_form_of_suffix(const char *output, wt_export_form otherwise)
-{
-    static const struct {
-        const char *ending;
-        wt_export_form form;
-    } known[] = {{".csv", WT_EXPORT_CSV},
-                 {".json", WT_EXPORT_JSON},
-                 {".sqlite", WT_EXPORT_SQLITE},
-                 {".sqlite3", WT_EXPORT_SQLITE},
-                 {".db", WT_EXPORT_SQLITE}};
-    const char *dot = output != NULL ? strrchr(output, '.') : NULL;
-    for (size_t i = 0; dot != NULL && i < COUNT_OF(known); i++)
-        if (strcasecmp(dot, known[i].ending) == 0)
-            return known[i].form;
-    return otherwise;
-}
-
 static wt_export_form select_export_form(const char *output, const cmd_option_group *part)
 {
     const export_options *options = part->structure;

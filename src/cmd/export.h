@@ -11,8 +11,6 @@ typedef struct export_options {
 } export_options;
 const wt_params *export_params(void);
 
-/* Returns the form that the end of a name asks for. */
-wt_export_form export_form_of_suffix(const char *output, wt_export_form otherwise);
 /* Writes the table to -o or standard output. Unless --format is among the options given, the end of
  * the name after -o decides. */
 wt_status export_table(cmd_session *s, const cmd_option_group *part, const wt_table *table);

@@ -1,9 +1,9 @@
 /* Writes tables to files and standard output. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
+#include <strings.h>
 #include <sys/stat.h>
 
 #include "cmd/cmd.h"
-#include "cmd/export.h"
 
 static bool ends_with(const char *text, const char *end)
 {
@@ -139,6 +139,23 @@ static wt_status write_first_table(cmd_session *s, FILE *out)
                     "has all of them\n",
                     s->name, s->common.output, wt_table_name(first), n);
     return wt_table_export(out, first, WT_EXPORT_CSV, false, &s->err);
+}
+
+wt_export_form export_form_of_suffix(const char *output, wt_export_form otherwise)
+{
+    static const struct {
+        const char *ending;
+        wt_export_form form;
+    } known[] = {{".csv", WT_EXPORT_CSV},
+                 {".json", WT_EXPORT_JSON},
+                 {".sqlite", WT_EXPORT_SQLITE},
+                 {".sqlite3", WT_EXPORT_SQLITE},
+                 {".db", WT_EXPORT_SQLITE}};
+    const char *dot = output != NULL ? strrchr(output, '.') : NULL;
+    for (size_t i = 0; dot != NULL && i < COUNT_OF(known); i++)
+        if (strcasecmp(dot, known[i].ending) == 0)
+            return known[i].form;
+    return otherwise;
 }
 
 wt_status cmd_write_result(cmd_session *s)

@@ -202,7 +202,7 @@ static void log_rows(const wt_result_rows *rows)
 
 void cmd_print_short_table(cmd_session *s, bool findings)
 {
-    if (s->common.quiet || s->result == NULL)
+    if ((s->common.quiet && !findings) || s->result == NULL)
         return;
     wt_result_rows *rows = wt_result_rows_new(s->result, findings);
     const size_t n = wt_result_rows_count(rows);

@@ -209,20 +209,22 @@ static void write_main_numbers(page_writer *page)
     result_rows list;
     result_rows_compute(page->result, &list);
     if (list.n > 0)
-        text_html(&page->out,
-                  "<table class=\"few\" id=\"main\">\n<caption>%s</caption>\n<thead><tr>"
-                  "<th scope=\"col\">Quantity</th><th scope=\"col\">Value</th>"
-                  "<th scope=\"col\">95 &#37; interval</th><th scope=\"col\">Note</th></tr></thead>\n"
-                  "<tbody>\n",
-                  list.heading[0] != '\0' ? list.heading : "Main numbers");
+        text_html(
+            &page->out,
+            "<table class=\"few\" id=\"main\">\n<caption>%s</caption>\n<thead><tr>"
+            "<th scope=\"col\">Quantity</th><th scope=\"col\">Value</th>"
+            "<th scope=\"col\">95 &#37; interval</th><th scope=\"col\">Note</th></tr></thead>\n"
+            "<tbody>\n",
+            list.heading[0] != '\0' ? list.heading : "Main numbers");
     for (size_t i = 0; i < list.n; i++) {
         const result_row *const row = &list.rows[i];
         const row_number_text number = row_number_format(&row->number);
-        text_html(&page->out,
-                  "<tr><th scope=\"row\">%s</th><td data-label=\"Value\">%s</td>"
-                  "<td data-label=\"95 &#37; interval\">%s</td><td data-label=\"Note\">%s</td></tr>\n",
-                  row->name, row->kind == RESULT_ROW_TEXT ? row->text : number.value,
-                  number.interval, row->note);
+        text_html(
+            &page->out,
+            "<tr><th scope=\"row\">%s</th><td data-label=\"Value\">%s</td>"
+            "<td data-label=\"95 &#37; interval\">%s</td><td data-label=\"Note\">%s</td></tr>\n",
+            row->name, row->kind == RESULT_ROW_TEXT ? row->text : number.value, number.interval,
+            row->note);
     }
     if (list.n > 0)
         text_add(&page->out, "</tbody>\n</table>\n");
@@ -235,7 +237,7 @@ void page_summary(page_writer *page)
     finding findings[FINDING_QUESTIONS];
     text_add(&page->out, "<div class=\"summary\">\n");
     if (result_values_bind(page->result, &tables, NULL) == WT_OK &&
-        findings_compute(&tables, findings))
+        (findings_compute(&tables, findings) || page->tables->answer.n_rows > 0))
         write_remedies(page, findings);
     else
         write_main_numbers(page);

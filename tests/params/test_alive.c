@@ -183,7 +183,7 @@ static const struct {
     {"layer", "pressures", "the same"},
     {NULL, "report", "where the report goes, not what it is"},
     {NULL, "no-report", "the base has it"},
-    {"run", "verbose", "only a terminal gets the short answer: tests/cli/remarks.txt"},
+    {NULL, "verbose", "reasons behind the short table: tests/cli/tribometers.txt"},
     {"case", "scan-lines", "for height maps with line faults: unit_job_conditioning, cli_psd"},
     {"run", "keep", "the result that is there, of the same command: cli_keep"},
     {NULL, "style", "of the pictures: test_report"},

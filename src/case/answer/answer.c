@@ -58,13 +58,25 @@ static reason_text explain_outcome(const flow_plan *plan, flow_stage_id stage, f
     return reason;
 }
 
+static const flow_stage_id stage_of_question[FINDING_QUESTIONS] = {
+    [FINDING_TRACK_DIFFERS] = FLOW_STAGE_COMPARISON,
+    [FINDING_LAYER_THICKNESS] = FLOW_STAGE_LAYER,
+    [FINDING_FRICTION_CHANGE] = FLOW_STAGE_FRICTION};
+
+/* True if the stage of a question was chosen and has no result. */
+static bool has_failed_question(const flow_plan *plan)
+{
+    for (size_t i = 0; i < FINDING_QUESTIONS; i++) {
+        const flow_outcome outcome = plan->outcome[stage_of_question[i]];
+        if (outcome != FLOW_DONE && outcome != FLOW_EXCLUDED)
+            return true;
+    }
+    return false;
+}
+
 static void add_finding(table_writer *t, const flow_plan *plan, const finding *f)
 {
-    static const flow_stage_id stages[FINDING_QUESTIONS] = {
-        [FINDING_TRACK_DIFFERS] = FLOW_STAGE_COMPARISON,
-        [FINDING_LAYER_THICKNESS] = FLOW_STAGE_LAYER,
-        [FINDING_FRICTION_CHANGE] = FLOW_STAGE_FRICTION};
-    const flow_stage_id stage = stages[f->question];
+    const flow_stage_id stage = stage_of_question[f->question];
     const flow_outcome outcome = plan->outcome[stage];
     reason_text reason = {""};
     if (f->verdict == FINDING_NOT_COMPUTED && outcome != FLOW_DONE)
@@ -92,9 +104,9 @@ wt_status flow_answer(const wt_case *c, const flow_plan *plan, const wt_result *
     if (status != WT_OK)
         return status;
     table_writer t = table_begin(&answer_schema, err);
-    findings_compute(&context.values, findings);
-    for (size_t i = 0; i < FINDING_QUESTIONS; i++)
-        add_finding(&t, plan, &findings[i]);
+    if (findings_compute(&context.values, findings) || has_failed_question(plan))
+        for (size_t i = 0; i < FINDING_QUESTIONS; i++)
+            add_finding(&t, plan, &findings[i]);
     if (wt_case_title(c)[0] != '\0')
         answer_set_text(&t, ANSWER_KEY_CASE_TITLE, wt_case_title(c));
     if (c->sample[0] != '\0')

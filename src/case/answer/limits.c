@@ -316,6 +316,14 @@ static void add_layer_limits(limit_list *list, const answer_context *context)
         add(list, WT_NOTE, LIMITS_LAYER, "The layer does not change the energy that forms it.");
     add_excluded(list, LIMITS_LAYER, "thickness", &thickness);
     add_agreement_limits(list, context, layer_key_enum(layer, LAYER_KEY_REGIME) != WT_LAYER_NONE);
+    if (context->wear.table != NULL) {
+        const double measured = wear_value(&context->wear, WEAR_KEY_RATE).value,
+                     used = layer_value(layer, LAYER_KEY_WEAR_RATE).value;
+        if (measured > 0 && used > 0 && measured != used)
+            add(list, WT_WARNING, LIMITS_LAYER,
+                "The stated specific wear rate, %s, is used; the records measure %s.",
+                format_with_unit(used, "m^2/N").text, format_with_unit(measured, "m^2/N").text);
+    }
     const double value = thickness.number.value;
     if (!(value > 0) || !isfinite(value))
         return;

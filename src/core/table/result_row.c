@@ -45,11 +45,11 @@ bool result_rows_of_findings(const wt_result *result, result_rows *rows)
         /* A table without a required column adds nothing. */
     }
     table_view answer;
-    if (!findings_compute(&s.values, findings))
-        return false;
     /* a run states why a number is missing */
     const bool stated =
         rows_bind(&s, &answer_schema, &answer) && answer.n_rows == FINDING_QUESTIONS;
+    if (!findings_compute(&s.values, findings) && !stated)
+        return false;
     const result_value friction = result_value_friction(&s.values, FRICTION_KEY_HYSTERESIS);
     rows_condition(&s, friction.velocity, "m/s");
     rows_condition(&s, friction.pressure, "Pa");
@@ -66,6 +66,7 @@ bool result_rows_of_findings(const wt_result *result, result_rows *rows)
                     f->value.remedy != NULL ? f->value.remedy : f->value.range.remedy);
         add_finding_number(&s, f);
     }
+    rows_of_records(&s);
     return true;
 }
 
