@@ -362,6 +362,36 @@ static void test_sliders(void)
     printf("mu %s, with more shear stress %s\n", before, value);
 }
 
+/* A folder of data: the page writes a case, names what is missing, runs it and shows the answer. */
+static void test_new_case(const char *program)
+{
+    char address[256];
+    shell("mkdir new && cp bulk-1.jpk-force-map track-1.jpk-force-map dma.txt new");
+    check(chdir("new") == 0, "new");
+    start_server(program, address, sizeof address);
+    open_page(address);
+    wait_for("document.documentElement.dataset.shown", "start");
+    click("#start button.main");
+    wait_for("document.documentElement.dataset.missing", "1");
+    (void)js(
+        "(() => { const i = document.querySelector('#gap-0'); "
+        "i.value = 'pyramid:half-angle=20deg,radius=20nm'; i.dispatchEvent(new Event('change')); "
+        "})()");
+    wait_for("document.documentElement.dataset.missing", "0");
+    click("#run"); /* saves the case first */
+    wait_for("document.documentElement.dataset.runs", "2");
+    wait_for("document.documentElement.dataset.changed", "false");
+    open_panel("answer");
+    wait_for("document.querySelector('iframe').contentDocument.body.textContent.includes("
+             "'Is the track different?')",
+             "true");
+    check(strcmp(data("error"), "undefined") == 0, "an error of the page");
+    shell("test -s case.h5 && test -s case-report/index.html");
+    (void)kill(server, SIGTERM);
+    (void)end_of(server);
+    check(chdir("..") == 0, "..");
+}
+
 /* A page of another origin is refused and changes nothing. */
 static void test_other_origin(const char *address)
 {
@@ -419,10 +449,11 @@ int main(int argc, char **argv)
     test_sliders();
     check(strcmp(data("error"), "undefined") == 0, "an error of the page");
     test_other_origin(address);
-    (void)kill(browser, SIGTERM);
-    (void)end_of(browser);
     (void)kill(server, SIGTERM);
     (void)end_of(server);
+    test_new_case(argv[1]);
+    (void)kill(browser, SIGTERM);
+    (void)end_of(browser);
     free(message);
     return 0;
 }
