@@ -200,11 +200,12 @@ static void start_browser(void)
                            "about:blank",
                            NULL};
     int in[2], out[2], high[2];
-    const int none = open("browser.txt", O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
-    check(pipe2(in, O_CLOEXEC) == 0 && pipe2(out, O_CLOEXEC) == 0 && none >= 0, "pipe");
+    const int words_file = open("browser.txt", O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
+    check(pipe2(in, O_CLOEXEC) == 0 && pipe2(out, O_CLOEXEC) == 0 && words_file >= 0, "pipe");
     /* above the descriptors of the child, so that none is replaced before it is used */
     high[0] = fcntl(in[0], F_DUPFD_CLOEXEC, 20);
     high[1] = fcntl(out[1], F_DUPFD_CLOEXEC, 20);
+    const int none = fcntl(words_file, F_DUPFD_CLOEXEC, 20);
     const int moves[][2] = {{high[0], COMMANDS}, {high[1], ANSWERS}, {none, STDERR_FILENO}};
     to_browser = fcntl(in[1], F_DUPFD_CLOEXEC, 20);
     from_browser = fcntl(out[0], F_DUPFD_CLOEXEC, 20);
@@ -215,6 +216,8 @@ static void start_browser(void)
     close(out[1]);
     close(high[0]);
     close(high[1]);
+    close(words_file);
+    close(none);
 }
 
 static void open_page(const char *address)
