@@ -508,6 +508,16 @@ typedef enum wt_systematic_source {
     WT_SYSTEMATIC_SOURCES
 } wt_systematic_source;
 
+/* One curve that is fitted again and again. It is read at the first call, or again if the values
+ * below change. A fixed contact point of the options replaces the one of the manual overrides. */
+typedef struct wt_single_curve {
+    const char *file; /* as in the column of the table */
+    size_t index;
+    wt_force_curve curve; /* owned; freed with wt_force_curve_clear */
+    bool is_read;
+    double spring_constant, sensitivity; /* with which it was read; NaN: those of the file */
+} wt_single_curve;
+
 typedef struct wt_indent_job {
     const char *group; /* "bulk", "track" or another name of [a-z0-9_]+ */
     const wt_file_set *sets;
@@ -528,10 +538,7 @@ typedef struct wt_indent_job {
     const struct wt_rubber *rubber; /* a factor on its spectrum is fitted; NULL (default) = none */
     wt_estimate
         temperature; /* temperature of the curves [K]; NaN = reference temperature of the rubber */
-    /* Only this curve of this file is fitted; NULL (default) = all. A fixed contact point of the
-     * options then replaces the one of the manual overrides. */
-    const char *only_file;
-    size_t only_curve;
+    struct wt_single_curve *only; /* fits this curve alone; NULL (default) = all */
 } wt_indent_job;
 WT_API wt_indent_job wt_indent_job_defaults(void);
 WT_API const wt_params *wt_indent_job_params(void);

@@ -290,7 +290,7 @@ wt_status wt_indent_group(const wt_indent_job *job, const wt_job *work, wt_inden
     }
     if (status == WT_OK)
         status = indent_depths_table(&task.depths, job, task.contact, tables, err);
-    if (status == WT_OK && job->only_file == NULL)
+    if (status == WT_OK && job->only == NULL)
         status = manual_overrides_table(&task.choices, work, &tables->choices, err);
     if (status == WT_OK && task.shown.median && task.n_moduli > 0)
         status = add_representative_curve(&task, tables, err);

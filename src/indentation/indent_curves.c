@@ -79,13 +79,6 @@ static bool may_read_curve(const indent_task *task)
            (task->n_busy < task->n_workers || task->n_samples < MAX_QUEUED_SAMPLES);
 }
 
-/* True if the curve precedes the only curve that is requested. */
-static bool is_before_only_curve(const indent_task *task, const queued_curve *it)
-{
-    return task->job->only_file != NULL && it->status != WT_END &&
-           it->curve.index < task->job->only_curve;
-}
-
 /* Reads the next curve. Returns NULL if there is none. */
 static queued_curve *read_next_curve(indent_task *task)
 {
@@ -96,16 +89,9 @@ static queued_curve *read_next_curve(indent_task *task)
     queued_curve *it = task->items;
     while (it->state != ITEM_FREE)
         it++;
-    do {
-        it->error = (wt_error)WT_ERROR_INIT;
-        it->status = wt_force_next(task->source, &it->curve, &it->error);
-    } while (is_before_only_curve(task, it));
+    it->error = (wt_error)WT_ERROR_INIT;
+    it->status = wt_force_next(task->source, &it->curve, &it->error);
     if (it->status == WT_END) {
-        wt_force_close(task->source);
-        task->source = NULL;
-        return NULL;
-    }
-    if (task->job->only_file != NULL && it->curve.index > task->job->only_curve) {
         wt_force_close(task->source);
         task->source = NULL;
         return NULL;
@@ -114,8 +100,6 @@ static queued_curve *read_next_curve(indent_task *task)
     for (size_t i = 0; it->status == WT_OK && i < it->curve.n_segments; i++)
         it->samples += it->curve.segments[i].n_points * it->curve.segments[i].n_channels;
     it->choice = manual_overrides_curve_choice(&task->choices, task->file, it->curve.index);
-    if (task->job->only_file != NULL && !isnan(task->options.fixed_contact_point))
-        it->choice.contact_point = task->options.fixed_contact_point;
     it->state = ITEM_BUSY;
     it->order = task->n_read++;
     task->n_busy++;
@@ -307,8 +291,6 @@ static wt_status read_curve_file(indent_task *task, wt_error *err)
              i++) /* an earlier file may have failed in the middle */
             task->items[i].state = ITEM_FREE;
         task->n_expected = count;
-        if (task->job->only_file != NULL)
-            force_seek(task->source, task->job->only_curve);
         task->n_read = task->n_written = task->n_busy = task->n_samples = 0;
         task->status = WT_OK;
         task->err = err;
@@ -331,15 +313,71 @@ static wt_status read_curve_file(indent_task *task, wt_error *err)
     return status;
 }
 
+/* ---- one curve alone ------------------------------------------------------------------------- */
+
+static bool is_same_value(double a, double b)
+{
+    return a == b || (isnan(a) && isnan(b));
+}
+
+/* Reads the single curve unless it was read with the same options. */
+static wt_status read_single_curve(indent_task *task, wt_single_curve *one, wt_error *err)
+{
+    wt_input *input = NULL;
+    wt_force_source *source = NULL;
+    wt_status status =
+        flow_open(task->work, task->file, task->job->group, WT_KIND_FORCE, &input, err);
+    const wt_read_options options =
+        indent_read_options(task, task->file, task->job->rates || task->options.spectrum != NULL);
+    if (status == WT_OK)
+        status = wt_force_open(task->work->formats, input, &options, task->work->log, &source, err);
+    if (status == WT_OK)
+        force_seek(source, one->index);
+    do
+        status = status == WT_OK ? wt_force_next(source, &one->curve, err) : status;
+    while (status == WT_OK && one->curve.index < one->index);
+    if (status == WT_END || (status == WT_OK && one->curve.index != one->index))
+        status = wt_fail(err, WT_E_NOT_FOUND, "the file has no curve %zu", one->index);
+    wt_force_close(source);
+    wt_input_close(input);
+    one->is_read = status == WT_OK;
+    one->spring_constant = options.spring_constant;
+    one->sensitivity = options.sensitivity;
+    return status;
+}
+
+static wt_status fit_single_curve(indent_task *task, wt_error *err)
+{
+    wt_single_curve *one = task->job->only;
+    const wt_read_options options = indent_read_options(task, task->file, false);
+    queued_curve *it = &task->items[0];
+    wt_status status = WT_OK;
+    if (!one->is_read || !is_same_value(one->spring_constant, options.spring_constant) ||
+        !is_same_value(one->sensitivity, options.sensitivity))
+        status = read_single_curve(task, one, err);
+    if (status != WT_OK)
+        return status;
+    const wt_force_curve spare = it->curve;
+    it->curve = one->curve; /* lent for the fit */
+    it->error = (wt_error)WT_ERROR_INIT;
+    it->choice = manual_overrides_curve_choice(&task->choices, task->file, one->index);
+    if (!isnan(task->options.fixed_contact_point))
+        it->choice.contact_point = task->options.fixed_contact_point;
+    fit_item(task, it, task->scratch[0]);
+    status = write_item(task, it, err);
+    it->curve = spare;
+    return status;
+}
+
 static wt_status process_curve_file(void *user, flow_file *file, size_t i, wt_error *err)
 {
     indent_task *task = user;
     task->file = file;
     task->file_number = i + 1;
     task->spot = file->set->spot != NULL ? file->set->spot : file->name;
-    if (task->job->only_file != NULL && strcmp(file->name, task->job->only_file) != 0)
-        return WT_OK;
-    return read_curve_file(task, err);
+    if (task->job->only == NULL)
+        return read_curve_file(task, err);
+    return strcmp(file->name, task->job->only->file) == 0 ? fit_single_curve(task, err) : WT_OK;
 }
 
 wt_status indent_read_files(indent_task *task, const flow_files *files, wt_error *err)

@@ -310,6 +310,17 @@ static wt_status start_run(wt_view *view, wt_error *err)
 static wt_status start_new_case(wt_view *view, wt_error *err)
 {
     enum { FIRST_FILE = 3 };
+    text_buffer text = {0};
+    bool exists = false;
+    wt_status status =
+        case_folder_read(&view->folder, view->case_name, VIEW_BODY_LIMIT, &exists, &text, err);
+    text_free(&text);
+    if (status == WT_OK && exists) {
+        status = wt_fail(err, WT_E_ARG, "there is a case already");
+        wt_error_file(err, view->case_name);
+    }
+    if (status != WT_OK)
+        return status;
     const size_t n = view->n_given > 0 ? view->n_given : 1;
     const char **arguments = wt_alloc(FIRST_FILE + n, sizeof *arguments);
     arguments[0] = "new-case";
@@ -318,8 +329,7 @@ static wt_status start_new_case(wt_view *view, wt_error *err)
     arguments[FIRST_FILE] = ".";
     for (size_t i = 0; i < view->n_given; i++)
         arguments[FIRST_FILE + i] = view->given[i];
-    const wt_status status =
-        view_program_start(view->program, view->folder.path, arguments, FIRST_FILE + n, err);
+    status = view_program_start(view->program, view->folder.path, arguments, FIRST_FILE + n, err);
     free(arguments);
     return status;
 }

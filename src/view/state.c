@@ -137,9 +137,10 @@ static void append_member(text_buffer *to, const char *name, const char *value)
         text_add(to, "null");
 }
 
-/* Appends the text of a file and its digest, which identifies it when it is replaced. */
+/* Appends the text of a file and its digest, which identifies it when it is replaced. Without a
+ * file the text is `instead`, which may be NULL. */
 static void append_file(const case_folder *folder, const char *prefix, const char *name,
-                        text_buffer *to)
+                        const char *instead, text_buffer *to)
 {
     char key[64], digest[65] = "";
     bool exists = false;
@@ -150,7 +151,7 @@ static void append_file(const case_folder *folder, const char *prefix, const cha
         exists)
         wt_sha256(text_string(&text), text.length, digest);
     (void)snprintf(key, sizeof key, "%sText", prefix);
-    append_member(to, key, exists ? text_string(&text) : NULL);
+    append_member(to, key, exists ? text_string(&text) : instead);
     (void)snprintf(key, sizeof key, "%sDigest", prefix);
     append_member(to, key, digest);
     (void)snprintf(key, sizeof key, "%sError", prefix);
@@ -195,6 +196,17 @@ static bool is_older(const wt_view *view, const char *name)
            (file->tv_sec == result->tv_sec && file->tv_nsec <= result->tv_nsec);
 }
 
+/* Returns the case in the result, a new string, if the file of the case is missing; else NULL. */
+static char *case_of_result(const wt_view *view)
+{
+    size_t length = 0;
+    struct stat state;
+    const char *xml = view->result != NULL ? wt_result_case(view->result, &length) : NULL;
+    const bool is_missing =
+        fstatat(view->folder.descriptor, view->case_name, &state, AT_SYMLINK_NOFOLLOW) != 0;
+    return xml != NULL && is_missing ? wt_strndup(xml, length) : NULL;
+}
+
 /* True if the result is that of the case and the overrides on the disk. `run --keep` also compares
  * the data files, which takes longer. */
 static bool is_current(const wt_view *view, const wt_case *c, const char *overrides)
@@ -218,22 +230,24 @@ wt_status view_append_state(wt_view *view, text_buffer *to, wt_error *err)
         wt_error_format(&failure, message, sizeof message);
     }
     list_files(view, c);
-    char *overrides = overrides_of_case(c);
+    char *overrides = overrides_of_case(c), *stored = case_of_result(view);
     text_format(to, "{\"version\":\"%s\"", wt_version());
     append_member(to, "folder", view->folder.path);
     append_member(to, "caseName", view->case_name);
     append_member(to, "title", c != NULL ? wt_case_title(c) : "");
-    append_member(to, "caseProblem", message);
-    append_file(&view->folder, "case", view->case_name, to);
+    append_member(to, "caseProblem", stored != NULL ? "" : message);
+    append_file(&view->folder, "case", view->case_name, stored, to);
     append_member(to, "overridesName", overrides);
     text_format(to, ",\"overridesInCase\":%s",
                 c != NULL && c->indent.choices != NULL ? "true" : "false");
-    append_file(&view->folder, "overrides", overrides, to);
+    append_file(&view->folder, "overrides", overrides, NULL, to);
     append_member(to, "resultName", view->result != NULL ? view->result_name : NULL);
     append_member(to, "reportName", has_report(view) ? view->report_name : NULL);
-    text_format(to, ",\"current\":%s", is_current(view, c, overrides) ? "true" : "false");
+    text_format(to, ",\"current\":%s",
+                stored != NULL || is_current(view, c, overrides) ? "true" : "false");
     append_names(view, to);
     text_add(to, "}");
+    free(stored);
     free(overrides);
     wt_case_free(c);
     return WT_OK;

@@ -200,11 +200,12 @@ static void start_browser(void)
                            "about:blank",
                            NULL};
     int in[2], out[2], high[2];
-    const int none = open("browser.txt", O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
-    check(pipe2(in, O_CLOEXEC) == 0 && pipe2(out, O_CLOEXEC) == 0 && none >= 0, "pipe");
+    const int words_file = open("browser.txt", O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
+    check(pipe2(in, O_CLOEXEC) == 0 && pipe2(out, O_CLOEXEC) == 0 && words_file >= 0, "pipe");
     /* above the descriptors of the child, so that none is replaced before it is used */
     high[0] = fcntl(in[0], F_DUPFD_CLOEXEC, 20);
     high[1] = fcntl(out[1], F_DUPFD_CLOEXEC, 20);
+    const int none = fcntl(words_file, F_DUPFD_CLOEXEC, 20);
     const int moves[][2] = {{high[0], COMMANDS}, {high[1], ANSWERS}, {none, STDERR_FILENO}};
     to_browser = fcntl(in[1], F_DUPFD_CLOEXEC, 20);
     from_browser = fcntl(out[0], F_DUPFD_CLOEXEC, 20);
@@ -215,6 +216,8 @@ static void start_browser(void)
     close(out[1]);
     close(high[0]);
     close(high[1]);
+    close(words_file);
+    close(none);
 }
 
 static void open_page(const char *address)
@@ -362,6 +365,36 @@ static void test_sliders(void)
     printf("mu %s, with more shear stress %s\n", before, value);
 }
 
+/* A folder of data: the page writes a case, names what is missing, runs it and shows the answer. */
+static void test_new_case(const char *program)
+{
+    char address[256];
+    shell("mkdir new && cp bulk-1.jpk-force-map track-1.jpk-force-map dma.txt new");
+    check(chdir("new") == 0, "new");
+    start_server(program, address, sizeof address);
+    open_page(address);
+    wait_for("document.documentElement.dataset.shown", "start");
+    click("#start button.main");
+    wait_for("document.documentElement.dataset.missing", "1");
+    (void)js(
+        "(() => { const i = document.querySelector('#gap-0'); "
+        "i.value = 'pyramid:half-angle=20deg,radius=20nm'; i.dispatchEvent(new Event('change')); "
+        "})()");
+    wait_for("document.documentElement.dataset.missing", "0");
+    click("#run"); /* saves the case first */
+    wait_for("document.documentElement.dataset.runs", "2");
+    wait_for("document.documentElement.dataset.changed", "false");
+    open_panel("answer");
+    wait_for("document.querySelector('iframe').contentDocument.body.textContent.includes("
+             "'Is the track different?')",
+             "true");
+    check(strcmp(data("error"), "undefined") == 0, "an error of the page");
+    shell("test -s case.h5 && test -s case-report/index.html");
+    (void)kill(server, SIGTERM);
+    (void)end_of(server);
+    check(chdir("..") == 0, "..");
+}
+
 /* A page of another origin is refused and changes nothing. */
 static void test_other_origin(const char *address)
 {
@@ -419,10 +452,11 @@ int main(int argc, char **argv)
     test_sliders();
     check(strcmp(data("error"), "undefined") == 0, "an error of the page");
     test_other_origin(address);
-    (void)kill(browser, SIGTERM);
-    (void)end_of(browser);
     (void)kill(server, SIGTERM);
     (void)end_of(server);
+    test_new_case(argv[1]);
+    (void)kill(browser, SIGTERM);
+    (void)end_of(browser);
     free(message);
     return 0;
 }

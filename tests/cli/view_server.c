@@ -214,6 +214,8 @@ static void test_refusals(const char *case_text)
     expect(400, "GET", "info?number=x", "", "");
     expect(422, "GET", "info?number=99999", "", "error");
     expect(422, "POST", "check", "<case", "error");
+    expect(422, "POST", "new-case", "", "there is a case already");
+    expect(422, "POST", "case?was=", "<case version=\"1\"><unknown/></case>", "error");
     expect(422, "POST", "curve?group=bulk&file=..%2F..%2Fetc%2Fpasswd&number=0", case_text,
            "error");
     /* a body that is larger than allowed is not read to its end */

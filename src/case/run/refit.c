@@ -13,6 +13,8 @@ struct case_refit {
     wt_case *c;   /* case of the material, which borrows from it */
     flow_run run; /* with the material */
     bool has_material;
+    wt_single_curve one; /* the last curve, which is kept in memory */
+    char *file, *group;  /* its file; text of the section of its group */
 };
 
 case_refit *case_refit_new(const wt_formats *formats)
@@ -22,12 +24,22 @@ case_refit *case_refit_new(const wt_formats *formats)
     return refit;
 }
 
+static void forget_curve(case_refit *refit)
+{
+    wt_force_curve_clear(&refit->one.curve);
+    free(refit->file);
+    free(refit->group);
+    refit->file = refit->group = NULL;
+    refit->one = (wt_single_curve){0};
+}
+
 void case_refit_forget(case_refit *refit)
 {
     flow_run_clear(&refit->run);
     wt_case_free(refit->c);
     refit->c = NULL;
     refit->has_material = false;
+    forget_curve(refit);
 }
 
 void case_refit_free(case_refit *refit)
@@ -37,23 +49,40 @@ void case_refit_free(case_refit *refit)
     free(refit);
 }
 
-/* Returns the bytes of the section <dma> in the text of a case. */
-static const char *dma_section(const wt_case *c, size_t *length)
+/* Returns a copy of the text of a section. It is "" if there is none. */
+static char *copy_section(const wt_case *c, const char *name)
 {
-    static const char begin[] = "<dma", end[] = "</dma>";
-    const char *from = memmem(c->xml, c->xml_length, begin, sizeof begin - 1);
-    const char *to =
-        from == NULL ? NULL
-                     : memmem(from, c->xml_length - (size_t)(from - c->xml), end, sizeof end - 1);
-    *length = to != NULL ? (size_t)(to - from) : 0;
-    return from;
+    char begin[32], end[32];
+    (void)snprintf(begin, sizeof begin, "<%s", name);
+    (void)snprintf(end, sizeof end, "</%s>", name);
+    const char *from = memmem(c->xml, c->xml_length, begin, strlen(begin));
+    const size_t left = from != NULL ? c->xml_length - (size_t)(from - c->xml) : 0;
+    const char *to = from != NULL ? memmem(from, left, end, strlen(end)) : NULL;
+    return wt_strndup(from != NULL ? from : "", to != NULL ? (size_t)(to - from) : 0);
 }
 
 static bool has_same_material(const wt_case *a, const wt_case *b)
 {
-    size_t length_a, length_b;
-    const char *of_a = dma_section(a, &length_a), *of_b = dma_section(b, &length_b);
-    return length_a == length_b && (length_a == 0 || memcmp(of_a, of_b, length_a) == 0);
+    char *of_a = copy_section(a, "dma"), *of_b = copy_section(b, "dma");
+    const bool same = strcmp(of_a, of_b) == 0;
+    free(of_a);
+    free(of_b);
+    return same;
+}
+
+/* Keeps the last curve if the same one of the same files is requested. */
+static void choose_curve(case_refit *refit, const wt_case *c, const refit_curve *which)
+{
+    char *group = copy_section(c, which->group);
+    if (refit->file == NULL || strcmp(refit->file, which->file) != 0 ||
+        refit->one.index != which->curve || strcmp(refit->group, group) != 0) {
+        forget_curve(refit);
+        refit->file = wt_strdup(which->file);
+        refit->group = wt_strdup(group);
+        refit->one.file = refit->file;
+        refit->one.index = which->curve;
+    }
+    free(group);
 }
 
 static wt_job refit_work(const case_refit *refit, wt_log *log)
@@ -104,8 +133,8 @@ wt_status case_refit_curve(case_refit *refit, const char *xml, size_t length, co
         run.rubber = refit->run.rubber; /* borrowed */
         run.level = refit->has_material ? run.plan.level[stage] : 0;
         wt_indent_job job = flow_group_job(&run, g);
-        job.only_file = which->file;
-        job.only_curve = which->curve;
+        choose_curve(refit, c, which);
+        job.only = &refit->one;
         job.median_curve = false;
         job.curves = samples;
         job.n_curves = COUNT_OF(samples);

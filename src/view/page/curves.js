@@ -241,7 +241,7 @@
       }
     }
     context.strokeStyle = '#e00000';
-    context.lineWidth = Math.max(1, side / 8);
+    context.lineWidth = Math.min(4, Math.max(1, side / 8));
     context.strokeRect(place.get(curve.x) * side, line.get(curve.y) * side, side, side);
     canvas.onclick = (event) => {
       const box = canvas.getBoundingClientRect();
@@ -267,8 +267,9 @@
       const row = g.rows[i];
       cards.push(element('div', {class: 'card'}, element('b', {}, row.group),
         element('p', {class: 'big'}, inUnit(row.geometric_mean, 'Pa')),
-        element('p', {class: 'soft'}, `${inUnit(row.low, 'Pa')} to ${inUnit(row.high, 'Pa')} (95 %); ` +
-          `${row.n} curves`)));
+        element('p', {class: 'soft'}, (row.low === null ? 'one spot: no interval; ' :
+          `${inUnit(row.low, 'Pa')} to ${inUnit(row.high, 'Pa')} (95 %); `) +
+          `${row.n} curves, ${row.n_rejected} rejected`)));
     }
     const ratio = c && c.keys.modulus_ratio;
     if (ratio) cards.push(element('div', {class: 'card'}, element('b', {}, 'track to bulk'),

@@ -32,13 +32,15 @@
     insert(section, made);
   });
   const excluded = () => View.all('dma/exclude');
-  const quantities = {storage: ['storage_modulus', 'fitted_storage', 'Pa', "E' or G'"],
-    loss: ['loss_modulus', 'fitted_loss', 'Pa', "E'' or G''"],
+  /* Column, fitted column, unit and label; M is E or G. */
+  const quantities = {storage: ['storage_modulus', 'fitted_storage', 'Pa', "M'"],
+    loss: ['loss_modulus', 'fitted_loss', 'Pa', "M''"],
     loss_factor: ['loss_factor', 'fitted_loss_factor', '1', 'tan delta'],
-    own_storage: ['own_storage', null, 'Pa', "E' or G' as measured"]};
+    own_storage: ['own_storage', null, 'Pa', "M' as measured"]};
   const draw = () => {
     const all = isotherms(), n = Math.max(1, all.length - 1);
-    const [name, fitted, unit, label] = quantities[ui.quantity.value];
+    const [name, fitted, unit, general] = quantities[ui.quantity.value];
+    const label = general.replace('M', found.master_curve.keys.deformation === 'shear' ? 'G' : 'E');
     const own = name.startsWith('own_');
     const series = all.map(([temperature, rows], k) => ({name: null, color: Plot.heat(k / n), kind: 'points',
       width: 5, x: rows.map((r) => own ? r.own_frequency : r.angular_frequency), y: rows.map((r) => r[name])}));
@@ -73,7 +75,7 @@
     ui.law.textContent = [keys.law, keys.wlf_c1 && `C1 = ${number('wlf_c1', 4)}, C2 = ${number('wlf_c2', 4)}`,
       keys.law_rms && `rms of the law ${number('law_rms', 2)} decade`,
       `at ${celsius(keys.reference_temperature.value)} °C`,
-      `computed in ${(found.time * 1000).toFixed(0)} ms`].filter(Boolean).join('; ');
+      found.time && `computed in ${(found.time * 1000).toFixed(0)} ms`].filter(Boolean).join('; ');
     const all = isotherms(), n = Math.max(1, all.length - 1);
     ui.isotherms.replaceChildren(...all.map(([temperature, rows], k) => {
       const i = element('i', {});
@@ -91,7 +93,7 @@
     document.documentElement.dataset.isotherms = all.length;
   };
   const compute = async (source) => {
-    const made = await View.trial(tables, 0, source);
+    const made = source === undefined ? await View.results(tables) : await View.trial(tables, 0, source);
     if (made === null) return;
     if (!made.master_curve) throw new Error(made.failures && made.failures.n > 0 ?
       made.failures.rows.map((row) => `${row.file}: ${row.message}`).join('\n') :

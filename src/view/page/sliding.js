@@ -54,7 +54,7 @@
       View.changed(values);
   };
   const compute = View.guard(async (values) => {
-    const made = await View.trial(names(), 0, values ? quick(values) : undefined);
+    const made = values ? await View.trial(names(), 0, quick(values)) : await View.results(names());
     if (made === null) return;
     if (!made.friction) throw new Error(made.failures && made.failures.n ? made.failures.rows.map((r) =>
       `${r.file}: ${r.message}`).join('\n') : 'Friction needs <dma>, <roughness> and <sliding>.');
@@ -112,11 +112,11 @@
       card('mu with the layer', k.friction_with_layer_at_reference),
       card('contact area', k.area_ratio_at_reference),
       card('thickness', l && l.keys.balance_thickness)].filter(Boolean));
-    ui.time.textContent = `computed in ${(found.time * 1000).toFixed(0)} ms`;
+    ui.time.textContent = found.time ? `computed in ${(found.time * 1000).toFixed(0)} ms` : 'of the last run';
     const root = document.documentElement.dataset;
     root.mu = k.friction_at_reference ? k.friction_at_reference.value : '';
     root.thickness = l && l.keys.balance_thickness ? l.keys.balance_thickness.value : '';
-    root.trialtime = found.time;
+    root.trialtime = found.time || '';
   };
   View.add({
     id: 'sliding', title: 'Friction and layer',

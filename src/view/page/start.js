@@ -3,7 +3,7 @@
 'use strict';
 (() => {
   const {element, call} = View;
-  let files, conditioning, form, source, status, create;
+  let files, conditioning, form, source, status, create, missing, missingTitle, more;
 
   const info = async (number, host) => {
     const {tables} = await call('info', {number});
@@ -44,6 +44,25 @@
     await call('check', {}, text);
     return true;
   });
+  const unfilled = 'FILL IN'; /* as new-case marks what is in no file */
+  /* Elements and attributes that have to be filled in, in the order of the file. */
+  const gaps = (doc) => [...doc.querySelectorAll('*')].flatMap((at) => [
+    ...[...at.attributes].filter((a) => a.value.includes(unfilled)).map((a) => ({label: `${a.name} of <${at.localName}>`,
+      value: a.value, set: (text) => { if (text === null) at.removeAttribute(a.name); else a.value = text; }})),
+    ...(at.children.length === 0 && at.textContent.includes(unfilled) ? [{
+      label: `${at.localName} in <${at.parentNode.localName}>`, value: at.textContent,
+      set: (text) => { if (text === null) at.remove(); else at.textContent = text; }}] : [])]);
+  const gap = (found, k) => {
+    const input = element('input', {type: 'text', id: 'gap-' + k, 
+      placeholder: found.value === unfilled ? '' : found.value.replace(unfilled + ', ', ''),
+      onchange: () => View.editDocument((doc) => gaps(doc)[k].set(input.value.trim() || null))});
+    return [element('label', {for: 'gap-' + k}, found.label), input];
+  };
+  /* Sections that new-case wrote as a comment become part of the case. */
+  const sections = ['indentation', 'dma', 'roughness', 'sliding', 'layer', 'record'];
+  const commented = (name) => new RegExp(`<!--[^<]*(<${name}>(?:(?!-->)[\\s\\S])*</${name}>)\\s*-->`);
+  const add = (name) => element('button', {onclick: () =>
+    View.replace(View.text().replace(commented(name), '$1'))}, `Add <${name}>`);
   const field = ([path, label]) => {
     const id = 'field-' + path.replace('/', '-');
     const problem = element('span', {class: 'problem wide', role: 'status', id: id + '-problem'});
@@ -56,6 +75,8 @@
         problem.textContent = '';
         input.removeAttribute('aria-invalid');
       } catch (error) {
+        /* What is missing elsewhere is not the fault of this value. */
+        if (error.message.includes(unfilled)) return;
         problem.textContent = error.message;
         input.setAttribute('aria-invalid', true);
       }
@@ -66,7 +87,13 @@
     return [element('label', {for: id}, label), input, problem];
   };
   const showForm = () => {
-    if (form.contains(document.activeElement)) return;
+    if (form.contains(document.activeElement)) return; /* a value is being typed */
+    const doc = new DOMParser().parseFromString(View.text(), 'application/xml');
+    const open = doc.querySelector('parsererror') ? [] : gaps(doc);
+    missing.replaceChildren(...open.flatMap(gap));
+    missing.hidden = missingTitle.hidden = open.length === 0;
+    more.replaceChildren(...sections.filter((name) => !View.has(name) && commented(name).test(View.text())).map(add));
+    document.documentElement.dataset.missing = open.length;
     form.replaceChildren(...fields.filter(([path]) => View.has(path.split('/')[0])).flatMap(field));
   };
   const checkText = async () => {
@@ -85,7 +112,7 @@
       return;
     }
     const found = View.tables(await call('table', {name: names.join(' ')}));
-    conditioning.replaceChildren(...names.filter((name) => found[name]).flatMap((name) =>
+    conditioning.replaceChildren(...names.filter((name) => found[name] && found[name].n > 0).flatMap((name) =>
       [element('h3', {}, found[name].title), View.show(found[name])]));
   };
 
@@ -98,13 +125,16 @@
       files = element('div', {});
       conditioning = element('div', {});
       form = element('div', {class: 'form card'});
+      missing = element('div', {class: 'form card'});
+      missingTitle = element('h2', {}, 'What is missing');
+      more = element('p', {class: 'tools'});
       status = element('p', {role: 'status'});
       source = element('textarea', {spellcheck: 'false', 'aria-label': 'Text of the case', oninput: checkText,
         onchange: () => View.replace(source.value)});
       host.append(create, element('div', {class: 'halves'},
         element('div', {}, element('h2', {}, 'Files'), files,
           element('h2', {}, 'What conditioning found'), conditioning),
-        element('div', {}, element('h2', {}, 'Values'), form,
+        element('div', {}, missingTitle, missing, element('h2', {}, 'Values'), form, more,
           element('h2', {}, 'Case file'), source, status)));
     },
     async show(state) {

@@ -38,7 +38,7 @@
   });
   const friction = async (source) => {
     if (!View.has('sliding')) return;
-    const made = await View.trial('friction', 0, source);
+    const made = source === undefined ? await View.results('friction') : await View.trial('friction', 0, source);
     if (made === null || !made.friction) return;
     const at = made.friction.keys.friction_at_reference, area = made.friction.keys.area_ratio_at_reference;
     if (!at) return;
@@ -97,7 +97,7 @@
       const measured = isMeasured();
       ui.choice.hidden = ui.map.hidden = !measured;
       for (const path in ui.selects) ui.selects[path].value = View.get(path) || '';
-      found = await View.trial(measured ? tables + ' height_map' : 'roughness', 0) || found;
+      found = await View.results(measured ? tables + ' height_map' : 'roughness') || found;
       if (!found.roughness) throw new Error(found.failures && found.failures.n ? found.failures.rows.map((r) =>
         r.message).join('\n') : 'There is no spectrum.');
       draw();

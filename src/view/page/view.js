@@ -389,7 +389,11 @@ const View = (() => {
   const trial = latest(async (names, replicates, source) =>
     tables(await call('trial', {name: names, replicates}, source === undefined ? text : source)));
 
-  return {$, call, latest, tables, table, element, show, get, all: texts, has, edit, editDocument, changed, replace,
+  /* Tables of the result if it is that of the text, else of a trial without draws. */
+  const results = async (names) => state.current && text === state.caseText ?
+    tables(await call('table', {name: names})) : trial(names, 0);
+
+  return {$, call, results, latest, tables, table, element, show, get, all: texts, has, edit, editDocument, changed, replace,
     text: () => text, state: () => state, add, guard, trial, create, run, save, quote, command, load, fail,
     setOverrides: (value, digest) => { state.overridesText = value; state.overridesDigest = digest;
       state.current = false; showChanged(); }};
