@@ -151,10 +151,6 @@ static void answer_summary(const answer_context *context)
     t.used = 0;
     if (context->values.layer.table != NULL) {
         append_thickness(&t, &context->values);
-        if (context->layer_feedback.table != NULL) {
-            text_append(&t, "; ");
-            append_balance(&t, &context->layer_feedback);
-        }
         add_summary(context, thickness, text);
     } else
         add_missing_summary(context, thickness, FLOW_STAGE_LAYER);
@@ -527,10 +523,8 @@ wt_status flow_answer(const wt_case *c, const flow_plan *plan, const wt_result *
     answer_difference(&context);
     answer_thickness(&context);
     answer_track_layer(&context);
-    answer_layer_models(&context);
     answer_identification(&context);
     answer_friction(&context);
-    answer_running_in(&context);
     answer_validation(&context);
     answer_surface(&context);
     answer_record(&context);

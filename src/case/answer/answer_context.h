@@ -18,8 +18,7 @@ typedef struct answer_context {
     table_view power_spectrum, surfaces; /* of a measured counter surface */
     table_view record, wear;
     table_view validation, validation_sources, validation_running_in;
-    table_view layer_bands, layer_feedback, layer_regime_map, running_in, track_layer,
-        identification;
+    table_view track_layer, identification;
     table_writer *answer;
 } answer_context;
 
@@ -35,10 +34,6 @@ void answer_rubber(const answer_context *context);
 void answer_track_layer(const answer_context *context);
 /* Names the source of the specific wear rate of the layer, if a record measured one. */
 void answer_layer_wear_rate(const answer_context *context, const char *question);
-/* Describes the layer under a sequence of loads, its feedback and its regime map; answer_running_in
- * describes its friction during running-in. */
-void answer_layer_models(const answer_context *context);
-void answer_running_in(const answer_context *context);
 /* Describes a measured counter surface. */
 void answer_surface(const answer_context *context);
 /* States the critical energy and the wear rate identified from observations of the layer. */

@@ -67,8 +67,6 @@ void append_modulus_ratio(text_builder *t, const result_value_tables *tables);
 void append_rate_correction(text_builder *t, const result_value_tables *tables);
 /* Example: "layer of 3.16 um (...) where formation balances wear, predicted from a given U_c". */
 void append_thickness(text_builder *t, const result_value_tables *tables);
-/* Appends the effect of the feedback on a layer that acts back on its energy. */
-void append_balance(text_builder *t, const table_view *balances);
 /* Example: "open whether the layer lowers or raises friction: -18 % (...)". */
 void append_friction_change(text_builder *t, const result_value_tables *tables, bool with_choices);
 /* Examples: "friction as measured 0.80 +- 0.01, after a running-in of 20 cycles" and "specific wear

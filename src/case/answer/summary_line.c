@@ -439,14 +439,6 @@ static void summarize_layer(summary_line *s, const table_view *v)
                format_known_estimate(layer_value(v, LAYER_KEY_TIME_TO_90_PERCENT)).text);
 }
 
-static void summarize_balance(summary_line *s, const table_view *v)
-{
-    if (v->table == NULL)
-        return;
-    begin_clause(s);
-    append_balance(&s->line, v);
-}
-
 size_t wt_result_summary_line(const wt_result *result, char *buffer, size_t size)
 {
     static const struct {
@@ -467,7 +459,6 @@ size_t wt_result_summary_line(const wt_result *result, char *buffer, size_t size
                  {&wear_schema, summarize_wear},
                  {&friction_schema, summarize_friction},
                  {&layer_schema, summarize_layer},
-                 {&layer_feedback_schema, summarize_balance},
                  {&identification_schema, summarize_identification},
                  {&shared_pairs_schema, summarize_shared_pairs},
                  {&validation_schema, summarize_validation},
