@@ -481,10 +481,6 @@ static inline void fixture_accuracy(wt_case *read)
     fixture_of_case("texture", "anisotropy");
     fixture_of_case("texture", "friction_map");
     fixture_of_case("texture", "friction_decades");
-    fixture_of_case("layer", "layer_bands");
-    fixture_of_case("layer", "running_in");
-    fixture_of_case("layer", "layer_feedback");
-    fixture_of_case("layer", "layer_regime_map");
     fixture_of_case("layer", "identification");
 }
 

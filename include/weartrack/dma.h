@@ -367,7 +367,6 @@ typedef struct wt_rubber {
     wt_prony prony; /* E or G as measured, vertical shift applied, at the reference temperature;
                        without terms for other kinds */
     wt_zener zener;
-    wt_extrapolation extrapolation; /* of a table */
     double poisson_ratio;
     bool is_transverse; /* the moduli are the E that `transverse` multiplies */
     wt_transverse transverse;
@@ -386,25 +385,15 @@ WT_API void wt_rubber_clear(wt_rubber *rubber);
  * series, points of a table or constants of a law. */
 WT_API void wt_rubber_add_cost(const wt_rubber *rubber, const wt_job *work);
 
-/* Representation of the moduli of a rubber. */
-typedef enum wt_moduli_source { WT_MODULI_SERIES, WT_MODULI_POINTS } wt_moduli_source;
-typedef struct wt_rubber_options {
-    wt_moduli_source moduli;        /* for isotherms: series, or points of the master curve */
-    wt_extrapolation extrapolation; /* outside of the points of any table; default hold */
-} wt_rubber_options;
-WT_API wt_rubber_options wt_rubber_options_defaults(void);
-WT_API const wt_params *wt_rubber_options_params(void);
-
 /* Opens a rubber: "fractional-zener:e0=5MPa,eg=2GPa,tau=1us,alpha=0.4", or the path of a table of
  * moduli at one temperature, which is that of the file, else of `read`, else unknown. */
-WT_API wt_status wt_rubber_open(const char *text, const wt_read_options *read,
-                                const wt_rubber_options *options, double poisson_ratio,
+WT_API wt_status wt_rubber_open(const char *text, const wt_read_options *read, double poisson_ratio,
                                 const wt_job *work, wt_rubber *rubber, wt_error *err) WT_NODISCARD;
 /* Replaces the series by the points of a table "master_curve", without draws, but with the shifts
  * of the rubber. A rubber of zeros but for the Poisson ratio is filled from the table. Points
  * closer than a twentieth of a decade are merged. */
 WT_API wt_status wt_rubber_tabulate(wt_rubber *rubber, const wt_table *master_curve,
-                                    const wt_rubber_options *options, wt_error *err) WT_NODISCARD;
+                                    wt_error *err) WT_NODISCARD;
 /* Describes the source of the moduli; "" for an isotropic series. Returns the length as snprintf
  * does. */
 WT_API size_t wt_rubber_describe(const wt_rubber *rubber, char *buffer, size_t size);

@@ -216,8 +216,6 @@ typedef struct wt_sliding {
     size_t n_pressures;
     bool decades;   /* requests friction by decades of the wavenumber */
     wt_flash flash; /* as in wt_friction_options; `temperature` is then the ambient temperature */
-    const wt_rubber
-        *layer_rubber; /* material of a layer, instead of a modulus ratio, borrowed; default NULL */
 } wt_sliding;
 WT_API wt_sliding wt_sliding_defaults(void);
 WT_API const wt_params *wt_sliding_params(void);
@@ -236,7 +234,6 @@ typedef struct wt_layer_observation {
     bool bulk_shear; /* tau_s = tau_bulk, without the modulus ratio; default false */
     double calibration_share; /* share of calibration (spring constants etc.), not spot scatter, in
                                  the variance of the ratio; default 0 */
-    const wt_layer_shear *shear; /* shear of the real contact on it; NULL: defaults */
 } wt_layer_observation;
 WT_API wt_layer_observation
 wt_layer_observation_defaults(void); /* Returns an observation without a layer. */

@@ -258,26 +258,14 @@ typedef struct wt_layer_job {
     wt_estimate critical_energy;    /* U_c [J/m^3]; value NaN: calibrated from observed_thickness */
     wt_estimate observed_thickness; /* [m]; value NaN = not observed */
     wt_estimate specific_wear_rate; /* k [m^2/N] */
-    double damage;                  /* Lambda; default 1 */
     double duty;                    /* share of the time in contact; default 1 */
-    double start_thickness;         /* [m]; default 0 */
     bool incubation;                /* as in wt_layer_parameters; default true: exact */
     wt_depth_profile profile;
     double local_friction; /* m of the incompressible profile */
     const double *time;    /* [n_time] s; NULL: chosen around the time scales */
     size_t n_time;
-    double velocity;          /* velocity of the wear [m/s]; NaN = reference velocity */
-    wt_layer_energy energy;   /* default hysteresis */
-    double severity_power;    /* as in wt_layer_parameters; default 0 */
-    double severity_exponent; /* as in wt_layer_parameters; default 1 */
-    bool bands;               /* requests the modified bands */
-    const char *const
-        *loads; /* [n_loads] successive loads, borrowed; none: the constant load of the sliding */
-    size_t n_loads;
-    bool running_in;      /* requests friction during the growth of the layer */
-    bool has_feedback;    /* feedback of the layer on the energy that forms it */
-    wt_layer_shear shear; /* shear of the real contact on the layer */
-    bool existence;       /* requests the regime map */
+    double velocity;        /* velocity of the wear [m/s]; NaN = reference velocity */
+    wt_layer_energy energy; /* default hysteresis */
 } wt_layer_job;
 WT_API wt_layer_job wt_layer_job_defaults(void);
 WT_API const wt_params *wt_layer_job_params(void);
@@ -298,28 +286,6 @@ WT_API wt_status wt_layer_thickness_compute(const wt_sliding *sliding, const wt_
                                             const wt_job *work, wt_layer_tables *tables,
                                             wt_error *err) WT_NODISCARD;
 
-/* Creates the table "layer_bands": edges of the modified bands in time by exact damage transport
- * under the loads of the job, and the events of the bands. */
-WT_API wt_status wt_layer_bands_compute(const wt_sliding *sliding, const wt_layer_job *job,
-                                        const wt_job *work, wt_table **table,
-                                        wt_error *err) WT_NODISCARD;
-/* Creates the table "running_in": friction with the growing layer, which has the modulus ratio of
- * `observation`. With `has_feedback` its energy is that under this layer. */
-WT_API wt_status wt_running_in_compute(const wt_sliding *sliding, const wt_layer_job *job,
-                                       const wt_layer_observation *observation, const wt_job *work,
-                                       wt_table **table, wt_error *err) WT_NODISCARD;
-/* Table "layer_feedback": all balances of a layer that acts back, and the folds between them. */
-WT_API wt_status wt_layer_steady_states_compute(const wt_sliding *sliding, const wt_layer_job *job,
-                                                const wt_layer_observation *observation,
-                                                const wt_job *work, wt_table **table,
-                                                wt_error *err) WT_NODISCARD;
-/* Table "existence": balance thickness at every velocity, at the pressures of the map of `sliding`
- * if it has some, else at its pressure, and with `observation` (may be NULL) what the layer does to
- * friction. */
-WT_API wt_status wt_regime_map_compute(const wt_sliding *sliding, const wt_layer_job *job,
-                                       const wt_layer_observation *observation, const wt_job *work,
-                                       wt_table **table, wt_error *err) WT_NODISCARD;
-
 /* Creates the table "energy_density": energy density against depth at the velocity of the layer. */
 WT_API wt_status wt_energy_density_compute(const wt_sliding *sliding, const wt_layer_job *job,
                                            const wt_job *work, wt_table **table,
@@ -332,9 +298,7 @@ typedef struct wt_identify_job {
     wt_estimate specific_wear_rate; /* k [m^2/N]; value NaN: not measured */
     wt_estimate running_in_time;    /* [s] from unmodified rubber; value NaN: not measured */
     double running_in_share;        /* share of the thickness at that time; default 0.95 */
-    double damage, duty;            /* as in wt_layer_job */
-    wt_depth_profile profile;
-    double local_friction;
+    double duty;                    /* as in wt_layer_job */
     double wear_low, wear_high;     /* k in the literature [m^2/N] */
     double energy_low, energy_high; /* U_c in the literature [J/m^3] */
 } wt_identify_job;

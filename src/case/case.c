@@ -25,7 +25,6 @@ wt_case *case_new(void)
     c->bulk.sensitivity = c->track.sensitivity = (wt_estimate){(double)NAN, 0, 0, "m/V"};
     c->master = wt_master_job_defaults();
     c->ramp = wt_ramp_job_defaults();
-    c->rubber = wt_rubber_options_defaults();
     c->zener = flow_zener_defaults();
     c->transverse = wt_transverse_defaults();
     c->surface = flow_surface_defaults();
@@ -45,7 +44,6 @@ void wt_case_free(wt_case *c)
         return;
     for (case_setting *s = c->settings; s != NULL; s = s->next)
         wt_params_clear(s->params, s->structure, &s->given);
-    wt_case_free(c->layer_material);
     arena_free(&c->memory);
     free(c);
 }

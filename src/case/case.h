@@ -48,7 +48,6 @@ struct wt_case {
     case_files dma;
     wt_master_job master;
     wt_ramp_job ramp;
-    wt_rubber_options rubber;
     bool has_material; /* stated instead of measured, as `kind` */
     wt_rubber_kind kind;
     wt_prony prony;    /* its arrays are in `memory` */
@@ -75,8 +74,6 @@ struct wt_case {
     wt_layer_job layer;
     bool has_modulus_ratio; /* stated instead of measured */
     wt_layer_observation layer_observation;
-    struct wt_case
-        *layer_material; /* material of the layer as a case with nothing else; NULL without one */
     bool identifies;
     wt_identify_job identify;
 

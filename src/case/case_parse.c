@@ -4,6 +4,7 @@
 #include "core/base/array.h"
 #include "core/base/memory.h"
 #include "core/base/param.h"
+#include "core/base/removed_names.h"
 
 #include <libxml/parser.h>
 #include <libxml/xmlschemas.h>
@@ -74,7 +75,13 @@ static wt_status schema_error(const schema_message *c, wt_error *err)
         wt_error_found(err, "\"%s\" in <%s>", value, element);
     else if (element[0] != '\0')
         wt_error_found(err, "<%s>", element);
-    wt_error_advice(err, "weartrack-case(5) lists the elements of every section");
+    const char *const instead = strstr(c->message, "not expected") != NULL
+                                    ? removed_name_advice(element, strlen(element))
+                                    : NULL;
+    if (instead != NULL)
+        wt_error_advice(err, "there is no <%s> any more: %s", element, instead);
+    else
+        wt_error_advice(err, "weartrack-case(5) lists the elements of every section");
     return WT_E_SCHEMA;
 }
 

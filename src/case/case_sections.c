@@ -175,19 +175,12 @@ wt_status case_read_dma(wt_case *c, const xmlNode *section, wt_error *err)
         status = case_read_params(c, section, wt_reduction_params(), &c->master.reduction, err);
     if (status == WT_OK)
         status = case_read_params(c, section, wt_ramp_job_params(), &c->ramp, err);
-    if (status == WT_OK)
-        status = case_read_params(c, section, wt_rubber_options_params(), &c->rubber, err);
     if (status == WT_OK && prony != NULL)
         status = read_terms(c, prony, err);
     if (status == WT_OK && case_child(section, "table") != NULL)
         status = read_material_table(c, section, err);
     if (status == WT_OK && zener != NULL)
         status = read_zener(c, zener, err);
-    if (status == WT_OK && c->has_material && c->rubber.moduli == WT_MODULI_POINTS) {
-        wt_fail(err, WT_E_ARG, "a given material has no isotherms whose points could be taken");
-        wt_error_advice(err, "delete <moduli>, or give <files>");
-        return case_add_location(case_child(section, "moduli"), WT_E_ARG, err);
-    }
     if (status == WT_OK && wlf != NULL)
         status = read_wlf(c, wlf, err);
     if (status == WT_OK && !c->has_material)
@@ -249,57 +242,15 @@ wt_status case_read_sliding(wt_case *c, const xmlNode *section, wt_error *err)
     return status;
 }
 
-/* The material of the layer has the same elements as that of the bulk. Its files join those of the
- * case. */
-static wt_status read_layer_material(wt_case *c, const xmlNode *node, wt_error *err)
-{
-    static const char *const instead[] = {"modulus-ratio", "ratio-slope", "ratio-by-rate"};
-    wt_case *own = c->layer_material = case_new();
-    for (size_t i = 0; i < COUNT_OF(instead); i++)
-        if (case_child(node->parent, instead[i]) != NULL) {
-            wt_fail(err, WT_E_ARG, "the layer has a material of its own and a modulus ratio");
-            wt_error_advice(err, "delete <material> or <%s>", instead[i]);
-            return case_add_location(case_child(node->parent, instead[i]), WT_E_ARG, err);
-        }
-    own->path = c->path;
-    own->folder = c->folder;
-    wt_status status = case_read_dma(own, node, err);
-    if (status == WT_OK && own->is_transverse) {
-        wt_fail(err, WT_E_ARG, "a layer's own material is the same in all directions");
-        wt_error_advice(err, "delete <transverse>");
-        return case_add_location(case_child(node, "transverse"), WT_E_ARG, err);
-    }
-    while (own->roles != NULL) {
-        case_files *const role = own->roles;
-        own->roles = role->next;
-        role->next = c->roles;
-        c->roles = role;
-    }
-    return status;
-}
-
-static wt_status check_ratio_slope(const wt_case *c, const xmlNode *section, wt_error *err)
-{
-    const xmlNode *const slope = case_child(section, "ratio-slope");
-    if (slope == NULL || !c->layer_observation.by_rate)
-        return WT_OK;
-    wt_fail(err, WT_E_ARG, "the slope of the modulus ratio is given and measured");
-    wt_error_advice(err, "delete <ratio-slope> or <ratio-by-rate>");
-    return case_add_location(slope, WT_E_ARG, err);
-}
-
 wt_status case_read_layer(wt_case *c, const xmlNode *section, wt_error *err)
 {
-    const xmlNode *ratio = case_child(section, "modulus-ratio"),
-                  *material = case_child(section, "material");
+    const xmlNode *ratio = case_child(section, "modulus-ratio");
     c->has_layer = true;
     c->has_modulus_ratio = ratio != NULL;
     wt_status status = case_read_params(c, section, wt_layer_job_params(), &c->layer, err);
     if (status == WT_OK)
         status =
             case_read_params(c, section, wt_layer_observation_params(), &c->layer_observation, err);
-    if (status == WT_OK)
-        status = check_ratio_slope(c, section, err);
     wt_layer_job checked = c->layer;
     if (c->record.n > 0 && isnan(checked.specific_wear_rate.value)) {
         c->has_wear = true; /* or a result of `weartrack record` contains it */
@@ -308,8 +259,6 @@ wt_status case_read_layer(wt_case *c, const xmlNode *section, wt_error *err)
     }
     if (status == WT_OK)
         status = case_add_param_location(section, wt_layer_job_check(&checked, err), err);
-    if (status == WT_OK && material != NULL)
-        status = read_layer_material(c, material, err);
     if (status == WT_OK && ratio != NULL && c->bulk.n > 0 && c->track.n > 0) {
         wt_fail(err, WT_E_ARG, "the modulus ratio is given and measured");
         wt_error_advice(err, "delete <modulus-ratio>, or the curves of bulk or track");

@@ -22,8 +22,6 @@
     X(LAYER_PARAMETERS, "layer parameters", "no layer parameters (<layer>)", c->has_layer)         \
     X(GIVEN_RATIO, "given modulus ratio", "no modulus ratio (<modulus-ratio> in <layer>)",         \
       c->has_modulus_ratio)                                                                        \
-    X(GIVEN_LAYER_MATERIAL, "material of the layer",                                               \
-      "no material of the layer (<material> in <layer>)", c->layer_material != NULL)               \
     X(GIVEN_DIRECTIONS, "directions of the material",                                              \
       "no directions of the material (<transverse> in <dma>)", c->is_transverse)                   \
     X(GIVEN_SOFTENING, "given softening", "no table of softening (<file> in <strain-softening>)",  \
@@ -45,17 +43,6 @@
       c->sliding.n_temperatures > 0 || c->sliding.n_pressures > 0)                                 \
     X(REQUESTED_DECADES, "decades of the wavenumber",                                              \
       "no decades asked for (<decades> in <sliding>)", c->sliding.decades)                         \
-    X(REQUESTED_BANDS, "bands of the layer or loads in turn",                                      \
-      "no bands or loads asked for (<bands> or <loads> in <layer>)",                               \
-      c->has_layer && (c->layer.bands || c->layer.n_loads > 0))                                    \
-    X(REQUESTED_RUNNING_IN, "running-in with the layer",                                           \
-      "no running-in asked for (<running-in-friction> in <layer>)",                                \
-      c->has_layer && c->layer.running_in)                                                         \
-    X(REQUESTED_FEEDBACK, "a layer that acts back",                                                \
-      "no layer that acts back (<feedback> in <layer>)", c->has_layer && c->layer.has_feedback)    \
-    X(REQUESTED_REGIME_MAP, "where a layer exists",                                                \
-      "not asked where a layer exists (<regime-map> in <layer>)",                                  \
-      c->has_layer && c->layer.existence)                                                          \
     X(REQUESTED_IDENTIFICATION, "what is seen of the layer",                                       \
       "nothing that is seen of a layer (<identify>)", c->identifies)                               \
     X(REQUESTED_FLASH, "flash temperature",                                                        \
@@ -101,10 +88,6 @@
     X(HEIGHT_PROFILE, "height_profile", &height_profile_schema, "")                                \
     X(LAYER, "layer", &layer_schema, "")                                                           \
     X(ENERGY_DENSITY, "energy_density", &energy_density_schema, "")                                \
-    X(LAYER_BANDS, "layer_bands", &layer_bands_schema, "")                                         \
-    X(RUNNING_IN, "running_in", &running_in_schema, "")                                            \
-    X(LAYER_FEEDBACK, "layer_feedback", &layer_feedback_schema, "")                                \
-    X(LAYER_REGIME_MAP, "layer_regime_map", &layer_regime_map_schema, "")                          \
     X(IDENTIFICATION, "identification", &identification_schema, "")                                \
     X(FRICTION, "friction", &friction_schema, "")                                                  \
     X(CONTACT_AREA, "contact_area", &contact_area_schema, "")                                      \

@@ -24,9 +24,8 @@ int cmd_identify(int argc, char **argv)
     /* the energy does not depend on the shear stress */
     s.parts[CMD_CONTACT].only =
         "material dma roughness strain-softening softening-temperature wear-of";
-    s.parts[CMD_CONDITIONS].only =
-        "pressure velocity sliding-temperature anisotropy texture-angle anisotropy-fourth "
-        "texture-angle-fourth flash-temperature contact-size heat-capacity heat-diffusivity";
+    s.parts[CMD_CONDITIONS].only = "pressure velocity sliding-temperature anisotropy texture-angle "
+                                   "flash-temperature contact-size heat-capacity heat-diffusivity";
     if (!cmd_sliding_parse(&s, &usage, argc, argv))
         return cmd_sliding_free(&s);
     if (cmd_sliding_open(&s)) {

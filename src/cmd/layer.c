@@ -3,49 +3,7 @@
 #include "cmd/sliding_options.h"
 
 /* Output tables, each if requested. */
-enum {
-    LAYER,
-    ENERGY_DENSITY,
-    BANDS,
-    RUNNING_IN,
-    BALANCES,
-    LAYER_REGIME_MAP,
-    SOFTENING,
-    FLASH,
-    WHAT_IF,
-    N_TABLES
-};
-
-/* Computes the further tables: bands, running-in, steady states with feedback, regime map. */
-static wt_status compute_layer_models(cmd_sliding *s, const wt_layer_job *job,
-                                      wt_table *table[N_TABLES])
-{
-    const wt_sliding *sliding = &s->conditions;
-    const wt_job *work = &s->session.work;
-    wt_error *err = &s->session.err;
-    const wt_layer_observation *observation =
-        cmd_sliding_has_layer(s, &s->parts[CMD_LAYER]) ? &s->layer_observation : NULL;
-    wt_status status = WT_OK;
-    if (job->bands || job->n_loads > 0) {
-        wt_cost_begin_stage(s->session.cost, "layer_bands");
-        status = wt_layer_bands_compute(sliding, job, work, &table[BANDS], err);
-    }
-    if (status == WT_OK && job->running_in) {
-        wt_cost_begin_stage(s->session.cost, "running_in");
-        status = wt_running_in_compute(sliding, job, observation, work, &table[RUNNING_IN], err);
-    }
-    if (status == WT_OK && job->has_feedback) {
-        wt_cost_begin_stage(s->session.cost, "layer_feedback");
-        status =
-            wt_layer_steady_states_compute(sliding, job, observation, work, &table[BALANCES], err);
-    }
-    if (status == WT_OK && job->existence) {
-        wt_cost_begin_stage(s->session.cost, "layer_regime_map");
-        status =
-            wt_regime_map_compute(sliding, job, observation, work, &table[LAYER_REGIME_MAP], err);
-    }
-    return status;
-}
+enum { LAYER, ENERGY_DENSITY, SOFTENING, FLASH, WHAT_IF, N_TABLES };
 
 static wt_status compute_layer_tables(cmd_sliding *s, const wt_layer_job *job,
                                       wt_layer_tables *tables, wt_table *table[N_TABLES])
@@ -59,8 +17,6 @@ static wt_status compute_layer_tables(cmd_sliding *s, const wt_layer_job *job,
     wt_cost_begin_stage(s->session.cost, "energy_density");
     if (status == WT_OK)
         status = wt_energy_density_compute(&s->conditions, job, work, &table[ENERGY_DENSITY], err);
-    if (status == WT_OK)
-        status = compute_layer_models(s, job, table);
     if (status == WT_OK && s->conditions.strain_softening != NULL) {
         wt_cost_begin_stage(s->session.cost, "softening");
         status = wt_softened_friction_compute(&s->conditions, work, &table[SOFTENING], err);
@@ -86,33 +42,26 @@ int cmd_layer(int argc, char **argv)
         .description =
             "Energy density with depth, formation and wear rate, balance and thickness in time "
             "of the modified layer, at constant load and the velocity given (the middle one of a "
-            "list). When asked for, also: under loads that follow one another (--loads); "
-            "friction while it grows (--running-in-friction); a layer that changes the energy "
-            "that makes it (--feedback); where there is one at all (--regime-map).",
+            "list).",
         .common = "output formats columns files-from provenance cost",
         .first = "material dma roughness pressure velocity sliding-temperature "
-                 "specific-wear-rate critical-energy observed-thickness duty-cycle start-thickness "
-                 "times energy-from loads feedback regime-map output",
+                 "specific-wear-rate critical-energy observed-thickness duty-cycle times "
+                 "energy-from output",
         .master = CMD_DMA_OPTIONS};
     wt_layer_job job = wt_layer_job_defaults();
     cmd_sliding s;
     cmd_sliding_init(&s, (cmd_option_group){wt_layer_job_params(), &job, NULL, 0});
-    s.parts[CMD_CONTACT].only = NULL;
-    s.parts[CMD_CONDITIONS].only =
-        "pressure velocity pressures sliding-temperature anisotropy texture-angle "
-        "anisotropy-fourth texture-angle-fourth flash-temperature contact-size heat-capacity "
-        "heat-diffusivity shear-stress";
-    s.parts[CMD_LAYER].only =
-        "modulus-ratio ratio-slope ratio-frequency ratio-lowest ratio-highest";
+    s.parts[CMD_CONTACT].only =
+        "material dma roughness strain-softening softening-temperature wear-of";
+    s.parts[CMD_CONDITIONS].only = "pressure velocity sliding-temperature anisotropy texture-angle "
+                                   "flash-temperature contact-size heat-capacity "
+                                   "heat-diffusivity shear-stress";
     wt_layer_tables tables = {0};
     wt_table *table[N_TABLES] = {NULL};
     if (!cmd_sliding_parse(&s, &usage, argc, argv))
         return cmd_sliding_free(&s);
-    const bool needs = job.running_in || job.has_feedback;
     if (s.contact.wear_of == NULL && wt_layer_job_check(&job, &s.session.err) != WT_OK)
         cmd_param_error(&s.session);
-    else if (needs && !cmd_sliding_has_layer(&s, &s.parts[CMD_LAYER]))
-        cmd_usage_error(&s.session, "--running-in-friction and --feedback need --modulus-ratio");
     else if (cmd_sliding_open(&s)) {
         cmd_sliding_set_wear_rate(&s, &job.specific_wear_rate);
         const wt_status status = compute_layer_tables(&s, &job, &tables, table);

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "cmd/cmd.h"
+#include "core/base/removed_names.h"
 #include "core/base/spell_suggest.h"
 
 enum { MAX_OPTIONS = 160, FIRST_CODE = 256, NAME_SIZE = 48, TEXT_SIZE = 512 };
@@ -269,6 +270,10 @@ static bool report_bad_option(cmd_session *s, const struct option *longs, int co
         return cmd_usage_error(s, "--%s takes no value", like->name);
     if (n_like > 1)
         return cmd_usage_error(s, "ambiguous option '%s'", word);
+    const char *const instead = length > 2 ? removed_name_advice(word + 2, length - 2) : NULL;
+    if (instead != NULL)
+        return cmd_usage_error(s, "there is no option %.*s any more: %s", (int)length, word,
+                               instead);
     spell_suggestion near = spell_suggestion_begin(word + 2, length > 2 ? length - 2 : 0);
     for (const struct option *o = longs; o->name != NULL && strncmp(word, "--", 2) == 0; o++)
         spell_suggestion_try(&near, o->name, strlen(o->name));

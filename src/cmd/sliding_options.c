@@ -24,9 +24,6 @@ static const wt_param contact_rows[] = {
     {PARAM_TEXT_OF("layer-comparison", cmd_contact, layer_comparison), .value = "FILE", .unset = "",
      .help = "output of weartrack compare, whose modulus ratios at several indentation rates are "
              "those of the layer, instead of --modulus-ratio"},
-    {PARAM_TEXT_OF("layer-material", cmd_contact, layer_material), .value = "FILE", .unset = "",
-     .help = "the layer's own rubber, as --material gives that of the bulk, instead of a modulus "
-             "ratio"},
     {PARAM_TEXT_OF("wear-of", cmd_contact, wear_of), .value = "FILE", .unset = "",
      .help = "output of weartrack record, whose specific wear rate is that of the layer unless "
              "--specific-wear-rate gives one"},
@@ -43,30 +40,25 @@ void cmd_sliding_init(cmd_sliding *s, cmd_option_group own)
     memset(s, 0, sizeof *s);
     s->conditions = wt_sliding_defaults();
     s->master = wt_master_job_defaults();
-    s->options = wt_rubber_options_defaults();
     s->set.read = wt_read_defaults();
     s->session = cmd_session_defaults();
     s->contact = contact_defaults();
     s->parts[CMD_CONTACT] =
         (cmd_option_group){contact_params(), &s->contact,
                            "material dma roughness strain-softening softening-temperature "
-                           "layer-comparison layer-material",
+                           "layer-comparison",
                            0};
     s->parts[CMD_CONDITIONS] = (cmd_option_group){wt_sliding_params(), &s->conditions, NULL, 0};
     s->parts[CMD_WORK] = (cmd_option_group){wt_job_params(), &s->session.work, NULL, 0};
     s->parts[CMD_MASTER] =
         (cmd_option_group){wt_master_job_params(), &s->master,
                            "poisson-ratio reference-temperature shift-law vertical-shift", 0};
-    s->parts[CMD_RUBBER] = (cmd_option_group){wt_rubber_options_params(), &s->options, NULL, 0};
     s->parts[CMD_READ] = (cmd_option_group){
         wt_read_params(), &s->set.read,
         "temperature temperature-in-name units pixel-size height-unit format sheet deformation "
         "sample spectrum-convention",
         0};
     s->parts[CMD_SUBCOMMAND] = own;
-    s->layer_observation = wt_layer_observation_defaults();
-    s->parts[CMD_LAYER] =
-        (cmd_option_group){wt_layer_observation_params(), &s->layer_observation, "", 0};
 }
 
 int cmd_sliding_free(cmd_sliding *s)
@@ -74,30 +66,17 @@ int cmd_sliding_free(cmd_sliding *s)
     wt_rubber_clear(&s->rubber);
     wt_surface_clear(&s->surface);
     wt_strain_softening_clear(&s->strain_softening);
-    wt_rubber_clear(&s->layer_rubber);
     wt_result_free(s->material_tables);
     wt_result_free(s->layer_tables);
     return cmd_session_free(&s->session);
 }
 
-/* True if an option of the layer is given. Its options are in CMD_SUBCOMMAND or CMD_LAYER,
- * depending on the subcommand. */
-static bool is_layer_option_set(const cmd_sliding *s, const char *name)
-{
-    return cmd_option_is_set(&s->parts[CMD_SUBCOMMAND], name) ||
-           cmd_option_is_set(&s->parts[CMD_LAYER], name);
-}
-
-/* Checks that one source of the layer modulus is given; a slope needs a ratio. */
+/* Checks that one source of the layer modulus is given. */
 static bool check_layer_modulus(cmd_sliding *s)
 {
-    const bool ratio = is_layer_option_set(s, "modulus-ratio");
-    const int files = (s->contact.layer_comparison != NULL) + (s->contact.layer_material != NULL);
-    if (files + ratio > 1)
-        return cmd_usage_error(&s->session, "give one of --modulus-ratio, --layer-comparison and "
-                                            "--layer-material");
-    return ratio || !is_layer_option_set(s, "ratio-slope") ||
-           cmd_usage_error(&s->session, "--ratio-slope goes with --modulus-ratio");
+    return s->contact.layer_comparison == NULL ||
+           !cmd_option_is_set(&s->parts[CMD_SUBCOMMAND], "modulus-ratio") ||
+           cmd_usage_error(&s->session, "give one of --modulus-ratio and --layer-comparison");
 }
 
 bool cmd_sliding_parse(cmd_sliding *s, const cmd_usage *usage, int argc, char **argv)
@@ -137,8 +116,6 @@ static wt_status fit_sliding_material(cmd_sliding *s, wt_error *err)
     if (work.replicates < 2)
         work.left_out |= WT_EXTRA_DRAWS;
     wt_status status = wt_master_compute(&s->master, &work, &tables, &s->rubber, err);
-    if (status == WT_OK && s->options.moduli == WT_MODULI_POINTS)
-        status = wt_rubber_tabulate(&s->rubber, tables.master_curve, &s->options, err);
     wt_master_tables_clear(&tables);
     return status;
 }
@@ -157,7 +134,7 @@ typedef struct material_input {
     wt_rubber *rubber;
 } material_input;
 
-/* Reads a material: the series of a result, or the points of its master curve if requested or if
+/* Reads a material: the series of a result, or the points of its master curve if
  * there is no series. Any other file is read as a table of moduli; if that fails, the first error
  * is reported. */
 static wt_status read_sliding_material(const cmd_sliding *s, material_input given, wt_error *err)
@@ -170,7 +147,7 @@ static wt_status read_sliding_material(const cmd_sliding *s, material_input give
     read.temperature = s->master.fit.reference_temperature;
     if (is_law_text(from)) {
         const wt_status law =
-            wt_rubber_open(from, &read, &s->options, poisson, &s->session.work, given.rubber, err);
+            wt_rubber_open(from, &read, poisson, &s->session.work, given.rubber, err);
         given.rubber->prony.reference_temperature = read.temperature;
         return law;
     }
@@ -178,10 +155,9 @@ static wt_status read_sliding_material(const cmd_sliding *s, material_input give
     wt_status status =
         cmd_rubber_read(from, sample, poisson, &work, given.tables, given.rubber, &first);
     const wt_table *curve = cmd_sample_table(*given.tables, "master_curve", sample);
-    if (curve != NULL &&
-        (status == WT_E_NOT_FOUND || (status == WT_OK && s->options.moduli == WT_MODULI_POINTS))) {
+    if (curve != NULL && status == WT_E_NOT_FOUND) {
         given.rubber->poisson_ratio = poisson;
-        return wt_rubber_tabulate(given.rubber, curve, &s->options, err);
+        return wt_rubber_tabulate(given.rubber, curve, err);
     }
     const bool of_samples =
         status == WT_E_AMBIGUOUS || cmd_tables_contain(*given.tables, "shift_factors");
@@ -190,8 +166,7 @@ static wt_status read_sliding_material(const cmd_sliding *s, material_input give
             work.provenance = NULL;
             work.cost = NULL;
         }
-        const wt_status table =
-            wt_rubber_open(from, &read, &s->options, poisson, &work, given.rubber, err);
+        const wt_status table = wt_rubber_open(from, &read, poisson, &work, given.rubber, err);
         if (table != WT_E_FORMAT && table != WT_E_NOT_FOUND)
             return table;
     }
@@ -202,28 +177,15 @@ static wt_status read_sliding_material(const cmd_sliding *s, material_input give
 
 bool cmd_sliding_has_layer(const cmd_sliding *s, const cmd_option_group *part)
 {
-    return cmd_option_is_set(part, "modulus-ratio") || s->contact.layer_comparison != NULL ||
-           s->contact.layer_material != NULL;
+    return cmd_option_is_set(part, "modulus-ratio") || s->contact.layer_comparison != NULL;
 }
 
-static wt_layer_observation *layer_observation(cmd_sliding *s)
-{
-    return s->parts[CMD_SUBCOMMAND].params == wt_layer_observation_params()
-               ? (wt_layer_observation *)s->parts[CMD_SUBCOMMAND].structure
-               : &s->layer_observation;
-}
-
-/* Reads the modulus of the layer from files. */
+/* Reads the modulus of the layer from a comparison; only `friction` has the option. */
 static wt_status read_layer_modulus(cmd_sliding *s, wt_error *err)
 {
     const cmd_contact *c = &s->contact;
     const wt_table *comparison = NULL, *rates = NULL;
     wt_status status = WT_OK;
-    if (c->layer_material != NULL) {
-        s->conditions.layer_rubber = &s->layer_rubber;
-        return read_sliding_material(
-            s, (material_input){c->layer_material, NULL, &s->layer_tables, &s->layer_rubber}, err);
-    }
     status = wt_tables_read(c->layer_comparison, c->layer_comparison, &s->session.work,
                             (wt_tables_role){"modulus of the layer", "modulus of the layer", NULL},
                             &s->layer_tables, err);
@@ -233,9 +195,9 @@ static wt_status read_layer_modulus(cmd_sliding *s, wt_error *err)
     if (status == WT_OK)
         status = cmd_table_find(s->layer_tables, c->layer_comparison, "modulus_rate", "compare",
                                 &rates, err);
-    return status == WT_OK
-               ? wt_layer_observation_from_rates(comparison, rates, layer_observation(s), err)
-               : status;
+    return status == WT_OK ? wt_layer_observation_from_rates(
+                                 comparison, rates, s->parts[CMD_SUBCOMMAND].structure, err)
+                           : status;
 }
 
 static wt_status read_wear_rate(cmd_sliding *s, wt_error *err)
@@ -306,11 +268,8 @@ bool cmd_sliding_open(cmd_sliding *s)
                                           &s->strain_softening, err);
         s->conditions.strain_softening = &s->strain_softening;
     }
-    if (status == WT_OK &&
-        (s->contact.layer_comparison != NULL || s->contact.layer_material != NULL)) {
+    if (status == WT_OK && s->contact.layer_comparison != NULL)
         status = read_layer_modulus(s, err);
-        wrong_words = status != WT_OK && is_law_text(s->contact.layer_material);
-    }
     if (status == WT_OK && s->contact.wear_of != NULL)
         status = read_wear_rate(s, err);
     s->conditions.rubber = &s->rubber;

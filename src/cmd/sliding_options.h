@@ -15,7 +15,6 @@ typedef struct cmd_contact {
     double softening_temperature; /* selects sweeps by temperature [K]; NaN: all have one
                                      temperature */
     const char *layer_comparison; /* output of `compare`: layer modulus by rate; NULL: none */
-    const char *layer_material;   /* output of `master`: material of the layer; NULL: none */
     const char *wear_of;          /* output of `record`: specific wear rate; NULL: none */
 } cmd_contact;
 
@@ -29,10 +28,8 @@ enum {
     CMD_CONTACT,
     CMD_CONDITIONS,
     CMD_SUBCOMMAND,
-    CMD_LAYER, /* the layer, for subcommands that need it */
     CMD_WORK,
     CMD_MASTER,
-    CMD_RUBBER,
     CMD_READ,
     CMD_SLIDING_PARTS
 };
@@ -41,15 +38,13 @@ typedef struct cmd_sliding {
     cmd_contact contact;
     wt_sliding conditions;
     wt_master_job master;
-    wt_rubber_options options;
-    wt_layer_observation layer_observation;
     wt_file_set set;
     cmd_session session;
     cmd_option_group parts[CMD_SLIDING_PARTS];
     /* set by cmd_sliding_open */
     wt_result *material_tables, *layer_tables;
     wt_estimate measured_wear; /* from wear_of; value NaN: none */
-    wt_rubber rubber, layer_rubber;
+    wt_rubber rubber;
     wt_surface surface;
     wt_strain_softening strain_softening;
 } cmd_sliding;

@@ -200,7 +200,7 @@ static wt_status table_material(const wt_rubber *rubber, double a, double b, wt_
         loss[i] = to_young / b * points->loss_modulus[i];
     }
     const wt_status status = wt_material_table(omega, storage, loss, n, rubber->poisson_ratio,
-                                               rubber->extrapolation, material, err);
+                                               WT_EXTRAPOLATE_HOLD, material, err);
     free(omega);
     return status;
 }

@@ -32,7 +32,7 @@ const wt_params *flow_zener_params(void);
 wt_status flow_rubber_zener(const wt_zener *zener, double poisson_ratio, wt_rubber *rubber,
                             wt_error *err) WT_NODISCARD;
 /* Reads a table of moduli as a rubber and checks its points. */
-wt_status flow_rubber_read(flow_file *file, const wt_rubber_options *options, double poisson_ratio,
-                           const wt_job *work, wt_rubber *rubber, wt_error *err) WT_NODISCARD;
+wt_status flow_rubber_read(flow_file *file, double poisson_ratio, const wt_job *work,
+                           wt_rubber *rubber, wt_error *err) WT_NODISCARD;
 
 #endif

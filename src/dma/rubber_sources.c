@@ -47,22 +47,6 @@ static wt_status check_rubber(const wt_rubber *rubber, wt_error *err)
     return status;
 }
 
-wt_rubber_options wt_rubber_options_defaults(void)
-{
-    return (wt_rubber_options){.moduli = WT_MODULI_SERIES, .extrapolation = WT_EXTRAPOLATE_HOLD};
-}
-
-static const wt_param option_rows[] = {
-    {PARAM_CHOICE_OF("moduli", wt_rubber_options, moduli, "series|points"),
-     .help = "of isotherms: the Prony series, or the points of the master curve, linear in log-log "
-             "between them and without an error"},
-    {PARAM_CHOICE_OF("extrapolation", wt_rubber_options, extrapolation, "hold|slope"),
-     .help = "outside the points of a table: the end values hold, or the end slopes go on"},
-};
-
-PARAM_TABLE(wt_rubber_options_params, wt_rubber_options, option_rows, wt_rubber_options_defaults,
-            NO_PARTS)
-
 /* ---- fractional Zener ------------------------------------------------------------------------ */
 
 wt_zener flow_zener_defaults(void)
@@ -113,12 +97,11 @@ static void set_frequency_range(wt_rubber *rubber, const wt_isotherm *points)
     rubber->prony.frequency_max = points->angular_frequency[points->n - 1];
 }
 
-wt_status flow_rubber_read(flow_file *file, const wt_rubber_options *options, double poisson_ratio,
-                           const wt_job *work, wt_rubber *rubber, wt_error *err)
+wt_status flow_rubber_read(flow_file *file, double poisson_ratio, const wt_job *work,
+                           wt_rubber *rubber, wt_error *err)
 {
     wt_input *input = NULL;
     wt_rubber made = new_rubber(WT_RUBBER_TABLE, poisson_ratio);
-    made.extrapolation = options->extrapolation;
     wt_status status = flow_open(work, file, "material", WT_KIND_SWEEP, &input, err);
     wt_read_options read = flow_read_options(file);
     read.allow_missing_temperature = true;
@@ -147,14 +130,12 @@ wt_status flow_rubber_read(flow_file *file, const wt_rubber_options *options, do
     return status;
 }
 
-wt_status wt_rubber_open(const char *text, const wt_read_options *read,
-                         const wt_rubber_options *options, double poisson_ratio, const wt_job *work,
-                         wt_rubber *rubber, wt_error *err)
+wt_status wt_rubber_open(const char *text, const wt_read_options *read, double poisson_ratio,
+                         const wt_job *work, wt_rubber *rubber, wt_error *err)
 {
     if (text == NULL || rubber == NULL || work == NULL)
         return wt_fail(err, WT_E_ARG, "no material");
     wt_zener zener = flow_zener_defaults();
-    const wt_rubber_options o = options != NULL ? *options : wt_rubber_options_defaults();
     if (flow_has_law_prefix(&zener_text, text)) {
         const wt_status status = flow_law_parse(&zener_text, text, &zener, err);
         return status == WT_OK ? flow_rubber_zener(&zener, poisson_ratio, rubber, err) : status;
@@ -162,7 +143,7 @@ wt_status wt_rubber_open(const char *text, const wt_read_options *read,
     const wt_file_set set = {.read = read != NULL ? *read : wt_read_defaults()};
     flow_file file = {.path = text, .name = text, .set = &set};
     return flow_law_suggest(&zener_text, text,
-                            flow_rubber_read(&file, &o, poisson_ratio, work, rubber, err), err);
+                            flow_rubber_read(&file, poisson_ratio, work, rubber, err), err);
 }
 
 /* ---- the points of a master curve ------------------------------------------------------------ */
@@ -217,10 +198,9 @@ static wt_status read_curve_points(const table_view *view, wt_sweep *sweep, wt_e
     return status;
 }
 
-wt_status wt_rubber_tabulate(wt_rubber *rubber, const wt_table *master_curve,
-                             const wt_rubber_options *options, wt_error *err)
+wt_status wt_rubber_tabulate(wt_rubber *rubber, const wt_table *master_curve, wt_error *err)
 {
-    if (rubber == NULL || options == NULL)
+    if (rubber == NULL)
         return wt_fail(err, WT_E_ARG, "no rubber");
     table_view view;
     wt_sweep sweep = {.n_isotherms = 0};
@@ -239,7 +219,6 @@ wt_status wt_rubber_tabulate(wt_rubber *rubber, const wt_table *master_curve,
     flow_rubber_clear_draws(rubber);
     rubber->c1_error = rubber->c2_error = 0; /* they are not the whole error of the points */
     rubber->kind = WT_RUBBER_TABLE;
-    rubber->extrapolation = options->extrapolation;
     rubber->sweep = sweep;
     rubber->prony.reference_temperature = reference;
     set_frequency_range(rubber, &sweep.isotherms[0]);
@@ -267,10 +246,9 @@ size_t wt_rubber_describe(const wt_rubber *rubber, char *buffer, size_t size)
     char law[128] = "", transverse[256] = "";
     if (rubber->kind == WT_RUBBER_TABLE)
         clocale_print(
-            law, sizeof law, "%zu points from %s rad/s, outside the end %s",
+            law, sizeof law, "%zu points from %s rad/s, outside the end values",
             rubber->sweep.isotherms[0].n,
-            format_range(rubber->prony.frequency_min, rubber->prony.frequency_max, 3).text,
-            rubber->extrapolation == WT_EXTRAPOLATE_HOLD ? "values" : "slopes");
+            format_range(rubber->prony.frequency_min, rubber->prony.frequency_max, 3).text);
     else if (rubber->kind == WT_RUBBER_ZENER)
         clocale_print(law, sizeof law,
                       "fractional Zener, E0 %.4g Pa, Eg %.4g Pa, tau %.4g s, alpha %.4g",

@@ -169,8 +169,7 @@ TABLE_KEYS(friction, FRICTION, double gamma, reference_velocity;
            wt_estimate layer_slope, layer_outside; char layer_moduli[512];
            wt_estimate relative_change, relative_change_low, relative_change_high;
            size_t replicates; const char *includes, *lacks, *statement;
-           char material[512], softening[512], anisotropy[192], numerical[512], flash[256];
-           char layer_shear[256];)
+           char material[512], softening[512], anisotropy[192], numerical[512], flash[256];)
 
 /* Result for the stated values with the standard error from the replicates. */
 static wt_estimate estimate_with_error(friction_task *task, int kind, size_t i,
@@ -216,31 +215,17 @@ static void set_relative_change_keys(friction_task *task, friction_keys *keys)
         keys->relative_change_high.value = fmax(keys->relative_change_high.value, relative[i]);
     }
     keys->layer_thickness = flow_stated_estimate(task->layer->thickness);
-    sliding_layer_describe(task->sliding, task->layer, task->zero_loss_range, task->work->log,
-                           keys->layer_moduli, sizeof keys->layer_moduli);
-    if (task->sliding->layer_rubber == NULL)
-        keys->layer_modulus_ratio = flow_stated_estimate(task->layer->modulus_ratio);
+    sliding_layer_describe(task->layer, task->zero_loss_range, task->work->log, keys->layer_moduli,
+                           sizeof keys->layer_moduli);
+    keys->layer_modulus_ratio = flow_stated_estimate(task->layer->modulus_ratio);
     if (keys->layer_moduli[0] != '\0') {
         keys->layer_outside.value = task->layer_outside;
-        if (keys->layer_modulus_ratio.value > 0)
-            keys->layer_slope = flow_stated_estimate(task->layer->ratio_slope);
+        keys->layer_slope = flow_stated_estimate(task->layer->ratio_slope);
     }
     keys->with_layer = estimate_with_error(task, LAYERED, last, task->numerical[1]);
     keys->change = estimate_with_error(task, CHANGE, last, both);
     keys->relative_change = estimate_with_error(
         task, RELATIVE, last, both / kind_values(task->centre, task->n, TOTAL)[last]);
-}
-
-/* Writes the options that differ from the default theory as text. */
-static void describe_options(const friction_task *task, friction_keys *keys)
-{
-    const wt_sliding *s = task->sliding;
-    flash_describe(s, task->points, task->n, keys->flash);
-    if (!isnan(s->shear_stress.value) && task->layer != NULL && task->layer->shear != NULL) {
-        const wt_layer_shear shear = sliding_layer_shear_law(task->layer);
-        if (!sliding_layer_shear_is_default(&shear))
-            sliding_layer_shear_describe(&shear, keys->layer_shear, sizeof keys->layer_shear);
-    }
 }
 
 /* Sets the keys of the table. The reference velocity is the last one. */
@@ -273,7 +258,7 @@ static void set_friction_keys(friction_task *task, const sliding_contact *c, tab
         .includes = replicates_included_errors(&task->replicates),
         .lacks = task->replicates.lacks,
         .statement = c->statement};
-    describe_options(task, &keys);
+    flash_describe(s, task->points, task->n, keys.flash);
     if (isnan(keys.temperature.value))
         keys.temperature.value = s->rubber->prony.reference_temperature;
     keys.temperature = flow_stated_estimate(keys.temperature);
@@ -402,9 +387,7 @@ static wt_status compute_nominal_friction(friction_task *task, sliding_contact *
         status = sliding_layer_zero_loss_range(task->sliding, task->layer, task->work,
                                                task->zero_loss_range, err);
     if (status == WT_OK) {
-        const wt_rubber *const own = task->sliding->layer_rubber;
-        task->layer_outside = own != NULL ? extrapolated_share(own, &layered[last])
-                                          : layered[last].extrapolated_share;
+        task->layer_outside = layered[last].extrapolated_share;
         task->numerical[1] = total_numerical_error(
             &layered[last],
             sliding_layer_shear_stress(task->layer, shear, replicate_layer(task, WT_NO_REPLICATE)) /
@@ -456,7 +439,7 @@ static wt_status draw_friction_replicates(friction_task *task, wt_error *err)
     if (layer != NULL) {
         replicates_add(r, layer->thickness.standard_error, FLOW_DRAW_THICKNESS,
                        "thickness of the layer");
-        replicates_add_layer(r, task->sliding, layer, "modulus ratio of the layer");
+        replicates_add_layer(r, layer, "modulus ratio of the layer");
     }
     wt_status status = draw_error_nodes(task, err);
     for (size_t i = 0; status == WT_OK && !bulk_varies && i < task->n; i++)

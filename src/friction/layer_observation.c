@@ -192,25 +192,26 @@ wt_layer_observation wt_layer_observation_defaults(void)
 static const wt_param parameter_rows[] = {
     LAYER_STATE_ROWS(wt_layer_observation, ),
     {PARAM("modulus-ratio-df", wt_layer_observation, modulus_ratio_df, WT_Q_NONE, AT_LEAST(0)),
-     .value = "N",
+     .value = "N", .flags = PARAM_ONLY_C,
      .help = "degrees of freedom of the error of the modulus ratio, as weartrack compare gives "
              "them; 0: a normal error"},
     /* Beyond 1 the phase alone makes a storage modulus negative. */
     {PARAM("ratio-slope", wt_layer_observation, ratio_slope, WT_Q_NONE, FROM_TO(-1, 1)),
-     .value = "S",
+     .value = "S", .flags = PARAM_ONLY_C,
      .help =
          "of ln modulus ratio against ln frequency, such as \"0.06 +- 0.02\"; the ratio is then "
          "complex, with the phase that causality asks for (reconstructed); 0: one ratio"},
     {PARAM("ratio-frequency", wt_layer_observation, ratio_frequency, WT_Q_ANGULAR_FREQUENCY,
            AT_LEAST(0)),
-     .value = "W", .unset = "needed with a slope",
+     .value = "W", .unset = "needed with a slope", .flags = PARAM_ONLY_C,
      .help = "angular frequency at which the modulus ratio is as given"},
     {PARAM("ratio-lowest", wt_layer_observation, ratio_lowest, WT_Q_ANGULAR_FREQUENCY, AT_LEAST(0)),
-     .value = "W", .unset = "needed with a slope",
+     .value = "W", .unset = "needed with a slope", .flags = PARAM_ONLY_C,
      .help = "lowest angular frequency measured; below it the ratio is constant"},
     {PARAM("ratio-highest", wt_layer_observation, ratio_highest, WT_Q_ANGULAR_FREQUENCY,
            AT_LEAST(0)),
-     .value = "W", .unset = "needed with a slope", .help = "likewise, the highest one"},
+     .value = "W", .unset = "needed with a slope", .flags = PARAM_ONLY_C,
+     .help = "likewise, the highest one"},
     {PARAM("ratio-temperature", wt_layer_observation, ratio_temperature, WT_Q_TEMPERATURE,
            AT_LEAST(0)),
      .value = "T", .unset = "that of the sliding", .flags = PARAM_ONLY_C,
@@ -269,31 +270,6 @@ wt_ratio_slope sliding_layer_ratio_slope(const wt_layer_observation *observation
     return slope;
 }
 
-/* Index into the draws of the layer material. The offset avoids equal indices, because the draws of
- * two materials may come from the same random numbers. */
-static size_t layer_material_draw_index(const wt_rubber *rubber, size_t replicate)
-{
-    return replicate != WT_NO_REPLICATE ? replicate + rubber->n_draws / 2 : replicate;
-}
-
-wt_status sliding_layer_material(const wt_sliding *sliding, double temperature, uint64_t seed,
-                                 size_t replicate, wt_material **material, wt_error *err)
-{
-    const wt_rubber *rubber = sliding->layer_rubber;
-    const wt_status status =
-        wt_rubber_material(rubber, temperature, seed, layer_material_draw_index(rubber, replicate),
-                           material, NULL, err);
-    if (status != WT_OK)
-        wt_error_place(err, "material of the layer");
-    return status;
-}
-
-wt_shift_law sliding_layer_shift_law(const wt_sliding *sliding, uint64_t seed, size_t replicate)
-{
-    const wt_rubber *rubber = sliding->layer_rubber;
-    return flow_rubber_shift_law(rubber, seed, layer_material_draw_index(rubber, replicate));
-}
-
 /* Widens the range by the frequencies of the waves of a contact. Waves across the sliding direction
  * have any low frequency. The search begins at the lowest measured frequency or at that of the
  * longest wave along the sliding. */
@@ -325,7 +301,7 @@ wt_status sliding_layer_zero_loss_range(const wt_sliding *sliding,
         .slope = sliding_layer_ratio_slope(observation, work->seed, WT_NO_REPLICATE)};
     wt_material *bulk = NULL;
     wt_roughness *roughness = NULL;
-    if (sliding->layer_rubber != NULL || layer.slope.exponent == 0)
+    if (layer.slope.exponent == 0)
         return WT_OK;
     wt_status status = wt_rubber_material(sliding->rubber, temperature, work->seed, WT_NO_REPLICATE,
                                           &bulk, NULL, err);
@@ -366,25 +342,11 @@ static void describe_slope(const wt_layer_observation *observation, const double
         wt_log_add(log, WT_WARNING, NULL, NULL, "layer: %s", warning);
 }
 
-/* Writes the text for a layer with its own material. A material without a shift law is shifted by
- * the law of the bulk. */
-static void describe_material(const wt_sliding *sliding, char *text, size_t size)
-{
-    const bool has_law = sliding->layer_rubber->law.kind != WT_LAW_NONE;
-    snprintf(text, size, "those of a material of its own, bonded on the bulk%s",
-             !sliding->flash.on ? ""
-             : has_law          ? ", shifted by its own law where the flash temperature warms it"
-                       : ", shifted by the law of the bulk where the flash temperature warms it, "
-                         "for it has none of its own");
-}
-
-void sliding_layer_describe(const wt_sliding *sliding, const wt_layer_observation *observation,
-                            const double range[2], wt_log *log, char *text, size_t size)
+void sliding_layer_describe(const wt_layer_observation *observation, const double range[2],
+                            wt_log *log, char *text, size_t size)
 {
     text[0] = '\0';
-    if (sliding->layer_rubber != NULL)
-        describe_material(sliding, text, size);
-    else if (observation->ratio_slope.value != 0 || observation->ratio_slope.standard_error > 0)
+    if (observation->ratio_slope.value != 0 || observation->ratio_slope.standard_error > 0)
         describe_slope(observation, range, log, text, size);
 }
 
@@ -405,37 +367,11 @@ wt_layer_state sliding_layer_state(const wt_layer_observation *observation, uint
     return state;
 }
 
-wt_layer_shear sliding_layer_shear_law(const wt_layer_observation *observation)
-{
-    wt_layer_shear shear =
-        observation->shear != NULL ? *observation->shear : wt_layer_shear_defaults();
-    if (observation->bulk_shear)
-        shear.exponent = 0;
-    return shear;
-}
-
 double sliding_layer_shear_stress(const wt_layer_observation *observation, double bulk,
                                   wt_layer_state layer)
 {
     if (observation == NULL)
         return bulk;
-    const wt_layer_shear shear = sliding_layer_shear_law(observation);
+    const wt_layer_shear shear = {.exponent = observation->bulk_shear ? 0 : 1};
     return wt_layer_shear_stress(&shear, bulk, layer);
-}
-
-bool sliding_layer_shear_is_default(const wt_layer_shear *shear)
-{
-    return shear->exponent == 1 && !(shear->transition_thickness > 0);
-}
-
-void sliding_layer_shear_describe(const wt_layer_shear *shear, char *text, size_t size)
-{
-    char reach[64] = "";
-    if (shear->transition_thickness > 0)
-        clocale_print(reach, sizeof reach, ", reached as 1 - exp(-d / %.3g um)",
-                      1e6 * shear->transition_thickness);
-    clocale_print(text, size,
-                  "that of the bulk times the modulus ratio to the power of %.3g "
-                  "(reconstructed)%s",
-                  shear->exponent, reach);
 }

@@ -12,28 +12,14 @@ wt_status sliding_layer_check(const wt_layer_observation *observation, wt_error 
  * observation gives no layer. */
 wt_layer_state sliding_layer_state(const wt_layer_observation *observation, uint64_t seed,
                                    size_t replicate);
-/* Shear law of the layer. With the shear stress of the bulk, the exponent of the modulus ratio is
- * 0. */
-wt_layer_shear sliding_layer_shear_law(const wt_layer_observation *observation);
-/* Shear stress with a layer from that of the bulk: tau_s = tau_bulk x modulus ratio (L3), or by the
- * law of the layer. A NULL observation returns the
- * stress of the bulk. */
+/* Shear stress with a layer from that of the bulk: tau_s = tau_bulk x modulus ratio (L3), or that
+ * of the bulk. A NULL observation returns the stress of the bulk. */
 double sliding_layer_shear_stress(const wt_layer_observation *observation, double bulk,
                                   wt_layer_state layer);
-/* True for the default law, which needs no text: the modulus ratio at any thickness. The
- * second function writes the law as text. */
-bool sliding_layer_shear_is_default(const wt_layer_shear *shear);
-void sliding_layer_shear_describe(const wt_layer_shear *shear, char *text, size_t size);
 /* Frequency dependence of the modulus ratio in a replicate. The exponent is 0 for a NULL
  * observation. */
 wt_ratio_slope sliding_layer_ratio_slope(const wt_layer_observation *observation, uint64_t seed,
                                          size_t replicate);
-/* Creates the layer's own material at a temperature. The caller frees it. */
-wt_status sliding_layer_material(const wt_sliding *sliding, double temperature, uint64_t seed,
-                                 size_t replicate, wt_material **material,
-                                 wt_error *err) WT_NODISCARD;
-/* Shift law of the layer's own material; the kind is WT_LAW_NONE if it has none. */
-wt_shift_law sliding_layer_shift_law(const wt_sliding *sliding, uint64_t seed, size_t replicate);
 /* Widens `range` [rad/s], initially NaN, by the frequencies at which a falling modulus ratio would
  * give the layer a negative loss modulus in these contacts. The loss modulus is set to 0 there. */
 wt_status sliding_layer_zero_loss_range(const wt_sliding *sliding,
@@ -41,7 +27,7 @@ wt_status sliding_layer_zero_loss_range(const wt_sliding *sliding,
                                         double range[2], wt_error *err) WT_NODISCARD;
 /* Writes the moduli of the layer as text, "" for one constant ratio. A range with zero loss modulus
  * also gives a warning in the log. */
-void sliding_layer_describe(const wt_sliding *sliding, const wt_layer_observation *observation,
-                            const double range[2], wt_log *log, char *text, size_t size);
+void sliding_layer_describe(const wt_layer_observation *observation, const double range[2],
+                            wt_log *log, char *text, size_t size);
 
 #endif

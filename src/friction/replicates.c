@@ -81,16 +81,8 @@ replicates replicates_create(const wt_sliding *sliding, const wt_job *work, cons
     return r;
 }
 
-void replicates_add_layer(replicates *r, const wt_sliding *sliding,
-                          const wt_layer_observation *observation, const char *ratio)
+void replicates_add_layer(replicates *r, const wt_layer_observation *observation, const char *ratio)
 {
-    if (sliding->layer_rubber != NULL) {
-        if (sliding->layer_rubber->n_draws > 0)
-            add_error_source(r, "material of the layer");
-        else
-            append_list_item(r->lacks, sizeof r->lacks, "material of the layer");
-        return;
-    }
     replicates_add(r, observation->modulus_ratio.standard_error, FLOW_DRAW_RATIO, ratio);
     if (observation->ratio_slope.value != 0 || observation->ratio_slope.standard_error > 0)
         replicates_add(r, observation->ratio_slope.standard_error, FLOW_DRAW_RATIO_SLOPE,

@@ -34,8 +34,8 @@ replicates replicates_create(const wt_sliding *sliding, const wt_job *work, cons
  * otherwise. */
 void replicates_add(replicates *r, double standard_error, flow_draw draw, const char *words);
 /* Adds the errors of the modulus of a layer. `ratio` is the text for the modulus ratio. */
-void replicates_add_layer(replicates *r, const wt_sliding *sliding,
-                          const wt_layer_observation *observation, const char *ratio);
+void replicates_add_layer(replicates *r, const wt_layer_observation *observation,
+                          const char *ratio);
 /* Returns the text of the error sources that are drawn, for a table. */
 const char *replicates_included_errors(const replicates *r);
 

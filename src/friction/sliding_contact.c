@@ -160,8 +160,7 @@ wt_status sliding_contact_create(const wt_sliding *sliding, const wt_job *work, 
         isnan(temperature) ? sliding->rubber->prony.reference_temperature : temperature;
     options.threads = drawn ? 1 : work->threads;
     options.layer = layer;
-    const bool layered = layer.thickness > 0, own = layered && sliding->layer_rubber != NULL;
-    options.skip_extrapolated_share = drawn || (layered && !own && layer.slope.exponent == 0) ||
+    options.skip_extrapolated_share = drawn || (layer.thickness > 0 && layer.slope.exponent == 0) ||
                                       (work->left_out & WT_EXTRA_EXTRAPOLATED_SHARE) != 0;
     replicate_material cached = {0};
     wt_status status = shared != NULL ? material_cache_get(shared, replicate, &cached, err)
@@ -177,11 +176,6 @@ wt_status sliding_contact_create(const wt_sliding *sliding, const wt_job *work, 
         status = flow_surface_draw(sliding->surface, factor, seed, replicate, &c.roughness, err);
     if (status == WT_OK)
         status = check_material_range(sliding, &c, err);
-    if (status == WT_OK && own)
-        status = sliding_layer_material(sliding, c.temperature, seed, replicate, &c.layer, err);
-    options.layer.material = c.layer;
-    if (own)
-        options.layer.material_law = sliding_layer_shift_law(sliding, seed, replicate);
     if (status == WT_OK)
         status = create_workspace(sliding, options, seed, replicate, &c, err);
     if (status != WT_OK) {
@@ -209,6 +203,5 @@ void sliding_contact_clear(sliding_contact *contact)
     wt_roughness_free(contact->roughness);
     if (!contact->shared)
         wt_material_free(contact->material);
-    wt_material_free(contact->layer);
     *contact = (sliding_contact){0};
 }

@@ -11,8 +11,7 @@ typedef struct sliding_contact {
     double pressure, shear_stress;
     double temperature; /* temperature of the rubber or of its surroundings [K] */
     wt_material *material;
-    bool shared;        /* the material belongs to the cache */
-    wt_material *layer; /* the layer's own material; NULL if none */
+    bool shared; /* the material belongs to the cache */
     wt_roughness *roughness;
     wt_friction_workspace *workspace;
     wt_cost *cost;       /* receives the number of nodes */

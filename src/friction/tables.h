@@ -73,8 +73,6 @@
       LABEL("Numerical statement"), OPTIONAL)                                                      \
     X(FRICTION_KEY_FLASH, "flash_temperature", TEXT, SHOWS(flash), LABEL("Flash temperature"),     \
       OPTIONAL)                                                                                    \
-    X(FRICTION_KEY_LAYER_SHEAR, "layer_shear_stress", TEXT, SHOWS(layer_shear),                    \
-      LABEL("Shear stress of the layer"), OPTIONAL)                                                \
     X(FRICTION_KEY_LAYER_THICKNESS, AS(layer_thickness), SI(LENGTH), LABEL("Layer thickness"),     \
       OPTIONAL)                                                                                    \
     X(FRICTION_KEY_LAYER_MODULUS_RATIO, AS(layer_modulus_ratio), NUMBER,                           \
@@ -234,8 +232,6 @@
     X(LAYER_KEY_RELAXATION_TIME, "relaxation_time", SI(TIME), LABEL("Relaxation time"))            \
     X(LAYER_KEY_CRITICAL_WEAR_RATE, "critical_specific_wear_rate", SI(WEAR_RATE),                  \
       LABEL("Critical specific wear rate"))                                                        \
-    X(LAYER_KEY_REMOVAL_TIME, "removal_time", SI(TIME),                                            \
-      LABEL("Time until wear has removed the layer at the start"), OPTIONAL)                       \
     X(LAYER_KEY_CRITICAL_ENERGY, "critical_energy", SI(ENERGY_DENSITY), LABEL("Critical energy"))  \
     X(LAYER_KEY_SURFACE_POWER, "surface_power", UNIT("W/m^2"), LABEL("Surface power"))             \
     X(LAYER_KEY_TIME_TO_90_PERCENT, "time_to_90_percent", SI(TIME),                                \
@@ -249,7 +245,6 @@
       LABEL("Observed thickness"), OPTIONAL)                                                       \
     X(LAYER_KEY_CRITICAL_ENERGY_FROM, AS(critical_energy_from), ENUM(critical_energy_origin),      \
       LABEL("Critical energy from"))                                                               \
-    X(LAYER_KEY_DAMAGE, AS(damage), PLAIN, LABEL("Damage"))                                        \
     X(LAYER_KEY_DUTY, AS(duty), PLAIN, LABEL("Duty"))                                              \
     X(LAYER_KEY_ERROR_INCLUDES, "standard_error_includes", TEXT, SHOWS(includes),                  \
       LABEL("Standard errors include"))                                                            \
@@ -260,16 +255,11 @@
     X(LAYER_KEY_SOFTENING, AS(softening), TEXT, LABEL("Softening with strain"), OPTIONAL)          \
     X(LAYER_KEY_ANISOTROPY, AS(anisotropy), TEXT, LABEL("Texture of the counter surface"),         \
       OPTIONAL)                                                                                    \
-    X(LAYER_KEY_ENERGY_FROM, "energy_from", TEXT, SHOWS(said.energy),                              \
-      LABEL("What modifies the rubber"), OPTIONAL)                                                 \
+    X(LAYER_KEY_ENERGY_FROM, AS(energy_from), TEXT, LABEL("What modifies the rubber"), OPTIONAL)   \
     X(LAYER_KEY_HYSTERESIS_POWER, AS(hysteresis_power), UNIT("W/m^2"),                             \
       LABEL("Power of hysteresis"), OPTIONAL)                                                      \
     X(LAYER_KEY_SHEAR_POWER, AS(shear_power), UNIT("W/m^2"),                                       \
       LABEL("Power of shearing the surface"), OPTIONAL)                                            \
-    X(LAYER_KEY_SEVERITY, "severity", TEXT, SHOWS(said.severity), LABEL("Severity of wear"),       \
-      OPTIONAL)                                                                                    \
-    X(LAYER_KEY_SEVERE_WEAR_RATE, "severe_wear_rate", SI(WEAR_RATE), SHOWS(severe),                \
-      LABEL("Specific wear rate at this power"), OPTIONAL)                                         \
     X(LAYER_KEY_NUMERICAL_STATEMENT, "numerical_statement", TEXT, SHOWS(numerical),                \
       LABEL("Numerical statement"), OPTIONAL)
 

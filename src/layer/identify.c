@@ -32,9 +32,7 @@ wt_identify_job wt_identify_job_defaults(void)
                              .specific_wear_rate = {(double)NAN, 0, 0, "m^2/N"},
                              .running_in_time = {(double)NAN, 0, 0, "s"},
                              .running_in_share = default_running_in_share,
-                             .damage = wt_layer_defaults().damage,
                              .duty = wt_layer_defaults().duty,
-                             .profile = WT_PROFILE_PERSSON,
                              .wear_low = wear_low,
                              .wear_high = wear_high,
                              .energy_low = energy_low,
@@ -51,12 +49,7 @@ static const wt_param rows[] = {
      .unset = "", .help = "that the layer took from bare rubber, such as \"900s +- 15%\""},
     {PARAM("running-in-share", wt_identify_job, running_in_share, WT_Q_NONE, FROM_TO(0.05, 0.999)),
      .value = "X", .help = "of its thickness that it had then"},
-    {PARAM("damage", wt_identify_job, damage, WT_Q_NONE, ABOVE(0)), .value = "L",
-     .help = "Lambda, at which the rubber counts as modified"},
-    {PARAM("duty-cycle", wt_identify_job, duty, WT_Q_NONE, ABOVE_TO(0, 1)), .former = "duty",
-     .value = "X", .help = "share of the time in contact; with 1, times are contact times"},
-    ENERGY_PROFILE(wt_identify_job),
-    ENERGY_LOCAL_FRICTION(wt_identify_job),
+    LAYER_DUTY(wt_identify_job),
     {PARAM("prior-wear-from", wt_identify_job, wear_low, WT_Q_WEAR_RATE, ABOVE(0)), .value = "K",
      .help = "where the thickness is all that is known: k is taken to be within this and the next "
              "(literature, order of magnitude)"},
@@ -136,12 +129,9 @@ static wt_status identify_all_methods(const identify_task *task, size_t replicat
         status =
             wt_energy_source_from_friction(c.workspace, c.pressure, task->velocity, &source, err);
     wt_layer_parameters p = wt_layer_defaults();
-    p.damage = job->damage;
     p.duty = job->duty;
     p.pressure = c.pressure;
     p.velocity = task->velocity;
-    source.profile = job->profile;
-    source.local_friction = job->local_friction;
     if (status == WT_OK) /* with k = 1 the critical energy is the product k U_c */
         status =
             wt_layer_identify_wear(&source, &p,

@@ -9,7 +9,6 @@
 #include "job/cost.h"
 #include "job/random_draws.h"
 #include "layer/layer_energy.h"
-#include "layer/monte_carlo.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -51,7 +50,7 @@ wt_status wt_energy_density_compute(const wt_sliding *sliding, const wt_layer_jo
         status = sliding_contact_create(sliding, &own, WT_NO_REPLICATE, NULL, none, &c, err);
     const double velocity = status == WT_OK ? layer_sliding_velocity(sliding, job) : 0;
     if (status == WT_OK)
-        status = layer_energy_compute(sliding, job, &c, velocity, none, &energy, err);
+        status = layer_energy_compute(sliding, job, &c, velocity, &energy, err);
     sliding_contact_clear(&c);
     if (status != WT_OK)
         return status;
@@ -65,30 +64,21 @@ wt_status wt_energy_density_compute(const wt_sliding *sliding, const wt_layer_jo
     return table_end(&t, table);
 }
 
-/* A text is "" for a default option. */
-typedef struct layer_description {
-    char energy[256], severity[256];
-} layer_description;
-
-static void layer_describe(const wt_layer_job *job, const layer_energy *energy,
-                           const wt_layer_parameters *parameters, layer_description *words)
+/* Writes what modifies the rubber; "" for the hysteresis alone. */
+static void describe_energy(const wt_layer_job *job, const layer_energy *energy, char *text,
+                            size_t size)
 {
-    *words = (layer_description){.energy = ""};
+    text[0] = '\0';
     if (job->energy == WT_LAYER_SHEAR)
-        clocale_print(words->energy, sizeof words->energy,
+        clocale_print(text, size,
                       "shearing of the surface, which goes as deep as the hysteresis "
                       "(reconstructed)");
     if (job->energy == WT_LAYER_BOTH)
         clocale_print(
-            words->energy, sizeof words->energy,
+            text, size,
             "hysteresis, and shearing of the surface, which goes as deep (reconstructed): "
             "shearing is %.3g %% of it",
             100 * energy->shear_power / (energy->hysteresis_power + energy->shear_power));
-    if (job->severity_power > 0)
-        clocale_print(words->severity, sizeof words->severity,
-                      "k = %.4g mm^3/(N m) (1 + (E / %.4g kW/m^2)^%.3g) (reconstructed)",
-                      1e9 * parameters->specific_wear_rate, 1e-3 * job->severity_power,
-                      job->severity_exponent);
 }
 
 /* Balance for one set of values. */
@@ -108,7 +98,6 @@ typedef struct layer_run {
     X(INCUBATION_TIME, run->balance.incubation_time)                                               \
     X(RELAXATION_TIME, run->balance.relaxation_time)                                               \
     X(CRITICAL_WEAR_RATE, rate_estimate(run, run->balance.critical_specific_wear_rate))            \
-    X(REMOVAL_TIME, run->balance.removal_time)                                                     \
     X(CRITICAL_ENERGY, run->critical_energy)                                                       \
     X(SURFACE_POWER, power_estimate(run, run->balance.surface_power))                              \
     X(TIME_TO_90_PERCENT, run->time_to_90_percent)
@@ -141,7 +130,7 @@ static wt_estimate power_estimate(const layer_run *run, double value)
 }
 
 /* Estimate of a quantity proportional to formation or wear, which depend on the power through
- * closure and severity. */
+ * closure. */
 static wt_estimate rate_estimate(const layer_run *run, double value)
 {
     return (wt_estimate){.value = value, .numerical_error = fabs(value) * run->balance.ratio_error};
@@ -168,8 +157,7 @@ static wt_status compute_balance(const layer_task *task, size_t replicate, layer
     wt_status status = sliding_contact_create(task->sliding, &work, replicate,
                                               task->replicates.drawn, none, &c, err);
     if (status == WT_OK)
-        status =
-            layer_energy_compute(task->sliding, job, &c, task->velocity, none, &run->energy, err);
+        status = layer_energy_compute(task->sliding, job, &c, task->velocity, &run->energy, err);
     if (status == WT_OK) {
         memcpy(run->statement, c.statement, sizeof c.statement);
         wt_layer_parameters *p = &run->parameters;
@@ -262,8 +250,6 @@ static void set_numbers(const layer_task *task, const layer_run *run, table_writ
     wt_estimate number[N_NUMBERS];
     store_numbers(run, number);
     for (size_t i = 0; i < N_NUMBERS; i++) {
-        if (keys[i] == LAYER_KEY_REMOVAL_TIME && isnan(number[i].value))
-            continue; /* no layer is removed */
         layer_set_value(t, keys[i], number[i].value, task->replicates.error[i],
                         number[i].numerical_error);
         /* d ln thickness / d ln k = -Qw / (thickness |dQf/dz|), because the balance is at Qf(z) =
@@ -277,10 +263,10 @@ static void set_numbers(const layer_task *task, const layer_run *run, table_writ
 TABLE_ROW_OF(layer, LAYER, wt_layer_point)
 
 TABLE_KEYS(layer, LAYER, wt_layer_regime regime;
-           const char *critical_energy_from, *includes, *lacks, *statement;
-           double velocity, damage, duty; wt_estimate pressure, wear_rate, observed;
-           char softening[256], anisotropy[192], numerical[512]; layer_description said;
-           wt_estimate hysteresis_power, shear_power, severe;)
+           const char *critical_energy_from, *includes, *lacks, *statement; double velocity, duty;
+           wt_estimate pressure, wear_rate, observed;
+           char energy_from[256], softening[256], anisotropy[192], numerical[512];
+           wt_estimate hysteresis_power, shear_power;)
 
 static void set_layer_keys(const layer_task *task, const layer_run *run, table_writer *t)
 {
@@ -296,23 +282,19 @@ static void set_layer_keys(const layer_task *task, const layer_run *run, table_w
                        .lacks = task->replicates.lacks,
                        .statement = run->statement,
                        .velocity = task->velocity,
-                       .damage = job->damage,
                        .duty = job->duty,
                        .pressure = flow_stated_estimate(task->sliding->pressure),
                        .wear_rate = flow_stated_estimate(job->specific_wear_rate),
                        .observed = flow_stated_estimate(job->observed_thickness)};
     if (!calibrated)
         keys.observed.value = (double)NAN;
-    keys.hysteresis_power = keys.shear_power = keys.severe =
+    keys.hysteresis_power = keys.shear_power =
         (wt_estimate){(double)NAN, (double)NAN, (double)NAN, NULL};
-    layer_describe(job, &run->energy, &run->parameters, &keys.said);
+    describe_energy(job, &run->energy, keys.energy_from, sizeof keys.energy_from);
     if (job->energy != WT_LAYER_HYSTERESIS) {
         keys.hysteresis_power.value = run->energy.hysteresis_power;
         keys.shear_power.value = run->energy.shear_power;
     }
-    if (job->severity_power > 0)
-        keys.severe.value = run->balance.wear_rate /
-                            (job->duty * run->parameters.pressure * run->parameters.velocity);
     if (task->sliding->strain_softening != NULL)
         strain_softening_describe(task->sliding->strain_softening, keys.softening,
                                   sizeof keys.softening);

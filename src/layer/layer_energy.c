@@ -2,12 +2,29 @@
  * surface or both), operating point, friction on the layer and default times.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "layer/layer_energy.h"
-#include "core/math/special.h"
+#include "core/table/registry.h"
 #include "job/random_draws.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+
+/* State of a layer with the modulus of the context. */
+static wt_layer_state layer_state(const layer_context *context, double thickness)
+{
+    return thickness > 0 ? (wt_layer_state){.thickness = thickness,
+                                            .modulus_ratio = context->modulus_ratio,
+                                            .slope = context->slope}
+                         : (wt_layer_state){.modulus_ratio = 1};
+}
+
+static void set_total(const layer_context *context, wt_layer_state layer, layer_friction *f)
+{
+    const wt_layer_shear law = {.exponent = context->shear_exponent};
+    layer.modulus_ratio = f->ratio;
+    f->total = f->hysteresis +
+               wt_layer_shear_stress(&law, f->bulk_stress, layer) * f->area_ratio / f->pressure;
+}
 
 /* Smallest ratio of the thickest to the thinnest layer for interpolation: nodes must be distinct.
  */
@@ -20,9 +37,8 @@ static wt_status compute_nodes(layer_friction_model *f, double thinnest, double 
     for (size_t i = 0; i < n; i++) {
         layer_friction at;
         f->log_thickness[i] = low + (high - low) * (double)i / (double)(n - 1);
-        const wt_status status = layer_compute_friction(
-            f->context, operating_point_under_layer(f->context, exp(f->log_thickness[i])), &at,
-            err);
+        const wt_status status =
+            layer_compute_friction(f->context, exp(f->log_thickness[i]), &at, err);
         if (status != WT_OK)
             return status;
         f->value[NODE_HYSTERESIS][i] = at.hysteresis;
@@ -59,24 +75,21 @@ wt_status layer_friction_model_evaluate(const layer_friction_model *model, doubl
                                         layer_friction *f, wt_error *err)
 {
     const double unknown = (double)NAN;
-    const operating_point conditions = operating_point_under_layer(model->context, thickness);
-    *f = (layer_friction){unknown, unknown, unknown, unknown, unknown,
-                          unknown, unknown, unknown, unknown, unknown};
+    const wt_layer_state layer = layer_state(model->context, thickness);
+    *f = (layer_friction){unknown, unknown, unknown, unknown, unknown, unknown};
     if (!isfinite(thickness))
         return WT_OK;
     if (model->n == 0 || !(thickness > 0))
-        return layer_compute_friction(model->context, conditions, f, err);
+        return layer_compute_friction(model->context, thickness, f, err);
     const double *const at = model->log_thickness;
     const double x = fmin(fmax(log(thickness), at[0]), at[model->n - 1]);
     f->hysteresis = akima_curve_value(model->curve[NODE_HYSTERESIS], x);
     f->area_ratio = akima_curve_value(model->curve[NODE_AREA], x);
     f->bulk_stress = akima_curve_value(model->curve[NODE_BULK_STRESS], x);
     f->pressure = model->pressure;
-    const bool own =
-        model->context->sliding->layer_rubber != NULL || conditions.layer.slope.exponent != 0;
-    f->ratio = own ? akima_curve_value(model->curve[NODE_MODULUS_RATIO], x)
-                   : conditions.layer.modulus_ratio;
-    layer_friction_set_total(model->context->job, conditions.layer, f);
+    f->ratio = layer.slope.exponent != 0 ? akima_curve_value(model->curve[NODE_MODULUS_RATIO], x)
+                                         : layer.modulus_ratio;
+    set_total(model->context, layer, f);
     return WT_OK;
 }
 
@@ -93,126 +106,57 @@ double layer_sliding_velocity(const wt_sliding *sliding, const wt_layer_job *lay
     return isnan(layer->velocity) ? flow_reference_velocity(sliding) : layer->velocity;
 }
 
-operating_point operating_point_default(void)
-{
-    return (operating_point){.pressure = (double)NAN,
-                             .velocity = (double)NAN,
-                             .temperature = (double)NAN,
-                             .layer = {.modulus_ratio = 1}};
-}
-
-operating_point operating_point_under_layer(const layer_context *context, double thickness)
-{
-    operating_point conditions = operating_point_default();
-    if (thickness > 0)
-        conditions.layer = (wt_layer_state){.thickness = thickness,
-                                            .modulus_ratio = context->modulus_ratio,
-                                            .slope = context->slope};
-    return conditions;
-}
-
-wt_estimate estimate_without_error(double value)
-{
-    return (wt_estimate){value, (double)NAN, (double)NAN, NULL};
-}
-
-/* Sliding with the values of an operating point; *velocity must outlive the result. */
-static wt_sliding sliding_at_conditions(const layer_context *context, operating_point conditions,
-                                        double *velocity)
+/* Creates the contact of a context at the velocity of the wear. */
+static wt_status create_contact(const layer_context *context, wt_layer_state layer,
+                                double *velocity, sliding_contact *c, wt_error *err)
 {
     wt_sliding s = *context->sliding;
-    *velocity = isnan(conditions.velocity) ? layer_sliding_velocity(context->sliding, context->job)
-                                           : conditions.velocity;
+    wt_job local_job = *context->work;
+    local_job.left_out = WT_EXTRA_ALL;
+    *velocity = layer_sliding_velocity(context->sliding, context->job);
     s.velocity = velocity;
     s.n_velocity = 1;
     s.reference_velocity = *velocity;
-    if (!isnan(conditions.pressure)) {
-        s.pressure.standard_error *= conditions.pressure / s.pressure.value;
-        s.pressure.value = conditions.pressure;
-    }
-    if (!isnan(conditions.temperature))
-        s.temperature.value = conditions.temperature;
-    return s;
+    return sliding_contact_create(&s, &local_job, context->replicate, context->drawn, layer, c,
+                                  err);
 }
 
-static wt_status create_operating_contact(const layer_context *context, const wt_sliding *s,
-                                          operating_point conditions, sliding_contact *c,
-                                          wt_error *err)
-{
-    wt_job local_job = *context->work;
-    local_job.left_out = WT_EXTRA_ALL;
-    /* the cached materials are for the temperature of the sliding */
-    return sliding_contact_create(s, &local_job, context->replicate,
-                                  isnan(conditions.temperature) ? context->drawn : NULL,
-                                  conditions.layer, c, err);
-}
-
-void layer_friction_set_total(const wt_layer_job *job, wt_layer_state layer, layer_friction *f)
-{
-    layer.modulus_ratio = f->ratio;
-    const double stress = wt_layer_shear_stress(&job->shear, f->bulk_stress, layer);
-    f->shear_stress = stress;
-    f->total = f->hysteresis + stress * f->area_ratio / f->pressure;
-    f->total_error = f->hysteresis_error + stress * f->area_error / f->pressure;
-}
-
-double layer_friction_coefficient(const layer_friction *f)
-{
-    return isnan(f->total) ? f->hysteresis : f->total;
-}
-
-static wt_status compute_friction_at_point(const layer_context *context, const wt_sliding *s,
-                                           const sliding_contact *c, operating_point conditions,
-                                           layer_friction *friction, wt_error *err)
-{
-    wt_friction_point p;
-    const wt_status status =
-        wt_friction_compute(c->workspace, c->pressure, s->velocity, 1, &p, err);
-    if (status != WT_OK)
-        return status;
-    *friction = (layer_friction){
-        .hysteresis = p.hysteresis.value,
-        .area_ratio = p.area_ratio.value,
-        .hysteresis_error = p.hysteresis.numerical_error,
-        .area_error = p.area_ratio.numerical_error,
-        .bulk_stress = c->shear_stress,
-        .pressure = c->pressure,
-        .ratio = sliding_layer_at_shear_rate(c, conditions.layer, s->velocity[0]).modulus_ratio};
-    layer_friction_set_total(context->job, conditions.layer, friction);
-    return WT_OK;
-}
-
-wt_status layer_compute_contact(const layer_context *context, operating_point conditions,
-                                layer_energy *energy, wt_layer_parameters *parameters,
-                                layer_friction *friction, wt_error *err)
+wt_status layer_compute_energy(const layer_context *context, layer_energy *energy,
+                               wt_layer_parameters *parameters, wt_error *err)
 {
     double velocity;
-    const wt_sliding s = sliding_at_conditions(context, conditions, &velocity);
     sliding_contact c = {0};
-    wt_status status = create_operating_contact(context, &s, conditions, &c, err);
-    if (status == WT_OK && friction != NULL)
-        status = compute_friction_at_point(context, &s, &c, conditions, friction, err);
-    if (status == WT_OK && energy != NULL) {
-        status =
-            layer_energy_compute(&s, context->job, &c, velocity, conditions.layer, energy, err);
-        if (status == WT_OK)
-            *parameters = layer_parameters_create(context->job, &c, velocity, context->work->seed,
-                                                  context->replicate);
-    }
+    wt_status status = create_contact(context, layer_state(context, 0), &velocity, &c, err);
+    if (status == WT_OK)
+        status = layer_energy_compute(context->sliding, context->job, &c, velocity, energy, err);
+    if (status == WT_OK)
+        *parameters = layer_parameters_create(context->job, &c, velocity, context->work->seed,
+                                              context->replicate);
     sliding_contact_clear(&c);
     return status;
 }
 
-wt_status layer_compute_energy(const layer_context *context, operating_point conditions,
-                               layer_energy *energy, wt_layer_parameters *parameters, wt_error *err)
-{
-    return layer_compute_contact(context, conditions, energy, parameters, NULL, err);
-}
-
-wt_status layer_compute_friction(const layer_context *context, operating_point conditions,
+wt_status layer_compute_friction(const layer_context *context, double thickness,
                                  layer_friction *friction, wt_error *err)
 {
-    return layer_compute_contact(context, conditions, NULL, NULL, friction, err);
+    double velocity;
+    wt_friction_point p;
+    sliding_contact c = {0};
+    const wt_layer_state layer = layer_state(context, thickness);
+    wt_status status = create_contact(context, layer, &velocity, &c, err);
+    if (status == WT_OK)
+        status = wt_friction_compute(c.workspace, c.pressure, &velocity, 1, &p, err);
+    if (status == WT_OK) {
+        *friction = (layer_friction){
+            .hysteresis = p.hysteresis.value,
+            .area_ratio = p.area_ratio.value,
+            .bulk_stress = c.shear_stress,
+            .pressure = c.pressure,
+            .ratio = sliding_layer_at_shear_rate(&c, layer, velocity).modulus_ratio};
+        set_total(context, layer, friction);
+    }
+    sliding_contact_clear(&c);
+    return status;
 }
 
 wt_status layer_job_calibrate(const layer_context *context, wt_layer_job *calibrated, wt_error *err)
@@ -222,8 +166,7 @@ wt_status layer_job_calibrate(const layer_context *context, wt_layer_job *calibr
         return WT_OK;
     layer_energy energy = {.source = {.n = 0}};
     wt_layer_parameters p;
-    const wt_status status =
-        layer_compute_energy(context, operating_point_default(), &energy, &p, err);
+    const wt_status status = layer_compute_energy(context, &energy, &p, err);
     if (status != WT_OK)
         return status;
     calibrated->critical_energy = (wt_estimate){
@@ -279,24 +222,20 @@ static double power_factor(const wt_layer_job *job, const layer_energy *e)
 }
 
 /* Computes friction, contact area and the power of shearing. */
-static wt_status compute_contact_area(const wt_layer_job *job, const sliding_contact *c,
-                                      double velocity, wt_layer_state layer, layer_energy *e,
+static wt_status compute_contact_area(const sliding_contact *c, double velocity, layer_energy *e,
                                       wt_error *err)
 {
     const wt_status status =
         wt_friction_compute(c->workspace, c->pressure, &velocity, 1, &e->point, err);
     if (status != WT_OK)
         return status;
-    const double area = e->point.area_ratio.value;
-    e->shear_power = wt_layer_shear_stress(&job->shear, c->shear_stress,
-                                           sliding_layer_at_shear_rate(c, layer, velocity)) *
-                     area * fabs(velocity);
+    e->shear_power = c->shear_stress * e->point.area_ratio.value * fabs(velocity);
     return WT_OK;
 }
 
 wt_status layer_energy_compute(const wt_sliding *sliding, const wt_layer_job *job,
                                const sliding_contact *contact, double velocity,
-                               wt_layer_state layer, layer_energy *energy, wt_error *err)
+                               layer_energy *energy, wt_error *err)
 {
     layer_energy e = {.shear_power = (double)NAN};
     if (job->energy != WT_LAYER_HYSTERESIS && isnan(sliding->shear_stress.value)) {
@@ -308,7 +247,7 @@ wt_status layer_energy_compute(const wt_sliding *sliding, const wt_layer_job *jo
     wt_status status = wt_energy_source_from_friction(contact->workspace, contact->pressure,
                                                       velocity, &e.source, err);
     if (status == WT_OK && job->energy != WT_LAYER_HYSTERESIS)
-        status = compute_contact_area(job, contact, velocity, layer, &e, err);
+        status = compute_contact_area(contact, velocity, &e, err);
     e.source.profile = job->profile;
     e.source.local_friction = job->local_friction;
     for (size_t i = 0; i < e.source.n; i++)
@@ -329,19 +268,29 @@ wt_status layer_energy_compute(const wt_sliding *sliding, const wt_layer_job *jo
     return status;
 }
 
+double layer_replicates_add(replicates *r, const wt_sliding *sliding, const wt_layer_job *job)
+{
+    replicates_add(r, job->specific_wear_rate.standard_error, FLOW_DRAW_WEAR, "specific wear rate");
+    const bool calibrated = !isnan(job->observed_thickness.value);
+    const double given =
+        (calibrated ? job->observed_thickness : job->critical_energy).standard_error;
+    replicates_add(r, given, calibrated ? FLOW_DRAW_OBSERVED : FLOW_DRAW_CRITICAL_ENERGY,
+                   calibrated ? "observed thickness" : "critical energy");
+    if (job->energy != WT_LAYER_HYSTERESIS)
+        replicates_add(r, sliding->shear_stress.standard_error, FLOW_DRAW_SHEAR_STRESS,
+                       error_source_text(SOURCE_SHEAR_STRESS));
+    return given;
+}
+
 wt_layer_parameters layer_parameters_create(const wt_layer_job *job, const sliding_contact *contact,
                                             double velocity, uint64_t seed, size_t replicate)
 {
     wt_layer_parameters p = wt_layer_defaults();
-    p.damage = job->damage;
     p.duty = job->duty;
-    p.start_thickness = job->start_thickness;
     p.incubation = job->incubation;
     p.skip_numerical_errors = replicate != WT_NO_REPLICATE;
     p.pressure = contact->pressure;
     p.velocity = velocity;
-    p.severity_power = job->severity_power;
-    p.severity_exponent = job->severity_exponent;
     p.specific_wear_rate =
         flow_draw_positive(job->specific_wear_rate, seed, replicate, FLOW_DRAW_WEAR);
     p.critical_energy =

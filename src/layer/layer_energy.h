@@ -5,6 +5,7 @@
 #define WT_LAYER_LAYER_ENERGY_H
 
 #include "core/math/special.h"
+#include "friction/replicates.h"
 #include "friction/sliding_contact.h"
 #include "weartrack/layer.h"
 
@@ -21,8 +22,7 @@ double layer_sliding_velocity(const wt_sliding *sliding, const wt_layer_job *lay
  * stress is not stated. */
 wt_status layer_energy_compute(const wt_sliding *sliding, const wt_layer_job *job,
                                const sliding_contact *contact, double velocity,
-                               wt_layer_state layer, layer_energy *energy,
-                               wt_error *err) WT_NODISCARD;
+                               layer_energy *energy, wt_error *err) WT_NODISCARD;
 void layer_energy_clear(layer_energy *energy);
 /* Parameters of a replicate. The critical energy may still have to be calibrated. */
 wt_layer_parameters layer_parameters_create(const wt_layer_job *job, const sliding_contact *contact,
@@ -33,7 +33,11 @@ wt_layer_parameters layer_parameters_create(const wt_layer_job *job, const slidi
 double *layer_times_choose(const wt_layer_job *job, const wt_layer_steady_state *balance,
                            size_t *n);
 
-/* ---- context and operating point ------------------------------------------------------------- */
+/* Adds the error sources of a layer: wear; critical energy or observed thickness; shear stress if
+ * it modifies the rubber. Returns the standard error of the second. */
+double layer_replicates_add(replicates *r, const wt_sliding *sliding, const wt_layer_job *job);
+
+/* ---- context --------------------------------------------------------------------------------- */
 
 /* Values for a computation: the stated ones, or those that a replicate draws from the stated
  * errors. */
@@ -45,46 +49,22 @@ typedef struct layer_context {
     wt_material_cache *drawn; /* cache of the materials of the replicates; NULL if none */
     double modulus_ratio;     /* modulus ratio of the layer; NaN if unknown */
     wt_ratio_slope slope;     /* frequency dependence of the modulus ratio */
+    double shear_exponent;    /* of the modulus ratio in the shear stress of the layer */
 } layer_context;
 
-/* Operating point of a layer. A stated pressure has the relative error of that of the sliding, and
- * a stated temperature the same error. Both use the same draw, because one instrument measured
- * both. */
-typedef struct operating_point {
-    double pressure, velocity, temperature; /* NaN for those of the sliding */
-    wt_layer_state layer;                   /* layer that is already on the bulk */
-} operating_point;
-operating_point operating_point_default(void);
-/* Operating point under a layer with the modulus of the context; thickness 0 gives the bare bulk.
- */
-operating_point operating_point_under_layer(const layer_context *context, double thickness);
-
-/* Computes energy and layer parameters at an operating point. */
-wt_status layer_compute_energy(const layer_context *context, operating_point conditions,
-                               layer_energy *energy, wt_layer_parameters *parameters,
-                               wt_error *err) WT_NODISCARD;
-/* Friction at an operating point, with the shear stress of a layer if present. The total is NaN if
- * no shear stress is stated. Errors are numerical. */
+/* Computes energy and layer parameters on bare rubber. */
+wt_status layer_compute_energy(const layer_context *context, layer_energy *energy,
+                               wt_layer_parameters *parameters, wt_error *err) WT_NODISCARD;
+/* Friction under a layer, with its shear stress. The total is NaN if no shear stress is stated. */
 typedef struct layer_friction {
-    double hysteresis, area_ratio, shear_stress, total;
-    double hysteresis_error, area_error, total_error;
+    double hysteresis, area_ratio, total;
     double bulk_stress, pressure; /* inputs of the total */
     double ratio;                 /* modulus ratio at the shear frequency; input of the total */
 } layer_friction;
-wt_status layer_compute_friction(const layer_context *context, operating_point conditions,
+/* Computes friction under a layer of a thickness [m] that has the modulus of the context; 0 gives
+ * bare rubber. */
+wt_status layer_compute_friction(const layer_context *context, double thickness,
                                  layer_friction *friction, wt_error *err) WT_NODISCARD;
-/* Computes energy and friction in one contact; NULL arguments are not computed. */
-wt_status layer_compute_contact(const layer_context *context, operating_point conditions,
-                                layer_energy *energy, wt_layer_parameters *parameters,
-                                layer_friction *friction, wt_error *err) WT_NODISCARD;
-/* Computes shear stress and total friction from hysteresis, contact area and shear stress of the
- * bulk. */
-void layer_friction_set_total(const wt_layer_job *job, wt_layer_state layer,
-                              layer_friction *friction);
-/* Total friction, or hysteresis friction if no shear stress is stated. */
-double layer_friction_coefficient(const layer_friction *friction);
-/* Estimate without errors. */
-wt_estimate estimate_without_error(double value);
 /* Copies the job of a context and calibrates its critical energy if it has an observed thickness.
  */
 wt_status layer_job_calibrate(const layer_context *context, wt_layer_job *calibrated,
@@ -116,24 +96,5 @@ wt_status layer_friction_model_create(const layer_context *context, double thinn
 wt_status layer_friction_model_evaluate(const layer_friction_model *model, double thickness,
                                         layer_friction *f, wt_error *err) WT_NODISCARD;
 void layer_friction_model_clear(layer_friction_model *friction);
-
-/* ---- feedback and loads -----------------------------------------------------------------------
- */
-
-/* A wt_layer_energy_fn whose `user` is a layer_context. */
-wt_status feedback_energy(double thickness, void *user, wt_energy_source *source,
-                          wt_layer_parameters *parameters, wt_error *err) WT_NODISCARD;
-/* Finds all balances with thicknesses from the shortest wave to the longest. */
-wt_status feedback_find_balances(layer_context *context, wt_layer_feedback *loop,
-                                 wt_error *err) WT_NODISCARD;
-
-/* NaN for the value of the sliding; an unset time of the last load means that it does not end. */
-typedef struct layer_load {
-    double time, pressure, velocity, temperature, specific_wear_rate;
-} layer_load;
-
-/* Parses load i of a job. Errors name the load and the invalid value. */
-wt_status layer_load_parse(const wt_layer_job *job, size_t i, layer_load *load,
-                           wt_error *err) WT_NODISCARD;
 
 #endif

@@ -85,14 +85,10 @@ static source *find_source(source_list *list, const char *words, const char *rem
 static const char *other_sources_name(const wt_sliding *sliding, bool split)
 {
     const bool with_surface = sliding->surface->modes_error != NULL;
-    const bool two = sliding->layer_rubber != NULL && sliding->layer_rubber->n_draws > 0;
     if (!split)
         return VALIDATION_MATERIAL_PREFIX " and all else that is drawn";
-    if (with_surface)
-        return two ? VALIDATION_MATERIAL_PREFIX
-                   ", that of the layer, scatter of the measured spectrum"
-                   : VALIDATION_MATERIAL_PREFIX ", and scatter of the measured spectrum";
-    return two ? VALIDATION_MATERIAL_PREFIX ", and that of the layer" : VALIDATION_MATERIAL_PREFIX;
+    return with_surface ? VALIDATION_MATERIAL_PREFIX ", and scatter of the measured spectrum"
+                        : VALIDATION_MATERIAL_PREFIX;
 }
 
 static void add_other_sources(source_list *list, const wt_sliding *sliding, bool split,

@@ -2,7 +2,6 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "job/random_draws.h"
 #include "layer/layer_energy.h"
-#include "layer/monte_carlo.h"
 #include "record/running_in_validation.h"
 
 #include <math.h>
@@ -26,8 +25,7 @@ typedef struct growth_inputs {
     wt_layer_job job;         /* as stated, with the shear stress of the layer */
     const wt_layer_observation *observation;
     const wt_job *work;
-    bool transport; /* true: damage transport; false: rate balance */
-    double *time;   /* [n] */
+    double *time; /* [n] */
     size_t n;
 } growth_inputs;
 
@@ -56,7 +54,8 @@ static wt_status draw_context(const growth_inputs *g, size_t replicate, wt_mater
                              .modulus_ratio = flow_draw_positive_t(
                                  observation->modulus_ratio, observation->modulus_ratio_df, seed,
                                  replicate, FLOW_DRAW_RATIO),
-                             .slope = sliding_layer_ratio_slope(observation, seed, replicate)};
+                             .slope = sliding_layer_ratio_slope(observation, seed, replicate),
+                             .shear_exponent = observation->bulk_shear ? 0 : 1};
     return status;
 }
 
@@ -69,35 +68,19 @@ typedef struct growth_draw {
     layer_friction_model friction_of;
 } growth_draw;
 
-static wt_status grow_with_feedback(const growth_inputs *g, growth_draw *d, wt_error *err)
-{
-    wt_layer_feedback loop;
-    const wt_status status = feedback_find_balances(d->scene, &loop, err);
-    if (status != WT_OK)
-        return status;
-    d->thickness = 0;
-    for (size_t i = loop.n_roots; i-- > 0;)
-        if (loop.root[i].stable)
-            d->thickness = loop.root[i].thickness;
-    return wt_layer_feedback_history(feedback_energy, d->scene, &loop, g->time, g->n, d->points,
-                                     err);
-}
-
 static wt_status grow_layer(const growth_inputs *g, growth_draw *d, wt_error *err)
 {
     wt_layer_parameters *const p = &d->parameters;
     layer_energy energy = {.source = {.n = 0}};
     wt_layer_steady_state balance;
-    wt_status status = layer_compute_energy(d->scene, operating_point_default(), &energy, p, err);
+    wt_status status = layer_compute_energy(d->scene, &energy, p, err);
     p->balance_only = true;
     if (status == WT_OK)
         status = wt_layer_steady_state_compute(&energy.source, p, &balance, err);
     if (status == WT_OK)
         d->thickness = balance.thickness.value;
     p->skip_numerical_errors = true;
-    if (status == WT_OK && g->job.has_feedback)
-        status = grow_with_feedback(g, d, err);
-    else if (status == WT_OK && isfinite(d->thickness))
+    if (status == WT_OK && isfinite(d->thickness))
         status = wt_layer_history(&energy.source, p, g->time, g->n, d->points, err);
     layer_energy_clear(&energy);
     if (status == WT_OK && !isfinite(d->thickness))
@@ -111,7 +94,7 @@ static wt_status find_layer_friction(const growth_inputs *g, growth_draw *d, wt_
     double most = d->thickness;
     for (size_t i = 0; i < g->n; i++)
         most = fmax(most, d->points[i].thickness.value);
-    wt_status status = layer_compute_friction(d->scene, operating_point_default(), &bare, err);
+    wt_status status = layer_compute_friction(d->scene, 0, &bare, err);
     if (status != WT_OK)
         return status;
     d->bare = bare.total;
@@ -167,11 +150,11 @@ static wt_status choose_times(growth_inputs *g, growth *out, wt_error *err)
     size_t n = 0;
     wt_status status = draw_context(g, WT_NO_REPLICATE, NULL, &job, &scene, err);
     if (status == WT_OK)
-        status = layer_compute_energy(&scene, operating_point_default(), &energy, &p, err);
+        status = layer_compute_energy(&scene, &energy, &p, err);
     if (status == WT_OK)
         status = wt_layer_steady_state_compute(&energy.source, &p, &balance, err);
     layer_energy_clear(&energy);
-    if (status == WT_OK && balance.thickness.value <= 0 && !g->job.has_feedback)
+    if (status == WT_OK && balance.thickness.value <= 0)
         status = wt_fail(err, WT_E_RANGE, "no layer is predicted there: wear exceeds formation");
     if (status == WT_OK)
         shown = layer_times_choose(&job, &balance, &n);
@@ -179,7 +162,8 @@ static wt_status choose_times(growth_inputs *g, growth *out, wt_error *err)
         /* With the rate balance the layer starts at once. The times start where the thinnest
          * relevant layer exists. */
         const double at_once = thinnest / g->sliding.surface->q1 / balance.formation_rate_zero,
-                     first = g->transport || !(at_once > 0) ? shown[0] : fmin(shown[0], at_once);
+                     first =
+                         g->job.incubation || !(at_once > 0) ? shown[0] : fmin(shown[0], at_once);
         out->log_first = log(first);
         out->log_step = log(shown[n - 1] / first) / (double)(g->n - 1);
         for (size_t i = 0; i < g->n; i++)
@@ -213,7 +197,7 @@ static replicates begin_growth_replicates(const growth_inputs *g)
     if (g->job.energy == WT_LAYER_HYSTERESIS)
         replicates_add(&r, g->sliding.shear_stress.standard_error, FLOW_DRAW_SHEAR_STRESS,
                        error_source_text(SOURCE_SHEAR_STRESS));
-    replicates_add_layer(&r, &g->sliding, g->observation, "modulus ratio of the layer");
+    replicates_add_layer(&r, g->observation, "modulus ratio of the layer");
     return r;
 }
 
@@ -221,8 +205,6 @@ static wt_status draw_growth(const growth_inputs *g, growth *out, wt_error *err)
 {
     replicates r = begin_growth_replicates(g);
     const growth_replicates d = {*g, &r};
-    if (g->job.has_feedback)
-        r.n = 0;
     out->n_draws = r.n;
     out->value = wt_alloc((1 + r.n) * out->stride, sizeof *out->value);
     out->running_in_curve = wt_alloc((1 + r.n) * out->n, sizeof *out->running_in_curve);
@@ -266,7 +248,6 @@ static growth_inputs growth_inputs_read(const wt_sliding *sliding, const wt_laye
                        .observation = observation,
                        .work = work};
     measured_step_conditions(at, &g.sliding);
-    g.job.shear = sliding_layer_shear_law(observation);
     return g;
 }
 
@@ -278,10 +259,8 @@ wt_status growth_compute(const wt_sliding *sliding, const wt_layer_job *layer,
     own.drawn = NULL; /* the stored draws are for another temperature */
     own.left_out = WT_EXTRA_ALL;
     growth_inputs g = growth_inputs_read(sliding, layer, observation, at, &own);
-    g.transport = layer->incubation && !layer->has_feedback;
-    g.n = g.transport ? TIMES_TRANSPORT : TIMES_RATES;
-    *out = (growth){
-        .n = g.n, .stride = GROWTH_QUANTITIES + g.n, .skip_numerical_errors = layer->has_feedback};
+    g.n = layer->incubation ? TIMES_TRANSPORT : TIMES_RATES;
+    *out = (growth){.n = g.n, .stride = GROWTH_QUANTITIES + g.n};
     g.sliding.velocity = &g.velocity;
     g.sliding.n_velocity = 1;
     g.sliding.reference_velocity = g.velocity;

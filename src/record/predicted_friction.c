@@ -87,7 +87,7 @@ static replicates begin_friction_replicates(const prediction_group *g, const wt_
     if (g->observation != NULL) {
         replicates_add(&r, g->observation->thickness.standard_error, FLOW_DRAW_THICKNESS,
                        "thickness of the layer");
-        replicates_add_layer(&r, &g->sliding, g->observation, "modulus ratio of the layer");
+        replicates_add_layer(&r, g->observation, "modulus ratio of the layer");
     }
     return r;
 }

@@ -412,9 +412,7 @@ static const char *missing_errors_reason(const running_in_task *task)
 {
     for (size_t i = 0; i < task->n; i++)
         if (task->has_growth[i] && task->growth[i].n_draws == 0)
-            return task->growth[i].skip_numerical_errors
-                       ? "the errors of a layer that acts back are not drawn"
-                       : "the prediction has no errors: none are stated, or no replicates drawn";
+            return "the prediction has no errors: none are stated, or no replicates drawn";
     return NULL;
 }
 

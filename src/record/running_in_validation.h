@@ -29,9 +29,8 @@ typedef struct growth {
                       values first; NaN for a draw without a solution */
     double *running_in_curve; /* [(1 + n_draws) * n] friction less final friction */
     flow_draw line[REPLICATES_MAX_DRAWS];
-    size_t n_lines, n_bare;     /* draws without a layer */
-    char includes[256];         /* names of the drawn sources */
-    bool skip_numerical_errors; /* true if the layer feeds back: only nominal values are computed */
+    size_t n_lines, n_bare; /* draws without a layer */
+    char includes[256];     /* names of the drawn sources */
 } growth;
 
 /* Computes the growth. The caller clears it, also after a failure. Returns WT_E_RANGE if no layer

@@ -253,7 +253,7 @@ static bool set_missing_input_verdict(const run_set *all, run_verdict *w)
                       : settles;
     } else if (all->skip_numerical_errors != NULL) {
         why = all->skip_numerical_errors;
-        settles = "errors of the prediction, by replicates and without feedback";
+        settles = "errors of the prediction, by replicates";
     } else if (may_have_no_layer(all)) {
         why = "within the stated errors there may be no layer";
         settles = "specific wear rate and critical energy known better";

@@ -326,23 +326,20 @@ static wt_status set_wear(const validation *v, table_writer *t, wt_error *err)
 /* Sets the keys of the layer that friction was predicted with. */
 static void set_predicted_layer_keys(const validation *v, table_writer *t)
 {
-    const wt_sliding *const sliding = v->job->sliding;
     char moduli[512];
     if (!v->layered)
         return;
     const wt_estimate thickness = flow_stated_estimate(v->layer_observation->thickness),
                       ratio = flow_stated_estimate(v->layer_observation->modulus_ratio);
     validation_set(t, VALIDATION_KEY_LAYER_THICKNESS, thickness);
-    if (sliding->layer_rubber == NULL)
-        validation_set(t, VALIDATION_KEY_LAYER_RATIO, ratio);
-    sliding_layer_describe(sliding, v->layer_observation, v->p.zero_loss_range, v->work->log,
-                           moduli, sizeof moduli);
+    validation_set(t, VALIDATION_KEY_LAYER_RATIO, ratio);
+    sliding_layer_describe(v->layer_observation, v->p.zero_loss_range, v->work->log, moduli,
+                           sizeof moduli);
     if (moduli[0] == '\0')
         return;
     validation_set_text(t, VALIDATION_KEY_LAYER_MODULI, moduli);
-    if (sliding->layer_rubber == NULL)
-        validation_set(t, VALIDATION_KEY_LAYER_SLOPE,
-                       flow_stated_estimate(v->layer_observation->ratio_slope));
+    validation_set(t, VALIDATION_KEY_LAYER_SLOPE,
+                   flow_stated_estimate(v->layer_observation->ratio_slope));
 }
 
 static wt_status set_validation_keys(const validation *v, const choice_ranges *ranges,

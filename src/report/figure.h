@@ -89,8 +89,8 @@ typedef enum page_section {
 extern const figure_description figures_indentation[], figures_curves[], figures_spot[],
     figures_surface[], figures_materials[], figures_master[], figures_dma[], figures_payne[],
     figures_friction[], figures_friction_maps[], figures_record[], figures_validation[],
-    figures_layer[], figures_existence[], figures_what_if[], figures_accuracy[],
-    figures_collection[], figures_constants[];
+    figures_layer[], figures_what_if[], figures_accuracy[], figures_collection[],
+    figures_constants[];
 const figure_description *figure_find(size_t i); /* NULL past the last one */
 page_section figure_section(size_t i);           /* PAGE_SECTIONS past the last one */
 

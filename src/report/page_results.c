@@ -144,11 +144,6 @@ static const struct result_part {
     KEYS(friction_map, "Friction at several temperatures and pressures"),
     KEYS(friction_decades, "Which length scales make the friction"),
     KEYS(layer, "Balance of the modified layer"),
-    KEYS(layer_bands, "Modified bands in time"),
-    KEYS(running_in, "Friction with the layer in running-in"),
-    KEYS(layer_feedback, "Balances of a layer that acts back on its energy"),
-    ROWS(layer_feedback, "Balances of a layer that acts back, and folds"),
-    KEYS(layer_regime_map, "Where a layer exists"),
     KEYS(identification, "Critical energy and wear rate of the layer that is seen"),
     ROWS(identification, "Critical energy and wear rate, by what is known"),
     ROWS(what_if, "What if: one choice of the model moved in each row, and the relative changes "

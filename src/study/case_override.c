@@ -30,7 +30,6 @@ wt_status case_variant_create(const wt_sliding *sliding, const wt_layer_job *lay
                         .given = sliding->rubber,
                         .surface = *sliding->surface,
                         .has_softness = sliding->strain_softening != NULL,
-                        .has_layer_rubber = sliding->layer_rubber != NULL,
                         .has_layer = layer != NULL,
                         .has_known = observation != NULL,
                         .vertical = sliding->rubber->fit.vertical};
@@ -40,8 +39,6 @@ wt_status case_variant_create(const wt_sliding *sliding, const wt_layer_job *lay
     s->surface.q1 = law->q1;
     if (s->has_softness)
         s->strain_softening = *sliding->strain_softening;
-    if (s->has_layer_rubber)
-        s->layer_rubber = *sliding->layer_rubber;
     if (layer != NULL)
         s->layer = *layer;
     if (observation != NULL)
@@ -93,7 +90,6 @@ wt_status case_variant_compute(case_variant *s, const wt_job *work, wt_estimate 
     s->sliding.rubber = s->given != NULL ? s->given : &s->rubber;
     s->sliding.surface = &s->surface;
     s->sliding.strain_softening = s->has_softness ? &s->strain_softening : NULL;
-    s->sliding.layer_rubber = s->has_layer_rubber ? &s->layer_rubber : NULL;
     s->sliding.velocity = &s->velocity;
     wt_status status = s->has_layer ? compute_layer(s, work, &observation, err) : WT_OK;
     if (status == WT_OK && s->has_layer)

@@ -12,9 +12,8 @@ typedef struct case_variant {
     wt_rubber rubber;       /* borrowed, or a modified copy */
     const wt_rubber *given; /* original of `rubber`; NULL once the copy is modified */
     wt_surface surface;     /* borrowed; its cut-offs are numbers [rad/m] */
-    bool has_softness, has_layer_rubber;
+    bool has_softness;
     wt_strain_softening strain_softening; /* borrowed */
-    wt_rubber layer_rubber;               /* borrowed; rubber of the layer */
     bool has_layer, has_known;
     wt_layer_job layer;
     wt_layer_observation layer_observation;

@@ -79,6 +79,10 @@ bool inputs_may_be_shared(const collected_case *a, const collected_case *b);
 wt_status collect_layer_constants(const collected_case *cases, size_t n, double margin,
                                   wt_collection_tables *tables, wt_error *err) WT_NODISCARD;
 
+/* Creates the table "ratio_pairs"; NULL if no two cases share a sample or a condition. */
+wt_status collect_pairs(const collected_case *cases, size_t n, double margin, wt_table **table,
+                        wt_error *err) WT_NODISCARD;
+
 /* Creates the tables "shared_constants" and "shared_members". NULL if no two cases determine one
  * constant. The first one also exists if values were excluded. */
 wt_status collect_constants(const collected_case *cases, size_t n, double margin,

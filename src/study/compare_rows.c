@@ -281,7 +281,7 @@ static double rate_ratio_half_range(const compare_row *rates, size_t n)
 TABLE_KEYS(comparison, COMPARISON, const char *differs, *settled_by, *would_explain, *unit, *rates,
            *includes, *cancels;
            cantilever_count cantilevers; wt_estimate margin, rate_slope, ratio;
-           double interaction_p, ratio_df, calibration_share, spot_scatter;)
+           double interaction_p, ratio_df, rate_spread, calibration_share, spot_scatter;)
 
 /* Sets the ratio and its error for friction: a Student's t error of the logarithm, unknown without
  * an interval. */
@@ -290,8 +290,10 @@ static void set_ratio_keys(const comparison_task *task, bool twisted, bool inter
 {
     const wt_comparison *c = &task->rows[0].c;
     double error = interval ? c->log_ratio.standard_error : (double)NAN;
-    if (twisted)
-        error = hypot(error, rate_ratio_half_range(task->rows + 1, task->p->n_bins));
+    if (twisted) {
+        keys->rate_spread = rate_ratio_half_range(task->rows + 1, task->p->n_bins);
+        error = hypot(error, keys->rate_spread);
+    }
     /* uniform distribution over the effect of plausible causes */
     error = hypot(error, hypot(task->unstated.lower, task->unstated.higher) / sqrt(3));
     keys->ratio = (wt_estimate){c->ratio, c->ratio * error, 0, NULL};
@@ -339,6 +341,7 @@ static wt_status write_comparison_table(const comparison_task *task, wt_table **
         .ratio = {none, none, 0, NULL},
         .interaction_p = c->interaction_p,
         .ratio_df = none,
+        .rate_spread = none,
         .calibration_share = none,
         .spot_scatter = given ? task->job->spot_scatter : none};
     if (!v.is_unreportable)

@@ -86,16 +86,6 @@ static void fix_ratio(case_variant *s)
     s->layer_observation.calibration_share = 1;
 }
 
-static bool is_stated_layer_rubber(const case_variant *s)
-{
-    return s->layer_rubber.n_draws > 0;
-}
-
-static void fix_layer_rubber(case_variant *s)
-{
-    s->layer_rubber.n_draws = 0;
-}
-
 static bool is_stated_calibration(const case_variant *s)
 {
     return s->layer_observation.modulus_ratio.standard_error > 0;
@@ -148,14 +138,9 @@ static bool has_thickness(const case_variant *s)
     return s->has_known && !s->has_layer;
 }
 
-static bool has_layer_rubber(const case_variant *s)
-{
-    return s->has_known && s->has_layer_rubber;
-}
-
 static bool has_ratio(const case_variant *s)
 {
-    return s->has_known && !s->has_layer_rubber;
+    return s->has_known;
 }
 
 /* False if the ratio does not depend on the frequency. */
@@ -198,8 +183,6 @@ static const source sources[] = {
      fix_ratio},
     {"slope of the modulus ratio", "more spots indented at rates further apart", has_ratio_slope,
      is_stated_slope, fix_slope},
-    {"material of the layer", "a second DMA run of the layer's rubber", has_layer_rubber,
-     is_stated_layer_rubber, fix_layer_rubber},
     {"calibration", calibration_remedy, has_calibration, is_stated_calibration, fix_calibration},
 };
 enum { SOURCES = COUNT_OF(sources) };

@@ -140,6 +140,8 @@
       OPTIONAL)                                                                                    \
     X(COMPARISON_KEY_MODULUS_RATIO_DF, "modulus_ratio_df", NUMBER, SHOWS(ratio_df),                \
       LABEL("Degrees of freedom of its error"), OPTIONAL)                                          \
+    X(COMPARISON_KEY_RATE_SPREAD, AS(rate_spread), NUMBER,                                         \
+      LABEL("Half the range of its logarithm over the rates, in its error"), OPTIONAL)             \
     X(COMPARISON_KEY_CALIBRATION_SHARE, AS(calibration_share), NUMBER,                             \
       LABEL("Share of calibration and temperature in it"), OPTIONAL)                               \
     X(COMPARISON_KEY_SPOT_SCATTER, AS(spot_scatter), NUMBER,                                       \

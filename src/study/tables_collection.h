@@ -200,7 +200,14 @@
     X(RATIO_PAIRS_HOLM_P, AS(holm_p), "p after Holm's correction for the number of pairs", NUMBER, \
       LABEL("p (Holm)"), DIGITS(2), SPARSE)                                                        \
     X(RATIO_PAIRS_DIFFER, AS(differ), "do they differ: yes, no within the margin, cannot say",     \
-      ENUM(stated_verdict), LABEL("Differ"))
+      ENUM(stated_verdict), LABEL("Differ"))                                                       \
+    X(RATIO_PAIRS_RATES, AS(rates),                                                                \
+      "indentation rates that both have, at which they are compared; nan: none, the ratios of "    \
+      "all rates are compared",                                                                    \
+      NUMBER, LABEL("Common rates"), SPARSE)                                                       \
+    X(RATIO_PAIRS_INTERACTION_P, AS(interaction_p),                                                \
+      "p of the test whether the difference depends on the rate", NUMBER, LABEL("p (rate)"),       \
+      DIGITS(2), SPARSE)
 #define RATIO_PAIRS_KEYS(X)                                                                        \
     X(RATIO_PAIRS_KEY_PAIRS, AS(pairs), NUMBER, LABEL("Pairs compared"))                           \
     X(RATIO_PAIRS_KEY_DIFFERENT, "pairs_that_differ", NUMBER, SHOWS(different),                    \

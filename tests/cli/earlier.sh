@@ -49,10 +49,3 @@ grep -q '^## furthest:' former.tsv
 "$weartrack" table -q law.tsv shared_shift_law >one.tsv
 "$weartrack" table -q again.tsv shared_shift_law >other.tsv
 cmp one.tsv other.tsv
-mkdir -p layer case
-cp "$fixtures/case/dma.txt" case/
-sed -e 's,<\(/*\)regime-map>,<\1existence>,g' -e 's,<\(/*\)feedback>,<\1acts-back>,g' \
-  -e 's,<figure>layer_regime_map,<figure>existence,' "$fixtures/layer/case.xml" >layer/case.xml
-grep -q '<existence>' layer/case.xml
-grep -q '<acts-back>' layer/case.xml
-"$weartrack" run -q --plan layer/case.xml | grep -q '^run  *Where a layer exists'

@@ -73,10 +73,10 @@ static const struct {
     {"master", "absent", {wt_master_options_params}},
     {"friction",
      "--material absent --roughness absent --strain-softening absent",
-     {wt_sliding_params, wt_layer_observation_params, wt_job_params, wt_rubber_options_params}},
+     {wt_sliding_params, wt_layer_observation_params, wt_job_params}},
     {"layer",
      "--material absent --roughness absent --strain-softening absent",
-     {wt_sliding_params, wt_layer_job_params, wt_job_params, wt_rubber_options_params}},
+     {wt_sliding_params, wt_layer_job_params, wt_job_params}},
     {"run", "absent", {wt_run_params}},
 };
 

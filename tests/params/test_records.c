@@ -34,7 +34,6 @@ static const wt_params *(*const tables[])(void) = {
     case_term_params,
     case_wlf_params,
     flow_zener_params,
-    wt_rubber_options_params,
     wt_transverse_params,
     wt_accuracy_job_params,
     wt_ramp_job_params,

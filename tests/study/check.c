@@ -269,7 +269,6 @@ int main(int argc, char **argv)
     check_random();
     check_material();
     check_contact(argv[1]);
-    check_layer_physics();
     check_thin(argv[1]);
     check_sample();
     check_stream();

@@ -13,6 +13,5 @@ void check_afm(const char *folder);
 /* FOLDER/thin_sample.txt: forces on thin samples. */
 void check_thin(const char *folder);
 /* Layers in time. */
-void check_layer_physics(void);
 
 #endif

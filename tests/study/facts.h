@@ -60,11 +60,7 @@ typedef enum quantity {
     Q_SAID_PAIR,
     Q_SAID_RECORD,
     Q_SAID_SHARED,
-    Q_HISTORY_THICKNESS, /* of a layer after loads in turn */
-    Q_FIRST_APPEARANCE,  /* time of it */
-    Q_EDGE_VELOCITY,     /* up to which there is one */
     Q_SETTLED,           /* time after which friction stands */
-    Q_END_FRICTION,      /* with the layer at its balance */
     Q_TIME_RATIO,        /* measured over predicted */
     Q_CHANGE_RATIO,      /* of friction in the running-in, likewise */
     Q_NEEDED_WEAR,       /* rate that a running-in asks for */

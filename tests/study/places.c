@@ -84,14 +84,6 @@ const place place_collected_friction = {"collected_friction", "friction", "frict
                                         NULL, NULL};
 const place place_shared = {"shared_constants", "value", NULL, "value_low", "value_high"};
 const place place_pair = {"ratio_pairs", "ratio", NULL, "ratio_low", "ratio_high"};
-static const char bands[] = "layer_bands", grown[] = "running_in";
-const place place_last_thickness = {bands, "last_thickness", "standard_error", NULL, NULL};
-const place place_first_appearance = {bands, "onset_time", NULL, "first_appearance_low",
-                                      "first_appearance_high"};
-const place place_edge_velocity = {"layer_regime_map", "to_velocity", NULL, "to_velocity_low",
-                                   "to_velocity_high"};
-const place place_settled = {grown, "settled", NULL, "settled_low", "settled_high"};
-const place place_end_friction = {grown, "balance_friction", "standard_error", NULL, NULL};
 static const char running_in[] = PLACE_VALIDATION_RUNNING_IN;
 const place place_settled_measured = {running_in, "settled_measured", NULL, "settled_measured_low",
                                       "settled_measured_high"};

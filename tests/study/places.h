@@ -61,9 +61,6 @@ extern const place place_shared; /* a constant in each row */
 #define PLACE_SHARED_DIFFERS "differs"
 #define PLACE_ROUGHNESS "roughness" /* what friction takes of a surface */
 
-extern const place place_last_thickness, place_first_appearance,
-    place_edge_velocity; /* of a layer */
-extern const place place_settled, place_end_friction;
 extern const place place_settled_measured, place_time_ratio,
     place_change_ratio; /* of a running-in */
 extern const place place_needed_wear, place_needed_energy;

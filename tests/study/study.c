@@ -9,7 +9,6 @@
 #include "dwell_observe.h"
 #include "growth_observe.h"
 #include "identify_observe.h"
-#include "layer_observe.h"
 #include "lever_observe.h"
 #include "record_observe.h"
 #include "surface_observe.h"
@@ -234,8 +233,7 @@ int main(int argc, char **argv)
     const family families[] = {dma_family(),        track_family(),      afm_family(),
                                dwell_family(),      lever_family(),      surface_family(),
                                record_family(),     validation_family(), identify_family(),
-                               collection_family(), layer_family(),      growth_family(),
-                               thickness_family()};
+                               collection_family(), growth_family(),     thickness_family()};
     job *jobs = NULL;
     const int n = make_jobs(&o, families, sizeof families / sizeof families[0], &jobs);
     work w = {.options = &o, .jobs = jobs, .n_jobs = n};

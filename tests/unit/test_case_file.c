@@ -182,9 +182,6 @@ static void test_former_elements(void **state)
 {
     (void)state;
     static const char *const cases[] = {
-        LAYER("<acts-back>no</acts-back>"),
-        LAYER("<existence>no</existence>"),
-        LAYER("<shear-reach>1um</shear-reach>"),
         LAYER("<duty>0.5</duty>"),
         INDENTATION("<choices>choices.csv</choices>"),
         INDENTATION("<doubtful-error>0.2</doubtful-error>"),

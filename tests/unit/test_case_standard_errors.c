@@ -50,7 +50,6 @@ static const expectation list[] = {
     {&layer_schema, "incubation_time", "kkkn"},
     {&layer_schema, "relaxation_time", "kkkn"},
     {&layer_schema, "critical_specific_wear_rate", "kkkn"},
-    {&layer_schema, "removal_time", "...."}, /* there is a layer */
     {&layer_schema, "critical_energy", "knnn"},
     {&layer_schema, "surface_power", "kkkn"},
     {&layer_schema, "time_to_90_percent", "kkkn"},
@@ -61,7 +60,6 @@ static const expectation list[] = {
     {&layer_schema, "thickness", "kkkn"},
     {&layer_schema, "hysteresis_power", "...."}, /* of the energy of shearing */
     {&layer_schema, "shear_power", "...."},
-    {&layer_schema, "severe_wear_rate", "...."}, /* of the severity law */
 };
 
 static wt_rubber rubber[WAYS];

@@ -177,15 +177,13 @@ static void test_endless_layer(void **state)
     wt_validation_tables_clear(&t);
 }
 
-/* The law of the shear stress of a layer is in the prediction as it is in friction.
- */
+/* The shear stress of the bulk on a layer is in the prediction as it is in friction. */
 static void test_layer_shear(void **state)
 {
     (void)state;
-    static const wt_layer_shear shear = {2, 1e-6};
     for (int layered = 0; layered < 2; layered++) {
         set_up();
-        observation.shear = &shear;
+        observation.bulk_shear = true;
         make_record(5e6, surface.q1, 0, 0.003, layered != 0);
         const wt_validation_job job = job_of(true);
         wt_validation_tables t = made(&job);

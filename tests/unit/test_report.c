@@ -475,9 +475,7 @@ static void test_nothing_to_draw(void **state)
                                            "validation_course",
                                            "friction_collapse",
                                            "friction_temperature_map",
-                                           "friction_pressure_map",
-                                           "layer_regime_map_thickness",
-                                           "layer_regime_map_friction"};
+                                           "friction_pressure_map"};
         bool silent = false;
         for (size_t k = 0; k < sizeof rare / sizeof *rare; k++)
             silent = silent || strcmp(wt_figure_get(i).name, rare[k]) == 0;

@@ -11,13 +11,7 @@ typedef struct answer_context {
     result_value_tables values;
     table_view failures;
     table_view indentation[2]; /* bulk, track */
-    table_view modulus_depth, dma_comparison, shift_factors, prony, roughness;
-    table_view softening, flash;
-    table_view power_spectrum, surfaces; /* of a measured counter surface */
-    table_view record, wear;
-    table_view validation, validation_sources, validation_running_in;
-    table_view layer_bands, layer_feedback, layer_regime_map, running_in, track_layer,
-        identification;
+    table_view modulus_depth, dma_comparison, shift_factors, roughness, softening, flash, wear;
 } answer_context;
 
 /* Binds the views of the tables of a result. */

@@ -312,8 +312,7 @@ static void add_layer_limits(limit_list *list, const answer_context *context)
         add(list, WT_NOTE, LIMITS_LAYER, "The critical energy, %s, is stated, not measured.",
             format_value(energy).text);
     add(list, WT_NOTE, LIMITS_LAYER, "No measured thickness has tested the layer model.");
-    if (context->layer_feedback.table == NULL)
-        add(list, WT_NOTE, LIMITS_LAYER, "The layer does not change the energy that forms it.");
+    add(list, WT_NOTE, LIMITS_LAYER, "The layer does not change the energy that forms it.");
     add_excluded(list, LIMITS_LAYER, "thickness", &thickness);
     add_agreement_limits(list, context, layer_key_enum(layer, LAYER_KEY_REGIME) != WT_LAYER_NONE);
     if (context->wear.table != NULL) {

@@ -15,8 +15,6 @@ static const flow_optional_input optional_inputs[FLOW_N_OPTIONAL_INPUTS][FLOW_OP
         [FLOW_OPTIONAL_TRACK] = {{B(INDENTATION_TRACK), " and wear track", "the wear track"}},
         [FLOW_OPTIONAL_LAYER] = {{B(LAYER) | B(MODULUS_RATIO), ", with and without the layer",
                                   "the layer"}},
-        [FLOW_OPTIONAL_MODULUS_RATIO] = {{B(MODULUS_RATIO), ", and what it does to friction",
-                                          "the modulus ratio of the layer"}},
         [FLOW_OPTIONAL_STEADY_STATE] = {{B(LAYER), ", beside that of the theory",
                                          "the thickness of the theory"}},
         [FLOW_OPTIONAL_WEAR] = {{B(WEAR), ", with the wear as measured", "the measured wear"}},

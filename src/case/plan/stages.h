@@ -14,7 +14,6 @@ typedef enum flow_optional_input_id {
     FLOW_OPTIONAL_TRACK,
     FLOW_OPTIONAL_LAYER,
     FLOW_OPTIONAL_THICKNESS,
-    FLOW_OPTIONAL_MODULUS_RATIO,
     FLOW_OPTIONAL_STEADY_STATE,
     FLOW_OPTIONAL_WEAR,
     FLOW_N_OPTIONAL_INPUTS
@@ -38,8 +37,6 @@ typedef enum flow_optional_input_id {
       B(PAYNE) | B(PAYNE_SWEEP), flow_step_payne)                                                  \
     X(GIVEN_MATERIAL, given_material, "Material as given in the case", B(GIVEN_MATERIAL), 0,       \
       FLOW_OPTIONAL_NONE, B(RUBBER), flow_step_given_material)                                     \
-    X(LAYER_MATERIAL, layer_material, "Material of the layer", B(GIVEN_LAYER_MATERIAL), 0,         \
-      FLOW_OPTIONAL_NONE, B(MODULUS_RATIO), flow_step_layer_material)                              \
     X(INDENTATION_BULK, indentation_bulk, "Contact point and modulus of every bulk curve",         \
       B(BULK_CURVES), 0, FLOW_OPTIONAL_SPECTRUM,                                                   \
       B(INDENTATION_BULK) | B(CURVE_BULK) | B(DEPTH_BULK), flow_step_bulk)                         \
@@ -103,20 +100,6 @@ typedef enum flow_optional_input_id {
     X(FRICTION_DECADES, friction_decades, "Friction by decades of the wavenumber",                 \
       B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(REQUESTED_DECADES), 0, FLOW_OPTIONAL_NONE,        \
       B(FRICTION_DECADES), flow_step_friction_decades)                                             \
-    X(LAYER_BANDS, layer_bands, "Modified bands in time",                                          \
-      B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(LAYER_PARAMETERS) | B(REQUESTED_BANDS), 0,        \
-      FLOW_OPTIONAL_NONE, B(LAYER_BANDS), flow_step_layer_bands)                                   \
-    X(RUNNING_IN, running_in, "Friction with the layer in running-in",                             \
-      B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(LAYER_PARAMETERS) | B(MODULUS_RATIO) |            \
-          B(REQUESTED_RUNNING_IN),                                                                 \
-      0, FLOW_OPTIONAL_NONE, B(RUNNING_IN), flow_step_running_in)                                  \
-    X(LAYER_FEEDBACK, layer_feedback, "Balances of a layer that acts back on its energy",          \
-      B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(LAYER_PARAMETERS) | B(MODULUS_RATIO) |            \
-          B(REQUESTED_FEEDBACK),                                                                   \
-      0, FLOW_OPTIONAL_NONE, B(LAYER_FEEDBACK), flow_step_layer_feedback)                          \
-    X(LAYER_REGIME_MAP, layer_regime_map, "Where a layer exists",                                  \
-      B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(LAYER_PARAMETERS) | B(REQUESTED_REGIME_MAP), 0,   \
-      FLOW_OPTIONAL_MODULUS_RATIO, B(LAYER_REGIME_MAP), flow_step_existence)                       \
     X(IDENTIFICATION, identification, "Critical energy and wear rate of the layer that is seen",   \
       B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(REQUESTED_IDENTIFICATION), 0, FLOW_OPTIONAL_WEAR, \
       B(IDENTIFICATION), flow_step_identification)                                                 \

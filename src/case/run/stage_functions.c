@@ -14,7 +14,6 @@ void flow_run_clear(flow_run *run)
         wt_table_free(run->table[i]);
     wt_indent_tables_clear(&run->curves);
     wt_rubber_clear(&run->rubber);
-    wt_rubber_clear(&run->layer_rubber);
     wt_surface_clear(&run->surface);
     wt_strain_softening_clear(&run->strain_softening);
     *run = (flow_run){0};
@@ -165,17 +164,14 @@ wt_status flow_step_given_ratio(flow_run *run, wt_error *err)
 
 /* ---- material -------------------------------------------------------------------------------- */
 
-/* Computes the master curve from the DMA files of a case or of its layer material. */
+/* Computes the master curve from the DMA files of a case. */
 static wt_status read_master(const wt_case *c, const wt_job *work, wt_master_tables *tables,
                              wt_rubber *rubber, wt_error *err)
 {
     wt_master_job job = c->master;
     job.sets = c->dma.sets;
     job.n_sets = c->dma.n;
-    const wt_status status = wt_master_compute(&job, work, tables, rubber, err);
-    return status == WT_OK && c->rubber.moduli == WT_MODULI_POINTS
-               ? wt_rubber_tabulate(rubber, tables->master_curve, &c->rubber, err)
-               : status;
+    return wt_master_compute(&job, work, tables, rubber, err);
 }
 
 wt_status flow_step_master(flow_run *run, wt_error *err)
@@ -191,24 +187,6 @@ wt_status flow_step_master(flow_run *run, wt_error *err)
     flow_run_store_table(run, FLOW_MATERIAL_DRAWS, &tables.material_draws);
     flow_run_store_table(run, FLOW_SERIES_DRAWS, &tables.series_draws);
     wt_master_tables_clear(&tables); /* the remaining members belong to the fit */
-    return status;
-}
-
-/* The tables are discarded, because the result has tables of these names for the bulk. */
-wt_status flow_step_layer_material(flow_run *run, wt_error *err)
-{
-    const wt_case *own = run->c->layer_material;
-    wt_master_tables tables = {0};
-    wt_job work = run->job;
-    work.dma = NULL; /* its sweeps are those of the bulk */
-    work.left_out |= WT_EXTRA_REDUCED_SERIES | WT_EXTRA_SPECTRUM;
-    const wt_status status =
-        own->has_material ? flow_run_create_stated_rubber(own, &work, &run->layer_rubber, err)
-                          : read_master(own, &work, &tables, &run->layer_rubber, err);
-    wt_master_tables_clear(&tables);
-    run->has_layer_rubber = status == WT_OK;
-    if (status == WT_OK)
-        wt_rubber_add_cost(&run->layer_rubber, &run->job);
     return status;
 }
 
@@ -326,7 +304,6 @@ wt_sliding flow_run_sliding(const flow_run *run)
     sliding.surface = &run->surface;
     if (isnan(sliding.reference_velocity))
         sliding.reference_velocity = run->c->layer.velocity;
-    sliding.layer_rubber = run->has_layer_rubber ? &run->layer_rubber : NULL;
     sliding.strain_softening = run->strain_softening.table.n > 0 ? &run->strain_softening : NULL;
     return sliding;
 }
@@ -364,29 +341,14 @@ wt_status flow_step_energy_density(flow_run *run, wt_error *err)
                                      &run->table[FLOW_ENERGY_DENSITY], err);
 }
 
-/* A layer with its own material has no modulus ratio, and a measured ratio does not replace the
- * material. */
-static wt_status layer_without_ratio(const flow_run *run, wt_layer_observation *observation,
-                                     wt_error *err)
-{
-    observation->modulus_ratio = wt_layer_observation_defaults().modulus_ratio;
-    observation->modulus_ratio_df = observation->calibration_share = 0;
-    return run->has_layer_rubber
-               ? WT_OK
-               : wt_fail(err, WT_E_MISSING, "the material of the layer is not known");
-}
-
 wt_status flow_run_layer_observation(const flow_run *run, wt_layer_observation *observation,
                                      wt_error *err)
 {
     *observation = run->c->layer_observation;
-    observation->shear = &run->layer.shear;
     observation->thickness = run->thickness;
     observation->modulus_ratio = run->modulus_ratio;
     observation->modulus_ratio_df = run->modulus_ratio_df;
     observation->calibration_share = run->calibration_share;
-    if (run->c->layer_material != NULL)
-        return layer_without_ratio(run, observation, err);
     if (!isnan(observation->modulus_ratio.value) && observation->by_rate) {
         if (isnan(observation->ratio_temperature))
             observation->ratio_temperature = run->c->compare.temperature.value;

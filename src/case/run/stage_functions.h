@@ -12,8 +12,7 @@ typedef struct flow_run {
     unsigned level;                    /* of the current stage */
     wt_table *table[FLOW_N_RESOURCES]; /* tables of the resources that are tables of their own */
     wt_indent_tables curves;           /* only the curve tables */
-    wt_rubber rubber, layer_rubber;
-    bool has_layer_rubber;
+    wt_rubber rubber;
     wt_surface surface;
     wt_strain_softening strain_softening;
     wt_layer_job layer; /* layer of the case; a missing wear rate is replaced by the measured one */

@@ -40,8 +40,7 @@ static wt_status read_stated_points(const wt_case *c, const wt_job *work, wt_rub
 {
     char *path;
     flow_file file = find_stated_file(&c->points, &path);
-    const wt_status status =
-        flow_rubber_read(&file, &c->rubber, c->master.poisson_ratio, work, rubber, err);
+    const wt_status status = flow_rubber_read(&file, c->master.poisson_ratio, work, rubber, err);
     free(path);
     return status;
 }

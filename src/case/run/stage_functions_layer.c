@@ -1,5 +1,4 @@
-/* Stages of a layer beyond its thickness at constant load, and comparison of the case with its
- * records.
+/* Comparison of the case with its records, and identification of a layer.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "case/run/stage_functions.h"
@@ -48,46 +47,6 @@ wt_status flow_step_validation_running_in(flow_run *run, wt_error *err)
     flow_run_store_table(run, FLOW_VALIDATION_RUNNING_IN, &tables.running_in);
     flow_run_store_table(run, FLOW_VALIDATION_COURSE, &tables.running_in_curve);
     return status;
-}
-
-wt_status flow_step_layer_bands(flow_run *run, wt_error *err)
-{
-    const wt_sliding sliding = flow_run_sliding(run);
-    return wt_layer_bands_compute(&sliding, &run->layer, &run->job, &run->table[FLOW_LAYER_BANDS],
-                                  err);
-}
-
-wt_status flow_step_running_in(flow_run *run, wt_error *err)
-{
-    const wt_sliding sliding = flow_run_sliding(run);
-    wt_layer_observation observation;
-    const wt_status status = flow_run_layer_observation(run, &observation, err);
-    return status == WT_OK ? wt_running_in_compute(&sliding, &run->layer, &observation, &run->job,
-                                                   &run->table[FLOW_RUNNING_IN], err)
-                           : status;
-}
-
-wt_status flow_step_layer_feedback(flow_run *run, wt_error *err)
-{
-    const wt_sliding sliding = flow_run_sliding(run);
-    wt_layer_observation observation;
-    const wt_status status = flow_run_layer_observation(run, &observation, err);
-    return status == WT_OK
-               ? wt_layer_steady_states_compute(&sliding, &run->layer, &observation, &run->job,
-                                                &run->table[FLOW_LAYER_FEEDBACK], err)
-               : status;
-}
-
-wt_status flow_step_existence(flow_run *run, wt_error *err)
-{
-    const wt_sliding sliding = flow_run_sliding(run);
-    wt_layer_observation observation;
-    const wt_status status =
-        run->level > 0 ? flow_run_layer_observation(run, &observation, err) : WT_OK;
-    return status == WT_OK
-               ? wt_regime_map_compute(&sliding, &run->layer, run->level > 0 ? &observation : NULL,
-                                       &run->job, &run->table[FLOW_LAYER_REGIME_MAP], err)
-               : status;
 }
 
 /* The wear rate stated for the identification takes precedence over that of the records. */

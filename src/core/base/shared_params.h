@@ -13,9 +13,8 @@
 #define FRICTION_TOLERANCE(type)                                                                   \
     {                                                                                              \
         PARAM("tolerance", type, tolerance, WT_Q_NONE, ABOVE_TO(0, 0.1)),                          \
-            .value = "X", .flags = PARAM_NO_CASE,                                                  \
-            .help = "relative numerical error that is not to be exceeded; the true one is far "    \
-                    "below. A looser one buys little: 1e-2 takes half the time of 1e-10"           \
+            .value = "X", .flags = PARAM_ONLY_C,                                                   \
+            .help = "relative numerical error that is not to be exceeded"                          \
     }
 #define FRICTION_GAMMA(type)                                                                       \
     {                                                                                              \
@@ -46,11 +45,12 @@
          .help = "from the velocity to the direction of the most roughness, such as 30deg: 0 "     \
                  "is sliding across grooves, 90deg along them"},                                   \
         {PARAM("anisotropy-fourth", type, anisotropy.amplitude[1], WT_Q_NONE, FROM_TO(-1, 1)),     \
-         .value = "A", .help = "the same with cos(4 (phi - T)) of a texture angle of its own"},    \
+         .flags = PARAM_ONLY_C,                                                                    \
+         .help = "the same with cos(4 (phi - T)) of a texture angle of its own"},                  \
     {                                                                                              \
         PARAM("texture-angle-fourth", type, anisotropy.angle[1], WT_Q_ANGLE,                       \
               FROM_TO(-2 * M_PI, 2 * M_PI)),                                                       \
-            .value = "T", .help = "that of --anisotropy-fourth"                                    \
+            .flags = PARAM_ONLY_C, .help = "that of anisotropy-fourth"                             \
     }
 
 /* `in` is a prefix of the member. */
@@ -83,37 +83,20 @@
             .value = "X", .help = "modulus of the layer over that of the bulk"                     \
     }
 
-#define LAYER_ROWS(type, wear_unset)                                                               \
-    {PARAM("specific-wear-rate", type, specific_wear_rate, WT_Q_WEAR_RATE, AT_LEAST(0)),           \
-     .value = "K", .unset = (wear_unset), .help = "k, such as \"1e-3mm^3/(N m)\""},                \
-        {PARAM("damage", type, damage, WT_Q_NONE, ABOVE(0)), .value = "L",                         \
-         .help = "Lambda, at which the rubber counts as modified"},                                \
-        {PARAM("duty-cycle", type, duty, WT_Q_NONE, ABOVE_TO(0, 1)), .former = "duty",             \
-         .value = "X", .help = "share of the time in contact; with 1, times are contact times"},   \
-        {PARAM("start-thickness", type, start_thickness, WT_Q_LENGTH, AT_LEAST(0)), .value = "D",  \
-         .help = "of the layer at time 0"},                                                        \
+#define LAYER_WEAR_RATE(type, wear_unset)                                                          \
     {                                                                                              \
-        PARAM_FLAG_OF("incubation", type, incubation),                                             \
-            .help = "transport of damage (exact at constant load), without which the rates are "   \
-                    "balanced "                                                                    \
-                    "from the beginning"                                                           \
+        PARAM("specific-wear-rate", type, specific_wear_rate, WT_Q_WEAR_RATE, AT_LEAST(0)),        \
+            .value = "K", .unset = (wear_unset), .help = "k, such as \"1e-3mm^3/(N m)\""           \
     }
-
-#define LAYER_SEVERITY_EXPONENT(type)                                                              \
+#define LAYER_DUTY(type)                                                                           \
     {                                                                                              \
-        PARAM("severity-exponent", type, severity_exponent, WT_Q_NONE, ABOVE(0)),                  \
-            .value = "M", .help = "m of the severity power"                                        \
-    }
-
-#define ENERGY_PROFILE(type)                                                                       \
-    {                                                                                              \
-        PARAM_CHOICE_OF("profile", type, profile, "persson|incompressible"),                       \
-            .help = "how the energy falls off with depth"                                          \
+        PARAM("duty-cycle", type, duty, WT_Q_NONE, ABOVE_TO(0, 1)), .former = "duty",              \
+            .value = "X", .help = "share of the time in contact; with 1, times are contact times"  \
     }
 #define ENERGY_LOCAL_FRICTION(type)                                                                \
     {                                                                                              \
-        PARAM("local-friction", type, local_friction, WT_Q_NONE, AT_LEAST(0)),                     \
-            .value = "M", .help = "local friction of the incompressible profile"                   \
+        PARAM("local-friction", type, local_friction, WT_Q_NONE, AT_LEAST(0)), .value = "M",       \
+            .flags = PARAM_ONLY_C, .help = "local friction of the incompressible profile"          \
     }
 
 /* clang-format on */

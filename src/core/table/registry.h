@@ -164,11 +164,6 @@
     X(energy_density, ENERGY_DENSITY, "energy_density", "Energy density with depth", "layer")      \
     X(identification, IDENTIFICATION, "identification",                                            \
       "Critical energy and wear rate of a layer", "identify")                                      \
-    X(layer_bands, LAYER_BANDS, "layer_bands", "Modified bands in time", "layer")                  \
-    X(running_in, RUNNING_IN, "running_in", "Friction with the layer in running-in", "layer")      \
-    X(layer_feedback, LAYER_FEEDBACK, "layer_feedback",                                            \
-      "Balances of a layer that acts back on its energy", "layer")                                 \
-    X(layer_regime_map, LAYER_REGIME_MAP, "layer_regime_map", "Where a layer exists", "layer")     \
     X(what_if, WHAT_IF, "what_if", "What if a choice of the model were another", "friction")       \
     X(validation, VALIDATION, "validation", "Measured friction against predicted friction",        \
       "validate")                                                                                  \
@@ -234,7 +229,6 @@
     X(sharing_level, SHARING_LEVELS, SHARED_BY_UNKNOWN)                                            \
     X(sharing_verdict, SHARING_VERDICTS, SHARING_UNKNOWN)                                          \
     X(friction_part, FRICTION_PARTS, FRICTION_PART_UNKNOWN)                                        \
-    X(balance_stability, BALANCE_STABILITIES, BALANCE_STABILITY_UNKNOWN)                           \
     X(identification_method, IDENTIFICATION_METHODS, IDENTIFICATION_METHOD_UNKNOWN)                \
     X(critical_energy_origin, CRITICAL_ENERGY_ORIGINS, CRITICAL_ENERGY_ORIGIN_UNKNOWN)
 

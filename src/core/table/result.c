@@ -138,10 +138,6 @@ static const struct {
     {"choices", "overrides"},
     {"common_law", "shared_shift_law"},
     {"directions", "transverse_isotropy"},
-    {"existence", "layer_regime_map"},
-    {"existence_friction", "layer_regime_map_friction"},
-    {"existence_thickness", "layer_regime_map_thickness"},
-    {"layer_balances", "layer_feedback"},
 };
 
 /* A former name that ends in '_' stands for all names that begin with it. */
@@ -163,7 +159,6 @@ static const struct {
     {NULL, "anisotropy_chance", "anisotropy_p"},
     {NULL, "baseline_chance", "baseline_p"},
     {NULL, "each_moved", "sample_shifts"},
-    {NULL, "first_appearance", "onset_time"},
     {NULL, "holds_from", "valid_from"},
     {NULL, "holds_to", "valid_to"},
     {NULL, "interval_lacks", "interval_excludes"},

@@ -69,13 +69,6 @@ static void add_layer(rows_source *s, const table_view *v)
     rows_add_number(s, 0, rows_estimate(layer_value(v, LAYER_KEY_WEAR_RATE)), "specific wear rate");
 }
 
-static void add_feedback(rows_source *s, const table_view *v)
-{
-    const char *words = layer_feedback_key_text(v, LAYER_FEEDBACK_KEY_WORDS);
-    result_row *row = rows_add_text(s, 0, "see --verbose", "layer with feedback");
-    rows_reason(row, "a layer that acts back on its energy", words);
-}
-
 static void add_identification(rows_source *s, const table_view *v)
 {
     for (size_t i = 0; i < v->n_rows; i++) {
@@ -134,8 +127,6 @@ void rows_of_sliding(rows_source *s)
         add_friction(s, &view);
     if (rows_bind(s, &layer_schema, &view))
         add_layer(s, &view);
-    if (rows_bind(s, &layer_feedback_schema, &view))
-        add_feedback(s, &view);
     if (rows_bind(s, &identification_schema, &view))
         add_identification(s, &view);
     if (rows_bind(s, &error_budget_schema, &view))

@@ -74,10 +74,16 @@ wt_layer_parameters wt_layer_defaults(void)
 }
 
 static const wt_param rows[] = {
-    LAYER_ROWS(wt_layer_parameters, NULL),
+    LAYER_WEAR_RATE(wt_layer_parameters, NULL),
+    LAYER_DUTY(wt_layer_parameters),
+    {PARAM("damage", wt_layer_parameters, damage, WT_Q_NONE, ABOVE(0)), .flags = PARAM_ONLY_C,
+     .help = "Lambda, at which the rubber counts as modified"},
+    {PARAM("start-thickness", wt_layer_parameters, start_thickness, WT_Q_LENGTH, AT_LEAST(0)),
+     .flags = PARAM_ONLY_C, .help = "of the layer at time 0"},
     {PARAM("severity-power", wt_layer_parameters, severity_power, WT_Q_NONE, AT_LEAST(0)),
      .flags = PARAM_ONLY_C, .help = "power at which the specific wear rate doubles, W/m^2"},
-    LAYER_SEVERITY_EXPONENT(wt_layer_parameters),
+    {PARAM("severity-exponent", wt_layer_parameters, severity_exponent, WT_Q_NONE, ABOVE(0)),
+     .flags = PARAM_ONLY_C, .help = "m of the severity power"},
     {PARAM("critical-energy", wt_layer_parameters, critical_energy, WT_Q_ENERGY_DENSITY, ABOVE(0)),
      .flags = PARAM_ONLY_C, .help = "energy per volume that modifies the rubber"},
     {PARAM("pressure", wt_layer_parameters, pressure, WT_Q_PRESSURE, AT_LEAST(0)),
