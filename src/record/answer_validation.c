@@ -12,7 +12,9 @@ void append_verdict(text_builder *t, const table_view *v)
 {
     text_append(t, "the theory (%s) against the record: %s",
                 validation_key_text(v, VALIDATION_KEY_JUDGED),
-                validation_key_text(v, VALIDATION_KEY_VERDICT));
+                validation_key_text(v, validation_key_text(v, VALIDATION_KEY_OUTCOME) != NULL
+                                           ? VALIDATION_KEY_OUTCOME
+                                           : VALIDATION_KEY_VERDICT));
 }
 
 void append_required_shear(text_builder *t, const table_view *v)
