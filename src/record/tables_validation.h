@@ -50,8 +50,20 @@
       LABEL(heading ", over those that the record leaves from"), OPTIONAL)                         \
     X(ID##_KEPT_HIGH, name "_kept_high", unit, LABEL("to"), OPTIONAL)
 
+/* Whether the theory explains the record: as given, or with the shear stress that the record asks
+ * for if this is plausible. */
+#define VALIDATION_OUTCOMES(X)                                                                     \
+    X(OUTCOME_INCONCLUSIVE, "cannot say")                                                          \
+    X(OUTCOME_EXPLAINS, "explains")                                                                \
+    X(OUTCOME_EXPLAINS_WITH_SHEAR, "explains with a shear stress")                                 \
+    X(OUTCOME_DOES_NOT, "does not")
+
 #define VALIDATION_KEYS(X)                                                                         \
-    X(VALIDATION_KEY_VERDICT, "verdict", TEXT, HEADLINE("Theory against measured friction"))       \
+    X(VALIDATION_KEY_OUTCOME, "outcome", ENUM(validation_outcome),                                 \
+      HEADLINE("Theory against measured friction"), OPTIONAL)                                      \
+    X(VALIDATION_KEY_POWER, "verdict_power", NUMBER,                                               \
+      LABEL("Probability that such a record shows that a true theory explains it"), OPTIONAL)      \
+    X(VALIDATION_KEY_VERDICT, "verdict", TEXT, LABEL("With the shear stress as given"))            \
     X(VALIDATION_KEY_WITHOUT, "verdict_without_layer", TEXT, LABEL("Without a layer"))             \
     X(VALIDATION_KEY_WITH, "verdict_with_layer", TEXT, LABEL("With the layer"), OPTIONAL)          \
     X(VALIDATION_KEY_JUDGED, "judged", TEXT, LABEL("The verdict is on"))                           \

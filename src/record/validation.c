@@ -4,6 +4,7 @@
 #include "record/validation.h"
 #include "core/base/clocale.h"
 #include "core/base/param.h"
+#include "core/math/students_t.h"
 #include "core/table/table_rows.h"
 #include "friction/layer_observation.h"
 #include "job/cost.h"
@@ -64,23 +65,70 @@ static wt_status required_shear_compute(validation *v, wt_error *err)
 /* Source of the range, so that a reader can disagree. */
 static const char literature[] = "the range of the literature for rubber on rough counter surfaces";
 
-static void set_plausibility(const validation *v, table_writer *t)
+static stated_verdict plausibility(const validation *v)
 {
     const double low = v->job->plausible_low, high = v->job->plausible_high;
     const wt_interval *const n = &v->needed;
-    const char *const words = n->high < 0
-                                  ? "no: the hysteresis part alone is more than was measured"
-                              : n->low > low && n->high < high ? "yes: all of its interval is in"
-                              : n->high < low                  ? "no: it is below"
-                              : n->low > high                  ? "no: it is above"
-                                              : "cannot say: it may be in or out of";
+    return n->high < low || n->low > high   ? VERDICT_NO
+           : n->low > low && n->high < high ? VERDICT_YES
+                                            : VERDICT_INCONCLUSIVE;
+}
+
+static void set_plausibility(const validation *v, table_writer *t)
+{
+    const double low = v->job->plausible_low, high = v->job->plausible_high;
+    const stated_verdict verdict = plausibility(v);
+    const char *const words = verdict == VERDICT_YES            ? "all of its interval is in"
+                              : verdict == VERDICT_INCONCLUSIVE ? "it may be in or out of"
+                              : v->needed.high < low            ? "it is below"
+                                                                : "it is above";
     char text[320];
-    if (n->high < 0)
-        clocale_print(text, sizeof text, "%s", words);
+    if (v->needed.high < 0)
+        clocale_print(text, sizeof text, "no: the hysteresis part alone is more than was measured");
     else
-        clocale_print(text, sizeof text, "%s %.3g MPa to %.3g MPa, %s", words, 1e-6 * low,
-                      1e-6 * high, literature);
+        clocale_print(text, sizeof text, "%s: %s %.3g MPa to %.3g MPa, %s",
+                      stated_verdict_text(verdict), words, 1e-6 * low, 1e-6 * high, literature);
     validation_set_text(t, VALIDATION_KEY_PLAUSIBLE, text);
+}
+
+/* Probability that a fit whose errors are those of this one, of a theory without a deviation, lies
+ * within the margin at the step that decides. */
+static double verdict_power(const validation *v, const model_variant *t)
+{
+    double ends[2];
+    agreement_interval(&t->fit, t->fit.deciding_step, false, ends);
+    const double half = (ends[1] - ends[0]) / 2,
+                 room = (validation_margin(v) - half) * NORMAL_95 / half;
+    return room > 0 ? erf(room / M_SQRT2) : 0;
+}
+
+/* Sets the headline: the verdict as given, or that with the shear stress that the record asks for
+ * where this decides it and is plausible. */
+static void set_outcome(const validation *v, table_writer *t)
+{
+    static const validation_outcome as_given[] = {[AGREEMENT_INCONCLUSIVE] = OUTCOME_INCONCLUSIVE,
+                                                  [AGREEMENT_YES] = OUTCOME_EXPLAINS,
+                                                  [AGREEMENT_NO] = OUTCOME_DOES_NOT};
+    const model_variant *fit = v->has_shear ? &v->ratio[v->layered] : NULL;
+    validation_outcome outcome = fit != NULL ? as_given[fit->fit.verdict] : OUTCOME_INCONCLUSIVE;
+    char with[160] = "", text[400], power[96] = "";
+    if (outcome != OUTCOME_EXPLAINS && v->shape.n > 0 && v->shape.fit.verdict == AGREEMENT_YES &&
+        plausibility(v) == VERDICT_YES) {
+        outcome = OUTCOME_EXPLAINS_WITH_SHEAR;
+        fit = &v->shape;
+        clocale_print(with, sizeof with, " of %.3g MPa (95 %%: %s), which is plausible",
+                      1e-6 * v->needed.value,
+                      format_range(1e-6 * v->needed.low, 1e-6 * v->needed.high, 3).text);
+    }
+    if (fit != NULL) {
+        const double found = verdict_power(v, fit);
+        validation_set_value(t, VALIDATION_KEY_POWER, found, (double)NAN, (double)NAN);
+        clocale_print(power, sizeof power, ", such a record shows a true theory in %.0f %%",
+                      100 * found);
+    }
+    clocale_print(text, sizeof text, "%s%s; margin %.3g %%%s", validation_outcome_text(outcome),
+                  with, 100 * v->job->margin, power);
+    validation_set_text(t, VALIDATION_KEY_OUTCOME, text);
 }
 
 static void required_shear_set_keys(const validation *v, table_writer *t)
@@ -345,6 +393,7 @@ static void set_predicted_layer_keys(const validation *v, table_writer *t)
 static wt_status set_validation_keys(const validation *v, const choice_ranges *ranges,
                                      const source_advice *advice, table_writer *t, wt_error *err)
 {
+    set_outcome(v, t);
     set_verdicts(v, t);
     if (advice->settles[0] != '\0')
         validation_set_text(t, VALIDATION_KEY_SETTLED_BY, advice->settles);

@@ -149,6 +149,9 @@ static void test_needed(void **state)
         check_begins(t.validation, "shear_stress_plausible", "yes");
         check_begins(t.validation, "verdict_with_needed", "explains");
         check_begins(t.validation, "verdict", "does not");
+        check_begins(t.validation, "outcome", "explains with a shear stress of 8 MPa (95 %: ");
+        assert_non_null(
+            strstr(wt_table_key(t.validation, "outcome"), ", which is plausible; margin"));
         check_begins(t.validation, "judged", layered ? "friction with" : "friction without");
         assert_int_equal(wt_table_n_rows(t.validation), STEPS);
         for (size_t i = 0; i < STEPS; i++) {
@@ -341,6 +344,9 @@ static void test_verdicts(void **state)
         const wt_validation_job job = job_of(false);
         wt_validation_tables t = made(&job);
         check_begins(t.validation, "verdict", cases[i].verdict);
+        check_begins(t.validation, "outcome", cases[i].verdict);
+        const double power = key_of(t.validation, "verdict_power");
+        assert_true(i == 2 ? power < 0.8 : power > 0.99);
         check_begins(t.validation, "verdict_with_needed", cases[i].shape);
         assert_int_equal(wt_table_key(t.validation, "settled_by") != NULL, i == 2);
         wt_validation_tables_clear(&t);
