@@ -72,6 +72,7 @@ wt_status wt_curve_browser_write(const wt_result *result, const char *path, bool
                                    {"browse.css", embedded_file_text("browse.css")},
                                    {"data", text_string(&data)},
                                    {"dygraph.js", script},
+                                   {"shared.js", embedded_file_text("shared.js")},
                                    {"browse.js", embedded_file_text("browse.js")},
                                    {"licence", text_string(&licence)},
                                    {"source", text_string(&source)}};

@@ -58,15 +58,7 @@
 
   /* ---- numbers ------------------------------------------------------------------------------- */
 
-  const prefixes = [[1e9, 'G'], [1e6, 'M'], [1e3, 'k'], [1, ''], [1e-3, 'm'], [1e-6, 'µ'],
-    [1e-9, 'n'], [1e-12, 'p']];
-  const prefixOf = (value) => prefixes.find(([size]) => Math.abs(value) >= size) ||
-    prefixes[prefixes.length - 1];
-  const inUnit = (value, unit, digits = 3) => {
-    if (value === null) return 'unknown';
-    const [size, prefix] = value === 0 ? [1, ''] : prefixOf(value);
-    return Number((value / size).toPrecision(digits)) + ' ' + prefix + unit;
-  };
+  const {prefixOf, inUnit} = Shared;
   const largest = (values) => values.reduce((most, v) => v === null ? most :
     Math.max(most, Math.abs(v)), 0);
 
@@ -111,13 +103,6 @@
     history.replaceState(null, '', '#'); /* an address by another hand */
   }
 
-  const cell = (text) => {
-    if (text === '') return '-';
-    const escaped = text.replace(/[\\\t\n\r\x00-\x1f\x7f]/g, (c) =>
-      ({'\\': '\\\\', '\t': '\\t', '\n': '\\n', '\r': '\\r'}[c] ||
-        '\\x' + c.charCodeAt(0).toString(16).toUpperCase().padStart(2, '0')));
-    return escaped === '-' || escaped.startsWith('#') ? '\\' + escaped : escaped;
-  };
   const choicesText = () => {
     const rows = kept.map(([group, file, choice, value, note, number]) =>
       [group, file, number === null ? 'nan' : String(number), choice, value, note]);
@@ -129,9 +114,7 @@
         if (out) row('exclude', '');
         if (typeof contact === 'number') row('contact-point', Number(contact.toPrecision(12)) + 'm');
       }
-    return {n: rows.length, text: '## table: choices\n' +
-      '# group[text]\tfile[text]\tcurve[1]\tchoice[text]\tvalue[text]\tnote[text]\n' +
-      rows.map((row) => row.map(cell).join('\t') + '\n').join('') + '##\n'};
+    return {n: rows.length, text: Shared.overridesText(rows)};
   };
   const showChoices = () => {
     const {n, text} = choicesText();

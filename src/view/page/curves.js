@@ -13,15 +13,6 @@
 
   let overrides = [];
   const undone = [];
-  const unescape = (cell) => cell === '-' ? '' : cell.replace(/\\(x[0-9A-Fa-f]{2}|.)/g, (_, c) =>
-    ({n: '\n', t: '\t', r: '\r'}[c] || (c.length > 1 ? String.fromCharCode(parseInt(c.slice(1), 16)) : c)));
-  const escape = (text) => {
-    if (text === '') return '-';
-    const made = text.replace(/[\\\t\n\r\x00-\x1f\x7f]/g, (c) =>
-      ({'\\': '\\\\', '\t': '\\t', '\n': '\\n', '\r': '\\r'}[c] ||
-        '\\x' + c.charCodeAt(0).toString(16).toUpperCase().padStart(2, '0')));
-    return made === '-' || made.startsWith('#') ? '\\' + made : made;
-  };
   const names = ['group', 'file', 'curve', 'choice', 'value', 'note'];
   const readOverrides = (text) => {
     let columns = names;
@@ -29,23 +20,34 @@
     for (const line of (text || '').split('\n')) {
       if (line.startsWith('# ')) columns = line.slice(2).split('\t').map((c) => c.replace(/\[.*/, ''));
       if (line === '' || line.startsWith('#')) continue;
-      const cells = line.split('\t').map(unescape), row = {};
+      const cells = line.split('\t').map(Shared.unescapeCell), row = {};
       columns.forEach((name, k) => { row[name] = cells[k] || ''; });
       overrides.push(row);
     }
   };
-  const overridesText = () => '## table: choices\n' +
-    '# group[text]\tfile[text]\tcurve[1]\tchoice[text]\tvalue[text]\tnote[text]\n' +
-    overrides.map((row) => names.map((name) => escape(row[name] || '')).join('\t') + '\n').join('') + '##\n';
+  const overridesText = () => Shared.overridesText(overrides.map((row) => names.map((name) => row[name] || '')));
   const belongs = (row, curve) => (row.group === '' || row.group === group) && row.file === curve.file &&
     row.curve === String(curve.curve);
   const chosen = (curve, choice) => overrides.find((row) => belongs(row, curve) && row.choice === choice);
-  const write = async () => {
+  /* Writes follow one another, as each replaces the file of the one before. Meanwhile the rows here are
+   * newer than those of the state. */
+  let writing = 0, last = Promise.resolve();
+  const writeNow = async () => {
     const text = overridesText(), state = View.state();
     const {digest} = await View.call('overrides', {was: state.overridesDigest}, text);
     View.setOverrides(text, digest);
     if (!View.has('indentation/overrides')) View.edit({'indentation/overrides': state.overridesName});
     document.documentElement.dataset.overrides = overrides.length;
+  };
+  const write = async () => {
+    writing++;
+    const mine = last.then(writeNow);
+    last = mine.catch(() => null);
+    try {
+      await mine;
+    } finally {
+      writing--;
+    }
   };
   /* Sets or removes (null) an override of the curve, writes the file and fits again. */
   const choose = View.guard(async (curve, choice, value, note) => {
@@ -294,6 +296,10 @@
     await showGroup();
   });
 
+  /* The box may still show the curve before, so that the overrides decide. */
+  const exclude = () => rows[at] && choose(rows[at], 'exclude', chosen(rows[at], 'exclude') ? null : '',
+    ui.note.value);
+
   /* ---- the panel ------------------------------------------------------------------------------ */
 
   const options = (entries) => entries.map(([value, text]) => element('option', {value}, text));
@@ -332,7 +338,7 @@
           e('button', {onclick: () => step(-1)}, '← previous'), e('button', {onclick: () => step(1)}, 'next →'),
           e('label', {}, ui.exclude, ' exclude (x)'), ui.note, ui.free, ui.undo),
         ui.plot, ui.residual, e('h2', {}, 'Groups'), ui.cards)));
-      const keys = {ArrowDown: () => step(1), ArrowUp: () => step(-1), x: () => ui.exclude.click(),
+      const keys = {ArrowDown: () => step(1), ArrowUp: () => step(-1), x: exclude,
         r: () => ui.free.click(), u: undo};
       host.addEventListener('keydown', (event) => {
         if (event.ctrlKey || event.metaKey || event.target.matches('input[type=text], select') ||
@@ -342,7 +348,7 @@
       });
     },
     async show(state) {
-      readOverrides(state.overridesText);
+      if (writing === 0) readOverrides(state.overridesText);
       ui.tip.value = View.get('indentation/tip') || '';
       const there = ['bulk', 'track'].filter((name) => View.has('indentation/' + name));
       if (!there.includes(group)) group = there[0] || 'bulk';

@@ -10,16 +10,7 @@ const Plot = (() => {
     if (parent) parent.append(made);
     return made;
   };
-  const prefixes = [[1e12, 'T'], [1e9, 'G'], [1e6, 'M'], [1e3, 'k'], [1, ''], [1e-3, 'm'], [1e-6, 'µ'],
-    [1e-9, 'n'], [1e-12, 'p'], [1e-15, 'f']];
-  const prefixOf = (value) => prefixes.find(([size]) => Math.abs(value) >= size * 0.9995) || [1, ''];
-  /* A number as a person reads it: the digits of the server, rounded for the screen. */
-  const inUnit = (value, unit, digits = 3) => {
-    if (value === null || value === undefined || Number.isNaN(value)) return 'unknown';
-    if (unit === '1' || unit === '') return String(Number(value.toPrecision(digits)));
-    const [size, prefix] = value === 0 ? [1, ''] : prefixOf(value);
-    return Number((value / size).toPrecision(digits)) + ' ' + prefix + unit;
-  };
+  const {prefixOf, inUnit} = Shared;
   const range = (values, log) => {
     let low = Infinity, high = -Infinity;
     for (const v of values) {
