@@ -20,9 +20,9 @@ typedef struct indent_shift_sum {
 /* Sums over the curves with a modulus. */
 typedef struct indent_summary {
     size_t n;
-    indent_shift_sum bend, loss, loss_error, misfit; /* relative to the modulus */
-    size_t n_significant_misfit;                     /* curves with a significant misfit */
-    double range_error;                              /* of calibration_errors_of_range */
+    indent_shift_sum bend, loss, loss_error, left_out; /* relative to the modulus */
+    indent_shift_sum range[WT_FIT_RANGES];             /* changes with the range of the fit */
+    double range_variance[WT_FIT_RANGES];              /* sums of the variances by noise */
     size_t n_unknown_loss;              /* curves with a loss of unknown effect on the modulus */
     double max_depth;                   /* largest indentation [m] */
     double (*misfits)[WT_MISFIT_TERMS]; /* [n_misfits] cosines of curves that have them */
