@@ -239,8 +239,8 @@ typedef struct wt_indent_fit {
     /* Relative change of the modulus with each range, and its standard error by noise; NaN with too
      * few samples. */
     double range_shift[WT_FIT_RANGES], range_error[WT_FIT_RANGES];
-    double baseline_length;      /* piezo travel before contact [m] */
-    double misfit_length;        /* piezo travel of `misfit`, from contact to the end [m] */
+    double baseline_length; /* piezo travel before contact [m] */
+    double misfit_length;   /* piezo travel of `misfit`, from contact to the end [m] */
     wt_estimate
         spectrum_factor;  /* modulus over |E*| of the spectrum; NaN without spectrum or times */
     double direction;     /* +1: the height rises into the sample, -1: it falls */
@@ -600,8 +600,8 @@ typedef struct wt_group_data {
     double loss_error,
         bend_error; /* systematic errors of all moduli by loss and baseline curvature, the latter
                        with its sign; 0 if not detected, NaN if detected with unknown size */
-    double range_error;           /* the same by the misfit of the law, as the ranges of the fit show */
-    const char *tip;              /* description; borrowed from the table; NULL if unknown */
+    double range_error; /* the same by the misfit of the law, as the ranges of the fit show */
+    const char *tip;    /* description; borrowed from the table; NULL if unknown */
     bool has_several_cantilevers; /* the curves have several spring constants */
     bool has_several_sensitivities, has_several_tips;
     bool spots_are_named;            /* the user named the spots */

@@ -33,6 +33,10 @@ typedef struct indent_summary {
 void indent_summary_add(indent_summary *to, const wt_indent_fit *fit,
                         const wt_indent_options *options);
 void indent_summary_clear(indent_summary *summary);
+/* Relative error that the misfit of the law gives to all moduli: half of the spread of the mean
+ * change of the modulus over the ranges of the fit, without the part by noise, and the pulls that
+ * the fits left out. */
+double indent_summary_range_spread(const indent_summary *summary);
 /* Writes the systematic errors that curves of this depth cannot show, and how to detect them. */
 void indent_systematic_errors(const wt_indent_job *job, double depth, char *text, size_t size);
 /* Reports the shifts that all moduli share, tests the mean residual and reports the contact points

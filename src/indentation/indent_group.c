@@ -105,10 +105,7 @@ static void report_common_shifts(const indent_summary *summary, const wt_indent_
             job->group, summary->n_unknown_loss, summary->n);
 }
 
-/* Error that the misfit of the law gives to all moduli: half of the spread of the mean change of the
- * modulus over the ranges of the fit, without the part by noise, and the pulls that the fits left
- * out. */
-static double range_spread(const indent_summary *summary)
+double indent_summary_range_spread(const indent_summary *summary)
 {
     double low = 0, high = 0, noise = 0;
     for (int i = 0; i < WT_FIT_RANGES; i++) {
@@ -208,7 +205,8 @@ void indent_summary_report(const indent_summary *summary, const wt_indent_job *j
     if (*hidden_errors != '\0')
         indentation_set_text(rows, INDENTATION_KEY_NOT_SHOWN, hidden_errors);
     report_common_shifts(summary, job, work, rows);
-    indentation_set_value(rows, INDENTATION_KEY_RANGE_ERROR, range_spread(summary), 0, 0);
+    indentation_set_value(rows, INDENTATION_KEY_RANGE_ERROR, indent_summary_range_spread(summary),
+                          0, 0);
     test_mean_residual(summary, job, work, rows);
     report_contact_estimates(summary, job, work);
 }

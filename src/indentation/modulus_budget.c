@@ -200,8 +200,7 @@ static void add_budget_group(table_writer *t, const char *name, const wt_group_d
 /* True if the curves share an error. Without one the table would repeat the scatter. */
 static bool has_shared_error(const wt_group_data *d)
 {
-    bool any = d->tip_error > 0 || d->loss_error != 0 || d->bend_error != 0 ||
-               d->range_error > 0;
+    bool any = d->tip_error > 0 || d->loss_error != 0 || d->bend_error != 0 || d->range_error > 0;
     for (int i = 0; i < WT_SYSTEMATIC_SOURCES; i++)
         any = any || d->common_error[i] > 0 || d->assumed_error[i] > 0;
     return any && d->group.n > 0;

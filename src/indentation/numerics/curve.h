@@ -20,7 +20,7 @@
 enum {
     CURVE_MIN_SAMPLES = 32, /* 18 for baseline and contact, and a reserve for excluded samples */
     CURVE_MAX_MINIMA = 4,   /* the result has the best two, and refinement may change their order */
-    CURVE_POWER_TERMS = 15,   /* terms of a power law as a series */
+    CURVE_POWER_TERMS = 15, /* terms of a power law as a series */
 };
 /* Smallest significant loss over the work; a smaller one is due to piezo and noise. */
 #define CURVE_MIN_LOSS 0.03
@@ -285,8 +285,8 @@ double curve_weights(const wt_contact_table *table, const curve_samples *samples
 /* Returns the pull of a snap-in that the fit left out, because no law of adhesion describes it, or
  * the pull-off if that is larger [N]. 0 if there is none or if it is small. */
 double curve_left_out_pull(const wt_indent_fit *fit);
-/* Relative error of the modulus by that pull: it acts on in the contact, so that the force of the law
- * may be larger by it. That is the limit of the 95 % interval. */
+/* Relative error of the modulus by that pull: it acts on in the contact, so that the force of the
+ * law may be larger by it. That is the limit of the 95 % interval. */
 double curve_left_out_error(const wt_indent_fit *fit);
 
 #endif

@@ -55,8 +55,9 @@ static const wt_param rows[] = {
              "alone"},
     {PARAM("warn-relative-error", wt_indent_options, doubtful_error, WT_Q_NONE, ABOVE(0)),
      .former = "doubtful-error", .value = "X",
-     .help = "mark a modulus with a larger standard error, as a share of it, as doubtful; it stays in "
-             "all means; larger marks fewer"},
+     .help =
+         "mark a modulus with a larger standard error, as a share of it, as doubtful; it stays in "
+         "all means; larger marks fewer"},
     {PARAM("max-relative-error", wt_indent_options, largest_error, WT_Q_NONE, ABOVE(0)),
      .former = "largest-error", .value = "X",
      .help = "leave a modulus with a larger standard error, as a share of it, out of all means; at "
@@ -380,8 +381,7 @@ static wt_status check_fit_arguments(const wt_indent_options *options, const wt_
 void curve_add_misfit(curve_fitting *f)
 {
     curve_solution *s = &f->solution;
-    const bool is_used =
-        !f->kind.plain && f->options->misfit_p_threshold > 0.0 && s->converged;
+    const bool is_used = !f->kind.plain && f->options->misfit_p_threshold > 0.0 && s->converged;
     for (size_t i = 0; i < CURVE_N_PARAMETERS; i++) {
         if (!is_used)
             s->misfit_error[i] = (double)NAN;

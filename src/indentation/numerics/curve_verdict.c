@@ -300,6 +300,13 @@ static wt_curve_verdict law_verdict(curve_fitting *f, const wt_indent_fit *fit, 
         f->misfit_is_named = true;
         return WT_CURVE_DOUBTFUL;
     }
+    if (isnan(fit->misfit_error) && f->options->misfit_p_threshold > 0.0 && !f->kind.plain) {
+        curve_set_reason(reason,
+                         "doubtful: what a misfit makes of the modulus is not known: too few "
+                         "samples in contact for other ranges of the fit");
+        f->misfit_is_named = true;
+        return WT_CURVE_DOUBTFUL;
+    }
     const double left_out = f->kind.plain ? 0.0 : curve_left_out_pull(fit);
     if (left_out > 0.0) {
         curve_set_reason(reason,
