@@ -96,13 +96,13 @@ WT_API void wt_contact_table_eval(const wt_contact_table *table, const double *d
  *   imprecise          noise
  * A modulus that is
  *   doubtful           deeper than one radius of a sphere or than the range of the thin-sample law;
- *                      of a punch with hysteresis loss; with lack of fit (p below
- * misfit_p_threshold) that adds an error above doubtful_error; with interference on the baseline
+ *                      of a punch with hysteresis loss; with a standard error above
+ *                      doubtful_error; with interference on the baseline
  *                      above 10 % of the largest force, peak to peak
  * Verdicts that no fit gives: excluded, unreadable. */
 #define WT_CURVE_VERDICT_LIST(X)                                                                   \
     X(WT_CURVE_ACCEPTED, "accepted", "accepted")                                                   \
-    X(WT_CURVE_DOUBTFUL, "doubtful", "a modulus to which a misfit gives a large error")            \
+    X(WT_CURVE_DOUBTFUL, "doubtful", "a modulus with a wide interval, or outside of the law")      \
     X(WT_CURVE_NO_APPROACH, "no_approach", "the curve has no approach segment")                    \
     X(WT_CURVE_TOO_SHORT, "too_short", "too few samples for a fit")                                \
     X(WT_CURVE_NO_BASELINE, "no_baseline", "starts in contact: no baseline before it")             \
@@ -130,6 +130,8 @@ WT_API const char *wt_curve_verdict_text(wt_curve_verdict verdict); /* static */
 WT_API bool wt_curve_verdict_is_usable(wt_curve_verdict verdict);
 
 enum { WT_MISFIT_TERMS = 6 };
+/* Ranges of the force that are compared with the whole: 0 to 50 %, 30 to 100 % and 15 to 70 %. */
+enum { WT_FIT_RANGES = 3 };
 
 /* Estimators of the contact point of other programs, for comparison. */
 typedef enum wt_contact_estimator {
@@ -157,8 +159,7 @@ typedef struct wt_indent_options {
     bool contact_estimators; /* also computes other contact points, for comparison */
     double misfit_p_threshold; /* p value below which a residual is lack of fit, for noise as that
                             of the baseline; default 0.01; 0: no test */
-    double largest_error; /* largest standard error over modulus of a usable modulus; default 0.5,
-                             where the 95 % interval reaches twice the modulus */
+    double largest_error; /* largest standard error over modulus of a usable modulus; default 1 */
     double fixed_contact_point; /* [m] tip position, NaN = fitted (default) */
     /* false (default): the measured force is compared with that of cantilever and sample at the
      * same height, because the noise is in the force. true: with the force at the measured
@@ -174,8 +175,8 @@ typedef struct wt_indent_options {
     double fit_depth_from;          /* smallest indentation in the contact [m] */
     double fit_force_from;          /* smallest force in the contact [N] */
     double fit_force_fraction_from; /* smallest force in the contact over the largest */
-    double doubtful_error; /* error by lack of fit over modulus above which a curve is doubtful;
-                              default 0.05 */
+    double doubtful_error; /* standard error over modulus above which a curve is doubtful; default
+                              0.2 */
     bool fit_retract;      /* also fits the retract alone, as a check; default false */
 } wt_indent_options;
 WT_API wt_indent_options wt_indent_defaults(void);
@@ -232,10 +233,14 @@ typedef struct wt_indent_fit {
     double sensitivity_gain;     /* d ln E / d ln sensitivity with contact point and baseline
                                     refitted: 15.6 means that 1 % changes E by 15.6 %. For a single
                                     point at known contact it would be 1 + (contact stiffness)/k */
-    double misfit_error; /* contribution of lack of fit to the standard error of the modulus [Pa] */
-    double contact_misfit_error; /* contribution of lack of fit to that of the contact point [m] */
-    double baseline_length;      /* piezo travel before contact [m] */
-    double misfit_length;        /* piezo travel of `misfit`, from contact to the end [m] */
+    /* Part of the standard errors of modulus [Pa] and contact point [m] by the misfit of the law:
+     * half of the spread over the ranges of the fit beyond the noise. NaN if unknown. */
+    double misfit_error, contact_misfit_error;
+    /* Relative change of the modulus with each range, and its standard error by noise; NaN with too
+     * few samples. */
+    double range_shift[WT_FIT_RANGES], range_error[WT_FIT_RANGES];
+    double baseline_length; /* piezo travel before contact [m] */
+    double misfit_length;   /* piezo travel of `misfit`, from contact to the end [m] */
     wt_estimate
         spectrum_factor;  /* modulus over |E*| of the spectrum; NaN without spectrum or times */
     double direction;     /* +1: the height rises into the sample, -1: it falls */
@@ -606,9 +611,8 @@ typedef struct wt_group_data {
     double loss_error,
         bend_error; /* systematic errors of all moduli by loss and baseline curvature, the latter
                        with its sign; 0 if not detected, NaN if detected with unknown size */
-    double misfit_error;          /* the same by lack of fit of the contact law */
-    double range_error;           /* the same by the choice of the range of the fit */
-    const char *tip;              /* description; borrowed from the table; NULL if unknown */
+    double range_error; /* the same by the misfit of the law, as the ranges of the fit show */
+    const char *tip;    /* description; borrowed from the table; NULL if unknown */
     bool has_several_cantilevers; /* the curves have several spring constants */
     bool has_several_sensitivities, has_several_tips;
     bool spots_are_named;            /* the user named the spots */

@@ -118,34 +118,6 @@ wt_status calibration_errors_begin(const wt_indent_job *job, calibration_errors 
     return status;
 }
 
-void calibration_errors_apply(const calibration_errors *of, wt_indent_workspace *workspace)
-{
-    size_t n = 0;
-    for (int i = WT_SYSTEMATIC_HALF_ANGLE; i <= WT_SYSTEMATIC_RADIUS; i++)
-        if (of->error[i] > 0 && of->tip[i][1] != NULL)
-            workspace->tip_variation[n++] =
-                (tip_variation){of->tip[i][0], of->tip[i][1], of->error[i] / of->step[i]};
-    const double step = of->step[WT_SYSTEMATIC_RADIUS];
-    if (!(of->error[WT_SYSTEMATIC_RADIUS] > 0) && of->tip[WT_SYSTEMATIC_RADIUS][1] != NULL)
-        workspace->unstated_radius = (tip_variation){of->tip[WT_SYSTEMATIC_RADIUS][0],
-                                                     of->tip[WT_SYSTEMATIC_RADIUS][1], 1 / step};
-}
-
-cached_tips calibration_errors_reset(wt_indent_workspace *workspace)
-{
-    cached_tips saved = {.unstated_radius = workspace->unstated_radius};
-    memcpy(saved.variations, workspace->tip_variation, sizeof saved.variations);
-    memset(workspace->tip_variation, 0, sizeof workspace->tip_variation);
-    workspace->unstated_radius = (tip_variation){0};
-    return saved;
-}
-
-void calibration_errors_apply_cached(const cached_tips *saved, wt_indent_workspace *workspace)
-{
-    memcpy(workspace->tip_variation, saved->variations, sizeof saved->variations);
-    workspace->unstated_radius = saved->unstated_radius;
-}
-
 static void clear_common_curve(common_curve *curve)
 {
     for (int i = 0; i < 2; i++)
@@ -199,13 +171,6 @@ static void halve_curves(calibration_errors *to)
     to->stride *= 2;
 }
 
-/* Variance of ln E without the part of the misfit. */
-static double noise_variance(const wt_indent_fit *fit)
-{
-    const double e = fit->modulus.value, misfit = fmax(fit->misfit_error, 0); /* NaN becomes 0 */
-    return fmax(pow(fit->modulus.standard_error / e, 2) - pow(misfit / e, 2), 0);
-}
-
 void calibration_errors_store(calibration_errors *to, const wt_force_curve *curve,
                               const wt_indent_fit *fit, const wt_contact_table *contact,
                               bool has_file_tip)
@@ -220,8 +185,6 @@ void calibration_errors_store(calibration_errors *to, const wt_force_curve *curv
     common_curve *stored = &to->curve[to->n++];
     *stored = (common_curve){.spring_constant = curve->cantilever.spring_constant,
                              .sensitivity_gain = fit->sensitivity_gain,
-                             .log_modulus = log(fit->modulus.value),
-                             .variance = noise_variance(fit),
                              .contact = contact,
                              .has_file_tip = has_file_tip};
     copy_branch(curve, WT_SEGMENT_APPROACH, &stored->branch[0]);
@@ -236,7 +199,6 @@ typedef struct refit {
     wt_indent_workspace *const *workspaces;
     double *scratch; /* scaled forces, [capacity] for each thread */
     size_t capacity;
-    bool tests_ranges;
     wt_error *errors; /* one error for each item */
 } refit;
 
@@ -263,16 +225,11 @@ static wt_status fit_shifted_source(const refit *f, size_t item, int side, unsig
         scale_branch(&curve->branch[0], scales_force ? factor : 1, scratch),
         scale_branch(&curve->branch[1], scales_force ? factor : 1, scratch + curve->branch[0].n)};
     wt_indent_workspace *workspace = f->workspaces[worker];
-    cached_tips saved;
     wt_indent_fit fit;
-    if (curve->has_file_tip)
-        saved = calibration_errors_reset(workspace);
     const wt_status status = curve_fit_branches(
         scales_force ? curve->contact : to->tip[source][side], f->options, &scaled[0], &scaled[1],
         curve->spring_constant * (is_spring_constant ? factor : 1), workspace, &fit,
         &f->errors[item]);
-    if (curve->has_file_tip)
-        calibration_errors_apply_cached(&saved, workspace);
     if (status == WT_OK)
         *log_modulus = fit.modulus.value > 0 ? log(fit.modulus.value) : (double)NAN;
     return status;
@@ -288,8 +245,9 @@ static void set_assumed_gain(const common_curve *curve, wt_systematic_source sou
 
 /* Computes d ln E / d ln source from one step in each direction. The tip of a single file has no
  * stated error, so its sources are not shifted. */
-static wt_status measure_source_gain(const refit *f, size_t item, unsigned worker)
+static wt_status measure_source_gain(void *user, size_t item, unsigned worker)
 {
+    const refit *f = user;
     calibration_errors *to = f->to;
     const size_t at = item / WT_SYSTEMATIC_SOURCES;
     const wt_systematic_source source = (wt_systematic_source)(item % WT_SYSTEMATIC_SOURCES);
@@ -311,80 +269,12 @@ static wt_status measure_source_gain(const refit *f, size_t item, unsigned worke
     return WT_OK;
 }
 
-/* Limits of the other ranges, relative to the largest force. */
-static const double other_ranges[OTHER_RANGES][2] = {{0, 0.5}, {0.3, 1}, {0.15, 0.7}};
-
-/* Fits a curve in another range of forces. A law that fails shows as a change of the modulus. */
-static wt_status measure_range_shift(const refit *f, size_t at, size_t range, unsigned worker,
-                                     wt_error *err)
-{
-    calibration_errors *to = f->to;
-    const common_curve *curve = &to->curve[at];
-    double *scratch = f->scratch + worker * f->capacity;
-    const curve_branch branches[2] = {
-        scale_branch(&curve->branch[0], 1, scratch),
-        scale_branch(&curve->branch[1], 1, scratch + curve->branch[0].n)};
-    wt_indent_options options = *f->options;
-    options.fit_force_fraction_from = other_ranges[range][0];
-    options.fit_force_fraction = other_ranges[range][1];
-    wt_indent_fit fit;
-    const wt_status status =
-        curve_fit_branches(curve->contact, &options, &branches[0], &branches[1],
-                           curve->spring_constant, f->workspaces[worker], &fit, err);
-    if (status != WT_OK || !wt_curve_verdict_is_usable(fit.verdict))
-        return status;
-    to->range_shift[at][range] = log(fit.modulus.value) - curve->log_modulus;
-    to->range_variance[at][range] = fmax(noise_variance(&fit) - curve->variance, 0);
-    return WT_OK;
-}
-
-static wt_status measure_stored_curve(void *user, size_t item, unsigned worker)
-{
-    const refit *f = user;
-    const size_t n_gains = f->to->n * WT_SYSTEMATIC_SOURCES;
-    if (item < n_gains)
-        return measure_source_gain(f, item, worker);
-    const size_t at = (item - n_gains) / OTHER_RANGES, range = (item - n_gains) % OTHER_RANGES;
-    f->to->range_shift[at][range] = (double)NAN;
-    f->to->range_variance[at][range] = (double)NAN;
-    return f->tests_ranges ? measure_range_shift(f, at, range, worker, &f->errors[item]) : WT_OK;
-}
-
-double calibration_errors_of_range(const calibration_errors *of)
-{
-    double low = 0, high = 0, noise = 0;
-    for (size_t range = 0; range < OTHER_RANGES; range++) {
-        double shift = 0, variance = 0;
-        size_t n = 0;
-        for (size_t at = 0; at < of->n; at++)
-            if (isfinite(of->range_shift[at][range]) && isfinite(of->range_variance[at][range])) {
-                shift += of->range_shift[at][range];
-                variance += of->range_variance[at][range];
-                n++;
-            }
-        if (n == 0)
-            continue;
-        low = fmin(low, shift / (double)n);
-        high = fmax(high, shift / (double)n);
-        noise = fmax(noise, variance / (double)(n * n));
-    }
-    return sqrt(fmax(pow((high - low) / 2, 2) - noise, 0));
-}
-
 wt_status calibration_errors_fit(calibration_errors *to, const wt_indent_options *options,
                                  unsigned threads, wt_indent_workspace *const *workspaces,
                                  wt_error *err)
 {
-    const size_t n = to->n * (WT_SYSTEMATIC_SOURCES + OTHER_RANGES);
-    char range[256];
-    /* A stated range is not questioned. A modulus on a spectrum depends on the time of the range.
-     */
-    refit f = {.to = to,
-               .options = options,
-               .workspaces = workspaces,
-               .tests_ranges = options->spectrum == NULL && !options->plain_least_squares &&
-                               options->misfit_p_threshold > 0 &&
-                               !indent_range_text(options, range, sizeof range)};
+    const size_t n = to->n * WT_SYSTEMATIC_SOURCES;
+    refit f = {.to = to, .options = options, .workspaces = workspaces};
     if (n == 0)
         return WT_OK;
     for (size_t i = 0; i < to->n; i++)
@@ -393,7 +283,7 @@ wt_status calibration_errors_fit(calibration_errors *to, const wt_indent_options
     f.scratch = wt_alloc(threads * f.capacity, sizeof *f.scratch);
     f.errors = wt_alloc(n, sizeof *f.errors);
     const wt_status status =
-        wt_parallel_for(n, threads, measure_stored_curve, &f, NULL, "fitting curves anew");
+        wt_parallel_for(n, threads, measure_source_gain, &f, NULL, "fitting curves anew");
     size_t first = 0;
     while (first < n && f.errors[first].status == WT_OK)
         first++;

@@ -12,9 +12,6 @@
  * assumed one, whose effect need not be known as well. */
 enum { COMMON_CURVES = 8, ASSUMED_CURVES = 3 };
 
-/* Number of other ranges of the fit. */
-enum { OTHER_RANGES = 3 };
-
 /* Copy of one branch as measured. */
 typedef struct common_branch {
     double *height, *force,
@@ -25,7 +22,6 @@ typedef struct common_branch {
 typedef struct common_curve {
     common_branch branch[2]; /* approach, retract */
     double spring_constant, sensitivity_gain;
-    double log_modulus, variance;    /* of the fit; the variance by noise alone */
     const wt_contact_table *contact; /* table of the tip of the fit; borrowed */
     bool has_file_tip; /* the tip belongs to the file, so the shifted tips do not apply */
 } common_curve;
@@ -41,22 +37,11 @@ typedef struct calibration_errors {
     wt_contact_table *tip[WT_SYSTEMATIC_SOURCES][2]; /* tables of the tips shifted down and up */
     common_curve curve[COMMON_CURVES];
     double gain[COMMON_CURVES][WT_SYSTEMATIC_SOURCES];
-    /* Change of ln E with another range of the fit, and its variance by noise; NaN if unknown. */
-    double range_shift[COMMON_CURVES][OTHER_RANGES], range_variance[COMMON_CURVES][OTHER_RANGES];
     size_t n, n_offered, stride;
 } calibration_errors;
 
 wt_status calibration_errors_begin(const wt_indent_job *job, calibration_errors *to,
                                    wt_error *err) WT_NODISCARD;
-/* Makes the fits of a workspace include the stated errors of the tip. The errors must outlive the
- * fits. */
-void calibration_errors_apply(const calibration_errors *of, wt_indent_workspace *workspace);
-/* Settings removed from a workspace while it fits a curve with the tip of a file. */
-typedef struct cached_tips {
-    tip_variation variations[CURVE_TIP_VARIATIONS], unstated_radius;
-} cached_tips;
-cached_tips calibration_errors_reset(wt_indent_workspace *workspace);
-void calibration_errors_apply_cached(const cached_tips *saved, wt_indent_workspace *workspace);
 /* Stores a copy of every n-th accepted curve. `contact` is the table of its tip and must outlive
  * the errors. `has_file_tip` states that this tip differs from the tip of the job. */
 void calibration_errors_store(calibration_errors *to, const wt_force_curve *curve,
@@ -66,9 +51,6 @@ void calibration_errors_store(calibration_errors *to, const wt_force_curve *curv
 wt_status calibration_errors_fit(calibration_errors *to, const wt_indent_options *options,
                                  unsigned threads, wt_indent_workspace *const *workspaces,
                                  wt_error *err) WT_NODISCARD;
-/* Relative error of the modulus that the choice of the range of the fit shows: half of the spread
- * of the moduli over the ranges, without the part of the noise. 0 if unknown. */
-double calibration_errors_of_range(const calibration_errors *of);
 /* Sets the keys of the errors and of their effects. */
 void calibration_errors_set_keys(const calibration_errors *of, table_writer *rows);
 void calibration_errors_clear(calibration_errors *errors);

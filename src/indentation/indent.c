@@ -207,10 +207,8 @@ static wt_status prepare_task(indent_task *task, wt_error *err)
     task->scratch = wt_alloc(task->n_workers, sizeof(wt_indent_workspace *));
     task->n_items = task->n_workers > 1 ? (size_t)task->n_workers * CURVES_PER_WORKER : 1;
     task->items = wt_alloc(task->n_items, sizeof *task->items);
-    for (unsigned i = 0; i < task->n_workers; i++) {
+    for (unsigned i = 0; i < task->n_workers; i++)
         task->scratch[i] = wt_indent_workspace_new();
-        calibration_errors_apply(&task->calibration, task->scratch[i]);
-    }
     return WT_OK;
 }
 
@@ -285,7 +283,6 @@ wt_status wt_indent_group(const wt_indent_job *job, const wt_job *work, wt_inden
                                         task.scratch, err);
     if (status == WT_OK) {
         set_indentation_keys(&task, &files, &task.rows);
-        task.summary.range_error = calibration_errors_of_range(&task.calibration);
         indent_summary_report(&task.summary, job, work, &task.rows);
     }
     if (status == WT_OK)

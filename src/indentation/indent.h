@@ -20,9 +20,9 @@ typedef struct indent_shift_sum {
 /* Sums over the curves with a modulus. */
 typedef struct indent_summary {
     size_t n;
-    indent_shift_sum bend, loss, loss_error, misfit; /* relative to the modulus */
-    size_t n_significant_misfit;                     /* curves with a significant misfit */
-    double range_error;                              /* of calibration_errors_of_range */
+    indent_shift_sum bend, loss, loss_error, left_out; /* relative to the modulus */
+    indent_shift_sum range[WT_FIT_RANGES];             /* changes with the range of the fit */
+    double range_variance[WT_FIT_RANGES];              /* sums of the variances by noise */
     size_t n_unknown_loss;              /* curves with a loss of unknown effect on the modulus */
     double max_depth;                   /* largest indentation [m] */
     double (*misfits)[WT_MISFIT_TERMS]; /* [n_misfits] cosines of curves that have them */
@@ -33,6 +33,10 @@ typedef struct indent_summary {
 void indent_summary_add(indent_summary *to, const wt_indent_fit *fit,
                         const wt_indent_options *options);
 void indent_summary_clear(indent_summary *summary);
+/* Relative error that the misfit of the law gives to all moduli: half of the spread of the mean
+ * change of the modulus over the ranges of the fit, without the part by noise, and the pulls that
+ * the fits left out. */
+double indent_summary_range_spread(const indent_summary *summary);
 /* Writes the systematic errors that curves of this depth cannot show, and how to detect them. */
 void indent_systematic_errors(const wt_indent_job *job, double depth, char *text, size_t size);
 /* Reports the shifts that all moduli share, tests the mean residual and reports the contact points

@@ -235,18 +235,11 @@ static void write_finished_items(indent_task *task)
     (void)pthread_cond_broadcast(&task->written);
 }
 
-/* Fits one curve. The stated errors of the job do not apply to the tip of a single file. */
 static void fit_item(const indent_task *task, queued_curve *it, wt_indent_workspace *workspace)
 {
     const wt_indent_options options = indent_curve_options(task, &it->choice);
-    const bool has_file_tip = task->file_contact != task->contact;
-    cached_tips saved;
-    if (has_file_tip)
-        saved = calibration_errors_reset(workspace);
     it->status = wt_indent_fit_force_curve(task->file_contact, &options, &it->curve, workspace,
                                            &it->fit, &it->error);
-    if (has_file_tip)
-        calibration_errors_apply_cached(&saved, workspace);
     if (it->status == WT_OK)
         manual_overrides_apply_fit(&it->choice, &it->fit);
 }

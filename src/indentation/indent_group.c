@@ -18,6 +18,17 @@ static void add_shift(indent_shift_sum *all, double shift)
     all->n++;
 }
 
+static void add_range_shifts(indent_summary *to, const wt_indent_fit *fit)
+{
+    add_shift(&to->left_out, curve_left_out_error(fit));
+    for (int i = 0; i < WT_FIT_RANGES; i++)
+        if (isfinite(fit->range_shift[i]) && isfinite(fit->range_error[i])) {
+            to->range[i].sum += fit->range_shift[i];
+            to->range[i].n++;
+            to->range_variance[i] += fit->range_error[i] * fit->range_error[i];
+        }
+}
+
 void indent_summary_add(indent_summary *to, const wt_indent_fit *fit,
                         const wt_indent_options *options)
 {
@@ -25,9 +36,8 @@ void indent_summary_add(indent_summary *to, const wt_indent_fit *fit,
     add_shift(&to->bend, fit->curvature_shift / fit->modulus.value);
     add_shift(&to->loss, fit->loss_bias);
     add_shift(&to->loss_error, fit->loss_error);
-    add_shift(&to->misfit, fit->misfit_error / fit->modulus.value);
-    to->n_significant_misfit +=
-        fit->lack_of_fit_p < options->misfit_p_threshold || curve_left_out_pull(fit) > 0;
+    if (!options->plain_least_squares && options->misfit_p_threshold > 0)
+        add_range_shifts(to, fit);
     to->n_unknown_loss += indent_has_unknown_loss(fit);
     if (options->contact_estimators) {
         to->contacts = array_grow(to->contacts, to->n, sizeof *to->contacts);
@@ -95,13 +105,19 @@ static void report_common_shifts(const indent_summary *summary, const wt_indent_
             job->group, summary->n_unknown_loss, summary->n);
 }
 
-/* Sets the error by the range of the fit without the part that misfit and loss explain. */
-static void set_range_error(const indent_summary *summary, double misfit_error, table_writer *rows)
+double indent_summary_range_spread(const indent_summary *summary)
 {
-    const double misfit = fmax(misfit_error, 0), /* fmax ignores NaN */
-        loss = fmax(loss_error(summary), 0);
-    const double rest = summary->range_error * summary->range_error - misfit * misfit - loss * loss;
-    indentation_set_value(rows, INDENTATION_KEY_RANGE_ERROR, rest > 0 ? sqrt(rest) : 0, 0, 0);
+    double low = 0, high = 0, noise = 0;
+    for (int i = 0; i < WT_FIT_RANGES; i++) {
+        const double n = (double)summary->range[i].n;
+        if (!(n > 0))
+            continue;
+        low = fmin(low, summary->range[i].sum / n);
+        high = fmax(high, summary->range[i].sum / n);
+        noise = fmax(noise, summary->range_variance[i] / (n * n));
+    }
+    return hypot(sqrt(fmax(pow((high - low) / 2, 2) - noise, 0)),
+                 mean_shift(summary, &summary->left_out));
 }
 
 /* Tests the mean residual of the accepted curves. */
@@ -112,15 +128,6 @@ static void test_mean_residual(const indent_summary *summary, const wt_indent_jo
     const wt_pooled_misfit pool =
         wt_pooled_misfit_compute((const double(*)[WT_MISFIT_TERMS])summary->misfits, n);
     const bool is_significant = pool.p_value < job->options.misfit_p_threshold;
-    /* A misfit that all curves share does not average out. The misfit of each curve may be shared.
-     * It is unknown if no curve determines it. */
-    const bool is_unknown = job->options.misfit_p_threshold > 0 && summary->misfit.n == 0 &&
-                            summary->n > 0 && !job->options.plain_least_squares;
-    const bool is_common =
-        is_significant || is_unknown || 2 * summary->n_significant_misfit > summary->n;
-    const double error = is_common ? summary->misfit.sum / (double)summary->misfit.n : 0;
-    indentation_set_value(rows, INDENTATION_KEY_MISFIT_ERROR, error, 0, 0);
-    set_range_error(summary, error, rows);
     if (isnan(pool.p_value))
         return;
     indentation_set_print(rows, INDENTATION_KEY_POOLED_MISFIT, "%.3g", pool.misfit);
@@ -198,6 +205,8 @@ void indent_summary_report(const indent_summary *summary, const wt_indent_job *j
     if (*hidden_errors != '\0')
         indentation_set_text(rows, INDENTATION_KEY_NOT_SHOWN, hidden_errors);
     report_common_shifts(summary, job, work, rows);
+    indentation_set_value(rows, INDENTATION_KEY_RANGE_ERROR, indent_summary_range_spread(summary),
+                          0, 0);
     test_mean_residual(summary, job, work, rows);
     report_contact_estimates(summary, job, work);
 }

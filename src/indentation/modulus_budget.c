@@ -11,7 +11,7 @@
 #include <string.h>
 
 /* Order: systematic errors from the calibration, systematic errors from the curves, scatter. */
-enum { TIP = WT_SYSTEMATIC_SOURCES, LOSS, BEND, MISFIT, RANGE, SCATTER, PARTS };
+enum { TIP = WT_SYSTEMATIC_SOURCES, LOSS, BEND, RANGE, SCATTER, PARTS };
 
 typedef struct part {
     const char *words;
@@ -79,7 +79,6 @@ static wt_status compute_budget(const wt_group_data *d, budget *b, wt_error *err
     b->part[TIP] = shown_part("shape of the tip", isnan(d->tip_error) ? 0 : d->tip_error);
     b->part[LOSS] = shown_part("loss of unknown spectrum", d->loss_error);
     b->part[BEND] = shown_part("bend of the baselines", fabs(d->bend_error));
-    b->part[MISFIT] = shown_part("misfit of the contact law", fmax(d->misfit_error, 0));
     b->part[RANGE] = shown_part("range of the fit", fmax(d->range_error, 0));
     for (int i = 0; i < SCATTER; i++) /* an error of unknown effect makes the total unknown */
         if (b->part[i].applies && (b->part[i].source_error > 0 || i >= WT_SYSTEMATIC_SOURCES))
@@ -201,8 +200,7 @@ static void add_budget_group(table_writer *t, const char *name, const wt_group_d
 /* True if the curves share an error. Without one the table would repeat the scatter. */
 static bool has_shared_error(const wt_group_data *d)
 {
-    bool any = d->tip_error > 0 || d->loss_error != 0 || d->bend_error != 0 ||
-               d->misfit_error > 0 || d->range_error > 0;
+    bool any = d->tip_error > 0 || d->loss_error != 0 || d->bend_error != 0 || d->range_error > 0;
     for (int i = 0; i < WT_SYSTEMATIC_SOURCES; i++)
         any = any || d->common_error[i] > 0 || d->assumed_error[i] > 0;
     return any && d->group.n > 0;

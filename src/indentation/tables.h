@@ -167,7 +167,6 @@
     X(INDENTATION_KEY_RADIUS_GAIN, "radius_gain", NUMBER, OPTIONAL)                                \
     X(INDENTATION_KEY_LOSS_ERROR, "loss_error", NUMBER, OPTIONAL)                                  \
     X(INDENTATION_KEY_BEND_ERROR, "bend_error", NUMBER, OPTIONAL)                                  \
-    X(INDENTATION_KEY_MISFIT_ERROR, "misfit_error", NUMBER, OPTIONAL)                              \
     X(INDENTATION_KEY_RANGE_ERROR, "range_error", NUMBER, OPTIONAL)
 
 /* Form of the tip as wt_tip_describe writes it. Several tips are described one after another. */

@@ -399,7 +399,6 @@ static void read_shared_inputs(const table_view *t, wt_group_data *d)
     d->range_error = shown_key_error(t, INDENTATION_KEY_RANGE_ERROR);
     d->loss_error = shown_key_error(t, INDENTATION_KEY_LOSS_ERROR);
     d->bend_error = shown_key_error(t, INDENTATION_KEY_BEND_ERROR);
-    d->misfit_error = shown_key_error(t, INDENTATION_KEY_MISFIT_ERROR);
     d->pooled_misfit = plain_key_number(t, INDENTATION_KEY_POOLED_MISFIT);
     d->pooled_misfit_p = plain_key_number(t, INDENTATION_KEY_POOLED_MISFIT_CHANCE);
 }

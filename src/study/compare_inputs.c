@@ -156,26 +156,22 @@ static void add_calibration_errors(const compare_pair *p, const wt_compare_job *
  * shape are shared by both groups. The spectra of bulk and track may differ. */
 static void add_curve_errors(const compare_pair *p, comparison_inputs *k)
 {
-    double loss[2], bend[2], misfit[2], range[2];
+    double loss[2], bend[2], range[2];
     for (int g = 0; g < 2; g++) {
         const wt_group_data *d = &p->data[g];
         loss[g] = p->by_factor ? 0 : d->loss_error;
         bend[g] = d->bend_error;
-        misfit[g] = d->misfit_error;
         range[g] = d->range_error;
     }
     const double of_loss = hypot(loss[0], loss[1]),
                  of_bend =
                      k->has_two_cantilevers ? hypot(bend[0], bend[1]) : fabs(bend[1] - bend[0]),
-                 of_misfit = k->has_two_cantilevers ? hypot(misfit[0], misfit[1])
-                                                    : fabs(misfit[1] - misfit[0]),
                  of_range =
                      k->has_two_cantilevers ? hypot(range[0], range[1]) : fabs(range[1] - range[0]);
-    k->loss_and_curvature_error = hypot(hypot(of_loss, of_bend), hypot(of_misfit, of_range));
+    k->loss_and_curvature_error = hypot(hypot(of_loss, of_bend), of_range);
     k->lacks_loss_effect = isnan(of_loss);
     add_offset_error(k, of_loss, "loss of unknown spectrum");
     add_offset_error(k, of_bend, "bend of the baselines");
-    add_offset_error(k, of_misfit, "misfit of the contact law");
     add_offset_error(k, of_range, "range of the fit");
 }
 

@@ -119,7 +119,7 @@ wt_status compare_fitted_ratio(const wt_compare_job *job, const wt_job *work,
     *df = (double)INFINITY;
     wt_status status = compare_read_groups(job, &p, err);
     for (int g = 0; g < 2; g++)
-        p.data[g].misfit_error = 0;
+        p.data[g].range_error = 0;
     if (status == WT_OK && p.data[0].group.n > 0 && p.data[1].group.n > 0) {
         status = comparison_find_inputs(&p, job, work, false, &task.inputs, err);
         if (status == WT_OK)

@@ -201,7 +201,6 @@ static const expectation measured[] = {
     {&indentation_schema, "range_error", "00"},
     {&indentation_schema, "loss_error", "00"},
     {&indentation_schema, "bend_error", "00"},
-    {&indentation_schema, "misfit_error", "00"},
     {&indentation_schema, "modulus", "kk"},
     {&indentation_schema, "spectrum_temperature", "0."}, /* the other without a DMA */
     {&indentation_schema, "spectrum_factor", "kn"},      /* without a DMA there is no spectrum */

@@ -3,7 +3,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "truth.h"
 
-#include "indentation/calibration_errors.h"
+#include "indentation/indent.h"
 #include "weartrack/study.h"
 
 enum { SPOTS = 4, DRAWS = 40 };
@@ -170,24 +170,35 @@ static void test_one_relaxation_time(void **state)
     }
 }
 
-/* Half of the spread of the mean shifts, 0 for the range of the fit itself included, less the noise
- * of the mean. A range without an accepted fit does not count. */
+/* Half of the spread of the mean shifts, 0 for the whole range included, less the noise of the
+ * mean. A range with too few samples does not count. */
+static double spread_of(const double shift[2][WT_FIT_RANGES], double noise)
+{
+    const wt_indent_options options = wt_indent_defaults();
+    indent_summary all = {0};
+    for (int i = 0; i < 2; i++) {
+        wt_indent_fit fit = {.modulus.value = 1e6, .max_force = 1e-9};
+        for (int r = 0; r < WT_FIT_RANGES; r++) {
+            fit.range_shift[r] = shift[i][r];
+            fit.range_error[r] = noise;
+        }
+        indent_summary_add(&all, &fit, &options);
+    }
+    const double spread = indent_summary_range_spread(&all);
+    indent_summary_clear(&all);
+    return spread;
+}
+
 static void test_range_error(void **state)
 {
     (void)state;
     const double none = (double)NAN;
-    calibration_errors e = {.n = 2,
-                            .range_shift = {{0.10, -0.04, none}, {0.14, -0.02, none}},
-                            .range_variance = {{0, 0, none}, {0, 0, none}}};
-    assert_near(calibration_errors_of_range(&e), (0.12 + 0.03) / 2, 1e-12);
-    e.range_shift[1][1] = none;
-    assert_near(calibration_errors_of_range(&e), (0.12 + 0.04) / 2, 1e-12);
-    e.range_variance[0][0] = e.range_variance[1][0] = 0.002; /* 0.001 of the mean */
-    assert_near(calibration_errors_of_range(&e), sqrt(0.0064 - 0.001), 1e-12);
-    e.range_variance[0][0] = 1;
-    assert_true(calibration_errors_of_range(&e) == 0);
-    e.n = 0;
-    assert_true(calibration_errors_of_range(&e) == 0);
+    const double both[2][WT_FIT_RANGES] = {{0.10, -0.04, none}, {0.14, -0.02, none}},
+                 one[2][WT_FIT_RANGES] = {{0.10, -0.04, none}, {0.14, none, none}};
+    assert_near(spread_of(both, 0), (0.12 + 0.03) / 2, 1e-12);
+    assert_near(spread_of(one, 0), (0.12 + 0.04) / 2, 1e-12);
+    assert_near(spread_of(both, 0.05), sqrt(0.075 * 0.075 - 0.05 * 0.05 / 2), 1e-12);
+    assert_true(spread_of(both, 1) == 0);
 }
 
 /* A pull before contact that no law of adhesion describes is returned if it is above a tenth of the

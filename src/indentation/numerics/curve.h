@@ -20,8 +20,7 @@
 enum {
     CURVE_MIN_SAMPLES = 32, /* 18 for baseline and contact, and a reserve for excluded samples */
     CURVE_MAX_MINIMA = 4,   /* the result has the best two, and refinement may change their order */
-    CURVE_TIP_VARIATIONS = 2, /* radius and half-angle; tips have no other size with an error */
-    CURVE_POWER_TERMS = 15,   /* terms of a power law as a series */
+    CURVE_POWER_TERMS = 15, /* terms of a power law as a series */
 };
 /* Smallest significant loss over the work; a smaller one is due to piezo and noise. */
 #define CURVE_MIN_LOSS 0.03
@@ -62,18 +61,7 @@ typedef struct scan_octave {
     double g[SCAN_NODES + 1], gg[SCAN_NODES + 1]; /* square of the contact function */
 } scan_octave;
 
-/* Tips with one size decreased and increased by the same factor (borrowed; NULL if none), and the
- * standard error of the size in units of that step. A misfit that they explain is not a misfit of
- * the law. The standard errors include them. */
-typedef struct tip_variation {
-    const wt_contact_table *down, *up;
-    double deviation;
-} tip_variation;
-
 struct wt_indent_workspace {
-    tip_variation tip_variation[CURVE_TIP_VARIATIONS];
-    tip_variation
-        unstated_radius; /* radius without a stated error; the deviation is 1 in its logarithm */
     size_t capacity;
     double *block; /* storage of the arrays below */
     double *position, *force, *tip, *delta, *g, *slope, *residual, *scratch, *weight;
@@ -225,7 +213,11 @@ typedef struct curve_solution {
     double
         p[CURVE_N_PARAMETERS]; /* reduced modulus, contact point, offset, tilt, root of the work */
     double standard_error[CURVE_N_PARAMETERS]; /* includes misfit_error */
-    double misfit_error[CURVE_N_PARAMETERS];   /* part due to the misfit of the law: misfit.c */
+    /* Half of the spread over the ranges of the fit beyond the noise, which is the error by the
+     * misfit of the law. NaN if no range has enough samples. */
+    double misfit_error[CURVE_N_PARAMETERS];
+    /* Relative change of the modulus with each range, and the part of it by noise. */
+    double range_shift[WT_FIT_RANGES], range_error[WT_FIT_RANGES];
     double cost;
     double sensitivity_gain;
     double bend_shift; /* change of the reduced modulus if a bent baseline continues in contact */
@@ -293,5 +285,8 @@ double curve_weights(const wt_contact_table *table, const curve_samples *samples
 /* Returns the pull of a snap-in that the fit left out, because no law of adhesion describes it, or
  * the pull-off if that is larger [N]. 0 if there is none or if it is small. */
 double curve_left_out_pull(const wt_indent_fit *fit);
+/* Relative error of the modulus by that pull: it acts on in the contact, so that the force of the
+ * law may be larger by it. That is the limit of the 95 % interval. */
+double curve_left_out_error(const wt_indent_fit *fit);
 
 #endif

@@ -23,8 +23,8 @@ wt_indent_options wt_indent_defaults(void)
                                .fit_force_fraction = 1.0,
                                .fit_tilt = true,
                                .misfit_p_threshold = 0.01,
-                               .largest_error = 0.5,
-                               .doubtful_error = 0.05,
+                               .largest_error = 1.0,
+                               .doubtful_error = 0.2,
                                .plain_least_squares = false,
                                .fixed_contact_point = (double)NAN};
 }
@@ -55,8 +55,9 @@ static const wt_param rows[] = {
              "alone"},
     {PARAM("warn-relative-error", wt_indent_options, doubtful_error, WT_Q_NONE, ABOVE(0)),
      .former = "doubtful-error", .value = "X",
-     .help = "mark a modulus as doubtful to which a misfit gives a larger error, as a share of it; "
-             "it stays in all means; larger marks fewer"},
+     .help =
+         "mark a modulus with a larger standard error, as a share of it, as doubtful; it stays in "
+         "all means; larger marks fewer"},
     {PARAM("max-relative-error", wt_indent_options, largest_error, WT_Q_NONE, ABOVE(0)),
      .former = "largest-error", .value = "X",
      .help = "leave a modulus with a larger standard error, as a share of it, out of all means; at "
@@ -190,6 +191,8 @@ void curve_fit_empty(wt_indent_fit *fit)
                            .direction = nan_};
     for (int j = 0; j < CURVE_WAVES; j++)
         fit->misfit[j] = nan_;
+    for (int j = 0; j < WT_FIT_RANGES; j++)
+        fit->range_shift[j] = fit->range_error[j] = nan_;
     for (int j = 0; j < WT_CONTACT_ESTIMATORS; j++)
         fit->contact_by[j] = nan_;
 }
@@ -271,14 +274,12 @@ static double added_error(double error, const curve_alternative *other)
     return sqrt(with_other * with_other - error * error);
 }
 
-/* Adds the error of a snap-in that was left out of a fit without adhesion. The pull acts on in the
- * contact, so the force of the law may be larger by it. That is the limit of the 95 % interval. */
+/* Adds the error of a snap-in that was left out of a fit without adhesion. */
 static void add_left_out_pull(const curve_fitting *f, wt_indent_fit *fit)
 {
-    const double pull = curve_left_out_pull(fit);
-    if (!(pull > 0.0) || f->options->plain_least_squares)
+    const double error = curve_left_out_error(fit) * fit->modulus.value;
+    if (f->options->plain_least_squares)
         return;
-    const double error = fit->modulus.value * pull / fit->max_force / NORMAL_95;
     fit->misfit_error = hypot(fit->misfit_error, error); /* NaN stays unknown */
     fit->modulus.standard_error = hypot(fit->modulus.standard_error, error);
 }
@@ -330,6 +331,8 @@ static void report_fit(curve_fitting *f, wt_indent_fit *fit)
     fit->max_force = fmax(curve_find_span(above, n).high, 0.0);
     for (int j = 0; j < CURVE_WAVES; j++)
         fit->misfit[j] = s->lack.wave[j] / fit->max_force;
+    memcpy(fit->range_shift, s->range_shift, sizeof fit->range_shift);
+    memcpy(fit->range_error, s->range_error, sizeof fit->range_error);
     if (curve_has_wave(&s->wave)) {
         fit->interference_amplitude = curve_wave_amplitude(&s->wave);
         fit->interference_period = 2.0 * M_PI / s->wave.p[WAVE_NUMBER];
@@ -373,6 +376,17 @@ static wt_status check_fit_arguments(const wt_indent_options *options, const wt_
     }
     const wt_status status = param_check(wt_indent_params(), options, err);
     return status == WT_OK ? curve_range_check(options, tip, err) : status;
+}
+
+void curve_add_misfit(curve_fitting *f)
+{
+    curve_solution *s = &f->solution;
+    const bool is_used = !f->kind.plain && f->options->misfit_p_threshold > 0.0 && s->converged;
+    for (size_t i = 0; i < CURVE_N_PARAMETERS; i++) {
+        if (!is_used)
+            s->misfit_error[i] = (double)NAN;
+        s->standard_error[i] = hypot(s->standard_error[i], fmax(s->misfit_error[i], 0.0));
+    }
 }
 
 static void fit_once(const curve_fitting *of, const curve_branch *retract, double spring_constant,

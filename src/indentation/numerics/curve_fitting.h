@@ -81,6 +81,9 @@ bool curve_prepare_relaxation(curve_fitting *f, const wt_prony *series, bool in_
 /* True if noise alone explains the residual, or if the baseline is too short for the test. */
 bool curve_passes_misfit_test(const curve_fitting *f);
 
+/* Adds the error by the misfit of the law to the errors of the parameters. */
+void curve_add_misfit(curve_fitting *f);
+
 /* ---- interference: interference.c ------------------------------------------------------------ */
 
 /* Adds a wave to a fit of all samples if the baseline shows one. Returns false if only a baseline
@@ -145,9 +148,6 @@ void curve_fit_loss(curve_fitting *f);
 bool curve_has_unknown_loss(const curve_fitting *f);
 
 /* ---- verdict: curve_verdict.c ---------------------------------------------------------------- */
-
-/* Adds the misfit of the law to the errors of the parameters: misfit.c. */
-void curve_add_misfit(curve_fitting *f);
 
 /* Verdict of a curve in which only a baseline was found. */
 wt_curve_verdict curve_no_contact_verdict(curve_fitting *f, char reason[160]);

@@ -213,13 +213,13 @@ static bool exceeds_contact_law(const curve_fitting *f, char reason[160])
     return reach > THIN_SAMPLE_MAX_RATIO;
 }
 
-/* Formats "E +- 6 % of 7 %". */
+/* Formats "E +- 7 %, 6 % by the range of the fit" with the standard errors. */
 static si_text misfit_text(const wt_indent_fit *fit)
 {
     si_text text;
-    clocale_print(text.buffer, sizeof text.buffer, "E +- %.2g %% of %.2g %%",
-                  100.0 * fit->misfit_error / fit->modulus.value,
-                  100.0 * fit->modulus.standard_error / fit->modulus.value);
+    clocale_print(text.buffer, sizeof text.buffer, "E +- %.2g %%, %.2g %% by range",
+                  100.0 * fit->modulus.standard_error / fit->modulus.value,
+                  100.0 * fmax(fit->misfit_error, 0.0) / fit->modulus.value);
     return text;
 }
 
@@ -292,17 +292,18 @@ static wt_curve_verdict law_verdict(curve_fitting *f, const wt_indent_fit *fit, 
             100.0 * f->loss);
         return WT_CURVE_DOUBTFUL;
     }
-    if (isnan(fit->misfit_error) && f->options->misfit_p_threshold > 0.0 && !f->kind.plain) {
-        curve_set_reason(reason,
-                         "doubtful: what a misfit makes of the modulus is not known: the samples "
-                         "do not tell it from their noise; a longer approach would");
+    const double error = fit->modulus.standard_error / fit->modulus.value;
+    if (error > f->options->doubtful_error) {
+        const bool by_misfit = fit->misfit_error > 0.5 * fit->modulus.standard_error;
+        curve_set_reason(reason, "doubtful: the 95 %% interval is wide: %s; %s",
+                         misfit_text(fit).buffer, by_misfit ? misfit_cause(f) : "noise");
         f->misfit_is_named = true;
         return WT_CURVE_DOUBTFUL;
     }
-    if (!(s->lack.chance >= f->options->misfit_p_threshold) &&
-        fit->misfit_error > f->options->doubtful_error * fit->modulus.value) {
-        curve_set_reason(reason, "doubtful: misfit: %s; %s", misfit_text(fit).buffer,
-                         misfit_cause(f));
+    if (isnan(fit->misfit_error) && f->options->misfit_p_threshold > 0.0 && !f->kind.plain) {
+        curve_set_reason(reason,
+                         "doubtful: what a misfit makes of the modulus is not known: too few "
+                         "samples in contact for other ranges of the fit");
         f->misfit_is_named = true;
         return WT_CURVE_DOUBTFUL;
     }

@@ -3,10 +3,12 @@
  *
  *     covariance = (J'J)^-1 [ covariance of J'e ] (J'J)^-1
  *
- * with the correlations of the noise e of the baseline (curve_noise.c).
+ * with the correlations of the noise e of the baseline (curve_noise.c), and the error by the misfit
+ * of the law from the spread of the result over ranges of the force.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
+#include "indentation/numerics/curve_fitting.h"
 #include "indentation/numerics/curve_model.h"
 
 #include <gsl/gsl_errno.h>
@@ -172,6 +174,91 @@ static size_t first_contact(const curve_law *m, const double p[N])
     return first;
 }
 
+/* ---- spread of the result over the range of the fit ------------------------------------------ */
+
+/* Shares of the largest force that divide the contact into parts, and the parts of the ranges that
+ * are compared with the fit of all parts: 0 to 50 %, 30 to 100 % and 15 to 70 % of the force. */
+enum { PARTS = 5 };
+static const double part_end[PARTS - 1] = {0.15, 0.3, 0.5, 0.7};
+static const int range_parts[WT_FIT_RANGES][2] = {{0, 3}, {2, PARTS}, {1, 4}};
+
+typedef struct force_parts {
+    normal_equations of[PARTS]; /* lower triangles */
+    size_t n[PARTS];
+} force_parts;
+
+static void add_to_part(force_parts *parts, double force_share, const double row[N], double r)
+{
+    int part = 0;
+    while (part < PARTS - 1 && force_share > part_end[part])
+        part++;
+    normal_equations *e = &parts->of[part];
+    for (size_t a = 0; a < N; a++) {
+        e->jr[a] += row[a] * r;
+        for (size_t b = 0; b <= a; b++)
+            e->jj[a][b] += row[a] * row[b];
+    }
+    parts->n[part]++;
+}
+
+/* Solves for the step of the parameters to a range, and for the inverse of its matrix. */
+static bool solve_range(const force_parts *parts, const normal_equations *all, const int range[2],
+                        double (*inverse)[N], double step[N])
+{
+    normal_equations e = *all;
+    double x[N + 1][N] = {{0.0}};
+    size_t n = 0;
+    for (int part = 0; part < PARTS; part++) {
+        if (part >= range[0] && part < range[1]) {
+            n += parts->n[part];
+            continue;
+        }
+        for (size_t a = 0; a < N; a++) {
+            e.jr[a] -= parts->of[part].jr[a];
+            for (size_t b = 0; b <= a; b++)
+                e.jj[b][a] = e.jj[a][b] -= parts->of[part].jj[a][b];
+        }
+    }
+    for (size_t a = 0; a < N; a++)
+        x[a][a] = 1.0;
+    memcpy(x[N], e.jr, sizeof e.jr);
+    if (n < CURVE_CONTACT_SAMPLES || !solve_normal_equations(&e, 0.0, x, N + 1))
+        return false;
+    memcpy(inverse, x, N * sizeof x[0]);
+    memcpy(step, x[N], sizeof x[N]);
+    return true;
+}
+
+/* Error by the misfit of the law: half of the spread of each parameter over the ranges, without the
+ * part that noise makes. A law that holds gives each range the same result within the noise. The
+ * result of a range is one step from the fit of all samples. The noise of a step is that of the
+ * fit times the loss of precision by the samples that the range lacks. */
+static void compute_range_spread(const force_parts *parts, const normal_equations *all,
+                                 double (*inverse)[N], curve_solution *s)
+{
+    double low[N] = {0.0}, high[N] = {0.0}, noise[N] = {0.0}, in_range[N][N], step[N];
+    bool is_known = false;
+    for (int range = 0; range < WT_FIT_RANGES; range++) {
+        s->range_shift[range] = s->range_error[range] = (double)NAN;
+        if (!solve_range(parts, all, range_parts[range], in_range, step))
+            continue;
+        is_known = true;
+        for (size_t a = 0; a < N; a++) {
+            const double loss = fmax(in_range[a][a] / inverse[a][a] - 1.0, 0.0);
+            low[a] = fmin(low[a], step[a]);
+            high[a] = fmax(high[a], step[a]);
+            noise[a] = fmax(noise[a], s->standard_error[a] * s->standard_error[a] * loss);
+            if (a == CURVE_E) {
+                s->range_shift[range] = step[a] / s->p[a];
+                s->range_error[range] = s->standard_error[a] * sqrt(loss) / s->p[a];
+            }
+        }
+    }
+    for (size_t a = 0; a < N; a++)
+        s->misfit_error[a] =
+            is_known ? sqrt(fmax(0.25 * pow(high[a] - low[a], 2) - noise[a], 0.0)) : (double)NAN;
+}
+
 WIDE_REGISTERS static void compute_statistics(const curve_law *m, curve_solution *s)
 {
     const curve_samples *samples = m->samples;
@@ -188,6 +275,10 @@ WIDE_REGISTERS static void compute_statistics(const curve_law *m, curve_solution
     double row[N], gain[N];
     memcpy(gain, e.jr, sizeof gain);
     s->max_indentation = 0.0;
+    force_parts parts = {0};
+    const double max_force = samples->force[n - 1] - p[CURVE_F0] -
+                             p[CURVE_T] * (samples->position[n - 1] - p[CURVE_C]) -
+                             w->residual[n - 1] / curve_model_row(m, p, n - 1, row);
     memcpy(w->scratch, w->residual, m->n_baseline * sizeof *w->scratch);
     for (size_t i = m->n_baseline; i < n; i++) {
         const double r = w->residual[i], h = curve_model_row(m, p, i, row);
@@ -198,6 +289,8 @@ WIDE_REGISTERS static void compute_statistics(const curve_law *m, curve_solution
             s->max_indentation = w->delta[i];
         for (size_t a = 0; a < N; a++)
             gain[a] += row[a] * (h * f - r);
+        if (i >= first && !curve_is_in_gap(samples, i))
+            add_to_part(&parts, (f - w->scratch[i]) / max_force, row, r);
     }
     s->lack = curve_lack_of_fit(m, p, w->scratch);
     s->bent = s->lack.baseline_p < bent_chance;
@@ -220,6 +313,8 @@ WIDE_REGISTERS static void compute_statistics(const curve_law *m, curve_solution
                 variance += inverse[a][b] * noise.scatter[b][c] * inverse[a][c];
         s->standard_error[a] = !m->free[a] ? 0.0 : solved ? sqrt(variance) : (double)NAN;
     }
+    if (solved)
+        compute_range_spread(&parts, &e, inverse, s);
     /* A step with a smaller predicted decrease changes the modulus by less. */
     const double allowed = fmax(step_cost(samples, s->cost), rounding_cost(samples));
     s->step_allowed = sqrt(allowed * inverse[CURVE_E][CURVE_E]) / p[CURVE_E];

@@ -4,6 +4,8 @@
  */
 #include "indentation/numerics/curve_fitting.h"
 
+#include "core/math/students_t.h"
+
 #include <gsl/gsl_fit.h>
 #include <math.h>
 #include <string.h>
@@ -144,4 +146,10 @@ double curve_left_out_pull(const wt_indent_fit *fit)
     const double pull = fmax(fit->adhesion_force, fit->pull_off_force); /* fmax ignores NaN */
     return fit->adhesion_force > 0.0 && !is_described && pull > small_pull * fit->max_force ? pull
                                                                                             : 0.0;
+}
+
+double curve_left_out_error(const wt_indent_fit *fit)
+{
+    const double pull = curve_left_out_pull(fit);
+    return pull > 0.0 ? pull / fit->max_force / NORMAL_95 : 0.0;
 }
