@@ -179,6 +179,7 @@ static const expectation measured[] = {
     {&comparison_schema, "interaction_p", "00"},
     {&comparison_schema, "modulus_ratio", "kk"},
     {&comparison_schema, "modulus_ratio_df", "00"},
+    {&comparison_schema, "rate_spread", ".."},       /* the ratio does not depend on the rate */
     {&comparison_schema, "calibration_share", "00"}, /* what the gains of one tip differ by */
     {&comparison_schema, "spot_scatter", ".."},      /* the spots tell it */
     {&dma_comparison_schema, "temperature", "00"},
