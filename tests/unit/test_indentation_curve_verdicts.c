@@ -140,13 +140,13 @@ static void disturbed_baseline(void **state)
         const double x = data.height[i] / 30e-9;
         data.force[i] += 4e-9 * (sin(x) + sin(1.3 * x) + sin(0.6 * x));
     }
-    expect(&t, WT_CURVE_DRIFT, "misfit: E +- ");
+    expect(&t, WT_CURVE_DOUBTFUL, "the 95 % interval is wide: E +- ");
     curve_make(&t, 1, &data);
     for (size_t i = 0; i < t.n; i++) { /* drag that settles */
         double x = (data.height[i] - t.height0) / t.travel;
         data.force[i] += 400e-9 * x * exp(-8.0 * x);
     }
-    assert_false(wt_curve_verdict_is_usable(fit_with(&t, NULL).verdict));
+    assert_int_not_equal(fit_with(&t, NULL).verdict, WT_CURVE_ACCEPTED);
 
     /* A sine is fitted. A ripple too short for one of light, of 2 %, is carried by the error
      * instead. */
@@ -489,8 +489,7 @@ static void not_by_the_noise(void **state)
     curve_make(&t, 1, &data);
     t.tip.radius = 40e-9;
     t.tip.transition_radius = wt_tip_tangent_transition(t.tip.radius, t.tip.half_angle);
-    const wt_indent_fit blunt = expect(&t, WT_CURVE_DOUBTFUL, "another tip");
-    assert_non_null(strstr(blunt.reason, "misfit: E +- "));
+    const wt_indent_fit blunt = expect(&t, WT_CURVE_ACCEPTED, "misfit: E +- ");
     assert_true(blunt.misfit_error > 0.7 * blunt.modulus.standard_error);
     /* a bend that the residual does not show is in the error */
     t = curve_standard();
@@ -505,7 +504,8 @@ static void not_by_the_noise(void **state)
     assert_near_abs(bent.modulus.value - t.modulus, bent.curvature_shift, 4 * straight);
     assert_true(bent.curvature_shift < -straight);
     bend(&t, 3e-9);
-    expect(&t, WT_CURVE_DOUBTFUL, "baseline bent");
+    const wt_indent_fit more = expect(&t, WT_CURVE_ACCEPTED, "baseline bent");
+    assert_near_abs(more.modulus.value, t.modulus, 2 * more.modulus.standard_error);
 }
 
 /* One noisy curve hides what thirty together show. */

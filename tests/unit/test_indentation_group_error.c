@@ -4,6 +4,7 @@
 #include "truth.h"
 
 #include "indentation/indent.h"
+#include "indentation/numerics/curve.h"
 #include "weartrack/study.h"
 
 enum { SPOTS = 4, DRAWS = 40 };

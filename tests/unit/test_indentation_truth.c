@@ -197,8 +197,10 @@ static void test_budget(void **state)
         assert_near(cell(budget, i, "relative_error"), fabs(expected[i].error * expected[i].gain),
                     i == 1 ? 1e-2 : 1e-5);
     }
-    assert_string_equal(cell_text(budget, 4, "kind"), "together");
-    assert_true(isnan(cell(budget, 4, "relative_error")));
+    assert_string_equal(cell_text(budget, 3, "source"), "range of the fit");
+    assert_true(cell(budget, 3, "relative_error") < 0.01);
+    assert_string_equal(cell_text(budget, 5, "kind"), "together");
+    assert_true(isnan(cell(budget, 5, "relative_error")));
     assert_non_null(strstr(wt_table_key(budget, "says_track"), "one spot tells nothing"));
     assert_non_null(strstr(wt_table_key(budget, "says_track"), "(deflection sensitivity)"));
     wt_table_free(budget);
