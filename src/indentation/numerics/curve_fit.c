@@ -378,17 +378,6 @@ static wt_status check_fit_arguments(const wt_indent_options *options, const wt_
     return status == WT_OK ? curve_range_check(options, tip, err) : status;
 }
 
-void curve_add_misfit(curve_fitting *f)
-{
-    curve_solution *s = &f->solution;
-    const bool is_used = !f->kind.plain && f->options->misfit_p_threshold > 0.0 && s->converged;
-    for (size_t i = 0; i < CURVE_N_PARAMETERS; i++) {
-        if (!is_used)
-            s->misfit_error[i] = (double)NAN;
-        s->standard_error[i] = hypot(s->standard_error[i], fmax(s->misfit_error[i], 0.0));
-    }
-}
-
 static void fit_once(const curve_fitting *of, const curve_branch *retract, double spring_constant,
                      curve_fitting *f, wt_indent_fit *fit)
 {

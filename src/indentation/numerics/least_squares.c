@@ -259,6 +259,17 @@ static void compute_range_spread(const force_parts *parts, const normal_equation
             is_known ? sqrt(fmax(0.25 * pow(high[a] - low[a], 2) - noise[a], 0.0)) : (double)NAN;
 }
 
+void curve_add_misfit(curve_fitting *f)
+{
+    curve_solution *s = &f->solution;
+    const bool is_used = !f->kind.plain && f->options->misfit_p_threshold > 0.0 && s->converged;
+    for (size_t i = 0; i < CURVE_N_PARAMETERS; i++) {
+        if (!is_used)
+            s->misfit_error[i] = (double)NAN;
+        s->standard_error[i] = hypot(s->standard_error[i], fmax(s->misfit_error[i], 0.0));
+    }
+}
+
 WIDE_REGISTERS static void compute_statistics(const curve_law *m, curve_solution *s)
 {
     const curve_samples *samples = m->samples;
