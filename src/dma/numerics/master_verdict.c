@@ -183,9 +183,12 @@ void master_add_notes(const master_work *work, const wt_sweep *sweep, wt_master 
     note_strain(sweep, log);
     for (size_t i = 0; i < m->n_shifts; i++)
         if (m->shifts[i].note[0] != '\0')
-            wt_log_add(log, m->shifts[i].determined ? WT_NOTE : WT_WARNING, NULL, NULL,
-                       "isotherm of %.2f °C: %s", m->shifts[i].temperature - WT_ZERO_CELSIUS,
-                       m->shifts[i].note);
+            wt_log_add(log,
+                       m->shifts[i].determined                    ? WT_NOTE
+                       : work->set.curves[i].exclusion[0] != '\0' ? WT_LOSS
+                                                                  : WT_WARNING,
+                       NULL, NULL, "isotherm of %.2f °C: %s",
+                       m->shifts[i].temperature - WT_ZERO_CELSIUS, m->shifts[i].note);
     if (work->lines)
         wt_log_add(log, WT_WARNING, NULL, NULL,
                    "the spectrum is one of few sharp processes: between their lines nothing "

@@ -188,7 +188,7 @@ wt_status spectrum_new(const shift_set *set, const bool *use, size_t anchor, con
         if (!use[i])
             continue;
         if (i == anchor)
-            s->anchor = s->n_curves;
+            s->anchor = s->level_curve = s->n_curves;
         s->n_curves++;
         s->n += c->n;
         low = fmin(low, c->x[0] + a[i]);
@@ -290,7 +290,8 @@ void spectrum_set_prior(spectrum *s, const spectrum_prior *prior)
         }
     }
     for (size_t i = 0; i < s->n_curves; i++)
-        if (!prior->held && isnan(s->given_b[i]) && (prior->precision != NULL || i != s->anchor)) {
+        if (!prior->held && isnan(s->given_b[i]) &&
+            (prior->precision != NULL || i != s->level_curve)) {
             s->column_b[i] = (long)s->n_unknowns;
             s->value[s->n_unknowns++] = shift[2 * i + 1];
         }
