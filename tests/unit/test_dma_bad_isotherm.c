@@ -57,14 +57,14 @@ static size_t count_losses(const wt_log *log)
 
 /* The index of the isotherm is that of a sorted sweep. */
 static void check_left_out(wt_sweep *sweep, size_t index, const char *temperature,
-                           const char *cause)
+                           const char *cause, bool is_determined)
 {
     wt_log *log = wt_log_new();
     wt_master m = fit(sweep, 303.15, log);
-    assert_false(m.shifts[index].determined);
+    assert_int_equal(m.shifts[index].determined, is_determined);
     assert_int_equal(named(log, temperature, cause), 1);
     assert_int_equal(count_losses(log), 1);
-    check_shifts(&m, index, 0.08);
+    check_shifts(&m, is_determined ? m.n_shifts : index, 0.08);
     wt_master_clear(&m);
     wt_log_free(log);
     wt_sweep_clear(sweep);
@@ -77,7 +77,7 @@ static void a_bad_loss_modulus_is_named(void **state)
     dma_usual(&sweep, true, 0.01, 11);
     for (size_t k = 0; k < sweep.isotherms[BAD].n; k++)
         sweep.isotherms[BAD].loss_modulus[k] *= 1.4;
-    check_left_out(&sweep, BAD, "20.00 °C", "E'' is +");
+    check_left_out(&sweep, BAD, "20.00 °C", "its E'' is left out: it is +", true);
 }
 
 static void radians_under_hertz_are_named(void **state)
@@ -87,7 +87,7 @@ static void radians_under_hertz_are_named(void **state)
     dma_usual(&sweep, true, 0.01, 12);
     for (size_t k = 0; k < sweep.isotherms[BAD].n; k++)
         sweep.isotherms[BAD].angular_frequency[k] *= 2 * M_PI;
-    check_left_out(&sweep, BAD, "20.00 °C", "rad/s read as Hz");
+    check_left_out(&sweep, BAD, "20.00 °C", "rad/s read as Hz", false);
 }
 
 static void kelvin_under_celsius_is_named(void **state)
@@ -97,7 +97,7 @@ static void kelvin_under_celsius_is_named(void **state)
     dma_usual(&sweep, true, 0.01, 13);
     sweep.isotherms[BAD].temperature += 273.15;
     wt_sweep_sort(&sweep);
-    check_left_out(&sweep, sweep.n_isotherms - 1, "293.15 °C", "kelvin");
+    check_left_out(&sweep, sweep.n_isotherms - 1, "293.15 °C", "kelvin", false);
 }
 
 static void an_isotherm_without_positive_moduli_is_named(void **state)
@@ -107,7 +107,7 @@ static void an_isotherm_without_positive_moduli_is_named(void **state)
     dma_usual(&sweep, true, 0.01, 14);
     for (size_t k = 0; k < sweep.isotherms[BAD].n; k++)
         sweep.isotherms[BAD].loss_modulus[k] *= -1;
-    check_left_out(&sweep, BAD, "20.00 °C", "no positive modulus");
+    check_left_out(&sweep, BAD, "20.00 °C", "no positive modulus", false);
 }
 
 static void sound_isotherms_are_all_used(void **state)

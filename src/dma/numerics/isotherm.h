@@ -23,11 +23,10 @@ typedef struct shift_curve {
     size_t n_merged;     /* measured points if neighbours were merged; otherwise 0 */
     bool is_shift_fixed; /* the horizontal shift is stated and not fitted */
     double fixed_log_a; /* stated log10 a; only differences to other stated shifts count [decade] */
-    bool is_vertical_fixed;            /* the vertical shift is stated, too */
-    double fixed_log_b;                /* stated log10 b [decade] */
-    bool has_excluded_shift;           /* an excluded isotherm has a shift by its E' */
-    double excluded_a, excluded_error; /* that shift, against the anchor, and its error [decade] */
-    char exclusion[128]; /* reason why the isotherm is left out, with n = 0; otherwise empty */
+    bool is_vertical_fixed; /* the vertical shift is stated, too */
+    double fixed_log_b;     /* stated log10 b [decade] */
+    bool is_loss_excluded;  /* E'' is off and not fitted */
+    char exclusion[128]; /* what is left out and why: the isotherm, with n = 0, or its E''; or "" */
 } shift_curve;
 
 /* All isotherms by rising temperature. */

@@ -11,8 +11,7 @@ typedef struct master_work {
     arena memory;
     wt_master_options options;
     shift_set set;
-    const shift_curve *whole_curves; /* in a fit without one isotherm: the curves with it */
-    double reference;                /* [K] */
+    double reference;        /* [K] */
     size_t anchor;           /* isotherm to which the fit refers; it depends on the data only */
     size_t at;               /* isotherm at the reference temperature, or set.n: the law gives the
                                 reference */
@@ -84,7 +83,8 @@ bool master_shift_outside_part(const master_work *work, size_t i, double *a, dou
 bool master_can_use_overlaps(master_work *work);
 /* Stores the shifts of the spectrum in original_a. */
 void master_store_original_shifts(master_work *work);
-/* Refers the additional errors of the shifts to the isotherm of the reference temperature. */
+/* Refers overlaps and additional errors of the shifts to the isotherm of the reference temperature.
+ */
 void master_refer_errors(master_work *work);
 /* Adds the disagreement with the overlaps to the errors of the shifts if superposition fails. */
 void master_uncertainty(master_work *work);
@@ -104,18 +104,14 @@ bool master_loss_is_inconsistent(const lack_of_fit *lack);
 /* Returns true if that factor is the only misfit. It does not affect the shifts. */
 bool master_misfit_is_loss_factor(const lack_of_fit *lack);
 
-/* Fits one spectrum with free shifts. */
-wt_status master_fit_free_shifts(master_work *work, wt_error *err) WT_NODISCARD;
 /* Returns true if one spectrum does not describe the placed isotherms. */
-bool master_objects(const master_work *work);
-/* Finds the one isotherm without which one spectrum describes the others, and writes the reason.
- * *found: its index, or set.n. */
-wt_status master_find_objecting(master_work *work, size_t *found, wt_error *err) WT_NODISCARD;
+bool master_misfits(const master_work *work);
+/* Finds the one isotherm whose E'' objects to both neighbours while all others agree, and writes
+ * the reason. Returns false if there is none. */
+bool master_find_objecting(master_work *work, size_t *found);
 /* Finds an isotherm whose frequencies are off by 2 pi, and writes the reason. Returns false if
  * there is none. */
 bool master_find_unit_slip(master_work *work, size_t *found);
-/* Leaves an isotherm out of the fit. */
-void master_exclude(master_work *work, size_t i);
 
 /* Fills `master` and transfers the posterior to it. */
 wt_status master_report(master_work *work, const wt_sweep *sweep, wt_log *log, wt_master *master,

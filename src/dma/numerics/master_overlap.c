@@ -201,6 +201,8 @@ static void set_extra_shift_errors(master_work *work)
 void master_refer_errors(master_work *work)
 {
     wt_posterior *p = work->posterior;
+    if (work->route != WT_SHIFTS_FROM_OVERLAP && master_reference_is_fitted(work))
+        (void)spectrum_select_connected(&work->set, work->at, work->a, work->placed, work->overlap);
     if (p->extra_error == NULL)
         return;
     work->base_error = p->extra_error;
@@ -252,6 +254,8 @@ wt_status master_use_overlap_shifts(master_work *work, wt_error *err)
         work->b[i] = physical ? work->physical[i] : 0.0;
     }
     (void)spectrum_select_connected(set, work->anchor, work->a, work->placed, work->overlap);
+    if (master_reference_is_fitted(work))
+        (void)spectrum_select_connected(set, work->at, work->a, work->placed, work->overlap);
     for (size_t i = 0; i < set->n; i++) {
         set->curves[i].is_shift_fixed = work->placed[i];
         set->curves[i].fixed_log_a = work->a[i];
@@ -272,12 +276,6 @@ bool master_shift_outside_part(const master_work *work, size_t i, double *a, dou
 {
     const size_t end = i < work->first ? work->first : work->last;
     const overlap_edge *edge = work->edge;
-    const shift_curve *c = &work->set.curves[i];
-    if (c->has_excluded_shift) {
-        *a = c->excluded_a;
-        *error = c->excluded_error;
-        return true;
-    }
     if (!work->part || (i >= work->first && i <= work->last) || !edge[i].placed ||
         !edge[end].placed || !work->placed[end])
         return false;

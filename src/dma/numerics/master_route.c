@@ -209,7 +209,8 @@ static wt_status refit_without_restart(master_work *work, wt_error *err)
     return status == WT_OK ? master_test_superposition(work, err) : status;
 }
 
-wt_status master_fit_free_shifts(master_work *work, wt_error *err)
+/* Fits one spectrum with free shifts. */
+static wt_status fit_free_shifts(master_work *work, wt_error *err)
 {
     wt_status status = master_find_initial_shifts(work, err);
     if (status == WT_OK && work->is_gross) { /* fixed vertical shifts may cause the whole misfit */
@@ -240,38 +241,47 @@ static bool misfit_is_relevant(const master_work *work)
                              fabs(lack->factor) < fmax(work->missed[STORAGE], work->missed[LOSS]));
 }
 
-/* Leaves an isotherm out and fits the others. */
-static wt_status refit_without(master_work *work, size_t i, wt_error *err)
+/* Fits again from the start. */
+static wt_status refit(master_work *work, wt_error *err)
 {
     const double base = work->set.curves[work->anchor].temperature;
     work->options.reference_temperature = work->reference;
-    master_exclude(work, i);
     work->plain = work->is_gross = work->exceeds_noise = work->tested = false;
     work->lack = (lack_of_fit){0};
     wt_status status = master_choose_anchor(work, base, err);
     if (status == WT_OK) {
         closed_form_shifts(&work->set, work->anchor, work->posterior->closed_form);
-        status = master_fit_free_shifts(work, err);
+        status = fit_free_shifts(work, err);
     }
     return status;
 }
 
-/* Fits one spectrum, without an isotherm that does not belong to the others if there is one. */
+/* Fits one spectrum, without what does not belong to the others if one isotherm has that. */
 static wt_status fit_one_spectrum(master_work *work, wt_error *err)
 {
-    size_t i = work->set.n;
-    wt_status status = master_fit_free_shifts(work, err);
+    size_t i;
+    wt_status status = fit_free_shifts(work, err);
     for (size_t k = 0; k < work->set.n; k++)
         if (work->set.curves[k].is_shift_fixed)
             return status; /* stated shifts may cause the misfit */
     if (status != WT_OK || work->set.loading != WT_OSCILLATION)
         return status;
-    if (master_find_unit_slip(work, &i))
-        status = refit_without(work, i, err);
-    if (status != WT_OK || !work->tested || !master_objects(work))
+    if (master_find_unit_slip(work, &i)) {
+        work->set.n_points -= work->set.curves[i].n;
+        work->set.curves[i].n = 0;
+        status = refit(work, err);
+    }
+    if (status != WT_OK || !work->tested || !master_misfits(work) ||
+        !master_find_objecting(work, &i))
         return status;
-    status = master_find_objecting(work, &i, err);
-    return status == WT_OK && i < work->set.n ? refit_without(work, i, err) : status;
+    shift_curve *const curve = &work->set.curves[i];
+    curve->is_loss_excluded = true;
+    status = refit(work, err);
+    if (status != WT_OK || !master_misfits(work))
+        return status;
+    curve->is_loss_excluded = false; /* the others do not superpose either */
+    curve->exclusion[0] = '\0';
+    return refit(work, err);
 }
 
 /* Fits one spectrum. If it fails or is far off, the function fits a part around the anchor, or else
@@ -306,7 +316,7 @@ static wt_status fit_by_best_route(master_work *work, wt_error *err)
     if (status == WT_OK && work->part) {
         work->whole = work->lack;
         memcpy(work->missed_whole, work->missed, sizeof work->missed);
-        return master_fit_free_shifts(work, err);
+        return fit_free_shifts(work, err);
     }
     if (status == WT_OK)
         status = master_use_overlap_shifts(work, err);

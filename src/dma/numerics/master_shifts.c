@@ -16,7 +16,7 @@ static size_t count_outliers(const spectrum *s, size_t curve)
     size_t n = 0;
     for (size_t k = s->first[curve]; k < s->first[curve + 1]; k++)
         for (int q = 0; q < MODULI; q++)
-            n += s->used[q] && s->weight[q][k] == 0.0 ? 1 : 0;
+            n += spectrum_is_fitted(s, curve, q) && s->weight[q][k] == 0.0;
     return n;
 }
 
@@ -32,10 +32,11 @@ static bool note_undetermined(const master_work *work, size_t i, wt_master_shift
     const double own = work->placed[i]
                            ? hypot(posterior_fit_error(work->posterior, work->curve[i]), extra)
                            : (double)NAN;
-    if (work->set.curves[i].exclusion[0] != '\0')
-        master_add_note(shift, "%s", work->set.curves[i].exclusion);
-    else if (work->set.curves[i].n < SHIFT_MIN_POINTS)
-        master_add_note(shift, "not determined: only %zu points", work->set.curves[i].n);
+    const shift_curve *c = &work->set.curves[i];
+    if (c->n < SHIFT_MIN_POINTS && c->exclusion[0] != '\0')
+        master_add_note(shift, "%s", c->exclusion);
+    else if (c->n < SHIFT_MIN_POINTS)
+        master_add_note(shift, "not determined: only %zu points", c->n);
     else if (!work->placed[i])
         master_add_note(shift, work->route == WT_SHIFTS_FROM_OVERLAP
                                    ? "not determined: shares too little of E' with its neighbours"
@@ -102,11 +103,7 @@ static bool fill_shift_outside_part(const master_work *work, size_t i, wt_master
     a += anchor.value;
     error = i == work->at ? 0.0 : hypot(error, anchor.standard_error);
     shift->log_a = (wt_interval){a, error, a - NORMAL_95 * error, a + NORMAL_95 * error};
-    const shift_curve *c = &work->set.curves[i];
-    master_add_note(shift, "%s",
-                    c->has_excluded_shift
-                        ? c->exclusion
-                        : "by the overlap of E' with its neighbour, not in the curve");
+    master_add_note(shift, "by the overlap of E' with its neighbour, not in the curve");
     return true;
 }
 
