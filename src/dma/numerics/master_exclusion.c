@@ -60,7 +60,8 @@ static double objection(const master_work *work, const size_t *list, size_t n, s
         return 0.0;
     for (size_t i = 1; i < n; i++)
         if (i != k && i != k + 1 &&
-            fabs(loss_gap(work, list[i - 1], list[i], &error[0])) > agreement * least)
+            fabs(loss_gap(work, list[i - 1], list[i], &error[0])) - 2.0 * error[0] >
+                agreement * least)
             return 0.0;
     return 0.5 * (cold + warm);
 }
