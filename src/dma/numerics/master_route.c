@@ -352,7 +352,11 @@ static wt_status master_fit_once(const wt_sweep *sweep, const wt_master_options 
     if (status == WT_OK)
         status = master_report(&work, sweep, log, master, err);
     const size_t steeper = status == WT_E_NO_OVERLAP ? master_steeper_isotherm(&work) : work.anchor;
-    *base = steeper != work.anchor ? work.set.curves[steeper].temperature : (double)NAN;
+    const bool elsewhere = status == WT_E_NO_OVERLAP && isnan(*base) && work.at < work.set.n &&
+                           work.at != work.anchor; /* the fit may start at the reference */
+    *base = steeper != work.anchor ? work.set.curves[steeper].temperature
+            : elsewhere            ? work.reference
+                                   : (double)NAN;
     posterior_free(work.posterior);
     arena_free(&work.memory);
     return status;
