@@ -35,9 +35,6 @@ static const double max_start_shift = 0.5;
  * isotherms by more than their errors. */
 static const double smooth_terms = 3.0, trial_terms = 5.0, sharp_terms = 10.0,
                     sharp_curvature = 3.0;
-/* A shift with a larger error is not determined [decade]. Its 95 % interval is most of a decade,
- * as wide as a step of 5 to 10 K between isotherms. */
-const double master_max_shift_error = 0.2;
 /* Misfit of a modulus beyond its noise from which the shifts are meaningless [ln]. On a plateau
  * with d ln E'/d ln w = 0.1 it is 0.17 decade, about master_max_shift_error. If
  * superposition holds or nearly holds the misfit is 0.3 to 3 %; glassy polymers have 5 to 20 %

@@ -9,6 +9,10 @@
 #include <stdarg.h>
 #include <string.h>
 
+/* A shift with a larger error is not determined [decade]. Its 95 % interval is most of a decade,
+ * as wide as a step of 5 to 10 K between isotherms. */
+const double master_max_shift_error = 0.2;
+
 /* ---- remarks --------------------------------------------------------------------------------- */
 
 /* Thresholds of notes; they change no number. An isotherm with three times the noise of the
