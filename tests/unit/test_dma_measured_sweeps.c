@@ -42,21 +42,20 @@ static wt_wlf published(double kelvin)
     return dma_moved((wt_wlf){243.15, 8.1893, 84.454}, kelvin);
 }
 
+/* Departures from the published law about their mean, which depends on the reference alone. */
 static double rms_from_published(const wt_master *master)
 {
     const wt_wlf law = published(master->reference_temperature);
-    double square = 0.0;
-    size_t n = 0;
+    double sum = 0.0, square = 0.0;
     for (size_t i = 0; i < master->n_shifts; i++) {
         const wt_master_shift *shift = &master->shifts[i];
         assert_true(shift->determined);
-        if (shift->log_a.standard_error == 0.0)
-            continue; /* the reference has no deviation by definition */
         const double d = shift->log_a.value - wt_wlf_log_shift(&law, shift->temperature);
+        sum += d;
         square += d * d;
-        n++;
     }
-    return sqrt(square / (double)n);
+    const double n = (double)master->n_shifts, mean = sum / n;
+    return sqrt(square / n - mean * mean);
 }
 
 /* A misfit is likely, and what it leaves open is in the errors. */
@@ -75,7 +74,7 @@ static void check_published(const wt_master *master)
 static void auhl_2008_polyisoprene(void **state)
 {
     (void)state;
-    static const double bound[] = {0.067, 0.022, 0.020, 0.019}; /* none, physical, free, tied */
+    static const double bound[] = {0.045, 0.019, 0.012, 0.011}; /* none, physical, free, tied */
     wt_sweep sweep = {0};
     load("PI_94.9k", &sweep);
     for (int v = WT_VERTICAL_NONE; v <= WT_VERTICAL_TIED; v++) {
