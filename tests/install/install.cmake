@@ -110,14 +110,14 @@ get_filename_component(lib_dir ${pc_dir} DIRECTORY)
 run(${CC} -std=c17 ${flags} ${SOURCE}/tests/install/consumer/consumer.c -o ${WORK}/by_pc ${pc_flags} -lm
     -Wl,-rpath,${lib_dir})
 run(${WORK}/by_pc)
-# the program of the README, by its own words
-file(READ ${SOURCE}/README.md readme)
-string(REGEX MATCH "```c\n([^`]*)```" program "${readme}")
+# the program of src/PACKAGES.md
+file(READ ${SOURCE}/src/PACKAGES.md packages)
+string(REGEX MATCH "```c\n([^`]*)```" program "${packages}")
 file(WRITE ${WORK}/tip.c "${CMAKE_MATCH_1}")
 run(${CC} ${flags} ${WORK}/tip.c ${pc_flags} -o ${WORK}/tip -Wl,-rpath,${lib_dir})
 run(${WORK}/tip)
 if(NOT output MATCHES "^force at 70 nm and 5 MPa: [1-9][0-9.]* nN\n$")
-  message(FATAL_ERROR "the program of the README says: ${output}")
+  message(FATAL_ERROR "the program of src/PACKAGES.md says: ${output}")
 endif()
 run(${prefix}/bin/weartrack --version)
 if(NOT output MATCHES "^weartrack [0-9]")
