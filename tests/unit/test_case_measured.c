@@ -161,8 +161,8 @@ static void test_no_track(void **state)
     assert_int_equal(wt_table_n_rows(wt_result_find(result, "comparison")), 1);
     assert_non_null(groups);
     assert_int_equal(wt_table_n_rows(groups), 2);
-    /* Of 16; the others have a bent baseline or adhesion that no law describes. */
-    assert_near(number_cell(groups, 0, "n"), 13, 0);
+    /* Three have a bent baseline or adhesion that no law describes, and wide errors. */
+    assert_near(number_cell(groups, 0, "n"), 16, 0);
     assert_near(number_cell(groups, 1, "n"), 0, 0);
     assert_non_null(strstr(text_cell(wt_result_find(result, "answer"), 0, "answer"),
                            "The only curve of the track has no modulus (1: too few"));
