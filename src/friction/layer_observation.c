@@ -192,7 +192,7 @@ wt_layer_observation wt_layer_observation_defaults(void)
 static const wt_param parameter_rows[] = {
     LAYER_STATE_ROWS(wt_layer_observation, ),
     {PARAM("modulus-ratio-df", wt_layer_observation, modulus_ratio_df, WT_Q_NONE, AT_LEAST(0)),
-     .value = "N", .flags = PARAM_ONLY_C,
+     .value = "N", .flags = PARAM_NO_CASE,
      .help = "degrees of freedom of the error of the modulus ratio, as weartrack compare gives "
              "them; 0: a normal error"},
     /* Beyond 1 the phase alone makes a storage modulus negative. */

@@ -39,7 +39,7 @@ function judge(name, width, frame) {
   say(name, 'tables_cut', beyond.length, beyond.join('; ').slice(0, 400));
   const sizes = [...page.querySelectorAll('.card svg')].map(s => 15 * s.getScreenCTM().a);
   say(name, 'type', Math.min(...sizes).toFixed(1), 'to', Math.max(...sizes).toFixed(1));
-  const first = page.querySelector('.finding .verdict, .answer p');
+  const first = page.querySelector('.finding .verdict, #main td');
   say(name, 'answer_begins', first ? Math.round(first.getBoundingClientRect().top) : -1);
 }
 function judge_links(page, text) {

@@ -83,7 +83,7 @@ static const struct {
 /* What the energy of a layer knows nothing of is an option of friction alone. */
 static bool is_of_friction(const char *name)
 {
-    static const char *const names[] = {"temperatures", "decades"};
+    static const char *const names[] = {"temperatures", "decades", "pressures"};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
         if (strcmp(names[i], name) == 0)
             return true;

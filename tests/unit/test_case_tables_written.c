@@ -1338,10 +1338,13 @@ static void test_data_quality(void **state)
 
 /* ---- what was not put ------------------------------------------------------------------------ */
 
-/* Every fit of isotherms that was tried ends settled; the key warns of one that does not. */
+/* Every fit of isotherms that was tried ends settled; the key warns of one that does not. The moduli
+ * of this program have one ratio at all rates; unit_study_ratio_pairs has others. */
 static bool is_never_met(const table_schema *schema, size_t key)
 {
-    return schema == &shift_factors_schema && strcmp(schema->keys[key].name, "step_left") == 0;
+    const char *const name = schema->keys[key].name;
+    return (schema == &shift_factors_schema && strcmp(name, "step_left") == 0) ||
+           (schema == &comparison_schema && strcmp(name, "rate_spread") == 0);
 }
 
 static void test_all_put(void **state)

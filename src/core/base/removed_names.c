@@ -21,7 +21,6 @@ const char *removed_name_advice(const char *name, size_t length)
         {"loads", "compute each load by a call of its own: the balance forgets those before"},
         {"local-friction", "the table what_if has the thickness by other depth profiles"},
         {"moduli", "the Prony series gives the same friction to 0.3 %"},
-        {"modulus-ratio-df", "give layer-comparison, which contains it"},
         {"profile", "the table what_if has the thickness by other depth profiles"},
         {"ratio-frequency", "give layer-comparison, which contains it"},
         {"ratio-highest", "give layer-comparison, which contains it"},
