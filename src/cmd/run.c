@@ -26,8 +26,8 @@ static void print_plan(const wt_table *plan)
     }
 }
 
-/* Prints the findings on standard output, as they are the data of this subcommand. A pipe gets their
- * reasons and the limits, too; a terminal gets these with --verbose. */
+/* Prints the findings on standard output, as they are the data of this subcommand. A pipe gets
+ * their reasons and the limits, too; a terminal gets these with --verbose. */
 static void print_answer(cmd_session *s)
 {
     const wt_table *const limits = wt_result_find(s->result, "limits");

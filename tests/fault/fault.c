@@ -60,13 +60,13 @@ static const job jobs[] = {
     {"master", {"master", "--no-provenance", "@case/dma.txt", "-o", "out.h5"}},
     {"database", {"summary", "--threads", "1", "../master/out.h5", "-o", "out.sqlite"}},
     {"friction",
-     {"friction", "--no-provenance", "--threads", "1", "--replicates", "0",
-      "-m", "../master/out.h5", "--roughness",
+     {"friction", "--no-provenance", "--threads", "1", "--replicates", "0", "-m",
+      "../master/out.h5", "--roughness",
       "self-affine:q0=2e3rad/m,q1=1e6rad/m,hurst=0.8,c0=2e-17m^4", "-v", "1mm/s", "-p", "0.4MPa",
       "-o", "out.tsv"}},
     {"run",
-     {"run", "--no-provenance", "--threads", "1", "--replicates", "0",
-      "--no-report", "@case/case.xml", "-o", "out.h5"}},
+     {"run", "--no-provenance", "--threads", "1", "--replicates", "0", "--no-report",
+      "@case/case.xml", "-o", "out.h5"}},
     {"report", {"report", "--no-provenance", "--gnuplot", "../plot", "../run/out.h5", "-o", "out"}},
 };
 

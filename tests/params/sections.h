@@ -16,8 +16,7 @@ static const struct {
     const wt_params *(*params[SECTION_TABLES])(void);
 } case_sections[] = {
     {"indentation", {wt_indent_job_params, wt_compare_job_params}},
-    {"dma",
-     {wt_master_job_params, wt_ramp_job_params, wt_reduction_params}},
+    {"dma", {wt_master_job_params, wt_ramp_job_params, wt_reduction_params}},
     {"fractional-zener", {flow_zener_params, NULL}},
     {"transverse", {wt_transverse_params, NULL}},
     {"wlf", {case_wlf_params, NULL}},

@@ -272,11 +272,11 @@ enum { N_SUBCOMMANDS = sizeof subcommands / sizeof subcommands[0] };
 
 /* The parameters of the options, by the names that --help lists. */
 static const wt_params *(*const tables[])(void) = {
-    wt_convert_job_params,    wt_file_set_params,   wt_indent_job_params,
-    wt_compare_job_params,    wt_master_job_params, wt_layer_observation_params,
-    wt_sliding_params,        wt_layer_job_params,  wt_job_params,
-    wt_report_params,         wt_read_params,       wt_transverse_params,
-    wt_reduction_params,  wt_record_job_params,
+    wt_convert_job_params, wt_file_set_params,   wt_indent_job_params,
+    wt_compare_job_params, wt_master_job_params, wt_layer_observation_params,
+    wt_sliding_params,     wt_layer_job_params,  wt_job_params,
+    wt_report_params,      wt_read_params,       wt_transverse_params,
+    wt_reduction_params,   wt_record_job_params,
 };
 
 static char *read_file(const char *name, size_t *length)

@@ -60,10 +60,10 @@ typedef enum quantity {
     Q_SAID_PAIR,
     Q_SAID_RECORD,
     Q_SAID_SHARED,
-    Q_SETTLED,           /* time after which friction stands */
-    Q_TIME_RATIO,        /* measured over predicted */
-    Q_CHANGE_RATIO,      /* of friction in the running-in, likewise */
-    Q_NEEDED_WEAR,       /* rate that a running-in asks for */
+    Q_SETTLED,      /* time after which friction stands */
+    Q_TIME_RATIO,   /* measured over predicted */
+    Q_CHANGE_RATIO, /* of friction in the running-in, likewise */
+    Q_NEEDED_WEAR,  /* rate that a running-in asks for */
     Q_NEEDED_ENERGY,
     Q_ALLOWED, /* ln of the thickness of a layer that curves allow, in nm */
     Q_BOTH,    /* and of that which they and another source allow */

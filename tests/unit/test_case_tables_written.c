@@ -1338,8 +1338,8 @@ static void test_data_quality(void **state)
 
 /* ---- what was not put ------------------------------------------------------------------------ */
 
-/* Every fit of isotherms that was tried ends settled; the key warns of one that does not. The moduli
- * of this program have one ratio at all rates; unit_study_ratio_pairs has others. */
+/* Every fit of isotherms that was tried ends settled; the key warns of one that does not. The
+ * moduli of this program have one ratio at all rates; unit_study_ratio_pairs has others. */
 static bool is_never_met(const table_schema *schema, size_t key)
 {
     const char *const name = schema->keys[key].name;

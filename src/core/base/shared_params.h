@@ -90,13 +90,15 @@
     }
 #define LAYER_DUTY(type)                                                                           \
     {                                                                                              \
-        PARAM("duty-cycle", type, duty, WT_Q_NONE, ABOVE_TO(0, 1)), .former = "duty",              \
-            .value = "X", .help = "share of the time in contact; with 1, times are contact times"  \
+        PARAM("duty-cycle", type, duty, WT_Q_NONE, ABOVE_TO(0, 1)),                                \
+            .former = "duty", .value = "X",                                                        \
+            .help = "share of the time in contact; with 1, times are contact times"                \
     }
 #define ENERGY_LOCAL_FRICTION(type)                                                                \
     {                                                                                              \
-        PARAM("local-friction", type, local_friction, WT_Q_NONE, AT_LEAST(0)), .value = "M",       \
-            .flags = PARAM_ONLY_C, .help = "local friction of the incompressible profile"          \
+        PARAM("local-friction", type, local_friction, WT_Q_NONE, AT_LEAST(0)),                     \
+            .value = "M", .flags = PARAM_ONLY_C,                                                   \
+            .help = "local friction of the incompressible profile"                                 \
     }
 
 /* clang-format on */
