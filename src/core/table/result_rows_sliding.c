@@ -318,16 +318,17 @@ static void add_constants(rows_source *s, const table_view *v)
     }
 }
 
-/* Number that the cases share; NaN where they differ, which has no common value. */
+/* Number that the cases share; NaN where the pairs differ, which have no common value. Standard
+ * error, low and high end follow the column of the value. */
 static row_number shared_number(const table_view *v, size_t row, shared_pairs_column value,
-                                shared_pairs_column verdict, const char *unit)
+                                const char *unit)
 {
     const double none = (double)NAN;
-    if (shared_pairs_enum(v, row, verdict) == SHARING_DIFFERS)
+    if (shared_pairs_enum(v, row, SHARED_PAIRS_ONE_PAIR) == SHARING_DIFFERS)
         return rows_number(none, none, none, unit);
     return rows_number(shared_pairs_get(v, row, value),
-                       shared_pairs_get(v, row, (shared_pairs_column)(value + 1)),
-                       shared_pairs_get(v, row, (shared_pairs_column)(value + 2)), unit);
+                       shared_pairs_get(v, row, (shared_pairs_column)(value + 2)),
+                       shared_pairs_get(v, row, (shared_pairs_column)(value + 3)), unit);
 }
 
 static void add_pairs(rows_source *s, const table_view *v)
@@ -339,16 +340,14 @@ static void add_pairs(rows_source *s, const table_view *v)
         rows_note(row, "by %s", shared_pairs_text(v, i, SHARED_PAIRS_BY));
         rows_reason(row, "what would settle it",
                     shared_pairs_key_text(v, SHARED_PAIRS_KEY_SETTLED_BY));
-        row = rows_add_number(
-            s, 1, shared_number(v, i, SHARED_PAIRS_ENERGY, SHARED_PAIRS_ONE_ENERGY, "J/m^3"),
-            "critical energy U_c");
+        row = rows_add_number(s, 1, shared_number(v, i, SHARED_PAIRS_ENERGY, "J/m^3"),
+                              "critical energy U_c");
         rows_note(row, "%s", shared_pairs_text(v, i, SHARED_PAIRS_ONE_ENERGY));
         rows_reason(row, "known least", shared_pairs_text(v, i, SHARED_PAIRS_LOOSE));
-        row = rows_add_number(
-            s, 1, shared_number(v, i, SHARED_PAIRS_WEAR, SHARED_PAIRS_ONE_WEAR, "m^2/N"),
-            "specific wear rate");
+        row = rows_add_number(s, 1, shared_number(v, i, SHARED_PAIRS_WEAR, "m^2/N"),
+                              "specific wear rate");
         rows_note(row, "%s", shared_pairs_text(v, i, SHARED_PAIRS_ONE_WEAR));
-        if (!isnan(shared_pairs_get(v, i, SHARED_PAIRS_CORRELATION)))
+        if (!isnan(row->number.value) && !isnan(shared_pairs_get(v, i, SHARED_PAIRS_CORRELATION)))
             clocale_append(row->note, sizeof row->note, "; correlation %.2f",
                            shared_pairs_get(v, i, SHARED_PAIRS_CORRELATION));
     }
